@@ -1,0 +1,134 @@
+//! A TOML document read against what is allowed, every fault at once, each with its line.
+//!
+//! serde stops at the first fault and forgets the line. Here the text becomes a tree of [`Node`]s
+//! that know where they came from ([`parse`]), options of the command line replace nodes
+//! ([`Document::set`]), and a [`Section`] reads typed values and collects what is wrong.
+//!
+//! ```
+//! use base::document::{Document, Section, Value};
+//! let mut document = Document::parse("job.toml", "cap_s = 120\n[robots]\ncount = 0")?;
+//! document.set(&["cap_s"], Value::Float(-1.0), "--cap");
+//! let faults = document
+//!     .read(|root: &Section| {
+//!         root.only(&["cap_s", "robots"]);
+//!         let cap_s = root.number("cap_s", 0.0..=1e6);
+//!         let count = root.section("robots").integer("count", 1..=100);
+//!         Some((cap_s?, count?))
+//!     })
+//!     .unwrap_err();
+//! assert_eq!(
+//!     faults.to_string(),
+//!     "--cap: cap_s = -1: must be a number from 0 to 1000000\n\
+//!      job.toml:3: robots.count = 0: must be a whole number from 1 to 100"
+//! );
+//! # Ok::<(), base::fault::Faults>(())
+//! ```
+
+mod parse;
+mod section;
+
+pub use section::Section;
+
+use crate::fault::{Fault, Faults};
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::fmt;
+
+/// Keys and values of a table, in the order of the keys.
+pub type Table = BTreeMap<String, Node>;
+
+/// A value and where it was written.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Node {
+    /// The value.
+    pub value: Value,
+    /// `FILE:LINE`, or the option that set it.
+    pub origin: String,
+}
+
+/// What a document can hold. Dates are in TOML, and are allowed nowhere here.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Value {
+    /// `true` or `false`.
+    Bool(bool),
+    /// A whole number.
+    Integer(i64),
+    /// Any other number, infinities and NaN among them.
+    Float(f64),
+    /// A string.
+    Text(String),
+    /// A date or time, as written.
+    Date(String),
+    /// An array.
+    List(Vec<Node>),
+    /// A table.
+    Table(Table),
+}
+
+impl fmt::Display for Value {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Bool(value) => write!(f, "{value}"),
+            Self::Integer(value) => write!(f, "{value}"),
+            Self::Float(value) => write!(f, "{value}"),
+            Self::Text(value) => write!(f, "{value:?}"),
+            Self::Date(value) => write!(f, "{value}"),
+            Self::List(_) => f.write_str("[...]"),
+            Self::Table(_) => f.write_str("{...}"),
+        }
+    }
+}
+
+/// A whole document.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Document {
+    root: Node,
+}
+
+impl Document {
+    /// Reads TOML `text`; `file` is how faults name it.
+    ///
+    /// # Errors
+    /// Every place at which the text is not TOML.
+    pub fn parse(file: &str, text: &str) -> Result<Self, Faults> {
+        parse::parse(file, text).map(|root| Self { root })
+    }
+
+    /// Puts `value` at `path`, over what the file says; `origin` is how faults name it.
+    ///
+    /// Tables on the way are made; something on the way that is no table is replaced by one.
+    pub fn set(&mut self, path: &[&str], value: Value, origin: &str) {
+        let mut node = &mut self.root;
+        for key in path {
+            if !matches!(node.value, Value::Table(_)) {
+                node.value = Value::Table(Table::new());
+            }
+            let Value::Table(table) = &mut node.value else {
+                return;
+            };
+            node = table.entry((*key).to_owned()).or_insert_with(|| Node {
+                value: Value::Table(Table::new()),
+                origin: origin.to_owned(),
+            });
+        }
+        *node = Node {
+            value,
+            origin: origin.to_owned(),
+        };
+    }
+
+    /// What `reader` makes of the document, if it finds nothing wrong.
+    ///
+    /// `reader` should look at everything before it gives up, so that all faults are told at once.
+    ///
+    /// # Errors
+    /// Everything that the sections found wrong.
+    pub fn read<T>(&self, reader: impl FnOnce(&Section) -> Option<T>) -> Result<T, Faults> {
+        let faults = RefCell::new(Vec::<Fault>::new());
+        let value = reader(&Section::root(&self.root, &faults));
+        Faults::or(faults.into_inner(), value)
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,93 @@
+//! From TOML text to nodes that know their lines.
+
+use super::{Node, Table, Value};
+use crate::fault::{Fault, Faults};
+use std::ops::Range;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+/// Reads `text`, or tells every place at which it is not TOML.
+pub(super) fn parse(file: &str, text: &str) -> Result<Node, Faults> {
+    let lines = Lines::new(file, text);
+    let (table, errors) = DeTable::parse_recoverable(text);
+    let faults: Vec<Fault> = errors.iter().map(|error| lines.fault(error)).collect();
+    let root = Node {
+        value: lines.table(table.get_ref()),
+        origin: file.to_owned(),
+    };
+    Faults::or(faults, Some(root))
+}
+
+/// Where the lines of a text begin.
+struct Lines<'t> {
+    file: &'t str,
+    starts: Vec<usize>,
+}
+
+impl<'t> Lines<'t> {
+    fn new(file: &'t str, text: &str) -> Self {
+        let after_breaks = text.match_indices('\n').map(|(at, _)| at + 1);
+        Self {
+            file,
+            starts: std::iter::once(0).chain(after_breaks).collect(),
+        }
+    }
+
+    fn origin(&self, span: &Range<usize>) -> String {
+        let line = self.starts.partition_point(|start| *start <= span.start);
+        format!("{}:{line}", self.file)
+    }
+
+    fn fault(&self, error: &toml::de::Error) -> Fault {
+        Fault {
+            origin: Some(self.origin(&error.span().unwrap_or(0..0))),
+            path: String::new(),
+            given: None,
+            allowed: format!("not valid TOML: {}", error.message()),
+            suggestion: None,
+        }
+    }
+
+    fn node(&self, spanned: &Spanned<DeValue>, origin: String) -> Node {
+        Node {
+            value: self.value(spanned.get_ref()),
+            origin,
+        }
+    }
+
+    /// A key's line is the value's: a table's own span may begin anywhere.
+    fn table(&self, table: &DeTable) -> Value {
+        let entry = |(key, value): (&Spanned<_>, &Spanned<_>)| {
+            let key_text: &std::borrow::Cow<str> = key.get_ref();
+            let node = self.node(value, self.origin(&key.span()));
+            (key_text.to_string(), node)
+        };
+        Value::Table(table.iter().map(entry).collect::<Table>())
+    }
+
+    fn value(&self, value: &DeValue) -> Value {
+        match value {
+            DeValue::String(text) => Value::Text(text.to_string()),
+            DeValue::Integer(integer) => integer_value(integer),
+            DeValue::Float(float) => Value::Float(float.as_str().parse().unwrap_or(f64::NAN)),
+            DeValue::Boolean(value) => Value::Bool(*value),
+            DeValue::Datetime(date) => Value::Date(date.to_string()),
+            DeValue::Array(items) => Value::List(
+                items
+                    .iter()
+                    .map(|item| self.node(item, self.origin(&item.span())))
+                    .collect(),
+            ),
+            DeValue::Table(table) => self.table(table),
+        }
+    }
+}
+
+/// Integers beyond 64 bits become floats: out of any range here, and told as such.
+fn integer_value(integer: &toml::de::DeInteger) -> Value {
+    let (text, radix) = (integer.as_str(), integer.radix());
+    i64::from_str_radix(text, radix).map_or_else(
+        |_| Value::Float(text.parse().unwrap_or(f64::INFINITY)),
+        Value::Integer,
+    )
+}

@@ -1,0 +1,199 @@
+//! Typed reading of a table, collecting what is wrong.
+
+use super::{Node, Table, Value};
+use crate::fault::{Fault, nearest};
+use std::cell::RefCell;
+use std::ops::RangeInclusive;
+
+/// One table of a document. A missing table reads as an empty one, so that each required value
+/// in it is told as missing.
+#[derive(Debug)]
+pub struct Section<'d> {
+    table: Option<&'d Table>,
+    origin: &'d str,
+    path: String,
+    faults: &'d RefCell<Vec<Fault>>,
+}
+
+impl<'d> Section<'d> {
+    pub(super) fn root(node: &'d Node, faults: &'d RefCell<Vec<Fault>>) -> Self {
+        Self {
+            table: as_table(node),
+            origin: &node.origin,
+            path: String::new(),
+            faults,
+        }
+    }
+
+    /// Tells every key that is not among `keys`, with the nearest that is.
+    pub fn only(&self, keys: &[&str]) {
+        for (key, node) in self.table.into_iter().flatten() {
+            if !keys.contains(&key.as_str()) {
+                self.faults.borrow_mut().push(Fault {
+                    origin: Some(node.origin.clone()),
+                    path: self.path_of(key),
+                    given: Some(node.value.to_string()),
+                    allowed: format!("one of the known keys here: {}", keys.join(", ")),
+                    suggestion: nearest(key, keys.iter().copied()).map(str::to_owned),
+                });
+            }
+        }
+    }
+
+    /// Whether the table has `key`.
+    #[must_use]
+    pub fn has(&self, key: &str) -> bool {
+        self.node(key).is_some()
+    }
+
+    /// The keys of the table, in their order.
+    pub fn keys(&self) -> impl Iterator<Item = &'d str> + use<'d> {
+        self.table
+            .into_iter()
+            .flatten()
+            .map(|(key, _)| key.as_str())
+    }
+
+    /// The table at `key`.
+    #[must_use]
+    pub fn section(&self, key: &str) -> Section<'d> {
+        let node = self.node(key);
+        let table = node.and_then(as_table);
+        if node.is_some() && table.is_none() {
+            self.fault(key, "a table");
+        }
+        Section {
+            table,
+            origin: node.map_or(self.origin, |node| &node.origin),
+            path: self.path_of(key),
+            faults: self.faults,
+        }
+    }
+
+    /// The whole number at `key`, if it is one in `range`.
+    #[must_use]
+    pub fn integer(&self, key: &str, range: RangeInclusive<i64>) -> Option<i64> {
+        let value = match self.node(key).map(|node| &node.value) {
+            Some(Value::Integer(value)) if range.contains(value) => Some(*value),
+            _ => None,
+        };
+        let (low, high) = range.into_inner();
+        self.told(value, key, || {
+            format!("a whole number from {low} to {high}")
+        })
+    }
+
+    /// The number at `key`, if it is one in `range`.
+    #[must_use]
+    pub fn number(&self, key: &str, range: RangeInclusive<f64>) -> Option<f64> {
+        let value = self.node(key).and_then(as_number);
+        let value = value.filter(|value| range.contains(value));
+        self.told(value, key, || {
+            format!("a number from {} to {}", range.start(), range.end())
+        })
+    }
+
+    /// The list of numbers at `key`, if it holds at least one and all are in `range`.
+    #[must_use]
+    pub fn numbers(&self, key: &str, range: RangeInclusive<f64>) -> Option<Vec<f64>> {
+        let values = match self.node(key).map(|node| &node.value) {
+            Some(Value::List(items)) if !items.is_empty() => items
+                .iter()
+                .map(|item| as_number(item).filter(|value| range.contains(value)))
+                .collect(),
+            _ => None,
+        };
+        self.told(values, key, || {
+            let (low, high) = (range.start(), range.end());
+            format!("a list of numbers, each from {low} to {high}")
+        })
+    }
+
+    /// The text at `key`.
+    #[must_use]
+    pub fn text(&self, key: &str) -> Option<&'d str> {
+        let value = match self.node(key).map(|node| &node.value) {
+            Some(Value::Text(value)) => Some(value.as_str()),
+            _ => None,
+        };
+        self.told(value, key, || "a text in quotes".to_owned())
+    }
+
+    /// What the text at `key` names, if it is one of `names`.
+    #[must_use]
+    pub fn choice<T: Copy>(&self, key: &str, names: &[(&str, T)]) -> Option<T> {
+        let all = || names.iter().map(|(name, _)| *name);
+        let given = match self.node(key).map(|node| &node.value) {
+            Some(Value::Text(value)) => value.as_str(),
+            _ => "",
+        };
+        let chosen = names.iter().find(|(name, _)| *name == given);
+        if chosen.is_none() {
+            let quoted = |name| format!("{name:?}");
+            let allowed = all().map(quoted).collect::<Vec<_>>().join(", ");
+            let suggestion = nearest(given, all()).map(quoted);
+            self.push(key, format!("one of {allowed}"), suggestion);
+        }
+        chosen.map(|(_, value)| *value)
+    }
+
+    /// Tells that what stands at `key` is not what is `allowed` ("must be ...").
+    pub fn fault(&self, key: &str, allowed: &str) {
+        self.push(key, allowed.to_owned(), None);
+    }
+
+    fn told<T>(&self, value: Option<T>, key: &str, allowed: impl Fn() -> String) -> Option<T> {
+        if value.is_none() {
+            self.push(key, allowed(), None);
+        }
+        value
+    }
+
+    fn push(&self, key: &str, allowed: String, suggestion: Option<String>) {
+        let node = self.node(key);
+        self.faults.borrow_mut().push(Fault {
+            origin: Some(node.map_or(self.origin, |node| &node.origin).to_owned()),
+            path: self.path_of(key),
+            given: node.map(|node| node.value.to_string()),
+            allowed,
+            suggestion,
+        });
+    }
+
+    fn node(&self, key: &str) -> Option<&'d Node> {
+        self.table?.get(key)
+    }
+
+    fn path_of(&self, key: &str) -> String {
+        let bare = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+        let key = if !key.is_empty() && key.chars().all(bare) {
+            key.to_owned()
+        } else {
+            format!("{key:?}")
+        };
+        if self.path.is_empty() {
+            key
+        } else {
+            format!("{}.{key}", self.path)
+        }
+    }
+}
+
+fn as_table(node: &Node) -> Option<&Table> {
+    match &node.value {
+        Value::Table(table) => Some(table),
+        _ => None,
+    }
+}
+
+#[expect(
+    clippy::cast_precision_loss,
+    reason = "a number that a person wrote; beyond 2^53 it is rounded, as TOML readers do"
+)]
+fn as_number(node: &Node) -> Option<f64> {
+    match node.value {
+        Value::Integer(value) => Some(value as f64),
+        Value::Float(value) => Some(value),
+        _ => None,
+    }
+}

@@ -1,0 +1,104 @@
+use super::*;
+use proptest::prelude::*;
+
+fn faults_of(text: &str, reader: impl FnOnce(&Section) -> Option<()>) -> Vec<String> {
+    let document = match Document::parse("job.toml", text) {
+        Ok(document) => document,
+        Err(faults) => return faults.0.iter().map(ToString::to_string).collect(),
+    };
+    match document.read(reader) {
+        Ok(()) => Vec::new(),
+        Err(faults) => faults.0.iter().map(ToString::to_string).collect(),
+    }
+}
+
+#[test]
+fn all_faults_are_told_at_once_each_with_its_line() {
+    let text = "engine = \"clasic\"\ncap_s = \"long\"\n\n[robots.rover]\ncuont = 3\n";
+    let faults = faults_of(text, |root| {
+        root.only(&["engine", "cap_s", "robots"]);
+        let engine = root.choice("engine", &[("classic", 1), ("metric", 2)]);
+        let cap_s = root.number("cap_s", 0.0..=10.0);
+        let rover = root.section("robots").section("rover");
+        rover.only(&["count"]);
+        let count = rover.integer("count", 1..=9);
+        engine.and(cap_s).and(count).map(|_| ())
+    });
+    assert_eq!(
+        faults,
+        [
+            "job.toml:1: engine = \"clasic\": must be one of \"classic\", \"metric\"; \
+             did you mean \"classic\"?",
+            "job.toml:2: cap_s = \"long\": must be a number from 0 to 10",
+            "job.toml:5: robots.rover.cuont = 3: must be one of the known keys here: count; \
+             did you mean count?",
+            "job.toml:4: robots.rover.count is missing: must be a whole number from 1 to 9",
+        ]
+    );
+}
+
+#[test]
+fn text_that_is_not_toml_is_told_with_its_line() {
+    let faults = faults_of("a = 1\nb = = 2\n", |_| Some(()));
+    assert!(!faults.is_empty());
+    for fault in faults {
+        assert!(fault.starts_with("job.toml:2: not valid TOML: "), "{fault}");
+    }
+}
+
+#[test]
+fn nan_and_numbers_beyond_64_bits_are_out_of_every_range() {
+    let text = "a = nan\nb = 99999999999999999999\nc = 1979-05-27";
+    let faults = faults_of(text, |root| {
+        let a = root.number("a", f64::MIN..=f64::MAX);
+        let b = root.integer("b", i64::MIN..=i64::MAX);
+        let c = root.text("c");
+        a.and(b).and(c).map(|_| ())
+    });
+    assert_eq!(faults.len(), 3, "{faults:?}");
+}
+
+#[test]
+fn a_table_where_a_value_belongs_and_the_reverse_are_told() {
+    let faults = faults_of("a = 1\n[b]\nc = 1", |root| {
+        let a = root.section("a").integer("x", 0..=1);
+        let b = root.integer("b", 0..=1);
+        a.and(b).map(|_| ())
+    });
+    assert_eq!(
+        faults,
+        [
+            "job.toml:1: a = 1: must be a table",
+            "job.toml:1: a.x is missing: must be a whole number from 0 to 1",
+            "job.toml:2: b = {...}: must be a whole number from 0 to 1",
+        ]
+    );
+}
+
+#[test]
+fn an_option_replaces_what_the_file_says_and_is_named_in_its_fault() {
+    let mut document = Document::parse("job.toml", "[robots]\ncount = 3").unwrap();
+    document.set(&["robots", "count"], Value::Integer(0), "--count");
+    let read = |root: &Section| root.section("robots").integer("count", 1..=9);
+    let faults = document.read(read).unwrap_err();
+    assert_eq!(
+        faults.to_string(),
+        "--count: robots.count = 0: must be a whole number from 1 to 9"
+    );
+    document.set(&["robots", "count"], Value::Integer(5), "--count");
+    assert_eq!(document.read(read), Ok(5));
+}
+
+proptest! {
+    #[test]
+    fn any_text_is_read_or_told_never_a_panic(text in "[a-c=\\[\\]\"'.0-9\n{}, #_-]{0,60}") {
+        let _ = Document::parse("fuzz", &text).map(|document| {
+            document.read(|root| {
+                root.only(&["a"]);
+                let _ = root.section("a").number("b", 0.0..=1.0);
+                let _ = root.section("b").numbers("c", 0.0..=1.0);
+                Some(())
+            })
+        });
+    }
+}

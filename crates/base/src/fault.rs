@@ -1,0 +1,75 @@
+//! What is wrong with something a person wrote, in words that tell how to mend it.
+
+use std::fmt;
+
+/// One thing that is wrong: where, what was given, what is allowed.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Fault {
+    /// Where it stands, when it stands in a file or an option: `scenario.toml:7`, `--contact`.
+    pub origin: Option<String>,
+    /// Path of the value: `robots.wanderer.count`, `start[2].x`. Empty for a whole document.
+    pub path: String,
+    /// What was given, as the person would write it; `None` when it is missing.
+    pub given: Option<String>,
+    /// What is allowed, as the end of "must be ..." ; a whole sentence if `path` is empty.
+    pub allowed: String,
+    /// The nearest thing that would be right.
+    pub suggestion: Option<String>,
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(origin) = &self.origin {
+            write!(f, "{origin}: ")?;
+        }
+        match (&self.path, &self.given) {
+            (path, _) if path.is_empty() => write!(f, "{}", self.allowed)?,
+            (path, Some(given)) => write!(f, "{path} = {given}: must be {}", self.allowed)?,
+            (path, None) => write!(f, "{path} is missing: must be {}", self.allowed)?,
+        }
+        match &self.suggestion {
+            Some(suggestion) => write!(f, "; did you mean {suggestion}?"),
+            None => Ok(()),
+        }
+    }
+}
+
+/// Everything that is wrong, at least one fault; shown one a line.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
+pub struct Faults(pub Vec<Fault>);
+
+impl Faults {
+    /// `value` if nothing is wrong, else the faults.
+    ///
+    /// # Errors
+    /// The faults, when there are any or when there is no value.
+    pub fn or<T>(faults: Vec<Fault>, value: Option<T>) -> Result<T, Self> {
+        match value {
+            Some(value) if faults.is_empty() => Ok(value),
+            _ => Err(Self(faults)),
+        }
+    }
+}
+
+/// The candidate spelled most like `word`, if one is near enough to be meant.
+#[must_use]
+pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    candidates
+        .into_iter()
+        .map(|candidate| (strsim::damerau_levenshtein(word, candidate), candidate))
+        .filter(|(distance, candidate)| *distance <= 1 + candidate.len() / 4)
+        .min()
+        .map(|(_, candidate)| candidate)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nearest_finds_a_slip_of_the_finger_and_nothing_far_away() {
+        assert_eq!(nearest("tuoch", ["neighbour", "touch"]), Some("touch"));
+        assert_eq!(nearest("sonar", ["neighbour", "touch"]), None);
+    }
+}

@@ -1,0 +1,9 @@
+//! What every other crate may use, and nothing else.
+//!
+//! * [`random`]: random streams keyed by (seed, run, entity, purpose);
+//! * [`fault`]: what is wrong with something a person wrote, in words;
+//! * [`document`]: a TOML document read against what is allowed, every fault at once.
+
+pub mod document;
+pub mod fault;
+pub mod random;

@@ -1,0 +1,101 @@
+//! Robot-decisions per second of the fast form, beside a program that does much less.
+//!
+//! `cargo bench -p agent-economy-classic`. Criterion's "elem/s" are robot-decisions per second:
+//! starts, contact and proofs of "never" are included in the time and not in the count.
+//!
+//! *Speed of light*: robots that wander on the same grid, look at the same three cells and turn
+//! at random, with no scores, no carry, no contact, no end.
+
+use classic::clock::{DECISION_PERIOD, FIRST_DECISION};
+use classic::world::{Cell, SIZE};
+use classic::{Contact, Rules, replicate};
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use std::hint::black_box;
+
+const RUNS: u64 = 20_000;
+
+/// Robot-decisions until completion; proofs of "never" are left out, so the rate is understated.
+fn robot_decisions(robots: u32, rules: Rules) -> u64 {
+    let outcomes = replicate(robots, 0..RUNS, 1, rules);
+    let paints = outcomes.iter().filter_map(|outcome| outcome.paints);
+    let decisions = |paints: u64| match paints.checked_sub(FIRST_DECISION) {
+        Some(rest) => 1 + rest / DECISION_PERIOD,
+        None => 0,
+    };
+    u64::from(robots) * paints.map(decisions).sum::<u64>()
+}
+
+fn fast_form(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("fast form");
+    for (robots, contact_name, threads) in [
+        (4, "neighbour", 1),
+        (4, "neighbour", 2),
+        (4, "touch", 1),
+        (1, "neighbour", 1),
+        (8, "neighbour", 1),
+    ] {
+        let contact = Contact::NAMES
+            .iter()
+            .find(|(name, _)| *name == contact_name)
+            .unwrap()
+            .1;
+        let rules = Rules {
+            contact,
+            cap_paints: 6720,
+        };
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
+        group.throughput(Throughput::Elements(robot_decisions(robots, rules)));
+        let name = format!("{robots} robots, {contact_name}, {threads} thread(s)");
+        group.bench_function(name, |bencher| {
+            bencher.iter(|| pool.install(|| replicate(black_box(robots), 0..RUNS, 1, rules)));
+        });
+    }
+}
+
+/// Four random wanderers with three-cell sensing: `(cell, octant)` each, one grid.
+fn wander(decisions: u32) -> [(usize, usize); 4] {
+    let row = SIZE.unsigned_abs() as usize;
+    let steps: [isize; 8] = [-1, 24, 25, 26, 1, -24, -25, -26];
+    let mut grid: Vec<u8> = (0..row * row)
+        .map(|index| {
+            let cell = Cell {
+                x: (index / row) as i32,
+                y: (index % row) as i32,
+            };
+            u8::from(cell.is_static())
+        })
+        .collect();
+    let mut robots: [(usize, usize); 4] = [(260, 0), (265, 1), (390, 2), (395, 3)];
+    let mut state = 1_u64;
+    for _ in 0..decisions {
+        for (cell, octant) in &mut robots {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1);
+            let free =
+                |turn: usize| grid[cell.wrapping_add_signed(steps[(*octant + turn) % 8])] == 0;
+            let seen = usize::from(free(7)) | usize::from(free(0)) << 1 | usize::from(free(1)) << 2;
+            let turn = [4, 7, 0, 7, 1, 1, 0, 0][seen] + usize::from((state >> 60) == 0);
+            *octant = (*octant + turn) % 8;
+            let ahead = cell.wrapping_add_signed(steps[*octant]);
+            grid[*cell] = 0;
+            *cell = if grid[ahead] == 0 { ahead } else { *cell };
+            grid[*cell] = 1;
+        }
+    }
+    robots
+}
+
+fn speed_of_light(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("speed of light");
+    group.throughput(Throughput::Elements(4_000_000));
+    group.bench_function("4 random wanderers, 1 thread", |bencher| {
+        bencher.iter(|| wander(black_box(1_000_000)));
+    });
+}
+
+criterion_group!(benches, fast_form, speed_of_light);
+criterion_main!(benches);

@@ -1,0 +1,167 @@
+//! What counts as finding an item. The original was timed by eye; these are six readings of that.
+
+use crate::heading::Heading;
+use crate::robot::Robot;
+use crate::world::{Cell, ITEMS};
+use std::f64::consts::FRAC_1_SQRT_2;
+use std::sync::LazyLock;
+
+/// What counts as contact between a robot and an item.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Contact {
+    /// The item is on one of the eight cells round the robot's, or on its own.
+    Neighbour,
+    /// The item is on a diagonal neighbour or on the robot's own cell: what colours a robot.
+    Diagonal,
+    /// At most two columns and two rows away.
+    Within2,
+    /// At most three columns and three rows away.
+    Within3,
+    /// The drawn robot touches the drawn item, judged at every paint.
+    Touch,
+    /// The item is on one of the three cells of the robot's near look.
+    Ahead,
+}
+
+impl Contact {
+    /// Every definition, with the name that scenarios give it.
+    pub const NAMES: [(&'static str, Self); 6] = [
+        ("neighbour", Self::Neighbour),
+        ("diagonal", Self::Diagonal),
+        ("within-2", Self::Within2),
+        ("within-3", Self::Within3),
+        ("touch", Self::Touch),
+        ("ahead", Self::Ahead),
+    ];
+
+    /// Whether it is judged at every paint, and not only at decisions.
+    pub(crate) fn is_by_paint(self) -> bool {
+        self == Self::Touch
+    }
+
+    /// Whether a robot on `cell` that looks along `looking` is in contact with `item`.
+    ///
+    /// `looking` is the heading before the decision's turn. [`Contact::Touch`] has no meaning on
+    /// cells: see [`Pose::touches`].
+    pub(crate) fn holds(self, cell: Cell, looking: Heading, item: Cell) -> bool {
+        let (dx, dy) = cell.gaps(item);
+        match self {
+            Self::Neighbour => dx.max(dy) <= 1,
+            Self::Diagonal => dx == dy && dx <= 1,
+            Self::Within2 => dx.max(dy) <= 2,
+            Self::Within3 => dx.max(dy) <= 3,
+            // A robot on the frame or outside takes no near look.
+            Self::Ahead => {
+                let looks = looking.looks().map(|step| cell.ahead(step, 1));
+                cell.is_inside(1) && looks.contains(&item)
+            }
+            Self::Touch => false,
+        }
+    }
+}
+
+/// Which of the four items have been found: one bit each.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) struct Found(pub(crate) u8);
+
+impl Found {
+    pub(crate) const ALL: Self = Self(0b1111);
+
+    /// The items for which `holds`.
+    pub(crate) fn of(mut holds: impl FnMut(Cell) -> bool) -> Self {
+        let bits = ITEMS.into_iter().enumerate();
+        Self(bits.fold(0, |found, (bit, item)| {
+            found | (u8::from(holds(item)) << bit)
+        }))
+    }
+
+    pub(crate) fn has(self, bit: usize) -> bool {
+        self.0 >> bit & 1 == 1
+    }
+
+    pub(crate) fn count(self) -> u8 {
+        // At most four.
+        self.0.count_ones().to_le_bytes()[0]
+    }
+}
+
+impl std::ops::BitOrAssign for Found {
+    fn bitor_assign(&mut self, other: Self) {
+        self.0 |= other.0;
+    }
+}
+
+/// Where a robot is drawn, in 64-bit floats.
+///
+/// The tiny sideways drift of the original's 32-bit moves is left out: 64 bits are judged from
+/// the cell of the last decision.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Pose {
+    x_px: f64,
+    y_px: f64,
+    right: (f64, f64),
+    back: (f64, f64),
+}
+
+/// Sine of the eight octants. The library's sine of a turn is off by 1e-16, which moves a robot's
+/// edge off an item's.
+const SINES: [f64; 8] = [
+    0.0,
+    FRAC_1_SQRT_2,
+    1.0,
+    FRAC_1_SQRT_2,
+    0.0,
+    -FRAC_1_SQRT_2,
+    -1.0,
+    -FRAC_1_SQRT_2,
+];
+
+const PX_PER_PAINT: f64 = 2.0;
+const ITEM_PX: f64 = 20.0;
+
+/// The chevron as drawn: three strokes of 25 points, in the robot's frame (right, back), px.
+static CHEVRON: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| {
+    let strokes = [
+        [(0.0, -8.0), (0.0, 16.0)],
+        [(0.0, 4.0), (-8.0, 10.0)],
+        [(0.0, 4.0), (8.0, 10.0)],
+    ];
+    let points = |[(x0, y0), (x1, y1)]: [(f64, f64); 2]| {
+        (0..25).map(move |k| {
+            let along = f64::from(k) / 24.0;
+            (x0 + along * (x1 - x0), y0 + along * (y1 - y0))
+        })
+    };
+    strokes.into_iter().flat_map(points).collect()
+});
+
+impl Pose {
+    /// A robot that was at these pixels at its last decision, `paints` ago.
+    pub(crate) fn new(px: (f64, f64), heading: Heading, speed: u8, paints: u8) -> Self {
+        let octant = heading.octant();
+        let (sine, cosine) = (SINES[octant], SINES[(octant + 2) % 8]);
+        let travelled_px = f64::from(paints) * PX_PER_PAINT * f64::from(speed);
+        Self {
+            x_px: px.0 + travelled_px * sine,
+            y_px: px.1 - travelled_px * cosine,
+            right: (cosine, sine),
+            back: (-sine, cosine),
+        }
+    }
+
+    /// The pose of a robot of the plain form that stood at `px` at its last decision.
+    pub(crate) fn of(robot: &Robot, px: (f32, f32), paints: u8) -> Self {
+        let px = (f64::from(px.0), f64::from(px.1));
+        Self::new(px, robot.heading, robot.speed.number(), paints)
+    }
+
+    /// Whether any point of the chevron is on the closed square of `item`.
+    pub(crate) fn touches(&self, item: Cell) -> bool {
+        let (left, top) = (f64::from(item.x) * ITEM_PX, f64::from(item.y) * ITEM_PX);
+        CHEVRON.iter().any(|(right, back)| {
+            let x = self.x_px + right * self.right.0 + back * self.back.0;
+            let y = self.y_px + right * self.right.1 + back * self.back.1;
+            (left..=left + ITEM_PX).contains(&x) && (top..=top + ITEM_PX).contains(&y)
+        })
+    }
+}

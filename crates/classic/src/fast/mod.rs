@@ -1,0 +1,256 @@
+//! The fast form: the same run as [`crate::search`], for studies.
+//!
+//! A team that starts on cells with speed 1 (see [`crate::start`]) moves by exactly one cell a
+//! period, so pixels need not be kept. What a robot does then depends on the three cells it looks
+//! at, on whether it has been circling, and on the carry only through one comparison: its
+//! left-slow score against the best of its other scores. Sixty-four [`tables::Rule`]s hold that,
+//! and a robot is one [`word`] to which the chosen rule adds.
+//!
+//! Cost of a robot-decision: five small loads to see, one rule, one addition, one update of the
+//! grid, and no branch that depends on what happens. The carry is the only chain from robot to
+//! robot (an and and an addition), so the processor overlaps the robots of a team.
+//!
+//! "Never" is proven as in the plain form by a state that comes again, found by Brent's method:
+//! the state is kept at decisions 1, 2, 4, 8, ... and every later one is compared with it.
+
+mod tables;
+mod word;
+
+use crate::clock::{self, DECISION_PERIOD, FIRST_DECISION};
+use crate::contact::{Contact, Found};
+use crate::search::{Outcome, Rules};
+use crate::world::{Cell, ITEMS};
+use tables::{ContactTables, Grid, TABLES, Tables};
+use word::Word;
+
+/// A runner of the fast form; it keeps its memory from run to run.
+pub struct FastSearch {
+    tables: &'static Tables,
+    contacts: &'static ContactTables,
+    rules: Rules,
+    grid: Grid,
+    /// Where the robots stood at the last decision, where they stand after this one, and a state
+    /// to compare with.
+    robots: Vec<Word>,
+    next: Vec<Word>,
+    kept: Vec<Word>,
+    carry: i32,
+    kept_carry: i32,
+}
+
+/// When contact is judged: which robot's word, before or after the turn, finds items.
+trait Judge {
+    fn word(moved: Word, turned: Word) -> Word;
+}
+
+/// [`Contact::Ahead`] looks before the turn, and definitions on cells do not care.
+struct BeforeTurn;
+
+/// [`Contact::Touch`] is judged while the robot moves on.
+struct AfterTurn;
+
+impl Judge for BeforeTurn {
+    #[inline]
+    fn word(moved: Word, _: Word) -> Word {
+        moved
+    }
+}
+
+impl Judge for AfterTurn {
+    #[inline]
+    fn word(_: Word, turned: Word) -> Word {
+        turned
+    }
+}
+
+/// How far a run is, and what has been counted.
+#[derive(Clone, Copy)]
+struct Tally {
+    decision: u64,
+    found: Found,
+    /// Without what the robots find at this decision and in the period after it.
+    found_before: Found,
+    collisions: u64,
+}
+
+impl FastSearch {
+    /// A runner for these rules.
+    #[must_use]
+    pub fn new(rules: Rules) -> Self {
+        Self {
+            tables: &TABLES,
+            contacts: tables::contact_tables(rules.contact),
+            rules,
+            grid: TABLES.grid,
+            robots: Vec::new(),
+            next: Vec::new(),
+            kept: Vec::new(),
+            carry: 0,
+            kept_carry: 0,
+        }
+    }
+
+    /// Runs a team that starts on `cells` (each of the grid, none on its frame), as
+    /// [`crate::start::team_on`] places it.
+    pub fn run(&mut self, cells: impl Iterator<Item = Cell>) -> Outcome {
+        self.place(cells);
+        let outcome = if self.rules.contact == Contact::Touch {
+            self.search::<AfterTurn>()
+        } else {
+            self.search::<BeforeTurn>()
+        };
+        self.clear();
+        outcome
+    }
+
+    fn place(&mut self, cells: impl Iterator<Item = Cell>) {
+        self.robots.clear();
+        let words = cells
+            .enumerate()
+            .map(|(octant, cell)| word::start(cell, octant));
+        self.robots.extend(words);
+        for robot in &self.robots {
+            self.grid[word::position(*robot)] += 1;
+        }
+        self.next.clone_from(&self.robots);
+        self.carry = 0;
+        self.keep();
+    }
+
+    fn clear(&mut self) {
+        for robot in &self.robots {
+            self.grid[word::position(*robot)] -= 1;
+        }
+    }
+
+    fn search<J: Judge>(&mut self) -> Outcome {
+        let mut tally = self.tally_of_start();
+        let mut at_cap: Option<(Found, u64)> = None;
+        let mut is_never = false;
+        let mut keep_at = 1;
+        loop {
+            if at_cap.is_none() && clock::paint_of(tally.decision + 1) > self.rules.cap_paints {
+                at_cap = Some((self.found_by_cap(&tally), tally.collisions));
+            }
+            let is_complete = tally.found == Found::ALL;
+            if is_complete || (is_never && at_cap.is_some()) {
+                let (found, collisions) = at_cap.unwrap_or((tally.found, tally.collisions));
+                return Outcome {
+                    paints: is_complete.then(|| self.completion_paint(&tally)),
+                    found: found.count(),
+                    collisions,
+                };
+            }
+            self.decide::<J>(&mut tally);
+            is_never = is_never || self.has_recurred();
+            if tally.decision == keep_at {
+                self.keep();
+                keep_at *= 2;
+            }
+        }
+    }
+
+    fn tally_of_start(&self) -> Tally {
+        let finds =
+            |robot: &Word| self.contacts.start[word::motion(*robot)][word::position(*robot)];
+        Tally {
+            decision: 0,
+            found: Found(
+                self.robots
+                    .iter()
+                    .fold(0, |found, robot| found | finds(robot)),
+            ),
+            found_before: Found::default(),
+            collisions: 0,
+        }
+    }
+
+    /// One period: every robot moves, looks at where all stood before, chooses and turns.
+    fn decide<J: Judge>(&mut self, tally: &mut Tally) {
+        let Tables {
+            motions,
+            is_inner,
+            rules,
+            ..
+        } = self.tables;
+        let grid = &mut self.grid;
+        tally.decision += 1;
+        tally.found_before = tally.found;
+        for (robot, next) in self.robots.iter().zip(&mut self.next) {
+            let motion = motions[word::motion(*robot)];
+            let position = word::position_after(*robot, motion.step);
+            let filled = motion
+                .looks
+                .map(|look| usize::from(grid[word::offset(position, look)] != 0));
+            let bonus = usize::from(is_inner[word::offset(position, 0)]) & word::speed(*robot);
+            let seen = filled[0] | filled[1] << 1 | filled[2] << 2;
+            let rule = &rules[seen | word::circling(*robot) << 3 | bonus << 5];
+            self.carry = (self.carry & rule.keep) + rule.add;
+            let moved = word::moved_to(*robot, position);
+            let change = rule.change[usize::from(self.carry >= rule.threshold)];
+            *next = word::stopped(moved).wrapping_add(change);
+            let judged = J::word(moved, *next);
+            tally.found.0 |= self.contacts.decision[word::motion(judged)][word::position(judged)];
+        }
+        for (robot, next) in self.robots.iter().zip(&self.next) {
+            grid[word::position(*robot)] -= 1;
+            grid[word::position(*next)] += 1;
+        }
+        let is_shared = |robot: &Word| u64::from(grid[word::position(*robot)] > 1);
+        tally.collisions += self.next.iter().map(is_shared).sum::<u64>();
+        std::mem::swap(&mut self.robots, &mut self.next);
+    }
+
+    fn has_recurred(&self) -> bool {
+        // The first robot alone settles nearly every comparison.
+        self.robots.first() == self.kept.first()
+            && self.carry == self.kept_carry
+            && self.robots == self.kept
+    }
+
+    fn keep(&mut self) {
+        self.kept.clone_from(&self.robots);
+        self.kept_carry = self.carry;
+    }
+
+    /// What is found by the cap, which lies in the period after the tally's decision.
+    fn found_by_cap(&self, tally: &Tally) -> Found {
+        if !self.rules.contact.is_by_paint() {
+            return tally.found;
+        }
+        let paints = self.rules.cap_paints - clock::paint_of(tally.decision) + 1;
+        let mut found = tally.found_before;
+        found |= Found::of(|item| self.first_find(item, paints).is_some());
+        found
+    }
+
+    /// The paint of the last find, in the period after the tally's decision.
+    fn completion_paint(&self, tally: &Tally) -> u64 {
+        let decision = clock::paint_of(tally.decision);
+        if !self.rules.contact.is_by_paint() {
+            return decision;
+        }
+        let period = if tally.decision == 0 {
+            FIRST_DECISION
+        } else {
+            DECISION_PERIOD
+        };
+        let was_missing = ITEMS
+            .into_iter()
+            .enumerate()
+            .filter(|(bit, _)| !tally.found_before.has(*bit));
+        let finds = was_missing.filter_map(|(_, item)| self.first_find(item, period));
+        decision + finds.max().unwrap_or(0)
+    }
+
+    /// Paints since the last decision until any robot touches an item, if within `paints`.
+    fn first_find(&self, item: Cell, paints: u64) -> Option<u64> {
+        let find = |robot: &Word| {
+            tables::first_touch(word::cell(*robot), word::motion(*robot), item, paints)
+        };
+        self.robots.iter().filter_map(find).min()
+    }
+}
+
+#[cfg(test)]
+mod tests;

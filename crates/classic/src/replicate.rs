@@ -1,0 +1,72 @@
+//! Many runs at once: random starts, or every start there is.
+
+use crate::fast::FastSearch;
+use crate::search::{Outcome, Rules};
+use crate::start::{FIRST_CELL, START_CELLS, random_cell};
+use crate::world::Cell;
+use rayon::prelude::*;
+use std::ops::Range;
+
+/// Runs that one task takes from the pool: long enough to hide its cost, short enough to share.
+const RUNS_PER_TASK: usize = 64;
+
+/// The outcomes of `runs` (numbers, not a count) of a team with random starts, in their order.
+///
+/// The same for any number of threads; they are those of the rayon pool this is called in.
+#[must_use]
+pub fn replicate(robots: u32, runs: Range<u64>, seed: u64, rules: Rules) -> Vec<Outcome> {
+    let run = |search: &mut FastSearch, run: u64| {
+        search.run((0..robots).map(|index| random_cell(seed, run, index)))
+    };
+    in_parallel(runs, rules, run)
+}
+
+/// Starts that a team of `robots` can have: 289 for each robot.
+#[must_use]
+pub fn number_of_starts(robots: u32) -> Option<u64> {
+    (u64::from(START_CELLS) * u64::from(START_CELLS)).checked_pow(robots)
+}
+
+/// The cells of a start, by its number: the first robot's column varies slowest, the last robot's
+/// row fastest.
+#[must_use]
+pub fn start_cells(robots: u32, start: u64) -> Vec<Cell> {
+    let mut rest = start;
+    let mut coordinate = || {
+        let offset = rest % u64::from(START_CELLS);
+        rest /= u64::from(START_CELLS);
+        i32::from(FIRST_CELL) + i32::from(offset.to_le_bytes()[0])
+    };
+    let mut cells: Vec<Cell> = (0..robots)
+        .map(|_| {
+            let y = coordinate();
+            Cell { x: coordinate(), y }
+        })
+        .collect();
+    cells.reverse();
+    cells
+}
+
+/// The outcomes of the starts with these numbers, in their order.
+#[must_use]
+pub fn exhaust(robots: u32, starts: Range<u64>, rules: Rules) -> Vec<Outcome> {
+    let run =
+        |search: &mut FastSearch, start: u64| search.run(start_cells(robots, start).into_iter());
+    in_parallel(starts, rules, run)
+}
+
+fn in_parallel(
+    numbers: Range<u64>,
+    rules: Rules,
+    run: impl Fn(&mut FastSearch, u64) -> Outcome + Sync,
+) -> Vec<Outcome> {
+    let numbers: Vec<u64> = numbers.collect();
+    numbers
+        .par_iter()
+        .with_min_len(RUNS_PER_TASK)
+        .map_init(
+            || FastSearch::new(rules),
+            |search, number| run(search, *number),
+        )
+        .collect()
+}

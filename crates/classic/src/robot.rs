@@ -1,0 +1,141 @@
+//! A robot of the plain form, and where it starts.
+
+use crate::heading::{Heading, Turn};
+use crate::world::{CELL_PX, Cell};
+
+/// What a robot's surroundings were at its last decision.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Colour {
+    /// Nothing near.
+    Blue,
+    /// Something on a diagonal neighbour: about to collide.
+    Yellow,
+    /// Something else on its own cell: collided.
+    Red,
+}
+
+/// Speed in cells a decision. The original never starts a robot at anything but 1.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Speed {
+    /// Standing.
+    Stopped = 0,
+    /// One cell a decision, 2 px a paint.
+    Slow = 1,
+    /// Two cells a decision, 4 px a paint. No robot ever reaches it from the others.
+    Fast = 2,
+}
+
+impl Speed {
+    /// 0, 1 or 2.
+    #[must_use]
+    pub fn number(self) -> u8 {
+        self as u8
+    }
+}
+
+/// Where a robot starts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Start {
+    /// Pixels to the right.
+    pub x_px: f32,
+    /// Pixels down.
+    pub y_px: f32,
+    /// Where it heads.
+    pub heading: Heading,
+    /// How fast it goes.
+    pub speed: Speed,
+}
+
+impl Start {
+    /// The cell it stands on.
+    #[must_use]
+    pub fn cell(&self) -> Cell {
+        cell_of(self.x_px, self.y_px)
+    }
+}
+
+/// A robot of the plain form: exactly the original's state.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Robot {
+    /// Pixels to the right, a 32-bit float as in the original.
+    pub x_px: f32,
+    /// Pixels down.
+    pub y_px: f32,
+    /// Where it heads.
+    pub heading: Heading,
+    /// How fast it goes.
+    pub speed: Speed,
+    /// Left turns, less what the circling penalty took off.
+    pub left_turns: i16,
+    /// Right turns, less what the circling penalty took off.
+    pub right_turns: i16,
+    /// What its surroundings were at the last decision.
+    pub colour: Colour,
+    /// Chosen in phase A of a decision, made in phase B.
+    pub(crate) turn: Turn,
+}
+
+impl Robot {
+    pub(crate) fn new(start: &Start) -> Self {
+        Self {
+            x_px: start.x_px,
+            y_px: start.y_px,
+            heading: start.heading,
+            speed: start.speed,
+            left_turns: 0,
+            right_turns: 0,
+            colour: Colour::Blue,
+            turn: Turn::None,
+        }
+    }
+
+    /// The cell it stands on.
+    #[must_use]
+    pub fn cell(&self) -> Cell {
+        cell_of(self.x_px, self.y_px)
+    }
+
+    /// One paint's move.
+    pub(crate) fn advance(&mut self) {
+        let (x_px, y_px) = self.heading.move_px();
+        let speed = f32::from(self.speed.number());
+        if self.speed != Speed::Stopped {
+            self.x_px += x_px * speed;
+            self.y_px += y_px * speed;
+        }
+    }
+
+    /// Puts it exactly on its cell.
+    #[expect(clippy::cast_precision_loss, reason = "cells are small whole numbers")]
+    pub(crate) fn snap(&mut self) {
+        let cell = self.cell();
+        self.x_px = cell.x as f32 * CELL_PX;
+        self.y_px = cell.y as f32 * CELL_PX;
+    }
+
+    /// Makes the turn that was chosen, and counts it.
+    pub(crate) fn make_turn(&mut self) {
+        self.heading = self.heading.turned(self.turn);
+        match self.turn {
+            Turn::Left => self.left_turns += 1,
+            Turn::None => {}
+            Turn::Right => self.right_turns += 1,
+        }
+    }
+}
+
+fn cell_of(x_px: f32, y_px: f32) -> Cell {
+    Cell {
+        x: nearest_cell(x_px),
+        y: nearest_cell(y_px),
+    }
+}
+
+/// Halves round towards plus infinity; the sum is exact in 64 bits, as it would not be in 32.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "pixels are bounded: a robot that has left the grid stops at its next decision"
+)]
+fn nearest_cell(px: f32) -> i32 {
+    (f64::from(px / CELL_PX) + 0.5).floor() as i32
+}

@@ -1,0 +1,113 @@
+//! The 25 x 25 world of 2003: frame, obstacles, items, and the grid that counts what is where.
+
+/// Cells along each side; a cell's indices are 0..25, x to the right and y down.
+pub const SIZE: i32 = 25;
+
+/// Pixels along a cell's side.
+pub const CELL_PX: f32 = 20.0;
+
+/// The four items to find.
+pub const ITEMS: [Cell; 4] = [
+    Cell { x: 3, y: 17 },
+    Cell { x: 9, y: 5 },
+    Cell { x: 14, y: 22 },
+    Cell { x: 21, y: 8 },
+];
+
+/// Obstacles inside the frame: left, top, right, bottom cell, ends included.
+const OBSTACLES: [[i32; 4]; 4] = [
+    [4, 1, 5, 3],
+    [3, 11, 5, 11],
+    [15, 6, 15, 9],
+    [12, 19, 14, 19],
+];
+
+/// A cell, possibly outside the grid (a robot may leave it).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Cell {
+    /// Columns to the right.
+    pub x: i32,
+    /// Rows down.
+    pub y: i32,
+}
+
+impl Cell {
+    /// The cell `steps` times `step` away.
+    pub(crate) fn ahead(self, step: (i32, i32), steps: i32) -> Self {
+        Self {
+            x: self.x + step.0 * steps,
+            y: self.y + step.1 * steps,
+        }
+    }
+
+    /// Columns and rows between two cells.
+    pub(crate) fn gaps(self, other: Self) -> (i32, i32) {
+        ((self.x - other.x).abs(), (self.y - other.y).abs())
+    }
+
+    /// Whether the cell is in the grid and at least `margin` cells from its edge.
+    pub(crate) fn is_inside(self, margin: i32) -> bool {
+        let allowed = margin..SIZE - margin;
+        allowed.contains(&self.x) && allowed.contains(&self.y)
+    }
+
+    /// Whether frame, obstacle or item fills the cell. Items are not special to robots.
+    #[must_use]
+    pub fn is_static(self) -> bool {
+        let in_obstacle = |[left, top, right, bottom]: [i32; 4]| {
+            (left..=right).contains(&self.x) && (top..=bottom).contains(&self.y)
+        };
+        let on_frame = self.is_inside(0) && !self.is_inside(1);
+        on_frame || OBSTACLES.into_iter().any(in_obstacle) || ITEMS.contains(&self)
+    }
+}
+
+/// All cells of the grid, column by column.
+pub(crate) fn cells() -> impl Iterator<Item = Cell> {
+    (0..SIZE).flat_map(|x| (0..SIZE).map(move |y| Cell { x, y }))
+}
+
+/// How many things stand on each cell: static content counts 1, each robot 1.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Grid {
+    counts: Vec<u32>,
+}
+
+impl Grid {
+    /// A grid with the static content only.
+    pub(crate) fn new() -> Self {
+        Self {
+            counts: cells().map(|cell| u32::from(cell.is_static())).collect(),
+        }
+    }
+
+    /// Static content, then each of `robots` that is inside the grid.
+    pub(crate) fn refresh(&mut self, robots: impl Iterator<Item = Cell>) {
+        *self = Self::new();
+        for index in robots.filter_map(index) {
+            self.counts[index] += 1;
+        }
+    }
+
+    /// What stands on a cell; `None` outside the grid.
+    pub(crate) fn count(&self, cell: Cell) -> Option<u32> {
+        index(cell).map(|index| self.counts[index])
+    }
+
+    /// Whether anything stands on a cell; nothing stands outside the grid.
+    pub(crate) fn is_filled(&self, cell: Cell) -> bool {
+        self.count(cell).is_some_and(|count| count > 0)
+    }
+
+    /// FNV-1a over the counts modulo 256, as eight hex digits.
+    pub(crate) fn hash(&self) -> String {
+        let step = |hash: u32, count: &u32| (hash ^ (count & 0xff)).wrapping_mul(16_777_619);
+        format!("{:08x}", self.counts.iter().fold(0x811c_9dc5, step))
+    }
+}
+
+fn index(cell: Cell) -> Option<usize> {
+    cell.is_inside(0)
+        .then(|| usize::try_from(cell.x * SIZE + cell.y).ok())
+        .flatten()
+}

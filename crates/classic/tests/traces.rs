@@ -1,0 +1,92 @@
+//! The plain form gives exactly the traces of the original program, floats equal and not close.
+
+use classic::{Colour, Heading, Robot, Speed, Start, trace};
+use serde_json::{Value, json};
+use std::fs;
+use std::path::Path;
+
+fn speed(number: &Value) -> Speed {
+    match number.as_i64() {
+        Some(0) => Speed::Stopped,
+        Some(1) => Speed::Slow,
+        _ => Speed::Fast,
+    }
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "the files hold 32-bit floats, widened"
+)]
+fn start(robot: &Value) -> Start {
+    Start {
+        x_px: robot["x"].as_f64().unwrap() as f32,
+        y_px: robot["y"].as_f64().unwrap() as f32,
+        heading: Heading::new(robot["heading"].as_i64().unwrap()).unwrap(),
+        speed: speed(&robot["speed"]),
+    }
+}
+
+fn robot_row(robot: &Robot) -> Value {
+    let colour = match robot.colour {
+        Colour::Blue => "b",
+        Colour::Yellow => "y",
+        Colour::Red => "r",
+    };
+    json!([
+        f64::from(robot.x_px),
+        f64::from(robot.y_px),
+        robot.heading.degrees(),
+        robot.speed.number(),
+        robot.left_turns,
+        robot.right_turns,
+        colour,
+    ])
+}
+
+fn assert_same_run(case: &Value) {
+    let starts: Vec<Start> = case["start"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(start)
+        .collect();
+    let decisions = case["decisions"].as_array().unwrap();
+    let trace = trace(&starts, decisions.len());
+    let id = &case["id"];
+    assert_eq!(
+        case["start_grid"], trace.start_grid,
+        "case {id}: start grid"
+    );
+    for (number, (expected, pixels)) in case["paints"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .zip(&trace.paints)
+        .enumerate()
+    {
+        let row: Vec<_> = pixels.iter().map(|pixels| pixels.map(f64::from)).collect();
+        assert_eq!(expected, &json!(row), "case {id}: paint {}", number + 1);
+    }
+    for (number, (expected, decided)) in decisions.iter().zip(&trace.decisions).enumerate() {
+        let mut row = vec![json!(decided.carry), json!(decided.grid)];
+        row.extend(decided.robots.iter().map(robot_row));
+        assert_eq!(
+            expected,
+            &Value::Array(row),
+            "case {id}: decision {}",
+            number + 1
+        );
+    }
+}
+
+#[test]
+fn the_plain_form_reproduces_every_golden_trace() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/traces");
+    let mut cases = 0;
+    for entry in fs::read_dir(folder).unwrap() {
+        let text = fs::read_to_string(entry.unwrap().path()).unwrap();
+        assert_same_run(&serde_json::from_str(&text).unwrap());
+        cases += 1;
+    }
+    assert_eq!(cases, 56);
+}
