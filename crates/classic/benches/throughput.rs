@@ -6,8 +6,10 @@
 //! *Speed of light*: robots that wander on the same grid, look at the same three cells and turn
 //! at random, with no scores, no carry, no contact, no end.
 
+#![expect(clippy::unwrap_used, reason = "a benchmark may panic")]
+
 use classic::clock::{DECISION_PERIOD, FIRST_DECISION};
-use classic::world::{Cell, SIZE};
+use classic::world::cells;
 use classic::{Contact, Rules, replicate};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
@@ -57,17 +59,8 @@ fn fast_form(criterion: &mut Criterion) {
 
 /// Four random wanderers with three-cell sensing: `(cell, octant)` each, one grid.
 fn wander(decisions: u32) -> [(usize, usize); 4] {
-    let row = SIZE.unsigned_abs() as usize;
     let steps: [isize; 8] = [-1, 24, 25, 26, 1, -24, -25, -26];
-    let mut grid: Vec<u8> = (0..row * row)
-        .map(|index| {
-            let cell = Cell {
-                x: (index / row) as i32,
-                y: (index % row) as i32,
-            };
-            u8::from(cell.is_static())
-        })
-        .collect();
+    let mut grid: Vec<u8> = cells().map(|cell| u8::from(cell.is_static())).collect();
     let mut robots: [(usize, usize); 4] = [(260, 0), (265, 1), (390, 2), (395, 3)];
     let mut state = 1_u64;
     for _ in 0..decisions {

@@ -1,5 +1,7 @@
 //! Compass headings in steps of 45 degrees.
 
+use std::f32::consts::SQRT_2;
+
 /// A compass heading in degrees: one of 0 (up), 45, 90 (right), ..., 315, 360.
 ///
 /// 0 and 360 point the same way but are different values, as in the original: turning right from
@@ -19,13 +21,13 @@ pub(crate) enum Turn {
 /// cosine gave them (hence the tiny values, which show only while a coordinate is 0).
 const MOVES_PX: [(f32, f32); 8] = [
     (1.224_646_9e-16, -2.0),
-    (1.414_213_5, -1.414_213_5),
+    (SQRT_2, -SQRT_2),
     (2.0, 0.0),
-    (1.414_213_5, 1.414_213_5),
+    (SQRT_2, SQRT_2),
     (-3.673_940_3e-16, 2.0),
-    (-1.414_213_5, 1.414_213_5),
+    (-SQRT_2, SQRT_2),
     (-2.0, -2.449_293_7e-16),
-    (-1.414_213_5, -1.414_213_5),
+    (-SQRT_2, -SQRT_2),
 ];
 
 /// Cells (right, down) that one step along each octant crosses; a diagonal step crosses both ways.

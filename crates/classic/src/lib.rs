@@ -7,6 +7,7 @@
 //! | what a robot does | [`robot`], `decision`, [`simulation`]: the *plain form*, rule by rule |
 //! | when a run is over | [`contact`], [`search`] |
 //! | how studies run it | [`fast`] (the same outcomes, tested), [`start`], [`replicate`](mod@replicate) |
+//! | what a study is told | [`scenario`] |
 //! | what a trace holds | [`trace`](mod@trace) |
 
 pub mod clock;
@@ -16,6 +17,7 @@ pub mod fast;
 pub mod heading;
 pub mod replicate;
 pub mod robot;
+pub mod scenario;
 pub mod search;
 pub mod simulation;
 pub mod start;

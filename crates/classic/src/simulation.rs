@@ -80,10 +80,9 @@ impl Simulation {
             let cell = robot.cell();
             let is_near = |step: &(i32, i32)| self.grid.is_filled(cell.ahead(*step, 1));
             robot.colour = match self.grid.count(cell) {
-                None => Colour::Blue,
                 Some(count) if count > 1 => Colour::Red,
                 Some(_) if DIAGONALS.iter().any(is_near) => Colour::Yellow,
-                Some(_) => Colour::Blue,
+                _ => Colour::Blue,
             };
         }
     }

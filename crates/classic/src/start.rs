@@ -6,7 +6,7 @@ use crate::world::{CELL_PX, Cell};
 use base::random::{Entity, Purpose, stream};
 
 /// Robots that a team may have: what a grid cell of the fast form can count.
-pub const MAX_ROBOTS: usize = 250;
+pub const MAX_ROBOTS: u32 = 250;
 
 /// First of the columns (and rows) on which a robot may start.
 pub const FIRST_CELL: u8 = 4;

@@ -63,7 +63,7 @@ impl Cell {
 }
 
 /// All cells of the grid, column by column.
-pub(crate) fn cells() -> impl Iterator<Item = Cell> {
+pub fn cells() -> impl Iterator<Item = Cell> {
     (0..SIZE).flat_map(|x| (0..SIZE).map(move |y| Cell { x, y }))
 }
 

@@ -27,7 +27,6 @@ fn fast_and_plain_agree_on_millions_of_random_robot_decisions() {
             }
         }
     }
-    println!("{robot_decisions} robot-decisions compared");
     assert!(robot_decisions > 2_000_000, "{robot_decisions}");
 }
 

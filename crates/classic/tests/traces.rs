@@ -1,5 +1,7 @@
 //! The plain form gives exactly the traces of the original program, floats equal and not close.
 
+#![expect(clippy::unwrap_used, reason = "a test may panic")]
+
 use classic::{Colour, Heading, Robot, Speed, Start, trace};
 use serde_json::{Value, json};
 use std::fs;

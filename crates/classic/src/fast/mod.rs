@@ -105,9 +105,7 @@ impl FastSearch {
 
     fn place(&mut self, cells: impl Iterator<Item = Cell>) {
         self.robots.clear();
-        let words = cells
-            .enumerate()
-            .map(|(octant, cell)| word::start(cell, octant));
+        let words = cells.zip(0..).map(|(cell, index)| word::start(cell, index));
         self.robots.extend(words);
         for robot in &self.robots {
             self.grid[word::position(*robot)] += 1;

@@ -33,8 +33,8 @@ fn every_robot_is_in_the_same_state_after_every_decision_as_in_the_plain_form() 
         cap_paints: 0,
     };
     let mut compared = 0;
-    for run in 0..600_u64 {
-        let robots = [1, 2, 3, 4, 6, 9, 16, 40][run as usize % 8];
+    let sizes = [1, 2, 3, 4, 6, 9, 16, 40].into_iter().cycle();
+    for (robots, run) in sizes.zip(0..600) {
         let cells: Vec<Cell> = (0..robots)
             .map(|index| random_cell(11, run, index))
             .collect();

@@ -27,12 +27,11 @@ pub(super) const SPEED: Word = 1 << 28;
 pub(super) const OCTANT: Word = 1 << 29;
 const TURNS_BIAS: Word = 3;
 
-/// A robot at the start of a run: speed 1, no turns.
+/// Robot `index` at the start of a run: heading 45 degrees x index, speed 1, no turns.
 #[inline]
-pub(super) fn start(cell: Cell, octant: usize) -> Word {
+pub(super) fn start(cell: Cell, index: u32) -> Word {
     let turns = TURNS_BIAS * (LEFT_TURN + RIGHT_TURN);
-    let octant = (octant as Word).wrapping_mul(OCTANT);
-    octant | SPEED | turns | Word::from(position_of(cell))
+    index.wrapping_mul(OCTANT) | SPEED | turns | Word::from(position_of(cell))
 }
 
 /// The position of a cell of the grid.

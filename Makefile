@@ -1,0 +1,54 @@
+# Needs Python 3.11+ with venv, a Rust toolchain and make. Everything else goes into .venv.
+
+PYTHON ?= python3
+BIN := .venv/bin
+RUST := $(shell find crates -name '*.rs' -o -name Cargo.toml) Cargo.toml Cargo.lock
+# maturin, and what it starts, are found in the environment.
+export PATH := $(CURDIR)/$(BIN):$(PATH)
+
+.PHONY: help study test bench picture replication lint rust-test python-test clean
+
+help: ## Say what can be made
+	@grep -E '^[a-z-]+:.*## ' Makefile | sed 's/:.*## /\t/' | expand -t 14
+
+study: .venv/installed ## Answer the 2003 experiment's question: how many robots?
+	$(BIN)/agent-economy study scenarios/classic.toml
+
+test: lint rust-test python-test ## Run every check, as CI does
+
+lint: .venv/installed ## Formatters, linters, types, stubs, layers
+	cargo fmt --all --check
+	cargo clippy --workspace --all-targets --locked -- -D warnings
+	$(BIN)/ruff format --check python scripts
+	$(BIN)/ruff check python scripts
+	$(BIN)/mypy
+	$(BIN)/stubtest agent_economy._core
+	$(BIN)/lint-imports --no-cache
+	$(BIN)/python scripts/check_tree.py
+
+rust-test:
+	cargo test --locked
+
+python-test: .venv/installed
+	$(BIN)/pytest
+
+bench: ## Robot-decisions per second
+	cargo bench -p agent-economy-classic
+
+replication: .venv/installed ## Recompute every figure of docs/replication.md
+	$(BIN)/python scripts/replication.py
+
+picture: study ## Take docs/report.png anew (needs Chromium)
+	$(BIN)/python scripts/report_picture.py
+
+clean: ## Remove what was made
+	rm -rf .venv target studies
+
+.venv/packages: requirements.lock
+	$(PYTHON) -m venv .venv
+	$(BIN)/pip install --quiet --disable-pip-version-check -r requirements.lock
+	touch $@
+
+.venv/installed: .venv/packages pyproject.toml $(RUST)
+	$(BIN)/pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation -e .
+	touch $@

@@ -1,0 +1,75 @@
+//! Arguments of Python functions, checked at the edge: all faults of a call in one exception.
+
+use crate::error::{argument_fault, input_error};
+use base::fault::{Fault, Faults, nearest};
+use classic::Contact;
+use pyo3::prelude::*;
+use pyo3::types::PyBool;
+use std::cell::RefCell;
+use std::ops::RangeInclusive;
+
+/// Collects what is wrong with a call's arguments.
+#[derive(Default)]
+pub(crate) struct Arguments {
+    faults: RefCell<Vec<Fault>>,
+}
+
+impl Arguments {
+    /// The whole number of a Python int (not a bool) in `range`.
+    pub(crate) fn integer(
+        &self,
+        name: &str,
+        given: &Bound<PyAny>,
+        range: RangeInclusive<u64>,
+    ) -> Option<u64> {
+        let number = (!given.is_instance_of::<PyBool>()).then(|| given.extract::<u64>().ok());
+        let number = number.flatten().filter(|number| range.contains(number));
+        if number.is_none() {
+            let allowed = format!("a whole number from {} to {}", range.start(), range.end());
+            self.fault(name, given, allowed);
+        }
+        number
+    }
+
+    /// A team size.
+    pub(crate) fn robots(&self, given: &Bound<PyAny>, max: u32) -> Option<u32> {
+        let robots = self.integer("robots", given, 1..=max.into())?;
+        u32::try_from(robots).ok()
+    }
+
+    /// A contact definition's name.
+    pub(crate) fn contact(&self, given: &Bound<PyAny>) -> Option<Contact> {
+        let name = given.extract::<String>().unwrap_or_default();
+        let found = Contact::NAMES.iter().find(|(known, _)| *known == name);
+        if found.is_none() {
+            let names = || Contact::NAMES.iter().map(|(known, _)| *known);
+            let quoted: Vec<String> = names().map(|known| format!("{known:?}")).collect();
+            let mut fault =
+                argument_fault("contact", given, format!("one of {}", quoted.join(", ")));
+            fault.suggestion = nearest(&name, names()).map(|known| format!("{known:?}"));
+            self.faults.borrow_mut().push(fault);
+        }
+        found.map(|(_, contact)| *contact)
+    }
+
+    /// Threads to use; `Some(None)` for as many as there are processors.
+    #[expect(clippy::option_option, reason = "a fault, Python's None, and a number")]
+    pub(crate) fn threads(&self, given: &Bound<PyAny>) -> Option<Option<usize>> {
+        if given.is_none() {
+            return Some(None);
+        }
+        let threads = self.integer("threads", given, 1..=1024)?;
+        usize::try_from(threads).ok().map(Some)
+    }
+
+    /// Notes that `given` is not what is `allowed`.
+    pub(crate) fn fault(&self, path: &str, given: &Bound<PyAny>, allowed: String) {
+        let fault = argument_fault(path, given, allowed);
+        self.faults.borrow_mut().push(fault);
+    }
+
+    /// `value`, or an exception with all faults.
+    pub(crate) fn or_faults<T>(self, value: Option<T>) -> PyResult<T> {
+        Faults::or(self.faults.into_inner(), value).map_err(|faults| input_error(&faults))
+    }
+}

@@ -1,0 +1,102 @@
+//! Runs of the classic engine, as columns.
+
+use crate::arguments::Arguments;
+use crate::long_work::in_blocks;
+use classic::replicate::{number_of_starts, start_cells};
+use classic::start::MAX_ROBOTS;
+use classic::{Outcome, Rules};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
+use pyo3::prelude::*;
+
+type Column<'py> = Bound<'py, PyArray1<i64>>;
+type OutcomeColumns<'py> = (Column<'py>, Column<'py>, Column<'py>);
+
+/// Runs of one call: an outcome takes 24 bytes.
+const MAX_RUNS: u64 = 100_000_000;
+const MAX_CAP_PAINTS: u64 = 1_000_000;
+
+/// Outcomes of runs with random starts: arrays (runs,) of paints (-1 = proven never), found and
+/// collisions.
+#[pyfunction]
+#[pyo3(signature = (robots, runs, *, contact, cap_paints, seed, first_run, threads))]
+#[expect(
+    clippy::too_many_arguments,
+    reason = "Python's keywords arrive one by one"
+)]
+pub(crate) fn replicate<'py>(
+    py: Python<'py>,
+    robots: &Bound<'py, PyAny>,
+    runs: &Bound<'py, PyAny>,
+    contact: &Bound<'py, PyAny>,
+    cap_paints: &Bound<'py, PyAny>,
+    seed: &Bound<'py, PyAny>,
+    first_run: &Bound<'py, PyAny>,
+    threads: &Bound<'py, PyAny>,
+) -> PyResult<OutcomeColumns<'py>> {
+    let check = Arguments::default();
+    let robots = check.robots(robots, MAX_ROBOTS);
+    let runs = check.integer("runs", runs, 0..=MAX_RUNS);
+    let contact = check.contact(contact);
+    let cap_paints = check.integer("cap_paints", cap_paints, 0..=MAX_CAP_PAINTS);
+    let seed = check.integer("seed", seed, 0..=u64::MAX);
+    let first_run = check.integer("first_run", first_run, 0..=u64::MAX - MAX_RUNS);
+    let threads = check.threads(threads);
+    let rules = contact.zip(cap_paints).map(|(contact, cap_paints)| Rules {
+        contact,
+        cap_paints,
+    });
+    let all = (|| Some((robots?, runs?, rules?, seed?, first_run?, threads?)))();
+    let (robots, runs, rules, seed, first_run, threads) = check.or_faults(all)?;
+    let outcomes = in_blocks(py, first_run..first_run + runs, threads, |runs| {
+        classic::replicate(robots, runs, seed, rules)
+    })?;
+    Ok(columns(py, &outcomes))
+}
+
+/// Every start there is for one or two robots: an array (starts, 2 x robots) of their cells
+/// (x, y of robot 0, then of robot 1), and (starts,) of paints (-1 = proven never).
+#[pyfunction]
+#[pyo3(signature = (robots, contact, *, threads))]
+pub(crate) fn exhaust<'py>(
+    py: Python<'py>,
+    robots: &Bound<'py, PyAny>,
+    contact: &Bound<'py, PyAny>,
+    threads: &Bound<'py, PyAny>,
+) -> PyResult<(Bound<'py, PyArray2<i64>>, Column<'py>)> {
+    let check = Arguments::default();
+    let robots = check.robots(robots, 2);
+    let contact = check.contact(contact);
+    let threads = check.threads(threads);
+    let all = (|| Some((robots?, contact?, threads?)))();
+    let (robots, contact, threads) = check.or_faults(all)?;
+    let starts = number_of_starts(robots).unwrap_or_default();
+    let rules = Rules {
+        contact,
+        cap_paints: 0,
+    };
+    let outcomes = in_blocks(py, 0..starts, threads, |starts| {
+        classic::replicate::exhaust(robots, starts, rules)
+    })?;
+    let cells = (0..starts).flat_map(|start| start_cells(robots, start));
+    let coordinates: Vec<i64> = cells
+        .flat_map(|cell| [cell.x.into(), cell.y.into()])
+        .collect();
+    let shape = [outcomes.len(), 2 * robots as usize];
+    let coordinates = coordinates.into_pyarray(py).reshape(shape)?;
+    Ok((coordinates, columns(py, &outcomes).0))
+}
+
+fn columns<'py>(py: Python<'py>, outcomes: &[Outcome]) -> OutcomeColumns<'py> {
+    let column = |value: fn(&Outcome) -> i64| {
+        outcomes
+            .iter()
+            .map(value)
+            .collect::<Vec<i64>>()
+            .into_pyarray(py)
+    };
+    (
+        column(|outcome| outcome.paints.map_or(-1, u64::cast_signed)),
+        column(|outcome| outcome.found.into()),
+        column(|outcome| outcome.collisions.cast_signed()),
+    )
+}

@@ -1,0 +1,23 @@
+//! The Python module `agent_economy._core`: it converts values, releases the interpreter while
+//! Rust computes, and maps errors. No logic lives here.
+
+mod arguments;
+mod classic_runs;
+mod classic_scenario;
+mod classic_trace;
+mod error;
+mod long_work;
+
+use pyo3::prelude::*;
+
+#[pymodule]
+mod _core {
+    #[pymodule_export]
+    use crate::classic_runs::{exhaust, replicate};
+    #[pymodule_export]
+    use crate::classic_scenario::read_scenario;
+    #[pymodule_export]
+    use crate::classic_trace::{random_start, trace};
+    #[pymodule_export]
+    use crate::error::InputError;
+}

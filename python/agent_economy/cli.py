@@ -1,0 +1,170 @@
+"""The command line: it asks, shows and exits; what it shows is made elsewhere."""
+
+import json
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich import box
+from rich.console import Console
+from rich.table import Table
+
+from agent_economy import __version__
+from agent_economy._core import InputError
+from agent_economy.progress import shown
+from agent_economy.scenario import Override, Scenario
+from agent_economy.study import answer, files, report, run_teams
+from agent_economy.study.answer import Answer
+from agent_economy.study.estimate import Estimate
+from agent_economy.study.sentence import signed
+from agent_economy.study.teams import Team
+
+BAD_INPUT = 2
+"""Exit code when something given is not allowed."""
+
+PLAIN_WIDTH = 100
+"""Columns where the output is no terminal."""
+
+app = typer.Typer(
+    add_completion=False,
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    rich_markup_mode="rich",
+)
+
+
+def print_version(wanted: bool) -> None:  # noqa: FBT001  (typer's callback)
+    """Print the version and end."""
+    if wanted:
+        typer.echo(f"agent-economy {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def root(
+    *,
+    version: Annotated[
+        bool, typer.Option("--version", callback=print_version, is_eager=True, help="Version.")
+    ] = False,
+) -> None:
+    """How many robots, of which kinds, does this job need?
+
+    Example: agent-economy study scenarios/classic.toml
+    """
+
+
+@app.command()
+def study(  # noqa: PLR0913  (typer's options are arguments)
+    scenario: Annotated[Path, typer.Argument(help="A scenario's TOML file.", show_default=False)],
+    *,
+    vary: Annotated[
+        list[str] | None,
+        typer.Option(help="Team sizes to compare, as robots.wanderer.count=1..12 or =1,2,4."),
+    ] = None,
+    runs: Annotated[int | None, typer.Option(help="Runs of each team.")] = None,
+    contact: Annotated[
+        str | None,
+        typer.Option(help="neighbour, diagonal, within-2, within-3, touch or ahead."),
+    ] = None,
+    merit: Annotated[str | None, typer.Option(help="equation-5.2 or appendix.")] = None,
+    seed: Annotated[
+        int, typer.Option(min=0, max=2**64 - 1, help="Of the random starts: same seed, same bytes.")
+    ] = 0,
+    out: Annotated[
+        Path | None, typer.Option(help="Folder of the results. [default: studies/NAME]")
+    ] = None,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print answer.json instead of the table.")
+    ] = False,
+) -> None:
+    """Run every team of a scenario and say how many robots to send.
+
+    Writes report.html, runs.parquet and answer.json. Options go before what the file says.
+
+    Exit codes: 0 answered, 2 something given is not allowed, 130 stopped by Ctrl-C.
+
+    Example: agent-economy study scenarios/classic.toml --vary robots.wanderer.count=1..12
+    """
+    try:
+        changes = overrides(vary or [], runs=runs, contact=contact, merit=merit)
+        asked = Scenario.load(scenario, changes)
+        folder = out or Path("studies") / asked.name
+        files.check_writable(folder)
+    except InputError as error:
+        typer.echo(f"{error}", err=True)
+        raise typer.Exit(BAD_INPUT) from None
+    with report.ChartScript() as script, shown(asked) as progress:
+        results = run_teams(asked, seed, progress)
+        given = answer(results)
+        files.write_all(folder, results, given, report.html(results, given, script))
+    if as_json:
+        typer.echo(json.dumps(files.answer_dict(given), indent=2, allow_nan=False))
+    else:
+        show(given, folder)
+
+
+def overrides(
+    vary: list[str], *, runs: int | None, contact: str | None, merit: str | None
+) -> tuple[Override, ...]:
+    """Return what options say, as values put over the file's.
+
+    Raises:
+        InputError: If a --vary is not PATH=VALUES.
+    """
+    changes = [varied(text) for text in vary]
+    if runs is not None:
+        changes.append(Override(("study", "runs"), runs, "--runs"))
+    if contact is not None:
+        changes.append(Override(("contact",), contact, "--contact"))
+    if merit is not None:
+        changes.append(Override(("merit",), merit, "--merit"))
+    return tuple(changes)
+
+
+def varied(text: str) -> Override:
+    """Return the factor and values of PATH=VALUES."""
+    path, equals, values = text.partition("=")
+    if not equals:
+        message = f"--vary = {text!r}: must be PATH=VALUES, such as robots.wanderer.count=1..12"
+        raise InputError(message)
+    return Override(("study", "vary", path.strip()), values.strip(), "--vary")
+
+
+def show(given: Answer, folder: Path) -> None:
+    """Print the table, the answer, and where the report is."""
+    table = Table(title=given.scenario.summary, title_justify="left", box=box.SIMPLE_HEAD)
+    for name in ("robots", "mean time, s", "searches failed", "figure of merit", "behind best"):
+        table.add_column(name, justify="right", no_wrap=True)
+    for team in given.teams:
+        table.add_row(
+            str(team.robots),
+            interval(team.time_s, 1),
+            percentage(team.failed_share),
+            interval(team.merit, 2),
+            behind_best(team),
+            style="bold" if team.robots == given.best else None,
+        )
+    console = Console(highlight=False)
+    if not console.is_terminal:
+        console.width = PLAIN_WIDTH
+    console.print(table)
+    console.print(f"{given.sentence}\n", style="bold", markup=False)
+    typer.echo(f"Report: {folder / 'report.html'}")
+
+
+def behind_best(team: Team) -> str:
+    """Return how far a team is behind the best."""
+    if not team.behind_best:
+        return "best"
+    return f"{signed(team.behind_best.value, 3)}{' tie' if team.is_tied else ''}"
+
+
+def interval(given: Estimate, places: int) -> str:
+    """Return a value and its interval."""
+    value, low, high = (signed(each, places) for each in (given.value, given.low, given.high))
+    return f"{value} ({low}..{high})"
+
+
+def percentage(given: Estimate) -> str:
+    """Return a share and its interval, in percent."""
+    return f"{given.value:.2%} ({given.low:.2%}..{given.high:.2%})"

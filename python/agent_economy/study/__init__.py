@@ -1,0 +1,10 @@
+"""A study: many runs of every team, and the answer they give.
+
+The data flows one way: `runs` (outcomes of every team) -> `answer` (`teams`: estimates with
+intervals; `sentence`: the words) -> `report` and `files` (what is left on disk).
+"""
+
+from agent_economy.study.answer import Answer, answer
+from agent_economy.study.runs import Progress, Runs, run_teams
+
+__all__ = ["Answer", "Progress", "Runs", "answer", "run_teams"]

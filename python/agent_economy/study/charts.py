@@ -1,0 +1,140 @@
+"""The charts of a report, as Vega-Lite specifications."""
+
+from typing import Any
+
+import altair as alt
+import numpy as np
+
+from agent_economy.study import estimate
+from agent_economy.study.answer import Answer
+from agent_economy.study.runs import Runs
+
+OURS = "this study"
+QUANTILES = {"p5": 0.05, "p25": 0.25, "p50": 0.5, "p75": 0.75, "p95": 0.95}
+BLUE, ORANGE = "#1f5fbf", "#d9730d"
+HEIGHT = 250
+
+Rows = list[dict[str, Any]]
+Chart = alt.LayerChart | alt.FacetChart
+
+
+def charts(runs: Runs, answer: Answer) -> dict[str, dict[str, Any]]:
+    """Return each chart's Vega-Lite specification, by its name in the report's page."""
+    made = {
+        "merit": merit_chart(answer),
+        "times": times_chart(runs, answer),
+        "failed": failed_chart(answer),
+    }
+    return {name: chart.to_dict() for name, chart in made.items()}
+
+
+def merit_chart(answer: Answer) -> Chart:
+    """Return the figure of merit by team size, with intervals, beside the published ones."""
+    ours = [
+        {"robots": team.robots, "source": OURS, **interval(team.merit)} for team in answer.teams
+    ]
+    published = [
+        {"robots": team.robots, "source": source(answer), "value": team.merit}
+        for team in answer.published
+    ]
+    return with_intervals(ours + published, "figure of merit (higher is better)")
+
+
+def failed_chart(answer: Answer) -> Chart:
+    """Return the share of failed searches by team size, with exact intervals."""
+    ours = [
+        {"robots": team.robots, "source": OURS, **interval(team.failed_share)}
+        for team in answer.teams
+    ]
+    published = [
+        {
+            "robots": team.robots,
+            "source": source(answer),
+            **interval(estimate.share(team.failed, len(team.times_s))),
+        }
+        for team in answer.published
+    ]
+    return with_intervals(ours + published, "share of searches failed", axis=alt.Axis(format="%"))
+
+
+def times_chart(runs: Runs, answer: Answer) -> Chart:
+    """Return the distribution of times by team size, with each published run as a point."""
+    rows: Rows = []
+    for robots, outcomes in runs.teams.items():
+        quantiles = np.quantile(outcomes.time_s, list(QUANTILES.values()))
+        row = dict(zip(QUANTILES, map(float, quantiles), strict=True))
+        rows.append({"robots": robots, "source": OURS, **row})
+    points: Rows = [
+        {"robots": team.robots, "source": source(answer), "time_s": time_s}
+        for team in answer.published
+        for time_s in team.times_s
+    ]
+    title = f"time of a search, capped at {answer.scenario.cap_s:g} s (s)"
+    base = alt.Chart(data(rows)).encode(x=robots_axis(), color=source_color(answer))
+    low_high = base.mark_rule(size=2).encode(alt.Y("p5:Q", title=title), y2="p95:Q")
+    quartiles = base.mark_bar(size=14, opacity=0.55).encode(alt.Y("p25:Q"), y2="p75:Q")
+    median = base.mark_tick(size=20, thickness=3).encode(alt.Y("p50:Q"))
+    single = (
+        alt.Chart(data(points))
+        .mark_point(size=28, opacity=0.8)
+        .encode(
+            robots_axis(),
+            alt.Y("time_s:Q"),
+            xOffset=alt.value(16),
+            color=source_color(answer),
+            tooltip=["source:N", "robots:O", "time_s:Q"],
+        )
+    )
+    return sized(alt.layer(low_high, quartiles, median, single))
+
+
+def with_intervals(rows: Rows, title: str, axis: alt.Axis | None = None) -> Chart:
+    """Return points with intervals by team size, one colour and shape a source."""
+    sources = sorted({row["source"] for row in rows}, key=lambda name: name != OURS)
+    scale = alt.Scale(domain=sources, range=[BLUE, ORANGE])
+    color = alt.Color("source:N", title=None, scale=scale)
+    offset = alt.XOffset("source:N", sort=sources, scale=alt.Scale(paddingOuter=1))
+    base = alt.Chart(data(rows)).encode(x=robots_axis(), xOffset=offset, color=color)
+    bars = base.mark_errorbar(ticks=True, thickness=2).encode(
+        alt.Y("low:Q", title=title), y2="high:Q"
+    )
+    points = base.mark_point(filled=True, size=60).encode(
+        alt.Y("value:Q", title=title, axis=axis or alt.Undefined),
+        shape=alt.Shape("source:N", title=None, scale=alt.Scale(domain=sources)),
+        tooltip=["source:N", "robots:O", "value:Q", "low:Q", "high:Q"],
+    )
+    return sized(alt.layer(bars, points))
+
+
+def interval(given: estimate.Estimate) -> dict[str, float]:
+    """Return an estimate as columns."""
+    return {"value": given.value, "low": given.low, "high": given.high}
+
+
+def source(answer: Answer) -> str:
+    """Return how charts name the published results."""
+    published = answer.scenario.published
+    return published.source if published else ""
+
+
+def source_color(answer: Answer) -> alt.Color:
+    """Return one colour for ours and one for the published results."""
+    sources = [OURS, source(answer)] if answer.published else [OURS]
+    return alt.Color("source:N", title=None, scale=alt.Scale(domain=sources, range=[BLUE, ORANGE]))
+
+
+def robots_axis() -> alt.X:
+    """Return the axis of team sizes."""
+    return alt.X("robots:O", title="robots", axis=alt.Axis(labelAngle=0))
+
+
+def data(rows: Rows) -> alt.InlineData:
+    """Return rows as inline data."""
+    return alt.InlineData(values=rows)
+
+
+def sized(chart: Chart) -> Chart:
+    """Return a chart as wide as the page allows."""
+    wide = chart.properties(width="container", height=HEIGHT).configure_view(stroke=None)
+    configured: Chart = wide.configure_legend(orient="top")
+    return configured

@@ -1,0 +1,53 @@
+"""Estimates with confidence intervals."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import betaincinv, stdtrit
+
+CONFIDENCE = 0.95
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """A value and its confidence interval."""
+
+    value: float
+    low: float
+    high: float
+
+
+def mean(samples: NDArray[np.float64], confidence: float = CONFIDENCE) -> Estimate:
+    """Return the mean of samples with Student's t interval.
+
+    Args:
+        samples: Shape (n,), n at least 2. Samples that are all equal give an interval of no
+            width, whatever n is.
+        confidence: Of a two-sided interval.
+
+    Source: Student (1908), The probable error of a mean, Biometrika 6.
+    """
+    value = float(np.mean(samples))
+    error = float(np.std(samples, ddof=1)) / math.sqrt(len(samples))
+    half_width = error * float(stdtrit(len(samples) - 1, (1 + confidence) / 2))
+    return Estimate(value, value - half_width, value + half_width)
+
+
+def share(successes: int, trials: int, confidence: float = CONFIDENCE) -> Estimate:
+    """Return a share with the exact interval of Clopper and Pearson.
+
+    Args:
+        successes: 0 to `trials`.
+        trials: At least 1.
+        confidence: Of a two-sided interval; it covers the truth at least this often.
+
+    Source: Clopper and Pearson (1934), The use of confidence or fiducial limits illustrated in the
+        case of the binomial, Biometrika 26.
+    """
+    tail = (1 - confidence) / 2
+    failures = trials - successes
+    low = float(betaincinv(successes, failures + 1, tail)) if successes else 0.0
+    high = float(betaincinv(successes + 1, failures, 1 - tail)) if failures else 1.0
+    return Estimate(successes / trials, low, high)

@@ -1,0 +1,72 @@
+"""What a study leaves on disk: report.html, runs.parquet, answer.json."""
+
+import json
+import os
+import tempfile
+from collections.abc import Callable
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import pyarrow.parquet as pq
+
+from agent_economy._core import InputError
+from agent_economy.study.answer import Answer
+from agent_economy.study.report import versions
+from agent_economy.study.runs import Runs
+
+
+def check_writable(folder: Path) -> None:
+    """Make a study's folder, if it is not there, and see that files can be written in it.
+
+    Raises:
+        InputError: If they cannot, before any time is spent on runs.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder):
+            pass
+    except OSError as error:
+        message = f"--out: {folder} = not writable ({error.strerror}): must be a folder to write in"
+        raise InputError(message) from None
+
+
+def write_all(folder: Path, runs: Runs, answer: Answer, page: str) -> None:
+    """Write a study's files; each appears whole or not at all.
+
+    All are written under temporary names first and renamed together, so that a study that is
+    stopped or finds the disk full leaves what was there before.
+    """
+    text = json.dumps(answer_dict(answer), indent=2, allow_nan=False) + "\n"
+    writers: dict[str, Callable[[Path], object]] = {
+        "runs.parquet": lambda path: pq.write_table(runs.table(), path, compression="zstd"),
+        "report.html": lambda path: path.write_text(page, encoding="utf-8"),
+        "answer.json": lambda path: path.write_text(text, encoding="utf-8"),
+    }
+    with tempfile.TemporaryDirectory(dir=folder, prefix=".unfinished-") as unfinished:
+        for name, write in writers.items():
+            write(Path(unfinished) / name)
+            sync(Path(unfinished) / name)
+        for name in writers:
+            (Path(unfinished) / name).replace(folder / name)
+
+
+def sync(path: Path) -> None:
+    """Wait until a file is on the disk."""
+    with path.open("rb") as file:
+        os.fsync(file.fileno())
+
+
+def answer_dict(answer: Answer) -> dict[str, Any]:
+    """Return an answer as JSON has it."""
+    teams = [{**asdict(team), "is_tied": team.is_tied} for team in answer.teams]
+    return {
+        "sentence": answer.sentence,
+        "best": answer.best,
+        "tied": list(answer.tied),
+        "teams": teams,
+        "published": [asdict(team) for team in answer.published],
+        "scenario": asdict(answer.scenario),
+        "seed": answer.seed,
+        "versions": versions(),
+    }

@@ -1,0 +1,83 @@
+"""The answer in words."""
+
+from agent_economy.scenario import Scenario
+from agent_economy.study.estimate import Estimate
+from agent_economy.study.teams import Team
+
+
+def sentence(scenario: Scenario, best: int, teams: tuple[Team, ...]) -> str:
+    """Return the answer: whom to send, what that gives, and how near the others are."""
+    by_size = {team.robots: team for team in teams}
+    parts = [
+        f"Send {robots(best)}: {performance(scenario, by_size[best])}",
+        *ties(teams),
+        *runner_up(scenario, teams),
+        *published_choice(scenario, best, by_size),
+        *edge(best, teams),
+    ]
+    return "; ".join(parts) + "."
+
+
+def robots(count: int) -> str:
+    """Return "1 robot", "2 robots", ..."""
+    return f"{count} robot" if count == 1 else f"{count} robots"
+
+
+def performance(scenario: Scenario, team: Team) -> str:
+    """Return what a team does."""
+    return (
+        f"all items found in {team.time_s.value:.1f} s on average, "
+        f"{team.failed_share.value:.2%} of searches not within {scenario.cap_s:g} s, "
+        f"figure of merit {signed(team.merit.value)} "
+        f"(95% interval {signed(team.merit.low)} to {signed(team.merit.high)})"
+    )
+
+
+def ties(teams: tuple[Team, ...]) -> list[str]:
+    """Return the teams that cannot be told apart from the best."""
+    tied = [team for team in teams if team.is_tied]
+    if not tied:
+        return []
+    sizes = " and ".join(str(team.robots) for team in tied)
+    runs = tied[0].runs
+    worst = max(team.behind_best.high for team in tied if team.behind_best)
+    return [f"{sizes} cannot be told apart from it with {runs:,} runs (at most {worst:.2g} worse)"]
+
+
+def runner_up(scenario: Scenario, teams: tuple[Team, ...]) -> list[str]:
+    """Return the nearest of the teams that are worse for sure, unless it is the published one."""
+    beaten = [(team.behind_best, team) for team in teams if team.behind_best and not team.is_tied]
+    if not beaten:
+        return []
+    behind, team = min(beaten, key=lambda pair: pair[0].value)
+    if scenario.published and team.robots == scenario.published.choice:
+        return []
+    return [f"{team.robots} would cost {cost(behind)}"]
+
+
+def published_choice(scenario: Scenario, best: int, teams: dict[int, Team]) -> list[str]:
+    """Return what the published choice costs, if it is another one that was run."""
+    if not scenario.published:
+        return []
+    source, choice = scenario.published.source, scenario.published.choice
+    if choice == best:
+        return [f"{source} chose the same"]
+    behind = teams[choice].behind_best if choice in teams else None
+    return [f"the {choice} of {source} would cost {cost(behind)}"] if behind else []
+
+
+def cost(behind: Estimate) -> str:
+    """Return how far a team is behind the best."""
+    return f"{behind.value:.2g} of merit ({behind.low:.2g} to {behind.high:.2g})"
+
+
+def edge(best: int, teams: tuple[Team, ...]) -> list[str]:
+    """Return a warning if a larger team than any that was run might be better still."""
+    if len(teams) > 1 and best == teams[-1].robots:
+        return ["it is the largest team that was run, and a larger one may be better still"]
+    return []
+
+
+def signed(value: float, places: int = 2) -> str:
+    """Return a number with a true minus sign."""
+    return f"{value:.{places}f}".replace("-", "\N{MINUS SIGN}")

@@ -1,0 +1,99 @@
+"""What the runs of each team came to, ours and the published ones.
+
+The best team is the one with the highest mean merit. Because all teams meet the same starts, it is
+compared with each other team by the differences of their runs' merits; the intervals of these
+differences hold together at the stated confidence (Bonferroni). A team whose interval reaches 0
+cannot be told apart from the best: it is a tie, and the answer says so.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from agent_economy.scenario import Scenario
+from agent_economy.study import estimate
+from agent_economy.study.estimate import Estimate
+from agent_economy.study.runs import Outcomes, Runs
+
+
+@dataclass(frozen=True)
+class Team:
+    """What the runs of one team came to.
+
+    Attributes:
+        robots: Team size.
+        runs: How many.
+        time_s: Mean time, capped.
+        failed: How many runs failed.
+        failed_share: Their share.
+        merit: Figure of merit.
+        behind_best: The best team's merit less this one's, with an interval that holds for all
+            teams together; None for the best itself.
+    """
+
+    robots: int
+    runs: int
+    time_s: Estimate
+    failed: int
+    failed_share: Estimate
+    merit: Estimate
+    behind_best: Estimate | None
+
+    @property
+    def is_tied(self) -> bool:
+        """Whether it cannot be told apart from the best team."""
+        return self.behind_best is not None and self.behind_best.low <= 0
+
+
+@dataclass(frozen=True)
+class PublishedTeam:
+    """What others found of one team."""
+
+    robots: int
+    times_s: list[float]
+    time_s: float
+    failed: int
+    failed_share: float
+    merit: float
+
+
+def team(runs: Runs, robots: int, best: int) -> Team:
+    """Return the estimates of one team."""
+    outcomes = runs.teams[robots]
+    failed = int(np.sum(outcomes.failed))
+    others = max(1, len(runs.teams) - 1)
+    return Team(
+        robots=robots,
+        runs=len(outcomes.time_s),
+        time_s=estimate.mean(outcomes.time_s),
+        failed=failed,
+        failed_share=estimate.share(failed, len(outcomes.failed)),
+        merit=estimate.mean(outcomes.merit),
+        behind_best=None if robots == best else behind(runs.teams[best], outcomes, others),
+    )
+
+
+def behind(best: Outcomes, other: Outcomes, comparisons: int) -> Estimate:
+    """Return the best team's merit less another's, as one of so many simultaneous intervals."""
+    confidence = 1 - (1 - estimate.CONFIDENCE) / comparisons
+    return estimate.mean(best.merit - other.merit, confidence)
+
+
+def published_teams(scenario: Scenario) -> tuple[PublishedTeam, ...]:
+    """Return what others found, scored as our runs are; a time at the cap is a failed run."""
+    if not scenario.published:
+        return ()
+    return tuple(
+        published_team(scenario, robots, times_s)
+        for robots, times_s in scenario.published.times_s.items()
+    )
+
+
+def published_team(scenario: Scenario, robots: int, times_s: list[float]) -> PublishedTeam:
+    """Return one published team, scored."""
+    failed = sum(time_s >= scenario.cap_s for time_s in times_s)
+    failed_share = failed / len(times_s)
+    time_s = sum(times_s) / len(times_s)
+    weights = scenario.merit
+    merit = weights.time_s * time_s + weights.robots * robots + weights.failed * failed_share
+    return PublishedTeam(robots, times_s, time_s, failed, failed_share, merit)

@@ -1,0 +1,95 @@
+"""Scenarios: what is read, and what is told when it is wrong."""
+
+from pathlib import Path
+
+import pytest
+
+from agent_economy import InputError, Scenario
+from agent_economy.scenario import Override
+
+
+def test_the_shipped_scenario_is_the_2003_experiment(classic_toml: Path) -> None:
+    scenario = Scenario.load(classic_toml)
+    assert scenario.contact == "touch"
+    assert scenario.cap_paints == 6720
+    assert scenario.team_sizes == (1, 2, 3, 4, 5, 6, 7, 8)
+    assert scenario.runs == 10_000
+    assert scenario.merit.name == "equation-5.2"
+    assert scenario.published is not None
+    means = {
+        robots: round(sum(times) / len(times))
+        for robots, times in scenario.published.times_s.items()
+    }
+    assert means == {1: 69, 2: 81, 3: 37, 4: 37, 5: 69, 6: 120, 7: 120, 8: 120}
+
+
+def test_every_fault_is_told_at_once_with_file_line_value_and_what_is_allowed(
+    classic_toml: Path,
+) -> None:
+    text = (
+        classic_toml.read_text()
+        .replace('contact = "touch"', 'contact = "tuch"')
+        .replace("count = 4", 'count = "four"')
+        .replace("cap_s = 120", "cap_s = -1")
+        .replace("choice = 3", "chioce = 3")
+    )
+    with pytest.raises(InputError) as caught:
+        Scenario.loads(text, file="my.toml")
+    lines = str(caught.value).splitlines()
+    assert len(lines) == 5
+    for part in (
+        'my.toml:7: contact = "tuch": must be one of "neighbour", "diagonal", "within-2", '
+        '"within-3", "touch", "ahead"; did you mean "touch"?',
+        'my.toml:18: robots.wanderer.count = "four": must be a whole number from 1 to 250',
+        "my.toml:15: clock.cap_s = -1: must be a number from 0 to 1000000",
+        "my.toml:26: published.chioce = 3: must be one of the known keys here: source, choice, "
+        "times_s; did you mean choice?",
+        "my.toml:24: published.choice is missing: must be a whole number from 1 to 250",
+    ):
+        assert part in lines
+
+
+@pytest.mark.parametrize(
+    ("text", "part"),
+    [
+        ("", "engine is missing"),
+        ("engine = 3", "engine = 3: must be one of"),
+        ("[engine", "t.toml:1: not valid TOML: "),
+        ("a = 1\na = 2", "t.toml:2: not valid TOML: "),
+        ('engine = "metric"', 'engine = "metric": must be one of "classic"'),
+    ],
+)
+def test_broken_toml_is_told(text: str, part: str) -> None:
+    with pytest.raises(InputError) as caught:
+        Scenario.loads(text, file="t.toml")
+    assert part in str(caught.value)
+
+
+def test_files_that_cannot_be_read_are_told(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="none.toml: cannot be read: No such file"):
+        Scenario.load(tmp_path / "none.toml")
+    with pytest.raises(InputError, match="cannot be read: Is a directory"):
+        Scenario.load(tmp_path)
+    binary = tmp_path / "binary.toml"
+    binary.write_bytes(b"a = '\xff'")
+    with pytest.raises(InputError, match="is not UTF-8 text: byte 5 is 0xff"):
+        Scenario.load(binary)
+
+
+@pytest.mark.parametrize(
+    ("values", "sizes"),
+    [("1..3", (1, 2, 3)), ("7", (7,)), ("4, 2,4", (2, 4)), ("1..2,9", (1, 2, 9))],
+)
+def test_values_are_ranges_and_lists(
+    classic_toml: Path, values: str, sizes: tuple[int, ...]
+) -> None:
+    path = ("study", "vary", "robots.wanderer.count")
+    scenario = Scenario.load(classic_toml, (Override(path, values, "--vary"),))
+    assert scenario.team_sizes == sizes
+
+
+@pytest.mark.parametrize("values", ["", "0..3", "3..1", "1...3", "1..251", "x", "1,,2", "-1"])
+def test_values_that_are_none_are_told(classic_toml: Path, values: str) -> None:
+    path = ("study", "vary", "robots.wanderer.count")
+    with pytest.raises(InputError, match="--vary: .*must be whole numbers from 1 to 250"):
+        Scenario.load(classic_toml, (Override(path, values, "--vary"),))
