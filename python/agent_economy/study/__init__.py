@@ -6,5 +6,6 @@ intervals; `sentence`: the words) -> `report` and `files` (what is left on disk)
 
 from agent_economy.study.answer import Answer, answer
 from agent_economy.study.runs import Progress, Runs, run_teams
+from agent_economy.study.teams import Team
 
-__all__ = ["Answer", "Progress", "Runs", "answer", "run_teams"]
+__all__ = ["Answer", "Progress", "Runs", "Team", "answer", "run_teams"]

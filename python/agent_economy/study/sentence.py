@@ -56,14 +56,16 @@ def runner_up(scenario: Scenario, teams: tuple[Team, ...]) -> list[str]:
 
 
 def published_choice(scenario: Scenario, best: int, teams: dict[int, Team]) -> list[str]:
-    """Return what the published choice costs, if it is another one that was run."""
+    """Return what the published choice costs, if it was run and is worse for sure."""
     if not scenario.published:
         return []
     source, choice = scenario.published.source, scenario.published.choice
     if choice == best:
         return [f"{source} chose the same"]
-    behind = teams[choice].behind_best if choice in teams else None
-    return [f"the {choice} of {source} would cost {cost(behind)}"] if behind else []
+    team = teams.get(choice)
+    if not team or not team.behind_best or team.is_tied:
+        return []
+    return [f"the {choice} of {source} would cost {cost(team.behind_best)}"]
 
 
 def cost(behind: Estimate) -> str:
