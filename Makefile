@@ -2,14 +2,14 @@
 
 PYTHON ?= python3
 BIN := .venv/bin
-RUST := $(shell find crates -name '*.rs' -o -name Cargo.toml) Cargo.toml Cargo.lock
+RUST := $(shell find crates/*/src crates/*/Cargo.toml) Cargo.toml Cargo.lock
 # maturin, and what it starts, are found in the environment.
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 
 .PHONY: help study test bench picture replication lint rust-test python-test clean
 
 help: ## Say what can be made
-	@grep -E '^[a-z-]+:.*## ' Makefile | sed 's/:.*## /\t/' | expand -t 14
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "%-12s %s\n", $$1, $$2 }' Makefile
 
 study: .venv/installed ## Answer the 2003 experiment's question: how many robots?
 	$(BIN)/agent-economy study scenarios/classic.toml

@@ -18,9 +18,8 @@ CRATE_USES = {
 }
 """Which of our crates each may use; a new crate is added here on purpose."""
 
-CODE = {".rs", ".py", ".pyi"}
+CODE = {"crates": ["*.rs"], "python": ["*.py", "*.pyi"], "scripts": ["*.py"]}
 MAX_LINES = 600
-DOCUMENTS = ("README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "docs")
 
 
 def main() -> None:
@@ -49,9 +48,8 @@ def crate_faults() -> list[str]:
 
 def length_faults() -> list[str]:
     """Return code files that have grown too long."""
-    lengths = {
-        file: len(file.read_text().splitlines()) for file in tracked() if file.suffix in CODE
-    }
+    files = [file for top in CODE for kind in CODE[top] for file in (ROOT / top).rglob(kind)]
+    lengths = {file: len(file.read_text(encoding="utf-8").splitlines()) for file in files}
     return [
         f"{file.relative_to(ROOT)} has {lines} lines, more than {MAX_LINES}: split it by meaning"
         for file, lines in lengths.items()
@@ -60,26 +58,19 @@ def length_faults() -> list[str]:
 
 
 def document_faults() -> list[str]:
-    """Return paths of this tree that a document names and that do not exist."""
-    path = re.compile(r"`((?:crates|python|scenarios|scripts|docs|benchmarks)/[^`\s*<>]*)`")
+    """Return paths of this tree that a document names or links and that do not exist."""
+    named = re.compile(r"`((?:crates|python|scenarios|scripts|docs)/[^`\s*<>]*)`")
+    linked = re.compile(r"\]\((?!https?:|#)([^)\s#]+)")
     faults = []
-    for file in tracked():
-        name = file.relative_to(ROOT).as_posix()
-        if file.suffix == ".md" and name.startswith(DOCUMENTS):
-            named = path.findall(file.read_text())
-            faults += [
-                f"{name} names {each}, which is not there"
-                for each in named
-                if not (ROOT / each).exists()
-            ]
+    for file in [*ROOT.glob("*.md"), *(ROOT / "docs").glob("*.md")]:
+        text = file.read_text(encoding="utf-8")
+        paths = [ROOT / path for path in named.findall(text)]
+        paths += [file.parent / path for path in linked.findall(text)]
+        name = file.relative_to(ROOT)
+        faults += [
+            f"{name} names {path}, which is not there" for path in paths if not path.exists()
+        ]
     return faults
-
-
-def tracked() -> list[Path]:
-    """Return the files that git tracks, or would."""
-    command = ["git", "ls-files", "--cached", "--others", "--exclude-standard"]
-    output = subprocess.run(command, cwd=ROOT, check=True, capture_output=True, text=True).stdout
-    return [ROOT / line for line in output.splitlines() if (ROOT / line).is_file()]
 
 
 if __name__ == "__main__":

@@ -10,6 +10,8 @@ import re
 import sys
 from collections.abc import Callable, Iterable
 from dataclasses import replace
+from functools import cache
+from itertools import groupby
 from pathlib import Path
 
 import numpy as np
@@ -17,12 +19,12 @@ from numpy.typing import NDArray
 from scipy import stats
 
 import agent_economy as ae
+from agent_economy._core import CONTACTS
 from agent_economy.study.teams import published_teams
 
 ROOT = Path(__file__).resolve().parent.parent
 PAGE = ROOT / "docs" / "replication.md"
 SCENARIO = ae.Scenario.load(ROOT / "scenarios" / "classic.toml")
-CONTACTS = ("neighbour", "diagonal", "within-2", "within-3", "touch", "ahead")
 
 Counted = tuple[NDArray[np.float64], NDArray[np.intp]]
 """Distinct paints to completion, and how many runs took each."""
@@ -32,6 +34,10 @@ TIMED_TEAMS = (1, 2, 3, 4)
 
 HAND_TIMING_S = 1.0
 """Standard deviation of a time taken by hand and written down in whole seconds."""
+
+RATE_STEP = 0.5
+RATES = tuple(float(rate) for rate in np.arange(5.0, 90.5, RATE_STEP))
+"""Paints per second that are tried."""
 
 SHEET_MEANS = (-21.9, -28.76, -11.73, -12.02, -24.7, -42.2, -42.3, -43.6)
 """Figures of merit of 1 to 8 robots in the thesis's appendix."""
@@ -84,8 +90,8 @@ def fit() -> str:
     return table(
         [
             "contact",
-            "paints/s",
-            "95% interval",
+            "best paints/s",
+            "within 1.92 of it",
             "log-likelihood",
             "mean s, 1 to 4",
             "failed, 1 to 4",
@@ -96,23 +102,41 @@ def fit() -> str:
 
 def fit_row(contact: str) -> list[str]:
     """Return one contact's best constant and what it gives."""
-    paints = {
-        robots: np.unique(paints_of(contact, robots, 100_000), return_counts=True)
-        for robots in TIMED_TEAMS
-    }
-    rates = np.arange(5.0, 90.5, 0.5)
-    scores = np.array([log_likelihood(paints, rate) for rate in rates])
-    inside = rates[scores > scores.max() - stats.chi2.ppf(0.95, 1) / 2]
-    best = float(rates[scores.argmax()])
-    means, failed = zip(*(capped(paints[robots], best) for robots in TIMED_TEAMS), strict=True)
+    scores, good = fitted(contact)
+    best = max(scores, key=scores.__getitem__)
+    results = [capped(counted(contact, robots), best) for robots in TIMED_TEAMS]
+    means, failed = zip(*results, strict=True)
     return [
         contact,
         f"{best:g}",
-        f"{inside.min():g} to {inside.max():g}",
-        f"{scores.max():.1f}",
+        pieces(good),
+        f"{scores[best]:.1f}",
         ", ".join(f"{mean:.0f}" for mean in means),
         ", ".join(f"{share:.2f}" for share in failed),
     ]
+
+
+@cache
+def fitted(contact: str) -> tuple[dict[float, float], list[float]]:
+    """Return each constant's log-likelihood, and the constants that are near the best."""
+    paints = {robots: counted(contact, robots) for robots in TIMED_TEAMS}
+    scores = {rate: log_likelihood(paints, rate) for rate in RATES}
+    least = max(scores.values()) - float(stats.chi2.ppf(0.95, 1)) / 2
+    return scores, [rate for rate, score in scores.items() if score > least]
+
+
+@cache
+def counted(contact: str, robots: int) -> Counted:
+    """Return the distinct paints to completion of 100,000 runs, and how many took each."""
+    return np.unique(paints_of(contact, robots, 100_000), return_counts=True)
+
+
+def pieces(rates: list[float]) -> str:
+    """Return constants as ranges, broken where one is left out."""
+    starts = [rate for rate in rates if rate - RATE_STEP not in rates]
+    ends = [rate for rate in rates if rate + RATE_STEP not in rates]
+    ranges = zip(starts, ends, strict=True)
+    return ", ".join(f"{low:g}" if low == high else f"{low:g} to {high:g}" for low, high in ranges)
 
 
 def log_likelihood(paints: dict[int, Counted], rate: float) -> float:
@@ -147,7 +171,7 @@ def teams() -> str:
     answer = study_answer()
     published_by_size = {team.robots: team for team in published_teams(SCENARIO)}
 
-    def row(team: ae.study.Team) -> list[str]:
+    def row(team: ae.study.TeamResult) -> list[str]:
         theirs = published_by_size[team.robots]
         return [
             str(team.robots),
@@ -182,7 +206,6 @@ def claims() -> str:
         ["the same, the appendix's figure of merit", three_look_best("appendix")],
         ["mean s of 5, 6, 7, 8 robots", times],
         ["failed searches of 5, 6, 7, 8 robots in 10,000", failed],
-        *([f"best team at {rate} paints/s", best_at(rate)] for rate in (41, 57)),
     ]
     return table(["figure", "value"], rows)
 
@@ -195,11 +218,25 @@ def three_look_best(merit: str) -> str:
     return f"{np.mean(np.argmax(means, axis=0) == list(runs.teams).index(3)):.0%}"
 
 
-def best_at(paints_per_s: float) -> str:
-    """Return the best team and its ties with another constant."""
-    answer = ae.study.answer(ae.study.run_teams(replace(SCENARIO, paints_per_s=paints_per_s)))
-    ties = f", tied with {', '.join(map(str, answer.tied))}" if answer.tied else ""
-    return f"{answer.best}{ties}"
+def rates() -> str:
+    """Return the best team, and its ties, at each constant that fits the published times."""
+    best_scores = {contact: max(fitted(contact)[0].values()) for contact in CONTACTS}
+    likely = [each for each in CONTACTS if best_scores[each] > max(best_scores.values()) - 2]
+    answers = [(contact, rate) for contact in likely for rate in fitted(contact)[1]]
+    rows = [(*best_and_ties(contact, rate), contact, rate) for contact, rate in answers]
+    groups = groupby(rows, key=lambda row: (row[2], row[0], row[1]))
+    return table(
+        ["contact", "paints/s", "best team", "not to be told apart from it"],
+        ([each[0], pieces([row[3] for row in group]), *each[1:]] for each, group in groups),
+    )
+
+
+def best_and_ties(contact: str, rate: float) -> tuple[str, str]:
+    """Return the answer of the study with another contact and constant."""
+    cap_paints = int(rate * SCENARIO.cap_s)
+    other = replace(SCENARIO, contact=contact, paints_per_s=rate, cap_paints=cap_paints)
+    answer = ae.study.conclude(ae.study.run_teams(other))
+    return str(answer.best), ", ".join(map(str, answer.tied)) or "none"
 
 
 def slips() -> str:
@@ -239,7 +276,7 @@ def published() -> dict[int, list[float]]:
 
 def study_answer() -> ae.study.Answer:
     """Return the answer of `make study`."""
-    return ae.study.answer(ae.study.run_teams(SCENARIO))
+    return ae.study.conclude(ae.study.run_teams(SCENARIO))
 
 
 def paints_of(contact: str, robots: int, runs: int) -> NDArray[np.float64]:
@@ -261,6 +298,7 @@ TABLES: dict[str, Callable[[], str]] = {
     "never": never,
     "medians": medians,
     "fit": fit,
+    "rates": rates,
     "teams": teams,
     "claims": claims,
     "slips": slips,

@@ -3,12 +3,31 @@
 `classic` is the 2003 grid simulator; `Scenario` reads what a job is; `study` answers.
 """
 
+from importlib import import_module
 from importlib.metadata import version
+from typing import TYPE_CHECKING
 
-from agent_economy import classic, study
-from agent_economy._core import InputError
-from agent_economy.scenario import Scenario
+if TYPE_CHECKING:
+    from agent_economy import classic, study
+    from agent_economy._core import InputError
+    from agent_economy.scenario import Scenario
 
 __version__ = version("agent-economy")
 
 __all__ = ["InputError", "Scenario", "__version__", "classic", "study"]
+
+_HOMES = {"InputError": "agent_economy._core", "Scenario": "agent_economy.scenario"}
+
+
+def __getattr__(name: str) -> object:
+    """Load a public name when it is first used.
+
+    numpy, pyarrow and scipy take half a second to load; the command must be able to say its
+    version, and to end at Ctrl-C without a traceback, before they have.
+    """
+    if name in _HOMES:
+        return getattr(import_module(_HOMES[name]), name)
+    if name in __all__:
+        return import_module(f"agent_economy.{name}")
+    message = f"module 'agent_economy' has no attribute {name!r}"
+    raise AttributeError(message)

@@ -3,7 +3,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["InputError", "exhaust", "random_start", "read_scenario", "replicate", "trace"]
+__all__ = [
+    "CONTACTS",
+    "MERITS",
+    "InputError",
+    "exhaust",
+    "random_start",
+    "read_scenario",
+    "replicate",
+    "trace",
+]
+
+CONTACTS: list[str]
+MERITS: list[str]
 
 class InputError(ValueError): ...
 

@@ -1,6 +1,8 @@
 """The command line: it asks, shows and exits; what it shows is made elsewhere."""
 
 import json
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated
 
@@ -8,16 +10,16 @@ import typer
 from rich import box
 from rich.console import Console
 from rich.table import Table
+from rich.text import Text
 
 from agent_economy import __version__
-from agent_economy._core import InputError
+from agent_economy._core import CONTACTS, MERITS, InputError
 from agent_economy.progress import shown
 from agent_economy.scenario import Override, Scenario
-from agent_economy.study import answer, files, report, run_teams
+from agent_economy.study import conclude, files, report, run_teams
 from agent_economy.study.answer import Answer
 from agent_economy.study.estimate import Estimate
-from agent_economy.study.sentence import signed
-from agent_economy.study.teams import Team
+from agent_economy.study.teams import TeamResult
 
 BAD_INPUT = 2
 """Exit code when something given is not allowed."""
@@ -64,14 +66,16 @@ def study(  # noqa: PLR0913  (typer's options are arguments)
     runs: Annotated[int | None, typer.Option(help="Runs of each team.")] = None,
     contact: Annotated[
         str | None,
-        typer.Option(help="neighbour, diagonal, within-2, within-3, touch or ahead."),
+        typer.Option(help=f"What counts as finding an item: {', '.join(CONTACTS)}."),
     ] = None,
-    merit: Annotated[str | None, typer.Option(help="equation-5.2 or appendix.")] = None,
+    merit: Annotated[
+        str | None, typer.Option(help=f"How runs are scored: {', '.join(MERITS)}.")
+    ] = None,
     seed: Annotated[
         int, typer.Option(min=0, max=2**64 - 1, help="Of the random starts: same seed, same bytes.")
     ] = 0,
     out: Annotated[
-        Path | None, typer.Option(help="Folder of the results. [default: studies/NAME]")
+        Path | None, typer.Option(help="Folder of the results.", show_default="studies/NAME")
     ] = None,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print answer.json instead of the table.")
@@ -79,28 +83,37 @@ def study(  # noqa: PLR0913  (typer's options are arguments)
 ) -> None:
     """Run every team of a scenario and say how many robots to send.
 
-    Writes report.html, runs.parquet and answer.json. Options go before what the file says.
+    Writes report.html, runs.parquet and answer.json. An option wins over what the file says.
 
     Exit codes: 0 answered, 2 something given is not allowed, 130 stopped by Ctrl-C.
 
     Example: agent-economy study scenarios/classic.toml --vary robots.wanderer.count=1..12
     """
-    try:
+    with bad_input_told():
         changes = overrides(vary or [], runs=runs, contact=contact, merit=merit)
         asked = Scenario.load(scenario, changes)
         folder = out or Path("studies") / asked.name
         files.check_writable(folder)
-    except InputError as error:
-        typer.echo(f"{error}", err=True)
-        raise typer.Exit(BAD_INPUT) from None
     with report.ChartScript() as script, shown(asked) as progress:
         results = run_teams(asked, seed, progress)
-        given = answer(results)
-        files.write_all(folder, results, given, report.html(results, given, script))
+        answer = conclude(results)
+        page = report.html(results, answer, script)
+    with bad_input_told():
+        files.write_all(folder, results, answer, page)
     if as_json:
-        typer.echo(json.dumps(files.answer_dict(given), indent=2, allow_nan=False))
+        typer.echo(json.dumps(files.answer_dict(answer), indent=2, allow_nan=False))
     else:
-        show(given, folder)
+        show(answer, folder)
+
+
+@contextmanager
+def bad_input_told() -> Iterator[None]:
+    """Say what is not allowed and end with the exit code for it."""
+    try:
+        yield
+    except InputError as error:
+        typer.echo(str(error), err=True)
+        raise typer.Exit(BAD_INPUT) from None
 
 
 def overrides(
@@ -109,9 +122,14 @@ def overrides(
     """Return what options say, as values put over the file's.
 
     Raises:
-        InputError: If a --vary is not PATH=VALUES.
+        InputError: If a --vary is not PATH=VALUES, or given twice for one path.
     """
     changes = [varied(text) for text in vary]
+    paths = [change.path[-1] for change in changes]
+    twice = next((path for path in paths if paths.count(path) > 1), None)
+    if twice:
+        message = f"--vary {twice}: is given twice: must be given once, such as {twice}=1..4,8"
+        raise InputError(message)
     if runs is not None:
         changes.append(Override(("study", "runs"), runs, "--runs"))
     if contact is not None:
@@ -130,39 +148,38 @@ def varied(text: str) -> Override:
     return Override(("study", "vary", path.strip()), values.strip(), "--vary")
 
 
-def show(given: Answer, folder: Path) -> None:
+def show(answer: Answer, folder: Path) -> None:
     """Print the table, the answer, and where the report is."""
-    table = Table(title=given.scenario.summary, title_justify="left", box=box.SIMPLE_HEAD)
+    table = Table(title=Text(answer.scenario.summary), title_justify="left", box=box.SIMPLE_HEAD)
     for name in ("robots", "mean time, s", "searches failed", "figure of merit", "behind best"):
         table.add_column(name, justify="right", no_wrap=True)
-    for team in given.teams:
+    for team in answer.teams:
         table.add_row(
             str(team.robots),
             interval(team.time_s, 1),
             percentage(team.failed_share),
             interval(team.merit, 2),
             behind_best(team),
-            style="bold" if team.robots == given.best else None,
+            style="bold" if team.robots == answer.best else None,
         )
     console = Console(highlight=False)
     if not console.is_terminal:
         console.width = PLAIN_WIDTH
     console.print(table)
-    console.print(f"{given.sentence}\n", style="bold", markup=False)
+    console.print(f"{answer.sentence}\n", style="bold", markup=False)
     typer.echo(f"Report: {folder / 'report.html'}")
 
 
-def behind_best(team: Team) -> str:
+def behind_best(team: TeamResult) -> str:
     """Return how far a team is behind the best."""
     if not team.behind_best:
         return "best"
-    return f"{signed(team.behind_best.value, 3)}{' tie' if team.is_tied else ''}"
+    return f"{team.behind_best.value:.3f}{' tie' if team.is_tied else ''}"
 
 
 def interval(given: Estimate, places: int) -> str:
     """Return a value and its interval."""
-    value, low, high = (signed(each, places) for each in (given.value, given.low, given.high))
-    return f"{value} ({low}..{high})"
+    return f"{given.value:.{places}f} ({given.low:.{places}f}..{given.high:.{places}f})"
 
 
 def percentage(given: Estimate) -> str:

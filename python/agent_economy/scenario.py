@@ -2,30 +2,55 @@
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
 
 from agent_economy import _core
 from agent_economy._core import InputError
 
-TEAM_SIZE = "robots.wanderer.count"
-"""The factor that a study of the classic engine varies."""
+TEAM_SIZE_PATH = "robots.wanderer.count"
+"""Path of the factor that a study of the classic engine varies."""
+
+Number = TypeVar("Number", float, NDArray[np.float64])
 
 
 @dataclass(frozen=True)
 class Merit:
-    """Weights of a figure of merit, the mean over runs of their weighted sum; higher is better."""
+    """Weights of a figure of merit; higher is better, so all are at most 0.
+
+    Attributes:
+        name: How scenarios name it.
+        time_s: For each second of a run, capped.
+        robots: For each robot.
+        failed: For a failed run.
+    """
 
     name: str
     time_s: float
     robots: float
     failed: float
 
+    def score(self, time_s: Number, robots: int, failed: Number) -> Number:
+        """Return the merit of a run; of means, the mean merit. Numbers, or arrays of one shape."""
+        return self.time_s * time_s + self.robots * robots + self.failed * failed
+
 
 @dataclass(frozen=True)
 class Published:
-    """Results of others, to show beside ours: the times of a team's runs, by team size."""
+    """Results of others, to show beside ours.
+
+    Attributes:
+        source: Where they stand.
+        choice: The team size that they recommend.
+        cap_s: Where they stopped; a time of this much is a failed run.
+        times_s: The times of a team's runs, by team size.
+    """
 
     source: str
     choice: int
+    cap_s: float
     times_s: dict[int, list[float]]
 
 
@@ -49,6 +74,7 @@ class Scenario:
         merit: How runs are scored.
         paints_per_s: Turns paints into seconds.
         cap_s: A run that takes longer has failed, and counts as this long.
+        cap_paints: The last paint that is not beyond the cap.
         robots: Robots in a single run.
         runs: Runs of each team in a study.
         team_sizes: The teams that a study compares, ascending.
@@ -61,6 +87,7 @@ class Scenario:
     merit: Merit
     paints_per_s: float
     cap_s: float
+    cap_paints: int
     robots: int
     runs: int
     team_sizes: tuple[int, ...]
@@ -106,12 +133,8 @@ class Scenario:
             and Published(
                 source=published["source"],
                 choice=published["choice"],
+                cap_s=published["cap_s"],
                 times_s=dict(published["times_s"]),
             ),
             **fields,
         )
-
-    @property
-    def cap_paints(self) -> int:
-        """The last paint that is not beyond the cap."""
-        return int(self.cap_s * self.paints_per_s)

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from agent_economy import InputError, classic
+from agent_economy import InputError, _core, classic
 
 ROOT = Path(__file__).resolve().parents[2]
 TRACES = sorted((ROOT / "crates/classic/tests/traces").glob("*.json"))
@@ -31,15 +31,19 @@ def test_a_trace_has_as_many_decisions_as_asked_and_always_34_paints() -> None:
 
 
 def test_start_gives_the_team_that_replicate_runs() -> None:
-    # A run that is complete at paint 0 starts beside every item that it finds; any other run must
-    # not. So look for one robot's starts beside an item, by hand, in the start and in the run.
+    # With a cap of 0 paints, what is found is what the start is near to, which is told by hand.
     items = [(3, 17), (9, 5), (14, 22), (21, 8)]
-    table = classic.replicate(3, 300, contact="within-3", seed=4).to_pylist()
-    for row in table:
-        team = classic.start(3, seed=4, run=row["run"])
-        cells = [(robot["x"] / 20, robot["y"] / 20) for robot in team]
-        near = {i for i in items for c in cells if max(abs(c[0] - i[0]), abs(c[1] - i[1])) <= 3}
-        assert (row["paints"] == 0) == (len(near) == 4)
+    _, found, _ = _core.replicate(
+        3, 300, contact="within-3", cap_paints=0, seed=4, first_run=0, threads=None
+    )
+    near = []
+    for run in range(300):
+        cells = [(each["x"] / 20, each["y"] / 20) for each in classic.start(3, seed=4, run=run)]
+        near.append(
+            sum(any(max(abs(x - ix), abs(y - iy)) <= 3 for x, y in cells) for ix, iy in items)
+        )
+    assert found.tolist() == near
+    assert len(set(near)) > 2
 
 
 def test_starts_are_shared_by_teams_of_different_size_and_uniform() -> None:
@@ -57,13 +61,21 @@ def test_starts_are_shared_by_teams_of_different_size_and_uniform() -> None:
 
 
 @pytest.mark.parametrize(
-    ("robots", "contact", "never"),
-    [(1, "neighbour", 73), (2, "neighbour", 9450), (1, "touch", 82), (2, "touch", 18_106)],
+    ("contact", "one", "two"),
+    [
+        ("neighbour", 73, 9450),
+        ("diagonal", 75, 10_646),
+        ("within-2", 0, 5870),
+        ("within-3", 0, 3587),
+        ("touch", 82, 18_106),
+        ("ahead", 76, 12_623),
+    ],
 )
-def test_exhaust_proves_which_starts_never_complete(robots: int, contact: str, never: int) -> None:
-    table = classic.exhaust(robots, contact)
-    assert table.num_rows == 289**robots
-    assert table["paints"].null_count == never
+def test_exhaust_proves_which_starts_never_complete(contact: str, one: int, two: int) -> None:
+    for robots, never in ((1, one), (2, two)):
+        table = classic.exhaust(robots, contact)
+        assert table.num_rows == 289**robots
+        assert table["paints"].null_count == never
 
 
 def test_exhaust_has_a_row_for_each_start() -> None:
@@ -130,6 +142,17 @@ def test_a_bad_start_is_named_with_what_is_allowed(start: Any, message: str) -> 
     with pytest.raises(InputError) as caught:
         classic.trace(start, 1)
     assert message in str(caught.value)
+
+
+def test_a_trace_too_long_to_hold_is_told() -> None:
+    with pytest.raises(InputError, match="decisions = 1000000: must be .* from 0 to 500000"):
+        classic.trace(classic.start(2), 1_000_000)
+
+
+def test_a_long_value_is_cut_in_its_message() -> None:
+    with pytest.raises(InputError) as caught:
+        classic.trace(classic.start(250) * 2, 1)
+    assert len(str(caught.value)) < 200
 
 
 def test_all_faults_of_a_call_are_told_at_once() -> None:

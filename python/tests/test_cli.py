@@ -74,9 +74,13 @@ def test_the_same_seed_leaves_the_same_bytes(classic_toml: Path, tmp_path: Path)
     ("options", "part"),
     [
         (["--contact", "nose"], '--contact: contact = "nose": must be one of "neighbour"'),
-        (["--vary", "robots.wanderer.count=0"], "must be whole numbers from 1 to 250"),
+        (["--vary", "robots.wanderer.count=0"], "must be a text of whole numbers from 1 to 250"),
         (["--vary", "robots.rover.count=1..3"], "did you mean robots.wanderer.count?"),
         (["--vary", "8"], "--vary = '8': must be PATH=VALUES"),
+        (
+            ["--vary", "robots.wanderer.count=1", "--vary", "robots.wanderer.count=2"],
+            "--vary robots.wanderer.count: is given twice",
+        ),
         (["--runs", "-5"], "--runs: study.runs = -5: must be a whole number from 2"),
         (["--merit", "best"], '--merit: merit = "best": must be one of "equation-5.2", "appendix"'),
         (["--seed", "-1"], "Invalid value for '--seed'"),
@@ -105,7 +109,6 @@ def test_an_output_folder_that_cannot_be_is_told_before_any_run(
     (tmp_path / "file").write_text("not a folder")
     given = run("study", classic_toml, "--out", tmp_path / "file")
     assert given.returncode == 2
-    assert given.stderr.startswith("--out: ")
     assert "must be a folder to write in" in given.stderr
     assert "runs/s" not in given.stderr
 
@@ -122,7 +125,7 @@ def test_ctrl_c_ends_within_a_second_says_what_was_done_and_leaves_no_file(
         env=os.environ | {"FORCE_COLOR": "1"},
     )
     try:
-        while not (tmp_path / "out").exists():
+        while not (tmp_path / "out").exists() and process.poll() is None:
             time.sleep(0.02)
         time.sleep(1.5)
         begin = time.monotonic()
@@ -132,11 +135,44 @@ def test_ctrl_c_ends_within_a_second_says_what_was_done_and_leaves_no_file(
     finally:
         process.kill()
     assert process.returncode == 130
-    # The promise is one second; the bound here allows for a machine that is busy with other tests.
-    assert seconds < 5
+    # The promise is one second; the bound allows for a busy machine.
+    assert seconds < 2
     assert " of 8,000,000 runs; nothing was written." in errors
     assert "Traceback" not in errors
     assert list((tmp_path / "out").iterdir()) == []
+
+
+@pytest.mark.parametrize("seconds", [0.05, 0.15, 0.3, 0.5, 0.8])
+def test_ctrl_c_while_modules_load_leaves_no_traceback(
+    seconds: float, classic_toml: Path, tmp_path: Path
+) -> None:
+    options = ["--runs", "1000000", "--out", str(tmp_path / "out")]
+    process = subprocess.Popen(
+        [*COMMAND, "study", str(classic_toml), *options], stderr=subprocess.PIPE, text=True
+    )
+    time.sleep(seconds)
+    process.send_signal(signal.SIGINT)
+    _, errors = process.communicate(timeout=20)
+    assert process.returncode in (130, -signal.SIGINT)
+    assert "agent_economy" not in errors, "a traceback through our modules"
+
+
+def test_a_summary_is_text_and_not_markup(classic_toml: Path, tmp_path: Path) -> None:
+    odd = tmp_path / "odd.toml"
+    summary = "A [/oops] <b>test</b>"
+    text = classic_toml.read_text()
+    odd.write_text(text.replace("The 2003 experiment: four", f"{summary}: four"))
+    given = run("study", odd, "--runs", "10", "--out", tmp_path / "out")
+    assert given.returncode == 0, given.stderr
+    assert summary in given.stdout
+    assert "<b>test" not in (tmp_path / "out/report.html").read_text()
+
+
+def test_any_encoding_of_the_terminal_will_do(classic_toml: Path, tmp_path: Path) -> None:
+    environment = os.environ | {"PYTHONIOENCODING": "latin-1", "LC_ALL": "C"}
+    command = [*COMMAND, "study", str(classic_toml), "--runs", "10", "--out", str(tmp_path)]
+    given = subprocess.run(command, capture_output=True, env=environment, check=False, timeout=60)
+    assert given.returncode == 0, given.stderr
 
 
 def test_a_study_that_is_killed_leaves_the_last_ones_files_whole(

@@ -17,6 +17,25 @@ pub struct Fault {
     pub suggestion: Option<String>,
 }
 
+impl Fault {
+    /// A name that is none of `names`; `word` is its bare text, to find the one that was meant.
+    pub fn not_one_of<'n>(
+        path: String,
+        given: Option<String>,
+        word: &str,
+        names: impl Iterator<Item = &'n str> + Clone,
+    ) -> Self {
+        let quoted: Vec<String> = names.clone().map(|name| format!("{name:?}")).collect();
+        Self {
+            origin: None,
+            path,
+            given,
+            allowed: format!("one of {}", quoted.join(", ")),
+            suggestion: nearest(word, names).map(|name| format!("{name:?}")),
+        }
+    }
+}
+
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(origin) = &self.origin {

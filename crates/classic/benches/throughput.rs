@@ -9,16 +9,17 @@
 #![expect(clippy::unwrap_used, reason = "a benchmark may panic")]
 
 use classic::clock::{DECISION_PERIOD, FIRST_DECISION};
+use classic::start::random_team;
 use classic::world::cells;
-use classic::{Contact, Rules, replicate};
+use classic::{Contact, Task, replicate, search};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
 
 const RUNS: u64 = 20_000;
 
 /// Robot-decisions until completion; proofs of "never" are left out, so the rate is understated.
-fn robot_decisions(robots: u32, rules: Rules) -> u64 {
-    let outcomes = replicate(robots, 0..RUNS, 1, rules);
+fn robot_decisions(robots: u32, runs: u64, task: Task) -> u64 {
+    let outcomes = replicate(robots, 0..runs, 1, task);
     let paints = outcomes.iter().filter_map(|outcome| outcome.paints);
     let decisions = |paints: u64| match paints.checked_sub(FIRST_DECISION) {
         Some(rest) => 1 + rest / DECISION_PERIOD,
@@ -41,7 +42,7 @@ fn fast_form(criterion: &mut Criterion) {
             .find(|(name, _)| *name == contact_name)
             .unwrap()
             .1;
-        let rules = Rules {
+        let task = Task {
             contact,
             cap_paints: 6720,
         };
@@ -49,12 +50,26 @@ fn fast_form(criterion: &mut Criterion) {
             .num_threads(threads)
             .build()
             .unwrap();
-        group.throughput(Throughput::Elements(robot_decisions(robots, rules)));
+        group.throughput(Throughput::Elements(robot_decisions(robots, RUNS, task)));
         let name = format!("{robots} robots, {contact_name}, {threads} thread(s)");
         group.bench_function(name, |bencher| {
-            bencher.iter(|| pool.install(|| replicate(black_box(robots), 0..RUNS, 1, rules)));
+            bencher.iter(|| pool.install(|| replicate(black_box(robots), 0..RUNS, 1, task)));
         });
     }
+}
+
+fn plain_form(criterion: &mut Criterion) {
+    let task = Task {
+        contact: Contact::Neighbour,
+        cap_paints: 6720,
+    };
+    let runs = 200;
+    let mut group = criterion.benchmark_group("plain form");
+    group.throughput(Throughput::Elements(robot_decisions(4, runs, task)));
+    group.bench_function("4 robots, neighbour, 1 thread", |bencher| {
+        let all = || (0..runs).map(|run| search(&random_team(4, 1, run), task).collisions);
+        bencher.iter(|| all().sum::<u64>());
+    });
 }
 
 /// Four random wanderers with three-cell sensing: `(cell, octant)` each, one grid.
@@ -90,5 +105,5 @@ fn speed_of_light(criterion: &mut Criterion) {
     });
 }
 
-criterion_group!(benches, fast_form, speed_of_light);
+criterion_group!(benches, fast_form, plain_form, speed_of_light);
 criterion_main!(benches);

@@ -1,7 +1,6 @@
 //! What counts as finding an item. The original was timed by eye; these are six readings of that.
 
 use crate::heading::Heading;
-use crate::robot::Robot;
 use crate::world::{Cell, ITEMS};
 use std::f64::consts::FRAC_1_SQRT_2;
 use std::sync::LazyLock;
@@ -103,8 +102,7 @@ pub(crate) struct Pose {
     back: (f64, f64),
 }
 
-/// Sine of the eight octants. The library's sine of a turn is off by 1e-16, which moves a robot's
-/// edge off an item's.
+/// Sine of the eight octants, exact: a platform's sine is not the same on every machine.
 const SINES: [f64; 8] = [
     0.0,
     FRAC_1_SQRT_2,
@@ -149,12 +147,6 @@ impl Pose {
         }
     }
 
-    /// The pose of a robot of the plain form that stood at `px` at its last decision.
-    pub(crate) fn of(robot: &Robot, px: (f32, f32), paints: u8) -> Self {
-        let px = (f64::from(px.0), f64::from(px.1));
-        Self::new(px, robot.heading, robot.speed.number(), paints)
-    }
-
     /// Whether any point of the chevron is on the closed square of `item`.
     pub(crate) fn touches(&self, item: Cell) -> bool {
         let (left, top) = (f64::from(item.x) * ITEM_PX, f64::from(item.y) * ITEM_PX);
@@ -163,5 +155,80 @@ impl Pose {
             let y = self.y_px + right * self.right.1 + back * self.back.1;
             (left..=left + ITEM_PX).contains(&x) && (top..=top + ITEM_PX).contains(&y)
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ITEM: Cell = Cell { x: 9, y: 5 };
+
+    /// How many cells of the grid are in contact with one item, for a robot that looks up.
+    fn cells_in_contact(contact: Contact) -> Vec<(i32, i32)> {
+        let up = Heading::of_octant(0);
+        crate::world::cells()
+            .filter(|cell| contact.holds(*cell, up, ITEM))
+            .map(|cell| (cell.x - ITEM.x, cell.y - ITEM.y))
+            .collect()
+    }
+
+    #[test]
+    fn definitions_on_cells_hold_on_the_cells_that_their_names_say() {
+        assert_eq!(cells_in_contact(Contact::Neighbour).len(), 9);
+        assert_eq!(cells_in_contact(Contact::Within2).len(), 25);
+        assert_eq!(cells_in_contact(Contact::Within3).len(), 49);
+        let diagonal = [(-1, -1), (-1, 1), (0, 0), (1, -1), (1, 1)];
+        assert_eq!(cells_in_contact(Contact::Diagonal), diagonal);
+        // Looking up, the item is above and to the left, above, or above and to the right.
+        assert_eq!(cells_in_contact(Contact::Ahead), [(-1, 1), (0, 1), (1, 1)]);
+    }
+
+    #[test]
+    fn a_robot_on_the_frame_does_not_look_ahead() {
+        let right = Heading::of_octant(2);
+        let beside = |x| Contact::Ahead.holds(Cell { x, y: 8 }, right, Cell { x: x + 1, y: 8 });
+        assert!(beside(1));
+        assert!(!beside(0));
+    }
+
+    fn touches(x_px: f64, y_px: f64, octant: usize, paints: u8) -> bool {
+        Pose::new((x_px, y_px), Heading::of_octant(octant), 1, paints).touches(ITEM)
+    }
+
+    #[test]
+    fn the_drawn_robot_touches_the_closed_square_of_the_item() {
+        // The item covers 180 to 200 px to the right and 100 to 120 px down. A robot that heads up
+        // has its nose 8 px above its place, its tail 16 px below, its fins 8 px to either side.
+        assert!(touches(190.0, 128.0, 0, 0), "the nose on the lower edge");
+        assert!(
+            !touches(190.0, 128.5, 0, 0),
+            "the nose below the lower edge"
+        );
+        assert!(touches(190.0, 84.0, 0, 0), "the tail on the upper edge");
+        assert!(!touches(190.0, 83.5, 0, 0), "the tail above the upper edge");
+        assert!(
+            touches(172.0, 100.0, 0, 0),
+            "the right fin on the left edge"
+        );
+        assert!(
+            !touches(171.5, 100.0, 0, 0),
+            "the right fin left of the left edge"
+        );
+        assert!(
+            touches(200.0, 110.0, 0, 0),
+            "the middle stroke on the right edge"
+        );
+    }
+
+    #[test]
+    fn a_robot_moves_two_pixels_a_paint_along_its_heading() {
+        assert!(!touches(160.0, 110.0, 2, 5), "heading right: nose at 178");
+        assert!(touches(160.0, 110.0, 2, 6), "nose at 180, the left edge");
+        let diagonal = FRAC_1_SQRT_2 * (8.0 + 2.0 * 5.0);
+        assert!(
+            touches(181.0 - diagonal, 119.0 + diagonal, 1, 5),
+            "up and right"
+        );
     }
 }

@@ -29,6 +29,6 @@ pub use fast::FastSearch;
 pub use heading::Heading;
 pub use replicate::replicate;
 pub use robot::{Colour, Robot, Speed, Start};
-pub use search::{Outcome, Rules, search};
+pub use search::{Outcome, Task, search};
 pub use simulation::Simulation;
 pub use trace::trace;

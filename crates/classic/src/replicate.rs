@@ -1,7 +1,7 @@
 //! Many runs at once: random starts, or every start there is.
 
 use crate::fast::FastSearch;
-use crate::search::{Outcome, Rules};
+use crate::search::{Outcome, Task};
 use crate::start::{FIRST_CELL, START_CELLS, random_cell};
 use crate::world::Cell;
 use rayon::prelude::*;
@@ -14,11 +14,11 @@ const RUNS_PER_TASK: usize = 64;
 ///
 /// The same for any number of threads; they are those of the rayon pool this is called in.
 #[must_use]
-pub fn replicate(robots: u32, runs: Range<u64>, seed: u64, rules: Rules) -> Vec<Outcome> {
+pub fn replicate(robots: u32, runs: Range<u64>, seed: u64, task: Task) -> Vec<Outcome> {
     let run = |search: &mut FastSearch, run: u64| {
         search.run((0..robots).map(|index| random_cell(seed, run, index)))
     };
-    in_parallel(runs, rules, run)
+    in_parallel(runs, task, run)
 }
 
 /// Starts that a team of `robots` can have: 289 for each robot.
@@ -49,15 +49,15 @@ pub fn start_cells(robots: u32, start: u64) -> Vec<Cell> {
 
 /// The outcomes of the starts with these numbers, in their order.
 #[must_use]
-pub fn exhaust(robots: u32, starts: Range<u64>, rules: Rules) -> Vec<Outcome> {
+pub fn exhaust(robots: u32, starts: Range<u64>, task: Task) -> Vec<Outcome> {
     let run =
         |search: &mut FastSearch, start: u64| search.run(start_cells(robots, start).into_iter());
-    in_parallel(starts, rules, run)
+    in_parallel(starts, task, run)
 }
 
 fn in_parallel(
     numbers: Range<u64>,
-    rules: Rules,
+    task: Task,
     run: impl Fn(&mut FastSearch, u64) -> Outcome + Sync,
 ) -> Vec<Outcome> {
     let numbers: Vec<u64> = numbers.collect();
@@ -65,7 +65,7 @@ fn in_parallel(
         .par_iter()
         .with_min_len(RUNS_PER_TASK)
         .map_init(
-            || FastSearch::new(rules),
+            || FastSearch::new(task),
             |search, number| run(search, *number),
         )
         .collect()

@@ -9,7 +9,7 @@ use std::collections::HashSet;
 
 /// What is asked of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Rules {
+pub struct Task {
     /// What counts as finding an item.
     pub contact: Contact,
     /// Finds and collisions are counted to this paint, if the run is not complete before.
@@ -29,13 +29,13 @@ pub struct Outcome {
 
 /// Runs the plain form from `starts`. The reference for [`crate::fast`]: slow and obvious.
 #[must_use]
-pub fn search(starts: &[Start], rules: Rules) -> Outcome {
-    let mut run = Search::new(starts, rules);
+pub fn search(starts: &[Start], task: Task) -> Outcome {
+    let mut run = Search::new(starts, task);
     loop {
         if run.found == Found::ALL {
             return run.outcome(Some(run.simulation.paint));
         }
-        if run.has_recurred && run.simulation.paint >= rules.cap_paints {
+        if run.has_recurred && run.simulation.paint >= task.cap_paints {
             return run.outcome(None);
         }
         run.step();
@@ -44,7 +44,7 @@ pub fn search(starts: &[Start], rules: Rules) -> Outcome {
 
 struct Search {
     simulation: Simulation,
-    rules: Rules,
+    task: Task,
     /// Pixels of each robot at the last decision, and paints since.
     decided_px: Vec<(f32, f32)>,
     paints_since: u8,
@@ -58,13 +58,13 @@ struct Search {
 }
 
 impl Search {
-    fn new(starts: &[Start], rules: Rules) -> Self {
+    fn new(starts: &[Start], task: Task) -> Self {
         let simulation = Simulation::new(starts);
         let mut search = Self {
             decided_px: pixels(&simulation),
             looked: headings(&simulation),
             simulation,
-            rules,
+            task,
             paints_since: 0,
             found: Found::default(),
             found_by_cap: Found::default(),
@@ -93,23 +93,26 @@ impl Search {
         for index in 0..self.simulation.robots.len() {
             self.found |= Found::of(|item| self.is_contact(index, item));
         }
-        if self.simulation.paint <= self.rules.cap_paints {
+        if self.simulation.paint <= self.task.cap_paints {
             self.found_by_cap = self.found;
         }
     }
 
     fn is_contact(&self, index: usize, item: Cell) -> bool {
         let robot = &self.simulation.robots[index];
-        let contact = self.rules.contact;
+        let contact = self.task.contact;
         if contact.is_by_paint() {
-            Pose::of(robot, self.decided_px[index], self.paints_since).touches(item)
+            let (x_px, y_px) = self.decided_px[index];
+            let px = (f64::from(x_px), f64::from(y_px));
+            let speed = robot.speed.number();
+            Pose::new(px, robot.heading, speed, self.paints_since).touches(item)
         } else {
             self.paints_since == 0 && contact.holds(robot.cell(), self.looked[index], item)
         }
     }
 
     fn count_collisions(&mut self) {
-        if self.simulation.paint <= self.rules.cap_paints {
+        if self.simulation.paint <= self.task.cap_paints {
             let robots = self.simulation.robots.iter();
             let red = robots.filter(|robot| robot.colour == Colour::Red);
             self.collisions += red.count() as u64;
@@ -149,10 +152,10 @@ mod tests {
     #[test]
     fn an_item_beside_the_start_is_found_at_paint_zero() {
         let starts = team_on(&[Cell { x: 4, y: 16 }]);
-        let rules = Rules {
+        let task = Task {
             contact: Contact::Neighbour,
             cap_paints: 0,
         };
-        assert_eq!(search(&starts, rules).found, 1);
+        assert_eq!(search(&starts, task).found, 1);
     }
 }

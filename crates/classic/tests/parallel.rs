@@ -4,9 +4,9 @@
 
 use classic::replicate::{exhaust, number_of_starts, start_cells};
 use classic::start::{random_team, team_on};
-use classic::{Contact, Outcome, Rules, replicate, search};
+use classic::{Contact, Outcome, Task, replicate, search};
 
-const RULES: Rules = Rules {
+const TASK: Task = Task {
     contact: Contact::Touch,
     cap_paints: 6720,
 };
@@ -34,9 +34,9 @@ fn hash(outcomes: &[Outcome]) -> u64 {
 
 #[test]
 fn outcomes_do_not_depend_on_the_number_of_threads() {
-    let one = on_threads(1, || replicate(3, 0..3000, 7, RULES));
+    let one = on_threads(1, || replicate(3, 0..3000, 7, TASK));
     for threads in [2, 3, 8] {
-        assert_eq!(one, on_threads(threads, || replicate(3, 0..3000, 7, RULES)));
+        assert_eq!(one, on_threads(threads, || replicate(3, 0..3000, 7, TASK)));
     }
 }
 
@@ -44,13 +44,13 @@ fn outcomes_do_not_depend_on_the_number_of_threads() {
 fn outcomes_are_the_same_bytes_for_ever() {
     // A change here changes every published result: say why in the commit and in the changelog.
     let golden = 9_984_463_125_805_394_549;
-    assert_eq!(hash(&replicate(4, 0..2000, 2003, RULES)), golden);
+    assert_eq!(hash(&replicate(4, 0..2000, 2003, TASK)), golden);
 }
 
 #[test]
 fn a_run_is_the_same_whichever_runs_are_asked_for_with_it() {
-    let all = replicate(2, 0..500, 3, RULES);
-    assert_eq!(all[300..400], replicate(2, 300..400, 3, RULES));
+    let all = replicate(2, 0..500, 3, TASK);
+    assert_eq!(all[300..400], replicate(2, 300..400, 3, TASK));
 }
 
 #[test]
@@ -63,13 +63,13 @@ fn teams_of_different_size_share_their_first_robots_starts() {
 #[test]
 fn every_start_of_one_robot_ends_as_in_the_plain_form() {
     for (name, contact) in Contact::NAMES {
-        let rules = Rules {
+        let task = Task {
             contact,
             cap_paints: 0,
         };
-        let outcomes = exhaust(1, 0..289, rules);
+        let outcomes = exhaust(1, 0..289, task);
         for (start, outcome) in (0..).zip(&outcomes) {
-            let expected = search(&team_on(&start_cells(1, start)), rules);
+            let expected = search(&team_on(&start_cells(1, start)), task);
             assert_eq!(expected, *outcome, "{name}, start {start}");
         }
     }
@@ -88,7 +88,7 @@ fn starts_are_numbered_by_the_first_robots_column_first() {
 fn more_robots_find_all_items_sooner() {
     // Means of 2,000 runs under a cap of 6,720 paints differ by over twenty standard errors.
     let mean = |robots: u32| {
-        let outcomes = replicate(robots, 0..2000, 5, RULES);
+        let outcomes = replicate(robots, 0..2000, 5, TASK);
         let paints = |outcome: &Outcome| outcome.paints.unwrap_or(6720).min(6720);
         outcomes.iter().map(paints).sum::<u64>() / 2000
     };

@@ -56,6 +56,16 @@ fn assert_same_run(case: &Value) {
     let trace = trace(&starts, decisions.len());
     let id = &case["id"];
     assert_eq!(
+        trace.decisions.len(),
+        decisions.len(),
+        "case {id}: decisions"
+    );
+    assert_eq!(
+        trace.paints.len(),
+        case["paints"].as_array().unwrap().len(),
+        "case {id}: paints"
+    );
+    assert_eq!(
         case["start_grid"], trace.start_grid,
         "case {id}: start grid"
     );

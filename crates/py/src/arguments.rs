@@ -1,7 +1,7 @@
 //! Arguments of Python functions, checked at the edge: all faults of a call in one exception.
 
-use crate::error::{argument_fault, input_error};
-use base::fault::{Fault, Faults, nearest};
+use crate::error::input_error;
+use base::fault::{Fault, Faults};
 use classic::Contact;
 use pyo3::prelude::*;
 use pyo3::types::PyBool;
@@ -42,11 +42,8 @@ impl Arguments {
         let name = given.extract::<String>().unwrap_or_default();
         let found = Contact::NAMES.iter().find(|(known, _)| *known == name);
         if found.is_none() {
-            let names = || Contact::NAMES.iter().map(|(known, _)| *known);
-            let quoted: Vec<String> = names().map(|known| format!("{known:?}")).collect();
-            let mut fault =
-                argument_fault("contact", given, format!("one of {}", quoted.join(", ")));
-            fault.suggestion = nearest(&name, names()).map(|known| format!("{known:?}"));
+            let names = Contact::NAMES.iter().map(|(known, _)| *known);
+            let fault = Fault::not_one_of("contact".to_owned(), Some(shown(given)), &name, names);
             self.faults.borrow_mut().push(fault);
         }
         found.map(|(_, contact)| *contact)
@@ -64,8 +61,13 @@ impl Arguments {
 
     /// Notes that `given` is not what is `allowed`.
     pub(crate) fn fault(&self, path: &str, given: &Bound<PyAny>, allowed: String) {
-        let fault = argument_fault(path, given, allowed);
-        self.faults.borrow_mut().push(fault);
+        self.faults.borrow_mut().push(Fault {
+            origin: None,
+            path: path.to_owned(),
+            given: Some(shown(given)),
+            allowed,
+            suggestion: None,
+        });
     }
 
     /// `value`, or an exception with all faults.
@@ -73,3 +75,15 @@ impl Arguments {
         Faults::or(self.faults.into_inner(), value).map_err(|faults| input_error(&faults))
     }
 }
+
+/// A Python value as its author would write it, cut where it gets long.
+fn shown(given: &Bound<PyAny>) -> String {
+    let repr = given.repr().map(|repr| repr.to_string());
+    let repr = repr.unwrap_or_else(|_| "something that cannot be shown".to_owned());
+    match repr.char_indices().nth(LONGEST_SHOWN) {
+        Some((end, _)) => format!("{}...", &repr[..end]),
+        None => repr,
+    }
+}
+
+const LONGEST_SHOWN: usize = 80;

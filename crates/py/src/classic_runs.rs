@@ -3,8 +3,9 @@
 use crate::arguments::Arguments;
 use crate::long_work::in_blocks;
 use classic::replicate::{number_of_starts, start_cells};
+use classic::scenario::MAX_CAP_PAINTS;
 use classic::start::MAX_ROBOTS;
-use classic::{Outcome, Rules};
+use classic::{Outcome, Task};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 
@@ -13,7 +14,6 @@ type OutcomeColumns<'py> = (Column<'py>, Column<'py>, Column<'py>);
 
 /// Runs of one call: an outcome takes 24 bytes.
 const MAX_RUNS: u64 = 100_000_000;
-const MAX_CAP_PAINTS: u64 = 1_000_000;
 
 /// Outcomes of runs with random starts: arrays (runs,) of paints (-1 = proven never), found and
 /// collisions.
@@ -41,14 +41,14 @@ pub(crate) fn replicate<'py>(
     let seed = check.integer("seed", seed, 0..=u64::MAX);
     let first_run = check.integer("first_run", first_run, 0..=u64::MAX - MAX_RUNS);
     let threads = check.threads(threads);
-    let rules = contact.zip(cap_paints).map(|(contact, cap_paints)| Rules {
+    let task = contact.zip(cap_paints).map(|(contact, cap_paints)| Task {
         contact,
         cap_paints,
     });
-    let all = (|| Some((robots?, runs?, rules?, seed?, first_run?, threads?)))();
-    let (robots, runs, rules, seed, first_run, threads) = check.or_faults(all)?;
+    let all = (|| Some((robots?, runs?, task?, seed?, first_run?, threads?)))();
+    let (robots, runs, task, seed, first_run, threads) = check.or_faults(all)?;
     let outcomes = in_blocks(py, first_run..first_run + runs, threads, |runs| {
-        classic::replicate(robots, runs, seed, rules)
+        classic::replicate(robots, runs, seed, task)
     })?;
     Ok(columns(py, &outcomes))
 }
@@ -70,12 +70,12 @@ pub(crate) fn exhaust<'py>(
     let all = (|| Some((robots?, contact?, threads?)))();
     let (robots, contact, threads) = check.or_faults(all)?;
     let starts = number_of_starts(robots).unwrap_or_default();
-    let rules = Rules {
+    let task = Task {
         contact,
         cap_paints: 0,
     };
     let outcomes = in_blocks(py, 0..starts, threads, |starts| {
-        classic::replicate::exhaust(robots, starts, rules)
+        classic::replicate::exhaust(robots, starts, task)
     })?;
     let cells = (0..starts).flat_map(|start| start_cells(robots, start));
     let coordinates: Vec<i64> = cells

@@ -63,8 +63,9 @@ fn as_dict<'py>(py: Python<'py>, scenario: &Scenario) -> PyResult<Bound<'py, PyD
     dict.set_item("summary", &scenario.summary)?;
     dict.set_item("contact", name(scenario.contact).map(|(name, _)| *name))?;
     dict.set_item("merit", merit)?;
-    dict.set_item("paints_per_s", scenario.paints_per_s)?;
-    dict.set_item("cap_s", scenario.cap_s)?;
+    dict.set_item("paints_per_s", scenario.clock.paints_per_s)?;
+    dict.set_item("cap_s", scenario.clock.cap_s)?;
+    dict.set_item("cap_paints", scenario.clock.cap_paints)?;
     dict.set_item("robots", scenario.robots)?;
     dict.set_item("runs", scenario.study.runs)?;
     dict.set_item("team_sizes", &scenario.study.team_sizes)?;
@@ -80,6 +81,7 @@ fn published_dict<'py>(py: Python<'py>, published: &Published) -> PyResult<Bound
     let dict = PyDict::new(py);
     dict.set_item("source", &published.source)?;
     dict.set_item("choice", published.choice)?;
+    dict.set_item("cap_s", published.cap_s)?;
     dict.set_item("times_s", published.times_s.clone())?;
     Ok(dict)
 }

@@ -8,7 +8,8 @@ use classic::{Colour, Heading, Robot, Speed, Start};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyList};
 
-const MAX_DECISIONS: u64 = 1_000_000;
+/// Of all robots together: a second of computing, and some hundred megabytes of Python lists.
+const MAX_ROBOT_DECISIONS: u64 = 1_000_000;
 const KEYS: [&str; 4] = ["x", "y", "heading", "speed"];
 
 /// A team's start in one run, in the form that [`trace`] takes.
@@ -45,7 +46,8 @@ pub(crate) fn trace<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let check = Arguments::default();
     let starts = starts(&check, start);
-    let decisions = check.integer("decisions", decisions, 0..=MAX_DECISIONS);
+    let robots = starts.as_ref().map_or(1, |starts| starts.len() as u64);
+    let decisions = check.integer("decisions", decisions, 0..=MAX_ROBOT_DECISIONS / robots);
     let (starts, decisions) = check.or_faults(starts.zip(decisions))?;
     let decisions = usize::try_from(decisions)?;
     let trace = py.detach(|| classic::trace(&starts, decisions));

@@ -20,4 +20,14 @@ mod _core {
     use crate::classic_trace::{random_start, trace};
     #[pymodule_export]
     use crate::error::InputError;
+
+    use classic::Contact;
+    use classic::scenario::Merit;
+    use pyo3::prelude::*;
+
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.add("CONTACTS", Contact::NAMES.map(|(name, _)| name))?;
+        module.add("MERITS", Merit::ALL.map(|merit| merit.name))
+    }
 }

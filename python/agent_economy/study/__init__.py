@@ -4,8 +4,8 @@ The data flows one way: `runs` (outcomes of every team) -> `answer` (`teams`: es
 intervals; `sentence`: the words) -> `report` and `files` (what is left on disk).
 """
 
-from agent_economy.study.answer import Answer, answer
+from agent_economy.study.answer import Answer, conclude
 from agent_economy.study.runs import Progress, Runs, run_teams
-from agent_economy.study.teams import Team
+from agent_economy.study.teams import TeamResult
 
-__all__ = ["Answer", "Progress", "Runs", "Team", "answer", "run_teams"]
+__all__ = ["Answer", "Progress", "Runs", "TeamResult", "conclude", "run_teams"]

@@ -6,8 +6,8 @@ import numpy as np
 
 from agent_economy.scenario import Scenario
 from agent_economy.study.runs import Runs
-from agent_economy.study.sentence import sentence
-from agent_economy.study.teams import PublishedTeam, Team, published_teams, team
+from agent_economy.study.sentence import in_words
+from agent_economy.study.teams import PublishedResult, TeamResult, published_teams, team
 
 
 @dataclass(frozen=True)
@@ -17,8 +17,8 @@ class Answer:
     Attributes:
         scenario: What was asked.
         seed: Of all random starts.
-        best: Team size with the highest merit.
-        tied: Team sizes that cannot be told apart from it.
+        best: TeamResult size with the highest merit.
+        tied: TeamResult sizes that cannot be told apart from it.
         sentence: The answer for people.
         teams: Each team, ascending.
         published: Results of others, with the same merit.
@@ -29,11 +29,11 @@ class Answer:
     best: int
     tied: tuple[int, ...]
     sentence: str
-    teams: tuple[Team, ...]
-    published: tuple[PublishedTeam, ...]
+    teams: tuple[TeamResult, ...]
+    published: tuple[PublishedResult, ...]
 
 
-def answer(runs: Runs) -> Answer:
+def conclude(runs: Runs) -> Answer:
     """Return the answer that a study's runs give."""
     best = max(runs.teams, key=lambda robots: float(np.mean(runs.teams[robots].merit)))
     teams = tuple(team(runs, robots, best) for robots in runs.teams)
@@ -42,7 +42,7 @@ def answer(runs: Runs) -> Answer:
         seed=runs.seed,
         best=best,
         tied=tuple(each.robots for each in teams if each.is_tied),
-        sentence=sentence(runs.scenario, best, teams),
+        sentence=in_words(runs.scenario, best, teams),
         teams=teams,
         published=published_teams(runs.scenario),
     )

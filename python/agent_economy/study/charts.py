@@ -13,15 +13,17 @@ OURS = "this study"
 QUANTILES = {"p5": 0.05, "p25": 0.25, "p50": 0.5, "p75": 0.75, "p95": 0.95}
 BLUE, ORANGE = "#1f5fbf", "#d9730d"
 HEIGHT = 250
+NEAREST_TEAMS = 5
 
 Rows = list[dict[str, Any]]
 Chart = alt.LayerChart | alt.FacetChart
 
 
-def charts(runs: Runs, answer: Answer) -> dict[str, dict[str, Any]]:
+def specifications(runs: Runs, answer: Answer) -> dict[str, dict[str, Any]]:
     """Return each chart's Vega-Lite specification, by its name in the report's page."""
     made = {
         "merit": merit_chart(answer),
+        "nearest": nearest_chart(answer),
         "times": times_chart(runs, answer),
         "failed": failed_chart(answer),
     }
@@ -38,6 +40,15 @@ def merit_chart(answer: Answer) -> Chart:
         for team in answer.published
     ]
     return with_intervals(ours + published, "figure of merit (higher is better)")
+
+
+def nearest_chart(answer: Answer) -> Chart:
+    """Return how far the nearest teams are behind the best, on a scale of their own."""
+    behind = [(team.robots, team.behind_best) for team in answer.teams if team.behind_best]
+    nearest = sorted(behind, key=lambda pair: pair[1].value)[:NEAREST_TEAMS]
+    best = {"robots": answer.best, "source": OURS, "value": 0.0, "low": 0.0, "high": 0.0}
+    rows = [{"robots": robots, "source": OURS, **interval(given)} for robots, given in nearest]
+    return with_intervals([best, *rows], "merit behind the best (lower is better)")
 
 
 def failed_chart(answer: Answer) -> Chart:

@@ -23,8 +23,9 @@ def mean(samples: NDArray[np.float64], confidence: float = CONFIDENCE) -> Estima
     """Return the mean of samples with Student's t interval.
 
     Args:
-        samples: Shape (n,), n at least 2. Samples that are all equal give an interval of no
-            width, whatever n is.
+        samples: Shape (n,), n at least 2. It assumes that their mean is near normal: where few of
+            many samples carry most of the spread (a failure that costs much and is rare), it is
+            too narrow, and without one among them it has no width.
         confidence: Of a two-sided interval.
 
     Source: Student (1908), The probable error of a mean, Biometrika 6.

@@ -12,8 +12,8 @@ import pyarrow.parquet as pq
 
 from agent_economy._core import InputError
 from agent_economy.study.answer import Answer
-from agent_economy.study.report import versions
 from agent_economy.study.runs import Runs
+from agent_economy.study.versions import versions
 
 
 def check_writable(folder: Path) -> None:
@@ -27,15 +27,18 @@ def check_writable(folder: Path) -> None:
         with tempfile.TemporaryFile(dir=folder):
             pass
     except OSError as error:
-        message = f"--out: {folder} = not writable ({error.strerror}): must be a folder to write in"
+        message = f"{folder}: cannot be written in ({error.strerror}): must be a folder to write in"
         raise InputError(message) from None
 
 
 def write_all(folder: Path, runs: Runs, answer: Answer, page: str) -> None:
     """Write a study's files; each appears whole or not at all.
 
-    All are written under temporary names first and renamed together, so that a study that is
-    stopped or finds the disk full leaves what was there before.
+    All are written under temporary names first, so that a study that is stopped or finds the disk
+    full leaves the files of the one before; then they are renamed, one after the other.
+
+    Raises:
+        InputError: If they cannot be written.
     """
     text = json.dumps(answer_dict(answer), indent=2, allow_nan=False) + "\n"
     writers: dict[str, Callable[[Path], object]] = {
@@ -43,17 +46,21 @@ def write_all(folder: Path, runs: Runs, answer: Answer, page: str) -> None:
         "report.html": lambda path: path.write_text(page, encoding="utf-8"),
         "answer.json": lambda path: path.write_text(text, encoding="utf-8"),
     }
-    with tempfile.TemporaryDirectory(dir=folder, prefix=".unfinished-") as unfinished:
-        for name, write in writers.items():
-            write(Path(unfinished) / name)
-            sync(Path(unfinished) / name)
-        for name in writers:
-            (Path(unfinished) / name).replace(folder / name)
+    try:
+        with tempfile.TemporaryDirectory(dir=folder, prefix=".unfinished-") as unfinished:
+            for name, write in writers.items():
+                write(Path(unfinished) / name)
+                sync(Path(unfinished) / name)
+            for name in writers:
+                (Path(unfinished) / name).replace(folder / name)
+    except OSError as error:
+        message = f"{folder}: cannot be written in ({error.strerror or error})"
+        raise InputError(message) from None
 
 
 def sync(path: Path) -> None:
     """Wait until a file is on the disk."""
-    with path.open("rb") as file:
+    with path.open("r+b") as file:
         os.fsync(file.fileno())
 
 

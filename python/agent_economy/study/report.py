@@ -1,9 +1,7 @@
 """The report: one HTML file that works offline."""
 
-import platform
 import subprocess
 import sys
-from importlib.metadata import version
 from types import TracebackType
 from typing import Self
 
@@ -11,11 +9,9 @@ import jinja2
 
 from agent_economy.scenario import Merit
 from agent_economy.study.answer import Answer
-from agent_economy.study.charts import charts
+from agent_economy.study.charts import specifications
 from agent_economy.study.runs import Runs
-from agent_economy.study.sentence import signed
-
-PACKAGES = ("agent-economy", "numpy", "pyarrow", "scipy", "altair", "vl-convert-python")
+from agent_economy.study.versions import versions
 
 
 class ChartScript:
@@ -28,7 +24,10 @@ class ChartScript:
 
     def __init__(self) -> None:
         """Start to make it."""
-        code = "import sys, vl_convert; sys.stdout.write(vl_convert.javascript_bundle())"
+        code = (
+            "import sys, vl_convert; "
+            "sys.stdout.buffer.write(vl_convert.javascript_bundle().encode('utf-8'))"
+        )
         self._process = subprocess.Popen(
             [sys.executable, "-c", code],
             stdin=subprocess.DEVNULL,
@@ -64,24 +63,16 @@ class ChartScript:
         return script
 
 
-def versions() -> dict[str, str]:
-    """Return the versions on which results may depend."""
-    python = {"python": platform.python_version()}
-    return {name: version(name) for name in PACKAGES} | python
-
-
 def html(runs: Runs, answer: Answer, script: ChartScript) -> str:
     """Return the report's page."""
-    specifications = charts(runs, answer)
     environment = jinja2.Environment(
         loader=jinja2.PackageLoader("agent_economy.study", "."),
         autoescape=True,
         undefined=jinja2.StrictUndefined,
     )
-    environment.filters["signed"] = signed
     return environment.get_template("report.html.jinja").render(
         answer=answer,
-        charts=specifications,
+        charts=specifications(runs, answer),
         javascript=script.text(),
         merit_in_words=merit_in_words(answer.scenario.merit),
         versions=versions(),
@@ -91,7 +82,6 @@ def html(runs: Runs, answer: Answer, script: ChartScript) -> str:
 def merit_in_words(merit: Merit) -> str:
     """Return how a figure of merit is made up."""
     return (
-        f"{merit.name}: {signed(merit.time_s)} per second of mean time, "
-        f"{signed(merit.robots)} per robot, "
-        f"{signed(merit.failed / 10)} per failed search in ten."
+        f"{merit.name}: {merit.time_s:.2f} per second of mean time, {merit.robots:.2f} per robot, "
+        f"{merit.failed / 10:.2f} per failed search in ten."
     )

@@ -9,7 +9,7 @@ import pyarrow as pa
 from numpy.typing import NDArray
 
 from agent_economy import _core, classic
-from agent_economy.scenario import TEAM_SIZE, Scenario
+from agent_economy.scenario import TEAM_SIZE_PATH, Scenario
 
 RUNS_PER_BLOCK = 5000
 """Runs between two progress reports."""
@@ -17,7 +17,14 @@ RUNS_PER_BLOCK = 5000
 
 @dataclass(frozen=True)
 class Progress:
-    """How far a study is."""
+    """How far a study is.
+
+    Attributes:
+        done: Runs done.
+        total: Runs to do.
+        robots: The team that ran last.
+        seconds: Since the study began.
+    """
 
     done: int
     total: int
@@ -124,8 +131,7 @@ def outcomes(
     """Return what a team's runs came to in seconds and merit."""
     failed = (paints < 0) | (paints > scenario.cap_paints)
     time_s = np.where(failed, scenario.cap_s, paints / scenario.paints_per_s)
-    weights = scenario.merit
-    merit = weights.time_s * time_s + weights.robots * robots + weights.failed * failed
+    merit = scenario.merit.score(time_s, robots, failed.astype(float))
     return Outcomes(paints, found, collisions, time_s, failed, merit)
 
 
@@ -134,7 +140,7 @@ def team_table(robots: int, outcomes: Outcomes) -> pa.Table:
     runs = len(outcomes.paints)
     return pa.table(
         {
-            TEAM_SIZE: np.full(runs, robots),
+            TEAM_SIZE_PATH: np.full(runs, robots),
             "run": np.arange(runs),
             "paints": classic.or_null(outcomes.paints),
             "found": outcomes.found,

@@ -2,10 +2,10 @@
 
 from agent_economy.scenario import Scenario
 from agent_economy.study.estimate import Estimate
-from agent_economy.study.teams import Team
+from agent_economy.study.teams import TeamResult
 
 
-def sentence(scenario: Scenario, best: int, teams: tuple[Team, ...]) -> str:
+def in_words(scenario: Scenario, best: int, teams: tuple[TeamResult, ...]) -> str:
     """Return the answer: whom to send, what that gives, and how near the others are."""
     by_size = {team.robots: team for team in teams}
     parts = [
@@ -23,28 +23,33 @@ def robots(count: int) -> str:
     return f"{count} robot" if count == 1 else f"{count} robots"
 
 
-def performance(scenario: Scenario, team: Team) -> str:
+def performance(scenario: Scenario, team: TeamResult) -> str:
     """Return what a team does."""
     return (
-        f"all items found in {team.time_s.value:.1f} s on average, "
-        f"{team.failed_share.value:.2%} of searches not within {scenario.cap_s:g} s, "
-        f"figure of merit {signed(team.merit.value)} "
-        f"(95% interval {signed(team.merit.low)} to {signed(team.merit.high)})"
+        f"a search takes {team.time_s.value:.1f} s on average, {team.failed_share.value:.2%} fail "
+        f"(and count as {scenario.cap_s:g} s), figure of merit {team.merit.value:.2f} "
+        f"(95% interval {team.merit.low:.2f} to {team.merit.high:.2f})"
     )
 
 
-def ties(teams: tuple[Team, ...]) -> list[str]:
+def ties(teams: tuple[TeamResult, ...]) -> list[str]:
     """Return the teams that cannot be told apart from the best."""
     tied = [team for team in teams if team.is_tied]
     if not tied:
         return []
-    sizes = " and ".join(str(team.robots) for team in tied)
-    runs = tied[0].runs
     worst = max(team.behind_best.high for team in tied if team.behind_best)
-    return [f"{sizes} cannot be told apart from it with {runs:,} runs (at most {worst:.2g} worse)"]
+    runs = tied[0].runs
+    sizes = listed([str(team.robots) for team in tied])
+    return [f"{sizes} cannot be told apart from it with {runs:,} runs (at most {worst:.3f} worse)"]
 
 
-def runner_up(scenario: Scenario, teams: tuple[Team, ...]) -> list[str]:
+def listed(words: list[str]) -> str:
+    """Return "a", "a and b", "a, b and c"."""
+    *most, last = words
+    return f"{', '.join(most)} and {last}" if most else last
+
+
+def runner_up(scenario: Scenario, teams: tuple[TeamResult, ...]) -> list[str]:
     """Return the nearest of the teams that are worse for sure, unless it is the published one."""
     beaten = [(team.behind_best, team) for team in teams if team.behind_best and not team.is_tied]
     if not beaten:
@@ -55,7 +60,7 @@ def runner_up(scenario: Scenario, teams: tuple[Team, ...]) -> list[str]:
     return [f"{team.robots} would cost {cost(behind)}"]
 
 
-def published_choice(scenario: Scenario, best: int, teams: dict[int, Team]) -> list[str]:
+def published_choice(scenario: Scenario, best: int, teams: dict[int, TeamResult]) -> list[str]:
     """Return what the published choice costs, if it was run and is worse for sure."""
     if not scenario.published:
         return []
@@ -70,16 +75,11 @@ def published_choice(scenario: Scenario, best: int, teams: dict[int, Team]) -> l
 
 def cost(behind: Estimate) -> str:
     """Return how far a team is behind the best."""
-    return f"{behind.value:.2g} of merit ({behind.low:.2g} to {behind.high:.2g})"
+    return f"{behind.value:.3f} of merit ({behind.low:.3f} to {behind.high:.3f})"
 
 
-def edge(best: int, teams: tuple[Team, ...]) -> list[str]:
+def edge(best: int, teams: tuple[TeamResult, ...]) -> list[str]:
     """Return a warning if a larger team than any that was run might be better still."""
     if len(teams) > 1 and best == teams[-1].robots:
         return ["it is the largest team that was run, and a larger one may be better still"]
     return []
-
-
-def signed(value: float, places: int = 2) -> str:
-    """Return a number with a true minus sign."""
-    return f"{value:.{places}f}".replace("-", "\N{MINUS SIGN}")

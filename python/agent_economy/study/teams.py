@@ -1,34 +1,35 @@
 """What the runs of each team came to, ours and the published ones.
 
-The best team is the one with the highest mean merit. Because all teams meet the same starts, it is
-compared with each other team by the differences of their runs' merits; the intervals of these
-differences hold together at the stated confidence (Bonferroni). A team whose interval reaches 0
-cannot be told apart from the best: it is a tie, and the answer says so.
+The best team is the one with the highest mean merit. Run r of all teams has the same starts, so it
+is compared with each other team by the differences of their runs' merits. Which team is best is
+read from the same runs, so the intervals must hold for the differences of all pairs of teams
+together (Bonferroni over k (k - 1) / 2). A team whose interval reaches 0 cannot be told apart from
+the best: it is a tie, and the answer says so.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from agent_economy.scenario import Scenario
+from agent_economy.scenario import Merit, Scenario
 from agent_economy.study import estimate
 from agent_economy.study.estimate import Estimate
 from agent_economy.study.runs import Outcomes, Runs
 
 
 @dataclass(frozen=True)
-class Team:
+class TeamResult:
     """What the runs of one team came to.
 
     Attributes:
-        robots: Team size.
+        robots: TeamResult size.
         runs: How many.
         time_s: Mean time, capped.
         failed: How many runs failed.
         failed_share: Their share.
         merit: Figure of merit.
         behind_best: The best team's merit less this one's, with an interval that holds for all
-            teams together; None for the best itself.
+            pairs of teams together; None for the best itself.
     """
 
     robots: int
@@ -46,8 +47,17 @@ class Team:
 
 
 @dataclass(frozen=True)
-class PublishedTeam:
-    """What others found of one team."""
+class PublishedResult:
+    """What others found of one team.
+
+    Attributes:
+        robots: Team size.
+        times_s: Time of each run, capped.
+        time_s: Their mean.
+        failed: How many reached the cap.
+        failed_share: Their share.
+        merit: Our figure of merit of these runs.
+    """
 
     robots: int
     times_s: list[float]
@@ -57,19 +67,19 @@ class PublishedTeam:
     merit: float
 
 
-def team(runs: Runs, robots: int, best: int) -> Team:
+def team(runs: Runs, robots: int, best: int) -> TeamResult:
     """Return the estimates of one team."""
     outcomes = runs.teams[robots]
     failed = int(np.sum(outcomes.failed))
-    others = max(1, len(runs.teams) - 1)
-    return Team(
+    pairs = max(1, len(runs.teams) * (len(runs.teams) - 1) // 2)
+    return TeamResult(
         robots=robots,
         runs=len(outcomes.time_s),
         time_s=estimate.mean(outcomes.time_s),
         failed=failed,
         failed_share=estimate.share(failed, len(outcomes.failed)),
         merit=estimate.mean(outcomes.merit),
-        behind_best=None if robots == best else behind(runs.teams[best], outcomes, others),
+        behind_best=None if robots == best else behind(runs.teams[best], outcomes, pairs),
     )
 
 
@@ -79,21 +89,23 @@ def behind(best: Outcomes, other: Outcomes, comparisons: int) -> Estimate:
     return estimate.mean(best.merit - other.merit, confidence)
 
 
-def published_teams(scenario: Scenario) -> tuple[PublishedTeam, ...]:
-    """Return what others found, scored as our runs are; a time at the cap is a failed run."""
-    if not scenario.published:
+def published_teams(scenario: Scenario) -> tuple[PublishedResult, ...]:
+    """Return what others found, scored as our runs are."""
+    published = scenario.published
+    if not published:
         return ()
     return tuple(
-        published_team(scenario, robots, times_s)
-        for robots, times_s in scenario.published.times_s.items()
+        published_team(scenario.merit, published.cap_s, robots, times_s)
+        for robots, times_s in published.times_s.items()
     )
 
 
-def published_team(scenario: Scenario, robots: int, times_s: list[float]) -> PublishedTeam:
-    """Return one published team, scored."""
-    failed = sum(time_s >= scenario.cap_s for time_s in times_s)
+def published_team(
+    merit: Merit, cap_s: float, robots: int, times_s: list[float]
+) -> PublishedResult:
+    """Return one published team, scored; a time at the cap is a failed run."""
+    failed = sum(time_s >= cap_s for time_s in times_s)
     failed_share = failed / len(times_s)
     time_s = sum(times_s) / len(times_s)
-    weights = scenario.merit
-    merit = weights.time_s * time_s + weights.robots * robots + weights.failed * failed_share
-    return PublishedTeam(robots, times_s, time_s, failed, failed_share, merit)
+    score = merit.score(time_s, robots, failed_share)
+    return PublishedResult(robots, times_s, time_s, failed, failed_share, score)

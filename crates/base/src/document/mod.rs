@@ -70,13 +70,22 @@ impl fmt::Display for Value {
         match self {
             Self::Bool(value) => write!(f, "{value}"),
             Self::Integer(value) => write!(f, "{value}"),
-            Self::Float(value) => write!(f, "{value}"),
+            Self::Float(value) => f.write_str(&written(*value)),
             Self::Text(value) => write!(f, "{value:?}"),
             Self::Date(value) => write!(f, "{value}"),
-            Self::List(_) => f.write_str("[...]"),
+            Self::List(items) => {
+                let items: Vec<String> = items.iter().map(|item| item.value.to_string()).collect();
+                write!(f, "[{}]", items.join(", "))
+            }
             Self::Table(_) => f.write_str("{...}"),
         }
     }
+}
+
+/// A number as a person writes it: `120` and not `120.0`, `1e308` and not three hundred digits.
+pub(crate) fn written(value: f64) -> String {
+    let shortest = format!("{value:?}");
+    shortest.strip_suffix(".0").unwrap_or(&shortest).to_owned()
 }
 
 /// A whole document.

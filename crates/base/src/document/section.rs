@@ -1,6 +1,6 @@
 //! Typed reading of a table, collecting what is wrong.
 
-use super::{Node, Table, Value};
+use super::{Node, Table, Value, written};
 use crate::fault::{Fault, nearest};
 use std::cell::RefCell;
 use std::ops::RangeInclusive;
@@ -12,6 +12,8 @@ pub struct Section<'d> {
     table: Option<&'d Table>,
     origin: &'d str,
     path: String,
+    /// It is no table, which has been told: nothing in it is told as missing.
+    is_faulty: bool,
     faults: &'d RefCell<Vec<Fault>>,
 }
 
@@ -21,6 +23,7 @@ impl<'d> Section<'d> {
             table: as_table(node),
             origin: &node.origin,
             path: String::new(),
+            is_faulty: false,
             faults,
         }
     }
@@ -59,13 +62,15 @@ impl<'d> Section<'d> {
     pub fn section(&self, key: &str) -> Section<'d> {
         let node = self.node(key);
         let table = node.and_then(as_table);
-        if node.is_some() && table.is_none() {
+        let is_no_table = node.is_some() && table.is_none();
+        if is_no_table {
             self.fault(key, "a table");
         }
         Section {
             table,
             origin: node.map_or(self.origin, |node| &node.origin),
             path: self.path_of(key),
+            is_faulty: self.is_faulty || is_no_table,
             faults: self.faults,
         }
     }
@@ -89,75 +94,118 @@ impl<'d> Section<'d> {
         let value = self.node(key).and_then(as_number);
         let value = value.filter(|value| range.contains(value));
         self.told(value, key, || {
-            format!("a number from {} to {}", range.start(), range.end())
+            let (low, high) = (written(*range.start()), written(*range.end()));
+            format!("a number from {low} to {high}")
         })
     }
 
     /// The list of numbers at `key`, if it holds at least one and all are in `range`.
     #[must_use]
     pub fn numbers(&self, key: &str, range: RangeInclusive<f64>) -> Option<Vec<f64>> {
-        let values = match self.node(key).map(|node| &node.value) {
-            Some(Value::List(items)) if !items.is_empty() => items
-                .iter()
-                .map(|item| as_number(item).filter(|value| range.contains(value)))
-                .collect(),
-            _ => None,
+        let (low, high) = (written(*range.start()), written(*range.end()));
+        let Some(Value::List(items)) = self.node(key).map(|node| &node.value) else {
+            self.fault(key, &format!("a list of numbers from {low} to {high}"));
+            return None;
         };
-        self.told(values, key, || {
-            let (low, high) = (range.start(), range.end());
-            format!("a list of numbers, each from {low} to {high}")
-        })
+        if items.is_empty() {
+            self.fault(key, "a list of at least one number");
+        }
+        let number = |(index, item): (usize, &Node)| {
+            let number = as_number(item).filter(|number| range.contains(number));
+            if number.is_none() {
+                self.push(
+                    key,
+                    Fault {
+                        origin: None,
+                        path: format!("{}[{index}]", self.path_of(key)),
+                        given: Some(item.value.to_string()),
+                        allowed: format!("a number from {low} to {high}"),
+                        suggestion: None,
+                    },
+                );
+            }
+            number
+        };
+        // All are looked at, so that all faults are told, before the list is given up.
+        let numbers: Vec<Option<f64>> = items.iter().enumerate().map(number).collect();
+        let numbers: Option<Vec<f64>> = numbers.into_iter().collect();
+        numbers.filter(|numbers| !numbers.is_empty())
     }
 
     /// The text at `key`.
     #[must_use]
     pub fn text(&self, key: &str) -> Option<&'d str> {
+        self.parsed(key, "a text in quotes", |_| Some(()))?;
+        match &self.node(key)?.value {
+            Value::Text(value) => Some(value),
+            _ => None,
+        }
+    }
+
+    /// What `parse` makes of the text at `key`, if it makes something; else it must be `allowed`.
+    #[must_use]
+    pub fn parsed<T>(
+        &self,
+        key: &str,
+        allowed: &str,
+        parse: impl Fn(&str) -> Option<T>,
+    ) -> Option<T> {
         let value = match self.node(key).map(|node| &node.value) {
-            Some(Value::Text(value)) => Some(value.as_str()),
+            Some(Value::Text(value)) => parse(value),
             _ => None,
         };
-        self.told(value, key, || "a text in quotes".to_owned())
+        self.told(value, key, || allowed.to_owned())
     }
 
     /// What the text at `key` names, if it is one of `names`.
     #[must_use]
     pub fn choice<T: Copy>(&self, key: &str, names: &[(&str, T)]) -> Option<T> {
-        let all = || names.iter().map(|(name, _)| *name);
-        let given = match self.node(key).map(|node| &node.value) {
+        let node = self.node(key);
+        let word = match node.map(|node| &node.value) {
             Some(Value::Text(value)) => value.as_str(),
             _ => "",
         };
-        let chosen = names.iter().find(|(name, _)| *name == given);
+        let chosen = names.iter().find(|(name, _)| *name == word);
         if chosen.is_none() {
-            let quoted = |name| format!("{name:?}");
-            let allowed = all().map(quoted).collect::<Vec<_>>().join(", ");
-            let suggestion = nearest(given, all()).map(quoted);
-            self.push(key, format!("one of {allowed}"), suggestion);
+            let given = node.map(|node| node.value.to_string());
+            let names = names.iter().map(|(name, _)| *name);
+            self.push(
+                key,
+                Fault::not_one_of(self.path_of(key), given, word, names),
+            );
         }
         chosen.map(|(_, value)| *value)
     }
 
     /// Tells that what stands at `key` is not what is `allowed` ("must be ...").
     pub fn fault(&self, key: &str, allowed: &str) {
-        self.push(key, allowed.to_owned(), None);
+        let given = self.node(key).map(|node| node.value.to_string());
+        let fault = Fault {
+            origin: None,
+            path: self.path_of(key),
+            given,
+            allowed: allowed.to_owned(),
+            suggestion: None,
+        };
+        self.push(key, fault);
     }
 
     fn told<T>(&self, value: Option<T>, key: &str, allowed: impl Fn() -> String) -> Option<T> {
         if value.is_none() {
-            self.push(key, allowed(), None);
+            self.fault(key, &allowed());
         }
         value
     }
 
-    fn push(&self, key: &str, allowed: String, suggestion: Option<String>) {
-        let node = self.node(key);
-        self.faults.borrow_mut().push(Fault {
-            origin: Some(node.map_or(self.origin, |node| &node.origin).to_owned()),
-            path: self.path_of(key),
-            given: node.map(|node| node.value.to_string()),
-            allowed,
-            suggestion,
-        });
+    /// Notes a fault of what stands at `key`, unless the section as a whole is one.
+    fn push(&self, key: &str, fault: Fault) {
+        let origin = self.node(key).map_or(self.origin, |node| &node.origin);
+        if !self.is_faulty {
+            self.faults.borrow_mut().push(Fault {
+                origin: Some(origin.to_owned()),
+                ..fault
+            });
+        }
     }
 
     fn node(&self, key: &str) -> Option<&'d Node> {

@@ -69,8 +69,24 @@ fn a_table_where_a_value_belongs_and_the_reverse_are_told() {
         faults,
         [
             "job.toml:1: a = 1: must be a table",
-            "job.toml:1: a.x is missing: must be a whole number from 0 to 1",
             "job.toml:2: b = {...}: must be a whole number from 0 to 1",
+        ]
+    );
+}
+
+#[test]
+fn each_bad_number_of_a_list_is_told_with_its_place() {
+    let faults = faults_of("a = [1, 20, \"x\"]\nb = []", |root| {
+        let a = root.numbers("a", 0.0..=10.0);
+        let b = root.numbers("b", 0.0..=10.0);
+        a.and(b).map(|_| ())
+    });
+    assert_eq!(
+        faults,
+        [
+            "job.toml:1: a[1] = 20: must be a number from 0 to 10",
+            "job.toml:1: a[2] = \"x\": must be a number from 0 to 10",
+            "job.toml:2: b = []: must be a list of at least one number",
         ]
     );
 }

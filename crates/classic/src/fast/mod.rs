@@ -18,7 +18,8 @@ mod word;
 
 use crate::clock::{self, DECISION_PERIOD, FIRST_DECISION};
 use crate::contact::{Contact, Found};
-use crate::search::{Outcome, Rules};
+use crate::search::{Outcome, Task};
+use crate::start::MAX_ROBOTS;
 use crate::world::{Cell, ITEMS};
 use tables::{ContactTables, Grid, TABLES, Tables};
 use word::Word;
@@ -27,7 +28,7 @@ use word::Word;
 pub struct FastSearch {
     tables: &'static Tables,
     contacts: &'static ContactTables,
-    rules: Rules,
+    task: Task,
     grid: Grid,
     /// Where the robots stood at the last decision, where they stand after this one, and a state
     /// to compare with.
@@ -36,31 +37,6 @@ pub struct FastSearch {
     kept: Vec<Word>,
     carry: i32,
     kept_carry: i32,
-}
-
-/// When contact is judged: which robot's word, before or after the turn, finds items.
-trait Judge {
-    fn word(moved: Word, turned: Word) -> Word;
-}
-
-/// [`Contact::Ahead`] looks before the turn, and definitions on cells do not care.
-struct BeforeTurn;
-
-/// [`Contact::Touch`] is judged while the robot moves on.
-struct AfterTurn;
-
-impl Judge for BeforeTurn {
-    #[inline]
-    fn word(moved: Word, _: Word) -> Word {
-        moved
-    }
-}
-
-impl Judge for AfterTurn {
-    #[inline]
-    fn word(_: Word, turned: Word) -> Word {
-        turned
-    }
 }
 
 /// How far a run is, and what has been counted.
@@ -74,13 +50,13 @@ struct Tally {
 }
 
 impl FastSearch {
-    /// A runner for these rules.
+    /// A runner for this task.
     #[must_use]
-    pub fn new(rules: Rules) -> Self {
+    pub fn new(task: Task) -> Self {
         Self {
             tables: &TABLES,
-            contacts: tables::contact_tables(rules.contact),
-            rules,
+            contacts: tables::contact_tables(task.contact),
+            task,
             grid: TABLES.grid,
             robots: Vec::new(),
             next: Vec::new(),
@@ -90,14 +66,14 @@ impl FastSearch {
         }
     }
 
-    /// Runs a team that starts on `cells` (each of the grid, none on its frame), as
-    /// [`crate::start::team_on`] places it.
+    /// Runs a team of 1 to [`MAX_ROBOTS`] that starts on `cells` (each of the grid, none on its
+    /// frame), as [`crate::start::team_on`] places it.
     pub fn run(&mut self, cells: impl Iterator<Item = Cell>) -> Outcome {
         self.place(cells);
-        let outcome = if self.rules.contact == Contact::Touch {
-            self.search::<AfterTurn>()
+        let outcome = if self.task.contact == Contact::Touch {
+            self.search::<true>()
         } else {
-            self.search::<BeforeTurn>()
+            self.search::<false>()
         };
         self.clear();
         outcome
@@ -107,6 +83,7 @@ impl FastSearch {
         self.robots.clear();
         let words = cells.zip(0..).map(|(cell, index)| word::start(cell, index));
         self.robots.extend(words);
+        debug_assert!((1..=MAX_ROBOTS as usize).contains(&self.robots.len()));
         for robot in &self.robots {
             self.grid[word::position(*robot)] += 1;
         }
@@ -121,13 +98,13 @@ impl FastSearch {
         }
     }
 
-    fn search<J: Judge>(&mut self) -> Outcome {
+    fn search<const AFTER_TURN: bool>(&mut self) -> Outcome {
         let mut tally = self.tally_of_start();
         let mut at_cap: Option<(Found, u64)> = None;
         let mut is_never = false;
         let mut keep_at = 1;
         loop {
-            if at_cap.is_none() && clock::paint_of(tally.decision + 1) > self.rules.cap_paints {
+            if at_cap.is_none() && clock::paint_of(tally.decision + 1) > self.task.cap_paints {
                 at_cap = Some((self.found_by_cap(&tally), tally.collisions));
             }
             let is_complete = tally.found == Found::ALL;
@@ -139,7 +116,7 @@ impl FastSearch {
                     collisions,
                 };
             }
-            self.decide::<J>(&mut tally);
+            self.decide::<AFTER_TURN>(&mut tally);
             is_never = is_never || self.has_recurred();
             if tally.decision == keep_at {
                 self.keep();
@@ -164,7 +141,11 @@ impl FastSearch {
     }
 
     /// One period: every robot moves, looks at where all stood before, chooses and turns.
-    fn decide<J: Judge>(&mut self, tally: &mut Tally) {
+    ///
+    /// `AFTER_TURN`: contact is judged with the new heading, as [`Contact::Touch`] wants, which is
+    /// judged while the robot moves on; [`Contact::Ahead`] wants the old one, and definitions on
+    /// cells do not care.
+    fn decide<const AFTER_TURN: bool>(&mut self, tally: &mut Tally) {
         let Tables {
             motions,
             is_inner,
@@ -187,7 +168,7 @@ impl FastSearch {
             let moved = word::moved_to(*robot, position);
             let change = rule.change[usize::from(self.carry >= rule.threshold)];
             *next = word::stopped(moved).wrapping_add(change);
-            let judged = J::word(moved, *next);
+            let judged = if AFTER_TURN { *next } else { moved };
             tally.found.0 |= self.contacts.decision[word::motion(judged)][word::position(judged)];
         }
         for (robot, next) in self.robots.iter().zip(&self.next) {
@@ -213,10 +194,10 @@ impl FastSearch {
 
     /// What is found by the cap, which lies in the period after the tally's decision.
     fn found_by_cap(&self, tally: &Tally) -> Found {
-        if !self.rules.contact.is_by_paint() {
+        if !self.task.contact.is_by_paint() {
             return tally.found;
         }
-        let paints = self.rules.cap_paints - clock::paint_of(tally.decision) + 1;
+        let paints = self.task.cap_paints - clock::paint_of(tally.decision) + 1;
         let mut found = tally.found_before;
         found |= Found::of(|item| self.first_find(item, paints).is_some());
         found
@@ -225,7 +206,7 @@ impl FastSearch {
     /// The paint of the last find, in the period after the tally's decision.
     fn completion_paint(&self, tally: &Tally) -> u64 {
         let decision = clock::paint_of(tally.decision);
-        if !self.rules.contact.is_by_paint() {
+        if !self.task.contact.is_by_paint() {
             return decision;
         }
         let period = if tally.decision == 0 {

@@ -11,7 +11,7 @@ use crate::clock::{DECISION_PERIOD, FIRST_DECISION};
 use crate::contact::{Contact, Found, Pose};
 use crate::heading::Heading;
 use crate::world::{Cell, cells};
-use std::sync::LazyLock;
+use std::sync::{LazyLock, OnceLock};
 
 pub(super) type Grid = [u8; POSITIONS];
 
@@ -136,15 +136,9 @@ pub(super) struct ContactTables {
 
 /// The tables of a definition; made once.
 pub(super) fn contact_tables(contact: Contact) -> &'static ContactTables {
-    static ALL: [LazyLock<ContactTables>; 6] = [
-        LazyLock::new(|| make_contact_tables(Contact::NAMES[0].1)),
-        LazyLock::new(|| make_contact_tables(Contact::NAMES[1].1)),
-        LazyLock::new(|| make_contact_tables(Contact::NAMES[2].1)),
-        LazyLock::new(|| make_contact_tables(Contact::NAMES[3].1)),
-        LazyLock::new(|| make_contact_tables(Contact::NAMES[4].1)),
-        LazyLock::new(|| make_contact_tables(Contact::NAMES[5].1)),
-    ];
-    &ALL[contact as usize]
+    static ALL: [OnceLock<ContactTables>; Contact::NAMES.len()] =
+        [const { OnceLock::new() }; Contact::NAMES.len()];
+    ALL[contact as usize].get_or_init(|| make_contact_tables(contact))
 }
 
 fn make_contact_tables(contact: Contact) -> ContactTables {

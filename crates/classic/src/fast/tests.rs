@@ -28,7 +28,7 @@ fn plain(robot: &Robot) -> (Cell, usize, usize, u32, u32) {
 
 #[test]
 fn every_robot_is_in_the_same_state_after_every_decision_as_in_the_plain_form() {
-    let rules = Rules {
+    let task = Task {
         contact: Contact::Neighbour,
         cap_paints: 0,
     };
@@ -38,12 +38,12 @@ fn every_robot_is_in_the_same_state_after_every_decision_as_in_the_plain_form() 
         let cells: Vec<Cell> = (0..robots)
             .map(|index| random_cell(11, run, index))
             .collect();
-        let mut fast = FastSearch::new(rules);
+        let mut fast = FastSearch::new(task);
         fast.place(cells.iter().copied());
         let mut tally = fast.tally_of_start();
         let mut simulation = Simulation::new(&team_on(&cells));
         for decision in 1..=500 {
-            fast.decide::<BeforeTurn>(&mut tally);
+            fast.decide::<false>(&mut tally);
             while !simulation.step() {}
             let expected: Vec<_> = simulation.robots().iter().map(plain).collect();
             let given: Vec<_> = fast.robots.iter().map(|word| described(*word)).collect();

@@ -20,22 +20,26 @@
 //! [published]                             # may be left out: results to show beside ours
 //! source = "Williams 2003"
 //! choice = 3
+//! cap_s = 120
 //! times_s = { 1 = [120, 44], 2 = [120, 43] }
 //! ```
+
+mod clock;
+mod merit;
+mod published;
+mod study;
+
+pub use clock::{Clock, MAX_CAP_PAINTS};
+pub use merit::Merit;
+pub use published::Published;
+pub use study::{Study, TEAM_SIZE_PATH};
 
 use crate::contact::Contact;
 use crate::start::MAX_ROBOTS;
 use base::document::{Document, Section, Value};
 use base::fault::Faults;
-use std::collections::BTreeSet;
 
-/// The only factor that a study of this engine varies.
-pub const TEAM_SIZE: &str = "robots.wanderer.count";
-
-/// Paints that a run may be counted for: some minutes of computing for a run that never ends.
-const MAX_CAP_PAINTS: f64 = 1e6;
-
-const MAX_RUNS: i64 = 1_000_000;
+const MAX_CAP_S: f64 = 1e6;
 
 /// Everything that does not change in a run.
 #[derive(Debug, Clone, PartialEq)]
@@ -46,66 +50,14 @@ pub struct Scenario {
     pub contact: Contact,
     /// How runs are scored.
     pub merit: Merit,
-    /// Turns paints into seconds.
-    pub paints_per_s: f64,
-    /// A run that takes longer has failed, and counts as this long.
-    pub cap_s: f64,
+    /// How paints are seconds, and when a search has failed.
+    pub clock: Clock,
     /// Robots in a single run.
     pub robots: u32,
     /// What a study does.
     pub study: Study,
     /// Results of others.
     pub published: Option<Published>,
-}
-
-/// What a study does.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Study {
-    /// Runs of each configuration.
-    pub runs: u64,
-    /// Team sizes to compare, ascending.
-    pub team_sizes: Vec<u32>,
-}
-
-/// Weights of a figure of merit; higher is better, so all are at most 0.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Merit {
-    /// How the scenario names it.
-    pub name: &'static str,
-    /// For each second of a run, capped.
-    pub time_s: f64,
-    /// For each robot.
-    pub robots: f64,
-    /// For a failed run.
-    pub failed: f64,
-}
-
-impl Merit {
-    /// Equation 5.2 of the thesis: -(0.3 T/10 + 0.2 n + 0.5 failures in ten).
-    pub const EQUATION: Self = Self {
-        name: "equation-5.2",
-        time_s: -0.03,
-        robots: -0.2,
-        failed: -5.0,
-    };
-
-    /// The sheet in the thesis's appendix, which forgets to divide the time by ten.
-    pub const APPENDIX: Self = Self {
-        name: "appendix",
-        time_s: -0.3,
-        ..Self::EQUATION
-    };
-}
-
-/// Results of others, to show beside ours.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Published {
-    /// Where they stand.
-    pub source: String,
-    /// The team size that they recommend.
-    pub choice: u32,
-    /// Team size and the times of its runs; a time at the cap is a failed run.
-    pub times_s: Vec<(u32, Vec<f64>)>,
 }
 
 /// A value put over what a file says, and how faults should name where it comes from.
@@ -153,23 +105,20 @@ fn scenario(root: &Section) -> Option<Scenario> {
     let engine = root.choice("engine", &[("classic", ())]);
     let summary = root.text("summary");
     let contact = root.choice("contact", &Contact::NAMES);
-    let merits = [Merit::EQUATION, Merit::APPENDIX].map(|merit| (merit.name, merit));
+    let merits = Merit::ALL.map(|merit| (merit.name, merit));
     let merit = root.choice("merit", &merits);
-    let clock = clock(&root.section("clock"));
+    let clock = clock::clock(&root.section("clock"));
     let robots = robots(&root.section("robots"));
-    let study = study(&root.section("study"), robots);
-    let cap_s = clock.map(|(_, cap_s)| cap_s);
+    let study = study::study(&root.section("study"), robots);
     let published = root
         .has("published")
-        .then(|| published(&root.section("published"), cap_s));
+        .then(|| published::published(&root.section("published")));
     engine?;
-    let (paints_per_s, cap_s) = clock?;
     Some(Scenario {
         summary: summary?.to_owned(),
         contact: contact?,
         merit: merit?,
-        paints_per_s,
-        cap_s,
+        clock: clock?,
         robots: robots?,
         study: study?,
         published: match published {
@@ -179,93 +128,12 @@ fn scenario(root: &Section) -> Option<Scenario> {
     })
 }
 
-fn clock(section: &Section) -> Option<(f64, f64)> {
-    section.only(&["paints_per_s", "cap_s"]);
-    let paints_per_s = section.number("paints_per_s", 0.1..=1000.0);
-    let cap_s = section.number("cap_s", 0.0..=1e6);
-    let (paints_per_s, cap_s) = (paints_per_s?, cap_s?);
-    if paints_per_s * cap_s > MAX_CAP_PAINTS {
-        let allowed = format!(
-            "at most {MAX_CAP_PAINTS} paints: {} s",
-            MAX_CAP_PAINTS / paints_per_s
-        );
-        section.fault("cap_s", &allowed);
-        return None;
-    }
-    Some((paints_per_s, cap_s))
-}
-
 fn robots(section: &Section) -> Option<u32> {
     section.only(&["wanderer"]);
     let wanderer = section.section("wanderer");
     wanderer.only(&["count"]);
     let count = wanderer.integer("count", 1..=MAX_ROBOTS.into())?;
     u32::try_from(count).ok()
-}
-
-fn study(section: &Section, robots: Option<u32>) -> Option<Study> {
-    section.only(&["runs", "vary"]);
-    let runs = section.integer("runs", 2..=MAX_RUNS);
-    let vary = section.section("vary");
-    vary.only(&[TEAM_SIZE]);
-    let team_sizes = if vary.has(TEAM_SIZE) {
-        let sizes = vary.text(TEAM_SIZE).map(values);
-        if sizes == Some(None) {
-            let allowed = format!(
-                "whole numbers from 1 to {MAX_ROBOTS}, such as \"1..8\" (both ends included) or \"1,2,4\""
-            );
-            vary.fault(TEAM_SIZE, &allowed);
-        }
-        sizes.flatten()
-    } else {
-        robots.map(|count| vec![count])
-    };
-    Some(Study {
-        runs: u64::try_from(runs?).ok()?,
-        team_sizes: team_sizes?,
-    })
-}
-
-/// The numbers of `1..8` (both ends included), `1,2,4` or a mixture, ascending; `None` if any is
-/// none or out of range.
-fn values(text: &str) -> Option<Vec<u32>> {
-    let number = |text: &str| {
-        let number = text.trim().parse().ok()?;
-        (1..=MAX_ROBOTS).contains(&number).then_some(number)
-    };
-    let mut values = BTreeSet::new();
-    for part in text.split(',') {
-        let (low, high) = part.split_once("..").unwrap_or((part, part));
-        let range = number(low)?..=number(high)?;
-        if range.is_empty() {
-            return None;
-        }
-        values.extend(range);
-    }
-    Some(values.into_iter().collect())
-}
-
-fn published(section: &Section, cap_s: Option<f64>) -> Option<Published> {
-    section.only(&["source", "choice", "times_s"]);
-    let source = section.text("source");
-    let choice = section.integer("choice", 1..=MAX_ROBOTS.into());
-    let teams = section.section("times_s");
-    let max_s = cap_s.unwrap_or(f64::MAX);
-    let times_of = |key: &str| {
-        let Some(&[robots]) = values(key).as_deref() else {
-            teams.fault(key, &format!("under a team size from 1 to {MAX_ROBOTS}"));
-            return None;
-        };
-        Some((robots, teams.numbers(key, 0.0..=max_s)?))
-    };
-    let times: Vec<_> = teams.keys().map(times_of).collect();
-    let mut times_s: Vec<(u32, Vec<f64>)> = times.into_iter().collect::<Option<_>>()?;
-    times_s.sort_by_key(|(robots, _)| *robots);
-    Some(Published {
-        source: source?.to_owned(),
-        choice: u32::try_from(choice?).ok()?,
-        times_s,
-    })
 }
 
 #[cfg(test)]
@@ -288,6 +156,7 @@ vary = { "robots.wanderer.count" = "1..3, 8" }
 [published]
 source = "Someone"
 choice = 3
+cap_s = 120
 times_s = { 10 = [120], 2 = [4, 5.5] }
 "#;
 
@@ -331,7 +200,7 @@ times_s = { 10 = [120], 2 = [4, 5.5] }
             "did you mean \"touch\"?",
             "t.toml:11: robots.wanderer.count = 0: must be a whole number from 1 to 250",
             "t.toml:13: study.runs = -5: must be a whole number from 2 to 1000000",
-            "t.toml:14: study.vary.\"robots.wanderer.count\" = \"8..1\": must be whole numbers",
+            "t.toml:14: study.vary.\"robots.wanderer.count\" = \"8..1\": must be a text of whole",
             "t.toml:8: clock.cap_s = NaN: must be a number",
             "t.toml:9: clock.cap = 3: must be one of the known keys here: paints_per_s, cap_s",
         ] {
@@ -342,7 +211,9 @@ times_s = { 10 = [120], 2 = [4, 5.5] }
     #[test]
     fn a_cap_too_long_to_compute_is_told() {
         let text = GOOD.replace("cap_s = 120", "cap_s = 100000");
-        assert!(faults(&text).contains("clock.cap_s = 100000: must be at most 1000000 paints"));
+        assert!(
+            faults(&text).contains("clock.cap_s = 100000: must be at most 1000000 paints at 56")
+        );
     }
 
     #[test]

@@ -1,0 +1,51 @@
+//! Results of others, to show beside ours.
+
+use super::MAX_CAP_S;
+use crate::start::MAX_ROBOTS;
+use base::document::Section;
+
+/// Results of others, to show beside ours.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Published {
+    /// Where they stand.
+    pub source: String,
+    /// The team size that they recommend.
+    pub choice: u32,
+    /// Where they stopped; a time of this much is a failed run.
+    pub cap_s: f64,
+    /// Team size and the times of its runs.
+    pub times_s: Vec<(u32, Vec<f64>)>,
+}
+
+pub(super) fn published(section: &Section) -> Option<Published> {
+    section.only(&["source", "choice", "cap_s", "times_s"]);
+    let source = section.text("source");
+    let choice = section.integer("choice", 1..=MAX_ROBOTS.into());
+    let cap_s = section.number("cap_s", 0.0..=MAX_CAP_S);
+    let times_s = times_s(&section.section("times_s"), cap_s.unwrap_or(MAX_CAP_S));
+    Some(Published {
+        source: source?.to_owned(),
+        choice: u32::try_from(choice?).ok()?,
+        cap_s: cap_s?,
+        times_s: times_s?,
+    })
+}
+
+fn times_s(teams: &Section, max_s: f64) -> Option<Vec<(u32, Vec<f64>)>> {
+    let times_of = |key: &str| {
+        let robots = key
+            .parse()
+            .ok()
+            .filter(|robots| (1..=MAX_ROBOTS).contains(robots));
+        // "01" is a team size to a parser, but would be a second one of 1.
+        let Some(robots) = robots.filter(|robots: &u32| robots.to_string() == key) else {
+            teams.fault(key, &format!("under a team size from 1 to {MAX_ROBOTS}"));
+            return None;
+        };
+        Some((robots, teams.numbers(key, 0.0..=max_s)?))
+    };
+    let times: Vec<_> = teams.keys().map(times_of).collect();
+    let mut times_s: Vec<(u32, Vec<f64>)> = times.into_iter().collect::<Option<_>>()?;
+    times_s.sort_by_key(|(robots, _)| *robots);
+    Some(times_s)
+}

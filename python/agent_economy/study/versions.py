@@ -1,0 +1,11 @@
+"""The versions on which results may depend."""
+
+import platform
+from importlib.metadata import version
+
+PACKAGES = ("agent-economy", "numpy", "pyarrow", "scipy", "altair", "vl-convert-python")
+
+
+def versions() -> dict[str, str]:
+    """Return the version of each package, and of Python."""
+    return {name: version(name) for name in PACKAGES} | {"python": platform.python_version()}
