@@ -180,7 +180,7 @@ def teams() -> str:
             f"{team.failed_share.value:.2%}",
             f"{theirs.failed} of {len(theirs.times_s)}",
             f"{team.merit.value:.2f}",
-            f"{theirs.merit:.2f}",
+            f"{theirs.merit.value:.2f}",
         ]
 
     header = ["robots", "mean s", "thesis", "failed", "thesis", "merit", "thesis"]
@@ -259,7 +259,7 @@ def slips() -> str:
 
 def scored(merit: str) -> list[float]:
     """Return the published teams' figures of merit, by a definition's name."""
-    return [team.merit for team in published_teams(scenario(merit))]
+    return [team.merit.value for team in published_teams(scenario(merit))]
 
 
 def scenario(merit: str) -> ae.Scenario:

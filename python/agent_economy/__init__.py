@@ -4,15 +4,14 @@
 """
 
 from importlib import import_module
-from importlib.metadata import version
-from typing import TYPE_CHECKING
 
+TYPE_CHECKING = False
 if TYPE_CHECKING:
     from agent_economy import classic, study
     from agent_economy._core import InputError
     from agent_economy.scenario import Scenario
 
-__version__ = version("agent-economy")
+    __version__: str
 
 __all__ = ["InputError", "Scenario", "__version__", "classic", "study"]
 
@@ -25,6 +24,8 @@ def __getattr__(name: str) -> object:
     numpy, pyarrow and scipy take half a second to load; the command must be able to say its
     version, and to end at Ctrl-C without a traceback, before they have.
     """
+    if name == "__version__":
+        return import_module("importlib.metadata").version("agent-economy")
     if name in _HOMES:
         return getattr(import_module(_HOMES[name]), name)
     if name in __all__:

@@ -2,9 +2,6 @@
 
 import sys
 
-INTERRUPTED = 130
-"""Exit code after Ctrl-C, as shells have it."""
-
 
 def main() -> None:
     """Run the command line; Ctrl-C ends it without a traceback, even while modules load."""
@@ -14,7 +11,10 @@ def main() -> None:
         app()
     except KeyboardInterrupt:
         sys.stderr.write("\nStopped.\n")
-        sys.exit(INTERRUPTED)
+        sys.exit(130)
+    except OSError as error:
+        sys.stderr.write(f"agent-economy: {error}\n")
+        sys.exit(1)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 """The command line: it asks, shows and exits; what it shows is made elsewhere."""
 
 import json
+import signal
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -14,7 +15,7 @@ from rich.text import Text
 
 from agent_economy import __version__
 from agent_economy._core import CONTACTS, MERITS, InputError
-from agent_economy.progress import shown
+from agent_economy.progress import Teller
 from agent_economy.scenario import Override, Scenario
 from agent_economy.study import conclude, files, report, run_teams
 from agent_economy.study.answer import Answer
@@ -24,8 +25,11 @@ from agent_economy.study.teams import TeamResult
 BAD_INPUT = 2
 """Exit code when something given is not allowed."""
 
-PLAIN_WIDTH = 100
-"""Columns where the output is no terminal."""
+INTERRUPTED = 130
+"""Exit code after Ctrl-C, as shells have it."""
+
+WIDE = 100
+"""Columns that a table with ranges needs, and that there are where the output is no terminal."""
 
 app = typer.Typer(
     add_completion=False,
@@ -89,21 +93,42 @@ def study(  # noqa: PLR0913  (typer's options are arguments)
 
     Example: agent-economy study scenarios/classic.toml --vary robots.wanderer.count=1..12
     """
-    with bad_input_told():
+    teller = Teller()
+    with stop_told(teller), bad_input_told():
         changes = overrides(vary or [], runs=runs, contact=contact, merit=merit)
         asked = Scenario.load(scenario, changes)
         folder = out or Path("studies") / asked.name
         files.check_writable(folder)
-    with report.ChartScript() as script, shown(asked) as progress:
-        results = run_teams(asked, seed, progress)
-        answer = conclude(results)
-        page = report.html(results, answer, script)
-    with bad_input_told():
-        files.write_all(folder, results, answer, page)
+        with report.ChartScript() as script, teller.shown(asked) as on_progress:
+            results = run_teams(asked, seed, on_progress)
+            answer = conclude(results)
+            page = report.html(results, answer, script)
+        with uninterrupted():
+            files.write_all(folder, results, answer, page)
     if as_json:
         typer.echo(json.dumps(files.answer_dict(answer), indent=2, allow_nan=False))
     else:
         show(answer, folder)
+
+
+@contextmanager
+def stop_told(teller: Teller) -> Iterator[None]:
+    """Say what was done when Ctrl-C stops a study."""
+    try:
+        yield
+    except KeyboardInterrupt:
+        typer.echo(f"\nStopped after {teller.done:,} runs; nothing was written.", err=True)
+        raise typer.Exit(INTERRUPTED) from None
+
+
+@contextmanager
+def uninterrupted() -> Iterator[None]:
+    """Let Ctrl-C pass: the files of a study belong together, and writing them takes a moment."""
+    handler = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, handler)
 
 
 @contextmanager
@@ -150,24 +175,35 @@ def varied(text: str) -> Override:
 
 def show(answer: Answer, folder: Path) -> None:
     """Print the table, the answer, and where the report is."""
-    table = Table(title=Text(answer.scenario.summary), title_justify="left", box=box.SIMPLE_HEAD)
+    console = Console(highlight=False)
+    if not console.is_terminal:
+        console.width = WIDE
+    console.print(teams_table(answer, ranges=console.width >= WIDE))
+    console.print(f"{answer.sentence}\n", style="bold", markup=False, emoji=False)
+    typer.echo(f"Report: {folder / 'report.html'}")
+
+
+def teams_table(answer: Answer, *, ranges: bool) -> Table:
+    """Return a table of all teams, with the ranges of what is estimated or without."""
+
+    def cell(given: Estimate, style: str) -> str:
+        value, low, high = (format(each, style) for each in (given.value, given.low, given.high))
+        return f"{value} ({low}..{high})" if ranges else value
+
+    title = Text(answer.scenario.summary)
+    table = Table(title=title, title_justify="left", box=box.SIMPLE_HEAD)
     for name in ("robots", "mean time, s", "searches failed", "figure of merit", "behind best"):
         table.add_column(name, justify="right", no_wrap=True)
     for team in answer.teams:
         table.add_row(
             str(team.robots),
-            interval(team.time_s, 1),
-            percentage(team.failed_share),
-            interval(team.merit, 2),
+            cell(team.time_s, ".1f"),
+            cell(team.failed_share, ".2%"),
+            cell(team.merit, ".2f"),
             behind_best(team),
             style="bold" if team.robots == answer.best else None,
         )
-    console = Console(highlight=False)
-    if not console.is_terminal:
-        console.width = PLAIN_WIDTH
-    console.print(table)
-    console.print(f"{answer.sentence}\n", style="bold", markup=False)
-    typer.echo(f"Report: {folder / 'report.html'}")
+    return table
 
 
 def behind_best(team: TeamResult) -> str:
@@ -175,13 +211,3 @@ def behind_best(team: TeamResult) -> str:
     if not team.behind_best:
         return "best"
     return f"{team.behind_best.value:.3f}{' tie' if team.is_tied else ''}"
-
-
-def interval(given: Estimate, places: int) -> str:
-    """Return a value and its interval."""
-    return f"{given.value:.{places}f} ({given.low:.{places}f}..{given.high:.{places}f})"
-
-
-def percentage(given: Estimate) -> str:
-    """Return a share and its interval, in percent."""
-    return f"{given.value:.2%} ({given.low:.2%}..{given.high:.2%})"

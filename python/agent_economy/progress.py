@@ -1,6 +1,5 @@
 """How far a study is, told to people: a bar on a terminal, else a plain line a team."""
 
-import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
@@ -14,25 +13,25 @@ from agent_economy.study.sentence import robots
 OnProgress = Callable[[StudyProgress], None]
 
 
-@contextmanager
-def shown(scenario: Scenario) -> Iterator[OnProgress]:
-    """Show progress on standard error; an interrupt is told with what was done until then."""
-    last: list[StudyProgress] = []
-    console = Console(stderr=True)
-    show = bar if console.is_terminal else lines
-    try:
+class Teller:
+    """Tells progress on standard error, and remembers it for when the study is stopped."""
+
+    def __init__(self) -> None:
+        """Begin with nothing done."""
+        self.done = 0
+
+    @contextmanager
+    def shown(self, scenario: Scenario) -> Iterator[OnProgress]:
+        """Show the progress of a scenario's study."""
+        console = Console(stderr=True)
+        show = bar if console.is_terminal else lines
         with show(scenario, console) as on_progress:
 
             def remember(progress: StudyProgress) -> None:
-                last[:] = [progress]
+                self.done = progress.done
                 on_progress(progress)
 
             yield remember
-    except KeyboardInterrupt:
-        done = last[0].done if last else 0
-        total = scenario.runs * len(scenario.team_sizes)
-        sys.stderr.write(f"\nStopped after {done:,} of {total:,} runs; nothing was written.\n")
-        raise
 
 
 @contextmanager

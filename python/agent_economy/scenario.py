@@ -126,7 +126,7 @@ class Scenario:
         fields = _core.read_scenario(file, text, changes)
         published = fields.pop("published")
         return cls(
-            name=Path(file).stem,
+            name=Path(file).stem.strip(".") or "scenario",
             merit=Merit(**fields.pop("merit")),
             team_sizes=tuple(fields.pop("team_sizes")),
             published=published

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -113,6 +114,16 @@ def test_an_output_folder_that_cannot_be_is_told_before_any_run(
     assert "runs/s" not in given.stderr
 
 
+def test_a_folder_where_a_file_belongs_is_told_before_any_run(
+    classic_toml: Path, tmp_path: Path
+) -> None:
+    (tmp_path / "report.html").mkdir()
+    given = run("study", classic_toml, "--out", tmp_path)
+    assert given.returncode == 2
+    assert "report.html in it is a folder" in given.stderr
+    assert [file.name for file in tmp_path.iterdir()] == ["report.html"]
+
+
 def test_ctrl_c_ends_within_a_second_says_what_was_done_and_leaves_no_file(
     classic_toml: Path, tmp_path: Path
 ) -> None:
@@ -137,24 +148,28 @@ def test_ctrl_c_ends_within_a_second_says_what_was_done_and_leaves_no_file(
     assert process.returncode == 130
     # The promise is one second; the bound allows for a busy machine.
     assert seconds < 2
-    assert " of 8,000,000 runs; nothing was written." in errors
+    assert re.search(r"Stopped after [\d,]+ runs; nothing was written\.", errors)
     assert "Traceback" not in errors
     assert list((tmp_path / "out").iterdir()) == []
 
 
-@pytest.mark.parametrize("seconds", [0.05, 0.15, 0.3, 0.5, 0.8])
-def test_ctrl_c_while_modules_load_leaves_no_traceback(
-    seconds: float, classic_toml: Path, tmp_path: Path
-) -> None:
-    options = ["--runs", "1000000", "--out", str(tmp_path / "out")]
-    process = subprocess.Popen(
-        [*COMMAND, "study", str(classic_toml), *options], stderr=subprocess.PIPE, text=True
-    )
-    time.sleep(seconds)
-    process.send_signal(signal.SIGINT)
-    _, errors = process.communicate(timeout=20)
-    assert process.returncode in (130, -signal.SIGINT)
-    assert "agent_economy" not in errors, "a traceback through our modules"
+def test_ctrl_c_while_modules_load_leaves_no_traceback() -> None:
+    interrupted_at_numpy = """
+import sys
+
+class CtrlC:
+    def find_spec(self, name, *_):
+        if name == "numpy":
+            raise KeyboardInterrupt
+
+sys.meta_path.insert(0, CtrlC())
+from agent_economy.__main__ import main
+main()
+"""
+    command = [sys.executable, "-c", interrupted_at_numpy]
+    given = subprocess.run(command, capture_output=True, text=True, check=False, timeout=60)
+    assert given.returncode == 130
+    assert given.stderr == "\nStopped.\n"
 
 
 def test_a_summary_is_text_and_not_markup(classic_toml: Path, tmp_path: Path) -> None:

@@ -57,7 +57,7 @@ def test_the_cap_cuts_times_and_counts_failures(scenario: Scenario) -> None:
 
 
 def test_the_published_numbers_are_scored_as_the_thesis_prints_them(runs: Runs) -> None:
-    by_equation = [round(team.merit, 2) for team in study.conclude(runs).published]
+    by_equation = [round(team.merit.value, 2) for team in study.conclude(runs).published]
     assert by_equation == [-3.27, -4.84, -1.71, -1.92, -4.07, -9.8, -10.0, -10.2]
 
 

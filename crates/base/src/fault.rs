@@ -76,7 +76,10 @@ impl Faults {
 pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     candidates
         .into_iter()
-        .map(|candidate| (strsim::damerau_levenshtein(word, candidate), candidate))
+        .map(|candidate| {
+            let (word, lower) = (word.to_lowercase(), candidate.to_lowercase());
+            (strsim::damerau_levenshtein(&word, &lower), candidate)
+        })
         .filter(|(distance, candidate)| *distance <= 1 + candidate.len() / 4)
         .min()
         .map(|(_, candidate)| candidate)
@@ -89,6 +92,7 @@ mod tests {
     #[test]
     fn nearest_finds_a_slip_of_the_finger_and_nothing_far_away() {
         assert_eq!(nearest("tuoch", ["neighbour", "touch"]), Some("touch"));
+        assert_eq!(nearest("TOUCH", ["neighbour", "touch"]), Some("touch"));
         assert_eq!(nearest("sonar", ["neighbour", "touch"]), None);
     }
 }

@@ -36,7 +36,7 @@ def merit_chart(answer: Answer) -> Chart:
         {"robots": team.robots, "source": OURS, **interval(team.merit)} for team in answer.teams
     ]
     published = [
-        {"robots": team.robots, "source": source(answer), "value": team.merit}
+        {"robots": team.robots, "source": source(answer), **interval(team.merit)}
         for team in answer.published
     ]
     return with_intervals(ours + published, "figure of merit (higher is better)")
@@ -81,40 +81,47 @@ def times_chart(runs: Runs, answer: Answer) -> Chart:
         for time_s in team.times_s
     ]
     title = f"time of a search, capped at {answer.scenario.cap_s:g} s (s)"
-    base = alt.Chart(data(rows)).encode(x=robots_axis(), color=source_color(answer))
+    base = beside(alt.Chart(data(rows)), sources(answer))
     low_high = base.mark_rule(size=2).encode(alt.Y("p5:Q", title=title), y2="p95:Q")
     quartiles = base.mark_bar(size=14, opacity=0.55).encode(alt.Y("p25:Q"), y2="p75:Q")
     median = base.mark_tick(size=20, thickness=3).encode(alt.Y("p50:Q"))
-    single = (
-        alt.Chart(data(points))
-        .mark_point(size=28, opacity=0.8)
-        .encode(
-            robots_axis(),
-            alt.Y("time_s:Q"),
-            xOffset=alt.value(16),
-            color=source_color(answer),
-            tooltip=["source:N", "robots:O", "time_s:Q"],
-        )
-    )
-    return sized(alt.layer(low_high, quartiles, median, single))
+    layers = [low_high, quartiles, median]
+    if points:
+        circles = beside(alt.Chart(data(points)), sources(answer)).mark_point(size=28, opacity=0.8)
+        tooltip = ["source:N", "robots:O", "time_s:Q"]
+        layers.append(circles.encode(alt.Y("time_s:Q"), tooltip=tooltip))
+    return sized(alt.layer(*layers))
 
 
 def with_intervals(rows: Rows, title: str, axis: alt.Axis | None = None) -> Chart:
     """Return points with intervals by team size, one colour and shape a source."""
-    sources = sorted({row["source"] for row in rows}, key=lambda name: name != OURS)
-    scale = alt.Scale(domain=sources, range=[BLUE, ORANGE])
-    color = alt.Color("source:N", title=None, scale=scale)
-    offset = alt.XOffset("source:N", sort=sources, scale=alt.Scale(paddingOuter=1))
-    base = alt.Chart(data(rows)).encode(x=robots_axis(), xOffset=offset, color=color)
+    named = sorted({row["source"] for row in rows}, key=lambda name: name != OURS)
+    base = beside(alt.Chart(data(rows)), named)
     bars = base.mark_errorbar(ticks=True, thickness=2).encode(
         alt.Y("low:Q", title=title), y2="high:Q"
     )
     points = base.mark_point(filled=True, size=60).encode(
         alt.Y("value:Q", title=title, axis=axis or alt.Undefined),
-        shape=alt.Shape("source:N", title=None, scale=alt.Scale(domain=sources)),
+        shape=alt.Shape("source:N", title=None, scale=alt.Scale(domain=named)),
         tooltip=["source:N", "robots:O", "value:Q", "low:Q", "high:Q"],
     )
     return sized(alt.layer(bars, points))
+
+
+def beside(chart: alt.Chart, named: list[str]) -> alt.Chart:
+    """Return a chart by team size, with a place and a colour for each source."""
+    color = alt.Scale(domain=named, range=[BLUE, ORANGE])
+    place = alt.Scale(domain=named, paddingOuter=1)
+    return chart.encode(
+        x=alt.X("robots:O", title="robots", axis=alt.Axis(labelAngle=0)),
+        xOffset=alt.XOffset("source:N", scale=place),
+        color=alt.Color("source:N", title=None, scale=color),
+    )
+
+
+def sources(answer: Answer) -> list[str]:
+    """Return how charts name ours and, if there are any, the published results."""
+    return [OURS, source(answer)] if answer.published else [OURS]
 
 
 def interval(given: estimate.Estimate) -> dict[str, float]:
@@ -126,17 +133,6 @@ def source(answer: Answer) -> str:
     """Return how charts name the published results."""
     published = answer.scenario.published
     return published.source if published else ""
-
-
-def source_color(answer: Answer) -> alt.Color:
-    """Return one colour for ours and one for the published results."""
-    sources = [OURS, source(answer)] if answer.published else [OURS]
-    return alt.Color("source:N", title=None, scale=alt.Scale(domain=sources, range=[BLUE, ORANGE]))
-
-
-def robots_axis() -> alt.X:
-    """Return the axis of team sizes."""
-    return alt.X("robots:O", title="robots", axis=alt.Axis(labelAngle=0))
 
 
 def data(rows: Rows) -> alt.InlineData:

@@ -1,5 +1,6 @@
 """What a study leaves on disk: report.html, runs.parquet, answer.json."""
 
+import errno
 import json
 import os
 import tempfile
@@ -15,6 +16,9 @@ from agent_economy.study.answer import Answer
 from agent_economy.study.runs import Runs
 from agent_economy.study.versions import versions
 
+NAMES = ("runs.parquet", "report.html", "answer.json")
+"""What `write_all` writes."""
+
 
 def check_writable(folder: Path) -> None:
     """Make a study's folder, if it is not there, and see that files can be written in it.
@@ -26,6 +30,9 @@ def check_writable(folder: Path) -> None:
         folder.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=folder):
             pass
+        for name in NAMES:
+            if (folder / name).is_dir():
+                raise IsADirectoryError(errno.EISDIR, f"{name} in it is a folder")
     except OSError as error:
         message = f"{folder}: cannot be written in ({error.strerror}): must be a folder to write in"
         raise InputError(message) from None
@@ -41,17 +48,17 @@ def write_all(folder: Path, runs: Runs, answer: Answer, page: str) -> None:
         InputError: If they cannot be written.
     """
     text = json.dumps(answer_dict(answer), indent=2, allow_nan=False) + "\n"
-    writers: dict[str, Callable[[Path], object]] = {
-        "runs.parquet": lambda path: pq.write_table(runs.table(), path, compression="zstd"),
-        "report.html": lambda path: path.write_text(page, encoding="utf-8"),
-        "answer.json": lambda path: path.write_text(text, encoding="utf-8"),
-    }
+    writers: tuple[Callable[[Path], object], ...] = (
+        lambda path: pq.write_table(runs.table(), path, compression="zstd"),
+        lambda path: path.write_text(page, encoding="utf-8"),
+        lambda path: path.write_text(text, encoding="utf-8"),
+    )
     try:
         with tempfile.TemporaryDirectory(dir=folder, prefix=".unfinished-") as unfinished:
-            for name, write in writers.items():
+            for name, write in zip(NAMES, writers, strict=True):
                 write(Path(unfinished) / name)
                 sync(Path(unfinished) / name)
-            for name in writers:
+            for name in NAMES:
                 (Path(unfinished) / name).replace(folder / name)
     except OSError as error:
         message = f"{folder}: cannot be written in ({error.strerror or error})"

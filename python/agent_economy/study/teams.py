@@ -64,7 +64,7 @@ class PublishedResult:
     time_s: float
     failed: int
     failed_share: float
-    merit: float
+    merit: Estimate
 
 
 def team(runs: Runs, robots: int, best: int) -> TeamResult:
@@ -104,8 +104,13 @@ def published_team(
     merit: Merit, cap_s: float, robots: int, times_s: list[float]
 ) -> PublishedResult:
     """Return one published team, scored; a time at the cap is a failed run."""
-    failed = sum(time_s >= cap_s for time_s in times_s)
-    failed_share = failed / len(times_s)
-    time_s = sum(times_s) / len(times_s)
-    score = merit.score(time_s, robots, failed_share)
-    return PublishedResult(robots, times_s, time_s, failed, failed_share, score)
+    times = np.array(times_s)
+    failed = times >= cap_s
+    return PublishedResult(
+        robots=robots,
+        times_s=times_s,
+        time_s=float(np.mean(times)),
+        failed=int(np.sum(failed)),
+        failed_share=float(np.mean(failed)),
+        merit=estimate.mean(merit.score(times, robots, failed.astype(float))),
+    )

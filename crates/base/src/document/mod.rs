@@ -18,7 +18,7 @@
 //!     .unwrap_err();
 //! assert_eq!(
 //!     faults.to_string(),
-//!     "--cap: cap_s = -1: must be a number from 0 to 1000000\n\
+//!     "--cap: cap_s = -1.0: must be a number from 0 to 1000000\n\
 //!      job.toml:3: robots.count = 0: must be a whole number from 1 to 100"
 //! );
 //! # Ok::<(), base::fault::Faults>(())
@@ -70,7 +70,7 @@ impl fmt::Display for Value {
         match self {
             Self::Bool(value) => write!(f, "{value}"),
             Self::Integer(value) => write!(f, "{value}"),
-            Self::Float(value) => f.write_str(&written(*value)),
+            Self::Float(value) => write!(f, "{value:?}"),
             Self::Text(value) => write!(f, "{value:?}"),
             Self::Date(value) => write!(f, "{value}"),
             Self::List(items) => {
@@ -82,7 +82,7 @@ impl fmt::Display for Value {
     }
 }
 
-/// A number as a person writes it: `120` and not `120.0`, `1e308` and not three hundred digits.
+/// An end of a range as a person writes it: `120` and not `120.0`, `1e308` and not 300 digits.
 pub(crate) fn written(value: f64) -> String {
     let shortest = format!("{value:?}");
     shortest.strip_suffix(".0").unwrap_or(&shortest).to_owned()

@@ -132,14 +132,14 @@ impl<'d> Section<'d> {
         numbers.filter(|numbers| !numbers.is_empty())
     }
 
-    /// The text at `key`.
+    /// The text at `key`, if it is a line: not empty, and without control characters.
     #[must_use]
-    pub fn text(&self, key: &str) -> Option<&'d str> {
-        self.parsed(key, "a text in quotes", |_| Some(()))?;
-        match &self.node(key)?.value {
-            Value::Text(value) => Some(value),
-            _ => None,
-        }
+    pub fn line(&self, key: &str) -> Option<String> {
+        let breaks = |c: char| c.is_control() || matches!(c, '\u{2028}' | '\u{2029}');
+        self.parsed(key, "a line of text in quotes", |text| {
+            let is_line = !text.trim().is_empty() && !text.contains(breaks);
+            is_line.then(|| text.to_owned())
+        })
     }
 
     /// What `parse` makes of the text at `key`, if it makes something; else it must be `allowed`.

@@ -52,7 +52,7 @@ fn nan_and_numbers_beyond_64_bits_are_out_of_every_range() {
     let faults = faults_of(text, |root| {
         let a = root.number("a", f64::MIN..=f64::MAX);
         let b = root.integer("b", i64::MIN..=i64::MAX);
-        let c = root.text("c");
+        let c = root.line("c");
         a.and(b).and(c).map(|_| ())
     });
     assert_eq!(faults.len(), 3, "{faults:?}");
@@ -89,6 +89,18 @@ fn each_bad_number_of_a_list_is_told_with_its_place() {
             "job.toml:2: b = []: must be a list of at least one number",
         ]
     );
+}
+
+#[test]
+fn a_line_is_neither_empty_nor_broken() {
+    for text in ["''", "' '", r#""a\nb""#, r#""\u2028""#, r#""\u0000""#] {
+        let faults = faults_of(&format!("a = {text}"), |root| root.line("a").map(|_| ()));
+        assert_eq!(faults.len(), 1, "{text}");
+        assert!(
+            faults[0].ends_with("must be a line of text in quotes"),
+            "{faults:?}"
+        );
+    }
 }
 
 #[test]

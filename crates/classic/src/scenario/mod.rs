@@ -103,7 +103,7 @@ fn scenario(root: &Section) -> Option<Scenario> {
         "published",
     ]);
     let engine = root.choice("engine", &[("classic", ())]);
-    let summary = root.text("summary");
+    let summary = root.line("summary");
     let contact = root.choice("contact", &Contact::NAMES);
     let merits = Merit::ALL.map(|merit| (merit.name, merit));
     let merit = root.choice("merit", &merits);
@@ -115,7 +115,7 @@ fn scenario(root: &Section) -> Option<Scenario> {
         .then(|| published::published(&root.section("published")));
     engine?;
     Some(Scenario {
-        summary: summary?.to_owned(),
+        summary: summary?,
         contact: contact?,
         merit: merit?,
         clock: clock?,
@@ -157,7 +157,7 @@ vary = { "robots.wanderer.count" = "1..3, 8" }
 source = "Someone"
 choice = 3
 cap_s = 120
-times_s = { 10 = [120], 2 = [4, 5.5] }
+times_s = { 10 = [120, 120], 2 = [4, 5.5] }
 "#;
 
     fn faults(text: &str) -> String {
@@ -171,7 +171,7 @@ times_s = { 10 = [120], 2 = [4, 5.5] }
         assert_eq!(scenario.merit, Merit::EQUATION);
         assert_eq!(scenario.study.team_sizes, [1, 2, 3, 8]);
         let times = scenario.published.unwrap().times_s;
-        assert_eq!(times, [(2, vec![4.0, 5.5]), (10, vec![120.0])]);
+        assert_eq!(times, [(2, vec![4.0, 5.5]), (10, vec![120.0, 120.0])]);
     }
 
     #[test]

@@ -19,12 +19,12 @@ pub struct Published {
 
 pub(super) fn published(section: &Section) -> Option<Published> {
     section.only(&["source", "choice", "cap_s", "times_s"]);
-    let source = section.text("source");
+    let source = section.line("source");
     let choice = section.integer("choice", 1..=MAX_ROBOTS.into());
     let cap_s = section.number("cap_s", 0.0..=MAX_CAP_S);
     let times_s = times_s(&section.section("times_s"), cap_s.unwrap_or(MAX_CAP_S));
     Some(Published {
-        source: source?.to_owned(),
+        source: source?,
         choice: u32::try_from(choice?).ok()?,
         cap_s: cap_s?,
         times_s: times_s?,
@@ -42,7 +42,12 @@ fn times_s(teams: &Section, max_s: f64) -> Option<Vec<(u32, Vec<f64>)>> {
             teams.fault(key, &format!("under a team size from 1 to {MAX_ROBOTS}"));
             return None;
         };
-        Some((robots, teams.numbers(key, 0.0..=max_s)?))
+        let times_s = teams.numbers(key, 0.0..=max_s)?;
+        if times_s.len() < 2 {
+            teams.fault(key, "two times or more: one has no interval");
+            return None;
+        }
+        Some((robots, times_s))
     };
     let times: Vec<_> = teams.keys().map(times_of).collect();
     let mut times_s: Vec<(u32, Vec<f64>)> = times.into_iter().collect::<Option<_>>()?;
