@@ -69,7 +69,7 @@ def replicate(
 
     Args:
         robots: Team size, 1 to 250.
-        runs: How many, 0 to 100,000,000.
+        runs: How many, 0 to 10,000,000.
         contact: What counts as finding an item.
         seed: 0 to 2^64 - 1. Run r of a seed is the same in every call.
         threads: 1 to 1024; None for as many as there are processors. It changes no result.

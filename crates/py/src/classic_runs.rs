@@ -12,8 +12,8 @@ use pyo3::prelude::*;
 type Column<'py> = Bound<'py, PyArray1<i64>>;
 type OutcomeColumns<'py> = (Column<'py>, Column<'py>, Column<'py>);
 
-/// Runs of one call: an outcome takes 24 bytes.
-const MAX_RUNS: u64 = 100_000_000;
+/// Runs of one call: some half a gigabyte of outcomes and columns.
+const MAX_RUNS: u64 = 10_000_000;
 
 /// Outcomes of runs with random starts: arrays (runs,) of paints (-1 = proven never), found and
 /// collisions.

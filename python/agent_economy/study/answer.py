@@ -17,8 +17,8 @@ class Answer:
     Attributes:
         scenario: What was asked.
         seed: Of all random starts.
-        best: TeamResult size with the highest merit.
-        tied: TeamResult sizes that cannot be told apart from it.
+        best: Team size with the highest merit.
+        tied: Team sizes that cannot be told apart from it.
         sentence: The answer for people.
         teams: Each team, ascending.
         published: Results of others, with the same merit.

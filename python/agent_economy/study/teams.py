@@ -22,7 +22,7 @@ class TeamResult:
     """What the runs of one team came to.
 
     Attributes:
-        robots: TeamResult size.
+        robots: Team size.
         runs: How many.
         time_s: Mean time, capped.
         failed: How many runs failed.
