@@ -147,7 +147,7 @@ def test_ctrl_c_ends_within_a_second_says_what_was_done_and_leaves_no_file(
         process.kill()
     assert process.returncode == 130
     # The promise is one second; the bound allows for a busy machine.
-    assert seconds < 2
+    assert seconds < 3
     assert re.search(r"Stopped after [\d,]+ runs; nothing was written\.", errors)
     assert "Traceback" not in errors
     assert list((tmp_path / "out").iterdir()) == []
