@@ -43,7 +43,7 @@ def trace(start: list[dict[str, float]], decisions: int) -> dict[str, Any]:
     Args:
         start: For each robot (1 to 250) `x` and `y` in px with a cell in the grid (-10 to below
             490; 20 px a cell), `heading` 0, 45, ..., 360 and `speed` 0, 1 or 2.
-        decisions: How many decisions to return, 0 to 1,000,000.
+        decisions: How many decisions to return, 0 to 1,000,000 divided by the robots.
 
     Returns:
         `start_grid`: hash of the grid at the start. `paints`: after each of paints 1 to 34 a list

@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,8 +11,6 @@ from agent_economy._core import InputError
 
 TEAM_SIZE_PATH = "robots.wanderer.count"
 """Path of the factor that a study of the classic engine varies."""
-
-Number = TypeVar("Number", float, NDArray[np.float64])
 
 
 @dataclass(frozen=True)
@@ -32,8 +29,10 @@ class Merit:
     robots: float
     failed: float
 
-    def score(self, time_s: Number, robots: int, failed: Number) -> Number:
-        """Return the merit of a run; of means, the mean merit. Numbers, or arrays of one shape."""
+    def score(
+        self, time_s: NDArray[np.float64], robots: int, failed: NDArray[np.bool_]
+    ) -> NDArray[np.float64]:
+        """Return the merit of each of a team's runs; all arrays of shape (runs,)."""
         return self.time_s * time_s + self.robots * robots + self.failed * failed
 
 

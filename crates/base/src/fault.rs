@@ -18,6 +18,18 @@ pub struct Fault {
 }
 
 impl Fault {
+    /// What was `given` at `path`, or is missing there, is not what is `allowed`.
+    #[must_use]
+    pub fn new(path: String, given: Option<String>, allowed: String) -> Self {
+        Self {
+            origin: None,
+            path,
+            given,
+            allowed,
+            suggestion: None,
+        }
+    }
+
     /// A name that is none of `names`; `word` is its bare text, to find the one that was meant.
     pub fn not_one_of<'n>(
         path: String,
@@ -27,11 +39,8 @@ impl Fault {
     ) -> Self {
         let quoted: Vec<String> = names.clone().map(|name| format!("{name:?}")).collect();
         Self {
-            origin: None,
-            path,
-            given,
-            allowed: format!("one of {}", quoted.join(", ")),
             suggestion: nearest(word, names).map(|name| format!("{name:?}")),
+            ..Self::new(path, given, format!("one of {}", quoted.join(", ")))
         }
     }
 }

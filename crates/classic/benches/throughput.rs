@@ -30,18 +30,13 @@ fn robot_decisions(robots: u32, runs: u64, task: Task) -> u64 {
 
 fn fast_form(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("fast form");
-    for (robots, contact_name, threads) in [
-        (4, "neighbour", 1),
-        (4, "neighbour", 2),
-        (4, "touch", 1),
-        (1, "neighbour", 1),
-        (8, "neighbour", 1),
+    for (robots, contact, threads) in [
+        (4, Contact::Neighbour, 1),
+        (4, Contact::Neighbour, 2),
+        (4, Contact::Touch, 1),
+        (1, Contact::Neighbour, 1),
+        (8, Contact::Neighbour, 1),
     ] {
-        let contact = Contact::NAMES
-            .iter()
-            .find(|(name, _)| *name == contact_name)
-            .unwrap()
-            .1;
         let task = Task {
             contact,
             cap_paints: 6720,
@@ -51,7 +46,7 @@ fn fast_form(criterion: &mut Criterion) {
             .build()
             .unwrap();
         group.throughput(Throughput::Elements(robot_decisions(robots, RUNS, task)));
-        let name = format!("{robots} robots, {contact_name}, {threads} thread(s)");
+        let name = format!("{robots} robots, {contact:?}, {threads} thread(s)");
         group.bench_function(name, |bencher| {
             bencher.iter(|| pool.install(|| replicate(black_box(robots), 0..RUNS, 1, task)));
         });

@@ -1,4 +1,4 @@
-//! What counts as finding an item. The original was timed by eye; these are six readings of that.
+//! What counts as finding an item. The original was timed by eye; these are six definitions of it.
 
 use crate::heading::Heading;
 use crate::world::{Cell, ITEMS};

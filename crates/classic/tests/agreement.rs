@@ -5,25 +5,30 @@ use classic::{Contact, FastSearch, Outcome, Task, search};
 
 const SEED: u64 = 2003;
 
-fn both(robots: u32, run: u64, task: Task) -> (Outcome, Outcome) {
+/// The outcome of a run, which both forms must give.
+fn agreed(robots: u32, run: u64, (name, contact): (&str, Contact), cap_paints: u64) -> Outcome {
+    let task = Task {
+        contact,
+        cap_paints,
+    };
     let cells = (0..robots).map(|index| random_cell(SEED, run, index));
     let fast = FastSearch::new(task).run(cells);
-    (search(&random_team(robots, SEED, run), task), fast)
+    let plain = search(&random_team(robots, SEED, run), task);
+    assert_eq!(
+        plain, fast,
+        "{name}, {robots} robots, run {run}, cap {cap_paints}"
+    );
+    plain
 }
 
 #[test]
 fn fast_and_plain_agree_on_millions_of_random_robot_decisions() {
     let mut robot_decisions = 0;
-    for (name, contact) in Contact::NAMES {
+    for contact in Contact::NAMES {
         for robots in [1, 2, 3, 4, 5, 8, 20] {
             for run in 0..300 {
-                let task = Task {
-                    contact,
-                    cap_paints: 6720,
-                };
-                let (plain, fast) = both(robots, run, task);
-                assert_eq!(plain, fast, "{name}, {robots} robots, run {run}");
-                robot_decisions += u64::from(robots) * plain.paints.unwrap_or(6720) / 11;
+                let outcome = agreed(robots, run, contact, 6720);
+                robot_decisions += u64::from(robots) * outcome.paints.unwrap_or(6720) / 11;
             }
         }
     }
@@ -32,28 +37,18 @@ fn fast_and_plain_agree_on_millions_of_random_robot_decisions() {
 
 #[test]
 fn fast_and_plain_agree_on_the_largest_team() {
-    for (name, contact) in Contact::NAMES {
+    for contact in Contact::NAMES {
         for run in 0..10 {
-            let task = Task {
-                contact,
-                cap_paints: 6720,
-            };
-            let (plain, fast) = both(MAX_ROBOTS, run, task);
-            assert_eq!(plain, fast, "{name}, run {run}");
+            agreed(MAX_ROBOTS, run, contact, 6720);
         }
     }
 }
 
 #[test]
 fn fast_and_plain_agree_on_where_a_cap_cuts_the_counts() {
-    for (name, contact) in Contact::NAMES {
+    for contact in Contact::NAMES {
         for run in 0..400 {
-            let task = Task {
-                contact,
-                cap_paints: run * 7 % 1000,
-            };
-            let (plain, fast) = both(3, run, task);
-            assert_eq!(plain, fast, "{name}, run {run}, cap {}", task.cap_paints);
+            agreed(3, run, contact, run * 7 % 1000);
         }
     }
 }

@@ -61,13 +61,8 @@ impl Arguments {
 
     /// Notes that `given` is not what is `allowed`.
     pub(crate) fn fault(&self, path: &str, given: &Bound<PyAny>, allowed: String) {
-        self.faults.borrow_mut().push(Fault {
-            origin: None,
-            path: path.to_owned(),
-            given: Some(shown(given)),
-            allowed,
-            suggestion: None,
-        });
+        let fault = Fault::new(path.to_owned(), Some(shown(given)), allowed);
+        self.faults.borrow_mut().push(fault);
     }
 
     /// `value`, or an exception with all faults.

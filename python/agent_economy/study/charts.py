@@ -1,12 +1,13 @@
 """The charts of a report, as Vega-Lite specifications."""
 
+from collections.abc import Iterable
 from typing import Any
 
 import altair as alt
 import numpy as np
 
-from agent_economy.study import estimate
 from agent_economy.study.answer import Answer
+from agent_economy.study.estimate import Estimate, share
 from agent_economy.study.runs import Runs
 
 OURS = "this study"
@@ -32,40 +33,34 @@ def specifications(runs: Runs, answer: Answer) -> dict[str, dict[str, Any]]:
 
 def merit_chart(answer: Answer) -> Chart:
     """Return the figure of merit by team size, with intervals, beside the published ones."""
-    ours = [
-        {"robots": team.robots, "source": OURS, **interval(team.merit)} for team in answer.teams
-    ]
-    published = [
-        {"robots": team.robots, "source": source(answer), **interval(team.merit)}
-        for team in answer.published
-    ]
-    return with_intervals(ours + published, "figure of merit (higher is better)")
+    ours = estimates(OURS, ((team.robots, team.merit) for team in answer.teams))
+    theirs = estimates(source(answer), ((team.robots, team.merit) for team in answer.published))
+    return with_intervals(ours + theirs, "figure of merit (higher is better)")
 
 
 def nearest_chart(answer: Answer) -> Chart:
     """Return how far the nearest teams are behind the best, on a scale of their own."""
     behind = [(team.robots, team.behind_best) for team in answer.teams if team.behind_best]
     nearest = sorted(behind, key=lambda pair: pair[1].value)[:NEAREST_TEAMS]
-    best = {"robots": answer.best, "source": OURS, "value": 0.0, "low": 0.0, "high": 0.0}
-    rows = [{"robots": robots, "source": OURS, **interval(given)} for robots, given in nearest]
-    return with_intervals([best, *rows], "merit behind the best (lower is better)")
+    best = (answer.best, Estimate(0.0, 0.0, 0.0))
+    rows = estimates(OURS, [best, *nearest])
+    return with_intervals(rows, "merit behind the best (lower is better)")
 
 
 def failed_chart(answer: Answer) -> Chart:
     """Return the share of failed searches by team size, with exact intervals."""
-    ours = [
-        {"robots": team.robots, "source": OURS, **interval(team.failed_share)}
-        for team in answer.teams
+    ours = estimates(OURS, ((team.robots, team.failed_share) for team in answer.teams))
+    published = ((team.robots, share(team.failed, len(team.times_s))) for team in answer.published)
+    theirs = estimates(source(answer), published)
+    return with_intervals(ours + theirs, "share of searches failed", axis=alt.Axis(format="%"))
+
+
+def estimates(named: str, pairs: Iterable[tuple[int, Estimate]]) -> Rows:
+    """Return a row a team size and estimate, all of one source."""
+    return [
+        {"robots": robots, "source": named, "value": each.value, "low": each.low, "high": each.high}
+        for robots, each in pairs
     ]
-    published = [
-        {
-            "robots": team.robots,
-            "source": source(answer),
-            **interval(estimate.share(team.failed, len(team.times_s))),
-        }
-        for team in answer.published
-    ]
-    return with_intervals(ours + published, "share of searches failed", axis=alt.Axis(format="%"))
 
 
 def times_chart(runs: Runs, answer: Answer) -> Chart:
@@ -81,13 +76,15 @@ def times_chart(runs: Runs, answer: Answer) -> Chart:
         for time_s in team.times_s
     ]
     title = f"time of a search, capped at {answer.scenario.cap_s:g} s (s)"
-    base = beside(alt.Chart(data(rows)), sources(answer))
+    base = beside(alt.Chart(data(rows)), sources(rows + points))
     low_high = base.mark_rule(size=2).encode(alt.Y("p5:Q", title=title), y2="p95:Q")
     quartiles = base.mark_bar(size=14, opacity=0.55).encode(alt.Y("p25:Q"), y2="p75:Q")
     median = base.mark_tick(size=20, thickness=3).encode(alt.Y("p50:Q"))
     layers = [low_high, quartiles, median]
     if points:
-        circles = beside(alt.Chart(data(points)), sources(answer)).mark_point(size=28, opacity=0.8)
+        circles = beside(alt.Chart(data(points)), sources(rows + points)).mark_point(
+            size=28, opacity=0.8
+        )
         tooltip = ["source:N", "robots:O", "time_s:Q"]
         layers.append(circles.encode(alt.Y("time_s:Q"), tooltip=tooltip))
     return sized(alt.layer(*layers))
@@ -95,7 +92,7 @@ def times_chart(runs: Runs, answer: Answer) -> Chart:
 
 def with_intervals(rows: Rows, title: str, axis: alt.Axis | None = None) -> Chart:
     """Return points with intervals by team size, one colour and shape a source."""
-    named = sorted({row["source"] for row in rows}, key=lambda name: name != OURS)
+    named = sources(rows)
     base = beside(alt.Chart(data(rows)), named)
     bars = base.mark_errorbar(ticks=True, thickness=2).encode(
         alt.Y("low:Q", title=title), y2="high:Q"
@@ -119,14 +116,9 @@ def beside(chart: alt.Chart, named: list[str]) -> alt.Chart:
     )
 
 
-def sources(answer: Answer) -> list[str]:
-    """Return how charts name ours and, if there are any, the published results."""
-    return [OURS, source(answer)] if answer.published else [OURS]
-
-
-def interval(given: estimate.Estimate) -> dict[str, float]:
-    """Return an estimate as columns."""
-    return {"value": given.value, "low": given.low, "high": given.high}
+def sources(rows: Rows) -> list[str]:
+    """Return the sources of rows, in the order of their first rows."""
+    return list(dict.fromkeys(row["source"] for row in rows))
 
 
 def source(answer: Answer) -> str:

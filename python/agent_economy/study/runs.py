@@ -131,7 +131,7 @@ def outcomes(
     """Return what a team's runs came to in seconds and merit."""
     failed = (paints < 0) | (paints > scenario.cap_paints)
     time_s = np.where(failed, scenario.cap_s, paints / scenario.paints_per_s)
-    merit = scenario.merit.score(time_s, robots, failed.astype(float))
+    merit = scenario.merit.score(time_s, robots, failed)
     return Outcomes(paints, found, collisions, time_s, failed, merit)
 
 

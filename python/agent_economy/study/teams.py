@@ -112,5 +112,5 @@ def published_team(
         time_s=float(np.mean(times)),
         failed=int(np.sum(failed)),
         failed_share=float(np.mean(failed)),
-        merit=estimate.mean(merit.score(times, robots, failed.astype(float))),
+        merit=estimate.mean(merit.score(times, robots, failed)),
     )

@@ -39,12 +39,10 @@ impl<'t> Lines<'t> {
     }
 
     fn fault(&self, error: &toml::de::Error) -> Fault {
+        let allowed = format!("not valid TOML: {}", error.message());
         Fault {
             origin: Some(self.origin(&error.span().unwrap_or(0..0))),
-            path: String::new(),
-            given: None,
-            allowed: format!("not valid TOML: {}", error.message()),
-            suggestion: None,
+            ..Fault::new(String::new(), None, allowed)
         }
     }
 

@@ -113,16 +113,9 @@ impl<'d> Section<'d> {
         let number = |(index, item): (usize, &Node)| {
             let number = as_number(item).filter(|number| range.contains(number));
             if number.is_none() {
-                self.push(
-                    key,
-                    Fault {
-                        origin: None,
-                        path: format!("{}[{index}]", self.path_of(key)),
-                        given: Some(item.value.to_string()),
-                        allowed: format!("a number from {low} to {high}"),
-                        suggestion: None,
-                    },
-                );
+                let path = format!("{}[{index}]", self.path_of(key));
+                let allowed = format!("a number from {low} to {high}");
+                self.push(key, Fault::new(path, Some(item.value.to_string()), allowed));
             }
             number
         };
@@ -180,14 +173,10 @@ impl<'d> Section<'d> {
     /// Tells that what stands at `key` is not what is `allowed` ("must be ...").
     pub fn fault(&self, key: &str, allowed: &str) {
         let given = self.node(key).map(|node| node.value.to_string());
-        let fault = Fault {
-            origin: None,
-            path: self.path_of(key),
-            given,
-            allowed: allowed.to_owned(),
-            suggestion: None,
-        };
-        self.push(key, fault);
+        self.push(
+            key,
+            Fault::new(self.path_of(key), given, allowed.to_owned()),
+        );
     }
 
     fn told<T>(&self, value: Option<T>, key: &str, allowed: impl Fn() -> String) -> Option<T> {
