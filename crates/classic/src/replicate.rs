@@ -7,7 +7,9 @@ use crate::world::Cell;
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Runs that one task takes from the pool: long enough to hide its cost, short enough to share.
+/// Runs that one task takes from the pool: long enough to hide its cost, short enough to share. It
+/// is the most and the least: left to itself, rayon makes pieces of a quarter of the work for two
+/// threads, and one of them then waits for the other's last.
 const RUNS_PER_TASK: usize = 64;
 
 /// The outcomes of `runs` (numbers, not a count) of a team with random starts, in their order.
@@ -64,6 +66,7 @@ fn in_parallel(
     numbers
         .par_iter()
         .with_min_len(RUNS_PER_TASK)
+        .with_max_len(RUNS_PER_TASK)
         .map_init(
             || FastSearch::new(task),
             |search, number| run(search, *number),
