@@ -106,7 +106,7 @@ def conclude(plan: Plan, evidence: Evidence, outcome: Outcome) -> Answer:
     return Answer(
         scenario=plan.scenario,
         seed=plan.seed,
-        sentence=in_words(plan, outcome.best, found, saturated),
+        sentence=in_words(plan.scenario, outcome.best, found),
         guarantee=outcome.guarantee,
         delta=plan.delta,
         confidence=plan.confidence,

@@ -1,85 +1,90 @@
 """The answer in words."""
 
-from agent_economy.scenario import Scenario
-from agent_economy.study.estimate import Estimate
-from agent_economy.study.teams import TeamResult
+from collections.abc import Sequence
+from typing import Protocol
+
+from agent_economy.scenario import Scenario, Value
+from agent_economy.study.evidence import Interval
+from agent_economy.study.labels import listed, order, robot_kind
+from agent_economy.study.ties import Standing, Verdict
+
+NAMED = 5
+"""Configurations that a sentence names one by one."""
 
 
-def in_words(scenario: Scenario, best: int, teams: tuple[TeamResult, ...]) -> str:
+class Told(Protocol):
+    """What a sentence needs to know of a configuration."""
+
+    @property
+    def values(self) -> dict[str, Value]: ...
+    @property
+    def label(self) -> str: ...
+    @property
+    def merit(self) -> Interval: ...
+    @property
+    def time_s(self) -> Interval: ...
+    @property
+    def failed(self) -> Interval: ...
+    @property
+    def standing(self) -> Standing: ...
+
+
+def in_words(scenario: Scenario, best: int, results: Sequence[Told]) -> str:
     """Return the answer: whom to send, what that gives, and how near the others are."""
-    by_size = {team.robots: team for team in teams}
+    chosen = results[best]
     parts = [
-        f"Send {robots(best)}: {performance(scenario, by_size[best])}",
-        *ties(teams),
-        *runner_up(scenario, teams),
-        *published_choice(scenario, best, by_size),
-        *edge(best, teams),
+        f"{order(chosen.values)}: {performance(chosen)}",
+        *others(results, "tied", "as good within the difference worth finding"),
+        *others(results, "undecided", "perhaps better, which these runs leave open"),
+        *published_choice(scenario, chosen, results),
+        *edges(chosen, results),
     ]
     return "; ".join(parts) + "."
 
 
-def robots(count: int) -> str:
-    """Return "1 robot", "2 robots", ..."""
-    return f"{count} robot" if count == 1 else f"{count} robots"
-
-
-def performance(scenario: Scenario, team: TeamResult) -> str:
-    """Return what a team does."""
+def performance(told: Told) -> str:
+    """Return what a configuration does."""
+    merit = told.merit
     return (
-        f"a search takes {team.time_s.value:.1f} s on average, {team.failed_share.value:.2%} fail "
-        f"(and count as {scenario.cap_s:g} s), figure of merit {team.merit.value:.2f} "
-        f"(95% interval {team.merit.low:.2f} to {team.merit.high:.2f})"
+        f"a run takes {told.time_s.value:.1f} s on average, {told.failed.value:.2%} fail, figure of "
+        f"merit {merit.value:.2f} ({merit.low:.2f} to {merit.high:.2f})"
     )
 
 
-def ties(teams: tuple[TeamResult, ...]) -> list[str]:
-    """Return the teams that cannot be told apart from the best."""
-    tied = [team for team in teams if team.is_tied]
-    if not tied:
+def others(results: Sequence[Told], verdict: Verdict, said: str) -> list[str]:
+    """Return what is said of all with one verdict."""
+    names = [each.label for each in results if each.standing.verdict == verdict]
+    if not names:
         return []
-    worst = max(team.behind_best.high for team in tied if team.behind_best)
-    runs = tied[0].runs
-    sizes = listed([str(team.robots) for team in tied])
-    return [f"{sizes} cannot be told apart from it with {runs:,} runs (at most {worst:.3f} worse)"]
+    named = names if len(names) <= NAMED else [*names[:NAMED], f"{len(names) - NAMED} more"]
+    return [f"{listed(named)} {'is' if len(names) == 1 else 'are'} {said}"]
 
 
-def listed(words: list[str]) -> str:
-    """Return "a", "a and b", "a, b and c"."""
-    *most, last = words
-    return f"{', '.join(most)} and {last}" if most else last
-
-
-def runner_up(scenario: Scenario, teams: tuple[TeamResult, ...]) -> list[str]:
-    """Return the nearest of the teams that are worse for sure, unless it is the published one."""
-    beaten = [(team.behind_best, team) for team in teams if team.behind_best and not team.is_tied]
-    if not beaten:
+def published_choice(scenario: Scenario, chosen: Told, results: Sequence[Told]) -> list[str]:
+    """Return how the published choice stands, where team size alone is varied."""
+    published = scenario.published
+    paths = list(chosen.values)
+    if not published or len(paths) != 1 or robot_kind(paths[0]) is None:
         return []
-    behind, team = min(beaten, key=lambda pair: pair[0].value)
-    if scenario.published and team.robots == scenario.published.choice:
+    theirs = next((each for each in results if each.values[paths[0]] == published.choice), None)
+    if theirs is None:
         return []
-    return [f"{team.robots} would cost {cost(behind)}"]
-
-
-def published_choice(scenario: Scenario, best: int, teams: dict[int, TeamResult]) -> list[str]:
-    """Return what the published choice costs, if it was run and is worse for sure."""
-    if not scenario.published:
+    if theirs is chosen:
+        return [f"{published.source} chose the same"]
+    behind = theirs.standing.behind
+    if behind is None or theirs.standing.verdict != "worse":
         return []
-    source, choice = scenario.published.source, scenario.published.choice
-    if choice == best:
-        return [f"{source} chose the same"]
-    team = teams.get(choice)
-    if not team or not team.behind_best or team.is_tied:
-        return []
-    return [f"the {choice} of {source} would cost {cost(team.behind_best)}"]
+    cost = f"{behind.value:.3f} of merit ({behind.low:.3f} to {behind.high:.3f})"
+    return [f"the {published.choice} of {published.source} would cost {cost}"]
 
 
-def cost(behind: Estimate) -> str:
-    """Return how far a team is behind the best."""
-    return f"{behind.value:.3f} of merit ({behind.low:.3f} to {behind.high:.3f})"
-
-
-def edge(best: int, teams: tuple[TeamResult, ...]) -> list[str]:
-    """Return a warning if a larger team than any that was run might be better still."""
-    if len(teams) > 1 and best == teams[-1].robots:
-        return ["it is the largest team that was run, and a larger one may be better still"]
-    return []
+def edges(chosen: Told, results: Sequence[Told]) -> list[str]:
+    """Return a warning for each team size that was not compared with larger ones."""
+    kinds = []
+    for path, size in chosen.values.items():
+        sizes = {each.values[path] for each in results}
+        if robot_kind(path) is not None and len(sizes) > 1 and size == max(sizes, key=float):
+            kinds.append(robot_kind(path))
+    return [
+        f"no team with more {kind}s was compared, and one may be better still" for kind in kinds
+    ]

@@ -5,7 +5,7 @@ from typing import Literal
 
 from agent_economy.study.evidence import Evidence, Interval
 
-Verdict = Literal["best", "tied", "worse", "undecided"]
+Verdict = Literal["best", "tied", "worse", "no better", "undecided"]
 
 
 @dataclass(frozen=True)
@@ -14,8 +14,9 @@ class Standing:
 
     Attributes:
         behind: The selected one's mean merit less this one's; None for the selected one itself.
-        verdict: "tied": the two differ by delta at most, for sure. "worse": for sure, if perhaps by
-            little. "undecided": the runs leave it open.
+        verdict: "tied": for sure, the two differ by delta at most. "worse": for sure, if perhaps by
+            little. "no better": for sure, it is not better by more than delta; whether it is worse
+            is open. "undecided": even that is open.
     """
 
     behind: Interval | None
@@ -35,4 +36,6 @@ def standing(evidence: Evidence, best: int, other: int, delta: float) -> Standin
     behind = evidence.difference(best, other, "merit")
     if -delta <= behind.low and behind.high <= delta:
         return Standing(behind, "tied")
-    return Standing(behind, "worse" if behind.low > 0 else "undecided")
+    if behind.low > 0:
+        return Standing(behind, "worse")
+    return Standing(behind, "no better" if behind.low >= -delta else "undecided")
