@@ -1,27 +1,52 @@
-from typing import Any
+from typing import Any, Literal, final
 
 import numpy as np
 from numpy.typing import NDArray
 
 __all__ = [
     "CONTACTS",
+    "FACTORS",
     "MERITS",
+    "MERIT_TERMS",
+    "Configuration",
     "InputError",
     "exhaust",
     "random_start",
+    "read_configuration",
     "read_scenario",
     "replicate",
+    "run_block",
     "trace",
 ]
 
 CONTACTS: list[str]
+FACTORS: list[str]
 MERITS: list[str]
+MERIT_TERMS: list[str]
 
 class InputError(ValueError): ...
 
+@final
+class Configuration:
+    @property
+    def columns(
+        self,
+    ) -> list[tuple[str, Literal["whole", "real", "flag"], float | None, float | None]]: ...
+
 def read_scenario(
-    file: str, text: str, overrides: list[tuple[list[str], str | float, str]]
+    file: str, text: str, overrides: list[tuple[list[str], str | float | dict[str, Any], str]]
 ) -> dict[str, Any]: ...
+def read_configuration(
+    file: str, text: str, overrides: list[tuple[list[str], str | float | dict[str, Any], str]]
+) -> Configuration: ...
+def run_block(
+    configurations: list[Configuration],
+    *,
+    seed: int,
+    first_run: int,
+    runs: int,
+    threads: int | None,
+) -> dict[str, NDArray[np.float64]]: ...
 def trace(start: list[dict[str, float]], decisions: int) -> dict[str, Any]: ...
 def random_start(robots: int, seed: int, run: int) -> list[dict[str, float]]: ...
 def replicate(

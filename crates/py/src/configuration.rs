@@ -19,6 +19,9 @@ const MAX_RUNS: u64 = 10_000_000;
 /// wait after Ctrl-C is one task's. Starting one costs less than a microsecond.
 const RUNS_PER_TASK: u64 = 16;
 
+/// Tasks whose results wait as they came, so that these take little memory beside the columns.
+const TASKS_BEFORE_JOINING: usize = 4096;
+
 type ColumnTuple = (&'static str, &'static str, Option<f64>, Option<f64>);
 
 /// A scenario with values for everything that a study varies, ready to be run.
@@ -63,6 +66,10 @@ pub(crate) fn read_configuration(
 /// Runs `first_run` and on of each configuration: by column, an array (configurations, runs).
 #[pyfunction]
 #[pyo3(signature = (configurations, *, seed, first_run, runs, threads))]
+#[expect(
+    clippy::too_many_arguments,
+    reason = "Python's keywords arrive one by one"
+)]
 pub(crate) fn run_block<'py>(
     py: Python<'py>,
     configurations: &Bound<'py, PyAny>,
@@ -118,31 +125,36 @@ fn in_tasks(
     runs: &Range<u64>,
     stop: &AtomicBool,
 ) -> Vec<Vec<f64>> {
-    let parts = || {
-        let firsts = runs.clone().step_by(RUNS_PER_TASK as usize);
-        firsts.map(|first| first..runs.end.min(first + RUNS_PER_TASK))
-    };
     let tasks = runners
         .iter()
-        .flat_map(|runner| parts().map(move |part| (runner, part)));
+        .flat_map(|runner| parts(runs).map(move |part| (runner, part)));
     let tasks: Vec<_> = tasks.collect();
-    let task = |(runner, part): &(&&dyn Runner, Range<u64>)| {
-        if stop.load(Ordering::Relaxed) {
-            return Vec::new();
+    let mut columns = vec![Vec::new(); number_of_columns(runners)];
+    for some in tasks.chunks(TASKS_BEFORE_JOINING) {
+        let done = some.par_iter().with_max_len(1).map(|(runner, part)| {
+            let is_wanted = !stop.load(Ordering::Relaxed);
+            is_wanted.then(|| runner.run_block(seed, part.clone()))
+        });
+        let done: Vec<Option<Vec<Vec<f64>>>> = done.collect();
+        for block in done.into_iter().flatten() {
+            for (column, values) in columns.iter_mut().zip(block) {
+                column.extend(values);
+            }
         }
-        runner.run_block(seed, part.clone())
-    };
-    let done: Vec<Vec<Vec<f64>>> = tasks.par_iter().with_max_len(1).map(task).collect();
-    joined(runners, &done)
+    }
+    columns
 }
 
-fn joined(runners: &[&dyn Runner], done: &[Vec<Vec<f64>>]) -> Vec<Vec<f64>> {
-    let columns = runners.first().map_or(0, |runner| runner.columns().len());
-    let column = |index: usize| {
-        let parts = done.iter().filter_map(|part| part.get(index));
-        parts.flatten().copied().collect()
-    };
-    (0..columns).map(column).collect()
+/// Ranges of at most [`RUNS_PER_TASK`] that make up `runs`.
+fn parts(runs: &Range<u64>) -> impl Iterator<Item = Range<u64>> {
+    let Range { start, end } = *runs;
+    let firsts =
+        (0..(end - start).div_ceil(RUNS_PER_TASK)).map(move |part| start + part * RUNS_PER_TASK);
+    firsts.map(move |first| first..end.min(first + RUNS_PER_TASK))
+}
+
+fn number_of_columns(runners: &[&dyn Runner]) -> usize {
+    runners.first().map_or(0, |runner| runner.columns().len())
 }
 
 fn as_dict<'py>(

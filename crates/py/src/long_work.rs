@@ -69,11 +69,15 @@ fn result_or_stop<T>(results: &Receiver<T>, stop: &AtomicBool) -> PyResult<T> {
                 return Err(PyRuntimeError::new_err("the work gave nothing"));
             }
             Err(RecvTimeoutError::Timeout) => {
-                Python::attach(|py| py.check_signals())
+                Python::attach(look_for_signals)
                     .inspect_err(|_| stop.store(true, Ordering::Relaxed))?;
             }
         }
     }
+}
+
+fn look_for_signals(py: Python<'_>) -> PyResult<()> {
+    py.check_signals()
 }
 
 /// Threads that were made for a process and a number of them.
