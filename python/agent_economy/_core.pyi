@@ -5,21 +5,28 @@ from numpy.typing import NDArray
 
 __all__ = [
     "CONTACTS",
+    "FACTORS",
     "MERITS",
+    "MERIT_TERMS",
+    "Configuration",
     "InputError",
     "Procedure",
     "exhaust",
     "mean_bounds",
     "mean_exceeds",
     "random_start",
+    "read_configuration",
     "read_scenario",
     "replicate",
+    "run_block",
     "selection",
     "trace",
 ]
 
 CONTACTS: list[str]
+FACTORS: list[str]
 MERITS: list[str]
+MERIT_TERMS: list[str]
 
 class InputError(ValueError): ...
 
@@ -50,9 +57,27 @@ def mean_exceeds(
     values: NDArray[np.float64], bounds: tuple[float, float], candidate: float, alpha: float
 ) -> bool: ...
 
+@final
+class Configuration:
+    @property
+    def columns(
+        self,
+    ) -> list[tuple[str, Literal["whole", "real", "flag"], float | None, float | None]]: ...
+
 def read_scenario(
-    file: str, text: str, overrides: list[tuple[list[str], str | float, str]]
+    file: str, text: str, overrides: list[tuple[list[str], str | float | dict[str, Any], str]]
 ) -> dict[str, Any]: ...
+def read_configuration(
+    file: str, text: str, overrides: list[tuple[list[str], str | float | dict[str, Any], str]]
+) -> Configuration: ...
+def run_block(
+    configurations: list[Configuration],
+    *,
+    seed: int,
+    first_run: int,
+    runs: int,
+    threads: int | None,
+) -> dict[str, NDArray[np.float64]]: ...
 def trace(start: list[dict[str, float]], decisions: int) -> dict[str, Any]: ...
 def random_start(robots: int, seed: int, run: int) -> list[dict[str, float]]: ...
 def replicate(

@@ -65,7 +65,7 @@ def study(  # noqa: PLR0913  (typer's options are arguments)
     *,
     vary: Annotated[
         list[str] | None,
-        typer.Option(help="Team sizes to compare, as robots.wanderer.count=1..12 or =1,2,4."),
+        typer.Option(help="What to compare, as robots.wanderer.count=1..12 or =1,2,4."),
     ] = None,
     runs: Annotated[int | None, typer.Option(help="Runs of each team.")] = None,
     contact: Annotated[
@@ -73,7 +73,10 @@ def study(  # noqa: PLR0913  (typer's options are arguments)
         typer.Option(help=f"What counts as finding an item: {', '.join(CONTACTS)}."),
     ] = None,
     merit: Annotated[
-        str | None, typer.Option(help=f"How runs are scored: {', '.join(MERITS)}.")
+        str | None,
+        typer.Option(
+            help=f"How runs are scored: {', '.join(MERITS)} or weights, as time=-0.03,robots=-0.2."
+        ),
     ] = None,
     seed: Annotated[
         int, typer.Option(min=0, max=2**64 - 1, help="Of the random starts: same seed, same bytes.")

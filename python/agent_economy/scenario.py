@@ -1,39 +1,21 @@
 """What a job is: a scenario, read from a TOML file and checked as a whole."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
-
-import numpy as np
-from numpy.typing import NDArray
+from typing import Any
 
 from agent_economy import _core
 from agent_economy._core import InputError
+from agent_economy.merit import Merit, Term, in_words
 
 TEAM_SIZE_PATH = "robots.wanderer.count"
 """Path of the factor that a study of the classic engine varies."""
 
+Value = str | int | float
+"""A value of a factor."""
 
-@dataclass(frozen=True)
-class Merit:
-    """Weights of a figure of merit; higher is better, so all are at most 0.
-
-    Attributes:
-        name: How scenarios name it.
-        time_s: For each second of a run, capped.
-        robots: For each robot.
-        failed: For a failed run.
-    """
-
-    name: str
-    time_s: float
-    robots: float
-    failed: float
-
-    def score(
-        self, time_s: NDArray[np.float64], robots: int, failed: NDArray[np.bool_]
-    ) -> NDArray[np.float64]:
-        """Return the merit of each of a team's runs; all arrays of shape (runs,)."""
-        return self.time_s * time_s + self.robots * robots + self.failed * failed
+VARY = "study.vary."
 
 
 @dataclass(frozen=True)
@@ -54,12 +36,40 @@ class Published:
 
 
 @dataclass(frozen=True)
+class Factor:
+    """What is varied, and over what: `values`, or any number of `range`.
+
+    Attributes:
+        path: Keys from the scenario's root, with dots between.
+        values: Numbers in ascending order, or names in the order given; empty for a range.
+        range: The least and the greatest number; None for values.
+    """
+
+    path: str
+    values: tuple[Value, ...]
+    range: tuple[float, float] | None = None
+
+
+@dataclass(frozen=True)
 class Override:
     """A value put over what the file says; `origin` is how faults name it, such as --contact."""
 
     path: tuple[str, ...]
-    value: str | float
+    value: Value | dict[str, Any]
     origin: str
+
+
+@dataclass(frozen=True)
+class Source:
+    """What a scenario was read from: a text, how faults name it, and what was put over it."""
+
+    file: str
+    text: str = field(repr=False)
+    overrides: tuple[Override, ...]
+
+    def changes(self) -> list[tuple[list[str], Value | dict[str, Any], str]]:
+        """Return the overrides as the compiled part takes them."""
+        return [(list(each.path), each.value, each.origin) for each in self.overrides]
 
 
 @dataclass(frozen=True)
@@ -68,6 +78,7 @@ class Scenario:
 
     Attributes:
         name: The file's name without its ending.
+        source: What it was read from.
         summary: One line for people.
         contact: What counts as finding an item.
         merit: How runs are scored.
@@ -76,11 +87,16 @@ class Scenario:
         cap_paints: The last paint that is not beyond the cap.
         robots: Robots in a single run.
         runs: Runs of each team in a study.
-        team_sizes: The teams that a study compares, ascending.
+        team_sizes: The teams that a study compares, ascending; empty if it varies anything else.
+        factors: What a study varies, if anything; in a fixed order.
+        design: Which configurations it compares: "factorial", "lhs:N" or "sobol:N" (N points).
+        delta: A difference of merit that is worth knowing, above 0; None if the file has none.
+        confidence: How often the answer is to be right: above 0.5, below 1.
         published: Results of others, if the file has them.
     """
 
     name: str
+    source: Source
     summary: str
     contact: str
     merit: Merit
@@ -90,6 +106,10 @@ class Scenario:
     robots: int
     runs: int
     team_sizes: tuple[int, ...]
+    factors: tuple[Factor, ...]
+    design: str
+    delta: float | None
+    confidence: float
     published: Published | None
 
     @classmethod
@@ -121,19 +141,73 @@ class Scenario:
         Raises:
             InputError: If anything in it is wrong; all faults at once.
         """
-        changes = [(list(each.path), each.value, each.origin) for each in overrides]
-        fields = _core.read_scenario(file, text, changes)
-        published = fields.pop("published")
+        source = Source(file, text, overrides)
+        fields = _core.read_scenario(file, text, source.changes())
+        factors = tuple(map(factor, fields.pop("factors")))
         return cls(
             name=Path(file).stem.strip(".") or "scenario",
-            merit=Merit(**fields.pop("merit")),
-            team_sizes=tuple(fields.pop("team_sizes")),
-            published=published
-            and Published(
-                source=published["source"],
-                choice=published["choice"],
-                cap_s=published["cap_s"],
-                times_s=dict(published["times_s"]),
-            ),
+            source=source,
+            merit=merit(fields.pop("merit")),
+            factors=factors,
+            team_sizes=team_sizes(factors, fields["robots"]),
+            published=published(fields.pop("published")),
             **fields,
         )
+
+    def replace(self, path: str, value: Value | dict[str, Any]) -> "Scenario":
+        """Return the scenario with another value at a path, checked as a whole.
+
+        Args:
+            path: Keys from the root with dots between, such as "clock.cap_s", "merit" or
+                "study.vary.robots.wanderer.count".
+            value: A text, a number or a dict of these, as the file could have it.
+
+        Raises:
+            InputError: If the value is not allowed there.
+        """
+        # What is varied is one key with dots of its own.
+        factor_path = path.removeprefix(VARY)
+        keys = ("study", "vary", factor_path) if factor_path != path else tuple(path.split("."))
+        overrides = (*self.source.overrides, Override(keys, value, "replace"))
+        return Scenario.loads(self.source.text, self.source.file, overrides)
+
+    def configuration(self, values: Mapping[str, Value]) -> _core.Configuration:
+        """Return what is run: the scenario with a value for each path of `values`.
+
+        Raises:
+            InputError: If a path is none that can be varied, or a value is not allowed there,
+                alone or with the others; all faults at once.
+        """
+        unknown = [path for path in values if path not in _core.FACTORS]
+        if unknown:
+            names = ", ".join(_core.FACTORS)
+            message = "\n".join(f"{path}: must be one of {names}" for path in unknown)
+            raise InputError(message)
+        source = self.source
+        changes = [(path.split("."), value, "study.vary") for path, value in values.items()]
+        return _core.read_configuration(source.file, source.text, [*source.changes(), *changes])
+
+
+def factor(fields: dict[str, Any]) -> Factor:
+    """Return a factor as the compiled part read it."""
+    return Factor(fields["path"], tuple(fields["values"]), fields["range"])
+
+
+def merit(fields: dict[str, Any]) -> Merit:
+    """Return a figure of merit as the compiled part read it."""
+    terms = tuple(Term(*term) for term in fields["terms"])
+    return Merit(in_words(fields["name"], terms), terms)
+
+
+def published(fields: dict[str, Any] | None) -> Published | None:
+    """Return published results as the compiled part read them."""
+    return Published(**fields | {"times_s": dict(fields["times_s"])}) if fields else None
+
+
+def team_sizes(factors: tuple[Factor, ...], robots: int) -> tuple[int, ...]:
+    """Return the teams of a study that varies nothing else; none if it does."""
+    if not factors:
+        return (robots,)
+    if [factor.path for factor in factors] != [TEAM_SIZE_PATH]:
+        return ()
+    return tuple(int(size) for size in factors[0].values)

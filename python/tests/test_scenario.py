@@ -88,8 +88,20 @@ def test_values_are_ranges_and_lists(
     assert scenario.team_sizes == sizes
 
 
-@pytest.mark.parametrize("values", ["", "0..3", "3..1", "1...3", "1..251", "x", "1,,2", "-1"])
-def test_values_that_are_none_are_told(classic_toml: Path, values: str) -> None:
+@pytest.mark.parametrize("values", ["", "3..1", "1...3", "1,,2", "a b"])
+def test_a_text_that_is_no_values_is_told(classic_toml: Path, values: str) -> None:
     path = ("study", "vary", "robots.wanderer.count")
-    with pytest.raises(InputError, match="--vary: .*must be a text of whole numbers from 1 to 250"):
+    with pytest.raises(InputError, match="--vary: .*must be a text of values"):
         Scenario.load(classic_toml, (Override(path, values, "--vary"),))
+
+
+@pytest.mark.parametrize("values", ["0..3", "1..251", "x", "-1", "1.0..3.0"])
+def test_values_that_a_factor_cannot_have_are_told(classic_toml: Path, values: str) -> None:
+    path = ("study", "vary", "robots.wanderer.count")
+    changes = (
+        Override(path, values, "--vary"),
+        Override(("study", "design"), "lhs:9", "--design"),
+    )
+    told = r"^--vary: robots.wanderer.count = \S+: must be a whole number from 1 to 250"
+    with pytest.raises(InputError, match=told):
+        Scenario.load(classic_toml, changes)

@@ -12,7 +12,7 @@ import vl_convert
 from numpy.typing import NDArray
 
 from agent_economy import Scenario, study
-from agent_economy.scenario import Merit
+from agent_economy.merit import Merit, Term
 from agent_economy.study import charts, files, report
 from agent_economy.study.runs import Outcomes, Runs, outcomes
 
@@ -116,9 +116,9 @@ def test_equal_teams_are_rarely_told_apart(scenario: Scenario) -> None:
 
 
 def test_merit_weights_decide_the_answer(runs: Runs, scenario: Scenario) -> None:
-    costly = replace(scenario, merit=Merit("costly", time_s=0, robots=-1, failed=0))
+    costly = replace(scenario, merit=Merit("costly", (Term("robots", "robots", -1),)))
     assert study.conclude(study.run_teams(costly)).best == 1
-    fast = replace(scenario, merit=Merit("fast", time_s=-1, robots=0, failed=0))
+    fast = replace(scenario, merit=Merit("fast", (Term("time", "time_s", -1),)))
     assert study.conclude(study.run_teams(fast)).best == 8
     assert runs.scenario.merit.name == "equation-5.2"
 

@@ -2,8 +2,10 @@
 //!
 //! * [`random`]: random streams keyed by (seed, run, entity, purpose);
 //! * [`fault`]: what is wrong with something a person wrote, in words;
-//! * [`document`]: a TOML document read against what is allowed, every fault at once.
+//! * [`document`]: a TOML document read against what is allowed, every fault at once;
+//! * [`runner`]: the seam between simulators and studies.
 
 pub mod document;
 pub mod fault;
 pub mod random;
+pub mod runner;

@@ -6,7 +6,7 @@
 //! | what the world is | [`world`], [`heading`], [`clock`] |
 //! | what a robot does | [`robot`], `decision`, [`simulation`]: the *plain form*, rule by rule |
 //! | when a run is over | [`contact`], [`search`] |
-//! | how studies run it | [`fast`] (the same outcomes, tested), [`start`], [`replicate`](mod@replicate) |
+//! | how studies run it | [`fast`] (the same outcomes, tested), [`start`], [`replicate`](mod@replicate), [`runner`] |
 //! | what a study is told | [`scenario`] |
 //! | what a trace holds | [`trace`](mod@trace) |
 
@@ -17,6 +17,7 @@ pub mod fast;
 pub mod heading;
 pub mod replicate;
 pub mod robot;
+pub mod runner;
 pub mod scenario;
 pub mod search;
 pub mod simulation;
@@ -29,6 +30,7 @@ pub use fast::FastSearch;
 pub use heading::Heading;
 pub use replicate::replicate;
 pub use robot::{Colour, Robot, Speed, Start};
+pub use runner::Configuration;
 pub use search::{Outcome, Task, search};
 pub use simulation::Simulation;
 pub use trace::trace;

@@ -17,10 +17,12 @@ const RUNS_PER_TASK: usize = 64;
 /// The same for any number of threads; they are those of the rayon pool this is called in.
 #[must_use]
 pub fn replicate(robots: u32, runs: Range<u64>, seed: u64, task: Task) -> Vec<Outcome> {
-    let run = |search: &mut FastSearch, run: u64| {
-        search.run((0..robots).map(|index| random_cell(seed, run, index)))
-    };
-    in_parallel(runs, task, run)
+    in_parallel(runs, task, |search, run| run_of(search, robots, seed, run))
+}
+
+/// One run of a team with random starts.
+pub(crate) fn run_of(search: &mut FastSearch, robots: u32, seed: u64, run: u64) -> Outcome {
+    search.run((0..robots).map(|index| random_cell(seed, run, index)))
 }
 
 /// Starts that a team of `robots` can have: 289 for each robot.

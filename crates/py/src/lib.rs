@@ -5,6 +5,7 @@ mod arguments;
 mod classic_runs;
 mod classic_scenario;
 mod classic_trace;
+mod configuration;
 mod error;
 mod long_work;
 mod selection;
@@ -20,17 +21,22 @@ mod _core {
     #[pymodule_export]
     use crate::classic_trace::{random_start, trace};
     #[pymodule_export]
+    use crate::configuration::{Configuration, read_configuration, run_block};
+    #[pymodule_export]
     use crate::error::InputError;
     #[pymodule_export]
     use crate::selection::{Procedure, mean_bounds, mean_exceeds, selection};
 
     use classic::Contact;
-    use classic::scenario::Merit;
+    use classic::runner::FACTORS;
+    use classic::scenario::{Merit, TERMS};
     use pyo3::prelude::*;
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
         module.add("CONTACTS", Contact::NAMES.map(|(name, _)| name))?;
-        module.add("MERITS", Merit::ALL.map(|merit| merit.name))
+        module.add("FACTORS", FACTORS)?;
+        module.add("MERITS", Merit::NAMES.map(|(name, _)| name))?;
+        module.add("MERIT_TERMS", TERMS.map(|(name, _)| name))
     }
 }

@@ -1,12 +1,19 @@
 //! Work that takes long: on threads, without the interpreter, and open to Ctrl-C.
 
-use pyo3::exceptions::PyOSError;
+use pyo3::exceptions::{PyOSError, PyRuntimeError};
 use pyo3::prelude::*;
-use rayon::ThreadPoolBuilder;
+use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::ops::Range;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
 
 /// Numbers computed between two looks for Ctrl-C: some hundredths of a second for most teams.
 const NUMBERS_PER_BLOCK: u64 = 8192;
+
+/// Time between two looks for Ctrl-C.
+const BETWEEN_LOOKS: Duration = Duration::from_millis(50);
 
 /// `block` of consecutive parts of `numbers`, one after the other, joined.
 ///
@@ -17,10 +24,7 @@ pub(crate) fn in_blocks<T: Send>(
     threads: Option<usize>,
     block: impl Fn(Range<u64>) -> Vec<T> + Sync,
 ) -> PyResult<Vec<T>> {
-    let pool = ThreadPoolBuilder::new()
-        .num_threads(threads.unwrap_or(0))
-        .build();
-    let pool = pool.map_err(|error| PyOSError::new_err(error.to_string()))?;
+    let pool = pool(threads)?;
     let mut results = Vec::new();
     let mut first = numbers.start;
     while first < numbers.end {
@@ -30,4 +34,86 @@ pub(crate) fn in_blocks<T: Send>(
         py.check_signals()?;
     }
     Ok(results)
+}
+
+/// What `work` makes, on a pool of threads, while this one looks for Ctrl-C.
+///
+/// Other Python threads run meanwhile. After Ctrl-C `work` finds its flag set, and should give up
+/// soon: what it then returns is thrown away.
+pub(crate) fn interruptible<T: Send>(
+    py: Python<'_>,
+    threads: Option<usize>,
+    work: impl FnOnce(&AtomicBool) -> T + Send,
+) -> PyResult<T> {
+    let pool = pool(threads)?;
+    let stop = AtomicBool::new(false);
+    let (sender, receiver) = sync_channel(1);
+    let stop = &stop;
+    py.detach(move || {
+        pool.in_place_scope(|scope| {
+            scope.spawn(move |_| {
+                // Nobody listens after Ctrl-C.
+                let _ = sender.send(work(stop));
+            });
+            result_or_stop(&receiver, stop)
+        })
+    })
+}
+
+fn result_or_stop<T>(results: &Receiver<T>, stop: &AtomicBool) -> PyResult<T> {
+    loop {
+        match results.recv_timeout(BETWEEN_LOOKS) {
+            Ok(result) => return Ok(result),
+            // The work has panicked; the scope passes that on.
+            Err(RecvTimeoutError::Disconnected) => {
+                return Err(PyRuntimeError::new_err("the work gave nothing"));
+            }
+            Err(RecvTimeoutError::Timeout) => {
+                Python::attach(look_for_signals)
+                    .inspect_err(|_| stop.store(true, Ordering::Relaxed))?;
+            }
+        }
+    }
+}
+
+fn look_for_signals(py: Python<'_>) -> PyResult<()> {
+    py.check_signals()
+}
+
+/// Threads that were made for a process and a number of them.
+struct Kept {
+    process: u32,
+    threads: Option<usize>,
+    pool: Arc<ThreadPool>,
+}
+
+static KEPT: Mutex<Option<Kept>> = Mutex::new(None);
+
+/// A pool of so many threads, kept from call to call: to start one takes longer than a small block.
+///
+/// A forked process has its parent's pool and none of its threads, so it makes its own.
+fn pool(threads: Option<usize>) -> PyResult<Arc<ThreadPool>> {
+    let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
+    let process = std::process::id();
+    if let Some(kept) = &*kept
+        && (kept.process, kept.threads) == (process, threads)
+    {
+        return Ok(Arc::clone(&kept.pool));
+    }
+    let pool = ThreadPoolBuilder::new()
+        .num_threads(threads.unwrap_or(0))
+        .build()
+        .map(Arc::new)
+        .map_err(|error| PyOSError::new_err(error.to_string()))?;
+    let new = Kept {
+        process,
+        threads,
+        pool: Arc::clone(&pool),
+    };
+    let old = kept.replace(new);
+    // The threads of a parent process cannot be ended here.
+    if let Some(old) = old.filter(|old| old.process != process) {
+        std::mem::forget(old);
+    }
+    Ok(pool)
 }

@@ -80,7 +80,9 @@ def answer_dict(answer: Answer) -> dict[str, Any]:
         "tied": list(answer.tied),
         "teams": teams,
         "published": [asdict(team) for team in answer.published],
-        "scenario": asdict(answer.scenario),
+        "scenario": {
+            name: value for name, value in asdict(answer.scenario).items() if name != "source"
+        },
         "seed": answer.seed,
         "versions": versions(),
     }

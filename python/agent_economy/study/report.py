@@ -7,7 +7,7 @@ from typing import Self
 
 import jinja2
 
-from agent_economy.scenario import Merit
+from agent_economy.merit import Merit
 from agent_economy.study.answer import Answer
 from agent_economy.study.charts import specifications
 from agent_economy.study.runs import Runs
@@ -81,7 +81,5 @@ def html(runs: Runs, answer: Answer, script: ChartScript) -> str:
 
 def merit_in_words(merit: Merit) -> str:
     """Return how a figure of merit is made up."""
-    return (
-        f"{merit.name}: {merit.time_s:.2f} per second of mean time, {merit.robots:.2f} per robot, "
-        f"{merit.failed / 10:.2f} per failed search in ten."
-    )
+    weights = ", ".join(str(term) for term in merit.terms)
+    return f"{merit.name}: the mean over runs of {weights}."

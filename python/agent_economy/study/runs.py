@@ -9,6 +9,7 @@ import pyarrow as pa
 from numpy.typing import NDArray
 
 from agent_economy import _core, classic
+from agent_economy._core import InputError
 from agent_economy.scenario import TEAM_SIZE_PATH, Scenario
 
 RUNS_PER_BLOCK = 5000
@@ -87,8 +88,12 @@ def run_teams(
         on_progress: Called after every block of runs.
 
     Raises:
-        InputError: If the seed is out of range.
+        InputError: If the seed is out of range, or anything but the team size is varied.
     """
+    if not scenario.team_sizes:
+        paths = ", ".join(factor.path for factor in scenario.factors)
+        message = f"study.vary: varies {paths}: must be {TEAM_SIZE_PATH} alone; not yet more"
+        raise InputError(message)
     begin = time.monotonic()
     total = scenario.runs * len(scenario.team_sizes)
     teams = {}
@@ -131,7 +136,15 @@ def outcomes(
     """Return what a team's runs came to in seconds and merit."""
     failed = (paints < 0) | (paints > scenario.cap_paints)
     time_s = np.where(failed, scenario.cap_s, paints / scenario.paints_per_s)
-    merit = scenario.merit.score(time_s, robots, failed)
+    columns = {
+        "time_s": time_s,
+        "robots": np.full(len(paints), float(robots)),
+        "failed": failed.astype(np.float64),
+        "found": found.astype(np.float64),
+        "collisions": collisions.astype(np.float64),
+        "paints": np.where(paints < 0, np.inf, paints),
+    }
+    merit = scenario.merit.score(columns)
     return Outcomes(paints, found, collisions, time_s, failed, merit)
 
 

@@ -11,7 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from agent_economy.scenario import Merit, Scenario
+from agent_economy.merit import Merit
+from agent_economy.scenario import Scenario
 from agent_economy.study import estimate
 from agent_economy.study.estimate import Estimate
 from agent_economy.study.runs import Outcomes, Runs
@@ -90,9 +91,9 @@ def behind(best: Outcomes, other: Outcomes, comparisons: int) -> Estimate:
 
 
 def published_teams(scenario: Scenario) -> tuple[PublishedResult, ...]:
-    """Return what others found, scored as our runs are."""
+    """Return what others found, scored as our runs are; nothing if times do not tell the score."""
     published = scenario.published
-    if not published:
+    if not published or not {*scenario.merit.columns} <= {"time_s", "robots", "failed"}:
         return ()
     return tuple(
         published_team(scenario.merit, published.cap_s, robots, times_s)
@@ -112,5 +113,13 @@ def published_team(
         time_s=float(np.mean(times)),
         failed=int(np.sum(failed)),
         failed_share=float(np.mean(failed)),
-        merit=estimate.mean(merit.score(times, robots, failed)),
+        merit=estimate.mean(
+            merit.score(
+                {
+                    "time_s": times,
+                    "robots": np.full(len(times), float(robots)),
+                    "failed": failed.astype(np.float64),
+                }
+            )
+        ),
     )

@@ -126,6 +126,16 @@ impl Document {
         };
     }
 
+    /// What stands at `path`.
+    #[must_use]
+    pub fn get(&self, path: &[&str]) -> Option<&Node> {
+        path.iter()
+            .try_fold(&self.root, |node, key| match &node.value {
+                Value::Table(table) => table.get(*key),
+                _ => None,
+            })
+    }
+
     /// What `reader` makes of the document, if it finds nothing wrong.
     ///
     /// `reader` should look at everything before it gives up, so that all faults are told at once.
@@ -133,9 +143,18 @@ impl Document {
     /// # Errors
     /// Everything that the sections found wrong.
     pub fn read<T>(&self, reader: impl FnOnce(&Section) -> Option<T>) -> Result<T, Faults> {
+        let (value, faults) = self.read_all(reader);
+        Faults::or(faults, value)
+    }
+
+    /// What `reader` makes of the document, and everything that the sections found wrong.
+    pub fn read_all<T>(
+        &self,
+        reader: impl FnOnce(&Section) -> Option<T>,
+    ) -> (Option<T>, Vec<Fault>) {
         let faults = RefCell::new(Vec::<Fault>::new());
         let value = reader(&Section::root(&self.root, &faults));
-        Faults::or(faults.into_inner(), value)
+        (value, faults.into_inner())
     }
 }
 

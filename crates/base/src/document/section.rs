@@ -49,6 +49,12 @@ impl<'d> Section<'d> {
         self.node(key).is_some()
     }
 
+    /// What stands at `key`, unchecked.
+    #[must_use]
+    pub fn value(&self, key: &str) -> Option<&'d Value> {
+        self.node(key).map(|node| &node.value)
+    }
+
     /// The keys of the table, in their order.
     pub fn keys(&self) -> impl Iterator<Item = &'d str> + use<'d> {
         self.table
@@ -97,6 +103,14 @@ impl<'d> Section<'d> {
             let (low, high) = (written(*range.start()), written(*range.end()));
             format!("a number from {low} to {high}")
         })
+    }
+
+    /// The number at `key`, if it is one that `holds`; else it must be `allowed`.
+    #[must_use]
+    pub fn number_if(&self, key: &str, allowed: &str, holds: impl Fn(f64) -> bool) -> Option<f64> {
+        let value = self.node(key).and_then(as_number);
+        let value = value.filter(|value| value.is_finite() && holds(*value));
+        self.told(value, key, || allowed.to_owned())
     }
 
     /// The list of numbers at `key`, if it holds at least one and all are in `range`.

@@ -130,3 +130,40 @@ proptest! {
         });
     }
 }
+
+#[test]
+fn what_stands_at_a_path_is_found_with_its_line() {
+    let document = Document::parse("job.toml", "[a]\n\"b.c\" = 3\nd = 1").unwrap();
+    let node = document.get(&["a", "b.c"]).unwrap();
+    assert_eq!(
+        (&node.value, node.origin.as_str()),
+        (&Value::Integer(3), "job.toml:2")
+    );
+    assert_eq!(document.get(&["a", "b", "c"]), None);
+    assert_eq!(document.get(&["a", "d", "e"]), None);
+}
+
+#[test]
+fn a_number_that_does_not_hold_is_told_with_what_is_allowed() {
+    let read = |text: &str| {
+        faults_of(text, |root| {
+            root.number_if("a", "a number above 0", |a| a > 0.0)
+                .map(|_| ())
+        })
+    };
+    assert!(read("a = 1").is_empty());
+    for (text, given) in [
+        ("a = 0", "a = 0"),
+        ("a = inf", "a = inf"),
+        ("a = '1'", "a = \"1\""),
+    ] {
+        assert_eq!(
+            read(text),
+            [format!("job.toml:1: {given}: must be a number above 0")]
+        );
+    }
+    assert_eq!(
+        read("b = 1"),
+        ["job.toml: a is missing: must be a number above 0"]
+    );
+}

@@ -1,58 +1,118 @@
 //! What a study does.
 
-use crate::start::MAX_ROBOTS;
+use super::vary::{Factor, Values, factors};
 use base::document::Section;
-use std::collections::BTreeSet;
-
-/// The only factor that a study of this engine varies.
-pub const TEAM_SIZE_PATH: &str = "robots.wanderer.count";
+use std::fmt;
 
 const MAX_RUNS: i64 = 1_000_000;
+const MAX_POINTS: u32 = 100_000;
+
+/// How often a study's answer is to be right, if the scenario does not say.
+const CONFIDENCE: f64 = 0.95;
 
 /// What a study does.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Study {
     /// Runs of each configuration.
     pub runs: u64,
-    /// Team sizes to compare, ascending.
-    pub team_sizes: Vec<u32>,
+    /// What is varied; nothing, if one configuration is to be run.
+    pub factors: Vec<Factor>,
+    /// Which configurations are compared.
+    pub design: Design,
+    /// A difference of merit that is worth knowing; above 0.
+    pub delta: Option<f64>,
+    /// How often the answer is to be right; above 0.5 and below 1.
+    pub confidence: f64,
 }
 
-pub(super) fn study(section: &Section, robots: Option<u32>) -> Option<Study> {
-    section.only(&["runs", "vary"]);
+/// Which configurations are compared.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Design {
+    /// Each value of each factor with each of every other.
+    Factorial,
+    /// So many points of a Latin hypercube.
+    LatinHypercube(u32),
+    /// So many points of a Sobol' sequence; a power of two.
+    Sobol(u32),
+}
+
+impl Design {
+    fn parse(text: &str) -> Option<Self> {
+        if text == "factorial" {
+            return Some(Self::Factorial);
+        }
+        let (name, points) = text.split_once(':')?;
+        let points: u32 = points.parse().ok()?;
+        let points = Some(points).filter(|points| (1..=MAX_POINTS).contains(points))?;
+        match name {
+            "lhs" => Some(Self::LatinHypercube(points)),
+            "sobol" => points.is_power_of_two().then_some(Self::Sobol(points)),
+            _ => None,
+        }
+    }
+}
+
+impl fmt::Display for Design {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Factorial => f.write_str("factorial"),
+            Self::LatinHypercube(points) => write!(f, "lhs:{points}"),
+            Self::Sobol(points) => write!(f, "sobol:{points}"),
+        }
+    }
+}
+
+pub(super) fn study(section: &Section) -> Option<Study> {
+    section.only(&["runs", "vary", "delta", "confidence", "design"]);
     let runs = section.integer("runs", 2..=MAX_RUNS);
     let vary = section.section("vary");
-    vary.only(&[TEAM_SIZE_PATH]);
-    let team_sizes = if vary.has(TEAM_SIZE_PATH) {
+    let factors = factors(&vary);
+    let design = if_given(section, "design", || {
         let allowed = format!(
-            "a text of whole numbers from 1 to {MAX_ROBOTS}, such as \"1..8\" (both ends \
-             included) or \"1,2,4\""
+            "\"factorial\", \"lhs:200\" or \"sobol:256\", of 1 to {MAX_POINTS} points (for sobol a \
+             power of two)"
         );
-        vary.parsed(TEAM_SIZE_PATH, &allowed, values)
-    } else {
-        robots.map(|count| vec![count])
-    };
-    Some(Study {
+        section.parsed("design", &allowed, Design::parse)
+    });
+    let delta = if_given(section, "delta", || {
+        section.number_if("delta", "a number above 0", |delta| delta > 0.0)
+    });
+    let confidence = if_given(section, "confidence", || {
+        let allowed = "a number above 0.5 and below 1, such as 0.95";
+        section.number_if("confidence", allowed, |share| share > 0.5 && share < 1.0)
+    });
+    let design = design.map(|design| design.unwrap_or(Design::Factorial));
+    let is_listed = tell_ranges_without_points(&vary, factors.as_deref()?, design?);
+    is_listed.then_some(Study {
         runs: u64::try_from(runs?).ok()?,
-        team_sizes: team_sizes?,
+        factors: factors?,
+        design: design?,
+        delta: delta?,
+        confidence: confidence?.unwrap_or(CONFIDENCE),
     })
 }
 
-/// The numbers of `1..8` (both ends included), `1,2,4` or a mixture, ascending; `None` if any is
-/// none or out of range.
-fn values(text: &str) -> Option<Vec<u32>> {
-    let number = |text: &str| {
-        let number = text.trim().parse().ok()?;
-        (1..=MAX_ROBOTS).contains(&number).then_some(number)
-    };
-    let mut values = BTreeSet::new();
-    for part in text.split(',') {
-        let (low, high) = part.split_once("..").unwrap_or((part, part));
-        let range = number(low)?..=number(high)?;
-        if range.is_empty() {
-            return None;
-        }
-        values.extend(range);
+/// `None` for a fault, `Some(None)` for a key that is not there.
+#[expect(clippy::option_option, reason = "a fault, nothing, and a value")]
+fn if_given<T>(section: &Section, key: &str, read: impl Fn() -> Option<T>) -> Option<Option<T>> {
+    if section.has(key) {
+        read().map(Some)
+    } else {
+        Some(None)
     }
-    Some(values.into_iter().collect())
+}
+
+/// Only a space-filling design can choose from all the numbers of a range.
+fn tell_ranges_without_points(vary: &Section, factors: &[Factor], design: Design) -> bool {
+    let is_range = |factor: &&Factor| matches!(factor.values, Values::Between(..));
+    let mut ranges = factors.iter().filter(is_range).peekable();
+    if design != Design::Factorial || ranges.peek().is_none() {
+        return true;
+    }
+    for factor in ranges {
+        let allowed = "a list of values where the design is \"factorial\"; design = \"lhs:200\" or \
+                       \"sobol:256\" takes points from a range of any numbers";
+        vary.fault(factor.path, allowed);
+    }
+    false
 }

@@ -1,0 +1,187 @@
+//! The classic engine behind the seam that studies use.
+
+use crate::clock::{DECISION_PERIOD, FIRST_DECISION};
+use crate::fast::FastSearch;
+use crate::replicate::run_of;
+use crate::scenario::Clock;
+use crate::search::{Outcome, Task};
+use crate::world::ITEMS;
+use base::runner::{Column, Kind, Runner};
+use std::ops::Range;
+
+/// What a study of this engine can vary, as paths in a scenario.
+pub const FACTORS: [&str; 4] = [
+    "robots.wanderer.count",
+    "clock.paints_per_s",
+    "clock.cap_s",
+    "contact",
+];
+
+/// All that a run depends on, besides its seed and its number.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Configuration {
+    /// Team size.
+    pub robots: u32,
+    /// What counts as a find, and until when.
+    pub task: Task,
+    /// How paints are seconds.
+    pub clock: Clock,
+}
+
+impl Runner for Configuration {
+    #[expect(clippy::cast_precision_loss, reason = "whole numbers below 1e8")]
+    fn columns(&self) -> Vec<Column> {
+        let robots = f64::from(self.robots);
+        let collisions = u64::from(self.robots) * decisions_until(self.task.cap_paints);
+        let column = |name, kind, least, greatest| Column {
+            name,
+            kind,
+            least: Some(least),
+            greatest,
+        };
+        vec![
+            column("time_s", Kind::Real, 0.0, Some(self.clock.cap_s)),
+            column("failed", Kind::Flag, 0.0, Some(1.0)),
+            column("robots", Kind::Whole, robots, Some(robots)),
+            column("found", Kind::Whole, 0.0, Some(ITEMS.len() as f64)),
+            column("collisions", Kind::Whole, 0.0, Some(collisions as f64)),
+            column("paints", Kind::Whole, 0.0, None),
+        ]
+    }
+
+    fn run_block(&self, seed: u64, runs: Range<u64>) -> Vec<Vec<f64>> {
+        let mut columns = vec![Vec::new(); self.columns().len()];
+        let mut search = FastSearch::new(self.task);
+        for run in runs {
+            let outcome = run_of(&mut search, self.robots, seed, run);
+            for (column, value) in columns.iter_mut().zip(self.values(outcome)) {
+                column.push(value);
+            }
+        }
+        columns
+    }
+}
+
+impl Configuration {
+    /// In the order of the columns.
+    #[expect(
+        clippy::cast_precision_loss,
+        reason = "collisions are bounded; paints beyond 2^53 take years to compute"
+    )]
+    fn values(&self, outcome: Outcome) -> [f64; 6] {
+        let in_time = outcome.paints.filter(|at| *at <= self.task.cap_paints);
+        // The last paint within the cap may be a rounding error beyond it: see `whole_paints`.
+        let time_s = in_time.map(|at| (at as f64 / self.clock.paints_per_s).min(self.clock.cap_s));
+        [
+            time_s.unwrap_or(self.clock.cap_s),
+            f64::from(u8::from(in_time.is_none())),
+            f64::from(self.robots),
+            f64::from(outcome.found),
+            outcome.collisions as f64,
+            outcome.paints.map_or(f64::INFINITY, |paints| paints as f64),
+        ]
+    }
+}
+
+/// Decisions that a team takes until a paint, that one included.
+fn decisions_until(paint: u64) -> u64 {
+    paint
+        .checked_sub(FIRST_DECISION)
+        .map_or(0, |since| since / DECISION_PERIOD + 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::Contact;
+    use crate::replicate::replicate;
+
+    fn configuration(robots: u32, contact: Contact, cap_paints: u64) -> Configuration {
+        Configuration {
+            robots,
+            task: Task {
+                contact,
+                cap_paints,
+            },
+            clock: Clock {
+                paints_per_s: 50.0,
+                cap_s: f64::from(u32::try_from(cap_paints).unwrap()) / 50.0,
+                cap_paints,
+            },
+        }
+    }
+
+    #[test]
+    fn a_block_is_what_replicate_gives_for_that_team_seed_and_run_numbers() {
+        for (robots, contact) in [
+            (1, Contact::Ahead),
+            (3, Contact::Touch),
+            (40, Contact::Within2),
+        ] {
+            let configuration = configuration(robots, contact, 2000);
+            let expected = replicate(robots, 5..205, 7, configuration.task);
+            let block = configuration.run_block(7, 5..205);
+            for (index, outcome) in expected.into_iter().enumerate() {
+                let row: Vec<f64> = block.iter().map(|column| column[index]).collect();
+                assert_eq!(row, configuration.values(outcome));
+            }
+        }
+    }
+
+    #[test]
+    fn every_run_is_within_the_columns_bounds() {
+        for (robots, cap_paints) in [(1, 0), (2, 11), (5, 12), (100, 23), (250, 300), (3, 6720)] {
+            let configuration = configuration(robots, Contact::Touch, cap_paints);
+            let block = configuration.run_block(1, 0..200);
+            for (column, values) in configuration.columns().iter().zip(block) {
+                let least = column.least.unwrap_or(f64::NEG_INFINITY);
+                let greatest = column.greatest.unwrap_or(f64::INFINITY);
+                let is_within = |value: &f64| (least..=greatest).contains(value);
+                assert!(values.iter().all(is_within), "{}", column.name);
+                let is_whole = |value: &f64| value.is_infinite() || value.fract() == 0.0;
+                assert!(column.kind == Kind::Real || values.iter().all(is_whole));
+            }
+        }
+    }
+
+    #[test]
+    fn a_search_that_never_ends_has_failed_at_the_cap_after_infinite_paints() {
+        let outcome = Outcome {
+            paints: None,
+            found: 3,
+            collisions: 8,
+        };
+        let never = configuration(2, Contact::Touch, 6000).values(outcome);
+        assert_eq!(never, [120.0, 1.0, 2.0, 3.0, 8.0, f64::INFINITY]);
+    }
+
+    #[test]
+    fn a_search_that_ends_beyond_the_cap_has_failed_and_its_paints_are_told() {
+        let outcome = Outcome {
+            paints: Some(6001),
+            found: 3,
+            collisions: 8,
+        };
+        let late = configuration(2, Contact::Touch, 6000).values(outcome);
+        assert_eq!(late, [120.0, 1.0, 2.0, 3.0, 8.0, 6001.0]);
+    }
+
+    #[test]
+    fn a_time_is_never_beyond_a_cap_that_floats_cannot_hold() {
+        let mut rounded = configuration(1, Contact::Touch, 435);
+        rounded.clock.paints_per_s = 100.0;
+        rounded.clock.cap_s = 4.35 - 1e-9;
+        let last = Outcome {
+            paints: Some(435),
+            found: 4,
+            collisions: 0,
+        };
+        assert_eq!(rounded.values(last)[..2], [4.35 - 1e-9, 0.0]);
+    }
+
+    #[test]
+    fn decisions_are_counted_to_the_paint_of_the_last() {
+        let counted = [0, 11, 12, 22, 23, 6720].map(decisions_until);
+        assert_eq!(counted, [0, 0, 1, 1, 2, 610]);
+    }
+}

@@ -1,0 +1,173 @@
+//! Configurations of a study, and blocks of their runs.
+
+use crate::arguments::Arguments;
+use crate::classic_scenario::{GivenOverride, given_overrides};
+use crate::error::input_error;
+use crate::long_work::interruptible;
+use base::runner::{Column, Kind, Runner};
+use numpy::{IntoPyArray, PyArray2, PyArrayMethods};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
+use rayon::prelude::*;
+use std::ops::Range;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Runs of one call, of all configurations together: some half a gigabyte of outcomes.
+const MAX_RUNS: u64 = 10_000_000;
+
+/// Runs that one task takes from the pool: few, since each may take a tenth of a second, and the
+/// wait after Ctrl-C is one task's. Starting one costs less than a microsecond.
+const RUNS_PER_TASK: u64 = 16;
+
+/// Tasks whose results wait as they came, so that these take little memory beside the columns.
+const TASKS_BEFORE_JOINING: usize = 4096;
+
+type ColumnTuple = (&'static str, &'static str, Option<f64>, Option<f64>);
+
+/// A scenario with values for everything that a study varies, ready to be run.
+#[pyclass(frozen, module = "agent_economy._core")]
+pub(crate) struct Configuration {
+    runner: Box<dyn Runner>,
+}
+
+#[pymethods]
+impl Configuration {
+    /// What each run tells: (name, kind, least, greatest); a bound is None where there is none.
+    #[getter]
+    fn columns(&self) -> Vec<ColumnTuple> {
+        let columns = self.runner.columns();
+        columns.iter().map(as_tuple).collect()
+    }
+}
+
+fn as_tuple(column: &Column) -> ColumnTuple {
+    let kind = match column.kind {
+        Kind::Whole => "whole",
+        Kind::Real => "real",
+        Kind::Flag => "flag",
+    };
+    (column.name, kind, column.least, column.greatest)
+}
+
+/// The configuration of a TOML text with changes, as `read_scenario` takes them; only what a run
+/// depends on is read and checked.
+#[pyfunction]
+#[pyo3(signature = (file, text, overrides))]
+pub(crate) fn read_configuration(
+    file: &str,
+    text: &str,
+    overrides: Vec<GivenOverride>,
+) -> PyResult<Configuration> {
+    let read = classic::Configuration::read(file, text, &given_overrides(overrides)?);
+    let runner = Box::new(read.map_err(|faults| input_error(&faults))?);
+    Ok(Configuration { runner })
+}
+
+/// Runs `first_run` and on of each configuration: by column, an array (configurations, runs).
+#[pyfunction]
+#[pyo3(signature = (configurations, *, seed, first_run, runs, threads))]
+#[expect(
+    clippy::too_many_arguments,
+    reason = "Python's keywords arrive one by one"
+)]
+pub(crate) fn run_block<'py>(
+    py: Python<'py>,
+    configurations: &Bound<'py, PyAny>,
+    seed: &Bound<'py, PyAny>,
+    first_run: &Bound<'py, PyAny>,
+    runs: &Bound<'py, PyAny>,
+    threads: &Bound<'py, PyAny>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let check = Arguments::default();
+    let given = given_configurations(&check, configurations);
+    let seed = check.integer("seed", seed, 0..=u64::MAX);
+    let count = given.as_ref().map_or(1, Vec::len).max(1) as u64;
+    let runs = check.integer("runs", runs, 0..=MAX_RUNS / count);
+    let first_run = check.integer("first_run", first_run, 0..=u64::MAX - MAX_RUNS);
+    let threads = check.threads(threads);
+    let all = (|| Some((given?, seed?, first_run?, runs?, threads?)))();
+    let (given, seed, first_run, runs, threads) = check.or_faults(all)?;
+    let runners: Vec<&dyn Runner> = given.iter().map(|each| &*each.get().runner).collect();
+    let runs = first_run..first_run + runs;
+    let columns = interruptible(py, threads, |stop| in_tasks(&runners, seed, &runs, stop))?;
+    as_dict(py, &runners, columns)
+}
+
+fn given_configurations<'py>(
+    check: &Arguments,
+    given: &Bound<'py, PyAny>,
+) -> Option<Vec<Bound<'py, Configuration>>> {
+    let list = given.cast::<PyList>().ok().filter(|list| !list.is_empty());
+    let Some(list) = list else {
+        let allowed = "a list of at least one Configuration, as read_configuration makes it";
+        check.fault("configurations", given, allowed.to_owned());
+        return None;
+    };
+    let configuration = |(index, item): (usize, Bound<'py, PyAny>)| {
+        let configuration = item.cast::<Configuration>().ok().cloned();
+        if configuration.is_none() {
+            let path = format!("configurations[{index}]");
+            check.fault(&path, &item, "a Configuration".to_owned());
+        }
+        configuration
+    };
+    let all: Vec<_> = list.iter().enumerate().map(configuration).collect();
+    all.into_iter().collect()
+}
+
+/// All runs of all configurations, as columns with one configuration after the other.
+///
+/// Tasks are parts of one configuration's runs, in order, so that joining what they give makes the
+/// same columns for any number of threads.
+fn in_tasks(
+    runners: &[&dyn Runner],
+    seed: u64,
+    runs: &Range<u64>,
+    stop: &AtomicBool,
+) -> Vec<Vec<f64>> {
+    let tasks = runners
+        .iter()
+        .flat_map(|runner| parts(runs).map(move |part| (runner, part)));
+    let tasks: Vec<_> = tasks.collect();
+    let mut columns = vec![Vec::new(); number_of_columns(runners)];
+    for some in tasks.chunks(TASKS_BEFORE_JOINING) {
+        let done = some.par_iter().with_max_len(1).map(|(runner, part)| {
+            let is_wanted = !stop.load(Ordering::Relaxed);
+            is_wanted.then(|| runner.run_block(seed, part.clone()))
+        });
+        let done: Vec<Option<Vec<Vec<f64>>>> = done.collect();
+        for block in done.into_iter().flatten() {
+            for (column, values) in columns.iter_mut().zip(block) {
+                column.extend(values);
+            }
+        }
+    }
+    columns
+}
+
+/// Ranges of at most [`RUNS_PER_TASK`] that make up `runs`.
+fn parts(runs: &Range<u64>) -> impl Iterator<Item = Range<u64>> {
+    let Range { start, end } = *runs;
+    let firsts =
+        (0..(end - start).div_ceil(RUNS_PER_TASK)).map(move |part| start + part * RUNS_PER_TASK);
+    firsts.map(move |first| first..end.min(first + RUNS_PER_TASK))
+}
+
+fn number_of_columns(runners: &[&dyn Runner]) -> usize {
+    runners.first().map_or(0, |runner| runner.columns().len())
+}
+
+fn as_dict<'py>(
+    py: Python<'py>,
+    runners: &[&dyn Runner],
+    columns: Vec<Vec<f64>>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let dict = PyDict::new(py);
+    let names = runners.first().map(|runner| runner.columns());
+    for (column, values) in names.into_iter().flatten().zip(columns) {
+        let shape = [runners.len(), values.len() / runners.len()];
+        let array: Bound<PyArray2<f64>> = values.into_pyarray(py).reshape(shape)?;
+        dict.set_item(column.name, array)?;
+    }
+    Ok(dict)
+}

@@ -1,0 +1,105 @@
+"""Which configurations a study compares: full factorial, Latin hypercube or Sobol' points."""
+
+import math
+from collections.abc import Sequence
+from itertools import product
+
+import numpy as np
+from numpy.typing import NDArray
+
+from agent_economy._core import InputError
+from agent_economy.scenario import Factor, Value
+
+MAX_CONFIGURATIONS = 100_000
+"""Configurations that a study may have."""
+
+Values = dict[str, Value]
+"""A value for each factor, by path."""
+
+
+def points(factors: Sequence[Factor], design: str = "factorial", seed: int = 0) -> list[Values]:
+    """Return the configurations of a design, the same in every call.
+
+    Args:
+        factors: What is varied; nothing gives the one configuration without changes.
+        design: "factorial" (each value with each other, the first factor varies slowest), "lhs:N"
+            or "sobol:N" (N points that fill the space, N a power of two for sobol), as
+            `Scenario.design` has it. A point takes the value of a factor's list on whose equal
+            share it falls; points that fall together are one configuration.
+        seed: Of lhs and sobol; 0 to 2^64 - 1.
+
+    Raises:
+        InputError: If there are more than 100,000, or a factorial design has a range.
+    """
+    if design == "factorial" or not factors:
+        return factorial(factors)
+    paths = [factor.path for factor in factors]
+    rows = zip(*columns(factors, sample(design, len(factors), seed)), strict=True)
+    return [dict(zip(paths, row, strict=True)) for row in dict.fromkeys(rows)]
+
+
+def in_words(design: str, configurations: Sequence[Values]) -> str:
+    """Return how many configurations a design has, and how many of its points are left."""
+    left = f"{len(configurations):,} configurations"
+    if design == "factorial":
+        return f"factorial: {left}"
+    drawn = number_of_points(design)
+    return f"{design}: {left}" + (
+        f" (of {drawn:,} points, the others fall on these)" if len(configurations) < drawn else ""
+    )
+
+
+def factorial(factors: Sequence[Factor]) -> list[Values]:
+    """Return each value of each factor with each of every other."""
+    ranges = [factor for factor in factors if factor.range]
+    if ranges:
+        message = "\n".join(
+            f"study.vary: {factor.path}: must be a list of values where the design is factorial"
+            for factor in ranges
+        )
+        raise InputError(message)
+    count = math.prod(len(factor.values) for factor in factors)
+    if count > MAX_CONFIGURATIONS:
+        sizes = " x ".join(str(len(factor.values)) for factor in factors)
+        message = (
+            f"study.vary: {sizes} values = {count} configurations: must be at most "
+            f'{MAX_CONFIGURATIONS}, or study.design = "lhs:1000"'
+        )
+        raise InputError(message)
+    paths = [factor.path for factor in factors]
+    rows = product(*(factor.values for factor in factors))
+    return [dict(zip(paths, row, strict=True)) for row in rows]
+
+
+def sample(design: str, dimensions: int, seed: int) -> NDArray[np.float64]:
+    """Return the points of a space-filling design in the unit cube: (points, dimensions).
+
+    Source: scipy.stats.qmc; Sobol' points are scrambled.
+    """
+    # scipy's statistics take half a second to load, and few studies need them.
+    from scipy.stats import qmc  # noqa: PLC0415
+
+    count = number_of_points(design)
+    kind = qmc.Sobol if design.startswith("sobol:") else qmc.LatinHypercube
+    drawn: NDArray[np.float64] = kind(d=dimensions, rng=seed).random(count)
+    return drawn
+
+
+def number_of_points(design: str) -> int:
+    """Return N of "lhs:N" or "sobol:N"."""
+    return int(design.partition(":")[2])
+
+
+def columns(factors: Sequence[Factor], drawn: NDArray[np.float64]) -> list[list[Value]]:
+    """Return each factor's values at points of the unit cube (points, factors)."""
+    return [scaled(factor, drawn[:, index]) for index, factor in enumerate(factors)]
+
+
+def scaled(factor: Factor, shares: NDArray[np.float64]) -> list[Value]:
+    """Return a factor's values at shares of its range or list, 0 to 1."""
+    if factor.range:
+        low, high = factor.range
+        spread: list[Value] = np.minimum(low + shares * (high - low), high).tolist()
+        return spread
+    indices = np.minimum(shares * len(factor.values), len(factor.values) - 1).astype(int)
+    return [factor.values[index] for index in indices]

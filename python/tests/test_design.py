@@ -1,0 +1,87 @@
+"""Designs: which configurations a study compares."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from agent_economy import InputError
+from agent_economy.scenario import Factor
+from agent_economy.study import design
+
+TEAM = Factor("robots.wanderer.count", (1, 2, 4))
+CONTACT = Factor("contact", ("touch", "ahead"))
+RATE = Factor("clock.paints_per_s", (), (41.0, 57.0))
+
+
+def test_a_factorial_has_each_with_each_and_the_first_factor_varies_slowest() -> None:
+    rows = [tuple(point.values()) for point in design.points([TEAM, CONTACT])]
+    assert rows == [
+        (1, "touch"),
+        (1, "ahead"),
+        (2, "touch"),
+        (2, "ahead"),
+        (4, "touch"),
+        (4, "ahead"),
+    ]
+    assert list(design.points([TEAM, CONTACT])[0]) == [TEAM.path, CONTACT.path]
+
+
+@pytest.mark.parametrize("name", ["factorial", "lhs:5", "sobol:8"])
+def test_without_factors_there_is_the_one_configuration(name: str) -> None:
+    assert design.points([], name) == [{}]
+
+
+@pytest.mark.parametrize("name", ["lhs:64", "sobol:64"])
+def test_points_fill_a_range_evenly_and_stay_within(name: str) -> None:
+    points = design.points([RATE, TEAM], name, seed=3)
+    rates = np.array([point[RATE.path] for point in points], dtype=float)
+    assert len(points) == 64
+    assert rates.min() >= 41
+    assert rates.max() <= 57
+    # Both kinds put as many points in each half, each quarter, ... of every factor.
+    assert np.histogram(rates, bins=8, range=(41, 57))[0].tolist() == [8] * 8
+    assert {point[TEAM.path] for point in points} == {1, 2, 4}
+
+
+@pytest.mark.parametrize("name", ["lhs:100", "sobol:128"])
+def test_points_that_fall_together_are_one_configuration(name: str) -> None:
+    points = design.points([TEAM, CONTACT], name)
+    assert len(points) == 6
+    assert {tuple(point.values()) for point in points} == {
+        (team, contact) for team in TEAM.values for contact in CONTACT.values
+    }
+    drawn = name.partition(":")[2]
+    told = f"{name}: 6 configurations (of {drawn} points, the others fall on these)"
+    assert design.in_words(name, points) == told
+
+
+def test_a_design_without_duplicates_says_how_many_it_has() -> None:
+    assert design.in_words("factorial", design.points([TEAM])) == "factorial: 3 configurations"
+    assert design.in_words("lhs:7", design.points([RATE], "lhs:7")) == "lhs:7: 7 configurations"
+
+
+@given(st.sampled_from(["lhs:20", "sobol:16"]), st.integers(0, 2**64 - 1))
+def test_the_same_factors_design_and_seed_give_the_same_points(name: str, seed: int) -> None:
+    factors = [TEAM, RATE, CONTACT]
+    points = design.points(factors, name, seed)
+    assert points == design.points(factors, name, seed)
+    assert points != design.points(factors, name, (seed + 1) % 2**64)
+
+
+def test_values_keep_their_types() -> None:
+    # A whole number that became a float would be told as a fault of a team size.
+    for point in design.points([TEAM, RATE, CONTACT], "lhs:9"):
+        assert [type(value) for value in point.values()] == [int, float, str]
+
+
+def test_too_many_configurations_are_told() -> None:
+    many = Factor("clock.cap_s", tuple(range(1000)))
+    with pytest.raises(InputError, match=r"1000 x 1000 values = 1000000 configurations: must be"):
+        design.points([many, many])
+    assert len(design.points([Factor("clock.cap_s", tuple(range(100_000)))])) == 100_000
+
+
+def test_a_range_in_a_factorial_is_told() -> None:
+    with pytest.raises(InputError, match="clock.paints_per_s: must be a list of values"):
+        design.points([TEAM, RATE])
