@@ -6,7 +6,7 @@ RUST := $(shell find crates/*/src crates/*/Cargo.toml) Cargo.toml Cargo.lock
 # maturin, and what it starts, are found in the environment.
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 
-.PHONY: help study test bench picture replication lint rust-test python-test clean
+.PHONY: help study test bench bench-store picture replication lint rust-test python-test clean
 
 help: ## Say what can be made
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "%-12s %s\n", $$1, $$2 }' Makefile
@@ -34,6 +34,9 @@ python-test: .venv/installed
 
 bench: ## Robot-decisions per second
 	cargo bench -p agent-economy-classic
+
+bench-store: .venv/installed ## Rows a second into a study's store, and bytes a row
+	$(BIN)/python scripts/store_speed.py
 
 replication: .venv/installed ## Recompute every figure of docs/replication.md
 	$(BIN)/python scripts/replication.py

@@ -2,9 +2,10 @@
 
 from collections.abc import Mapping
 
-from agent_economy.study.saturation import TEAM
-
 Values = Mapping[str, float | str]
+
+TEAM = ("robots.", ".count")
+"""How the path of a factor that is a team size begins and ends."""
 
 
 def label(values: Values) -> str:

@@ -7,9 +7,7 @@ All else is as in the selected configuration.
 from dataclasses import dataclass
 
 from agent_economy.study.evidence import Evidence, Interval
-
-TEAM = ("robots.", ".count")
-"""How the path of a factor that is a team size begins and ends."""
+from agent_economy.study.labels import robot_kind
 
 
 @dataclass(frozen=True)
@@ -40,10 +38,7 @@ def saturations(evidence: Evidence, best: int, delta: float) -> tuple[Saturation
 
 def team_paths(evidence: Evidence) -> list[str]:
     """Return the paths of factors that are team sizes."""
-    start, end = TEAM
-    return [
-        path for path in evidence.samples[0].values if path.startswith(start) and path.endswith(end)
-    ]
+    return [path for path in evidence.samples[0].values if robot_kind(path) is not None]
 
 
 def team_slice(evidence: Evidence, best: int, path: str) -> dict[int, int]:

@@ -1,0 +1,89 @@
+"""What a study asks for at once: some configurations, some consecutive runs of each."""
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+Columns: TypeAlias = dict[str, NDArray[np.float64]]
+"""Outcomes by column name, each (configurations, runs); NaN = quarantined, +inf = never."""
+
+
+@dataclass(frozen=True)
+class Rectangle:
+    """Consecutive runs of some configurations.
+
+    Attributes:
+        configurations: Their numbers, 0 to 2^31 - 1, each once, in any order.
+        first_run: 0 or more.
+        runs: Runs of each, 1 or more.
+    """
+
+    configurations: tuple[int, ...]
+    first_run: int
+    runs: int
+
+    def __post_init__(self) -> None:
+        """Refuse what no study asks for."""
+        if not self.configurations or len(set(self.configurations)) < len(self.configurations):
+            message = f"a rectangle has each configuration once, not {self.configurations}"
+            raise ValueError(message)
+        if min(self.configurations) < 0 or self.first_run < 0 or self.runs < 1:
+            message = f"a rectangle has numbers from 0 and a run or more, not {self}"
+            raise ValueError(message)
+
+    @property
+    def end(self) -> int:
+        """The run after the last."""
+        return self.first_run + self.runs
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Configurations and runs."""
+        return len(self.configurations), self.runs
+
+    @property
+    def rows(self) -> int:
+        """Runs of all configurations together."""
+        return len(self.configurations) * self.runs
+
+    def __str__(self) -> str:
+        """Return it as people read it."""
+        return f"configurations {spans(self.configurations)}, runs {self.first_run}-{self.end - 1}"
+
+
+Compute: TypeAlias = Callable[[Rectangle], Columns]
+"""What gives the outcomes of a rectangle; the same for the same rectangle, whoever asks."""
+
+
+def spans(numbers: Iterable[int]) -> str:
+    """Return numbers in ascending order as "0-39,41"."""
+    ordered = sorted(numbers)
+    gaps = [right for left, right in pairwise(ordered) if right != left + 1]
+    starts = [ordered[0], *gaps]
+    ends = [left for left, right in pairwise(ordered) if right != left + 1]
+    pairs = zip(starts, [*ends, ordered[-1]], strict=True)
+    return ",".join(f"{first}-{last}" if last > first else f"{first}" for first, last in pairs)
+
+
+def numbers(text: str) -> tuple[int, ...]:
+    """Return the numbers that `spans` wrote."""
+    parts = (part.partition("-") for part in text.split(","))
+    return tuple(
+        number for first, _, last in parts for number in range(int(first), int(last or first) + 1)
+    )
+
+
+def check_shape(rectangle: Rectangle, columns: Columns) -> None:
+    """Refuse columns that are not of a rectangle's shape.
+
+    Raises:
+        ValueError: If one is not; what computed them is at fault.
+    """
+    for name, values in columns.items():
+        if values.shape != rectangle.shape:
+            message = f"column {name} of {rectangle} has shape {values.shape}"
+            raise ValueError(message)

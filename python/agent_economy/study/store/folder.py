@@ -1,0 +1,158 @@
+"""A study's folder: the lock, files that appear whole, and faults as people read them."""
+
+import contextlib
+import difflib
+import fcntl
+import os
+import sqlite3
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from agent_economy._core import InputError
+
+ASKED = "study.toml"
+BLOCKS = "blocks"
+LEDGER = "ledger.sqlite"
+LOCK = ".lock"
+UNFINISHED = ".unfinished-"
+"""What the names of files begin with until they are whole."""
+
+MOST_SHOWN = 6
+"""Differing lines that a fault shows."""
+
+
+@contextmanager
+def told(path: Path, doing: str = "written") -> Iterator[None]:
+    """Turn what a disk or a ledger refuses into a fault that names the path and the reason.
+
+    Raises:
+        InputError: For an OSError or a sqlite3.Error.
+    """
+    try:
+        yield
+    except OSError as error:
+        message = f"{path}: cannot be {doing} ({error.strerror or error})"
+        raise InputError(message) from error
+    except sqlite3.Error as error:
+        message = f"{path}: cannot be {doing} ({error})"
+        raise InputError(message) from error
+
+
+def make(folder: Path) -> None:
+    """Make a study's folder as far as it is not there.
+
+    Raises:
+        InputError: If it cannot be.
+    """
+    with told(folder, "made"):
+        (folder / BLOCKS).mkdir(parents=True, exist_ok=True)
+        sync_folder(folder)
+
+
+def lock(folder: Path) -> int:
+    """Take a folder for this process until the descriptor is closed, if only by its death.
+
+    Raises:
+        InputError: If another process has it.
+    """
+    with told(folder):
+        descriptor = os.open(folder / LOCK, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o666)
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError as error:
+        os.close(descriptor)
+        if not isinstance(error, BlockingIOError):
+            message = f"{folder}: cannot be locked ({error.strerror})"
+            raise InputError(message) from None
+        message = f"{folder}: another process is working on it: wait for it, or use another folder"
+        raise InputError(message) from None
+    return descriptor
+
+
+def remove_unfinished(folder: Path) -> None:
+    """Remove what killed processes left half-written. The folder must be locked."""
+    with told(folder):
+        for place in (folder / BLOCKS, folder):
+            for path in place.glob(f"{UNFINISHED}*"):
+                if path.is_file():
+                    path.unlink()
+
+
+def write_whole(path: Path, data: bytes | memoryview) -> None:
+    """Write a file that appears whole or not at all, and is on the disk when this returns.
+
+    Raises:
+        InputError: If it cannot be written; nothing is left of it.
+    """
+    unfinished = path.with_name(UNFINISHED + path.name)
+    with told(path):
+        try:
+            with unfinished.open("wb", buffering=0) as file:
+                write_all(file.fileno(), data)
+                os.fsync(file.fileno())
+            unfinished.replace(path)
+            sync_folder(path.parent)
+        except OSError:
+            with contextlib.suppress(OSError):
+                unfinished.unlink()
+            raise
+
+
+def write_all(descriptor: int, data: bytes | memoryview) -> None:
+    """Write every byte: a write may take fewer than it is given."""
+    left = memoryview(data)
+    while left:
+        left = left[os.write(descriptor, left) :]
+
+
+def sync_folder(folder: Path) -> None:
+    """Wait until the names in a folder are on the disk."""
+    descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)
+
+
+def settle(folder: Path, asked: str, *, is_begun: bool) -> None:
+    """Write down what is asked, or see that it is what was asked before.
+
+    Raises:
+        InputError: If the folder holds another study.
+    """
+    path = folder / ASKED
+    there = read_bytes(path)
+    if there is None and is_begun:
+        message = f"{path}: is missing, though there are results: restore it, or use another folder"
+        raise InputError(message)
+    if there is None:
+        write_whole(path, asked.encode())
+    elif there != asked.encode():
+        message = (
+            f"{folder}: holds another study: use another folder (--out), or remove it\n"
+            + differences(there.decode(errors="replace"), asked)
+        )
+        raise InputError(message)
+
+
+def read_bytes(path: Path) -> bytes | None:
+    """Return a file's bytes, None if it is not there.
+
+    Raises:
+        InputError: If it cannot be read.
+    """
+    with told(path, "read"):
+        try:
+            return path.read_bytes()
+        except FileNotFoundError:
+            return None
+
+
+def differences(there: str, asked: str) -> str:
+    """Return the first lines in which a study differs from what is asked."""
+    diff = difflib.ndiff(there.splitlines(), asked.splitlines())
+    words = {"- ": "there", "+ ": "asked"}
+    lines = [f"  {words[line[:2]]}: {line[2:]}" for line in diff if line[:2] in words]
+    more = [f"  and {len(lines) - MOST_SHOWN} more lines"] if len(lines) > MOST_SHOWN else []
+    return "\n".join([*lines[:MOST_SHOWN], *more]) or "  they differ in how lines end"

@@ -1,0 +1,82 @@
+"""A study's store for those who watch: no lock, nothing written, also while another writes."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from agent_economy._core import InputError
+from agent_economy.study.store import folder as files
+from agent_economy.study.store.columns import Column
+from agent_economy.study.store.ledger import Block, Decision, snapshot
+from agent_economy.study.store.writing import check_there
+
+if TYPE_CHECKING:
+    from duckdb import DuckDBPyRelation
+
+
+@dataclass(frozen=True)
+class ReadStore:
+    """A study's folder, to read; every call sees what is there then.
+
+    Attributes:
+        folder: Where.
+        asked: The text of study.toml.
+    """
+
+    folder: Path
+    asked: str
+
+    def columns(self) -> tuple[Column, ...]:
+        """Return the columns of every run."""
+        return snapshot(self.folder / files.LEDGER)[0]
+
+    def blocks(self) -> list[Block]:
+        """Return the blocks so far, by first run and configuration."""
+        return snapshot(self.folder / files.LEDGER)[1]
+
+    def decisions(self) -> list[Decision]:
+        """Return the decisions so far, by round."""
+        return snapshot(self.folder / files.LEDGER)[2]
+
+    def runs(self) -> "DuckDBPyRelation":
+        """Return the runs so far, a row each, to ask in SQL.
+
+        Returns:
+            `configuration`, `run`, the study's columns (null = never, or quarantined) and
+            `quarantined` (whether a value of the run was no number).
+
+        Raises:
+            InputError: If a block is missing or cut short. Hashes are not compared.
+        """
+        import duckdb  # noqa: PLC0415  (slow to load)
+
+        columns, blocks, _ = snapshot(self.folder / files.LEDGER)
+        check_there(self.folder, blocks)
+        connection = duckdb.connect()
+        if not blocks:
+            return connection.sql(f"{empty(columns)} LIMIT 0")
+        paths = [str(self.folder / files.BLOCKS / block.name) for block in blocks]
+        marked = connection.read_parquet(paths)
+        return marked.project("* REPLACE (quarantined <> 0 AS quarantined)")
+
+
+def empty(columns: tuple[Column, ...]) -> str:
+    """Return SQL that gives no run, but its columns."""
+    types = {"whole": "BIGINT", "real": "DOUBLE", "flag": "BOOLEAN"}
+    pairs = [("configuration", "INTEGER"), ("run", "BIGINT")]
+    pairs += [(column.name, types[column.kind]) for column in columns]
+    pairs += [("quarantined", "BOOLEAN")]
+    return "SELECT " + ", ".join(f'NULL::{kind} AS "{name}"' for name, kind in pairs)
+
+
+def read(folder: Path) -> ReadStore:
+    """Open a study's folder to read.
+
+    Raises:
+        InputError: If it holds no study.
+    """
+    asked = files.read_bytes(folder / files.ASKED)
+    if asked is None:
+        message = f"{folder}: holds no study ({files.ASKED} is not there)"
+        raise InputError(message)
+    return ReadStore(folder, asked.decode())

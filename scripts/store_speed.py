@@ -1,0 +1,109 @@
+"""Measure how fast a study's store writes and reads, and how small its files are.
+
+Example: python scripts/store_speed.py
+"""
+
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+from statistics import median
+
+import numpy as np
+
+from agent_economy import classic
+from agent_economy.study.store import Column, Columns, Rectangle, Store
+
+COLUMNS = (
+    Column("time_s", "real"),
+    Column("failed", "flag"),
+    Column("robots", "whole"),
+    Column("found", "whole"),
+    Column("collisions", "whole"),
+    Column("paints", "whole"),
+)
+TEAM_SIZES = tuple(range(1, 41))
+RUNS = 6_250
+"""Real runs of each team; larger blocks repeat teams, under other numbers."""
+
+SIZES = (250_000, 500_000, 1_000_000)
+TRIALS = 15
+SMALL = (40, 10)
+SMALL_BLOCKS = 200
+
+
+def main() -> None:
+    """Print a table of block sizes, and what a small block costs."""
+    data = outcomes()
+    print("rows a block  written rows/s  read rows/s  bytes a row")
+    for rows in SIZES:
+        print("{:>12,}  {:>14,.0f}  {:>11,.0f}  {:>11.2f}".format(rows, *large(data, rows)))
+    writing, reading = small(data)
+    configurations, runs = SMALL
+    print(f"a block of {configurations} x {runs}: written {writing:.2f} ms, read {reading:.2f} ms")
+
+
+def outcomes() -> Columns:
+    """Return every column of real runs, (teams, runs)."""
+    kept: dict[str, list[object]] = {column.name: [] for column in COLUMNS}
+    for robots in TEAM_SIZES:
+        table = classic.replicate(robots, RUNS)
+        paints = np.nan_to_num(table["paints"].to_numpy().astype(float), nan=np.inf)
+        kept["paints"].append(paints)
+        kept["time_s"].append(np.minimum(paints, classic.CAP_PAINTS) / 56)
+        kept["failed"].append(paints > classic.CAP_PAINTS)
+        kept["robots"].append(np.full(RUNS, robots))
+        kept["found"].append(table["found"].to_numpy())
+        kept["collisions"].append(table["collisions"].to_numpy())
+    return {name: np.array(values, dtype=np.float64) for name, values in kept.items()}
+
+
+def large(data: Columns, rows: int) -> tuple[float, float, float]:
+    """Return rows written and read a second (medians), and bytes a row, of blocks of some size."""
+    copies = rows // (len(TEAM_SIZES) * RUNS)
+    block = {name: np.tile(values, (copies, 1)) for name, values in data.items()}
+    area = Rectangle(tuple(range(copies * len(TEAM_SIZES))), 0, RUNS)
+    writing, reading, size = [], [], 0
+    for _ in range(TRIALS):
+        with tempfile.TemporaryDirectory(dir=".") as place:
+            folder = Path(place)
+            with Store.open(folder, "", COLUMNS) as store:
+                writing.append(seconds(partial(store.block, area, lambda _: block)))
+                reading.append(seconds(partial(store.block, area, refuse)))
+            size = sum(path.stat().st_size for path in (folder / "blocks").iterdir())
+    return rows / median(writing), rows / median(reading), size / rows
+
+
+def small(data: Columns) -> tuple[float, float]:
+    """Return ms to write and to read a small block (medians)."""
+    configurations, runs = SMALL
+    block = {name: values[:configurations, :runs] for name, values in data.items()}
+    areas = [
+        Rectangle(tuple(range(configurations)), number * runs, runs)
+        for number in range(SMALL_BLOCKS)
+    ]
+    with (
+        tempfile.TemporaryDirectory(dir=".") as place,
+        Store.open(Path(place), "", COLUMNS) as store,
+    ):
+        writing = [seconds(partial(store.block, area, lambda _: block)) for area in areas]
+        reading = [seconds(partial(store.block, area, refuse)) for area in areas]
+    return median(writing) * 1000, median(reading) * 1000
+
+
+def refuse(area: Rectangle) -> Columns:
+    """End the program: what should be read was not stored."""
+    sys.exit(f"{area} was stored, but is asked for again")
+
+
+def seconds(work: Callable[[], object]) -> float:
+    """Return how long something takes."""
+    begin = time.perf_counter()
+    work()
+    return time.perf_counter() - begin
+
+
+if __name__ == "__main__":
+    main()
