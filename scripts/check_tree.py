@@ -14,6 +14,7 @@ ROOT = Path(__file__).resolve().parent.parent
 CRATE_USES = {
     "agent-economy-base": set[str](),
     "agent-economy-classic": {"agent-economy-base"},
+    "agent-economy-select": {"agent-economy-base"},
     "agent-economy-py": {"agent-economy-base", "agent-economy-classic"},
 }
 """Which of our crates each may use; a new crate is added here on purpose."""
