@@ -14,8 +14,8 @@ ROOT = Path(__file__).resolve().parent.parent
 CRATE_USES = {
     "agent-economy-base": set[str](),
     "agent-economy-classic": {"agent-economy-base"},
+    "agent-economy-py": {"agent-economy-base", "agent-economy-classic", "agent-economy-select"},
     "agent-economy-select": {"agent-economy-base"},
-    "agent-economy-py": {"agent-economy-base", "agent-economy-classic"},
 }
 """Which of our crates each may use; a new crate is added here on purpose."""
 

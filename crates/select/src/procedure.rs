@@ -1,37 +1,45 @@
-//! What every selection procedure has in common: it asks for runs, is told merits, and decides.
+//! How a procedure asks for runs and hears of them.
 
-/// A rectangle of runs: `runs` runs from number `first_run` on, of each of some configurations.
+/// Runs that a procedure wants next: a rectangle of configurations and consecutive runs.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Request {
-    /// Configurations by number, ascending.
+    /// Which configurations, ascending.
     pub configurations: Vec<usize>,
-    /// Number of the first run.
+    /// The first run's number.
     pub first_run: u64,
-    /// How many runs of each configuration.
+    /// How many, at least 1.
     pub runs: usize,
 }
 
-/// A configuration that is out of the race.
-#[derive(Debug, Clone, PartialEq, Eq)]
+/// A configuration that is out, and who put it out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Elimination {
-    /// Which one.
+    /// Which configuration.
     pub configuration: usize,
-    /// The one that was shown to be better.
+    /// The one with the most evidence against it.
     pub by: usize,
-    /// After how many runs of it.
+    /// How many runs it had by then.
     pub runs: u64,
 }
 
-/// A selection procedure. Merits: higher is better.
+/// A way to select the best of `k` configurations: ask it with `next`, tell it what came out, until
+/// it asks for nothing more.
 pub trait Procedure {
-    /// What it needs to know next; `None` when it has decided.
+    /// What it wants next; `None` when it has selected.
     fn next(&self) -> Option<Request>;
-    /// The merits of the request, row-major `(configurations, runs)`.
+
+    /// Tells the merits of what `next` asked for, a row a configuration.
     fn tell(&mut self, merits: &[f64]);
-    /// The best configuration as far as is known.
+
+    /// The configuration selected, or leading so far.
     fn best(&self) -> usize;
-    /// Runs told so far of each configuration.
-    fn runs(&self) -> &[u64];
-    /// Configurations that are out, in order.
-    fn eliminations(&self) -> &[Elimination];
+
+    /// Runs of each configuration so far.
+    fn runs(&self) -> Vec<u64>;
+
+    /// The configurations that can still be selected, ascending.
+    fn survivors(&self) -> Vec<usize>;
+
+    /// Those that are out, in the order in which they went.
+    fn eliminations(&self) -> Vec<Elimination>;
 }

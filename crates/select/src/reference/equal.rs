@@ -45,12 +45,17 @@ impl Procedure for Equal {
         self.tally.best()
     }
 
-    fn runs(&self) -> &[u64] {
-        &self.tally.runs
+    fn runs(&self) -> Vec<u64> {
+        self.tally.runs.clone()
     }
 
-    fn eliminations(&self) -> &[Elimination] {
-        &[]
+    /// All, to the end.
+    fn survivors(&self) -> Vec<usize> {
+        (0..self.tally.runs.len()).collect()
+    }
+
+    fn eliminations(&self) -> Vec<Elimination> {
+        Vec::new()
     }
 }
 

@@ -143,12 +143,16 @@ impl Procedure for KimNelson {
         all.reduce(ahead).unwrap_or_default()
     }
 
-    fn runs(&self) -> &[u64] {
-        &self.runs
+    fn runs(&self) -> Vec<u64> {
+        self.runs.clone()
     }
 
-    fn eliminations(&self) -> &[Elimination] {
-        &self.eliminations
+    fn survivors(&self) -> Vec<usize> {
+        self.survivors.clone()
+    }
+
+    fn eliminations(&self) -> Vec<Elimination> {
+        self.eliminations.clone()
     }
 }
 
@@ -186,7 +190,7 @@ mod tests {
     fn noise_that_configurations_share_costs_no_runs() {
         let noise = |run: u64| [0.0, 5.0, 1.0, 4.0][usize::try_from(run % 4).unwrap()];
         let procedure = decide(|each, run| [0.2, 0.1][each] + noise(run), 2);
-        assert_eq!((procedure.best(), procedure.runs()), (0, &[10, 10][..]));
+        assert_eq!((procedure.best(), procedure.runs()), (0, vec![10, 10]));
     }
 
     #[test]
