@@ -1,17 +1,35 @@
 //! One selection, played to its end.
 
 use crate::cases::Case;
+use crate::gate::CONFIDENCE;
 use crate::random::Place;
 use select::reference::{KimNelson, Rinott};
 use select::{Problem, Procedure, Race, Strict};
 
 /// Who selects.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Method {
     Race,
     Strict,
-    Rinott { first_runs: u32 },
-    KimNelson { first_runs: u32 },
+    /// With its constant, which takes longer to compute than a selection.
+    Rinott {
+        first_runs: u32,
+        h: f64,
+    },
+    KimNelson {
+        first_runs: u32,
+    },
+}
+
+impl Method {
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Race => "race",
+            Self::Strict => "strict",
+            Self::Rinott { .. } => "Rinott",
+            Self::KimNelson { .. } => "KN",
+        }
+    }
 }
 
 /// How many runs are told at a time.
@@ -33,6 +51,18 @@ pub(crate) struct Told {
     pub(crate) confidence: f64,
     /// In units of the problem's own delta.
     pub(crate) deltas: f64,
+}
+
+impl Told {
+    /// What is true, in the batches that the procedure asks for.
+    pub(crate) fn honestly(method: Method) -> Self {
+        Self {
+            method,
+            batches: Batches::Asked,
+            confidence: CONFIDENCE,
+            deltas: 1.0,
+        }
+    }
 }
 
 /// What came out of one macro-replication.
@@ -81,14 +111,9 @@ fn procedure(case: &dyn Case, told: Told) -> Box<dyn Procedure> {
     match told.method {
         Method::Race => Box::new(Race::new(problem)),
         Method::Strict => Box::new(Strict::new(problem)),
-        Method::Rinott { first_runs } => {
+        Method::Rinott { first_runs, h } => {
             let first_runs = u64::from(first_runs);
-            Box::new(Rinott::new(
-                configurations,
-                delta,
-                told.confidence,
-                first_runs,
-            ))
+            Box::new(Rinott::with_constant(configurations, delta, h, first_runs))
         }
         Method::KimNelson { first_runs } => {
             let first_runs = first_runs as usize;

@@ -27,12 +27,21 @@ impl Rinott {
     /// For `configurations >= 1`, a `delta > 0` in units of merit, a `confidence` from 0.5 to
     /// below 1, and `first_runs >= 2` runs of each configuration in the first stage (ten or more
     /// are wise: fewer make the second stage long).
+    ///
+    /// Cost: a tenth of a second for the constant.
     #[must_use]
     pub fn new(configurations: usize, delta: f64, confidence: f64, first_runs: u64) -> Self {
-        debug_assert!(delta > 0.0);
+        let h = rinott_h(configurations, first_runs, confidence);
+        Self::with_constant(configurations, delta, h, first_runs)
+    }
+
+    /// The same with the constant `h` of [`rinott_h`], for those who select many times.
+    #[must_use]
+    pub fn with_constant(configurations: usize, delta: f64, h: f64, first_runs: u64) -> Self {
+        debug_assert!(configurations >= 1 && delta > 0.0 && first_runs >= 2);
         Self {
             tally: Tally::new(configurations),
-            scale: rinott_h(configurations, first_runs, confidence) / delta,
+            scale: h / delta,
             first_runs,
             needed: vec![first_runs; configurations],
         }

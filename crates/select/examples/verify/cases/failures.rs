@@ -2,17 +2,16 @@ use super::Case;
 use crate::random::Place;
 use select::Bounds;
 
-/// Runs that fail or not: ten configurations, of which the last fails half as often as the others.
+/// Runs that fail or not; the last configuration fails half as often as the others.
 pub(crate) struct Failures {
+    pub(crate) configurations: usize,
     /// How often the others fail.
     pub(crate) others: f64,
 }
 
 impl Failures {
-    const CONFIGURATIONS: usize = 10;
-
     fn chance(&self, configuration: usize) -> f64 {
-        if configuration == Self::CONFIGURATIONS - 1 {
+        if configuration == self.configurations - 1 {
             self.others / 2.0
         } else {
             self.others
@@ -22,7 +21,7 @@ impl Failures {
 
 impl Case for Failures {
     fn means(&self) -> Vec<f64> {
-        (0..Self::CONFIGURATIONS)
+        (0..self.configurations)
             .map(|each| -self.chance(each))
             .collect()
     }
@@ -33,7 +32,7 @@ impl Case for Failures {
                 least: -1.0,
                 greatest: 0.0
             };
-            Self::CONFIGURATIONS
+            self.configurations
         ]
     }
 

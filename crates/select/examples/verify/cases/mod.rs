@@ -3,12 +3,14 @@
 mod capped;
 mod failures;
 mod hills;
+mod lottery;
 mod normal;
 mod teams;
 
 pub(crate) use capped::Capped;
 pub(crate) use failures::Failures;
 pub(crate) use hills::Hills;
+pub(crate) use lottery::Lottery;
 pub(crate) use normal::Normal;
 pub(crate) use teams::Teams;
 
