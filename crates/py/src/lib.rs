@@ -7,6 +7,7 @@ mod classic_scenario;
 mod classic_trace;
 mod error;
 mod long_work;
+mod selection;
 
 use pyo3::prelude::*;
 
@@ -20,6 +21,8 @@ mod _core {
     use crate::classic_trace::{random_start, trace};
     #[pymodule_export]
     use crate::error::InputError;
+    #[pymodule_export]
+    use crate::selection::{Procedure, mean_bounds, mean_exceeds, selection};
 
     use classic::Contact;
     use classic::scenario::Merit;

@@ -1,0 +1,163 @@
+//! Selection procedures, and bounds of means.
+
+use crate::error::InputError;
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyUntypedArrayMethods};
+use pyo3::prelude::*;
+use select::bounds::{mean_bounds as bounds_of_mean, mean_exceeds as exceeds};
+use select::{Bounds, Problem, Race, Strict};
+use std::sync::{Mutex, PoisonError};
+
+/// Configurations that one selection can compare.
+const MAX_CONFIGURATIONS: usize = 100_000;
+
+/// A selection procedure, between two of its rounds.
+///
+/// Its callers in Python check what people give; here a wrong argument is a fault of ours.
+#[pyclass(frozen, module = "agent_economy._core")]
+pub(crate) struct Procedure(Mutex<Box<dyn select::Procedure + Send>>);
+
+impl Procedure {
+    fn with<T>(&self, act: impl FnOnce(&mut (dyn select::Procedure + Send)) -> T) -> T {
+        let mut procedure = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        act(procedure.as_mut())
+    }
+}
+
+type Asked<'py> = (Bound<'py, PyArray1<i64>>, u64, usize);
+
+#[pymethods]
+impl Procedure {
+    /// Configurations, first run and number of runs that it wants next; None when it has selected.
+    fn next<'py>(&self, py: Python<'py>) -> Option<Asked<'py>> {
+        let asked = self.with(|procedure| procedure.next())?;
+        let configurations = indices(py, asked.configurations);
+        Some((configurations, asked.first_run, asked.runs))
+    }
+
+    /// Tells it the merits of what it asked for: shape (configurations, runs).
+    fn tell(&self, py: Python, merits: &Bound<PyArray2<f64>>) -> PyResult<()> {
+        let asked = self.with(|procedure| procedure.next());
+        let rows = asked.map_or(0, |asked| asked.configurations.len());
+        let shape = merits.shape();
+        if shape[0] != rows || shape[1] == 0 {
+            let message = format!("merits have shape {shape:?}: must be a row for each of {rows}");
+            return Err(InputError::new_err(message));
+        }
+        // Copied, so that the procedure can work without Python's lock.
+        let merits: Vec<f64> = merits.readonly().as_array().iter().copied().collect();
+        py.detach(|| self.with(|procedure| procedure.tell(&merits)));
+        Ok(())
+    }
+
+    /// The configuration selected, or leading so far.
+    #[getter]
+    fn best(&self) -> usize {
+        self.with(|procedure| procedure.best())
+    }
+
+    /// Runs of each configuration so far.
+    #[getter]
+    fn runs<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i64>> {
+        let runs = self.with(|procedure| procedure.runs());
+        let runs: Vec<i64> = runs.into_iter().map(u64::cast_signed).collect();
+        runs.into_pyarray(py)
+    }
+
+    /// Configurations that can still be selected, ascending.
+    #[getter]
+    fn survivors<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i64>> {
+        indices(py, self.with(|procedure| procedure.survivors()))
+    }
+
+    /// (configuration, by which, after how many runs) of those that are out, in their order.
+    #[getter]
+    fn eliminations(&self) -> Vec<(usize, usize, u64)> {
+        let out = self.with(|procedure| procedure.eliminations());
+        out.into_iter()
+            .map(|each| (each.configuration, each.by, each.runs))
+            .collect()
+    }
+}
+
+fn indices(py: Python<'_>, configurations: Vec<usize>) -> Bound<'_, PyArray1<i64>> {
+    let signed = configurations.into_iter().map(usize::cast_signed);
+    signed
+        .map(|index| index as i64)
+        .collect::<Vec<i64>>()
+        .into_pyarray(py)
+}
+
+/// The race ("indifference") or the strict procedure ("pgs") for configurations whose merits lie
+/// within `bounds`: shape (configurations, 2).
+#[pyfunction]
+#[pyo3(signature = (bounds, *, delta, confidence, guarantee))]
+pub(crate) fn selection(
+    bounds: &Bound<PyArray2<f64>>,
+    delta: f64,
+    confidence: f64,
+    guarantee: &str,
+) -> PyResult<Procedure> {
+    let problem = Problem {
+        bounds: rows(bounds)?,
+        delta,
+        confidence,
+    };
+    let procedure: Box<dyn select::Procedure + Send> = match guarantee {
+        "indifference" => Box::new(Race::new(problem)),
+        "pgs" => Box::new(Strict::new(problem)),
+        other => {
+            let message =
+                format!("guarantee = {other:?}: must be one of \"indifference\", \"pgs\"");
+            return Err(InputError::new_err(message));
+        }
+    };
+    Ok(Procedure(Mutex::new(procedure)))
+}
+
+fn rows(bounds: &Bound<PyArray2<f64>>) -> PyResult<Vec<Bounds>> {
+    let shape = bounds.shape();
+    let is_allowed = (1..=MAX_CONFIGURATIONS).contains(&shape[0]) && shape[1] == 2;
+    if !is_allowed {
+        let message = format!(
+            "bounds have shape {shape:?}: must be (configurations, 2) with at most \
+             {MAX_CONFIGURATIONS} configurations"
+        );
+        return Err(InputError::new_err(message));
+    }
+    let bounds = bounds.readonly();
+    let rows = bounds.as_array();
+    let rows = rows.rows().into_iter().map(|row| Bounds {
+        least: row[0],
+        greatest: row[1],
+    });
+    Ok(rows.collect())
+}
+
+/// Lower and upper bound of the mean of values within `least`..`greatest`, at any moment; each is
+/// wrong with a probability of at most `alpha`.
+#[pyfunction]
+pub(crate) fn mean_bounds(
+    py: Python,
+    values: &Bound<PyArray1<f64>>,
+    least: f64,
+    greatest: f64,
+    alpha: f64,
+) -> (f64, f64) {
+    let values = values.readonly().as_array().to_vec();
+    py.detach(|| bounds_of_mean(&values, Bounds { least, greatest }, alpha))
+}
+
+/// Whether the mean of values within `least`..`greatest` is above `candidate`, at any moment; a yes
+/// is wrong with a probability of at most `alpha`.
+#[pyfunction]
+pub(crate) fn mean_exceeds(
+    py: Python,
+    values: &Bound<PyArray1<f64>>,
+    bounds: (f64, f64),
+    candidate: f64,
+    alpha: f64,
+) -> bool {
+    let values = values.readonly().as_array().to_vec();
+    let (least, greatest) = bounds;
+    py.detach(|| exceeds(&values, Bounds { least, greatest }, candidate, alpha))
+}

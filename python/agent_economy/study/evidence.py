@@ -1,0 +1,107 @@
+"""What the runs of a study say, with certainty that holds for all of it together and at any moment.
+
+A race looks at its runs again and again and stops when it likes, so intervals for a fixed number of
+runs would be too narrow. All of these are confidence sequences (`crates/select/src/bounds.rs`). The
+error that the confidence leaves is divided: half among the intervals of single configurations, half
+among the differences of pairs, each evenly; so every statement of an answer that is made from them
+holds together with all others.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from agent_economy import _core
+
+Floats = NDArray[np.float64]
+Limits = tuple[float, float]
+
+QUANTITIES = ("merit", "time_s", "failed")
+"""What intervals are made of: the merit, and two columns that every simulator has."""
+
+
+@dataclass(frozen=True)
+class Interval:
+    """A mean, and the bounds between which the true one lies."""
+
+    value: float
+    low: float
+    high: float
+
+
+@dataclass(frozen=True)
+class Sample:
+    """The runs of one configuration.
+
+    Attributes:
+        values: By path, what it differs in from the others.
+        columns: By name, shape (runs,): each of `QUANTITIES`, and the simulator's other columns.
+        limits: By name, between which values a column lies.
+        quarantined: Runs that gave no finite merit and count as the worst.
+    """
+
+    values: Mapping[str, float | str]
+    columns: Mapping[str, Floats]
+    limits: Mapping[str, Limits]
+    quarantined: int
+
+    @property
+    def runs(self) -> int:
+        """How many runs."""
+        return len(self.columns["merit"])
+
+    def mean(self, name: str) -> float:
+        """Return the mean of a column."""
+        return float(self.columns[name].mean())
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """The runs of all configurations of a study."""
+
+    samples: tuple[Sample, ...]
+    confidence: float
+
+    @cached_property
+    def _alpha(self) -> float:
+        return (1 - self.confidence) / 2 / len(QUANTITIES)
+
+    @property
+    def alpha_single(self) -> float:
+        """Error of each side of one configuration's interval."""
+        return self._alpha / (2 * len(self.samples))
+
+    @property
+    def alpha_pair(self) -> float:
+        """Error of each side of one pair's difference."""
+        count = len(self.samples)
+        return self._alpha / max(1, count * (count - 1))
+
+    def interval(self, configuration: int, name: str) -> Interval:
+        """Return the mean of one of `QUANTITIES` with its bounds."""
+        sample = self.samples[configuration]
+        low, high = _core.mean_bounds(
+            sample.columns[name], *sample.limits[name], self.alpha_single
+        )
+        return Interval(sample.mean(name), low, high)
+
+    def difference(self, one: int, other: int, name: str) -> Interval:
+        """Return one's mean less the other's, from the runs that both have."""
+        values, limits = self._differences(one, other, name)
+        low, high = _core.mean_bounds(values, *limits, self.alpha_pair)
+        return Interval(float(values.mean()), low, high)
+
+    def exceeds(self, one: int, other: int, name: str, by: float = 0.0) -> bool:
+        """Return whether one's mean is surely above the other's by some amount."""
+        values, limits = self._differences(one, other, name)
+        return _core.mean_exceeds(values, limits, by, self.alpha_pair)
+
+    def _differences(self, one: int, other: int, name: str) -> tuple[Floats, Limits]:
+        first, second = self.samples[one], self.samples[other]
+        runs = min(first.runs, second.runs)
+        values = first.columns[name][:runs] - second.columns[name][:runs]
+        (least, greatest), (other_least, other_greatest) = first.limits[name], second.limits[name]
+        return values, (least - other_greatest, greatest - other_least)

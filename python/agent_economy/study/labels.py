@@ -1,0 +1,42 @@
+"""What people call a configuration: "4 rovers, 1 scout, contact touch"."""
+
+from collections.abc import Mapping
+
+from agent_economy.study.saturation import TEAM
+
+Values = Mapping[str, float | str]
+
+
+def label(values: Values) -> str:
+    """Return what people call a configuration that differs from others in these values."""
+    return ", ".join(part(path, value) for path, value in values.items()) or "the scenario as it is"
+
+
+def part(path: str, value: float | str) -> str:
+    """Return one value in words: "4 rovers" for robots.rover.count, else "cap_s 120"."""
+    kind = robot_kind(path)
+    if kind is not None:
+        return f"{value} {kind}" if value == 1 else f"{value} {kind}s"
+    written = value if isinstance(value, str) else f"{value:g}"
+    return f"{path.rsplit('.', 1)[-1]} {written}"
+
+
+def robot_kind(path: str) -> str | None:
+    """Return the robot kind whose team size a path is, if it is one."""
+    start, end = TEAM
+    return path[len(start) : -len(end)] if path.startswith(start) and path.endswith(end) else None
+
+
+def order(values: Values) -> str:
+    """Return what to do: "Send 4 rovers", "Choose cap_s 120", "Send 4 rovers with cap_s 120"."""
+    teams = {path: value for path, value in values.items() if robot_kind(path) is not None}
+    others = {path: value for path, value in values.items() if path not in teams}
+    if not teams:
+        return f"Choose {label(others)}"
+    return f"Send {label(teams)}" + (f" with {label(others)}" if others else "")
+
+
+def listed(words: list[str]) -> str:
+    """Return "a", "a and b", "a, b and c"."""
+    *most, last = words
+    return f"{', '.join(most)} and {last}" if most else last

@@ -1,0 +1,315 @@
+"""The best of several configurations, with a stated guarantee, for any function of yours.
+
+The procedures themselves are compiled (`crates/select`); here they are driven: what they ask for is
+computed, checked and told to them. `drive` is the one loop; a study runs it over its store.
+"""
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Literal, get_args
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from agent_economy import _core
+from agent_economy._core import InputError
+
+Guarantee = Literal["indifference", "pgs"]
+Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
+Sampler = Callable[[Integers, int, int], ArrayLike]
+
+MAX_CONFIGURATIONS = 100_000
+FIRST_LOOK = 10
+"""Runs of every configuration before anything is decided."""
+
+LANE = 2**32
+"""Run numbers that belong to one seed (and to one configuration, without common random numbers)."""
+
+ROUNDING = 1e-9
+"""Part of a configuration's range by which a merit may lie outside it, and is put on its edge."""
+
+
+@dataclass(frozen=True)
+class Elimination:
+    """A configuration that is out, by which other, and after how many of its runs."""
+
+    configuration: int
+    by: int
+    runs: int
+
+
+@dataclass(frozen=True)
+class Selection:
+    """The best configuration, and what is known of all.
+
+    Attributes:
+        best: Index of the selected configuration.
+        runs: Of each configuration; shape (k,).
+        mean: Mean merit of each; shape (k,).
+        lower: Lower bounds of the true means, shape (k,). All bounds hold together, at any moment,
+            with the stated confidence.
+        upper: Upper bounds likewise.
+        eliminations: Who went out, in that order.
+        survivors: Those that can still be the best: only `best`, unless stopped.
+        quarantined: Runs of each that gave no finite merit and count as the worst; shape (k,).
+        stopped: Whether `max_runs` came first; then nothing is guaranteed.
+        guarantee: What is guaranteed, in words.
+    """
+
+    best: int
+    runs: Integers
+    mean: Floats
+    lower: Floats
+    upper: Floats
+    eliminations: tuple[Elimination, ...]
+    survivors: tuple[int, ...]
+    quarantined: Integers
+    stopped: bool
+    guarantee: str
+
+
+def select_best(  # noqa: PLR0913  (keywords with defaults)
+    sampler: Sampler,
+    k: int,
+    *,
+    bounds: ArrayLike,
+    delta: float,
+    confidence: float = 0.95,
+    guarantee: Guarantee = "indifference",
+    common_random_numbers: bool = True,
+    seed: int = 0,
+    max_runs: int | None = None,
+) -> Selection:
+    """Return the best of k configurations by mean merit, in as few runs as the truth allows.
+
+    Args:
+        sampler: `sampler(configurations, first_run, runs)` returns the merits of consecutive runs
+            of some configurations, shape (len(configurations), runs); higher is better. A merit
+            that is not finite is a quarantined run: it counts as the worst there is. The same run
+            of a configuration must always give the same merit; run numbers should choose the random
+            numbers, the same for all configurations, so that differences are less noisy.
+        k: How many configurations, 1 to 100,000; they are numbered from 0.
+        bounds: Least and greatest merit that a run can have: a pair, or an array (k, 2).
+        delta: The difference of mean merits worth finding; above 0. Runs grow as 1 / delta^2.
+        confidence: Of the guarantee; 0.5 up to below 1. Runs grow as log(1 / (1 - confidence)).
+        guarantee: "indifference": if the best is better than every other by delta, it is selected.
+            "pgs": whatever the truth, the selected one is within delta of the best (some 15% more
+            runs where there is one best).
+        common_random_numbers: Whether run r of all configurations may share its random numbers.
+            If not, no run number is ever asked of two configurations.
+        seed: 0 to 2,147,483,647; its run numbers begin at seed x 2^32.
+        max_runs: Stop before more than this many runs in all; None for as many as it takes.
+
+    Returns:
+        The selection; when `max_runs` stopped it, the leader and no guarantee.
+
+    Raises:
+        InputError: If an argument is not allowed, all faults at once; or if the sampler returns
+            another shape, or a merit outside of `bounds`.
+    """
+    limits = checked_arguments(k, bounds, delta, confidence, guarantee, seed, max_runs)
+    samples = Samples(sampler, limits, seed if common_random_numbers else seed * k)
+    procedure = _core.selection(limits, delta=delta, confidence=confidence, guarantee=guarantee)
+    ask = samples.shared if common_random_numbers else samples.apart
+    for _ in drive(procedure, ask, max_runs):
+        pass
+    return samples.selection(procedure, delta, confidence, guarantee)
+
+
+@dataclass(frozen=True)
+class Round:
+    """One round of a procedure: what it asked for, and the merits it was told."""
+
+    configurations: Integers
+    first_run: int
+    runs: int
+    merits: Floats
+
+
+def drive(
+    procedure: _core.Procedure,
+    ask: Callable[[Integers, int, int], Floats],
+    max_runs: int | None = None,
+) -> Iterator[Round]:
+    """Give a procedure what it asks for until it has selected, or would exceed `max_runs`."""
+    total = 0
+    while asked := procedure.next():
+        configurations, first_run, runs = asked
+        total += len(configurations) * runs
+        if max_runs is not None and total > max_runs:
+            return
+        merits = ask(configurations, first_run, runs)
+        procedure.tell(merits)
+        yield Round(configurations, first_run, runs, merits)
+
+
+class Samples:
+    """The merits that a sampler gave, checked."""
+
+    def __init__(self, sampler: Sampler, limits: Floats, lane: int) -> None:
+        """Begin with none; `lane` x 2^32 is the first run number."""
+        self._sampler = sampler
+        self._limits = limits
+        self._lane = lane
+        self._merits: list[list[Floats]] = [[] for _ in limits]
+        self._quarantined = np.zeros(len(limits), dtype=np.int64)
+
+    def shared(self, configurations: Integers, first_run: int, runs: int) -> Floats:
+        """Return merits of the same run numbers for all configurations."""
+        given = self._sampler(configurations, self._lane * LANE + first_run, runs)
+        return self._kept(configurations, self._shaped(given, (len(configurations), runs)))
+
+    def apart(self, configurations: Integers, first_run: int, runs: int) -> Floats:
+        """Return merits of run numbers that no two configurations share."""
+        rows = [
+            self._sampler(np.array([each]), (self._lane + int(each)) * LANE + first_run, runs)
+            for each in configurations
+        ]
+        shaped = [self._shaped(row, (1, runs)) for row in rows]
+        return self._kept(configurations, np.concatenate(shaped))
+
+    def _shaped(self, given: ArrayLike, shape: tuple[int, int]) -> Floats:
+        merits = np.array(given, dtype=np.float64)
+        if merits.shape != shape:
+            message = f"the sampler returned shape {merits.shape}: must be {shape}"
+            raise InputError(message)
+        return merits
+
+    def _kept(self, configurations: Integers, merits: Floats) -> Floats:
+        merits, quarantined = within(self._limits, configurations, merits)
+        self._quarantined[configurations] += quarantined
+        for configuration, row in zip(configurations, merits, strict=True):
+            self._merits[configuration].append(row)
+        return merits
+
+    def selection(
+        self, procedure: _core.Procedure, delta: float, confidence: float, guarantee: Guarantee
+    ) -> Selection:
+        """Return what came out."""
+        merits = [np.concatenate([np.empty(0), *rows]) for rows in self._merits]
+        alpha = (1 - confidence) / (2 * len(merits))
+        bounds = [
+            _core.mean_bounds(row, least, greatest, alpha)
+            for row, (least, greatest) in zip(merits, self._limits.tolist(), strict=True)
+        ]
+        lower, upper = np.array(bounds).T
+        stopped = procedure.next() is not None
+        return Selection(
+            best=procedure.best,
+            runs=procedure.runs,
+            mean=np.array([row.mean() if len(row) else math.nan for row in merits]),
+            lower=lower,
+            upper=upper,
+            eliminations=tuple(Elimination(*each) for each in procedure.eliminations),
+            survivors=tuple(procedure.survivors.tolist()),
+            quarantined=self._quarantined,
+            stopped=stopped,
+            guarantee=in_words(procedure, delta, confidence, guarantee),
+        )
+
+
+def within(limits: Floats, configurations: Integers, merits: Floats) -> tuple[Floats, Integers]:
+    """Return merits within their limits, and how many of each row were quarantined.
+
+    Raises:
+        InputError: If a finite merit lies outside of its configuration's limits.
+    """
+    least, greatest = limits[configurations].T[:, :, np.newaxis]
+    bad = ~np.isfinite(merits)
+    merits = np.where(bad, least, merits)
+    slack = ROUNDING * (greatest - least)
+    outside = (merits < least - slack) | (merits > greatest + slack)
+    if outside.any():
+        row, run = np.argwhere(outside)[0]
+        message = (
+            f"configuration {configurations[row]} had a merit of {merits[row, run]:.17g}: must be "
+            f"from {least[row, 0]:.17g} to {greatest[row, 0]:.17g}, its bounds"
+        )
+        raise InputError(message)
+    return np.clip(merits, least, greatest), bad.sum(axis=1)
+
+
+def in_words(
+    procedure: _core.Procedure, delta: float, confidence: float, guarantee: Guarantee
+) -> str:
+    """Return what is guaranteed of a selection."""
+    if procedure.next() is not None:
+        left = len(procedure.survivors)
+        return f"Nothing is guaranteed: it was stopped with {left} configurations still in."
+    sure = f"with {percent(confidence)} confidence"
+    if guarantee == "pgs":
+        return f"The selected configuration is within {delta:g} of the best {sure}."
+    return (
+        f"If one configuration is better than every other by {delta:g} or more, it is the selected "
+        f"one {sure}; nothing is promised about differences smaller than that."
+    )
+
+
+def percent(share: float) -> str:
+    """Return a share as people write it: 95%, 99.9%."""
+    return f"{100 * share:.10g}%"
+
+
+def checked_arguments(  # noqa: PLR0913  (the arguments of select_best)
+    k: int,
+    bounds: ArrayLike,
+    delta: float,
+    confidence: float,
+    guarantee: str,
+    seed: int,
+    max_runs: int | None,
+) -> Floats:
+    """Return the bounds of each configuration, shape (k, 2).
+
+    Raises:
+        InputError: If anything is not allowed; all faults at once.
+    """
+    faults = []
+
+    def check(is_allowed: bool, name: str, given: object, allowed: str) -> None:  # noqa: FBT001
+        if not is_allowed:
+            faults.append(f"{name} = {given!r}: must be {allowed}")
+
+    whole_k = is_whole(k, 1, MAX_CONFIGURATIONS)
+    check(whole_k, "k", k, f"a whole number from 1 to {MAX_CONFIGURATIONS}")
+    check(is_number(delta) and 0 < delta < math.inf, "delta", delta, "a number above 0")
+    sure = is_number(confidence) and 0.5 <= confidence < 1  # noqa: PLR2004
+    check(sure, "confidence", confidence, "a number from 0.5 to below 1")
+    names = get_args(Guarantee)
+    check(guarantee in names, "guarantee", guarantee, "one of " + ", ".join(map(repr, names)))
+    check(is_whole(seed, 0, 2**31 - 1), "seed", seed, "a whole number from 0 to 2147483647")
+    least = FIRST_LOOK * k if whole_k else 1
+    enough = max_runs is None or is_whole(max_runs, least, 2**62)
+    check(enough, "max_runs", max_runs, f"None or a whole number of {least} (10 k) or more")
+    limits = limits_of(k, bounds) if whole_k else None
+    allowed = f"least and greatest merit, finite, as a pair or an array ({k}, 2)"
+    check(not whole_k or limits is not None, "bounds", bounds, allowed)
+    if faults or limits is None:
+        raise InputError("\n".join(faults))
+    return limits
+
+
+def is_whole(given: object, least: int, greatest: int) -> bool:
+    """Return whether something is a whole number (not a bool) in a range."""
+    whole = isinstance(given, int | np.integer) and not isinstance(given, bool)
+    return whole and least <= int(given) <= greatest  # type: ignore[call-overload,no-any-return]
+
+
+def is_number(given: object) -> bool:
+    """Return whether something is a number (not a bool)."""
+    return isinstance(given, int | float | np.number) and not isinstance(given, bool)
+
+
+def limits_of(k: int, bounds: ArrayLike) -> Floats | None:
+    """Return least and greatest merit of each configuration, shape (k, 2); None if not allowed."""
+    try:
+        given = np.asarray(bounds, dtype=np.float64)
+    except (TypeError, ValueError):
+        return None
+    if given.shape not in {(2,), (k, 2)}:
+        return None
+    limits = np.broadcast_to(given, (k, 2)).copy()
+    finite = np.isfinite(limits).all() and np.isfinite(limits[:, 1] - limits[:, 0]).all()
+    return limits if finite and (limits[:, 0] <= limits[:, 1]).all() else None

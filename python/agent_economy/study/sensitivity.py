@@ -1,0 +1,119 @@
+"""How much of the merit's spread among configurations comes from each varied factor.
+
+Every configuration has at least the runs of the first look, and these are the same run numbers for
+all: their mean merits are what is analysed, one a configuration.
+"""
+
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from agent_economy.study.evidence import Evidence
+from agent_economy.study.selection import FIRST_LOOK
+
+FEWEST = 30
+"""Configurations that the analysis needs."""
+
+RESAMPLES = 100
+
+
+@dataclass(frozen=True)
+class Influence:
+    """What one factor does.
+
+    Attributes:
+        path: The factor.
+        first_order: Share of the variance of the mean merits that it explains alone.
+        first_order_error: Half width of its 95% bootstrap interval.
+        delta: Borgonovo's measure of all its influence, interactions included: 0 none, 1 all.
+        delta_error: Half width of its 95% bootstrap interval.
+    """
+
+    path: str
+    first_order: float
+    first_order_error: float
+    delta: float
+    delta_error: float
+
+
+@dataclass(frozen=True)
+class Sensitivity:
+    """What each factor does, the strongest first.
+
+    Attributes:
+        influences: Of each varied factor.
+        noise: Share of the variance that is chance: what the means of so few runs scatter.
+    """
+
+    influences: tuple[Influence, ...]
+    noise: float
+
+
+def sensitivity(evidence: Evidence) -> Sensitivity | None:
+    """Return what each factor does; None with fewer than two factors or 30 configurations.
+
+    Source: Borgonovo (2007), A new uncertainty importance measure, Reliability Engineering and
+        System Safety 92; Plischke, Borgonovo and Smith (2013) for given data; as in SALib.
+    """
+    paths = varied(evidence)
+    firsts = np.array([each.columns["merit"][:FIRST_LOOK] for each in evidence.samples])
+    means = firsts.mean(axis=1)
+    if len(paths) < 2 or len(means) < FEWEST or np.ptp(means) == 0:  # noqa: PLR2004
+        return None
+    noise = firsts.var(axis=1, ddof=1).mean() / firsts.shape[1] / means.var(ddof=1)
+    return Sensitivity(influences(evidence, paths, means), float(min(noise, 1.0)))
+
+
+def varied(evidence: Evidence) -> list[str]:
+    """Return the paths that have more than one value."""
+    paths = evidence.samples[0].values
+    return [path for path in paths if len({each.values[path] for each in evidence.samples}) > 1]
+
+
+def influences(
+    evidence: Evidence, paths: list[str], means: NDArray[np.float64]
+) -> tuple[Influence, ...]:
+    """Return what SALib says of each factor, the strongest first."""
+    from SALib.analyze import delta  # noqa: PLC0415  (loads pandas and matplotlib: a second)
+
+    points = np.column_stack([codes(evidence, path) for path in paths])
+    problem = {
+        "num_vars": len(paths),
+        "names": paths,
+        "bounds": [[column.min(), column.max()] for column in points.T],
+    }
+    with contained():
+        found = delta.analyze(problem, points, means, num_resamples=RESAMPLES, seed=0)
+    named = ("S1", "S1_conf", "delta_balanced", "delta_balanced_conf")
+    rows = zip(paths, *(found[name] for name in named), strict=True)
+    every = [Influence(path, *(float(number) for number in numbers)) for path, *numbers in rows]
+    return tuple(sorted(every, key=lambda each: -each.delta))
+
+
+def codes(evidence: Evidence, path: str) -> NDArray[np.float64]:
+    """Return a factor's values as numbers; words by their place in the order of appearance."""
+    values = [each.values[path] for each in evidence.samples]
+    if any(isinstance(value, str) for value in values):
+        places = {value: place for place, value in enumerate(dict.fromkeys(values))}
+        return np.array([places[value] for value in values], dtype=np.float64)
+    return np.array(values, dtype=np.float64)
+
+
+@contextmanager
+def contained() -> Iterator[None]:
+    """Undo what SALib's analysis does to the whole process.
+
+    It seeds numpy's global generator, and warns of few samples in a format that it sets for all;
+    the errors that it returns say the same.
+    """
+    state, formatter = np.random.get_state(), warnings.formatwarning  # noqa: NPY002
+    try:
+        with warnings.catch_warnings(record=True):
+            yield
+    finally:
+        np.random.set_state(state)  # noqa: NPY002
+        warnings.formatwarning = formatter

@@ -1,0 +1,200 @@
+"""The selection of the best configuration for any function."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from agent_economy import InputError
+from agent_economy.study import select_best
+from agent_economy.study.selection import LANE, Floats, Integers, Sampler
+
+
+def bernoulli(shares: list[float], seed: int = 0) -> Sampler:
+    """Return a sampler of 0 and 1; run r of all configurations shares its uniform number."""
+
+    def sample(configurations: Integers, first_run: int, runs: int) -> Floats:
+        uniforms = np.concatenate(
+            [np.random.default_rng([seed, first_run + run]).random(1) for run in range(runs)]
+        )
+        return np.array([uniforms < shares[each] for each in configurations], dtype=np.float64)
+
+    return sample
+
+
+def fleet(configurations: Integers, first_run: int, runs: int) -> Floats:
+    """Return merits of the 40-team problem: 8 or 9 robots are best."""
+    uniforms = np.random.default_rng([7, first_run]).random((2, runs))
+    robots = configurations[:, np.newaxis] + 1.0
+    time_s = 10 + 60 / np.sqrt(robots) - 260 / robots * np.log1p(-uniforms[0])
+    failed = (uniforms[1] < 0.25 ** np.minimum(robots, 6)) | (time_s > 120)
+    loss: Floats = 0.03 * np.where(failed, 120, time_s) + 0.2 * robots + 5 * failed
+    return -loss
+
+
+FLEET_BOUNDS = np.array([[-0.2 * robots - 8.6, -0.2 * robots] for robots in range(1, 41)])
+
+
+@pytest.mark.parametrize("guarantee", ["indifference", "pgs"])
+def test_the_best_of_forty_teams_is_found_with_a_fifth_of_the_runs_of_equal_shares(
+    guarantee: Any,
+) -> None:
+    found = select_best(fleet, 40, bounds=FLEET_BOUNDS, delta=0.05, guarantee=guarantee)
+    assert found.best in {7, 8}
+    assert not found.stopped
+    assert found.survivors == (found.best,)
+    assert {each.configuration for each in found.eliminations} == set(range(40)) - {found.best}
+    assert found.runs.sum() < 12_000
+    assert found.runs.max() == found.runs[found.best]
+    assert (found.lower <= found.mean).all()
+    assert (found.mean <= found.upper).all()
+
+
+def test_the_same_problem_gives_the_same_selection() -> None:
+    one, two = (select_best(fleet, 40, bounds=FLEET_BOUNDS, delta=0.1) for _ in range(2))
+    assert one.eliminations == two.eliminations
+    assert one.lower.tobytes() == two.lower.tobytes()
+    assert one.runs.tobytes() == two.runs.tobytes()
+
+
+def test_a_higher_confidence_and_a_smaller_delta_take_more_runs() -> None:
+    def runs(**asked: float) -> int:
+        arguments: dict[str, Any] = {"delta": 0.1, **asked}
+        found = select_best(bernoulli([0.4, 0.5, 0.6]), 3, bounds=(0, 1), **arguments)
+        assert found.best == 2
+        return int(found.runs.sum())
+
+    assert runs() < runs(confidence=0.9999)
+    assert runs() < runs(delta=0.01)
+
+
+def test_no_run_number_is_asked_twice_without_common_random_numbers() -> None:
+    asked: list[tuple[int, int]] = []
+
+    def sample(configurations: Integers, first_run: int, runs: int) -> Floats:
+        assert len(configurations) == 1
+        asked.append((first_run, runs))
+        return np.full((1, runs), float(configurations[0]))
+
+    found = select_best(sample, 3, bounds=(0, 2), delta=0.5, common_random_numbers=False, seed=5)
+    numbers = [first + run for first, runs in asked for run in range(runs)]
+    assert found.best == 2
+    assert len(numbers) == len(set(numbers)) == found.runs.sum()
+    assert min(numbers) == 15 * LANE
+
+
+def test_a_seed_asks_for_other_runs() -> None:
+    firsts = set()
+
+    def sample(configurations: Integers, first_run: int, runs: int) -> Floats:
+        firsts.add(first_run)
+        return np.zeros((len(configurations), runs))
+
+    for seed in (0, 1, 2**31 - 1):
+        select_best(sample, 1, bounds=(0, 1), delta=0.5, seed=seed)
+    assert firsts == {0, LANE, (2**31 - 1) * LANE}
+
+
+def test_max_runs_stops_it_and_nothing_is_claimed() -> None:
+    found = select_best(fleet, 40, bounds=FLEET_BOUNDS, delta=0.05, max_runs=1000)
+    assert found.stopped
+    assert 400 <= found.runs.sum() <= 1000
+    assert len(found.survivors) > 1
+    assert found.guarantee.startswith("Nothing is guaranteed")
+
+
+def test_a_run_without_a_finite_merit_counts_as_the_worst_and_is_counted() -> None:
+    def sample(configurations: Integers, first_run: int, runs: int) -> Floats:
+        merits = np.full((len(configurations), runs), 0.5)
+        merits[configurations == 1] = np.nan
+        merits[configurations == 2, 0] = np.inf
+        return merits
+
+    found = select_best(sample, 3, bounds=(0, 1), delta=0.1)
+    assert found.best == 0
+    assert found.mean[1] == 0
+    assert found.quarantined[1] == found.runs[1]
+    assert found.quarantined[0] == 0 < found.quarantined[2] < found.runs[2]
+
+
+def test_bounds_that_settle_it_need_the_first_look_only() -> None:
+    zeros = bernoulli([0, 0, 0])
+
+    def sample(configurations: Integers, first_run: int, runs: int) -> Floats:
+        return np.asarray(zeros(configurations, first_run, runs)) + 10.0 * configurations[:, None]
+
+    bounds = [(0, 1), (10, 11), (20, 21)]
+    found = select_best(sample, 3, bounds=bounds, delta=0.5)
+    assert found.best == 2
+    assert found.runs.tolist() == [10, 10, 10]
+
+
+def test_equals_are_told_apart_from_nothing_but_the_study_ends() -> None:
+    found = select_best(bernoulli([0.5] * 4), 4, bounds=(0, 1), delta=0.2)
+    assert len(found.survivors) == 1
+
+
+@given(
+    merits=st.lists(st.floats(0, 1), min_size=2, max_size=6),
+    guarantee=st.sampled_from(["indifference", "pgs"]),
+)
+def test_without_noise_the_best_is_selected(merits: list[float], guarantee: Any) -> None:
+    def sample(configurations: Integers, first_run: int, runs: int) -> Floats:
+        return np.repeat(np.array(merits)[configurations][:, np.newaxis], runs, axis=1)
+
+    found = select_best(sample, len(merits), bounds=(0, 1), delta=0.05, guarantee=guarantee)
+    assert merits[found.best] > max(merits) - 0.05
+
+
+@pytest.mark.parametrize(
+    ("change", "told"),
+    [
+        ({"k": 0}, "k = 0: must be a whole number from 1 to 100000"),
+        ({"k": True}, "k = True: must be a whole number"),
+        ({"delta": 0}, "delta = 0: must be a number above 0"),
+        ({"delta": float("nan")}, "delta = nan: must be"),
+        ({"confidence": 1.0}, "confidence = 1.0: must be a number from 0.5 to below 1"),
+        ({"confidence": 95}, "confidence = 95: must be"),
+        ({"guarantee": "PCS"}, "guarantee = 'PCS': must be one of 'indifference', 'pgs'"),
+        ({"seed": -1}, "seed = -1: must be a whole number from 0 to 2147483647"),
+        ({"max_runs": 10}, "max_runs = 10: must be None or a whole number of 20 (10 k) or more"),
+        ({"bounds": (1, 0)}, "bounds = (1, 0): must be least and greatest merit, finite"),
+        ({"bounds": (0, np.inf)}, "must be least and greatest merit, finite"),
+        ({"bounds": "wide"}, "bounds = 'wide': must be"),
+        ({"bounds": np.zeros((3, 2))}, "as a pair or an array (2, 2)"),
+    ],
+)
+def test_a_bad_argument_is_told(change: dict[str, Any], told: str) -> None:
+    arguments: dict[str, Any] = {"k": 2, "bounds": (0, 1), "delta": 0.1, **change}
+    with pytest.raises(InputError) as error:
+        select_best(bernoulli([0.1, 0.9]), **arguments)
+    assert told in str(error.value)
+
+
+def test_all_bad_arguments_are_told_at_once() -> None:
+    with pytest.raises(InputError) as error:
+        select_best(bernoulli([]), -1, bounds=(0, 1), delta=-1, confidence=2, seed=-1)
+    assert len(str(error.value).splitlines()) == 4
+
+
+@pytest.mark.parametrize(
+    ("returned", "told"),
+    [
+        (np.zeros(20), "the sampler returned shape (20,): must be (2, 10)"),
+        (np.full((2, 10), 1.5), "configuration 0 had a merit of 1.5: must be from 0 to 1"),
+    ],
+)
+def test_a_sampler_that_breaks_its_word_is_told(returned: Floats, told: str) -> None:
+    with pytest.raises(InputError) as error:
+        select_best(lambda *_: returned, 2, bounds=(0, 1), delta=0.1)
+    assert told in str(error.value)
+
+
+def test_what_the_sampler_raises_is_passed_on() -> None:
+    def sample(configurations: Integers, first_run: int, runs: int) -> Floats:
+        raise ZeroDivisionError
+
+    with pytest.raises(ZeroDivisionError):
+        select_best(sample, 2, bounds=(0, 1), delta=0.1)
