@@ -12,8 +12,9 @@ verify [--only WORDS] [--replications N] [--seed N] [--json]
   --help            this
 
 Exit code: 0 if every line passed, 1 if one failed, 2 if the command line is wrong.
-A line passes if the 99% lower bound (Clopper-Pearson) of its share of correct answers is at least
-0.95, or, for the reference procedures, if its average runs are within 2% of the published ones.";
+A correct answer is a selection less than delta worse than the best, or bounds that all held at
+every moment. A line passes if the 99% lower bound (Clopper-Pearson) of its share of correct answers
+is at least 0.95, or, for the reference procedures, if its average runs are within 2% of the published ones.";
 
 /// What was asked for.
 #[derive(Debug, PartialEq, Eq)]
