@@ -6,10 +6,11 @@ RUST := $(shell find crates/*/src crates/*/Cargo.toml) Cargo.toml Cargo.lock
 # maturin, and what it starts, are found in the environment.
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 
-.PHONY: help study test bench bench-store picture replication lint rust-test python-test clean
+.PHONY: help study test bench bench-store verify-selection picture replication lint rust-test \
+	python-test clean
 
 help: ## Say what can be made
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "%-12s %s\n", $$1, $$2 }' Makefile
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "%-17s %s\n", $$1, $$2 }' Makefile
 
 study: .venv/installed ## Answer the 2003 experiment's question: how many robots?
 	$(BIN)/agent-economy study scenarios/classic.toml
@@ -37,6 +38,9 @@ bench: ## Robot-decisions per second
 
 bench-store: .venv/installed ## Rows a second into a study's store, and bytes a row
 	$(BIN)/python scripts/store_speed.py
+
+verify-selection: ## Does the race keep its guarantee? 20,000 macro-replications a problem
+	cargo run --release --locked -p agent-economy-select --example verify
 
 replication: .venv/installed ## Recompute every figure of docs/replication.md
 	$(BIN)/python scripts/replication.py
