@@ -17,6 +17,7 @@ __all__ = [
     "random_start",
     "read_configuration",
     "read_scenario",
+    "reference",
     "replicate",
     "run_block",
     "selection",
@@ -49,6 +50,14 @@ def selection(
     delta: float,
     confidence: float,
     guarantee: Literal["indifference", "pgs"],
+) -> Procedure: ...
+def reference(
+    name: Literal["equal", "rinott", "kn"],
+    configurations: int,
+    *,
+    delta: float,
+    confidence: float,
+    runs: int,
 ) -> Procedure: ...
 def mean_bounds(
     values: NDArray[np.float64], least: float, greatest: float, alpha: float

@@ -25,7 +25,7 @@ mod _core {
     #[pymodule_export]
     use crate::error::InputError;
     #[pymodule_export]
-    use crate::selection::{Procedure, mean_bounds, mean_exceeds, selection};
+    use crate::selection::{Procedure, mean_bounds, mean_exceeds, reference, selection};
 
     use classic::Contact;
     use classic::runner::FACTORS;

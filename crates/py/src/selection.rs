@@ -4,6 +4,7 @@ use crate::error::InputError;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use select::bounds::{mean_bounds as bounds_of_mean, mean_exceeds as exceeds};
+use select::reference::{Equal, KimNelson, Rinott};
 use select::{Bounds, Problem, Race, Strict};
 use std::sync::{Mutex, PoisonError};
 
@@ -160,4 +161,33 @@ pub(crate) fn mean_exceeds(
     let values = values.readonly().as_array().to_vec();
     let (least, greatest) = bounds;
     py.detach(|| exceeds(&values, Bounds { least, greatest }, candidate, alpha))
+}
+
+/// A reference procedure, kept to be measured against: "equal" (`runs` of each configuration),
+/// "rinott" or "kn" (a first stage of `runs` of each).
+#[pyfunction]
+#[pyo3(signature = (name, configurations, *, delta, confidence, runs))]
+pub(crate) fn reference(
+    name: &str,
+    configurations: usize,
+    delta: f64,
+    confidence: f64,
+    runs: u32,
+) -> PyResult<Procedure> {
+    let procedure: Box<dyn select::Procedure + Send> = match name {
+        "equal" => Box::new(Equal::new(configurations, runs.into())),
+        "rinott" => Box::new(Rinott::new(configurations, delta, confidence, runs.into())),
+        "kn" => Box::new(KimNelson::new(
+            configurations,
+            delta,
+            confidence,
+            runs as usize,
+        )),
+        other => {
+            let message =
+                format!("procedure = {other:?}: must be one of \"equal\", \"rinott\", \"kn\"");
+            return Err(InputError::new_err(message));
+        }
+    };
+    Ok(Procedure(Mutex::new(procedure)))
 }

@@ -1,12 +1,28 @@
-"""A study: many runs of every team, and the answer they give.
+"""A study: as many runs of each configuration as the question needs, and the answer they give.
 
-The data flows one way: `runs` (outcomes of every team) -> `answer` (`teams`: estimates with
-intervals; `sentence`: the words) -> `report` and `files` (what is left on disk).
+The data flows one way: `ask` -> `plan` (what is asked; `design`, `engine`) -> `race` (the loop: the race of
+`selection` asks, `store` looks up, `engine` computes) -> `evidence` (what the runs say for sure) ->
+`answer` (`ties`, `front`, `saturation`, `sensitivity`, `effort`, `sentence`) -> `report` and `files`.
 """
 
-from agent_economy.study.answer import Answer, conclude
-from agent_economy.study.runs import Progress, Runs, run_teams
+from agent_economy.study.answer import Answer, Result
+from agent_economy.study.ask import answer, resume, run
+from agent_economy.study.plan import Plan
+from agent_economy.study.plan import make as plan
+from agent_economy.study.race import Progress
 from agent_economy.study.selection import Selection, select_best
-from agent_economy.study.teams import TeamResult
+from agent_economy.study.store import read as open  # noqa: A004  (ae.study.open)
 
-__all__ = ["Answer", "Progress", "Runs", "Selection", "TeamResult", "conclude", "run_teams", "select_best"]
+__all__ = [
+    "Answer",
+    "Plan",
+    "Progress",
+    "Result",
+    "Selection",
+    "answer",
+    "open",
+    "plan",
+    "resume",
+    "run",
+    "select_best",
+]

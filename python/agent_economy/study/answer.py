@@ -101,12 +101,12 @@ class Answer:
 
 def conclude(plan: Plan, evidence: Evidence, outcome: Outcome) -> Answer:
     """Return the answer that a study's runs give."""
-    found = results(evidence, outcome, plan.delta)
+    found = results(plan, evidence, outcome)
     saturated = saturations(evidence, outcome.best, plan.delta)
     return Answer(
         scenario=plan.scenario,
         seed=plan.seed,
-        sentence=in_words(plan.scenario, outcome.best, found),
+        sentence=in_words(plan.scenario, plan.delta, outcome.best, found),
         guarantee=outcome.guarantee,
         delta=plan.delta,
         confidence=plan.confidence,
@@ -119,10 +119,12 @@ def conclude(plan: Plan, evidence: Evidence, outcome: Outcome) -> Answer:
     )
 
 
-def results(evidence: Evidence, outcome: Outcome, delta: float) -> tuple[Result, ...]:
+def results(plan: Plan, evidence: Evidence, outcome: Outcome) -> tuple[Result, ...]:
     """Return what the runs of each configuration came to."""
     gone = {each.configuration: each for each in outcome.eliminations}
-    placed = zip(standings(evidence, outcome.best, delta), front(evidence), strict=True)
+    is_good = plan.runs is None and plan.guarantee == "pgs"
+    standing = standings(evidence, outcome.best, plan.delta, is_good=is_good)
+    placed = zip(standing, front(evidence), strict=True)
     return tuple(
         Result(
             values=dict(evidence.samples[index].values),
@@ -132,9 +134,9 @@ def results(evidence: Evidence, outcome: Outcome, delta: float) -> tuple[Result,
             merit=evidence.interval(index, "merit"),
             time_s=evidence.interval(index, "time_s"),
             failed=evidence.interval(index, "failed"),
-            standing=standing,
+            standing=stands,
             place=place,
             eliminated=gone.get(index),
         )
-        for index, (standing, place) in enumerate(placed)
+        for index, (stands, place) in enumerate(placed)
     )

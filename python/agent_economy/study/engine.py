@@ -7,8 +7,7 @@ from functools import cached_property
 import numpy as np
 
 from agent_economy import _core
-from agent_economy.merit import Merit
-from agent_economy.scenario import Source
+from agent_economy.scenario import Scenario
 from agent_economy.study.design import Values
 from agent_economy.study.rectangle import Columns, Rectangle
 from agent_economy.study.selection import Floats
@@ -20,13 +19,13 @@ class Engine:
     """The configurations of a study, ready to run; it can be sent to another process.
 
     Attributes:
-        source: The scenario.
-        configurations: The values in which each differs from it.
+        scenario: What they differ from.
+        configurations: The values in which each differs.
         seed: Of all random numbers.
         threads: That it uses; None for as many as there are processors.
     """
 
-    source: Source
+    scenario: Scenario
     configurations: Sequence[Values]
     seed: int
     threads: int | None = None
@@ -41,7 +40,7 @@ class Engine:
 
     @cached_property
     def _compiled(self) -> list[_core.Configuration]:
-        return [self.source.configuration(values) for values in self.configurations]
+        return [self.scenario.configuration(values) for values in self.configurations]
 
     @property
     def columns(self) -> tuple[Column, ...]:
@@ -58,10 +57,10 @@ class Engine:
             for name, _, least, greatest in self._compiled[configuration].columns
         }
 
-    def merit_limits(self, merit: Merit) -> Floats:
+    def merit_limits(self) -> Floats:
         """Return between which merits the runs of each configuration lie: (configurations, 2)."""
         limits = [self.limits(index) for index in range(len(self.configurations))]
-        return np.array([merit.bounds(each) for each in limits])
+        return np.array([self.scenario.merit.bounds(each) for each in limits])
 
     def __call__(self, rectangle: Rectangle) -> Columns:
         """Return the outcomes of a rectangle."""

@@ -2,14 +2,13 @@
 
 A race looks at its runs again and again and stops when it likes, so intervals for a fixed number of
 runs would be too narrow. All of these are confidence sequences (`crates/select/src/bounds.rs`). The
-error that the confidence leaves is divided: half among the intervals of single configurations, half
-among the differences of pairs, each evenly; so every statement of an answer that is made from them
-holds together with all others.
+error that the confidence leaves is divided among them (`SINGLES`, `PAIRS`), and each part evenly among
+all configurations or ordered pairs; so every statement of an answer that is made from them holds
+together with all others.
 """
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +20,13 @@ Limits = tuple[float, float]
 
 QUANTITIES = ("merit", "time_s", "failed")
 """What intervals are made of: the merit, and two columns that every simulator has."""
+
+
+SINGLES = 1 / 4
+"""Part of the error for the intervals of single configurations, all quantities together."""
+
+PAIRS = {"merit": 1 / 2, "time_s": 1 / 8, "failed": 1 / 8}
+"""Parts for the differences of pairs; most for what decides whom to send."""
 
 
 @dataclass(frozen=True)
@@ -65,39 +71,33 @@ class Evidence:
     samples: tuple[Sample, ...]
     confidence: float
 
-    @cached_property
-    def _alpha(self) -> float:
-        return (1 - self.confidence) / 2 / len(QUANTITIES)
-
-    @property
     def alpha_single(self) -> float:
-        """Error of each side of one configuration's interval."""
-        return self._alpha / (2 * len(self.samples))
+        """Return the error of each side of one configuration's interval."""
+        return (1 - self.confidence) * SINGLES / (2 * len(QUANTITIES) * len(self.samples))
 
-    @property
-    def alpha_pair(self) -> float:
-        """Error of each side of one pair's difference."""
+    def alpha_pair(self, name: str) -> float:
+        """Return the error of each side of one pair's difference in a quantity."""
         count = len(self.samples)
-        return self._alpha / max(1, count * (count - 1))
+        return (1 - self.confidence) * PAIRS[name] / max(1, count * (count - 1))
 
     def interval(self, configuration: int, name: str) -> Interval:
         """Return the mean of one of `QUANTITIES` with its bounds."""
         sample = self.samples[configuration]
         low, high = _core.mean_bounds(
-            sample.columns[name], *sample.limits[name], self.alpha_single
+            sample.columns[name], *sample.limits[name], self.alpha_single()
         )
         return Interval(sample.mean(name), low, high)
 
     def difference(self, one: int, other: int, name: str) -> Interval:
         """Return one's mean less the other's, from the runs that both have."""
         values, limits = self._differences(one, other, name)
-        low, high = _core.mean_bounds(values, *limits, self.alpha_pair)
+        low, high = _core.mean_bounds(values, *limits, self.alpha_pair(name))
         return Interval(float(values.mean()), low, high)
 
     def exceeds(self, one: int, other: int, name: str, by: float = 0.0) -> bool:
         """Return whether one's mean is surely above the other's by some amount."""
         values, limits = self._differences(one, other, name)
-        return _core.mean_exceeds(values, limits, by, self.alpha_pair)
+        return _core.mean_exceeds(values, limits, by, self.alpha_pair(name))
 
     def _differences(self, one: int, other: int, name: str) -> tuple[Floats, Limits]:
         first, second = self.samples[one], self.samples[other]

@@ -16,13 +16,18 @@ from agent_economy.scenario import Override, Scenario
 from agent_economy.study import design
 from agent_economy.study.design import Values
 from agent_economy.study.engine import Engine
-from agent_economy.study.selection import Floats, Guarantee
+from agent_economy.study.selection import Floats, Guarantee, is_whole, question_faults
 
 FORMAT = 1
 """Of study.toml."""
 
 PART_OF_RANGE = 0.02
 """Of the merit's range: the delta of a study that is told none."""
+
+MAX_RUNS = 10_000_000
+"""Of each configuration, when their number is fixed beforehand."""
+
+MAX_SEED = 2**64 - 1
 
 HEADER = "# What was asked of this study. Go on: agent-economy study --resume FOLDER\n\n"
 
@@ -90,21 +95,44 @@ def make(
     Raises:
         InputError: If anything is not allowed.
     """
+    sure = confidence if confidence is not None else scenario.confidence
+    faults = question_faults(delta if delta is not None else 1.0, sure, guarantee)
+    faults += [] if is_whole(seed, 0, MAX_SEED) else [f"seed = {seed!r}: must be 0 to {MAX_SEED}"]
+    if runs is not None and not is_whole(runs, 2, MAX_RUNS):
+        faults.append(f"runs = {runs!r}: must be a whole number from 2 to {MAX_RUNS}")
+    if faults:
+        raise InputError("\n".join(faults))
     configurations = tuple(design.points(scenario.factors, scenario.design, seed))
-    engine = Engine(scenario.source, configurations, seed)
-    limits = engine.merit_limits(scenario.merit)
+    engine = Engine(scenario, configurations, seed)
+    limits = engine.merit_limits()
     span = float(limits[:, 1].max() - limits[:, 0].min())
     given = delta if delta is not None else scenario.delta
     return Plan(
         scenario=scenario,
         seed=seed,
         delta=given if given is not None else PART_OF_RANGE * span or 1.0,
-        confidence=confidence if confidence is not None else scenario.confidence,
+        confidence=sure,
         guarantee=guarantee,
         runs=runs,
         configurations=configurations,
         engine=engine,
         limits=limits,
+    )
+
+
+def tightened(plan: Plan, confidence: float) -> Plan:
+    """Return a plan that asks for another confidence.
+
+    Raises:
+        InputError: If it is not allowed.
+    """
+    return make(
+        plan.scenario,
+        seed=plan.seed,
+        delta=plan.delta,
+        confidence=confidence,
+        guarantee=plan.guarantee,
+        runs=plan.runs,
     )
 
 

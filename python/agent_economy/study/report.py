@@ -10,7 +10,7 @@ import jinja2
 from agent_economy.merit import Merit
 from agent_economy.study.answer import Answer
 from agent_economy.study.charts import specifications
-from agent_economy.study.runs import Runs
+
 from agent_economy.study.versions import versions
 
 
@@ -63,7 +63,7 @@ class ChartScript:
         return script
 
 
-def html(runs: Runs, answer: Answer, script: ChartScript) -> str:
+def html(answer: Answer, evidence: object, script: ChartScript) -> str:
     """Return the report's page."""
     environment = jinja2.Environment(
         loader=jinja2.PackageLoader("agent_economy.study", "."),
@@ -72,7 +72,7 @@ def html(runs: Runs, answer: Answer, script: ChartScript) -> str:
     )
     return environment.get_template("report.html.jinja").render(
         answer=answer,
-        charts=specifications(runs, answer),
+        charts=specifications(answer, evidence),
         javascript=script.text(),
         merit_in_words=merit_in_words(answer.scenario.merit),
         versions=versions(),

@@ -17,7 +17,7 @@ class Saturation:
     Attributes:
         path: Of the team size.
         proved: The smallest size of which it is proved that no larger one that was compared gains
-            delta more than its extra robots cost; None if of none.
+            delta more than its extra robots cost; None if of none but the largest.
         possible: The smallest size of which the contrary is not proved. Equal to `proved`: decided.
         gains: Of each size above `proved`, its merit less that of `proved`.
     """
@@ -56,7 +56,8 @@ def saturation(
     evidence: Evidence, path: str, sizes: dict[int, int], delta: float
 ) -> Saturation:
     """Return where one team size saturates."""
-    proved = next((size for size in sizes if is_proved(evidence, sizes, size, delta)), None)
+    smaller = list(sizes)[:-1]
+    proved = next((size for size in smaller if is_proved(evidence, sizes, size, delta)), None)
     possible = next(size for size in sizes if not is_refuted(evidence, sizes, size))
     gains = {
         larger: evidence.difference(sizes[larger], sizes[proved], "merit")

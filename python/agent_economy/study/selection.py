@@ -21,6 +21,7 @@ Integers = NDArray[np.int64]
 Sampler = Callable[[Integers, int, int], ArrayLike]
 
 MAX_CONFIGURATIONS = 100_000
+LEAST_CONFIDENCE = 0.5
 FIRST_LOOK = 10
 """Runs of every configuration before anything is decided."""
 
@@ -266,29 +267,53 @@ def checked_arguments(  # noqa: PLR0913  (the arguments of select_best)
     Raises:
         InputError: If anything is not allowed; all faults at once.
     """
-    faults = []
-
-    def check(is_allowed: bool, name: str, given: object, allowed: str) -> None:  # noqa: FBT001
-        if not is_allowed:
-            faults.append(f"{name} = {given!r}: must be {allowed}")
-
     whole_k = is_whole(k, 1, MAX_CONFIGURATIONS)
-    check(whole_k, "k", k, f"a whole number from 1 to {MAX_CONFIGURATIONS}")
-    check(is_number(delta) and 0 < delta < math.inf, "delta", delta, "a number above 0")
-    sure = is_number(confidence) and 0.5 <= confidence < 1  # noqa: PLR2004
-    check(sure, "confidence", confidence, "a number from 0.5 to below 1")
-    names = get_args(Guarantee)
-    check(guarantee in names, "guarantee", guarantee, "one of " + ", ".join(map(repr, names)))
-    check(is_whole(seed, 0, 2**31 - 1), "seed", seed, "a whole number from 0 to 2147483647")
     least = FIRST_LOOK * k if whole_k else 1
-    enough = max_runs is None or is_whole(max_runs, least, 2**62)
-    check(enough, "max_runs", max_runs, f"None or a whole number of {least} (10 k) or more")
     limits = limits_of(k, bounds) if whole_k else None
-    allowed = f"least and greatest merit, finite, as a pair or an array ({k}, 2)"
-    check(not whole_k or limits is not None, "bounds", bounds, allowed)
+    faults = [
+        *fault(whole_k, "k", k, f"a whole number from 1 to {MAX_CONFIGURATIONS}"),
+        *question_faults(delta, confidence, guarantee),
+        *fault(
+            is_whole(seed, 0, 2**31 - 1), "seed", seed, "a whole number from 0 to 2147483647"
+        ),
+        *fault(
+            max_runs is None or is_whole(max_runs, least, 2**62),
+            "max_runs",
+            max_runs,
+            f"None or a whole number of {least} (10 k) or more",
+        ),
+        *fault(
+            not whole_k or limits is not None,
+            "bounds",
+            bounds,
+            f"least and greatest merit, finite, as a pair or an array ({k}, 2)",
+        ),
+    ]
     if faults or limits is None:
         raise InputError("\n".join(faults))
     return limits
+
+
+def question_faults(delta: object, confidence: object, guarantee: object) -> list[str]:
+    """Return what is wrong with a question."""
+    names = get_args(Guarantee)
+    return [
+        *fault(is_between(delta, 0, math.inf), "delta", delta, "a number above 0"),
+        *fault(
+            is_between(confidence, LEAST_CONFIDENCE, 1) or confidence == LEAST_CONFIDENCE,
+            "confidence",
+            confidence,
+            "a number from 0.5 to below 1",
+        ),
+        *fault(
+            guarantee in names, "guarantee", guarantee, "one of " + ", ".join(map(repr, names))
+        ),
+    ]
+
+
+def fault(is_allowed: bool, name: str, given: object, allowed: str) -> list[str]:  # noqa: FBT001
+    """Return what is wrong with a value, if anything."""
+    return [] if is_allowed else [f"{name} = {given!r}: must be {allowed}"]
 
 
 def is_whole(given: object, least: int, greatest: int) -> bool:
@@ -297,9 +322,10 @@ def is_whole(given: object, least: int, greatest: int) -> bool:
     return whole and least <= int(given) <= greatest  # type: ignore[call-overload,no-any-return]
 
 
-def is_number(given: object) -> bool:
-    """Return whether something is a number (not a bool)."""
-    return isinstance(given, int | float | np.number) and not isinstance(given, bool)
+def is_between(given: object, above: float, below: float) -> bool:
+    """Return whether something is a number (not a bool) between two others."""
+    number = isinstance(given, int | float | np.number) and not isinstance(given, bool)
+    return number and above < given < below  # type: ignore[operator,return-value]
 
 
 def limits_of(k: int, bounds: ArrayLike) -> Floats | None:

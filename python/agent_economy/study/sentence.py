@@ -6,7 +6,7 @@ from typing import Protocol
 from agent_economy.scenario import Scenario, Value
 from agent_economy.study.evidence import Interval
 from agent_economy.study.labels import listed, order, robot_kind
-from agent_economy.study.ties import Standing, Verdict
+from agent_economy.study.ties import Standing
 
 NAMED = 5
 """Configurations that a sentence names one by one."""
@@ -29,13 +29,13 @@ class Told(Protocol):
     def standing(self) -> Standing: ...
 
 
-def in_words(scenario: Scenario, best: int, results: Sequence[Told]) -> str:
+def in_words(scenario: Scenario, delta: float, best: int, results: Sequence[Told]) -> str:
     """Return the answer: whom to send, what that gives, and how near the others are."""
     chosen = results[best]
     parts = [
         f"{order(chosen.values)}: {performance(chosen)}",
-        *others(results, "tied", "as good within the difference worth finding"),
-        *others(results, "undecided", "perhaps better, which these runs leave open"),
+        *tied(results, delta),
+        *too_close(results, delta),
         *published_choice(scenario, chosen, results),
         *edges(chosen, results),
     ]
@@ -51,13 +51,28 @@ def performance(told: Told) -> str:
     )
 
 
-def others(results: Sequence[Told], verdict: Verdict, said: str) -> list[str]:
-    """Return what is said of all with one verdict."""
-    names = [each.label for each in results if each.standing.verdict == verdict]
-    if not names:
-        return []
+def tied(results: Sequence[Told], delta: float) -> list[str]:
+    """Return which configurations are as good for sure."""
+    names = [each.label for each in results if each.standing.verdict == "tied"]
+    return [f"{listing(names)} as good within {delta:g}, for sure"] if names else []
+
+
+def too_close(results: Sequence[Told], delta: float) -> list[str]:
+    """Return which configurations seem as good, without the runs settling it."""
+    names = [
+        each.label
+        for each in results
+        if each.standing.verdict in {"undecided", "no better"}
+        and each.standing.behind
+        and each.standing.behind.value < delta
+    ]
+    return [f"{listing(names)} too close to call with these runs"] if names else []
+
+
+def listing(names: list[str]) -> str:
+    """Return names, not too many, as the subject of a sentence with its verb."""
     named = names if len(names) <= NAMED else [*names[:NAMED], f"{len(names) - NAMED} more"]
-    return [f"{listed(named)} {'is' if len(names) == 1 else 'are'} {said}"]
+    return f"{listed(named)} {'is' if len(names) == 1 else 'are'}"
 
 
 def published_choice(scenario: Scenario, chosen: Told, results: Sequence[Told]) -> list[str]:

@@ -31,7 +31,7 @@ impl Procedure for Equal {
         (first_run < self.runs).then(|| Request {
             configurations: (0..self.tally.runs.len()).collect(),
             first_run,
-            runs: runs_to_ask(self.runs - first_run),
+            runs: runs_to_ask(self.runs - first_run, self.tally.runs.len()),
         })
     }
 

@@ -15,10 +15,11 @@ pub use equal::Equal;
 pub use kim_nelson::KimNelson;
 pub use rinott::{Rinott, rinott_h};
 
-/// Most runs of a configuration in one request, so that a request's merits fit in memory.
-const MOST_RUNS_A_REQUEST: u64 = 1000;
+/// Most runs in one request, of all its configurations together, so that they fit in memory.
+const MOST_ROWS: usize = 1 << 20;
 
-/// Runs to ask for when `missing` are missing.
-fn runs_to_ask(missing: u64) -> usize {
-    usize::try_from(missing.min(MOST_RUNS_A_REQUEST)).unwrap_or(usize::MAX)
+/// Runs to ask for when `missing` are missing of each of some configurations.
+fn runs_to_ask(missing: u64, configurations: usize) -> usize {
+    let most = (MOST_ROWS / configurations).max(1);
+    usize::try_from(missing).unwrap_or(most).min(most)
 }

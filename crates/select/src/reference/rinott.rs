@@ -81,8 +81,8 @@ impl Procedure for Rinott {
             .min()?;
         Some(Request {
             first_run: self.tally.runs[configurations[0]],
+            runs: runs_to_ask(missing, configurations.len()),
             configurations,
-            runs: runs_to_ask(missing),
         })
     }
 

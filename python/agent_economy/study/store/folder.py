@@ -5,7 +5,7 @@ import difflib
 import fcntl
 import os
 import sqlite3
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -115,7 +115,9 @@ def sync_folder(folder: Path) -> None:
         os.close(descriptor)
 
 
-def settle(folder: Path, asked: str, *, is_begun: bool) -> None:
+def settle(
+    folder: Path, asked: str, may_replace: Callable[[str, str], bool], *, is_begun: bool
+) -> None:
     """Write down what is asked, or see that it is what was asked before.
 
     Raises:
@@ -126,9 +128,11 @@ def settle(folder: Path, asked: str, *, is_begun: bool) -> None:
     if there is None and is_begun:
         message = f"{path}: is missing, though there are results: restore it, or use another folder"
         raise InputError(message)
-    if there is None:
+    if there == asked.encode():
+        return
+    if there is None or may_replace(there.decode(errors="replace"), asked):
         write_whole(path, asked.encode())
-    elif there != asked.encode():
+    else:
         message = (
             f"{folder}: holds another study: use another folder (--out), or remove it\n"
             + differences(there.decode(errors="replace"), asked)

@@ -2,7 +2,7 @@
 
 import hashlib
 import os
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from pathlib import Path
 from typing import Any, Self
@@ -17,6 +17,11 @@ from agent_economy.study.store import parquet
 from agent_economy.study.store.columns import Column, check_names
 from agent_economy.study.store.coverage import Coverage, cut
 from agent_economy.study.store.ledger import Block, Decision, Ledger
+
+
+def never(there: str, asked: str) -> bool:  # noqa: ARG001
+    """Refuse any change of what is asked."""
+    return False
 
 
 class Store:
@@ -40,13 +45,22 @@ class Store:
         self._opened = opened
 
     @classmethod
-    def open(cls, folder: Path, asked: str, columns: Sequence[Column]) -> Self:
+    def open(
+        cls,
+        folder: Path,
+        asked: str,
+        columns: Sequence[Column],
+        *,
+        may_replace: Callable[[str, str], bool] = never,
+    ) -> Self:
         """Open a study's folder, made if it is not there.
 
         Args:
             folder: Where; what a killed process left half-done is put right.
             asked: The text of study.toml.
             columns: Of every run.
+            may_replace: Whether the study.toml that is there (first) may become the one asked
+                (second): they ask another question about the same runs.
 
         Raises:
             InputError: If another process works on the folder, it holds another study, what it
@@ -58,14 +72,15 @@ class Store:
             opened.callback(os.close, files.lock(folder))
             files.remove_unfinished(folder)
             store = cls(folder, tuple(columns), opened)
-            store._begin(asked)
+            store._begin(asked, may_replace)
             store._opened = opened.pop_all()
             return store
 
-    def _begin(self, asked: str) -> None:
+    def _begin(self, asked: str, may_replace: Callable[[str, str], bool]) -> None:
         path = self.folder / files.LEDGER
         # What was asked is compared first: another study may well have other columns.
-        files.settle(self.folder, asked, is_begun=path.exists() and path.stat().st_size > 0)
+        is_begun = path.exists() and path.stat().st_size > 0
+        files.settle(self.folder, asked, may_replace, is_begun=is_begun)
         self._ledger = Ledger.write(path, self.columns)
         self._opened.callback(self._ledger.close)
         blocks = self._ledger.blocks()

@@ -1,0 +1,113 @@
+"""Ask a study: a scenario's question, one that was interrupted, or one that is answered already."""
+
+import tempfile
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+from agent_economy._core import InputError
+from agent_economy.scenario import Scenario, Value
+from agent_economy.study import plan as plans
+from agent_economy.study.answer import Answer
+from agent_economy.study.plan import Plan
+from agent_economy.study.race import OnProgress, pursue
+from agent_economy.study.rectangle import Compute, Rectangle
+from agent_economy.study.selection import Guarantee
+from agent_economy.study.store import read
+
+
+def run(  # noqa: PLR0913  (keywords with defaults)
+    scenario: Scenario,
+    *,
+    vary: Mapping[str, Iterable[Value]] | None = None,
+    design: str | None = None,
+    delta: float | None = None,
+    confidence: float | None = None,
+    guarantee: Guarantee = "indifference",
+    runs: int | None = None,
+    seed: int = 0,
+    out: str | Path | None = None,
+    compute: Compute | None = None,
+    on_progress: OnProgress | None = None,
+) -> Answer:
+    """Return the answer to a scenario's question, in as few runs as the truth allows.
+
+    Args:
+        scenario: What is run.
+        vary: Values of each varied factor, by path; None for what the scenario varies.
+        design: "factorial", "lhs:N" or "sobol:N"; None for the scenario's.
+        delta: The difference of mean merits worth finding; None for the scenario's, or 2% of the
+            merit's range.
+        confidence: Of the guarantee; None for the scenario's.
+        guarantee: As in `select_best`.
+        runs: Of each configuration; None for as few as it takes.
+        seed: 0 to 2^64 - 1.
+        out: Folder of the study, to go on with and to look at; None keeps nothing.
+        compute: What computes rectangles, such as `Workers`; None for threads in this process.
+        on_progress: Called after each round.
+
+    Raises:
+        InputError: If anything is not allowed; or the folder holds another study, is damaged, or
+            cannot be written.
+    """
+    for path, values in (vary or {}).items():
+        written = ",".join(str(value) for value in values)
+        scenario = scenario.replace(f"study.vary.{path}", written)
+    if design is not None:
+        scenario = scenario.replace("study.design", design)
+    asked = plans.make(
+        scenario, seed=seed, delta=delta, confidence=confidence, guarantee=guarantee, runs=runs
+    )
+    if out is not None:
+        return pursue(asked, Path(out), compute=compute, on_progress=on_progress)
+    with tempfile.TemporaryDirectory() as folder:
+        return pursue(asked, Path(folder), compute=compute, on_progress=on_progress)
+
+
+def resume(
+    folder: str | Path,
+    *,
+    confidence: float | None = None,
+    compute: Compute | None = None,
+    on_progress: OnProgress | None = None,
+) -> Answer:
+    """Go on with a study, or tighten a finished one to a higher confidence with all its runs.
+
+    Raises:
+        InputError: As in `run`; or if the folder holds no study.
+    """
+    asked = plan_of(Path(folder))
+    if confidence is not None:
+        asked = plans.tightened(asked, confidence)
+    return pursue(asked, Path(folder), compute=compute, on_progress=on_progress)
+
+
+def answer(folder: str | Path) -> Answer:
+    """Rebuild the answer and the report of a finished study from its runs; computes none.
+
+    Raises:
+        InputError: If the folder holds no study, or one that is not finished.
+    """
+    return pursue(plan_of(Path(folder)), Path(folder), compute=refuse(Path(folder)))
+
+
+def plan_of(folder: Path) -> Plan:
+    """Return what is asked of the study in a folder.
+
+    Raises:
+        InputError: If there is none.
+    """
+    return plans.read(read(folder).asked, str(folder / "study.toml"))
+
+
+def refuse(folder: Path) -> Compute:
+    """Return what computes nothing, because nothing should be missing."""
+
+    def compute(rectangle: Rectangle) -> Any:
+        message = (
+            f"{folder}: is not finished ({rectangle} are missing): go on with "
+            f"agent-economy study --resume {folder}"
+        )
+        raise InputError(message)
+
+    return compute
