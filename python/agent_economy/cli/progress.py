@@ -1,0 +1,107 @@
+"""How far a study is, told to people: a live table on a terminal, else plain lines."""
+
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+
+from rich import box
+from rich.console import Console, Group
+from rich.live import Live
+from rich.table import Table
+from rich.text import Text
+
+from agent_economy.study.race import Progress
+
+OnProgress = Callable[[Progress], None]
+
+PAUSE_S = 2.0
+"""Between two plain lines in which nobody goes out."""
+
+NAMED = 3
+"""Configurations going out that a line names."""
+
+
+class Teller:
+    """Tells progress on standard error, and remembers it for when the study is stopped."""
+
+    def __init__(self, names: Sequence[str]) -> None:
+        """Begin with nothing done; `names` are what people call the configurations."""
+        self.names = names
+        self.runs = 0
+
+    @contextmanager
+    def shown(self) -> Iterator[OnProgress]:
+        """Show progress while a study runs."""
+        console = Console(stderr=True)
+        show = self._table if console.is_terminal else self._lines
+        with show(console) as on_progress:
+
+            def remember(progress: Progress) -> None:
+                self.runs = progress.runs
+                on_progress(progress)
+
+            yield remember
+
+    @contextmanager
+    def _table(self, console: Console) -> Iterator[OnProgress]:
+        """Show the best so far, redrawn in place."""
+        with Live(console=console, transient=True, refresh_per_second=8) as live:
+
+            def redraw(progress: Progress) -> None:
+                if time.monotonic() - redraw_at[0] > 1 / 8:
+                    live.update(Group(self._header(progress), self._leaders(progress)))
+                    redraw_at[0] = time.monotonic()
+
+            redraw_at = [0.0]
+            yield redraw
+
+    @contextmanager
+    def _lines(self, console: Console) -> Iterator[OnProgress]:
+        """Show a line when somebody goes out, and now and then."""
+        said_at = [0.0]
+
+        def line(progress: Progress) -> None:
+            if progress.eliminated or time.monotonic() - said_at[0] > PAUSE_S:
+                said_at[0] = time.monotonic()
+                text = self._header(progress).plain + self._gone(progress)
+                console.print(text, highlight=False, soft_wrap=True, markup=False, emoji=False)
+
+        yield line
+
+    def _header(self, progress: Progress) -> Text:
+        rate = progress.computed / progress.seconds if progress.seconds > 0 else 0.0
+        text = (
+            f"round {progress.round}: {progress.runs:,} runs, {progress.survivors} of "
+            f"{len(self.names)} still in, {rate:,.0f} runs/s"
+        )
+        left = progress.seconds_left()
+        return Text(text + (f", about {duration(left)} left" if left is not None else ""))
+
+    def _leaders(self, progress: Progress) -> Table:
+        table = Table(box=box.SIMPLE_HEAD)
+        table.add_column("leading")
+        table.add_column("runs", justify="right")
+        table.add_column("merit so far", justify="right")
+        for leader in progress.leaders:
+            name = Text(self.names[leader.configuration])
+            table.add_row(name, f"{leader.runs:,}", f"{leader.merit:.3f}")
+        return table
+
+    def _gone(self, progress: Progress) -> str:
+        """Return who went out in a round."""
+        words = [
+            f"{self.names[each.configuration]} (by {self.names[each.by]}, {each.runs:,} runs)"
+            for each in progress.eliminated[:NAMED]
+        ]
+        more = len(progress.eliminated) - NAMED
+        if more > 0:
+            words.append(f"{more} more")
+        return f"; out: {', '.join(words)}" if words else ""
+
+
+def duration(seconds: float) -> str:
+    """Return a duration as people say it."""
+    for unit, length in (("h", 3600), ("min", 60)):
+        if seconds >= 2 * length:
+            return f"{seconds / length:.0f} {unit}"
+    return f"{seconds:.0f} s"

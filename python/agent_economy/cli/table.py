@@ -1,0 +1,88 @@
+"""An answer on the terminal."""
+
+from pathlib import Path
+
+import typer
+from rich import box
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+from agent_economy.study import files
+from agent_economy.study.answer import Answer, Result
+from agent_economy.study.evidence import Interval
+
+WIDE = 100
+"""Columns that a table with ranges needs, and that there are where the output is no terminal."""
+
+MOST = 20
+"""Configurations that a table shows, the best ones."""
+
+
+def show(answer: Answer, folder: Path, *, as_json: bool) -> None:
+    """Print an answer: as JSON, or the table, the words, and where the report is."""
+    if as_json:
+        typer.echo(files.as_json(answer), nl=False)
+        return
+    console = Console(highlight=False)
+    if not console.is_terminal:
+        console.width = WIDE
+    console.print(results_table(answer, ranges=console.width >= WIDE))
+    console.print(f"{answer.sentence}\n", style="bold", markup=False, emoji=False)
+    console.print(
+        f"{answer.guarantee} (delta {answer.delta:g}, {answer.runs:,} runs)\n",
+        markup=False,
+        emoji=False,
+    )
+    typer.echo(f"Report: {folder / files.REPORT}")
+
+
+def results_table(answer: Answer, *, ranges: bool) -> Table:
+    """Return a table of the best configurations, with the ranges of what is estimated or without."""
+
+    def cell(given: Interval, style: str) -> str:
+        value, low, high = (format(each, style) for each in (given.value, given.low, given.high))
+        return f"{value} ({low}..{high})" if ranges else value
+
+    shown = best_first(answer)[:MOST]
+    left_out = len(answer.results) - len(shown)
+    caption = f"and {left_out} more, in answer.json" if left_out else None
+    table = Table(
+        title=Text(answer.scenario.summary),
+        caption=caption,
+        title_justify="left",
+        caption_justify="left",
+        box=box.SIMPLE_HEAD,
+    )
+    table.add_column("configuration", overflow="fold")
+    for name in ("runs", "mean time, s", "runs failed", "figure of merit", "behind", ""):
+        table.add_column(name, justify="right", no_wrap=True)
+    for result in shown:
+        is_best = result is answer.results[answer.best]
+        table.add_row(
+            Text(result.label),
+            f"{result.runs:,}",
+            cell(result.time_s, ".1f"),
+            cell(result.failed, ".2%"),
+            cell(result.merit, ".2f"),
+            f"{result.standing.behind.value:.3f}" if result.standing.behind else "",
+            standing(result),
+            style="bold" if is_best else None,
+        )
+    return table
+
+
+def best_first(answer: Answer) -> list[Result]:
+    """Return all results in the configurations' order if they all fit, else the best ones first."""
+    if len(answer.results) <= MOST:
+        return list(answer.results)
+    chosen = answer.results[answer.best]
+    others = [result for result in answer.results if result is not chosen]
+    return [chosen, *sorted(others, key=lambda result: -result.merit.value)]
+
+
+def standing(result: Result) -> str:
+    """Return how a configuration stands to the best, in a word or two."""
+    if result.standing.verdict == "undecided" and result.eliminated:
+        return "put out"
+    return result.standing.verdict
