@@ -40,8 +40,8 @@ class Term:
 
     def __str__(self) -> str:
         """Return the term as a person writes it."""
-        above = "" if self.max is None else f" up to {self.max:g}"
-        return f"{self.name}={self.weight:g}{above}"
+        above = "" if self.max is None else f" up to {shortest(self.max)}"
+        return f"{self.name}={shortest(self.weight)}{above}"
 
 
 @dataclass(frozen=True)
@@ -87,6 +87,11 @@ class Merit:
         for term_low, term_high in each[1:]:
             low, high = low + term_low, high + term_high
         return low, high
+
+
+def shortest(number: float) -> str:
+    """Return a number as a person writes it, with all its digits."""
+    return repr(float(number)).removesuffix(".0")
 
 
 def in_words(name: str | None, terms: tuple[Term, ...]) -> str:

@@ -80,7 +80,6 @@ def test_the_same_seed_leaves_the_same_bytes(classic_toml: Path, tmp_path: Path)
             "--vary: robots.wanderer.count = 0: must be a whole number from 1 to 250",
         ),
         (["--vary", "robots.wanderer.count=8..1"], "must be a text of values"),
-        (["--vary", "contact=touch,ahead"], "study.vary: varies contact, robots.wanderer.count"),
         (["--merit", "time=-1,robot=-2"], "--merit: merit.robot = -2: must be one of the known"),
         (["--merit", "paints=-1"], "--merit: merit.paints = -1: must be given a max"),
         (["--vary", "robots.rover.count=1..3"], "did you mean robots.wanderer.count?"),

@@ -78,6 +78,8 @@ def test_a_terms_max_is_read_and_shown(classic_toml: Path) -> None:
     capped = {"paints": {"weight": -0.01, "max": 100}}
     merit = Scenario.load(classic_toml).replace("merit", capped).merit
     assert merit == Merit("paints=-0.01 up to 100", (Term("paints", "paints", -0.01, 100),))
+    digits = Scenario.load(classic_toml).replace("merit", "time=-0.123456789,found=1e5").merit
+    assert digits.name == "time=-0.123456789,found=100000"
 
 
 def test_bad_weights_are_told_all_at_once(classic_toml: Path) -> None:

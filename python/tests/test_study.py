@@ -11,7 +11,7 @@ import pytest
 import vl_convert
 from numpy.typing import NDArray
 
-from agent_economy import Scenario, study
+from agent_economy import InputError, Scenario, study
 from agent_economy.merit import Merit, Term
 from agent_economy.study import charts, files, report
 from agent_economy.study.runs import Outcomes, Runs, outcomes
@@ -121,6 +121,12 @@ def test_merit_weights_decide_the_answer(runs: Runs, scenario: Scenario) -> None
     fast = replace(scenario, merit=Merit("fast", (Term("time", "time_s", -1),)))
     assert study.conclude(study.run_teams(fast)).best == 8
     assert runs.scenario.merit.name == "equation-5.2"
+
+
+def test_a_study_of_more_than_team_sizes_is_refused(scenario: Scenario) -> None:
+    more = scenario.replace("study.vary.contact", "touch,ahead")
+    with pytest.raises(InputError, match="varies robots.wanderer.count, contact: must be robots"):
+        study.run_teams(more)
 
 
 def test_files_hold_the_runs_the_answer_and_an_offline_report(runs: Runs, tmp_path: Path) -> None:

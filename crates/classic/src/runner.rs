@@ -151,7 +151,9 @@ mod tests {
             found: 3,
             collisions: 8,
         };
-        let never = configuration(2, Contact::Touch, 6000).values(outcome);
+        let never = configuration(2, Contact::Touch, 6000)
+            .values(outcome)
+            .to_vec();
         assert_eq!(never, [120.0, 1.0, 2.0, 3.0, 8.0, f64::INFINITY]);
     }
 
@@ -162,7 +164,9 @@ mod tests {
             found: 3,
             collisions: 8,
         };
-        let late = configuration(2, Contact::Touch, 6000).values(outcome);
+        let late = configuration(2, Contact::Touch, 6000)
+            .values(outcome)
+            .to_vec();
         assert_eq!(late, [120.0, 1.0, 2.0, 3.0, 8.0, 6001.0]);
     }
 

@@ -304,6 +304,18 @@ times_s = { 10 = [120, 120], 2 = [4, 5.5] }
     }
 
     #[test]
+    fn values_are_checked_beside_other_faults_but_not_within_what_is_no_table() {
+        let vary = r#"vary = { "clock.cap_s" = "-1", "#;
+        let text = GOOD.replace("vary = {", vary);
+        let told = faults(&text.replace("cap_s = 120\n[robots", "cap_s = 120\ncap = 3\n[robots"));
+        assert!(told.contains("clock.cap = 3: must be one of the known keys"));
+        assert!(told.contains("clock.cap_s = -1: must be a number from 0"));
+        let no_table = "[clock]\npaints_per_s = 56\ncap_s = 120\n";
+        let told = faults(&format!("clock = 3\n{}", text.replace(no_table, "")));
+        assert_eq!(told, "t.toml:1: clock = 3: must be a table");
+    }
+
+    #[test]
     fn a_studys_bad_keys_are_told_at_once() {
         let more = "delta = 0\nconfidence = 1\ndesign = \"sobol:200\"\nvary = ";
         let faults = faults(&GOOD.replace("vary = ", more));

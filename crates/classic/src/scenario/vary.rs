@@ -48,9 +48,11 @@ pub(super) fn factors(vary: &Section) -> Option<Vec<Factor>> {
 /// What is wrong with single values: each is put into the document, which is read; `known` is what
 /// is wrong without it.
 pub(super) fn faults_of_values(document: &Document, known: &[Fault]) -> Vec<Fault> {
+    // Where a section is no table, a value in it would make it one, and its other keys be missing.
     let is_readable = |path: &&str| {
-        let mut told = known.iter().map(|fault| fault.path.as_str());
-        !told.any(|above| path.starts_with(above) && above != *path)
+        let below = |fault: &Fault| path.strip_prefix(fault.path.as_str());
+        let mut below = known.iter().filter_map(below);
+        !below.any(|rest| rest.starts_with('.'))
     };
     let paths = FACTORS.into_iter().filter(is_readable);
     paths
