@@ -74,8 +74,8 @@ class Teller:
             f"round {progress.round}: {progress.runs:,} runs, {progress.survivors} of "
             f"{len(self.names)} still in, {rate:,.0f} runs/s"
         )
-        left = progress.seconds_left()
-        return Text(text + (f", about {duration(left)} left" if left is not None else ""))
+        left = progress.foretell() if rate and not progress.is_over else None
+        return Text(text + (f", about {duration(left / rate)} left" if left is not None else ""))
 
     def _leaders(self, progress: Progress) -> Table:
         table = Table(box=box.SIMPLE_HEAD)

@@ -1,151 +1,175 @@
-"""The command line: it asks, shows and exits; what it shows is made elsewhere."""
+"""The command `study`."""
 
-import json
-import signal
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 import typer
-from rich import box
-from rich.console import Console
-from rich.table import Table
-from rich.text import Text
 
-from agent_economy import __version__
+from agent_economy import study as studies
 from agent_economy._core import CONTACTS, MERITS, InputError
-from agent_economy.progress import Teller
+from agent_economy.cli.progress import Teller
+from agent_economy.cli.table import show
+from agent_economy.cli.told import INTERRUPTED, faults_told
 from agent_economy.scenario import Override, Scenario
-from agent_economy.study import conclude, files, report, run_teams
-from agent_economy.study.answer import Answer
-from agent_economy.study.estimate import Estimate
-from agent_economy.study.teams import TeamResult
+from agent_economy.study import design as designs
+from agent_economy.study.engine import Engine
+from agent_economy.study.labels import label
+from agent_economy.study.plan import Plan, tightened
+from agent_economy.study.race import pursue
+from agent_economy.study.rectangle import Compute
 
-BAD_INPUT = 2
-"""Exit code when something given is not allowed."""
-
-INTERRUPTED = 130
-"""Exit code after Ctrl-C, as shells have it."""
-
-WIDE = 100
-"""Columns that a table with ranges needs, and that there are where the output is no terminal."""
-
-app = typer.Typer(
-    add_completion=False,
-    no_args_is_help=True,
-    pretty_exceptions_enable=False,
-    rich_markup_mode="rich",
-)
+Text = str | None
 
 
-def print_version(wanted: bool) -> None:  # noqa: FBT001  (typer's callback)
-    """Print the version and end."""
-    if wanted:
-        typer.echo(f"agent-economy {__version__}")
-        raise typer.Exit
-
-
-@app.callback()
-def root(
-    *,
-    version: Annotated[
-        bool, typer.Option("--version", callback=print_version, is_eager=True, help="Version.")
-    ] = False,
-) -> None:
-    """How many robots, of which kinds, does this job need?
-
-    Example: agent-economy study scenarios/classic.toml
-    """
-
-
-@app.command()
 def study(  # noqa: PLR0913  (typer's options are arguments)
-    scenario: Annotated[Path, typer.Argument(help="A scenario's TOML file.", show_default=False)],
+    scenario: Annotated[
+        Path | None, typer.Argument(help="A scenario's TOML file.", show_default=False)
+    ] = None,
     *,
     vary: Annotated[
         list[str] | None,
-        typer.Option(help="What to compare, as robots.wanderer.count=1..12 or =1,2,4."),
+        typer.Option(help="What to compare, as robots.wanderer.count=1..40; may be repeated."),
     ] = None,
-    runs: Annotated[int | None, typer.Option(help="Runs of each team.")] = None,
+    design: Annotated[
+        Text, typer.Option(help="Of what is varied: factorial, lhs:200 or sobol:256.")
+    ] = None,
+    delta: Annotated[
+        float | None,
+        typer.Option(
+            help="Difference of merit worth finding.",
+            show_default="the scenario's, or 2% of the merit's range",
+        ),
+    ] = None,
+    confidence: Annotated[
+        float | None, typer.Option(help="Of the guarantee.", show_default="0.95")
+    ] = None,
+    guarantee: Annotated[
+        Literal["indifference", "pgs"],
+        typer.Option(
+            help="indifference: finds the best if it leads by delta. pgs: within delta of the "
+            "best, whatever the truth."
+        ),
+    ] = "indifference",
+    runs: Annotated[
+        int | None,
+        typer.Option(
+            help="Runs of each configuration, with no guarantee.", show_default="as few as it takes"
+        ),
+    ] = None,
     contact: Annotated[
-        str | None,
-        typer.Option(help=f"What counts as finding an item: {', '.join(CONTACTS)}."),
+        Text, typer.Option(help=f"What counts as finding an item: {', '.join(CONTACTS)}.")
     ] = None,
     merit: Annotated[
-        str | None,
+        Text,
         typer.Option(
-            help=f"How runs are scored: {', '.join(MERITS)} or weights, as time=-0.03,robots=-0.2."
+            help=f"How runs are scored: {', '.join(MERITS)} or weights, as "
+            "time=-0.03,robots=-0.2,failed=-5."
         ),
     ] = None,
     seed: Annotated[
-        int, typer.Option(min=0, max=2**64 - 1, help="Of the random starts: same seed, same bytes.")
+        int, typer.Option(min=0, max=2**64 - 1, help="Of all chance: same seed, same bytes.")
     ] = 0,
     out: Annotated[
-        Path | None, typer.Option(help="Folder of the results.", show_default="studies/NAME")
+        Path | None, typer.Option(help="Folder of the study.", show_default="studies/NAME")
+    ] = None,
+    resume: Annotated[
+        Path | None, typer.Option(help="Go on with the study in this folder.", show_default=False)
+    ] = None,
+    more: Annotated[
+        float | None,
+        typer.Option(
+            help="With --resume: tighten to this confidence, with all runs so far.",
+            show_default=False,
+        ),
+    ] = None,
+    workers: Annotated[
+        int | None,
+        typer.Option(
+            min=1, max=1024, help="Processes to run in.", show_default="threads of this one"
+        ),
+    ] = None,
+    dask: Annotated[
+        Text, typer.Option(help="Address of a Dask scheduler to run on.", show_default=False)
     ] = None,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print answer.json instead of the table.")
     ] = False,
 ) -> None:
-    """Run every team of a scenario and say how many robots to send.
+    """Say how many of which robots to send, in as few runs as that takes.
 
-    Writes report.html, runs.parquet and answer.json. An option wins over what the file says.
+    The folder keeps every run: stopped or killed, the study goes on when the same is asked again,
+    or with --resume. It ends with answer.json and report.html in it. An option wins over what the
+    scenario says.
 
-    Exit codes: 0 answered, 2 something given is not allowed, 130 stopped by Ctrl-C.
+    Exit codes: 0 answered, 1 the study cannot go on, 2 something given is not allowed, 130 stopped
+    by Ctrl-C.
 
     Example: agent-economy study scenarios/classic.toml --vary robots.wanderer.count=1..12
     """
-    teller = Teller()
-    with stop_told(teller), bad_input_told():
-        changes = overrides(vary or [], runs=runs, contact=contact, merit=merit)
-        asked = Scenario.load(scenario, changes)
-        folder = out or Path("studies") / asked.name
-        files.check_writable(folder)
-        with report.ChartScript() as script, teller.shown(asked) as on_progress:
-            results = run_teams(asked, seed, on_progress)
-            answer = conclude(results)
-            page = report.html(results, answer, script)
-        with uninterrupted():
-            files.write_all(folder, results, answer, page)
-    if as_json:
-        typer.echo(json.dumps(files.answer_dict(answer), indent=2, allow_nan=False))
-    else:
-        show(answer, folder)
+    with faults_told():
+        changes = overrides(vary or [], contact=contact, merit=merit, design=design)
+        one_executor(workers, dask)
+        if resume is not None:
+            alone = [scenario, changes, delta, confidence, runs, out]
+            folder, asked = resume, resumed(resume, more, alone=not any(alone))
+        else:
+            given = Scenario.load(required(scenario, more), changes)
+            folder = out or Path("studies") / given.name
+            asked = studies.plan(
+                given,
+                seed=seed,
+                delta=delta,
+                confidence=confidence,
+                guarantee=guarantee,
+                runs=runs,
+            )
+        announce(asked)
+        found = watched(asked, folder, workers, dask)
+    show(found, folder, as_json=as_json)
 
 
-@contextmanager
-def stop_told(teller: Teller) -> Iterator[None]:
-    """Say what was done when Ctrl-C stops a study."""
+def watched(asked: Plan, folder: Path, workers: int | None, dask: str | None) -> studies.Answer:
+    """Run a study and show how it goes on; say what is kept when Ctrl-C stops it."""
+    teller = Teller([label(values) for values in asked.configurations])
     try:
-        yield
+        with computing(asked.engine, workers, dask) as compute, teller.shown() as on_progress:
+            return pursue(asked, folder, compute=compute, on_progress=on_progress)
     except KeyboardInterrupt:
-        typer.echo(f"\nStopped after {teller.done:,} runs; nothing was written.", err=True)
+        typer.echo(
+            f"\nStopped after {teller.runs:,} runs; all are kept. Go on with: "
+            f"agent-economy study --resume {folder}",
+            err=True,
+        )
         raise typer.Exit(INTERRUPTED) from None
 
 
 @contextmanager
-def uninterrupted() -> Iterator[None]:
-    """Let Ctrl-C pass: the files of a study belong together, and writing them takes a moment."""
-    handler = signal.signal(signal.SIGINT, signal.SIG_IGN)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGINT, handler)
+def computing(engine: Engine, workers: int | None, dask: str | None) -> Iterator[Compute | None]:
+    """Start what computes, other than threads of this process, and end it."""
+    with ExitStack() as stack:
+        if workers is not None:
+            yield stack.enter_context(studies.local_workers(engine, workers)).columns
+        elif dask is not None:
+            yield stack.enter_context(studies.dask_workers(engine, dask)).columns
+        else:
+            yield None
 
 
-@contextmanager
-def bad_input_told() -> Iterator[None]:
-    """Say what is not allowed and end with the exit code for it."""
-    try:
-        yield
-    except InputError as error:
-        typer.echo(str(error), err=True)
-        raise typer.Exit(BAD_INPUT) from None
+def announce(asked: Plan) -> None:
+    """Say what is compared, and the difference worth finding."""
+    words = designs.in_words(asked.scenario.design, asked.configurations)
+    wanted = (
+        f"{asked.runs:,} runs of each"
+        if asked.runs is not None
+        else f"delta {asked.delta:g}, confidence {asked.confidence:g}, {asked.guarantee}"
+    )
+    typer.echo(f"{words}; {wanted}", err=True)
 
 
 def overrides(
-    vary: list[str], *, runs: int | None, contact: str | None, merit: str | None
+    vary: list[str], *, contact: str | None, merit: str | None, design: str | None
 ) -> tuple[Override, ...]:
     """Return what options say, as values put over the file's.
 
@@ -158,12 +182,12 @@ def overrides(
     if twice:
         message = f"--vary {twice}: is given twice: must be given once, such as {twice}=1..4,8"
         raise InputError(message)
-    if runs is not None:
-        changes.append(Override(("study", "runs"), runs, "--runs"))
-    if contact is not None:
-        changes.append(Override(("contact",), contact, "--contact"))
-    if merit is not None:
-        changes.append(Override(("merit",), merit, "--merit"))
+    options = {("contact",): contact, ("merit",): merit, ("study", "design"): design}
+    changes += [
+        Override(path, value, f"--{path[-1]}")
+        for path, value in options.items()
+        if value is not None
+    ]
     return tuple(changes)
 
 
@@ -176,41 +200,31 @@ def varied(text: str) -> Override:
     return Override(("study", "vary", path.strip()), values.strip(), "--vary")
 
 
-def show(answer: Answer, folder: Path) -> None:
-    """Print the table, the answer, and where the report is."""
-    console = Console(highlight=False)
-    if not console.is_terminal:
-        console.width = WIDE
-    console.print(teams_table(answer, ranges=console.width >= WIDE))
-    console.print(f"{answer.sentence}\n", style="bold", markup=False, emoji=False)
-    typer.echo(f"Report: {folder / 'report.html'}")
+def one_executor(workers: int | None, dask: str | None) -> None:
+    """Refuse two places to run in."""
+    if workers is not None and dask is not None:
+        message = "--workers, --dask: must be one of them: processes of this machine, or a cluster"
+        raise InputError(message)
 
 
-def teams_table(answer: Answer, *, ranges: bool) -> Table:
-    """Return a table of all teams, with the ranges of what is estimated or without."""
+def required(scenario: Path | None, more: float | None) -> Path:
+    """Return the scenario, which is needed without --resume."""
+    if scenario is None:
+        message = "SCENARIO is missing: must be a TOML file, such as scenarios/classic.toml"
+        raise InputError(message)
+    if more is not None:
+        message = f"--more = {more:g}: must come with --resume FOLDER; else use --confidence"
+        raise InputError(message)
+    return scenario
 
-    def cell(given: Estimate, style: str) -> str:
-        value, low, high = (format(each, style) for each in (given.value, given.low, given.high))
-        return f"{value} ({low}..{high})" if ranges else value
 
-    title = Text(answer.scenario.summary)
-    table = Table(title=title, title_justify="left", box=box.SIMPLE_HEAD)
-    for name in ("robots", "mean time, s", "searches failed", "figure of merit", "behind best"):
-        table.add_column(name, justify="right", no_wrap=True)
-    for team in answer.teams:
-        table.add_row(
-            str(team.robots),
-            cell(team.time_s, ".1f"),
-            cell(team.failed_share, ".2%"),
-            cell(team.merit, ".2f"),
-            behind_best(team),
-            style="bold" if team.robots == answer.best else None,
+def resumed(folder: Path, more: float | None, *, alone: bool) -> Plan:
+    """Return the plan of a study to go on with."""
+    if not alone:
+        message = (
+            "--resume: must be alone, or with --more, --workers, --dask and --json: what is asked "
+            "stands in the folder"
         )
-    return table
-
-
-def behind_best(team: TeamResult) -> str:
-    """Return how far a team is behind the best."""
-    if not team.behind_best:
-        return "best"
-    return f"{team.behind_best.value:.3f}{' tie' if team.is_tied else ''}"
+        raise InputError(message)
+    asked = studies.plan_of(folder)
+    return asked if more is None else tightened(asked, more)

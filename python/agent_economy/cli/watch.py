@@ -27,7 +27,7 @@ def watch(
     Example: agent-economy watch studies/classic
     """
     with faults_told():
-        names = [label(values) for values in study.ask.plan_of(folder).configurations]
+        names = [label(values) for values in study.plan_of(folder).configurations]
         try:
             with Teller(names).shown() as on_progress:
                 for progress in rounds(folder):

@@ -8,6 +8,7 @@ asked, is what another delta takes.
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from agent_economy.study.evidence import Evidence
@@ -34,6 +35,18 @@ def efforts(evidence: Evidence, best: int, delta: float) -> tuple[Effort, ...]:
         Effort(delta / part, two_figures(scale * foretold(evidence, best, delta / part)))
         for part in PARTS
     )
+
+
+def remaining(
+    evidence: Evidence, best: int, survivors: Sequence[int], delta: float
+) -> float:
+    """Return about how many runs a race still takes."""
+    left = [
+        max(0.0, duel_runs(evidence, best, other, delta) - evidence.samples[other].runs)
+        for other in survivors
+        if other != best
+    ]
+    return sum(left) + max(left, default=0.0)
 
 
 def foretold(evidence: Evidence, best: int, delta: float) -> float:

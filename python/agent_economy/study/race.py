@@ -6,7 +6,7 @@ was not, and asking again for what is known computes nothing.
 """
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -16,6 +16,7 @@ import numpy as np
 from agent_economy import _core
 from agent_economy.study import files
 from agent_economy.study.answer import Answer, Outcome, conclude
+from agent_economy.study.effort import remaining
 from agent_economy.study.evidence import Evidence, Sample
 from agent_economy.study.plan import Plan, is_same_data
 from agent_economy.study.rectangle import Columns, Compute, Rectangle
@@ -61,6 +62,8 @@ class Progress:
         survivors: Configurations still in.
         leaders: The best of them so far.
         eliminated: Those put out in this round, and by whom.
+        is_over: Whether it was the last round.
+        foretell: Returns about how many runs are left; None if nobody can say. It takes a moment.
     """
 
     round: int
@@ -70,6 +73,35 @@ class Progress:
     survivors: int
     leaders: tuple[Leader, ...]
     eliminated: tuple[Elimination, ...]
+    is_over: bool
+    foretell: Callable[[], float | None]
+
+    def facts(self) -> dict[str, Any]:
+        """Return what the ledger keeps of the round: what follows from the data alone."""
+        return {
+            "runs": self.runs,
+            "survivors": self.survivors,
+            "leaders": [[each.configuration, each.runs, each.merit] for each in self.leaders],
+            "eliminated": [[each.configuration, each.by, each.runs] for each in self.eliminated],
+            "is_over": self.is_over,
+        }
+
+    @classmethod
+    def of_facts(
+        cls, number: int, facts: Mapping[str, Any], computed: int, seconds: float
+    ) -> "Progress":
+        """Return a round as the ledger keeps it; nobody can say how many runs are left."""
+        return cls(
+            round=number + 1,
+            runs=facts["runs"],
+            computed=computed,
+            seconds=seconds,
+            survivors=facts["survivors"],
+            leaders=tuple(Leader(*each) for each in facts["leaders"]),
+            eliminated=tuple(Elimination(*each) for each in facts["eliminated"]),
+            is_over=facts["is_over"],
+            foretell=lambda: None,
+        )
 
 
 OnProgress = Callable[[Progress], None]
@@ -147,7 +179,7 @@ class Race:
         procedure = self._procedure()
         for number, _ in enumerate(drive(procedure, self._ask)):
             progress = self._progress(number, procedure)
-            self._store.note(number, facts(progress, is_over=procedure.next() is None))
+            self._store.note(number, progress.facts())
             if self._on_progress:
                 self._on_progress(progress)
         eliminations = tuple(Elimination(*each) for each in procedure.eliminations)
@@ -232,15 +264,12 @@ class Race:
                 for each in best
             ),
             eliminated=fresh,
+            is_over=procedure.next() is None,
+            foretell=lambda: self._foretell(procedure),
         )
 
-
-def facts(progress: Progress, *, is_over: bool) -> dict[str, Any]:
-    """Return what the ledger keeps of a round: what follows from the data alone."""
-    return {
-        "runs": progress.runs,
-        "survivors": progress.survivors,
-        "leaders": [[each.configuration, each.runs, each.merit] for each in progress.leaders],
-        "eliminated": [[each.configuration, each.by, each.runs] for each in progress.eliminated],
-        "is_over": is_over,
-    }
+    def _foretell(self, procedure: _core.Procedure) -> float | None:
+        plan = self._plan
+        if plan.runs is not None:
+            return float(plan.runs * len(plan.configurations) - procedure.runs.sum())
+        return remaining(self.evidence(), procedure.best, procedure.survivors.tolist(), plan.delta)
