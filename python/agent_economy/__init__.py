@@ -10,12 +10,17 @@ if TYPE_CHECKING:
     from agent_economy import classic, study
     from agent_economy._core import InputError
     from agent_economy.scenario import Scenario
+    from agent_economy.study.workers import StudyError
 
     __version__: str
 
-__all__ = ["InputError", "Scenario", "__version__", "classic", "study"]
+__all__ = ["InputError", "Scenario", "StudyError", "__version__", "classic", "study"]
 
-_HOMES = {"InputError": "agent_economy._core", "Scenario": "agent_economy.scenario"}
+_HOMES = {
+    "InputError": "agent_economy._core",
+    "Scenario": "agent_economy.scenario",
+    "StudyError": "agent_economy.study.workers",
+}
 
 
 def __getattr__(name: str) -> object:

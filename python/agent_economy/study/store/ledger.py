@@ -104,7 +104,8 @@ class Ledger:
         with told(path, "read as a ledger"):
             connection = connect_to_read(path)
             try:
-                check_whose(connection, path)
+                if not is_empty(connection):
+                    check_whose(connection, path)
             except BaseException:
                 connection.close()
                 raise
@@ -113,6 +114,11 @@ class Ledger:
     def close(self) -> None:
         """Close it."""
         self._connection.close()
+
+    def is_begun(self) -> bool:
+        """Return whether it has its tables: a killed process may have left it without."""
+        with told(self.path, "read as a ledger"):
+            return not is_empty(self._connection)
 
     def columns(self) -> tuple[Column, ...]:
         """Return the columns of its blocks."""
@@ -245,10 +251,14 @@ def connect_to_read(path: Path) -> sqlite3.Connection:
 
 
 def snapshot(path: Path) -> tuple[tuple[Column, ...], list[Block], list[Decision]]:
-    """Return what a ledger holds now.
+    """Return what a ledger holds now, nothing if the study has not begun.
 
     Raises:
         InputError: As `Ledger.read`.
     """
+    if not path.exists():
+        return (), [], []
     with closing(Ledger.read(path)) as ledger:
+        if not ledger.is_begun():
+            return (), [], []
         return ledger.columns(), ledger.blocks(), ledger.decisions()

@@ -5,7 +5,7 @@ and bit i of the row's `quarantined` says that column i was; so SQL that forgets
 meets no NaN, and `quarantined <> 0` finds them.
 """
 
-from typing import Any
+from typing import Any, NoReturn
 
 import numpy as np
 import pyarrow as pa
@@ -65,12 +65,24 @@ def cell(column: Column, values: NDArray[np.float64], marks: NDArray[np.int64], 
         values = np.where(absent, 0.0, values)
     if column.kind == "real":
         return pa.array(values, mask=absent)
+    check_least_and_greatest(column, values)
     kept = values.astype(np.bool_ if column.kind == "flag" else np.int64)
-    if (kept != values).any() or np.abs(values).max() >= EXACT:
-        wrong = values[(kept != values) | (np.abs(values) >= EXACT)][0]
-        message = f"column {column.name} is a {column.kind} and cannot hold {wrong}"
-        raise ValueError(message)
+    if (kept != values).any():
+        refuse(column, values[kept != values][0])
     return pa.array(kept, mask=absent)
+
+
+def check_least_and_greatest(column: Column, values: NDArray[np.float64]) -> None:
+    """Refuse what is no whole number that floats tell from the next."""
+    for value in (values.min(), values.max()):
+        if abs(value) >= EXACT:
+            refuse(column, value)
+
+
+def refuse(column: Column, value: float) -> NoReturn:
+    """Say that a column cannot hold a value."""
+    message = f"column {column.name} is a {column.kind} and cannot hold {value}"
+    raise ValueError(message)
 
 
 def decode(data: bytes, rectangle: Rectangle, columns: tuple[Column, ...]) -> Columns:

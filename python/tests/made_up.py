@@ -1,0 +1,128 @@
+"""Outcomes that tests make up: the same for the same run of the same configuration."""
+
+import itertools
+import os
+import resource
+import signal
+import time
+from collections.abc import Callable
+from multiprocessing.queues import Queue
+from pathlib import Path
+
+import numpy as np
+
+from agent_economy import InputError
+from agent_economy.study.rectangle import Columns, Rectangle
+from agent_economy.study.store import Column, Store
+from agent_economy.study.store.ledger import Ledger
+
+COLUMNS = (Column("time_s", "real"), Column("failed", "flag"), Column("paints", "whole"))
+
+
+def outcomes(area: Rectangle) -> Columns:
+    """Return outcomes among which some are never and some quarantined."""
+    configuration = np.array(area.configurations, dtype=np.float64)[:, None]
+    run = np.arange(area.first_run, area.end, dtype=np.float64)[None, :]
+    mixed = np.floor(np.modf(np.sin(configuration * 12.9898 + run * 78.233) * 43758.5453)[0] * 1000)
+    paints = np.where(mixed > 990, np.inf, mixed)
+    paints[mixed < -990] = np.nan
+    time_s = np.where(mixed < -980, np.nan, mixed / 7)
+    return {"time_s": time_s, "failed": (mixed > 990).astype(np.float64), "paints": paints}
+
+
+def slow_outcomes(area: Rectangle) -> Columns:
+    """Return outcomes after a tenth of a millisecond a run."""
+    time.sleep(area.rows * 1e-4)
+    return outcomes(area)
+
+
+def killed_once(place: Path, area: Rectangle) -> Columns:
+    """Kill the worker at run 30 of configuration 3, the first time in a folder."""
+    if 3 in area.configurations and area.first_run <= 30 < area.end:
+        try:
+            (place / "killed").touch(exist_ok=False)
+        except FileExistsError:
+            pass
+        else:
+            os.kill(os.getpid(), signal.SIGKILL)
+    return slow_outcomes(area)
+
+
+def killed_always(area: Rectangle) -> Columns:
+    """Kill the worker at run 30 of configuration 3."""
+    if 3 in area.configurations and area.first_run <= 30 < area.end:
+        os.kill(os.getpid(), signal.SIGKILL)
+    return slow_outcomes(area)
+
+
+def failing(area: Rectangle) -> Columns:
+    """Fail at run 30 of configuration 3."""
+    if 3 in area.configurations and area.first_run <= 30 < area.end:
+        message = "the brain has no goal"
+        raise ValueError(message)
+    return outcomes(area)
+
+
+def logged(place: Path, area: Rectangle) -> Columns:
+    """Return outcomes, and leave a file that says which were computed, and by whom."""
+    name = f"{area.configurations[0]}-{len(area.configurations)}-{area.first_run}-{area.runs}"
+    (place / f"{name}-{os.getpid()}-{time.monotonic_ns()}").touch()
+    return slow_outcomes(area)
+
+
+def same(left: Columns, right: Columns) -> bool:
+    """Return whether outcomes are the same, NaN and infinity too."""
+    return left.keys() == right.keys() and all(
+        np.array_equal(left[name], right[name], equal_nan=True) for name in left
+    )
+
+
+def asked(boundaries: int) -> list[Rectangle]:
+    """Return what a race of eight configurations asks for, of which ever fewer are left."""
+    first, rectangles = 0, []
+    for number in range(boundaries):
+        runs = max(10, first // 10)
+        rectangles.append(
+            Rectangle(tuple(range(7 - number * 7 // boundaries, -1, -1)), first, runs)
+        )
+        first += runs
+    return rectangles
+
+
+def write_study(folder: Path, boundaries: int = 8) -> None:
+    """Compute a whole study into a folder, or what is not there of it."""
+    with Store.open(folder, "seed = 1\n", COLUMNS) as store:
+        for number, rectangle in enumerate(asked(boundaries)):
+            data = store.block(rectangle, outcomes)
+            assert same(data, outcomes(rectangle))
+            store.note(number, {"survivors": list(rectangle.configurations)})
+
+
+def write_and_die(folder: Path, calls: int) -> None:
+    """Compute a study, killed at the nth call that touches the disk."""
+    left = itertools.count(calls, -1)
+
+    def before(work: Callable[..., object]) -> Callable[..., object]:
+        def deadly(*args: object, **options: object) -> object:
+            if next(left) == 0:
+                os.kill(os.getpid(), signal.SIGKILL)
+            return work(*args, **options)
+
+        return deadly
+
+    for name in ("open", "write", "fsync", "replace", "mkdir", "close"):
+        setattr(os, name, before(getattr(os, name)))
+    Ledger.enter = before(Ledger.enter)  # type: ignore[method-assign, assignment]
+    Path.replace = before(Path.replace)  # type: ignore[method-assign, assignment]
+    write_study(folder)
+
+
+def write_on_a_small_disk(folder: Path, most_bytes: int, answer: "Queue[str]") -> None:
+    """Compute a study where no file may be larger than some bytes."""
+    resource.setrlimit(resource.RLIMIT_FSIZE, (most_bytes, most_bytes))
+    try:
+        write_study(folder)
+    except InputError as error:
+        answer.put(str(error))
+    else:
+        answer.put("")

@@ -1,0 +1,108 @@
+"""A study that is killed at any moment goes on to the same bytes."""
+
+import hashlib
+import multiprocessing
+import random
+import signal
+from collections.abc import Callable
+from multiprocessing.process import BaseProcess
+from pathlib import Path
+
+import made_up
+import pytest
+
+from agent_economy.study.store import read
+
+KILLS = 40
+SEED = 7
+ROUNDS = 40
+FORKS = multiprocessing.get_context("forkserver")
+FORKS.set_forkserver_preload(["made_up"])
+
+
+def started(work: Callable[..., None], *args: object) -> BaseProcess:
+    """Start work in a process of its own."""
+    process = FORKS.Process(target=work, args=args)
+    process.start()
+    return process
+
+
+def blocks(folder: Path) -> dict[str, str]:
+    """Return the hash of each block's file."""
+    return {
+        path.name: hashlib.sha256(path.read_bytes()).hexdigest()
+        for path in (folder / "blocks").iterdir()
+    }
+
+
+def entered(folder: Path) -> dict[str, str]:
+    """Return what the ledger says of each block, after seeing that all rows are there, once."""
+    if not (folder / "study.toml").exists():
+        return {}
+    there = read(folder).blocks()
+    runs = read(folder).runs()
+    rows = sum(block.rectangle.rows for block in there)
+    assert runs.count("*").fetchall() == [(rows,)]
+    assert runs.project("configuration, run").distinct().count("*").fetchall() == [(rows,)]
+    files = blocks(folder)
+    hashes = {block.name: block.sha256 for block in there}
+    assert {name: files[name] for name in hashes} == hashes
+    return hashes
+
+
+def whole(folder: Path, *boundaries: int) -> dict[str, str]:
+    """Return the blocks of a study that nobody killed."""
+    made_up.write_study(folder, *boundaries)
+    return blocks(folder)
+
+
+def test_a_study_killed_at_random_ends_with_the_same_bytes(tmp_path: Path) -> None:
+    chance = random.Random(SEED)  # noqa: S311
+    kills, before = 0, dict[str, str]()
+    while True:
+        process = started(made_up.write_study, tmp_path / "study", ROUNDS)
+        process.join(chance.uniform(0.01, 0.08) if kills < KILLS else None)
+        process.kill()
+        process.join()
+        there = entered(tmp_path / "study")
+        assert before.items() <= there.items()
+        before = there
+        if process.exitcode == 0:
+            break
+        assert process.exitcode == -signal.SIGKILL
+        kills += 1
+    assert kills >= 5
+    assert blocks(tmp_path / "study") == whole(tmp_path / "whole", ROUNDS) == before
+
+
+def test_a_study_killed_at_every_touch_of_the_disk_goes_on(tmp_path: Path) -> None:
+    blocks_of_whole = whole(tmp_path / "whole")
+    for calls in (*range(30), *range(30, 400, 17)):
+        folder = tmp_path / str(calls)
+        process = started(made_up.write_and_die, folder, calls)
+        process.join()
+        if process.exitcode == 0:
+            break
+        assert process.exitcode == -signal.SIGKILL
+        there = entered(folder)
+        made_up.write_study(folder)
+        assert there.items() <= entered(folder).items()
+        assert blocks(folder) == blocks_of_whole
+    else:
+        pytest.fail("a study touches the disk less often")
+
+
+@pytest.mark.parametrize("most_bytes", [0, 6, 1000, 3000, 4096, 20_000, 50_000])
+def test_a_study_on_a_full_disk_says_so_and_goes_on_when_there_is_room(
+    tmp_path: Path, most_bytes: int
+) -> None:
+    answer = FORKS.Queue()
+    process = started(made_up.write_on_a_small_disk, tmp_path / "study", most_bytes, answer)
+    message = answer.get(timeout=60)
+    process.join()
+    assert str(tmp_path) in message
+    assert "cannot be" in message
+    there = entered(tmp_path / "study")
+    made_up.write_study(tmp_path / "study")
+    assert there.items() <= entered(tmp_path / "study").items()
+    assert blocks(tmp_path / "study") == whole(tmp_path / "whole")

@@ -1,0 +1,304 @@
+"""Workers: how a rectangle is cut shows in no result, and a worker that dies loses none."""
+
+import os
+import signal
+import socket
+import subprocess
+import sys
+import time
+from collections import Counter
+from collections.abc import Iterator
+from concurrent.futures import Executor, Future, ThreadPoolExecutor
+from contextlib import ExitStack, closing
+from functools import partial
+from pathlib import Path
+
+import made_up
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from made_up import outcomes, same
+
+from agent_economy import InputError, StudyError
+from agent_economy.study.executors import LocalExecutor, dask_executor
+from agent_economy.study.rectangle import Columns, Rectangle
+from agent_economy.study.workers import MOST_PIECES, Pace, Workers, cut
+
+AREA = Rectangle((4, 3, 2, 1, 0, 9, 8), 20, 1000)
+SPANS = {"configurations 3, runs", "configurations 2-4, runs"}
+
+
+def two_processes() -> Executor:
+    """Return two workers."""
+    return LocalExecutor(2)
+
+
+@settings(max_examples=60, deadline=None)
+@given(
+    st.lists(st.integers(0, 30), min_size=1, max_size=12, unique=True),
+    st.integers(1, 300),
+    st.integers(1, 5),
+)
+def test_how_it_was_cut_shows_in_no_result(names: list[int], runs: int, count: int) -> None:
+    areas = [Rectangle(tuple(names), 70, runs), Rectangle(tuple(names[:1]), 0, runs)]
+    with Workers(lambda: ThreadPoolExecutor(count), count, outcomes) as workers:
+        for area in areas:
+            assert same(workers.columns(area), outcomes(area))
+
+
+@given(
+    st.integers(1, 3000),
+    st.integers(1, 100_000),
+    st.integers(1, 256),
+    st.floats(1e-3, 1e9),
+)
+def test_pieces_cover_a_rectangle_once_and_are_not_thousands(
+    configurations: int, runs: int, workers: int, rate: float
+) -> None:
+    area = Rectangle(tuple(range(configurations)), 0, runs)
+    pace = Pace()
+    pace.add(1000, 1000 / rate)
+    row, run, given_out, pieces = 0, 0, 0, 0
+    while given_out < area.rows:
+        piece = cut(area, given_out, pace.piece_rows(area.rows, area.rows - given_out, workers))
+        assert (piece.row, piece.area.first_run) == (row, run)
+        given_out += piece.area.rows
+        row, run = divmod(given_out, runs)
+        pieces += 1
+    assert given_out == area.rows
+    assert min(workers, area.rows) <= pieces <= 3 * max(MOST_PIECES, workers)
+
+
+def test_pieces_take_about_a_second_once_the_rate_is_known() -> None:
+    pace = Pace()
+    pace.add(500, 2.0)
+    assert pace.piece_rows(100_000, 100_000, 2) == 250
+    assert pace.piece_rows(100_000, 400, 2) == 196  # of 512 pieces
+    assert pace.piece_rows(1000, 100, 2) == 25
+    assert pace.piece_rows(1000, 4, 2) == 12  # a twentieth of a second
+
+
+def test_every_run_is_computed_once(tmp_path: Path) -> None:
+    with Workers(two_processes, 2, partial(made_up.logged, tmp_path)) as workers:
+        assert same(workers.columns(AREA), outcomes(AREA))
+    rows = Counter[int]()
+    for path in tmp_path.iterdir():
+        first, count, first_run, runs, pid, _ = map(int, path.name.split("-"))
+        assert 0 <= first <= 9
+        assert first_run >= 20
+        rows[pid] += count * runs
+    assert sum(rows.values()) == AREA.rows
+    assert len(rows) == 2
+
+
+def test_a_killed_worker_changes_no_result(tmp_path: Path) -> None:
+    with Workers(two_processes, 2, partial(made_up.killed_once, tmp_path)) as workers:
+        assert same(workers.columns(AREA), outcomes(AREA))
+        assert (tmp_path / "killed").exists()
+        assert same(workers.columns(AREA), outcomes(AREA))
+
+
+def test_runs_that_always_fail_end_the_study_by_name() -> None:
+    with (
+        Workers(two_processes, 2, made_up.failing) as workers,
+        pytest.raises(StudyError) as caught,
+    ):
+        workers.columns(AREA)
+    assert "3 times, at last with ValueError: the brain has no goal" in str(caught.value)
+    assert any(spans in str(caught.value) for spans in SPANS)
+
+
+def test_runs_that_always_kill_their_worker_end_the_study_by_name() -> None:
+    area = Rectangle(tuple(range(8)), 0, 400)
+    with (
+        Workers(two_processes, 2, made_up.killed_always) as workers,
+        pytest.raises(StudyError, match="3 times, at last with BrokenProcessPool") as caught,
+    ):
+        workers.columns(area)
+    assert "configurations 3, runs" in str(caught.value)
+
+
+class Unwilling(Executor):
+    """An executor that takes nothing."""
+
+    def submit(self, *_: object, **__: object) -> Future[object]:  # type: ignore[override]
+        """Refuse."""
+        message = "cannot schedule new futures after shutdown"
+        raise RuntimeError(message)
+
+
+def test_an_executor_that_takes_nothing_ends_the_study() -> None:
+    with (
+        Workers(Unwilling, 2, outcomes) as workers,
+        pytest.raises(StudyError, match="failed 3 times, at last with RuntimeError: cannot sched"),
+    ):
+        workers.columns(AREA)
+
+
+@pytest.mark.parametrize(
+    ("task", "reason"),
+    [
+        (lambda _: {}, "columns  differ"),
+        (lambda area: {"time_s": outcomes(area)["time_s"][:, 1:]}, "has shape"),
+    ],
+)
+def test_a_task_that_gives_less_ends_the_study(task: partial[Columns], reason: str) -> None:
+    with (
+        Workers(lambda: ThreadPoolExecutor(2), 2, task) as workers,
+        pytest.raises(StudyError, match=reason),
+    ):
+        workers.columns(AREA)
+
+
+INTERRUPTED = """
+import sys, time
+from made_up import Rectangle
+from agent_economy.study.executors import LocalExecutor
+from agent_economy.study.workers import Workers
+
+def task(area):
+    print("begun", flush=True)
+    time.sleep(60)
+
+if __name__ == "__main__":
+    with Workers(lambda: LocalExecutor(2), 2, task) as workers:
+        workers.columns(Rectangle((0, 1), 0, 10))
+"""
+
+
+def interrupted(tmp_path: Path) -> tuple[subprocess.Popen[str], str]:
+    """Return a program whose two workers have begun a minute's work."""
+    (tmp_path / "program.py").write_text(INTERRUPTED)
+    environment = {**os.environ, "PYTHONPATH": str(Path(__file__).parent)}
+    process = subprocess.Popen(
+        [sys.executable, tmp_path / "program.py"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        env=environment,
+        start_new_session=True,
+    )
+    assert process.stdout
+    begun = process.stdout.readline()
+    begun += process.stdout.readline()
+    return process, begun
+
+
+def test_ctrl_c_ends_the_workers_at_once(tmp_path: Path) -> None:
+    process, begun = interrupted(tmp_path)
+    assert begun == "begun\nbegun\n"
+    begin = time.monotonic()
+    os.killpg(process.pid, signal.SIGINT)  # as a terminal does: to the workers too
+    _, errors = process.communicate(timeout=30)
+    assert time.monotonic() - begin < 5
+    assert errors.count("Traceback") == 1
+    assert errors.endswith("KeyboardInterrupt\n")
+    assert ends(process.pid)
+
+
+def test_workers_end_with_a_killed_study(tmp_path: Path) -> None:
+    process, begun = interrupted(tmp_path)
+    assert begun == "begun\nbegun\n"
+    process.kill()
+    process.communicate(timeout=30)
+    assert ends(process.pid)
+
+
+def ends(group: int) -> bool:
+    """Return whether a process group is gone within some seconds."""
+    for _ in range(100):
+        try:
+            os.killpg(group, 0)
+        except ProcessLookupError:
+            return True
+        time.sleep(0.1)
+    return False
+
+
+def free_port() -> int:
+    """Return a port of loopback that nobody has."""
+    with closing(socket.socket()) as taken:
+        taken.bind(("127.0.0.1", 0))
+        return int(taken.getsockname()[1])
+
+
+def started(stack: ExitStack, *arguments: str) -> subprocess.Popen[bytes]:
+    """Start a part of a Dask cluster, which ends with the stack."""
+    environment = {**os.environ, "PYTHONPATH": str(Path(__file__).parent)}
+    process = subprocess.Popen(
+        [sys.executable, "-m", *arguments],
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+        env=environment,
+    )
+    stack.callback(process.wait)
+    stack.callback(process.kill)
+    return process
+
+
+Cluster = tuple[str, list[subprocess.Popen[bytes]]]
+
+
+@pytest.fixture
+def cluster() -> Iterator[Cluster]:
+    """Start a Dask scheduler and two workers; return its address, and all three."""
+    pytest.importorskip("distributed", reason="Dask is an extra")
+    with ExitStack() as stack:
+        port = free_port()
+        address = f"tcp://127.0.0.1:{port}"
+        scheduler = ("distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", str(port))
+        processes = [started(stack, *scheduler, "--no-dashboard", "--no-show")]
+        worker = ("distributed.cli.dask_worker", address, "--nthreads", "1", "--no-nanny")
+        processes += [started(stack, *worker, "--no-dashboard") for _ in range(2)]
+        executor = dask_executor(address)
+        begin = time.monotonic()
+        while executor.count < 2:
+            assert time.monotonic() - begin < 30
+            time.sleep(0.05)
+        executor.shutdown()
+        yield address, processes
+
+
+def test_a_killed_dask_worker_changes_no_result(cluster: Cluster, tmp_path: Path) -> None:
+    address, _ = cluster
+    task = partial(made_up.killed_once, tmp_path)
+    with Workers(partial(dask_executor, address), 2, task) as workers:
+        assert same(workers.columns(AREA), outcomes(AREA))
+        assert (tmp_path / "killed").exists()
+        assert same(workers.columns(AREA), outcomes(AREA))
+
+
+def test_runs_that_always_fail_on_dask_end_the_study_by_name(cluster: Cluster) -> None:
+    address, _ = cluster
+    with (
+        Workers(partial(dask_executor, address), 2, made_up.failing) as workers,
+        pytest.raises(StudyError, match="at last with ValueError: the brain has no goal"),
+    ):
+        workers.columns(AREA)
+
+
+def test_a_scheduler_that_dies_ends_the_study(cluster: Cluster) -> None:
+    address, processes = cluster
+    with Workers(partial(dask_executor, address), 2, made_up.slow_outcomes) as workers:
+        assert same(workers.columns(AREA), outcomes(AREA))
+        processes[0].kill()
+        with pytest.raises((StudyError, InputError)):
+            workers.columns(AREA)
+
+
+def test_a_scheduler_that_is_not_there_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("distributed", reason="Dask is an extra")
+    monkeypatch.setattr("agent_economy.study.executors.CONNECT_S", 1)
+    address = f"tcp://127.0.0.1:{free_port()}"
+    with pytest.raises(InputError, match=f"{address}: no Dask scheduler answers"):
+        dask_executor(address)
+    with pytest.raises(InputError, match="no Dask scheduler answers"):
+        dask_executor("nowhere://")
+
+
+def test_where_dask_is_not_installed_it_says_what_to_install(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    with pytest.raises(InputError, match=r"pip install 'agent-economy\[dask\]'"):
+        dask_executor("tcp://127.0.0.1:8786")
