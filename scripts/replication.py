@@ -8,8 +8,8 @@ Tables stand between `<!-- NAME -->` and `<!-- end -->`. Examples:
 
 import re
 import sys
+import tempfile
 from collections.abc import Callable, Iterable
-from dataclasses import replace
 from functools import cache
 from itertools import groupby
 from pathlib import Path
@@ -20,7 +20,9 @@ from scipy import stats
 
 import agent_economy as ae
 from agent_economy._core import CONTACTS
-from agent_economy.study.teams import published_teams
+from agent_economy.study import published as theirs
+from agent_economy.study.evidence import Evidence
+from agent_economy.study.race import hold
 
 ROOT = Path(__file__).resolve().parent.parent
 PAGE = ROOT / "docs" / "replication.md"
@@ -31,6 +33,9 @@ Counted = tuple[NDArray[np.float64], NDArray[np.intp]]
 
 TIMED_TEAMS = (1, 2, 3, 4)
 """Teams whose runs were surely timed: the fifth's data repeat the first's, the rest are capped."""
+
+RUNS = 10_000
+"""Of each team of 1 to 8."""
 
 HAND_TIMING_S = 1.0
 """Standard deviation of a time taken by hand and written down in whole seconds."""
@@ -169,22 +174,22 @@ def capped(paints: Counted, rate: float) -> tuple[float, float]:
 def teams() -> str:
     """Return our times and failures beside the published ones, at the scenario's constant."""
     answer = study_answer()
-    published_by_size = {team.robots: team for team in published_teams(SCENARIO)}
+    published_by_size = {team.robots: team for team in theirs.results(SCENARIO)}
 
-    def row(team: ae.study.TeamResult) -> list[str]:
-        theirs = published_by_size[team.robots]
+    def row(team: ae.study.Result) -> list[str]:
+        published = published_by_size[size(team)]
         return [
-            str(team.robots),
+            str(size(team)),
             f"{team.time_s.value:.1f}",
-            f"{theirs.time_s:.1f}",
-            f"{team.failed_share.value:.2%}",
-            f"{theirs.failed} of {len(theirs.times_s)}",
+            f"{published.time_s:.1f}",
+            f"{team.failed.value:.2%}",
+            f"{published.failed} of {len(published.times_s)}",
             f"{team.merit.value:.2f}",
-            f"{theirs.merit.value:.2f}",
+            f"{published.merit.value:.2f}",
         ]
 
     header = ["robots", "mean s", "thesis", "failed", "thesis", "merit", "thesis"]
-    return table(header, map(row, answer.teams))
+    return table(header, map(row, answer.results))
 
 
 def claims() -> str:
@@ -192,11 +197,11 @@ def claims() -> str:
     one, two = (np.array(published()[robots]) for robots in (1, 2))
     student = stats.ttest_ind(one, two).pvalue
     rank = stats.mannwhitneyu(one, two).pvalue
-    by_size = {team.robots: team for team in study_answer().teams}
-    assert by_size[3].behind_best is not None  # noqa: S101  (the study's answer is 4)
-    behind = by_size[3].behind_best
+    by_size = {size(team): team for team in study_answer().results}
+    behind = by_size[3].standing.behind
+    assert behind is not None  # noqa: S101  (the study's answer is 4)
     times = ", ".join(f"{by_size[robots].time_s.value:.1f}" for robots in (5, 6, 7, 8))
-    failed = ", ".join(f"{by_size[robots].failed}" for robots in (5, 6, 7, 8))
+    failed = ", ".join(f"{round(by_size[robots].failed.value * RUNS)}" for robots in (5, 6, 7, 8))
     rows = [
         ["p, two robots slower than one in its data, Student, two-sided", f"{student:.2f}"],
         ["the same by ranks, Mann and Whitney", f"{rank:.2f}"],
@@ -212,10 +217,10 @@ def claims() -> str:
 
 def three_look_best(merit: str) -> str:
     """Return how often 3 robots win when each team of 1 to 8 is run ten times."""
-    runs = ae.study.run_teams(scenario(merit))
     rng = np.random.default_rng(2003)
-    means = [rng.choice(team.merit, (20_000, 10)).mean(axis=1) for team in runs.teams.values()]
-    return f"{np.mean(np.argmax(means, axis=0) == list(runs.teams).index(3)):.0%}"
+    merits = [team.columns["merit"] for team in studied(scenario(merit))[1].samples]
+    means = [rng.choice(each, (20_000, 10)).mean(axis=1) for each in merits]
+    return f"{np.mean(np.argmax(means, axis=0) + 1 == 3):.0%}"  # noqa: PLR2004
 
 
 def rates() -> str:
@@ -233,10 +238,22 @@ def rates() -> str:
 
 def best_and_ties(contact: str, rate: float) -> tuple[str, str]:
     """Return the answer of the study with another contact and constant."""
-    cap_paints = int(rate * SCENARIO.cap_s)
-    other = replace(SCENARIO, contact=contact, paints_per_s=rate, cap_paints=cap_paints)
-    answer = ae.study.conclude(ae.study.run_teams(other))
-    return str(answer.best), ", ".join(map(str, answer.tied)) or "none"
+    other = SCENARIO.replace("contact", contact).replace("clock.paints_per_s", rate)
+    answer, _ = studied(other)
+    open_ = [size(team) for team in answer.results if team.standing.verdict not in {"best", "worse"}]
+    return str(size(answer.results[answer.best])), ", ".join(map(str, open_)) or "none"
+
+
+def studied(scenario: ae.Scenario) -> tuple[ae.study.Answer, Evidence]:
+    """Return what so many runs of each team say."""
+    with tempfile.TemporaryDirectory() as folder:
+        return hold(ae.study.plan(scenario, runs=RUNS), Path(folder))
+
+
+def size(team: ae.study.Result) -> int:
+    """Return a team's size."""
+    (robots,) = team.values.values()
+    return int(robots)
 
 
 def slips() -> str:
@@ -259,13 +276,12 @@ def slips() -> str:
 
 def scored(merit: str) -> list[float]:
     """Return the published teams' figures of merit, by a definition's name."""
-    return [team.merit.value for team in published_teams(scenario(merit))]
+    return [team.merit.value for team in theirs.results(scenario(merit))]
 
 
 def scenario(merit: str) -> ae.Scenario:
     """Return the scenario with another figure of merit."""
-    change = ae.scenario.Override(("merit",), merit, "replication")
-    return ae.Scenario.load(ROOT / "scenarios" / "classic.toml", (change,))
+    return SCENARIO.replace("merit", merit)
 
 
 def published() -> dict[int, list[float]]:
@@ -275,8 +291,8 @@ def published() -> dict[int, list[float]]:
 
 
 def study_answer() -> ae.study.Answer:
-    """Return the answer of `make study`."""
-    return ae.study.conclude(ae.study.run_teams(SCENARIO))
+    """Return what the scenario's own study finds with so many runs of each team."""
+    return studied(SCENARIO)[0]
 
 
 def paints_of(contact: str, robots: int, runs: int) -> NDArray[np.float64]:

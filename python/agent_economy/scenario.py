@@ -9,9 +9,6 @@ from agent_economy import _core
 from agent_economy._core import InputError
 from agent_economy.merit import Merit, Term, in_words
 
-TEAM_SIZE_PATH = "robots.wanderer.count"
-"""Path of the factor that a study of the classic engine varies."""
-
 Value = str | int | float
 """A value of a factor."""
 
@@ -86,8 +83,6 @@ class Scenario:
         cap_s: A run that takes longer has failed, and counts as this long.
         cap_paints: The last paint that is not beyond the cap.
         robots: Robots in a single run.
-        runs: Runs of each team in a study.
-        team_sizes: The teams that a study compares, ascending; empty if it varies anything else.
         factors: What a study varies, if anything; in a fixed order.
         design: Which configurations it compares: "factorial", "lhs:N" or "sobol:N" (N points).
         delta: A difference of merit that is worth knowing, above 0; None if the file has none.
@@ -104,8 +99,6 @@ class Scenario:
     cap_s: float
     cap_paints: int
     robots: int
-    runs: int
-    team_sizes: tuple[int, ...]
     factors: tuple[Factor, ...]
     design: str
     delta: float | None
@@ -149,7 +142,6 @@ class Scenario:
             source=source,
             merit=merit(fields.pop("merit")),
             factors=factors,
-            team_sizes=team_sizes(factors, fields["robots"]),
             published=published(fields.pop("published")),
             **fields,
         )
@@ -202,12 +194,3 @@ def merit(fields: dict[str, Any]) -> Merit:
 def published(fields: dict[str, Any] | None) -> Published | None:
     """Return published results as the compiled part read them."""
     return Published(**fields | {"times_s": dict(fields["times_s"])}) if fields else None
-
-
-def team_sizes(factors: tuple[Factor, ...], robots: int) -> tuple[int, ...]:
-    """Return the teams of a study that varies nothing else; none if it does."""
-    if not factors:
-        return (robots,)
-    if [factor.path for factor in factors] != [TEAM_SIZE_PATH]:
-        return ()
-    return tuple(int(size) for size in factors[0].values)

@@ -87,7 +87,6 @@ fn as_dict<'py>(py: Python<'py>, scenario: &Scenario) -> PyResult<Bound<'py, PyD
     dict.set_item("cap_s", configuration.clock.cap_s)?;
     dict.set_item("cap_paints", configuration.task.cap_paints)?;
     dict.set_item("robots", configuration.robots)?;
-    dict.set_item("runs", scenario.study.runs)?;
     dict.set_item("factors", factor_dicts(py, &scenario.study.factors)?)?;
     dict.set_item("design", scenario.study.design.to_string())?;
     dict.set_item("delta", scenario.study.delta)?;

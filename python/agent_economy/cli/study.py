@@ -17,7 +17,6 @@ from agent_economy.study import design as designs
 from agent_economy.study.engine import Engine
 from agent_economy.study.labels import label
 from agent_economy.study.plan import Plan, tightened
-from agent_economy.study.race import pursue
 from agent_economy.study.rectangle import Compute
 
 Text = str | None
@@ -135,7 +134,7 @@ def watched(asked: Plan, folder: Path, workers: int | None, dask: str | None) ->
     teller = Teller([label(values) for values in asked.configurations])
     try:
         with computing(asked.engine, workers, dask) as compute, teller.shown() as on_progress:
-            return pursue(asked, folder, compute=compute, on_progress=on_progress)
+            return studies.pursue(asked, folder, compute=compute, on_progress=on_progress)
     except KeyboardInterrupt:
         typer.echo(
             f"\nStopped after {teller.runs:,} runs; all are kept. Go on with: "
@@ -150,9 +149,9 @@ def computing(engine: Engine, workers: int | None, dask: str | None) -> Iterator
     """Start what computes, other than threads of this process, and end it."""
     with ExitStack() as stack:
         if workers is not None:
-            yield stack.enter_context(studies.local_workers(engine, workers)).columns
+            yield stack.enter_context(engine.in_processes(workers)).columns
         elif dask is not None:
-            yield stack.enter_context(studies.dask_workers(engine, dask)).columns
+            yield stack.enter_context(engine.on_dask(dask)).columns
         else:
             yield None
 

@@ -6,7 +6,7 @@ The data flows one way: `ask` -> `plan` (what is asked; `design`, `engine`) -> `
 """
 
 from agent_economy.study.answer import Answer, Result
-from agent_economy.study.ask import answer, plan_of, resume, run
+from agent_economy.study.ask import answer, plan_of, pursue, resume, run
 from agent_economy.study.plan import Plan
 from agent_economy.study.plan import make as plan
 from agent_economy.study.race import Progress
@@ -23,6 +23,7 @@ __all__ = [
     "open",
     "plan",
     "plan_of",
+    "pursue",
     "resume",
     "run",
     "select_best",

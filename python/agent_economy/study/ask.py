@@ -7,11 +7,13 @@ from typing import Any
 
 from agent_economy._core import InputError
 from agent_economy.scenario import Scenario, Value
+from agent_economy.study import files
 from agent_economy.study import plan as plans
 from agent_economy.study.answer import Answer
 from agent_economy.study.plan import Plan
-from agent_economy.study.race import OnProgress, pursue
+from agent_economy.study.race import OnProgress, hold
 from agent_economy.study.rectangle import Compute, Rectangle
+from agent_economy.study.report import ChartScript
 from agent_economy.study.selection import Guarantee
 from agent_economy.study.store import read
 
@@ -61,7 +63,7 @@ def run(  # noqa: PLR0913  (keywords with defaults)
     if out is not None:
         return pursue(asked, Path(out), compute=compute, on_progress=on_progress)
     with tempfile.TemporaryDirectory() as folder:
-        return pursue(asked, Path(folder), compute=compute, on_progress=on_progress)
+        return hold(asked, Path(folder), compute, on_progress)[0]
 
 
 def resume(
@@ -89,6 +91,20 @@ def answer(folder: str | Path) -> Answer:
         InputError: If the folder holds no study, or one that is not finished.
     """
     return pursue(plan_of(Path(folder)), Path(folder), compute=refuse(Path(folder)))
+
+
+def pursue(
+    asked: Plan,
+    folder: Path,
+    *,
+    compute: Compute | None = None,
+    on_progress: OnProgress | None = None,
+) -> Answer:
+    """Run a study, or go on with it, and leave its answer and report in its folder."""
+    with ChartScript() as script:
+        found, evidence = hold(asked, folder, compute, on_progress)
+        files.write(folder, found, evidence, script)
+    return found
 
 
 def plan_of(folder: Path) -> Plan:

@@ -1,7 +1,7 @@
 """What runs a study's configurations: the simulator that the scenario names."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -9,9 +9,11 @@ import numpy as np
 from agent_economy import _core
 from agent_economy.scenario import Scenario
 from agent_economy.study.design import Values
+from agent_economy.study.executors import LocalExecutor, dask_executor
 from agent_economy.study.rectangle import Columns, Rectangle
 from agent_economy.study.selection import Floats
 from agent_economy.study.store.columns import Column
+from agent_economy.study.workers import Workers
 
 
 @dataclass(frozen=True)
@@ -37,6 +39,23 @@ class Engine:
     def __setstate__(self, state: dict[str, object]) -> None:
         """Take what another process sent."""
         self.__dict__.update(state)
+
+    def in_processes(self, count: int) -> Workers:
+        """Return processes of this machine that compute, one thread each; use it in a `with`."""
+        return Workers(lambda: LocalExecutor(count), count, replace(self, threads=1))
+
+    def on_dask(self, address: str) -> Workers:
+        """Return a Dask cluster's workers; use it in a `with`.
+
+        Raises:
+            InputError: If no scheduler answers at the address, or Dask is not installed.
+        """
+        executor = dask_executor(address)
+        made = iter([executor])
+        count = max(1, executor.count)
+        return Workers(
+            lambda: next(made, None) or dask_executor(address), count, replace(self, threads=1)
+        )
 
     @cached_property
     def _compiled(self) -> list[_core.Configuration]:

@@ -14,13 +14,11 @@ from typing import Any
 import numpy as np
 
 from agent_economy import _core
-from agent_economy.study import files
 from agent_economy.study.answer import Answer, Outcome, conclude
 from agent_economy.study.effort import remaining
 from agent_economy.study.evidence import Evidence, Sample
 from agent_economy.study.plan import Plan, is_same_data
 from agent_economy.study.rectangle import Columns, Compute, Rectangle
-from agent_economy.study.report import ChartScript
 from agent_economy.study.selection import (
     Elimination,
     Floats,
@@ -107,34 +105,29 @@ class Progress:
 OnProgress = Callable[[Progress], None]
 
 
-def pursue(
+def hold(
     plan: Plan,
     folder: Path,
-    *,
     compute: Compute | None = None,
     on_progress: OnProgress | None = None,
-) -> Answer:
-    """Run a study, or go on with it, until it has an answer; leave the answer in the folder.
+) -> tuple[Answer, Evidence]:
+    """Run a study, or go on with it, until it has an answer.
 
     Args:
         plan: What is asked. Another question about the same runs (another delta, confidence or
             guarantee than the folder's) takes the folder over and uses its runs.
         folder: Of the study; made if it is not there.
         compute: What computes rectangles: the plan's engine in this process if None.
-        on_progress: Called after each round, and in long rounds meanwhile.
+        on_progress: Called after each round.
 
     Raises:
         InputError: If the folder holds another study, is damaged, or cannot be written.
     """
-    with (
-        ChartScript() as script,
-        Store.open(folder, plan.text(), plan.engine.columns, may_replace=is_same_data) as store,
-    ):
+    columns = plan.engine.columns
+    with Store.open(folder, plan.text(), columns, may_replace=is_same_data) as store:
         race = Race(plan, store, compute or in_pieces(plan.engine), on_progress)
         evidence, outcome = race.run()
-        answer = conclude(plan, evidence, outcome)
-        files.write(folder, answer, evidence, script)
-    return answer
+    return conclude(plan, evidence, outcome), evidence
 
 
 def in_pieces(compute: Compute) -> Compute:

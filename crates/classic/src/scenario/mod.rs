@@ -14,7 +14,6 @@
 //! count = 4                               # of a single run; a study varies it
 //!
 //! [study]
-//! runs = 10000                            # of each configuration
 //! vary = { "robots.wanderer.count" = "1..8" }
 //! design = "factorial"                    # or "lhs:200" or "sobol:256": points that fill the space
 //! delta = 0.05                            # may be left out: a difference of merit worth knowing
@@ -209,7 +208,7 @@ cap_s = 120
 [robots.wanderer]
 count = 4
 [study]
-runs = 100
+delta = 0.05
 vary = { "robots.wanderer.count" = "1..3, 8" }
 [published]
 source = "Someone"
@@ -346,7 +345,7 @@ times_s = { 10 = [120, 120], 2 = [4, 5.5] }
         let text = GOOD
             .replace("\"touch\"", "\"tuoch\"")
             .replace("count = 4", "count = 0")
-            .replace("runs = 100", "runs = -5")
+            .replace("delta = 0.05", "delta = -5")
             .replace("1..3, 8", "8..1")
             .replace("cap_s = 120", "cap_s = nan\ncap = 3");
         let faults = faults(&text);
@@ -354,7 +353,7 @@ times_s = { 10 = [120, 120], 2 = [4, 5.5] }
             "t.toml:4: contact = \"tuoch\": must be one of",
             "did you mean \"touch\"?",
             "t.toml:11: robots.wanderer.count = 0: must be a whole number from 1 to 250",
-            "t.toml:13: study.runs = -5: must be a whole number from 2 to 1000000",
+            "t.toml:13: study.delta = -5: must be a number above 0",
             "t.toml:14: study.vary.\"robots.wanderer.count\" = \"8..1\": must be a text of values",
             "t.toml:8: clock.cap_s = NaN: must be a number",
             "t.toml:9: clock.cap = 3: must be one of the known keys here: paints_per_s, cap_s",

@@ -4,7 +4,6 @@ use super::vary::{Factor, Values, factors};
 use base::document::Section;
 use std::fmt;
 
-const MAX_RUNS: i64 = 1_000_000;
 const MAX_POINTS: u32 = 100_000;
 
 /// How often a study's answer is to be right, if the scenario does not say.
@@ -13,8 +12,6 @@ const CONFIDENCE: f64 = 0.95;
 /// What a study does.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Study {
-    /// Runs of each configuration.
-    pub runs: u64,
     /// What is varied; nothing, if one configuration is to be run.
     pub factors: Vec<Factor>,
     /// Which configurations are compared.
@@ -63,8 +60,7 @@ impl fmt::Display for Design {
 }
 
 pub(super) fn study(section: &Section) -> Option<Study> {
-    section.only(&["runs", "vary", "delta", "confidence", "design"]);
-    let runs = section.integer("runs", 2..=MAX_RUNS);
+    section.only(&["vary", "delta", "confidence", "design"]);
     let vary = section.section("vary");
     let factors = factors(&vary);
     let design = if_given(section, "design", || {
@@ -84,7 +80,6 @@ pub(super) fn study(section: &Section) -> Option<Study> {
     let design = design.map(|design| design.unwrap_or(Design::Factorial));
     let is_listed = tell_ranges_without_points(&vary, factors.as_deref()?, design?);
     is_listed.then_some(Study {
-        runs: u64::try_from(runs?).ok()?,
         factors: factors?,
         design: design?,
         delta: delta?,
