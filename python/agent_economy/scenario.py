@@ -160,8 +160,16 @@ class Scenario:
         # What is varied is one key with dots of its own.
         factor_path = path.removeprefix(VARY)
         keys = ("study", "vary", factor_path) if factor_path != path else tuple(path.split("."))
-        overrides = (*self.source.overrides, Override(keys, value, "replace"))
-        return Scenario.loads(self.source.text, self.source.file, overrides)
+        return self.changed((Override(keys, value, "replace"),))
+
+    def changed(self, overrides: tuple[Override, ...]) -> "Scenario":
+        """Return the scenario with other values over its own, all checked together.
+
+        Raises:
+            InputError: If any is not allowed; all faults at once.
+        """
+        every = (*self.source.overrides, *overrides)
+        return Scenario.loads(self.source.text, self.source.file, every)
 
     def configuration(self, values: Mapping[str, Value]) -> _core.Configuration:
         """Return what is run: the scenario with a value for each path of `values`.

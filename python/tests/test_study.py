@@ -1,189 +1,211 @@
-"""A study's answer and its files."""
+"""A study from the question to the answer, as Python sees it."""
 
 import json
-import re
-from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
-import numpy as np
-import pyarrow.parquet as pq
 import pytest
-import vl_convert
-from numpy.typing import NDArray
+import small
 
 from agent_economy import InputError, Scenario, study
-from agent_economy.merit import Merit, Term
-from agent_economy.study import charts, files, report
-from agent_economy.study.runs import Outcomes, Runs, outcomes
+from agent_economy.study import ask, files
+
+TEAM = "robots.wanderer.count"
 
 
-@pytest.fixture(scope="module")
-def scenario() -> Scenario:
-    """Return the 2003 experiment with fewer runs."""
-    root = Path(__file__).resolve().parents[2]
-    return replace(Scenario.load(root / "scenarios/classic.toml"), runs=400)
+@pytest.fixture
+def scenario(classic_toml: Path) -> Scenario:
+    """Return the 2003 experiment."""
+    return Scenario.load(classic_toml)
 
 
-@pytest.fixture(scope="module")
-def runs(scenario: Scenario) -> Runs:
-    """Return its runs."""
-    return study.run_teams(scenario, seed=1)
+@pytest.fixture(autouse=True)
+def quick_reports(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Leave the charts' JavaScript out of reports, which takes two seconds to make."""
+    monkeypatch.setattr(ask, "ChartScript", small.NoScript)
 
 
-def made_up(scenario: Scenario, merits: dict[int, NDArray[np.float64]]) -> Runs:
-    """Return runs whose merits are given and whose other columns do not matter."""
-    teams = {}
-    for robots, merit in merits.items():
-        zeros = np.zeros(len(merit), dtype=np.int64)
-        teams[robots] = Outcomes(
-            paints=zeros,
-            found=zeros,
-            collisions=zeros,
-            time_s=zeros.astype(float),
-            failed=zeros.astype(bool),
-            merit=merit,
-        )
-    return Runs(scenario, 0, teams)
+def test_forty_teams_are_settled_in_a_few_thousand_runs(scenario: Scenario) -> None:
+    answer = study.run(scenario, vary={TEAM: ["1..40"]}, delta=0.1)
+    assert answer.results[answer.best].values[TEAM] in {4, 5}
+    assert answer.runs < 8000
+    assert "with 95% confidence" in answer.guarantee
+    assert answer.sentence.startswith(f"Send {answer.results[answer.best].label}: ")
 
 
-def test_the_cap_cuts_times_and_counts_failures(scenario: Scenario) -> None:
-    paints = np.array([0, 56, 6720, 6721, -1])
-    zeros = np.zeros(5, dtype=np.int64)
-    given = outcomes(scenario, 3, paints, zeros, zeros)
-    assert given.time_s.tolist() == [0, 1, 120, 120, 120]
-    assert given.failed.tolist() == [False, False, False, True, True]
-    # Equation 5.2 for one run: -(0.3 T/10 + 0.2 n + 0.5 x 10 x failed).
-    assert given.merit.tolist() == pytest.approx([-0.6, -0.63, -4.2, -9.2, -9.2])
+def test_without_a_delta_it_is_two_percent_of_the_merits_range(scenario: Scenario) -> None:
+    asked = study.plan(scenario.replace("study.delta", 0.3))
+    assert asked.delta == 0.3
+    text = scenario.source.text.replace("delta = 0.01", "")
+    # From -0.2 (one robot, at once) to -10.2 (eight, 120 s, failed).
+    assert study.plan(Scenario.loads(text)).delta == pytest.approx(0.02 * 10)
 
 
-def test_the_published_numbers_are_scored_as_the_thesis_prints_them(runs: Runs) -> None:
-    by_equation = [round(team.merit.value, 2) for team in study.conclude(runs).published]
-    assert by_equation == [-3.27, -4.84, -1.71, -1.92, -4.07, -9.8, -10.0, -10.2]
+def test_the_same_question_again_computes_nothing(scenario: Scenario, tmp_path: Path) -> None:
+    first = study.run(scenario, delta=0.2, out=tmp_path)
+    before = (tmp_path / "answer.json").read_bytes()
+    computed: list[int] = []
+    again = study.run(
+        scenario, delta=0.2, out=tmp_path, on_progress=lambda now: computed.append(now.computed)
+    )
+    assert again.sentence == first.sentence
+    assert set(computed) == {0}
+    assert (tmp_path / "answer.json").read_bytes() == before
+    assert study.answer(tmp_path).runs == first.runs
 
 
-def test_the_best_team_has_the_highest_mean_merit(runs: Runs) -> None:
-    answer = study.conclude(runs)
-    merits = {team.robots: team.merit.value for team in answer.teams}
-    assert answer.best == max(merits, key=merits.__getitem__)
-    for team in answer.teams:
-        assert team.merit.low < team.merit.value < team.merit.high
-        assert team.failed == np.sum(runs.teams[team.robots].failed)
+def test_a_stopped_study_goes_on_to_the_same_bytes(scenario: Scenario, tmp_path: Path) -> None:
+    def stop(now: study.Progress) -> None:
+        if now.round == 5:
+            raise KeyboardInterrupt
+
+    study.run(scenario, delta=0.2, out=tmp_path / "whole")
+    with pytest.raises(KeyboardInterrupt):
+        study.run(scenario, delta=0.2, out=tmp_path / "stopped", on_progress=stop)
+    with pytest.raises(InputError, match="is not finished"):
+        study.answer(tmp_path / "stopped")
+    study.resume(tmp_path / "stopped")
+    for name in ("answer.json", "study.toml"):
+        whole = (tmp_path / "whole" / name).read_bytes()
+        assert (tmp_path / "stopped" / name).read_bytes() == whole
 
 
-def test_a_team_that_differs_by_noise_is_a_tie_and_a_clear_one_is_not(scenario: Scenario) -> None:
-    rng = np.random.default_rng(3)
-    shared = rng.normal(size=400)
-    noise = rng.normal(scale=0.1, size=(3, 400))
-    merits = {1: shared + noise[0], 2: shared + noise[1], 3: shared + noise[2] - 0.5}
-    answer = study.conclude(made_up(scenario, merits))
-    assert {answer.best, *answer.tied} == {1, 2}
-    assert "cannot be told apart" in answer.sentence
-    assert f"Send {answer.best} robot" in answer.sentence
+def test_a_tightened_study_is_a_fresh_one_at_that_confidence(
+    scenario: Scenario, tmp_path: Path
+) -> None:
+    study.run(scenario, delta=0.2, out=tmp_path / "more")
+    computed: list[int] = []
+    more = study.resume(
+        tmp_path / "more",
+        confidence=0.999,
+        on_progress=lambda now: computed.append(now.computed),
+    )
+    fresh = study.run(scenario, delta=0.2, confidence=0.999, out=tmp_path / "fresh")
+    assert files.as_json(more) == files.as_json(fresh)
+    assert 0 < computed[-1] < fresh.runs
 
 
-def test_pairing_tells_teams_apart_that_their_own_intervals_do_not(scenario: Scenario) -> None:
-    rng = np.random.default_rng(4)
-    shared = rng.normal(size=400)
-    merits = {1: shared, 2: shared - 0.02 + rng.normal(scale=0.05, size=400)}
-    answer = study.conclude(made_up(scenario, merits))
-    one, two = answer.teams
-    assert one.merit.low < two.merit.high
-    assert answer.tied == ()
+def test_another_delta_uses_the_runs_there_are(scenario: Scenario, tmp_path: Path) -> None:
+    study.run(scenario, delta=0.1, out=tmp_path)
+    computed: list[int] = []
+    study.run(
+        scenario, delta=0.2, out=tmp_path, on_progress=lambda now: computed.append(now.computed)
+    )
+    assert computed[-1] == 0
 
 
-def test_the_largest_team_run_is_not_called_enough(scenario: Scenario) -> None:
-    merits = {1: np.zeros(50), 2: np.linspace(1, 2, 50)}
-    assert "a larger one may be better" in study.conclude(made_up(scenario, merits)).sentence
+@pytest.mark.parametrize(
+    "change", [{"seed": 1}, {"runs": 20}, {"vary": {TEAM: ["1..3"]}}], ids=["seed", "runs", "vary"]
+)
+def test_a_folder_with_other_runs_is_refused(
+    change: dict[str, Any], scenario: Scenario, tmp_path: Path
+) -> None:
+    study.run(scenario, delta=0.3, out=tmp_path)
+    with pytest.raises(InputError, match="holds another study"):
+        study.run(scenario, delta=0.3, out=tmp_path, **change)
 
 
-def test_one_team_alone_has_nothing_to_be_compared_with(scenario: Scenario) -> None:
-    alone = study.conclude(study.run_teams(replace(scenario, team_sizes=(4,), runs=50)))
-    assert alone.best == 4
-    assert alone.tied == ()
-    assert alone.teams[0].behind_best is None
+@pytest.mark.parametrize(
+    ("change", "told"),
+    [
+        ({"delta": 0.0}, "delta = 0.0: must be a number above 0"),
+        ({"confidence": 1.5}, "confidence = 1.5: must be a number from 0.5 to below 1"),
+        ({"guarantee": "sure"}, "guarantee = 'sure': must be one of"),
+        ({"seed": -1}, "seed = -1: must be"),
+        ({"runs": 1}, "runs = 1: must be a whole number from 2"),
+        ({"design": "grid"}, "must be"),
+        ({"vary": {"robots.rover.count": [1]}}, "did you mean robots.wanderer.count?"),
+    ],
+)
+def test_what_cannot_be_asked_is_told(
+    change: dict[str, Any], told: str, scenario: Scenario
+) -> None:
+    with pytest.raises(InputError) as error:
+        study.run(scenario, **change)
+    assert told in str(error.value)
 
 
-def test_equal_teams_are_rarely_told_apart(scenario: Scenario) -> None:
-    # Eight equal teams, of which the one that looks best is compared with all others: any is
-    # called worse in at most 5% of studies. Of 1,000 studies more than 72 has a probability below
-    # 0.2% (binomial); the seed is fixed.
-    rng = np.random.default_rng(5)
-    told_apart = 0
-    for _ in range(1000):
-        merits = {robots: rng.normal(size=100) for robots in range(1, 9)}
-        told_apart += len(study.conclude(made_up(scenario, merits)).tied) < 7
-    assert told_apart <= 72
+def test_the_runs_can_be_asked_in_sql(scenario: Scenario, tmp_path: Path) -> None:
+    answer = study.run(scenario, delta=0.3, out=tmp_path)
+    runs = study.open(tmp_path).runs()
+    assert runs.count("*").fetchall() == [(answer.runs,)]
+    means = runs.aggregate("configuration, avg(time_s) AS s").order("configuration").fetchall()
+    for (_, mean_s), result in zip(means, answer.results, strict=True):
+        assert mean_s == pytest.approx(result.time_s.value)
 
 
-def test_merit_weights_decide_the_answer(runs: Runs, scenario: Scenario) -> None:
-    costly = replace(scenario, merit=Merit("costly", (Term("robots", "robots", -1),)))
-    assert study.conclude(study.run_teams(costly)).best == 1
-    fast = replace(scenario, merit=Merit("fast", (Term("time", "time_s", -1),)))
-    assert study.conclude(study.run_teams(fast)).best == 8
-    assert runs.scenario.merit.name == "equation-5.2"
+def test_run_r_is_the_same_run_as_replicates(scenario: Scenario, tmp_path: Path) -> None:
+    from agent_economy import classic  # noqa: PLC0415
+
+    study.run(scenario, delta=0.3, seed=5, out=tmp_path)
+    mine = study.open(tmp_path).runs().filter("configuration = 3").order("run").fetchnumpy()
+    theirs = classic.replicate(4, len(mine["run"]), seed=5)
+    assert mine["collisions"].tolist() == theirs["collisions"].to_pylist()
 
 
-def test_a_study_of_more_than_team_sizes_is_refused(scenario: Scenario) -> None:
-    more = scenario.replace("study.vary.contact", "touch,ahead")
-    with pytest.raises(InputError, match="varies robots.wanderer.count, contact: must be robots"):
-        study.run_teams(more)
+def test_an_answer_has_no_time_path_host_or_threads_in_it(
+    scenario: Scenario, tmp_path: Path
+) -> None:
+    study.run(scenario, delta=0.3, out=tmp_path)
+    text = (tmp_path / "answer.json").read_text()
+    assert str(small.ROOT) not in text
+    assert str(tmp_path) not in text
+    asked = (tmp_path / "study.toml").read_text()
+    assert str(small.ROOT) not in asked
+    assert json.loads(text)["versions"].keys() >= {"agent-economy", "numpy", "python"}
 
 
-def test_files_hold_the_runs_the_answer_and_an_offline_report(runs: Runs, tmp_path: Path) -> None:
-    answer = study.conclude(runs)
-    with report.ChartScript() as script:
-        files.write_all(tmp_path, runs, answer, report.html(runs, answer, script))
-    assert sorted(file.name for file in tmp_path.iterdir()) == [
-        "answer.json",
-        "report.html",
-        "runs.parquet",
-    ]
-    table = pq.read_table(tmp_path / "runs.parquet")
-    assert table.num_rows == 8 * 400
-    assert table.column_names[0] == "robots.wanderer.count"
-    given = json.loads((tmp_path / "answer.json").read_text())
-    assert given["best"] == answer.best
-    assert given["teams"][3]["merit"]["low"] < given["teams"][3]["merit"]["high"]
-    page = (tmp_path / "report.html").read_text()
-    assert len(page.encode()) < 1_500_000
-    assert answer.sentence in page
-    without_scripts = re.sub(r"<script>.*?</script>", "", page, flags=re.DOTALL)
-    assert not re.search(r"<script|src=|href=|url\(|@import", without_scripts)
-    for name in ("merit", "nearest", "times", "failed"):
-        assert f'id="{name}"' in page
+def test_one_configuration_has_nothing_to_be_compared_with(scenario: Scenario) -> None:
+    answer = study.run(scenario, vary={TEAM: [4]}, runs=50)
+    assert answer.best == 0
+    assert answer.results[0].standing.verdict == "best"
+    assert answer.results[0].standing.behind is None
 
 
-def test_each_chart_draws_every_team_and_every_published_run(runs: Runs) -> None:
-    answer = study.conclude(runs)
-    drawn = {
-        name: vl_convert.vegalite_to_svg(chart | {"width": 600})
-        for name, chart in charts.specifications(runs, answer).items()
-    }
-    assert drawn["times"].count("mark-symbol") > 0
-    for name, svg in drawn.items():
-        if name == "nearest":
-            continue
-        for robots in range(1, 9):
-            assert f">{robots}</text>" in svg, f"{name} has no team of {robots}"
-        assert "Williams 2003" in svg
-    points = drawn["times"].count('aria-roledescription="point"')
-    assert points == 80
-    best_and_five_more = drawn["nearest"].count('aria-roledescription="point"')
-    assert best_and_five_more == 6
+def test_several_factors_are_compared_together(scenario: Scenario) -> None:
+    vary = {TEAM: ["1..6"], "contact": ["touch", "ahead", "within-2"], "clock.cap_s": [60, 120]}
+    answer = study.run(scenario, vary=vary, delta=0.5)
+    assert len(answer.results) == 36
+    assert answer.sensitivity is not None
+    assert {each.path for each in answer.sensitivity.influences} == set(vary)
+    assert answer.sensitivity.influences[0].path == TEAM
+    assert " with " in answer.sentence
 
 
-def test_another_cap_leaves_the_published_failures_what_they_were(scenario: Scenario) -> None:
-    for cap_s, cap_paints in ((60.0, 3360), (1000.0, 56_000)):
-        other = replace(scenario, cap_s=cap_s, cap_paints=cap_paints, runs=20)
-        published = study.conclude(study.run_teams(other)).published
-        assert [team.failed for team in published] == [2, 4, 0, 0, 2, 10, 10, 10]
+def test_points_that_fill_the_space_are_compared(scenario: Scenario) -> None:
+    vary = {TEAM: ["1..20"], "clock.paints_per_s": ["41.0..57.0"]}
+    answer = study.run(scenario, vary=vary, design="lhs:40", delta=0.5)
+    assert 30 < len(answer.results) <= 40
+    rates = [result.values["clock.paints_per_s"] for result in answer.results]
+    assert len(set(rates)) > 30
 
 
-def test_without_published_results_none_are_shown(scenario: Scenario) -> None:
-    bare = replace(scenario, published=None)
-    runs = study.run_teams(bare)
-    answer = study.conclude(runs)
-    assert "Williams" not in answer.sentence
-    for chart in charts.specifications(runs, answer).values():
-        assert "Williams" not in json.dumps(chart)
-        vl_convert.vegalite_to_svg(chart | {"width": 600})
+def test_merit_weights_decide_the_answer(scenario: Scenario) -> None:
+    def best(merit: dict[str, Any]) -> object:
+        answer = study.run(scenario.replace("merit", merit), delta=0.2)
+        return answer.results[answer.best].values[TEAM]
+
+    assert best({"robots": -1}) == 1
+    assert best({"time": -1}) == 8
+
+
+def test_a_run_that_went_wrong_counts_as_the_worst_and_is_counted(
+    scenario: Scenario, tmp_path: Path
+) -> None:
+    asked = study.plan(scenario.replace(f"study.vary.{TEAM}", "3,4,5"), delta=0.3)
+
+    def compute(rectangle: Any) -> Any:
+        columns = asked.engine(rectangle)
+        for row, configuration in enumerate(rectangle.configurations):
+            if configuration == 1:
+                for values in columns.values():
+                    values[row] = float("nan")
+        return columns
+
+    answer = study.pursue(asked, tmp_path, compute=compute)
+    four = answer.results[1]
+    assert answer.best != 1
+    assert four.quarantined == four.runs > 0
+    assert four.merit.value == pytest.approx(-9.4)
+    assert four.failed.value == 1
+    assert answer.results[0].quarantined == 0

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from agent_economy._core import InputError
-from agent_economy.scenario import Scenario, Value
+from agent_economy.scenario import Override, Scenario, Value
 from agent_economy.study import files
 from agent_economy.study import plan as plans
 from agent_economy.study.answer import Answer
@@ -52,13 +52,19 @@ def run(  # noqa: PLR0913  (keywords with defaults)
         InputError: If anything is not allowed; or the folder holds another study, is damaged, or
             cannot be written.
     """
-    for path, values in (vary or {}).items():
-        written = ",".join(str(value) for value in values)
-        scenario = scenario.replace(f"study.vary.{path}", written)
+    changes = [
+        Override(("study", "vary", path), ",".join(map(str, values)), "vary")
+        for path, values in (vary or {}).items()
+    ]
     if design is not None:
-        scenario = scenario.replace("study.design", design)
+        changes.append(Override(("study", "design"), design, "design"))
     asked = plans.make(
-        scenario, seed=seed, delta=delta, confidence=confidence, guarantee=guarantee, runs=runs
+        scenario.changed(tuple(changes)),
+        seed=seed,
+        delta=delta,
+        confidence=confidence,
+        guarantee=guarantee,
+        runs=runs,
     )
     if out is not None:
         return pursue(asked, Path(out), compute=compute, on_progress=on_progress)

@@ -7,6 +7,7 @@ it, so that the folder alone goes on.
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import tomli_w
@@ -65,9 +66,10 @@ class Plan:
             {"path": list(each.path), "value": each.value, "origin": each.origin}
             for each in source.overrides
         ]
-        data: dict[str, Any] = {"seed": str(self.seed), "file": source.file, "changes": changes}
+        data: dict[str, Any] = {"seed": str(self.seed), "name": Path(source.file).name}
         if self.runs is not None:
             data["runs"] = self.runs
+        data["changes"] = changes
         question = {
             "delta": self.delta,
             "confidence": self.confidence,
@@ -166,7 +168,7 @@ def of_document(document: Mapping[str, Any]) -> Plan:
         Override(tuple(each["path"]), each["value"], each["origin"]) for each in data["changes"]
     )
     return make(
-        Scenario.loads(data["scenario"], data["file"], overrides),
+        Scenario.loads(data["scenario"], data["name"], overrides),
         seed=int(data["seed"]),
         delta=question["delta"],
         confidence=question["confidence"],

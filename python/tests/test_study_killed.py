@@ -1,0 +1,82 @@
+"""A study that is killed at any moment, however often, comes to the same answer."""
+
+import multiprocessing
+import os
+import random
+import tempfile
+import time
+from collections.abc import Iterator
+from multiprocessing.process import BaseProcess
+from pathlib import Path
+
+import pytest
+import small
+
+from agent_economy import study
+
+KILLS = 200
+KILLS_A_FOLDER = 10
+SEED = 11
+FORKS = multiprocessing.get_context("forkserver")
+FORKS.set_forkserver_preload(["small", "made_up"])
+
+
+def started(folder: Path) -> BaseProcess:
+    """Start the small study in a process of its own."""
+    process = FORKS.Process(target=small.pursue, args=(folder,))
+    process.start()
+    return process
+
+
+def undisturbed(folder: Path) -> float:
+    """Run the small study to its end; return the seconds it took."""
+    begin = time.monotonic()
+    process = started(folder)
+    process.join()
+    assert process.exitcode == 0
+    return time.monotonic() - begin
+
+
+def rows(folder: Path) -> list[tuple[object, ...]]:
+    """Return all runs of a study, in order."""
+    return study.open(folder).runs().order("configuration, run").fetchall()
+
+
+@pytest.fixture
+def quick_path(tmp_path: Path) -> Iterator[Path]:
+    """Return a folder in memory, where there is such: a kill loses no pages, unlike a power cut."""
+    memory = Path("/dev/shm")  # noqa: S108
+    if not os.access(memory, os.W_OK):
+        yield tmp_path
+        return
+    with tempfile.TemporaryDirectory(dir=memory) as folder:
+        yield Path(folder)
+
+
+def test_200_kills_lose_nothing_double_nothing_and_change_no_byte(quick_path: Path) -> None:
+    tmp_path = quick_path
+    undisturbed(tmp_path / "warm-up")
+    seconds = undisturbed(tmp_path / "whole")
+    answer = (tmp_path / "whole/answer.json").read_bytes()
+    expected = rows(tmp_path / "whole")
+    assert len({row[:2] for row in expected}) == len(expected)
+
+    chance = random.Random(SEED)  # noqa: S311
+    kills = folders = 0
+    while kills < KILLS:
+        folder = tmp_path / f"killed-{folders}"
+        folders += 1
+        killed_here = 0
+        while True:
+            process = started(folder)
+            # From before anything is written to after the end; then it is left to finish.
+            process.join(chance.uniform(0, 1.1 * seconds) if killed_here < KILLS_A_FOLDER else None)
+            process.kill()
+            process.join()
+            if process.exitcode == 0:
+                break
+            killed_here += 1
+        kills += killed_here
+        assert (folder / "answer.json").read_bytes() == answer
+        assert rows(folder) == expected
+    assert folders > 10
