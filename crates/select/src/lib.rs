@@ -8,12 +8,15 @@
 //! | the default: the best, if it is better than every other by delta | [`race`] |
 //! | the strict one: within delta of the best, whatever the truth | [`strict`] |
 //! | bounds of a mean that hold at every moment | [`bounds`] |
+//! | the classical procedures, to be measured against | [`mod@reference`] |
 
 pub mod bounds;
 mod duel;
+mod normal;
 pub mod problem;
 pub mod procedure;
 pub mod race;
+pub mod reference;
 mod samples;
 pub mod schedule;
 pub mod strict;
