@@ -6,10 +6,10 @@ RUST := $(shell find crates/*/src crates/*/Cargo.toml) Cargo.toml Cargo.lock
 # maturin, and what it starts, are found in the environment.
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 
-.PHONY: help study test bench picture replication lint rust-test python-test clean
+.PHONY: help study test bench verify-selection picture replication lint rust-test python-test clean
 
 help: ## Say what can be made
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "%-12s %s\n", $$1, $$2 }' Makefile
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "%-17s %s\n", $$1, $$2 }' Makefile
 
 study: .venv/installed ## Answer the 2003 experiment's question: how many robots?
 	$(BIN)/agent-economy study scenarios/classic.toml
@@ -34,6 +34,9 @@ python-test: .venv/installed
 
 bench: ## Robot-decisions per second
 	cargo bench -p agent-economy-classic
+
+verify-selection: ## Does the race keep its guarantee? 20,000 macro-replications a problem
+	cargo run --release --locked -p agent-economy-select --example verify
 
 replication: .venv/installed ## Recompute every figure of docs/replication.md
 	$(BIN)/python scripts/replication.py

@@ -1,0 +1,54 @@
+//! Whether bounds of means hold at every moment at which one may look.
+
+use crate::cases::Case;
+use crate::play::Played;
+use crate::random::Place;
+use select::Bounds;
+use select::bounds::mean_exceeds;
+use select::schedule::next_look;
+
+/// So many runs are looked at one by one; after them, as the procedures look.
+const LOOKED_AT_ONE_BY_ONE: usize = 30;
+
+/// Watches the bounds of all means together for `runs` runs of each configuration. Correct: none
+/// was ever wrong, though each may be by its share of `alpha`.
+pub(crate) fn watch(case: &dyn Case, runs: usize, alpha: f64, start: Place) -> Played {
+    let (means, bounds) = (case.means(), case.bounds());
+    let share = alpha / f64::from(2 * u32::try_from(means.len()).unwrap_or(u32::MAX));
+    let holds = |configuration: usize| {
+        let merit = |run| case.sample(Place { run, ..start }, configuration);
+        let merits: Vec<f64> = (0..runs as u64).map(merit).collect();
+        let (mean, bounds) = (means[configuration], bounds[configuration]);
+        hold(&merits, bounds, mean, share)
+            && hold(&negated(&merits), mirrored(bounds), -mean, share)
+    };
+    Played {
+        correct: (0..means.len()).all(holds),
+        runs: (runs * means.len()) as u64,
+    }
+}
+
+/// Whether the lower bound never was above the mean.
+fn hold(merits: &[f64], bounds: Bounds, mean: f64, alpha: f64) -> bool {
+    let after = |runs: &usize| {
+        Some(if *runs < LOOKED_AT_ONE_BY_ONE {
+            runs + 1
+        } else {
+            next_look(*runs)
+        })
+    };
+    std::iter::successors(Some(1), after)
+        .take_while(|runs| *runs <= merits.len())
+        .all(|runs| !mean_exceeds(&merits[..runs], bounds, mean, alpha))
+}
+
+fn negated(merits: &[f64]) -> Vec<f64> {
+    merits.iter().map(|merit| -merit).collect()
+}
+
+fn mirrored(bounds: Bounds) -> Bounds {
+    Bounds {
+        least: -bounds.greatest,
+        greatest: -bounds.least,
+    }
+}

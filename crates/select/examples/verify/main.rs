@@ -1,0 +1,67 @@
+//! Do the selection procedures keep their guarantees? Measured on problems whose answer is known.
+//!
+//! | to know | read |
+//! |---|---|
+//! | which problems there are | `cases` |
+//! | what is measured on them | `lines` |
+//! | how one selection is played | `play` |
+//! | what passes | `gate` |
+
+mod arguments;
+mod binomial;
+mod cases;
+mod coverage;
+mod gate;
+mod lines;
+mod play;
+mod random;
+mod report;
+#[cfg(test)]
+mod tests;
+
+use arguments::Arguments;
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let arguments = match Arguments::parse(std::env::args().skip(1)) {
+        Ok(arguments) => arguments,
+        Err(fault) => return end(&mut io::stderr(), &fault, 2),
+    };
+    if arguments.help {
+        return end(&mut io::stdout(), arguments::HELP, 0);
+    }
+    match verify(&arguments) {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::from(1),
+        Err(error) => end(&mut io::stderr(), &error.to_string(), 2),
+    }
+}
+
+/// Whether every line passed.
+fn verify(arguments: &Arguments) -> io::Result<bool> {
+    let mut lines = lines::all();
+    lines.retain(|line| line.is_named(&arguments.only));
+    if lines.is_empty() {
+        let fault = format!(
+            "--only {}: no line has these words in its name",
+            arguments.only
+        );
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, fault));
+    }
+    let mut report = report::Report::new(arguments.json);
+    report.begin()?;
+    for line in &lines {
+        let replications = arguments.replications.unwrap_or(line.replications);
+        let progress = |done| report::progress(line, done, replications);
+        let measured = gate::measure(line, arguments.seed, replications, progress);
+        report.line(line, &measured)?;
+    }
+    report.end()
+}
+
+fn end(stream: &mut impl Write, text: &str, code: u8) -> ExitCode {
+    // Nobody is left to tell when this fails.
+    let _ = writeln!(stream, "{text}");
+    ExitCode::from(code)
+}
