@@ -14,7 +14,9 @@ verify [--only WORDS] [--replications N] [--seed N] [--json]
 Exit code: 0 if every line passed, 1 if one failed, 2 if the command line is wrong.
 A correct answer is a selection less than delta worse than the best, or bounds that all held at
 every moment. A line passes if the 99% lower bound (Clopper-Pearson) of its share of correct answers
-is at least 0.95, or, for the reference procedures, if its average runs are within 2% of the published ones.";
+is at least 0.95, or, for the reference procedures, if its average runs are within 2% of the
+published ones. A line that is unfit or broken on purpose passes if it is found out: if the 99%
+upper bound is below 0.95. So the gate shows that it can fail.";
 
 /// What was asked for.
 #[derive(Debug, PartialEq, Eq)]

@@ -39,11 +39,19 @@ impl Measured {
         lower_bound(self.correct, self.replications, ALPHA)
     }
 
+    /// Whether the share is shown to be below the confidence; a yes about a share that is not is
+    /// wrong with a probability of at most `alpha`.
+    pub(crate) fn refutes(&self, alpha: f64) -> bool {
+        // The upper bound of the right is what the lower bound of the wrong leaves.
+        lower_bound(self.replications - self.correct, self.replications, alpha) > 1.0 - CONFIDENCE
+    }
+
     /// Whether the line keeps what it promises.
     pub(crate) fn passes(&self, line: &Line) -> bool {
         match line.question {
             Question::Runs { expected, .. } => (self.runs / expected - 1.0).abs() <= TOLERANCE,
             Question::Selection(_) | Question::Coverage { .. } => self.lower() >= CONFIDENCE,
+            Question::Unfit(_) => self.refutes(ALPHA),
         }
     }
 }
@@ -85,7 +93,7 @@ pub(crate) fn measure(
 
 fn answer(line: &Line, right: &[bool], place: Place) -> Played {
     match line.question {
-        Question::Selection(told) | Question::Runs { told, .. } => {
+        Question::Selection(told) | Question::Unfit(told) | Question::Runs { told, .. } => {
             play(&*line.case, right, told, place)
         }
         Question::Coverage { runs } => watch(&*line.case, runs, 1.0 - CONFIDENCE, place),

@@ -24,6 +24,8 @@ pub(crate) enum Question {
     Selection(Told),
     /// Do the bounds of all means hold for so many runs of each?
     Coverage { runs: usize },
+    /// Is the wrong configuration selected too often? For what is unfit or broken on purpose.
+    Unfit(Told),
     /// Does selecting take as many runs as published?
     Runs { told: Told, expected: f64 },
 }
@@ -52,8 +54,15 @@ impl Line {
 
     /// The same line with something else told to the procedure.
     pub(crate) fn breaking(mut self, change: impl Fn(&mut Told)) -> Self {
-        if let Question::Selection(told) = &mut self.question {
+        if let Question::Selection(told) | Question::Unfit(told) = &mut self.question {
             change(told);
+        }
+        self
+    }
+
+    fn unfit(mut self) -> Self {
+        if let Question::Selection(told) = self.question {
+            self.question = Question::Unfit(told);
         }
         self
     }
@@ -75,6 +84,7 @@ pub(crate) fn all() -> Vec<Line> {
     lines.extend(selections(Method::Strict));
     lines.extend(coverage());
     lines.extend(references());
+    lines.extend(unfit());
     lines
 }
 
@@ -138,6 +148,33 @@ fn two_failures(other: f64) -> Failures {
         configurations: 2,
         others: other,
     }
+}
+
+/// What must be found unfit, or the gate sees nothing.
+pub(crate) fn unfit() -> Vec<Line> {
+    let kn = Method::KimNelson { first_runs: 24 };
+    let published = |runs, line: Line| Line {
+        published_runs: Some(runs),
+        ..line.unfit()
+    };
+    let mut lines = vec![
+        published(
+            400.0,
+            Line::new("40 teams", Method::Equal { runs: 10 }, Teams::sizes(false)),
+        ),
+        published(
+            18_134.0,
+            Line::new("failures .01 and .02", kn, failures(0.02)),
+        ),
+        published(901.0, Line::new("failures .1 and .2", kn, failures(0.2))),
+    ];
+    for method in [Method::Race, Method::Strict] {
+        let large_alpha = Line::new("ten times alpha", method, failures(0.2)).unfit();
+        let large_delta = Line::new("twice delta", method, failures(0.2)).unfit();
+        lines.push(large_alpha.breaking(|told| told.confidence = 0.5));
+        lines.push(large_delta.breaking(|told| told.deltas = 2.0));
+    }
+    lines
 }
 
 /// The bounds of all means of a case together.

@@ -40,15 +40,22 @@ fn main() -> ExitCode {
 
 /// Whether every line passed.
 fn verify(arguments: &Arguments) -> io::Result<bool> {
+    let mut lines = lines::all();
+    lines.retain(|line| line.is_named(&arguments.only));
+    if lines.is_empty() {
+        let fault = format!(
+            "--only {}: no line has these words in its name",
+            arguments.only
+        );
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, fault));
+    }
     let mut report = report::Report::new(arguments.json);
     report.begin()?;
-    for line in lines::all() {
-        if line.is_named(&arguments.only) {
-            let replications = arguments.replications.unwrap_or(line.replications);
-            let progress = |done| report::progress(&line, done, replications);
-            let measured = gate::measure(&line, arguments.seed, replications, progress);
-            report.line(&line, &measured)?;
-        }
+    for line in &lines {
+        let replications = arguments.replications.unwrap_or(line.replications);
+        let progress = |done| report::progress(line, done, replications);
+        let measured = gate::measure(line, arguments.seed, replications, progress);
+        report.line(line, &measured)?;
     }
     report.end()
 }

@@ -3,7 +3,7 @@
 use crate::cases::Case;
 use crate::gate::CONFIDENCE;
 use crate::random::Place;
-use select::reference::{KimNelson, Rinott};
+use select::reference::{Equal, KimNelson, Rinott};
 use select::{Problem, Procedure, Race, Strict};
 
 /// Who selects.
@@ -19,6 +19,9 @@ pub(crate) enum Method {
     KimNelson {
         first_runs: u32,
     },
+    Equal {
+        runs: u32,
+    },
 }
 
 impl Method {
@@ -28,6 +31,7 @@ impl Method {
             Self::Strict => "strict",
             Self::Rinott { .. } => "Rinott",
             Self::KimNelson { .. } => "KN",
+            Self::Equal { .. } => "equal",
         }
     }
 }
@@ -115,6 +119,7 @@ fn procedure(case: &dyn Case, told: Told) -> Box<dyn Procedure> {
             let first_runs = u64::from(first_runs);
             Box::new(Rinott::with_constant(configurations, delta, h, first_runs))
         }
+        Method::Equal { runs } => Box::new(Equal::new(configurations, u64::from(runs))),
         Method::KimNelson { first_runs } => {
             let first_runs = first_runs as usize;
             Box::new(KimNelson::new(

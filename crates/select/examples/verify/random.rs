@@ -10,7 +10,7 @@ pub(crate) struct Place {
     pub(crate) run: u64,
 }
 
-/// Numbers of 2^8 blocks in a stream's place, and of 2^24 configurations.
+/// A stream has 2^8 blocks of four numbers, and a run 2^24 streams: the last is shared by all.
 const CONFIGURATION_SHIFT: u32 = 8;
 const NOT_OF_A_CONFIGURATION: u128 = (1 << 24) - 1;
 

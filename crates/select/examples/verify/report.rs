@@ -1,7 +1,7 @@
 //! The table, as lines of text or as JSON.
 
 use crate::gate::Measured;
-use crate::lines::Line;
+use crate::lines::{Line, Question};
 use serde_json::{Value, json};
 use std::io::{self, IsTerminal, Write};
 
@@ -61,7 +61,7 @@ impl Report {
             measured.runs,
             published,
             measured.seconds,
-            if passes { "pass" } else { "FAIL" },
+            verdict(line, passes),
         )
     }
 
@@ -74,6 +74,14 @@ impl Report {
             (false, failed) => writeln!(stdout, "Lines that fail: {failed}.")?,
         }
         Ok(self.failed == 0)
+    }
+}
+
+fn verdict(line: &Line, passes: bool) -> &'static str {
+    match (&line.question, passes) {
+        (_, false) => "FAIL",
+        (Question::Unfit(_), true) => "pass: unfit, as it must be",
+        (_, true) => "pass",
     }
 }
 

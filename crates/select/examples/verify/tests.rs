@@ -7,20 +7,13 @@
 //! the seed is fixed. A share of 0.90 is refuted with a probability of 99% in 1,000 plays.
 
 use crate::arguments::Arguments;
-use crate::binomial::lower_bound;
-use crate::gate::{CONFIDENCE, measure};
-use crate::lines::{self, Line};
+use crate::gate::measure;
+use crate::lines::{self, Line, Question};
 use crate::play::Method;
 
 const SEED: u64 = 1;
 const PLAYS: u32 = 1000;
 const ALPHA: f64 = 1e-4;
-
-fn is_refuted(line: &Line, plays: u32) -> bool {
-    let measured = measure(line, SEED, plays, |_| ());
-    // The upper bound of the right is what the lower bound of the wrong leaves.
-    lower_bound(plays - measured.correct, plays, ALPHA) > 1.0 - CONFIDENCE
-}
 
 fn refuted(lines: impl IntoIterator<Item = Line>) -> Vec<String> {
     let plays = |line: &Line| {
@@ -29,9 +22,12 @@ fn refuted(lines: impl IntoIterator<Item = Line>) -> Vec<String> {
     };
     let red = lines
         .into_iter()
-        .filter(|line| is_refuted(line, plays(line)));
-    red.map(|line| format!("{} {}", line.who, line.problem))
-        .collect()
+        .filter(|line| measure(line, SEED, plays(line), |_| ()).refutes(ALPHA));
+    red.map(|line| name(&line)).collect()
+}
+
+fn name(line: &Line) -> String {
+    format!("{} {}", line.who, line.problem)
 }
 
 fn is_short(line: &Line) -> bool {
@@ -58,22 +54,36 @@ fn references_need_as_many_runs_as_published() {
 }
 
 #[test]
-fn an_alpha_ten_times_too_large_turns_the_gate_red() {
-    for method in [Method::Race, Method::Strict] {
-        let line = Line::new("", method, lines::failures(0.2));
-        let line = line.breaking(|told| told.confidence = 0.5);
-        assert!(is_refuted(&line, PLAYS), "{}", line.who);
-        assert!(!measure(&line, SEED, PLAYS, |_| ()).passes(&line));
+fn a_broken_constant_or_a_procedure_for_other_merits_turns_the_gate_red() {
+    let mut lines = lines::unfit();
+    // 0.92 is found unfit by the whole gate only.
+    lines.retain(|line| name(line) != "KN failures .1 and .2");
+    let names: Vec<String> = lines.iter().map(name).collect();
+    for told in [
+        "race ten times alpha",
+        "strict twice delta",
+        "KN failures .01 and .02",
+    ] {
+        assert!(names.iter().any(|name| name == told), "{told}");
     }
+    assert_eq!(refuted(lines), names);
 }
 
 #[test]
-fn a_delta_too_large_turns_the_gate_red() {
-    for method in [Method::Race, Method::Strict] {
-        let line = Line::new("", method, lines::failures(0.2));
-        let line = line.breaking(|told| told.deltas = 2.0);
-        assert!(is_refuted(&line, PLAYS), "{}", line.who);
-        assert!(!measure(&line, SEED, PLAYS, |_| ()).passes(&line));
+fn a_broken_race_asked_for_its_guarantee_fails() {
+    for line in lines::unfit().into_iter().filter(|line| line.who == "race") {
+        let Question::Unfit(told) = line.question else {
+            continue;
+        };
+        let line = Line {
+            question: Question::Selection(told),
+            ..line
+        };
+        assert!(
+            !measure(&line, SEED, PLAYS, |_| ()).passes(&line),
+            "{}",
+            name(&line)
+        );
     }
 }
 
