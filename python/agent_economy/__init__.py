@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from agent_economy import classic, study
     from agent_economy._core import InputError
     from agent_economy.scenario import Scenario
-    from agent_economy.study.workers import StudyError
+    from agent_economy.study.errors import StudyError
 
     __version__: str
 
@@ -19,7 +19,7 @@ __all__ = ["InputError", "Scenario", "StudyError", "__version__", "classic", "st
 _HOMES = {
     "InputError": "agent_economy._core",
     "Scenario": "agent_economy.scenario",
-    "StudyError": "agent_economy.study.workers",
+    "StudyError": "agent_economy.study.errors",
 }
 
 

@@ -114,7 +114,7 @@ def write_and_die(folder: Path, calls: int) -> None:
         setattr(os, name, before(getattr(os, name)))
     Ledger.enter = before(Ledger.enter)  # type: ignore[method-assign, assignment]
     Path.replace = before(Path.replace)  # type: ignore[method-assign, assignment]
-    write_study(folder)
+    write_study(folder, 3)
 
 
 def write_on_a_small_disk(folder: Path, most_bytes: int, answer: "Queue[str]") -> None:

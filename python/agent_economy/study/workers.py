@@ -8,7 +8,14 @@ together. A piece whose worker dies is given to another.
 import time
 from collections import deque
 from collections.abc import Callable
-from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
+from concurrent.futures import (
+    FIRST_COMPLETED,
+    BrokenExecutor,
+    CancelledError,
+    Executor,
+    Future,
+    wait,
+)
 from dataclasses import dataclass, field, replace
 from functools import cache
 from importlib.metadata import version
@@ -17,6 +24,7 @@ from typing import Self, TypeAlias
 
 import numpy as np
 
+from agent_economy.study.errors import StudyError
 from agent_economy.study.rectangle import Columns, Compute, Rectangle, check_shape
 
 MOST_PIECES = 512
@@ -39,10 +47,6 @@ Result: TypeAlias = tuple[Columns, float]
 
 UNKNOWN_PIECES = 16
 """Pieces a worker while the rate is not known."""
-
-
-class StudyError(RuntimeError):
-    """A study cannot go on, though nothing that was asked is wrong."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,10 +85,10 @@ class Pace:
         """Return how many rows the next piece has, when some of all are left to give out."""
         fewest = ceil(all_rows / MOST_PIECES)
         if not self.seconds:
-            return max(fewest, ceil(all_rows / (UNKNOWN_PIECES * workers)))
+            return ceil(all_rows / (UNKNOWN_PIECES * workers))
         rate = self.rows / self.seconds
         rows = min(rate * PIECE_S, left / (2 * workers))
-        most = ceil(all_rows / workers)
+        most = max(1, all_rows // workers)
         return min(most, max(1, fewest, round(rows), round(rate * LEAST_PIECE_S)))
 
 
@@ -124,7 +128,7 @@ class Workers:
         """Return the outcomes of a rectangle, the same as the task's for all of it at once.
 
         Raises:
-            StudyError: If a piece failed three times.
+            StudyError: If a piece failed three times, or the executor is lost for good.
             InputError: If the executor cannot be made.
         """
         job = Job(rectangle)
@@ -147,6 +151,8 @@ class Workers:
                 self._executor = self._make()
             try:
                 future = self._executor.submit(run, self._task, piece.area, own_version())
+            except StudyError:
+                raise
             except (BrokenExecutor, RuntimeError, OSError) as error:
                 job.failed(piece, error)
                 self._replace_executor(job)
@@ -170,6 +176,11 @@ class Workers:
         try:
             columns, seconds = future.result()
             job.put(piece, columns)
+        except StudyError:
+            raise
+        except CancelledError:
+            job.again.append(piece)  # Not begun, or lost with a scheduler that may come back.
+            return True
         except Exception as error:  # noqa: BLE001  (a task may fail in any way; the last is told)
             job.failed(piece, error)
             return not isinstance(error, BrokenExecutor)
