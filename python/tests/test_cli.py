@@ -28,24 +28,25 @@ def test_version_names_the_program() -> None:
     assert given.stdout.startswith("agent-economy 0.")
 
 
-@pytest.mark.parametrize("command", [["--help"], ["study", "--help"]])
-def test_help_has_an_example(command: list[str]) -> None:
-    given = run(*command)
-    assert given.returncode == 0
-    assert "Example: agent-economy study scenarios/classic.toml" in given.stdout.replace("\n", " ")
+@pytest.mark.parametrize("command", ["study", "answer", "watch"])
+def test_help_has_an_example(command: str) -> None:
+    for given in (run("--help"), run(command, "--help")):
+        assert given.returncode == 0
+        assert "Example: agent-economy " in given.stdout.replace("\n", " ")
+        assert "Exit codes" in given.stdout or command not in given.args
 
 
 def test_study_prints_table_answer_and_path_and_leaves_its_files(
     classic_toml: Path, tmp_path: Path
 ) -> None:
-    given = run("study", classic_toml, "--runs", "300", cwd=tmp_path)
+    given = run("study", classic_toml, "--delta", "0.3", cwd=tmp_path)
     assert given.returncode == 0, given.stderr
-    assert "behind best" in given.stdout
-    assert "Send " in given.stdout
-    assert "Report: studies/classic/report.html" in given.stdout
-    assert "8 robots: 2,400 of 2,400 runs" in given.stderr
-    left = sorted(file.name for file in (tmp_path / "studies/classic").iterdir())
-    assert left == ["answer.json", "report.html", "runs.parquet"]
+    for part in ("behind", "best", "Send", "with 95% confidence", "Report: studies/classic/"):
+        assert part in " ".join(given.stdout.split())
+    assert "8 configurations; delta 0.3, confidence 0.95, indifference" in given.stderr
+    assert re.search(r"round \d+: [\d,]+ runs, \d of 8 still in.*; out: ", given.stderr)
+    left = {file.name for file in (tmp_path / "studies/classic").iterdir()}
+    assert left >= {"answer.json", "report.html", "study.toml", "ledger.sqlite", "blocks"}
 
 
 def test_options_go_before_the_file(classic_toml: Path, tmp_path: Path) -> None:
@@ -54,21 +55,69 @@ def test_options_go_before_the_file(classic_toml: Path, tmp_path: Path) -> None:
     given = run("study", classic_toml, *options, *more)
     assert given.returncode == 0, given.stderr
     answer = json.loads(given.stdout)
-    assert [team["robots"] for team in answer["teams"]] == [2, 5]
+    assert [each["values"] for each in answer["results"]] == [
+        {"robots.wanderer.count": 2},
+        {"robots.wanderer.count": 5},
+    ]
     assert answer["scenario"]["contact"] == "ahead"
     assert answer["scenario"]["merit"]["name"] == "appendix"
-    assert answer["teams"][0]["runs"] == 100
+    assert answer["results"][0]["runs"] == 100
     assert answer["seed"] == 9
-    assert answer == json.loads((tmp_path / "here/answer.json").read_text())
+    assert given.stdout == (tmp_path / "here/answer.json").read_text()
 
 
-def test_the_same_seed_leaves_the_same_bytes(classic_toml: Path, tmp_path: Path) -> None:
-    for folder in ("a", "b"):
-        assert (
-            run("study", classic_toml, "--runs", "50", "--out", tmp_path / folder).returncode == 0
-        )
-    for name in ("answer.json", "report.html", "runs.parquet"):
+def test_weights_on_the_command_line_are_the_merit(classic_toml: Path, tmp_path: Path) -> None:
+    weights = ["--merit", "time=-0.03,robots=-0.2,failed=-5", "--json", "--runs", "20"]
+    given = run("study", classic_toml, *weights, "--out", tmp_path / "a")
+    named = run("study", classic_toml, "--json", "--runs", "20", "--out", tmp_path / "b")
+    one, two = (json.loads(each.stdout)["results"] for each in (given, named))
+    assert one == two
+
+
+def test_the_same_seed_leaves_the_same_bytes_whoever_computes(
+    classic_toml: Path, tmp_path: Path
+) -> None:
+    where: dict[str, list[str]] = {"a": [], "b": ["--workers", "2"]}
+    for folder, options in where.items():
+        given = run("study", classic_toml, "--delta", "0.3", *options, "--out", tmp_path / folder)
+        assert given.returncode == 0, given.stderr
+    for name in ("answer.json", "report.html", "study.toml"):
         assert (tmp_path / "a" / name).read_bytes() == (tmp_path / "b" / name).read_bytes()
+    for block in (tmp_path / "a/blocks").iterdir():
+        assert block.read_bytes() == (tmp_path / "b/blocks" / block.name).read_bytes()
+
+
+def test_a_finished_study_is_answered_watched_and_tightened(
+    classic_toml: Path, tmp_path: Path
+) -> None:
+    out = tmp_path / "out"
+    first = run("study", classic_toml, "--delta", "0.3", "--out", out)
+    assert first.returncode == 0, first.stderr
+    before = (out / "answer.json").read_bytes()
+    (out / "answer.json").unlink()
+    (out / "report.html").unlink()
+
+    answered = run("answer", out, "--json")
+    assert answered.returncode == 0, answered.stderr
+    assert answered.stdout.encode() == before == (out / "answer.json").read_bytes()
+    assert (out / "report.html").exists()
+
+    watched = run("watch", out)
+    assert watched.returncode == 0, watched.stderr
+    assert "1 of 8 still in" in watched.stderr
+    assert watched.stdout == "The study is over.\n"
+
+    tightened = run("study", "--resume", out, "--more", "0.999")
+    assert tightened.returncode == 0, tightened.stderr
+    assert "with 99.9% confidence" in " ".join(tightened.stdout.split())
+
+
+@pytest.mark.parametrize("command", [["answer"], ["watch"], ["study", "--resume"]])
+def test_a_folder_without_a_study_is_told(command: list[str], tmp_path: Path) -> None:
+    given = run(*command, tmp_path)
+    assert given.returncode == 2
+    assert f"{tmp_path}" in given.stderr
+    assert "Traceback" not in given.stderr
 
 
 @pytest.mark.parametrize(
@@ -88,7 +137,16 @@ def test_the_same_seed_leaves_the_same_bytes(classic_toml: Path, tmp_path: Path)
             ["--vary", "robots.wanderer.count=1", "--vary", "robots.wanderer.count=2"],
             "--vary robots.wanderer.count: is given twice",
         ),
-        (["--runs", "-5"], "--runs: study.runs = -5: must be a whole number from 2"),
+        (["--runs", "-5"], "runs = -5: must be a whole number from 2"),
+        (["--delta", "0"], "delta = 0.0: must be a number above 0"),
+        (["--delta", "nan"], "delta = nan: must be"),
+        (["--confidence", "95"], "confidence = 95.0: must be a number from 0.5 to below 1"),
+        (["--guarantee", "sure"], "Invalid value for '--guarantee'"),
+        (["--design", "lhs"], "--design: study.design"),
+        (["--more", "0.99"], "--more = 0.99: must come with --resume"),
+        (["--resume", "there"], "--resume: must be alone"),
+        (["--workers", "0"], "Invalid value for '--workers'"),
+        (["--workers", "2", "--dask", "tcp://127.0.0.1:1"], "must be one of them"),
         (["--merit", "best"], '--merit: merit = "best": must be one of "equation-5.2", "appendix"'),
         (["--seed", "-1"], "Invalid value for '--seed'"),
         (["--runs", "many"], "Invalid value for '--runs'"),
@@ -110,30 +168,27 @@ def test_a_missing_scenario_is_told(tmp_path: Path) -> None:
     assert given.stderr.strip() == "none.toml: cannot be read: No such file or directory"
 
 
+def test_a_study_needs_a_scenario() -> None:
+    given = run("study")
+    assert given.returncode == 2
+    assert "SCENARIO is missing: must be a TOML file" in given.stderr
+
+
 def test_an_output_folder_that_cannot_be_is_told_before_any_run(
     classic_toml: Path, tmp_path: Path
 ) -> None:
     (tmp_path / "file").write_text("not a folder")
     given = run("study", classic_toml, "--out", tmp_path / "file")
     assert given.returncode == 2
-    assert "must be a folder to write in" in given.stderr
-    assert "runs/s" not in given.stderr
+    assert str(tmp_path / "file") in given.stderr
+    assert "round" not in given.stderr
 
 
-def test_a_folder_where_a_file_belongs_is_told_before_any_run(
+def test_ctrl_c_ends_within_a_second_and_the_study_goes_on_from_there(
     classic_toml: Path, tmp_path: Path
 ) -> None:
-    (tmp_path / "report.html").mkdir()
-    given = run("study", classic_toml, "--out", tmp_path)
-    assert given.returncode == 2
-    assert "report.html in it is a folder" in given.stderr
-    assert [file.name for file in tmp_path.iterdir()] == ["report.html"]
-
-
-def test_ctrl_c_ends_within_a_second_says_what_was_done_and_leaves_no_file(
-    classic_toml: Path, tmp_path: Path
-) -> None:
-    options = ["--runs", "1000000", "--out", str(tmp_path / "out")]
+    out = tmp_path / "out"
+    options = ["--delta", "0.0001", "--vary", "robots.wanderer.count=4,5", "--out", str(out)]
     process = subprocess.Popen(
         [*COMMAND, "study", str(classic_toml), *options],
         stderr=subprocess.PIPE,
@@ -142,9 +197,8 @@ def test_ctrl_c_ends_within_a_second_says_what_was_done_and_leaves_no_file(
         env=os.environ | {"FORCE_COLOR": "1"},
     )
     try:
-        while not (tmp_path / "out").exists() and process.poll() is None:
+        while len(list(out.glob("blocks/*"))) < 20 and process.poll() is None:
             time.sleep(0.02)
-        time.sleep(1.5)
         begin = time.monotonic()
         process.send_signal(signal.SIGINT)
         _, errors = process.communicate(timeout=20)
@@ -154,9 +208,33 @@ def test_ctrl_c_ends_within_a_second_says_what_was_done_and_leaves_no_file(
     assert process.returncode == 130
     # The promise is one second; the bound allows for a busy machine.
     assert seconds < 3
-    assert re.search(r"Stopped after [\d,]+ runs; nothing was written\.", errors)
+    assert re.search(r"Stopped after [\d,]+ runs; all are kept\.", errors)
+    assert f"agent-economy study --resume {out}" in errors.replace("\n", "")
     assert "Traceback" not in errors
-    assert list((tmp_path / "out").iterdir()) == []
+    assert not (out / "answer.json").exists()
+    unfinished = run("answer", out)
+    assert unfinished.returncode == 2
+    assert "is not finished" in unfinished.stderr
+    assert run("study", "--resume", out).returncode == 0
+
+
+def test_a_second_process_is_kept_out_of_a_study_at_work(
+    classic_toml: Path, tmp_path: Path
+) -> None:
+    out = tmp_path / "out"
+    options = ["--delta", "0.00001", "--vary", "robots.wanderer.count=4,5", "--out", str(out)]
+    process = subprocess.Popen(
+        [*COMMAND, "study", str(classic_toml), *options], stderr=subprocess.DEVNULL
+    )
+    try:
+        while not list(out.glob("blocks/*")) and process.poll() is None:
+            time.sleep(0.02)
+        second = run("study", "--resume", out)
+    finally:
+        process.kill()
+        process.wait()
+    assert second.returncode == 2
+    assert "another process is working on it" in second.stderr
 
 
 def test_ctrl_c_while_modules_load_leaves_no_traceback() -> None:
@@ -194,17 +272,3 @@ def test_any_encoding_of_the_terminal_will_do(classic_toml: Path, tmp_path: Path
     command = [*COMMAND, "study", str(classic_toml), "--runs", "10", "--out", str(tmp_path)]
     given = subprocess.run(command, capture_output=True, env=environment, check=False, timeout=60)
     assert given.returncode == 0, given.stderr
-
-
-def test_a_study_that_is_killed_leaves_the_last_ones_files_whole(
-    classic_toml: Path, tmp_path: Path
-) -> None:
-    out = tmp_path / "out"
-    assert run("study", classic_toml, "--runs", "50", "--out", out).returncode == 0
-    before = {file.name: file.read_bytes() for file in out.iterdir()}
-    options = ["--runs", "1000000", "--seed", "1", "--out", str(out)]
-    process = subprocess.Popen([*COMMAND, "study", str(classic_toml), *options])
-    time.sleep(1.5)
-    process.kill()
-    process.wait(timeout=20)
-    assert {file.name: file.read_bytes() for file in out.iterdir()} == before

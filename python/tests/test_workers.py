@@ -3,14 +3,11 @@
 import os
 import re
 import signal
-import socket
 import subprocess
 import sys
 import time
 from collections import Counter
-from collections.abc import Iterator
 from concurrent.futures import Executor, Future, ThreadPoolExecutor
-from contextlib import ExitStack, closing
 from functools import partial
 from pathlib import Path
 
@@ -18,6 +15,7 @@ import made_up
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from dask_cluster import Cluster, free_port
 from made_up import outcomes, same
 
 from agent_economy import InputError, StudyError
@@ -215,50 +213,6 @@ def ends(group: int) -> bool:
             return True
         time.sleep(0.1)
     return False
-
-
-def free_port() -> int:
-    """Return a port of loopback that nobody has."""
-    with closing(socket.socket()) as taken:
-        taken.bind(("127.0.0.1", 0))
-        return int(taken.getsockname()[1])
-
-
-def started(stack: ExitStack, *arguments: str) -> subprocess.Popen[bytes]:
-    """Start a part of a Dask cluster, which ends with the stack."""
-    environment = {**os.environ, "PYTHONPATH": str(Path(__file__).parent)}
-    process = subprocess.Popen(
-        [sys.executable, "-m", *arguments],
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
-        env=environment,
-    )
-    stack.callback(process.wait)
-    stack.callback(process.kill)
-    return process
-
-
-Cluster = tuple[str, list[subprocess.Popen[bytes]]]
-
-
-@pytest.fixture
-def cluster() -> Iterator[Cluster]:
-    """Start a Dask scheduler and two workers; return its address, and all three."""
-    pytest.importorskip("distributed", reason="Dask is an extra")
-    with ExitStack() as stack:
-        port = free_port()
-        address = f"tcp://127.0.0.1:{port}"
-        scheduler = ("distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", str(port))
-        processes = [started(stack, *scheduler, "--no-dashboard", "--no-show")]
-        worker = ("distributed.cli.dask_worker", address, "--nthreads", "1", "--no-nanny")
-        processes += [started(stack, *worker, "--no-dashboard") for _ in range(2)]
-        executor = dask_executor(address)
-        begin = time.monotonic()
-        while executor.count < 2:
-            assert time.monotonic() - begin < 30
-            time.sleep(0.05)
-        executor.shutdown()
-        yield address, processes
 
 
 def test_a_killed_dask_worker_changes_no_result(cluster: Cluster, tmp_path: Path) -> None:

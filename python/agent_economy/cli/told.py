@@ -6,7 +6,7 @@ from contextlib import contextmanager
 import typer
 
 from agent_economy._core import InputError
-from agent_economy.study.workers import StudyError
+from agent_economy.study.errors import StudyError
 
 FAILED = 1
 """Exit code when a study cannot go on."""

@@ -1,0 +1,34 @@
+"""A study on a Dask cluster is the same study."""
+
+from pathlib import Path
+
+import pytest
+import small
+from dask_cluster import Cluster
+
+from agent_economy import study
+from agent_economy.study import ask
+
+
+def test_a_dask_worker_killed_in_mid_study_changes_no_byte(
+    cluster: Cluster, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(ask, "ChartScript", small.NoScript)
+    address, (_, victim, _) = cluster
+    asked = small.plan()
+
+    def kill(now: study.Progress) -> None:
+        if now.round == 7:
+            victim.kill()
+
+    study.pursue(asked, tmp_path / "here")
+    with asked.engine.on_dask(address) as workers:
+        study.pursue(asked, tmp_path / "dask", compute=workers.columns, on_progress=kill)
+    assert victim.wait(10) != 0
+    for name in ("answer.json", "study.toml"):
+        assert (tmp_path / "dask" / name).read_bytes() == (tmp_path / "here" / name).read_bytes()
+    rows = [
+        study.open(tmp_path / name).runs().order("configuration, run").fetchall()
+        for name in ("here", "dask")
+    ]
+    assert rows[0] == rows[1]
