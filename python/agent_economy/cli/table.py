@@ -12,7 +12,7 @@ from agent_economy.study import files
 from agent_economy.study.answer import Answer, Result
 from agent_economy.study.evidence import Interval
 
-WIDE = 100
+WIDE = 118
 """Columns that a table with ranges needs, and that there are where the output is no terminal."""
 
 MOST = 20

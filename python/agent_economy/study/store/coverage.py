@@ -74,11 +74,13 @@ class Coverage:
         left = tuple(each for each in area.configurations if each not in there)
         return Rectangle(left, area.first_run, area.runs) if left else None
 
-    def blocks(self, area: Rectangle) -> dict[Block, list[int]]:
+    def blocks(self, area: Rectangle) -> list[tuple[Block, list[int]]]:
         """Return the blocks that hold what is stored of a rectangle, and what each holds of it."""
         there = self._blocks[area.first_run]
-        found: dict[Block, list[int]] = {}
+        # By identity: a block's hash takes as long as it has configurations.
+        found: dict[int, tuple[Block, list[int]]] = {}
         for configuration in area.configurations:
-            if configuration in there:
-                found.setdefault(there[configuration], []).append(configuration)
-        return found
+            block = there.get(configuration)
+            if block:
+                found.setdefault(id(block), (block, []))[1].append(configuration)
+        return list(found.values())

@@ -124,7 +124,7 @@ class Store:
             missing = self._coverage.missing(part)
             if missing:
                 gathered.put(missing, self._keep(missing, compute(missing)))
-            for block, configurations in stored.items():
+            for block, configurations in stored:
                 gathered.put(block.rectangle, self._read(block), configurations)
         return gathered.columns
 
