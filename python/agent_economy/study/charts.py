@@ -1,139 +1,223 @@
-"""The charts of a report, as Vega-Lite specifications."""
+"""The charts of a report, as Vega-Lite specifications: plain dicts, one function a chart.
 
-from collections.abc import Iterable
+Configurations lie along the x axis where one number is varied, else down the y axis by name, which
+leaves room for names on narrow screens. Every chart works on light and on dark ground: it has no
+background, and its colours are of middle lightness; where they mean something, so do shapes.
+"""
+
 from typing import Any
 
-import altair as alt
 import numpy as np
 
+from agent_economy.study import factor_charts
 from agent_economy.study.answer import Answer
-from agent_economy.study.estimate import Estimate, share
-from agent_economy.study.runs import Runs
+from agent_economy.study.chart_parts import (
+    BLUE,
+    FEW,
+    GREY,
+    HEIGHT,
+    INK,
+    ORANGE,
+    TEAL,
+    Codes,
+    Rows,
+    Spec,
+    axis_of,
+    by_name,
+    chart,
+    coded,
+    field,
+    fixed,
+    heights,
+    intervals,
+    line_at,
+    place_of,
+    with_bounds,
+)
+from agent_economy.study.evidence import Evidence, Interval
+from agent_economy.study.view import View
+from agent_economy.study.writing import finite
 
-OURS = "this study"
+VERDICTS: Codes = {
+    "selected": (BLUE, "circle"),
+    "tied within delta": (TEAL, "square"),
+    "undecided": (ORANGE, "diamond"),
+    "worse": (GREY, "triangle-down"),
+}
+PLACES: Codes = {
+    "selected": (BLUE, "circle"),
+    "selected, surely dominated": (BLUE, "cross"),
+    "possibly efficient": (TEAL, "square"),
+    "surely dominated": (GREY, "triangle-down"),
+}
+STATES = {"selected": BLUE, "never out": TEAL, "out": GREY}
+FRONT_HEIGHT = 300
 QUANTILES = {"p5": 0.05, "p25": 0.25, "p50": 0.5, "p75": 0.75, "p95": 0.95}
-BLUE, ORANGE = "#1f5fbf", "#d9730d"
-HEIGHT = 250
-NEAREST_TEAMS = 5
-
-Rows = list[dict[str, Any]]
-Chart = alt.LayerChart | alt.FacetChart
 
 
-def specifications(runs: Runs, answer: Answer) -> dict[str, dict[str, Any]]:
-    """Return each chart's Vega-Lite specification, by its name in the report's page."""
-    made = {
-        "merit": merit_chart(answer),
-        "nearest": nearest_chart(answer),
-        "times": times_chart(runs, answer),
-        "failed": failed_chart(answer),
+def specifications(answer: Answer, evidence: Evidence) -> dict[str, Spec]:
+    """Return each chart's Vega-Lite specification by name: those that have something to show."""
+    view = View(answer, evidence)
+    made = {"times": times(view)}
+    if view.compares:
+        compared = (merit, behind, failed, front, runs)
+        made |= {function.__name__: function(view) for function in compared}
+    return made | factor_charts.specifications(view)
+
+
+def merit(view: View) -> Spec:
+    """Return the figure of merit of each configuration with its interval."""
+    rows = [judged(view, index, view.result(index).merit) for index in view.shown]
+    looks = coded("verdict", VERDICTS, rows)
+    return intervals(view, rows, {"title": "figure of merit (higher is better)"}, looks)
+
+
+def failed(view: View) -> Spec:
+    """Return the share of failed runs of each configuration with its interval."""
+    rows = [judged(view, index, view.result(index).failed) for index in view.shown]
+    title = {
+        "title": "share of runs that failed",
+        "axis": {"format": "~%"},
+        "scale": {"zero": True},
     }
-    return {name: chart.to_dict() for name, chart in made.items()}
+    return intervals(view, rows, title, coded("verdict", VERDICTS, rows))
 
 
-def merit_chart(answer: Answer) -> Chart:
-    """Return the figure of merit by team size, with intervals, beside the published ones."""
-    ours = estimates(OURS, ((team.robots, team.merit) for team in answer.teams))
-    theirs = estimates(source(answer), ((team.robots, team.merit) for team in answer.published))
-    return with_intervals(ours + theirs, "figure of merit (higher is better)")
-
-
-def nearest_chart(answer: Answer) -> Chart:
-    """Return how far the nearest teams are behind the best, on a scale of their own."""
-    behind = [(team.robots, team.behind_best) for team in answer.teams if team.behind_best]
-    nearest = sorted(behind, key=lambda pair: pair[1].value)[:NEAREST_TEAMS]
-    best = (answer.best, Estimate(0.0, 0.0, 0.0))
-    rows = estimates(OURS, [best, *nearest])
-    return with_intervals(rows, "merit behind the best (lower is better)")
-
-
-def failed_chart(answer: Answer) -> Chart:
-    """Return the share of failed searches by team size, with exact intervals."""
-    ours = estimates(OURS, ((team.robots, team.failed_share) for team in answer.teams))
-    published = ((team.robots, share(team.failed, len(team.times_s))) for team in answer.published)
-    theirs = estimates(source(answer), published)
-    return with_intervals(ours + theirs, "share of searches failed", axis=alt.Axis(format="%"))
-
-
-def estimates(named: str, pairs: Iterable[tuple[int, Estimate]]) -> Rows:
-    """Return a row a team size and estimate, all of one source."""
-    return [
-        {"robots": robots, "source": named, "value": each.value, "low": each.low, "high": each.high}
-        for robots, each in pairs
+def behind(view: View) -> Spec:
+    """Return how far the nearest are behind the selected one; a band marks delta to both sides."""
+    rows = [
+        judged(view, index, interval)
+        for index in view.nearest
+        if (interval := view.result(index).standing.behind)
     ]
+    delta = view.answer.delta
+    ends = {"x": field("from"), "x2": {"field": "to"}}
+    band = fixed(
+        [{"from": -delta, "to": delta}], {"type": "rect", "opacity": 0.15, "color": BLUE}, ends
+    )
+    title = {"title": "merit behind the selected one"}
+    points = with_bounds("x", title, {"y": by_name(rows)}, coded("verdict", VERDICTS, rows))
+    return chart([band, line_at("x", 0.0), *points], rows, heights(rows))
 
 
-def times_chart(runs: Runs, answer: Answer) -> Chart:
-    """Return the distribution of times by team size, with each published run as a point."""
-    rows: Rows = []
-    for robots, outcomes in runs.teams.items():
-        quantiles = np.quantile(outcomes.time_s, list(QUANTILES.values()))
-        row = dict(zip(QUANTILES, map(float, quantiles), strict=True))
-        rows.append({"robots": robots, "source": OURS, **row})
-    points: Rows = [
-        {"robots": team.robots, "source": source(answer), "time_s": time_s}
-        for team in answer.published
-        for time_s in team.times_s
+def judged(view: View, index: int, interval: Interval) -> dict[str, Any]:
+    """Return a row of a configuration's interval, with how the configuration stands."""
+    verdict = verdict_of(view, index)
+    return {**place_of(view, index), **bounds(interval), "verdict": verdict}
+
+
+def verdict_of(view: View, index: int) -> str:
+    """Return how a configuration stands to the selected one, in words."""
+    words = {"best": "selected", "tied": "tied within delta"}
+    verdict = view.result(index).standing.verdict
+    return words.get(verdict, verdict)
+
+
+def bounds(interval: Interval) -> dict[str, float | None]:
+    """Return an interval as a row has it."""
+    return {name: finite(getattr(interval, name)) for name in ("value", "low", "high")}
+
+
+def front(view: View) -> Spec:
+    """Return price, time and failures of configurations."""
+    # What is drawn last lies on top: the selected one.
+    rows = [front_row(view, index) for index in reversed(view.on_front)]
+    space: Spec = {"zero": False, "padding": 16}
+    price = field(
+        "price", title="price (robots)", scale=space, axis={"grid": False, "tickMinStep": 1}
+    )
+    seconds: Spec = {"title": "mean time (s)", "scale": space}
+    at = {"x": price, "y": field("value", **seconds)}
+    size = field("failed", title="failed", scale={"range": [50, 500], "zero": True})
+    looks = {"symbolFillColor": GREY, "symbolStrokeColor": GREY}
+    size["legend"] = {"format": "~%", "tickCount": 3, **looks}
+    tip = [
+        field("label", "nominal", title=" "),
+        field("price"),
+        field("value", title="mean time (s)"),
     ]
-    title = f"time of a search, capped at {answer.scenario.cap_s:g} s (s)"
-    base = beside(alt.Chart(data(rows)), sources(rows + points))
-    low_high = base.mark_rule(size=2).encode(alt.Y("p5:Q", title=title), y2="p95:Q")
-    quartiles = base.mark_bar(size=14, opacity=0.55).encode(alt.Y("p25:Q"), y2="p75:Q")
-    median = base.mark_tick(size=20, thickness=3).encode(alt.Y("p50:Q"))
-    layers = [low_high, quartiles, median]
-    if points:
-        circles = beside(alt.Chart(data(points)), sources(rows + points)).mark_point(
-            size=28, opacity=0.8
-        )
-        tooltip = ["source:N", "robots:O", "time_s:Q"]
-        layers.append(circles.encode(alt.Y("time_s:Q"), tooltip=tooltip))
-    return sized(alt.layer(*layers))
+    dots = {**at, **coded("place", PLACES, rows), "size": size, "tooltip": [*tip, field("failed")]}
+    spans = {"x": price, "y": field("low", **seconds), "y2": {"field": "high"}}
+    layers: list[Spec] = [
+        {"mark": {"type": "rule", "color": GREY, "opacity": 0.7}, "encoding": spans},
+        {"mark": {"type": "point", "filled": True, "opacity": 0.85}, "encoding": dots},
+    ]
+    return chart(layers, rows, FRONT_HEIGHT)
 
 
-def with_intervals(rows: Rows, title: str, axis: alt.Axis | None = None) -> Chart:
-    """Return points with intervals by team size, one colour and shape a source."""
-    named = sources(rows)
-    base = beside(alt.Chart(data(rows)), named)
-    bars = base.mark_errorbar(ticks=True, thickness=2).encode(
-        alt.Y("low:Q", title=title), y2="high:Q"
-    )
-    points = base.mark_point(filled=True, size=60).encode(
-        alt.Y("value:Q", title=title, axis=axis or alt.Undefined),
-        shape=alt.Shape("source:N", title=None, scale=alt.Scale(domain=named)),
-        tooltip=["source:N", "robots:O", "value:Q", "low:Q", "high:Q"],
-    )
-    return sized(alt.layer(bars, points))
+def front_row(view: View, index: int) -> dict[str, Any]:
+    """Return a configuration's price, time and failures."""
+    result = view.result(index)
+    return {
+        "label": view.names[index],
+        **bounds(result.time_s),
+        "price": finite(result.place.price),
+        "failed": finite(result.failed.value),
+        "place": place_on_front(view, index),
+    }
 
 
-def beside(chart: alt.Chart, named: list[str]) -> alt.Chart:
-    """Return a chart by team size, with a place and a colour for each source."""
-    color = alt.Scale(domain=named, range=[BLUE, ORANGE])
-    place = alt.Scale(domain=named, paddingOuter=1)
-    return chart.encode(
-        x=alt.X("robots:O", title="robots", axis=alt.Axis(labelAngle=0)),
-        xOffset=alt.XOffset("source:N", scale=place),
-        color=alt.Color("source:N", title=None, scale=color),
-    )
+def place_on_front(view: View, index: int) -> str:
+    """Return a configuration's place in words."""
+    is_efficient = view.result(index).place.dominated_by is None
+    if index != view.answer.best:
+        return "possibly efficient" if is_efficient else "surely dominated"
+    return "selected" if is_efficient else "selected, surely dominated"
 
 
-def sources(rows: Rows) -> list[str]:
-    """Return the sources of rows, in the order of their first rows."""
-    return list(dict.fromkeys(row["source"] for row in rows))
+def runs(view: View) -> Spec:
+    """Return the runs that each configuration took."""
+    rows: Rows = [
+        {"label": view.names[index], "runs": view.result(index).runs, "state": state(view, index)}
+        for index in view.by_runs
+    ]
+    base = {"y": by_name(rows), "x": field("runs", title="runs")}
+    colors = {name: (color, "square") for name, color in STATES.items()}
+    look = {"color": coded("state", colors, rows)["color"]}
+    tip = [field("label", "nominal", title=" "), field("runs"), field("state", "nominal")]
+    text = {"type": "text", "align": "left", "dx": 4}
+    layers = [
+        {"mark": "bar", "encoding": {**base, **look, "tooltip": tip}},
+        {"name": INK, "mark": text, "encoding": {**base, "text": field("runs", format=",")}},
+    ]
+    return chart(layers, rows, heights(rows))
 
 
-def source(answer: Answer) -> str:
-    """Return how charts name the published results."""
-    published = answer.scenario.published
-    return published.source if published else ""
+def state(view: View, index: int) -> str:
+    """Return whether a configuration was selected, put out, or neither."""
+    if index == view.answer.best:
+        return "selected"
+    return "out" if view.result(index).eliminated else "never out"
 
 
-def data(rows: Rows) -> alt.InlineData:
-    """Return rows as inline data."""
-    return alt.InlineData(values=rows)
+def times(view: View) -> Spec:
+    """Return the distribution of times: the middle nine tenths, the middle half, the median."""
+    rows = [row for index in view.shown if (row := quantile_row(view, index))]
+    channel, place, value = axis_of(view, rows)
+    tip = [field("label", "nominal", title=" "), *map(field, QUANTILES)]
+    base = {channel: place, "tooltip": tip}
+    box = 14 if len(rows) <= FEW else 6
+    blue = {"type": "rule", "color": BLUE}
+    dot = {"type": "point", "filled": True, "color": ORANGE, "shape": "diamond", "opacity": 1}
+
+    def between(low: str, high: str) -> Spec:
+        title = {"title": "time of a run (s)"}
+        return {**base, value: field(low, **title), f"{value}2": {"field": high}}
+
+    layers: list[Spec] = [
+        {"mark": blue, "encoding": between("p5", "p95")},
+        {"mark": {**blue, "size": box, "opacity": 0.6}, "encoding": between("p25", "p75")},
+        {"mark": {**dot, "size": 45}, "encoding": {**base, value: field("p50")}},
+    ]
+    return chart(layers, rows, HEIGHT if channel == "x" else heights(rows))
 
 
-def sized(chart: Chart) -> Chart:
-    """Return a chart as wide as the page allows."""
-    wide = chart.properties(width="container", height=HEIGHT).configure_view(stroke=None)
-    configured: Chart = wide.configure_legend(orient="top")
-    return configured
+def quantile_row(view: View, index: int) -> dict[str, Any] | None:
+    """Return the quantiles of a configuration's times; None if it has none."""
+    times_s = view.evidence.samples[index].columns["time_s"]
+    known = times_s[np.isfinite(times_s)]
+    if not len(known):
+        return None
+    quantiles = np.quantile(known, list(QUANTILES.values()))
+    pairs = zip(QUANTILES, map(finite, quantiles.tolist()), strict=True)
+    return {**place_of(view, index), **dict(pairs)}
