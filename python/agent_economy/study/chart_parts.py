@@ -40,6 +40,8 @@ def chart(layers: list[Spec], rows: Rows, height: int | Spec = HEIGHT) -> Spec:
             "view": {"stroke": None},
             "axis": {**WRITING, "gridColor": GREY, "gridOpacity": 0.3, "tickColor": GREY},
             "axisQuantitative": {"tickCount": 7},
+            # A title may be wider than the plot on a narrow screen; there it has room to the left.
+            "axisX": {"titleAnchor": "end"},
             "legend": {**WRITING, "orient": "top"},
             "text": {"color": GREY},
         },

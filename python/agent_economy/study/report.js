@@ -5,7 +5,10 @@ for (const [name, chart] of Object.entries(charts)) {
     actions: false,
     renderer: "svg",
     tooltip: { theme: isDark ? "dark" : "light" },
-    config: { axisY: { labelLimit: Math.max(90, 0.4 * place.clientWidth) } },
+    config: {
+      axisY: { labelLimit: Math.max(90, 0.36 * place.clientWidth) },
+      legend: place.clientWidth < 480 ? { columns: 1 } : {},
+    },
   });
 }
 // What is folded on the screen is open on paper.

@@ -17,6 +17,9 @@ MOST = 50
 FEWEST, NEAREST = 5, 12
 """Configurations of which a report shows how far they are behind the selected one."""
 
+LONG = 32
+"""Letters of a long name."""
+
 MOST_CELLS = 1500
 """Of a map of two factors."""
 
@@ -47,13 +50,22 @@ class View:
 
     @cached_property
     def names(self) -> tuple[str, ...]:
-        """What people call each configuration; no two the same."""
+        """What people call each configuration; no two the same.
+
+        Where some are so long that a chart on a narrow screen cuts them, their rank comes first.
+        """
         labels = [result.label for result in self.answer.results]
+        is_long = max(map(len, labels)) > LONG
         times = Counter(labels)
         return tuple(
-            label if times[label] == 1 else f"{label} (no. {index})"
+            f"{self.ranks[index]}: {label}" if is_long or times[label] > 1 else label
             for index, label in enumerate(labels)
         )
+
+    @cached_property
+    def ranks(self) -> dict[int, int]:
+        """The rank of each configuration, from 1."""
+        return {index: rank for rank, index in enumerate(self.ranked, start=1)}
 
     @cached_property
     def ranked(self) -> tuple[int, ...]:
