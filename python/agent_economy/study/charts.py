@@ -1,1 +1,223 @@
-def specifications(*a): return {}
+"""The charts of a report, as Vega-Lite specifications: plain dicts, one function a chart.
+
+Configurations lie along the x axis where one number is varied, else down the y axis by name, which
+leaves room for names on narrow screens. Every chart works on light and on dark ground: it has no
+background, and its colours are of middle lightness; where they mean something, so do shapes.
+"""
+
+from typing import Any
+
+import numpy as np
+
+from agent_economy.study import factor_charts
+from agent_economy.study.answer import Answer
+from agent_economy.study.chart_parts import (
+    BLUE,
+    FEW,
+    GREY,
+    HEIGHT,
+    INK,
+    ORANGE,
+    TEAL,
+    Codes,
+    Rows,
+    Spec,
+    axis_of,
+    by_name,
+    chart,
+    coded,
+    field,
+    fixed,
+    heights,
+    intervals,
+    line_at,
+    place_of,
+    with_bounds,
+)
+from agent_economy.study.evidence import Evidence, Interval
+from agent_economy.study.view import View
+from agent_economy.study.writing import finite
+
+VERDICTS: Codes = {
+    "selected": (BLUE, "circle"),
+    "tied within delta": (TEAL, "square"),
+    "undecided": (ORANGE, "diamond"),
+    "worse": (GREY, "triangle-down"),
+}
+PLACES: Codes = {
+    "selected": (BLUE, "circle"),
+    "selected, surely dominated": (BLUE, "cross"),
+    "possibly efficient": (TEAL, "square"),
+    "surely dominated": (GREY, "triangle-down"),
+}
+STATES = {"selected": BLUE, "never out": TEAL, "out": GREY}
+FRONT_HEIGHT = 300
+QUANTILES = {"p5": 0.05, "p25": 0.25, "p50": 0.5, "p75": 0.75, "p95": 0.95}
+
+
+def specifications(answer: Answer, evidence: Evidence) -> dict[str, Spec]:
+    """Return each chart's Vega-Lite specification by name: those that have something to show."""
+    view = View(answer, evidence)
+    made = {"times": times(view)}
+    if view.compares:
+        compared = (merit, behind, failed, front, runs)
+        made |= {function.__name__: function(view) for function in compared}
+    return made | factor_charts.specifications(view)
+
+
+def merit(view: View) -> Spec:
+    """Return the figure of merit of each configuration with its interval."""
+    rows = [judged(view, index, view.result(index).merit) for index in view.shown]
+    looks = coded("verdict", VERDICTS, rows)
+    return intervals(view, rows, {"title": "figure of merit (higher is better)"}, looks)
+
+
+def failed(view: View) -> Spec:
+    """Return the share of failed runs of each configuration with its interval."""
+    rows = [judged(view, index, view.result(index).failed) for index in view.shown]
+    title = {
+        "title": "share of runs that failed",
+        "axis": {"format": "~%"},
+        "scale": {"zero": True},
+    }
+    return intervals(view, rows, title, coded("verdict", VERDICTS, rows))
+
+
+def behind(view: View) -> Spec:
+    """Return how far the nearest are behind the selected one; a band marks delta to both sides."""
+    rows = [
+        judged(view, index, interval)
+        for index in view.nearest
+        if (interval := view.result(index).standing.behind)
+    ]
+    delta = view.answer.delta
+    ends = {"x": field("from"), "x2": {"field": "to"}}
+    band = fixed(
+        [{"from": -delta, "to": delta}], {"type": "rect", "opacity": 0.15, "color": BLUE}, ends
+    )
+    title = {"title": "merit behind the selected one"}
+    points = with_bounds("x", title, {"y": by_name(rows)}, coded("verdict", VERDICTS, rows))
+    return chart([band, line_at("x", 0.0), *points], rows, heights(rows))
+
+
+def judged(view: View, index: int, interval: Interval) -> dict[str, Any]:
+    """Return a row of a configuration's interval, with how the configuration stands."""
+    verdict = verdict_of(view, index)
+    return {**place_of(view, index), **bounds(interval), "verdict": verdict}
+
+
+def verdict_of(view: View, index: int) -> str:
+    """Return how a configuration stands to the selected one, in words."""
+    words = {"best": "selected", "tied": "tied within delta"}
+    verdict = view.result(index).standing.verdict
+    return words.get(verdict, verdict)
+
+
+def bounds(interval: Interval) -> dict[str, float | None]:
+    """Return an interval as a row has it."""
+    return {name: finite(getattr(interval, name)) for name in ("value", "low", "high")}
+
+
+def front(view: View) -> Spec:
+    """Return price, time and failures of configurations."""
+    # What is drawn last lies on top: the selected one.
+    rows = [front_row(view, index) for index in reversed(view.on_front)]
+    space: Spec = {"zero": False, "padding": 16}
+    price = field(
+        "price", title="price (robots)", scale=space, axis={"grid": False, "tickMinStep": 1}
+    )
+    seconds: Spec = {"title": "mean time (s)", "scale": space}
+    at = {"x": price, "y": field("value", **seconds)}
+    size = field("failed", title="failed", scale={"range": [50, 500], "zero": True})
+    looks = {"symbolFillColor": GREY, "symbolStrokeColor": GREY}
+    size["legend"] = {"format": "~%", "tickCount": 3, **looks}
+    tip = [
+        field("label", "nominal", title=" "),
+        field("price"),
+        field("value", title="mean time (s)"),
+    ]
+    dots = {**at, **coded("place", PLACES, rows), "size": size, "tooltip": [*tip, field("failed")]}
+    spans = {"x": price, "y": field("low", **seconds), "y2": {"field": "high"}}
+    layers: list[Spec] = [
+        {"mark": {"type": "rule", "color": GREY, "opacity": 0.7}, "encoding": spans},
+        {"mark": {"type": "point", "filled": True, "opacity": 0.85}, "encoding": dots},
+    ]
+    return chart(layers, rows, FRONT_HEIGHT)
+
+
+def front_row(view: View, index: int) -> dict[str, Any]:
+    """Return a configuration's price, time and failures."""
+    result = view.result(index)
+    return {
+        "label": view.names[index],
+        **bounds(result.time_s),
+        "price": finite(result.place.price),
+        "failed": finite(result.failed.value),
+        "place": place_on_front(view, index),
+    }
+
+
+def place_on_front(view: View, index: int) -> str:
+    """Return a configuration's place in words."""
+    is_efficient = view.result(index).place.dominated_by is None
+    if index != view.answer.best:
+        return "possibly efficient" if is_efficient else "surely dominated"
+    return "selected" if is_efficient else "selected, surely dominated"
+
+
+def runs(view: View) -> Spec:
+    """Return the runs that each configuration took."""
+    rows: Rows = [
+        {"label": view.names[index], "runs": view.result(index).runs, "state": state(view, index)}
+        for index in view.by_runs
+    ]
+    base = {"y": by_name(rows), "x": field("runs", title="runs")}
+    colors = {name: (color, "square") for name, color in STATES.items()}
+    look = {"color": coded("state", colors, rows)["color"]}
+    tip = [field("label", "nominal", title=" "), field("runs"), field("state", "nominal")]
+    text = {"type": "text", "align": "left", "dx": 4}
+    layers = [
+        {"mark": "bar", "encoding": {**base, **look, "tooltip": tip}},
+        {"name": INK, "mark": text, "encoding": {**base, "text": field("runs", format=",")}},
+    ]
+    return chart(layers, rows, heights(rows))
+
+
+def state(view: View, index: int) -> str:
+    """Return whether a configuration was selected, put out, or neither."""
+    if index == view.answer.best:
+        return "selected"
+    return "out" if view.result(index).eliminated else "never out"
+
+
+def times(view: View) -> Spec:
+    """Return the distribution of times: the middle nine tenths, the middle half, the median."""
+    rows = [row for index in view.shown if (row := quantile_row(view, index))]
+    channel, place, value = axis_of(view, rows)
+    tip = [field("label", "nominal", title=" "), *map(field, QUANTILES)]
+    base = {channel: place, "tooltip": tip}
+    box = 14 if len(rows) <= FEW else 6
+    blue = {"type": "rule", "color": BLUE}
+    dot = {"type": "point", "filled": True, "color": ORANGE, "shape": "diamond", "opacity": 1}
+
+    def between(low: str, high: str) -> Spec:
+        title = {"title": "time of a run (s)"}
+        return {**base, value: field(low, **title), f"{value}2": {"field": high}}
+
+    layers: list[Spec] = [
+        {"mark": blue, "encoding": between("p5", "p95")},
+        {"mark": {**blue, "size": box, "opacity": 0.6}, "encoding": between("p25", "p75")},
+        {"mark": {**dot, "size": 45}, "encoding": {**base, value: field("p50")}},
+    ]
+    return chart(layers, rows, HEIGHT if channel == "x" else heights(rows))
+
+
+def quantile_row(view: View, index: int) -> dict[str, Any] | None:
+    """Return the quantiles of a configuration's times; None if it has none."""
+    times_s = view.evidence.samples[index].columns["time_s"]
+    known = times_s[np.isfinite(times_s)]
+    if not len(known):
+        return None
+    quantiles = np.quantile(known, list(QUANTILES.values()))
+    pairs = zip(QUANTILES, map(finite, quantiles.tolist()), strict=True)
+    return {**place_of(view, index), **dict(pairs)}

@@ -9,6 +9,7 @@ together with all others.
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -82,20 +83,36 @@ class Evidence:
 
     def interval(self, configuration: int, name: str) -> Interval:
         """Return the mean of one of `QUANTITIES` with its bounds."""
-        sample = self.samples[configuration]
-        low, high = _core.mean_bounds(
-            sample.columns[name], *sample.limits[name], self.alpha_single()
-        )
-        return Interval(sample.mean(name), low, high)
+        key = configuration, name
+        if key not in self._intervals:
+            sample = self.samples[configuration]
+            low, high = _core.mean_bounds(
+                sample.columns[name], *sample.limits[name], self.alpha_single()
+            )
+            self._intervals[key] = Interval(sample.mean(name), low, high)
+        return self._intervals[key]
+
+    @cached_property
+    def _intervals(self) -> dict[tuple[int, str], Interval]:
+        """Those that were asked for: each is asked for many times."""
+        return {}
 
     def difference(self, one: int, other: int, name: str) -> Interval:
-        """Return one's mean less the other's, from the runs that both have."""
+        """Return one's mean less the other's.
+
+        Its bounds are from the runs that both have, or from the two intervals of all runs, which
+        hold together with these, where that says more.
+        """
         values, limits = self._differences(one, other, name)
         low, high = _core.mean_bounds(values, *limits, self.alpha_pair(name))
-        return Interval(float(values.mean()), low, high)
+        first, second = self.interval(one, name), self.interval(other, name)
+        low, high = max(low, first.low - second.high), min(high, first.high - second.low)
+        return Interval(min(max(float(values.mean()), low), high), low, high)
 
     def exceeds(self, one: int, other: int, name: str, by: float = 0.0) -> bool:
         """Return whether one's mean is surely above the other's by some amount."""
+        if self.interval(one, name).low - self.interval(other, name).high > by:
+            return True
         values, limits = self._differences(one, other, name)
         return _core.mean_exceeds(values, limits, by, self.alpha_pair(name))
 

@@ -2,16 +2,22 @@
 
 import subprocess
 import sys
+from collections.abc import Iterator
 from types import TracebackType
 from typing import Self
 
 import jinja2
 
-from agent_economy.merit import Merit
 from agent_economy.study.answer import Answer
+from agent_economy.study.assumptions import assumptions
 from agent_economy.study.charts import specifications
+from agent_economy.study.evidence import Evidence
+from agent_economy.study.sections import sections
+from agent_economy.study.view import View
+from agent_economy.study.writing import brief, certainty, count
 
-from agent_economy.study.versions import versions
+MOST_NAMED = 8
+"""Configurations that a warning names."""
 
 
 class ChartScript:
@@ -63,25 +69,54 @@ class ChartScript:
         return script
 
 
-def html(answer: Answer, evidence: object, script: ChartScript) -> str:
-    """Return the report's page."""
-    script.text()
-    return 'stub'
+def html(answer: Answer, evidence: Evidence, script: ChartScript) -> str:
+    """Return the report's page: the same text for the same answer and evidence.
+
+    Raises:
+        RuntimeError: If the script could not be made.
+    """
     environment = jinja2.Environment(
         loader=jinja2.PackageLoader("agent_economy.study", "."),
         autoescape=True,
         undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
     )
+    view = View(answer, evidence)
+    advice, colon, reasons = answer.sentence.partition(":")
     return environment.get_template("report.html.jinja").render(
         answer=answer,
+        advice=advice + colon,
+        reasons=reasons,
+        facts=tuple(facts(answer)),
+        quarantined=quarantined(view),
+        sections=tuple(sections(view)),
+        assumptions=tuple(assumptions(view)),
         charts=specifications(answer, evidence),
         javascript=script.text(),
-        merit_in_words=merit_in_words(answer.scenario.merit),
-        versions=versions(),
     )
 
 
-def merit_in_words(merit: Merit) -> str:
-    """Return how a figure of merit is made up."""
-    weights = ", ".join(str(term) for term in merit.terms)
-    return f"{merit.name}: the mean over runs of {weights}."
+def facts(answer: Answer) -> Iterator[tuple[str, str]]:
+    """Return the numbers that say how sure an answer is, each with what it is."""
+    yield certainty(answer.confidence), "confidence"
+    yield brief(answer.delta), "delta, the difference of merit worth finding"
+    yield f"{answer.runs:,}", "runs in all"
+    yield (
+        f"{len(answer.results):,}",
+        "configurations" if len(answer.results) > 1 else "configuration",
+    )
+
+
+def quarantined(view: View) -> str:
+    """Return a warning of runs that gave no finite merit; nothing where there are none."""
+    counts = [result.quarantined for result in view.answer.results]
+    hit = [index for index in view.ranked if counts[index]]
+    if not hit:
+        return ""
+    named = "; ".join(f"{counts[index]:,} of {view.names[index]}" for index in hit[:MOST_NAMED])
+    more = f"; and of {len(hit) - MOST_NAMED:,} others" if len(hit) > MOST_NAMED else ""
+    return (
+        f"{count(sum(counts), 'run')} gave no finite merit. They are quarantined: each counts as "
+        f"the worst there is. {named}{more}."
+    )

@@ -1,0 +1,27 @@
+const isDark = matchMedia("(prefers-color-scheme: dark)").matches;
+for (const [name, chart] of Object.entries(charts)) {
+  const place = document.getElementById(name);
+  vegaEmbed(place, chart, {
+    actions: false,
+    renderer: "svg",
+    tooltip: { theme: isDark ? "dark" : "light" },
+    config: {
+      axisY: { labelLimit: Math.max(90, 0.36 * place.clientWidth) },
+      legend: place.clientWidth < 480 ? { columns: 1 } : {},
+    },
+  });
+}
+// What is folded on the screen is open on paper.
+const folded = () => document.querySelectorAll("details:not([open])");
+addEventListener("beforeprint", () => {
+  for (const each of folded()) {
+    each.dataset.folded = "";
+    each.open = true;
+  }
+});
+addEventListener("afterprint", () => {
+  for (const each of document.querySelectorAll("details[data-folded]")) {
+    each.open = false;
+    delete each.dataset.folded;
+  }
+});

@@ -1,0 +1,268 @@
+"""The tables of a report: the numbers of its charts, as text."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from agent_economy.study.charts import QUANTILES, quantile_row, state, verdict_of
+from agent_economy.study.evidence import Interval
+from agent_economy.study.view import Gains, View, factor_name
+from agent_economy.study.writing import NOTHING, UNKNOWN, brief, decimal, percent
+
+WIDEST = 10
+"""Columns of a map's table."""
+
+
+@dataclass(frozen=True)
+class Cell:
+    """A cell: a text, the range around it if any, and whether it is words rather than a number."""
+
+    text: str
+    range: str = ""
+    is_words: bool = False
+
+
+@dataclass(frozen=True)
+class Row:
+    """A row; its first cell heads it. `look` is how it stands out."""
+
+    cells: tuple[Cell, ...]
+    look: str = ""
+
+
+@dataclass(frozen=True)
+class Table:
+    """A table; `caption` says what it holds."""
+
+    caption: str
+    heads: tuple[str, ...]
+    rows: tuple[Row, ...]
+
+
+def words(text: str) -> Cell:
+    """Return a cell of words."""
+    return Cell(text, is_words=True)
+
+
+def measured(interval: Interval, decimals: int) -> Cell:
+    """Return a cell of a mean and its bounds."""
+    low, high = decimal(interval.low, decimals), decimal(interval.high, decimals)
+    return Cell(decimal(interval.value, decimals), f"{low} to {high}")
+
+
+def shares(interval: Interval, decimals: int) -> Cell:
+    """Return a cell of a share and its bounds."""
+    low, high = percent(interval.low, decimals), percent(interval.high, decimals)
+    return Cell(percent(interval.value, decimals), f"{low} to {high}")
+
+
+def row(view: View, index: int, cells: Iterable[Cell]) -> Row:
+    """Return a configuration's row."""
+    look = "best" if index == view.answer.best else view.result(index).standing.verdict
+    return Row((words(view.names[index]), *cells), look)
+
+
+def merit(view: View) -> Table:
+    """Return merit, distance to the selected one, standing and runs."""
+    has_quarantined = any(result.quarantined for result in view.answer.results)
+
+    def cells(index: int) -> Iterable[Cell]:
+        result = view.result(index)
+        behind = result.standing.behind
+        yield words(verdict_of(view, index))
+        yield measured(result.merit, view.merit_places)
+        yield measured(behind, view.merit_places) if behind else Cell(NOTHING)
+        yield Cell(f"{result.runs:,}")
+        if has_quarantined:
+            yield Cell(f"{result.quarantined:,}")
+
+    heads = ("configuration", "standing", "figure of merit", "behind the selected", "runs")
+    return Table(
+        "Figure of merit of each configuration",
+        (*heads, "quarantined runs") if has_quarantined else heads,
+        tuple(row(view, index, cells(index)) for index in view.shown),
+    )
+
+
+def heat(view: View) -> tuple[Table, ...]:
+    """Return the mean merit over two factors, in tables that are no wider than a sheet."""
+    across, down = view.varied
+    merits = {
+        (result.values[across], result.values[down]): decimal(result.merit.value, view.merit_places)
+        for result in view.answer.results
+    }
+    columns = tuple(dict.fromkeys(one for one, _ in merits))
+    rows = tuple(dict.fromkeys(other for _, other in merits))
+    name = f"Mean merit; down {factor_name(down)}, across {factor_name(across)}"
+    return tuple(
+        Table(
+            name,
+            ("", *map(written, part)),
+            tuple(
+                Row((words(written(other)), *(Cell(merits[one, other]) for one in part)))
+                for other in rows
+            ),
+        )
+        for part in (columns[first : first + WIDEST] for first in range(0, len(columns), WIDEST))
+    )
+
+
+def written(value: float | str) -> str:
+    """Return a factor's value."""
+    return value if isinstance(value, str) else brief(value)
+
+
+def failed(view: View) -> Table:
+    """Return the shares of failed runs."""
+    return Table(
+        "Share of runs that failed",
+        ("configuration", "failed", "runs"),
+        tuple(
+            row(
+                view,
+                index,
+                (
+                    shares(view.result(index).failed, view.share_places),
+                    Cell(f"{view.result(index).runs:,}"),
+                ),
+            )
+            for index in view.shown
+        ),
+    )
+
+
+def front(view: View) -> Table:
+    """Return price, time, failures, and who dominates whom."""
+
+    def cells(index: int) -> Iterable[Cell]:
+        result = view.result(index)
+        rival = result.place.dominated_by
+        yield Cell(decimal(result.place.price, 0 if float(result.place.price).is_integer() else 2))
+        yield measured(result.time_s, view.time_places)
+        yield shares(result.failed, view.share_places)
+        if rival is None:
+            yield words("possibly efficient")
+        else:
+            yield words(f"surely dominated by {view.names[rival]}")
+
+    return Table(
+        "Price, time and failures",
+        ("configuration", "price, robots", "mean time, s", "failed", "place"),
+        tuple(row(view, index, cells(index)) for index in view.on_front),
+    )
+
+
+def gains(view: View, found: Gains) -> Table:
+    """Return what larger teams gain."""
+    kind = factor_name(found.saturation.path)
+    return Table(
+        f"What more {kind} gain over {found.base:,}",
+        (kind, "gain of merit"),
+        tuple(
+            Row((Cell(f"{size:,}"), measured(gain, view.merit_places)))
+            for size, gain in found.found.items()
+        ),
+    )
+
+
+def history(view: View) -> Table:
+    """Return who was put out, when and by whom."""
+
+    def cells(index: int) -> Iterable[Cell]:
+        out = view.result(index).eliminated
+        yield Cell(f"{view.result(index).runs:,}")
+        if out:
+            yield words(f"out after {out.runs:,} runs")
+            yield words(view.names[out.by])
+        else:
+            yield words(state(view, index))
+            yield words(NOTHING)
+
+    return Table(
+        "Runs of each configuration, and what became of it",
+        ("configuration", "runs", "what became of it", "put out by"),
+        tuple(row(view, index, cells(index)) for index in view.by_runs),
+    )
+
+
+def sensitivity(view: View) -> Table:
+    """Return what each factor does."""
+    found = view.answer.sensitivity
+    influences = found.influences if found else ()
+    return Table(
+        "Influence of each factor; ranges are 95% bootstrap intervals, each for itself",
+        ("factor", "alone", "with all its interactions"),
+        tuple(
+            Row(
+                (
+                    words(each.path),
+                    measured(around(each.first_order, each.first_order_error), 2),
+                    measured(around(each.delta, each.delta_error), 2),
+                )
+            )
+            for each in influences
+        ),
+    )
+
+
+def around(value: float, error: float) -> Interval:
+    """Return a value with the same error to both sides."""
+    return Interval(value, value - error, value + error)
+
+
+def efforts(view: View) -> Table:
+    """Return what smaller deltas would take."""
+    return Table(
+        "Runs that smaller deltas would take",
+        ("delta", "runs in all, about", "times this study, about"),
+        tuple(
+            Row(
+                (
+                    Cell(brief(each.delta)),
+                    Cell(f"{each.runs:,}"),
+                    Cell(f"{each.runs / view.answer.runs:,.1f}"),
+                )
+            )
+            for each in view.answer.efforts
+        ),
+    )
+
+
+def times(view: View) -> Table:
+    """Return quantiles of times."""
+
+    def cells(index: int) -> Iterable[Cell]:
+        found = quantile_row(view, index) or {}
+        for name in QUANTILES:
+            number = found.get(name)
+            yield Cell(UNKNOWN if number is None else decimal(number, view.time_places))
+
+    return Table(
+        "Time of a run, s",
+        ("configuration", "5% take at most", "25%", "50% (median)", "75%", "95%"),
+        tuple(row(view, index, cells(index)) for index in view.shown),
+    )
+
+
+def published(view: View) -> Table:
+    """Return the results of others."""
+    return Table(
+        "Published results",
+        ("robots", "runs", "mean time, s", "failed", "figure of merit"),
+        tuple(
+            Row(
+                (
+                    Cell(f"{each.robots:,}"),
+                    Cell(f"{len(each.times_s):,}"),
+                    Cell(decimal(each.time_s, view.time_places)),
+                    shares(
+                        Interval(
+                            each.failed_share.value, each.failed_share.low, each.failed_share.high
+                        ),
+                        0,
+                    ),
+                    measured(Interval(each.merit.value, each.merit.low, each.merit.high), 2),
+                )
+            )
+            for each in view.answer.published
+        ),
+    )

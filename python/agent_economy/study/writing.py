@@ -1,0 +1,51 @@
+"""How a report writes numbers."""
+
+import math
+
+from agent_economy.study.evidence import Interval
+
+UNKNOWN, NOTHING = "not known", "\N{EN DASH}"
+MINUS, TIMES = "\N{MINUS SIGN}", "\N{MULTIPLICATION SIGN}"
+
+
+def finite(number: float) -> float | None:
+    """Return a number to six figures, None where it is none."""
+    return float(f"{number:.6g}") if math.isfinite(number) else None
+
+
+def places(scale: float) -> int:
+    """Return how many decimals give a number of this size two figures."""
+    return max(0, 1 - math.floor(math.log10(scale))) if 0 < scale < math.inf else 2
+
+
+def decimal(number: float, decimals: int) -> str:
+    """Return a number as people write it: -1,234.5 with a true minus."""
+    if not math.isfinite(number):
+        return UNKNOWN
+    written = f"{number:,.{decimals}f}".replace("-", MINUS)
+    return written.lstrip(MINUS) if not written.strip(f"{MINUS}0.,") else written
+
+
+def brief(number: float) -> str:
+    """Return a number in as few figures as it has: 0.05, 120."""
+    return f"{number:g}".replace("-", MINUS)
+
+
+def percent(share: float, decimals: int) -> str:
+    """Return a share as a percentage."""
+    return f"{decimal(100 * share, decimals)}%" if math.isfinite(share) else UNKNOWN
+
+
+def certainty(share: float) -> str:
+    """Return a confidence as people write it: 95%, 99.9%."""
+    return f"{100 * share:.10g}%"
+
+
+def count(number: int, word: str) -> str:
+    """Return "1 run", "1,200 runs"."""
+    return f"{number:,} {word}" if number == 1 else f"{number:,} {word}s"
+
+
+def span(interval: Interval, decimals: int) -> str:
+    """Return the bounds of an interval in words."""
+    return f"{decimal(interval.low, decimals)} to {decimal(interval.high, decimals)}"

@@ -1,0 +1,143 @@
+"""Answers of studies made by hand: a race over given runs, without plan and store."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from agent_economy import Scenario, _core
+from agent_economy.study import published
+from agent_economy.study.answer import Answer, Outcome, results
+from agent_economy.study.effort import efforts
+from agent_economy.study.evidence import Evidence, Sample
+from agent_economy.study.saturation import saturations
+from agent_economy.study.selection import Elimination, drive, in_words
+from agent_economy.study.sensitivity import sensitivity
+
+Floats = NDArray[np.float64]
+Values = dict[str, float | str]
+Columns = dict[str, Floats]
+Simulator = Callable[[Values, int, int], Columns]
+
+WANDERERS = "robots.wanderer.count"
+CLASSIC = Path(__file__).resolve().parents[2] / "scenarios/classic.toml"
+LONGEST_S = 120.0
+FEW = 50
+"""Configurations of which the sensitivity takes seconds, not minutes."""
+WEIGHTS = {"time_s": -0.03, "robots": -0.2, "failed": -5.0}
+
+
+def classic(values: Values, first_run: int, runs: int) -> Columns:
+    """Return runs of the classic simulator."""
+    robots = int(values.get(WANDERERS, 4))
+    cap_paints = round(56 * float(values.get("clock.cap_s", LONGEST_S)))
+    paints, _, _ = _core.replicate(
+        robots,
+        runs,
+        contact=str(values.get("contact", "touch")),
+        cap_paints=cap_paints,
+        seed=0,
+        first_run=first_run,
+        threads=None,
+    )
+    failed = (paints < 0) | (paints > cap_paints)
+    return {
+        "time_s": np.where(failed, cap_paints, paints) / 56,
+        "failed": failed * 1.0,
+        "robots": np.full(runs, float(robots)),
+    }
+
+
+def synthetic(values: Values, first_run: int, runs: int) -> Columns:
+    """Return runs of a made-up search: larger teams are faster, up to a point; mixes are slower."""
+    robots, mix = float(values.get("robots.rover.count", 4)), float(values.get("mix", 0))
+    one, two = np.random.default_rng(first_run).uniform(size=(2, runs))
+    times = 10 + 0.4 * mix + 60 / robots**0.5 - (260 * (1 + 0.03 * mix) / robots) * np.log(one)
+    failed = (two < 0.25 ** min(robots, 6)) | (times > LONGEST_S)
+    return {
+        "time_s": np.where(failed, LONGEST_S, times),
+        "failed": failed * 1.0,
+        "robots": np.full(runs, robots),
+    }
+
+
+def merit(columns: Columns) -> Floats:
+    """Return the merit of each run, as the classic scenario has it."""
+    return sum((weight * columns[name] for name, weight in WEIGHTS.items()), np.zeros(1))
+
+
+def limits(robots: float) -> dict[str, tuple[float, float]]:
+    """Return between which values the columns of a configuration lie."""
+    worst = WEIGHTS["time_s"] * LONGEST_S + WEIGHTS["failed"]
+    price = WEIGHTS["robots"] * robots
+    return {
+        "merit": (price + worst, price),
+        "time_s": (0.0, LONGEST_S),
+        "failed": (0.0, 1.0),
+        "robots": (robots, robots),
+    }
+
+
+def study(
+    configurations: list[Values], simulator: Simulator, delta: float = 0.05, runs: int | None = None
+) -> tuple[Answer, Evidence]:
+    """Return answer and evidence of a race; of so many runs of each where `runs` is given."""
+    blocks: list[list[Columns]] = [[] for _ in configurations]
+
+    def block(index: int, first_run: int, count: int) -> Floats:
+        columns = simulator(configurations[index], first_run, count)
+        columns["merit"] = merit(columns)
+        blocks[index].append(columns)
+        return columns["merit"]
+
+    def ask(asked: NDArray[np.int64], first_run: int, count: int) -> Floats:
+        return np.stack([block(index, first_run, count) for index in asked.tolist()])
+
+    teams = [float(simulator(each, 0, 1)["robots"][0]) for each in configurations]
+    bounds = np.array([limits(robots)["merit"] for robots in teams])
+    procedure = _core.selection(bounds, delta=delta, confidence=0.95, guarantee="indifference")
+    if runs is None:
+        for _ in drive(procedure, ask):
+            pass
+    else:
+        ask(np.arange(len(configurations)), 0, runs)
+    samples = tuple(
+        Sample(
+            values,
+            {name: np.concatenate([each[name] for each in made]) for name in made[0]},
+            limits(robots),
+            quarantined=0,
+        )
+        for values, made, robots in zip(configurations, blocks, teams, strict=True)
+    )
+    evidence = Evidence(samples, 0.95)
+    if runs is None:
+        gone = tuple(Elimination(*each) for each in procedure.eliminations)
+        outcome = Outcome(procedure.best, gone, in_words(procedure, delta, 0.95, "indifference"))
+    else:
+        best = int(np.argmax([sample.mean("merit") for sample in samples]))
+        outcome = Outcome(best, (), "Nothing is guaranteed: the number of runs was fixed.")
+    return conclude(evidence, outcome, delta), evidence
+
+
+def conclude(evidence: Evidence, outcome: Outcome, delta: float = 0.05) -> Answer:
+    """Return the answer that evidence gives."""
+    scenario = Scenario.load(CLASSIC)
+    found = results(evidence, outcome, delta)
+    best = found[outcome.best]
+    return Answer(
+        scenario=scenario,
+        seed=0,
+        sentence=f"Send {best.label}: a run takes {best.time_s.value:.1f} s on average, "
+        f"{best.failed.value:.2%} fail, figure of merit {best.merit.value:.2f}.",
+        guarantee=outcome.guarantee,
+        delta=delta,
+        confidence=evidence.confidence,
+        best=outcome.best,
+        results=found,
+        saturations=saturations(evidence, outcome.best, delta),
+        sensitivity=sensitivity(evidence) if len(found) <= FEW else None,
+        efforts=efforts(evidence, outcome.best, delta),
+        published=published.results(scenario),
+    )

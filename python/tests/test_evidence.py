@@ -1,0 +1,23 @@
+"""What the runs of a study say for sure."""
+
+import numpy as np
+import pytest
+
+from agent_economy.study.evidence import Evidence, Sample
+
+
+def sample(values: list[float]) -> Sample:
+    """Return the runs of a configuration whose merits lie from -1 to 1."""
+    return Sample({}, {"merit": np.array(values)}, {"merit": (-1.0, 1.0)}, quarantined=0)
+
+
+def test_ranges_that_do_not_meet_decide_a_difference_that_few_common_runs_leave_open() -> None:
+    # Ten common runs alone leave it open; that the first had many more says that it is better.
+    evidence = Evidence((sample([0.9] * 2000), sample([-0.9] * 10)), 0.95)
+    first, second = evidence.interval(0, "merit"), evidence.interval(1, "merit")
+    assert first.low > second.high
+    gain = evidence.difference(0, 1, "merit")
+    assert gain.low == pytest.approx(max(gain.low, first.low - second.high))
+    assert gain.low <= gain.value <= gain.high
+    assert evidence.exceeds(0, 1, "merit")
+    assert not evidence.exceeds(1, 0, "merit")

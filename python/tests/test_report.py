@@ -1,0 +1,296 @@
+"""The report of a study: one page that works offline."""
+
+import re
+from dataclasses import replace
+from itertools import product
+
+import altair as alt
+import by_hand
+import numpy as np
+import pytest
+import vl_convert
+from by_hand import WANDERERS
+
+from agent_economy.study import charts, report
+from agent_economy.study.answer import Answer, Outcome
+from agent_economy.study.evidence import Evidence
+from agent_economy.study.sections import saturation_in_words, sections
+from agent_economy.study.selection import Elimination
+from agent_economy.study.view import View
+from agent_economy.study.writing import MINUS
+
+Study = tuple[Answer, Evidence]
+MIX = "mix"
+ROVERS = "robots.rover.count"
+CONTACTS = ("touch", "within-2", "ahead")
+
+
+@pytest.fixture(scope="module")
+def script() -> report.ChartScript:
+    """Return the script, made once."""
+    with report.ChartScript() as made:
+        text = made.text()
+
+    class Made(report.ChartScript):
+        def __init__(self) -> None:
+            """Start nothing."""
+
+        def text(self) -> str:
+            return text
+
+    return Made()
+
+
+@pytest.fixture(scope="module")
+def teams() -> Study:
+    """Return the 2003 experiment, raced."""
+    return by_hand.study([{WANDERERS: robots} for robots in range(1, 9)], by_hand.classic)
+
+
+@pytest.fixture(scope="module")
+def alone() -> Study:
+    """Return a study of one configuration."""
+    return by_hand.study([{}], by_hand.classic)
+
+
+@pytest.fixture(scope="module")
+def thousand() -> Study:
+    """Return a study of a thousand configurations, with ten runs of each."""
+    grid = product(range(25), range(1, 41))
+    given: list[by_hand.Values] = [{MIX: mix, ROVERS: robots} for mix, robots in grid]
+    answer, evidence = by_hand.study(given, by_hand.synthetic, runs=10)
+    return answer, evidence
+
+
+@pytest.fixture(scope="module")
+def words() -> Study:
+    """Return a study of a factor of words and a team size, every pair of them."""
+    grid = product(CONTACTS, (2, 3, 4))
+    given: list[by_hand.Values] = [{"contact": name, WANDERERS: n} for name, n in grid]
+    return by_hand.study(given, by_hand.classic, delta=0.3)
+
+
+@pytest.fixture(params=["teams", "alone", "thousand", "words"])
+def any_study(request: pytest.FixtureRequest) -> Study:
+    """Return each of the studies."""
+    given: Study = request.getfixturevalue(request.param)
+    return given
+
+
+def body(page: str) -> str:
+    """Return a page without its scripts, as a reader without JavaScript has it."""
+    return re.sub(r"<script>.*?</script>", "", page, flags=re.DOTALL)
+
+
+def with_label(study: Study, label: str) -> Study:
+    """Return a study whose first configuration has another label."""
+    answer, evidence = study
+    first, *others = answer.results
+    results = (replace(first, label=label), *others)
+    return replace(answer, results=results, sentence=f"Send {label}: it is best."), evidence
+
+
+def test_a_page_is_one_file_that_fetches_nothing(
+    any_study: Study, script: report.ChartScript
+) -> None:
+    page = report.html(*any_study, script)
+    assert len(page.encode()) < 1_500_000
+    assert not re.search(r"<script |src=|href=|url\(|@import|https?:", body(page))
+    assert "default-src 'none'" in page
+
+
+def test_the_same_answer_gives_the_same_bytes(any_study: Study, script: report.ChartScript) -> None:
+    assert report.html(*any_study, script) == report.html(*any_study, script)
+
+
+def test_the_answer_comes_first_then_what_is_guaranteed_and_how_many_runs_it_took(
+    teams: Study, script: report.ChartScript
+) -> None:
+    answer, _ = teams
+    page = body(report.html(*teams, script))
+    text = re.sub(r"<[^>]*>", "", page)
+    places = [text.index(part) for part in (answer.sentence, answer.guarantee, f"{answer.runs:,}")]
+    assert places == sorted(places)
+    assert text.index("Figure of merit") > places[-1]
+
+
+def test_sections_come_in_the_order_in_which_people_ask(teams: Study) -> None:
+    assert [section.heading for section in sections(View(*teams))] == [
+        "Figure of merit",
+        "How often it fails",
+        "Price, time and certainty",
+        "How many wanderers are enough",
+        "Who went out when",
+        "What a smaller delta would take",
+        "How long it takes",
+        "Williams 2003",
+    ]
+
+
+def test_markup_in_names_and_summaries_stays_text(teams: Study, script: report.ChartScript) -> None:
+    nasty = "</script><img src=x onerror=alert(1)>"
+    answer, evidence = with_label(teams, nasty)
+    scenario = replace(answer.scenario, summary=nasty, name=nasty)
+    page = report.html(replace(answer, scenario=scenario), evidence, script)
+    assert "<img" not in body(page)
+    assert "<img" not in page.rsplit("const charts = ", 1)[1]
+
+
+def test_every_chart_is_a_valid_specification_and_can_be_drawn(any_study: Study) -> None:
+    for name, chart in charts.specifications(*any_study).items():
+        alt.LayerChart.from_dict(chart)
+        svg = vl_convert.vegalite_to_svg(chart | {"width": 600})
+        assert "<path" in svg, name
+        assert "NaN" not in svg, name
+
+
+def test_every_chart_has_a_place_and_a_table_and_every_place_a_chart(
+    any_study: Study, script: report.ChartScript
+) -> None:
+    page = body(report.html(*any_study, script))
+    made = charts.specifications(*any_study)
+    assert sorted(re.findall(r'class="chart" id="([^"]+)"', page)) == sorted(made)
+    for section in sections(View(*any_study)):
+        assert section.tables
+
+
+def test_a_table_says_what_its_chart_draws(teams: Study) -> None:
+    drawn = charts.specifications(*teams)["merit"]["data"]["values"]
+    table = next(sections(View(*teams))).tables[0]
+    assert [row.cells[0].text for row in table.rows] == [row["label"] for row in drawn]
+    assert [row.cells[1].text for row in table.rows] == [row["verdict"] for row in drawn]
+    written = [float(row.cells[2].text.replace(MINUS, "-")) for row in table.rows]
+    assert written == pytest.approx([row["value"] for row in drawn], abs=0.0005)
+
+
+def test_one_configuration_has_nothing_to_be_compared_with(alone: Study) -> None:
+    assert list(charts.specifications(*alone)) == ["times"]
+    headings = [section.heading for section in sections(View(*alone))]
+    assert "Who went out when" not in headings
+    assert "Price, time and certainty" not in headings
+
+
+def test_of_a_thousand_configurations_the_best_fifty_are_shown_and_the_page_says_so(
+    thousand: Study, script: report.ChartScript
+) -> None:
+    answer, _ = thousand
+    page = body(report.html(*thousand, script))
+    assert "Shown are 50 of 1,000 configurations" in page
+    rows = charts.specifications(*thousand)["merit"]["data"]["values"]
+    best = sorted((result.merit.value for result in answer.results), reverse=True)[:50]
+    assert [row["value"] for row in rows] == pytest.approx(best, rel=1e-5)
+
+
+def test_a_full_grid_of_two_factors_has_a_map_and_other_designs_have_none(
+    words: Study, thousand: Study, teams: Study
+) -> None:
+    assert len(charts.specifications(*words)["heat"]["data"]["values"]) == 9
+    assert len(charts.specifications(*thousand)["heat"]["data"]["values"]) == 1000
+    assert "heat" not in charts.specifications(*teams)
+    answer, evidence = words
+    gap = replace(answer, results=answer.results[:-1])
+    assert not View(gap, evidence).is_grid
+
+
+def test_one_number_is_an_axis_and_several_factors_are_ranked_names(
+    teams: Study, words: Study
+) -> None:
+    points = charts.specifications(*teams)["merit"]
+    assert points["layer"][0]["encoding"]["x"]["field"] == "at"
+    answer, _ = words
+    rows = charts.specifications(*words)["merit"]["data"]["values"]
+    assert rows[0]["label"] == answer.results[answer.best].label
+    assert [row["value"] for row in rows[1:]] == sorted(
+        (row["value"] for row in rows[1:]), reverse=True
+    )
+
+
+def test_two_configurations_of_the_same_name_stay_two(teams: Study) -> None:
+    answer, evidence = teams
+    twins = tuple(replace(result, label="twin") for result in answer.results[:2])
+    twinned = replace(answer, results=(*twins, *answer.results[2:]))
+    rows = charts.specifications(twinned, evidence)["merit"]["data"]["values"]
+    assert len({row["label"] for row in rows}) == 8
+
+
+def test_quarantined_runs_are_said_and_counted(teams: Study, script: report.ChartScript) -> None:
+    answer, evidence = teams
+    assert "quarantined:" not in body(report.html(answer, evidence, script))
+    first, *others = answer.results
+    results = (replace(first, quarantined=3), *others)
+    page = body(report.html(replace(answer, results=results), evidence, script))
+    assert "3 runs gave no finite merit" in page
+    assert "3 of 1 wanderer" in page
+    assert "quarantined runs</th>" in page
+
+
+def test_a_column_that_is_not_finite_is_not_known_rather_than_a_number(
+    teams: Study, script: report.ChartScript
+) -> None:
+    answer, evidence = teams
+    first, *others = evidence.samples
+    times_s = np.full(first.runs, np.nan)
+    broken = replace(first, columns={**first.columns, "time_s": times_s})
+    outcome = Outcome(answer.best, (), answer.guarantee)
+    evidence = Evidence((broken, *others), evidence.confidence)
+    bare = replace(answer.results[0], time_s=replace(answer.results[0].time_s, value=np.nan))
+    page = report.html(replace(answer, results=(bare, *answer.results[1:])), evidence, script)
+    assert "not known" in body(page)
+    assert "NaN" not in page.rsplit("const charts = ", 1)[1]
+    assert outcome.best == answer.best
+
+
+def test_what_the_runs_leave_open_is_called_undecided(script: report.ChartScript) -> None:
+    few = by_hand.study([{WANDERERS: robots} for robots in (3, 4, 5)], by_hand.classic, runs=20)
+    page = body(report.html(*few, script))
+    assert page.count('<td class="words">undecided</td>') == 2
+    assert "Undecided between 3 and 5" in page
+    assert "No configuration was put out" in page
+
+
+def test_what_the_runs_prove_is_said(script: report.ChartScript) -> None:
+    # Two teams of the same merit in every run, and one that is always worse.
+    answer, evidence = by_hand.study(
+        [{WANDERERS: robots} for robots in (3, 4, 5)], by_hand.classic, runs=4000
+    )
+    merit, worse = evidence.samples[0].columns["merit"], np.full(4000, -9.0)
+    limits = {**evidence.samples[0].limits, "merit": (-10.0, 0.0)}
+    samples = tuple(
+        replace(sample, columns={**sample.columns, "merit": given}, limits=limits)
+        for sample, given in zip(evidence.samples, (merit, merit, worse), strict=True)
+    )
+    outcome = Outcome(0, (Elimination(2, 0, 10),), answer.guarantee)
+    proved = by_hand.conclude(Evidence(samples, 0.95), outcome)
+    page = body(report.html(proved, Evidence(samples, 0.95), script))
+    assert '<td class="words">tied within delta</td>' in page
+    assert '<td class="words">worse</td>' in page
+    assert "Decided: 3 are enough" in page
+    assert "out after 10 runs" in page
+
+
+def test_a_largest_team_that_beats_all_is_not_called_enough(teams: Study) -> None:
+    view = View(*teams)
+    gains = view.gains[0]
+    beaten = replace(gains, saturation=replace(gains.saturation, proved=8, possible=8))
+    assert saturation_in_words(view, beaten).startswith("Not reached")
+
+
+def test_without_published_results_none_are_shown(teams: Study, script: report.ChartScript) -> None:
+    answer, evidence = teams
+    scenario = replace(answer.scenario, published=None)
+    bare = replace(answer, published=(), scenario=scenario)
+    page = body(report.html(bare, evidence, script))
+    assert "Williams" not in page
+    assert "published" not in charts.specifications(bare, evidence)
+
+
+def test_factors_that_matter_are_shown_with_the_share_of_chance(
+    script: report.ChartScript,
+) -> None:
+    grid = product(range(4), range(1, 11))
+    given: list[by_hand.Values] = [{MIX: 8 * mix, ROVERS: robots} for mix, robots in grid]
+    found = by_hand.study(given, by_hand.synthetic, runs=20)
+    page = body(report.html(*found, script))
+    assert "of that spread is chance" in page
+    rows = charts.specifications(*found)["sensitivity"]["data"]["values"]
+    assert {row["label"] for row in rows} == {"mix", "rovers"}
