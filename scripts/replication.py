@@ -20,8 +20,8 @@ from scipy import stats
 
 import agent_economy as ae
 from agent_economy._core import CONTACTS
-from agent_economy.study import published as theirs
-from agent_economy.study.evidence import Evidence
+from agent_economy.study.answer import published as theirs
+from agent_economy.study.answer.evidence import Evidence
 from agent_economy.study.race import hold
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -240,7 +240,9 @@ def best_and_ties(contact: str, rate: float) -> tuple[str, str]:
     """Return the answer of the study with another contact and constant."""
     other = SCENARIO.replace("contact", contact).replace("clock.paints_per_s", rate)
     answer, _ = studied(other)
-    open_ = [size(team) for team in answer.results if team.standing.verdict not in {"best", "worse"}]
+    open_ = [
+        size(team) for team in answer.results if team.standing.verdict not in {"best", "worse"}
+    ]
     return str(size(answer.results[answer.best])), ", ".join(map(str, open_)) or "none"
 
 

@@ -7,13 +7,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from agent_economy import Scenario, _core
-from agent_economy.study import published
-from agent_economy.study.answer import Answer, Outcome, results
-from agent_economy.study.effort import efforts
-from agent_economy.study.evidence import Evidence, Sample
-from agent_economy.study.saturation import saturations
-from agent_economy.study.selection import Elimination, drive, in_words
-from agent_economy.study.sensitivity import sensitivity
+from agent_economy.study.answer import published
+from agent_economy.study.answer.conclude import Answer
+from agent_economy.study.answer.effort import efforts
+from agent_economy.study.answer.evidence import Evidence, Sample
+from agent_economy.study.answer.results import Outcome, results
+from agent_economy.study.answer.saturation import saturations
+from agent_economy.study.answer.sensitivity import sensitivity
+from agent_economy.study.answer.sentence import in_words
+from agent_economy.study.selection import Elimination, drive
+from agent_economy.study.selection import in_words as guaranteed
 
 Floats = NDArray[np.float64]
 Values = dict[str, float | str]
@@ -114,10 +117,12 @@ def study(
     evidence = Evidence(samples, 0.95)
     if runs is None:
         gone = tuple(Elimination(*each) for each in procedure.eliminations)
-        outcome = Outcome(procedure.best, gone, in_words(procedure, delta, 0.95, "indifference"))
+        outcome = Outcome(procedure.best, gone, guaranteed(procedure, delta, 0.95, "indifference"))
     else:
         best = int(np.argmax([sample.mean("merit") for sample in samples]))
-        outcome = Outcome(best, (), "Nothing is guaranteed: the number of runs was fixed.")
+        outcome = Outcome(
+            best, (), "Nothing is guaranteed: the number of runs was fixed.", is_guaranteed=False
+        )
     return conclude(evidence, outcome, delta), evidence
 
 
@@ -125,13 +130,12 @@ def conclude(evidence: Evidence, outcome: Outcome, delta: float = 0.05) -> Answe
     """Return the answer that evidence gives."""
     scenario = Scenario.load(CLASSIC)
     found = results(evidence, outcome, delta)
-    best = found[outcome.best]
     return Answer(
         scenario=scenario,
         seed=0,
-        sentence=f"Send {best.label}: a run takes {best.time_s.value:.1f} s on average, "
-        f"{best.failed.value:.2%} fail, figure of merit {best.merit.value:.2f}.",
+        sentence=in_words(scenario, delta, outcome.best, found),
         guarantee=outcome.guarantee,
+        is_guaranteed=outcome.is_guaranteed,
         delta=delta,
         confidence=evidence.confidence,
         best=outcome.best,

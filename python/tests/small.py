@@ -25,6 +25,7 @@ class NoScript:
         pass
 
     def text(self) -> str:
+        """Return nothing."""
         return ""
 
 
@@ -36,5 +37,5 @@ def plan(delta: float = 0.3) -> study.Plan:
 
 def pursue(folder: Path) -> None:
     """Run the small study, or go on with it."""
-    ask.ChartScript = NoScript  # type: ignore[assignment,misc]
+    ask.ChartScript = NoScript  # type: ignore[assignment,attr-defined]
     study.pursue(plan(), folder)

@@ -121,7 +121,6 @@ def test_replace_gives_the_scenario_with_another_value(scenario: Scenario) -> No
     assert (changed.cap_s, changed.contact, scenario.cap_s) == (60, "ahead", 120)
     rates = [factor.values for factor in changed.factors]
     assert rates == [(1, 2, 3, 4, 5, 6, 7, 8), (41.5, 50)]
-    assert changed.team_sizes == ()
     assert changed.configuration({}).columns[0] == ("time_s", "real", 0.0, 60.0)
     assert changed.replace("clock.cap_s", 90).cap_s == 90
     with pytest.raises(InputError, match="^replace: clock.cap_s = -1: must be a number from 0"):
@@ -129,7 +128,7 @@ def test_replace_gives_the_scenario_with_another_value(scenario: Scenario) -> No
 
 
 def test_what_a_study_may_also_say_is_read(scenario: Scenario) -> None:
-    assert (scenario.design, scenario.delta, scenario.confidence) == ("factorial", None, 0.95)
+    assert (scenario.design, scenario.delta, scenario.confidence) == ("factorial", 0.01, 0.95)
     said = scenario.replace("study.design", "lhs:200").replace("study.delta", 0.05)
     said = said.replace("study.confidence", 0.99)
     said = said.replace("study.vary.clock.paints_per_s", "41.0..57.0")

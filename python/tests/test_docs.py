@@ -16,6 +16,6 @@ def test_every_table_of_the_replication_page_is_what_the_program_gives() -> None
 
 
 def test_the_readme_quotes_the_answer_that_make_study_gives() -> None:
-    answer = study.conclude(study.run_teams(Scenario.load(ROOT / "scenarios/classic.toml")))
+    answer = study.run(Scenario.load(ROOT / "scenarios/classic.toml"))
     quoted = " ".join((ROOT / "README.md").read_text().replace("\n> ", " ").split())
     assert answer.sentence in quoted

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from agent_economy.study import estimate
+from agent_economy.study.answer import estimate
 
 
 @pytest.mark.parametrize(("successes", "trials"), [(0, 10), (1, 10), (5, 10), (10, 10), (3, 4000)])

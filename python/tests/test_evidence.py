@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from agent_economy.study.evidence import Evidence, Sample
+from agent_economy.study.answer.evidence import Evidence, Sample
 
 
 def sample(values: list[float]) -> Sample:

@@ -93,12 +93,13 @@ def test_bad_weights_are_told_all_at_once(classic_toml: Path) -> None:
     assert "merit.paints = -1: must be given a max in the scenario" in told[2]
 
 
-def test_the_study_scores_with_weights_of_any_column(classic_toml: Path) -> None:
-    scenario = Scenario.load(classic_toml).replace("study.runs", 50)
-    scenario = scenario.replace("merit", {"collisions": -1, "paints": {"weight": -1, "max": 9}})
-    runs = study.run_teams(scenario.replace("study.vary.robots.wanderer.count", "1,2"))
-    outcomes = runs.teams[2]
-    paints = np.where(outcomes.paints < 0, 9, np.minimum(outcomes.paints, 9))
-    np.testing.assert_array_equal(outcomes.merit, -outcomes.collisions - paints)
-    answer = study.conclude(runs)
+def test_a_study_scores_with_weights_of_any_column(classic_toml: Path, tmp_path: Path) -> None:
+    weights = {"collisions": -1, "paints": {"weight": -1, "max": 9}}
+    scenario = Scenario.load(classic_toml).replace("merit", weights)
+    team = {"robots.wanderer.count": [2, 3]}
+    answer = study.run(scenario, vary=team, runs=50, out=tmp_path)
+    expected = "avg(-collisions - least(coalesce(paints, 9), 9))"
+    means = study.open(tmp_path).runs().aggregate(f"configuration, {expected}").fetchall()
+    for configuration, mean in means:
+        assert answer.results[configuration].merit.value == pytest.approx(mean)
     assert answer.published == ()

@@ -11,13 +11,15 @@ import pytest
 import vl_convert
 from by_hand import WANDERERS
 
-from agent_economy.study import charts, report
-from agent_economy.study.answer import Answer, Outcome
-from agent_economy.study.evidence import Evidence
-from agent_economy.study.sections import saturation_in_words, sections
+from agent_economy.study import report
+from agent_economy.study.answer.conclude import Answer
+from agent_economy.study.answer.evidence import Evidence
+from agent_economy.study.answer.results import Outcome
+from agent_economy.study.report import charts
+from agent_economy.study.report.sections import saturation_in_words, sections
+from agent_economy.study.report.view import View
+from agent_economy.study.report.writing import MINUS
 from agent_economy.study.selection import Elimination
-from agent_economy.study.view import View
-from agent_economy.study.writing import MINUS
 
 Study = tuple[Answer, Evidence]
 MIX = "mix"

@@ -12,8 +12,8 @@ def test_the_shipped_scenario_is_the_2003_experiment(classic_toml: Path) -> None
     scenario = Scenario.load(classic_toml)
     assert scenario.contact == "touch"
     assert scenario.cap_paints == 6720
-    assert scenario.team_sizes == (1, 2, 3, 4, 5, 6, 7, 8)
-    assert scenario.runs == 10_000
+    (teams,) = scenario.factors
+    assert (teams.path, teams.values) == ("robots.wanderer.count", (1, 2, 3, 4, 5, 6, 7, 8))
     assert scenario.merit.name == "equation-5.2"
     assert scenario.published is not None
     means = {
@@ -85,7 +85,7 @@ def test_values_are_ranges_and_lists(
 ) -> None:
     path = ("study", "vary", "robots.wanderer.count")
     scenario = Scenario.load(classic_toml, (Override(path, values, "--vary"),))
-    assert scenario.team_sizes == sizes
+    assert scenario.factors[0].values == sizes
 
 
 @pytest.mark.parametrize("values", ["", "3..1", "1...3", "1,,2", "a b"])

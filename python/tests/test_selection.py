@@ -106,8 +106,8 @@ def test_max_runs_stops_it_and_nothing_is_claimed() -> None:
 
 
 def test_a_run_without_a_finite_merit_counts_as_the_worst_and_is_counted() -> None:
-    def sample(configurations: Integers, first_run: int, runs: int) -> Floats:
-        merits = np.full((len(configurations), runs), 0.5)
+    def sample(configurations: Integers, _: int, runs: int) -> Floats:
+        merits: Floats = np.full((len(configurations), runs), 0.5)
         merits[configurations == 1] = np.nan
         merits[configurations == 2, 0] = np.inf
         return merits
@@ -123,7 +123,8 @@ def test_bounds_that_settle_it_need_the_first_look_only() -> None:
     zeros = bernoulli([0, 0, 0])
 
     def sample(configurations: Integers, first_run: int, runs: int) -> Floats:
-        return np.asarray(zeros(configurations, first_run, runs)) + 10.0 * configurations[:, None]
+        merits: Floats = np.asarray(zeros(configurations, first_run, runs))
+        return merits + 10.0 * configurations[:, np.newaxis]
 
     bounds = [(0, 1), (10, 11), (20, 21)]
     found = select_best(sample, 3, bounds=bounds, delta=0.5)
@@ -141,7 +142,7 @@ def test_equals_are_told_apart_from_nothing_but_the_study_ends() -> None:
     guarantee=st.sampled_from(["indifference", "pgs"]),
 )
 def test_without_noise_the_best_is_selected(merits: list[float], guarantee: Any) -> None:
-    def sample(configurations: Integers, first_run: int, runs: int) -> Floats:
+    def sample(configurations: Integers, _: int, runs: int) -> Floats:
         return np.repeat(np.array(merits)[configurations][:, np.newaxis], runs, axis=1)
 
     found = select_best(sample, len(merits), bounds=(0, 1), delta=0.05, guarantee=guarantee)
@@ -193,7 +194,7 @@ def test_a_sampler_that_breaks_its_word_is_told(returned: Floats, told: str) -> 
 
 
 def test_what_the_sampler_raises_is_passed_on() -> None:
-    def sample(configurations: Integers, first_run: int, runs: int) -> Floats:
+    def sample(*_: object) -> Floats:
         raise ZeroDivisionError
 
     with pytest.raises(ZeroDivisionError):

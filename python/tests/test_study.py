@@ -51,7 +51,7 @@ def test_the_same_question_again_computes_nothing(scenario: Scenario, tmp_path: 
     assert again.sentence == first.sentence
     assert set(computed) == {0}
     assert (tmp_path / "answer.json").read_bytes() == before
-    assert study.answer(tmp_path).runs == first.runs
+    assert study.rebuild(tmp_path).runs == first.runs
 
 
 def test_a_stopped_study_goes_on_to_the_same_bytes(scenario: Scenario, tmp_path: Path) -> None:
@@ -63,7 +63,7 @@ def test_a_stopped_study_goes_on_to_the_same_bytes(scenario: Scenario, tmp_path:
     with pytest.raises(KeyboardInterrupt):
         study.run(scenario, delta=0.2, out=tmp_path / "stopped", on_progress=stop)
     with pytest.raises(InputError, match="is not finished"):
-        study.answer(tmp_path / "stopped")
+        study.rebuild(tmp_path / "stopped")
     study.resume(tmp_path / "stopped")
     for name in ("answer.json", "study.toml"):
         whole = (tmp_path / "whole" / name).read_bytes()
@@ -163,7 +163,11 @@ def test_one_configuration_has_nothing_to_be_compared_with(scenario: Scenario) -
 
 
 def test_several_factors_are_compared_together(scenario: Scenario) -> None:
-    vary = {TEAM: ["1..6"], "contact": ["touch", "ahead", "within-2"], "clock.cap_s": [60, 120]}
+    vary: dict[str, Any] = {
+        TEAM: ["1..6"],
+        "contact": ["touch", "ahead", "within-2"],
+        "clock.cap_s": [60, 120],
+    }
     answer = study.run(scenario, vary=vary, delta=0.5)
     assert len(answer.results) == 36
     assert answer.sensitivity is not None

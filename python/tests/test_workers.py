@@ -13,9 +13,9 @@ from pathlib import Path
 
 import made_up
 import pytest
+from dask_cluster import Cluster, free_port
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from dask_cluster import Cluster, free_port
 from made_up import outcomes, same
 
 from agent_economy import InputError, StudyError

@@ -1,7 +1,7 @@
 """The command line: it asks, shows and exits; what it shows is made elsewhere.
 
-One file a command; `told` turns what goes wrong into words and exit codes, `progress` and `table` are
-what a person sees.
+One file a command; `told` turns what goes wrong into words and exit codes, `progress` and `table`
+are what a person sees.
 """
 
 from typing import Annotated

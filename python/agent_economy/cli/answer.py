@@ -24,5 +24,5 @@ def answer(
     Example: agent-economy answer studies/classic
     """
     with faults_told():
-        found = study.answer(folder)
+        found = study.rebuild(folder)
     show(found, folder, as_json=as_json)

@@ -14,8 +14,8 @@ from agent_economy.cli.table import show
 from agent_economy.cli.told import INTERRUPTED, faults_told
 from agent_economy.scenario import Override, Scenario
 from agent_economy.study import design as designs
+from agent_economy.study.answer.labels import label
 from agent_economy.study.engine import Engine
-from agent_economy.study.labels import label
 from agent_economy.study.plan import Plan, tightened
 from agent_economy.study.rectangle import Compute
 

@@ -9,8 +9,9 @@ from rich.table import Table
 from rich.text import Text
 
 from agent_economy.study import files
-from agent_economy.study.answer import Answer, Result
-from agent_economy.study.evidence import Interval
+from agent_economy.study.answer.conclude import Answer
+from agent_economy.study.answer.evidence import Interval
+from agent_economy.study.answer.results import Result
 
 WIDE = 118
 """Columns that a table with ranges needs, and that there are where the output is no terminal."""
@@ -38,7 +39,7 @@ def show(answer: Answer, folder: Path, *, as_json: bool) -> None:
 
 
 def results_table(answer: Answer, *, ranges: bool) -> Table:
-    """Return a table of the best configurations, with the ranges of what is estimated or without."""
+    """Return a table of the best configurations, with ranges or without."""
 
     def cell(given: Interval, style: str) -> str:
         value, low, high = (format(each, style) for each in (given.value, given.low, given.high))

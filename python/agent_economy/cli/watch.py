@@ -10,7 +10,7 @@ import typer
 from agent_economy import study
 from agent_economy.cli.progress import Teller
 from agent_economy.cli.told import INTERRUPTED, faults_told
-from agent_economy.study.labels import label
+from agent_economy.study.answer.labels import label
 from agent_economy.study.race import Progress
 
 PAUSE_S = 0.5

@@ -1,12 +1,13 @@
-"""A study: as many runs of each configuration as the question needs, and the answer they give.
+"""A study: as many runs of each configuration as the question needs, and the answer.
 
-The data flows one way: `ask` -> `plan` (what is asked; `design`, `engine`) -> `race` (the loop: the race of
-`selection` asks, `store` looks up, `engine` computes) -> `evidence` (what the runs say for sure) ->
-`answer` (`ties`, `front`, `saturation`, `sensitivity`, `effort`, `sentence`) -> `report` and `files`.
+The data flows one way: `ask` -> `plan` (what is asked; `design`, `engine`) -> `race` (the loop:
+the procedure of `selection` asks, `store` looks up, `engine` or `workers` compute) -> `answer`
+(what the runs say for sure) -> `report` and `files`.
 """
 
-from agent_economy.study.answer import Answer, Result
-from agent_economy.study.ask import answer, plan_of, pursue, resume, run
+from agent_economy.study.answer.conclude import Answer
+from agent_economy.study.answer.results import Result
+from agent_economy.study.ask import plan_of, pursue, rebuild, resume, run
 from agent_economy.study.plan import Plan
 from agent_economy.study.plan import make as plan
 from agent_economy.study.race import Progress
@@ -19,11 +20,11 @@ __all__ = [
     "Progress",
     "Result",
     "Selection",
-    "answer",
     "open",
     "plan",
     "plan_of",
     "pursue",
+    "rebuild",
     "resume",
     "run",
     "select_best",

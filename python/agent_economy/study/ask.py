@@ -9,11 +9,11 @@ from agent_economy._core import InputError
 from agent_economy.scenario import Override, Scenario, Value
 from agent_economy.study import files
 from agent_economy.study import plan as plans
-from agent_economy.study.answer import Answer
+from agent_economy.study.answer.conclude import Answer
 from agent_economy.study.plan import Plan
 from agent_economy.study.race import OnProgress, hold
 from agent_economy.study.rectangle import Compute, Rectangle
-from agent_economy.study.report import ChartScript
+from agent_economy.study.report.page import ChartScript
 from agent_economy.study.selection import Guarantee
 from agent_economy.study.store import read
 
@@ -90,7 +90,7 @@ def resume(
     return pursue(asked, Path(folder), compute=compute, on_progress=on_progress)
 
 
-def answer(folder: str | Path) -> Answer:
+def rebuild(folder: str | Path) -> Answer:
     """Rebuild the answer and the report of a finished study from its runs; computes none.
 
     Raises:

@@ -6,8 +6,8 @@ from pathlib import Path
 from typing import Any
 
 from agent_economy.study import report
-from agent_economy.study.answer import Answer
-from agent_economy.study.evidence import Evidence
+from agent_economy.study.answer.conclude import Answer
+from agent_economy.study.answer.evidence import Evidence
 from agent_economy.study.store.folder import write_whole
 from agent_economy.study.versions import versions
 

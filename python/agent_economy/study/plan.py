@@ -1,7 +1,7 @@
 """What is asked of a study: the configurations that it compares, and how sure it must be.
 
-A plan is kept as `study.toml` in the study's folder, whole: the scenario's text and what was put over
-it, so that the folder alone goes on.
+A plan is kept as `study.toml` in the study's folder, whole: the scenario's text and what was put
+over it, so that the folder alone goes on.
 """
 
 import tomllib
@@ -83,7 +83,7 @@ class Plan:
         return HEADER + tomli_w.dumps(document, multiline_strings=True)
 
 
-def make(
+def make(  # noqa: PLR0913  (keywords with defaults)
     scenario: Scenario,
     *,
     seed: int = 0,

@@ -1,8 +1,8 @@
 """A study in its folder, from its beginning or where it was: the race, the store and the engine.
 
 To go on with a study is to run it again from its beginning over what is stored: every decision
-follows from `study.toml` and the data, so a study that was killed comes to the same bytes as one that
-was not, and asking again for what is known computes nothing.
+follows from `study.toml` and the data, so a study that was killed comes to the same bytes as one
+that was not, and asking again for what is known computes nothing.
 """
 
 import time
@@ -14,9 +14,10 @@ from typing import Any
 import numpy as np
 
 from agent_economy import _core
-from agent_economy.study.answer import Answer, Outcome, conclude
-from agent_economy.study.effort import remaining
-from agent_economy.study.evidence import Evidence, Sample
+from agent_economy.study.answer.conclude import Answer, conclude
+from agent_economy.study.answer.effort import remaining
+from agent_economy.study.answer.evidence import Evidence, Sample
+from agent_economy.study.answer.results import Outcome
 from agent_economy.study.plan import Plan, is_same_data
 from agent_economy.study.rectangle import Columns, Compute, Rectangle
 from agent_economy.study.selection import (
@@ -137,9 +138,7 @@ def in_pieces(compute: Compute) -> Compute:
         runs = max(1, PIECE_ROWS // len(rectangle.configurations))
         firsts = range(rectangle.first_run, rectangle.end, runs)
         parts = [
-            compute(
-                Rectangle(rectangle.configurations, first, min(runs, rectangle.end - first))
-            )
+            compute(Rectangle(rectangle.configurations, first, min(runs, rectangle.end - first)))
             for first in firsts
         ]
         return {name: np.concatenate([part[name] for part in parts], axis=1) for name in parts[0]}
@@ -176,7 +175,14 @@ class Race:
             if self._on_progress:
                 self._on_progress(progress)
         eliminations = tuple(Elimination(*each) for each in procedure.eliminations)
-        return self.evidence(), Outcome(procedure.best, eliminations, self._guarantee(procedure))
+        is_raced = self._plan.runs is None
+        return self.evidence(), Outcome(
+            best=procedure.best,
+            eliminations=eliminations,
+            guarantee=self._guarantee(procedure),
+            is_guaranteed=is_raced,
+            is_good=is_raced and self._plan.guarantee == "pgs",
+        )
 
     def evidence(self) -> Evidence:
         """Return the runs so far."""
@@ -202,6 +208,8 @@ class Race:
 
     def _guarantee(self, procedure: _core.Procedure) -> str:
         plan = self._plan
+        if len(plan.configurations) == 1:
+            return "One configuration has nothing to be compared with; the intervals hold."
         if plan.runs is None:
             return in_words(procedure, plan.delta, plan.confidence, plan.guarantee)
         return (

@@ -253,7 +253,7 @@ def percent(share: float) -> str:
     return f"{100 * share:.10g}%"
 
 
-def checked_arguments(  # noqa: PLR0913  (the arguments of select_best)
+def checked_arguments(  # noqa: PLR0913, PLR0917  (the arguments of select_best)
     k: int,
     bounds: ArrayLike,
     delta: float,
@@ -273,9 +273,7 @@ def checked_arguments(  # noqa: PLR0913  (the arguments of select_best)
     faults = [
         *fault(whole_k, "k", k, f"a whole number from 1 to {MAX_CONFIGURATIONS}"),
         *question_faults(delta, confidence, guarantee),
-        *fault(
-            is_whole(seed, 0, 2**31 - 1), "seed", seed, "a whole number from 0 to 2147483647"
-        ),
+        *fault(is_whole(seed, 0, 2**31 - 1), "seed", seed, "a whole number from 0 to 2147483647"),
         *fault(
             max_runs is None or is_whole(max_runs, least, 2**62),
             "max_runs",
@@ -305,9 +303,7 @@ def question_faults(delta: object, confidence: object, guarantee: object) -> lis
             confidence,
             "a number from 0.5 to below 1",
         ),
-        *fault(
-            guarantee in names, "guarantee", guarantee, "one of " + ", ".join(map(repr, names))
-        ),
+        *fault(guarantee in names, "guarantee", guarantee, "one of " + ", ".join(map(repr, names))),
     ]
 
 
@@ -319,13 +315,13 @@ def fault(is_allowed: bool, name: str, given: object, allowed: str) -> list[str]
 def is_whole(given: object, least: int, greatest: int) -> bool:
     """Return whether something is a whole number (not a bool) in a range."""
     whole = isinstance(given, int | np.integer) and not isinstance(given, bool)
-    return whole and least <= int(given) <= greatest  # type: ignore[call-overload,no-any-return]
+    return whole and least <= int(given) <= greatest  # type: ignore[call-overload]
 
 
 def is_between(given: object, above: float, below: float) -> bool:
     """Return whether something is a number (not a bool) between two others."""
     number = isinstance(given, int | float | np.number) and not isinstance(given, bool)
-    return number and above < given < below  # type: ignore[operator,return-value]
+    return number and above < given < below  # type: ignore[operator]
 
 
 def limits_of(k: int, bounds: ArrayLike) -> Floats | None:

@@ -3,10 +3,10 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from agent_economy.study import tables
-from agent_economy.study.tables import Table
-from agent_economy.study.view import MOST, Gains, View, factor_name
-from agent_economy.study.writing import MINUS, TIMES, brief, certainty, count
+from agent_economy.study.report import tables
+from agent_economy.study.report.tables import Table
+from agent_economy.study.report.view import MOST, Gains, View, factor_name
+from agent_economy.study.report.writing import MINUS, TIMES, brief, certainty, count
 
 
 @dataclass(frozen=True)

@@ -1,17 +1,17 @@
 """What a finer answer would take: the runs that a smaller delta asks for, foretold.
 
 A duel of the selected configuration with another ends when its evidence e reaches the threshold T.
-Per run, log e grows by about (d + delta)^2 / (2 v), for a difference of means d with variance v (the
-best bet's growth, to second order), and bets cannot exceed their limit, so by no more than half of
-(d + delta) / depth. The sum over all configurations, scaled so that it is right for the delta that was
-asked, is what another delta takes.
+Per run, log e grows by about (d + delta)^2 / (2 v), for a difference of means d with variance v
+(the best bet's growth, to second order), and bets cannot exceed their limit, so by no more than
+half of (d + delta) / depth. The sum over all configurations, scaled so that it is right for the
+delta that was asked, is what another delta takes.
 """
 
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from agent_economy.study.evidence import Evidence
+from agent_economy.study.answer.evidence import Evidence
 
 PARTS = (2, 5, 10)
 """Into which the delta asked is divided."""
@@ -26,7 +26,7 @@ class Effort:
 
 
 def efforts(evidence: Evidence, best: int, delta: float) -> tuple[Effort, ...]:
-    """Return about how many runs smaller deltas take, to two figures; none for one configuration."""
+    """Return about how many runs smaller deltas take; none for one configuration."""
     if len(evidence.samples) == 1:
         return ()
     total = sum(sample.runs for sample in evidence.samples)
@@ -37,9 +37,7 @@ def efforts(evidence: Evidence, best: int, delta: float) -> tuple[Effort, ...]:
     )
 
 
-def remaining(
-    evidence: Evidence, best: int, survivors: Sequence[int], delta: float
-) -> float:
+def remaining(evidence: Evidence, best: int, survivors: Sequence[int], delta: float) -> float:
     """Return about how many runs a race still takes."""
     left = [
         max(0.0, duel_runs(evidence, best, other, delta) - evidence.samples[other].runs)

@@ -3,10 +3,10 @@
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from agent_economy.study.charts import QUANTILES, quantile_row, state, verdict_of
-from agent_economy.study.evidence import Interval
-from agent_economy.study.view import Gains, View, factor_name
-from agent_economy.study.writing import NOTHING, UNKNOWN, brief, decimal, percent
+from agent_economy.study.answer.evidence import Interval
+from agent_economy.study.report.charts import QUANTILES, quantile_row, state, verdict_of
+from agent_economy.study.report.view import Gains, View, factor_name
+from agent_economy.study.report.writing import NOTHING, UNKNOWN, brief, decimal, percent
 
 WIDEST = 10
 """Columns of a map's table."""

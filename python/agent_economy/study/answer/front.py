@@ -8,7 +8,7 @@ others are *possibly efficient*.
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from agent_economy.study.evidence import Evidence, Sample
+from agent_economy.study.answer.evidence import Evidence, Sample
 
 CANDIDATES = 20
 """Rivals that are tried against a configuration, those with the shortest times."""

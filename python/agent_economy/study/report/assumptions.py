@@ -2,10 +2,10 @@
 
 from collections.abc import Iterator
 
-from agent_economy.study.answer import Answer
+from agent_economy.study.answer.conclude import Answer
+from agent_economy.study.report.view import View
+from agent_economy.study.report.writing import brief
 from agent_economy.study.versions import versions
-from agent_economy.study.view import View
-from agent_economy.study.writing import brief
 
 MOST_VALUES = 12
 """Values of a factor that are listed one by one."""

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from agent_economy.study.evidence import Evidence
+from agent_economy.study.answer.evidence import Evidence
 from agent_economy.study.selection import FIRST_LOOK
 
 FEWEST = 30

@@ -9,9 +9,10 @@ from typing import Any
 
 import numpy as np
 
-from agent_economy.study import factor_charts
-from agent_economy.study.answer import Answer
-from agent_economy.study.chart_parts import (
+from agent_economy.study.answer.conclude import Answer
+from agent_economy.study.answer.evidence import Evidence, Interval
+from agent_economy.study.report import factor_charts
+from agent_economy.study.report.chart_parts import (
     BLUE,
     FEW,
     GREY,
@@ -34,9 +35,8 @@ from agent_economy.study.chart_parts import (
     place_of,
     with_bounds,
 )
-from agent_economy.study.evidence import Evidence, Interval
-from agent_economy.study.view import View
-from agent_economy.study.writing import finite
+from agent_economy.study.report.view import View
+from agent_economy.study.report.writing import finite
 
 VERDICTS: Codes = {
     "selected": (BLUE, "circle"),

@@ -2,7 +2,7 @@
 
 import math
 
-from agent_economy.study.evidence import Interval
+from agent_economy.study.answer.evidence import Interval
 
 UNKNOWN, NOTHING = "not known", "\N{EN DASH}"
 MINUS, TIMES = "\N{MINUS SIGN}", "\N{MULTIPLICATION SIGN}"

@@ -2,8 +2,8 @@
 
 from typing import Any
 
-from agent_economy.study.view import View, factor_name
-from agent_economy.study.writing import finite
+from agent_economy.study.report.view import View, factor_name
+from agent_economy.study.report.writing import finite
 
 Spec = dict[str, Any]
 Rows = list[dict[str, Any]]

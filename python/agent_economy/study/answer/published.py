@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from agent_economy.scenario import Scenario
-from agent_economy.study import estimate
-from agent_economy.study.estimate import Estimate
+from agent_economy.study.answer import estimate
+from agent_economy.study.answer.estimate import Estimate
 
 
 @dataclass(frozen=True)
@@ -42,9 +42,7 @@ def results(scenario: Scenario) -> tuple[PublishedResult, ...]:
     )
 
 
-def result(
-    scenario: Scenario, cap_s: float, robots: int, times_s: list[float]
-) -> PublishedResult:
+def result(scenario: Scenario, cap_s: float, robots: int, times_s: list[float]) -> PublishedResult:
     """Return one published team, scored; a time at the cap is a failed run."""
     times = np.array(times_s)
     failed = times >= cap_s

@@ -1,35 +1,16 @@
 """The answer in words."""
 
 from collections.abc import Sequence
-from typing import Protocol
 
-from agent_economy.scenario import Scenario, Value
-from agent_economy.study.evidence import Interval
-from agent_economy.study.labels import listed, order, robot_kind
-from agent_economy.study.ties import Standing
+from agent_economy.scenario import Scenario
+from agent_economy.study.answer.labels import listed, order, robot_kind
+from agent_economy.study.answer.results import Result
 
 NAMED = 5
 """Configurations that a sentence names one by one."""
 
 
-class Told(Protocol):
-    """What a sentence needs to know of a configuration."""
-
-    @property
-    def values(self) -> dict[str, Value]: ...
-    @property
-    def label(self) -> str: ...
-    @property
-    def merit(self) -> Interval: ...
-    @property
-    def time_s(self) -> Interval: ...
-    @property
-    def failed(self) -> Interval: ...
-    @property
-    def standing(self) -> Standing: ...
-
-
-def in_words(scenario: Scenario, delta: float, best: int, results: Sequence[Told]) -> str:
+def in_words(scenario: Scenario, delta: float, best: int, results: Sequence[Result]) -> str:
     """Return the answer: whom to send, what that gives, and how near the others are."""
     chosen = results[best]
     parts = [
@@ -42,22 +23,22 @@ def in_words(scenario: Scenario, delta: float, best: int, results: Sequence[Told
     return "; ".join(parts) + "."
 
 
-def performance(told: Told) -> str:
+def performance(told: Result) -> str:
     """Return what a configuration does."""
     merit = told.merit
     return (
-        f"a run takes {told.time_s.value:.1f} s on average, {told.failed.value:.2%} fail, figure of "
-        f"merit {merit.value:.2f} ({merit.low:.2f} to {merit.high:.2f})"
+        f"a run takes {told.time_s.value:.1f} s on average, {told.failed.value:.2%} fail, figure "
+        f"of merit {merit.value:.2f} ({merit.low:.2f} to {merit.high:.2f})"
     )
 
 
-def tied(results: Sequence[Told], delta: float) -> list[str]:
+def tied(results: Sequence[Result], delta: float) -> list[str]:
     """Return which configurations are as good for sure."""
     names = [each.label for each in results if each.standing.verdict == "tied"]
     return [f"{listing(names)} as good within {delta:g}, for sure"] if names else []
 
 
-def too_close(results: Sequence[Told], delta: float) -> list[str]:
+def too_close(results: Sequence[Result], delta: float) -> list[str]:
     """Return which configurations seem as good, without the runs settling it."""
     names = [
         each.label
@@ -75,7 +56,7 @@ def listing(names: list[str]) -> str:
     return f"{listed(named)} {'is' if len(names) == 1 else 'are'}"
 
 
-def published_choice(scenario: Scenario, chosen: Told, results: Sequence[Told]) -> list[str]:
+def published_choice(scenario: Scenario, chosen: Result, results: Sequence[Result]) -> list[str]:
     """Return how the published choice stands, where team size alone is varied."""
     published = scenario.published
     paths = list(chosen.values)
@@ -93,7 +74,7 @@ def published_choice(scenario: Scenario, chosen: Told, results: Sequence[Told]) 
     return [f"the {published.choice} of {published.source} would cost {cost}"]
 
 
-def edges(chosen: Told, results: Sequence[Told]) -> list[str]:
+def edges(chosen: Result, results: Sequence[Result]) -> list[str]:
     """Return a warning for each team size that was not compared with larger ones."""
     kinds = []
     for path, size in chosen.values.items():

@@ -8,13 +8,13 @@ from typing import Self
 
 import jinja2
 
-from agent_economy.study.answer import Answer
-from agent_economy.study.assumptions import assumptions
-from agent_economy.study.charts import specifications
-from agent_economy.study.evidence import Evidence
-from agent_economy.study.sections import sections
-from agent_economy.study.view import View
-from agent_economy.study.writing import brief, certainty, count
+from agent_economy.study.answer.conclude import Answer
+from agent_economy.study.answer.evidence import Evidence
+from agent_economy.study.report.assumptions import assumptions
+from agent_economy.study.report.charts import specifications
+from agent_economy.study.report.sections import sections
+from agent_economy.study.report.view import View
+from agent_economy.study.report.writing import brief, certainty, count
 
 MOST_NAMED = 8
 """Configurations that a warning names."""
@@ -76,7 +76,7 @@ def html(answer: Answer, evidence: Evidence, script: ChartScript) -> str:
         RuntimeError: If the script could not be made.
     """
     environment = jinja2.Environment(
-        loader=jinja2.PackageLoader("agent_economy.study", "."),
+        loader=jinja2.PackageLoader("agent_economy.study.report", "."),
         autoescape=True,
         undefined=jinja2.StrictUndefined,
         trim_blocks=True,

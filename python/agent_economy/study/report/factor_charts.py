@@ -1,6 +1,7 @@
 """Charts of what factors do: a map of two, gains of larger teams, sensitivity; and of others."""
 
-from agent_economy.study.chart_parts import (
+from agent_economy.study.answer.labels import robot_kind
+from agent_economy.study.report.chart_parts import (
     BLUE,
     ORANGE,
     Codes,
@@ -15,9 +16,8 @@ from agent_economy.study.chart_parts import (
     line_at,
     with_bounds,
 )
-from agent_economy.study.labels import robot_kind
-from agent_economy.study.view import Gains, View, factor_name
-from agent_economy.study.writing import finite
+from agent_economy.study.report.view import Gains, View, factor_name
+from agent_economy.study.report.writing import finite
 
 TALLEST = 480
 """Height of a map, px, unless its rows get too thin."""

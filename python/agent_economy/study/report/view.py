@@ -5,11 +5,12 @@ from collections import Counter
 from dataclasses import dataclass
 from functools import cached_property
 
-from agent_economy.study.answer import Answer, Result
-from agent_economy.study.evidence import Evidence, Interval
-from agent_economy.study.labels import robot_kind
-from agent_economy.study.saturation import Saturation, team_slice
-from agent_economy.study.writing import finite, places
+from agent_economy.study.answer.conclude import Answer
+from agent_economy.study.answer.evidence import Evidence, Interval
+from agent_economy.study.answer.labels import robot_kind
+from agent_economy.study.answer.results import Result
+from agent_economy.study.answer.saturation import Saturation, team_slice
+from agent_economy.study.report.writing import finite, places
 
 MOST = 50
 """Configurations in a chart or a table; answer.json has all."""

@@ -3,7 +3,7 @@
 from dataclasses import dataclass, replace
 from typing import Literal
 
-from agent_economy.study.evidence import Evidence, Interval
+from agent_economy.study.answer.evidence import Evidence, Interval
 
 Verdict = Literal["best", "tied", "worse", "no better", "undecided"]
 

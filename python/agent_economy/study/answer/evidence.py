@@ -2,9 +2,9 @@
 
 A race looks at its runs again and again and stops when it likes, so intervals for a fixed number of
 runs would be too narrow. All of these are confidence sequences (`crates/select/src/bounds.rs`). The
-error that the confidence leaves is divided among them (`SINGLES`, `PAIRS`), and each part evenly among
-all configurations or ordered pairs; so every statement of an answer that is made from them holds
-together with all others.
+error that the confidence leaves is divided among them (`SINGLES`, `PAIRS`), and each part evenly
+among all configurations or ordered pairs; so every statement of an answer that is made from them
+holds together with all others.
 """
 
 from collections.abc import Mapping

@@ -6,8 +6,8 @@ All else is as in the selected configuration.
 
 from dataclasses import dataclass
 
-from agent_economy.study.evidence import Evidence, Interval
-from agent_economy.study.labels import robot_kind
+from agent_economy.study.answer.evidence import Evidence, Interval
+from agent_economy.study.answer.labels import robot_kind
 
 
 @dataclass(frozen=True)
@@ -19,7 +19,7 @@ class Saturation:
         proved: The smallest size of which it is proved that no larger one that was compared gains
             delta more than its extra robots cost; None if of none but the largest.
         possible: The smallest size of which the contrary is not proved. Equal to `proved`: decided.
-        gains: Of each size above `proved`, its merit less that of `proved`.
+        gains: Of each size above `proved` (or `possible`, if none is), its merit less that one's.
     """
 
     path: str
@@ -52,16 +52,15 @@ def team_slice(evidence: Evidence, best: int, path: str) -> dict[int, int]:
     return dict(sorted(sizes.items()))
 
 
-def saturation(
-    evidence: Evidence, path: str, sizes: dict[int, int], delta: float
-) -> Saturation:
+def saturation(evidence: Evidence, path: str, sizes: dict[int, int], delta: float) -> Saturation:
     """Return where one team size saturates."""
     smaller = list(sizes)[:-1]
     proved = next((size for size in smaller if is_proved(evidence, sizes, size, delta)), None)
     possible = next(size for size in sizes if not is_refuted(evidence, sizes, size))
+    least = possible if proved is None else proved
     gains = {
-        larger: evidence.difference(sizes[larger], sizes[proved], "merit")
-        for larger in (above(sizes, proved) if proved is not None else ())
+        larger: evidence.difference(sizes[larger], sizes[least], "merit")
+        for larger in above(sizes, least)
     }
     return Saturation(path, proved, possible, gains)
 
