@@ -272,8 +272,7 @@ def test_what_the_runs_prove_is_said(script: report.ChartScript) -> None:
 
 def test_a_largest_team_that_beats_all_is_not_called_enough(teams: Study) -> None:
     view = View(*teams)
-    gains = view.gains[0]
-    beaten = replace(gains, saturation=replace(gains.saturation, proved=8, possible=8))
+    beaten = replace(view.saturations[0], proved=8, possible=8)
     assert saturation_in_words(view, beaten).startswith("Not reached")
 
 

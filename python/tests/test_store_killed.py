@@ -1,7 +1,6 @@
 """A study that is killed at any moment goes on to the same bytes."""
 
 import hashlib
-import multiprocessing
 import random
 import signal
 from collections.abc import Callable
@@ -10,14 +9,13 @@ from pathlib import Path
 
 import made_up
 import pytest
+from forks import FORKS
 
 from agent_economy.study.store import read
 
 KILLS = 40
 SEED = 7
 ROUNDS = 40
-FORKS = multiprocessing.get_context("forkserver")
-FORKS.set_forkserver_preload(["agent_economy.study.store"])
 
 
 def started(work: Callable[..., None], *args: object) -> BaseProcess:

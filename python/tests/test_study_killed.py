@@ -1,6 +1,5 @@
 """A study that is killed at any moment, however often, comes to the same answer."""
 
-import multiprocessing
 import os
 import random
 import tempfile
@@ -11,14 +10,13 @@ from pathlib import Path
 
 import pytest
 import small
+from forks import FORKS
 
 from agent_economy import study
 
 KILLS = 200
 KILLS_A_FOLDER = 10
 SEED = 11
-FORKS = multiprocessing.get_context("forkserver")
-FORKS.set_forkserver_preload(["small", "made_up"])
 
 
 def started(folder: Path) -> BaseProcess:

@@ -3,7 +3,7 @@
 import platform
 from importlib.metadata import version
 
-PACKAGES = ("agent-economy", "numpy", "pyarrow", "scipy", "altair", "vl-convert-python")
+PACKAGES = ("agent-economy", "numpy", "salib", "scipy")
 
 
 def versions() -> dict[str, str]:

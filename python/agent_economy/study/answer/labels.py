@@ -10,16 +10,22 @@ TEAM = ("robots.", ".count")
 
 def label(values: Values) -> str:
     """Return what people call a configuration that differs from others in these values."""
-    return ", ".join(part(path, value) for path, value in values.items()) or "the scenario as it is"
+    lasts = [path.rsplit(".", 1)[-1] for path in values]
+    parts = [
+        # Two paths that end alike are told apart by all of them.
+        part(path, value, is_short=lasts.count(last) == 1)
+        for (path, value), last in zip(values.items(), lasts, strict=True)
+    ]
+    return ", ".join(parts) or "the scenario as it is"
 
 
-def part(path: str, value: float | str) -> str:
+def part(path: str, value: float | str, *, is_short: bool = True) -> str:
     """Return one value in words: "4 rovers" for robots.rover.count, else "cap_s 120"."""
     kind = robot_kind(path)
     if kind is not None:
         return f"{value} {kind}" if value == 1 else f"{value} {kind}s"
     written = value if isinstance(value, str) else f"{value:g}"
-    return f"{path.rsplit('.', 1)[-1]} {written}"
+    return f"{path.rsplit('.', 1)[-1] if is_short else path} {written}"
 
 
 def robot_kind(path: str) -> str | None:
@@ -32,6 +38,8 @@ def order(values: Values) -> str:
     """Return what to do: "Send 4 rovers", "Choose cap_s 120", "Send 4 rovers with cap_s 120"."""
     teams = {path: value for path, value in values.items() if robot_kind(path) is not None}
     others = {path: value for path, value in values.items() if path not in teams}
+    if not values:
+        return "The scenario as it is"
     if not teams:
         return f"Choose {label(others)}"
     return f"Send {label(teams)}" + (f" with {label(others)}" if others else "")

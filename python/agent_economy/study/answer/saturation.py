@@ -16,16 +16,23 @@ class Saturation:
 
     Attributes:
         path: Of the team size.
+        sizes: Those compared, ascending.
         proved: The smallest size of which it is proved that no larger one that was compared gains
-            delta more than its extra robots cost; None if of none but the largest.
-        possible: The smallest size of which the contrary is not proved. Equal to `proved`: decided.
-        gains: Of each size above `proved` (or `possible`, if none is), its merit less that one's.
+            delta more than its extra robots cost. If it is the largest, nothing is proved.
+        possible: The smallest size of which the contrary is not proved.
+        gains: Of each size above the smaller of these two, its merit less that one's.
     """
 
     path: str
-    proved: int | None
+    sizes: tuple[int, ...]
+    proved: int
     possible: int
     gains: dict[int, Interval]
+
+    @property
+    def base(self) -> int:
+        """The size over which the larger ones' gains are told."""
+        return min(self.proved, self.possible)
 
 
 def saturations(evidence: Evidence, best: int, delta: float) -> tuple[Saturation, ...]:
@@ -54,15 +61,14 @@ def team_slice(evidence: Evidence, best: int, path: str) -> dict[int, int]:
 
 def saturation(evidence: Evidence, path: str, sizes: dict[int, int], delta: float) -> Saturation:
     """Return where one team size saturates."""
-    smaller = list(sizes)[:-1]
-    proved = next((size for size in smaller if is_proved(evidence, sizes, size, delta)), None)
+    proved = next(size for size in sizes if is_proved(evidence, sizes, size, delta))
     possible = next(size for size in sizes if not is_refuted(evidence, sizes, size))
-    least = possible if proved is None else proved
+    base = min(proved, possible)
     gains = {
-        larger: evidence.difference(sizes[larger], sizes[least], "merit")
-        for larger in above(sizes, least)
+        larger: evidence.difference(sizes[larger], sizes[base], "merit")
+        for larger in above(sizes, base)
     }
-    return Saturation(path, proved, possible, gains)
+    return Saturation(path, tuple(sizes), proved, possible, gains)
 
 
 def above(sizes: dict[int, int], size: int) -> list[int]:

@@ -78,7 +78,9 @@ def influences(
     evidence: Evidence, paths: list[str], means: NDArray[np.float64]
 ) -> tuple[Influence, ...]:
     """Return what SALib says of each factor, the strongest first."""
-    from SALib.analyze import delta  # noqa: PLC0415  (loads pandas and matplotlib: a second)
+    # SALib loads pandas and matplotlib: a second.
+    from SALib.analyze import delta  # noqa: PLC0415
+    from threadpoolctl import threadpool_limits  # noqa: PLC0415
 
     points = np.column_stack([codes(evidence, path) for path in paths])
     problem = {
@@ -86,7 +88,8 @@ def influences(
         "names": paths,
         "bounds": [[column.min(), column.max()] for column in points.T],
     }
-    with contained():
+    # Its matrices are small: more threads than one only wait for each other.
+    with contained(), threadpool_limits(1):
         found = delta.analyze(problem, points, means, num_resamples=RESAMPLES, seed=0)
     named = ("S1", "S1_conf", "delta_balanced", "delta_balanced_conf")
     rows = zip(paths, *(found[name] for name in named), strict=True)

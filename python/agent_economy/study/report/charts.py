@@ -41,6 +41,7 @@ from agent_economy.study.report.writing import finite
 VERDICTS: Codes = {
     "selected": (BLUE, "circle"),
     "tied within delta": (TEAL, "square"),
+    "no better": (TEAL, "triangle-right"),
     "undecided": (ORANGE, "diamond"),
     "worse": (GREY, "triangle-down"),
 }

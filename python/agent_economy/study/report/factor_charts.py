@@ -1,6 +1,7 @@
 """Charts of what factors do: a map of two, gains of larger teams, sensitivity; and of others."""
 
 from agent_economy.study.answer.labels import robot_kind
+from agent_economy.study.answer.saturation import Saturation
 from agent_economy.study.report.chart_parts import (
     BLUE,
     ORANGE,
@@ -16,7 +17,7 @@ from agent_economy.study.report.chart_parts import (
     line_at,
     with_bounds,
 )
-from agent_economy.study.report.view import Gains, View, factor_name
+from agent_economy.study.report.view import View, factor_name
 from agent_economy.study.report.writing import finite
 
 TALLEST = 480
@@ -34,9 +35,9 @@ def specifications(view: View) -> dict[str, Spec]:
     made: dict[str, Spec] = {}
     if view.is_grid:
         made["heat"] = heat(view)
-    for number, gains in enumerate(view.gains):
-        if gains.found:
-            made[f"saturation-{number}"] = saturation(view, gains)
+    for number, found in enumerate(view.saturations):
+        if found.gains:
+            made[f"saturation-{number}"] = saturation(view, found)
     if view.answer.sensitivity:
         made["sensitivity"] = sensitivity(view)
     if view.published_axis:
@@ -82,7 +83,7 @@ def steps(rows: Rows, name: str, *, low_first: bool) -> list[float | str]:
     return sorted(found, reverse=not low_first)
 
 
-def saturation(view: View, gains: Gains) -> Spec:
+def saturation(view: View, found: Saturation) -> Spec:
     """Return what larger teams gain over one size, against nothing and against delta."""
     rows: Rows = [
         {
@@ -92,12 +93,12 @@ def saturation(view: View, gains: Gains) -> Spec:
             "high": finite(gain.high),
             "gain": "gain",
         }
-        for size, gain in gains.found.items()
+        for size, gain in found.gains.items()
     ]
     looks = coded("gain", {"gain": (BLUE, "circle")}, rows)
     looks = {name: {**channel, "legend": None} for name, channel in looks.items()}
-    kind = f"{robot_kind(gains.saturation.path)}s"
-    title = {"title": f"gain of merit over {gains.base:,} {kind}"}
+    kind = f"{robot_kind(found.path)}s"
+    title = {"title": f"gain of merit over {found.base:,} {kind}"}
     place = {"y": {**by_name(rows), "title": kind}}
     lines = [line_at("x", 0.0), line_at("x", view.answer.delta, strokeDash=[4, 3], color=ORANGE)]
     return chart([*lines, *with_bounds("x", title, place, looks)], rows, heights(rows))

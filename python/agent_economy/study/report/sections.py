@@ -3,9 +3,10 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from agent_economy.study.answer.saturation import Saturation
 from agent_economy.study.report import tables
 from agent_economy.study.report.tables import Table
-from agent_economy.study.report.view import MOST, Gains, View, factor_name
+from agent_economy.study.report.view import MOST, View, factor_name
 from agent_economy.study.report.writing import MINUS, TIMES, brief, certainty, count
 
 
@@ -44,7 +45,7 @@ def sections(view: View) -> Iterator[Section]:
     yield failed(view)
     if view.compares:
         yield front(view)
-        yield from (saturation(view, gains) for gains in view.gains)
+        yield from (saturation(view, found) for found in view.saturations)
         yield history(view)
     if view.answer.sensitivity:
         yield sensitivity(view)
@@ -66,8 +67,9 @@ def merit(view: View) -> Section:
         pictures.append(Picture("behind", shows))
         notes.append(
             f"Tied within delta: differs from the selected one by {brief(view.answer.delta)} at "
-            "most, for sure. Worse: for sure, if perhaps by little. Undecided: the runs leave it "
-            "open."
+            "most, for sure. Worse: for sure, if perhaps by little. No better: not by more than "
+            "delta, for sure. Undecided: these ranges leave it open; what the guarantee says of "
+            "those put out holds all the same."
         )
     found = (tables.merit(view),)
     return Section("Figure of merit", tuple(notes), tuple(pictures), found, is_folded=False)
@@ -135,32 +137,28 @@ def front(view: View) -> Section:
     return Section("Price, time and certainty", (note.strip(),), (picture,), (tables.front(view),))
 
 
-def saturation(view: View, gains: Gains) -> Section:
+def saturation(view: View, found: Saturation) -> Section:
     """Return whether a larger team is worth its price."""
-    number = view.gains.index(gains)
-    shows = (
-        f"What more {factor_name(gains.saturation.path)} gain over {gains.base:,} (dashed: delta)"
-    )
+    number = view.saturations.index(found)
+    shows = f"What more {factor_name(found.path)} gain over {found.base:,} (dashed: delta)"
     return Section(
-        f"How many {factor_name(gains.saturation.path)} are enough",
-        (saturation_in_words(view, gains),),
-        (Picture(f"saturation-{number}", shows),) if gains.found else (),
-        (tables.gains(view, gains),) if gains.found else (),
+        f"How many {factor_name(found.path)} are enough",
+        (saturation_in_words(view, found),),
+        (Picture(f"saturation-{number}", shows),) if found.gains else (),
+        (tables.gains(view, found),) if found.gains else (),
     )
 
 
-def saturation_in_words(view: View, gains: Gains) -> str:
+def saturation_in_words(view: View, found: Saturation) -> str:
     """Return whether it is decided how many are enough."""
-    proved, possible = gains.saturation.proved, gains.saturation.possible
-    largest = gains.sizes[-1]
+    proved, possible = found.proved, found.possible
+    largest = found.sizes[-1]
     enough = (
         f"A number is enough if no larger one that was compared (up to {largest:,}) gains "
         f"{brief(view.answer.delta)} of merit over it, the price of its robots included."
     )
     if proved == possible == largest:
         return f"Not reached: every number below {largest:,} is surely beaten by a larger one."
-    if proved is None:
-        return f"Undecided from {possible:,} up. {enough}"
     if proved > possible:
         return f"Undecided between {possible:,} and {proved:,}. {enough}"
     little = " A larger one gains something, but less than that." if proved < possible else ""

@@ -4,8 +4,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from agent_economy.study.answer.evidence import Interval
+from agent_economy.study.answer.saturation import Saturation
 from agent_economy.study.report.charts import QUANTILES, quantile_row, state, verdict_of
-from agent_economy.study.report.view import Gains, View, factor_name
+from agent_economy.study.report.view import View, factor_name
 from agent_economy.study.report.writing import NOTHING, UNKNOWN, brief, decimal, percent
 
 WIDEST = 10
@@ -151,15 +152,15 @@ def front(view: View) -> Table:
     )
 
 
-def gains(view: View, found: Gains) -> Table:
+def gains(view: View, found: Saturation) -> Table:
     """Return what larger teams gain."""
-    kind = factor_name(found.saturation.path)
+    kind = factor_name(found.path)
     return Table(
         f"What more {kind} gain over {found.base:,}",
         (kind, "gain of merit"),
         tuple(
             Row((Cell(f"{size:,}"), measured(gain, view.merit_places)))
-            for size, gain in found.found.items()
+            for size, gain in found.gains.items()
         ),
     )
 

@@ -2,14 +2,14 @@
 
 import math
 from collections import Counter
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 from agent_economy.study.answer.conclude import Answer
-from agent_economy.study.answer.evidence import Evidence, Interval
+from agent_economy.study.answer.evidence import Evidence
 from agent_economy.study.answer.labels import robot_kind
 from agent_economy.study.answer.results import Result
-from agent_economy.study.answer.saturation import Saturation, team_slice
+from agent_economy.study.answer.saturation import Saturation
 from agent_economy.study.report.writing import finite, places
 
 MOST = 50
@@ -23,23 +23,6 @@ LONG = 32
 
 MOST_CELLS = 1500
 """Of a map of two factors."""
-
-
-@dataclass(frozen=True)
-class Gains:
-    """What larger teams gain: the evidence of a saturation.
-
-    Attributes:
-        saturation: Of which it is the evidence.
-        sizes: All that were compared, ascending.
-        base: The smallest size that may be enough.
-        found: The merit of each larger size less that of the base.
-    """
-
-    saturation: Saturation
-    sizes: tuple[int, ...]
-    base: int
-    found: dict[int, Interval]
 
 
 @dataclass(frozen=True)
@@ -135,19 +118,12 @@ class View:
         return len(points) == len(results) == sides[0] * sides[1]
 
     @cached_property
-    def gains(self) -> tuple[Gains, ...]:
-        """The evidence of each saturation."""
-        return tuple(self._gains(each) for each in self.answer.saturations)
-
-    def _gains(self, saturation: Saturation) -> Gains:
-        sizes = team_slice(self.evidence, self.answer.best, saturation.path)
-        known = (saturation.possible, saturation.proved)
-        base = min(size for size in known if size is not None)
-        found = {
-            larger: self.evidence.difference(sizes[larger], sizes[base], "merit")
-            for larger in [size for size in sizes if size > base][:MOST]
-        }
-        return Gains(saturation, tuple(sizes), base, found)
+    def saturations(self) -> tuple[Saturation, ...]:
+        """Where each varied team size saturates, with what the nearest larger teams gain."""
+        return tuple(
+            replace(each, gains=dict(list(each.gains.items())[:MOST]))
+            for each in self.answer.saturations
+        )
 
     @property
     def published_axis(self) -> str | None:
