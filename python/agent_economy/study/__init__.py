@@ -11,6 +11,7 @@ from agent_economy.study.ask import plan_of, pursue, rebuild, resume, run
 from agent_economy.study.plan import Plan
 from agent_economy.study.plan import make as plan
 from agent_economy.study.race import Progress
+from agent_economy.study.reference import Reference, reference
 from agent_economy.study.selection import Selection, select_best
 from agent_economy.study.store import read as open  # noqa: A004  (ae.study.open)
 
@@ -18,6 +19,7 @@ __all__ = [
     "Answer",
     "Plan",
     "Progress",
+    "Reference",
     "Result",
     "Selection",
     "open",
@@ -25,6 +27,7 @@ __all__ = [
     "plan_of",
     "pursue",
     "rebuild",
+    "reference",
     "resume",
     "run",
     "select_best",

@@ -67,7 +67,7 @@ def run(  # noqa: PLR0913  (keywords with defaults)
         runs=runs,
     )
     if out is not None:
-        return pursue(asked, Path(out), compute=compute, on_progress=on_progress)
+        return pursue(asked, out, compute=compute, on_progress=on_progress)
     with tempfile.TemporaryDirectory() as folder:
         return hold(asked, Path(folder), compute, on_progress)[0]
 
@@ -84,10 +84,10 @@ def resume(
     Raises:
         InputError: As in `run`; or if the folder holds no study.
     """
-    asked = plan_of(Path(folder))
+    asked = plan_of(folder)
     if confidence is not None:
         asked = plans.tightened(asked, confidence)
-    return pursue(asked, Path(folder), compute=compute, on_progress=on_progress)
+    return pursue(asked, folder, compute=compute, on_progress=on_progress)
 
 
 def rebuild(folder: str | Path) -> Answer:
@@ -96,33 +96,38 @@ def rebuild(folder: str | Path) -> Answer:
     Raises:
         InputError: If the folder holds no study, or one that is not finished.
     """
-    return pursue(plan_of(Path(folder)), Path(folder), compute=refuse(Path(folder)))
+    return pursue(plan_of(folder), folder, compute=refuse(folder))
 
 
 def pursue(
     asked: Plan,
-    folder: Path,
+    folder: str | Path,
     *,
     compute: Compute | None = None,
     on_progress: OnProgress | None = None,
 ) -> Answer:
-    """Run a study, or go on with it, and leave its answer and report in its folder."""
+    """Run a study, or go on with it, and leave its answer and report in its folder.
+
+    Raises:
+        InputError: As in `run`.
+    """
+    place = Path(folder)
     with ChartScript() as script:
-        found, evidence = hold(asked, folder, compute, on_progress)
-        files.write(folder, found, evidence, script)
+        found, evidence = hold(asked, place, compute, on_progress)
+        files.write(place, found, evidence, script)
     return found
 
 
-def plan_of(folder: Path) -> Plan:
+def plan_of(folder: str | Path) -> Plan:
     """Return what is asked of the study in a folder.
 
     Raises:
         InputError: If there is none.
     """
-    return plans.read(read(folder).asked, str(folder / "study.toml"))
+    return plans.read(read(Path(folder)).asked, str(Path(folder) / "study.toml"))
 
 
-def refuse(folder: Path) -> Compute:
+def refuse(folder: str | Path) -> Compute:
     """Return what computes nothing, because nothing should be missing."""
 
     def compute(rectangle: Rectangle) -> Any:

@@ -1,0 +1,82 @@
+"""Classical procedures, to measure ours against and to teach with; studies do not use them."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from agent_economy import _core
+from agent_economy._core import InputError
+from agent_economy.study.selection import (
+    LANE,
+    LEAST_CONFIDENCE,
+    MAX_CONFIGURATIONS,
+    Floats,
+    Integers,
+    Sampler,
+    drive,
+    fault,
+    is_between,
+    is_whole,
+)
+
+
+@dataclass(frozen=True)
+class Reference:
+    """What a reference procedure selected, after how many runs of each; shape (k,)."""
+
+    best: int
+    runs: Integers
+
+
+def reference(  # noqa: PLR0913  (keywords with defaults)
+    name: Literal["equal", "rinott", "kn"],
+    sampler: Sampler,
+    k: int,
+    *,
+    runs: int,
+    delta: float = 1.0,
+    confidence: float = 0.95,
+    seed: int = 0,
+) -> Reference:
+    """Select the best of k configurations as others do.
+
+    Args:
+        name: "equal": `runs` of each, the highest mean is chosen, with no guarantee. "rinott": two
+            stages, a first one of `runs`. "kn": Kim and Nelson's sequential procedure after a first
+            stage of `runs`. The last two hold for normal merits only.
+        sampler: As in `select_best`; merits must be finite.
+        k: How many configurations, 1 to 100,000.
+        runs: 2 to 1,000,000.
+        delta: As in `select_best`; "equal" has no use for it.
+        confidence: Likewise.
+        seed: As in `select_best`.
+
+    Raises:
+        InputError: If anything is not allowed, or a merit is not finite.
+
+    Source: Rinott (1978), Communications in Statistics A7; Kim and Nelson (2001), ACM Transactions
+        on Modeling and Computer Simulation 11.
+    """
+    sure = is_between(confidence, LEAST_CONFIDENCE, 1) or confidence == LEAST_CONFIDENCE
+    faults = [
+        *fault(is_whole(k, 1, MAX_CONFIGURATIONS), "k", k, "a whole number from 1 to 100000"),
+        *fault(is_whole(runs, 2, 10**6), "runs", runs, "a whole number from 2 to 1000000"),
+        *fault(is_between(delta, 0, np.inf), "delta", delta, "a number above 0"),
+        *fault(sure, "confidence", confidence, "a number from 0.5 to below 1"),
+        *fault(is_whole(seed, 0, 2**31 - 1), "seed", seed, "a whole number from 0 to 2147483647"),
+    ]
+    if faults:
+        raise InputError("\n".join(faults))
+
+    def ask(configurations: Integers, first_run: int, count: int) -> Floats:
+        merits = np.array(sampler(configurations, seed * LANE + first_run, count), dtype=np.float64)
+        if merits.shape != (len(configurations), count) or not np.isfinite(merits).all():
+            message = f"the sampler must return finite merits of shape {len(configurations), count}"
+            raise InputError(message)
+        return merits
+
+    procedure = _core.reference(name, k, delta=delta, confidence=confidence, runs=runs)
+    for _ in drive(procedure, ask):
+        pass
+    return Reference(procedure.best, procedure.runs)
