@@ -213,10 +213,7 @@ def test_classical_procedures_select_among_normal_merits_and_need_what_is_publis
         return merits
 
     asked: dict[str, Any] = {"runs": 10, "delta": 10**-0.5}
-    rinott, kn, equal = (
-        reference(name, sample, 10, **asked)
-        for name in ("rinott", "kn", "equal")
-    )
+    rinott, kn, equal = (reference(name, sample, 10, **asked) for name in ("rinott", "kn", "equal"))
     assert rinott.best == kn.best == 4
     assert 1200 < rinott.runs.sum() < 2500
     assert 500 < kn.runs.sum() < 1500
