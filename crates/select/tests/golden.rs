@@ -17,7 +17,7 @@ fn merit(run: u64, configuration: usize) -> f64 {
     let configuration = u32::try_from(configuration).unwrap_or_default();
     let draw = |kind, index| {
         let mut stream = stream(1, run, Entity { kind, index }, Purpose::Start);
-        f64::from(stream.next_u32()) / f64::from(u32::MA0x8566_3f66_d8ca_c562)
+        f64::from(stream.next_u32()) / f64::from(u32::MAX)
     };
     let lead = f64::from(configuration % 40) / 100.0;
     (0.3 * draw(0, 0) + 0.3 * draw(1, configuration) + lead).min(1.0)
