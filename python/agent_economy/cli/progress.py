@@ -1,5 +1,6 @@
 """How far a study is, told to people: a live table on a terminal, else plain lines."""
 
+import math
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -17,6 +18,9 @@ OnProgress = Callable[[Progress], None]
 PAUSE_S = 2.0
 """Between two plain lines in which nobody goes out."""
 
+FORETELL_S = 1.0
+"""Between two estimates of the time left."""
+
 NAMED = 3
 """Configurations going out that a line names."""
 
@@ -28,6 +32,8 @@ class Teller:
         """Begin with nothing done; `names` are what people call the configurations."""
         self.names = names
         self.runs = 0
+        self._left: float | None = None
+        self._foretold_at = -math.inf
 
     @contextmanager
     def shown(self) -> Iterator[OnProgress]:
@@ -72,10 +78,18 @@ class Teller:
         rate = progress.computed / progress.seconds if progress.seconds > 0 else 0.0
         text = (
             f"round {progress.round}: {progress.runs:,} runs, {progress.survivors} of "
-            f"{len(self.names)} still in, {rate:,.0f} runs/s"
+            f"{len(self.names)} still in" + (f", {rate:,.0f} runs/s" if rate else "")
         )
-        left = progress.foretell() if rate and not progress.is_over else None
-        return Text(text + (f", about {duration(left / rate)} left" if left is not None else ""))
+        return Text(text + self._time_left(progress, rate))
+
+    def _time_left(self, progress: Progress, rate: float) -> str:
+        """Return about how long it takes yet; anew each second, since foretelling takes a moment."""
+        if not rate or progress.is_over:
+            return ""
+        if time.monotonic() - self._foretold_at > FORETELL_S:
+            self._foretold_at = time.monotonic()
+            self._left = progress.foretell()
+        return "" if self._left is None else f", about {duration(self._left / rate)} left"
 
     def _leaders(self, progress: Progress) -> Table:
         table = Table(box=box.SIMPLE_HEAD)

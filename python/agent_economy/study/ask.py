@@ -96,7 +96,7 @@ def rebuild(folder: str | Path) -> Answer:
     Raises:
         InputError: If the folder holds no study, or one that is not finished.
     """
-    return pursue(plan_of(folder), folder, compute=refuse(folder))
+    return pursue(plan_of(folder), folder, compute=refuse(folder), anew=True)
 
 
 def pursue(
@@ -105,8 +105,16 @@ def pursue(
     *,
     compute: Compute | None = None,
     on_progress: OnProgress | None = None,
+    anew: bool = False,
 ) -> Answer:
     """Run a study, or go on with it, and leave its answer and report in its folder.
+
+    Args:
+        asked: What is asked.
+        folder: Of the study; made if it is not there.
+        compute: As in `run`.
+        on_progress: As in `run`.
+        anew: Whether to write the report though it is there already.
 
     Raises:
         InputError: As in `run`.
@@ -114,7 +122,8 @@ def pursue(
     place = Path(folder)
     with ChartScript() as script:
         found, evidence = hold(asked, place, compute, on_progress)
-        files.write(place, found, evidence, script)
+        if anew or not files.are_there(place, found):
+            files.write(place, found, evidence, script)
     return found
 
 

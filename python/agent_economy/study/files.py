@@ -8,7 +8,7 @@ from typing import Any
 from agent_economy.study import report
 from agent_economy.study.answer.conclude import Answer
 from agent_economy.study.answer.evidence import Evidence
-from agent_economy.study.store.folder import write_whole
+from agent_economy.study.store.folder import read_bytes, write_whole
 from agent_economy.study.versions import versions
 
 ANSWER = "answer.json"
@@ -24,6 +24,12 @@ def write(folder: Path, answer: Answer, evidence: Evidence, script: report.Chart
     page = report.html(answer, evidence, script)
     write_whole(folder / REPORT, page.encode())
     write_whole(folder / ANSWER, as_json(answer).encode())
+
+
+def are_there(folder: Path, answer: Answer) -> bool:
+    """Return whether an answer is there, and a report beside it: both follow from the same runs."""
+    there = read_bytes(folder / ANSWER)
+    return there == as_json(answer).encode() and (folder / REPORT).exists()
 
 
 def as_json(answer: Answer) -> str:

@@ -273,4 +273,6 @@ class Race:
         plan = self._plan
         if plan.runs is not None:
             return float(plan.runs * len(plan.configurations) - procedure.runs.sum())
-        return remaining(self.evidence(), procedure.best, procedure.survivors.tolist(), plan.delta)
+        survivors = procedure.survivors.tolist()
+        evidence = Evidence(tuple(map(self._sample, survivors)), plan.confidence)
+        return remaining(evidence, survivors.index(procedure.best), plan.delta)

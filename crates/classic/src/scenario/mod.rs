@@ -234,7 +234,7 @@ times_s = { 10 = [120, 120], 2 = [4, 5.5] }
         assert_eq!(scenario.study.design, Design::Factorial);
         assert_eq!(
             (scenario.study.delta, scenario.study.confidence),
-            (None, 0.95)
+            (Some(0.05), 0.95)
         );
         let times = scenario.published.unwrap().times_s;
         assert_eq!(times, [(2, vec![4.0, 5.5]), (10, vec![120.0, 120.0])]);
@@ -317,7 +317,7 @@ times_s = { 10 = [120, 120], 2 = [4, 5.5] }
     #[test]
     fn a_studys_bad_keys_are_told_at_once() {
         let more = "delta = 0\nconfidence = 1\ndesign = \"sobol:200\"\nvary = ";
-        let faults = faults(&GOOD.replace("vary = ", more));
+        let faults = faults(&GOOD.replace("delta = 0.05\nvary = ", more));
         for expected in [
             "t.toml:13: study.delta = 0: must be a number above 0",
             "t.toml:14: study.confidence = 1: must be a number above 0.5 and below 1",

@@ -8,7 +8,6 @@ delta that was asked, is what another delta takes.
 """
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 from agent_economy.study.answer.evidence import Evidence
@@ -37,11 +36,11 @@ def efforts(evidence: Evidence, best: int, delta: float) -> tuple[Effort, ...]:
     )
 
 
-def remaining(evidence: Evidence, best: int, survivors: Sequence[int], delta: float) -> float:
-    """Return about how many runs a race still takes."""
+def remaining(survivors: Evidence, best: int, delta: float) -> float:
+    """Return about how many runs a race still takes, from the runs of those still in."""
     left = [
-        max(0.0, duel_runs(evidence, best, other, delta) - evidence.samples[other].runs)
-        for other in survivors
+        max(0.0, duel_runs(survivors, best, other, delta) - sample.runs)
+        for other, sample in enumerate(survivors.samples)
         if other != best
     ]
     return sum(left) + max(left, default=0.0)

@@ -69,12 +69,13 @@ def empty(columns: tuple[Column, ...]) -> str:
     return "SELECT " + ", ".join(f'NULL::{kind} AS "{name}"' for name, kind in pairs)
 
 
-def read(folder: Path) -> ReadStore:
+def read(folder: str | Path) -> ReadStore:
     """Open a study's folder to read.
 
     Raises:
         InputError: If it holds no study.
     """
+    folder = Path(folder)
     asked = files.read_bytes(folder / files.ASKED)
     if asked is None:
         message = f"{folder}: holds no study ({files.ASKED} is not there)"
