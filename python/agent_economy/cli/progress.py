@@ -83,7 +83,7 @@ class Teller:
         return Text(text + self._time_left(progress, rate))
 
     def _time_left(self, progress: Progress, rate: float) -> str:
-        """Return about how long it takes yet; anew each second, since foretelling takes a moment."""
+        """Return about how long it takes yet, anew each second: foretelling takes a moment."""
         if not rate or progress.is_over:
             return ""
         if time.monotonic() - self._foretold_at > FORETELL_S:

@@ -319,9 +319,9 @@ times_s = { 10 = [120, 120], 2 = [4, 5.5] }
         let more = "delta = 0\nconfidence = 1\ndesign = \"sobol:200\"\nvary = ";
         let faults = faults(&GOOD.replace("delta = 0.05\nvary = ", more));
         for expected in [
-            "t.toml:13: study.delta = 0: must be a number above 0",
-            "t.toml:14: study.confidence = 1: must be a number above 0.5 and below 1",
-            "t.toml:15: study.design = \"sobol:200\": must be \"factorial\", \"lhs:200\" or",
+            "t.toml:12: study.delta = 0: must be a number above 0",
+            "t.toml:13: study.confidence = 1: must be a number above 0.5 and below 1",
+            "t.toml:14: study.design = \"sobol:200\": must be \"factorial\", \"lhs:200\" or",
         ] {
             assert!(faults.contains(expected), "{expected}\nnot in\n{faults}");
         }
