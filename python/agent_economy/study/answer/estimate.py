@@ -5,7 +5,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import betaincinv, stdtrit
 
 CONFIDENCE = 0.95
 
@@ -30,6 +29,8 @@ def mean(samples: NDArray[np.float64], confidence: float = CONFIDENCE) -> Estima
 
     Source: Student (1908), The probable error of a mean, Biometrika 6.
     """
+    from scipy.special import stdtrit  # noqa: PLC0415  (slow to load)
+
     value = float(np.mean(samples))
     error = float(np.std(samples, ddof=1)) / math.sqrt(len(samples))
     half_width = error * float(stdtrit(len(samples) - 1, (1 + confidence) / 2))
@@ -47,6 +48,8 @@ def share(successes: int, trials: int, confidence: float = CONFIDENCE) -> Estima
     Source: Clopper and Pearson (1934), The use of confidence or fiducial limits illustrated in the
         case of the binomial, Biometrika 26.
     """
+    from scipy.special import betaincinv  # noqa: PLC0415  (slow to load)
+
     tail = (1 - confidence) / 2
     failures = trials - successes
     low = float(betaincinv(successes, failures + 1, tail)) if successes else 0.0

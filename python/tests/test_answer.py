@@ -1,0 +1,149 @@
+"""What an answer says of runs, and when it says that they leave it open."""
+
+from collections.abc import Mapping
+
+import by_hand
+import numpy as np
+import pytest
+
+from agent_economy.study.answer.effort import efforts
+from agent_economy.study.answer.evidence import Evidence, Sample
+from agent_economy.study.answer.front import front
+from agent_economy.study.answer.labels import label, order
+from agent_economy.study.answer.saturation import saturations
+from agent_economy.study.answer.sensitivity import sensitivity
+from agent_economy.study.answer.ties import Verdict, standings
+
+TEAM = "robots.rover.count"
+UNIT = (0.0, 1.0)
+
+
+def sample(
+    mean: float, runs: int, values: Mapping[str, float | str] | None = None, **columns: float
+) -> Sample:
+    """Return runs whose merits are 0 or 1 with a mean, and other columns likewise."""
+    rng = np.random.default_rng(round(1e6 * mean) + runs)
+    means = {"merit": mean, "time_s": 0.5, "failed": 0.5, "robots": 1.0, **columns}
+    shuffled = {
+        name: rng.permutation(np.arange(runs) < round(share * runs)).astype(np.float64)
+        for name, share in means.items()
+    }
+    robots = np.full(runs, means["robots"])
+    limits = dict.fromkeys(means, UNIT)
+    return Sample(values or {}, {**shuffled, "robots": robots}, limits, 0)
+
+
+def evidence(*samples: Sample) -> Evidence:
+    """Return samples as evidence."""
+    return Evidence(samples, 0.95)
+
+
+@pytest.mark.parametrize(
+    ("mean", "runs", "delta", "verdict"),
+    [
+        (0.5, 20_000, 0.1, "tied"),
+        (0.2, 2000, 0.1, "worse"),
+        (0.5, 50, 0.1, "undecided"),
+        (0.4, 400, 0.15, "no better"),
+    ],
+)
+def test_a_verdict_is_what_the_runs_prove(
+    mean: float, runs: int, delta: float, verdict: Verdict
+) -> None:
+    found = standings(evidence(sample(0.5, runs), sample(mean, runs)), 0, delta, is_good=False)
+    assert [each.verdict for each in found] == ["best", verdict]
+
+
+def test_what_the_strict_procedure_proved_is_not_undecided() -> None:
+    few = evidence(sample(0.5, 50), sample(0.5, 50))
+    assert standings(few, 0, 0.1, is_good=True)[1].verdict == "no better"
+
+
+def test_a_false_verdict_is_rarer_than_the_confidence_allows() -> None:
+    # Ten equal configurations: any verdict "worse" is false. At most 5% of studies may have one:
+    # of 200, more than 20 has a probability below 0.1% (binomial); the seed is fixed.
+    rng = np.random.default_rng(8)
+    false = 0
+    for _ in range(200):
+        merits = rng.integers(0, 2, (10, 300)).astype(np.float64)
+        same = {"time_s": np.zeros(300), "failed": np.zeros(300), "robots": np.ones(300)}
+        limits = dict.fromkeys(("merit", *same), UNIT)
+        samples = [Sample({}, {"merit": row, **same}, limits, 0) for row in merits]
+        best = int(np.argmax(merits.mean(axis=1)))
+        found = standings(evidence(*samples), best, 0.01, is_good=False)
+        false += any(each.verdict == "worse" for each in found)
+    assert false <= 20
+
+
+def test_only_a_proved_dominator_dominates() -> None:
+    good = sample(0.5, 3000, time_s=0.2, failed=0.1)
+    bad = sample(0.5, 3000, time_s=0.6, failed=0.4)
+    few = sample(0.5, 12, time_s=0.6, failed=0.4)
+    places = front(evidence(good, bad, few))
+    assert [place.dominated_by for place in places] == [None, 0, None]
+
+
+def test_a_cheaper_team_is_not_dominated_by_a_better_one() -> None:
+    cheap = sample(0.5, 3000, time_s=0.6, failed=0.4, robots=1.0)
+    dear = sample(0.5, 3000, time_s=0.2, failed=0.1, robots=2.0)
+    assert [place.dominated_by for place in front(evidence(cheap, dear))] == [None, None]
+
+
+def teams(means: list[float], runs: int) -> Evidence:
+    """Return teams of 1, 2, ... rovers with these mean merits."""
+    return evidence(*(sample(mean, runs, {TEAM: size}) for size, mean in enumerate(means, start=1)))
+
+
+def test_saturation_is_where_no_larger_team_is_worth_its_robots() -> None:
+    (found,) = saturations(teams([0.2, 0.5, 0.8, 0.6, 0.5], 5000), 2, 0.05)
+    assert (found.possible, found.proved) == (3, 3)
+    assert set(found.gains) == {4, 5}
+    assert all(gain.high < 0 for gain in found.gains.values())
+
+
+def test_saturation_is_undecided_where_the_runs_are_few() -> None:
+    (found,) = saturations(teams([0.2, 0.5, 0.8, 0.75, 0.5], 60), 2, 0.05)
+    assert found.possible <= 3 < found.proved
+
+
+def test_another_factor_is_held_where_the_best_has_it() -> None:
+    samples = [
+        sample(mean, 5000, {TEAM: size, "mode": mode})
+        for mode, means in (("a", [0.2, 0.3]), ("b", [0.8, 0.4]))
+        for size, mean in enumerate(means, start=1)
+    ]
+    (found,) = saturations(evidence(*samples), 2, 0.05)
+    assert (found.path, found.proved) == (TEAM, 1)
+
+
+def test_the_effort_foretold_is_right_within_a_factor_of_three() -> None:
+    sizes: list[by_hand.Values] = [{TEAM: robots} for robots in range(1, 21)]
+    coarse, seen = by_hand.study(sizes, by_hand.synthetic, delta=0.4)
+    for effort in efforts(seen, coarse.best, 0.4):
+        taken = by_hand.study(sizes, by_hand.synthetic, delta=effort.delta)[0].runs
+        assert 1 / 3 < effort.runs / taken < 3
+
+
+def test_the_factor_that_does_nothing_has_no_influence() -> None:
+    rng = np.random.default_rng(2)
+    samples = []
+    for size in range(8):
+        for idle in "abcdef":
+            merits = 0.1 * size + 0.1 * rng.random(10)
+            columns = dict.fromkeys(("merit", "time_s", "failed", "robots"), merits)
+            samples.append(Sample({"idle": idle, TEAM: size}, columns, {}, 0))
+    found = sensitivity(evidence(*samples))
+    assert found is not None
+    assert [each.path for each in found.influences] == [TEAM, "idle"]
+    strong, weak = found.influences
+    assert strong.first_order > 0.8
+    assert weak.first_order < 0.1
+    assert found.noise < 0.02
+
+
+def test_a_configuration_is_named_as_people_name_it() -> None:
+    assert label({TEAM: 1}) == "1 rover"
+    assert label({TEAM: 4, "contact": "touch"}) == "4 rovers, contact touch"
+    assert label({"a.range_m": 1.5, "b.range_m": 2}) == "a.range_m 1.5, b.range_m 2"
+    assert order({TEAM: 4, "clock.cap_s": 60}) == "Send 4 rovers with cap_s 60"
+    assert order({"clock.cap_s": 60}) == "Choose cap_s 60"
