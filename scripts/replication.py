@@ -249,7 +249,7 @@ def best_and_ties(contact: str, rate: float) -> tuple[str, str]:
 def studied(scenario: ae.Scenario) -> tuple[ae.study.Answer, Evidence]:
     """Return what so many runs of each team say."""
     with tempfile.TemporaryDirectory() as folder:
-        return hold(ae.study.plan(scenario, runs=RUNS), Path(folder))
+        return hold(ae.study.make_plan(scenario, runs=RUNS), Path(folder))
 
 
 def size(team: ae.study.Result) -> int:

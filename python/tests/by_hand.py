@@ -11,7 +11,7 @@ from agent_economy.study.answer import published
 from agent_economy.study.answer.conclude import Answer
 from agent_economy.study.answer.effort import efforts
 from agent_economy.study.answer.evidence import Evidence, Sample
-from agent_economy.study.answer.results import Outcome, results
+from agent_economy.study.answer.results import Ending, results
 from agent_economy.study.answer.saturation import saturations
 from agent_economy.study.answer.sensitivity import sensitivity
 from agent_economy.study.answer.sentence import in_words
@@ -117,31 +117,32 @@ def study(
     evidence = Evidence(samples, 0.95)
     if runs is None:
         gone = tuple(Elimination(*each) for each in procedure.eliminations)
-        outcome = Outcome(procedure.best, gone, guaranteed(procedure, delta, 0.95, "indifference"))
+        words = guaranteed(procedure, delta, 0.95, "indifference")
+        ending = Ending(procedure.best, gone, words, is_guaranteed=True)
     else:
         best = int(np.argmax([sample.mean("merit") for sample in samples]))
-        outcome = Outcome(
+        ending = Ending(
             best, (), "Nothing is guaranteed: the number of runs was fixed.", is_guaranteed=False
         )
-    return conclude(evidence, outcome, delta), evidence
+    return conclude(evidence, ending, delta), evidence
 
 
-def conclude(evidence: Evidence, outcome: Outcome, delta: float = 0.05) -> Answer:
+def conclude(evidence: Evidence, ending: Ending, delta: float = 0.05) -> Answer:
     """Return the answer that evidence gives."""
     scenario = Scenario.load(CLASSIC)
-    found = results(evidence, outcome, delta)
+    found = results(evidence, ending, delta)
     return Answer(
         scenario=scenario,
         seed=0,
-        sentence=in_words(scenario, delta, outcome.best, found),
-        guarantee=outcome.guarantee,
-        is_guaranteed=outcome.is_guaranteed,
+        sentence=in_words(scenario, delta, ending.best, found),
+        guarantee=ending.guarantee,
+        is_guaranteed=ending.is_guaranteed,
         delta=delta,
         confidence=evidence.confidence,
-        best=outcome.best,
+        best=ending.best,
         results=found,
-        saturations=saturations(evidence, outcome.best, delta),
+        saturations=saturations(evidence, ending.best, delta),
         sensitivity=sensitivity(evidence) if len(found) <= FEW else None,
-        efforts=efforts(evidence, outcome.best, delta),
+        efforts=efforts(evidence, ending.best, delta),
         published=published.results(scenario),
     )

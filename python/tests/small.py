@@ -32,7 +32,9 @@ class NoScript:
 def plan(delta: float = 0.3) -> study.Plan:
     """Return what the small study asks: one to five wanderers."""
     scenario = Scenario.load(ROOT / "scenarios" / "classic.toml")
-    return study.plan(scenario.replace("study.vary.robots.wanderer.count", "1..5"), delta=delta)
+    return study.make_plan(
+        scenario.replace("study.vary.robots.wanderer.count", "1..5"), delta=delta
+    )
 
 
 def pursue(folder: Path) -> None:

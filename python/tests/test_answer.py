@@ -50,13 +50,8 @@ def evidence(*samples: Sample) -> Evidence:
 def test_a_verdict_is_what_the_runs_prove(
     mean: float, runs: int, delta: float, verdict: Verdict
 ) -> None:
-    found = standings(evidence(sample(0.5, runs), sample(mean, runs)), 0, delta, is_good=False)
+    found = standings(evidence(sample(0.5, runs), sample(mean, runs)), 0, delta)
     assert [each.verdict for each in found] == ["best", verdict]
-
-
-def test_what_the_strict_procedure_proved_is_not_undecided() -> None:
-    few = evidence(sample(0.5, 50), sample(0.5, 50))
-    assert standings(few, 0, 0.1, is_good=True)[1].verdict == "no better"
 
 
 def test_a_false_verdict_is_rarer_than_the_confidence_allows() -> None:
@@ -70,7 +65,7 @@ def test_a_false_verdict_is_rarer_than_the_confidence_allows() -> None:
         limits = dict.fromkeys(("merit", *same), UNIT)
         samples = [Sample({}, {"merit": row, **same}, limits, 0) for row in merits]
         best = int(np.argmax(merits.mean(axis=1)))
-        found = standings(evidence(*samples), best, 0.01, is_good=False)
+        found = standings(evidence(*samples), best, 0.01)
         false += any(each.verdict == "worse" for each in found)
     assert false <= 20
 

@@ -83,8 +83,11 @@ def test_the_same_seed_leaves_the_same_bytes_whoever_computes(
         assert given.returncode == 0, given.stderr
     for name in ("answer.json", "report.html", "study.toml"):
         assert (tmp_path / "a" / name).read_bytes() == (tmp_path / "b" / name).read_bytes()
-    for block in (tmp_path / "a/blocks").iterdir():
-        assert block.read_bytes() == (tmp_path / "b/blocks" / block.name).read_bytes()
+    a, b = (
+        {block.name: block.read_bytes() for block in (tmp_path / folder / "blocks").iterdir()}
+        for folder in "ab"
+    )
+    assert a == b
 
 
 def test_a_finished_study_is_answered_watched_and_tightened(
@@ -110,6 +113,27 @@ def test_a_finished_study_is_answered_watched_and_tightened(
     tightened = run("study", "--resume", out, "--more", "0.999")
     assert tightened.returncode == 0, tightened.stderr
     assert "with 99.9% confidence" in " ".join(tightened.stdout.split())
+
+
+def test_each_question_has_a_folder_of_its_own(classic_toml: Path, tmp_path: Path) -> None:
+    questions: list[list[str]] = [[], ["--seed", "1"], [], ["--seed", "1"], ["--merit", "appendix"]]
+    for options in questions:
+        given = run("study", classic_toml, "--delta", "0.5", *options, cwd=tmp_path)
+        assert given.returncode == 0, given.stderr
+    # Another merit is another question about the same runs.
+    folders = sorted(folder.name for folder in (tmp_path / "studies").iterdir())
+    assert len(folders) == 2
+    assert folders[0] == "classic"
+    assert re.fullmatch(r"classic-[0-9a-f]{8}", folders[1])
+
+
+@pytest.mark.parametrize("option", [["--seed", "0"], ["--guarantee", "pgs"], ["--delta", "0"]])
+def test_what_is_asked_stands_in_the_folder_and_nowhere_else(
+    option: list[str], tmp_path: Path
+) -> None:
+    given = run("study", "--resume", tmp_path, *option)
+    assert given.returncode == 2
+    assert "--resume: must be alone" in given.stderr
 
 
 @pytest.mark.parametrize("command", [["answer"], ["watch"], ["study", "--resume"]])
@@ -145,6 +169,7 @@ def test_a_folder_without_a_study_is_told(command: list[str], tmp_path: Path) ->
         (["--design", "lhs"], "--design: study.design"),
         (["--more", "0.99"], "--more = 0.99: must come with --resume"),
         (["--resume", "there"], "--resume: must be alone"),
+        (["--max-runs", "5"], "max_runs = 5: must be a whole number of 80 or more"),
         (["--workers", "0"], "Invalid value for '--workers'"),
         (["--workers", "2", "--dask", "tcp://127.0.0.1:1"], "must be one of them"),
         (["--merit", "best"], '--merit: merit = "best": must be one of "equation-5.2", "appendix"'),

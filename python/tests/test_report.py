@@ -14,7 +14,7 @@ from by_hand import WANDERERS
 from agent_economy.study import report
 from agent_economy.study.answer.conclude import Answer
 from agent_economy.study.answer.evidence import Evidence
-from agent_economy.study.answer.results import Outcome
+from agent_economy.study.answer.results import Ending
 from agent_economy.study.report import charts
 from agent_economy.study.report.sections import saturation_in_words, sections
 from agent_economy.study.report.view import View
@@ -233,13 +233,13 @@ def test_a_column_that_is_not_finite_is_not_known_rather_than_a_number(
     first, *others = evidence.samples
     times_s = np.full(first.runs, np.nan)
     broken = replace(first, columns={**first.columns, "time_s": times_s})
-    outcome = Outcome(answer.best, (), answer.guarantee)
+    ending = Ending(answer.best, (), answer.guarantee, is_guaranteed=True)
     evidence = Evidence((broken, *others), evidence.confidence)
     bare = replace(answer.results[0], time_s=replace(answer.results[0].time_s, value=np.nan))
     page = report.html(replace(answer, results=(bare, *answer.results[1:])), evidence, script)
     assert "not known" in body(page)
     assert "NaN" not in page.rsplit("const charts = ", 1)[1]
-    assert outcome.best == answer.best
+    assert ending.best == answer.best
 
 
 def test_what_the_runs_leave_open_is_called_undecided(script: report.ChartScript) -> None:
@@ -261,8 +261,8 @@ def test_what_the_runs_prove_is_said(script: report.ChartScript) -> None:
         replace(sample, columns={**sample.columns, "merit": given}, limits=limits)
         for sample, given in zip(evidence.samples, (merit, merit, worse), strict=True)
     )
-    outcome = Outcome(0, (Elimination(2, 0, 10),), answer.guarantee)
-    proved = by_hand.conclude(Evidence(samples, 0.95), outcome)
+    ending = Ending(0, (Elimination(2, 0, 10),), answer.guarantee, is_guaranteed=True)
+    proved = by_hand.conclude(Evidence(samples, 0.95), ending)
     page = body(report.html(proved, Evidence(samples, 0.95), script))
     assert '<td class="words">tied within delta</td>' in page
     assert '<td class="words">worse</td>' in page

@@ -132,6 +132,37 @@ def test_bounds_that_settle_it_need_the_first_look_only() -> None:
     assert found.runs.tolist() == [10, 10, 10]
 
 
+@pytest.mark.parametrize("guarantee", ["indifference", "pgs"])
+@pytest.mark.parametrize("delta", [0.1, 0.3 - 0.2, 5.0])
+def test_the_better_of_two_is_selected_where_bounds_leave_delta_and_no_more(
+    guarantee: Any, delta: float
+) -> None:
+    found = select_best(
+        lambda each, _, runs: np.repeat(0.1 * each[:, np.newaxis], runs, axis=1),
+        2,
+        bounds=(0, 0.1),
+        delta=delta,
+        guarantee=guarantee,
+    )
+    assert found.best == 1
+
+
+def test_a_lead_far_above_delta_costs_little_more_for_a_tiny_delta() -> None:
+    def runs(delta: float) -> int:
+        found = select_best(bernoulli([0.5, 0.6]), 2, bounds=(0, 1), delta=delta)
+        assert found.best == 1
+        return int(found.runs.sum())
+
+    assert runs(1e-6) < 3 * runs(0.02)
+
+
+def test_of_more_than_a_hundred_only_the_leaders_duel_and_the_best_is_found() -> None:
+    shares = [0.3 + 0.4 * (each == 77) for each in range(150)]
+    found = select_best(bernoulli(shares), 150, bounds=(0, 1), delta=0.1)
+    assert found.best == 77
+    assert found.runs.sum() < 15_000
+
+
 def test_equals_are_told_apart_from_nothing_but_the_study_ends() -> None:
     found = select_best(bernoulli([0.5] * 4), 4, bounds=(0, 1), delta=0.2)
     assert len(found.survivors) == 1
@@ -220,3 +251,5 @@ def test_classical_procedures_select_among_normal_merits_and_need_what_is_publis
     assert equal.runs.tolist() == [10] * 10
     with pytest.raises(InputError, match="runs = 1: must be a whole number from 2"):
         reference("kn", sample, 10, runs=1)
+    with pytest.raises(InputError, match="k = 30000: must be a whole number from 1 to 2000"):
+        reference("kn", sample, 30_000, runs=10)

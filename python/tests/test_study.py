@@ -4,6 +4,7 @@ import json
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 import small
 
@@ -34,11 +35,11 @@ def test_forty_teams_are_settled_in_a_few_thousand_runs(scenario: Scenario) -> N
 
 
 def test_without_a_delta_it_is_two_percent_of_the_merits_range(scenario: Scenario) -> None:
-    asked = study.plan(scenario.replace("study.delta", 0.3))
+    asked = study.make_plan(scenario.replace("study.delta", 0.3))
     assert asked.delta == 0.3
     text = scenario.source.text.replace("delta = 0.01", "")
     # From -0.2 (one robot, at once) to -10.2 (eight, 120 s, failed).
-    assert study.plan(Scenario.loads(text)).delta == pytest.approx(0.02 * 10)
+    assert study.make_plan(Scenario.loads(text)).delta == pytest.approx(0.02 * 10)
 
 
 def test_the_same_question_again_computes_nothing(scenario: Scenario, tmp_path: Path) -> None:
@@ -81,6 +82,8 @@ def test_a_tightened_study_is_a_fresh_one_at_that_confidence(
         on_progress=lambda now: computed.append(now.computed),
     )
     fresh = study.run(scenario, delta=0.2, confidence=0.999, out=tmp_path / "fresh")
+    with pytest.raises(InputError, match="confidence = 0.6: must be above the study's 0.999"):
+        study.resume(tmp_path / "more", confidence=0.6)
     assert files.as_json(more) == files.as_json(fresh)
     assert 0 < computed[-1] < fresh.runs
 
@@ -92,6 +95,62 @@ def test_another_delta_uses_the_runs_there_are(scenario: Scenario, tmp_path: Pat
         scenario, delta=0.2, out=tmp_path, on_progress=lambda now: computed.append(now.computed)
     )
     assert computed[-1] == 0
+
+
+def test_another_merit_uses_the_runs_there_are(scenario: Scenario, tmp_path: Path) -> None:
+    study.run(scenario, delta=0.1, out=tmp_path)
+    computed: list[int] = []
+    other = study.run(
+        scenario.replace("merit", {"time": -0.03, "robots": -0.2, "failed": -4}),
+        delta=0.4,
+        out=tmp_path,
+        on_progress=lambda now: computed.append(now.computed),
+    )
+    assert computed[-1] == 0
+    assert other.results[0].merit.value > -4.5
+
+
+def test_the_strict_guarantee_is_asked_and_told(scenario: Scenario, tmp_path: Path) -> None:
+    answer = study.run(scenario, delta=0.2, guarantee="pgs", out=tmp_path)
+    assert answer.guarantee == (
+        "The selected configuration is within 0.2 of the best with 95% confidence."
+    )
+    assert study.rebuild(tmp_path).sentence == answer.sentence
+
+
+def test_a_study_that_must_stop_first_guarantees_nothing(
+    scenario: Scenario, tmp_path: Path
+) -> None:
+    answer = study.run(scenario, delta=0.001, max_runs=900, out=tmp_path)
+    assert answer.runs <= 900
+    assert not answer.is_guaranteed
+    assert answer.guarantee.startswith("Nothing is guaranteed")
+    assert study.rebuild(tmp_path).runs == answer.runs
+    with pytest.raises(InputError, match="max_runs = 79: must be a whole number of 80 or more"):
+        study.run(scenario, max_runs=79)
+
+
+def test_runs_of_another_program_are_not_mixed_with_ours(
+    scenario: Scenario, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    study.run(scenario, delta=0.3, out=tmp_path)
+    monkeypatch.setattr("agent_economy.study.plan.version", lambda _: "99.0")
+    with pytest.raises(InputError, match="holds another study"):
+        study.run(scenario, delta=0.3, out=tmp_path)
+
+
+def test_values_may_be_a_text_and_numbers_of_numpy(scenario: Scenario, tmp_path: Path) -> None:
+    asked: Any = {"delta": np.float32(0.5), "seed": np.int64(0)}
+    texts = study.run(scenario, vary={TEAM: "3..5"}, delta=0.5, out=tmp_path)
+    numbers = study.run(scenario, vary={TEAM: range(3, 6)}, out=tmp_path, **asked)
+    assert files.as_json(texts) == files.as_json(numbers)
+
+
+def test_a_study_toml_that_is_no_text_is_told(scenario: Scenario, tmp_path: Path) -> None:
+    study.run(scenario, delta=0.5, out=tmp_path)
+    (tmp_path / "study.toml").write_bytes(b"\xff\xfe")
+    with pytest.raises(InputError, match="is not UTF-8 text"):
+        study.resume(tmp_path)
 
 
 @pytest.mark.parametrize(
@@ -172,7 +231,7 @@ def test_several_factors_are_compared_together(scenario: Scenario) -> None:
     assert len(answer.results) == 36
     assert answer.sensitivity is not None
     assert {each.path for each in answer.sensitivity.influences} == set(vary)
-    deltas = [each.delta for each in answer.sensitivity.influences]
+    deltas = [each.total for each in answer.sensitivity.influences]
     assert deltas == sorted(deltas, reverse=True)
     assert " with " in answer.sentence
 
@@ -197,7 +256,7 @@ def test_merit_weights_decide_the_answer(scenario: Scenario) -> None:
 def test_a_run_that_went_wrong_counts_as_the_worst_and_is_counted(
     scenario: Scenario, tmp_path: Path
 ) -> None:
-    asked = study.plan(scenario.replace(f"study.vary.{TEAM}", "3,4,5"), delta=0.3)
+    asked = study.make_plan(scenario.replace(f"study.vary.{TEAM}", "3,4,5"), delta=0.3)
 
     def compute(rectangle: Any) -> Any:
         columns = asked.engine(rectangle)

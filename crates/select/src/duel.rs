@@ -9,11 +9,13 @@
 //! cares to look.
 //!
 //! How much to stake costs runs, never validity, as long as a bet is fixed before the runs it is
-//! made on. Five gamblers share the first 1 equally. Four bet what would be best (Kelly) if x had
-//! its variance so far and a mean of 1, 2, 4 or 8 delta: a mean of delta is that of two equals, and
-//! a claim that is further from the truth is refuted sooner. They go to at most 0.7 of the limit: a
-//! rare loss that has not been seen yet must not ruin them. The fifth always stakes 0.9 of it, which
-//! is fastest against the hopeless, and wins when common random numbers leave little variance.
+//! made on. Five gamblers share the first 1 equally. Three bet what would be best (Kelly) if x had
+//! its variance so far and a mean of 1, 2 or 4 delta: a mean of delta is that of two equals, and a
+//! claim that is further from the truth is refuted sooner. The fourth takes x to have its mean so
+//! far: that is what wins when delta is small beside the difference. These four go to at most 0.7 of
+//! the limit: a rare loss that has not been seen yet must not ruin them. The fifth always stakes 0.9
+//! of it, which is fastest against the hopeless, and wins when common random numbers leave little
+//! variance.
 //!
 //! Source: Waudby-Smith and Ramdas (2024), Estimating means of bounded random variables by betting,
 //! Journal of the Royal Statistical Society B 86, sections 4 and 5; Ville (1939), Etude critique de
@@ -22,10 +24,10 @@
 use crate::problem::Bounds;
 use crate::schedule::next_look;
 
-/// Multiples of delta that a gambler takes the mean for. The first must be 1: against an equal, a
-/// bet of twice the best one wins nothing.
-const MEANS: [f64; 4] = [1.0, 2.0, 4.0, 8.0];
-const GAMBLERS: usize = MEANS.len() + 1;
+/// Multiples of delta that three gamblers take the mean for. The first must be 1: against an equal,
+/// a bet of twice the best one wins nothing.
+const MEANS: [f64; 3] = [1.0, 2.0, 4.0];
+const GAMBLERS: usize = MEANS.len() + 2;
 
 /// Parts of the limit up to which the four go, and to which the fifth does.
 const CAREFUL: f64 = 0.7;
@@ -34,6 +36,9 @@ const BOLD: f64 = 0.9;
 /// Weight of what the variance is taken for before the first run, in runs: a quarter of the squared
 /// depth.
 const PRIOR_VARIANCE: f64 = 0.25;
+
+/// Part of delta by which rounding may shift what bounds leave between two merits.
+const ROUNDING: f64 = 1e-9;
 
 /// One champion's evidence against one challenger.
 #[derive(Debug, Clone)]
@@ -52,8 +57,10 @@ pub(crate) struct Duel {
 impl Duel {
     #[expect(clippy::cast_precision_loss, reason = "there are five gamblers")]
     pub(crate) fn new(champion: Bounds, challenger: Bounds, delta: f64) -> Self {
+        let depth = challenger.greatest - champion.least - delta;
         let mut duel = Self {
-            depth: challenger.greatest - champion.least - delta,
+            // Where x cannot fall below 0, any depth above 0 will do.
+            depth: depth.max(ROUNDING * delta),
             delta,
             seen: 0,
             next_look: next_look(0),
@@ -63,7 +70,7 @@ impl Duel {
             wealth: [1.0 / GAMBLERS as f64; GAMBLERS],
             peak: 0.0,
         };
-        if duel.depth <= 0.0 {
+        if depth < -ROUNDING * delta {
             // The bounds alone refute the claim.
             duel.wealth = [f64::INFINITY; GAMBLERS];
             duel.peak = f64::INFINITY;
@@ -76,11 +83,13 @@ impl Duel {
     /// Goes through the runs that both have and that it has not seen. How they are cut into calls
     /// makes no difference: bets change at fixed looks.
     pub(crate) fn advance(&mut self, champion: &[f64], challenger: &[f64]) {
+        self.advance_until(champion, challenger, f64::INFINITY);
+    }
+
+    /// The same, but no further than the look at which the evidence is enough.
+    pub(crate) fn advance_until(&mut self, champion: &[f64], challenger: &[f64], enough: f64) {
         let end = champion.len().min(challenger.len());
-        if self.depth <= 0.0 {
-            return;
-        }
-        while self.seen < end {
+        while self.seen < end && self.peak < enough {
             let stop = end.min(self.next_look);
             let (champion, challenger) = (&champion[self.seen..stop], &challenger[self.seen..stop]);
             for (champion, challenger) in champion.iter().zip(challenger) {
@@ -125,11 +134,13 @@ impl Duel {
         let spread = (self.sum_of_squares - self.sum * mean).max(0.0);
         let variance = (PRIOR_VARIANCE * self.depth * self.depth + spread) / (runs + 1.0);
         let limit = 1.0 / self.depth;
-        for (bet, multiple) in self.bets.iter_mut().zip(MEANS) {
-            let mean = multiple * self.delta;
-            *bet = (mean / (variance + mean * mean)).min(CAREFUL * limit);
+        let [careful @ .., learner, bold] = &mut self.bets;
+        let best = |mean: f64| (mean / (variance + mean * mean)).min(CAREFUL * limit);
+        for (bet, multiple) in careful.iter_mut().zip(MEANS) {
+            *bet = best(multiple * self.delta);
         }
-        self.bets[GAMBLERS - 1] = BOLD * limit;
+        *learner = best(mean.max(self.delta));
+        *bold = BOLD * limit;
     }
 }
 

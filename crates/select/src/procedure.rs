@@ -16,7 +16,7 @@ pub struct Request {
 pub struct Elimination {
     /// Which configuration.
     pub configuration: usize,
-    /// The one with the most evidence against it.
+    /// Of those then still in, the one with the most evidence against it.
     pub by: usize,
     /// How many runs it had by then.
     pub runs: u64,

@@ -26,7 +26,7 @@ pub struct Race {
     problem: Problem,
     samples: Samples,
     survivors: Vec<usize>,
-    /// Of each champion, its duels with all configurations.
+    /// Of each champion, its duels with the survivors, in their order.
     duels: BTreeMap<usize, Vec<Duel>>,
     /// Evidence against each configuration of champions that are out.
     bequeathed: Vec<f64>,
@@ -63,70 +63,76 @@ impl Race {
         self.duels
             .retain(|champion, _| champions.contains(champion));
         for champion in champions {
-            let bounds = &self.problem.bounds;
-            self.duels.entry(champion).or_insert_with(|| {
-                let duel = |other| Duel::new(bounds[champion], other, self.problem.delta);
-                bounds.iter().copied().map(duel).collect()
-            });
+            let (bounds, delta) = (&self.problem.bounds, self.problem.delta);
+            let duel = |other: &usize| Duel::new(bounds[champion], bounds[*other], delta);
+            self.duels
+                .entry(champion)
+                .or_insert_with(|| self.survivors.iter().map(duel).collect());
         }
     }
 
     fn fight(&mut self) {
         for (&champion, duels) in &mut self.duels {
-            for &challenger in self.survivors.iter().filter(|other| **other != champion) {
-                let (champion, other) = (self.samples.of(champion), self.samples.of(challenger));
-                duels[challenger].advance(champion, other);
+            for (duel, &challenger) in duels.iter_mut().zip(&self.survivors) {
+                if challenger != champion {
+                    duel.advance(self.samples.of(champion), self.samples.of(challenger));
+                }
             }
         }
     }
 
-    /// Puts out all against whom there is enough evidence, the most beaten first, but never the
-    /// last one.
+    /// Puts out all against whom there is enough evidence, the most beaten first and of equals the
+    /// worst by mean, but never the last one.
     fn eliminate(&mut self) {
-        let mut beaten: Vec<(f64, usize)> = self
-            .survivors
-            .iter()
-            .map(|challenger| (self.evidence(*challenger), *challenger))
+        let mut beaten: Vec<(f64, usize)> = (0..self.survivors.len())
+            .map(|place| (self.evidence(place), self.survivors[place]))
             .filter(|(evidence, _)| *evidence >= self.problem.threshold())
             .collect();
-        beaten.sort_by(|a, b| b.0.total_cmp(&a.0).then(b.1.cmp(&a.1)));
+        beaten.sort_by(|(more, a), (less, b)| {
+            let by_mean = self.samples.mean(*a).total_cmp(&self.samples.mean(*b));
+            less.total_cmp(more).then(by_mean).then(b.cmp(a))
+        });
         beaten.truncate(self.survivors.len() - 1);
         for (_, challenger) in beaten {
             self.put_out(challenger);
         }
     }
 
-    fn evidence(&self, challenger: usize) -> f64 {
-        let against = |(champion, duels): (&usize, &Vec<Duel>)| {
-            if *champion == challenger {
-                0.0
-            } else {
-                duels[challenger].evidence()
-            }
-        };
-        self.bequeathed[challenger] + self.duels.iter().map(against).sum::<f64>()
+    /// The evidence of all champions against the survivor in a place.
+    fn evidence(&self, place: usize) -> f64 {
+        let challenger = self.survivors[place];
+        let rivals = self.duels.iter().filter(|(rival, _)| **rival != challenger);
+        let against: f64 = rivals.map(|(_, duels)| duels[place].evidence()).sum();
+        self.bequeathed[challenger] + against
     }
 
     fn put_out(&mut self, beaten: usize) {
+        let place = self
+            .survivors
+            .partition_point(|survivor| *survivor < beaten);
         self.eliminations.push(Elimination {
             configuration: beaten,
-            by: self.strongest_rival(beaten),
+            by: self.strongest_rival(place),
             runs: self.samples.runs(beaten) as u64,
         });
-        self.survivors.retain(|survivor| *survivor != beaten);
+        self.survivors.remove(place);
+        for duels in self.duels.values_mut() {
+            duels.remove(place);
+        }
         if let Some(duels) = self.duels.remove(&beaten) {
-            for &challenger in &self.survivors {
-                self.bequeathed[challenger] += duels[challenger].evidence();
+            for (duel, &challenger) in duels.iter().zip(&self.survivors) {
+                self.bequeathed[challenger] += duel.evidence();
             }
         }
     }
 
-    /// The champion with the most evidence against a configuration; of equals, the best by mean.
-    fn strongest_rival(&self, beaten: usize) -> usize {
+    /// Of the champions still in, the one with the most evidence against the survivor in a place;
+    /// of equals, the best by mean.
+    fn strongest_rival(&self, place: usize) -> usize {
         let champions: Vec<usize> = self.duels.keys().copied().collect();
         let mut rivals = self.samples.by_mean(&champions);
-        rivals.retain(|rival| *rival != beaten);
-        let evidence = |rival: &usize| self.duels[rival][beaten].evidence();
+        rivals.retain(|rival| *rival != self.survivors[place]);
+        let evidence = |rival: &usize| self.duels[rival][place].evidence();
         rivals
             .into_iter()
             .rev()

@@ -12,11 +12,10 @@
 //! both have had; those it cannot refute with these come back and run on from where they were.
 
 use crate::duel::Duel;
-use crate::problem::Problem;
+use crate::problem::{Bounds, Problem};
 use crate::procedure::{Elimination, Procedure, Request};
 use crate::samples::Samples;
 use crate::schedule::next_look;
-use std::collections::BTreeMap;
 
 /// The strict procedure, between two of its rounds.
 #[derive(Debug, Clone)]
@@ -26,8 +25,8 @@ pub struct Strict {
     leader: usize,
     /// Those that the leader has not refuted, ascending.
     challengers: Vec<usize>,
-    /// Of each configuration that has led, its duels with all.
-    duels: BTreeMap<usize, Vec<Duel>>,
+    /// The leader's duels with all.
+    duels: Vec<Duel>,
 }
 
 impl Strict {
@@ -39,31 +38,31 @@ impl Strict {
             samples: Samples::new(configurations),
             leader: 0,
             challengers: (1..configurations).collect(),
-            duels: BTreeMap::new(),
+            duels: Vec::new(),
             problem,
         }
     }
 
     fn choose_leader(&mut self) {
         let leader = self.samples.by_mean(&self.survivors()).first().copied();
-        self.leader = leader.unwrap_or(self.leader);
+        let leader = leader.unwrap_or(self.leader);
+        if leader != self.leader || self.duels.is_empty() {
+            let (bounds, delta) = (&self.problem.bounds, self.problem.delta);
+            let duel = |other: &Bounds| Duel::new(bounds[leader], *other, delta);
+            self.duels = bounds.iter().map(duel).collect();
+            self.leader = leader;
+        }
     }
 
     fn fight(&mut self) {
-        let (leader, bounds) = (self.leader, &self.problem.bounds);
-        let duels = self.duels.entry(leader).or_insert_with(|| {
-            let duel = |other| Duel::new(bounds[leader], other, self.problem.delta);
-            bounds.iter().copied().map(duel).collect()
-        });
         let threshold = self.problem.threshold();
         self.challengers.clear();
-        for (other, duel) in duels.iter_mut().enumerate() {
-            if other == leader {
+        for (other, duel) in self.duels.iter_mut().enumerate() {
+            if other == self.leader {
                 continue;
             }
-            if duel.peak() < threshold {
-                duel.advance(self.samples.of(leader), self.samples.of(other));
-            }
+            let (leader, challenger) = (self.samples.of(self.leader), self.samples.of(other));
+            duel.advance_until(leader, challenger, threshold);
             if duel.peak() < threshold {
                 self.challengers.push(other);
             }
@@ -112,13 +111,11 @@ impl Procedure for Strict {
 
     /// What the present leader has refuted, and with how many runs of both.
     fn eliminations(&self) -> Vec<Elimination> {
-        let Some(duels) = self.duels.get(&self.leader) else {
-            return Vec::new();
-        };
         let threshold = self.problem.threshold();
         let is_out =
             |(other, duel): &(usize, &Duel)| *other != self.leader && duel.peak() >= threshold;
-        let mut out: Vec<Elimination> = duels
+        let mut out: Vec<Elimination> = self
+            .duels
             .iter()
             .enumerate()
             .filter(is_out)

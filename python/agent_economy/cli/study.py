@@ -16,7 +16,7 @@ from agent_economy.scenario import Override, Scenario
 from agent_economy.study import design as designs
 from agent_economy.study.answer.labels import label
 from agent_economy.study.engine import Engine
-from agent_economy.study.plan import Plan, tightened
+from agent_economy.study.plan import Plan, is_same_data, tightened
 from agent_economy.study.rectangle import Compute
 
 Text = str | None
@@ -45,12 +45,13 @@ def study(  # noqa: PLR0913  (typer's options are arguments)
         float | None, typer.Option(help="Of the guarantee.", show_default="0.95")
     ] = None,
     guarantee: Annotated[
-        Literal["indifference", "pgs"],
+        Literal["indifference", "pgs"] | None,
         typer.Option(
             help="indifference: finds the best if it leads by delta. pgs: within delta of the "
-            "best, whatever the truth."
+            "best, whatever the truth.",
+            show_default="indifference",
         ),
-    ] = "indifference",
+    ] = None,
     runs: Annotated[
         int | None,
         typer.Option(
@@ -67,11 +68,25 @@ def study(  # noqa: PLR0913  (typer's options are arguments)
             "time=-0.03,robots=-0.2,failed=-5."
         ),
     ] = None,
+    max_runs: Annotated[
+        int | None,
+        typer.Option(
+            help="Stop before more runs than this in all; nothing is guaranteed then.",
+            show_default="no end",
+        ),
+    ] = None,
     seed: Annotated[
-        int, typer.Option(min=0, max=2**64 - 1, help="Of all chance: same seed, same bytes.")
-    ] = 0,
+        int | None,
+        typer.Option(
+            min=0,
+            max=2**64 - 1,
+            help="Of all chance: same seed, same bytes.",
+            show_default="0",
+        ),
+    ] = None,
     out: Annotated[
-        Path | None, typer.Option(help="Folder of the study.", show_default="studies/NAME")
+        Path | None,
+        typer.Option(help="Folder of the study.", show_default="studies/NAME, or NAME-DIGEST"),
     ] = None,
     resume: Annotated[
         Path | None, typer.Option(help="Go on with the study in this folder.", show_default=False)
@@ -111,19 +126,21 @@ def study(  # noqa: PLR0913  (typer's options are arguments)
         changes = overrides(vary or [], contact=contact, merit=merit, design=design)
         one_executor(workers, dask)
         if resume is not None:
-            alone = [scenario, changes, delta, confidence, runs, out]
-            folder, asked = resume, resumed(resume, more, alone=not any(alone))
+            others = [scenario, changes or None, delta, confidence, guarantee, runs, max_runs]
+            is_alone = all(each is None for each in [*others, seed, out])
+            folder, asked = resume, resumed(resume, more, alone=is_alone)
         else:
             given = Scenario.load(required(scenario, more), changes)
-            folder = out or Path("studies") / given.name
-            asked = studies.plan(
+            asked = studies.make_plan(
                 given,
-                seed=seed,
+                seed=seed or 0,
                 delta=delta,
                 confidence=confidence,
-                guarantee=guarantee,
+                guarantee=guarantee or "indifference",
                 runs=runs,
+                max_runs=max_runs,
             )
+            folder = out or usual_folder(asked)
         announce(asked)
         found = watched(asked, folder, workers, dask)
     show(found, folder, as_json=as_json)
@@ -197,6 +214,14 @@ def varied(text: str) -> Override:
         message = f"--vary = {text!r}: must be PATH=VALUES, such as robots.wanderer.count=1..12"
         raise InputError(message)
     return Override(("study", "vary", path.strip()), values.strip(), "--vary")
+
+
+def usual_folder(asked: Plan) -> Path:
+    """Return studies/NAME; where that holds other runs, the same with what tells these apart."""
+    folder = Path("studies") / asked.scenario.name
+    there = folder / "study.toml"
+    is_other = there.exists() and not is_same_data(there.read_text(errors="replace"), asked.text())
+    return folder.with_name(f"{folder.name}-{asked.identity[:8]}") if is_other else folder
 
 
 def one_executor(workers: int | None, dask: str | None) -> None:

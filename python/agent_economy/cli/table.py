@@ -67,7 +67,7 @@ def results_table(answer: Answer, *, ranges: bool) -> Table:
             cell(result.failed, ".2%"),
             cell(result.merit, ".2f"),
             f"{result.standing.behind.value:.3f}" if result.standing.behind else "",
-            standing(result),
+            result.standing.verdict,
             style="bold" if is_best else None,
         )
     return table
@@ -80,10 +80,3 @@ def best_first(answer: Answer) -> list[Result]:
     chosen = answer.results[answer.best]
     others = [result for result in answer.results if result is not chosen]
     return [chosen, *sorted(others, key=lambda result: -result.merit.value)]
-
-
-def standing(result: Result) -> str:
-    """Return how a configuration stands to the best, in a word or two."""
-    if result.standing.verdict == "undecided" and result.eliminated:
-        return "put out"
-    return result.standing.verdict

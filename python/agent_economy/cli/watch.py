@@ -1,5 +1,6 @@
 """The command `watch`."""
 
+import math
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -12,6 +13,9 @@ from agent_economy.cli.progress import Teller
 from agent_economy.cli.told import INTERRUPTED, faults_told
 from agent_economy.study.answer.labels import label
 from agent_economy.study.race import Progress
+
+SILENCE_S = 30.0
+"""After which somebody who watches is told that nothing happens."""
 
 PAUSE_S = 0.5
 """Between two looks at the ledger."""
@@ -41,8 +45,14 @@ def rounds(folder: Path) -> Iterator[Progress]:
     """Yield a study's rounds, those over first and then each as it comes, until the last."""
     store = study.open(folder)
     done, begin, first_runs = 0, time.monotonic(), 0
+    said_at = time.monotonic()
     while True:
         decisions = store.decisions()
+        if decisions[done:]:
+            said_at = time.monotonic()
+        elif time.monotonic() - said_at > SILENCE_S:
+            said_at = math.inf
+            typer.echo(f"{folder}: no round for {SILENCE_S:.0f} s; does it still run?", err=True)
         for decision in decisions[done:]:
             if done == 0:
                 first_runs = decisions[-1].facts["runs"]

@@ -8,10 +8,10 @@ the procedure of `selection` asks, `store` looks up, `engine` or `workers` compu
 from agent_economy.study.answer.conclude import Answer
 from agent_economy.study.answer.results import Result
 from agent_economy.study.ask import plan_of, pursue, rebuild, resume, run
+from agent_economy.study.classical import Reference, reference
 from agent_economy.study.plan import Plan
-from agent_economy.study.plan import make as plan
+from agent_economy.study.plan import make as make_plan
 from agent_economy.study.race import Progress
-from agent_economy.study.reference import Reference, reference
 from agent_economy.study.selection import Selection, select_best
 from agent_economy.study.store import read as open  # noqa: A004  (ae.study.open)
 
@@ -22,8 +22,8 @@ __all__ = [
     "Reference",
     "Result",
     "Selection",
+    "make_plan",
     "open",
-    "plan",
     "plan_of",
     "pursue",
     "rebuild",

@@ -10,6 +10,7 @@ from agent_economy.scenario import Override, Scenario, Value
 from agent_economy.study import files
 from agent_economy.study import plan as plans
 from agent_economy.study.answer.conclude import Answer
+from agent_economy.study.answer.evidence import Evidence
 from agent_economy.study.plan import Plan
 from agent_economy.study.race import OnProgress, hold
 from agent_economy.study.rectangle import Compute, Rectangle
@@ -21,12 +22,13 @@ from agent_economy.study.store import read
 def run(  # noqa: PLR0913  (keywords with defaults)
     scenario: Scenario,
     *,
-    vary: Mapping[str, Iterable[Value]] | None = None,
+    vary: Mapping[str, str | Iterable[Value]] | None = None,
     design: str | None = None,
     delta: float | None = None,
     confidence: float | None = None,
     guarantee: Guarantee = "indifference",
     runs: int | None = None,
+    max_runs: int | None = None,
     seed: int = 0,
     out: str | Path | None = None,
     compute: Compute | None = None,
@@ -36,13 +38,15 @@ def run(  # noqa: PLR0913  (keywords with defaults)
 
     Args:
         scenario: What is run.
-        vary: Values of each varied factor, by path; None for what the scenario varies.
+        vary: Values of each varied factor, by path, or a text of them such as "1..40"; None for
+            what the scenario varies.
         design: "factorial", "lhs:N" or "sobol:N"; None for the scenario's.
         delta: The difference of mean merits worth finding; None for the scenario's, or 2% of the
             merit's range.
         confidence: Of the guarantee; None for the scenario's.
         guarantee: As in `select_best`.
         runs: Of each configuration; None for as few as it takes.
+        max_runs: Of all together, after which it stops without a guarantee; None for no end.
         seed: 0 to 2^64 - 1.
         out: Folder of the study, to go on with and to look at; None keeps nothing.
         compute: What computes rectangles, such as `Workers`; None for threads in this process.
@@ -53,7 +57,7 @@ def run(  # noqa: PLR0913  (keywords with defaults)
             cannot be written.
     """
     changes = [
-        Override(("study", "vary", path), ",".join(map(str, values)), "vary")
+        Override(("study", "vary", path), written(values), "vary")
         for path, values in (vary or {}).items()
     ]
     if design is not None:
@@ -65,6 +69,7 @@ def run(  # noqa: PLR0913  (keywords with defaults)
         confidence=confidence,
         guarantee=guarantee,
         runs=runs,
+        max_runs=max_runs,
     )
     if out is not None:
         return pursue(asked, out, compute=compute, on_progress=on_progress)
@@ -121,10 +126,17 @@ def pursue(
     """
     place = Path(folder)
     with ChartScript() as script:
-        found, evidence = hold(asked, place, compute, on_progress)
-        if anew or not files.are_there(place, found):
-            files.write(place, found, evidence, script)
-    return found
+
+        def finish(answer: Answer, evidence: Evidence) -> None:
+            if anew or not files.are_there(place, answer):
+                files.write(place, answer, evidence, script)
+
+        return hold(asked, place, compute, on_progress, finish)[0]
+
+
+def written(values: str | Iterable[Value]) -> str:
+    """Return values of a factor as scenarios have them."""
+    return values if isinstance(values, str) else ",".join(map(str, values))
 
 
 def plan_of(folder: str | Path) -> Plan:

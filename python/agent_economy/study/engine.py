@@ -58,13 +58,19 @@ class Engine:
         )
 
     @cached_property
-    def _compiled(self) -> list[_core.Configuration]:
-        return [self.scenario.configuration(values) for values in self.configurations]
+    def _made(self) -> dict[int, _core.Configuration]:
+        return {}
+
+    def _compiled(self, configuration: int) -> _core.Configuration:
+        if configuration not in self._made:
+            values = self.configurations[configuration]
+            self._made[configuration] = self.scenario.configuration(values)
+        return self._made[configuration]
 
     @property
     def columns(self) -> tuple[Column, ...]:
         """What every run tells."""
-        return tuple(Column(name, kind) for name, kind, _, _ in self._compiled[0].columns)
+        return tuple(Column(name, kind) for name, kind, _, _ in self._compiled(0).columns)
 
     def limits(self, configuration: int) -> dict[str, tuple[float, float]]:
         """Return between which values each column of a configuration lies."""
@@ -73,7 +79,7 @@ class Engine:
                 -np.inf if least is None else least,
                 np.inf if greatest is None else greatest,
             )
-            for name, _, least, greatest in self._compiled[configuration].columns
+            for name, _, least, greatest in self._compiled(configuration).columns
         }
 
     def merit_limits(self) -> Floats:
@@ -83,7 +89,7 @@ class Engine:
 
     def __call__(self, rectangle: Rectangle) -> Columns:
         """Return the outcomes of a rectangle."""
-        compiled = [self._compiled[each] for each in rectangle.configurations]
+        compiled = [self._compiled(each) for each in rectangle.configurations]
         return _core.run_block(
             compiled,
             seed=self.seed,

@@ -4,9 +4,12 @@ A plan is kept as `study.toml` in the study's folder, whole: the scenario's text
 over it, so that the folder alone goes on.
 """
 
+import hashlib
+import json
 import tomllib
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +20,13 @@ from agent_economy.scenario import Override, Scenario
 from agent_economy.study import design
 from agent_economy.study.design import Values
 from agent_economy.study.engine import Engine
-from agent_economy.study.selection import Floats, Guarantee, is_whole, question_faults
+from agent_economy.study.selection import (
+    FIRST_LOOK,
+    Floats,
+    Guarantee,
+    is_whole,
+    question_faults,
+)
 
 FORMAT = 1
 """Of study.toml."""
@@ -29,6 +38,9 @@ MAX_RUNS = 10_000_000
 """Of each configuration, when their number is fixed beforehand."""
 
 MAX_SEED = 2**64 - 1
+
+WITHOUT_RUNS = {"merit", "published", "study", "summary"}
+"""Keys of a scenario on which no run depends: configurations are counted apart."""
 
 HEADER = "# What was asked of this study. Go on: agent-economy study --resume FOLDER\n\n"
 
@@ -44,6 +56,7 @@ class Plan:
         confidence: Of the guarantee, and of all intervals together.
         guarantee: Which one, as `select_best` has it.
         runs: Of each configuration; None for as few as it takes.
+        max_runs: Of all together, after which it stops without a guarantee; None for no end.
         configurations: The values in which each differs from the scenario.
         engine: What runs them.
         limits: Between which merits their runs lie; shape (configurations, 2).
@@ -55,6 +68,7 @@ class Plan:
     confidence: float
     guarantee: Guarantee
     runs: int | None
+    max_runs: int | None
     configurations: tuple[Values, ...]
     engine: Engine
     limits: Floats
@@ -62,25 +76,42 @@ class Plan:
     def text(self) -> str:
         """Return study.toml."""
         source = self.scenario.source
-        changes = [
-            {"path": list(each.path), "value": each.value, "origin": each.origin}
-            for each in source.overrides
-        ]
-        data: dict[str, Any] = {"seed": str(self.seed), "name": Path(source.file).name}
-        if self.runs is not None:
-            data["runs"] = self.runs
-        data["changes"] = changes
         question = {
             "delta": self.delta,
             "confidence": self.confidence,
             "guarantee": self.guarantee,
+            "max_runs": self.max_runs,
         }
-        document = {
-            "format": FORMAT,
-            "question": question,
-            "data": {**data, "scenario": source.text},
+        data = {
+            "identity": self.identity,
+            "program": version("agent-economy"),
+            "seed": str(self.seed),
+            "runs": self.runs,
+            "name": Path(source.file).name,
+            "changes": [
+                {"path": list(each.path), "value": each.value} for each in source.overrides
+            ],
+            "scenario": source.text,
         }
+        document = {"format": FORMAT, "question": given(question), "data": given(data)}
         return HEADER + tomli_w.dumps(document, multiline_strings=True)
+
+    @property
+    def identity(self) -> str:
+        """Says which runs these are: two plans of one identity can share a folder.
+
+        It covers all on which a run, or the numbers of runs asked for together, depends: the
+        program, the seed, the configurations in their order, and the scenario but for what only
+        scores and words depend on.
+        """
+        source = self.scenario.source
+        document = tomllib.loads(source.text)
+        for change in source.overrides:
+            put(document, change.path, change.value)
+        runs = {key: value for key, value in document.items() if key not in WITHOUT_RUNS}
+        parts = [version("agent-economy"), self.seed, self.runs, self.configurations, runs]
+        text = json.dumps(parts, sort_keys=True, default=str)
+        return hashlib.sha256(text.encode()).hexdigest()
 
 
 def make(  # noqa: PLR0913  (keywords with defaults)
@@ -91,6 +122,7 @@ def make(  # noqa: PLR0913  (keywords with defaults)
     confidence: float | None = None,
     guarantee: Guarantee = "indifference",
     runs: int | None = None,
+    max_runs: int | None = None,
 ) -> Plan:
     """Return the plan of a scenario's study; what is not given is the scenario's, or the default.
 
@@ -105,37 +137,56 @@ def make(  # noqa: PLR0913  (keywords with defaults)
     if faults:
         raise InputError("\n".join(faults))
     configurations = tuple(design.points(scenario.factors, scenario.design, seed))
+    check_max_runs(max_runs, runs, FIRST_LOOK * len(configurations))
     engine = Engine(scenario, configurations, seed)
     limits = engine.merit_limits()
     span = float(limits[:, 1].max() - limits[:, 0].min())
-    given = delta if delta is not None else scenario.delta
+    wanted = delta if delta is not None else scenario.delta
     return Plan(
         scenario=scenario,
-        seed=seed,
-        delta=given if given is not None else PART_OF_RANGE * span or 1.0,
-        confidence=sure,
+        seed=int(seed),
+        delta=float(wanted) if wanted is not None else PART_OF_RANGE * span or 1.0,
+        confidence=float(sure),
         guarantee=guarantee,
-        runs=runs,
+        runs=None if runs is None else int(runs),
+        max_runs=None if max_runs is None else int(max_runs),
         configurations=configurations,
         engine=engine,
         limits=limits,
     )
 
 
-def tightened(plan: Plan, confidence: float) -> Plan:
-    """Return a plan that asks for another confidence.
+def check_max_runs(max_runs: int | None, runs: int | None, least: int) -> None:
+    """Refuse an end before the first look, or one of a number of runs that is fixed.
 
     Raises:
-        InputError: If it is not allowed.
+        InputError: If it is so.
     """
-    return make(
-        plan.scenario,
-        seed=plan.seed,
-        delta=plan.delta,
-        confidence=confidence,
-        guarantee=plan.guarantee,
-        runs=plan.runs,
-    )
+    if max_runs is None:
+        return
+    if runs is not None:
+        message = f"max_runs = {max_runs!r}: must be left out where runs are given"
+        raise InputError(message)
+    if not is_whole(max_runs, least, 2**62):
+        message = (
+            f"max_runs = {max_runs!r}: must be a whole number of {least} or more, {FIRST_LOOK} of "
+            "each configuration"
+        )
+        raise InputError(message)
+
+
+def tightened(plan: Plan, confidence: float) -> Plan:
+    """Return a plan that asks for a higher confidence.
+
+    Raises:
+        InputError: If it is not higher, or not below 1.
+    """
+    faults = question_faults(plan.delta, confidence, plan.guarantee)
+    if not faults and confidence < plan.confidence:
+        faults = [f"confidence = {confidence:g}: must be above the study's {plan.confidence:g}"]
+    if faults:
+        raise InputError("\n".join(faults))
+    return replace(plan, confidence=float(confidence))
 
 
 def read(text: str, file: str) -> Plan:
@@ -150,7 +201,7 @@ def read(text: str, file: str) -> Plan:
         message = f"{file}: is not a study: {error}"
         raise InputError(message) from None
     if document.get("format") != FORMAT:
-        message = f"{file}: format = {document.get('format')}: must be {FORMAT}, else it is newer"
+        message = f"{file}: format = {document.get('format')}: must be {FORMAT}; a newer program's?"
         raise InputError(message)
     try:
         return of_document(document)
@@ -165,7 +216,7 @@ def of_document(document: Mapping[str, Any]) -> Plan:
     """Return the plan of a parsed study.toml."""
     data, question = document["data"], document["question"]
     overrides = tuple(
-        Override(tuple(each["path"]), each["value"], each["origin"]) for each in data["changes"]
+        Override(tuple(each["path"]), each["value"], "study.toml") for each in data["changes"]
     )
     return make(
         Scenario.loads(data["scenario"], data["name"], overrides),
@@ -174,6 +225,7 @@ def of_document(document: Mapping[str, Any]) -> Plan:
         confidence=question["confidence"],
         guarantee=question["guarantee"],
         runs=data.get("runs"),
+        max_runs=question.get("max_runs"),
     )
 
 
@@ -183,4 +235,21 @@ def is_same_data(one: str, other: str) -> bool:
         first, second = tomllib.loads(one), tomllib.loads(other)
     except tomllib.TOMLDecodeError:
         return False
-    return all(first.get(part) == second.get(part) for part in ("format", "data"))
+    return first.get("format") == second.get("format") and (
+        first.get("data", {}).get("identity") == second.get("data", {}).get("identity")
+    )
+
+
+def put(document: dict[str, Any], path: Sequence[str], value: object) -> None:
+    """Put a value at a path, over what is there."""
+    *tables, last = path
+    for key in tables:
+        inner = document.get(key)
+        document[key] = inner if isinstance(inner, dict) else {}
+        document = document[key]
+    document[last] = value
+
+
+def given(table: dict[str, Any]) -> dict[str, Any]:
+    """Return a table without what is None: TOML has no such value."""
+    return {key: value for key, value in table.items() if value is not None}

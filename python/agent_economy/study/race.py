@@ -17,7 +17,7 @@ from agent_economy import _core
 from agent_economy.study.answer.conclude import Answer, conclude
 from agent_economy.study.answer.effort import remaining
 from agent_economy.study.answer.evidence import Evidence, Sample
-from agent_economy.study.answer.results import Outcome
+from agent_economy.study.answer.results import Ending
 from agent_economy.study.plan import Plan, is_same_data
 from agent_economy.study.rectangle import Columns, Compute, Rectangle
 from agent_economy.study.selection import (
@@ -111,6 +111,7 @@ def hold(
     folder: Path,
     compute: Compute | None = None,
     on_progress: OnProgress | None = None,
+    finish: Callable[[Answer, Evidence], None] | None = None,
 ) -> tuple[Answer, Evidence]:
     """Run a study, or go on with it, until it has an answer.
 
@@ -120,6 +121,7 @@ def hold(
         folder: Of the study; made if it is not there.
         compute: What computes rectangles: the plan's engine in this process if None.
         on_progress: Called after each round.
+        finish: Called with what is found, before another process may work on the folder.
 
     Raises:
         InputError: If the folder holds another study, is damaged, or cannot be written.
@@ -127,8 +129,11 @@ def hold(
     columns = plan.engine.columns
     with Store.open(folder, plan.text(), columns, may_replace=is_same_data) as store:
         race = Race(plan, store, compute or in_pieces(plan.engine), on_progress)
-        evidence, outcome = race.run()
-    return conclude(plan, evidence, outcome), evidence
+        evidence, ending = race.run()
+        answer = conclude(plan, evidence, ending)
+        if finish:
+            finish(answer, evidence)
+    return answer, evidence
 
 
 def in_pieces(compute: Compute) -> Compute:
@@ -166,23 +171,18 @@ class Race:
         self._sums = np.zeros(count)
         self._quarantined = np.zeros(count, dtype=np.int64)
 
-    def run(self) -> tuple[Evidence, Outcome]:
+    def run(self) -> tuple[Evidence, Ending]:
         """Run it to its end."""
         procedure = self._procedure()
-        for number, _ in enumerate(drive(procedure, self._ask)):
+        for number, _ in enumerate(drive(procedure, self._ask, self._plan.max_runs)):
             progress = self._progress(number, procedure)
             self._store.note(number, progress.facts())
             if self._on_progress:
                 self._on_progress(progress)
         eliminations = tuple(Elimination(*each) for each in procedure.eliminations)
-        is_raced = self._plan.runs is None
-        return self.evidence(), Outcome(
-            best=procedure.best,
-            eliminations=eliminations,
-            guarantee=self._guarantee(procedure),
-            is_guaranteed=is_raced,
-            is_good=is_raced and self._plan.guarantee == "pgs",
-        )
+        is_over = self._plan.runs is None and procedure.next() is None
+        guarantee = self._guarantee(procedure)
+        return self.evidence(), Ending(procedure.best, eliminations, guarantee, is_over)
 
     def evidence(self) -> Evidence:
         """Return the runs so far."""
@@ -275,4 +275,5 @@ class Race:
             return float(plan.runs * len(plan.configurations) - procedure.runs.sum())
         survivors = procedure.survivors.tolist()
         evidence = Evidence(tuple(map(self._sample, survivors)), plan.confidence)
-        return remaining(evidence, survivors.index(procedure.best), plan.delta)
+        rivals = len(plan.configurations) - 1
+        return remaining(evidence, survivors.index(procedure.best), plan.delta, rivals)

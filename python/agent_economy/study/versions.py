@@ -3,7 +3,7 @@
 import platform
 from importlib.metadata import version
 
-PACKAGES = ("agent-economy", "numpy", "salib", "scipy")
+PACKAGES = ("agent-economy", "numpy", "pyarrow", "salib", "scipy", "vl-convert-python")
 
 
 def versions() -> dict[str, str]:

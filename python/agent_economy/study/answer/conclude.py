@@ -7,7 +7,7 @@ from agent_economy.study.answer import published
 from agent_economy.study.answer.effort import Effort, efforts
 from agent_economy.study.answer.evidence import Evidence
 from agent_economy.study.answer.published import PublishedResult
-from agent_economy.study.answer.results import Outcome, Result, results
+from agent_economy.study.answer.results import Ending, Result, results
 from agent_economy.study.answer.saturation import Saturation, saturations
 from agent_economy.study.answer.sensitivity import Sensitivity, sensitivity
 from agent_economy.study.answer.sentence import in_words
@@ -54,22 +54,22 @@ class Answer:
         return sum(result.runs for result in self.results)
 
 
-def conclude(plan: Plan, evidence: Evidence, outcome: Outcome) -> Answer:
+def conclude(plan: Plan, evidence: Evidence, ending: Ending) -> Answer:
     """Return the answer that a study's runs give."""
-    found = results(evidence, outcome, plan.delta)
-    saturated = saturations(evidence, outcome.best, plan.delta)
+    found = results(evidence, ending, plan.delta)
+    saturated = saturations(evidence, ending.best, plan.delta)
     return Answer(
         scenario=plan.scenario,
         seed=plan.seed,
-        sentence=in_words(plan.scenario, plan.delta, outcome.best, found),
-        guarantee=outcome.guarantee,
-        is_guaranteed=outcome.is_guaranteed,
+        sentence=in_words(plan.scenario, plan.delta, ending.best, found),
+        guarantee=ending.guarantee,
+        is_guaranteed=ending.is_guaranteed,
         delta=plan.delta,
         confidence=plan.confidence,
-        best=outcome.best,
+        best=ending.best,
         results=found,
         saturations=saturated,
         sensitivity=sensitivity(evidence),
-        efforts=efforts(evidence, outcome.best, plan.delta) if plan.runs is None else (),
+        efforts=efforts(evidence, ending.best, plan.delta) if plan.runs is None else (),
         published=published.results(plan.scenario),
     )

@@ -16,6 +16,18 @@ PARTS = (2, 5, 10)
 """Into which the delta asked is divided."""
 
 
+SMALLEST = 1e-100
+"""Lead below which nobody waits for the end."""
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What a duel must prove, and against how many rivals in all."""
+
+    delta: float
+    rivals: int
+
+
 @dataclass(frozen=True)
 class Effort:
     """About how many runs a study with another delta takes in all."""
@@ -36,10 +48,10 @@ def efforts(evidence: Evidence, best: int, delta: float) -> tuple[Effort, ...]:
     )
 
 
-def remaining(survivors: Evidence, best: int, delta: float) -> float:
+def remaining(survivors: Evidence, best: int, delta: float, rivals: int) -> float:
     """Return about how many runs a race still takes, from the runs of those still in."""
     left = [
-        max(0.0, duel_runs(survivors, best, other, delta) - sample.runs)
+        max(0.0, duel_runs(survivors, best, other, Asked(delta, rivals)) - sample.runs)
         for other, sample in enumerate(survivors.samples)
         if other != best
     ]
@@ -49,21 +61,21 @@ def remaining(survivors: Evidence, best: int, delta: float) -> float:
 def foretold(evidence: Evidence, best: int, delta: float) -> float:
     """Return the runs that a study takes, up to a factor."""
     others = [
-        duel_runs(evidence, best, other, delta)
+        duel_runs(evidence, best, other, Asked(delta, len(evidence.samples) - 1))
         for other in range(len(evidence.samples))
         if other != best
     ]
     return sum(others) + max(others)
 
 
-def duel_runs(evidence: Evidence, best: int, other: int, delta: float) -> float:
+def duel_runs(evidence: Evidence, best: int, other: int, asked: Asked) -> float:
     """Return the runs after which the selected configuration puts another out."""
     champion, challenger = evidence.samples[best], evidence.samples[other]
     runs = min(champion.runs, challenger.runs)
     differences = champion.columns["merit"][:runs] - challenger.columns["merit"][:runs]
-    lead = max(float(differences.mean()), 0.0) + delta
+    lead = max(max(float(differences.mean()), 0.0) + asked.delta, SMALLEST)
     depth = challenger.limits["merit"][1] - champion.limits["merit"][0]
-    goal = math.log((len(evidence.samples) - 1) / (1 - evidence.confidence))
+    goal = math.log(asked.rivals / (1 - evidence.confidence))
     fastest = max(0.0, 2 * depth / lead)
     return goal * max(2 * float(differences.var()) / lead**2, fastest) + 1
 

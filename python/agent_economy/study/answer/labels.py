@@ -24,7 +24,7 @@ def part(path: str, value: float | str, *, is_short: bool = True) -> str:
     kind = robot_kind(path)
     if kind is not None:
         return f"{value} {kind}" if value == 1 else f"{value} {kind}s"
-    written = value if isinstance(value, str) else f"{value:g}"
+    written = value if isinstance(value, str) else f"{value:.10g}"
     return f"{path.rsplit('.', 1)[-1] if is_short else path} {written}"
 
 

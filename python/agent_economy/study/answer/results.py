@@ -11,7 +11,7 @@ from agent_economy.study.selection import Elimination
 
 
 @dataclass(frozen=True)
-class Outcome:
+class Ending:
     """How a race ended.
 
     Attributes:
@@ -19,14 +19,12 @@ class Outcome:
         eliminations: Who went out, in that order.
         guarantee: What is guaranteed, in words.
         is_guaranteed: Whether anything is.
-        is_good: Whether it is proved that no other is better by delta.
     """
 
     best: int
     eliminations: tuple[Elimination, ...]
     guarantee: str
-    is_guaranteed: bool = True
-    is_good: bool = False
+    is_guaranteed: bool
 
 
 @dataclass(frozen=True)
@@ -58,10 +56,10 @@ class Result:
     eliminated: Elimination | None
 
 
-def results(evidence: Evidence, outcome: Outcome, delta: float) -> tuple[Result, ...]:
+def results(evidence: Evidence, ending: Ending, delta: float) -> tuple[Result, ...]:
     """Return what the runs of each configuration came to."""
-    gone = {each.configuration: each for each in outcome.eliminations}
-    standing = standings(evidence, outcome.best, delta, is_good=outcome.is_good)
+    gone = {each.configuration: each for each in ending.eliminations}
+    standing = standings(evidence, ending.best, delta)
     placed = zip(standing, front(evidence), strict=True)
     return tuple(
         Result(

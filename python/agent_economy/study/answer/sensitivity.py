@@ -20,6 +20,9 @@ FEWEST = 30
 
 RESAMPLES = 100
 
+PLACES = 4
+"""Decimals that are kept: further ones depend on the machine's linear algebra."""
+
 
 @dataclass(frozen=True)
 class Influence:
@@ -29,15 +32,15 @@ class Influence:
         path: The factor.
         first_order: Share of the variance of the mean merits that it explains alone.
         first_order_error: Half width of its 95% bootstrap interval.
-        delta: Borgonovo's measure of all its influence, interactions included: 0 none, 1 all.
-        delta_error: Half width of its 95% bootstrap interval.
+        total: Borgonovo's delta: all its influence, interactions included; 0 none, 1 all.
+        total_error: Half width of its 95% bootstrap interval.
     """
 
     path: str
     first_order: float
     first_order_error: float
-    delta: float
-    delta_error: float
+    total: float
+    total_error: float
 
 
 @dataclass(frozen=True)
@@ -64,7 +67,9 @@ def sensitivity(evidence: Evidence) -> Sensitivity | None:
     means = firsts.mean(axis=1)
     if len(paths) < 2 or len(means) < FEWEST or np.ptp(means) == 0:  # noqa: PLR2004
         return None
-    noise = firsts.var(axis=1, ddof=1).mean() / firsts.shape[1] / means.var(ddof=1)
+    # What all share in a run moves all means alike: only the rest makes them differ by chance.
+    own = firsts - firsts.mean(axis=0)
+    noise = own.var(axis=1, ddof=1).mean() / firsts.shape[1] / means.var(ddof=1)
     return Sensitivity(influences(evidence, paths, means), float(min(noise, 1.0)))
 
 
@@ -93,8 +98,11 @@ def influences(
         found = delta.analyze(problem, points, means, num_resamples=RESAMPLES, seed=0)
     named = ("S1", "S1_conf", "delta_balanced", "delta_balanced_conf")
     rows = zip(paths, *(found[name] for name in named), strict=True)
-    every = [Influence(path, *(float(number) for number in numbers)) for path, *numbers in rows]
-    return tuple(sorted(every, key=lambda each: -each.delta))
+    every = [
+        Influence(path, *(round(float(number), PLACES) for number in numbers))
+        for path, *numbers in rows
+    ]
+    return tuple(sorted(every, key=lambda each: -each.total))
 
 
 def codes(evidence: Evidence, path: str) -> NDArray[np.float64]:

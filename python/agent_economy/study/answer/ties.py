@@ -1,6 +1,6 @@
 """Which configurations are as good as the best, which are worse, and which is not known."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Literal
 
 from agent_economy.study.answer.evidence import Evidence, Interval
@@ -23,24 +23,11 @@ class Standing:
     verdict: Verdict
 
 
-def standings(
-    evidence: Evidence, best: int, delta: float, *, is_good: bool
-) -> tuple[Standing, ...]:
-    """Return how each configuration stands to the selected one.
-
-    Args:
-        evidence: The runs.
-        best: The selected one.
-        delta: The difference worth finding.
-        is_good: Whether the procedure proved that no other is better by delta.
-    """
-    found = [
+def standings(evidence: Evidence, best: int, delta: float) -> tuple[Standing, ...]:
+    """Return how each configuration stands to the selected one."""
+    return tuple(
         Standing(None, "best") if other == best else standing(evidence, best, other, delta)
         for other in range(len(evidence.samples))
-    ]
-    return tuple(
-        replace(each, verdict="no better") if is_good and each.verdict == "undecided" else each
-        for each in found
     )
 
 

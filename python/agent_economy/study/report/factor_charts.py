@@ -109,7 +109,7 @@ def sensitivity(view: View) -> Spec:
     found = view.answer.sensitivity
     rows: Rows = []
     for each in found.influences if found else ():
-        shares = ((each.first_order, each.first_order_error), (each.delta, each.delta_error))
+        shares = ((each.first_order, each.first_order_error), (each.total, each.total_error))
         rows += [
             {
                 "label": factor_name(each.path),

@@ -10,6 +10,7 @@ import jinja2
 
 from agent_economy.study.answer.conclude import Answer
 from agent_economy.study.answer.evidence import Evidence
+from agent_economy.study.errors import StudyError
 from agent_economy.study.report.assumptions import assumptions
 from agent_economy.study.report.charts import specifications
 from agent_economy.study.report.sections import sections
@@ -60,12 +61,12 @@ class ChartScript:
         """Return the script, when it is made.
 
         Raises:
-            RuntimeError: If vl-convert failed; with what it said.
+            StudyError: If vl-convert failed; with what it said.
         """
         script, errors = self._process.communicate()
         if self._process.returncode != 0:
             message = f"vl-convert made no script for the charts: {errors.strip()}"
-            raise RuntimeError(message)
+            raise StudyError(message)
         return script
 
 
@@ -73,7 +74,7 @@ def html(answer: Answer, evidence: Evidence, script: ChartScript) -> str:
     """Return the report's page: the same text for the same answer and evidence.
 
     Raises:
-        RuntimeError: If the script could not be made.
+        StudyError: If the script could not be made.
     """
     environment = jinja2.Environment(
         loader=jinja2.PackageLoader("agent_economy.study.report", "."),

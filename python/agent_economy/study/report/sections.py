@@ -153,9 +153,11 @@ def saturation_in_words(view: View, found: Saturation) -> str:
     """Return whether it is decided how many are enough."""
     proved, possible = found.proved, found.possible
     largest = found.sizes[-1]
+    weighs_robots = "robots" in view.answer.scenario.merit.columns
     enough = (
         f"A number is enough if no larger one that was compared (up to {largest:,}) gains "
-        f"{brief(view.answer.delta)} of merit over it, the price of its robots included."
+        f"{brief(view.answer.delta)} of merit over it"
+        f"{', what its robots cost included' if weighs_robots else ''}."
     )
     if proved == possible == largest:
         return f"Not reached: every number below {largest:,} is surely beaten by a larger one."

@@ -197,7 +197,7 @@ def sensitivity(view: View) -> Table:
                 (
                     words(each.path),
                     measured(around(each.first_order, each.first_order_error), 2),
-                    measured(around(each.delta, each.delta_error), 2),
+                    measured(around(each.total, each.total_error), 2),
                 )
             )
             for each in influences

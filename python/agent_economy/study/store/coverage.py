@@ -10,7 +10,7 @@ from agent_economy._core import InputError
 from agent_economy.study.rectangle import Rectangle
 from agent_economy.study.store.ledger import Block
 
-MOST_ROWS = 2**20
+MOST_ROWS = 2**18
 """Of a block, unless it is of a single configuration."""
 
 

@@ -80,4 +80,8 @@ def read(folder: str | Path) -> ReadStore:
     if asked is None:
         message = f"{folder}: holds no study ({files.ASKED} is not there)"
         raise InputError(message)
-    return ReadStore(folder, asked.decode())
+    try:
+        return ReadStore(folder, asked.decode())
+    except UnicodeDecodeError:
+        message = f"{folder / files.ASKED}: is not UTF-8 text: restore it, or use another folder"
+        raise InputError(message) from None

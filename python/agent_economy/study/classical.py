@@ -1,4 +1,4 @@
-"""Classical procedures, to measure ours against and to teach with; studies do not use them."""
+"""Classical procedures, to measure ours against and to teach with."""
 
 from dataclasses import dataclass
 from typing import Literal
@@ -19,6 +19,8 @@ from agent_economy.study.selection import (
     is_between,
     is_whole,
 )
+
+MAX_KN = 2000
 
 
 @dataclass(frozen=True)
@@ -46,7 +48,7 @@ def reference(  # noqa: PLR0913  (keywords with defaults)
             stages, a first one of `runs`. "kn": Kim and Nelson's sequential procedure after a first
             stage of `runs`. The last two hold for normal merits only.
         sampler: As in `select_best`; merits must be finite.
-        k: How many configurations, 1 to 100,000.
+        k: How many configurations, 1 to 100,000 (to 2,000 for "kn", which compares all pairs).
         runs: 2 to 1,000,000.
         delta: As in `select_best`; "equal" has no use for it.
         confidence: Likewise.
@@ -58,9 +60,10 @@ def reference(  # noqa: PLR0913  (keywords with defaults)
     Source: Rinott (1978), Communications in Statistics A7; Kim and Nelson (2001), ACM Transactions
         on Modeling and Computer Simulation 11.
     """
+    most = MAX_KN if name == "kn" else MAX_CONFIGURATIONS
     sure = is_between(confidence, LEAST_CONFIDENCE, 1) or confidence == LEAST_CONFIDENCE
     faults = [
-        *fault(is_whole(k, 1, MAX_CONFIGURATIONS), "k", k, "a whole number from 1 to 100000"),
+        *fault(is_whole(k, 1, most), "k", k, f"a whole number from 1 to {most}"),
         *fault(is_whole(runs, 2, 10**6), "runs", runs, "a whole number from 2 to 1000000"),
         *fault(is_between(delta, 0, np.inf), "delta", delta, "a number above 0"),
         *fault(sure, "confidence", confidence, "a number from 0.5 to below 1"),
