@@ -34,7 +34,7 @@ def run(  # noqa: PLR0913  (keywords with defaults)
     compute: Compute | None = None,
     on_progress: OnProgress | None = None,
 ) -> Answer:
-    """Return the answer to a scenario's question, in as few runs as the truth allows.
+    """Return the answer to a scenario's question, as soon as there is proof.
 
     Args:
         scenario: What is run.
