@@ -1,5 +1,6 @@
 """The command `agent-economy`."""
 
+import io
 import sys
 
 
@@ -8,6 +9,10 @@ def main() -> None:
     try:
         from agent_economy.cli import app  # noqa: PLC0415  (slow: Ctrl-C must be caught in it)
 
+        for stream in (sys.stdout, sys.stderr):
+            # What the terminal's encoding lacks is shown as its code.
+            if isinstance(stream, io.TextIOWrapper):
+                stream.reconfigure(errors="backslashreplace")
         app()
     except KeyboardInterrupt:
         sys.stderr.write("\nStopped.\n")

@@ -6,6 +6,7 @@ from numpy.typing import NDArray
 __all__ = [
     "CONTACTS",
     "FACTORS",
+    "FIRST_LOOK",
     "MERITS",
     "MERIT_TERMS",
     "Configuration",
@@ -26,6 +27,7 @@ __all__ = [
 
 CONTACTS: list[str]
 FACTORS: list[str]
+FIRST_LOOK: int
 MERITS: list[str]
 MERIT_TERMS: list[str]
 

@@ -243,23 +243,49 @@ def test_ctrl_c_ends_within_a_second_and_the_study_goes_on_from_there(
     assert run("study", "--resume", out).returncode == 0
 
 
-def test_a_second_process_is_kept_out_of_a_study_at_work(
+def test_a_study_at_work_is_watched_and_no_second_process_gets_in(
     classic_toml: Path, tmp_path: Path
 ) -> None:
     out = tmp_path / "out"
-    options = ["--delta", "0.00001", "--vary", "robots.wanderer.count=4,5", "--out", str(out)]
+    options = ["--delta", "0.00001", "--vary", "clock.paints_per_s=56,56.001", "--out", str(out)]
     process = subprocess.Popen(
         [*COMMAND, "study", str(classic_toml), *options], stderr=subprocess.DEVNULL
     )
     try:
         while not list(out.glob("blocks/*")) and process.poll() is None:
             time.sleep(0.02)
+        watcher = subprocess.Popen(
+            [*COMMAND, "watch", str(out)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        )
         second = run("study", "--resume", out)
     finally:
         process.kill()
         process.wait()
+    said, errors = watcher.communicate(timeout=60)
     assert second.returncode == 2
     assert "another process is working on it" in second.stderr
+    # The study was killed, so it is not over, and nobody works on it.
+    assert watcher.returncode == 1
+    assert "still in" in errors
+    assert f"it is not over: agent-economy study --resume {out}" in errors
+    assert said == ""
+
+
+def test_the_table_of_an_answer_can_be_read_in_eighty_columns(
+    classic_toml: Path, tmp_path: Path
+) -> None:
+    environment = os.environ | {"COLUMNS": "80", "FORCE_COLOR": "1", "NO_COLOR": "1"}
+    given = subprocess.run(
+        [*COMMAND, "study", str(classic_toml), "--runs", "20", "--out", str(tmp_path)],
+        capture_output=True,
+        text=True,
+        env=environment,
+        check=False,
+        timeout=60,
+    )
+    lines = re.sub(r"\x1b\[[0-9;]*m", "", given.stdout).splitlines()
+    assert sum("4 wanderers" in line and "-" in line for line in lines) == 1
+    assert max(len(line) for line in lines if "wanderer" in line) <= 80
 
 
 def test_ctrl_c_while_modules_load_leaves_no_traceback() -> None:

@@ -147,6 +147,30 @@ def test_the_better_of_two_is_selected_where_bounds_leave_delta_and_no_more(
     assert found.best == 1
 
 
+@pytest.mark.parametrize("guarantee", ["indifference", "pgs"])
+def test_merits_far_from_zero_are_compared_as_near_it(guarantee: Any) -> None:
+    far = 1e15
+
+    def sample(configurations: Integers, _: int, runs: int) -> Floats:
+        return far + np.repeat(0.25 * configurations[:, np.newaxis], runs, axis=1)
+
+    found = select_best(
+        sample, 2, bounds=(far, far + 1), delta=0.1, guarantee=guarantee, max_runs=10_000
+    )
+    assert (found.best, found.stopped) == (1, False)
+
+
+def test_a_sampler_may_spoil_its_arguments() -> None:
+    def sample(configurations: Integers, _: int, runs: int) -> Floats:
+        merits = np.repeat(0.5 * configurations[:, np.newaxis], runs, axis=1)
+        configurations[:] = 0
+        return merits
+
+    found = select_best(sample, 3, bounds=(0, 1), delta=0.1)
+    assert found.best == 2
+    assert found.mean.tolist() == [0, 0.5, 1]
+
+
 def test_a_lead_far_above_delta_costs_little_more_for_a_tiny_delta() -> None:
     def runs(delta: float) -> int:
         found = select_best(bernoulli([0.5, 0.6]), 2, bounds=(0, 1), delta=delta)
@@ -189,6 +213,8 @@ def test_without_noise_the_best_is_selected(merits: list[float], guarantee: Any)
         ({"delta": float("nan")}, "delta = nan: must be"),
         ({"confidence": 1.0}, "confidence = 1.0: must be a number from 0.5 to below 1"),
         ({"confidence": 95}, "confidence = 95: must be"),
+        ({"confidence": np.array([0.9, 0.95])}, "must be a number from 0.5"),
+        ({"delta": 10**400}, "must be a number above 0"),
         ({"guarantee": "PCS"}, "guarantee = 'PCS': must be one of 'indifference', 'pgs'"),
         ({"seed": -1}, "seed = -1: must be a whole number from 0 to 2147483647"),
         ({"max_runs": 10}, "max_runs = 10: must be None or a whole number of 20 (10 k) or more"),
@@ -215,6 +241,7 @@ def test_all_bad_arguments_are_told_at_once() -> None:
     ("returned", "told"),
     [
         (np.zeros(20), "the sampler returned shape (20,): must be (2, 10)"),
+        ([[0.5] * 10, [0.5]], "the sampler returned no array of numbers of shape (2, 10)"),
         (np.full((2, 10), 1.5), "configuration 0 had a merit of 1.5: must be from 0 to 1"),
     ],
 )

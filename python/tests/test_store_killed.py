@@ -3,26 +3,17 @@
 import hashlib
 import random
 import signal
-from collections.abc import Callable
-from multiprocessing.process import BaseProcess
 from pathlib import Path
 
 import made_up
 import pytest
-from forks import FORKS
+from forks import FORKS, started
 
 from agent_economy.study.store import read
 
 KILLS = 40
 SEED = 7
 ROUNDS = 40
-
-
-def started(work: Callable[..., None], *args: object) -> BaseProcess:
-    """Start work in a process of its own."""
-    process = FORKS.Process(target=work, args=args)
-    process.start()
-    return process
 
 
 def blocks(folder: Path) -> dict[str, str]:

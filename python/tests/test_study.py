@@ -139,6 +139,23 @@ def test_runs_of_another_program_are_not_mixed_with_ours(
         study.run(scenario, delta=0.3, out=tmp_path)
 
 
+@pytest.mark.parametrize(
+    ("there", "edited"),
+    [('contact = \\"touch', 'contact = \\"ahead'), ('seed = "0"', 'seed = "5"')],
+)
+def test_a_study_toml_edited_to_ask_for_other_runs_is_refused(
+    there: str, edited: str, scenario: Scenario, tmp_path: Path
+) -> None:
+    study.run(scenario, delta=0.3, out=tmp_path)
+    path = tmp_path / "study.toml"
+    text = path.read_text()
+    assert there in text
+    path.write_text(text.replace(there, edited))
+    for ask_again in (study.rebuild, study.resume):
+        with pytest.raises(InputError, match=r"its \[data\] was changed"):
+            ask_again(tmp_path)
+
+
 def test_values_may_be_a_text_and_numbers_of_numpy(scenario: Scenario, tmp_path: Path) -> None:
     asked: Any = {"delta": np.float32(0.5), "seed": np.int64(0)}
     texts = study.run(scenario, vary={TEAM: "3..5"}, delta=0.5, out=tmp_path)

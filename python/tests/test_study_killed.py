@@ -2,15 +2,15 @@
 
 import os
 import random
+import signal
 import tempfile
 import time
 from collections.abc import Iterator
-from multiprocessing.process import BaseProcess
 from pathlib import Path
 
 import pytest
 import small
-from forks import FORKS
+from forks import started
 
 from agent_economy import study
 
@@ -19,17 +19,10 @@ KILLS_A_FOLDER = 10
 SEED = 11
 
 
-def started(folder: Path) -> BaseProcess:
-    """Start the small study in a process of its own."""
-    process = FORKS.Process(target=small.pursue, args=(folder,))
-    process.start()
-    return process
-
-
 def undisturbed(folder: Path) -> float:
     """Run the small study to its end; return the seconds it took."""
     begin = time.monotonic()
-    process = started(folder)
+    process = started(small.pursue, folder)
     process.join()
     assert process.exitcode == 0
     return time.monotonic() - begin
@@ -66,13 +59,14 @@ def test_200_kills_lose_nothing_double_nothing_and_change_no_byte(quick_path: Pa
         folders += 1
         killed_here = 0
         while True:
-            process = started(folder)
+            process = started(small.pursue, folder)
             # From before anything is written to after the end; then it is left to finish.
             process.join(chance.uniform(0, 1.1 * seconds) if killed_here < KILLS_A_FOLDER else None)
             process.kill()
             process.join()
             if process.exitcode == 0:
                 break
+            assert process.exitcode == -signal.SIGKILL
             killed_here += 1
         kills += killed_here
         assert (folder / "answer.json").read_bytes() == answer

@@ -34,6 +34,7 @@ mod _core {
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.add("FIRST_LOOK", select::schedule::next_look(0))?;
         module.add("CONTACTS", Contact::NAMES.map(|(name, _)| name))?;
         module.add("FACTORS", FACTORS)?;
         module.add("MERITS", Merit::NAMES.map(|(name, _)| name))?;

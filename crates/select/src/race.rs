@@ -39,7 +39,7 @@ impl Race {
     pub fn new(problem: Problem) -> Self {
         let configurations = problem.configurations();
         Self {
-            samples: Samples::new(configurations),
+            samples: Samples::new(&problem),
             survivors: (0..configurations).collect(),
             duels: BTreeMap::new(),
             bequeathed: vec![0.0; configurations],

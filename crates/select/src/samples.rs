@@ -1,15 +1,22 @@
 //! The merits told so far.
 
-/// The merits of each configuration's runs 0, 1, ..., and their sums.
+use crate::problem::Problem;
+
+/// The merits of each configuration's runs 0, 1, ..., and the sums of what they are above `base`.
 #[derive(Debug, Clone)]
 pub(crate) struct Samples {
+    /// The least merit that any can have: sums from there keep their figures far from 0.
+    base: f64,
     merits: Vec<Vec<f64>>,
     sums: Vec<f64>,
 }
 
 impl Samples {
-    pub(crate) fn new(configurations: usize) -> Self {
+    pub(crate) fn new(problem: &Problem) -> Self {
+        let configurations = problem.configurations();
+        let least = problem.bounds.iter().map(|bounds| bounds.least);
         Self {
+            base: least.fold(f64::INFINITY, f64::min),
             merits: vec![Vec::new(); configurations],
             sums: vec![0.0; configurations],
         }
@@ -23,7 +30,7 @@ impl Samples {
             self.merits[configuration].extend_from_slice(row);
             // In the order of the runs, so that the sum does not depend on how they were cut.
             for merit in row {
-                self.sums[configuration] += merit;
+                self.sums[configuration] += merit - self.base;
             }
         }
     }
@@ -43,7 +50,7 @@ impl Samples {
             .collect()
     }
 
-    /// The mean merit, or minus infinity before the first run.
+    /// The mean merit above the base, or minus infinity before the first run.
     #[expect(clippy::cast_precision_loss, reason = "runs are far fewer than 2^53")]
     pub(crate) fn mean(&self, configuration: usize) -> f64 {
         match self.runs(configuration) {

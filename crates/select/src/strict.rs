@@ -35,7 +35,7 @@ impl Strict {
     pub fn new(problem: Problem) -> Self {
         let configurations = problem.configurations();
         Self {
-            samples: Samples::new(configurations),
+            samples: Samples::new(&problem),
             leader: 0,
             challengers: (1..configurations).collect(),
             duels: Vec::new(),

@@ -153,11 +153,9 @@ def watched(asked: Plan, folder: Path, workers: int | None, dask: str | None) ->
         with computing(asked.engine, workers, dask) as compute, teller.shown() as on_progress:
             return studies.pursue(asked, folder, compute=compute, on_progress=on_progress)
     except KeyboardInterrupt:
-        typer.echo(
-            f"\nStopped after {teller.runs:,} runs; all are kept. Go on with: "
-            f"agent-economy study --resume {folder}",
-            err=True,
-        )
+        begun = (folder / "study.toml").exists()
+        kept = f"; all are kept. Go on with: agent-economy study --resume {folder}"
+        typer.echo(f"\nStopped after {teller.runs:,} runs{kept if begun else '.'}", err=True)
         raise typer.Exit(INTERRUPTED) from None
 
 

@@ -16,6 +16,9 @@ from agent_economy.study.answer.results import Result
 WIDE = 118
 """Columns that a table with ranges needs, and that there are where the output is no terminal."""
 
+NAME = 12
+"""Columns that the name of a configuration needs."""
+
 MOST = 20
 """Configurations that a table shows, the best ones."""
 
@@ -55,8 +58,8 @@ def results_table(answer: Answer, *, ranges: bool) -> Table:
         caption_justify="left",
         box=box.SIMPLE_HEAD,
     )
-    table.add_column("configuration", overflow="fold")
-    for name in ("runs", "mean time, s", "runs failed", "figure of merit", "behind", ""):
+    table.add_column("configuration", overflow="fold", min_width=NAME)
+    for name in ("runs", "time, s", "failed", "merit", "behind", ""):
         table.add_column(name, justify="right", no_wrap=True)
     for result in shown:
         is_best = result is answer.results[answer.best]

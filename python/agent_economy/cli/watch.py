@@ -1,6 +1,5 @@
 """The command `watch`."""
 
-import math
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -10,12 +9,9 @@ import typer
 
 from agent_economy import study
 from agent_economy.cli.progress import Teller
-from agent_economy.cli.told import INTERRUPTED, faults_told
+from agent_economy.cli.told import FAILED, INTERRUPTED, faults_told
 from agent_economy.study.answer.labels import label
 from agent_economy.study.race import Progress
-
-SILENCE_S = 30.0
-"""After which somebody who watches is told that nothing happens."""
 
 PAUSE_S = 0.5
 """Between two looks at the ledger."""
@@ -26,7 +22,8 @@ def watch(
 ) -> None:
     """Show how far a study is that another process runs, until it is over; it is not disturbed.
 
-    Exit codes: 0 the study is over, 2 something given is not allowed, 130 stopped by Ctrl-C.
+    Exit codes: 0 the study is over, 1 it is not, but nobody works on it, 2 something given is not
+    allowed, 130 stopped by Ctrl-C.
 
     Example: agent-economy watch studies/classic
     """
@@ -34,33 +31,34 @@ def watch(
         names = [label(values) for values in study.plan_of(folder).configurations]
         try:
             with Teller(names).shown() as on_progress:
+                is_over = False
                 for progress in rounds(folder):
                     on_progress(progress)
+                    is_over = progress.is_over
         except KeyboardInterrupt:
             raise typer.Exit(INTERRUPTED) from None
+    if not is_over:
+        message = f"Nobody works on it, and it is not over: agent-economy study --resume {folder}"
+        typer.echo(message, err=True)
+        raise typer.Exit(FAILED)
     typer.echo("The study is over.")
 
 
 def rounds(folder: Path) -> Iterator[Progress]:
-    """Yield a study's rounds, those over first and then each as it comes, until the last."""
+    """Yield a study's rounds, those over first and then each as it comes, while somebody works."""
     store = study.open(folder)
     done, begin, first_runs = 0, time.monotonic(), 0
-    said_at = time.monotonic()
-    while True:
+    is_worked_on = True
+    while is_worked_on:
+        # Looked at before the rounds: what comes after the last look is seen in the next.
+        is_worked_on = study.is_worked_on(folder)
         decisions = store.decisions()
-        if decisions[done:]:
-            said_at = time.monotonic()
-        elif time.monotonic() - said_at > SILENCE_S:
-            said_at = math.inf
-            typer.echo(f"{folder}: no round for {SILENCE_S:.0f} s; does it still run?", err=True)
+        first_runs = first_runs or (decisions[-1].facts["runs"] if decisions else 0)
+        # Another question of the same study begins its rounds anew.
+        done = min(done, len(decisions))
         for decision in decisions[done:]:
-            if done == 0:
-                first_runs = decisions[-1].facts["runs"]
-            done += 1
             computed = max(0, decision.facts["runs"] - first_runs)
-            yield Progress.of_facts(
-                decision.round, decision.facts, computed, time.monotonic() - begin
-            )
-            if decision.facts["is_over"]:
-                return
-        time.sleep(PAUSE_S)
+            seconds = time.monotonic() - begin
+            yield Progress.of_facts(decision.round, decision.facts, computed, seconds)
+        done = len(decisions)
+        time.sleep(PAUSE_S if is_worked_on else 0)

@@ -14,6 +14,7 @@ from agent_economy.study.plan import make as make_plan
 from agent_economy.study.race import Progress
 from agent_economy.study.selection import Selection, select_best
 from agent_economy.study.store import read as open  # noqa: A004  (ae.study.open)
+from agent_economy.study.store.folder import is_worked_on
 
 __all__ = [
     "Answer",
@@ -22,6 +23,7 @@ __all__ = [
     "Reference",
     "Result",
     "Selection",
+    "is_worked_on",
     "make_plan",
     "open",
     "plan_of",

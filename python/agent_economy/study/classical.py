@@ -61,7 +61,7 @@ def reference(  # noqa: PLR0913  (keywords with defaults)
         on Modeling and Computer Simulation 11.
     """
     most = MAX_KN if name == "kn" else MAX_CONFIGURATIONS
-    sure = is_between(confidence, LEAST_CONFIDENCE, 1) or confidence == LEAST_CONFIDENCE
+    sure = is_between(confidence, np.nextafter(LEAST_CONFIDENCE, 0), 1)
     faults = [
         *fault(is_whole(k, 1, most), "k", k, f"a whole number from 1 to {most}"),
         *fault(is_whole(runs, 2, 10**6), "runs", runs, "a whole number from 2 to 1000000"),

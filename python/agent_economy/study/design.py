@@ -40,7 +40,7 @@ def points(factors: Sequence[Factor], design: str = "factorial", seed: int = 0) 
 
 def in_words(design: str, configurations: Sequence[Values]) -> str:
     """Return how many configurations a design has, and how many of its points are left."""
-    left = f"{len(configurations):,} configurations"
+    left = f"{len(configurations):,} configuration{'' if len(configurations) == 1 else 's'}"
     if design == "factorial":
         return f"factorial: {left}"
     drawn = number_of_points(design)

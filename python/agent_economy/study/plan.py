@@ -204,12 +204,20 @@ def read(text: str, file: str) -> Plan:
         message = f"{file}: format = {document.get('format')}: must be {FORMAT}; a newer program's?"
         raise InputError(message)
     try:
-        return of_document(document)
+        found = of_document(document)
+        if found.identity == document["data"]["identity"]:
+            return found
     except (KeyError, TypeError, ValueError) as error:
         if isinstance(error, InputError):
             raise
         message = f"{file}: is damaged ({error!r}): restore it, or start in another folder"
         raise InputError(message) from None
+    message = (
+        f"{file}: its [data] was changed, or is that of another version of this program "
+        f"({document['data'].get('program')}): the runs beside it are others; restore it, or start "
+        "in another folder"
+    )
+    raise InputError(message)
 
 
 def of_document(document: Mapping[str, Any]) -> Plan:

@@ -22,7 +22,7 @@ Sampler = Callable[[Integers, int, int], ArrayLike]
 
 MAX_CONFIGURATIONS = 100_000
 LEAST_CONFIDENCE = 0.5
-FIRST_LOOK = 10
+FIRST_LOOK = _core.FIRST_LOOK
 """Runs of every configuration before anything is decided."""
 
 LANE = 2**32
@@ -160,7 +160,8 @@ class Samples:
 
     def shared(self, configurations: Integers, first_run: int, runs: int) -> Floats:
         """Return merits of the same run numbers for all configurations."""
-        given = self._sampler(configurations, self._lane * LANE + first_run, runs)
+        # A copy: what a sampler does to its arguments is its own.
+        given = self._sampler(configurations.copy(), self._lane * LANE + first_run, runs)
         return self._kept(configurations, self._shaped(given, (len(configurations), runs)))
 
     def apart(self, configurations: Integers, first_run: int, runs: int) -> Floats:
@@ -173,7 +174,11 @@ class Samples:
         return self._kept(configurations, np.concatenate(shaped))
 
     def _shaped(self, given: ArrayLike, shape: tuple[int, int]) -> Floats:
-        merits = np.array(given, dtype=np.float64)
+        try:
+            merits = np.array(given, dtype=np.float64)
+        except (TypeError, ValueError) as error:
+            message = f"the sampler returned no array of numbers of shape {shape}: {error}"
+            raise InputError(message) from None
         if merits.shape != shape:
             message = f"the sampler returned shape {merits.shape}: must be {shape}"
             raise InputError(message)
@@ -251,7 +256,7 @@ def in_words(
 
 def percent(share: float) -> str:
     """Return a share as people write it: 95%, 99.9%."""
-    return f"{100 * share:.10g}%"
+    return f"{100 * share:.15g}%"
 
 
 def checked_arguments(  # noqa: PLR0913, PLR0917  (the arguments of select_best)
@@ -299,7 +304,7 @@ def question_faults(delta: object, confidence: object, guarantee: object) -> lis
     return [
         *fault(is_between(delta, 0, math.inf), "delta", delta, "a number above 0"),
         *fault(
-            is_between(confidence, LEAST_CONFIDENCE, 1) or confidence == LEAST_CONFIDENCE,
+            is_between(confidence, np.nextafter(LEAST_CONFIDENCE, 0), 1),
             "confidence",
             confidence,
             "a number from 0.5 to below 1",
@@ -321,8 +326,12 @@ def is_whole(given: object, least: int, greatest: int) -> bool:
 
 def is_between(given: object, above: float, below: float) -> bool:
     """Return whether something is a number (not a bool) between two others."""
-    number = isinstance(given, int | float | np.number) and not isinstance(given, bool)
-    return number and above < given < below  # type: ignore[operator]
+    if not isinstance(given, int | float | np.number) or isinstance(given, bool):
+        return False
+    try:
+        return above < float(given) < below
+    except (OverflowError, TypeError):
+        return False
 
 
 def limits_of(k: int, bounds: ArrayLike) -> Floats | None:

@@ -73,9 +73,13 @@ class ChartScript:
 def html(answer: Answer, evidence: Evidence, script: ChartScript) -> str:
     """Return the report's page: the same text for the same answer and evidence.
 
-    Raises:
-        StudyError: If the script could not be made.
+    Where the script cannot be made (it needs gigabytes of address space), the page has its tables
+    and says that the charts are missing: an answer is worth more than they.
     """
+    try:
+        javascript = script.text()
+    except StudyError:
+        javascript = ""
     environment = jinja2.Environment(
         loader=jinja2.PackageLoader("agent_economy.study.report", "."),
         autoescape=True,
@@ -93,8 +97,8 @@ def html(answer: Answer, evidence: Evidence, script: ChartScript) -> str:
         quarantined=quarantined(view),
         sections=tuple(sections(view)),
         assumptions=tuple(assumptions(view)),
-        charts=specifications(answer, evidence),
-        javascript=script.text(),
+        charts=specifications(answer, evidence) if javascript else {},
+        javascript=javascript,
     )
 
 

@@ -5,6 +5,7 @@ import difflib
 import fcntl
 import os
 import sqlite3
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -17,6 +18,10 @@ LEDGER = "ledger.sqlite"
 LOCK = ".lock"
 UNFINISHED = ".unfinished-"
 """What the names of files begin with until they are whole."""
+
+TRIALS = 5
+TRIAL_S = 0.02
+"""How often, and how long after each, a folder's lock is tried."""
 
 MOST_SHOWN = 6
 """Differing lines that a fault shows."""
@@ -58,16 +63,36 @@ def lock(folder: Path) -> int:
     """
     with told(folder):
         descriptor = os.open(folder / LOCK, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o666)
-    try:
-        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except OSError as error:
-        os.close(descriptor)
-        if not isinstance(error, BlockingIOError):
+    for trial in range(TRIALS):
+        try:
+            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            # Somebody may just be looking (`is_worked_on`).
+            time.sleep(TRIAL_S if trial + 1 < TRIALS else 0)
+        except OSError as error:
+            os.close(descriptor)
             message = f"{folder}: cannot be locked ({error.strerror})"
             raise InputError(message) from None
-        message = f"{folder}: another process is working on it: wait for it, or use another folder"
-        raise InputError(message) from None
-    return descriptor
+        else:
+            return descriptor
+    os.close(descriptor)
+    message = f"{folder}: another process is working on it: wait for it, or use another folder"
+    raise InputError(message)
+
+
+def is_worked_on(folder: Path) -> bool:
+    """Return whether a process has a folder now."""
+    try:
+        descriptor = os.open(folder / LOCK, os.O_RDONLY | os.O_CLOEXEC)
+    except OSError:
+        return False
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_SH | fcntl.LOCK_NB)
+    except OSError:
+        return True
+    finally:
+        os.close(descriptor)
+    return False
 
 
 def remove_unfinished(folder: Path) -> None:
