@@ -13,7 +13,7 @@ from pathlib import Path
 
 REPORT = Path("studies/classic/report.html")
 PICTURE = Path("docs/report.png")
-SIZE = "900,1085"
+SIZE = "900,900"
 
 
 def main() -> None:
