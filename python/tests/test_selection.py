@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 
 from agent_economy import InputError
 from agent_economy.study import reference, select_best
-from agent_economy.study.selection import LANE, Floats, Integers, Sampler
+from agent_economy.study.arguments import Floats
+from agent_economy.study.selection import LANE, Integers, Sampler
 
 
 def bernoulli(shares: list[float], seed: int = 0) -> Sampler:

@@ -11,11 +11,11 @@ from agent_economy.study import files
 from agent_economy.study import plan as plans
 from agent_economy.study.answer.conclude import Answer
 from agent_economy.study.answer.evidence import Evidence
+from agent_economy.study.arguments import Guarantee
 from agent_economy.study.plan import Plan
 from agent_economy.study.race import OnProgress, hold
 from agent_economy.study.rectangle import Compute, Rectangle
 from agent_economy.study.report.page import ChartScript
-from agent_economy.study.selection import Guarantee
 from agent_economy.study.store import read
 
 

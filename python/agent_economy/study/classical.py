@@ -7,18 +7,15 @@ import numpy as np
 
 from agent_economy import _core
 from agent_economy._core import InputError
-from agent_economy.study.selection import (
-    LANE,
+from agent_economy.study.arguments import (
     LEAST_CONFIDENCE,
     MAX_CONFIGURATIONS,
     Floats,
-    Integers,
-    Sampler,
-    drive,
     fault,
     is_between,
     is_whole,
 )
+from agent_economy.study.selection import LANE, Integers, Sampler, drive
 
 MAX_KN = 2000
 

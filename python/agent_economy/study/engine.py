@@ -8,10 +8,10 @@ import numpy as np
 
 from agent_economy import _core
 from agent_economy.scenario import Scenario
+from agent_economy.study.arguments import Floats
 from agent_economy.study.design import Values
 from agent_economy.study.executors import LocalExecutor, dask_executor
 from agent_economy.study.rectangle import Columns, Rectangle
-from agent_economy.study.selection import Floats
 from agent_economy.study.store.columns import Column
 from agent_economy.study.workers import Workers
 

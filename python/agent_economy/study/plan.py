@@ -18,15 +18,9 @@ import tomli_w
 from agent_economy._core import InputError
 from agent_economy.scenario import Override, Scenario
 from agent_economy.study import design
+from agent_economy.study.arguments import FIRST_LOOK, Floats, Guarantee, is_whole, question_faults
 from agent_economy.study.design import Values
 from agent_economy.study.engine import Engine
-from agent_economy.study.selection import (
-    FIRST_LOOK,
-    Floats,
-    Guarantee,
-    is_whole,
-    question_faults,
-)
 
 FORMAT = 1
 """Of study.toml."""

@@ -18,16 +18,10 @@ from agent_economy.study.answer.conclude import Answer, conclude
 from agent_economy.study.answer.effort import remaining
 from agent_economy.study.answer.evidence import Evidence, Sample
 from agent_economy.study.answer.results import Ending
+from agent_economy.study.arguments import Floats
 from agent_economy.study.plan import Plan, is_same_data
 from agent_economy.study.rectangle import Columns, Compute, Rectangle
-from agent_economy.study.selection import (
-    Elimination,
-    Floats,
-    Integers,
-    drive,
-    in_words,
-    within,
-)
+from agent_economy.study.selection import Elimination, Integers, drive, in_words, within
 from agent_economy.study.store import Store
 
 KEPT = ("time_s", "failed", "robots")

@@ -7,23 +7,16 @@ computed, checked and told to them. `drive` is the one loop; a study runs it ove
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import Literal, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from agent_economy import _core
 from agent_economy._core import InputError
+from agent_economy.study.arguments import Floats, Guarantee, checked_arguments
 
-Guarantee = Literal["indifference", "pgs"]
-Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 Sampler = Callable[[Integers, int, int], ArrayLike]
-
-MAX_CONFIGURATIONS = 100_000
-LEAST_CONFIDENCE = 0.5
-FIRST_LOOK = _core.FIRST_LOOK
-"""Runs of every configuration before anything is decided."""
 
 LANE = 2**32
 """Run numbers that belong to one seed (and to one configuration, without common random numbers)."""
@@ -257,91 +250,3 @@ def in_words(
 def percent(share: float) -> str:
     """Return a share as people write it: 95%, 99.9%."""
     return f"{100 * share:.15g}%"
-
-
-def checked_arguments(  # noqa: PLR0913, PLR0917  (the arguments of select_best)
-    k: int,
-    bounds: ArrayLike,
-    delta: float,
-    confidence: float,
-    guarantee: str,
-    seed: int,
-    max_runs: int | None,
-) -> Floats:
-    """Return the bounds of each configuration, shape (k, 2).
-
-    Raises:
-        InputError: If anything is not allowed; all faults at once.
-    """
-    whole_k = is_whole(k, 1, MAX_CONFIGURATIONS)
-    least = FIRST_LOOK * k if whole_k else 1
-    limits = limits_of(k, bounds) if whole_k else None
-    faults = [
-        *fault(whole_k, "k", k, f"a whole number from 1 to {MAX_CONFIGURATIONS}"),
-        *question_faults(delta, confidence, guarantee),
-        *fault(is_whole(seed, 0, 2**31 - 1), "seed", seed, "a whole number from 0 to 2147483647"),
-        *fault(
-            max_runs is None or is_whole(max_runs, least, 2**62),
-            "max_runs",
-            max_runs,
-            f"None or a whole number of {least} (10 k) or more",
-        ),
-        *fault(
-            not whole_k or limits is not None,
-            "bounds",
-            bounds,
-            f"least and greatest merit, finite, as a pair or an array ({k}, 2)",
-        ),
-    ]
-    if faults or limits is None:
-        raise InputError("\n".join(faults))
-    return limits
-
-
-def question_faults(delta: object, confidence: object, guarantee: object) -> list[str]:
-    """Return what is wrong with a question."""
-    names = get_args(Guarantee)
-    return [
-        *fault(is_between(delta, 0, math.inf), "delta", delta, "a number above 0"),
-        *fault(
-            is_between(confidence, np.nextafter(LEAST_CONFIDENCE, 0), 1),
-            "confidence",
-            confidence,
-            "a number from 0.5 to below 1",
-        ),
-        *fault(guarantee in names, "guarantee", guarantee, "one of " + ", ".join(map(repr, names))),
-    ]
-
-
-def fault(is_allowed: bool, name: str, given: object, allowed: str) -> list[str]:  # noqa: FBT001
-    """Return what is wrong with a value, if anything."""
-    return [] if is_allowed else [f"{name} = {given!r}: must be {allowed}"]
-
-
-def is_whole(given: object, least: int, greatest: int) -> bool:
-    """Return whether something is a whole number (not a bool) in a range."""
-    whole = isinstance(given, int | np.integer) and not isinstance(given, bool)
-    return whole and least <= int(given) <= greatest  # type: ignore[call-overload]
-
-
-def is_between(given: object, above: float, below: float) -> bool:
-    """Return whether something is a number (not a bool) between two others."""
-    if not isinstance(given, int | float | np.number) or isinstance(given, bool):
-        return False
-    try:
-        return above < float(given) < below
-    except (OverflowError, TypeError):
-        return False
-
-
-def limits_of(k: int, bounds: ArrayLike) -> Floats | None:
-    """Return least and greatest merit of each configuration, shape (k, 2); None if not allowed."""
-    try:
-        given = np.asarray(bounds, dtype=np.float64)
-    except (TypeError, ValueError):
-        return None
-    if given.shape not in {(2,), (k, 2)}:
-        return None
-    limits = np.broadcast_to(given, (k, 2)).copy()
-    finite = np.isfinite(limits).all() and np.isfinite(limits[:, 1] - limits[:, 0]).all()
-    return limits if finite and (limits[:, 0] <= limits[:, 1]).all() else None

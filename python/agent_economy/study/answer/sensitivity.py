@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from agent_economy.study.answer.evidence import Evidence
-from agent_economy.study.selection import FIRST_LOOK
+from agent_economy.study.arguments import FIRST_LOOK
 
 FEWEST = 30
 """Configurations that the analysis needs."""
