@@ -262,13 +262,28 @@ def test_a_study_at_work_is_watched_and_no_second_process_gets_in(
         process.kill()
         process.wait()
     said, errors = watcher.communicate(timeout=60)
-    assert second.returncode == 2
+    assert second.returncode == 1
     assert "another process is working on it" in second.stderr
     # The study was killed, so it is not over, and nobody works on it.
     assert watcher.returncode == 1
     assert "still in" in errors
     assert f"it is not over: agent-economy study --resume {out}" in errors
     assert said == ""
+
+
+def test_a_damaged_study_is_refused_with_its_own_exit_code(
+    classic_toml: Path, tmp_path: Path
+) -> None:
+    assert run("study", classic_toml, "--delta", "0.5", "--out", tmp_path).returncode == 0
+    block = min((tmp_path / "blocks").iterdir())
+    data = bytearray(block.read_bytes())
+    data[len(data) // 2] ^= 1
+    block.write_bytes(data)
+    for command in (["study", "--resume"], ["answer"]):
+        given = run(*command, tmp_path)
+        assert given.returncode == 1
+        assert str(block) in given.stderr
+        assert "Traceback" not in given.stderr
 
 
 def test_the_table_of_an_answer_can_be_read_in_eighty_columns(

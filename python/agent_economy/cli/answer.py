@@ -19,7 +19,8 @@ def answer(
 ) -> None:
     """Rebuild the answer and the report of a study from its runs; nothing is run.
 
-    Exit codes: 0 answered, 2 something given is not allowed (such as an unfinished study).
+    Exit codes: 0 answered, 1 the folder is damaged or taken, 2 something given is not
+    allowed (such as an unfinished study).
 
     Example: agent-economy answer studies/classic
     """

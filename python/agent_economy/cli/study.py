@@ -117,8 +117,8 @@ def study(  # noqa: PLR0913  (typer's options are arguments)
     or with --resume. It ends with answer.json and report.html in it. An option wins over what the
     scenario says.
 
-    Exit codes: 0 answered, 1 the study cannot go on, 2 something given is not allowed, 130 stopped
-    by Ctrl-C.
+    Exit codes: 0 answered, 1 the study cannot go on (the disk is full, the folder is damaged or
+    another process has it, workers fail), 2 something given is not allowed, 130 stopped by Ctrl-C.
 
     Example: agent-economy study scenarios/classic.toml --vary robots.wanderer.count=1..12
     """

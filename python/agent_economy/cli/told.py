@@ -23,9 +23,10 @@ def faults_told() -> Iterator[None]:
     """Say what is not allowed, or why a study cannot go on, and end with the exit code for it."""
     try:
         yield
-    except InputError as error:
-        typer.echo(str(error), err=True)
-        raise typer.Exit(BAD_INPUT) from None
+    # First, since what is wrong with a store is both.
     except StudyError as error:
         typer.echo(str(error), err=True)
         raise typer.Exit(FAILED) from None
+    except InputError as error:
+        typer.echo(str(error), err=True)
+        raise typer.Exit(BAD_INPUT) from None

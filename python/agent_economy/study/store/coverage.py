@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from math import ceil
 from pathlib import Path
 
-from agent_economy._core import InputError
+from agent_economy.study.errors import StoreError
 from agent_economy.study.rectangle import Rectangle
 from agent_economy.study.store.ledger import Block
 
@@ -54,7 +54,7 @@ class Coverage:
         """Refuse runs that overlap stored ones without being the same.
 
         Raises:
-            InputError: If they do: another version of this program asked for others.
+            StoreError: If they do: another version of this program asked for others.
         """
         place = bisect_left(self._firsts, area.first_run)
         near = self._firsts[max(0, place - 1) : place + 1]
@@ -66,7 +66,7 @@ class Coverage:
                     f"{self._folder}: holds runs {first}-{end - 1} together, but "
                     f"{area.first_run}-{area.end - 1} are asked for: use another folder"
                 )
-                raise InputError(message)
+                raise StoreError(message)
 
     def missing(self, area: Rectangle) -> Rectangle | None:
         """Return what of a block's rectangle is not stored."""

@@ -11,6 +11,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from agent_economy._core import InputError
+from agent_economy.study.errors import StoreError
 
 ASKED = "study.toml"
 BLOCKS = "blocks"
@@ -28,7 +29,9 @@ MOST_SHOWN = 6
 
 
 @contextmanager
-def told(path: Path, doing: str = "written") -> Iterator[None]:
+def told(
+    path: Path, doing: str = "written", fault: type[InputError] = StoreError
+) -> Iterator[None]:
     """Turn what a disk or a ledger refuses into a fault that names the path and the reason.
 
     Raises:
@@ -38,10 +41,10 @@ def told(path: Path, doing: str = "written") -> Iterator[None]:
         yield
     except OSError as error:
         message = f"{path}: cannot be {doing} ({error.strerror or error})"
-        raise InputError(message) from error
+        raise fault(message) from error
     except sqlite3.Error as error:
         message = f"{path}: cannot be {doing} ({error})"
-        raise InputError(message) from error
+        raise fault(message) from error
 
 
 def make(folder: Path) -> None:
@@ -50,7 +53,7 @@ def make(folder: Path) -> None:
     Raises:
         InputError: If it cannot be.
     """
-    with told(folder, "made"):
+    with told(folder, "made", InputError):
         (folder / BLOCKS).mkdir(parents=True, exist_ok=True)
         sync_folder(folder)
 
@@ -72,12 +75,12 @@ def lock(folder: Path) -> int:
         except OSError as error:
             os.close(descriptor)
             message = f"{folder}: cannot be locked ({error.strerror})"
-            raise InputError(message) from None
+            raise StoreError(message) from None
         else:
             return descriptor
     os.close(descriptor)
     message = f"{folder}: another process is working on it: wait for it, or use another folder"
-    raise InputError(message)
+    raise StoreError(message)
 
 
 def is_worked_on(folder: Path) -> bool:

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any, Self
 from urllib.parse import quote
 
-from agent_economy._core import InputError
+from agent_economy.study.errors import StoreError
 from agent_economy.study.rectangle import Rectangle, numbers, spans
 from agent_economy.study.store.columns import Column
 from agent_economy.study.store.folder import told
@@ -76,7 +76,7 @@ class Ledger:
         """Open a ledger to write in, made if it is not there.
 
         Raises:
-            InputError: If it is no ledger, newer than this program, of other columns, or cannot be
+            StoreError: If it is no ledger, newer than this program, of other columns, or cannot be
                 written.
         """
         with told(path, "opened as a ledger"):
@@ -91,7 +91,7 @@ class Ledger:
             has = ", ".join(f"{column.name} ({column.kind})" for column in ledger.columns())
             ledger.close()
             message = f"{path}: was written with other columns ({has}): use another folder"
-            raise InputError(message)
+            raise StoreError(message)
         return ledger
 
     @classmethod
@@ -99,7 +99,7 @@ class Ledger:
         """Open a ledger to read.
 
         Raises:
-            InputError: If it is not there, no ledger, or newer than this program.
+            StoreError: If it is not there, no ledger, or newer than this program.
         """
         with told(path, "read as a ledger"):
             connection = connect_to_read(path)
@@ -142,7 +142,7 @@ class Ledger:
         """Enter a block whose file is on the disk, and wait until the entry is.
 
         Raises:
-            InputError: If another of its name is entered, or the entry cannot be written.
+            StoreError: If another of its name is entered, or the entry cannot be written.
         """
         self.check_same(block)
         area = block.rectangle
@@ -156,7 +156,7 @@ class Ledger:
         """Refuse a block of which another form is entered.
 
         Raises:
-            InputError: If the same runs gave other outcomes before.
+            StoreError: If the same runs gave other outcomes before.
         """
         entered = self._rows("SELECT sha256 FROM block WHERE name = ?", block.name)
         if entered and entered[0] != (block.sha256,):
@@ -164,7 +164,7 @@ class Ledger:
                 f"{self.path}: block {block.name} was entered with other bytes: the same runs gave "
                 "other outcomes; see that all machines have the same version of this program"
             )
-            raise InputError(message)
+            raise StoreError(message)
 
     def note(self, decision: Decision) -> None:
         """Write down a round's decision, unless it is there.
@@ -172,7 +172,7 @@ class Ledger:
         One that differs from what is there begins another history: later rounds are removed.
 
         Raises:
-            InputError: If it cannot be written.
+            StoreError: If it cannot be written.
         """
         facts = json.dumps(decision.facts, sort_keys=True, allow_nan=False)
         number = decision.round
@@ -220,14 +220,14 @@ def check_whose(connection: sqlite3.Connection, path: Path) -> None:
     """Refuse a file that is not a ledger that this program can read."""
     if header(connection, "application_id") != APPLICATION:
         message = f"{path}: is not a ledger of this program: use another folder"
-        raise InputError(message)
+        raise StoreError(message)
     version = header(connection, "user_version")
     if version > VERSION:
         message = (
             f"{path}: was written by a newer version of this program (ledger {version}, this one "
             f"knows up to {VERSION}): use that version, or another folder"
         )
-        raise InputError(message)
+        raise StoreError(message)
 
 
 def header(connection: sqlite3.Connection, name: str) -> int:
@@ -254,7 +254,7 @@ def snapshot(path: Path) -> tuple[tuple[Column, ...], list[Block], list[Decision
     """Return what a ledger holds now, nothing if the study has not begun.
 
     Raises:
-        InputError: As `Ledger.read`.
+        StoreError: As `Ledger.read`.
     """
     if not path.exists():
         return (), [], []

@@ -10,7 +10,7 @@ from typing import Any, Self
 import numpy as np
 import pyarrow as pa
 
-from agent_economy._core import InputError
+from agent_economy.study.errors import StoreError
 from agent_economy.study.rectangle import Columns, Compute, Rectangle, check_shape
 from agent_economy.study.store import folder as files
 from agent_economy.study.store import parquet
@@ -63,7 +63,7 @@ class Store:
                 (second): they ask another question about the same runs.
 
         Raises:
-            InputError: If another process works on the folder, it holds another study, what it
+            StoreError: If another process works on the folder, it holds another study, what it
                 holds is damaged, or it cannot be written.
         """
         check_names(tuple(columns))
@@ -109,7 +109,7 @@ class Store:
             Every column, (configurations, runs), in the rectangle's order.
 
         Raises:
-            InputError: If a stored block is missing or damaged, or a new one cannot be written; or
+            StoreError: If a stored block is missing or damaged, or a new one cannot be written; or
                 for what `compute` raises.
             ValueError: If `compute` gives no outcomes of the store's columns.
         """
@@ -138,7 +138,7 @@ class Store:
             facts: What JSON can hold, without NaN and infinity.
 
         Raises:
-            InputError: If it cannot be written.
+            StoreError: If it cannot be written.
         """
         self._ledger.note(Decision(round, facts))
 
@@ -165,12 +165,12 @@ class Store:
         if data is None:
             check_there(self.folder, [block])
         if data is None or hashlib.sha256(data).hexdigest() != block.sha256:
-            raise InputError(damaged(path))
+            raise StoreError(damaged(path))
         try:
             return parquet.decode(data, block.rectangle, self.columns)
         except pa.ArrowException as error:
             message = f"{path}: cannot be read ({error})"
-            raise InputError(message) from error
+            raise StoreError(message) from error
 
 
 class Gathered:
@@ -205,7 +205,7 @@ def check_there(folder: Path, blocks: Sequence[Block]) -> None:
     """Refuse a folder in which files of blocks are missing or cut short.
 
     Raises:
-        InputError: If there are such; it names all.
+        StoreError: If there are such; it names all.
     """
     faults = []
     for block in blocks:
@@ -218,7 +218,7 @@ def check_there(folder: Path, blocks: Sequence[Block]) -> None:
         except OSError as error:
             faults.append(f"{path}: cannot be read ({error.strerror})")
     if faults:
-        raise InputError("\n".join(faults))
+        raise StoreError("\n".join(faults))
 
 
 def damaged(path: Path) -> str:
