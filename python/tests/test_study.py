@@ -126,6 +126,7 @@ def test_a_study_that_must_stop_first_guarantees_nothing(
     assert not answer.is_guaranteed
     assert answer.guarantee.startswith("Nothing is guaranteed")
     assert study.rebuild(tmp_path).runs == answer.runs
+    assert study.open(tmp_path).decisions()[-1].facts["is_over"]
     with pytest.raises(InputError, match="max_runs = 79: must be a whole number of 80 or more"):
         study.run(scenario, max_runs=79)
 

@@ -221,8 +221,9 @@ class Race:
             limits = self._plan.engine.limits(configuration)
             for name in KEPT:
                 # A quarantined run is as bad as can be: late, failed, and paid for.
-                values = np.nan_to_num(columns[name][row], nan=limits[name][1])
-                self._columns[configuration][name].append(values)
+                values = columns[name][row]
+                known = np.where(np.isnan(values), limits[name][1], values)
+                self._columns[configuration][name].append(known)
             self._columns[configuration]["merit"].append(merits[row])
             self._sums[configuration] += merits[row].sum()
         return merits
@@ -259,9 +260,17 @@ class Race:
                 for each in best
             ),
             eliminated=fresh,
-            is_over=procedure.next() is None,
+            is_over=self._is_over(procedure),
             foretell=lambda: self._foretell(procedure),
         )
+
+    def _is_over(self, procedure: _core.Procedure) -> bool:
+        """Return whether it has selected, or must stop before its next round."""
+        asked, max_runs = procedure.next(), self._plan.max_runs
+        if asked is None or max_runs is None:
+            return asked is None
+        configurations, _, runs = asked
+        return bool(procedure.runs.sum() + len(configurations) * runs > max_runs)
 
     def _foretell(self, procedure: _core.Procedure) -> float | None:
         plan = self._plan
