@@ -1,24 +1,16 @@
-"""Estimates with confidence intervals."""
+"""Estimates from a number of runs that was fixed beforehand, as others publish them."""
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from agent_economy.study.answer.evidence import Interval
+
 CONFIDENCE = 0.95
 
 
-@dataclass(frozen=True)
-class Estimate:
-    """A value and its confidence interval."""
-
-    value: float
-    low: float
-    high: float
-
-
-def mean(samples: NDArray[np.float64], confidence: float = CONFIDENCE) -> Estimate:
+def mean(samples: NDArray[np.float64], confidence: float = CONFIDENCE) -> Interval:
     """Return the mean of samples with Student's t interval.
 
     Args:
@@ -34,10 +26,10 @@ def mean(samples: NDArray[np.float64], confidence: float = CONFIDENCE) -> Estima
     value = float(np.mean(samples))
     error = float(np.std(samples, ddof=1)) / math.sqrt(len(samples))
     half_width = error * float(stdtrit(len(samples) - 1, (1 + confidence) / 2))
-    return Estimate(value, value - half_width, value + half_width)
+    return Interval(value, value - half_width, value + half_width)
 
 
-def share(successes: int, trials: int, confidence: float = CONFIDENCE) -> Estimate:
+def share(successes: int, trials: int, confidence: float = CONFIDENCE) -> Interval:
     """Return a share with the exact interval of Clopper and Pearson.
 
     Args:
@@ -54,4 +46,4 @@ def share(successes: int, trials: int, confidence: float = CONFIDENCE) -> Estima
     failures = trials - successes
     low = float(betaincinv(successes, failures + 1, tail)) if successes else 0.0
     high = float(betaincinv(successes + 1, failures, 1 - tail)) if failures else 1.0
-    return Estimate(successes / trials, low, high)
+    return Interval(successes / trials, low, high)

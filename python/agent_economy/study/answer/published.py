@@ -6,7 +6,7 @@ import numpy as np
 
 from agent_economy.scenario import Scenario
 from agent_economy.study.answer import estimate
-from agent_economy.study.answer.estimate import Estimate
+from agent_economy.study.answer.evidence import Interval
 
 
 @dataclass(frozen=True)
@@ -26,8 +26,8 @@ class PublishedResult:
     times_s: list[float]
     time_s: float
     failed: int
-    failed_share: Estimate
-    merit: Estimate
+    failed_share: Interval
+    merit: Interval
 
 
 def results(scenario: Scenario) -> tuple[PublishedResult, ...]:

@@ -255,13 +255,8 @@ def published(view: View) -> Table:
                     Cell(f"{each.robots:,}"),
                     Cell(f"{len(each.times_s):,}"),
                     Cell(decimal(each.time_s, view.time_places)),
-                    shares(
-                        Interval(
-                            each.failed_share.value, each.failed_share.low, each.failed_share.high
-                        ),
-                        0,
-                    ),
-                    measured(Interval(each.merit.value, each.merit.low, each.merit.high), 2),
+                    shares(each.failed_share, 0),
+                    measured(each.merit, 2),
                 )
             )
             for each in view.answer.published
