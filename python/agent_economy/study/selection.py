@@ -238,7 +238,7 @@ def in_words(
     if procedure.next() is not None:
         left = len(procedure.survivors)
         return f"Nothing is guaranteed: it was stopped with {left} configurations still in."
-    sure = f"with {percent(confidence)} confidence"
+    sure = f"with {certainty(confidence)} confidence"
     if guarantee == "pgs":
         return f"The selected configuration is within {delta:g} of the best {sure}."
     return (
@@ -247,6 +247,6 @@ def in_words(
     )
 
 
-def percent(share: float) -> str:
-    """Return a share as people write it: 95%, 99.9%."""
+def certainty(share: float) -> str:
+    """Return a confidence as people write it: 95%, 99.9%."""
     return f"{100 * share:.15g}%"

@@ -15,7 +15,8 @@ from agent_economy.study.report.assumptions import assumptions
 from agent_economy.study.report.charts import specifications
 from agent_economy.study.report.sections import sections
 from agent_economy.study.report.view import View
-from agent_economy.study.report.writing import brief, certainty, count
+from agent_economy.study.report.writing import brief, count
+from agent_economy.study.selection import certainty
 
 MOST_NAMED = 8
 """Configurations that a warning names."""

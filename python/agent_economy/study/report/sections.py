@@ -7,7 +7,8 @@ from agent_economy.study.answer.saturation import Saturation
 from agent_economy.study.report import tables
 from agent_economy.study.report.tables import Table
 from agent_economy.study.report.view import MOST, View, factor_name
-from agent_economy.study.report.writing import MINUS, TIMES, brief, certainty, count
+from agent_economy.study.report.writing import MINUS, TIMES, brief, count
+from agent_economy.study.selection import certainty
 
 
 @dataclass(frozen=True)

@@ -36,11 +36,6 @@ def percent(share: float, decimals: int) -> str:
     return f"{decimal(100 * share, decimals)}%" if math.isfinite(share) else UNKNOWN
 
 
-def certainty(share: float) -> str:
-    """Return a confidence as people write it: 95%, 99.9%."""
-    return f"{100 * share:.10g}%"
-
-
 def count(number: int, word: str) -> str:
     """Return "1 run", "1,200 runs"."""
     return f"{number:,} {word}" if number == 1 else f"{number:,} {word}s"
