@@ -61,7 +61,7 @@ def outcomes() -> Columns:
 
 
 def large(data: Columns, rows: int) -> tuple[float, float, float]:
-    """Return rows written and read a second (medians), and bytes a row, of blocks of some size."""
+    """Return rows written and read a second (medians), and bytes a row, of rectangles of a size."""
     copies = rows // (len(TEAM_SIZES) * RUNS)
     block = {name: np.tile(values, (copies, 1)) for name, values in data.items()}
     area = Rectangle(tuple(range(copies * len(TEAM_SIZES))), 0, RUNS)
@@ -70,10 +70,16 @@ def large(data: Columns, rows: int) -> tuple[float, float, float]:
         with tempfile.TemporaryDirectory(dir=".") as place:
             folder = Path(place)
             with Store.open(folder, "", COLUMNS) as store:
-                writing.append(seconds(partial(store.block, area, lambda _: block)))
+                writing.append(seconds(partial(store.block, area, partial(part, block))))
                 reading.append(seconds(partial(store.block, area, refuse)))
             size = sum(path.stat().st_size for path in (folder / "blocks").iterdir())
     return rows / median(writing), rows / median(reading), size / rows
+
+
+def part(outcomes: Columns, area: Rectangle) -> Columns:
+    """Return the outcomes of an area, out of those of configurations and runs 0, 1, ..."""
+    rows = slice(area.configurations[0], area.configurations[-1] + 1)
+    return {name: values[rows, area.first_run : area.end] for name, values in outcomes.items()}
 
 
 def small(data: Columns) -> tuple[float, float]:
