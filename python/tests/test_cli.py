@@ -213,7 +213,7 @@ def test_ctrl_c_ends_within_a_second_and_the_study_goes_on_from_there(
     classic_toml: Path, tmp_path: Path
 ) -> None:
     out = tmp_path / "out"
-    options = ["--delta", "0.0001", "--vary", "robots.wanderer.count=4,5", "--out", str(out)]
+    options = ["--delta", "0.0001", "--vary", "clock.paints_per_s=56,56.01", "--out", str(out)]
     process = subprocess.Popen(
         [*COMMAND, "study", str(classic_toml), *options],
         stderr=subprocess.PIPE,
