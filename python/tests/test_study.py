@@ -251,6 +251,7 @@ def test_several_factors_are_compared_together(scenario: Scenario) -> None:
     assert {each.path for each in answer.sensitivity.influences} == set(vary)
     deltas = [each.total for each in answer.sensitivity.influences]
     assert deltas == sorted(deltas, reverse=True)
+    assert files.as_json(study.run(scenario, vary=vary, delta=0.5)) == files.as_json(answer)
     assert " with " in answer.sentence
 
 

@@ -20,6 +20,9 @@ FEWEST = 30
 
 RESAMPLES = 100
 
+SEED = 1
+"""Of the bootstrap; SALib takes 0 for none."""
+
 PLACES = 4
 """Decimals that are kept: further ones depend on the machine's linear algebra."""
 
@@ -95,7 +98,7 @@ def influences(
     }
     # Its matrices are small: more threads than one only wait for each other.
     with contained(), threadpool_limits(1):
-        found = delta.analyze(problem, points, means, num_resamples=RESAMPLES, seed=0)
+        found = delta.analyze(problem, points, means, num_resamples=RESAMPLES, seed=SEED)
     named = ("S1", "S1_conf", "delta_balanced", "delta_balanced_conf")
     rows = zip(paths, *(found[name] for name in named), strict=True)
     every = [
