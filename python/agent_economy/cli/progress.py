@@ -2,7 +2,7 @@
 
 import math
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 
 from rich import box
@@ -11,9 +11,7 @@ from rich.live import Live
 from rich.table import Table
 from rich.text import Text
 
-from agent_economy.study.race import Progress
-
-OnProgress = Callable[[Progress], None]
+from agent_economy.study.race import OnProgress, Progress
 
 PAUSE_S = 2.0
 """Between two plain lines in which nobody goes out."""

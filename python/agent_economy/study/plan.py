@@ -9,6 +9,7 @@ import json
 import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -90,7 +91,7 @@ class Plan:
         document = {"format": FORMAT, "question": given(question), "data": given(data)}
         return HEADER + tomli_w.dumps(document, multiline_strings=True)
 
-    @property
+    @cached_property
     def identity(self) -> str:
         """Says which runs these are: two plans of one identity can share a folder.
 

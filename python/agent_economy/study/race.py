@@ -159,6 +159,7 @@ class Race:
         self._begin = time.monotonic()
         self._gone: set[int] = set()
         count = len(plan.configurations)
+        self._limits = [plan.engine.limits(index) for index in range(count)]
         self._columns: list[dict[str, list[Floats]]] = [
             {name: [] for name in ("merit", *KEPT)} for _ in range(count)
         ]
@@ -218,7 +219,7 @@ class Race:
         merits, quarantined = within(self._plan.limits, configurations, scored)
         self._quarantined[configurations] += quarantined
         for row, configuration in enumerate(rectangle.configurations):
-            limits = self._plan.engine.limits(configuration)
+            limits = self._limits[configuration]
             for name in KEPT:
                 # A quarantined run is as bad as can be: late, failed, and paid for.
                 values = columns[name][row]
@@ -229,7 +230,6 @@ class Race:
         return merits
 
     def _sample(self, index: int) -> Sample:
-        limits = self._plan.engine.limits(index)
         least, greatest = self._plan.limits[index].tolist()
         return Sample(
             values=self._plan.configurations[index],
@@ -237,7 +237,7 @@ class Race:
                 name: np.concatenate([np.empty(0), *parts])
                 for name, parts in self._columns[index].items()
             },
-            limits={**limits, "merit": (least, greatest)},
+            limits={**self._limits[index], "merit": (least, greatest)},
             quarantined=int(self._quarantined[index]),
         )
 

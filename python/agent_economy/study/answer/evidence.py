@@ -11,12 +11,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
-import numpy as np
-from numpy.typing import NDArray
-
 from agent_economy import _core
+from agent_economy.study.arguments import Floats
 
-Floats = NDArray[np.float64]
 Limits = tuple[float, float]
 
 QUANTITIES = ("merit", "time_s", "failed")

@@ -5,12 +5,12 @@ is better in one of these. It is *surely dominated* when the runs prove that of 
 others are *possibly efficient*.
 """
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
-from agent_economy.study.answer.evidence import Evidence, Floats
+from agent_economy.study.answer.evidence import Evidence
+from agent_economy.study.arguments import Floats
 
 JUDGED = ("robots", "time_s", "failed")
 TIME = JUDGED.index("time_s")
@@ -31,19 +31,18 @@ def front(evidence: Evidence) -> tuple[Place, ...]:
     """Return the place of each configuration."""
     means = np.array([[each.mean(name) for name in JUDGED] for each in evidence.samples])
     return tuple(
-        Place(sample.mean("robots"), next(dominators(evidence, means, index), None))
+        Place(sample.mean("robots"), dominator(evidence, means, index))
         for index, sample in enumerate(evidence.samples)
     )
 
 
-def dominators(evidence: Evidence, means: Floats, index: int) -> Iterator[int]:
-    """Return those that surely dominate a configuration, the fastest first."""
+def dominator(evidence: Evidence, means: Floats, index: int) -> int | None:
+    """Return the fastest of those that surely dominate a configuration; None if nobody does."""
     # Where the means do not say so, the runs cannot prove it.
     apparent = np.flatnonzero((means <= means[index]).all(axis=1))
     fastest = apparent[np.argsort(means[apparent, TIME], kind="stable")]
-    for rival in fastest[fastest != index][:CANDIDATES].tolist():
-        if surely_dominates(evidence, rival, index):
-            yield rival
+    rivals = fastest[fastest != index][:CANDIDATES].tolist()
+    return next((rival for rival in rivals if surely_dominates(evidence, rival, index)), None)
 
 
 def surely_dominates(evidence: Evidence, rival: int, index: int) -> bool:

@@ -1,6 +1,6 @@
 """What people call a configuration: "4 rovers, 1 scout, contact touch"."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 Values = Mapping[str, float | str]
 
@@ -43,6 +43,12 @@ def order(values: Values) -> str:
     if not teams:
         return f"Choose {label(others)}"
     return f"Send {label(teams)}" + (f" with {label(others)}" if others else "")
+
+
+def varied(configurations: Sequence[Values]) -> tuple[str, ...]:
+    """Return the paths that have more than one value among configurations."""
+    paths = configurations[0]
+    return tuple(path for path in paths if len({each[path] for each in configurations}) > 1)
 
 
 def listed(words: list[str]) -> str:

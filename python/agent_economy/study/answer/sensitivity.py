@@ -5,7 +5,7 @@ all: their mean merits are what is analysed, one a configuration.
 """
 
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 
@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from agent_economy.study.answer.evidence import Evidence
+from agent_economy.study.answer.labels import varied
 from agent_economy.study.arguments import FIRST_LOOK
 
 FEWEST = 30
@@ -65,7 +66,7 @@ def sensitivity(evidence: Evidence) -> Sensitivity | None:
     Source: Borgonovo (2007), A new uncertainty importance measure, Reliability Engineering and
         System Safety 92; Plischke, Borgonovo and Smith (2013) for given data; as in SALib.
     """
-    paths = varied(evidence)
+    paths = varied([each.values for each in evidence.samples])
     firsts = np.array([each.columns["merit"][:FIRST_LOOK] for each in evidence.samples])
     means = firsts.mean(axis=1)
     if len(paths) < 2 or len(means) < FEWEST or np.ptp(means) == 0:  # noqa: PLR2004
@@ -76,14 +77,8 @@ def sensitivity(evidence: Evidence) -> Sensitivity | None:
     return Sensitivity(influences(evidence, paths, means), float(min(noise, 1.0)))
 
 
-def varied(evidence: Evidence) -> list[str]:
-    """Return the paths that have more than one value."""
-    paths = evidence.samples[0].values
-    return [path for path in paths if len({each.values[path] for each in evidence.samples}) > 1]
-
-
 def influences(
-    evidence: Evidence, paths: list[str], means: NDArray[np.float64]
+    evidence: Evidence, paths: Sequence[str], means: NDArray[np.float64]
 ) -> tuple[Influence, ...]:
     """Return what SALib says of each factor, the strongest first."""
     # SALib loads pandas and matplotlib: a second.
@@ -93,7 +88,7 @@ def influences(
     points = np.column_stack([codes(evidence, path) for path in paths])
     problem = {
         "num_vars": len(paths),
-        "names": paths,
+        "names": list(paths),
         "bounds": [[column.min(), column.max()] for column in points.T],
     }
     # Its matrices are small: more threads than one only wait for each other.

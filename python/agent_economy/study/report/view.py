@@ -7,7 +7,7 @@ from functools import cached_property
 
 from agent_economy.study.answer.conclude import Answer
 from agent_economy.study.answer.evidence import Evidence
-from agent_economy.study.answer.labels import robot_kind
+from agent_economy.study.answer.labels import robot_kind, varied
 from agent_economy.study.answer.results import Result
 from agent_economy.study.answer.saturation import Saturation
 from agent_economy.study.report.writing import finite, places
@@ -74,9 +74,7 @@ class View:
     @cached_property
     def varied(self) -> tuple[str, ...]:
         """Paths that have more than one value."""
-        results = self.answer.results
-        paths = results[0].values
-        return tuple(path for path in paths if len({result.values[path] for result in results}) > 1)
+        return varied([result.values for result in self.answer.results])
 
     @cached_property
     def numeric_factor(self) -> str | None:
