@@ -13,9 +13,17 @@ ROOT = Path(__file__).resolve().parent.parent
 
 CRATE_USES = {
     "agent-economy-base": set[str](),
+    "agent-economy-brain": {"agent-economy-base"},
     "agent-economy-classic": {"agent-economy-base"},
-    "agent-economy-py": {"agent-economy-base", "agent-economy-classic", "agent-economy-select"},
+    "agent-economy-py": {
+        "agent-economy-base",
+        "agent-economy-brain",
+        "agent-economy-classic",
+        "agent-economy-select",
+        "agent-economy-sim",
+    },
     "agent-economy-select": {"agent-economy-base"},
+    "agent-economy-sim": {"agent-economy-base", "agent-economy-brain"},
 }
 """Which of our crates each may use; a new crate is added here on purpose."""
 

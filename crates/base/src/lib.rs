@@ -1,5 +1,6 @@
 //! What every other crate may use, and nothing else.
 //!
+//! * [`geometry`], [`trig`]: points; sines that are the same on every machine;
 //! * [`random`]: random streams keyed by (seed, run, entity, purpose);
 //! * [`fault`]: what is wrong with something a person wrote, in words;
 //! * [`document`]: a TOML document read against what is allowed, every fault at once;
@@ -7,5 +8,7 @@
 
 pub mod document;
 pub mod fault;
+pub mod geometry;
 pub mod random;
 pub mod runner;
+pub mod trig;

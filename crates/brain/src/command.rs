@@ -1,0 +1,66 @@
+//! What leaves a brain.
+
+use base::geometry::Point;
+use serde::{Deserialize, Serialize};
+
+/// All that a brain wants of its body in this step.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Command {
+    /// How to move; the body does what it can of it.
+    pub motion: Motion,
+    /// Sensors to switch; each stays so until it is switched again. All are on at first.
+    pub requests: Vec<SensorRequest>,
+    /// What to tell other robots.
+    pub outbox: Vec<Message>,
+}
+
+/// A speed and a rate of turn.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Motion {
+    /// Ahead; negative is backwards.
+    pub speed_m_s: f64,
+    /// Anticlockwise.
+    pub turn_rate_rad_s: f64,
+}
+
+/// A sensor to be switched on or off.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SensorRequest {
+    /// Place of the sensor in [`Body::sensors`](crate::Body::sensors).
+    pub sensor: u16,
+    /// Whether it is to measure.
+    pub on: bool,
+}
+
+/// What one robot tells others.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Message {
+    /// What it is about.
+    pub about: About,
+    /// How sure the sender is, 0 to 1.
+    pub confidence: f64,
+}
+
+/// What a message can be about.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum About {
+    /// An item.
+    Item {
+        /// Place of its kind in [`Body::item_kinds`](crate::Body::item_kinds).
+        kind: u16,
+        /// Where it is in the world.
+        at: Point,
+    },
+    /// The sender itself.
+    Sender {
+        /// Where it is in the world.
+        at: Point,
+        /// Its course: 0 along x, anticlockwise.
+        heading_rad: f64,
+    },
+}

@@ -1,0 +1,119 @@
+//! What enters a brain.
+
+use crate::body::RobotId;
+use crate::command::{Message, Motion};
+use base::geometry::Point;
+use serde::{Deserialize, Serialize};
+
+/// All that a robot knows of this moment; any part of it may be missing.
+///
+/// Angles are from the robot's own front, anticlockwise, unless said otherwise.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Percept {
+    /// Time since the mission began.
+    pub time_s: f64,
+    /// Random bits of this step, the only chance that a brain has.
+    pub dice: [u32; 4],
+    /// Where it is in the world.
+    pub position: Option<Reading<Point>>,
+    /// Its course: 0 along x, anticlockwise.
+    pub heading_rad: Option<Reading<f64>>,
+    /// How it moves, from its wheels or rotors.
+    pub motion: Option<Reading<Motion>>,
+    /// Share of the battery's capacity that is left, 0 to 1.
+    pub battery: Option<Reading<f64>>,
+    /// Whether it touches something.
+    pub touch: Option<Reading<bool>>,
+    /// Of each range ring that its body has, in the body's order.
+    pub scans: Vec<Scan>,
+    /// Items that its sensors recognised since the last step, or took for such.
+    pub contacts: Vec<Contact>,
+    /// Robots that its sensors recognised since the last step.
+    pub neighbours: Vec<Neighbour>,
+    /// What other robots told since the last step.
+    pub inbox: Vec<Heard>,
+}
+
+/// A value, and how old it is.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Reading<T> {
+    /// What was measured.
+    pub value: T,
+    /// Time since it was.
+    pub age_s: f64,
+}
+
+/// What a range ring measured.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Scan {
+    /// Time since it was measured; `None` if there is no scan.
+    pub age_s: Option<f64>,
+    /// From the robot's centre to what reflects, a value a ray in the order of the ring's bearings;
+    /// infinite where nothing came back (`null` in JSON). Empty if there is no scan.
+    #[serde(with = "or_nothing")]
+    pub ranges_m: Vec<f64>,
+}
+
+/// An item that a sensor recognised, or something that it took for one.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Contact {
+    /// Place of the item's kind in [`Body::item_kinds`](crate::Body::item_kinds).
+    pub kind: u16,
+    /// From the robot's centre, when it was measured.
+    pub range_m: f64,
+    /// From the robot's front, when it was measured; above -pi, up to pi.
+    pub bearing_rad: f64,
+    /// Time since it was measured.
+    pub age_s: f64,
+}
+
+/// A robot that a sensor recognised.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Neighbour {
+    /// From centre to centre, when it was measured.
+    pub range_m: f64,
+    /// From the robot's front, when it was measured; above -pi, up to pi.
+    pub bearing_rad: f64,
+    /// Time since it was measured.
+    pub age_s: f64,
+    /// Which robot it is.
+    pub id: RobotId,
+}
+
+/// A message that came in.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Heard {
+    /// Who sent it.
+    pub from: RobotId,
+    /// Time since it was sent.
+    pub age_s: f64,
+    /// What was sent.
+    pub message: Message,
+}
+
+/// Infinity as `null`, since JSON has no word for it.
+mod or_nothing {
+    use serde::{Deserialize, Deserializer, Serializer};
+
+    pub(super) fn serialize<S: Serializer>(ranges: &[f64], to: S) -> Result<S::Ok, S::Error> {
+        to.collect_seq(
+            ranges
+                .iter()
+                .map(|range| range.is_finite().then_some(range)),
+        )
+    }
+
+    pub(super) fn deserialize<'d, D: Deserializer<'d>>(from: D) -> Result<Vec<f64>, D::Error> {
+        let ranges = Vec::<Option<f64>>::deserialize(from)?;
+        Ok(ranges
+            .into_iter()
+            .map(|range| range.unwrap_or(f64::INFINITY))
+            .collect())
+    }
+}

@@ -1,0 +1,1 @@
+//! The metric simulator: metres, seconds, joules, and sensors that miss.
