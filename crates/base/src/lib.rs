@@ -9,6 +9,7 @@
 pub mod document;
 pub mod fault;
 pub mod geometry;
+pub mod placement;
 pub mod random;
 pub mod runner;
 pub mod trig;

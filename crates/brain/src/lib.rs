@@ -8,7 +8,9 @@
 mod body;
 mod command;
 mod percept;
+mod spec;
 
 pub use body::{Body, RangeRing, RobotId};
 pub use command::{About, Command, Message, Motion, SensorRequest};
 pub use percept::{Contact, Heard, Neighbour, Percept, Reading, Scan};
+pub use spec::BrainSpec;

@@ -1,1 +1,8 @@
 //! The metric simulator: metres, seconds, joules, and sensors that miss.
+
+pub mod body;
+pub mod clock;
+pub mod radio;
+pub mod scenario;
+pub mod sensing;
+pub mod world;

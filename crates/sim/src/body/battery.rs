@@ -1,0 +1,24 @@
+//! What a battery holds, and what drains it.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A battery and what the body takes from it; sensors and radio take more.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct BatterySpec {
+    /// Energy when full, in joules; left out, it never empties and is only counted.
+    #[schemars(range(min = 0.0, max = 1e12))]
+    pub capacity_j: Option<f64>,
+    /// Power of the computer and all else that is always on, in watts.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 1e6))]
+    pub idle_w: f64,
+    /// More power while it moves or turns, in watts.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 1e6))]
+    pub move_w: f64,
+    /// More energy for each metre without payload, in joules; a payload adds its share of the mass.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 1e6))]
+    pub move_j_per_m: f64,
+}

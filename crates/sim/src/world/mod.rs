@@ -1,0 +1,24 @@
+//! What stands still: borders, obstacles, terrain, and the items to be found.
+
+pub mod items;
+pub mod obstacles;
+pub mod terrain;
+
+use obstacles::ObstacleSpec;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A walled rectangle and what stands in it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct WorldSpec {
+    /// Width and height, in metres; x runs from 0 to the width, y from 0 to the height.
+    pub size_m: [Length; 2],
+    /// What is in the way on the ground.
+    #[serde(default)]
+    pub obstacles: Vec<ObstacleSpec>,
+}
+
+/// A length of a world, in metres.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(transparent)]
+pub struct Length(#[schemars(range(min = 0.1, max = 100_000.0))] pub f64);
