@@ -6,6 +6,7 @@ pub mod heading;
 pub mod items;
 pub mod position;
 pub mod range;
+mod rays;
 pub mod robots;
 
 use heading::HeadingSpec;
