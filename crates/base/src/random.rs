@@ -35,6 +35,8 @@ pub struct Entity {
 pub enum Purpose {
     /// Where an entity starts.
     Start = 1,
+    /// The key of its own random numbers in a run: [`crate::noise`].
+    Noise = 2,
 }
 
 /// The stream of one entity for one purpose in one run, at its first draw.

@@ -1,7 +1,9 @@
 //! What stands still: borders, obstacles, terrain, and the items to be found.
 
+mod grid;
 pub mod items;
 pub mod obstacles;
+pub(crate) mod still;
 pub mod terrain;
 
 use obstacles::ObstacleSpec;
