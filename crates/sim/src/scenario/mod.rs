@@ -1,5 +1,9 @@
 //! A scenario of the metric engine, gathered from the modules that own its parts.
 
+mod ready;
+
+pub use ready::Scenario;
+
 use crate::body::RobotSpec;
 use crate::clock::ClockSpec;
 use crate::world::WorldSpec;
