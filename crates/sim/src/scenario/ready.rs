@@ -10,6 +10,7 @@ use crate::world::items::ItemKind;
 use crate::world::obstacles::Solid;
 use crate::world::still::{Stands, Wall};
 use crate::world::terrain::{Area, Going, Terrain};
+use brain::RobotId;
 use base::geometry::{Disc, Point, Rectangle, Segment};
 
 /// Everything that does not change in a run. Runs share it.
@@ -98,6 +99,11 @@ impl Scenario {
     /// Nobody looks for items farther away.
     pub(crate) fn items_reach_m(&self) -> f64 {
         greatest(&self.kinds, Kind::items_reach_m)
+    }
+
+    /// The name of a robot's kind.
+    pub(crate) fn name_of(&self, id: RobotId) -> &str {
+        &self.kinds[usize::from(id.kind)].name
     }
 
     /// What rays meet in a layer.
