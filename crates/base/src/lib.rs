@@ -3,7 +3,9 @@
 //! * [`geometry`], [`trig`]: points, walls, pillars and polygons; sines that are the same on every
 //!   machine;
 //! * [`random`]: random streams keyed by (seed, run, entity, purpose);
+//! * [`map`]: occupancy maps of ROS;
 //! * [`placement`]: where items and robots are put, by rejection and without overlaps;
+//! * [`reach`]: which places no robot can come to;
 //! * [`fault`]: what is wrong with something a person wrote, in words;
 //! * [`document`]: a TOML document read against what is allowed, every fault at once;
 //! * [`runner`]: the seam between simulators and studies.
@@ -12,7 +14,9 @@ pub mod document;
 pub mod fault;
 pub mod geometry;
 pub mod noise;
+pub mod map;
 pub mod placement;
 pub mod random;
+pub mod reach;
 pub mod runner;
 pub mod trig;
