@@ -25,7 +25,9 @@
 //! ```
 
 mod parse;
+pub mod schema;
 mod section;
+mod typed;
 
 pub use section::Section;
 
@@ -86,6 +88,34 @@ impl fmt::Display for Value {
 pub(crate) fn written(value: f64) -> String {
     let shortest = format!("{value:?}");
     shortest.strip_suffix(".0").unwrap_or(&shortest).to_owned()
+}
+
+/// The path of `key` in the table at `path`, which is empty for the root.
+#[must_use]
+pub fn path_of(path: &str, key: &str) -> String {
+    let bare = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+    let key = if !key.is_empty() && key.chars().all(bare) {
+        key.to_owned()
+    } else {
+        format!("{key:?}")
+    };
+    if path.is_empty() {
+        key
+    } else {
+        format!("{path}.{key}")
+    }
+}
+
+#[expect(
+    clippy::cast_precision_loss,
+    reason = "a number that a person wrote; beyond 2^53 it is rounded, as TOML readers do"
+)]
+fn as_number(node: &Node) -> Option<f64> {
+    match node.value {
+        Value::Integer(value) => Some(value as f64),
+        Value::Float(value) => Some(value),
+        _ => None,
+    }
 }
 
 /// A whole document.

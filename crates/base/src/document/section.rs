@@ -1,6 +1,6 @@
 //! Typed reading of a table, collecting what is wrong.
 
-use super::{Node, Table, Value, written};
+use super::{Node, Table, Value, as_number, path_of, written};
 use crate::fault::{Fault, nearest};
 use std::cell::RefCell;
 use std::ops::RangeInclusive;
@@ -216,35 +216,13 @@ impl<'d> Section<'d> {
     }
 
     fn path_of(&self, key: &str) -> String {
-        let bare = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
-        let key = if !key.is_empty() && key.chars().all(bare) {
-            key.to_owned()
-        } else {
-            format!("{key:?}")
-        };
-        if self.path.is_empty() {
-            key
-        } else {
-            format!("{}.{key}", self.path)
-        }
+        path_of(&self.path, key)
     }
 }
 
 fn as_table(node: &Node) -> Option<&Table> {
     match &node.value {
         Value::Table(table) => Some(table),
-        _ => None,
-    }
-}
-
-#[expect(
-    clippy::cast_precision_loss,
-    reason = "a number that a person wrote; beyond 2^53 it is rounded, as TOML readers do"
-)]
-fn as_number(node: &Node) -> Option<f64> {
-    match node.value {
-        Value::Integer(value) => Some(value as f64),
-        Value::Float(value) => Some(value),
         _ => None,
     }
 }
