@@ -43,13 +43,12 @@ impl<'s> Check<'s> {
     }
 
     fn table(&mut self, keywords: &'s Object, (table, node): (&Table, &Node), path: &str) {
-        let none = Object::new();
         let known = keywords.get("properties").and_then(Json::as_object);
         let others = keywords.get("additionalProperties");
         for (key, value) in table {
             match known.and_then(|known| known.get(key)).or(others) {
                 Some(Json::Bool(false)) => {
-                    let known = known.unwrap_or(&none).keys().map(String::as_str);
+                    let known = known.into_iter().flat_map(Object::keys).map(String::as_str);
                     self.unknown_key(known, (key, value), path);
                 }
                 Some(schema) => self.value(schema, value, &path_of(path, key)),
