@@ -1,7 +1,9 @@
 //! What every other crate may use, and nothing else.
 //!
-//! * [`geometry`], [`trig`]: points; sines that are the same on every machine;
+//! * [`geometry`], [`trig`]: points, walls, pillars and polygons; sines that are the same on every
+//!   machine;
 //! * [`random`]: random streams keyed by (seed, run, entity, purpose);
+//! * [`placement`]: where items and robots are put, by rejection and without overlaps;
 //! * [`fault`]: what is wrong with something a person wrote, in words;
 //! * [`document`]: a TOML document read against what is allowed, every fault at once;
 //! * [`runner`]: the seam between simulators and studies.

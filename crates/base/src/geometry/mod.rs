@@ -1,4 +1,18 @@
-//! Points in the plane, in metres.
+//! Points and what stands still in the plane, in metres; y points up, angles run anticlockwise.
+//!
+//! **One convention for what is solid:** a [`Segment`] has free space on its left, looking along it
+//! from `from` to `to`, and solid matter on its right. So the vertices of a solid [`Polygon`] run
+//! clockwise, and those of a room anticlockwise. What is solid holds its boundary.
+
+mod disc;
+mod polygon;
+mod rectangle;
+mod segment;
+
+pub use disc::Disc;
+pub use polygon::{Polygon, PolygonFault};
+pub use rectangle::Rectangle;
+pub use segment::Segment;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -32,6 +46,24 @@ impl Point {
         Self {
             x: other.x - self.x,
             y: other.y - self.y,
+        }
+    }
+
+    /// Where the `way` leads from here.
+    #[must_use]
+    pub fn plus(self, way: Self) -> Self {
+        Self {
+            x: self.x + way.x,
+            y: self.y + way.y,
+        }
+    }
+
+    /// The way `factor` times as long.
+    #[must_use]
+    pub fn times(self, factor: f64) -> Self {
+        Self {
+            x: self.x * factor,
+            y: self.y * factor,
         }
     }
 

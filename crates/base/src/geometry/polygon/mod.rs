@@ -1,0 +1,170 @@
+//! A solid area with straight edges.
+
+mod simple;
+
+use super::{Point, Rectangle, Segment};
+use robust::{Coord, orient2d};
+
+/// A solid area within one closed line that neither crosses nor touches itself; its edge belongs to
+/// it.
+///
+/// Which points lie in it, and whether its line is simple, is decided exactly, whatever is rounded
+/// elsewhere (Shewchuk, *Adaptive precision floating-point arithmetic and fast robust geometric
+/// predicates*, 1997).
+///
+/// ```
+/// use base::geometry::{Point, Polygon};
+/// let wall = Polygon::new(&[[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]].map(Point::from))?;
+/// assert!(wall.contains(Point { x: 2.0, y: 0.5 }));
+/// assert_eq!(wall.area_m2(), 2.0);
+/// # Ok::<(), base::geometry::PolygonFault>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Polygon {
+    /// Clockwise.
+    vertices: Vec<Point>,
+}
+
+/// Why a list of vertices, counted from 0, is no polygon.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum PolygonFault {
+    /// Too few or too many vertices.
+    #[error("a polygon of {least} to {most} vertices; it has {0}", least = Polygon::MIN_VERTICES, most = Polygon::MAX_VERTICES)]
+    Count(usize),
+    /// A coordinate is NaN, infinite or too large.
+    #[error("a polygon of coordinates from -{most:e} to {most:e}; those of vertex {0} are not", most = Polygon::MAX_COORDINATE_M)]
+    Coordinate(usize),
+    /// A vertex is the same as the one after it.
+    #[error("a polygon without the same vertex twice; vertex {0} is the same as the next")]
+    Repeated(usize),
+    /// The line turns back upon itself at a vertex.
+    #[error("a polygon that does not touch itself; at vertex {0} it turns back upon itself")]
+    Folded(usize),
+    /// The edges that begin at these two vertices have a point in common.
+    #[error(
+        "a polygon that does not cross or touch itself; its edges from vertices {0} and {1} do"
+    )]
+    Crossed(usize, usize),
+    /// The area is too small to be told from 0.
+    #[error("a polygon with an area above 0")]
+    Flat,
+}
+
+impl Polygon {
+    /// Least number of vertices.
+    pub const MIN_VERTICES: usize = 3;
+    /// Greatest number of vertices.
+    pub const MAX_VERTICES: usize = 10_000;
+    /// Greatest distance of a vertex from either axis.
+    pub const MAX_COORDINATE_M: f64 = 1e9;
+
+    /// The polygon with these vertices, given clockwise or anticlockwise.
+    ///
+    /// # Errors
+    /// The first thing that is wrong, if something is.
+    pub fn new(vertices: &[Point]) -> Result<Self, PolygonFault> {
+        if !(Self::MIN_VERTICES..=Self::MAX_VERTICES).contains(&vertices.len()) {
+            return Err(PolygonFault::Count(vertices.len()));
+        }
+        let is_fine = |value: f64| value.abs() <= Self::MAX_COORDINATE_M;
+        if let Some(bad) = vertices
+            .iter()
+            .position(|at| !(is_fine(at.x) && is_fine(at.y)))
+        {
+            return Err(PolygonFault::Coordinate(bad));
+        }
+        simple::check(vertices)?;
+        let mut vertices = vertices.to_vec();
+        let area_m2 = anticlockwise_area(&vertices);
+        if area_m2 == 0.0 {
+            return Err(PolygonFault::Flat);
+        }
+        if area_m2 > 0.0 {
+            vertices.reverse();
+        }
+        Ok(Self { vertices })
+    }
+
+    /// Its vertices, clockwise.
+    #[must_use]
+    pub fn vertices(&self) -> &[Point] {
+        &self.vertices
+    }
+
+    /// Its edges, with free space on their left, outside.
+    pub fn edges(&self) -> impl Iterator<Item = Segment> + '_ {
+        edges(&self.vertices)
+    }
+
+    /// Its area, in square metres.
+    #[must_use]
+    pub fn area_m2(&self) -> f64 {
+        anticlockwise_area(&self.vertices).abs()
+    }
+
+    /// The smallest rectangle that holds it.
+    #[must_use]
+    pub fn bounds(&self) -> Rectangle {
+        let first = self.vertices[0];
+        Rectangle::around(self.vertices.iter().copied())
+            .unwrap_or_else(|| Rectangle::spanned(first, first))
+    }
+
+    /// Whether `point` lies in it, exactly: its edge belongs to it.
+    ///
+    /// Looks at every edge.
+    #[must_use]
+    pub fn contains(&self, point: Point) -> bool {
+        // How often the ray to the right of the point crosses the edges: odd inside.
+        let mut is_inside = false;
+        for edge in self.edges() {
+            let side = side(edge, point);
+            if side == 0.0 && Rectangle::spanned(edge.from, edge.to).contains(point) {
+                return true;
+            }
+            let goes_up = edge.to.y > point.y;
+            if goes_up != (edge.from.y > point.y) {
+                is_inside ^= (side > 0.0) == goes_up;
+            }
+        }
+        is_inside
+    }
+
+    /// Distance from `point` to the polygon; 0 within it.
+    ///
+    /// Looks at every edge.
+    #[must_use]
+    pub fn distance_m(&self, point: Point) -> f64 {
+        if self.contains(point) {
+            return 0.0;
+        }
+        let distances = self.edges().map(|edge| edge.distance_m(point));
+        distances.fold(f64::INFINITY, f64::min)
+    }
+}
+
+fn edges(vertices: &[Point]) -> impl Iterator<Item = Segment> + '_ {
+    let next = vertices.iter().cycle().skip(1);
+    vertices
+        .iter()
+        .zip(next)
+        .map(|(&from, &to)| Segment { from, to })
+}
+
+/// The shoelace formula, about the first vertex: the area, below 0 if the vertices run clockwise.
+fn anticlockwise_area(vertices: &[Point]) -> f64 {
+    let first = vertices[0];
+    let doubled: f64 = edges(vertices)
+        .map(|edge| first.to(edge.from).cross(first.to(edge.to)))
+        .sum();
+    doubled / 2.0
+}
+
+/// Above 0 if `point` is to the left of the edge, 0 if it is in line with it: exactly.
+fn side(edge: Segment, point: Point) -> f64 {
+    let coord = |Point { x, y }| Coord { x, y };
+    orient2d(coord(edge.from), coord(edge.to), coord(point))
+}
+
+#[cfg(test)]
+mod tests;
