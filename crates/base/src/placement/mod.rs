@@ -57,6 +57,12 @@ pub enum Placement {
     },
 }
 
+impl Default for Placement {
+    fn default() -> Self {
+        Self::Uniform { within_m: None }
+    }
+}
+
 /// What places depend on besides the placement: the run, and the world.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Draws {
