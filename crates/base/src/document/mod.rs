@@ -25,16 +25,21 @@
 //! ```
 
 mod parse;
+mod place;
 pub mod schema;
 mod section;
 mod typed;
 
+pub use place::Place;
 pub use section::Section;
 
 use crate::fault::{Fault, Faults};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::fmt;
+
+/// Characters of a value that a fault shows.
+const SHOWN: usize = 60;
 
 /// Keys and values of a table, in the order of the keys.
 pub type Table = BTreeMap<String, Node>;
@@ -80,6 +85,17 @@ impl fmt::Display for Value {
                 write!(f, "[{}]", items.join(", "))
             }
             Self::Table(_) => f.write_str("{...}"),
+        }
+    }
+}
+
+impl Value {
+    /// As in a fault: a long one by its beginning.
+    fn shown(&self) -> String {
+        let text = self.to_string();
+        match text.char_indices().nth(SHOWN) {
+            Some((end, _)) => format!("{}...", &text[..end]),
+            None => text,
         }
     }
 }
@@ -156,6 +172,22 @@ impl Document {
         };
     }
 
+    /// Puts under the table at `path` all that `defaults` says and it does not.
+    ///
+    /// Tables are merged key by key, but for one whose `kind` is another: it is of another form.
+    /// Anything else that is there stays. Nothing happens where no table stands.
+    pub fn fill(&mut self, path: &[&str], defaults: &Self) {
+        let node = path
+            .iter()
+            .try_fold(&mut self.root, |node, key| match &mut node.value {
+                Value::Table(table) => table.get_mut(*key),
+                _ => None,
+            });
+        if let Some(node) = node {
+            fill(node, &defaults.root);
+        }
+    }
+
     /// What stands at `path`.
     #[must_use]
     pub fn get(&self, path: &[&str]) -> Option<&Node> {
@@ -185,6 +217,24 @@ impl Document {
         let faults = RefCell::new(Vec::<Fault>::new());
         let value = reader(&Section::root(&self.root, &faults));
         (value, faults.into_inner())
+    }
+}
+
+fn fill(node: &mut Node, defaults: &Node) {
+    let (Value::Table(table), Value::Table(defaults)) = (&mut node.value, &defaults.value) else {
+        return;
+    };
+    let kind_of = |table: &Table| table.get("kind").map(|node| node.value.clone());
+    if kind_of(table).is_some_and(|kind| kind_of(defaults).is_some_and(|other| kind != other)) {
+        return;
+    }
+    for (key, value) in defaults {
+        match table.get_mut(key) {
+            Some(node) => fill(node, value),
+            None => {
+                table.insert(key.clone(), value.clone());
+            }
+        }
     }
 }
 

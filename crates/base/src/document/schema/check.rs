@@ -6,9 +6,6 @@ use crate::document::{Node, Table, Value, as_number, path_of};
 use crate::fault::{Fault, nearest};
 use serde_json::Value as Json;
 
-/// A list of more characters is told by its beginning.
-const SHOWN: usize = 60;
-
 pub(super) struct Check<'s> {
     pub(super) schema: &'s Schema,
     pub(super) faults: Vec<Fault>,
@@ -92,7 +89,7 @@ impl<'s> Check<'s> {
             _ => "",
         };
         if !names.contains(&word) {
-            let given = Some(shown(&node.value));
+            let given = Some(node.value.shown());
             let names = names.iter().copied();
             let fault = Fault::not_one_of(path.to_owned(), given, word, names);
             self.push(node, fault);
@@ -102,7 +99,7 @@ impl<'s> Check<'s> {
     /// Tells that `node` is not what `schema` allows.
     pub(super) fn fault(&mut self, schema: &Json, node: &Node, path: &str) {
         let allowed = words(self.schema, schema);
-        let fault = Fault::new(path.to_owned(), Some(shown(&node.value)), allowed);
+        let fault = Fault::new(path.to_owned(), Some(node.value.shown()), allowed);
         self.push(node, fault);
     }
 
@@ -121,7 +118,7 @@ impl<'s> Check<'s> {
     ) {
         let names: Vec<&str> = known.clone().collect();
         let allowed = format!("one of the known keys here: {}", names.join(", "));
-        let fault = Fault::new(path_of(path, key), Some(shown(&value.value)), allowed);
+        let fault = Fault::new(path_of(path, key), Some(value.value.shown()), allowed);
         let suggestion = nearest(key, known).map(str::to_owned);
         self.push(
             value,
@@ -161,12 +158,4 @@ fn is_in_range(keywords: &Object, number: f64) -> bool {
         && bound("maximum").is_none_or(|high| number <= high)
         && bound("exclusiveMinimum").is_none_or(|low| number > low)
         && bound("exclusiveMaximum").is_none_or(|high| number < high)
-}
-
-pub(super) fn shown(value: &Value) -> String {
-    let text = value.to_string();
-    match text.char_indices().nth(SHOWN) {
-        Some((end, _)) => format!("{}...", &text[..end]),
-        None => text,
-    }
 }
