@@ -11,6 +11,7 @@
 pub mod document;
 pub mod fault;
 pub mod geometry;
+pub mod noise;
 pub mod placement;
 pub mod random;
 pub mod runner;

@@ -43,6 +43,8 @@ pub enum Purpose {
     Item = 4,
     /// Where a cluster of items has its centre; the index is the cluster's.
     ItemCluster = 5,
+    /// The key of its own random numbers in a run: [`crate::noise`].
+    Noise = 6,
 }
 
 /// The stream of one entity for one purpose in one run, at its first draw.

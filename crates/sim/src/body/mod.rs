@@ -2,7 +2,9 @@
 
 pub mod battery;
 pub mod collision;
+pub(crate) mod contact;
 pub mod drive;
+pub(crate) mod path;
 
 use crate::radio::RadioSpec;
 use crate::sensing::SensorSpec;

@@ -2,11 +2,16 @@
 //!
 //! A robot gets what its sensors could recognise, and misses the rest. One file a sensor kind.
 
+pub(crate) mod eye;
 pub mod heading;
 pub mod items;
+mod poisson;
 pub mod position;
 pub mod range;
+pub(crate) mod rays;
 pub mod robots;
+mod sector;
+pub(crate) mod timing;
 
 use heading::HeadingSpec;
 use items::ItemsSpec;

@@ -1,5 +1,7 @@
 //! What is to be found, and what is taken for it.
 
+use super::buckets::Buckets;
+use base::geometry::Point;
 use base::placement::Placement;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -21,4 +23,38 @@ pub struct ItemSpec {
 
 fn yes() -> bool {
     true
+}
+
+/// The items of a run.
+#[derive(Debug, Clone)]
+pub(crate) struct Items {
+    places: Vec<Point>,
+    kinds: Vec<u16>,
+    /// The step at which it was found.
+    found: Vec<Option<u64>>,
+    buckets: Buckets,
+}
+
+impl Items {
+    pub(crate) fn new(places: Vec<Point>, kinds: Vec<u16>, size_m: Point, reach_m: f64) -> Self {
+        let mut buckets = Buckets::new(size_m, reach_m);
+        buckets.fill(places.iter().copied());
+        Self {
+            found: vec![None; places.len()],
+            places,
+            kinds,
+            buckets,
+        }
+    }
+
+    /// All items within a distance of a place, with their numbers, and maybe some more.
+    #[inline]
+    pub(crate) fn near(&self, place: Point, radius_m: f64) -> impl Iterator<Item = &(Point, u32)> {
+        self.buckets.near(place, radius_m)
+    }
+
+    #[inline]
+    pub(crate) fn kind(&self, number: u32) -> u16 {
+        self.kinds[number as usize]
+    }
 }

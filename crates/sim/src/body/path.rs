@@ -1,0 +1,100 @@
+//! Where a body goes in one step: along a circular arc, exactly.
+
+use base::geometry::Point;
+use base::trig::{sin_cos, wrapped};
+
+/// How far a chord may be from its arc, in metres, where contacts are looked for.
+const MAX_SAGITTA_M: f64 = 2e-4;
+
+/// Chords that an arc is cut into at most; scenarios have steps that need no more.
+const MAX_CHORDS: f64 = 64.0;
+
+/// A direction, with its cosine and sine.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Course {
+    /// 0 along x, anticlockwise, from -pi to pi.
+    pub(crate) heading_rad: f64,
+    /// Of length 1.
+    pub(crate) front: Point,
+}
+
+impl Course {
+    #[inline]
+    pub(crate) fn new(heading_rad: f64) -> Self {
+        let heading_rad = wrapped(heading_rad);
+        let (y, x) = sin_cos(heading_rad);
+        Self {
+            heading_rad,
+            front: Point { x, y },
+        }
+    }
+
+    #[inline]
+    pub(crate) fn turned(self, by_rad: f64) -> Self {
+        if by_rad == 0.0 {
+            return self;
+        }
+        Self::new(self.heading_rad + by_rad)
+    }
+}
+
+/// The arc of a step, of which a body may go a part only.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Path {
+    pub(crate) start: Point,
+    pub(crate) front: Point,
+    /// Ahead; negative is backwards.
+    pub(crate) length_m: f64,
+    /// Anticlockwise.
+    pub(crate) turn_rad: f64,
+    /// Share of the arc after which the body stands, 0 to 1.
+    pub(crate) until: f64,
+}
+
+impl Path {
+    /// Where the body is after a share of the step, 0 to 1.
+    #[inline]
+    pub(crate) fn at(&self, share: f64) -> Point {
+        let share = share.min(self.until);
+        let length = self.length_m * share;
+        if self.turn_rad == 0.0 {
+            return self.ahead(length, self.front);
+        }
+        // The chord of an arc that turns by a: sin(a/2) / (a/2) of its length, turned by a/2.
+        let half = self.turn_rad * share / 2.0;
+        let (sine, cosine) = sin_cos(half);
+        let shorter = if half.abs() < 1e-4 {
+            1.0 - half * half / 6.0
+        } else {
+            sine / half
+        };
+        let direction = Point {
+            x: self.front.x * cosine - self.front.y * sine,
+            y: self.front.y * cosine + self.front.x * sine,
+        };
+        self.ahead(length * shorter, direction)
+    }
+
+    fn ahead(&self, length: f64, direction: Point) -> Point {
+        Point {
+            x: self.start.x + length * direction.x,
+            y: self.start.y + length * direction.y,
+        }
+    }
+
+    /// Chords that follow the arc closely enough to find contacts.
+    #[inline]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "from 1 to MAX_CHORDS"
+    )]
+    pub(crate) fn chords(&self) -> u32 {
+        if self.turn_rad == 0.0 {
+            return 1;
+        }
+        // The sagitta of one chord for the whole is length * turn / 8; it shrinks with their square.
+        let sagitta = (self.length_m * self.turn_rad).abs() / 8.0;
+        (sagitta / MAX_SAGITTA_M).sqrt().ceil().clamp(1.0, MAX_CHORDS) as u32
+    }
+}
