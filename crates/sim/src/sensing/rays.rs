@@ -140,8 +140,14 @@ impl WithSimd for Cast<'_> {
         let front_x = simd.splat_f64s(self.front.x);
         let front_y = simd.splat_f64s(self.front.y);
         for ((cosine, sine), nearest) in cosines.iter().zip(sines).zip(nearest) {
-            let x = simd.sub_f64s(simd.mul_f64s(*cosine, front_x), simd.mul_f64s(*sine, front_y));
-            let y = simd.add_f64s(simd.mul_f64s(*cosine, front_y), simd.mul_f64s(*sine, front_x));
+            let x = simd.sub_f64s(
+                simd.mul_f64s(*cosine, front_x),
+                simd.mul_f64s(*sine, front_y),
+            );
+            let y = simd.add_f64s(
+                simd.mul_f64s(*cosine, front_y),
+                simd.mul_f64s(*sine, front_x),
+            );
             let rays = [x, y];
             for disc in &self.near.discs {
                 meet_disc(simd, rays, disc, nearest);

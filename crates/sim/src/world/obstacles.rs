@@ -1,6 +1,7 @@
 //! What is in the way on the ground.
 
-use base::geometry::Point;
+use super::grid::Still;
+use base::geometry::{Disc, Point, Polygon};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -36,4 +37,42 @@ pub struct CircleSpec {
     /// Its radius, in metres.
     #[schemars(range(min = 0.001, max = 100_000.0))]
     pub radius_m: f64,
+}
+
+/// Something solid on the ground, checked.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Solid {
+    /// A polygon.
+    Polygon(Polygon),
+    /// A disc.
+    Disc(Disc),
+}
+
+impl Solid {
+    /// Whether it covers a place.
+    pub(crate) fn covers(&self, place: Point) -> bool {
+        match self {
+            Self::Polygon(polygon) => polygon.contains(place),
+            Self::Disc(disc) => disc.contains(place),
+        }
+    }
+}
+
+impl Still for Solid {
+    fn bounds(&self) -> [Point; 2] {
+        match self {
+            Self::Polygon(polygon) => {
+                let bounds = polygon.bounds();
+                [bounds.min(), bounds.max()]
+            }
+            Self::Disc(disc) => disc.bounds(),
+        }
+    }
+
+    fn distance(&self, from: Point) -> f64 {
+        match self {
+            Self::Polygon(polygon) => polygon.distance_m(from),
+            Self::Disc(disc) => disc.distance_m(from),
+        }
+    }
 }

@@ -70,6 +70,15 @@ impl Schema {
         }
     }
 
+    /// The same, but with any other keys at the root.
+    #[must_use]
+    pub fn open(mut self) -> Self {
+        if let Some(root) = self.root.as_object_mut() {
+            root.insert("additionalProperties".to_owned(), Json::Bool(true));
+        }
+        self
+    }
+
     /// The schema itself.
     #[must_use]
     pub fn json(&self) -> &Json {
