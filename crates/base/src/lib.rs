@@ -3,6 +3,7 @@
 //! * [`geometry`], [`trig`]: points, walls, pillars and polygons; sines that are the same on every
 //!   machine;
 //! * [`random`]: random streams keyed by (seed, run, entity, purpose);
+//! * [`map`]: occupancy maps of ROS;
 //! * [`placement`]: where items and robots are put, by rejection and without overlaps;
 //! * [`fault`]: what is wrong with something a person wrote, in words;
 //! * [`document`]: a TOML document read against what is allowed, every fault at once;
@@ -11,6 +12,7 @@
 pub mod document;
 pub mod fault;
 pub mod geometry;
+pub mod map;
 pub mod noise;
 pub mod placement;
 pub mod random;

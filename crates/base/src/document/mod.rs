@@ -1,4 +1,5 @@
-//! A TOML document read against what is allowed, every fault at once, each with its line.
+//! A document read against what is allowed, every fault at once, each with its line: TOML, and the
+//! plain YAML of maps.
 //!
 //! serde stops at the first fault and forgets the line. Here the text becomes a tree of [`Node`]s
 //! that know where they came from ([`parse`]), options of the command line replace nodes
@@ -29,6 +30,7 @@ mod place;
 pub mod schema;
 mod section;
 mod typed;
+mod yaml;
 
 pub use place::Place;
 pub use section::Section;
@@ -147,6 +149,17 @@ impl Document {
     /// Every place at which the text is not TOML.
     pub fn parse(file: &str, text: &str) -> Result<Self, Faults> {
         parse::parse(file, text).map(|root| Self { root })
+    }
+
+    /// Reads the YAML `text` of one flat file: mappings, lists and plain values, a few levels deep.
+    /// `file` is how faults name it.
+    ///
+    /// Aliases and tags are refused, so that a short text cannot become a large document.
+    ///
+    /// # Errors
+    /// What in the text is not such YAML.
+    pub fn parse_yaml(file: &str, text: &str) -> Result<Self, Faults> {
+        yaml::parse(file, text).map(|root| Self { root })
     }
 
     /// Puts `value` at `path`, over what the file says; `origin` is how faults name it.

@@ -55,6 +55,12 @@ impl<'d> Section<'d> {
         self.node(key).map(|node| &node.value)
     }
 
+    /// Where what stands at `key` was written, or the table without it.
+    #[must_use]
+    pub fn origin(&self, key: &str) -> &'d str {
+        self.node(key).map_or(self.origin, |node| &node.origin)
+    }
+
     /// The keys of the table, in their order.
     pub fn keys(&self) -> impl Iterator<Item = &'d str> + use<'d> {
         self.table
@@ -202,7 +208,7 @@ impl<'d> Section<'d> {
 
     /// Notes a fault of what stands at `key`, unless the section as a whole is one.
     fn push(&self, key: &str, fault: Fault) {
-        let origin = self.node(key).map_or(self.origin, |node| &node.origin);
+        let origin = self.origin(key);
         if !self.is_faulty {
             self.faults.borrow_mut().push(Fault {
                 origin: Some(origin.to_owned()),
