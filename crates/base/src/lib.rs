@@ -4,11 +4,13 @@
 //! * [`random`]: random streams keyed by (seed, run, entity, purpose);
 //! * [`fault`]: what is wrong with something a person wrote, in words;
 //! * [`document`]: a TOML document read against what is allowed, every fault at once;
-//! * [`runner`]: the seam between simulators and studies.
+//! * [`runner`]: the seam between simulators and studies;
+//! * [`question`]: what a study asks, alike for every simulator.
 
 pub mod document;
 pub mod fault;
 pub mod geometry;
+pub mod question;
 pub mod random;
 pub mod runner;
 pub mod trig;
