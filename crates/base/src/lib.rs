@@ -7,7 +7,8 @@
 //! * [`placement`]: where items and robots are put, by rejection and without overlaps;
 //! * [`fault`]: what is wrong with something a person wrote, in words;
 //! * [`document`]: a TOML document read against what is allowed, every fault at once;
-//! * [`runner`]: the seam between simulators and studies.
+//! * [`runner`]: the seam between simulators and studies;
+//! * [`question`]: what a study asks, alike for every simulator.
 
 pub mod document;
 pub mod fault;
@@ -15,6 +16,7 @@ pub mod geometry;
 pub mod map;
 pub mod noise;
 pub mod placement;
+pub mod question;
 pub mod random;
 pub mod runner;
 pub mod trig;

@@ -136,6 +136,17 @@ fn as_number(node: &Node) -> Option<f64> {
     }
 }
 
+/// A value put over what a file says, and how faults should name where it comes from.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Override {
+    /// Keys from the root.
+    pub path: Vec<String>,
+    /// The new value.
+    pub value: Value,
+    /// For example `--set clock.cap_s`.
+    pub origin: String,
+}
+
 /// A whole document.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Document {
@@ -199,6 +210,16 @@ impl Document {
         if let Some(node) = node {
             fill(node, &defaults.root);
         }
+    }
+
+    /// Puts each of `overrides` in its place, one after the other.
+    #[must_use]
+    pub fn with(mut self, overrides: &[Override]) -> Self {
+        for each in overrides {
+            let path: Vec<&str> = each.path.iter().map(String::as_str).collect();
+            self.set(&path, each.value.clone(), &each.origin);
+        }
+        self
     }
 
     /// What stands at `path`.
