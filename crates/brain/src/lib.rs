@@ -6,10 +6,12 @@
 //! wherever they come from.
 
 mod body;
+mod brain_stub;
 mod command;
 mod percept;
 mod spec;
 
+pub use brain_stub::Brain;
 pub use body::{Body, RangeRing, RobotId};
 pub use command::{About, Command, Message, Motion, SensorRequest};
 pub use percept::{Contact, Heard, Neighbour, Percept, Reading, Scan};

@@ -2,6 +2,7 @@
 
 pub mod body;
 pub mod clock;
+pub mod engine;
 pub mod radio;
 pub mod scenario;
 pub mod sensing;

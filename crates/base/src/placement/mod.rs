@@ -58,6 +58,7 @@ pub enum Placement {
 }
 
 impl Default for Placement {
+    /// Anywhere in the world.
     fn default() -> Self {
         Self::Uniform { within_m: None }
     }

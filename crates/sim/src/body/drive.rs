@@ -88,6 +88,14 @@ pub(crate) struct Driven {
     pub(crate) length_m: f64,
 }
 
+impl Driven {
+    pub(crate) const REST: Self = Self {
+        speed_m_s: 0.0,
+        turn_rate_rad_s: 0.0,
+        length_m: 0.0,
+    };
+}
+
 fn or_zero(value: f64) -> f64 {
     if value.is_nan() { 0.0 } else { value }
 }

@@ -4,6 +4,7 @@ pub mod battery;
 pub mod collision;
 pub(crate) mod contact;
 pub mod drive;
+pub(crate) mod kind;
 pub(crate) mod path;
 
 use crate::radio::RadioSpec;

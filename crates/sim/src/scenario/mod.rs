@@ -2,6 +2,9 @@
 
 mod checks;
 pub mod models;
+mod ready;
+
+pub use ready::Scenario;
 
 use crate::body::RobotSpec;
 use crate::clock::ClockSpec;

@@ -36,6 +36,11 @@ impl Rhythm {
         step_s / self.beats_per_step
     }
 
+    /// Beats that fall into so many steps, at most.
+    pub(crate) fn beats_in(&self, steps: u64) -> usize {
+        usize::try_from(self.beats_until(steps)).unwrap_or(usize::MAX - 2) + 1
+    }
+
     /// Beats after the one on step 0, until this step.
     #[expect(
         clippy::cast_possible_truncation,

@@ -25,6 +25,26 @@ fn yes() -> bool {
     true
 }
 
+/// A kind of item, as runs need it.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct ItemKind {
+    pub(crate) name: String,
+    pub(crate) count: u32,
+    pub(crate) is_sought: bool,
+    pub(crate) placement: Placement,
+}
+
+impl ItemKind {
+    pub(crate) fn new((name, spec): (&String, &ItemSpec)) -> Self {
+        Self {
+            name: name.clone(),
+            count: spec.count,
+            is_sought: spec.sought,
+            placement: spec.placement.clone(),
+        }
+    }
+}
+
 /// The items of a run.
 #[derive(Debug, Clone)]
 pub(crate) struct Items {
@@ -51,6 +71,28 @@ impl Items {
     #[inline]
     pub(crate) fn near(&self, place: Point, radius_m: f64) -> impl Iterator<Item = &(Point, u32)> {
         self.buckets.near(place, radius_m)
+    }
+
+    pub(crate) fn places(&self) -> &[Point] {
+        &self.places
+    }
+
+    /// The kind of each item, and the step at which it was found.
+    pub(crate) fn each(&self) -> impl Iterator<Item = (u16, Option<u64>)> {
+        self.kinds.iter().copied().zip(self.found.iter().copied())
+    }
+
+    /// The step at which an item was found.
+    pub(crate) fn found(&self, number: u32) -> Option<u64> {
+        self.found[number as usize]
+    }
+
+    /// Marks an item as found; whether it was not before.
+    pub(crate) fn find(&mut self, number: u32, tick: u64) -> bool {
+        let found = &mut self.found[number as usize];
+        let is_new = found.is_none();
+        found.get_or_insert(tick);
+        is_new
     }
 
     #[inline]
