@@ -11,8 +11,8 @@ mod command;
 mod percept;
 mod spec;
 
-pub use brain_stub::Brain;
 pub use body::{Body, RangeRing, RobotId};
+pub use brain_stub::Brain;
 pub use command::{About, Command, Message, Motion, SensorRequest};
 pub use percept::{Contact, Heard, Neighbour, Percept, Reading, Scan};
 pub use spec::BrainSpec;

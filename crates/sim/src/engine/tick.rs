@@ -33,7 +33,8 @@ impl Workshop {
     /// Takes one step.
     pub(crate) fn tick(&mut self, scenario: &Scenario, state: &mut State) {
         let is_shared = self.may_share && is_worth_sharing(state.robots());
-        self.neighbours.refresh(scenario, &state.ids, &state.discs, is_shared);
+        self.neighbours
+            .refresh(scenario, &state.ids, &state.discs, is_shared);
         hear(scenario, state);
         self.sense_and_decide(scenario, state, is_shared);
         self.speak(scenario, state);
@@ -47,7 +48,11 @@ impl Workshop {
     /// Lets all robots sense and decide, each from the same view.
     fn sense_and_decide(&mut self, scenario: &Scenario, state: &mut State, is_shared: bool) {
         let robots = state.robots();
-        let desks = if is_shared { 4 * rayon::current_num_threads() } else { 1 };
+        let desks = if is_shared {
+            4 * rayon::current_num_threads()
+        } else {
+            1
+        };
         self.desks.resize_with(desks, Desk::default);
         self.desks.iter_mut().for_each(Desk::clear);
         let (view, minds) = state.view(scenario, &self.neighbours);
@@ -95,7 +100,9 @@ fn hear(scenario: &Scenario, state: &mut State) {
     for sent in &arrived {
         let robot = sent.to as usize;
         let kind = &scenario.kinds[usize::from(state.ids[robot].kind)];
-        let radio = kind.radio.filter(|_| state.hulls[robot].status == Status::Active);
+        let radio = kind
+            .radio
+            .filter(|_| state.hulls[robot].status == Status::Active);
         if let Some(radio) = radio {
             state.minds[robot].hear(sent, state.tick, radio.messages_per_step);
         }

@@ -10,8 +10,7 @@ use crate::body::RobotSpec;
 use crate::clock::ClockSpec;
 use crate::world::WorldSpec;
 use crate::world::items::ItemSpec;
-use crate::world::obstacles::Solid;
-use crate::world::terrain::{Area, TerrainSpec};
+use crate::world::terrain::TerrainSpec;
 use base::document::Document;
 use base::document::schema::Schema;
 use base::fault::Faults;
@@ -37,16 +36,13 @@ pub struct ScenarioSpec {
     pub robots: BTreeMap<String, RobotSpec>,
 }
 
-/// A scenario in which nothing is wrong, and what was made of it to find that.
-#[derive(Debug, Clone, PartialEq)]
+/// A scenario in which nothing is wrong.
+#[derive(Debug, Clone)]
 pub struct Checked {
-    /// What is written; what is left out has its default, or its model's value.
+    /// As it is written; what is left out has its default, or its model's value.
     pub spec: ScenarioSpec,
-    /// The obstacles, in the order of [`WorldSpec::obstacles`].
-    pub solids: Vec<Solid>,
-    /// The areas of [`ScenarioSpec::terrain`], in the order of the classes' names; later ones hold
-    /// over earlier ones.
-    pub areas: Vec<Area>,
+    /// As runs need it.
+    pub scenario: Scenario,
 }
 
 /// Gives the bytes of a file that a scenario names, relative to the scenario's own, or says why it

@@ -8,6 +8,7 @@ use crate::world::terrain::{Area, TerrainSpec};
 use base::document::Place;
 use base::fault::Fault;
 use base::geometry::{Disc, Point, Polygon, Rectangle};
+use base::map::{self, OccupancyMap, Unknown};
 use std::collections::BTreeMap;
 
 /// The obstacles that are right; what is wrong with others, or outside, is told.
@@ -51,7 +52,7 @@ pub(super) fn words(world: &WorldSpec) -> String {
     format!("the world, from [0, 0] to [{}, {}]", width.0, height.0)
 }
 
-fn solid(obstacle: &ObstacleSpec, at: &Place, _open: Open) -> Result<Solid, Vec<Fault>> {
+fn solid(obstacle: &ObstacleSpec, at: &Place, open: Open) -> Result<Solid, Vec<Fault>> {
     match obstacle {
         ObstacleSpec::Polygon { polygon_m } => {
             polygon(polygon_m, &at.key("polygon_m")).map(Solid::Polygon)
@@ -60,8 +61,35 @@ fn solid(obstacle: &ObstacleSpec, at: &Place, _open: Open) -> Result<Solid, Vec<
             centre: circle.at_m,
             radius_m: circle.radius_m,
         })),
-        ObstacleSpec::Map { .. } => Err(vec![at.key("map").fault("left out for now")]),
+        ObstacleSpec::Map {
+            map,
+            unknown_is_solid,
+        } => {
+            let unknown = match unknown_is_solid {
+                true => Unknown::Solid,
+                false => Unknown::Free,
+            };
+            read_map(map, unknown, &at.key("map"), open).map(Solid::Map)
+        }
     }
+}
+
+/// The map in a YAML file; the image that this names is beside it.
+fn read_map(
+    file: &str,
+    unknown: Unknown,
+    at: &Place,
+    open: Open,
+) -> Result<OccupancyMap, Vec<Fault>> {
+    let refusal = |why: String| vec![at.fault(format!("a file that can be read: {why}"))];
+    let bytes = open(file).map_err(refusal)?;
+    let text = String::from_utf8(bytes).map_err(|why| refusal(why.to_string()))?;
+    let folder = file.rsplit_once('/').map(|(folder, _)| folder);
+    let beside = |image: &str| match folder {
+        Some(folder) if !image.starts_with('/') => open(&format!("{folder}/{image}")),
+        _ => open(image),
+    };
+    map::read(file, &text, unknown, beside).map_err(|faults| faults.0)
 }
 
 /// The areas of all classes of ground.

@@ -10,7 +10,7 @@ mod places;
 mod rates;
 mod room;
 
-use super::{Checked, Open, ScenarioSpec};
+use super::{Checked, Open, Scenario, ScenarioSpec};
 use base::document::Place;
 use base::fault::{Fault, Faults};
 
@@ -26,7 +26,7 @@ const CHECKS: [Check; 6] = [
     memory::faults,
 ];
 
-/// A check of what stands where, for a scenario without other faults.
+/// A check of what stands where, which cannot be said while an obstacle is wrong.
 type CheckOfPlaces = fn(&Checked, &Place) -> Vec<Fault>;
 
 const CHECKS_OF_PLACES: [CheckOfPlaces; 2] = [places::faults, room::faults];
@@ -36,20 +36,14 @@ pub(super) fn checked(spec: ScenarioSpec, at: &Place, open: Open) -> Result<Chec
     let mut faults: Vec<Fault> = CHECKS.iter().flat_map(|check| check(&spec, at)).collect();
     let solids = ground::solids(&spec.world, &at.key("world"), open, &mut faults);
     let areas = ground::areas(&spec.terrain, &at.key("terrain"), &mut faults);
-    let checked = Checked {
-        spec,
-        solids,
-        areas,
-    };
-    // Where an obstacle is wrong, what stands in it cannot be said.
-    if faults.is_empty() {
-        faults.extend(
-            CHECKS_OF_PLACES
-                .iter()
-                .flat_map(|check| check(&checked, at)),
-        );
-    }
-    Faults::or(faults, Some(checked))
+    Faults::or(faults, Some(()))?;
+    let scenario = Scenario::new(&spec, solids, areas);
+    let checked = Checked { spec, scenario };
+    let of_places = CHECKS_OF_PLACES
+        .iter()
+        .flat_map(|check| check(&checked, at));
+    Faults::or(of_places.collect(), Some(()))?;
+    Ok(checked)
 }
 
 #[cfg(test)]

@@ -1,7 +1,6 @@
 //! Given places that are free.
 
 use super::ground::{rectangle, words};
-use super::room::Room;
 use super::{Checked, ScenarioSpec};
 use crate::body::{Layer, RobotSpec};
 use base::document::Place;
@@ -14,14 +13,13 @@ const TOLERANCE_M: f64 = 1e-9;
 
 pub(super) fn faults(checked: &Checked, at: &Place) -> Vec<Fault> {
     let spec = &checked.spec;
-    let room = Room::new(checked);
     let mut faults = Vec::new();
     for (name, kind) in &spec.items {
         let at = at.key("items").key(name).key("placement");
         faults.extend(faults_of_list(&kind.placement, kind.count, &at));
         faults.extend(faults_of_rectangle(&kind.placement, spec, &at));
         for (place, at) in given(&kind.placement, kind.count, &at) {
-            if !room.is_free(place, 0.0, Layer::Ground) {
+            if !checked.scenario.is_free(place, 0.0, Layer::Ground) {
                 let world = words(&spec.world);
                 faults.push(at.fault(format!("in {world}, and not in an obstacle")));
             }
@@ -32,7 +30,7 @@ pub(super) fn faults(checked: &Checked, at: &Place) -> Vec<Fault> {
         faults.extend(faults_of_list(&kind.start, kind.count, &at));
         faults.extend(faults_of_rectangle(&kind.start, spec, &at));
         for (place, at) in given(&kind.start, kind.count, &at) {
-            if !room.is_free(place, kind.radius_m, kind.layer) {
+            if !checked.scenario.is_free(place, kind.radius_m, kind.layer) {
                 faults.push(at.fault(not_free(kind, spec)));
             }
         }

@@ -1,10 +1,8 @@
 //! Room for all that is put anywhere.
 
-use super::Checked;
 use super::ground::rectangle;
+use super::{Checked, Scenario};
 use crate::body::{Layer, RobotSpec};
-use crate::world::grid::{NearCells, Still};
-use crate::world::obstacles::Solid;
 use base::document::Place;
 use base::fault::Fault;
 use base::geometry::{Point, Rectangle};
@@ -18,66 +16,31 @@ const SIDE: u32 = 128;
 /// (Feder, *Random sequential adsorption*, 1980); long before, a free place is hard to find.
 const MAX_SHARE: f64 = 0.5;
 
-/// What is free of a world.
-pub(super) struct Room<'c> {
-    world: Rectangle,
-    solids: &'c [Solid],
-    near: NearCells,
-}
-
-impl<'c> Room<'c> {
-    pub(super) fn new(checked: &'c Checked) -> Self {
-        let world = rectangle(&checked.spec.world);
-        let kinds = checked.spec.robots.values();
-        let reach_m = kinds.map(|kind| kind.radius_m).fold(0.0, f64::max);
-        Self {
-            world,
-            solids: &checked.solids,
-            near: NearCells::new(world.size(), &checked.solids, reach_m),
-        }
-    }
-
-    /// Whether a disc of a layer fits into a place.
-    pub(super) fn is_free(&self, place: Point, radius_m: f64, layer: Layer) -> bool {
-        let corner = Point {
-            x: radius_m,
-            y: radius_m,
-        };
-        let is_inside =
-            self.world.contains(corner.to(place)) && self.world.contains(place.plus(corner));
-        let is_clear = |number: &u32| {
-            let solid = &self.solids[*number as usize];
-            !solid.covers(place) && solid.distance(place) >= radius_m
-        };
-        is_inside && (layer == Layer::Air || self.near.at(place).iter().all(is_clear))
-    }
-
-    /// The share of a rectangle that is free for discs, of the places of a lattice.
-    fn share(&self, within: &Rectangle, radius_m: f64, layer: Layer) -> f64 {
-        let size = within.size();
-        let at = |step: u32| (f64::from(step) + 0.5) / f64::from(SIDE);
-        let place = |column, row| {
-            within.min().plus(Point {
-                x: size.x * at(column),
-                y: size.y * at(row),
-            })
-        };
-        let places = (0..SIDE).flat_map(|row| (0..SIDE).map(move |column| (column, row)));
-        let free =
-            places.filter(|&(column, row)| self.is_free(place(column, row), radius_m, layer));
-        #[expect(clippy::cast_precision_loss, reason = "at most SIDE squared")]
-        let free = free.count() as f64;
-        free / f64::from(SIDE * SIDE)
-    }
+/// The share of a rectangle that is free for discs, of the places of a lattice.
+fn share(scenario: &Scenario, within: &Rectangle, radius_m: f64, layer: Layer) -> f64 {
+    let size = within.size();
+    let at = |step: u32| (f64::from(step) + 0.5) / f64::from(SIDE);
+    let place = |(column, row)| {
+        within.min().plus(Point {
+            x: size.x * at(column),
+            y: size.y * at(row),
+        })
+    };
+    let places = (0..SIDE).flat_map(|row| (0..SIDE).map(move |column| (column, row)));
+    let free = places.filter(|&each| scenario.is_free(place(each), radius_m, layer));
+    #[expect(clippy::cast_precision_loss, reason = "at most SIDE squared")]
+    let free = free.count() as f64;
+    free / f64::from(SIDE * SIDE)
 }
 
 pub(super) fn faults(checked: &Checked, at: &Place) -> Vec<Fault> {
-    let room = Room::new(checked);
+    let world = rectangle(&checked.spec.world);
+    let scenario = &checked.scenario;
     let mut faults = Vec::new();
     for (name, kind) in &checked.spec.items {
-        let within = within(&kind.placement, &room.world);
+        let within = within(&kind.placement, &world);
         let within = within.filter(|_| kind.count > 0);
-        if within.is_some_and(|within| room.share(&within, 0.0, Layer::Ground) == 0.0) {
+        if within.is_some_and(|within| share(scenario, &within, 0.0, Layer::Ground) == 0.0) {
             let at = at.key("items").key(name).key("count");
             faults.push(at.fault("0: there is no free place where these are to be"));
         }
@@ -85,7 +48,7 @@ pub(super) fn faults(checked: &Checked, at: &Place) -> Vec<Fault> {
     let mut is_fine = true;
     for (name, kind) in &checked.spec.robots {
         let at = at.key("robots").key(name);
-        let fault = fault_of(kind, &room, &at);
+        let fault = fault_of(kind, checked, &at);
         is_fine &= fault.is_none();
         faults.extend(fault);
     }
@@ -94,7 +57,7 @@ pub(super) fn faults(checked: &Checked, at: &Place) -> Vec<Fault> {
         faults.extend(
             layers
                 .into_iter()
-                .filter_map(|layer| crowd(checked, &room, layer, at)),
+                .filter_map(|layer| crowd(checked, layer, at)),
         );
     }
     faults
@@ -111,9 +74,10 @@ fn within(placement: &Placement, world: &Rectangle) -> Option<Rectangle> {
 }
 
 /// There is a place for one robot of the kind.
-fn fault_of(kind: &RobotSpec, room: &Room, at: &Place) -> Option<Fault> {
-    let within = within(&kind.start, &room.world).filter(|_| kind.count > 0)?;
-    let has_none = room.share(&within, kind.radius_m, kind.layer) == 0.0;
+fn fault_of(kind: &RobotSpec, checked: &Checked, at: &Place) -> Option<Fault> {
+    let scenario = &checked.scenario;
+    let within = within(&kind.start, &rectangle(&checked.spec.world)).filter(|_| kind.count > 0)?;
+    let has_none = share(scenario, &within, kind.radius_m, kind.layer) == 0.0;
     has_none.then(|| {
         let radius_m = kind.radius_m;
         at.key("count").fault(format!(
@@ -124,7 +88,7 @@ fn fault_of(kind: &RobotSpec, room: &Room, at: &Place) -> Option<Fault> {
 }
 
 /// All robots of a layer have room beside each other.
-fn crowd(checked: &Checked, room: &Room, layer: Layer, at: &Place) -> Option<Fault> {
+fn crowd(checked: &Checked, layer: Layer, at: &Place) -> Option<Fault> {
     let kinds = checked
         .spec
         .robots
@@ -136,7 +100,8 @@ fn crowd(checked: &Checked, room: &Room, layer: Layer, at: &Place) -> Option<Fau
     });
     let areas: Vec<(f64, &String, &RobotSpec)> = areas.collect();
     let total_m2: f64 = areas.iter().map(|(area_m2, ..)| area_m2).sum();
-    let free_m2 = room.world.area_m2() * room.share(&room.world, 0.0, layer);
+    let world = rectangle(&checked.spec.world);
+    let free_m2 = world.area_m2() * share(&checked.scenario, &world, 0.0, layer);
     let largest = areas.iter().max_by(|one, other| one.0.total_cmp(&other.0));
     let (area_m2, name, _) = largest.filter(|_| total_m2 > MAX_SHARE * free_m2)?;
     let share = MAX_SHARE * 100.0;

@@ -66,12 +66,8 @@ fn fault(this: &str, that: &str) -> String {
 
 #[test]
 fn a_good_scenario_is_read() {
-    let Checked {
-        spec,
-        solids,
-        areas,
-    } = read(GOOD).unwrap();
-    assert_eq!((solids.len(), areas.len()), (2, 1));
+    let Checked { spec, scenario } = read(GOOD).unwrap();
+    assert_eq!(scenario.robots(), 3);
     assert_eq!(spec.robots.keys().collect::<Vec<_>>(), ["bird", "rover"]);
 }
 
@@ -311,4 +307,55 @@ fn a_run_fits_into_memory() {
 fn points_can_be_many_in_a_small_place() {
     let many = "count = 100000\nradius_m = 0";
     assert!(read(&GOOD.replace("count = 1\nradius_m = 0.3", many)).is_ok());
+}
+
+/// A map of 2 m by 1 m of which the left half is solid, in a folder beside the scenario.
+fn open(file: &str) -> Result<Vec<u8>, String> {
+    let yaml = "image: room.pgm\nresolution: 1\norigin: [8, 4, 0]\nnegate: 0\n\
+                occupied_thresh: 0.65\nfree_thresh: 0.196\n";
+    match file {
+        "maps/room.yaml" => Ok(yaml.into()),
+        "maps/bad.yaml" => Ok(yaml.replace("resolution: 1", "resolution: -1").into()),
+        "maps/room.pgm" => Ok("P2 2 1 255  0 254".into()),
+        _ => Err(format!("there is no {file}")),
+    }
+}
+
+fn read_with_map(map: &str, start: &str) -> Result<Checked, String> {
+    let map = format!("{{ map = {map:?} }}");
+    let text = GOOD.replace("{ circle = { at_m = [15, 5], radius_m = 1 } }", &map);
+    let document = Document::parse("t", &text.replace("[7, 6]", start)).unwrap();
+    ScenarioSpec::read(&document, &open).map_err(|faults| faults.to_string())
+}
+
+#[test]
+fn a_map_is_read_and_is_in_the_way() {
+    assert!(read_with_map("maps/room.yaml", "[9.5, 4.5]").is_ok());
+    for (start, is_free) in [
+        ("[8.5, 4.5]", false),
+        ("[9.4, 4.5]", false),
+        ("[7.4, 4.5]", true),
+    ] {
+        let told = read_with_map("maps/room.yaml", start).err();
+        let expected = format!("t:23: robots.rover.start.at_m[1] = {start}: must be in the world");
+        assert_eq!(told.is_none(), is_free, "{start}");
+        assert!(
+            told.is_none_or(|told| told.starts_with(&expected)),
+            "{start}"
+        );
+    }
+}
+
+#[test]
+fn a_map_that_is_not_there_or_wrong_is_told() {
+    assert_eq!(
+        read_with_map("room.yaml", "[7, 6]").unwrap_err(),
+        "t:10: world.obstacles[1].map = \"room.yaml\": must be a file that can be read: there is no \
+         room.yaml"
+    );
+    let told = read_with_map("maps/bad.yaml", "[7, 6]").unwrap_err();
+    assert!(
+        told.starts_with("maps/bad.yaml:2: resolution = -1: must be"),
+        "{told}"
+    );
 }
