@@ -176,7 +176,7 @@ impl Placement {
                 within_m,
             } => {
                 let within = within_m.unwrap_or(draws.world);
-                // By turns, so that more members or more clusters leave what is there in order.
+                // By turns: equal numbers, and more members leave the others where they are.
                 let cluster = Entity {
                     index: entity.index % clusters.max(1),
                     ..entity

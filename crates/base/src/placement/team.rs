@@ -41,7 +41,7 @@ pub struct NoPlaceFor {
 ///
 /// * no other robot of its group, and none of a group before it, is anywhere else;
 /// * a robot of a group after it is elsewhere only if its place is now overlapped, by the new robot
-///   or by one that had to give way to it.
+///   or by one that is elsewhere because of it, or if such a one has left a place that it tried first.
 ///
 /// Robots that only touch do not overlap. The time goes with the number of robots, not its square.
 ///

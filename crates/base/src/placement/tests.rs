@@ -287,12 +287,17 @@ proptest! {
         for at in 0..=grown {
             prop_assert_eq!(&before[at][..], &after[at][..counts[at] as usize]);
         }
-        // Those that are new or moved, in the order in which they were put down.
-        let mut moved = vec![after[grown][counts[grown] as usize]];
+        // Places that were taken or left, in the order in which the robots were put down.
+        let mut taken = vec![after[grown][counts[grown] as usize]];
+        let mut left = Vec::new();
         for (old, new) in (grown + 1..3).flat_map(|at| before[at].iter().zip(&after[at])) {
+            let overlaps = |place: &Point, others: &[Point]| {
+                others.iter().any(|other| other.to(*place).length() < 0.4)
+            };
             if old != new {
-                prop_assert!(moved.iter().any(|other| other.to(*old).length() < 0.4));
-                moved.push(*new);
+                prop_assert!(overlaps(old, &taken) || overlaps(new, &left));
+                taken.push(*new);
+                left.push(*old);
             }
         }
     }
