@@ -1,10 +1,24 @@
 //! What a brain knows of the body that it is in.
 
+use alloc::string::String;
+use alloc::vec::Vec;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Which robot: the `index`-th of its kind, both counted from 0.
 #[derive(
-    Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize,
+    Debug,
+    Clone,
+    Copy,
+    Default,
+    PartialEq,
+    Eq,
+    PartialOrd,
+    Ord,
+    Hash,
+    Serialize,
+    Deserialize,
+    JsonSchema,
 )]
 #[serde(deny_unknown_fields)]
 pub struct RobotId {
@@ -15,7 +29,7 @@ pub struct RobotId {
 }
 
 /// What a brain knows of its body, the same for every robot of a kind.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Body {
     /// Of the disc that it covers.
@@ -23,23 +37,29 @@ pub struct Body {
     /// At most so fast ahead.
     pub max_speed_m_s: f64,
     /// At most so fast backwards; 0 if it cannot.
+    #[serde(default)]
     pub max_reverse_speed_m_s: f64,
-    /// It gains and loses speed at most so fast.
+    /// It gains and loses speed at most so fast; infinite if at once (`null` in JSON).
+    #[serde(default = "at_once", with = "crate::infinite::number")]
+    #[schemars(with = "Option<f64>")]
     pub max_acceleration_m_s2: f64,
     /// It turns at most so fast, either way.
     pub max_turn_rate_rad_s: f64,
     /// Time between two steps of the brain.
     pub period_s: f64,
     /// Names of its sensors, in the order in which requests count them.
+    #[serde(default)]
     pub sensors: Vec<String>,
     /// Its range rings, in the order in which percepts have their scans.
+    #[serde(default)]
     pub rings: Vec<RangeRing>,
     /// Names of the kinds of items that there are.
+    #[serde(default)]
     pub item_kinds: Vec<String>,
 }
 
 /// The rays of a range sensor.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RangeRing {
     /// Direction of each ray from the robot's front, anticlockwise; above -pi, up to pi.
@@ -50,4 +70,8 @@ pub struct RangeRing {
     pub period_s: f64,
     /// Time from a scan until the brain has it.
     pub latency_s: f64,
+}
+
+fn at_once() -> f64 {
+    f64::INFINITY
 }

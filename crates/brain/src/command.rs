@@ -1,10 +1,12 @@
 //! What leaves a brain.
 
+use alloc::vec::Vec;
 use base::geometry::Point;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// All that a brain wants of its body in this step.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Command {
     /// How to move; the body does what it can of it.
@@ -16,7 +18,7 @@ pub struct Command {
 }
 
 /// A speed and a rate of turn.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Motion {
     /// Ahead; negative is backwards.
@@ -26,7 +28,7 @@ pub struct Motion {
 }
 
 /// A sensor to be switched on or off.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SensorRequest {
     /// Place of the sensor in [`Body::sensors`](crate::Body::sensors).
@@ -36,7 +38,7 @@ pub struct SensorRequest {
 }
 
 /// What one robot tells others.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Message {
     /// What it is about.
@@ -46,7 +48,7 @@ pub struct Message {
 }
 
 /// What a message can be about.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum About {
     /// An item.

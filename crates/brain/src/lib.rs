@@ -3,16 +3,52 @@
 //!
 //! It has no clock, file, thread or random numbers of its own: time and chance come in the percept,
 //! requests and messages leave in the command. So the same percepts give the same commands,
-//! wherever they come from.
+//! wherever they come from. The compiler sees to it: without `std` there is no clock, file, thread,
+//! environment or network to be had.
+//!
+//! * [`Percept`], [`Command`], [`Body`]: the seam;
+//! * [`BrainSpec`]: what a scenario says of a brain;
+//! * [`Brain`]: the mind of one robot.
+//!
+//! ```
+//! use brain::{Body, Brain, BrainSpec, Percept};
+//! use std::sync::Arc;
+//! let body = Body {
+//!     radius_m: 0.25,
+//!     max_speed_m_s: 1.0,
+//!     max_acceleration_m_s2: 1.0,
+//!     max_turn_rate_rad_s: 1.5,
+//!     period_s: 0.1,
+//!     ..Body::default()
+//! };
+//! let mut brain = Brain::new(Arc::new(BrainSpec::default()), Arc::new(body));
+//! // It has no range sensor and touches nothing: ahead, as fast as it can.
+//! assert_eq!(brain.step(&Percept::default()).motion.speed_m_s, 1.0);
+//! ```
 
+#![cfg_attr(not(test), no_std)]
+
+extern crate alloc;
+
+pub mod behaviours;
 mod body;
-mod brain_stub;
+mod brain;
 mod command;
+mod dice;
+mod infinite;
 mod percept;
+mod rays;
+mod reckoning;
+mod senses;
+mod sight;
 mod spec;
+mod subsumption;
+#[cfg(test)]
+mod world_of_walls;
 
 pub use body::{Body, RangeRing, RobotId};
-pub use brain_stub::Brain;
+pub use brain::Brain;
 pub use command::{About, Command, Message, Motion, SensorRequest};
+pub use dice::Dice;
 pub use percept::{Contact, Heard, Neighbour, Percept, Reading, Scan};
 pub use spec::BrainSpec;

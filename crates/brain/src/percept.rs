@@ -2,13 +2,15 @@
 
 use crate::body::RobotId;
 use crate::command::{Message, Motion};
+use alloc::vec::Vec;
 use base::geometry::Point;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// All that a robot knows of this moment; any part of it may be missing.
 ///
 /// Angles are from the robot's own front, anticlockwise, unless said otherwise.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Percept {
     /// Time since the mission began.
@@ -36,7 +38,7 @@ pub struct Percept {
 }
 
 /// A value, and how old it is.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Reading<T> {
     /// What was measured.
@@ -46,19 +48,20 @@ pub struct Reading<T> {
 }
 
 /// What a range ring measured.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Scan {
     /// Time since it was measured; `None` if there is no scan.
     pub age_s: Option<f64>,
     /// From the robot's centre to what reflects, a value a ray in the order of the ring's bearings;
     /// infinite where nothing came back (`null` in JSON). Empty if there is no scan.
-    #[serde(with = "or_nothing")]
+    #[serde(with = "crate::infinite::numbers")]
+    #[schemars(with = "Vec<Option<f64>>")]
     pub ranges_m: Vec<f64>,
 }
 
 /// An item that a sensor recognised, or something that it took for one.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Contact {
     /// Place of the item's kind in [`Body::item_kinds`](crate::Body::item_kinds).
@@ -72,7 +75,7 @@ pub struct Contact {
 }
 
 /// A robot that a sensor recognised.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Neighbour {
     /// From centre to centre, when it was measured.
@@ -86,7 +89,7 @@ pub struct Neighbour {
 }
 
 /// A message that came in.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Heard {
     /// Who sent it.
@@ -95,25 +98,4 @@ pub struct Heard {
     pub age_s: f64,
     /// What was sent.
     pub message: Message,
-}
-
-/// Infinity as `null`, since JSON has no word for it.
-mod or_nothing {
-    use serde::{Deserialize, Deserializer, Serializer};
-
-    pub(super) fn serialize<S: Serializer>(ranges: &[f64], to: S) -> Result<S::Ok, S::Error> {
-        to.collect_seq(
-            ranges
-                .iter()
-                .map(|range| range.is_finite().then_some(range)),
-        )
-    }
-
-    pub(super) fn deserialize<'d, D: Deserializer<'d>>(from: D) -> Result<Vec<f64>, D::Error> {
-        let ranges = Vec::<Option<f64>>::deserialize(from)?;
-        Ok(ranges
-            .into_iter()
-            .map(|range| range.unwrap_or(f64::INFINITY))
-            .collect())
-    }
 }

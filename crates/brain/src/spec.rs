@@ -1,10 +1,41 @@
-//! Stub until the real one is merged.
+//! What a scenario says of a brain.
+
+use crate::behaviours::{Avoid, BehaviourSpec, Bounce, Cruise};
+use alloc::vec;
+use alloc::vec::Vec;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-/// What a brain is.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default)]
+
+/// A robot's mind: behaviours one above the other, of which the highest that has something to do
+/// has its way (subsumption: Brooks, *A robust layered control system for a mobile robot*, 1986).
+///
+/// Left out, it goes ahead, turns to a random course at obstacles, and gets out of the way of what
+/// is too near: a search that works anywhere.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
 pub struct BrainSpec {
-    /// Steps a second.
+    /// Times a second that it thinks; left out, at every step of the simulation.
+    #[schemars(range(min = 0.0001, max = 10_000.0))]
     pub rate_hz: Option<f64>,
+    /// Whether it goes only so fast that it can stop within what its range sensors see to be free.
+    /// It then stands when they see nothing, and can still hit what slips between two rays. A robot
+    /// without a range sensor that looks where it goes is blind, and is not limited.
+    pub speed_limited_by_sight: bool,
+    /// Its behaviours, the lowest first.
+    #[schemars(length(max = 32))]
+    pub behaviours: Vec<BehaviourSpec>,
+}
+
+impl Default for BrainSpec {
+    fn default() -> Self {
+        Self {
+            rate_hz: None,
+            speed_limited_by_sight: true,
+            behaviours: vec![
+                BehaviourSpec::Cruise(Cruise::default()),
+                BehaviourSpec::Bounce(Bounce::default()),
+                BehaviourSpec::Avoid(Avoid::default()),
+            ],
+        }
+    }
 }

@@ -1,0 +1,48 @@
+//! Going ahead.
+
+use super::ahead;
+use crate::body::Body;
+use crate::command::Motion;
+use crate::senses::Senses;
+use crate::subsumption::Behaviour;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Goes ahead, always; whatever stands above it has its way first.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+#[schemars(inline)]
+pub struct Cruise {
+    /// Its speed, in m/s; left out, the most that the body can.
+    #[schemars(range(min = 0.0, max = 100.0))]
+    pub speed_m_s: Option<f64>,
+}
+
+/// [`Cruise`] in a body.
+#[derive(Debug, Clone)]
+pub(crate) struct Ready {
+    motion: Motion,
+}
+
+impl Ready {
+    pub(super) fn new(spec: &Cruise, body: &Body) -> Self {
+        Self {
+            motion: ahead(spec.speed_m_s, body),
+        }
+    }
+}
+
+impl Behaviour for Ready {
+    type Memory = ();
+
+    fn memory(&self) {}
+
+    #[inline]
+    fn triggered(&self, (): &mut (), _senses: &Senses) -> Option<Motion> {
+        Some(self.motion)
+    }
+
+    fn held(&self) -> Motion {
+        self.motion
+    }
+}

@@ -1,0 +1,117 @@
+//! The behaviours, one a file: what a scenario says of it, what that comes to in a body, and what a
+//! robot remembers for it.
+
+mod avoid;
+mod bounce;
+mod cruise;
+
+pub use avoid::Avoid;
+pub use bounce::Bounce;
+pub use cruise::Cruise;
+
+use crate::body::Body;
+use crate::command::Motion;
+use crate::senses::Senses;
+use crate::subsumption::Behaviour;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Each behaviour: its name in scenarios, its file, and what it is for. In the file are the type
+/// that scenarios read, `Ready` with its `new`, and `Memory`.
+macro_rules! behaviours {
+    ($($(#[doc = $purpose:literal])+ $kind:ident in $file:ident;)+) => {
+        /// A behaviour of a brain, and its parameters.
+        #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+        #[serde(tag = "kind", rename_all = "snake_case")]
+        pub enum BehaviourSpec {
+            $($(#[doc = $purpose])+ $kind($kind),)+
+        }
+
+        impl BehaviourSpec {
+            pub(crate) fn ready(&self, body: &Body) -> Ready {
+                match self {
+                    $(Self::$kind(spec) => Ready::$kind($file::Ready::new(spec, body)),)+
+                }
+            }
+        }
+
+        /// A behaviour in a body, the same for all robots of a kind.
+        #[derive(Debug, Clone)]
+        pub(crate) enum Ready {
+            $($kind($file::Ready),)+
+        }
+
+        /// What a robot remembers for a behaviour.
+        #[derive(Debug, Clone)]
+        pub(crate) enum Memory {
+            $($kind(<$file::Ready as Behaviour>::Memory),)+
+        }
+
+        impl Behaviour for Ready {
+            type Memory = Memory;
+
+            fn memory(&self) -> Memory {
+                match self {
+                    $(Self::$kind(ready) => Memory::$kind(ready.memory()),)+
+                }
+            }
+
+            #[inline]
+            fn hold_s(&self) -> f64 {
+                match self {
+                    $(Self::$kind(ready) => ready.hold_s(),)+
+                }
+            }
+
+            #[inline]
+            fn triggered(&self, memory: &mut Memory, senses: &Senses) -> Option<Motion> {
+                match (self, memory) {
+                    $((Self::$kind(ready), Memory::$kind(memory)) => {
+                        ready.triggered(memory, senses)
+                    })+
+                    // A robot's memories are made of its behaviours, in their order.
+                    _ => None,
+                }
+            }
+
+            #[inline]
+            fn held(&self) -> Motion {
+                match self {
+                    $(Self::$kind(ready) => ready.held(),)+
+                }
+            }
+
+            #[inline]
+            fn suppressed(&self, memory: &mut Memory) {
+                match (self, memory) {
+                    $((Self::$kind(ready), Memory::$kind(memory)) => ready.suppressed(memory),)+
+                    _ => {}
+                }
+            }
+        }
+    };
+}
+
+behaviours! {
+    /// Goes ahead, always.
+    Cruise in cruise;
+    /// Searches by random bounces: straight on, and at an obstacle to a random free course.
+    Bounce in bounce;
+    /// Gets out of the way of what is too near.
+    Avoid in avoid;
+}
+
+/// Straight ahead at a speed, or else as fast as the body can.
+fn ahead(speed_m_s: Option<f64>, body: &Body) -> Motion {
+    Motion {
+        speed_m_s: speed_m_s.unwrap_or(body.max_speed_m_s),
+        turn_rate_rad_s: 0.0,
+    }
+}
+
+/// Half as far from the hull as all range rings see: nearer than that a lost echo is no obstacle.
+fn half_sight_m(body: &Body) -> f64 {
+    let ranges_m = body.rings.iter().map(|ring| ring.range_m);
+    let least_m = ranges_m.fold(f64::INFINITY, f64::min);
+    (least_m - body.radius_m).max(0.0) / 2.0
+}

@@ -1,0 +1,322 @@
+//! What the rays of a ring leave free.
+//!
+//! Between two neighbouring rays nothing was measured. So what counts as free is the polygon through
+//! the ends of the rays: a flat wall that two of them meet is exactly its side, and where nothing
+//! came back it ends where the sensor does. An obstacle thinner than the gap may be inside.
+
+use crate::body::RangeRing;
+use crate::percept::Scan;
+use alloc::vec::Vec;
+use base::geometry::{Point, Segment};
+use base::trig::{sin_cos, wrapped};
+use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
+
+/// Rays farther from each other than this are no neighbours: an eighth of a turn, and a bit.
+const NEIGHBOURS_RAD: f64 = FRAC_PI_4 + 1e-9;
+
+/// A ring looks where it has a ray this near.
+const LOOKS_RAD: f64 = FRAC_PI_4 + 1e-9;
+
+/// A scan is forgotten when so many should have come since.
+const FRESH_SCANS: f64 = 3.0;
+
+/// A range ring, with what can be said of it once for all.
+#[derive(Debug, Clone)]
+pub(crate) struct Ring {
+    range_m: f64,
+    latency_s: f64,
+    fresh_s: f64,
+    bearings_rad: Vec<f64>,
+    /// Between the two nearest rays.
+    gap_rad: f64,
+    chords: Vec<Chord>,
+    /// So many of the first chords are all that can lie ahead.
+    ahead: usize,
+    /// Whether it has rays about its front, and about its back.
+    pub(crate) looks_ahead: bool,
+    pub(crate) looks_behind: bool,
+}
+
+/// Two neighbouring rays, or twice the same if it has no neighbours on one side.
+#[derive(Debug, Clone, Copy)]
+struct Chord {
+    rays: [usize; 2],
+    directions: [Point; 2],
+    /// A chord between rays of at least some length is nowhere nearer than this share of it.
+    nearest_share: f64,
+    /// Of the ray nearest to the front.
+    off_front_rad: f64,
+    gap_rad: f64,
+}
+
+/// Where a body can get: within half its width of a way with any course between two.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Sector {
+    sides: [Side; 3],
+}
+
+/// The points with `normal . point <= at`.
+#[derive(Debug, Clone, Copy)]
+struct Side {
+    normal: Point,
+    at: f64,
+}
+
+impl Ring {
+    /// `period_s` is that of the brain.
+    pub(crate) fn new(ring: &RangeRing, period_s: f64) -> Self {
+        let mut chords = chords(&ring.bearings_rad);
+        chords.sort_by(|a, b| a.off_front_rad.total_cmp(&b.off_front_rad));
+        let looks = |towards_rad: f64| {
+            let off = |bearing: &f64| wrapped(bearing - towards_rad).abs();
+            ring.bearings_rad
+                .iter()
+                .any(|bearing| off(bearing) <= LOOKS_RAD)
+        };
+        Self {
+            range_m: ring.range_m,
+            latency_s: ring.latency_s.max(0.0),
+            fresh_s: ring.latency_s + FRESH_SCANS * ring.period_s + period_s,
+            bearings_rad: ring.bearings_rad.clone(),
+            gap_rad: chords
+                .iter()
+                .map(|chord| chord.gap_rad)
+                .fold(LOOKS_RAD, f64::min),
+            ahead: chords.partition_point(|chord| chord.off_front_rad < FRAC_PI_2),
+            chords,
+            looks_ahead: looks(0.0),
+            looks_behind: looks(PI),
+        }
+    }
+
+    /// Age of the scan, and its ranges, if it is whole and not too old.
+    #[inline]
+    pub(crate) fn fresh<'p>(&self, scan: Option<&'p Scan>) -> Option<(f64, &'p [f64])> {
+        let scan = scan?;
+        let age_s = scan.age_s.filter(|age_s| *age_s >= 0.0)?;
+        let age_s = age_s.max(self.latency_s);
+        let is_whole = scan.ranges_m.len() == self.bearings_rad.len();
+        (is_whole && age_s <= self.fresh_s).then_some((age_s, &scan.ranges_m))
+    }
+
+    /// The range that counts: a ray that measured nonsense sees something right here, since nobody
+    /// knows better.
+    #[inline]
+    pub(crate) fn range_m(&self, ranges_m: &[f64], ray: usize) -> f64 {
+        let range_m = ranges_m.get(ray).copied().unwrap_or_default();
+        range_m.max(0.0).min(self.range_m)
+    }
+
+    /// A bearing off a ray, by a share of the angle to the next.
+    pub(crate) fn about_rad(&self, ray: usize, share: f64) -> f64 {
+        let bearing_rad = self.bearings_rad.get(ray).copied().unwrap_or_default();
+        bearing_rad + share * self.gap_rad
+    }
+
+    /// The rays with bearings within some bounds.
+    pub(crate) fn rays_within(&self, least_rad: f64, most_rad: f64) -> Vec<usize> {
+        let rays = self.bearings_rad.iter().enumerate();
+        let within = rays.filter(|(_, bearing)| (least_rad..=most_rad).contains(bearing));
+        within.map(|(ray, _)| ray).collect()
+    }
+
+    /// Distance from the robot's centre to what is not known to be free, straight ahead.
+    #[inline]
+    pub(crate) fn free_ahead_m(&self, ranges_m: &[f64], ahead: &Sector) -> f64 {
+        let chords = self.chords.get(..self.ahead).unwrap_or_default();
+        self.nearest_m(ranges_m, ahead, chords)
+    }
+
+    /// Distance from the robot's centre to what is not known to be free within a sector.
+    pub(crate) fn free_m(&self, ranges_m: &[f64], sector: &Sector) -> f64 {
+        self.nearest_m(ranges_m, sector, &self.chords)
+    }
+
+    #[inline]
+    fn nearest_m(&self, ranges_m: &[f64], sector: &Sector, chords: &[Chord]) -> f64 {
+        let mut nearest_m = self.range_m;
+        for chord in chords {
+            let [a, b] = chord.rays.map(|ray| self.range_m(ranges_m, ray));
+            if a.min(b) * chord.nearest_share >= nearest_m {
+                continue;
+            }
+            let [from, to] = chord.directions;
+            let part = sector.part(Segment {
+                from: from.times(a),
+                to: to.times(b),
+            });
+            if let Some(part) = part {
+                nearest_m = nearest_m.min(part.distance_m(Point::default()));
+            }
+        }
+        nearest_m
+    }
+}
+
+/// The chords of neighbouring rays, and the rays without neighbours.
+fn chords(bearings_rad: &[f64]) -> Vec<Chord> {
+    let mut rays: Vec<usize> = (0..bearings_rad.len()).collect();
+    rays.sort_by(|a, b| bearings_rad[*a].total_cmp(&bearings_rad[*b]));
+    let next = rays.iter().cycle().skip(1);
+    let pairs = rays.iter().zip(next);
+    let chords = pairs.flat_map(|(from, to)| {
+        let gap_rad = anticlockwise(bearings_rad[*to] - bearings_rad[*from]);
+        if gap_rad <= NEIGHBOURS_RAD {
+            [Some([*from, *to]), None]
+        } else {
+            [Some([*from, *from]), Some([*to, *to])]
+        }
+    });
+    let chords = chords.flatten();
+    chords.map(|rays| Chord::new(rays, bearings_rad)).collect()
+}
+
+/// The same angle, from 0 to a turn.
+fn anticlockwise(angle_rad: f64) -> f64 {
+    let near = wrapped(angle_rad);
+    if near < 0.0 { near + TAU } else { near }
+}
+
+impl Chord {
+    fn new(rays: [usize; 2], bearings_rad: &[f64]) -> Self {
+        let bearings = rays.map(|ray| bearings_rad[ray]);
+        let gap_rad = wrapped(bearings[1] - bearings[0]);
+        let [from, to] = bearings.map(|bearing| wrapped(bearing).abs());
+        Self {
+            rays,
+            directions: bearings.map(direction),
+            nearest_share: sin_cos(gap_rad / 2.0).1,
+            off_front_rad: from.min(to),
+            gap_rad,
+        }
+    }
+}
+
+impl Sector {
+    /// Courses from `from_rad` anticlockwise to `to_rad`, at most half a turn; a body of this half
+    /// width.
+    pub(crate) fn new(from_rad: f64, to_rad: f64, half_width_m: f64) -> Self {
+        let right_of = |course: Point| Point {
+            x: course.y,
+            y: -course.x,
+        };
+        let behind = direction((from_rad + to_rad) / 2.0).times(-1.0);
+        // Right beside the body on its outermost courses.
+        let (beside, _) = sin_cos((to_rad - from_rad) / 2.0);
+        let side = |normal, at| Side { normal, at };
+        Self {
+            sides: [
+                side(right_of(direction(from_rad)), half_width_m),
+                side(right_of(direction(to_rad)).times(-1.0), half_width_m),
+                side(behind, half_width_m * beside),
+            ],
+        }
+    }
+
+    /// The part of a segment that lies within.
+    #[inline]
+    fn part(&self, whole: Segment) -> Option<Segment> {
+        let (mut first, mut last) = (0.0_f64, 1.0_f64);
+        for side in &self.sides {
+            let from = side.normal.dot(whole.from) - side.at;
+            let to = side.normal.dot(whole.to) - side.at;
+            if from > 0.0 && to > 0.0 {
+                return None;
+            } else if from > 0.0 {
+                first = first.max(from / (from - to));
+            } else if to > 0.0 {
+                last = last.min(from / (from - to));
+            }
+        }
+        let along = |share: f64| whole.from.plus(whole.way().times(share));
+        (first <= last).then(|| Segment {
+            from: along(first),
+            to: along(last),
+        })
+    }
+}
+
+fn direction(bearing_rad: f64) -> Point {
+    let (y, x) = sin_cos(bearing_rad);
+    Point { x, y }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::world_of_walls::ring;
+    use proptest::prelude::*;
+
+    const AHEAD: (f64, f64) = (0.0, 0.0);
+
+    fn free_m(ring: &RangeRing, ranges_m: &[f64], (from, to): (f64, f64)) -> f64 {
+        Ring::new(ring, 0.1).free_m(ranges_m, &Sector::new(from, to, 0.25))
+    }
+
+    #[test]
+    fn a_wall_ahead_is_as_far_as_its_ray_says() {
+        let mut ranges = [f64::INFINITY; 16];
+        ranges[0] = 1.0;
+        assert!((free_m(&ring(16, 3.0), &ranges, AHEAD) - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_wall_behind_is_not_seen_ahead() {
+        let mut ranges = [f64::INFINITY; 16];
+        for ray in 5..=11 {
+            ranges[ray] = 0.3;
+        }
+        let ring = ring(16, 3.0);
+        assert!(free_m(&ring, &ranges, AHEAD) > 2.9);
+        assert!((free_m(&ring, &ranges, (PI, PI)) - 0.3 * (PI / 16.0).cos()).abs() < 1e-12);
+    }
+
+    #[test]
+    fn walls_beside_a_lane_wider_than_the_body_are_not_in_its_way() {
+        let lane = |half_width: f64| -> Vec<f64> {
+            let bearings = ring(64, 30.0).bearings_rad;
+            let ranges = bearings
+                .iter()
+                .map(|bearing| half_width / bearing.sin().abs());
+            ranges.collect()
+        };
+        assert!(free_m(&ring(64, 30.0), &lane(0.26), AHEAD) > 2.0);
+        assert!(free_m(&ring(64, 30.0), &lane(0.24), AHEAD) < 0.25);
+    }
+
+    #[test]
+    fn nothing_is_free_beyond_the_sensors_range() {
+        for rays in [1, 4, 8, 16, 360] {
+            let ranges = vec![f64::INFINITY; rays];
+            let free = free_m(&ring(rays, 3.0), &ranges, AHEAD);
+            assert!((2.7..=3.0).contains(&free), "{rays} rays: {free}");
+        }
+    }
+
+    #[test]
+    fn a_curve_to_the_left_sees_what_is_on_the_left() {
+        let mut ranges = [f64::INFINITY; 16];
+        ranges[3] = 1.0;
+        let ring = ring(16, 3.0);
+        assert!(free_m(&ring, &ranges, AHEAD) > 2.0);
+        assert!((free_m(&ring, &ranges, (0.0, FRAC_PI_2)) - 1.0).abs() < 0.1);
+        assert!(free_m(&ring, &ranges, (-FRAC_PI_2, 0.0)) > 2.0);
+    }
+
+    proptest! {
+        #[test]
+        fn the_free_way_towards_a_flat_wall_is_never_too_long(
+            wall_m in 0.3..3.0_f64, normal_rad in -1.5..1.5_f64, rays in 8_usize..64,
+        ) {
+            let ring = ring(rays, 4.0);
+            let range = |bearing: &f64| {
+                let towards = (bearing - normal_rad).cos();
+                if towards > 0.0 && wall_m / towards < 4.0 { wall_m / towards } else { f64::INFINITY }
+            };
+            let ranges: Vec<f64> = ring.bearings_rad.iter().map(range).collect();
+            // The disc touches when its centre is its radius from the wall.
+            let way_m = (wall_m - 0.25) / normal_rad.cos();
+            prop_assert!(free_m(&ring, &ranges, AHEAD) - 0.25 <= way_m + 1e-9);
+        }
+    }
+}

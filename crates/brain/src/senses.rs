@@ -1,0 +1,61 @@
+//! What behaviours are given of a step.
+
+use crate::body::Body;
+use crate::dice::Dice;
+use crate::percept::Percept;
+use crate::rays::Ring;
+use crate::sight::Seen;
+
+/// Touch is believed again so long after a turn: the body needs time to leave what it touched.
+const LEAVING_S: f64 = 0.5;
+
+/// A step's percept, with what the brain has made of it for all behaviours together.
+#[derive(Debug)]
+pub(crate) struct Senses<'s> {
+    pub(crate) percept: &'s Percept,
+    pub(crate) body: &'s Body,
+    pub(crate) rings: &'s [Ring],
+    /// What is seen straight ahead; `None` if nothing looks there or nothing came in.
+    pub(crate) ahead: Option<Seen>,
+    /// Angle by which the body turned since the last step.
+    pub(crate) turned_rad: f64,
+}
+
+impl Senses<'_> {
+    /// Time between two steps, as short as memories keep it.
+    #[inline]
+    #[expect(clippy::cast_possible_truncation, reason = "kept short")]
+    pub(crate) fn period_s(&self) -> f32 {
+        self.body.period_s as f32
+    }
+
+    /// Uniform numbers; every call begins with the first.
+    pub(crate) fn dice(&self) -> Dice {
+        Dice::new(self.percept.dice)
+    }
+
+    /// Whether something stands nearer ahead than `near_m`, to one who has gone straight for
+    /// `straight_s`: what was seen before that says nothing.
+    #[inline]
+    pub(crate) fn stands_ahead(&self, near_m: f64, straight_s: f64) -> bool {
+        self.ahead
+            .is_some_and(|seen| seen.free_m < near_m && seen.age_s <= straight_s)
+    }
+
+    /// Whether the body touches something, to one who has gone on for `since_s`.
+    #[inline]
+    pub(crate) fn touches(&self, since_s: f64) -> bool {
+        self.percept
+            .touch
+            .is_some_and(|touch| touch.value && touch.age_s <= since_s - LEAVING_S)
+    }
+
+    /// Fresh scans: the ring, its place among the body's rings, and its ranges.
+    pub(crate) fn scans(&self) -> impl Iterator<Item = (usize, &Ring, &[f64])> {
+        let rings = self.rings.iter().enumerate();
+        rings.filter_map(|(place, ring)| {
+            let (_, ranges_m) = ring.fresh(self.percept.scans.get(place))?;
+            Some((place, ring, ranges_m))
+        })
+    }
+}

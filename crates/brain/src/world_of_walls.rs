@@ -1,0 +1,193 @@
+//! For tests: a disc that obeys its commands exactly, among walls that its rays measure exactly.
+
+use crate::body::{Body, RangeRing};
+use crate::brain::Brain;
+use crate::command::{Command, Motion};
+use crate::percept::{Percept, Reading, Scan};
+use base::geometry::{Point, Segment};
+use base::random::{Entity, Purpose, Stream, stream};
+use base::trig::{sin_cos, wrapped};
+use std::collections::VecDeque;
+use std::f64::consts::{PI, TAU};
+
+/// Parts of a step in which the disc moves and is looked at.
+const PARTS: u32 = 20;
+
+/// Rays all around, the first ahead; a scan at each step of 0.1 s, at once.
+pub(crate) fn ring(rays: usize, range_m: f64) -> RangeRing {
+    #[expect(clippy::cast_precision_loss, reason = "few")]
+    let bearing = |ray| wrapped(TAU * ray as f64 / rays as f64);
+    let bearings_rad = (0..rays).map(bearing).collect();
+    RangeRing {
+        bearings_rad,
+        range_m,
+        period_s: 0.1,
+        latency_s: 0.0,
+    }
+}
+
+/// A small robot with 16 sonars.
+pub(crate) fn rover() -> Body {
+    Body {
+        radius_m: 0.25,
+        max_speed_m_s: 1.0,
+        max_acceleration_m_s2: 1.0,
+        max_turn_rate_rad_s: PI / 2.0,
+        period_s: 0.1,
+        rings: vec![ring(16, 3.0)],
+        ..Body::default()
+    }
+}
+
+/// The walls of a room from 0 to its width and height.
+pub(crate) fn room(width: f64, height: f64) -> Vec<Segment> {
+    outline(&[[0.0, 0.0], [width, 0.0], [width, height], [0.0, height]])
+}
+
+/// Walls from corner to corner, free on the left.
+pub(crate) fn outline(corners: &[[f64; 2]]) -> Vec<Segment> {
+    let next = corners.iter().cycle().skip(1);
+    let sides = corners.iter().zip(next);
+    sides
+        .map(|(from, to)| Segment {
+            from: (*from).into(),
+            to: (*to).into(),
+        })
+        .collect()
+}
+
+/// What of its percepts a robot gets.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Wiring {
+    /// Steps from one scan to the next, less one.
+    pub(crate) scans_apart: usize,
+    /// Steps until a scan has come in.
+    pub(crate) latency: usize,
+    pub(crate) touch: bool,
+    pub(crate) compass: bool,
+}
+
+/// A robot in its world.
+pub(crate) struct Walk {
+    pub(crate) body: Body,
+    pub(crate) walls: Vec<Segment>,
+    pub(crate) wiring: Wiring,
+    pub(crate) at: Point,
+    pub(crate) heading_rad: f64,
+    pub(crate) speed_m_s: f64,
+    /// From its hull to the nearest wall, the least so far.
+    pub(crate) least_gap_m: f64,
+    pub(crate) is_touching: bool,
+    steps: usize,
+    /// Scans that were measured, with their steps.
+    scans: VecDeque<(usize, Vec<f64>)>,
+    dice: Stream,
+}
+
+impl Walk {
+    pub(crate) fn new(body: Body, walls: Vec<Segment>, at: [f64; 2], heading_rad: f64) -> Self {
+        let robot = Entity { kind: 0, index: 0 };
+        Self {
+            body,
+            walls,
+            wiring: Wiring::default(),
+            at: at.into(),
+            heading_rad,
+            speed_m_s: 0.0,
+            least_gap_m: f64::INFINITY,
+            is_touching: false,
+            steps: 0,
+            scans: VecDeque::new(),
+            dice: stream(1, 0, robot, Purpose::Start),
+        }
+    }
+
+    /// So many steps under a brain.
+    pub(crate) fn go(&mut self, brain: &mut Brain, steps: usize) {
+        let mut command = Command::default();
+        for _ in 0..steps {
+            let percept = self.percept();
+            brain.step_into(&percept, &mut command);
+            self.step(command.motion);
+        }
+    }
+
+    #[expect(clippy::cast_precision_loss, reason = "few")]
+    pub(crate) fn percept(&mut self) -> Percept {
+        if self.steps % (self.wiring.scans_apart + 1) == 0 {
+            let ring = self.body.rings.first();
+            let ranges = ring.map(|ring| self.ranges_m(ring));
+            self.scans.extend(ranges.map(|ranges| (self.steps, ranges)));
+        }
+        let came_in = |(step, _): &&(usize, Vec<f64>)| step + self.wiring.latency <= self.steps;
+        let latest = self.scans.iter().rev().find(came_in);
+        let scan = latest.map(|(step, ranges)| Scan {
+            age_s: Some((self.steps - step) as f64 * self.body.period_s),
+            ranges_m: ranges.clone(),
+        });
+        Percept {
+            time_s: self.steps as f64 * self.body.period_s,
+            dice: std::array::from_fn(|_| self.dice.next_u32()),
+            touch: self.wiring.touch.then_some(now(self.is_touching)),
+            heading_rad: self.wiring.compass.then_some(now(self.heading_rad)),
+            scans: vec![scan.unwrap_or_default(); self.body.rings.len()],
+            ..Percept::default()
+        }
+    }
+
+    fn ranges_m(&self, ring: &RangeRing) -> Vec<f64> {
+        let range = |bearing: &f64| {
+            let (y, x) = sin_cos(self.heading_rad + bearing);
+            let hits = self
+                .walls
+                .iter()
+                .filter_map(|wall| wall.hit(self.at, Point { x, y }));
+            let range_m = hits.fold(f64::INFINITY, f64::min);
+            if range_m > ring.range_m {
+                f64::INFINITY
+            } else {
+                range_m
+            }
+        };
+        ring.bearings_rad.iter().map(range).collect()
+    }
+
+    /// Does for a period what it is told; at a wall it stands.
+    pub(crate) fn step(&mut self, told: Motion) {
+        let part_s = self.body.period_s / f64::from(PARTS);
+        let most = self.body.max_acceleration_m_s2 * part_s;
+        self.is_touching = false;
+        for _ in 0..PARTS {
+            let before_m_s = self.speed_m_s;
+            self.speed_m_s += (told.speed_m_s - before_m_s).clamp(-most, most);
+            self.heading_rad = wrapped(self.heading_rad + told.turn_rate_rad_s * part_s);
+            let (y, x) = sin_cos(self.heading_rad);
+            let change_m_s = self.speed_m_s - before_m_s;
+            let change_s = change_m_s.abs() / self.body.max_acceleration_m_s2;
+            let way_m = self.speed_m_s * part_s - change_m_s * change_s / 2.0;
+            let there = self.at.plus(Point { x, y }.times(way_m));
+            let gap_m = self.gap_m(there);
+            self.least_gap_m = self.least_gap_m.min(gap_m);
+            if gap_m > 0.0 || gap_m > self.gap_m(self.at) {
+                self.at = there;
+            } else {
+                self.is_touching = true;
+                self.speed_m_s = 0.0;
+            }
+        }
+        self.steps += 1;
+        while self.scans.len() > self.wiring.latency + 2 {
+            self.scans.pop_front();
+        }
+    }
+
+    fn gap_m(&self, at: Point) -> f64 {
+        let distances = self.walls.iter().map(|wall| wall.distance_m(at));
+        distances.fold(f64::INFINITY, f64::min) - self.body.radius_m
+    }
+}
+
+/// A reading without delay.
+pub(crate) fn now<T>(value: T) -> Reading<T> {
+    Reading { value, age_s: 0.0 }
+}
