@@ -70,13 +70,15 @@ fn ln_of_share(x: f64) -> f64 {
     // x = m 2^e with m from sqrt(1/2) to sqrt(2); ln m = 2 artanh((m - 1) / (m + 1)).
     const EXPONENT_ONE: u64 = 1023 << 52;
     const ROOT_HALF: u64 = 0x3FE6_A09E_667F_3BCD;
-    let shifted = x.to_bits().wrapping_sub(ROOT_HALF).wrapping_add(EXPONENT_ONE);
+    let shifted = x
+        .to_bits()
+        .wrapping_sub(ROOT_HALF)
+        .wrapping_add(EXPONENT_ONE);
     // The biased exponent as a float, without a conversion from 64-bit integers: it is put into
     // the last bits of 2^52.
     let biased = f64::from_bits(0x4330_0000_0000_0000 | (shifted >> 52)) - 4_503_599_627_370_496.0;
     let exponent = biased - 1023.0;
-    let mantissa =
-        f64::from_bits((shifted & 0x000F_FFFF_FFFF_FFFF).wrapping_add(ROOT_HALF));
+    let mantissa = f64::from_bits((shifted & 0x000F_FFFF_FFFF_FFFF).wrapping_add(ROOT_HALF));
     let z = (mantissa - 1.0) / (mantissa + 1.0);
     let square = z * z;
     let series = 1.0 / 13.0;
@@ -101,7 +103,12 @@ mod tests {
         }
         let least = share(0);
         assert!((ln_of_share(least) - libm::log(least)).abs() < 1e-11);
-        assert!((ln_of_share(std::f64::consts::FRAC_1_SQRT_2) - libm::log(std::f64::consts::FRAC_1_SQRT_2)).abs() < 1e-11);
+        assert!(
+            (ln_of_share(std::f64::consts::FRAC_1_SQRT_2)
+                - libm::log(std::f64::consts::FRAC_1_SQRT_2))
+            .abs()
+                < 1e-11
+        );
     }
 
     /// Mean, variance and fourth moment of a million draws, each within five standard errors:
@@ -122,8 +129,14 @@ mod tests {
         let count = 2.0 * f64::from(draws);
         let [mean, square, fourth] = sums.map(|sum| sum / count);
         assert!(mean.abs() < 5.0 / count.sqrt(), "{mean}");
-        assert!((square - 1.0).abs() < 5.0 * (2.0 / count).sqrt(), "{square}");
-        assert!((fourth - 3.0).abs() < 5.0 * (96.0 / count).sqrt(), "{fourth}");
+        assert!(
+            (square - 1.0).abs() < 5.0 * (2.0 / count).sqrt(),
+            "{square}"
+        );
+        assert!(
+            (fourth - 3.0).abs() < 5.0 * (96.0 / count).sqrt(),
+            "{fourth}"
+        );
     }
 
     #[test]

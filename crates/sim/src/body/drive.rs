@@ -55,7 +55,9 @@ impl Drive {
         let most = self.max_speed_m_s * terrain;
         let after = or_zero(wanted.speed_m_s).max(least).min(most);
         let most_turn = self.max_turn_rate_rad_s;
-        let turn_rate_rad_s = or_zero(wanted.turn_rate_rad_s).max(-most_turn).min(most_turn);
+        let turn_rate_rad_s = or_zero(wanted.turn_rate_rad_s)
+            .max(-most_turn)
+            .min(most_turn);
         let change = after - speed_m_s;
         let change_s = change.abs() / self.max_acceleration_m_s2;
         if change_s <= step_s {

@@ -54,7 +54,10 @@ impl Kind {
             max_turn_rate_rad_s: drive.max_turn_rate_rad_s,
             period_s: rhythm.period_s(step_s),
             sensors: sensors.iter().map(|sensor| sensor.name.clone()).collect(),
-            rings: sensors.iter().filter_map(|sensor| ring(sensor, step_s)).collect(),
+            rings: sensors
+                .iter()
+                .filter_map(|sensor| ring(sensor, step_s))
+                .collect(),
             item_kinds: item_kinds.to_vec(),
         };
         let mut kind = Self {
@@ -67,7 +70,10 @@ impl Kind {
             start: spec.start.clone(),
             drive,
             collision: Collision::new(&spec.collision, step_s),
-            battery: spec.battery.as_ref().map(|battery| Battery::new(battery, spec)),
+            battery: spec
+                .battery
+                .as_ref()
+                .map(|battery| Battery::new(battery, spec)),
             rays_m: rays_m(&sensors),
             sensors,
             radio: spec.radio.as_ref().map(|radio| Radio::new(radio, step_s)),
@@ -89,7 +95,11 @@ impl Kind {
     /// Power of its radio and of its sensors, without those whose bits are in `off`.
     #[inline]
     pub(crate) fn sensing_w(&self, off: u32) -> f64 {
-        if off == 0 { self.all_on_w } else { self.some_on_w(off) }
+        if off == 0 {
+            self.all_on_w
+        } else {
+            self.some_on_w(off)
+        }
     }
 
     fn some_on_w(&self, off: u32) -> f64 {
@@ -112,10 +122,13 @@ impl Kind {
 
     /// It looks for items no farther.
     pub(crate) fn items_reach_m(&self) -> f64 {
-        let detectors = self.sensors.iter().filter_map(|sensor| match &sensor.measure {
-            Measure::Items(detector) => Some(detector.sector.range_m),
-            _ => None,
-        });
+        let detectors = self
+            .sensors
+            .iter()
+            .filter_map(|sensor| match &sensor.measure {
+                Measure::Items(detector) => Some(detector.sector.range_m),
+                _ => None,
+            });
         detectors.fold(0.0, f64::max)
     }
 }

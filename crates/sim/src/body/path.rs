@@ -106,6 +106,9 @@ impl Path {
         }
         // The sagitta of one chord for the whole is length * turn / 8; it shrinks with their square.
         let sagitta = (self.length_m * self.turn_rad).abs() / 8.0;
-        (sagitta / MAX_SAGITTA_M).sqrt().ceil().clamp(1.0, MAX_CHORDS) as u32
+        (sagitta / MAX_SAGITTA_M)
+            .sqrt()
+            .ceil()
+            .clamp(1.0, MAX_CHORDS) as u32
     }
 }

@@ -65,8 +65,11 @@ impl Moves {
         is_shared: bool,
     ) -> Moved {
         self.plans.resize(state.robots(), Plan::REST);
-        share_out(&mut self.plans, is_shared, |robot, plan| *plan = planned(scenario, state, robot));
-        self.meetings.collect(&self.plans, &state.discs, neighbours, scenario.contact_m);
+        share_out(&mut self.plans, is_shared, |robot, plan| {
+            *plan = planned(scenario, state, robot)
+        });
+        self.meetings
+            .collect(&self.plans, &state.discs, neighbours, scenario.contact_m);
         let met = self.meetings.resolve(&mut self.plans, state, neighbours);
         let moved = go(&self.plans, scenario, state, is_shared);
         Moved {
@@ -79,7 +82,11 @@ impl Moves {
 /// What a robot does if no other is in its way.
 #[inline]
 fn planned(scenario: &Scenario, state: &State, robot: usize) -> Plan {
-    let (hull, disc, mind) = (&state.hulls[robot], &state.discs[robot], &state.minds[robot]);
+    let (hull, disc, mind) = (
+        &state.hulls[robot],
+        &state.discs[robot],
+        &state.minds[robot],
+    );
     let kind = &scenario.kinds[usize::from(state.ids[robot].kind)];
     let sensing_w = kind.sensing_w(mind.sensors_off);
     if !hull.can_move(state.tick) {
@@ -90,7 +97,9 @@ fn planned(scenario: &Scenario, state: &State, robot: usize) -> Plan {
         };
     }
     let going = scenario.going(disc.centre, kind.layer);
-    let driven = kind.drive.step(hull.speed_m_s, mind.wanted, going.speed, scenario.step_s);
+    let driven = kind
+        .drive
+        .step(hull.speed_m_s, mind.wanted, going.speed, scenario.step_s);
     let mut path = Path {
         start: disc.centre,
         front: state.courses[robot].front,
@@ -148,7 +157,10 @@ fn go(plans: &[Plan], scenario: &Scenario, state: &mut State, is_shared: bool) -
         hulls.par_chunks_mut(ROBOTS_PER_TASK),
     );
     // A greatest number and a sum of whole ones: the order of the tasks does not matter.
-    tasks.into_par_iter().map(some).reduce(Moved::default, Moved::and)
+    tasks
+        .into_par_iter()
+        .map(some)
+        .reduce(Moved::default, Moved::and)
 }
 
 type Bodies<'a> = (
@@ -193,7 +205,11 @@ impl Hull {
     fn go(&mut self, plan: &Plan, kind: &Kind, step_s: f64, tick: u64) -> Moved {
         let gone_m = plan.path.length_m.abs() * plan.path.until;
         let is_stopped = plan.stop != Stop::Nothing;
-        self.speed_m_s = if is_stopped { 0.0 } else { plan.driven.speed_m_s };
+        self.speed_m_s = if is_stopped {
+            0.0
+        } else {
+            plan.driven.speed_m_s
+        };
         self.turn_rate_rad_s = plan.driven.turn_rate_rad_s;
         self.distance_m += gone_m;
         let is_collision = is_stopped && !self.is_touching;

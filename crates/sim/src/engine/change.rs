@@ -66,7 +66,8 @@ impl State {
                 others.all(|(_, (disc, _))| disc.distance_m(place) >= radius_m)
             };
             if !is_alone(self.discs[robot].centre) {
-                let is_free = |place| scenario.is_free(place, radius_m, kind.layer) && is_alone(place);
+                let is_free =
+                    |place| scenario.is_free(place, radius_m, kind.layer) && is_alone(place);
                 let place = kind.start.place(&draws, entity(id), is_free);
                 self.discs[robot].centre = place.map_err(|why| NoPlaceFor {
                     kind: id.kind,
@@ -81,8 +82,13 @@ impl State {
     fn keep_items(&mut self, before: &Self, from: &Scenario, to: &Scenario) {
         let old = before.items.named(from);
         let old: BTreeMap<_, _> = old.collect();
-        let kept = self.items.named(to).map(|(name, item)| (item.number, old.get(&name)));
-        let kept: Vec<_> = kept.filter_map(|(number, item)| Some((number, *item?))).collect();
+        let kept = self
+            .items
+            .named(to)
+            .map(|(name, item)| (item.number, old.get(&name)));
+        let kept: Vec<_> = kept
+            .filter_map(|(number, item)| Some((number, *item?)))
+            .collect();
         self.items.keep(&kept);
     }
 

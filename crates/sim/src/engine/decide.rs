@@ -50,7 +50,13 @@ impl Desk {
     }
 
     /// The same in a step into which something comes from outside.
-    fn serve_from_outside(&mut self, view: &View, robot: usize, mind: &mut Mind, outside: &Outside) {
+    fn serve_from_outside(
+        &mut self,
+        view: &View,
+        robot: usize,
+        mind: &mut Mind,
+        outside: &Outside,
+    ) {
         if let Some(percept) = outside.percepts.get(&robot) {
             self.percept.clone_from(percept);
             mind.tell_messages(view.tick, view.scenario.step_s, &mut self.percept);
@@ -111,9 +117,10 @@ impl Desk {
             speed_m_s: hull.speed_m_s,
             turn_rate_rad_s: hull.turn_rate_rad_s,
         });
-        let battery = kind.battery.filter(|battery| battery.capacity_j.is_finite());
-        percept.battery =
-            battery.and_then(|battery| now(1.0 - hull.energy_j / battery.capacity_j));
+        let battery = kind
+            .battery
+            .filter(|battery| battery.capacity_j.is_finite());
+        percept.battery = battery.and_then(|battery| now(1.0 - hull.energy_j / battery.capacity_j));
     }
 
     /// Takes from the command what the body is to do.
@@ -123,9 +130,15 @@ impl Desk {
         for request in &self.command.requests {
             mind.switch(request);
         }
-        let most = view.kind(robot).radio.map_or(0, |radio| radio.messages_per_step);
+        let most = view
+            .kind(robot)
+            .radio
+            .map_or(0, |radio| radio.messages_per_step);
         let messages = self.command.outbox.iter().take(most);
-        #[expect(clippy::cast_possible_truncation, reason = "robots have 32-bit numbers")]
+        #[expect(
+            clippy::cast_possible_truncation,
+            reason = "robots have 32-bit numbers"
+        )]
         let outgoing = messages.zip(0..).map(|(message, number)| Outgoing {
             from: robot as u32,
             number,
@@ -135,7 +148,10 @@ impl Desk {
     }
 }
 
-#[expect(clippy::unnecessary_wraps, reason = "a reading that is always there, among those that may not be")]
+#[expect(
+    clippy::unnecessary_wraps,
+    reason = "a reading that is always there, among those that may not be"
+)]
 fn now<T>(value: T) -> Option<Reading<T>> {
     Some(Reading { value, age_s: 0.0 })
 }
@@ -148,7 +164,9 @@ fn clear(percept: &mut Percept, kind: &Kind) {
     percept.contacts.clear();
     percept.neighbours.clear();
     percept.inbox.clear();
-    percept.scans.resize_with(kind.body.rings.len(), Default::default);
+    percept
+        .scans
+        .resize_with(kind.body.rings.len(), Default::default);
     for scan in &mut percept.scans {
         scan.age_s = None;
         scan.ranges_m.clear();

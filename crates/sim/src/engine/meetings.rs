@@ -69,7 +69,10 @@ impl Meetings {
         }
     }
 
-    #[expect(clippy::cast_possible_truncation, reason = "robots have 32-bit numbers")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "robots have 32-bit numbers"
+    )]
     fn add(&mut self, plans: &[Plan], discs: &[Disc], one: usize, other: usize) {
         let reach_m = discs[one].radius_m + discs[other].radius_m;
         let length_m = plans[one].path.length_m.abs() + plans[other].path.length_m.abs();
@@ -84,7 +87,12 @@ impl Meetings {
     }
 
     /// Stops robots where they meet; returns how many new contacts there are.
-    pub(crate) fn resolve(&mut self, plans: &mut [Plan], state: &State, neighbours: &Neighbours) -> u64 {
+    pub(crate) fn resolve(
+        &mut self,
+        plans: &mut [Plan],
+        state: &State,
+        neighbours: &Neighbours,
+    ) -> u64 {
         let mut collisions = 0;
         for pair in 0..self.pairs.len() {
             self.predict(plans, pair);
@@ -96,7 +104,9 @@ impl Meetings {
                 continue;
             }
             self.pairs[pair].share = f64::NEG_INFINITY;
-            let is_old = robots.iter().all(|robot| state.hulls[*robot as usize].is_touching);
+            let is_old = robots
+                .iter()
+                .all(|robot| state.hulls[*robot as usize].is_touching);
             collisions += u64::from(!is_old);
             for robot in robots {
                 self.stop(plans, neighbours, robot, share);

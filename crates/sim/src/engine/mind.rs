@@ -44,7 +44,13 @@ impl Mind {
             return;
         };
         let inbox = &mut backlog.inbox;
-        if inbox.iter().rev().take_while(|late| late.due == now).count() < most {
+        if inbox
+            .iter()
+            .rev()
+            .take_while(|late| late.due == now)
+            .count()
+            < most
+        {
             inbox.push(Late {
                 taken: sent.at,
                 due: now,
@@ -122,13 +128,21 @@ impl Backlog {
 
     /// The newest look of a sensor that the robot has by now, and when it was taken.
     pub(crate) fn newest(&self, sensor: usize, latency: u64, now: u64) -> Option<(u64, &[f64])> {
-        let have = self.kept[sensor].iter().filter_map(|look| Some((look.taken?, &look.values[..])));
+        let have = self.kept[sensor]
+            .iter()
+            .filter_map(|look| Some((look.taken?, &look.values[..])));
         let have = have.filter(|(taken, _)| taken + latency <= now);
         have.max_by_key(|(taken, _)| *taken)
     }
 
     /// Gives the brain what has come in, and `found` the items of contacts.
-    pub(crate) fn tell(&mut self, now: u64, step_s: f64, to: &mut Percept, mut found: impl FnMut(Option<u32>)) {
+    pub(crate) fn tell(
+        &mut self,
+        now: u64,
+        step_s: f64,
+        to: &mut Percept,
+        mut found: impl FnMut(Option<u32>),
+    ) {
         self.contacts.retain(|late| {
             if late.due <= now {
                 let (contact, item) = late.what;
@@ -139,7 +153,8 @@ impl Backlog {
             late.due > now
         });
         // Looks of near robots come in no order of their own.
-        self.neighbours.sort_by_key(|late| (late.taken, late.what.id));
+        self.neighbours
+            .sort_by_key(|late| (late.taken, late.what.id));
         self.neighbours.retain(|late| {
             if late.due <= now {
                 let age_s = age_s(late.taken, now, step_s);

@@ -39,7 +39,11 @@ impl Neighbours {
         let biggest_m = scenario.biggest_radius_m();
         let kinds = scenario.kinds.iter();
         let reach_m = kinds.map(|kind| {
-            let rays_m = if kind.rays_m > 0.0 { kind.rays_m + biggest_m } else { 0.0 };
+            let rays_m = if kind.rays_m > 0.0 {
+                kind.rays_m + biggest_m
+            } else {
+                0.0
+            };
             rays_m.max(scenario.contact_m)
         });
         let reach_m: Vec<f64> = reach_m.collect();
@@ -63,13 +67,20 @@ impl Neighbours {
     }
 
     /// Sees to it that the lists hold now.
-    pub(crate) fn refresh(&mut self, scenario: &Scenario, ids: &[RobotId], discs: &[Disc], is_shared: bool) {
+    pub(crate) fn refresh(
+        &mut self,
+        scenario: &Scenario,
+        ids: &[RobotId],
+        discs: &[Disc],
+        is_shared: bool,
+    ) {
         if 2.0 * self.gone_m <= SKIN_M {
             return;
         }
         self.gone_m = 0.0;
         self.buckets.fill(discs.iter().map(|disc| disc.centre));
-        self.pieces.resize_with(discs.len().div_ceil(ROBOTS_PER_PIECE), Piece::default);
+        self.pieces
+            .resize_with(discs.len().div_ceil(ROBOTS_PER_PIECE), Piece::default);
         let (buckets, reach_m) = (&self.buckets, &self.reach_m[..]);
         let list = |(number, piece): (usize, &mut Piece)| {
             let first = number * ROBOTS_PER_PIECE;
@@ -98,7 +109,9 @@ impl Neighbours {
 
     /// Robots of any layer within a distance of a place, and maybe some more; not in any order.
     pub(crate) fn about(&self, place: Point, radius_m: f64) -> impl Iterator<Item = u32> {
-        self.buckets.near(place, radius_m + SKIN_M).map(|(_, number)| *number)
+        self.buckets
+            .near(place, radius_m + SKIN_M)
+            .map(|(_, number)| *number)
     }
 }
 
@@ -125,7 +138,10 @@ impl Piece {
                 }
             }
         }
-        #[expect(clippy::cast_possible_truncation, reason = "robots of a piece have not that many")]
+        #[expect(
+            clippy::cast_possible_truncation,
+            reason = "robots of a piece have not that many"
+        )]
         self.ends.push(self.near.len() as u32);
     }
 }

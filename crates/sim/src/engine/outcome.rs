@@ -34,11 +34,21 @@ impl Outcome {
         let mut found = vec![0; scenario.items.len()];
         let mut missed = vec![0; scenario.items.len()];
         for (kind, when) in state.items.each() {
-            let counts = if when.is_some() { &mut found } else { &mut missed };
+            let counts = if when.is_some() {
+                &mut found
+            } else {
+                &mut missed
+            };
             counts[usize::from(kind)] += 1;
         }
-        let complete_s = state.tally.complete_at.map(|tick| tick as f64 * scenario.step_s);
-        let stopped = state.hulls.iter().filter(|hull| hull.status != Status::Active);
+        let complete_s = state
+            .tally
+            .complete_at
+            .map(|tick| tick as f64 * scenario.step_s);
+        let stopped = state
+            .hulls
+            .iter()
+            .filter(|hull| hull.status != Status::Active);
         Self {
             // The step of the last find may be a rounding error beyond the cap.
             time_s: complete_s.map_or(scenario.cap_s, |time_s| time_s.min(scenario.cap_s)),
@@ -49,7 +59,10 @@ impl Outcome {
             collisions: state.tally.collisions,
             energy_j: state.hulls.iter().map(|hull| hull.energy_j).sum(),
             distance_m: state.hulls.iter().map(|hull| hull.distance_m).sum(),
-            #[expect(clippy::cast_possible_truncation, reason = "robots have 32-bit numbers")]
+            #[expect(
+                clippy::cast_possible_truncation,
+                reason = "robots have 32-bit numbers"
+            )]
             robots_stopped: stopped.count() as u32,
         }
     }
@@ -57,6 +70,8 @@ impl Outcome {
     /// Whether all its numbers are finite.
     #[must_use]
     pub fn is_finite(&self) -> bool {
-        [self.time_s, self.energy_j, self.distance_m].iter().all(|value| value.is_finite())
+        [self.time_s, self.energy_j, self.distance_m]
+            .iter()
+            .all(|value| value.is_finite())
     }
 }

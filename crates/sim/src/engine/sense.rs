@@ -69,7 +69,10 @@ pub(crate) fn sense(
     senses.is_near_known = false;
     for (number, sensor) in kind.sensors.iter().enumerate() {
         let is_of_use = percept.is_some() || sensor.outlasts_a_step();
-        let beat = sensor.rhythm.beat(view.tick).filter(|_| is_of_use && mind.is_on(number));
+        let beat = sensor
+            .rhythm
+            .beat(view.tick)
+            .filter(|_| is_of_use && mind.is_on(number));
         if let Some(beat) = beat {
             let look = Look {
                 view,
@@ -102,7 +105,13 @@ fn tell_kept(
         if let Some((taken, values)) = backlog.newest(number, sensor.latency_steps, now) {
             senses.values.clear();
             senses.values.extend_from_slice(values);
-            put(percept, &sensor.measure, ring, age_s(taken, now, step_s), &mut senses.values);
+            put(
+                percept,
+                &sensor.measure,
+                ring,
+                age_s(taken, now, step_s),
+                &mut senses.values,
+            );
         }
         ring += usize::from(matches!(sensor.measure, Measure::Range(_)));
     }
@@ -164,17 +173,31 @@ impl Look<'_> {
             }
             Measure::Heading { noise_rad } => {
                 let heading_rad = self.view.courses[self.robot].heading_rad;
-                senses.values.push(wrapped(heading_rad + noise_rad * deviations(eye)[0]));
+                senses
+                    .values
+                    .push(wrapped(heading_rad + noise_rad * deviations(eye)[0]));
             }
             Measure::Items(_) | Measure::Robots(_) => {}
         }
     }
 
     #[inline]
-    fn tell_value(&self, is_lost: bool, mind: &mut Mind, senses: &mut Senses, percept: Option<&mut Percept>) {
+    fn tell_value(
+        &self,
+        is_lost: bool,
+        mind: &mut Mind,
+        senses: &mut Senses,
+        percept: Option<&mut Percept>,
+    ) {
         if self.sensor.tells_at_once() {
             if let Some(percept) = percept.filter(|_| !is_lost) {
-                put(percept, &self.sensor.measure, self.ring, 0.0, &mut senses.values);
+                put(
+                    percept,
+                    &self.sensor.measure,
+                    self.ring,
+                    0.0,
+                    &mut senses.values,
+                );
             }
         } else if let Some(backlog) = &mut mind.backlog {
             let taken = (!is_lost).then_some(self.view.tick);
@@ -198,7 +221,10 @@ impl Look<'_> {
                 bearing_rad,
                 age_s: 0.0,
             };
-            match percept.as_deref_mut().filter(|_| self.sensor.latency_steps == 0) {
+            match percept
+                .as_deref_mut()
+                .filter(|_| self.sensor.latency_steps == 0)
+            {
                 Some(percept) => {
                     percept.contacts.push(contact);
                     senses.note(item);
@@ -208,7 +234,12 @@ impl Look<'_> {
         });
     }
 
-    fn find_robots(&self, detector: &RobotDetector, mind: &mut Mind, mut percept: Option<&mut Percept>) {
+    fn find_robots(
+        &self,
+        detector: &RobotDetector,
+        mind: &mut Mind,
+        mut percept: Option<&mut Percept>,
+    ) {
         let view = self.view;
         for other in view.neighbours.about(self.eye.at, detector.sector.range_m) {
             let other = other as usize;
@@ -222,7 +253,10 @@ impl Look<'_> {
                 age_s: 0.0,
                 id: view.ids[other],
             };
-            match percept.as_deref_mut().filter(|_| self.sensor.latency_steps == 0) {
+            match percept
+                .as_deref_mut()
+                .filter(|_| self.sensor.latency_steps == 0)
+            {
                 Some(percept) => percept.neighbours.push(neighbour),
                 None => mind.wait_neighbour(self.late(neighbour)),
             }
@@ -261,5 +295,10 @@ fn gather(view: &View, robot: usize, near: &mut Near) {
     let stands = view.scenario.seen(kind.layer);
     let robots = view.neighbours.of(robot).iter();
     let discs = robots.map(|other| &view.discs[*other as usize]);
-    near.gather(at, kind.rays_m, discs.chain(stands.discs_near(at)), stands.walls_near(at));
+    near.gather(
+        at,
+        kind.rays_m,
+        discs.chain(stands.discs_near(at)),
+        stands.walls_near(at),
+    );
 }

@@ -14,14 +14,21 @@ pub(crate) fn is_worth_sharing(robots: usize) -> bool {
 }
 
 /// Does `work` for each entry, with its number; the order is not to matter.
-pub(crate) fn share_out<T: Send>(entries: &mut [T], is_shared: bool, work: impl Fn(usize, &mut T) + Sync) {
+pub(crate) fn share_out<T: Send>(
+    entries: &mut [T],
+    is_shared: bool,
+    work: impl Fn(usize, &mut T) + Sync,
+) {
     let task = |(number, entries): (usize, &mut [T])| {
         for (place, entry) in entries.iter_mut().enumerate() {
             work(number * ROBOTS_PER_TASK + place, entry);
         }
     };
     if is_shared {
-        entries.par_chunks_mut(ROBOTS_PER_TASK).enumerate().for_each(task);
+        entries
+            .par_chunks_mut(ROBOTS_PER_TASK)
+            .enumerate()
+            .for_each(task);
     } else {
         task((0, entries));
     }

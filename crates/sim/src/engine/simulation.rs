@@ -45,7 +45,8 @@ impl Simulation {
 
     /// Takes one step, also after the run is over.
     pub fn step(&mut self) {
-        self.workshop.tick(&self.scenario, &mut self.state, &Outside::default());
+        self.workshop
+            .tick(&self.scenario, &mut self.state, &Outside::default());
     }
 
     /// Takes one step with percepts of bodies outside, and with commands that stand for what the
@@ -65,9 +66,14 @@ impl Simulation {
         for (robot, percept) in &outside.percepts {
             self.put_outside(*robot, percept);
         }
-        self.workshop.tick(&self.scenario, &mut self.state, &outside);
+        self.workshop
+            .tick(&self.scenario, &mut self.state, &outside);
         let ids = &self.state.ids;
-        Ok(self.workshop.answers().map(|(robot, command)| (ids[robot], command)).collect())
+        Ok(self
+            .workshop
+            .answers()
+            .map(|(robot, command)| (ids[robot], command))
+            .collect())
     }
 
     /// What a robot will perceive in the next step; `None` if its brain does not step in it, or if
@@ -77,7 +83,9 @@ impl Simulation {
     /// If the robot is not there.
     pub fn percept(&mut self, id: RobotId) -> Result<Option<Percept>, NoRobot> {
         let robot = self.number(id)?;
-        Ok(self.workshop.percept(&self.scenario, &mut self.state, robot))
+        Ok(self
+            .workshop
+            .percept(&self.scenario, &mut self.state, robot))
     }
 
     /// Takes steps until the run is over.
@@ -138,7 +146,10 @@ impl Simulation {
     }
 
     fn numbered<T>(&self, given: BTreeMap<RobotId, T>) -> Result<BTreeMap<usize, T>, NoRobot> {
-        given.into_iter().map(|(id, what)| Ok((self.number(id)?, what))).collect()
+        given
+            .into_iter()
+            .map(|(id, what)| Ok((self.number(id)?, what)))
+            .collect()
     }
 
     fn number(&self, id: RobotId) -> Result<usize, NoRobot> {

@@ -209,16 +209,27 @@ impl State {
     pub fn hash(&self) -> u64 {
         let mut hash = Hash::new();
         hash.add(self.tick);
-        for ((disc, course), (hull, mind)) in
-            self.discs.iter().zip(&self.courses).zip(self.hulls.iter().zip(&self.minds))
+        for ((disc, course), (hull, mind)) in self
+            .discs
+            .iter()
+            .zip(&self.courses)
+            .zip(self.hulls.iter().zip(&self.minds))
         {
             let Motion {
                 speed_m_s,
                 turn_rate_rad_s,
             } = mind.wanted;
-            let numbers = [disc.centre.x, disc.centre.y, course.heading_rad, hull.speed_m_s];
+            let numbers = [
+                disc.centre.x,
+                disc.centre.y,
+                course.heading_rad,
+                hull.speed_m_s,
+            ];
             let more = [hull.energy_j, hull.distance_m, speed_m_s, turn_rate_rad_s];
-            numbers.iter().chain(&more).for_each(|number| hash.add(number.to_bits()));
+            numbers
+                .iter()
+                .chain(&more)
+                .for_each(|number| hash.add(number.to_bits()));
             hash.add(u64::from(hull.collisions) << 8 | hull.status as u64);
         }
         for (kind, found) in self.items.each() {

@@ -50,13 +50,18 @@ impl Workshop {
     /// Sees to it that neighbours are known.
     fn refresh(&mut self, scenario: &Scenario, state: &State) {
         let is_shared = self.is_shared(state);
-        self.neighbours.refresh(scenario, &state.ids, &state.discs, is_shared);
+        self.neighbours
+            .refresh(scenario, &state.ids, &state.discs, is_shared);
     }
 
     /// Lets all robots sense and decide, each from the same view.
     fn sense_and_decide(&mut self, scenario: &Scenario, state: &mut State, outside: &Outside) {
         let (robots, is_shared) = (state.robots(), self.is_shared(state));
-        let desks = if is_shared { 4 * rayon::current_num_threads() } else { 1 };
+        let desks = if is_shared {
+            4 * rayon::current_num_threads()
+        } else {
+            1
+        };
         self.desks.resize_with(desks, Desk::default);
         self.desks.iter_mut().for_each(Desk::clear);
         let (mut view, minds) = state.view(scenario, &self.neighbours);
@@ -77,7 +82,12 @@ impl Workshop {
     }
 
     /// What a robot will perceive in the next step, if its brain steps in it.
-    pub(crate) fn percept(&mut self, scenario: &Scenario, state: &mut State, robot: usize) -> Option<Percept> {
+    pub(crate) fn percept(
+        &mut self,
+        scenario: &Scenario,
+        state: &mut State,
+        robot: usize,
+    ) -> Option<Percept> {
         self.refresh(scenario, state);
         let mut mind = state.minds[robot].clone();
         let (view, _) = state.view(scenario, &self.neighbours);
@@ -88,7 +98,9 @@ impl Workshop {
 
     /// What brains decided for bodies outside, by the robot's number.
     pub(crate) fn answers(&mut self) -> impl Iterator<Item = (usize, Command)> {
-        self.desks.iter_mut().flat_map(|desk| desk.answers.drain(..))
+        self.desks
+            .iter_mut()
+            .flat_map(|desk| desk.answers.drain(..))
     }
 
     /// Sends what robots want to tell.
@@ -127,7 +139,9 @@ fn hear(scenario: &Scenario, state: &mut State) {
     for sent in &arrived {
         let robot = sent.to as usize;
         let kind = &scenario.kinds[usize::from(state.ids[robot].kind)];
-        let radio = kind.radio.filter(|_| state.hulls[robot].status == Status::Active);
+        let radio = kind
+            .radio
+            .filter(|_| state.hulls[robot].status == Status::Active);
         if let Some(radio) = radio {
             state.minds[robot].hear(sent, state.tick, radio.messages_per_step);
         }

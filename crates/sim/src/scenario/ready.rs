@@ -10,8 +10,11 @@ use crate::world::items::ItemKind;
 use crate::world::obstacles::Solid;
 use crate::world::still::{Stands, Wall};
 use crate::world::terrain::{Area, Going, Terrain};
-use brain::RobotId;
 use base::geometry::{Disc, Point, Rectangle, Segment};
+use brain::RobotId;
+
+/// What is nearer to a wall than its radius by less, in metres, touches it by rounding.
+const TOLERANCE_M: f64 = 1e-9;
 
 /// Everything that does not change in a run. Runs share it.
 #[derive(Debug, Clone)]
@@ -48,8 +51,9 @@ impl Scenario {
         let items: Vec<ItemKind> = spec.items.iter().map(ItemKind::new).collect();
         let names: Vec<String> = items.iter().map(|kind| kind.name.clone()).collect();
         let kinds = spec.robots.iter();
-        let kinds: Vec<Kind> =
-            kinds.map(|(name, spec)| Kind::new(name, spec, &names, step_s)).collect();
+        let kinds: Vec<Kind> = kinds
+            .map(|(name, spec)| Kind::new(name, spec, &names, step_s))
+            .collect();
         let world = Rectangle::spanned(Point::default(), size_m);
         let fastest = areas.iter().map(Area::speed).fold(1.0, f64::max);
         let touch_m = greatest(&kinds, |kind| kind.touch_m(fastest * step_s));
@@ -65,7 +69,7 @@ impl Scenario {
             steps: steps_of(spec.clock.cap_s, step_s),
             world,
             terrain: (!areas.is_empty()).then(|| Terrain::new(size_m, areas)),
-            near_solids: NearCells::new(size_m, &solids, greatest(&kinds, |kind| kind.radius_m)),
+            near_solids: NearCells::new(size_m, &solids, 0.0),
             seen: layers.map(|layer| stands(layer, rays_m)),
             touched: layers.map(|layer| stands(layer, touch_m)),
             contact_m: 2.0 * touch_m,
@@ -88,12 +92,18 @@ impl Scenario {
     /// Whether all robots can be in each other's way.
     #[inline]
     pub(crate) fn is_one_layer(&self) -> bool {
-        self.kinds.windows(2).all(|pair| pair[0].layer == pair[1].layer)
+        self.kinds
+            .windows(2)
+            .all(|pair| pair[0].layer == pair[1].layer)
     }
 
     /// Items that are to be found.
     pub(crate) fn sought(&self) -> u32 {
-        self.items.iter().filter(|kind| kind.is_sought).map(|kind| kind.count).sum()
+        self.items
+            .iter()
+            .filter(|kind| kind.is_sought)
+            .map(|kind| kind.count)
+            .sum()
     }
 
     /// Nobody looks for items farther away.
@@ -141,11 +151,21 @@ impl Scenario {
         };
         let is_inside =
             self.world.contains(corner.to(place)) && self.world.contains(place.plus(corner));
-        let is_clear = |number: &u32| {
-            let solid = &self.solids[*number as usize];
-            !solid.covers(place) && solid.distance(place) >= radius_m
-        };
-        is_inside && (layer == Layer::Air || self.near_solids.at(place).iter().all(is_clear))
+        let touched = self.touched(layer);
+        let clear_m = radius_m - TOLERANCE_M;
+        is_inside
+            && touched
+                .walls_near(place)
+                .all(|wall| wall.distance(place) >= clear_m)
+            && touched
+                .discs_near(place)
+                .all(|disc| disc.distance(place) >= clear_m)
+            && !(layer == Layer::Ground && self.is_covered(place))
+    }
+
+    fn is_covered(&self, place: Point) -> bool {
+        let mut near = self.near_solids.at(place).iter();
+        near.any(|number| self.solids[*number as usize].covers(place))
     }
 }
 
@@ -161,6 +181,7 @@ fn in_the_way(world: &Rectangle, solids: &[Solid], layer: Layer) -> (Vec<Wall>, 
             match solid {
                 Solid::Polygon(polygon) => segments.extend(polygon.edges()),
                 Solid::Disc(disc) => discs.push(*disc),
+                Solid::Map(map) => segments.extend(map.outline()),
             }
         }
     }

@@ -53,7 +53,8 @@ pub(crate) struct Eye<'a> {
 impl Eye<'_> {
     #[inline]
     pub(crate) fn words(&self, used: Use, index: u32) -> [u32; 4] {
-        self.noise.words(used.of_sensor(self.sensor), self.look, index)
+        self.noise
+            .words(used.of_sensor(self.sensor), self.look, index)
     }
 
     /// The way to a place of the world, from the robot's front.

@@ -108,7 +108,10 @@ impl ItemDetector {
             Some(detects) => detects.get(kind).cloned(),
         };
         let false_alarm = |(number, kind): (u16, &String)| {
-            let rate = spec.false_alarms_per_m2_s.get(kind).filter(|rate| **rate > 0.0)?;
+            let rate = spec
+                .false_alarms_per_m2_s
+                .get(kind)
+                .filter(|rate| **rate > 0.0)?;
             Some((number, Poisson::new(rate * sector.area_m2() * period_s)))
         };
         Self {

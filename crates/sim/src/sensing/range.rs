@@ -83,7 +83,11 @@ impl Ring {
             self.blur(eye, words, to);
         }
         for distance in to {
-            *distance = if *distance < self.range_m { *distance } else { f64::INFINITY };
+            *distance = if *distance < self.range_m {
+                *distance
+            } else {
+                f64::INFINITY
+            };
         }
     }
 

@@ -35,8 +35,7 @@ impl Sector {
         if square > self.range_m * self.range_m {
             return false;
         }
-        self.width_rad >= std::f64::consts::TAU
-            || self.facing.dot(way) >= self.edge * square.sqrt()
+        self.width_rad >= std::f64::consts::TAU || self.facing.dot(way) >= self.edge * square.sqrt()
     }
 
     pub(crate) fn area_m2(&self) -> f64 {

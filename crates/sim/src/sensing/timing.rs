@@ -71,7 +71,9 @@ mod tests {
     fn a_beat_is_on_the_first_step_at_or_after_its_time() {
         let beats = |rate_hz, steps| {
             let rhythm = Rhythm::new(rate_hz, 0.1);
-            (0..steps).filter_map(|tick| rhythm.beat(tick).map(|beat| (tick, beat))).collect::<Vec<_>>()
+            (0..steps)
+                .filter_map(|tick| rhythm.beat(tick).map(|beat| (tick, beat)))
+                .collect::<Vec<_>>()
         };
         assert_eq!(beats(Some(4.0), 9), [(0, 0), (3, 1), (5, 2), (8, 3)]);
         assert_eq!(beats(Some(5.0), 5), [(0, 0), (2, 1), (4, 2)]);
@@ -81,6 +83,9 @@ mod tests {
 
     #[test]
     fn steps_of_a_time_are_rounded_up_but_not_for_rounding() {
-        assert_eq!([0.0, 0.05, 0.1, 0.3, 0.31].map(|time| steps_of(time, 0.1)), [0, 1, 1, 3, 4]);
+        assert_eq!(
+            [0.0, 0.05, 0.1, 0.3, 0.31].map(|time| steps_of(time, 0.1)),
+            [0, 1, 1, 3, 4]
+        );
     }
 }

@@ -49,11 +49,15 @@ impl Buckets {
     }
 
     /// Where each cell's points will start, and which cell each point is in.
-    #[expect(clippy::cast_possible_truncation, reason = "cells are at most some millions")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "cells are at most some millions"
+    )]
     fn count(&mut self, points: impl Iterator<Item = Point>) {
         let grid = self.grid;
         self.cell_of.clear();
-        self.cell_of.extend(points.map(|point| grid.cell(point) as u32));
+        self.cell_of
+            .extend(points.map(|point| grid.cell(point) as u32));
         self.starts.clear();
         self.starts.resize(grid.cells() + 1, 0);
         for cell in &self.cell_of {

@@ -105,7 +105,10 @@ impl Grid {
         // A hair more on either side, for what rounding does.
         let hair = 1e-6 * self.cell_m();
         let column = |x: f64| self.place(Point { x, y: 0.0 })[0];
-        [column(ends[0].min(ends[1]) - hair), column(ends[0].max(ends[1]) + hair)]
+        [
+            column(ends[0].min(ends[1]) - hair),
+            column(ends[0].max(ends[1]) + hair),
+        ]
     }
 
     /// The middle of the cell with a number.

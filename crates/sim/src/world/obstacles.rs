@@ -1,7 +1,8 @@
 //! What is in the way on the ground.
 
 use super::grid::Still;
-use base::geometry::{Disc, Point, Polygon};
+use base::geometry::{Disc, Point, Polygon, Rectangle};
+use base::map::OccupancyMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -46,6 +47,8 @@ pub enum Solid {
     Polygon(Polygon),
     /// A disc.
     Disc(Disc),
+    /// A map's solid cells.
+    Map(OccupancyMap),
 }
 
 impl Solid {
@@ -54,6 +57,7 @@ impl Solid {
         match self {
             Self::Polygon(polygon) => polygon.contains(place),
             Self::Disc(disc) => disc.contains(place),
+            Self::Map(map) => map.is_solid(place),
         }
     }
 }
@@ -61,11 +65,9 @@ impl Solid {
 impl Still for Solid {
     fn bounds(&self) -> [Point; 2] {
         match self {
-            Self::Polygon(polygon) => {
-                let bounds = polygon.bounds();
-                [bounds.min(), bounds.max()]
-            }
+            Self::Polygon(polygon) => ends(&polygon.bounds()),
             Self::Disc(disc) => disc.bounds(),
+            Self::Map(map) => ends(&map.bounds()),
         }
     }
 
@@ -73,6 +75,12 @@ impl Still for Solid {
         match self {
             Self::Polygon(polygon) => polygon.distance_m(from),
             Self::Disc(disc) => disc.distance_m(from),
+            // At most: its walls are looked up one by one.
+            Self::Map(map) => map.bounds().distance_m(from),
         }
     }
+}
+
+fn ends(bounds: &Rectangle) -> [Point; 2] {
+    [bounds.min(), bounds.max()]
 }

@@ -100,14 +100,22 @@ impl Stands {
         let way = from.to(to);
         let sees_past = |cell: usize| {
             let walls = self.near_walls.of(cell).iter();
-            walls.map(|number| &self.walls[*number as usize]).all(|wall| !wall.crosses(from, way))
+            walls
+                .map(|number| &self.walls[*number as usize])
+                .all(|wall| !wall.crosses(from, way))
         };
         let sees_past_discs = |cell: usize| {
             let discs = self.near_discs.of(cell).iter();
-            discs.map(|number| &self.discs[*number as usize]).all(|disc| !crosses(disc, from, way))
+            discs
+                .map(|number| &self.discs[*number as usize])
+                .all(|disc| !crosses(disc, from, way))
         };
         self.near_walls.grid().on_the_way(from, to).all(sees_past)
-            && self.near_discs.grid().on_the_way(from, to).all(sees_past_discs)
+            && self
+                .near_discs
+                .grid()
+                .on_the_way(from, to)
+                .all(sees_past_discs)
     }
 }
 

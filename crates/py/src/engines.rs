@@ -1,0 +1,7 @@
+//! The simulators that scenarios can name.
+
+use base::question::Engine;
+use classic::scenario::Classic;
+
+/// Every engine; a new one is added here.
+pub(crate) const ENGINES: [&dyn Engine; 1] = [&Classic];
