@@ -59,6 +59,13 @@ impl Mind {
         }
     }
 
+    /// Adds what others told to a percept from outside.
+    pub(crate) fn tell_messages(&mut self, now: u64, step_s: f64, to: &mut Percept) {
+        if let Some(backlog) = &mut self.backlog {
+            backlog.tell_messages(now, step_s, to);
+        }
+    }
+
     pub(crate) fn wait_contact(&mut self, late: Late<(Contact, Option<u32>)>) {
         if let Some(backlog) = &mut self.backlog {
             backlog.contacts.push(late);
@@ -155,6 +162,12 @@ impl Backlog {
             }
             late.due > now
         });
+        self.tell_messages(now, step_s, to);
+    }
+}
+
+impl Backlog {
+    fn tell_messages(&mut self, now: u64, step_s: f64, to: &mut Percept) {
         for late in self.inbox.drain(..) {
             let age_s = age_s(late.taken, now, step_s);
             to.inbox.push(Heard { age_s, ..late.what });

@@ -2,11 +2,14 @@
 
 mod act;
 mod air;
+mod change;
 mod decide;
+mod hash;
 mod meetings;
 mod mind;
 mod neighbours;
 mod outcome;
+mod outside;
 mod sense;
 mod share_out;
 mod simulation;
@@ -15,5 +18,5 @@ mod tick;
 mod view;
 
 pub use outcome::Outcome;
-pub use simulation::Simulation;
+pub use simulation::{NoRobot, Simulation};
 pub use state::{NoRoom, State, Status};

@@ -37,7 +37,7 @@ impl Senses {
     }
 
     /// Notes what a contact that a robot is told of is of.
-    fn note(&mut self, item: Option<u32>) {
+    pub(crate) fn note(&mut self, item: Option<u32>) {
         match item {
             Some(item) => self.sightings.push(item),
             None => self.false_alarms += 1,
@@ -291,17 +291,14 @@ fn deviations(eye: &Eye) -> [f64; 2] {
 #[inline]
 fn gather(view: &View, robot: usize, near: &mut Near) {
     let kind = view.kind(robot);
-    let (at, rays_m) = (view.discs[robot].centre, kind.rays_m);
+    let at = view.discs[robot].centre;
     let stands = view.scenario.seen(kind.layer);
-    near.clear();
-    for other in view.neighbours.of(robot) {
-        let other = &view.discs[*other as usize];
-        near.add_disc(at.to(other.centre), other.radius_m, rays_m);
-    }
-    for disc in stands.discs_near(at) {
-        near.add_disc(at.to(disc.centre), disc.radius_m, rays_m);
-    }
-    for wall in stands.walls_near(at) {
-        near.add_wall(at.to(wall.start), wall.along, wall.length, rays_m);
-    }
+    let robots = view.neighbours.of(robot).iter();
+    let discs = robots.map(|other| &view.discs[*other as usize]);
+    near.gather(
+        at,
+        kind.rays_m,
+        discs.chain(stands.discs_near(at)),
+        stands.walls_near(at),
+    );
 }

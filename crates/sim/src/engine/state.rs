@@ -1,6 +1,7 @@
 //! Everything that changes in a run.
 
 use super::air::Air;
+use super::hash::Hash;
 use super::mind::Mind;
 use super::neighbours::Neighbours;
 use super::view::View;
@@ -12,7 +13,7 @@ use base::geometry::{Disc, Point};
 use base::noise::Noise;
 use base::placement::{Draws, Group, NoPlace, NoPlaceFor, Things, team};
 use base::random::Entity;
-use brain::RobotId;
+use brain::{Motion, RobotId};
 
 /// One run, between two steps.
 #[derive(Debug, Clone)]
@@ -178,6 +179,7 @@ impl State {
             noises: &self.noises,
             items: &self.items,
             neighbours,
+            outside: None,
         };
         (view, &mut self.minds)
     }
@@ -202,6 +204,42 @@ impl State {
             || !self.hulls.iter().any(can_go_on)
     }
 
+    /// A number that tells runs apart that differ in anything that shows.
+    #[must_use]
+    pub fn hash(&self) -> u64 {
+        let mut hash = Hash::new();
+        hash.add(self.tick);
+        for ((disc, course), (hull, mind)) in self
+            .discs
+            .iter()
+            .zip(&self.courses)
+            .zip(self.hulls.iter().zip(&self.minds))
+        {
+            let Motion {
+                speed_m_s,
+                turn_rate_rad_s,
+            } = mind.wanted;
+            let numbers = [
+                disc.centre.x,
+                disc.centre.y,
+                course.heading_rad,
+                hull.speed_m_s,
+            ];
+            let more = [hull.energy_j, hull.distance_m, speed_m_s, turn_rate_rad_s];
+            numbers
+                .iter()
+                .chain(&more)
+                .for_each(|number| hash.add(number.to_bits()));
+            hash.add(u64::from(hull.collisions) << 8 | hull.status as u64);
+        }
+        for (kind, found) in self.items.each() {
+            hash.add(u64::from(kind) << 48 | found.map_or(0, |tick| tick + 1));
+        }
+        hash.add(self.tally.false_alarms);
+        hash.add(self.tally.collisions);
+        hash.value()
+    }
+
     /// Robots.
     #[must_use]
     pub fn robots(&self) -> usize {
@@ -209,14 +247,14 @@ impl State {
     }
 }
 
-fn entity(id: RobotId) -> Entity {
+pub(super) fn entity(id: RobotId) -> Entity {
     Entity {
         kind: id.kind,
         index: id.index,
     }
 }
 
-fn draws(scenario: &Scenario, seed: u64, run: u64, things: Things) -> Draws {
+pub(super) fn draws(scenario: &Scenario, seed: u64, run: u64, things: Things) -> Draws {
     Draws {
         seed,
         run,

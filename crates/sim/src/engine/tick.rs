@@ -4,9 +4,11 @@ use super::act::Moves;
 use super::decide::Desk;
 use super::mind::Mind;
 use super::neighbours::Neighbours;
+use super::outside::Outside;
 use super::share_out::is_worth_sharing;
 use super::state::{State, Status};
 use crate::scenario::Scenario;
+use brain::{Command, Percept};
 use rayon::prelude::*;
 
 /// What steps need besides the run's state: nothing in it changes what comes out. It is kept from
@@ -31,23 +33,30 @@ impl Workshop {
     }
 
     /// Takes one step.
-    pub(crate) fn tick(&mut self, scenario: &Scenario, state: &mut State) {
-        let is_shared = self.may_share && is_worth_sharing(state.robots());
-        self.neighbours
-            .refresh(scenario, &state.ids, &state.discs, is_shared);
-        hear(scenario, state);
-        self.sense_and_decide(scenario, state, is_shared);
+    pub(crate) fn tick(&mut self, scenario: &Scenario, state: &mut State, outside: &Outside) {
+        self.refresh(scenario, state);
+        self.sense_and_decide(scenario, state, outside);
         self.speak(scenario, state);
         self.judge(scenario, state);
-        let moved = self.moves.act(scenario, state, &self.neighbours, is_shared);
-        self.neighbours.note(moved.farthest_m);
-        state.tally.collisions += moved.collisions;
+        self.act(scenario, state);
         state.tick += 1;
+        hear(scenario, state);
+    }
+
+    fn is_shared(&self, state: &State) -> bool {
+        self.may_share && is_worth_sharing(state.robots())
+    }
+
+    /// Sees to it that neighbours are known.
+    fn refresh(&mut self, scenario: &Scenario, state: &State) {
+        let is_shared = self.is_shared(state);
+        self.neighbours
+            .refresh(scenario, &state.ids, &state.discs, is_shared);
     }
 
     /// Lets all robots sense and decide, each from the same view.
-    fn sense_and_decide(&mut self, scenario: &Scenario, state: &mut State, is_shared: bool) {
-        let robots = state.robots();
+    fn sense_and_decide(&mut self, scenario: &Scenario, state: &mut State, outside: &Outside) {
+        let (robots, is_shared) = (state.robots(), self.is_shared(state));
         let desks = if is_shared {
             4 * rayon::current_num_threads()
         } else {
@@ -55,7 +64,8 @@ impl Workshop {
         };
         self.desks.resize_with(desks, Desk::default);
         self.desks.iter_mut().for_each(Desk::clear);
-        let (view, minds) = state.view(scenario, &self.neighbours);
+        let (mut view, minds) = state.view(scenario, &self.neighbours);
+        view.outside = (!outside.is_empty()).then_some(outside);
         let share = robots.div_ceil(desks).max(1);
         let serve = |(number, (desk, minds)): (usize, (&mut Desk, &mut [Mind]))| {
             for (place, mind) in minds.iter_mut().enumerate() {
@@ -71,6 +81,28 @@ impl Workshop {
         }
     }
 
+    /// What a robot will perceive in the next step, if its brain steps in it.
+    pub(crate) fn percept(
+        &mut self,
+        scenario: &Scenario,
+        state: &mut State,
+        robot: usize,
+    ) -> Option<Percept> {
+        self.refresh(scenario, state);
+        let mut mind = state.minds[robot].clone();
+        let (view, _) = state.view(scenario, &self.neighbours);
+        let mut desk = Desk::default();
+        let is_time = view.is_simulated(robot) && desk.perceive(&view, robot, &mut mind);
+        is_time.then_some(desk.percept)
+    }
+
+    /// What brains decided for bodies outside, by the robot's number.
+    pub(crate) fn answers(&mut self) -> impl Iterator<Item = (usize, Command)> {
+        self.desks
+            .iter_mut()
+            .flat_map(|desk| desk.answers.drain(..))
+    }
+
     /// Sends what robots want to tell.
     fn speak(&self, scenario: &Scenario, state: &mut State) {
         let mut air = std::mem::take(&mut state.air);
@@ -81,6 +113,13 @@ impl Workshop {
             }
         }
         state.air = air;
+    }
+
+    fn act(&mut self, scenario: &Scenario, state: &mut State) {
+        let is_shared = self.is_shared(state);
+        let moved = self.moves.act(scenario, state, &self.neighbours, is_shared);
+        self.neighbours.note(moved.farthest_m);
+        state.tally.collisions += moved.collisions;
     }
 
     /// Marks what has been found.

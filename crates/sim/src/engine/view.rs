@@ -1,6 +1,7 @@
 //! What every robot senses and decides from: the same moment for all.
 
 use super::neighbours::Neighbours;
+use super::outside::Outside;
 use super::state::{Hull, Status};
 use crate::body::kind::Kind;
 use crate::body::path::Course;
@@ -23,6 +24,7 @@ pub(crate) struct View<'a> {
     pub(crate) noises: &'a [Noise],
     pub(crate) items: &'a Items,
     pub(crate) neighbours: &'a Neighbours,
+    pub(crate) outside: Option<&'a Outside>,
 }
 
 impl<'a> View<'a> {
@@ -43,6 +45,12 @@ impl<'a> View<'a> {
             look,
             stands: self.scenario.hiding(),
         }
+    }
+
+    /// Whether its body is simulated, and can go on.
+    pub(crate) fn is_simulated(&self, robot: usize) -> bool {
+        let hull = &self.hulls[robot];
+        hull.status == Status::Active && !hull.is_external
     }
 
     /// Whether it can hear at all.

@@ -11,6 +11,7 @@ use crate::world::obstacles::Solid;
 use crate::world::still::{Stands, Wall};
 use crate::world::terrain::{Area, Going, Terrain};
 use base::geometry::{Disc, Point, Rectangle, Segment};
+use brain::RobotId;
 
 /// What is nearer to a wall than its radius by less, in metres, touches it by rounding.
 const TOLERANCE_M: f64 = 1e-9;
@@ -113,6 +114,11 @@ impl Scenario {
     /// Nobody looks for items farther away.
     pub(crate) fn items_reach_m(&self) -> f64 {
         greatest(&self.kinds, Kind::items_reach_m)
+    }
+
+    /// The name of a robot's kind.
+    pub(crate) fn name_of(&self, id: RobotId) -> &str {
+        &self.kinds[usize::from(id.kind)].name
     }
 
     /// What rays meet in a layer.

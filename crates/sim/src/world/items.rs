@@ -1,6 +1,7 @@
 //! What is to be found, and what is taken for it.
 
 use super::buckets::Buckets;
+use crate::scenario::Scenario;
 use base::geometry::Point;
 use base::placement::Placement;
 use schemars::JsonSchema;
@@ -45,6 +46,14 @@ impl ItemKind {
     }
 }
 
+/// One item.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Item {
+    pub(crate) number: usize,
+    place: Point,
+    found: Option<u64>,
+}
+
 /// The items of a run.
 #[derive(Debug, Clone)]
 pub(crate) struct Items {
@@ -71,6 +80,33 @@ impl Items {
     #[inline]
     pub(crate) fn near(&self, place: Point, radius_m: f64) -> impl Iterator<Item = &(Point, u32)> {
         self.buckets.near(place, radius_m)
+    }
+
+    /// Items by the names of their kinds and their place within the kind.
+    pub(crate) fn named<'a>(
+        &self,
+        scenario: &'a Scenario,
+    ) -> impl Iterator<Item = ((&'a str, usize), Item)> {
+        (0..self.places.len()).map(|number| {
+            let kind = self.kinds[number];
+            let first = self.kinds.partition_point(|other| *other < kind);
+            let name = scenario.items[usize::from(kind)].name.as_str();
+            let item = Item {
+                number,
+                place: self.places[number],
+                found: self.found[number],
+            };
+            ((name, number - first), item)
+        })
+    }
+
+    /// Puts items, by their numbers, where others were, found if these were.
+    pub(crate) fn keep(&mut self, kept: &[(usize, Item)]) {
+        for (number, item) in kept {
+            self.places[*number] = item.place;
+            self.found[*number] = item.found;
+        }
+        self.buckets.fill(self.places.iter().copied());
     }
 
     pub(crate) fn places(&self) -> &[Point] {
