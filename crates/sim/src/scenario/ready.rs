@@ -80,6 +80,11 @@ impl Scenario {
         }
     }
 
+    /// What is solid on the ground.
+    pub(crate) fn solids(&self) -> &[Solid] {
+        &self.solids
+    }
+
     /// Robots of all kinds together.
     #[must_use]
     pub fn robots(&self) -> usize {

@@ -8,6 +8,7 @@ mod memory;
 mod names;
 mod places;
 mod rates;
+mod reach;
 mod room;
 
 use super::{Checked, Open, Scenario, ScenarioSpec};
@@ -29,7 +30,7 @@ const CHECKS: [Check; 6] = [
 /// A check of what stands where, which cannot be said while an obstacle is wrong.
 type CheckOfPlaces = fn(&Checked, &Place) -> Vec<Fault>;
 
-const CHECKS_OF_PLACES: [CheckOfPlaces; 2] = [places::faults, room::faults];
+const CHECKS_OF_PLACES: [CheckOfPlaces; 3] = [places::faults, room::faults, reach::faults];
 
 /// `spec`, which stands `at` the root of a document, if nothing is wrong with it.
 pub(super) fn checked(spec: ScenarioSpec, at: &Place, open: Open) -> Result<Checked, Faults> {

@@ -359,3 +359,32 @@ fn a_map_that_is_not_there_or_wrong_is_told() {
         "{told}"
     );
 }
+
+#[test]
+fn what_is_sought_can_be_recognised_by_a_robot() {
+    let clutter = "[items.cow]\ncount = 1\n[items.mine]";
+    assert_eq!(
+        fault("[items.mine]", clutter),
+        "items.cow = {...}: must be recognised by a robot: none has a sensor of kind \"items\" for \
+         these; of clutter, say sought = false"
+    );
+    assert!(
+        read(&GOOD.replace(
+            "[items.mine]",
+            &clutter.replace("1\n", "1\nsought = false\n")
+        ))
+        .is_ok()
+    );
+}
+
+#[test]
+fn a_given_place_behind_walls_is_out_of_reach() {
+    let wall = "{ polygon_m = [[13, 0], [13.5, 0], [13.5, 10], [13, 10]] },\n{ circle";
+    assert_eq!(
+        fault("{ circle", wall),
+        "items.mine.placement.at_m[1] = [19, 9]: must be where a robot that recognises it can come into \
+         its range"
+    );
+    let gap = wall.replace("[13.5, 10], [13, 10]", "[13.5, 8.9], [13, 8.9]");
+    assert!(read(&GOOD.replace("{ circle", &gap)).is_ok());
+}
