@@ -81,7 +81,8 @@ impl Scenario {
     }
 
     /// What is solid on the ground.
-    pub(crate) fn solids(&self) -> &[Solid] {
+    #[must_use]
+    pub fn solids(&self) -> &[Solid] {
         &self.solids
     }
 
@@ -135,12 +136,6 @@ impl Scenario {
         self.world
     }
 
-    /// What is solid on the ground.
-    #[must_use]
-    pub fn obstacles(&self) -> &[Solid] {
-        &self.solids
-    }
-
     /// Names of the kinds of robots, in the order in which ids count them.
     pub fn robot_kinds(&self) -> impl Iterator<Item = &str> {
         self.kinds.iter().map(|kind| kind.name.as_str())
@@ -156,11 +151,6 @@ impl Scenario {
     pub fn mind_of(&self, kind: u8) -> Option<(&Arc<BrainSpec>, &Arc<Body>)> {
         let kind = self.kinds.get(usize::from(kind))?;
         Some((&kind.brain, &kind.body))
-    }
-
-    /// Obstacles.
-    pub(crate) fn solids(&self) -> usize {
-        self.solids.len()
     }
 
     /// The name of a robot's kind.
