@@ -117,6 +117,20 @@ class Scenario:
     published: Published | None
 
     @classmethod
+    def of(cls, given: "Scenario | str | Path") -> "Scenario":
+        """Return a scenario that is given, or read the one of a file or a name, as `load` does.
+
+        Raises:
+            InputError: If it is none of these, or wrong; all faults at once.
+        """
+        if isinstance(given, Scenario):
+            return given
+        if isinstance(given, str | Path):
+            return cls.load(given)
+        message = f"scenario = {given!r}: must be a Scenario, a file, or the name of one that ships"
+        raise InputError(message)
+
+    @classmethod
     def load(cls, file: str | Path, overrides: tuple[Override, ...] = ()) -> "Scenario":
         """Read a scenario from a file, or the one that ships under a name, such as "classic".
 
