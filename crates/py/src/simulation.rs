@@ -180,7 +180,7 @@ impl Simulation {
         Ok(named.collect())
     }
 
-    /// x, y and heading_rad of each robot.
+    /// `x_m`, `y_m` and `heading_rad` of each robot.
     #[getter]
     fn poses<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let poses = self.each(py, |robot| [robot.at.x, robot.at.y, robot.heading_rad])?;
@@ -206,7 +206,7 @@ impl Simulation {
         Ok(left.into_pyarray(py))
     }
 
-    /// kind, x_m, y_m and found_s of each item; NaN where it is not found.
+    /// `kind`, `x_m`, `y_m` and `found_s` of each item; NaN where it is not found.
     #[getter]
     fn items<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let run = self.locked(py)?;
