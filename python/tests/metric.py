@@ -5,7 +5,11 @@ from typing import Any
 from agent_economy import Scenario
 from agent_economy.scenario import Override
 
-ENDLESS = {"clock.cap_s": 1_000_000, "items.mine.sought": False}
+ENDLESS = {
+    "clock.cap_s": 1_000_000,
+    "items.mine.sought": False,
+    "robots.rover.battery.capacity_j": 1e12,
+}
 """Nobody looks for anything for weeks."""
 
 HUGE = {"robots.rover.count": 3000, "world.size_m": [300, 300], "clock.cap_s": 1}
