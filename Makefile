@@ -6,7 +6,7 @@ RUST := $(shell find crates/*/src crates/*/Cargo.toml) Cargo.toml Cargo.lock
 # maturin, and what it starts, are found in the environment.
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 
-.PHONY: help study test bench bench-store verify-selection picture replication lint rust-test \
+.PHONY: help study test bench bench-store verify-selection fuzz picture replication lint rust-test \
 	python-test clean
 
 help: ## Say what can be made
@@ -48,8 +48,16 @@ replication: .venv/installed ## Recompute every figure of docs/replication.md
 picture: study ## Take docs/report.png anew (needs Chromium)
 	$(BIN)/python scripts/report_picture.py
 
+# Needs a nightly Rust and cargo-fuzz (`cargo install cargo-fuzz`).
+fuzz: ## Broken input to every reader, a minute each
+	set -e; for target in $$(cargo +nightly fuzz list); do \
+		mkdir -p fuzz/corpus/$$target; \
+		cargo +nightly fuzz run $$target fuzz/corpus/$$target fuzz/seeds/$$target -- \
+			-max_total_time=60 -max_len=4096 -timeout=5 -rss_limit_mb=1024; \
+	done
+
 clean: ## Remove what was made
-	rm -rf .venv target studies
+	rm -rf .venv target studies fuzz/target fuzz/corpus fuzz/artifacts
 
 .venv/packages: requirements.lock
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "needs Python 3.11 or newer: make PYTHON=...")'

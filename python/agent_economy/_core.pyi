@@ -1,14 +1,12 @@
-from typing import Any, Literal, final
+from collections.abc import Sequence
+from typing import Any, Literal, TypedDict, final, type_check_only
 
 import numpy as np
 from numpy.typing import NDArray
 
 __all__ = [
     "CONTACTS",
-    "FACTORS",
     "FIRST_LOOK",
-    "MERITS",
-    "MERIT_TERMS",
     "Configuration",
     "InputError",
     "Procedure",
@@ -17,6 +15,7 @@ __all__ = [
     "mean_exceeds",
     "random_start",
     "read_configuration",
+    "read_document",
     "read_scenario",
     "reference",
     "replicate",
@@ -26,12 +25,21 @@ __all__ = [
 ]
 
 CONTACTS: list[str]
-FACTORS: list[str]
 FIRST_LOOK: int
-MERITS: list[str]
-MERIT_TERMS: list[str]
 
-class InputError(ValueError): ...
+@type_check_only
+class Fault(TypedDict):
+    origin: str | None
+    file: str | None
+    line: int | None
+    path: str
+    given: str | None
+    allowed: str
+    suggestion: str | None
+    message: str
+
+class InputError(ValueError):
+    faults: Sequence[Fault]
 
 @final
 class Procedure:
@@ -76,10 +84,16 @@ class Configuration:
     ) -> list[tuple[str, Literal["whole", "real", "flag"], float | None, float | None]]: ...
 
 def read_scenario(
-    file: str, text: str, overrides: list[tuple[list[str], str | float | dict[str, Any], str]]
+    file: str, text: str, overrides: list[tuple[list[str], Any, str]]
+) -> dict[str, Any]: ...
+def read_document(
+    file: str, text: str, overrides: list[tuple[list[str], Any, str]]
 ) -> dict[str, Any]: ...
 def read_configuration(
-    file: str, text: str, overrides: list[tuple[list[str], str | float | dict[str, Any], str]]
+    file: str,
+    text: str,
+    overrides: list[tuple[list[str], Any, str]],
+    values: dict[str, str | int | float],
 ) -> Configuration: ...
 def run_block(
     configurations: list[Configuration],

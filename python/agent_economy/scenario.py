@@ -1,16 +1,19 @@
 """What a job is: a scenario, read from a TOML file and checked as a whole."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from agent_economy import _core
+from agent_economy import _core, shipped
 from agent_economy._core import InputError
 from agent_economy.merit import Merit, Term, in_words
 
 Value = str | int | float
-"""A value of a factor."""
+"""A value of a factor; true and false are whole numbers to Python."""
+
+Given = Value | Sequence[Any] | Mapping[str, Any]
+"""What can be put into a scenario: a value, a list or a table."""
 
 VARY = "study.vary."
 
@@ -49,11 +52,21 @@ class Factor:
 
 @dataclass(frozen=True)
 class Override:
-    """A value put over what the file says; `origin` is how faults name it, such as --contact."""
+    """A value put over what the file says; `origin` is how faults name it, such as --merit."""
 
     path: tuple[str, ...]
-    value: Value | dict[str, Any]
+    value: Given
     origin: str
+
+    @classmethod
+    def at(cls, path: str, value: Given, origin: str) -> "Override":
+        """Return a value put at keys with dots between them, from the root.
+
+        What is varied is one key with dots of its own: study.vary.robots.wanderer.count.
+        """
+        factor = path.removeprefix(VARY)
+        keys = ("study", "vary", factor) if factor != path else tuple(path.split("."))
+        return cls(keys, value, origin)
 
 
 @dataclass(frozen=True)
@@ -64,7 +77,7 @@ class Source:
     text: str = field(repr=False)
     overrides: tuple[Override, ...]
 
-    def changes(self) -> list[tuple[list[str], Value | dict[str, Any], str]]:
+    def changes(self) -> list[tuple[list[str], Given, str]]:
         """Return the overrides as the compiled part takes them."""
         return [(list(each.path), each.value, each.origin) for each in self.overrides]
 
@@ -76,13 +89,12 @@ class Scenario:
     Attributes:
         name: The file's name without its ending.
         source: What it was read from.
+        engine: The simulator that runs it.
         summary: One line for people.
-        contact: What counts as finding an item.
         merit: How runs are scored.
-        paints_per_s: Turns paints into seconds.
+        robots: Robots in a single run, by kind.
         cap_s: A run that takes longer has failed, and counts as this long.
-        cap_paints: The last paint that is not beyond the cap.
-        robots: Robots in a single run.
+        facts: What else does not change in a run, for people: names, and texts of them.
         factors: What a study varies, if anything; in a fixed order.
         design: Which configurations it compares: "factorial", "lhs:N" or "sobol:N" (N points).
         delta: A difference of merit that is worth knowing, above 0; None if the file has none.
@@ -92,13 +104,12 @@ class Scenario:
 
     name: str
     source: Source
+    engine: str
     summary: str
-    contact: str
     merit: Merit
-    paints_per_s: float
+    robots: dict[str, int]
     cap_s: float
-    cap_paints: int
-    robots: int
+    facts: tuple[tuple[str, str], ...]
     factors: tuple[Factor, ...]
     design: str
     delta: float | None
@@ -107,16 +118,16 @@ class Scenario:
 
     @classmethod
     def load(cls, file: str | Path, overrides: tuple[Override, ...] = ()) -> "Scenario":
-        """Read a scenario from a file.
+        """Read a scenario from a file, or the one that ships under a name, such as "classic".
 
         Raises:
             InputError: If the file cannot be read or anything in it is wrong; all faults at once.
         """
-        file = Path(file)
+        file = shipped.find(file)
         try:
             text = file.read_text(encoding="utf-8")
         except OSError as error:
-            message = f"{file}: cannot be read: {error.strerror}"
+            message = f"{file}: cannot be read: {error.strerror}{shipped.meant(file)}"
             raise InputError(message) from None
         except UnicodeDecodeError as error:
             message = (
@@ -136,31 +147,34 @@ class Scenario:
         """
         source = Source(file, text, overrides)
         fields = _core.read_scenario(file, text, source.changes())
-        factors = tuple(map(factor, fields.pop("factors")))
         return cls(
             name=Path(file).stem.strip(".") or "scenario",
             source=source,
             merit=merit(fields.pop("merit")),
-            factors=factors,
+            facts=tuple(fields.pop("facts")),
+            factors=tuple(map(factor, fields.pop("factors"))),
             published=published(fields.pop("published")),
             **fields,
         )
 
-    def replace(self, path: str, value: Value | dict[str, Any]) -> "Scenario":
+    def to_dict(self) -> dict[str, Any]:
+        """Return the whole scenario as its file could have it, as nested dicts and lists."""
+        source = self.source
+        return _core.read_document(source.file, source.text, source.changes())
+
+    def replace(self, path: str, value: Given) -> "Scenario":
         """Return the scenario with another value at a path, checked as a whole.
 
         Args:
             path: Keys from the root with dots between, such as "clock.cap_s", "merit" or
                 "study.vary.robots.wanderer.count".
-            value: A text, a number or a dict of these, as the file could have it.
+            value: A text, a number, true or false, or a list or dict of these, as the file could
+                have it.
 
         Raises:
             InputError: If the value is not allowed there.
         """
-        # What is varied is one key with dots of its own.
-        factor_path = path.removeprefix(VARY)
-        keys = ("study", "vary", factor_path) if factor_path != path else tuple(path.split("."))
-        return self.changed((Override(keys, value, "replace"),))
+        return self.changed((Override.at(path, value, "replace"),))
 
     def changed(self, overrides: tuple[Override, ...]) -> "Scenario":
         """Return the scenario with other values over its own, all checked together.
@@ -178,14 +192,8 @@ class Scenario:
             InputError: If a path is none that can be varied, or a value is not allowed there,
                 alone or with the others; all faults at once.
         """
-        unknown = [path for path in values if path not in _core.FACTORS]
-        if unknown:
-            names = ", ".join(_core.FACTORS)
-            message = "\n".join(f"{path}: must be one of {names}" for path in unknown)
-            raise InputError(message)
         source = self.source
-        changes = [(path.split("."), value, "study.vary") for path, value in values.items()]
-        return _core.read_configuration(source.file, source.text, [*source.changes(), *changes])
+        return _core.read_configuration(source.file, source.text, source.changes(), dict(values))
 
 
 def factor(fields: dict[str, Any]) -> Factor:

@@ -143,3 +143,4 @@ def test_a_configuration_is_named_as_people_name_it() -> None:
     assert label({"a.range_m": 1.5, "b.range_m": 2}) == "a.range_m 1.5, b.range_m 2"
     assert order({TEAM: 4, "clock.cap_s": 60}) == "Send 4 rovers with cap_s 60"
     assert order({"clock.cap_s": 60}) == "Choose cap_s 60"
+    assert order({"robots.rover.is_loud": False}) == "Choose is_loud false"

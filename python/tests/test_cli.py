@@ -28,7 +28,7 @@ def test_version_names_the_program() -> None:
     assert given.stdout.startswith("agent-economy 0.")
 
 
-@pytest.mark.parametrize("command", ["study", "answer", "watch"])
+@pytest.mark.parametrize("command", ["study", "answer", "watch", "check", "scenarios"])
 def test_help_has_an_example(command: str) -> None:
     for given in (run("--help"), run(command, "--help")):
         assert given.returncode == 0
@@ -50,7 +50,7 @@ def test_study_prints_table_answer_and_path_and_leaves_its_files(
 
 
 def test_options_go_before_the_file(classic_toml: Path, tmp_path: Path) -> None:
-    options = ["--vary", "robots.wanderer.count=2,5", "--runs", "100", "--contact", "ahead"]
+    options = ["--vary", "robots.wanderer.count=2,5", "--runs", "100", "--set", "contact=ahead"]
     more = ["--merit", "appendix", "--seed", "9", "--out", str(tmp_path / "here"), "--json"]
     given = run("study", classic_toml, *options, *more)
     assert given.returncode == 0, given.stderr
@@ -59,11 +59,77 @@ def test_options_go_before_the_file(classic_toml: Path, tmp_path: Path) -> None:
         {"robots.wanderer.count": 2},
         {"robots.wanderer.count": 5},
     ]
-    assert answer["scenario"]["contact"] == "ahead"
+    assert ["contact", "ahead"] in answer["scenario"]["facts"]
     assert answer["scenario"]["merit"]["name"] == "appendix"
     assert answer["results"][0]["runs"] == 100
     assert answer["seed"] == 9
     assert given.stdout == (tmp_path / "here/answer.json").read_text()
+
+
+def test_a_value_that_is_set_wins_and_is_kept(classic_toml: Path, tmp_path: Path) -> None:
+    options = ["--set", "clock.cap_s=60", "--set", "study.vary.robots.wanderer.count=2,3"]
+    given = run("study", classic_toml, *options, "--runs", "20", "--json", "--out", tmp_path)
+    assert given.returncode == 0, given.stderr
+    answer = json.loads(given.stdout)
+    assert answer["scenario"]["cap_s"] == 60
+    assert [each["label"] for each in answer["results"]] == ["2 wanderers", "3 wanderers"]
+    again = run("study", "--resume", tmp_path, "--json")
+    assert again.stdout == given.stdout
+
+
+def test_check_says_that_nothing_is_wrong(classic_toml: Path, tmp_path: Path) -> None:
+    given = run("check", classic_toml, "classic", cwd=tmp_path)
+    assert (given.returncode, given.stderr) == (0, "")
+    right = "nothing is wrong: engine classic, factorial: 8 configurations"
+    assert given.stdout.splitlines() == [f"{classic_toml}: {right}", f"classic: {right}"]
+    listed = run("check", classic_toml, "--json")
+    assert (listed.returncode, json.loads(listed.stdout)) == (0, [])
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_check_tells_every_fault_of_every_file(classic_toml: Path, tmp_path: Path) -> None:
+    bad = tmp_path / "bad.toml"
+    bad.write_text(classic_toml.read_text().replace("count = 4", "cuont = 4"))
+    wide = tmp_path / "wide.toml"
+    wide.write_text(
+        classic_toml.read_text().replace('"1..8"', '"1..250", "clock.cap_s" = "1..1000"')
+    )
+    files = [bad, tmp_path / "none.toml", classic_toml, wide]
+    given = run("check", *files, "--set", "study.delta=0.5")
+    assert given.returncode == 2
+    assert len(given.stdout.splitlines()) == 1
+    told = given.stderr.splitlines()
+    assert told[0].startswith(f"{bad}:18: robots.wanderer.cuont = 4: must be one of the known keys")
+    assert told[1].startswith(f"{bad}:17: robots.wanderer.count is missing: must be a whole number")
+    assert told[2] == f"{tmp_path}/none.toml: cannot be read: No such file or directory"
+    assert "250 x 1000 values = 250000 configurations: must be at most 100000" in told[3]
+    assert len(told) == 4
+    listed = run("check", *files, "--json")
+    assert listed.returncode == 2
+    faults = json.loads(listed.stdout)
+    assert [fault["file"] for fault in faults] == list(map(str, [bad, bad, files[1], wide]))
+    assert faults[0] == {
+        "origin": f"{bad}:18",
+        "file": str(bad),
+        "line": 18,
+        "path": "robots.wanderer.cuont",
+        "given": "4",
+        "allowed": "one of the known keys here: count",
+        "suggestion": "count",
+        "message": told[0],
+    }
+
+
+def test_the_scenarios_that_ship_are_listed_and_right(tmp_path: Path) -> None:
+    given = run("scenarios", cwd=tmp_path)
+    assert given.returncode == 0, given.stderr
+    rows = json.loads(run("scenarios", "--json", cwd=tmp_path).stdout)
+    assert {"name": "classic", "engine": "classic"}.items() <= rows[0].items()
+    for line, row in zip(given.stdout.splitlines(), rows, strict=True):
+        assert line.split(maxsplit=2) == [row["name"], row["engine"], row["summary"]]
+        assert Path(row["file"]).is_file()
+    checked = run("check", *(row["name"] for row in rows), cwd=tmp_path)
+    assert checked.returncode == 0, checked.stderr
 
 
 def test_weights_on_the_command_line_are_the_merit(classic_toml: Path, tmp_path: Path) -> None:
@@ -147,7 +213,16 @@ def test_a_folder_without_a_study_is_told(command: list[str], tmp_path: Path) ->
 @pytest.mark.parametrize(
     ("options", "part"),
     [
-        (["--contact", "nose"], '--contact: contact = "nose": must be one of "neighbour"'),
+        (["--set", "contact=nose"], '--set contact: contact = "nose": must be one of "neighbour"'),
+        (["--set", "contact='nose'"], '--set contact: contact = "nose": must be one of'),
+        (["--set", "clock.cap_s=-5"], "--set clock.cap_s: clock.cap_s = -5: must be a number"),
+        (["--set", "clock.cap_s={a=1}"], "clock.cap_s = {...}: must be a number"),
+        (["--set", "clock.caps=5"], "clock.caps = 5: must be one of the known keys here"),
+        (["--set", "clock.cap_s"], "--set = 'clock.cap_s': must be PATH=VALUE"),
+        (
+            ["--set", "clock.cap_s=1", "--set", "clock.cap_s=2"],
+            "--set clock.cap_s: is given twice: must be given once",
+        ),
         (
             ["--vary", "robots.wanderer.count=0"],
             "--vary: robots.wanderer.count = 0: must be a whole number from 1 to 250",

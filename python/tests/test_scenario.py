@@ -1,8 +1,11 @@
 """Scenarios: what is read, and what is told when it is wrong."""
 
+import tomllib
 from pathlib import Path
+from typing import Any
 
 import pytest
+import tomli_w
 
 from agent_economy import InputError, Scenario
 from agent_economy.scenario import Override
@@ -10,8 +13,12 @@ from agent_economy.scenario import Override
 
 def test_the_shipped_scenario_is_the_2003_experiment(classic_toml: Path) -> None:
     scenario = Scenario.load(classic_toml)
-    assert scenario.contact == "touch"
-    assert scenario.cap_paints == 6720
+    assert (scenario.engine, scenario.cap_s) == ("classic", 120)
+    assert scenario.robots == {"wanderer": 4}
+    assert scenario.facts == (
+        ("contact", "touch"),
+        ("clock", "56 paints per second, cap 120 s"),
+    )
     (teams,) = scenario.factors
     assert (teams.path, teams.values) == ("robots.wanderer.count", (1, 2, 3, 4, 5, 6, 7, 8))
     assert scenario.merit.name == "equation-5.2"
@@ -56,7 +63,7 @@ def test_every_fault_is_told_at_once_with_file_line_value_and_what_is_allowed(
         ("engine = 3", "engine = 3: must be one of"),
         ("[engine", "t.toml:1: not valid TOML: "),
         ("a = 1\na = 2", "t.toml:2: not valid TOML: "),
-        ('engine = "metric"', 'engine = "metric": must be one of "classic"'),
+        ('engine = "clasic"', 'must be one of "classic"; did you mean "classic"?'),
     ],
 )
 def test_broken_toml_is_told(text: str, part: str) -> None:
@@ -74,6 +81,65 @@ def test_files_that_cannot_be_read_are_told(tmp_path: Path) -> None:
     binary.write_bytes(b"a = '\xff'")
     with pytest.raises(InputError, match="is not UTF-8 text: byte 5 is 0xff"):
         Scenario.load(binary)
+
+
+def test_a_name_that_ships_is_a_scenario_and_a_slip_of_it_is_told(
+    classic_toml: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert Scenario.load("classic").source.text == classic_toml.read_text()
+    own = classic_toml.read_text().replace("cap_s = 120  ", "cap_s = 60  ")
+    (tmp_path / "classic").write_text(own)
+    assert Scenario.load("classic").cap_s == 60
+    with pytest.raises(InputError, match="clasic: cannot be read: .*; did you mean classic?"):
+        Scenario.load("clasic")
+
+
+def test_faults_are_there_one_by_one_with_their_places(classic_toml: Path) -> None:
+    text = classic_toml.read_text().replace('"touch"', '"tuoch"').replace("summary", "#")
+    path = ("clock", "cap_s")
+    with pytest.raises(InputError) as caught:
+        Scenario.loads(text, "my.toml", (Override(path, -1, "--set clock.cap_s"),))
+    assert "\n".join(fault["message"] for fault in caught.value.faults) == str(caught.value)
+    places = {fault["path"]: (fault["file"], fault["line"]) for fault in caught.value.faults}
+    assert places == {
+        "contact": ("my.toml", 7),
+        "summary": ("my.toml", None),
+        "clock.cap_s": (None, None),
+    }
+    (contact,) = (fault for fault in caught.value.faults if fault["path"] == "contact")
+    assert (contact["origin"], contact["given"]) == ("my.toml:7", '"tuoch"')
+    assert contact["suggestion"] == '"touch"'
+    assert "one of" in contact["allowed"]
+    assert InputError("of another kind").faults == ()
+
+
+def test_a_scenario_is_a_plain_dict_with_what_was_put_over_it(classic_toml: Path) -> None:
+    scenario = Scenario.load(classic_toml)
+    assert scenario.to_dict() == tomllib.loads(classic_toml.read_text())
+    changed = scenario.replace("merit", {"time": -1, "found": {"weight": 2}})
+    changed = changed.replace("merit.time", -3).replace("study.vary.contact", "touch,ahead")
+    given = changed.to_dict()
+    assert given["merit"] == {"time": -3, "found": {"weight": 2}}
+    assert given["study"]["vary"]["contact"] == "touch,ahead"
+    assert Scenario.loads(tomli_w.dumps(given)).merit == changed.merit
+    assert changed.replace("merit.time", -1).to_dict()["merit"]["time"] == -1
+    assert changed.to_dict() == given
+
+
+def test_any_kind_of_value_reaches_the_check(classic_toml: Path) -> None:
+    scenario = Scenario.load(classic_toml)
+    given: dict[str, Any] = {
+        "[true, [1, 0.5], {...}]": [True, [1, 0.5], {"a": "b"}],
+        "true": True,
+        '"x"': "x",
+    }
+    for shown, value in given.items():
+        with pytest.raises(InputError) as caught:
+            scenario.replace("clock.cap_s", value)
+        assert f"replace: clock.cap_s = {shown}: must be a number" in str(caught.value)
+    with pytest.raises(InputError, match="replace: clock.cap_s.a = None: must be a text, a number"):
+        scenario.replace("clock.cap_s", {"a": None})
 
 
 @pytest.mark.parametrize(

@@ -30,6 +30,17 @@ impl Fault {
         }
     }
 
+    /// The file in which it stands, and the line if it is told; `file` is the one that was read.
+    #[must_use]
+    pub fn place(&self, file: &str) -> Option<(&str, Option<usize>)> {
+        let origin = self.origin.as_deref()?;
+        if origin == file {
+            return Some((origin, None));
+        }
+        let (name, line) = origin.rsplit_once(':')?;
+        line.parse().ok().map(|line| (name, Some(line)))
+    }
+
     /// A name that is none of `names`; `word` is its bare text, to find the one that was meant.
     pub fn not_one_of<'n>(
         path: String,
@@ -97,6 +108,22 @@ pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_place_is_a_file_and_perhaps_a_line_and_an_option_is_none() {
+        let place = |origin: &str| {
+            let fault = Fault {
+                origin: Some(origin.to_owned()),
+                ..Fault::new(String::new(), None, String::new())
+            };
+            let place = fault.place("a:b.toml");
+            place.map(|(file, line)| (file.to_owned(), line))
+        };
+        assert_eq!(place("a:b.toml:7"), Some(("a:b.toml".to_owned(), Some(7))));
+        assert_eq!(place("a:b.toml"), Some(("a:b.toml".to_owned(), None)));
+        assert_eq!(place("map.yaml:2"), Some(("map.yaml".to_owned(), Some(2))));
+        assert_eq!(place("--set clock.cap_s"), None);
+    }
 
     #[test]
     fn nearest_finds_a_slip_of_the_finger_and_nothing_far_away() {

@@ -35,6 +35,16 @@ pub struct Entity {
 pub enum Purpose {
     /// Where an entity starts.
     Start = 1,
+    /// Where a cluster of starts has its centre; the index is the cluster's.
+    StartCluster = 2,
+    /// Which way an entity looks at its start.
+    StartHeading = 3,
+    /// Where an item lies.
+    Item = 4,
+    /// Where a cluster of items has its centre; the index is the cluster's.
+    ItemCluster = 5,
+    /// The key of its own random numbers in a run: [`crate::noise`].
+    Noise = 6,
 }
 
 /// The stream of one entity for one purpose in one run, at its first draw.
@@ -60,6 +70,14 @@ pub fn stream(seed: u64, run: u64, entity: Entity, purpose: Purpose) -> Stream {
         u32::from_le_bytes([s4, s5, s6, s7]),
     ];
     Stream::new(key, (u128::from(run) << 64) | u128::from(place))
+}
+
+/// A number from 0 up to 1, exclusive: any multiple of 2^-53, each as likely.
+#[must_use]
+#[inline]
+#[expect(clippy::cast_precision_loss, reason = "53 bits are exact")]
+pub fn unit(stream: &mut Stream) -> f64 {
+    (stream.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! The seam between simulators and studies: what a run tells, and how runs are asked for.
 
+use std::borrow::Cow;
 use std::ops::Range;
 
 /// How a column's values can be kept in little room.
@@ -16,10 +17,10 @@ pub enum Kind {
 /// What every run of one configuration tells under a name, and between which bounds.
 ///
 /// The bounds follow from the configuration and hold for each run that is not quarantined.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Column {
     /// Its name, with the unit.
-    pub name: &'static str,
+    pub name: Cow<'static, str>,
     /// What its values are.
     pub kind: Kind,
     /// No run is below; `None` where there is no natural bound.
@@ -36,7 +37,7 @@ pub struct Column {
 /// impl Runner for Coin {
 ///     fn columns(&self) -> Vec<Column> {
 ///         let (least, greatest) = (Some(0.0), Some(1.0));
-///         vec![Column { name: "heads", kind: Kind::Flag, least, greatest }]
+///         vec![Column { name: "heads".into(), kind: Kind::Flag, least, greatest }]
 ///     }
 ///     fn run_block(&self, seed: u64, runs: std::ops::Range<u64>) -> Vec<Vec<f64>> {
 ///         let heads = |run| if (seed ^ run) % 2 == 0 { 1.0 } else { 0.0 };

@@ -7,7 +7,7 @@
 //! | what a robot does | [`robot`], `decision`, [`simulation`]: the *plain form*, rule by rule |
 //! | when a run is over | [`contact`], [`search`] |
 //! | how studies run it | [`fast`] (the same outcomes, tested), [`start`], [`replicate`](mod@replicate), [`runner`] |
-//! | what a study is told | [`scenario`] |
+//! | what scenarios say of it | [`scenario`] |
 //! | what a trace holds | [`trace`](mod@trace) |
 
 pub mod clock;

@@ -9,14 +9,6 @@ use crate::world::ITEMS;
 use base::runner::{Column, Kind, Runner};
 use std::ops::Range;
 
-/// What a study of this engine can vary, as paths in a scenario.
-pub const FACTORS: [&str; 4] = [
-    "robots.wanderer.count",
-    "clock.paints_per_s",
-    "clock.cap_s",
-    "contact",
-];
-
 /// All that a run depends on, besides its seed and its number.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Configuration {
@@ -33,8 +25,8 @@ impl Runner for Configuration {
     fn columns(&self) -> Vec<Column> {
         let robots = f64::from(self.robots);
         let collisions = u64::from(self.robots) * decisions_until(self.task.cap_paints);
-        let column = |name, kind, least, greatest| Column {
-            name,
+        let column = |name: &'static str, kind, least, greatest| Column {
+            name: name.into(),
             kind,
             least: Some(least),
             greatest,

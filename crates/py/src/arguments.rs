@@ -67,7 +67,7 @@ impl Arguments {
 
     /// `value`, or an exception with all faults.
     pub(crate) fn or_faults<T>(self, value: Option<T>) -> PyResult<T> {
-        Faults::or(self.faults.into_inner(), value).map_err(|faults| input_error(&faults))
+        Faults::or(self.faults.into_inner(), value).map_err(|faults| input_error(&faults, ""))
     }
 }
 

@@ -1,9 +1,12 @@
 //! Configurations of a study, and blocks of their runs.
 
 use crate::arguments::Arguments;
-use crate::classic_scenario::{GivenOverride, given_overrides};
+use crate::engines::ENGINES;
 use crate::error::input_error;
 use crate::long_work::interruptible;
+use crate::scenario::{GivenOverride, document, value};
+use base::document::Value;
+use base::question;
 use base::runner::{Column, Kind, Runner};
 use numpy::{IntoPyArray, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
@@ -22,7 +25,7 @@ const RUNS_PER_TASK: u64 = 16;
 /// Tasks whose results wait as they came, so that these take little memory beside the columns.
 const TASKS_BEFORE_JOINING: usize = 4096;
 
-type ColumnTuple = (&'static str, &'static str, Option<f64>, Option<f64>);
+type ColumnTuple = (String, &'static str, Option<f64>, Option<f64>);
 
 /// A scenario with values for everything that a study varies, ready to be run.
 #[pyclass(frozen, module = "agent_economy._core")]
@@ -46,21 +49,31 @@ fn as_tuple(column: &Column) -> ColumnTuple {
         Kind::Real => "real",
         Kind::Flag => "flag",
     };
-    (column.name, kind, column.least, column.greatest)
+    (column.name.to_string(), kind, column.least, column.greatest)
 }
 
-/// The configuration of a TOML text with changes, as `read_scenario` takes them; only what a run
-/// depends on is read and checked.
+/// The configuration of a TOML text with changes, as `read_scenario` takes them, and a value at the
+/// path of each factor in `values`; only what a run depends on is read and checked.
 #[pyfunction]
-#[pyo3(signature = (file, text, overrides))]
+#[pyo3(signature = (file, text, overrides, values))]
 pub(crate) fn read_configuration(
     file: &str,
     text: &str,
     overrides: Vec<GivenOverride>,
+    values: &Bound<PyDict>,
 ) -> PyResult<Configuration> {
-    let read = classic::Configuration::read(file, text, &given_overrides(overrides)?);
-    let runner = Box::new(read.map_err(|faults| input_error(&faults))?);
-    Ok(Configuration { runner })
+    let document = document(file, text, overrides)?;
+    let values = values.iter().map(|(path, given)| {
+        let path: String = path.extract()?;
+        let value = value(std::slice::from_ref(&path), &given, "study.vary")?;
+        Ok((path, value))
+    });
+    let values: Vec<(String, Value)> = values.collect::<PyResult<_>>()?;
+    let read = question::Configuration::read(&ENGINES, document, &values);
+    let read = read.map_err(|faults| input_error(&faults, file))?;
+    Ok(Configuration {
+        runner: read.runner,
+    })
 }
 
 /// Runs `first_run` and on of each configuration: by column, an array (configurations, runs).
@@ -167,7 +180,7 @@ fn as_dict<'py>(
     for (column, values) in names.into_iter().flatten().zip(columns) {
         let shape = [runners.len(), values.len() / runners.len()];
         let array: Bound<PyArray2<f64>> = values.into_pyarray(py).reshape(shape)?;
-        dict.set_item(column.name, array)?;
+        dict.set_item(&*column.name, array)?;
     }
     Ok(dict)
 }

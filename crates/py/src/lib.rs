@@ -3,11 +3,12 @@
 
 mod arguments;
 mod classic_runs;
-mod classic_scenario;
 mod classic_trace;
 mod configuration;
+mod engines;
 mod error;
 mod long_work;
+mod scenario;
 mod selection;
 
 use pyo3::prelude::*;
@@ -17,27 +18,25 @@ mod _core {
     #[pymodule_export]
     use crate::classic_runs::{exhaust, replicate};
     #[pymodule_export]
-    use crate::classic_scenario::read_scenario;
-    #[pymodule_export]
     use crate::classic_trace::{random_start, trace};
     #[pymodule_export]
     use crate::configuration::{Configuration, read_configuration, run_block};
     #[pymodule_export]
     use crate::error::InputError;
     #[pymodule_export]
+    use crate::scenario::{read_document, read_scenario};
+    #[pymodule_export]
     use crate::selection::{Procedure, mean_bounds, mean_exceeds, reference, selection};
 
     use classic::Contact;
-    use classic::runner::FACTORS;
-    use classic::scenario::{Merit, TERMS};
     use pyo3::prelude::*;
+    use pyo3::types::PyTuple;
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        let none = PyTuple::empty(module.py());
+        module.getattr("InputError")?.setattr("faults", none)?;
         module.add("FIRST_LOOK", select::schedule::next_look(0))?;
-        module.add("CONTACTS", Contact::NAMES.map(|(name, _)| name))?;
-        module.add("FACTORS", FACTORS)?;
-        module.add("MERITS", Merit::NAMES.map(|(name, _)| name))?;
-        module.add("MERIT_TERMS", TERMS.map(|(name, _)| name))
+        module.add("CONTACTS", Contact::NAMES.map(|(name, _)| name))
     }
 }

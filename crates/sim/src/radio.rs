@@ -1,5 +1,6 @@
 //! Who hears what, and when.
 
+use crate::sensing::timing::steps_of;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -32,4 +33,29 @@ pub struct RadioSpec {
 
 fn four() -> u32 {
     4
+}
+
+/// A radio, as the step needs it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Radio {
+    pub(crate) range_m: f64,
+    pub(crate) loss: f64,
+    /// At least 1.
+    pub(crate) delay_steps: u64,
+    pub(crate) messages_per_step: usize,
+    pub(crate) needs_line_of_sight: bool,
+    pub(crate) power_w: f64,
+}
+
+impl Radio {
+    pub(crate) fn new(spec: &RadioSpec, step_s: f64) -> Self {
+        Self {
+            range_m: spec.range_m,
+            loss: spec.loss,
+            delay_steps: steps_of(spec.delay_s, step_s).max(1),
+            messages_per_step: spec.messages_per_step as usize,
+            needs_line_of_sight: spec.needs_line_of_sight,
+            power_w: spec.power_w,
+        }
+    }
 }

@@ -10,6 +10,8 @@ import typer
 
 from agent_economy import __version__
 from agent_economy.cli.answer import answer
+from agent_economy.cli.check import check
+from agent_economy.cli.scenarios import scenarios
 from agent_economy.cli.study import study
 from agent_economy.cli.watch import watch
 
@@ -39,10 +41,12 @@ def root(
 ) -> None:
     """How many robots, of which kinds, does this job need?
 
-    Example: agent-economy study scenarios/classic.toml
+    Example: agent-economy study classic
     """
 
 
 app.command()(study)
 app.command()(answer)
 app.command()(watch)
+app.command()(check)
+app.command()(scenarios)

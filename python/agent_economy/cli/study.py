@@ -8,11 +8,12 @@ from typing import Annotated, Literal
 import typer
 
 from agent_economy import study as studies
-from agent_economy._core import CONTACTS, MERITS, InputError
+from agent_economy._core import InputError
+from agent_economy.cli.given import Sets, overrides
 from agent_economy.cli.progress import Teller
 from agent_economy.cli.table import show
 from agent_economy.cli.told import INTERRUPTED, faults_told
-from agent_economy.scenario import Override, Scenario
+from agent_economy.scenario import Scenario
 from agent_economy.study import design as designs
 from agent_economy.study.answer.labels import label
 from agent_economy.study.engine import Engine
@@ -24,13 +25,15 @@ Text = str | None
 
 def study(  # noqa: PLR0913  (typer's options are arguments)
     scenario: Annotated[
-        Path | None, typer.Argument(help="A scenario's TOML file.", show_default=False)
+        Path | None,
+        typer.Argument(help="A scenario's TOML file, or the name of one.", show_default=False),
     ] = None,
     *,
     vary: Annotated[
         list[str] | None,
         typer.Option(help="What to compare, as robots.wanderer.count=1..40; may be repeated."),
     ] = None,
+    sets: Sets = None,
     design: Annotated[
         Text, typer.Option(help="Of what is varied: factorial, lhs:200 or sobol:256.")
     ] = None,
@@ -58,13 +61,10 @@ def study(  # noqa: PLR0913  (typer's options are arguments)
             help="Runs of each configuration, with no guarantee.", show_default="as few as it takes"
         ),
     ] = None,
-    contact: Annotated[
-        Text, typer.Option(help=f"What counts as finding an item: {', '.join(CONTACTS)}.")
-    ] = None,
     merit: Annotated[
         Text,
         typer.Option(
-            help=f"How runs are scored: {', '.join(MERITS)} or weights, as "
+            help="How runs are scored: a name, as equation-5.2, or weights, as "
             "time=-0.03,robots=-0.2,failed=-5."
         ),
     ] = None,
@@ -120,10 +120,10 @@ def study(  # noqa: PLR0913  (typer's options are arguments)
     Exit codes: 0 answered, 1 the study cannot go on (the disk is full, the folder is damaged or
     another process has it, workers fail), 2 something given is not allowed, 130 stopped by Ctrl-C.
 
-    Example: agent-economy study scenarios/classic.toml --vary robots.wanderer.count=1..12
+    Example: agent-economy study classic --vary robots.wanderer.count=1..12
     """
     with faults_told():
-        changes = overrides(vary or [], contact=contact, merit=merit, design=design)
+        changes = overrides(sets, vary, merit=merit, design=design)
         one_executor(workers, dask)
         if resume is not None:
             others = [scenario, changes or None, delta, confidence, guarantee, runs, max_runs]
@@ -182,38 +182,6 @@ def announce(asked: Plan) -> None:
     typer.echo(f"{words}; {wanted}", err=True)
 
 
-def overrides(
-    vary: list[str], *, contact: str | None, merit: str | None, design: str | None
-) -> tuple[Override, ...]:
-    """Return what options say, as values put over the file's.
-
-    Raises:
-        InputError: If a --vary is not PATH=VALUES, or given twice for one path.
-    """
-    changes = [varied(text) for text in vary]
-    paths = [change.path[-1] for change in changes]
-    twice = next((path for path in paths if paths.count(path) > 1), None)
-    if twice:
-        message = f"--vary {twice}: is given twice: must be given once, such as {twice}=1..4,8"
-        raise InputError(message)
-    options = {("contact",): contact, ("merit",): merit, ("study", "design"): design}
-    changes += [
-        Override(path, value, f"--{path[-1]}")
-        for path, value in options.items()
-        if value is not None
-    ]
-    return tuple(changes)
-
-
-def varied(text: str) -> Override:
-    """Return the factor and values of PATH=VALUES."""
-    path, equals, values = text.partition("=")
-    if not equals:
-        message = f"--vary = {text!r}: must be PATH=VALUES, such as robots.wanderer.count=1..12"
-        raise InputError(message)
-    return Override(("study", "vary", path.strip()), values.strip(), "--vary")
-
-
 def usual_folder(asked: Plan) -> Path:
     """Return studies/NAME; where that holds other runs, the same with what tells these apart."""
     folder = Path("studies") / asked.scenario.name
@@ -232,7 +200,9 @@ def one_executor(workers: int | None, dask: str | None) -> None:
 def required(scenario: Path | None, more: float | None) -> Path:
     """Return the scenario, which is needed without --resume."""
     if scenario is None:
-        message = "SCENARIO is missing: must be a TOML file, such as scenarios/classic.toml"
+        message = (
+            "SCENARIO is missing: must be a TOML file, or a name that agent-economy scenarios lists"
+        )
         raise InputError(message)
     if more is not None:
         message = f"--more = {more:g}: must come with --resume FOLDER; else use --confidence"

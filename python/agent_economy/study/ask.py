@@ -11,6 +11,7 @@ from agent_economy.study import files
 from agent_economy.study import plan as plans
 from agent_economy.study.answer.conclude import Answer
 from agent_economy.study.answer.evidence import Evidence
+from agent_economy.study.answer.labels import word
 from agent_economy.study.arguments import Guarantee
 from agent_economy.study.plan import Plan
 from agent_economy.study.race import OnProgress, hold
@@ -136,7 +137,7 @@ def pursue(
 
 def written(values: str | Iterable[Value]) -> str:
     """Return values of a factor as scenarios have them."""
-    return values if isinstance(values, str) else ",".join(map(str, values))
+    return values if isinstance(values, str) else ",".join(map(word, values))
 
 
 def plan_of(folder: str | Path) -> Plan:

@@ -7,7 +7,7 @@ over it, so that the folder alone goes on.
 import hashlib
 import json
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from importlib.metadata import version
@@ -99,10 +99,7 @@ class Plan:
         program, the seed, the configurations in their order, and the scenario but for what only
         scores and words depend on.
         """
-        source = self.scenario.source
-        document = tomllib.loads(source.text)
-        for change in source.overrides:
-            put(document, change.path, change.value)
+        document = self.scenario.to_dict()
         runs = {key: value for key, value in document.items() if key not in WITHOUT_RUNS}
         parts = [version("agent-economy"), self.seed, self.runs, self.configurations, runs]
         text = json.dumps(parts, sort_keys=True, default=str)
@@ -241,16 +238,6 @@ def is_same_data(one: str, other: str) -> bool:
     return first.get("format") == second.get("format") and (
         first.get("data", {}).get("identity") == second.get("data", {}).get("identity")
     )
-
-
-def put(document: dict[str, Any], path: Sequence[str], value: object) -> None:
-    """Put a value at a path, over what is there."""
-    *tables, last = path
-    for key in tables:
-        inner = document.get(key)
-        document[key] = inner if isinstance(inner, dict) else {}
-        document = document[key]
-    document[last] = value
 
 
 def given(table: dict[str, Any]) -> dict[str, Any]:

@@ -1,4 +1,5 @@
-//! A TOML document read against what is allowed, every fault at once, each with its line.
+//! A document read against what is allowed, every fault at once, each with its line: TOML, and the
+//! plain YAML of maps.
 //!
 //! serde stops at the first fault and forgets the line. Here the text becomes a tree of [`Node`]s
 //! that know where they came from ([`parse`]), options of the command line replace nodes
@@ -25,14 +26,22 @@
 //! ```
 
 mod parse;
+mod place;
+pub mod schema;
 mod section;
+mod typed;
+mod yaml;
 
+pub use place::Place;
 pub use section::Section;
 
 use crate::fault::{Fault, Faults};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::fmt;
+
+/// Characters of a value that a fault shows.
+const SHOWN: usize = 60;
 
 /// Keys and values of a table, in the order of the keys.
 pub type Table = BTreeMap<String, Node>;
@@ -82,10 +91,60 @@ impl fmt::Display for Value {
     }
 }
 
+impl Value {
+    /// As in a fault: a long one by its beginning.
+    fn shown(&self) -> String {
+        let text = self.to_string();
+        match text.char_indices().nth(SHOWN) {
+            Some((end, _)) => format!("{}...", &text[..end]),
+            None => text,
+        }
+    }
+}
+
 /// An end of a range as a person writes it: `120` and not `120.0`, `1e308` and not 300 digits.
 pub(crate) fn written(value: f64) -> String {
     let shortest = format!("{value:?}");
     shortest.strip_suffix(".0").unwrap_or(&shortest).to_owned()
+}
+
+/// The path of `key` in the table at `path`, which is empty for the root.
+#[must_use]
+pub fn path_of(path: &str, key: &str) -> String {
+    let bare = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+    let key = if !key.is_empty() && key.chars().all(bare) {
+        key.to_owned()
+    } else {
+        format!("{key:?}")
+    };
+    if path.is_empty() {
+        key
+    } else {
+        format!("{path}.{key}")
+    }
+}
+
+#[expect(
+    clippy::cast_precision_loss,
+    reason = "a number that a person wrote; beyond 2^53 it is rounded, as TOML readers do"
+)]
+fn as_number(node: &Node) -> Option<f64> {
+    match node.value {
+        Value::Integer(value) => Some(value as f64),
+        Value::Float(value) => Some(value),
+        _ => None,
+    }
+}
+
+/// A value put over what a file says, and how faults should name where it comes from.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Override {
+    /// Keys from the root.
+    pub path: Vec<String>,
+    /// The new value.
+    pub value: Value,
+    /// For example `--set clock.cap_s`.
+    pub origin: String,
 }
 
 /// A whole document.
@@ -101,6 +160,17 @@ impl Document {
     /// Every place at which the text is not TOML.
     pub fn parse(file: &str, text: &str) -> Result<Self, Faults> {
         parse::parse(file, text).map(|root| Self { root })
+    }
+
+    /// Reads the YAML `text` of one flat file: mappings, lists and plain values, a few levels deep.
+    /// `file` is how faults name it.
+    ///
+    /// Aliases and tags are refused, so that a short text cannot become a large document.
+    ///
+    /// # Errors
+    /// What in the text is not such YAML.
+    pub fn parse_yaml(file: &str, text: &str) -> Result<Self, Faults> {
+        yaml::parse(file, text).map(|root| Self { root })
     }
 
     /// Puts `value` at `path`, over what the file says; `origin` is how faults name it.
@@ -124,6 +194,38 @@ impl Document {
             value,
             origin: origin.to_owned(),
         };
+    }
+
+    /// Puts under the table at `path` all that `defaults` says and it does not.
+    ///
+    /// Tables are merged key by key, but for one whose `kind` is another: it is of another form.
+    /// Anything else that is there stays. Nothing happens where no table stands.
+    pub fn fill(&mut self, path: &[&str], defaults: &Self) {
+        let node = path
+            .iter()
+            .try_fold(&mut self.root, |node, key| match &mut node.value {
+                Value::Table(table) => table.get_mut(*key),
+                _ => None,
+            });
+        if let Some(node) = node {
+            fill(node, &defaults.root);
+        }
+    }
+
+    /// Puts each of `overrides` in its place, one after the other.
+    #[must_use]
+    pub fn with(mut self, overrides: &[Override]) -> Self {
+        for each in overrides {
+            let path: Vec<&str> = each.path.iter().map(String::as_str).collect();
+            self.set(&path, each.value.clone(), &each.origin);
+        }
+        self
+    }
+
+    /// How faults name it as a whole: the file that it was read from.
+    #[must_use]
+    pub fn file(&self) -> &str {
+        &self.root.origin
     }
 
     /// What stands at `path`.
@@ -155,6 +257,24 @@ impl Document {
         let faults = RefCell::new(Vec::<Fault>::new());
         let value = reader(&Section::root(&self.root, &faults));
         (value, faults.into_inner())
+    }
+}
+
+fn fill(node: &mut Node, defaults: &Node) {
+    let (Value::Table(table), Value::Table(defaults)) = (&mut node.value, &defaults.value) else {
+        return;
+    };
+    let kind_of = |table: &Table| table.get("kind").map(|node| node.value.clone());
+    if kind_of(table).is_some_and(|kind| kind_of(defaults).is_some_and(|other| kind != other)) {
+        return;
+    }
+    for (key, value) in defaults {
+        match table.get_mut(key) {
+            Some(node) => fill(node, value),
+            None => {
+                table.insert(key.clone(), value.clone());
+            }
+        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! Typed reading of a table, collecting what is wrong.
 
-use super::{Node, Table, Value, written};
+use super::{Node, Table, Value, as_number, path_of, written};
 use crate::fault::{Fault, nearest};
 use std::cell::RefCell;
 use std::ops::RangeInclusive;
@@ -30,16 +30,10 @@ impl<'d> Section<'d> {
 
     /// Tells every key that is not among `keys`, with the nearest that is.
     pub fn only(&self, keys: &[&str]) {
-        for (key, node) in self.table.into_iter().flatten() {
-            if !keys.contains(&key.as_str()) {
-                self.faults.borrow_mut().push(Fault {
-                    origin: Some(node.origin.clone()),
-                    path: self.path_of(key),
-                    given: Some(node.value.to_string()),
-                    allowed: format!("one of the known keys here: {}", keys.join(", ")),
-                    suggestion: nearest(key, keys.iter().copied()).map(str::to_owned),
-                });
-            }
+        for key in self.keys().filter(|key| !keys.contains(key)) {
+            let allowed = format!("one of the known keys here: {}", keys.join(", "));
+            let meant = nearest(key, keys.iter().copied());
+            self.fault_for(key, &allowed, meant.map(str::to_owned));
         }
     }
 
@@ -53,6 +47,12 @@ impl<'d> Section<'d> {
     #[must_use]
     pub fn value(&self, key: &str) -> Option<&'d Value> {
         self.node(key).map(|node| &node.value)
+    }
+
+    /// Where what stands at `key` was written, or the table without it.
+    #[must_use]
+    pub fn origin(&self, key: &str) -> &'d str {
+        self.node(key).map_or(self.origin, |node| &node.origin)
     }
 
     /// The keys of the table, in their order.
@@ -186,10 +186,19 @@ impl<'d> Section<'d> {
 
     /// Tells that what stands at `key` is not what is `allowed` ("must be ...").
     pub fn fault(&self, key: &str, allowed: &str) {
+        self.fault_for(key, allowed, None);
+    }
+
+    /// As [`Section::fault`], with what was perhaps meant.
+    pub fn fault_for(&self, key: &str, allowed: &str, suggestion: Option<String>) {
         let given = self.node(key).map(|node| node.value.to_string());
+        let fault = Fault::new(self.path_of(key), given, allowed.to_owned());
         self.push(
             key,
-            Fault::new(self.path_of(key), given, allowed.to_owned()),
+            Fault {
+                suggestion,
+                ..fault
+            },
         );
     }
 
@@ -202,7 +211,7 @@ impl<'d> Section<'d> {
 
     /// Notes a fault of what stands at `key`, unless the section as a whole is one.
     fn push(&self, key: &str, fault: Fault) {
-        let origin = self.node(key).map_or(self.origin, |node| &node.origin);
+        let origin = self.origin(key);
         if !self.is_faulty {
             self.faults.borrow_mut().push(Fault {
                 origin: Some(origin.to_owned()),
@@ -216,35 +225,13 @@ impl<'d> Section<'d> {
     }
 
     fn path_of(&self, key: &str) -> String {
-        let bare = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
-        let key = if !key.is_empty() && key.chars().all(bare) {
-            key.to_owned()
-        } else {
-            format!("{key:?}")
-        };
-        if self.path.is_empty() {
-            key
-        } else {
-            format!("{}.{key}", self.path)
-        }
+        path_of(&self.path, key)
     }
 }
 
 fn as_table(node: &Node) -> Option<&Table> {
     match &node.value {
         Value::Table(table) => Some(table),
-        _ => None,
-    }
-}
-
-#[expect(
-    clippy::cast_precision_loss,
-    reason = "a number that a person wrote; beyond 2^53 it is rounded, as TOML readers do"
-)]
-fn as_number(node: &Node) -> Option<f64> {
-    match node.value {
-        Value::Integer(value) => Some(value as f64),
-        Value::Float(value) => Some(value),
         _ => None,
     }
 }

@@ -167,3 +167,29 @@ fn a_number_that_does_not_hold_is_told_with_what_is_allowed() {
         ["job.toml: a is missing: must be a number above 0"]
     );
 }
+
+#[test]
+fn what_is_filled_in_gives_way_to_what_is_there_and_keeps_its_own_line() {
+    let mut document = Document::parse("job", "[a.drive]\nspeed = 1\n[a]\nlist = [1]\nb = 2");
+    let document = document.as_mut().unwrap();
+    let defaults = "radius = 1\nlist = [2, 3]\n[drive]\nspeed = 5\nturn = 6\n[b]\nc = 1";
+    document.fill(&["a"], &Document::parse("model", defaults).unwrap());
+    let at = |path: &[&str]| {
+        let node = document.get(path).unwrap();
+        (node.value.to_string(), node.origin.as_str())
+    };
+    assert_eq!(at(&["a", "drive", "speed"]), ("1".to_owned(), "job:2"));
+    assert_eq!(at(&["a", "drive", "turn"]), ("6".to_owned(), "model:5"));
+    assert_eq!(at(&["a", "radius"]), ("1".to_owned(), "model:1"));
+    assert_eq!(at(&["a", "list"]), ("[1]".to_owned(), "job:4"));
+    assert_eq!(at(&["a", "b"]), ("2".to_owned(), "job:5"));
+}
+
+#[test]
+fn a_table_of_another_kind_is_not_filled_in() {
+    let mut document = Document::parse("job", "[eye]\nkind = \"items\"\n[ear]\n").unwrap();
+    let defaults = "[eye]\nkind = \"range\"\nrays = 3\n[ear]\nkind = \"robots\"";
+    document.fill(&[], &Document::parse("model", defaults).unwrap());
+    assert_eq!(document.get(&["eye", "rays"]), None);
+    assert!(document.get(&["ear", "kind"]).is_some());
+}

@@ -1,7 +1,7 @@
 //! Seconds and paints.
 
-use super::MAX_CAP_S;
 use base::document::Section;
+use base::question::MAX_CAP_S;
 
 /// Paints that a run may be counted for, so that one that never ends is not computed for minutes.
 pub const MAX_CAP_PAINTS: u64 = 1_000_000;

@@ -1,10 +1,8 @@
-//! A scenario of the classic engine: what a study of the 2003 experiment is told in a TOML file.
+//! A scenario of the classic engine: what a run of the 2003 experiment is told in a TOML file.
 //!
 //! ```toml
 //! engine = "classic"
-//! summary = "One line for people."
 //! contact = "touch"                       # see `contact`
-//! merit = "equation-5.2"                  # or "appendix", or weights of your own: see below
 //!
 //! [clock]
 //! paints_per_s = 56
@@ -12,35 +10,11 @@
 //!
 //! [robots.wanderer]
 //! count = 4                               # of a single run; a study varies it
-//!
-//! [study]
-//! vary = { "robots.wanderer.count" = "1..8" }
-//! design = "factorial"                    # or "lhs:200" or "sobol:256": points that fill the space
-//! delta = 0.05                            # may be left out: a difference of merit worth knowing
-//! confidence = 0.95                       # above 0.5, below 1; how often the answer is right
-//!
-//! [published]                             # may be left out: results to show beside ours
-//! source = "Williams 2003"
-//! choice = 3
-//! cap_s = 120
-//! times_s = { 1 = [120, 44], 2 = [120, 43] }
 //! ```
 //!
-//! **What can be varied** is `robots.wanderer.count`, `clock.paints_per_s`, `clock.cap_s` and
-//! `contact`; each with a text of its values:
-//!
-//! | text | values |
-//! |---|---|
-//! | `1..40` | whole numbers, both ends included |
-//! | `1,2,4` or `1..4,8` or `0.5,1.0` | these |
-//! | `touch,ahead` | these names |
-//! | `41.0..57.0` | any number of the range: for `lhs:` and `sobol:` only |
-//!
-//! **A figure of merit of your own** is a table of weights on what a run gives; higher is better:
-//!
-//! ```toml
-//! merit = { time = -0.03, robots = -0.2, failed = -5, paints = { weight = -0.01, max = 100 } }
-//! ```
+//! What is asked about it stands beside: [`base::question`]. **What can be varied** is
+//! `robots.wanderer.count`, `clock.paints_per_s`, `clock.cap_s` and `contact`. **What a figure of
+//! merit can weigh**:
 //!
 //! | term | of a run |
 //! |---|---|
@@ -50,100 +24,88 @@
 //! | `found` | items found until the cap, 0 to 4 |
 //! | `collisions` | robot-decisions spent on a shared cell, until completion or the cap |
 //! | `paints` | paints until the last find; infinite if it never comes, so it needs a `max` |
-//!
-//! A value above `max` counts as `max`. On the command line it is `--merit time=-0.03,robots=-0.2`.
 
 mod clock;
-mod merit;
-mod published;
-mod study;
-mod vary;
 
 pub use clock::{Clock, MAX_CAP_PAINTS};
-pub use merit::{Merit, TERMS, Term};
-pub use published::Published;
-pub use study::{Design, Study};
-pub use vary::{Factor, Values};
 
 use crate::contact::Contact;
 use crate::runner::Configuration;
 use crate::search::Task;
 use crate::start::MAX_ROBOTS;
-use base::document::{Document, Section, Value};
+use base::document::{Document, Section};
 use base::fault::Faults;
+use base::question::{self, Engine, Measure, NamedMerit};
 
-const MAX_CAP_S: f64 = 1e6;
+/// The sheet in the thesis's appendix, which forgets to divide the time by ten.
+const APPENDIX: NamedMerit = NamedMerit {
+    name: "appendix",
+    weights: &[("time", -0.3), ("robots", -0.2), ("failed", -5.0)],
+};
 
-/// Everything that does not change in a run.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Scenario {
-    /// One line for people.
-    pub summary: String,
-    /// How runs are scored.
-    pub merit: Merit,
-    /// A single run; a study varies it.
-    pub configuration: Configuration,
-    /// What a study does.
-    pub study: Study,
-    /// Results of others.
-    pub published: Option<Published>,
-}
+/// A `max` for paints: the experiment's 120 s.
+const USUAL_PAINTS: f64 = 6720.0;
 
-/// A value put over what a file says, and how faults should name where it comes from.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Override {
-    /// Keys from the root.
-    pub path: Vec<String>,
-    /// The new value.
-    pub value: Value,
-    /// For example `--contact`.
-    pub origin: String,
-}
+/// The classic engine, as scenarios name it.
+#[derive(Debug, Clone, Copy)]
+pub struct Classic;
 
-impl Scenario {
-    /// Reads a scenario; `file` is how faults name it.
-    ///
-    /// # Errors
-    /// Everything that is wrong with it.
-    pub fn read(file: &str, text: &str, overrides: &[Override]) -> Result<Self, Faults> {
-        let mut document = document(file, text, overrides)?;
-        merit::make_table(&mut document);
-        let (read, mut faults) = document.read_all(scenario);
-        faults.extend(vary::faults_of_values(&document, &faults));
-        Faults::or(faults, read)
+impl Engine for Classic {
+    fn name(&self) -> &'static str {
+        "classic"
     }
-}
 
-impl Configuration {
-    /// Reads what a run depends on, and nothing else, of a scenario; as [`Scenario::read`] does.
-    ///
-    /// # Errors
-    /// Everything that is wrong with that part.
-    pub fn read(file: &str, text: &str, overrides: &[Override]) -> Result<Self, Faults> {
-        document(file, text, overrides)?.read(configuration)
+    fn keys(&self) -> &'static [&'static str] {
+        &["contact", "clock", "robots"]
     }
-}
 
-fn document(file: &str, text: &str, overrides: &[Override]) -> Result<Document, Faults> {
-    let mut document = Document::parse(file, text)?;
-    for Override {
-        path,
-        value,
-        origin,
-    } in overrides
-    {
-        let path: Vec<&str> = path.iter().map(String::as_str).collect();
-        document.set(&path, value.clone(), origin);
+    fn read(&self, document: &Document) -> Result<question::Configuration, Faults> {
+        let read = document.read(configuration)?;
+        Ok(question::Configuration {
+            robots: vec![("wanderer".to_owned(), read.robots)],
+            cap_s: read.clock.cap_s,
+            facts: facts(&read),
+            runner: Box::new(read),
+        })
     }
-    Ok(document)
+
+    fn measures(&self, _: &Document) -> Vec<Measure> {
+        let paints = Measure {
+            usual_max: Some(USUAL_PAINTS),
+            ..Measure::new("paints", "paints")
+        };
+        vec![
+            Measure::new("time", "time_s"),
+            Measure::new("robots", "robots"),
+            Measure::new("failed", "failed"),
+            Measure::new("found", "found"),
+            Measure::new("collisions", "collisions"),
+            paints,
+        ]
+    }
+
+    fn merits(&self) -> &'static [NamedMerit] {
+        &[NamedMerit::EQUATION_5_2, APPENDIX]
+    }
+
+    fn factors(&self) -> Option<&'static [&'static str]> {
+        Some(&[
+            "robots.wanderer.count",
+            "clock.paints_per_s",
+            "clock.cap_s",
+            "contact",
+        ])
+    }
+
+    fn most_robots(&self) -> u32 {
+        MAX_ROBOTS
+    }
 }
 
 fn configuration(root: &Section) -> Option<Configuration> {
-    let engine = root.choice("engine", &[("classic", ())]);
     let contact = root.choice("contact", &Contact::NAMES);
     let clock = clock::clock(&root.section("clock"));
     let robots = robots(&root.section("robots"));
-    engine?;
     let clock = clock?;
     Some(Configuration {
         robots: robots?,
@@ -155,36 +117,6 @@ fn configuration(root: &Section) -> Option<Configuration> {
     })
 }
 
-fn scenario(root: &Section) -> Option<Scenario> {
-    root.only(&[
-        "engine",
-        "summary",
-        "contact",
-        "merit",
-        "clock",
-        "robots",
-        "study",
-        "published",
-    ]);
-    let configuration = configuration(root);
-    let summary = root.line("summary");
-    let merit = merit::merit(root);
-    let study = study::study(&root.section("study"));
-    let published = root
-        .has("published")
-        .then(|| published::published(&root.section("published")));
-    Some(Scenario {
-        summary: summary?,
-        merit: merit?,
-        configuration: configuration?,
-        study: study?,
-        published: match published {
-            Some(read) => Some(read?),
-            None => None,
-        },
-    })
-}
-
 fn robots(section: &Section) -> Option<u32> {
     section.only(&["wanderer"]);
     let wanderer = section.section("wanderer");
@@ -193,9 +125,25 @@ fn robots(section: &Section) -> Option<u32> {
     u32::try_from(count).ok()
 }
 
+fn facts(read: &Configuration) -> Vec<(String, String)> {
+    let Clock {
+        paints_per_s,
+        cap_s,
+        ..
+    } = read.clock;
+    let names = Contact::NAMES.iter();
+    let contact = names.filter(|(_, each)| *each == read.task.contact);
+    let contact = contact.map(|(name, _)| ("contact".to_owned(), (*name).to_owned()));
+    let clock = format!("{paints_per_s} paints per second, cap {cap_s} s");
+    contact.chain([("clock".to_owned(), clock)]).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use base::document::{Override, Value};
+    use base::question::{Design, Factor, Scenario, Values};
+    use base::runner::Runner;
 
     const GOOD: &str = r#"
 engine = "classic"
@@ -217,17 +165,32 @@ cap_s = 120
 times_s = { 10 = [120, 120], 2 = [4, 5.5] }
 "#;
 
+    fn read(text: &str, changes: &[Override]) -> Result<Scenario, Faults> {
+        let document = Document::parse("t.toml", text).unwrap();
+        Scenario::read(&[&Classic], document.with(changes))
+    }
+
+    fn good(text: &str) -> Scenario {
+        read(text, &[]).ok().unwrap()
+    }
+
     fn faults(text: &str) -> String {
-        Scenario::read("t.toml", text, &[]).unwrap_err().to_string()
+        read(text, &[]).err().unwrap().to_string()
     }
 
     #[test]
     fn a_good_scenario_is_read() {
-        let scenario = Scenario::read("t.toml", GOOD, &[]).unwrap();
-        assert_eq!(scenario.configuration.task.contact, Contact::Touch);
-        assert_eq!(scenario.merit.name, Some(Merit::EQUATION));
+        let scenario = good(GOOD);
+        let facts = [
+            ("contact", "touch"),
+            ("clock", "56 paints per second, cap 120 s"),
+        ];
+        let facts = facts.map(|(name, text)| (name.to_owned(), text.to_owned()));
+        assert_eq!(scenario.configuration.facts, facts);
+        assert_eq!(scenario.configuration.robots, [("wanderer".to_owned(), 4)]);
+        assert_eq!(scenario.merit.name, Some("equation-5.2"));
         let factor = Factor {
-            path: "robots.wanderer.count",
+            path: "robots.wanderer.count".to_owned(),
             values: Values::Listed([1, 2, 3, 8].map(Value::Integer).into()),
         };
         assert_eq!(scenario.study.factors, [factor]);
@@ -253,20 +216,19 @@ times_s = { 10 = [120, 120], 2 = [4, 5.5] }
             change("clock.cap_s", Value::Integer(10)),
             change("contact", Value::Text("ahead".to_owned())),
         ];
-        let read = Configuration::read("t.toml", GOOD, &changes).unwrap();
+        let document = Document::parse("t.toml", GOOD).unwrap().with(&changes);
+        let read = document.read(configuration).unwrap();
         assert_eq!(read.robots, 9);
         assert_eq!(
             (read.task.contact, read.task.cap_paints),
             (Contact::Ahead, 415)
         );
-        let whole = Scenario::read("t.toml", GOOD, &changes).unwrap();
-        assert_eq!(whole.configuration, read);
     }
 
     #[test]
     fn nothing_need_be_varied() {
         let text = GOOD.replace("vary =", "#");
-        let study = Scenario::read("t.toml", &text, &[]).unwrap().study;
+        let study = good(&text).study;
         assert_eq!(study.factors, []);
     }
 
@@ -336,7 +298,7 @@ times_s = { 10 = [120, 120], 2 = [4, 5.5] }
             faults(&text).contains("= \"41.0..57.0\": must be a list of values where the design")
         );
         let filling = text.replace("vary =", "design = \"sobol:256\"\nvary =");
-        let study = Scenario::read("t.toml", &filling, &[]).unwrap().study;
+        let study = good(&filling).study;
         assert_eq!(study.factors[1].values, Values::Between(41.0, 57.0));
     }
 
@@ -377,11 +339,22 @@ times_s = { 10 = [120, 120], 2 = [4, 5.5] }
             value: Value::Text("nose".to_owned()),
             origin: "--contact".to_owned(),
         };
-        let faults = Scenario::read("t.toml", GOOD, &[change]).unwrap_err();
+        let faults = read(GOOD, &[change]).err().unwrap();
         assert!(
             faults
                 .to_string()
                 .starts_with("--contact: contact = \"nose\": must be one of")
         );
+    }
+
+    #[test]
+    fn the_terms_that_need_a_max_are_the_columns_without_bound() {
+        let document = Document::parse("t.toml", GOOD).unwrap();
+        let columns = document.read(configuration).unwrap().columns();
+        for measure in Classic.measures(&document) {
+            let column = columns.iter().find(|each| each.name == measure.column);
+            let is_bounded = column.unwrap().greatest.is_some();
+            assert_eq!(is_bounded, measure.usual_max.is_none());
+        }
     }
 }

@@ -1,5 +1,6 @@
 //! What a battery holds, and what drains it.
 
+use super::RobotSpec;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -21,4 +22,27 @@ pub struct BatterySpec {
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1e6))]
     pub move_j_per_m: f64,
+}
+
+/// A battery, as the step needs it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Battery {
+    /// Infinite if it never empties.
+    pub(crate) capacity_j: f64,
+    pub(crate) idle_w: f64,
+    pub(crate) move_w: f64,
+    /// With its payload.
+    pub(crate) move_j_per_m: f64,
+}
+
+impl Battery {
+    pub(crate) fn new(spec: &BatterySpec, robot: &RobotSpec) -> Self {
+        let mass = (robot.mass_kg + robot.payload_kg) / robot.mass_kg;
+        Self {
+            capacity_j: spec.capacity_j.unwrap_or(f64::INFINITY),
+            idle_w: spec.idle_w,
+            move_w: spec.move_w,
+            move_j_per_m: spec.move_j_per_m * mass,
+        }
+    }
 }

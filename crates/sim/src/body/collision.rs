@@ -1,5 +1,6 @@
 //! What a collision costs.
 
+use crate::sensing::timing::steps_of;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -13,4 +14,20 @@ pub struct CollisionSpec {
     /// It is broken after so many collisions; left out, it never breaks.
     #[schemars(range(min = 1))]
     pub breaks_after: Option<u32>,
+}
+
+/// What a collision costs, as the step needs it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Collision {
+    pub(crate) stop_steps: u64,
+    pub(crate) breaks_after: u32,
+}
+
+impl Collision {
+    pub(crate) fn new(spec: &CollisionSpec, step_s: f64) -> Self {
+        Self {
+            stop_steps: steps_of(spec.stop_s, step_s),
+            breaks_after: spec.breaks_after.unwrap_or(u32::MAX),
+        }
+    }
 }

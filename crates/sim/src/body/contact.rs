@@ -63,11 +63,11 @@ pub(crate) fn meets_still<'a>(
         let from = path.at(share(chord));
         let way = from.to(path.at(share(chord + 1)));
         let wall = |wall: &Wall| meets_wall(from, way, radius_m, wall);
-        let disc = |disc: &Disc| {
-            meets_origin(disc.centre.to(from), way, radius_m + disc.radius_m)
-        };
+        let disc = |disc: &Disc| meets_origin(disc.centre.to(from), way, radius_m + disc.radius_m);
         let meetings = walls.clone().filter_map(wall);
-        let first = meetings.chain(discs.clone().filter_map(disc)).min_by(f64::total_cmp)?;
+        let first = meetings
+            .chain(discs.clone().filter_map(disc))
+            .min_by(f64::total_cmp)?;
         Some(share(chord) + first / f64::from(chords))
     })
 }
@@ -93,6 +93,8 @@ pub(crate) fn meets_moving(one: &Path, other: &Path, reach_m: f64) -> Option<f64
 
 fn pieces(before: f64, end: f64, one: f64, other: f64) -> impl Iterator<Item = f64> {
     let stops = [one.min(other), one.max(other)];
-    let within = stops.into_iter().filter(move |stop| *stop > before && *stop < end);
+    let within = stops
+        .into_iter()
+        .filter(move |stop| *stop > before && *stop < end);
     within.chain([end])
 }

@@ -2,9 +2,13 @@
 
 pub mod battery;
 pub mod collision;
+pub(crate) mod contact;
 pub mod drive;
+pub(crate) mod kind;
+pub(crate) mod path;
 
 use crate::radio::RadioSpec;
+use crate::scenario::models::Model;
 use crate::sensing::SensorSpec;
 use base::placement::Placement;
 use battery::BatterySpec;
@@ -19,7 +23,7 @@ use std::collections::BTreeMap;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RobotSpec {
     /// A shipped robot whose values stand for all that is left out here.
-    pub like: Option<String>,
+    pub like: Option<Model>,
     /// Robots of this kind in the team.
     #[schemars(range(max = 1_000_000))]
     pub count: u32,

@@ -52,6 +52,17 @@ pub(crate) struct Path {
 }
 
 impl Path {
+    /// That of a body that stands.
+    pub(crate) const fn rest(at: Point) -> Self {
+        Self {
+            start: at,
+            front: Point { x: 1.0, y: 0.0 },
+            length_m: 0.0,
+            turn_rad: 0.0,
+            until: 1.0,
+        }
+    }
+
     /// Where the body is after a share of the step, 0 to 1.
     #[inline]
     pub(crate) fn at(&self, share: f64) -> Point {
@@ -95,6 +106,9 @@ impl Path {
         }
         // The sagitta of one chord for the whole is length * turn / 8; it shrinks with their square.
         let sagitta = (self.length_m * self.turn_rad).abs() / 8.0;
-        (sagitta / MAX_SAGITTA_M).sqrt().ceil().clamp(1.0, MAX_CHORDS) as u32
+        (sagitta / MAX_SAGITTA_M)
+            .sqrt()
+            .ceil()
+            .clamp(1.0, MAX_CHORDS) as u32
     }
 }

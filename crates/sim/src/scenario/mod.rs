@@ -1,13 +1,24 @@
 //! A scenario of the metric engine, gathered from the modules that own its parts.
 
+mod bounds;
+mod checks;
+pub mod models;
+mod ready;
+
+pub use ready::Scenario;
+
 use crate::body::RobotSpec;
 use crate::clock::ClockSpec;
 use crate::world::WorldSpec;
 use crate::world::items::ItemSpec;
 use crate::world::terrain::TerrainSpec;
+use base::document::Document;
+use base::document::schema::Schema;
+use base::fault::Faults;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use std::sync::LazyLock;
 
 /// What a run depends on, as it is written.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -24,4 +35,37 @@ pub struct ScenarioSpec {
     pub items: BTreeMap<String, ItemSpec>,
     /// Kinds of robots, each under a name of your choice.
     pub robots: BTreeMap<String, RobotSpec>,
+}
+
+/// A scenario in which nothing is wrong.
+#[derive(Debug, Clone)]
+pub struct Checked {
+    /// As it is written; what is left out has its default, or its model's value.
+    pub spec: ScenarioSpec,
+    /// As runs need it.
+    pub scenario: Scenario,
+}
+
+/// Gives the bytes of a file that a scenario names, relative to the scenario's own, or says why it
+/// cannot.
+pub type Open<'o> = &'o dyn Fn(&str) -> Result<Vec<u8>, String>;
+
+/// Other keys at the root are the question's.
+static SCHEMA: LazyLock<Schema> = LazyLock::new(|| Schema::of::<ScenarioSpec>().open());
+
+impl ScenarioSpec {
+    /// The keys at the root of a document that it is read from.
+    pub const KEYS: [&str; 5] = ["clock", "world", "terrain", "items", "robots"];
+
+    /// Reads what stands under [`ScenarioSpec::KEYS`], and nothing else.
+    ///
+    /// # Errors
+    /// Everything that is wrong there: keys and values first, and if these are right, what they mean
+    /// together.
+    pub fn read(document: &Document, open: Open) -> Result<Checked, Faults> {
+        let mut document = document.clone();
+        models::fill(&mut document);
+        let spec = document.typed(&SCHEMA)?;
+        checks::checked(spec, &document.place(), open)
+    }
 }

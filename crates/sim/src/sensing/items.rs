@@ -1,6 +1,12 @@
 //! A detector of items.
 
+use super::eye::{Eye, Use, blurred};
+use super::poisson::Poisson;
 use super::range::whole_circle;
+use super::sector::Sector;
+use crate::world::items::Items;
+use base::geometry::Point;
+use base::noise::share;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -53,6 +59,115 @@ pub enum Detection {
     },
 }
 
+impl Detection {
+    /// Probability of detection at a distance.
+    pub(super) fn probability(&self, distance_m: f64) -> f64 {
+        match self {
+            Self::Constant(probability) => *probability,
+            Self::Table(pairs) => between(pairs, distance_m),
+            Self::Curve { best, half_m } => {
+                let halves = distance_m / half_m;
+                best * libm::exp2(-halves * halves)
+            }
+        }
+    }
+}
+
+/// The value at `x`, linear between pairs; beyond the ends, that of the end.
+fn between(pairs: &[[f64; 2]], x: f64) -> f64 {
+    let next = pairs.partition_point(|[at, _]| *at <= x);
+    match (next.checked_sub(1).map(|last| pairs[last]), pairs.get(next)) {
+        (Some([x0, y0]), Some([x1, y1])) => y0 + (y1 - y0) * (x - x0) / (x1 - x0),
+        (Some([_, y]), None) | (None, Some(&[_, y])) => y,
+        (None, None) => 0.0,
+    }
+}
+
 pub(super) fn yes() -> bool {
     true
+}
+
+/// A detector, as looks need it.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct ItemDetector {
+    pub(crate) sector: Sector,
+    /// By the item's kind; `None` is never seen.
+    detects: Vec<Option<Detection>>,
+    /// By the kind that they are taken for; only those that there are.
+    false_alarms: Vec<(u16, Poisson)>,
+    noise_m: f64,
+    needs_line_of_sight: bool,
+}
+
+impl ItemDetector {
+    /// For `kinds` of items, by their order; a look is had every `period_s`.
+    pub(crate) fn new(spec: &ItemsSpec, kinds: &[String], period_s: f64) -> Self {
+        let sector = Sector::new(spec.range_m, spec.fov_deg, spec.facing_deg);
+        let detection = |kind: &String| match &spec.detects {
+            None => Some(Detection::Constant(1.0)),
+            Some(detects) => detects.get(kind).cloned(),
+        };
+        let false_alarm = |(number, kind): (u16, &String)| {
+            let rate = spec
+                .false_alarms_per_m2_s
+                .get(kind)
+                .filter(|rate| **rate > 0.0)?;
+            Some((number, Poisson::new(rate * sector.area_m2() * period_s)))
+        };
+        Self {
+            sector,
+            detects: kinds.iter().map(detection).collect(),
+            false_alarms: (0..).zip(kinds).filter_map(false_alarm).collect(),
+            noise_m: spec.noise_m,
+            needs_line_of_sight: spec.needs_line_of_sight,
+        }
+    }
+
+    /// What a look gives: contacts, each with the item that it is of, if it is of one.
+    pub(crate) fn look(
+        &self,
+        eye: &Eye,
+        items: &Items,
+        mut give: impl FnMut(Point, u16, Option<u32>),
+    ) {
+        for (place, number) in items.near(eye.at, self.sector.range_m) {
+            let way = eye.to_own(*place);
+            let kind = items.kind(*number);
+            let Some(detection) = &self.detects[usize::from(kind)] else {
+                continue;
+            };
+            if !self.sector.holds(way) || self.is_hidden(eye, *place) {
+                continue;
+            }
+            let words = eye.words(Use::Thing, *number);
+            if share(words[0]) < detection.probability(way.length()) {
+                give(blurred(way, self.noise_m, words), kind, Some(*number));
+            }
+        }
+        for (kind, poisson) in &self.false_alarms {
+            self.false_contacts(eye, *kind, poisson, &mut give);
+        }
+    }
+
+    fn false_contacts(
+        &self,
+        eye: &Eye,
+        kind: u16,
+        poisson: &Poisson,
+        give: &mut impl FnMut(Point, u16, Option<u32>),
+    ) {
+        let index = u32::from(kind) << 16;
+        let count = poisson.draw(share(eye.words(Use::FalseAlarm, index)[0]));
+        for number in 1..=count {
+            let words = eye.words(Use::FalseAlarm, index + number);
+            let way = self.sector.place([share(words[0]), share(words[1])]);
+            if !self.is_hidden(eye, eye.to_world(way)) {
+                give(way, kind, None);
+            }
+        }
+    }
+
+    fn is_hidden(&self, eye: &Eye, place: Point) -> bool {
+        self.needs_line_of_sight && !eye.sees(place)
+    }
 }

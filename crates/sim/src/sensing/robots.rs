@@ -1,7 +1,12 @@
 //! A detector of other robots.
 
+use super::eye::{Eye, Use, blurred};
 use super::items::{Detection, yes};
 use super::range::whole_circle;
+use super::sector::Sector;
+use base::geometry::Point;
+use base::noise::share;
+use brain::RobotId;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -28,4 +33,35 @@ pub struct RobotsSpec {
     /// Whether obstacles hide robots.
     #[serde(default = "yes")]
     pub needs_line_of_sight: bool,
+}
+
+/// A detector, as looks need it.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct RobotDetector {
+    pub(crate) sector: Sector,
+    detects: Detection,
+    noise_m: f64,
+    needs_line_of_sight: bool,
+}
+
+impl RobotDetector {
+    pub(crate) fn new(spec: &RobotsSpec) -> Self {
+        Self {
+            sector: Sector::new(spec.range_m, spec.fov_deg, spec.facing_deg),
+            detects: spec.detects.clone().unwrap_or(Detection::Constant(1.0)),
+            noise_m: spec.noise_m,
+            needs_line_of_sight: spec.needs_line_of_sight,
+        }
+    }
+
+    /// Where a robot at `place` seems to be, if the look recognises it.
+    pub(crate) fn look(&self, eye: &Eye, place: Point, id: RobotId) -> Option<Point> {
+        let way = eye.to_own(place);
+        if !self.sector.holds(way) || (self.needs_line_of_sight && !eye.sees(place)) {
+            return None;
+        }
+        let words = eye.words(Use::Thing, (u32::from(id.kind) << 20) | id.index);
+        let is_seen = share(words[0]) < self.detects.probability(way.length());
+        is_seen.then(|| blurred(way, self.noise_m, words))
+    }
 }

@@ -76,6 +76,41 @@ impl Grid {
         (bottom..=top).map(move |row| grid.number([left, row])..grid.number([right, row]) + 1)
     }
 
+    /// The numbers of cells that hold every point between two places, and maybe some more.
+    pub(crate) fn on_the_way(&self, from: Point, to: Point) -> impl Iterator<Item = usize> {
+        let grid = *self;
+        let [[_, first], [_, last]] = [grid.place(from), grid.place(to)];
+        let rows = first.min(last)..=first.max(last);
+        rows.flat_map(move |row| {
+            let [left, right] = grid.crossed_in_row(row, from, to);
+            grid.number([left, row])..grid.number([right, row]) + 1
+        })
+    }
+
+    /// The first and last column of the cells that a way crosses in a row.
+    #[expect(clippy::cast_precision_loss, reason = "at most MAX_CELLS")]
+    fn crossed_in_row(&self, row: usize, from: Point, to: Point) -> [usize; 2] {
+        let way = from.to(to);
+        let x_at = |y: f64| {
+            let share = (y - from.y) / way.y;
+            // Along a row, and by rounding, the share may be anything: then the whole way counts.
+            from.x + way.x * share.clamp(0.0, 1.0)
+        };
+        let (low, high) = (row as f64 * self.cell_m(), (row + 1) as f64 * self.cell_m());
+        let ends = if way.y.abs() < 1e-9 {
+            [from.x, to.x]
+        } else {
+            [x_at(low), x_at(high)]
+        };
+        // A hair more on either side, for what rounding does.
+        let hair = 1e-6 * self.cell_m();
+        let column = |x: f64| self.place(Point { x, y: 0.0 })[0];
+        [
+            column(ends[0].min(ends[1]) - hair),
+            column(ends[0].max(ends[1]) + hair),
+        ]
+    }
+
     /// The middle of the cell with a number.
     #[expect(clippy::cast_precision_loss, reason = "at most MAX_CELLS")]
     pub(crate) fn middle(&self, cell: usize) -> Point {

@@ -1,5 +1,8 @@
 //! What is to be found, and what is taken for it.
 
+use super::buckets::Buckets;
+use crate::scenario::Scenario;
+use base::geometry::Point;
 use base::placement::Placement;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -21,4 +24,113 @@ pub struct ItemSpec {
 
 fn yes() -> bool {
     true
+}
+
+/// A kind of item, as runs need it.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct ItemKind {
+    pub(crate) name: String,
+    pub(crate) count: u32,
+    pub(crate) is_sought: bool,
+    pub(crate) placement: Placement,
+}
+
+impl ItemKind {
+    pub(crate) fn new((name, spec): (&String, &ItemSpec)) -> Self {
+        Self {
+            name: name.clone(),
+            count: spec.count,
+            is_sought: spec.sought,
+            placement: spec.placement.clone(),
+        }
+    }
+}
+
+/// One item.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Item {
+    pub(crate) number: usize,
+    place: Point,
+    found: Option<u64>,
+}
+
+/// The items of a run.
+#[derive(Debug, Clone)]
+pub(crate) struct Items {
+    places: Vec<Point>,
+    kinds: Vec<u16>,
+    /// The step at which it was found.
+    found: Vec<Option<u64>>,
+    buckets: Buckets,
+}
+
+impl Items {
+    pub(crate) fn new(places: Vec<Point>, kinds: Vec<u16>, size_m: Point, reach_m: f64) -> Self {
+        let mut buckets = Buckets::new(size_m, reach_m);
+        buckets.fill(places.iter().copied());
+        Self {
+            found: vec![None; places.len()],
+            places,
+            kinds,
+            buckets,
+        }
+    }
+
+    /// All items within a distance of a place, with their numbers, and maybe some more.
+    #[inline]
+    pub(crate) fn near(&self, place: Point, radius_m: f64) -> impl Iterator<Item = &(Point, u32)> {
+        self.buckets.near(place, radius_m)
+    }
+
+    /// Items by the names of their kinds and their place within the kind.
+    pub(crate) fn named<'a>(
+        &self,
+        scenario: &'a Scenario,
+    ) -> impl Iterator<Item = ((&'a str, usize), Item)> {
+        (0..self.places.len()).map(|number| {
+            let kind = self.kinds[number];
+            let first = self.kinds.partition_point(|other| *other < kind);
+            let name = scenario.items[usize::from(kind)].name.as_str();
+            let item = Item {
+                number,
+                place: self.places[number],
+                found: self.found[number],
+            };
+            ((name, number - first), item)
+        })
+    }
+
+    /// Puts items, by their numbers, where others were, found if these were.
+    pub(crate) fn keep(&mut self, kept: &[(usize, Item)]) {
+        for (number, item) in kept {
+            self.places[*number] = item.place;
+            self.found[*number] = item.found;
+        }
+        self.buckets.fill(self.places.iter().copied());
+    }
+
+    /// The kind of each item, and the step at which it was found.
+    pub(crate) fn each(&self) -> impl Iterator<Item = (u16, Option<u64>)> {
+        self.kinds.iter().copied().zip(self.found.iter().copied())
+    }
+
+    /// The kind and the place of each item, and the step at which it was found.
+    pub(crate) fn each_place(&self) -> impl Iterator<Item = (u16, Point, Option<u64>)> {
+        self.each()
+            .zip(&self.places)
+            .map(|((kind, found), at)| (kind, *at, found))
+    }
+
+    /// Marks an item as found; whether it was not before.
+    pub(crate) fn find(&mut self, number: u32, tick: u64) -> bool {
+        let found = &mut self.found[number as usize];
+        let is_new = found.is_none();
+        found.get_or_insert(tick);
+        is_new
+    }
+
+    #[inline]
+    pub(crate) fn kind(&self, number: u32) -> u16 {
+        self.kinds[number as usize]
+    }
 }

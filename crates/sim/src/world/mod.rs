@@ -1,7 +1,10 @@
 //! What stands still: borders, obstacles, terrain, and the items to be found.
 
+pub(crate) mod buckets;
+pub(crate) mod grid;
 pub mod items;
 pub mod obstacles;
+pub(crate) mod still;
 pub mod terrain;
 
 use obstacles::ObstacleSpec;

@@ -1,6 +1,8 @@
 //! What is in the way on the ground.
 
-use base::geometry::Point;
+use super::grid::Still;
+use base::geometry::{Disc, Point, Polygon, Rectangle};
+use base::map::OccupancyMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -36,4 +38,49 @@ pub struct CircleSpec {
     /// Its radius, in metres.
     #[schemars(range(min = 0.001, max = 100_000.0))]
     pub radius_m: f64,
+}
+
+/// Something solid on the ground, checked.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Solid {
+    /// A polygon.
+    Polygon(Polygon),
+    /// A disc.
+    Disc(Disc),
+    /// A map's solid cells.
+    Map(OccupancyMap),
+}
+
+impl Solid {
+    /// Whether it covers a place.
+    pub(crate) fn covers(&self, place: Point) -> bool {
+        match self {
+            Self::Polygon(polygon) => polygon.contains(place),
+            Self::Disc(disc) => disc.contains(place),
+            Self::Map(map) => map.is_solid(place),
+        }
+    }
+}
+
+impl Still for Solid {
+    fn bounds(&self) -> [Point; 2] {
+        match self {
+            Self::Polygon(polygon) => ends(&polygon.bounds()),
+            Self::Disc(disc) => disc.bounds(),
+            Self::Map(map) => ends(&map.bounds()),
+        }
+    }
+
+    fn distance(&self, from: Point) -> f64 {
+        match self {
+            Self::Polygon(polygon) => polygon.distance_m(from),
+            Self::Disc(disc) => disc.distance_m(from),
+            // At most: its walls are looked up one by one.
+            Self::Map(map) => map.bounds().distance_m(from),
+        }
+    }
+}
+
+fn ends(bounds: &Rectangle) -> [Point; 2] {
+    [bounds.min(), bounds.max()]
 }

@@ -1,6 +1,7 @@
 //! What the ground is like.
 
-use base::geometry::Point;
+use super::grid::{NearCells, Still};
+use base::geometry::{Point, Polygon};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -21,4 +22,90 @@ pub struct TerrainSpec {
 
 fn one() -> f64 {
     1.0
+}
+
+/// What the ground does to a robot on it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Going {
+    /// Factor on the greatest speed.
+    pub(crate) speed: f64,
+    /// Factor on the energy of moving.
+    pub(crate) energy: f64,
+}
+
+impl Going {
+    pub(crate) const EASY: Self = Self {
+        speed: 1.0,
+        energy: 1.0,
+    };
+}
+
+/// A polygon of one class of ground.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Area {
+    polygon: Polygon,
+    going: Going,
+}
+
+impl Area {
+    /// An area of the class that `spec` describes.
+    #[must_use]
+    pub fn new(polygon: Polygon, spec: &TerrainSpec) -> Self {
+        let going = Going {
+            speed: spec.speed,
+            energy: spec.energy,
+        };
+        Self { polygon, going }
+    }
+
+    pub(crate) fn speed(&self) -> f64 {
+        self.going.speed
+    }
+}
+
+impl Still for Area {
+    fn bounds(&self) -> [Point; 2] {
+        let bounds = self.polygon.bounds();
+        [bounds.min(), bounds.max()]
+    }
+
+    fn distance(&self, from: Point) -> f64 {
+        self.polygon.distance_m(from)
+    }
+}
+
+/// All areas, found by place.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Terrain {
+    areas: Vec<Area>,
+    near: NearCells,
+}
+
+impl Terrain {
+    /// `areas` in the order in which later ones hold over earlier ones.
+    pub(crate) fn new(size_m: Point, areas: Vec<Area>) -> Self {
+        // A place is within no more than the areas that its cell touches.
+        const CELL_M: f64 = 1.0;
+        Self {
+            near: NearCells::new(size_m, &areas, CELL_M),
+            areas,
+        }
+    }
+
+    /// The greatest factors that there are, and at least 1.
+    pub(crate) fn most(&self) -> Going {
+        let most = |most: Going, area: &Area| Going {
+            speed: most.speed.max(area.going.speed),
+            energy: most.energy.max(area.going.energy),
+        };
+        self.areas.iter().fold(Going::EASY, most)
+    }
+
+    #[inline]
+    pub(crate) fn at(&self, place: Point) -> Going {
+        let numbers = self.near.at(place).iter().rev();
+        let mut areas = numbers.map(|number| &self.areas[*number as usize]);
+        let area = areas.find(|area| area.polygon.contains(place));
+        area.map_or(Going::EASY, |area| area.going)
+    }
 }

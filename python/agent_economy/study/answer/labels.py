@@ -24,8 +24,18 @@ def part(path: str, value: float | str, *, is_short: bool = True) -> str:
     kind = robot_kind(path)
     if kind is not None:
         return f"{value} {kind}" if value == 1 else f"{value} {kind}s"
-    written = value if isinstance(value, str) else f"{value:.10g}"
+    written = f"{value:.10g}" if is_number(value) else word(value)
     return f"{path.rsplit('.', 1)[-1] if is_short else path} {written}"
+
+
+def is_number(value: float | str) -> bool:
+    """Return whether a factor's value is a number: no name, and neither true nor false."""
+    return not isinstance(value, str | bool)
+
+
+def word(value: float | str) -> str:
+    """Return a name, true or false as scenarios write it."""
+    return str(value).lower() if isinstance(value, bool) else str(value)
 
 
 def robot_kind(path: str) -> str | None:

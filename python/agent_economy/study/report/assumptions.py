@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 from agent_economy.study.answer.conclude import Answer
+from agent_economy.study.report.tables import written
 from agent_economy.study.report.view import View
 from agent_economy.study.report.writing import brief
 from agent_economy.study.versions import versions
@@ -30,17 +31,17 @@ def scenario(answer: Answer) -> Iterator[tuple[str, str]]:
     """Return what does not change in a run."""
     given = answer.scenario
     yield "scenario", given.name
-    yield "contact", given.contact
-    yield "clock", f"{brief(given.paints_per_s)} paints per second, cap {brief(given.cap_s)} s"
+    yield "engine", given.engine
+    yield from given.facts
     yield "design", given.design
 
 
 def values(answer: Answer, path: str) -> str:
     """Return the values over which a factor was varied."""
     found = list(dict.fromkeys(result.values[path] for result in answer.results))
-    numbers = [value for value in found if not isinstance(value, str)]
+    numbers = [value for value in found if not isinstance(value, str | bool)]
     if len(numbers) == len(found) > MOST_VALUES:
         return f"{len(found)} values from {brief(min(numbers))} to {brief(max(numbers))}"
-    listed = [value if isinstance(value, str) else brief(value) for value in found[:MOST_VALUES]]
+    listed = [written(value) for value in found[:MOST_VALUES]]
     more = len(found) - len(listed)
     return ", ".join(listed) + (f" and {more} more" if more else "")

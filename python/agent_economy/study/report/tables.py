@@ -4,6 +4,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from agent_economy.study.answer.evidence import Interval
+from agent_economy.study.answer.labels import word
 from agent_economy.study.answer.saturation import Saturation
 from agent_economy.study.report.charts import QUANTILES, quantile_row, state, verdict_of
 from agent_economy.study.report.view import View, factor_name
@@ -109,7 +110,7 @@ def heat(view: View) -> tuple[Table, ...]:
 
 def written(value: float | str) -> str:
     """Return a factor's value."""
-    return value if isinstance(value, str) else brief(value)
+    return word(value) if isinstance(value, str | bool) else brief(value)
 
 
 def failed(view: View) -> Table:

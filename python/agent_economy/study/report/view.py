@@ -7,7 +7,7 @@ from functools import cached_property
 
 from agent_economy.study.answer.conclude import Answer
 from agent_economy.study.answer.evidence import Evidence
-from agent_economy.study.answer.labels import robot_kind, varied
+from agent_economy.study.answer.labels import is_number, robot_kind, varied
 from agent_economy.study.answer.results import Result
 from agent_economy.study.answer.saturation import Saturation
 from agent_economy.study.report.writing import finite, places
@@ -82,8 +82,8 @@ class View:
         if len(self.varied) != 1:
             return None
         path = self.varied[0]
-        words = any(isinstance(result.values[path], str) for result in self.answer.results)
-        return None if words else path
+        numbers = all(is_number(result.values[path]) for result in self.answer.results)
+        return path if numbers else None
 
     @cached_property
     def nearest(self) -> tuple[int, ...]:

@@ -1,6 +1,7 @@
 //! How runs are scored.
 
-use base::document::{Document, Node, Section, Table, Value};
+use crate::document::{Document, Node, Section, Table, Value};
+use std::borrow::Cow;
 
 /// Largest weight, so that no sum overflows and `1e30` is told as the slip that it is.
 const MAX_WEIGHT: f64 = 1e6;
@@ -8,62 +9,89 @@ const MAX_WEIGHT: f64 = 1e6;
 /// Largest `max` of a term.
 const MAX_MAX: f64 = 1e12;
 
-/// What a term can weigh: its name and the column of a run's outcome, in the order of the sum.
-pub const TERMS: [(&str, &str); 6] = [
-    ("time", "time_s"),
-    ("robots", "robots"),
-    ("failed", "failed"),
-    ("found", "found"),
-    ("collisions", "collisions"),
-    ("paints", "paints"),
-];
+/// What a figure of merit can weigh.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Measure {
+    /// How scenarios name it, such as `time`.
+    pub name: Cow<'static, str>,
+    /// The column of a run's outcome.
+    pub column: Cow<'static, str>,
+    /// For a column without a bound of its own, whose terms need a `max`: one that faults show.
+    pub usual_max: Option<f64>,
+}
 
-/// The terms whose columns have no natural bound.
-const UNBOUNDED: [&str; 1] = ["paints"];
+impl Measure {
+    /// What is weighed by `column`, which has bounds of its own.
+    #[must_use]
+    pub fn new(name: impl Into<Cow<'static, str>>, column: impl Into<Cow<'static, str>>) -> Self {
+        Self {
+            name: name.into(),
+            column: column.into(),
+            usual_max: None,
+        }
+    }
+}
+
+/// Weights that have a name of their own.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NamedMerit {
+    /// How scenarios name it.
+    pub name: &'static str,
+    /// Names of measures, and their weights.
+    pub weights: &'static [(&'static str, f64)],
+}
+
+impl NamedMerit {
+    /// Equation 5.2 of Williams 2003: -(0.3 T/10 + 0.2 n + 0.5 failures in ten).
+    pub const EQUATION_5_2: Self = Self {
+        name: "equation-5.2",
+        weights: &[("time", -0.03), ("robots", -0.2), ("failed", -5.0)],
+    };
+
+    fn merit(&self, measures: &[Measure]) -> Merit {
+        let term = |measure: &Measure| {
+            let (_, weight) = self
+                .weights
+                .iter()
+                .find(|(name, _)| *name == measure.name)?;
+            Some(Term::new(measure, *weight, None))
+        };
+        Merit {
+            name: Some(self.name),
+            terms: measures.iter().filter_map(term).collect(),
+        }
+    }
+}
 
 /// A figure of merit: a weighted sum of columns of a run's outcome; higher is better.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Merit {
     /// How the scenario names it, if it does.
     pub name: Option<&'static str>,
-    /// In the order of [`TERMS`]; at least one.
+    /// In the order of the engine's measures; at least one.
     pub terms: Vec<Term>,
 }
 
 /// One summand.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Term {
-    /// One of [`TERMS`].
-    pub name: &'static str,
+    /// The measure's name.
+    pub name: Cow<'static, str>,
     /// What it weighs.
-    pub column: &'static str,
+    pub column: Cow<'static, str>,
     /// By how much; not 0.
     pub weight: f64,
     /// A value above this counts as this.
     pub max: Option<f64>,
 }
 
-impl Merit {
-    /// Equation 5.2 of the thesis: -(0.3 T/10 + 0.2 n + 0.5 failures in ten).
-    pub const EQUATION: &str = "equation-5.2";
-
-    /// The sheet in the thesis's appendix, which forgets to divide the time by ten.
-    pub const APPENDIX: &str = "appendix";
-
-    /// Every figure of merit that a scenario can name, with the weight of a second.
-    pub const NAMES: [(&str, f64); 2] = [(Self::EQUATION, -0.03), (Self::APPENDIX, -0.3)];
-
-    fn named(name: &'static str, time: f64) -> Self {
-        let weights = TERMS.into_iter().zip([time, -0.2, -5.0]);
-        let term = |((name, column), weight)| Term {
-            name,
-            column,
-            weight,
-            max: None,
-        };
+impl Term {
+    fn new(measure: &Measure, weight: f64, max: Option<f64>) -> Self {
         Self {
-            name: Some(name),
-            terms: weights.map(term).collect(),
+            name: measure.name.clone(),
+            column: measure.column.clone(),
+            weight,
+            max,
         }
     }
 }
@@ -99,21 +127,18 @@ fn number(text: &str) -> Value {
     number.unwrap_or_else(|_| Value::Text(text.to_owned()))
 }
 
-pub(super) fn merit(root: &Section) -> Option<Merit> {
+pub(super) fn merit(root: &Section, measures: &[Measure], known: &[NamedMerit]) -> Option<Merit> {
     if !matches!(root.value("merit"), Some(Value::Table(_))) {
-        let names = Merit::NAMES.map(|(name, time)| (name, (name, time)));
-        let (name, time) = root.choice("merit", &names)?;
-        return Some(Merit::named(name, time));
+        let names: Vec<_> = known.iter().map(|each| (each.name, each)).collect();
+        return Some(root.choice("merit", &names)?.merit(measures));
     }
     let table = root.section("merit");
-    table.only(&TERMS.map(|(name, _)| name));
-    let given = TERMS.into_iter().filter(|(name, _)| table.has(name));
+    let names: Vec<&str> = measures.iter().map(|each| &*each.name).collect();
+    table.only(&names);
+    let given = measures.iter().filter(|each| table.has(&each.name));
     let terms: Vec<Option<Term>> = given.map(|each| term(&table, each)).collect();
-    let terms: Vec<Term> = terms.into_iter().collect::<Option<_>>()?;
-    let terms: Vec<Term> = terms
-        .into_iter()
-        .filter(|term| term.weight != 0.0)
-        .collect();
+    let mut terms: Vec<Term> = terms.into_iter().collect::<Option<_>>()?;
+    terms.retain(|term| term.weight != 0.0);
     if terms.is_empty() {
         let allowed = "a table with a weight other than 0, such as { time = -0.03, robots = -0.2 }";
         root.fault("merit", allowed);
@@ -122,25 +147,24 @@ pub(super) fn merit(root: &Section) -> Option<Merit> {
     Some(Merit { name: None, terms })
 }
 
-fn term(table: &Section, (name, column): (&'static str, &'static str)) -> Option<Term> {
+fn term(table: &Section, measure: &Measure) -> Option<Term> {
+    let name = &measure.name;
     let (weight, max) = match table.value(name) {
         Some(Value::Table(_)) => weight_and_max(&table.section(name))?,
         _ => (table.number(name, -MAX_WEIGHT..=MAX_WEIGHT)?, None),
     };
-    if weight != 0.0 && max.is_none() && UNBOUNDED.contains(&name) {
+    if let Some(usual) = measure.usual_max
+        && weight != 0.0
+        && max.is_none()
+    {
         let allowed = format!(
-            "given a max in the scenario, such as {{ weight = {weight}, max = 6720 }}: {name} have \
-             no bound of their own"
+            "given a max in the scenario, such as {{ weight = {weight}, max = {usual} }}: {name} \
+             have no bound of their own"
         );
         table.fault(name, &allowed);
         return None;
     }
-    Some(Term {
-        name,
-        column,
-        weight,
-        max,
-    })
+    Some(Term::new(measure, weight, max))
 }
 
 fn weight_and_max(term: &Section) -> Option<(f64, Option<f64>)> {
@@ -156,32 +180,44 @@ fn weight_and_max(term: &Section) -> Option<(f64, Option<f64>)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::runner::Configuration;
-    use crate::scenario::Clock;
-    use crate::{Contact, Task};
-    use base::runner::Runner;
+
+    fn measures() -> Vec<Measure> {
+        let paints = Measure {
+            usual_max: Some(6720.0),
+            ..Measure::new("paints", "paints")
+        };
+        vec![
+            Measure::new("time", "time_s"),
+            Measure::new("robots", "robots"),
+            Measure::new("failed", "failed"),
+            Measure::new("found", "found"),
+            paints,
+        ]
+    }
 
     /// The figure of merit of `text`, put where the command line puts it if it is no TOML.
     fn read(text: &str) -> Result<Merit, String> {
         let mut document = Document::parse("t.toml", &format!("merit = {text}")).unwrap();
         make_table(&mut document);
-        document.read(merit).map_err(|faults| faults.to_string())
+        let named = [NamedMerit::EQUATION_5_2];
+        let read = document.read(|root| merit(root, &measures(), &named));
+        read.map_err(|faults| faults.to_string())
     }
 
-    fn weights(text: &str) -> Vec<(&'static str, f64, Option<f64>)> {
+    fn weights(text: &str) -> Vec<(String, f64, Option<f64>)> {
         let terms = read(text).unwrap().terms;
         terms
             .iter()
-            .map(|term| (term.name, term.weight, term.max))
+            .map(|term| (term.name.to_string(), term.weight, term.max))
             .collect()
     }
 
     #[test]
     fn a_name_a_table_and_a_text_can_say_the_same() {
         let expected = [
-            ("time", -0.03, None),
-            ("robots", -0.2, None),
-            ("failed", -5.0, None),
+            ("time".to_owned(), -0.03, None),
+            ("robots".to_owned(), -0.2, None),
+            ("failed".to_owned(), -5.0, None),
         ];
         assert_eq!(weights("\"equation-5.2\""), expected);
         assert_eq!(
@@ -197,7 +233,10 @@ mod tests {
     #[test]
     fn a_term_can_have_a_max_and_one_without_weight_is_left_out() {
         let text = "{ paints = { weight = -1, max = 100 }, found = { weight = 2 }, time = 0 }";
-        let expected = [("found", 2.0, None), ("paints", -1.0, Some(100.0))];
+        let expected = [
+            ("found".to_owned(), 2.0, None),
+            ("paints".to_owned(), -1.0, Some(100.0)),
+        ];
         assert_eq!(weights(text), expected);
     }
 
@@ -233,27 +272,6 @@ mod tests {
         ] {
             let faults = read(text).unwrap_err();
             assert!(faults.contains(expected), "{expected}\nnot in\n{faults}");
-        }
-    }
-
-    #[test]
-    fn the_terms_that_need_a_max_are_the_columns_without_bound() {
-        let columns = Configuration {
-            robots: 2,
-            task: Task {
-                contact: Contact::Touch,
-                cap_paints: 50,
-            },
-            clock: Clock {
-                paints_per_s: 50.0,
-                cap_s: 1.0,
-                cap_paints: 50,
-            },
-        }
-        .columns();
-        for (name, column) in TERMS {
-            let column = columns.iter().find(|each| each.name == column).unwrap();
-            assert_eq!(column.greatest.is_none(), UNBOUNDED.contains(&name));
         }
     }
 }

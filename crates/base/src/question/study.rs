@@ -1,7 +1,9 @@
 //! What a study does.
 
-use super::vary::{Factor, Values, factors};
-use base::document::Section;
+use super::Engine;
+use super::values::Values;
+use super::vary::{Factor, factors};
+use crate::document::Section;
 use std::fmt;
 
 const MAX_POINTS: u32 = 100_000;
@@ -59,10 +61,10 @@ impl fmt::Display for Design {
     }
 }
 
-pub(super) fn study(section: &Section) -> Option<Study> {
+pub(super) fn study(section: &Section, engine: &dyn Engine) -> Option<Study> {
     section.only(&["vary", "delta", "confidence", "design"]);
     let vary = section.section("vary");
-    let factors = factors(&vary);
+    let factors = factors(&vary, engine);
     let design = if_given(section, "design", || {
         let allowed = format!(
             "\"factorial\", \"lhs:200\" or \"sobol:256\", of 1 to {MAX_POINTS} points (for sobol a \
@@ -107,7 +109,7 @@ fn tell_ranges_without_points(vary: &Section, factors: &[Factor], design: Design
     for factor in ranges {
         let allowed = "a list of values where the design is \"factorial\"; design = \"lhs:200\" or \
                        \"sobol:256\" takes points from a range of any numbers";
-        vary.fault(factor.path, allowed);
+        vary.fault(&factor.path, allowed);
     }
     false
 }

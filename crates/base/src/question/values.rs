@@ -1,28 +1,13 @@
-//! What a study varies: the values of one factor, as a text, and whether each is allowed.
+//! The values that one factor takes, as a text.
 
-use super::configuration;
-use crate::runner::FACTORS;
-use base::document::{Document, Node, Section, Value};
-use base::fault::Fault;
+use crate::document::Value;
 
 /// Values that one factor may have.
 const MAX_VALUES: usize = 10_000;
 
-/// Bad values of one factor that are told one by one.
-const TOLD: usize = 3;
-
-const ALLOWED: &str = "a text of values, such as \"1..40\" (both ends included), \"1,2,4\", \
-                       \"0.5,1.0\" or \"touch,ahead\", or of a range of any numbers, such as \
-                       \"41.0..57.0\"";
-
-/// What is varied, and over what.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Factor {
-    /// One of [`FACTORS`].
-    pub path: &'static str,
-    /// At least one.
-    pub values: Values,
-}
+/// What a text of values must be.
+pub(super) const ALLOWED: &str = "a text of values, such as \"1..40\" (both ends included), \"1,2,4\", \"0.5,1.0\" or \
+     \"touch,ahead\", or of a range of any numbers, such as \"41.0..57.0\"";
 
 /// What a factor takes.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,86 +18,8 @@ pub enum Values {
     Between(f64, f64),
 }
 
-/// The factors of a study, in the order of [`FACTORS`].
-pub(super) fn factors(vary: &Section) -> Option<Vec<Factor>> {
-    vary.only(&FACTORS);
-    let given = FACTORS.into_iter().filter(|path| vary.has(path));
-    let factor = |path| {
-        let values = vary.parsed(path, ALLOWED, values)?;
-        Some(Factor { path, values })
-    };
-    let factors: Vec<Option<Factor>> = given.map(factor).collect();
-    factors.into_iter().collect()
-}
-
-/// What is wrong with single values: each is put into the document, which is read; `known` is what
-/// is wrong without it.
-pub(super) fn faults_of_values(document: &Document, known: &[Fault]) -> Vec<Fault> {
-    // Where a section is no table, a value in it would make it one, and its other keys be missing.
-    let is_readable = |path: &&str| {
-        let below = |fault: &Fault| path.strip_prefix(fault.path.as_str());
-        let mut below = known.iter().filter_map(below);
-        !below.any(|rest| rest.starts_with('.'))
-    };
-    let paths = FACTORS.into_iter().filter(is_readable);
-    paths
-        .flat_map(|path| faults_of_factor(document, known, path))
-        .collect()
-}
-
-fn faults_of_factor(document: &Document, known: &[Fault], path: &str) -> Vec<Fault> {
-    let Some(Node { value, origin }) = document.get(&["study", "vary", path]) else {
-        return Vec::new();
-    };
-    let values = match value {
-        Value::Text(text) => values(text),
-        _ => None,
-    };
-    let values = match values {
-        Some(Values::Listed(values)) => values,
-        Some(Values::Between(low, high)) => vec![Value::Float(low), Value::Float(high)],
-        None => return Vec::new(),
-    };
-    let keys: Vec<&str> = path.split('.').collect();
-    let mut varied = document.clone();
-    let mut faults = Vec::new();
-    for value in values {
-        varied.set(&keys, value.clone(), origin);
-        let (_, told) = varied.read_all(configuration);
-        let new = told.into_iter().find(|fault| !known.contains(fault));
-        faults.extend(new.map(|fault| about(path, &value, origin, fault)));
-    }
-    shortened(faults, path, origin)
-}
-
-/// A value's fault as the factor's: one that is told elsewhere, as of a cap that is too many paints
-/// at a varied rate, would not name what to change.
-fn about(path: &str, value: &Value, origin: &str, fault: Fault) -> Fault {
-    if fault.path == path {
-        return fault;
-    }
-    let allowed = format!("one with which {} is {}", fault.path, fault.allowed);
-    Fault {
-        origin: Some(origin.to_owned()),
-        ..Fault::new(path.to_owned(), Some(value.to_string()), allowed)
-    }
-}
-
-fn shortened(mut faults: Vec<Fault>, path: &str, origin: &str) -> Vec<Fault> {
-    let more = faults.len().saturating_sub(TOLD);
-    if more > 0 {
-        faults.truncate(TOLD);
-        let sentence = format!("{more} more values of {path} are not allowed either");
-        faults.push(Fault {
-            origin: Some(origin.to_owned()),
-            ..Fault::new(String::new(), None, sentence)
-        });
-    }
-    faults
-}
-
 /// The values of a text, or `None` if it is none.
-fn values(text: &str) -> Option<Values> {
+pub(super) fn values(text: &str) -> Option<Values> {
     between(text).or_else(|| listed(text).map(Values::Listed))
 }
 
@@ -160,7 +67,11 @@ fn word(text: &str) -> Option<Value> {
     let text = text.trim();
     let is_in_word = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_');
     let is_word = text.starts_with(|c: char| c.is_ascii_alphabetic());
-    (is_word && text.chars().all(is_in_word)).then(|| Value::Text(text.to_owned()))
+    (is_word && text.chars().all(is_in_word)).then(|| match text {
+        "true" => Value::Bool(true),
+        "false" => Value::Bool(false),
+        _ => Value::Text(text.to_owned()),
+    })
 }
 
 /// Each once; all numbers ascending, anything else as it came.
@@ -221,6 +132,7 @@ mod tests {
             ("41..57.5", "41 to 57.5"),
             ("touch,ahead,touch", "\"touch\" \"ahead\""),
             ("within-2", "\"within-2\""),
+            ("false, true", "false true"),
         ] {
             assert_eq!(shown(text), expected, "{text}");
         }

@@ -1,0 +1,179 @@
+//! A schema brought to the simple form that is followed here.
+
+use super::{Object, list};
+use schemars::Schema;
+use schemars::transform::{Transform, transform_subschemas};
+use serde_json::{Value as Json, json};
+
+/// Where schemars puts the schemas of named types.
+const DEFINITIONS: &str = "definitions";
+
+/// What an object can be put together from.
+const PARTS: [&str; 4] = ["$ref", "oneOf", "anyOf", "allOf"];
+
+/// `schema` without null, without parts to be put together, and without other keys.
+pub(super) fn closed(mut schema: Schema) -> Json {
+    let definitions = schema.get(DEFINITIONS).cloned();
+    let definitions = match definitions {
+        Some(Json::Object(definitions)) => definitions,
+        _ => Object::new(),
+    };
+    Close { definitions }.transform(&mut schema);
+    schema.to_value()
+}
+
+struct Close {
+    /// As they were.
+    definitions: Object,
+}
+
+impl Transform for Close {
+    fn transform(&mut self, schema: &mut Schema) {
+        if let Some(object) = schema.as_object_mut() {
+            drop_null(object);
+            self.compose(object);
+            bound(object);
+            close(object);
+            join_lines(object);
+            if let Some(items) = object.remove("prefixItems") {
+                object.insert("items".to_owned(), items);
+            }
+        }
+        transform_subschemas(self, schema);
+    }
+}
+
+/// TOML has no null: what may be null may be left out.
+fn drop_null(schema: &mut Object) {
+    let is_null = |part: &Json| part.is_null() || part == "null" || part["type"] == "null";
+    for key in ["type", "enum", "anyOf", "oneOf"] {
+        if let Some(Json::Array(parts)) = schema.get_mut(key) {
+            parts.retain(|part| !is_null(part));
+        }
+    }
+    if let [only] = list(schema, "type") {
+        let only = only.clone();
+        schema.insert("type".to_owned(), only);
+    }
+    if let [Json::Object(only)] = list(schema, "anyOf") {
+        let only = only.clone();
+        schema.remove("anyOf");
+        *schema = union(schema.clone(), &only);
+    }
+    if let Some(default) = schema.get_mut("default") {
+        drop_null_values(default);
+        if default.is_null() {
+            schema.remove("default");
+        }
+    }
+}
+
+fn drop_null_values(value: &mut Json) {
+    if let Json::Object(object) = value {
+        object.retain(|_, value| !value.is_null());
+        object.values_mut().for_each(drop_null_values);
+    }
+}
+
+impl Close {
+    /// Writes out an object that is made of parts, as of `#[serde(flatten)]` and tagged enums.
+    fn compose(&self, schema: &mut Object) {
+        let has_parts = PARTS.iter().any(|key| schema.contains_key(*key));
+        let is_composed =
+            schema.contains_key("properties") && has_parts || schema.contains_key("allOf");
+        if !is_composed {
+            return;
+        }
+        let mut variants = self.variants(schema);
+        let default = schema.get("default").cloned();
+        if variants.len() == 1 {
+            *schema = variants.remove(0);
+        } else {
+            schema.retain(|key, _| key == "description" || key == DEFINITIONS);
+            schema.insert("oneOf".to_owned(), json!(variants));
+        }
+        schema.extend(default.map(|default| ("default".to_owned(), default)));
+    }
+
+    /// All that a composed object can be, each without parts.
+    fn variants(&self, schema: &Object) -> Vec<Object> {
+        let mut own = schema.clone();
+        own.retain(|key, _| !PARTS.contains(&key.as_str()) && key != "default");
+        let mut made = vec![own];
+        let target = schema.get("$ref").and_then(|target| self.target(target));
+        let all = list(schema, "allOf").iter().filter_map(Json::as_object);
+        for part in target.into_iter().chain(all) {
+            made = joined(&made, &self.variants(part), |own, part| {
+                union(own.clone(), part)
+            });
+        }
+        for key in ["oneOf", "anyOf"] {
+            let parts = list(schema, key).iter().filter_map(Json::as_object);
+            let parts: Vec<Object> = parts.flat_map(|part| self.variants(part)).collect();
+            if !parts.is_empty() {
+                // What a variant says of itself is worth more than what is said of all.
+                made = joined(&made, &parts, |own, part| union(part.clone(), own));
+            }
+        }
+        made
+    }
+
+    fn target(&self, reference: &Json) -> Option<&Object> {
+        let name = reference.as_str()?.strip_prefix("#/definitions/")?;
+        self.definitions.get(name)?.as_object()
+    }
+}
+
+fn joined(left: &[Object], right: &[Object], join: fn(&Object, &Object) -> Object) -> Vec<Object> {
+    let with_each = |one| right.iter().map(move |other| join(one, other));
+    left.iter().flat_map(with_each).collect()
+}
+
+/// Both; where they differ, the `first`.
+fn union(mut first: Object, second: &Object) -> Object {
+    for (key, value) in second {
+        match (first.get_mut(key), value) {
+            (Some(Json::Object(mine)), Json::Object(others)) if key == "properties" => {
+                *mine = union(mine.clone(), others);
+            }
+            (Some(Json::Array(mine)), Json::Array(others)) if key == "required" => {
+                mine.extend(others.iter().cloned());
+            }
+            (Some(_), _) => {}
+            (None, value) => {
+                first.insert(key.clone(), value.clone());
+            }
+        }
+    }
+    first
+}
+
+/// Says in numbers what a format says in a word that only Rust knows.
+fn bound(schema: &mut Object) {
+    let format = schema.remove("format");
+    let (low, high) = match format.as_ref().and_then(Json::as_str) {
+        Some("uint32") => (json!(0), json!(u32::MAX)),
+        Some("int32") => (json!(i32::MIN), json!(i32::MAX)),
+        Some("uint" | "uint64") => (json!(0), json!(i64::MAX)),
+        _ => return,
+    };
+    schema.entry("minimum").or_insert(low);
+    schema.entry("maximum").or_insert(high);
+}
+
+fn close(schema: &mut Object) {
+    if schema.get("type").is_some_and(|name| name == "object") {
+        let others = schema.entry("additionalProperties");
+        others.or_insert(Json::Bool(false));
+    }
+}
+
+/// Lines of a Rust comment end where the page does.
+fn join_lines(schema: &mut Object) {
+    if let Some(Json::String(text)) = schema.get_mut("description") {
+        let paragraphs = text
+            .split("\n\n")
+            .map(|paragraph| paragraph.replace('\n', " "));
+        *text = paragraphs.collect::<Vec<_>>().join("\n\n");
+    }
+}

@@ -1,0 +1,131 @@
+//! A document checked against a JSON Schema, every fault at once, each with its line.
+//!
+//! The schema is made from the Rust types that serde reads the document into, so what is checked,
+//! what editors complete and what the program reads cannot disagree.
+//!
+//! ```
+//! use base::document::{Document, schema::Schema};
+//! use schemars::JsonSchema;
+//! use serde::Deserialize;
+//!
+//! #[derive(Debug, PartialEq, Deserialize, JsonSchema)]
+//! struct Job {
+//!     /// When it ends, in seconds.
+//!     #[schemars(range(min = 0.0, max = 1e6))]
+//!     cap_s: f64,
+//!     count: u8,
+//! }
+//! let schema = Schema::of::<Job>();
+//! let job = Document::parse("job.toml", "cap_s = 120\ncount = 3")?.typed(&schema);
+//! assert_eq!(job, Ok(Job { cap_s: 120.0, count: 3 }));
+//! let job = Document::parse("job.toml", "cap_s = -1\ncuont = 3")?.typed::<Job>(&schema);
+//! assert_eq!(
+//!     job.unwrap_err().to_string(),
+//!     "job.toml:1: cap_s = -1: must be a number from 0 to 1000000, in seconds\n\
+//!      job.toml:2: cuont = 3: must be one of the known keys here: cap_s, count; \
+//!      did you mean count?\n\
+//!      job.toml: count is missing: must be a whole number from 0 to 255"
+//! );
+//! # Ok::<(), base::fault::Faults>(())
+//! ```
+
+mod check;
+mod closed;
+mod union;
+mod words;
+
+use super::Document;
+use crate::fault::Fault;
+use check::Check;
+use schemars::JsonSchema;
+use schemars::generate::SchemaSettings;
+use serde_json::{Map, Value as Json};
+
+/// The properties of an object's schema, or the keywords of any.
+type Object = Map<String, Json>;
+
+/// What a document may say.
+///
+/// It is a JSON Schema of draft 7 in a form that is simple to follow: objects have no keys but
+/// those that they name, nothing may be null, and what is composed of parts is written out.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Schema {
+    root: Json,
+}
+
+impl Schema {
+    /// What serde reads as a `T`.
+    #[must_use]
+    pub fn of<T: JsonSchema>() -> Self {
+        // Its transforms would hide what `closed` looks for.
+        let settings = SchemaSettings::draft07().with(|settings| settings.transforms.clear());
+        Self::closed(settings.into_generator().into_root_schema_for::<T>())
+    }
+
+    /// What `schema` says, and no keys but those that it names.
+    #[must_use]
+    pub fn closed(schema: schemars::Schema) -> Self {
+        Self {
+            root: closed::closed(schema),
+        }
+    }
+
+    /// The same, but with any other keys at the root.
+    #[must_use]
+    pub fn open(mut self) -> Self {
+        if let Some(root) = self.root.as_object_mut() {
+            root.insert("additionalProperties".to_owned(), Json::Bool(true));
+        }
+        self
+    }
+
+    /// The schema itself.
+    #[must_use]
+    pub fn json(&self) -> &Json {
+        &self.root
+    }
+
+    /// Everything that is wrong with `document`.
+    #[must_use]
+    pub fn faults(&self, document: &Document) -> Vec<Fault> {
+        let mut check = Check::new(self);
+        check.value(&self.root, &document.root, "");
+        check.faults
+    }
+
+    /// The keywords of `schema`, or of what it refers to; none for a schema that allows anything.
+    #[must_use]
+    pub fn keywords<'s>(&'s self, schema: &'s Json) -> Option<&'s Object> {
+        let mut schema = schema.as_object()?;
+        // No chain of references is longer than there are definitions; one in a circle says nothing.
+        for _ in 0..100 {
+            let Some(Json::String(target)) = schema.get("$ref") else {
+                return Some(schema);
+            };
+            let target = target.strip_prefix('#')?;
+            schema = self.root.pointer(target)?.as_object()?;
+        }
+        None
+    }
+}
+
+/// The subschemas of a list such as `oneOf`; none if it is not there.
+fn list<'s>(schema: &'s Object, key: &str) -> &'s [Json] {
+    schema
+        .get(key)
+        .and_then(Json::as_array)
+        .map_or(&[], |list| list)
+}
+
+/// The alternatives of a schema that has some.
+fn alternatives(schema: &Object) -> &[Json] {
+    let either = list(schema, "oneOf");
+    if either.is_empty() {
+        list(schema, "anyOf")
+    } else {
+        either
+    }
+}
+
+#[cfg(test)]
+mod tests;

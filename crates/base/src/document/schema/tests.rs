@@ -1,0 +1,283 @@
+use super::*;
+use crate::document::Document;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+
+#[derive(Debug, PartialEq, Deserialize, JsonSchema)]
+struct Job {
+    /// When it ends, in seconds; later is failed.
+    #[schemars(range(min = 0.0, max = 100.0))]
+    cap_s: f64,
+    #[serde(default)]
+    kind: Kind,
+    #[serde(default)]
+    shapes: Vec<Shape>,
+    #[serde(default)]
+    sensors: BTreeMap<String, Sensor>,
+    #[schemars(range(min = 1))]
+    workers: Option<u32>,
+    pair: Option<(u8, String)>,
+    chance: Option<Chance>,
+}
+
+#[derive(Debug, Default, PartialEq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+enum Kind {
+    #[default]
+    Ground,
+    /// Up there.
+    Air,
+}
+
+#[derive(Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(untagged)]
+enum Shape {
+    Polygon {
+        #[schemars(length(min = 3))]
+        polygon_m: Vec<[f64; 2]>,
+    },
+    Circle {
+        circle: Circle,
+    },
+}
+
+#[derive(Debug, PartialEq, Deserialize, JsonSchema)]
+struct Circle {
+    #[schemars(range(min = 0.0))]
+    radius_m: f64,
+}
+
+#[derive(Debug, PartialEq, Deserialize, JsonSchema)]
+struct Sensor {
+    #[serde(default)]
+    on: bool,
+    #[serde(flatten)]
+    measures: Measures,
+}
+
+#[derive(Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+enum Measures {
+    Range(Range),
+    Heading {},
+}
+
+#[derive(Debug, PartialEq, Deserialize, JsonSchema)]
+struct Range {
+    #[schemars(range(max = 9))]
+    rays: u32,
+}
+
+#[derive(Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(untagged)]
+enum Chance {
+    Constant(#[schemars(range(min = 0.0, max = 1.0))] f64),
+    Steps(Vec<[f64; 2]>),
+    Curve { best: f64, half_m: f64 },
+}
+
+fn read(text: &str) -> Result<Job, Vec<String>> {
+    let document = Document::parse("t", text).unwrap();
+    let job = document.typed(&Schema::of::<Job>());
+    job.map_err(|faults| faults.0.iter().map(ToString::to_string).collect())
+}
+
+/// The faults of a job that has this besides what it must have.
+fn faults(more: &str) -> Vec<String> {
+    read(&format!("cap_s = 1\n{more}")).unwrap_err()
+}
+
+#[test]
+fn a_good_document_is_read_whole() {
+    let text = r#"
+        cap_s = 7
+        kind = "air"
+        shapes = [{ circle = { radius_m = 1 } }, { polygon_m = [[0, 0], [1, 0], [0, 1.5]] }]
+        workers = 4
+        pair = [1, "a"]
+        chance = { best = 0.5, half_m = 2 }
+        [sensors.front]
+        kind = "range"
+        rays = 3
+        on = true
+        [sensors.north]
+        kind = "heading"
+    "#;
+    let corners = vec![[0.0, 0.0], [1.0, 0.0], [0.0, 1.5]];
+    let sensor = |on, measures| Sensor { on, measures };
+    let job = Job {
+        cap_s: 7.0,
+        kind: Kind::Air,
+        shapes: vec![
+            Shape::Circle {
+                circle: Circle { radius_m: 1.0 },
+            },
+            Shape::Polygon { polygon_m: corners },
+        ],
+        sensors: BTreeMap::from([
+            (
+                "front".to_owned(),
+                sensor(true, Measures::Range(Range { rays: 3 })),
+            ),
+            ("north".to_owned(), sensor(false, Measures::Heading {})),
+        ]),
+        workers: Some(4),
+        pair: Some((1, "a".to_owned())),
+        chance: Some(Chance::Curve {
+            best: 0.5,
+            half_m: 2.0,
+        }),
+    };
+    assert_eq!(read(text), Ok(job));
+}
+
+#[test]
+fn a_range_is_told_with_its_unit_and_nan_is_in_none() {
+    for bad in ["nan", "inf", "-1", "100.5", "\"1\"", "true", "[1]"] {
+        let given = if bad == "nan" { "NaN" } else { bad };
+        let expected = format!("t:1: cap_s = {given}: must be a number from 0 to 100, in seconds");
+        assert_eq!(read(&format!("cap_s = {bad}")).unwrap_err(), [expected]);
+    }
+    let given = "shapes = [{ circle = { radius_m = inf } }]";
+    let expected = "t:2: shapes[0].circle.radius_m = inf: must be a number of at least 0";
+    assert_eq!(faults(given), [expected]);
+}
+
+#[test]
+fn a_whole_number_is_one_that_the_type_can_hold() {
+    for bad in ["0", "1.0", "4294967296", "99999999999999999999"] {
+        let told = faults(&format!("workers = {bad}"));
+        assert!(
+            told[0].ends_with("must be a whole number from 1 to 4294967295"),
+            "{told:?}"
+        );
+    }
+    assert!(read("cap_s = 1\nworkers = 4294967295").is_ok());
+}
+
+#[test]
+fn what_is_missing_is_told_where_it_should_stand() {
+    assert_eq!(
+        read("shapes = [{ circle = {} }]").unwrap_err(),
+        [
+            "t:1: shapes[0].circle.radius_m is missing: must be a number of at least 0",
+            "t: cap_s is missing: must be a number from 0 to 100, in seconds",
+        ]
+    );
+}
+
+#[test]
+fn a_name_is_one_of_the_known_and_a_slip_is_recognised() {
+    assert_eq!(
+        faults("kind = \"iar\"\nkidn = 3"),
+        [
+            "t:3: kidn = 3: must be one of the known keys here: cap_s, kind, shapes, sensors, \
+             workers, pair, chance; did you mean kind?",
+            "t:2: kind = \"iar\": must be one of \"ground\", \"air\"; did you mean \"air\"?",
+        ]
+    );
+}
+
+#[test]
+fn of_tagged_forms_the_one_that_its_tag_names_is_meant() {
+    let told = faults(
+        "[sensors.a]\nkind = \"range\"\nrays = 10\nfov = 3\n[sensors.b]\nkind = \"heding\"\n\
+         [sensors.c]\nrays = 1\n[sensors]\nd = 3",
+    );
+    assert_eq!(
+        told,
+        [
+            "t:5: sensors.a.fov = 3: must be one of the known keys here: kind, rays, on",
+            "t:4: sensors.a.rays = 10: must be a whole number from 0 to 9",
+            "t:7: sensors.b.kind = \"heding\": must be one of \"range\", \"heading\"; did you mean \
+             \"heading\"?",
+            "t:8: sensors.c.kind is missing: must be one of \"range\", \"heading\"",
+            "t:11: sensors.d = 3: must be a table with kind = \"range\" or \"heading\"",
+        ]
+    );
+}
+
+#[test]
+fn of_untagged_forms_the_one_whose_keys_are_there_is_meant() {
+    let told = faults(
+        "shapes = [\n{ polygn_m = [] },\n{ circle = 3 },\n{ square = 1 },\n\
+         { polygon_m = [[0, 0], [1]] },\n{ circle = { radius_m = 1 }, polygon_m = 2 }]",
+    );
+    assert_eq!(
+        told,
+        [
+            "t:3: shapes[0].polygn_m = []: must be one of the known keys here: polygon_m; did you \
+             mean polygon_m?",
+            "t:3: shapes[0].polygon_m is missing: must be a list of at least 3 lists of 2 numbers",
+            "t:4: shapes[1].circle = 3: must be a table with radius_m",
+            "t:5: shapes[2] = {...}: must be a table with polygon_m or a table with circle",
+            "t:6: shapes[3].polygon_m = [[0, 0], [1]]: must be a list of at least 3 lists of 2 \
+             numbers",
+            "t:6: shapes[3].polygon_m[1] = [1]: must be a list of 2 numbers",
+            "t:7: shapes[4].polygon_m = 2: must be one of the known keys here: circle",
+        ]
+    );
+}
+
+#[test]
+fn of_forms_of_other_types_the_one_of_its_type_is_meant() {
+    let told = |given: &str| faults(&format!("chance = {given}")).join("\n");
+    let all = "a number from 0 to 1, a list of lists of 2 numbers or a table with best and half_m";
+    assert_eq!(told("2"), "t:2: chance = 2: must be a number from 0 to 1");
+    assert_eq!(
+        told("[3]"),
+        "t:2: chance[0] = 3: must be a list of 2 numbers"
+    );
+    assert_eq!(
+        told("{ best = 1 }"),
+        "t:2: chance.half_m is missing: must be a number"
+    );
+    assert_eq!(
+        told("{ x = 1 }"),
+        format!("t:2: chance = {{...}}: must be {all}")
+    );
+    assert_eq!(told("\"x\""), format!("t:2: chance = \"x\": must be {all}"));
+}
+
+#[test]
+fn each_place_of_a_pair_has_its_own_type() {
+    let told = |given: &str| faults(&format!("pair = {given}")).join("\n");
+    assert_eq!(told("[1, 2]"), "t:2: pair[1] = 2: must be a text in quotes");
+    assert_eq!(
+        told("[300, \"a\"]"),
+        "t:2: pair[0] = 300: must be a whole number from 0 to 255"
+    );
+    assert_eq!(told("[1]"), "t:2: pair = [1]: must be a list of 2 values");
+}
+
+#[test]
+fn a_long_value_is_told_by_its_beginning() {
+    let long = format!("kind = \"{}\"", "x".repeat(1000));
+    let told = faults(&long).concat();
+    assert!(
+        told.len() < 150 && told.contains("xxx...: must be"),
+        "{told}"
+    );
+}
+
+#[test]
+fn a_type_that_disagrees_with_its_schema_is_told_with_its_path() {
+    #[derive(Debug, Deserialize, JsonSchema)]
+    struct Odd {
+        #[expect(dead_code, reason = "it is never read")]
+        lists: Vec<Inner>,
+    }
+    #[derive(Debug, Deserialize, JsonSchema)]
+    struct Inner {
+        #[schemars(with = "String")]
+        #[expect(dead_code, reason = "it is never read")]
+        number: u8,
+    }
+    let document = Document::parse("t", "lists = [\n{ number = \"1\" }]").unwrap();
+    let told = document.typed::<Odd>(&Schema::of::<Odd>()).unwrap_err();
+    let told = told.to_string();
+    assert!(
+        told.starts_with("t:2: lists[0].number = \"1\": must be readable: invalid"),
+        "{told}"
+    );
+}

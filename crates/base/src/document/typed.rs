@@ -1,0 +1,59 @@
+//! A whole document as a Rust type.
+
+use super::schema::Schema;
+use super::{Document, Node, Value};
+use crate::fault::{Fault, Faults};
+use serde::de::DeserializeOwned;
+use serde_json::Value as Json;
+use serde_path_to_error::Segment;
+
+impl Document {
+    /// What serde makes of the document, if it is as the `schema` of `T` says.
+    ///
+    /// # Errors
+    /// Everything that is wrong with it.
+    pub fn typed<T: DeserializeOwned>(&self, schema: &Schema) -> Result<T, Faults> {
+        let faults = schema.faults(self);
+        if !faults.is_empty() {
+            return Err(Faults(faults));
+        }
+        // What the schema of a type allows is read; should one disagree with its type, it is told.
+        serde_path_to_error::deserialize(json(&self.root)).map_err(|error| {
+            let path = error.path().to_string();
+            let node = node_at(&self.root, error.path().iter());
+            let allowed = format!("readable: {}", error.inner());
+            let origin = Some(node.origin.clone());
+            let fault = Fault::new(path, Some(node.value.to_string()), allowed);
+            Faults(vec![Fault { origin, ..fault }])
+        })
+    }
+}
+
+/// Numbers that are not finite become null: a schema allows none.
+fn json(node: &Node) -> Json {
+    match &node.value {
+        Value::Bool(value) => Json::from(*value),
+        Value::Integer(value) => Json::from(*value),
+        Value::Float(value) => Json::from(*value),
+        Value::Text(text) | Value::Date(text) => Json::from(text.as_str()),
+        Value::List(items) => items.iter().map(json).collect(),
+        Value::Table(table) => {
+            let entries = table.iter().map(|(key, node)| (key.clone(), json(node)));
+            Json::Object(entries.collect())
+        }
+    }
+}
+
+/// The innermost value on a path that is there.
+fn node_at<'d, 'p>(root: &'d Node, path: impl Iterator<Item = &'p Segment>) -> &'d Node {
+    let mut node = root;
+    for segment in path {
+        let next = match (&node.value, segment) {
+            (Value::Table(table), Segment::Map { key }) => table.get(key),
+            (Value::List(items), Segment::Seq { index }) => items.get(*index),
+            _ => None,
+        };
+        node = next.unwrap_or(node);
+    }
+    node
+}

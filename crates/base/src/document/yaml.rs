@@ -1,0 +1,178 @@
+//! From YAML text to nodes that know their lines.
+
+use super::{Node, Table, Value};
+use crate::fault::{Fault, Faults};
+use granit_parser::{Event, Parser, ScalarStyle, ScanError, Span, options};
+
+/// Longest text that is read.
+const MAX_BYTES: usize = 1 << 16;
+
+/// Most mappings and lists within each other.
+const MAX_DEPTH: usize = 8;
+
+/// Reads `text`, or tells what in it is not plain YAML.
+pub(super) fn parse(file: &str, text: &str) -> Result<Node, Faults> {
+    if text.len() > MAX_BYTES {
+        let allowed = format!("a text of at most {MAX_BYTES} bytes; it has {}", text.len());
+        let fault = Fault::new(String::new(), None, allowed);
+        let origin = Some(file.to_owned());
+        return Err(Faults(vec![Fault { origin, ..fault }]));
+    }
+    let options = options! {
+        flow_nesting_limit: MAX_DEPTH,
+        block_nesting_limit: MAX_DEPTH,
+        emit_comments: false,
+    };
+    let mut reader = Reader {
+        file,
+        events: Parser::new_from_str_with_options(text, options),
+        faults: Vec::new(),
+    };
+    let root = reader.root();
+    let Reader { mut faults, .. } = reader;
+    let root = root.map_err(|stop| faults.push(stop)).ok();
+    Faults::or(faults, root)
+}
+
+struct Reader<'t, I> {
+    file: &'t str,
+    events: I,
+    /// What is wrong but does not end the reading.
+    faults: Vec<Fault>,
+}
+
+impl<'t, I> Reader<'t, I>
+where
+    I: Iterator<Item = Result<(Event<'t>, Span), ScanError>>,
+{
+    /// The mapping that the text is; an empty text is an empty one.
+    fn root(&mut self) -> Result<Node, Fault> {
+        let mut root = None;
+        loop {
+            match self.next()? {
+                (Event::StreamStart | Event::DocumentStart(..) | Event::DocumentEnd, _) => (),
+                (Event::StreamEnd, _) => break,
+                (_, span) if root.is_some() => {
+                    return Err(self.fault(&span, "one YAML document, not several"));
+                }
+                (event, span) => root = Some(self.node(event, &span, MAX_DEPTH)?),
+            }
+        }
+        let origin = self.file.to_owned();
+        match root.map(|root| root.value) {
+            None => Ok(Value::Table(Table::new())),
+            Some(Value::Table(table)) => Ok(Value::Table(table)),
+            Some(_) => Err(Fault {
+                origin: Some(origin.clone()),
+                ..Fault::new(
+                    String::new(),
+                    None,
+                    "not a YAML mapping of keys to values".into(),
+                )
+            }),
+        }
+        .map(|value| Node { value, origin })
+    }
+
+    fn next(&mut self) -> Result<(Event<'t>, Span), Fault> {
+        match self.events.next() {
+            Some(Ok(event)) => Ok(event),
+            Some(Err(error)) => Err(self.told(
+                error.marker().line(),
+                &format!("not valid YAML: {}", error.info()),
+            )),
+            None => Err(self.told(1, "not valid YAML: it ends too early")),
+        }
+    }
+
+    fn node(&mut self, event: Event<'t>, span: &Span, levels: usize) -> Result<Node, Fault> {
+        if levels == 0 {
+            return Err(self.fault(span, "a document with fewer levels"));
+        }
+        let value = match event {
+            Event::Scalar(text, style, _, None) => scalar(&text, style),
+            Event::SequenceStart(_, _, None) => self.list(levels - 1)?,
+            Event::MappingStart(_, _, None) => self.table(levels - 1)?,
+            Event::Alias(_) => return Err(self.fault(span, "a document without aliases (*name)")),
+            _ => return Err(self.fault(span, "a document without tags (!name)")),
+        };
+        let origin = self.origin(span);
+        Ok(Node { value, origin })
+    }
+
+    fn list(&mut self, levels: usize) -> Result<Value, Fault> {
+        let mut items = Vec::new();
+        loop {
+            match self.next()? {
+                (Event::SequenceEnd, _) => return Ok(Value::List(items)),
+                (event, span) => items.push(self.node(event, &span, levels)?),
+            }
+        }
+    }
+
+    fn table(&mut self, levels: usize) -> Result<Value, Fault> {
+        let mut table = Table::new();
+        loop {
+            let (event, span) = self.next()?;
+            let key = match event {
+                Event::MappingEnd => return Ok(Value::Table(table)),
+                Event::Scalar(text, _, _, None) => text.into_owned(),
+                _ => return Err(self.fault(&span, "a document whose keys are plain names")),
+            };
+            let (event, value_span) = self.next()?;
+            // A key's line is the value's, as in TOML.
+            let origin = self.origin(&span);
+            let value = Node {
+                origin,
+                ..self.node(event, &value_span, levels)?
+            };
+            if table.contains_key(&key) {
+                let fault = self.fault(&span, &format!("a document with {key:?} only once"));
+                self.faults.push(fault);
+            }
+            table.insert(key, value);
+        }
+    }
+
+    fn origin(&self, span: &Span) -> String {
+        format!("{}:{}", self.file, span.start.line())
+    }
+
+    fn fault(&self, span: &Span, allowed: &str) -> Fault {
+        self.told(span.start.line(), &format!("must be {allowed}"))
+    }
+
+    fn told(&self, line: usize, sentence: &str) -> Fault {
+        Fault {
+            origin: Some(format!("{}:{line}", self.file)),
+            ..Fault::new(String::new(), None, sentence.to_owned())
+        }
+    }
+}
+
+/// A value by the rules of YAML 1.2's core schema, but for octal and hexadecimal numbers.
+fn scalar(text: &str, style: ScalarStyle) -> Value {
+    let as_text = || Value::Text(text.to_owned());
+    if style != ScalarStyle::Plain {
+        return as_text();
+    }
+    match text {
+        "true" | "True" | "TRUE" => return Value::Bool(true),
+        "false" | "False" | "FALSE" => return Value::Bool(false),
+        ".nan" | ".NaN" | ".NAN" => return Value::Float(f64::NAN),
+        _ => (),
+    }
+    if let Some(".inf" | ".Inf" | ".INF") = text.strip_prefix(['+', '-']).or(Some(text)) {
+        let infinity = f64::INFINITY;
+        return Value::Float(infinity.copysign(if text.starts_with('-') { -1.0 } else { 1.0 }));
+    }
+    // Rust's numbers also have names: `inf`, `nan`.
+    let is_number = |c: char| c.is_ascii_digit() || "+-.eE".contains(c);
+    if !text.chars().all(is_number) {
+        return as_text();
+    }
+    let integer = text.parse().map(Value::Integer);
+    integer
+        .or_else(|_| text.parse().map(Value::Float))
+        .unwrap_or_else(|_| as_text())
+}

@@ -1,0 +1,180 @@
+//! Maps of ROS: what `map_server` and `nav2_map_server` load, a YAML file that names a PGM image.
+//!
+//! **What a pixel means** (`wiki.ros.org/map_server`, "Value Interpretation", and `map_io.cpp` of
+//! `nav2_map_server`). The image's first row is the map's top. Of a pixel of value v, the occupancy
+//! probability is p = (m - v) / m, where m is the greatest value, 255 in most files; v / m if
+//! `negate` is set. Then, by `mode`,
+//!
+//! * `trinary`: 100 (occupied) if p > `occupied_thresh`, 0 (free) if p < `free_thresh`, else -1
+//!   (unknown);
+//! * `scale`: the same, but in between 100 (p - `free_thresh`) / (`occupied_thresh` - `free_thresh`),
+//!   rounded, halves to the even number (as in ROS 2; a PGM image has nothing transparent, so that
+//!   nothing is unknown);
+//! * `raw`: 255 v / m, rounded, or -1 if that is above 100; whatever `negate` says.
+//!
+//! `origin` is the pose [x, y, yaw] of the lower left corner of the lower left pixel: the map is
+//! turned about it, anticlockwise, by `yaw` radians. (Much of ROS ignores the yaw; here it counts.)
+//!
+//! **What is solid:** cells of 100. Others are not: of sensors, what is unknown is no obstacle. With
+//! [`Unknown::Solid`], all that is not known to be free (0) is solid. Beyond the map nothing is.
+
+mod grid;
+mod outline;
+mod pgm;
+mod settings;
+
+use crate::fault::{Fault, Faults};
+use crate::geometry::{Point, Rectangle, Segment};
+use grid::Grid;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use settings::Settings;
+
+/// Most cells of a map.
+pub const MAX_CELLS: usize = 64_000_000;
+
+/// Most bytes of a map's image: what reads the file for [`read`] need read no more.
+pub const MAX_IMAGE_BYTES: usize = 5 * MAX_CELLS;
+
+/// Most straight walls of a map.
+pub const MAX_SEGMENTS: usize = 4_000_000;
+
+/// What the cells of a map count as that are neither free nor occupied.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Unknown {
+    /// Nothing is there.
+    #[default]
+    Free,
+    /// As if they were occupied.
+    Solid,
+}
+
+/// Where something is solid, in square cells.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OccupancyMap {
+    /// What ROS calls occupancy: 0 to 100, or -1. The lowest row first.
+    cells: Grid,
+    settings: Settings,
+    unknown: Unknown,
+    outline: Vec<Segment>,
+}
+
+/// Reads the map whose YAML is `text`; `file` is how faults name it.
+///
+/// `open` gives the bytes of the image that the YAML names, or says why it cannot; a relative name
+/// is relative to the YAML file. No more than [`MAX_IMAGE_BYTES`] are looked at. The map takes a
+/// byte a cell and 32 a wall: nothing is set aside that the bytes do not fill.
+///
+/// # Errors
+/// Everything that is wrong with the YAML, or else what is wrong with the image.
+///
+/// ```
+/// use base::map::{read, Unknown};
+/// let text = "image: room.pgm\nresolution: 0.5\norigin: [1, 2, 0]\nnegate: 0\n\
+///             occupied_thresh: 0.65\nfree_thresh: 0.196\n";
+/// let open = |_: &str| Ok(b"P2 3 2 255  0 205 254  0 254 254".to_vec());
+/// let map = read("room.yaml", text, Unknown::Free, open)?;
+/// assert!(map.is_solid([1.25, 2.75].into()));
+/// assert!(!map.is_solid([1.75, 2.75].into()));
+/// assert_eq!(map.outline().len(), 4);
+/// # Ok::<(), base::fault::Faults>(())
+/// ```
+pub fn read(
+    file: &str,
+    text: &str,
+    unknown: Unknown,
+    open: impl FnOnce(&str) -> Result<Vec<u8>, String>,
+) -> Result<OccupancyMap, Faults> {
+    let settings = settings::read(file, text)?;
+    let only = |fault| Faults(vec![fault]);
+    let bytes = open(&settings.image).map_err(|why| only(settings.image_fault(&why)))?;
+    let meaning = |value, greatest| settings.occupancy(value, greatest);
+    let cells = pgm::read(&settings.image, &bytes, meaning).map_err(only)?;
+    drop(bytes);
+    OccupancyMap::new(cells, settings, unknown).map_err(only)
+}
+
+impl OccupancyMap {
+    fn new(cells: Grid, settings: Settings, unknown: Unknown) -> Result<Self, Fault> {
+        let is_solid = |occupancy| is_solid(occupancy, unknown);
+        let corner = |column, row| settings.place(f64::from(column), f64::from(row));
+        let outline = outline::trace(&cells, is_solid, corner).ok_or_else(|| {
+            let why = format!("it has more than {MAX_SEGMENTS} straight walls: smooth it");
+            settings.image_fault(&why)
+        })?;
+        Ok(Self {
+            cells,
+            settings,
+            unknown,
+            outline,
+        })
+    }
+
+    /// Number of cells along the map's own x axis.
+    #[must_use]
+    pub fn columns(&self) -> u32 {
+        self.cells.columns()
+    }
+
+    /// Number of cells along the map's own y axis.
+    #[must_use]
+    pub fn rows(&self) -> u32 {
+        self.cells.rows()
+    }
+
+    /// Side of a cell.
+    #[must_use]
+    pub fn resolution_m(&self) -> f64 {
+        self.settings.resolution_m
+    }
+
+    /// Occupancy of a cell, counted from the lower left: 0 free, 100 occupied, -1 unknown; `None`
+    /// beyond the map.
+    #[must_use]
+    pub fn occupancy(&self, column: u32, row: u32) -> Option<i8> {
+        self.cells.get(column, row)
+    }
+
+    /// Whether `point` lies in a solid cell; on the line between two cells, it is in one of the two.
+    #[must_use]
+    pub fn is_solid(&self, point: Point) -> bool {
+        let at = self.settings.cell(point);
+        let occupancy = at.and_then(|(column, row)| self.occupancy(column, row));
+        occupancy.is_some_and(|occupancy| is_solid(occupancy, self.unknown))
+    }
+
+    /// The edges between what is solid and what is not, as long as they are straight, in the world.
+    ///
+    /// They make up closed lines, free on their left. Where they meet, they have the same bits: where
+    /// two solid cells touch by a corner only, no ray slips through (see [`Segment::hit`]).
+    #[must_use]
+    pub fn outline(&self) -> &[Segment] {
+        &self.outline
+    }
+
+    /// The map's corners in the world, anticlockwise from its origin.
+    #[must_use]
+    pub fn corners(&self) -> [Point; 4] {
+        let (right, top) = (f64::from(self.columns()), f64::from(self.rows()));
+        [[0.0, 0.0], [right, 0.0], [right, top], [0.0, top]]
+            .map(|[column, row]| self.settings.place(column, row))
+    }
+
+    /// The smallest upright rectangle that holds the map.
+    #[must_use]
+    pub fn bounds(&self) -> Rectangle {
+        let [a, b, c, d] = self.corners();
+        Rectangle::spanned(a, b).joined(&Rectangle::spanned(c, d))
+    }
+}
+
+fn is_solid(occupancy: i8, unknown: Unknown) -> bool {
+    match unknown {
+        Unknown::Free => occupancy == 100,
+        Unknown::Solid => occupancy != 0,
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,75 @@
+//! The edges between cells that are solid and cells that are not.
+
+use super::MAX_SEGMENTS;
+use super::grid::Grid;
+use crate::geometry::{Point, Segment};
+
+/// The edges between cells that are `is_solid` and those that are not, as long as they are straight,
+/// with what is not solid on their left; `corner` says where a corner of cells is. `None` if there
+/// are too many.
+///
+/// Every edge along a line of the grid goes on while the same side is solid. Where another edge
+/// meets it, the cells are solid by turns around that corner, and it ends there: edges meet by their
+/// ends only.
+pub(super) fn trace(
+    grid: &Grid,
+    is_solid: impl Fn(i8) -> bool,
+    corner: impl Fn(u32, u32) -> Point,
+) -> Option<Vec<Segment>> {
+    let solid = |column: Option<u32>, row: Option<u32>| {
+        let at = column
+            .zip(row)
+            .and_then(|(column, row)| grid.get(column, row));
+        at.is_some_and(&is_solid)
+    };
+    let (columns, rows) = (grid.columns(), grid.rows());
+    let mut edges = Vec::new();
+    for line in 0..=rows {
+        let sides = |at| [line.checked_sub(1), Some(line)].map(|row| solid(Some(at), row));
+        // Free above, so along x; free below, so against it.
+        runs(
+            columns,
+            sides,
+            |from, to| (corner(from, line), corner(to, line)),
+            &mut edges,
+        )?;
+    }
+    for line in 0..=columns {
+        // Free on the left, so along y: the sides are given from the right to the left.
+        let sides = |at| [Some(line), line.checked_sub(1)].map(|column| solid(column, Some(at)));
+        runs(
+            rows,
+            sides,
+            |from, to| (corner(line, from), corner(line, to)),
+            &mut edges,
+        )?;
+    }
+    Some(edges)
+}
+
+/// The edges along one line of the grid of `length` cells: from start to end where only the first of
+/// the `sides` is solid, back where only the second is.
+fn runs(
+    length: u32,
+    sides: impl Fn(u32) -> [bool; 2],
+    ends: impl Fn(u32, u32) -> (Point, Point),
+    edges: &mut Vec<Segment>,
+) -> Option<()> {
+    let (mut start, mut open) = (0, [false; 2]);
+    for at in 0..=length {
+        let here = if at < length { sides(at) } else { [false; 2] };
+        if here == open {
+            continue;
+        }
+        if open[0] != open[1] {
+            let (begin, end) = ends(start, at);
+            let (from, to) = if open[0] { (begin, end) } else { (end, begin) };
+            edges.push(Segment { from, to });
+        }
+        if edges.len() > MAX_SEGMENTS {
+            return None;
+        }
+        (start, open) = (at, here);
+    }
+    Some(())
+}

@@ -1,0 +1,205 @@
+//! Grey images in PGM, plain (P2) and raw (P5), as netpbm.sourceforge.net/doc/pgm.html defines them.
+
+use super::grid::{Grid, size};
+use super::{MAX_CELLS, MAX_IMAGE_BYTES};
+use crate::fault::Fault;
+
+/// Reads the image `bytes`, each pixel as its `meaning(value, greatest value)`; `file` is how faults
+/// name it. The image's last row becomes the grid's first.
+///
+/// # Errors
+/// The first thing that is wrong.
+pub(super) fn read(
+    file: &str,
+    bytes: &[u8],
+    meaning: impl Fn(u16, u16) -> i8,
+) -> Result<Grid, Fault> {
+    let mut reader = Reader {
+        bytes,
+        at: 0,
+        is_text: true,
+    };
+    image(&mut reader, meaning).map_err(|allowed| Fault {
+        origin: Some(reader.origin(file)),
+        ..Fault::new(String::new(), None, allowed)
+    })
+}
+
+fn image(reader: &mut Reader, meaning: impl Fn(u16, u16) -> i8) -> Result<Grid, String> {
+    if reader.bytes.len() > MAX_IMAGE_BYTES {
+        return Err(format!("an image has at most {MAX_IMAGE_BYTES} bytes"));
+    }
+    let header = Header::read(reader)?;
+    let mut cells = Vec::with_capacity(header.size);
+    for _ in 0..header.size {
+        let value = header.pixel(reader)?;
+        if value > header.greatest {
+            let greatest = header.greatest;
+            return Err(format!(
+                "a pixel is {value}, above the greatest value {greatest}"
+            ));
+        }
+        cells.push(meaning(value, header.greatest));
+    }
+    if !reader.rest().iter().all(u8::is_ascii_whitespace) {
+        return Err("more follows after the image's last pixel".to_owned());
+    }
+    upside_down(&mut cells, header.columns as usize);
+    Grid::new(header.columns, header.rows, cells).ok_or_else(|| "no image".to_owned())
+}
+
+fn upside_down(cells: &mut [i8], columns: usize) {
+    let rows = cells.len() / columns.max(1);
+    let (top, bottom) = cells.split_at_mut(rows / 2 * columns);
+    let pairs = top
+        .chunks_exact_mut(columns)
+        .zip(bottom.rchunks_exact_mut(columns));
+    pairs.for_each(|(upper, lower)| upper.swap_with_slice(lower));
+}
+
+struct Header {
+    is_plain: bool,
+    columns: u32,
+    rows: u32,
+    greatest: u16,
+    /// Number of pixels; the bytes are there to fill them.
+    size: usize,
+}
+
+impl Header {
+    fn read(reader: &mut Reader) -> Result<Self, String> {
+        let is_plain = match reader.bytes.get(..2) {
+            Some(b"P2") => true,
+            Some(b"P5") => false,
+            _ => return Err("not a PGM image: it must begin with P5 or P2".to_owned()),
+        };
+        reader.at = 2;
+        let columns = reader.number("the width", u32::MAX)?;
+        let rows = reader.number("the height", u32::MAX)?;
+        let size = size(columns, rows)
+            .ok_or_else(|| format!("{columns} x {rows} pixels are more than {MAX_CELLS}"))?;
+        let greatest = reader.number("the greatest value", 65_535)?;
+        let greatest = u16::try_from(greatest).unwrap_or(u16::MAX);
+        if !is_plain && !reader.skip_one_space() {
+            return Err("a white space must follow the greatest value".to_owned());
+        }
+        reader.is_text = is_plain;
+        let header = Self {
+            is_plain,
+            columns,
+            rows,
+            greatest,
+            size,
+        };
+        let (needed, given) = (header.least_bytes(), reader.rest().len());
+        if given < needed {
+            return Err(format!(
+                "cut off: {columns} x {rows} pixels need {needed} bytes, and {given} follow"
+            ));
+        }
+        Ok(header)
+    }
+
+    /// How many bytes the pixels take at least.
+    fn least_bytes(&self) -> usize {
+        match (self.is_plain, self.greatest) {
+            // A digit each, and what parts them.
+            (true, _) => 2 * self.size - 1,
+            (false, 256..) => 2 * self.size,
+            (false, _) => self.size,
+        }
+    }
+
+    fn pixel(&self, reader: &mut Reader) -> Result<u16, String> {
+        if self.is_plain {
+            return reader.plain_pixel();
+        }
+        let high = if self.greatest > 255 {
+            reader.byte()?
+        } else {
+            0
+        };
+        Ok(u16::from_be_bytes([high, reader.byte()?]))
+    }
+}
+
+struct Reader<'b> {
+    bytes: &'b [u8],
+    at: usize,
+    /// What is read has lines.
+    is_text: bool,
+}
+
+impl Reader<'_> {
+    fn rest(&self) -> &[u8] {
+        &self.bytes[self.at..]
+    }
+
+    fn byte(&mut self) -> Result<u8, String> {
+        let byte = self.bytes.get(self.at).copied();
+        self.at += usize::from(byte.is_some());
+        byte.ok_or_else(|| "cut off within the pixels".to_owned())
+    }
+
+    /// A number of the header, at least 1.
+    fn number(&mut self, what: &str, most: u32) -> Result<u32, String> {
+        let digits = self.digits();
+        let number = std::str::from_utf8(digits)
+            .ok()
+            .and_then(|text| text.parse().ok());
+        number
+            .filter(|number| (1..=most).contains(number))
+            .ok_or_else(|| {
+                let given = String::from_utf8_lossy(&digits[..digits.len().min(20)]);
+                format!("{what} must be a whole number from 1 to {most}, not {given:?}")
+            })
+    }
+
+    fn plain_pixel(&mut self) -> Result<u16, String> {
+        let digits = self.digits();
+        let number = std::str::from_utf8(digits)
+            .ok()
+            .and_then(|text| text.parse().ok());
+        number.ok_or_else(|| match digits {
+            [] => "cut off within the pixels, or a pixel that is no number".to_owned(),
+            _ => "a pixel is above 65535".to_owned(),
+        })
+    }
+
+    /// The digits after white space and comments; none without these.
+    fn digits(&mut self) -> &[u8] {
+        if !self.skip_one_space() {
+            return &[];
+        }
+        while self.skip_one_space() {}
+        let rest = &self.bytes[self.at..];
+        let length = rest.iter().take_while(|byte| byte.is_ascii_digit()).count();
+        self.at += length;
+        &rest[..length]
+    }
+
+    /// Goes over one white space; a comment, with the end of its line, is one.
+    fn skip_one_space(&mut self) -> bool {
+        let rest = self.rest();
+        let length = match rest.first() {
+            Some(b'#') => {
+                let end = rest.iter().position(|byte| matches!(byte, b'\n' | b'\r'));
+                end.map_or(rest.len(), |end| end + 1)
+            }
+            Some(byte) if byte.is_ascii_whitespace() || *byte == 0x0b => 1,
+            _ => 0,
+        };
+        self.at += length;
+        length > 0
+    }
+
+    /// Where it is: in the text a line, in raw pixels only the file.
+    fn origin(&self, file: &str) -> String {
+        let read = self.bytes[..self.at].split(|&byte| byte == b'\n');
+        if self.is_text {
+            format!("{file}:{}", read.count())
+        } else {
+            file.to_owned()
+        }
+    }
+}

@@ -1,0 +1,188 @@
+//! What a map's YAML file says, and what it makes of pixels and places.
+
+use crate::document::{Document, Section, Value};
+use crate::fault::{Fault, Faults};
+use crate::geometry::Point;
+use crate::trig;
+
+const KEYS: [&str; 7] = [
+    "image",
+    "resolution",
+    "origin",
+    "negate",
+    "occupied_thresh",
+    "free_thresh",
+    "mode",
+];
+
+/// How pixels become occupancies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Mode {
+    Trinary,
+    Scale,
+    Raw,
+}
+
+const MODES: [(&str, Mode); 3] = [
+    ("trinary", Mode::Trinary),
+    ("scale", Mode::Scale),
+    ("raw", Mode::Raw),
+];
+
+/// What a map's YAML file says.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Settings {
+    /// The image's name, as written.
+    pub(super) image: String,
+    /// Side of a pixel.
+    pub(super) resolution_m: f64,
+    /// Where the image's name stands.
+    source: String,
+    /// Lower left corner.
+    origin: Point,
+    /// Sine and cosine of the yaw.
+    turn: (f64, f64),
+    is_negated: bool,
+    occupied_threshold: f64,
+    free_threshold: f64,
+    mode: Mode,
+}
+
+pub(super) fn read(file: &str, text: &str) -> Result<Settings, Faults> {
+    Document::parse_yaml(file, text)?.read(|root| {
+        root.only(&KEYS);
+        let image = root.line("image");
+        let resolution_m = root.number("resolution", 1e-4..=100.0);
+        let pose = pose(root);
+        let is_negated = is_negated(root);
+        let thresholds = thresholds(root);
+        let mode = if root.has("mode") {
+            root.choice("mode", &MODES)
+        } else {
+            Some(Mode::Trinary)
+        };
+        let (origin, yaw_rad) = pose?;
+        let (free_threshold, occupied_threshold) = thresholds?;
+        Some(Settings {
+            image: image?,
+            resolution_m: resolution_m?,
+            source: root.origin("image").to_owned(),
+            origin,
+            turn: trig::sin_cos(yaw_rad),
+            is_negated: is_negated?,
+            occupied_threshold,
+            free_threshold,
+            mode: mode?,
+        })
+    })
+}
+
+fn pose(root: &Section) -> Option<(Point, f64)> {
+    let numbers = root.numbers("origin", -1e6..=1e6)?;
+    if let [x, y, yaw_rad] = numbers[..] {
+        return Some((Point { x, y }, yaw_rad));
+    }
+    root.fault("origin", "three numbers: x and y in metres, yaw in radians");
+    None
+}
+
+fn is_negated(root: &Section) -> Option<bool> {
+    match root.value("negate") {
+        Some(Value::Bool(value)) => Some(*value),
+        Some(Value::Integer(value @ 0..=1)) => Some(*value == 1),
+        _ => {
+            root.fault("negate", "0, 1, false or true");
+            None
+        }
+    }
+}
+
+/// The free and the occupied threshold.
+fn thresholds(root: &Section) -> Option<(f64, f64)> {
+    let free = root.number("free_thresh", 0.0..=1.0);
+    let occupied = root.number("occupied_thresh", 0.0..=1.0);
+    let (free, occupied) = (free?, occupied?);
+    if free >= occupied {
+        root.fault(
+            "free_thresh",
+            &format!("below occupied_thresh, which is {occupied:?}"),
+        );
+        return None;
+    }
+    Some((free, occupied))
+}
+
+impl Settings {
+    /// What is wrong with the image as a whole.
+    pub(super) fn image_fault(&self, why: &str) -> Fault {
+        let given = Some(format!("{:?}", self.image));
+        let allowed = format!("the name of a map's image in PGM; {why}");
+        Fault {
+            origin: Some(self.source.clone()),
+            ..Fault::new("image".to_owned(), given, allowed)
+        }
+    }
+
+    /// Occupancy of a pixel: 0 to 100, or -1.
+    pub(super) fn occupancy(&self, value: u16, greatest: u16) -> i8 {
+        let (shade, white) = (f64::from(value), f64::from(greatest));
+        if self.mode == Mode::Raw {
+            let raw = (255.0 * shade / white).round();
+            return if raw <= 100.0 { percent(raw) } else { -1 };
+        }
+        let dark = if self.is_negated {
+            shade
+        } else {
+            white - shade
+        };
+        let occupancy = dark / white;
+        let (free, occupied) = (self.free_threshold, self.occupied_threshold);
+        if occupancy > occupied {
+            100
+        } else if occupancy < free {
+            0
+        } else if self.mode == Mode::Scale {
+            percent(((occupancy - free) / (occupied - free) * 100.0).round_ties_even())
+        } else {
+            -1
+        }
+    }
+
+    /// Where a corner of cells, or a place between them, lies in the world.
+    pub(super) fn place(&self, column: f64, row: f64) -> Point {
+        let (sine, cosine) = self.turn;
+        let (x, y) = (column * self.resolution_m, row * self.resolution_m);
+        self.origin.plus(Point {
+            x: x * cosine - y * sine,
+            y: x * sine + y * cosine,
+        })
+    }
+
+    /// The column and the row in which a place in the world lies, if it may be one of the map's.
+    pub(super) fn cell(&self, place: Point) -> Option<(u32, u32)> {
+        let (sine, cosine) = self.turn;
+        let way = self.origin.to(place);
+        let column = (way.x * cosine + way.y * sine) / self.resolution_m;
+        let row = (way.y * cosine - way.x * sine) / self.resolution_m;
+        Some((whole(column)?, whole(row)?))
+    }
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "within the range"
+)]
+fn whole(value: f64) -> Option<u32> {
+    (0.0..f64::from(u32::MAX))
+        .contains(&value)
+        .then_some(value as u32)
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "a whole number from 0 to 100"
+)]
+fn percent(value: f64) -> i8 {
+    value as i8
+}

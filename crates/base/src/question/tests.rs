@@ -1,0 +1,232 @@
+use super::*;
+use crate::fault::Fault;
+use crate::runner::{Column, Kind, Runner};
+use std::ops::Range;
+
+const EXAMPLE: &str = r#"
+engine = "shop"
+summary = "A test."
+merit = "equation-5.2"
+[robots.rover]
+count = 2
+[study]
+delta = 0.05
+vary = { "robots.rover.count" = "1..3" }
+"#;
+
+/// An engine of robots that wait; everything of a robot but its count may be left out.
+struct Shop;
+
+struct Waiting;
+
+impl Runner for Waiting {
+    fn columns(&self) -> Vec<Column> {
+        let column = |name: &str| Column {
+            name: name.to_owned().into(),
+            kind: Kind::Real,
+            least: Some(0.0),
+            greatest: Some(1.0),
+        };
+        ["time_s", "failed", "robots"].map(column).into()
+    }
+
+    fn run_block(&self, _: u64, runs: Range<u64>) -> Vec<Vec<f64>> {
+        vec![runs.map(|_| 0.0).collect(); 3]
+    }
+}
+
+fn robot(section: &Section) -> Option<u32> {
+    section.only(&["count", "loud", "mode", "speed"]);
+    let count = section.integer("count", 1..=9);
+    if section.has("speed") {
+        section.number("speed", 0.0..=2.0)?;
+    }
+    if section.has("loud") && !matches!(section.value("loud"), Some(Value::Bool(_))) {
+        section.fault("loud", "true or false");
+    }
+    if section.has("mode") {
+        section.choice("mode", &[("sweep", ()), ("spiral", ())])?;
+    }
+    count.and_then(|count| u32::try_from(count).ok())
+}
+
+impl Engine for Shop {
+    fn name(&self) -> &'static str {
+        "shop"
+    }
+
+    fn keys(&self) -> &'static [&'static str] {
+        &["robots"]
+    }
+
+    fn read(&self, document: &Document) -> Result<Configuration, Faults> {
+        let robots = document.read(|root| {
+            let robots = root.section("robots");
+            let kinds = robots.keys();
+            kinds
+                .map(|kind| Some((kind.to_owned(), robot(&robots.section(kind))?)))
+                .collect::<Option<Vec<_>>>()
+        })?;
+        Ok(Configuration {
+            runner: Box::new(Waiting),
+            robots,
+            cap_s: 1.0,
+            facts: Vec::new(),
+        })
+    }
+
+    fn measures(&self, _: &Document) -> Vec<Measure> {
+        vec![
+            Measure::new("time", "time_s"),
+            Measure::new("robots", "robots"),
+        ]
+    }
+
+    fn merits(&self) -> &'static [NamedMerit] {
+        &[NamedMerit::EQUATION_5_2]
+    }
+
+    fn factors(&self) -> Option<&'static [&'static str]> {
+        None
+    }
+
+    fn most_robots(&self) -> u32 {
+        9
+    }
+}
+
+const ENGINES: [&dyn Engine; 1] = [&Shop];
+
+fn read(text: &str) -> Result<Scenario, Faults> {
+    Scenario::read(&ENGINES, Document::parse("t.toml", text)?)
+}
+
+fn faults_with(vary: &str) -> Vec<String> {
+    let text = EXAMPLE.replace("\"robots.rover.count\" = \"1..3\"", vary);
+    let told: Vec<Fault> = read(&text).err().map(|faults| faults.0).unwrap_or_default();
+    told.iter().map(ToString::to_string).collect()
+}
+
+#[test]
+fn the_question_and_the_engines_part_are_read_together() {
+    let scenario = read(EXAMPLE).ok().unwrap();
+    assert_eq!(scenario.engine, "shop");
+    assert_eq!(scenario.configuration.robots, [("rover".to_owned(), 2)]);
+    let factor = &scenario.study.factors[0];
+    assert_eq!(factor.path, "robots.rover.count");
+    assert_eq!(
+        factor.values,
+        Values::Listed([1, 2, 3].map(Value::Integer).into())
+    );
+    // What the engine does not tell, a named merit leaves out.
+    let names: Vec<&str> = scenario
+        .merit
+        .terms
+        .iter()
+        .map(|each| &*each.name)
+        .collect();
+    assert_eq!(names, ["time", "robots"]);
+}
+
+#[test]
+fn both_parts_are_told_of_at_once() {
+    let text = EXAMPLE
+        .replace("count = 2", "count = 0\ncuont = 3")
+        .replace("\"equation-5.2\"", "{ tiem = 1 }")
+        .replace("delta = 0.05", "delta = -1")
+        .replace("[study]", "[stduy]\n[study]");
+    let faults = read(&text).err().unwrap().to_string();
+    for part in [
+        "stduy = {...}: must be one of the known keys here: engine, summary, robots, merit, study, \
+         published; did you mean study?",
+        "robots.rover.cuont = 3: must be one of the known keys",
+        "robots.rover.count = 0: must be a whole number from 1 to 9",
+        "merit.tiem = 1: must be one of the known keys here: time, robots; did you mean time?",
+        "study.delta = -1: must be a number above 0",
+    ] {
+        assert!(faults.contains(part), "{part}\nnot in\n{faults}");
+    }
+}
+
+#[test]
+fn an_unknown_engine_is_told_with_the_known_ones() {
+    let faults = read(&EXAMPLE.replace("\"shop\"", "\"shpo\""))
+        .err()
+        .unwrap();
+    assert_eq!(
+        faults.to_string(),
+        "t.toml:2: engine = \"shpo\": must be one of \"shop\"; did you mean \"shop\"?"
+    );
+}
+
+#[test]
+fn any_path_that_the_engine_can_read_is_varied() {
+    for vary in [
+        r#""robots.rover.speed" = "0.5,2""#,
+        r#""robots.rover.loud" = "false,true""#,
+        r#""robots.rover.mode" = "spiral,sweep""#,
+    ] {
+        assert_eq!(faults_with(vary), [""; 0], "{vary}");
+    }
+}
+
+#[test]
+fn values_that_the_engine_cannot_read_are_told() {
+    assert_eq!(
+        faults_with(r#""robots.rover.count" = "8..10""#),
+        ["t.toml:9: robots.rover.count = 10: must be a whole number from 1 to 9"]
+    );
+    assert_eq!(
+        faults_with(r#""robots.rover.mode" = "siral,sweep""#),
+        [
+            "t.toml:9: robots.rover.mode = \"siral\": must be one of \"sweep\", \"spiral\"; did you \
+             mean \"spiral\"?"
+        ]
+    );
+}
+
+#[test]
+fn an_unknown_path_is_told_once_with_the_nearest() {
+    assert_eq!(
+        faults_with(r#""robots.rover.cuont" = "1..8""#),
+        [
+            "t.toml:9: robots.rover.cuont = 1: must be one of the known keys here: count, loud, \
+             mode, speed; did you mean count?",
+            "t.toml:9: 7 more values of robots.rover.cuont are not allowed either",
+        ]
+    );
+    assert_eq!(
+        faults_with(r#""robot.rover.count" = "1..8""#),
+        [
+            "t.toml:9: study.vary.\"robot.rover.count\" = \"1..8\": must be a path that begins with \
+             one of robots; did you mean robots.rover.count?"
+        ]
+    );
+    assert_eq!(faults_with(r#""study.delta" = "1..8""#).len(), 1);
+}
+
+#[test]
+fn a_misspelt_kind_is_told_and_not_made() {
+    assert_eq!(
+        faults_with(r#""robots.rovr.count" = "1""#),
+        [
+            "t.toml:9: robots.rovr.count = 1: must be of a robot, an item or another thing that the \
+             scenario has"
+        ]
+    );
+}
+
+#[test]
+fn a_configuration_takes_values_at_the_paths_of_factors_only() {
+    let configuration = |path: &str, value| {
+        let document = Document::parse("t.toml", EXAMPLE)?;
+        Configuration::read(&ENGINES, document, &[(path.to_owned(), value)])
+    };
+    let read = configuration("robots.rover.count", Value::Integer(5));
+    assert_eq!(read.ok().unwrap().robots, [("rover".to_owned(), 5)]);
+    let faults = configuration("summary", Value::Integer(5)).err().unwrap();
+    assert_eq!(
+        faults.to_string(),
+        "study.vary: summary = 5: must be a path that begins with one of robots"
+    );
+}

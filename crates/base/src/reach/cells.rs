@@ -1,0 +1,177 @@
+//! Square cells over the world, and which of them are near something.
+
+use super::{MAX_CELLS, Solid, TOLERANCE_M};
+use crate::geometry::{Point, Rectangle, Segment};
+use std::f64::consts::FRAC_1_SQRT_2;
+use std::ops::RangeInclusive;
+
+/// Cells along the robot's radius.
+const CELLS_PER_RADIUS: f64 = 4.0;
+
+/// Square cells that cover the world.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Cells {
+    corner: Point,
+    side_m: f64,
+    columns: u32,
+    rows: u32,
+}
+
+impl Cells {
+    pub(super) fn new(world: Rectangle, radius_m: f64) -> Self {
+        let size = world.size();
+        let most = f64::from(MAX_CELLS);
+        let coarse_m = (size.x.max(size.y) / most).max((world.area_m2() / most).sqrt());
+        let mut side_m = (radius_m / CELLS_PER_RADIUS).max(coarse_m);
+        // Columns and rows are rounded up, which may be a few cells too many.
+        while count(size.x, side_m) * count(size.y, side_m) > most {
+            side_m *= 1.01;
+        }
+        Self {
+            corner: world.min(),
+            side_m,
+            columns: whole(count(size.x, side_m)),
+            rows: whole(count(size.y, side_m)),
+        }
+    }
+
+    pub(super) fn count(&self) -> usize {
+        self.columns as usize * self.rows as usize
+    }
+
+    pub(super) fn index(&self, (column, row): (u32, u32)) -> usize {
+        row as usize * self.columns as usize + column as usize
+    }
+
+    pub(super) fn half_diagonal_m(&self) -> f64 {
+        self.side_m * FRAC_1_SQRT_2
+    }
+
+    /// The cells whose middle is nearer to the solid than `near_m`: of each row a run of indices.
+    pub(super) fn near(
+        &self,
+        solid: Solid,
+        near_m: f64,
+    ) -> impl Iterator<Item = RangeInclusive<usize>> {
+        let cells = *self;
+        let (low, high) = heights(solid, near_m);
+        let rows = cells.middles(low - cells.corner.y, high - cells.corner.y, cells.rows);
+        rows.into_iter().flatten().filter_map(move |row| {
+            let y = cells.corner.y + cells.side_m * (f64::from(row) + 0.5);
+            let (left, right) = widths(solid, near_m, y)?;
+            let columns =
+                cells.middles(left - cells.corner.x, right - cells.corner.x, cells.columns)?;
+            Some(cells.index((*columns.start(), row))..=cells.index((*columns.end(), row)))
+        })
+    }
+
+    /// The cells that have a place in the rectangle.
+    pub(super) fn touched_by(&self, rectangle: &Rectangle) -> impl Iterator<Item = (u32, u32)> {
+        let (min, max) = (
+            self.corner.to(rectangle.min()),
+            self.corner.to(rectangle.max()),
+        );
+        // Half a side further than their middles.
+        let far_m = self.side_m / 2.0 + TOLERANCE_M;
+        let rows = self.middles(min.y - far_m, max.y + far_m, self.rows);
+        let columns = self.middles(min.x - far_m, max.x + far_m, self.columns);
+        let columns = columns.into_iter().flatten();
+        columns.flat_map(move |column| {
+            let rows = rows.clone().into_iter().flatten();
+            rows.map(move |row| (column, row))
+        })
+    }
+
+    /// The cell and those that it touches, by a side or a corner.
+    pub(super) fn neighbours(&self, (column, row): (u32, u32)) -> impl Iterator<Item = (u32, u32)> {
+        let around = |at: u32, count: u32| at.saturating_sub(1)..=(at + 1).min(count - 1);
+        let rows = around(row, self.rows);
+        around(column, self.columns)
+            .flat_map(move |column| rows.clone().map(move |row| (column, row)))
+    }
+
+    /// Of `count` cells in a line those whose middle is from `low` to `high` after the line's
+    /// beginning.
+    fn middles(&self, low: f64, high: f64, count: u32) -> Option<RangeInclusive<u32>> {
+        let first = (low / self.side_m - 0.5).ceil().max(0.0);
+        let last = (high / self.side_m - 0.5).floor().min(f64::from(count - 1));
+        (first <= last).then(|| whole(first)..=whole(last))
+    }
+}
+
+/// From where to where, along y, places are nearer to the solid than `near_m`.
+fn heights(solid: Solid, near_m: f64) -> (f64, f64) {
+    let (one, other, far_m) = match solid {
+        Solid::Wall(wall) => (wall.from.y, wall.to.y, near_m),
+        Solid::Pillar(disc) => (disc.centre.y, disc.centre.y, near_m + disc.radius_m),
+    };
+    (one.min(other) - far_m, one.max(other) + far_m)
+}
+
+/// From where to where, along x, the places of height `y` are nearer to the solid than `near_m`.
+fn widths(solid: Solid, near_m: f64, y: f64) -> Option<(f64, f64)> {
+    match solid {
+        Solid::Pillar(disc) => chord(disc.centre, disc.radius_m + near_m, y),
+        Solid::Wall(wall) => {
+            let ends = [wall.from, wall.to].map(|end| chord(end, near_m, y));
+            let [from, to] = ends;
+            [from, to, strip(wall, near_m, y)]
+                .into_iter()
+                .flatten()
+                .reduce(|one, other| (one.0.min(other.0), one.1.max(other.1)))
+        }
+    }
+}
+
+/// Where the line of height `y` is within a circle.
+fn chord(centre: Point, radius_m: f64, y: f64) -> Option<(f64, f64)> {
+    let up = y - centre.y;
+    let half = (radius_m * radius_m - up * up).sqrt();
+    (radius_m > 0.0 && half >= 0.0).then_some((centre.x - half, centre.x + half))
+}
+
+/// Where the line of height `y` is beside the wall, not beyond its ends, and nearer than `near_m`.
+fn strip(wall: Segment, near_m: f64, y: f64) -> Option<(f64, f64)> {
+    let way = wall.way();
+    let aside = Point {
+        x: -way.y,
+        y: way.x,
+    }
+    .times(near_m / way.length());
+    let back = aside.times(-1.0);
+    let corners = [
+        wall.from.plus(aside),
+        wall.from.plus(back),
+        wall.to.plus(back),
+        wall.to.plus(aside),
+    ];
+    (0..4)
+        .filter_map(|at| crossing(corners[at], corners[(at + 1) % 4], y))
+        .fold(None, |all: Option<(f64, f64)>, x| {
+            let (least, most) = all.unwrap_or((x, x));
+            Some((least.min(x), most.max(x)))
+        })
+        .filter(|_| near_m > 0.0)
+}
+
+/// Where the line of height `y` crosses the way from one point to another.
+fn crossing(from: Point, to: Point, y: f64) -> Option<f64> {
+    let share = (y - from.y) / (to.y - from.y);
+    (0.0..=1.0)
+        .contains(&share)
+        .then_some(from.x + share * (to.x - from.x))
+}
+
+/// How many cells cover a length.
+fn count(length_m: f64, side_m: f64) -> f64 {
+    (length_m / side_m).ceil().max(1.0)
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a whole number up to that of the cells"
+)]
+fn whole(value: f64) -> u32 {
+    value as u32
+}

@@ -1,0 +1,192 @@
+//! Scenarios of every engine.
+
+use crate::engines::ENGINES;
+use crate::error::input_error;
+use base::document::{Document, Node, Override, Table, Value};
+use base::fault::{Fault, Faults};
+use base::question::{Factor, Merit, Published, Scenario, Values};
+use pyo3::IntoPyObjectExt;
+use pyo3::prelude::*;
+use pyo3::types::{PyBool, PyDict};
+
+/// Changes as Python gives them: (path, value, origin).
+pub(crate) type GivenOverride<'py> = (Vec<String>, Bound<'py, PyAny>, String);
+
+/// The scenario of a TOML text, as a dict that `agent_economy.scenario` makes typed.
+///
+/// `overrides` are (path, value, origin): `value` is put at `path` over what the text says, and
+/// `origin` is how faults name it.
+#[pyfunction]
+#[pyo3(signature = (file, text, overrides))]
+pub(crate) fn read_scenario<'py>(
+    py: Python<'py>,
+    file: &str,
+    text: &str,
+    overrides: Vec<GivenOverride<'py>>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let document = document(file, text, overrides)?;
+    let read = Scenario::read(&ENGINES, document);
+    as_dict(py, &read.map_err(|faults| input_error(&faults, file))?)
+}
+
+/// The whole document of a TOML text with overrides, unchecked, as dicts, lists and values.
+#[pyfunction]
+#[pyo3(signature = (file, text, overrides))]
+pub(crate) fn read_document<'py>(
+    py: Python<'py>,
+    file: &str,
+    text: &str,
+    overrides: Vec<GivenOverride<'py>>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let document = document(file, text, overrides)?;
+    document.get(&[]).map_or_else(
+        || Ok(PyDict::new(py).into_any()),
+        |root| plain(py, &root.value),
+    )
+}
+
+pub(crate) fn document(
+    file: &str,
+    text: &str,
+    overrides: Vec<GivenOverride>,
+) -> PyResult<Document> {
+    let parsed = Document::parse(file, text).map_err(|faults| input_error(&faults, file))?;
+    let overrides: PyResult<Vec<Override>> = overrides
+        .into_iter()
+        .map(|(path, given, origin)| {
+            Ok(Override {
+                value: value(&path, &given, &origin)?,
+                path,
+                origin,
+            })
+        })
+        .collect();
+    Ok(parsed.with(&overrides?))
+}
+
+/// A Python value at `path` as documents have it.
+pub(crate) fn value(path: &[String], given: &Bound<PyAny>, origin: &str) -> PyResult<Value> {
+    if let Ok(boolean) = given.cast::<PyBool>() {
+        return Ok(Value::Bool(boolean.is_true()));
+    }
+    if let Ok(text) = given.extract::<String>() {
+        return Ok(Value::Text(text));
+    }
+    if let Ok(number) = given.extract::<i64>() {
+        return Ok(Value::Integer(number));
+    }
+    if let Ok(dict) = given.cast::<PyDict>() {
+        return table(path, dict, origin);
+    }
+    if let Ok(items) = given.extract::<Vec<Bound<PyAny>>>() {
+        let items = items.iter().map(|item| node(path, item, origin));
+        return items.collect::<PyResult<_>>().map(Value::List);
+    }
+    given.extract::<f64>().map(Value::Float).map_err(|_| {
+        let allowed = "a text, a number, true, false, or a list or dict of these".to_owned();
+        let fault = Fault {
+            origin: Some(origin.to_owned()),
+            ..Fault::new(path.join("."), Some(given.to_string()), allowed)
+        };
+        input_error(&Faults(vec![fault]), "")
+    })
+}
+
+fn node(path: &[String], given: &Bound<PyAny>, origin: &str) -> PyResult<Node> {
+    Ok(Node {
+        value: value(path, given, origin)?,
+        origin: origin.to_owned(),
+    })
+}
+
+fn table(path: &[String], dict: &Bound<PyDict>, origin: &str) -> PyResult<Value> {
+    let mut table = Table::new();
+    for (key, given) in dict {
+        let key = key.str()?.to_string();
+        let inner: Vec<String> = path.iter().chain([&key]).cloned().collect();
+        table.insert(key, node(&inner, &given, origin)?);
+    }
+    Ok(Value::Table(table))
+}
+
+fn as_dict<'py>(py: Python<'py>, scenario: &Scenario) -> PyResult<Bound<'py, PyDict>> {
+    let (configuration, study) = (&scenario.configuration, &scenario.study);
+    let robots = PyDict::new(py);
+    for (kind, count) in &configuration.robots {
+        robots.set_item(kind, count)?;
+    }
+    let published = scenario.published.as_ref();
+    let published = published.map(|published| published_dict(py, published));
+    let dict = PyDict::new(py);
+    dict.set_item("engine", scenario.engine)?;
+    dict.set_item("summary", &scenario.summary)?;
+    dict.set_item("merit", merit_dict(py, &scenario.merit)?)?;
+    dict.set_item("robots", robots)?;
+    dict.set_item("cap_s", configuration.cap_s)?;
+    dict.set_item("facts", configuration.facts.clone())?;
+    dict.set_item("factors", factor_dicts(py, &study.factors)?)?;
+    dict.set_item("design", study.design.to_string())?;
+    dict.set_item("delta", study.delta)?;
+    dict.set_item("confidence", study.confidence)?;
+    dict.set_item("published", published.transpose()?)?;
+    Ok(dict)
+}
+
+/// `terms` are (name, column, weight, max or None).
+fn merit_dict<'py>(py: Python<'py>, merit: &Merit) -> PyResult<Bound<'py, PyDict>> {
+    let terms = merit.terms.iter();
+    let terms: Vec<_> = terms
+        .map(|term| (&*term.name, &*term.column, term.weight, term.max))
+        .collect();
+    let dict = PyDict::new(py);
+    dict.set_item("name", merit.name)?;
+    dict.set_item("terms", terms)?;
+    Ok(dict)
+}
+
+/// Each with `path`, `values` (a list; empty for a range) and `range` ((low, high) or None).
+fn factor_dicts<'py>(py: Python<'py>, factors: &[Factor]) -> PyResult<Vec<Bound<'py, PyDict>>> {
+    let factor = |factor: &Factor| {
+        let (listed, range) = match &factor.values {
+            Values::Between(low, high) => (&[][..], Some((*low, *high))),
+            Values::Listed(listed) => (&listed[..], None),
+        };
+        let values: PyResult<Vec<_>> = listed.iter().map(|value| plain(py, value)).collect();
+        let dict = PyDict::new(py);
+        dict.set_item("path", &factor.path)?;
+        dict.set_item("values", values?)?;
+        dict.set_item("range", range)?;
+        Ok(dict)
+    };
+    factors.iter().map(factor).collect()
+}
+
+/// A document's value as Python has it; a date is a text.
+fn plain<'py>(py: Python<'py>, value: &Value) -> PyResult<Bound<'py, PyAny>> {
+    match value {
+        Value::Bool(value) => Ok(PyBool::new(py, *value).to_owned().into_any()),
+        Value::Integer(number) => number.into_bound_py_any(py),
+        Value::Float(number) => number.into_bound_py_any(py),
+        Value::Text(text) | Value::Date(text) => text.into_bound_py_any(py),
+        Value::List(items) => {
+            let items = items.iter().map(|item| plain(py, &item.value));
+            items.collect::<PyResult<Vec<_>>>()?.into_bound_py_any(py)
+        }
+        Value::Table(table) => {
+            let dict = PyDict::new(py);
+            for (key, node) in table {
+                dict.set_item(key, plain(py, &node.value)?)?;
+            }
+            Ok(dict.into_any())
+        }
+    }
+}
+
+fn published_dict<'py>(py: Python<'py>, published: &Published) -> PyResult<Bound<'py, PyDict>> {
+    let dict = PyDict::new(py);
+    dict.set_item("source", &published.source)?;
+    dict.set_item("choice", published.choice)?;
+    dict.set_item("cap_s", published.cap_s)?;
+    dict.set_item("times_s", published.times_s.clone())?;
+    Ok(dict)
+}

@@ -1,0 +1,155 @@
+//! A kind of robot, as runs need it.
+
+use super::battery::Battery;
+use super::collision::Collision;
+use super::drive::Drive;
+use super::{Layer, RobotSpec};
+use crate::radio::Radio;
+use crate::sensing::timing::Rhythm;
+use crate::sensing::{Measure, Sensor};
+use base::placement::Placement;
+use brain::{Body, BrainSpec, RangeRing};
+use std::sync::Arc;
+
+/// What all robots of a kind have in common.
+#[derive(Debug, Clone)]
+pub(crate) struct Kind {
+    pub(crate) name: String,
+    pub(crate) count: u32,
+    pub(crate) layer: Layer,
+    pub(crate) radius_m: f64,
+    pub(crate) price: f64,
+    pub(crate) start: Placement,
+    pub(crate) drive: Drive,
+    pub(crate) collision: Collision,
+    pub(crate) battery: Option<Battery>,
+    /// In the order of their names.
+    pub(crate) sensors: Vec<Sensor>,
+    /// No ray goes farther; 0 without rays.
+    pub(crate) rays_m: f64,
+    pub(crate) radio: Option<Radio>,
+    /// Power of its radio and all its sensors.
+    all_on_w: f64,
+    /// When its brain steps.
+    pub(crate) rhythm: Rhythm,
+    pub(crate) brain: Arc<BrainSpec>,
+    pub(crate) body: Arc<Body>,
+}
+
+impl Kind {
+    /// The kind that `spec` describes, in a world with these kinds of items and this step.
+    pub(crate) fn new(name: &str, spec: &RobotSpec, item_kinds: &[String], step_s: f64) -> Self {
+        let sensors: Vec<Sensor> = spec
+            .sensors
+            .iter()
+            .map(|(name, spec)| Sensor::new(name, spec, item_kinds, step_s))
+            .collect();
+        let rhythm = Rhythm::new(spec.brain.rate_hz, step_s);
+        let drive = Drive::from(&spec.drive);
+        let body = Body {
+            radius_m: spec.radius_m,
+            max_speed_m_s: drive.max_speed_m_s,
+            max_reverse_speed_m_s: drive.max_reverse_speed_m_s,
+            max_acceleration_m_s2: drive.max_acceleration_m_s2,
+            max_turn_rate_rad_s: drive.max_turn_rate_rad_s,
+            period_s: rhythm.period_s(step_s),
+            sensors: sensors.iter().map(|sensor| sensor.name.clone()).collect(),
+            rings: sensors
+                .iter()
+                .filter_map(|sensor| ring(sensor, step_s))
+                .collect(),
+            item_kinds: item_kinds.to_vec(),
+        };
+        let mut kind = Self {
+            all_on_w: 0.0,
+            name: name.to_owned(),
+            count: spec.count,
+            layer: spec.layer,
+            radius_m: spec.radius_m,
+            price: spec.price,
+            start: spec.start.clone(),
+            drive,
+            collision: Collision::new(&spec.collision, step_s),
+            battery: spec
+                .battery
+                .as_ref()
+                .map(|battery| Battery::new(battery, spec)),
+            rays_m: rays_m(&sensors),
+            sensors,
+            radio: spec.radio.as_ref().map(|radio| Radio::new(radio, step_s)),
+            rhythm,
+            brain: Arc::new(spec.brain.clone()),
+            body: Arc::new(body),
+        };
+        kind.all_on_w = kind.some_on_w(0);
+        kind
+    }
+
+    /// Whether anything that its robots measure or hear can wait for their brains.
+    pub(crate) fn needs_backlog(&self) -> bool {
+        let is_late = |sensor: &Sensor| !sensor.tells_at_once();
+        let is_slow = !self.rhythm.is_each_step();
+        is_slow || self.radio.is_some() || self.sensors.iter().any(is_late)
+    }
+
+    /// Power of its radio and of its sensors, without those whose bits are in `off`.
+    #[inline]
+    pub(crate) fn sensing_w(&self, off: u32) -> f64 {
+        if off == 0 {
+            self.all_on_w
+        } else {
+            self.some_on_w(off)
+        }
+    }
+
+    fn some_on_w(&self, off: u32) -> f64 {
+        let sensors = self.sensors.iter().enumerate();
+        let on = sensors.filter(|(number, _)| off & (1 << number) == 0);
+        let radio_w = self.radio.map_or(0.0, |radio| radio.power_w);
+        radio_w + on.map(|(_, sensor)| sensor.power_w).sum::<f64>()
+    }
+
+    /// What is farther from its centre at the start of a step, it does not touch in it; where it
+    /// goes at its greatest speed for `longest_s`.
+    pub(crate) fn touch_m(&self, longest_s: f64) -> f64 {
+        let Drive {
+            max_speed_m_s,
+            max_reverse_speed_m_s,
+            ..
+        } = self.drive;
+        self.radius_m + 1.01 * max_speed_m_s.max(max_reverse_speed_m_s) * longest_s + 1e-3
+    }
+
+    /// It looks for items no farther.
+    pub(crate) fn items_reach_m(&self) -> f64 {
+        let detectors = self
+            .sensors
+            .iter()
+            .filter_map(|sensor| match &sensor.measure {
+                Measure::Items(detector) => Some(detector.sector.range_m),
+                _ => None,
+            });
+        detectors.fold(0.0, f64::max)
+    }
+}
+
+fn ring(sensor: &Sensor, step_s: f64) -> Option<RangeRing> {
+    let Measure::Range(ring) = &sensor.measure else {
+        return None;
+    };
+    Some(RangeRing {
+        bearings_rad: ring.bearings_rad.clone(),
+        range_m: ring.range_m,
+        period_s: sensor.rhythm.period_s(step_s),
+        #[expect(clippy::cast_precision_loss, reason = "steps are at most 1e8")]
+        latency_s: sensor.latency_steps as f64 * step_s,
+    })
+}
+
+fn rays_m(sensors: &[Sensor]) -> f64 {
+    let rings = sensors.iter().filter_map(|sensor| match &sensor.measure {
+        Measure::Range(ring) => Some(ring.range_m),
+        _ => None,
+    });
+    rings.fold(0.0, f64::max)
+}

@@ -1,0 +1,253 @@
+//! Act: every body does what it can of what its brain wants, and stops at what it runs into.
+//!
+//! First each plans its path as if it were alone. Then the paths are cut where they meet what stands
+//! still, and where they meet each other, the earliest meeting first: who stops may no longer be in
+//! the way of others, or now be in it. Last, all go. A meeting stops both bodies; neither slides nor
+//! bounces.
+
+use super::meetings::Meetings;
+use super::neighbours::Neighbours;
+use super::share_out::{ROBOTS_PER_TASK, share_out};
+use super::state::{Hull, State, Status};
+use crate::body::contact::meets_still;
+use crate::body::drive::Driven;
+use crate::body::kind::Kind;
+use crate::body::path::{Course, Path};
+use crate::scenario::Scenario;
+use crate::world::terrain::Going;
+use base::geometry::Disc;
+use brain::RobotId;
+use rayon::prelude::*;
+
+/// What all robots are about to do, kept between steps so that nothing is allocated.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Moves {
+    plans: Vec<Plan>,
+    meetings: Meetings,
+}
+
+/// What one robot is about to do.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Plan {
+    pub(crate) path: Path,
+    driven: Driven,
+    /// Factor on the energy of moving.
+    effort: f64,
+    /// Power of the radio and of the sensors that are on.
+    sensing_w: f64,
+    /// What stops it, or runs into it.
+    pub(crate) stop: Stop,
+}
+
+/// Why a robot does not go its way to the end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Stop {
+    Nothing,
+    Still,
+    Robot,
+}
+
+/// What comes of all robots' moves.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct Moved {
+    /// The farthest that one has gone.
+    pub(crate) farthest_m: f64,
+    pub(crate) collisions: u64,
+}
+
+impl Moves {
+    /// Moves all robots.
+    pub(crate) fn act(
+        &mut self,
+        scenario: &Scenario,
+        state: &mut State,
+        neighbours: &Neighbours,
+        is_shared: bool,
+    ) -> Moved {
+        self.plans.resize(state.robots(), Plan::REST);
+        share_out(&mut self.plans, is_shared, |robot, plan| {
+            *plan = planned(scenario, state, robot)
+        });
+        self.meetings
+            .collect(&self.plans, &state.discs, neighbours, scenario.contact_m);
+        let met = self.meetings.resolve(&mut self.plans, state, neighbours);
+        let moved = go(&self.plans, scenario, state, is_shared);
+        Moved {
+            collisions: moved.collisions + met,
+            ..moved
+        }
+    }
+}
+
+/// What a robot does if no other is in its way.
+#[inline]
+fn planned(scenario: &Scenario, state: &State, robot: usize) -> Plan {
+    let (hull, disc, mind) = (
+        &state.hulls[robot],
+        &state.discs[robot],
+        &state.minds[robot],
+    );
+    let kind = &scenario.kinds[usize::from(state.ids[robot].kind)];
+    let sensing_w = kind.sensing_w(mind.sensors_off);
+    if !hull.can_move(state.tick) {
+        return Plan {
+            path: Path::rest(disc.centre),
+            sensing_w,
+            ..Plan::REST
+        };
+    }
+    let going = scenario.going(disc.centre, kind.layer);
+    let driven = kind
+        .drive
+        .step(hull.speed_m_s, mind.wanted, going.speed, scenario.step_s);
+    let mut path = Path {
+        start: disc.centre,
+        front: state.courses[robot].front,
+        length_m: driven.length_m,
+        turn_rad: driven.turn_rate_rad_s * scenario.step_s,
+        until: 1.0,
+    };
+    let meeting = (path.length_m != 0.0).then(|| {
+        let stands = scenario.touched(kind.layer);
+        let (walls, discs) = (stands.walls_near(path.start), stands.discs_near(path.start));
+        meets_still(&path, disc.radius_m, walls, discs)
+    });
+    let meeting = meeting.flatten();
+    path.until = meeting.unwrap_or(1.0);
+    Plan {
+        path,
+        driven,
+        effort: going.energy,
+        sensing_w,
+        stop: meeting.map_or(Stop::Nothing, |_| Stop::Still),
+    }
+}
+
+/// Lets all robots go as far as their plans say.
+fn go(plans: &[Plan], scenario: &Scenario, state: &mut State, is_shared: bool) -> Moved {
+    let State {
+        tick,
+        ids,
+        discs,
+        courses,
+        hulls,
+        ..
+    } = state;
+    let some = |(plans, ids, discs, courses, hulls): Bodies| {
+        let mut moved = Moved::default();
+        let bodies = discs.iter_mut().zip(courses).zip(hulls);
+        for ((plan, id), ((disc, course), hull)) in plans.iter().zip(ids).zip(bodies) {
+            let kind = &scenario.kinds[usize::from(id.kind)];
+            moved.add(hull.go(plan, kind, scenario.step_s, *tick));
+            if plan.path.length_m != 0.0 {
+                disc.centre = plan.path.at(1.0);
+            }
+            *course = course.turned(plan.path.turn_rad);
+        }
+        moved
+    };
+    if !is_shared {
+        return some((plans, ids, discs, courses, hulls));
+    }
+    let tasks = (
+        plans.par_chunks(ROBOTS_PER_TASK),
+        ids.par_chunks(ROBOTS_PER_TASK),
+        discs.par_chunks_mut(ROBOTS_PER_TASK),
+        courses.par_chunks_mut(ROBOTS_PER_TASK),
+        hulls.par_chunks_mut(ROBOTS_PER_TASK),
+    );
+    // A greatest number and a sum of whole ones: the order of the tasks does not matter.
+    tasks
+        .into_par_iter()
+        .map(some)
+        .reduce(Moved::default, Moved::and)
+}
+
+type Bodies<'a> = (
+    &'a [Plan],
+    &'a [RobotId],
+    &'a mut [Disc],
+    &'a mut [Course],
+    &'a mut [Hull],
+);
+
+impl Moved {
+    fn add(&mut self, other: Self) {
+        self.farthest_m = self.farthest_m.max(other.farthest_m);
+        self.collisions += other.collisions;
+    }
+
+    fn and(mut self, other: Self) -> Self {
+        self.add(other);
+        self
+    }
+}
+
+impl Plan {
+    const REST: Self = Self {
+        path: Path::rest(base::geometry::Point { x: 0.0, y: 0.0 }),
+        driven: Driven::REST,
+        effort: Going::EASY.energy,
+        sensing_w: 0.0,
+        stop: Stop::Nothing,
+    };
+}
+
+impl Hull {
+    /// Whether its body obeys in this step.
+    #[inline]
+    fn can_move(&self, tick: u64) -> bool {
+        self.status == Status::Active && !self.is_external && tick >= self.held_until
+    }
+
+    /// What going its way does to it.
+    #[inline]
+    fn go(&mut self, plan: &Plan, kind: &Kind, step_s: f64, tick: u64) -> Moved {
+        let gone_m = plan.path.length_m.abs() * plan.path.until;
+        let is_stopped = plan.stop != Stop::Nothing;
+        self.speed_m_s = if is_stopped {
+            0.0
+        } else {
+            plan.driven.speed_m_s
+        };
+        self.turn_rate_rad_s = plan.driven.turn_rate_rad_s;
+        self.distance_m += gone_m;
+        let is_collision = is_stopped && !self.is_touching;
+        // Only going freely ends a touch: a robot that turns on the spot is still there.
+        self.is_touching = is_stopped || (self.is_touching && gone_m == 0.0);
+        self.is_pressed = is_stopped || (self.is_pressed && tick < self.held_until);
+        if is_collision {
+            self.collide(kind, tick);
+        }
+        self.drain(plan, kind, gone_m, step_s);
+        Moved {
+            farthest_m: gone_m,
+            collisions: u64::from(is_collision && plan.stop == Stop::Still),
+        }
+    }
+
+    fn collide(&mut self, kind: &Kind, tick: u64) {
+        self.collisions += 1;
+        self.held_until = tick + 1 + kind.collision.stop_steps;
+        if self.collisions >= kind.collision.breaks_after && self.status == Status::Active {
+            self.status = Status::Broken;
+        }
+    }
+
+    /// Takes a step's energy from the battery.
+    #[inline]
+    fn drain(&mut self, plan: &Plan, kind: &Kind, gone_m: f64, step_s: f64) {
+        let Some(battery) = kind.battery.filter(|_| self.status == Status::Active) else {
+            return;
+        };
+        let is_moving = gone_m > 0.0 || plan.path.turn_rad != 0.0;
+        let move_w = if is_moving { battery.move_w } else { 0.0 };
+        let moving_j = move_w * step_s + battery.move_j_per_m * gone_m;
+        let standing_w = battery.idle_w + plan.sensing_w;
+        self.energy_j += standing_w * step_s + moving_j * plan.effort;
+        if self.energy_j >= battery.capacity_j {
+            self.energy_j = battery.capacity_j;
+            self.status = Status::Empty;
+        }
+    }
+}

@@ -1,0 +1,91 @@
+//! Messages on their way.
+
+use super::view::View;
+use crate::radio::Radio;
+use crate::sensing::eye::Use;
+use base::noise::share;
+use brain::{Heard, Message};
+use std::collections::VecDeque;
+
+/// Messages on their way, by the step in which they are heard.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Air {
+    /// The next step first.
+    due: VecDeque<Vec<Sent>>,
+    /// Emptied lists, to be used again.
+    spare: Vec<Vec<Sent>>,
+}
+
+/// A message on its way to one robot.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Sent {
+    pub(crate) to: u32,
+    pub(crate) at: u64,
+    pub(crate) heard: Heard,
+}
+
+/// A message that a robot sends, and its place among those that it sends in this step.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Outgoing {
+    pub(crate) from: u32,
+    pub(crate) number: u32,
+    pub(crate) message: Message,
+}
+
+impl Air {
+    /// What is heard in this step, in the order in which it was sent.
+    pub(crate) fn arrive(&mut self) -> Vec<Sent> {
+        self.due.pop_front().unwrap_or_default()
+    }
+
+    /// Takes back a list that `arrive` gave.
+    pub(crate) fn reuse(&mut self, mut list: Vec<Sent>) {
+        list.clear();
+        if list.capacity() > 0 {
+            self.spare.push(list);
+        }
+    }
+
+    /// Sends a message to every robot that can hear it, of those that `view` shows.
+    pub(crate) fn send(&mut self, view: &View, outgoing: Outgoing, radio: &Radio) {
+        let from = outgoing.from as usize;
+        let place = view.discs[from].centre;
+        let steps = usize::try_from(radio.delay_steps - 1).unwrap_or(usize::MAX);
+        while self.due.len() <= steps {
+            self.due.push_back(self.spare.pop().unwrap_or_default());
+        }
+        let list = &mut self.due[steps];
+        let first = list.len();
+        for to in view.neighbours.about(place, radio.range_m) {
+            if to as usize != from && view.hears(&outgoing, to as usize, radio) {
+                let heard = Heard {
+                    from: view.ids[from],
+                    age_s: 0.0,
+                    message: outgoing.message,
+                };
+                list.push(Sent {
+                    to,
+                    at: view.tick,
+                    heard,
+                });
+            }
+        }
+        list[first..].sort_unstable_by_key(|sent| sent.to);
+    }
+}
+
+impl View<'_> {
+    fn hears(&self, outgoing: &Outgoing, to: usize, radio: &Radio) -> bool {
+        let from = outgoing.from as usize;
+        let (here, there) = (self.discs[from].centre, self.discs[to].centre);
+        if !self.is_listening(to) || here.to(there).length_squared() > radio.range_m * radio.range_m
+        {
+            return false;
+        }
+        let sender = self.ids[from];
+        let used = Use::Radio as u32 | u32::from(sender.kind) << 8 | outgoing.number << 16;
+        let words = self.noises[to].words(used, self.tick, sender.index);
+        let is_lost = share(words[0]) < radio.loss;
+        !is_lost && (!radio.needs_line_of_sight || self.scenario.hiding().is_open(here, there))
+    }
+}

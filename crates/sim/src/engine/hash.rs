@@ -1,0 +1,20 @@
+//! Telling states apart.
+
+/// A running hash of 64-bit words: FNV-1a (Fowler, Noll, Vo), a word at a time.
+pub(crate) struct Hash(u64);
+
+impl Hash {
+    pub(crate) fn new() -> Self {
+        Self(0xCBF2_9CE4_8422_2325)
+    }
+
+    pub(crate) fn add(&mut self, word: u64) {
+        // The shift lets high bits reach low ones, which a product alone does not.
+        let mixed = (self.0 ^ word).wrapping_mul(0x0000_0100_0000_01B3);
+        self.0 = mixed ^ (mixed >> 29);
+    }
+
+    pub(crate) fn value(&self) -> u64 {
+        self.0
+    }
+}

@@ -1,0 +1,149 @@
+//! Where the paths of robots meet in one step, resolved in the order of time.
+
+use super::act::{Plan, Stop};
+use super::neighbours::Neighbours;
+use super::state::State;
+use crate::body::contact::meets_moving;
+use base::geometry::Disc;
+use std::cmp::{Ordering, Reverse};
+use std::collections::BinaryHeap;
+
+/// Pairs of robots that may meet, and when; kept between steps so that nothing is allocated.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Meetings {
+    /// Ascending; the lesser robot first.
+    pairs: Vec<Pair>,
+    queue: BinaryHeap<Reverse<Meeting>>,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Pair {
+    robots: [u32; 2],
+    reach_m: f64,
+    /// Share of the step after which they meet, as far as is known; infinite if they do not.
+    share: f64,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Meeting {
+    share: f64,
+    pair: usize,
+}
+
+impl Eq for Meeting {}
+
+impl Ord for Meeting {
+    fn cmp(&self, other: &Self) -> Ordering {
+        let by_pair = || self.pair.cmp(&other.pair);
+        self.share.total_cmp(&other.share).then_with(by_pair)
+    }
+}
+
+impl PartialOrd for Meeting {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Meetings {
+    /// Finds the pairs that are near enough to meet.
+    pub(crate) fn collect(
+        &mut self,
+        plans: &[Plan],
+        discs: &[Disc],
+        neighbours: &Neighbours,
+        contact_m: f64,
+    ) {
+        self.pairs.clear();
+        self.queue.clear();
+        for (robot, disc) in discs.iter().enumerate() {
+            let first = self.pairs.len();
+            for other in neighbours.of(robot) {
+                let far = &discs[*other as usize];
+                let square = disc.centre.to(far.centre).length_squared();
+                if *other as usize > robot && square < contact_m * contact_m {
+                    self.add(plans, discs, robot, *other as usize);
+                }
+            }
+            self.pairs[first..].sort_unstable_by_key(|pair| pair.robots);
+        }
+    }
+
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "robots have 32-bit numbers"
+    )]
+    fn add(&mut self, plans: &[Plan], discs: &[Disc], one: usize, other: usize) {
+        let reach_m = discs[one].radius_m + discs[other].radius_m;
+        let length_m = plans[one].path.length_m.abs() + plans[other].path.length_m.abs();
+        let gap_m = discs[one].centre.to(discs[other].centre).length() - reach_m;
+        if gap_m <= length_m && length_m > 0.0 {
+            self.pairs.push(Pair {
+                robots: [one as u32, other as u32],
+                reach_m,
+                share: f64::INFINITY,
+            });
+        }
+    }
+
+    /// Stops robots where they meet; returns how many new contacts there are.
+    pub(crate) fn resolve(
+        &mut self,
+        plans: &mut [Plan],
+        state: &State,
+        neighbours: &Neighbours,
+    ) -> u64 {
+        let mut collisions = 0;
+        for pair in 0..self.pairs.len() {
+            self.predict(plans, pair);
+        }
+        while let Some(Reverse(Meeting { share, pair })) = self.queue.pop() {
+            let robots = self.pairs[pair].robots;
+            // What was predicted before one of them was stopped does not hold.
+            if self.pairs[pair].share.to_bits() != share.to_bits() {
+                continue;
+            }
+            self.pairs[pair].share = f64::NEG_INFINITY;
+            let is_old = robots
+                .iter()
+                .all(|robot| state.hulls[*robot as usize].is_touching);
+            collisions += u64::from(!is_old);
+            for robot in robots {
+                self.stop(plans, neighbours, robot, share);
+            }
+        }
+        collisions
+    }
+
+    fn stop(&mut self, plans: &mut [Plan], neighbours: &Neighbours, robot: u32, share: f64) {
+        let plan = &mut plans[robot as usize];
+        plan.stop = Stop::Robot;
+        if plan.path.until <= share {
+            return;
+        }
+        plan.path.until = share;
+        for other in neighbours.of(robot as usize) {
+            let robots = [robot.min(*other), robot.max(*other)];
+            if let Ok(pair) = self.pairs.binary_search_by_key(&robots, |pair| pair.robots) {
+                self.predict(plans, pair);
+            }
+        }
+    }
+
+    /// Finds when a pair that has not met yet will.
+    fn predict(&mut self, plans: &[Plan], number: usize) {
+        let pair = &mut self.pairs[number];
+        if pair.share == f64::NEG_INFINITY {
+            return;
+        }
+        let [one, other] = pair.robots.map(|robot| &plans[robot as usize].path);
+        let share = meets_moving(one, other, pair.reach_m);
+        pair.share = share.unwrap_or(f64::INFINITY);
+        if let Some(share) = share {
+            self.queue.push(Reverse(Meeting {
+                share,
+                pair: number,
+            }));
+        }
+    }
+}

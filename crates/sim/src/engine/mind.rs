@@ -1,0 +1,191 @@
+//! A robot's brain, and what waits for it.
+
+use super::air::Sent;
+use crate::body::kind::Kind;
+use crate::sensing::{Measure, Sensor};
+use brain::{Brain, Contact, Heard, Motion, Neighbour, Percept, SensorRequest};
+use std::sync::Arc;
+
+/// What decides for one robot.
+#[derive(Debug, Clone)]
+pub(crate) struct Mind {
+    pub(crate) brain: Brain,
+    /// What it wants until it steps again.
+    pub(crate) wanted: Motion,
+    /// A bit for each sensor that is switched off.
+    pub(crate) sensors_off: u32,
+    /// What has been measured or heard and has not reached the brain. Most kinds of robots never
+    /// have any.
+    pub(crate) backlog: Option<Box<Backlog>>,
+}
+
+impl Mind {
+    pub(crate) fn new(kind: &Kind) -> Self {
+        Self {
+            brain: Brain::new(Arc::clone(&kind.brain), Arc::clone(&kind.body)),
+            wanted: Motion::default(),
+            sensors_off: 0,
+            backlog: kind.needs_backlog().then(|| Box::new(Backlog::new(kind))),
+        }
+    }
+
+    pub(crate) fn switch(&mut self, request: &SensorRequest) {
+        let bit = 1_u32.checked_shl(request.sensor.into()).unwrap_or(0);
+        if request.on {
+            self.sensors_off &= !bit;
+        } else {
+            self.sensors_off |= bit;
+        }
+    }
+
+    /// Takes a message that arrives now, unless the radio has heard enough in this step.
+    pub(crate) fn hear(&mut self, sent: &Sent, now: u64, most: usize) {
+        let Some(backlog) = &mut self.backlog else {
+            return;
+        };
+        let inbox = &mut backlog.inbox;
+        if inbox
+            .iter()
+            .rev()
+            .take_while(|late| late.due == now)
+            .count()
+            < most
+        {
+            inbox.push(Late {
+                taken: sent.at,
+                due: now,
+                what: sent.heard,
+            });
+        }
+    }
+
+    /// Adds what others told to a percept from outside.
+    pub(crate) fn tell_messages(&mut self, now: u64, step_s: f64, to: &mut Percept) {
+        if let Some(backlog) = &mut self.backlog {
+            backlog.tell_messages(now, step_s, to);
+        }
+    }
+
+    pub(crate) fn wait_contact(&mut self, late: Late<(Contact, Option<u32>)>) {
+        if let Some(backlog) = &mut self.backlog {
+            backlog.contacts.push(late);
+        }
+    }
+
+    pub(crate) fn wait_neighbour(&mut self, late: Late<Neighbour>) {
+        if let Some(backlog) = &mut self.backlog {
+            backlog.neighbours.push(late);
+        }
+    }
+
+    pub(crate) fn is_on(&self, sensor: usize) -> bool {
+        self.sensors_off & (1 << sensor) == 0
+    }
+}
+
+/// What a robot has not been told yet.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Backlog {
+    /// By sensor; empty for one that tells at once.
+    kept: Vec<Vec<Look>>,
+    pub(crate) contacts: Vec<Late<(Contact, Option<u32>)>>,
+    pub(crate) neighbours: Vec<Late<Neighbour>>,
+    pub(crate) inbox: Vec<Late<Heard>>,
+}
+
+/// Something measured, and when the robot will have it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Late<T> {
+    pub(crate) taken: u64,
+    pub(crate) due: u64,
+    pub(crate) what: T,
+}
+
+/// A look of which the newest counts.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Look {
+    /// `None` before the first look, and for one that gave nothing.
+    taken: Option<u64>,
+    values: Vec<f64>,
+}
+
+impl Backlog {
+    fn new(kind: &Kind) -> Self {
+        Self {
+            kept: kind.sensors.iter().map(looks_to_keep).collect(),
+            ..Self::default()
+        }
+    }
+
+    /// Keeps what the `look`-th look of a sensor gave, if it gave anything.
+    pub(crate) fn keep(&mut self, sensor: usize, look: u64, taken: Option<u64>) -> &mut Vec<f64> {
+        let slots = &mut self.kept[sensor];
+        #[expect(clippy::cast_possible_truncation, reason = "below the number of slots")]
+        let slot = (look % slots.len() as u64) as usize;
+        slots[slot].taken = taken;
+        &mut slots[slot].values
+    }
+
+    /// The newest look of a sensor that the robot has by now, and when it was taken.
+    pub(crate) fn newest(&self, sensor: usize, latency: u64, now: u64) -> Option<(u64, &[f64])> {
+        let have = self.kept[sensor]
+            .iter()
+            .filter_map(|look| Some((look.taken?, &look.values[..])));
+        let have = have.filter(|(taken, _)| taken + latency <= now);
+        have.max_by_key(|(taken, _)| *taken)
+    }
+
+    /// Gives the brain what has come in, and `found` the items of contacts.
+    pub(crate) fn tell(
+        &mut self,
+        now: u64,
+        step_s: f64,
+        to: &mut Percept,
+        mut found: impl FnMut(Option<u32>),
+    ) {
+        self.contacts.retain(|late| {
+            if late.due <= now {
+                let (contact, item) = late.what;
+                let age_s = age_s(late.taken, now, step_s);
+                to.contacts.push(Contact { age_s, ..contact });
+                found(item);
+            }
+            late.due > now
+        });
+        // Looks of near robots come in no order of their own.
+        self.neighbours
+            .sort_by_key(|late| (late.taken, late.what.id));
+        self.neighbours.retain(|late| {
+            if late.due <= now {
+                let age_s = age_s(late.taken, now, step_s);
+                to.neighbours.push(Neighbour { age_s, ..late.what });
+            }
+            late.due > now
+        });
+        self.tell_messages(now, step_s, to);
+    }
+}
+
+impl Backlog {
+    fn tell_messages(&mut self, now: u64, step_s: f64, to: &mut Percept) {
+        for late in self.inbox.drain(..) {
+            let age_s = age_s(late.taken, now, step_s);
+            to.inbox.push(Heard { age_s, ..late.what });
+        }
+    }
+}
+
+#[expect(clippy::cast_precision_loss, reason = "steps are at most 1e8")]
+pub(crate) fn age_s(taken: u64, now: u64, step_s: f64) -> f64 {
+    (now - taken) as f64 * step_s
+}
+
+/// As many as can be on their way, and one that has come.
+fn looks_to_keep(sensor: &Sensor) -> Vec<Look> {
+    let is_value = !matches!(sensor.measure, Measure::Items(_) | Measure::Robots(_));
+    if sensor.tells_at_once() || !is_value {
+        return Vec::new();
+    }
+    let beats = sensor.rhythm.beats_in(sensor.latency_steps);
+    vec![Look::default(); beats + 2]
+}

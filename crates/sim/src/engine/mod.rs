@@ -1,0 +1,26 @@
+//! The engine: a run, step by step.
+
+mod act;
+mod air;
+mod change;
+mod decide;
+mod hash;
+mod meetings;
+mod mind;
+mod neighbours;
+mod outcome;
+mod outside;
+mod seen;
+mod sense;
+mod share_out;
+mod simulation;
+mod state;
+mod tick;
+mod view;
+
+pub use outcome::Outcome;
+pub use seen::{Item, Robot};
+pub use simulation::{NoRobot, Simulation};
+pub use state::{NoRoom, State, Status};
+
+pub(crate) use tick::Workshop;

@@ -1,0 +1,77 @@
+//! What a run gives.
+
+use super::state::{State, Status};
+use crate::scenario::Scenario;
+
+/// What a run gives, by the names of an outcome's columns.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Outcome {
+    /// Until the last sought item was found; the cap if that was not.
+    pub time_s: f64,
+    /// Whether sought items were not found.
+    pub has_failed: bool,
+    /// Items found, by kind.
+    pub found: Vec<u32>,
+    /// Items not found, by kind.
+    pub missed: Vec<u32>,
+    /// Contacts of nothing that robots were told of.
+    pub false_alarms: u64,
+    /// New contacts of two robots, or of a robot with what stands still.
+    pub collisions: u64,
+    /// Of all robots.
+    pub energy_j: f64,
+    /// Of all robots.
+    pub distance_m: f64,
+    /// Robots that could not go on: empty or broken.
+    pub robots_stopped: u32,
+}
+
+impl Outcome {
+    /// What a run has given so far.
+    #[must_use]
+    #[expect(clippy::cast_precision_loss, reason = "steps are at most 1e8")]
+    pub fn of(scenario: &Scenario, state: &State) -> Self {
+        let mut found = vec![0; scenario.items.len()];
+        let mut missed = vec![0; scenario.items.len()];
+        for (kind, when) in state.items.each() {
+            let counts = if when.is_some() {
+                &mut found
+            } else {
+                &mut missed
+            };
+            counts[usize::from(kind)] += 1;
+        }
+        let complete_s = state
+            .tally
+            .complete_at
+            .map(|tick| tick as f64 * scenario.step_s);
+        let stopped = state
+            .hulls
+            .iter()
+            .filter(|hull| hull.status != Status::Active);
+        Self {
+            // The step of the last find may be a rounding error beyond the cap.
+            time_s: complete_s.map_or(scenario.cap_s, |time_s| time_s.min(scenario.cap_s)),
+            has_failed: complete_s.is_none() && scenario.sought() > 0,
+            found,
+            missed,
+            false_alarms: state.tally.false_alarms,
+            collisions: state.tally.collisions,
+            energy_j: state.hulls.iter().map(|hull| hull.energy_j).sum(),
+            distance_m: state.hulls.iter().map(|hull| hull.distance_m).sum(),
+            #[expect(
+                clippy::cast_possible_truncation,
+                reason = "robots have 32-bit numbers"
+            )]
+            robots_stopped: stopped.count() as u32,
+        }
+    }
+
+    /// Whether all its numbers are finite.
+    #[must_use]
+    pub fn is_finite(&self) -> bool {
+        [self.time_s, self.energy_j, self.distance_m]
+            .iter()
+            .all(|value| value.is_finite())
+    }
+}

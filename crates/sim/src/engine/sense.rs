@@ -1,0 +1,304 @@
+//! The sensor manager at work: the looks of one robot in one step.
+//!
+//! A sensor that looks in each step and has no latency tells at once: its look goes into the
+//! percept if the brain steps now. Everything else goes into the robot's backlog, from which the
+//! brain is told when it steps.
+
+use super::mind::{Backlog, Late, Mind, age_s};
+use super::view::View;
+use crate::sensing::eye::{Eye, Use};
+use crate::sensing::items::ItemDetector;
+use crate::sensing::rays::Near;
+use crate::sensing::robots::RobotDetector;
+use crate::sensing::{Measure, Sensor};
+use base::geometry::Point;
+use base::noise::{normal_pair, share};
+use base::trig::wrapped;
+use brain::{Contact, Neighbour, Percept, Reading};
+
+/// What looks need to be taken, and what the judge needs to know of them.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Senses {
+    /// What rays of the robot can meet, once one of its rings has looked.
+    near: Near,
+    is_near_known: bool,
+    words: Vec<u32>,
+    values: Vec<f64>,
+    /// Items that robots were told of, in the order of the robots.
+    pub(crate) sightings: Vec<u32>,
+    /// Contacts that robots were told of and that are of nothing.
+    pub(crate) false_alarms: u64,
+}
+
+impl Senses {
+    pub(crate) fn clear(&mut self) {
+        self.sightings.clear();
+        self.false_alarms = 0;
+    }
+
+    /// Notes what a contact that a robot is told of is of.
+    pub(crate) fn note(&mut self, item: Option<u32>) {
+        match item {
+            Some(item) => self.sightings.push(item),
+            None => self.false_alarms += 1,
+        }
+    }
+}
+
+/// One look, and where it belongs.
+struct Look<'a> {
+    view: &'a View<'a>,
+    robot: usize,
+    sensor: &'a Sensor,
+    eye: Eye<'a>,
+    /// Place of the sensor among the robot's, and of a ring among its rings.
+    number: usize,
+    ring: usize,
+}
+
+/// Takes the looks that a robot takes in this step; `percept` is there if its brain steps.
+pub(crate) fn sense(
+    view: &View,
+    robot: usize,
+    mind: &mut Mind,
+    senses: &mut Senses,
+    mut percept: Option<&mut Percept>,
+) {
+    let kind = view.kind(robot);
+    let mut ring = 0;
+    senses.is_near_known = false;
+    for (number, sensor) in kind.sensors.iter().enumerate() {
+        let is_of_use = percept.is_some() || sensor.outlasts_a_step();
+        let beat = sensor
+            .rhythm
+            .beat(view.tick)
+            .filter(|_| is_of_use && mind.is_on(number));
+        if let Some(beat) = beat {
+            let look = Look {
+                view,
+                robot,
+                sensor,
+                eye: view.eye(robot, number, beat),
+                number,
+                ring,
+            };
+            look.take(mind, senses, percept.as_deref_mut());
+        }
+        ring += usize::from(matches!(sensor.measure, Measure::Range(_)));
+    }
+    if let (Some(percept), Some(backlog)) = (percept, &mut mind.backlog) {
+        tell_kept(view, robot, backlog, senses, percept);
+    }
+}
+
+/// Tells of the looks that come late.
+fn tell_kept(
+    view: &View,
+    robot: usize,
+    backlog: &mut Backlog,
+    senses: &mut Senses,
+    percept: &mut Percept,
+) {
+    let (now, step_s) = (view.tick, view.scenario.step_s);
+    let mut ring = 0;
+    for (number, sensor) in view.kind(robot).sensors.iter().enumerate() {
+        if let Some((taken, values)) = backlog.newest(number, sensor.latency_steps, now) {
+            senses.values.clear();
+            senses.values.extend_from_slice(values);
+            put(
+                percept,
+                &sensor.measure,
+                ring,
+                age_s(taken, now, step_s),
+                &mut senses.values,
+            );
+        }
+        ring += usize::from(matches!(sensor.measure, Measure::Range(_)));
+    }
+    backlog.tell(now, step_s, percept, |item| senses.note(item));
+}
+
+/// Writes what a sensor measured into the percept.
+fn put(percept: &mut Percept, measure: &Measure, ring: usize, age_s: f64, values: &mut Vec<f64>) {
+    match (measure, values.as_slice()) {
+        (Measure::Range(_), _) => {
+            let scan = &mut percept.scans[ring];
+            scan.age_s = Some(age_s);
+            std::mem::swap(&mut scan.ranges_m, values);
+        }
+        (Measure::Position { .. }, &[x, y]) => {
+            let value = Point { x, y };
+            percept.position = Some(Reading { value, age_s });
+        }
+        (Measure::Heading { .. }, &[value]) => {
+            percept.heading_rad = Some(Reading { value, age_s });
+        }
+        _ => {}
+    }
+}
+
+impl Look<'_> {
+    #[inline]
+    fn take(&self, mind: &mut Mind, senses: &mut Senses, percept: Option<&mut Percept>) {
+        let sensor = self.sensor;
+        let is_lost =
+            sensor.dropout > 0.0 && share(self.eye.words(Use::Dropout, 0)[0]) < sensor.dropout;
+        match &sensor.measure {
+            Measure::Items(_) | Measure::Robots(_) if is_lost => {}
+            Measure::Items(detector) => self.find_items(detector, mind, senses, percept),
+            Measure::Robots(detector) => self.find_robots(detector, mind, percept),
+            value => {
+                self.measure(value, senses);
+                self.tell_value(is_lost, mind, senses, percept);
+            }
+        }
+    }
+
+    /// Measures values into `senses`.
+    #[inline]
+    fn measure(&self, measure: &Measure, senses: &mut Senses) {
+        let eye = &self.eye;
+        senses.values.clear();
+        match measure {
+            Measure::Range(ring) => {
+                if !senses.is_near_known {
+                    gather(self.view, self.robot, &mut senses.near);
+                    senses.is_near_known = true;
+                }
+                ring.look(eye, &senses.near, &mut senses.words, &mut senses.values);
+            }
+            Measure::Position { noise_m } => {
+                let [x, y] = deviations(eye).map(|deviation| deviation * noise_m);
+                senses.values.extend([eye.at.x + x, eye.at.y + y]);
+            }
+            Measure::Heading { noise_rad } => {
+                let heading_rad = self.view.courses[self.robot].heading_rad;
+                senses
+                    .values
+                    .push(wrapped(heading_rad + noise_rad * deviations(eye)[0]));
+            }
+            Measure::Items(_) | Measure::Robots(_) => {}
+        }
+    }
+
+    #[inline]
+    fn tell_value(
+        &self,
+        is_lost: bool,
+        mind: &mut Mind,
+        senses: &mut Senses,
+        percept: Option<&mut Percept>,
+    ) {
+        if self.sensor.tells_at_once() {
+            if let Some(percept) = percept.filter(|_| !is_lost) {
+                put(
+                    percept,
+                    &self.sensor.measure,
+                    self.ring,
+                    0.0,
+                    &mut senses.values,
+                );
+            }
+        } else if let Some(backlog) = &mut mind.backlog {
+            let taken = (!is_lost).then_some(self.view.tick);
+            let kept = backlog.keep(self.number, self.eye.look, taken);
+            std::mem::swap(kept, &mut senses.values);
+        }
+    }
+
+    fn find_items(
+        &self,
+        detector: &ItemDetector,
+        mind: &mut Mind,
+        senses: &mut Senses,
+        mut percept: Option<&mut Percept>,
+    ) {
+        detector.look(&self.eye, self.view.items, |way, kind, item| {
+            let (range_m, bearing_rad) = polar(way);
+            let contact = Contact {
+                kind,
+                range_m,
+                bearing_rad,
+                age_s: 0.0,
+            };
+            match percept
+                .as_deref_mut()
+                .filter(|_| self.sensor.latency_steps == 0)
+            {
+                Some(percept) => {
+                    percept.contacts.push(contact);
+                    senses.note(item);
+                }
+                None => mind.wait_contact(self.late((contact, item))),
+            }
+        });
+    }
+
+    fn find_robots(
+        &self,
+        detector: &RobotDetector,
+        mind: &mut Mind,
+        mut percept: Option<&mut Percept>,
+    ) {
+        let view = self.view;
+        for other in view.neighbours.about(self.eye.at, detector.sector.range_m) {
+            let other = other as usize;
+            let way = (other != self.robot)
+                .then(|| detector.look(&self.eye, view.discs[other].centre, view.ids[other]));
+            let Some(way) = way.flatten() else { continue };
+            let (range_m, bearing_rad) = polar(way);
+            let neighbour = Neighbour {
+                range_m,
+                bearing_rad,
+                age_s: 0.0,
+                id: view.ids[other],
+            };
+            match percept
+                .as_deref_mut()
+                .filter(|_| self.sensor.latency_steps == 0)
+            {
+                Some(percept) => percept.neighbours.push(neighbour),
+                None => mind.wait_neighbour(self.late(neighbour)),
+            }
+        }
+        // Lists of near robots have no order of their own.
+        if let Some(percept) = percept {
+            percept.neighbours.sort_by_key(|neighbour| neighbour.id);
+        }
+    }
+
+    fn late<T>(&self, what: T) -> Late<T> {
+        let taken = self.view.tick;
+        Late {
+            taken,
+            due: taken + self.sensor.latency_steps,
+            what,
+        }
+    }
+}
+
+fn polar(way: Point) -> (f64, f64) {
+    (way.length(), libm::atan2(way.y, way.x))
+}
+
+/// Two standard normal deviations for the error of a look.
+fn deviations(eye: &Eye) -> [f64; 2] {
+    let [a, b, ..] = eye.words(Use::Error, 0);
+    normal_pair([a, b])
+}
+
+/// What the rays of a robot can meet.
+#[inline]
+fn gather(view: &View, robot: usize, near: &mut Near) {
+    let kind = view.kind(robot);
+    let at = view.discs[robot].centre;
+    let stands = view.scenario.seen(kind.layer);
+    let robots = view.neighbours.of(robot).iter();
+    let discs = robots.map(|other| &view.discs[*other as usize]);
+    near.gather(
+        at,
+        kind.rays_m,
+        discs.chain(stands.discs_near(at)),
+        stands.walls_near(at),
+    );
+}

@@ -1,0 +1,157 @@
+//! One run, stepped by hand.
+
+use super::outcome::Outcome;
+use super::outside::Outside;
+use super::state::{NoRoom, State};
+use super::tick::Workshop;
+use crate::body::path::Course;
+use crate::scenario::Scenario;
+use base::geometry::Point;
+use brain::{Command, Percept, RobotId};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// A run, and what it needs to go on.
+///
+/// A body can be outside: from the first percept that [`Simulation::step_with`] gets for a robot, it
+/// is where its percepts say, and its brain's commands are handed out instead of carried out. In a
+/// step without a percept it stands, and its brain is not asked.
+#[derive(Debug, Clone)]
+pub struct Simulation {
+    scenario: Arc<Scenario>,
+    state: State,
+    workshop: Workshop,
+}
+
+/// A robot that a run does not have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("there is no robot {} of kind {}", .0.index, .0.kind)]
+pub struct NoRobot(pub RobotId);
+
+impl Simulation {
+    /// A run at its beginning. Threads share the work of its steps if there are thousands of robots.
+    ///
+    /// # Errors
+    /// If the world has no room for an item or a robot.
+    pub fn new(scenario: Arc<Scenario>, seed: u64, run: u64) -> Result<Self, NoRoom> {
+        let state = State::new(&scenario, seed, run)?;
+        let workshop = Workshop::new(&scenario, true);
+        Ok(Self {
+            scenario,
+            state,
+            workshop,
+        })
+    }
+
+    /// Takes one step, also after the run is over.
+    pub fn step(&mut self) {
+        self.workshop.step(&self.scenario, &mut self.state);
+    }
+
+    /// Takes one step with percepts of bodies outside, and with commands that stand for what the
+    /// brains of other robots would decide; returns what the brains of bodies outside decide.
+    ///
+    /// # Errors
+    /// If a robot is not there; then no step is taken.
+    pub fn step_with(
+        &mut self,
+        percepts: BTreeMap<RobotId, Percept>,
+        commands: BTreeMap<RobotId, Command>,
+    ) -> Result<BTreeMap<RobotId, Command>, NoRobot> {
+        let outside = Outside {
+            percepts: self.numbered(percepts)?,
+            commands: self.numbered(commands)?,
+        };
+        for (robot, percept) in &outside.percepts {
+            self.put_outside(*robot, percept);
+        }
+        self.workshop
+            .tick(&self.scenario, &mut self.state, &outside);
+        let ids = &self.state.ids;
+        Ok(self
+            .workshop
+            .answers()
+            .map(|(robot, command)| (ids[robot], command))
+            .collect())
+    }
+
+    /// What a robot will perceive in the next step; `None` if its brain does not step in it, or if
+    /// its body is outside or cannot go on.
+    ///
+    /// # Errors
+    /// If the robot is not there.
+    pub fn percept(&mut self, id: RobotId) -> Result<Option<Percept>, NoRobot> {
+        let robot = self.number(id)?;
+        Ok(self
+            .workshop
+            .percept(&self.scenario, &mut self.state, robot))
+    }
+
+    /// Takes steps until the run is over.
+    pub fn finish(&mut self) -> Outcome {
+        while !self.state.is_over(&self.scenario) {
+            self.step();
+        }
+        self.outcome()
+    }
+
+    /// What the run has given so far.
+    #[must_use]
+    pub fn outcome(&self) -> Outcome {
+        Outcome::of(&self.scenario, &self.state)
+    }
+
+    /// What the run is of.
+    #[must_use]
+    pub fn scenario(&self) -> &Arc<Scenario> {
+        &self.scenario
+    }
+
+    /// Where the run is: a copy of it can be kept and put back.
+    #[must_use]
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// Puts the run where it was when `state` was copied from it.
+    pub fn restore(&mut self, state: State) {
+        self.state = state;
+        self.workshop.forget();
+    }
+
+    /// Goes on with another scenario: see [`State::changed`].
+    ///
+    /// # Errors
+    /// If the world has no room for an item or robot that comes in; then nothing has changed.
+    pub fn change(&mut self, scenario: Arc<Scenario>) -> Result<(), NoRoom> {
+        self.state = self.state.changed(&self.scenario, &scenario)?;
+        self.workshop = Workshop::new(&scenario, true);
+        self.scenario = scenario;
+        Ok(())
+    }
+
+    /// The body is outside, and where its percept says.
+    fn put_outside(&mut self, robot: usize, percept: &Percept) {
+        self.state.hulls[robot].is_external = true;
+        let is_finite = |at: &Point| at.x.is_finite() && at.y.is_finite();
+        if let Some(at) = percept.position.map(|read| read.value).filter(is_finite) {
+            self.state.discs[robot].centre = at;
+            self.workshop.forget();
+        }
+        let heading_rad = percept.heading_rad.map(|read| read.value);
+        if let Some(heading_rad) = heading_rad.filter(|heading_rad| heading_rad.abs() < 1e6) {
+            self.state.courses[robot] = Course::new(heading_rad);
+        }
+    }
+
+    fn numbered<T>(&self, given: BTreeMap<RobotId, T>) -> Result<BTreeMap<usize, T>, NoRobot> {
+        given
+            .into_iter()
+            .map(|(id, what)| Ok((self.number(id)?, what)))
+            .collect()
+    }
+
+    fn number(&self, id: RobotId) -> Result<usize, NoRobot> {
+        self.state.ids.binary_search(&id).map_err(|_| NoRobot(id))
+    }
+}

@@ -1,0 +1,160 @@
+//! One step of a run: sense, tell, decide, act, judge.
+
+use super::act::Moves;
+use super::decide::Desk;
+use super::mind::Mind;
+use super::neighbours::Neighbours;
+use super::outside::Outside;
+use super::share_out::is_worth_sharing;
+use super::state::{State, Status};
+use crate::scenario::Scenario;
+use brain::{Command, Percept};
+use rayon::prelude::*;
+
+/// What steps need besides the run's state: nothing in it changes what comes out. It is kept from
+/// step to step, so that after the first ones a step allocates nothing.
+#[derive(Debug, Clone)]
+pub(crate) struct Workshop {
+    neighbours: Neighbours,
+    desks: Vec<Desk>,
+    moves: Moves,
+    /// Whether threads may share the work of one step.
+    may_share: bool,
+}
+
+impl Workshop {
+    pub(crate) fn new(scenario: &Scenario, may_share: bool) -> Self {
+        Self {
+            neighbours: Neighbours::new(scenario),
+            desks: Vec::new(),
+            moves: Moves::default(),
+            may_share,
+        }
+    }
+
+    /// Takes one step into which nothing comes from outside.
+    pub(crate) fn step(&mut self, scenario: &Scenario, state: &mut State) {
+        self.tick(scenario, state, &Outside::default());
+    }
+
+    /// Begins another run, or goes on with one that has been changed.
+    pub(crate) fn forget(&mut self) {
+        self.neighbours.forget();
+    }
+
+    /// Takes one step.
+    pub(crate) fn tick(&mut self, scenario: &Scenario, state: &mut State, outside: &Outside) {
+        self.refresh(scenario, state);
+        self.sense_and_decide(scenario, state, outside);
+        self.speak(scenario, state);
+        self.judge(scenario, state);
+        self.act(scenario, state);
+        state.tick += 1;
+        hear(scenario, state);
+    }
+
+    fn is_shared(&self, state: &State) -> bool {
+        self.may_share && is_worth_sharing(state.robots())
+    }
+
+    /// Sees to it that neighbours are known.
+    fn refresh(&mut self, scenario: &Scenario, state: &State) {
+        let is_shared = self.is_shared(state);
+        self.neighbours
+            .refresh(scenario, &state.ids, &state.discs, is_shared);
+    }
+
+    /// Lets all robots sense and decide, each from the same view.
+    fn sense_and_decide(&mut self, scenario: &Scenario, state: &mut State, outside: &Outside) {
+        let (robots, is_shared) = (state.robots(), self.is_shared(state));
+        let desks = if is_shared {
+            4 * rayon::current_num_threads()
+        } else {
+            1
+        };
+        self.desks.resize_with(desks, Desk::default);
+        self.desks.iter_mut().for_each(Desk::clear);
+        let (mut view, minds) = state.view(scenario, &self.neighbours);
+        view.outside = (!outside.is_empty()).then_some(outside);
+        let share = robots.div_ceil(desks).max(1);
+        let serve = |(number, (desk, minds)): (usize, (&mut Desk, &mut [Mind]))| {
+            for (place, mind) in minds.iter_mut().enumerate() {
+                desk.serve(&view, number * share + place, mind);
+            }
+        };
+        if is_shared {
+            let tasks = self.desks.par_iter_mut().zip(minds.par_chunks_mut(share));
+            tasks.enumerate().for_each(serve);
+        } else {
+            let tasks = self.desks.iter_mut().zip(minds.chunks_mut(share));
+            tasks.enumerate().for_each(serve);
+        }
+    }
+
+    /// What a robot will perceive in the next step, if its brain steps in it.
+    pub(crate) fn percept(
+        &mut self,
+        scenario: &Scenario,
+        state: &mut State,
+        robot: usize,
+    ) -> Option<Percept> {
+        self.refresh(scenario, state);
+        let mut mind = state.minds[robot].clone();
+        let (view, _) = state.view(scenario, &self.neighbours);
+        let mut desk = Desk::default();
+        let is_time = view.is_simulated(robot) && desk.perceive(&view, robot, &mut mind);
+        is_time.then_some(desk.percept)
+    }
+
+    /// What brains decided for bodies outside, by the robot's number.
+    pub(crate) fn answers(&mut self) -> impl Iterator<Item = (usize, Command)> {
+        self.desks
+            .iter_mut()
+            .flat_map(|desk| desk.answers.drain(..))
+    }
+
+    /// Sends what robots want to tell.
+    fn speak(&self, scenario: &Scenario, state: &mut State) {
+        let mut air = std::mem::take(&mut state.air);
+        let (view, _) = state.view(scenario, &self.neighbours);
+        for outgoing in self.desks.iter().flat_map(|desk| &desk.outbox) {
+            if let Some(radio) = &view.kind(outgoing.from as usize).radio {
+                air.send(&view, *outgoing, radio);
+            }
+        }
+        state.air = air;
+    }
+
+    fn act(&mut self, scenario: &Scenario, state: &mut State) {
+        let is_shared = self.is_shared(state);
+        let moved = self.moves.act(scenario, state, &self.neighbours, is_shared);
+        self.neighbours.note(moved.farthest_m);
+        state.tally.collisions += moved.collisions;
+    }
+
+    /// Marks what has been found.
+    fn judge(&self, scenario: &Scenario, state: &mut State) {
+        for desk in &self.desks {
+            state.tally.false_alarms += desk.senses.false_alarms;
+            for item in &desk.senses.sightings {
+                state.find(scenario, *item);
+            }
+        }
+    }
+}
+
+/// Brings messages to the robots that hear them in this step.
+fn hear(scenario: &Scenario, state: &mut State) {
+    let arrived = state.air.arrive();
+    for sent in &arrived {
+        let robot = sent.to as usize;
+        let kind = &scenario.kinds[usize::from(state.ids[robot].kind)];
+        let radio = kind
+            .radio
+            .filter(|_| state.hulls[robot].status == Status::Active);
+        if let Some(radio) = radio {
+            state.minds[robot].hear(sent, state.tick, radio.messages_per_step);
+        }
+    }
+    state.air.reuse(arrived);
+}

@@ -1,0 +1,20 @@
+//! A run has an end that can be waited for.
+
+use super::ScenarioSpec;
+use base::document::Place;
+use base::fault::Fault;
+
+/// Most steps of a run.
+const MAX_STEPS: f64 = 1e8;
+
+pub(super) fn faults(spec: &ScenarioSpec, at: &Place) -> Vec<Fault> {
+    let step_s = spec.clock.step_s;
+    if spec.clock.cap_s <= MAX_STEPS * step_s {
+        return Vec::new();
+    }
+    let allowed = format!(
+        "at most {}: a run has at most {MAX_STEPS} steps, here of {step_s} s",
+        MAX_STEPS * step_s
+    );
+    vec![at.key("clock").key("cap_s").fault(allowed)]
+}

@@ -1,0 +1,116 @@
+//! Obstacles and areas that have an inside.
+
+use super::Open;
+use crate::world::WorldSpec;
+use crate::world::grid::Still;
+use crate::world::obstacles::{ObstacleSpec, Solid};
+use crate::world::terrain::{Area, TerrainSpec};
+use base::document::Place;
+use base::fault::Fault;
+use base::geometry::{Disc, Point, Polygon, Rectangle};
+use base::map::{self, OccupancyMap, Unknown};
+use std::collections::BTreeMap;
+
+/// The obstacles that are right; what is wrong with others, or outside, is told.
+pub(super) fn solids(
+    world: &WorldSpec,
+    at: &Place,
+    open: Open,
+    faults: &mut Vec<Fault>,
+) -> Vec<Solid> {
+    let mut solids = Vec::new();
+    let rectangle = rectangle(world);
+    for (index, obstacle) in world.obstacles.iter().enumerate() {
+        let at = at.key("obstacles").item(index);
+        match solid(obstacle, &at, open) {
+            Ok(solid) => {
+                let [least, greatest] = solid.bounds();
+                if !rectangle.overlaps(&Rectangle::spanned(least, greatest)) {
+                    faults.push(at.fault(format!("at least partly in {}", words(world))));
+                }
+                solids.push(solid);
+            }
+            Err(told) => faults.extend(told),
+        }
+    }
+    solids
+}
+
+/// Where a world is.
+pub(super) fn rectangle(world: &WorldSpec) -> Rectangle {
+    let [width, height] = world.size_m;
+    let corner = Point {
+        x: width.0,
+        y: height.0,
+    };
+    Rectangle::spanned(Point::default(), corner)
+}
+
+/// Where a world is, in words.
+pub(super) fn words(world: &WorldSpec) -> String {
+    let [width, height] = world.size_m;
+    format!("the world, from [0, 0] to [{}, {}]", width.0, height.0)
+}
+
+fn solid(obstacle: &ObstacleSpec, at: &Place, open: Open) -> Result<Solid, Vec<Fault>> {
+    match obstacle {
+        ObstacleSpec::Polygon { polygon_m } => {
+            polygon(polygon_m, &at.key("polygon_m")).map(Solid::Polygon)
+        }
+        ObstacleSpec::Circle { circle } => Ok(Solid::Disc(Disc {
+            centre: circle.at_m,
+            radius_m: circle.radius_m,
+        })),
+        ObstacleSpec::Map {
+            map,
+            unknown_is_solid,
+        } => {
+            let unknown = match unknown_is_solid {
+                true => Unknown::Solid,
+                false => Unknown::Free,
+            };
+            read_map(map, unknown, &at.key("map"), open).map(Solid::Map)
+        }
+    }
+}
+
+/// The map in a YAML file; the image that this names is beside it.
+fn read_map(
+    file: &str,
+    unknown: Unknown,
+    at: &Place,
+    open: Open,
+) -> Result<OccupancyMap, Vec<Fault>> {
+    let refusal = |why: String| vec![at.fault(format!("a file that can be read: {why}"))];
+    let bytes = open(file).map_err(refusal)?;
+    let text = String::from_utf8(bytes).map_err(|why| refusal(why.to_string()))?;
+    let folder = file.rsplit_once('/').map(|(folder, _)| folder);
+    let beside = |image: &str| match folder {
+        Some(folder) if !image.starts_with('/') => open(&format!("{folder}/{image}")),
+        _ => open(image),
+    };
+    map::read(file, &text, unknown, beside).map_err(|faults| faults.0)
+}
+
+/// The areas of all classes of ground.
+pub(super) fn areas(
+    classes: &BTreeMap<String, TerrainSpec>,
+    at: &Place,
+    faults: &mut Vec<Fault>,
+) -> Vec<Area> {
+    let mut areas = Vec::new();
+    for (name, class) in classes {
+        let at = at.key(name).key("areas_m");
+        for (index, corners) in class.areas_m.iter().enumerate() {
+            match polygon(corners, &at.item(index)) {
+                Ok(polygon) => areas.push(Area::new(polygon, class)),
+                Err(told) => faults.extend(told),
+            }
+        }
+    }
+    areas
+}
+
+fn polygon(corners: &[Point], at: &Place) -> Result<Polygon, Vec<Fault>> {
+    Polygon::new(corners).map_err(|fault| vec![at.fault(fault.to_string())])
+}

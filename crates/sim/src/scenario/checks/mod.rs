@@ -1,0 +1,51 @@
+//! What the parts of a scenario mean together; one thing a file.
+
+mod clock;
+mod detection;
+mod drive;
+mod ground;
+mod memory;
+mod names;
+mod places;
+mod rates;
+mod reach;
+mod room;
+
+use super::{Checked, Open, Scenario, ScenarioSpec};
+use base::document::Place;
+use base::fault::{Fault, Faults};
+
+/// A check: what is wrong with a scenario that stands `at` the root of a document.
+type Check = fn(&ScenarioSpec, &Place) -> Vec<Fault>;
+
+const CHECKS: [Check; 6] = [
+    clock::faults,
+    names::faults,
+    rates::faults,
+    drive::faults,
+    detection::faults,
+    memory::faults,
+];
+
+/// A check of what stands where, which cannot be said while an obstacle is wrong.
+type CheckOfPlaces = fn(&Checked, &Place) -> Vec<Fault>;
+
+const CHECKS_OF_PLACES: [CheckOfPlaces; 3] = [places::faults, room::faults, reach::faults];
+
+/// `spec`, which stands `at` the root of a document, if nothing is wrong with it.
+pub(super) fn checked(spec: ScenarioSpec, at: &Place, open: Open) -> Result<Checked, Faults> {
+    let mut faults: Vec<Fault> = CHECKS.iter().flat_map(|check| check(&spec, at)).collect();
+    let solids = ground::solids(&spec.world, &at.key("world"), open, &mut faults);
+    let areas = ground::areas(&spec.terrain, &at.key("terrain"), &mut faults);
+    Faults::or(faults, Some(()))?;
+    let scenario = Scenario::new(&spec, solids, areas);
+    let checked = Checked { spec, scenario };
+    let of_places = CHECKS_OF_PLACES
+        .iter()
+        .flat_map(|check| check(&checked, at));
+    Faults::or(of_places.collect(), Some(()))?;
+    Ok(checked)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,61 @@
+//! Names that columns, paths and options can hold.
+
+use super::ScenarioSpec;
+use base::document::Place;
+use base::fault::Fault;
+
+/// Kinds are counted in a byte of the random streams' key.
+const MAX_KINDS: usize = 255;
+
+/// Most sensors of a robot.
+const MAX_SENSORS: usize = 255;
+
+/// Most characters of a name.
+const MAX_LENGTH: usize = 64;
+
+pub(super) fn faults(spec: &ScenarioSpec, at: &Place) -> Vec<Fault> {
+    let robots = at.key("robots");
+    let mut faults = faults_of(&names(&spec.robots), 1, MAX_KINDS, &robots);
+    faults.extend(faults_of(
+        &names(&spec.items),
+        0,
+        MAX_KINDS,
+        &at.key("items"),
+    ));
+    faults.extend(faults_of(
+        &names(&spec.terrain),
+        0,
+        MAX_KINDS,
+        &at.key("terrain"),
+    ));
+    for (name, robot) in &spec.robots {
+        let sensors = robots.key(name).key("sensors");
+        faults.extend(faults_of(&names(&robot.sensors), 0, MAX_SENSORS, &sensors));
+    }
+    faults
+}
+
+fn names<T>(table: &std::collections::BTreeMap<String, T>) -> Vec<&str> {
+    table.keys().map(String::as_str).collect()
+}
+
+fn faults_of(names: &[&str], least: usize, most: usize, at: &Place) -> Vec<Fault> {
+    let bad = names.iter().filter(|name| !is_fine(name));
+    let mut faults: Vec<Fault> = bad
+        .map(|name| {
+            at.key(name).fault(format!(
+                "under a name of at most {MAX_LENGTH} letters a to z or A to Z, digits, _ and -"
+            ))
+        })
+        .collect();
+    if !(least..=most).contains(&names.len()) {
+        let allowed = format!("a table of {least} to {most}; it has {}", names.len());
+        faults.push(at.fault(allowed));
+    }
+    faults
+}
+
+fn is_fine(name: &str) -> bool {
+    let is_bare = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+    (1..=MAX_LENGTH).contains(&name.len()) && name.chars().all(is_bare)
+}

@@ -1,0 +1,153 @@
+//! Given places that are free.
+
+use super::ground::{rectangle, words};
+use super::{Checked, ScenarioSpec};
+use crate::body::{Layer, RobotSpec};
+use base::document::Place;
+use base::fault::Fault;
+use base::geometry::{Point, Rectangle};
+use base::placement::Placement;
+
+/// Robots that come nearer to each other than this, in metres, overlap; less is rounding.
+const TOLERANCE_M: f64 = 1e-9;
+
+pub(super) fn faults(checked: &Checked, at: &Place) -> Vec<Fault> {
+    let spec = &checked.spec;
+    let mut faults = Vec::new();
+    for (name, kind) in &spec.items {
+        let at = at.key("items").key(name).key("placement");
+        faults.extend(faults_of_list(&kind.placement, kind.count, &at));
+        faults.extend(faults_of_rectangle(&kind.placement, spec, &at));
+        for (place, at) in given(&kind.placement, kind.count, &at) {
+            if !checked.scenario.is_free(place, 0.0, Layer::Ground) {
+                let world = words(&spec.world);
+                faults.push(at.fault(format!("in {world}, and not in an obstacle")));
+            }
+        }
+    }
+    for (name, kind) in &spec.robots {
+        let at = at.key("robots").key(name).key("start");
+        faults.extend(faults_of_list(&kind.start, kind.count, &at));
+        faults.extend(faults_of_rectangle(&kind.start, spec, &at));
+        for (place, at) in given(&kind.start, kind.count, &at) {
+            if !checked.scenario.is_free(place, kind.radius_m, kind.layer) {
+                faults.push(at.fault(not_free(kind, spec)));
+            }
+        }
+    }
+    faults.extend(overlaps(spec, at));
+    faults
+}
+
+fn not_free(kind: &RobotSpec, spec: &ScenarioSpec) -> String {
+    let obstacles = match kind.layer {
+        Layer::Ground => " and from any obstacle",
+        Layer::Air => "",
+    };
+    let world = words(&spec.world);
+    let radius_m = kind.radius_m;
+    format!("in {world}, at least radius_m = {radius_m} from its border{obstacles}")
+}
+
+/// The places that are given to those that there are.
+fn given<'d>(placement: &Placement, count: u32, at: &Place<'d>) -> Vec<(Point, Place<'d>)> {
+    let places = match placement {
+        Placement::Fixed { at_m, .. } => at_m.as_slice(),
+        _ => &[],
+    };
+    let at = at.key("at_m");
+    let places = places.iter().take(count as usize).enumerate();
+    places
+        .map(|(index, place)| (*place, at.item(index)))
+        .collect()
+}
+
+/// There are enough places, and as many headings as places.
+fn faults_of_list(placement: &Placement, count: u32, at: &Place) -> Vec<Fault> {
+    let Placement::Fixed { at_m, heading_deg } = placement else {
+        return Vec::new();
+    };
+    let mut faults = Vec::new();
+    if at_m.len() < count as usize {
+        let allowed = format!(
+            "a list of at least {count} places, the count; it has {}",
+            at_m.len()
+        );
+        faults.push(at.key("at_m").fault(allowed));
+    }
+    if heading_deg
+        .as_ref()
+        .is_some_and(|given| given.len() != at_m.len())
+    {
+        let allowed = format!("a list of {} directions, one for each place", at_m.len());
+        faults.push(at.key("heading_deg").fault(allowed));
+    }
+    faults
+}
+
+fn faults_of_rectangle(placement: &Placement, spec: &ScenarioSpec, at: &Place) -> Option<Fault> {
+    let (Placement::Uniform { within_m } | Placement::Clustered { within_m, .. }) = placement
+    else {
+        return None;
+    };
+    let world = rectangle(&spec.world);
+    let is_in = |within: &Rectangle| world.contains(within.min()) && world.contains(within.max());
+    let is_bad = within_m.as_ref().is_some_and(|within| !is_in(within));
+    is_bad.then(|| {
+        at.key("within_m")
+            .fault(format!("two corners in {}", words(&spec.world)))
+    })
+}
+
+/// A robot with a given place.
+struct Standing<'d> {
+    place: Point,
+    radius_m: f64,
+    layer: Layer,
+    at: Place<'d>,
+}
+
+/// Given places at which one robot would stand in another.
+fn overlaps(spec: &ScenarioSpec, at: &Place) -> Vec<Fault> {
+    let standing = spec.robots.iter().flat_map(|(name, kind)| {
+        let at = at.key("robots").key(name).key("start");
+        given(&kind.start, kind.count, &at)
+            .into_iter()
+            .map(|(place, at)| Standing {
+                place,
+                radius_m: kind.radius_m,
+                layer: kind.layer,
+                at,
+            })
+    });
+    let mut standing: Vec<Standing> = standing.collect();
+    // By x, only those that begin before one ends can overlap it.
+    standing.sort_by(|one, other| left(one).total_cmp(&left(other)));
+    let first_overlap = |(index, one): (usize, &Standing)| {
+        let right = one.place.x + one.radius_m;
+        let after = standing[index + 1..].iter();
+        let mut near = after.take_while(|other| left(other) < right);
+        let other = near.find(|other| overlap(one, other))?;
+        let Point { x, y } = one.place;
+        let radii_m = one.radius_m + other.radius_m;
+        Some(
+            other
+                .at
+                .fault(format!("at least {radii_m} from the robot at [{x}, {y}]")),
+        )
+    };
+    standing
+        .iter()
+        .enumerate()
+        .filter_map(first_overlap)
+        .collect()
+}
+
+fn left(robot: &Standing) -> f64 {
+    robot.place.x - robot.radius_m
+}
+
+fn overlap(one: &Standing, other: &Standing) -> bool {
+    let reach_m = one.radius_m + other.radius_m - TOLERANCE_M;
+    one.layer == other.layer && one.place.to(other.place).length() < reach_m
+}

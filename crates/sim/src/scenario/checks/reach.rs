@@ -1,0 +1,124 @@
+//! Items that a robot can find.
+
+use super::ground::rectangle;
+use super::{Checked, ScenarioSpec};
+use crate::body::{Layer, RobotSpec};
+use crate::sensing::Measures;
+use crate::world::items::ItemSpec;
+use crate::world::obstacles::Solid;
+use base::document::Place;
+use base::fault::Fault;
+use base::geometry::{Point, Rectangle};
+use base::placement::Placement;
+use base::reach::{self, Reach};
+
+/// Whatever its number of robots, which a study may vary, a kind counts.
+pub(super) fn faults(checked: &Checked, at: &Place) -> Vec<Fault> {
+    let mut faults = Vec::new();
+    let sought = checked
+        .spec
+        .items
+        .iter()
+        .filter(|(_, kind)| kind.sought && kind.count > 0);
+    for (name, kind) in sought {
+        let at = at.key("items").key(name);
+        let finders: Vec<Finder> = finders(&checked.spec, name);
+        if finders.is_empty() {
+            let allowed = "recognised by a robot: none has a sensor of kind \"items\" for these; of \
+                           clutter, say sought = false";
+            faults.push(at.fault(allowed));
+        }
+        faults.extend(out_of_reach(checked, kind, &finders, &at));
+    }
+    faults
+}
+
+/// A kind of robot that recognises an item from so far.
+struct Finder<'s> {
+    robot: &'s RobotSpec,
+    range_m: f64,
+}
+
+fn finders<'s>(spec: &'s ScenarioSpec, item: &str) -> Vec<Finder<'s>> {
+    let finder = |robot: &'s RobotSpec| {
+        let ranges_m = robot
+            .sensors
+            .values()
+            .filter_map(|sensor| match &sensor.measures {
+                Measures::Items(items) => {
+                    let detects = items.detects.as_ref();
+                    let is_known = detects.is_none_or(|kinds| kinds.contains_key(item));
+                    is_known.then_some(items.range_m)
+                }
+                _ => None,
+            });
+        let range_m = ranges_m.reduce(f64::max)?;
+        Some(Finder { robot, range_m })
+    };
+    spec.robots.values().filter_map(finder).collect()
+}
+
+/// The given places to which no finder comes near enough.
+fn out_of_reach(checked: &Checked, kind: &ItemSpec, finders: &[Finder], at: &Place) -> Vec<Fault> {
+    let Placement::Fixed { at_m, .. } = &kind.placement else {
+        return Vec::new();
+    };
+    if finders.is_empty() {
+        return Vec::new();
+    }
+    let reaches: Vec<(Reach, f64)> = finders
+        .iter()
+        .map(|finder| (reach(checked, finder.robot), finder.range_m))
+        .collect();
+    let at = at.key("placement").key("at_m");
+    let is_found = |place: Point| {
+        reaches
+            .iter()
+            .any(|(reach, range_m)| reach.may_come_near(place, *range_m))
+    };
+    let places = at_m.iter().take(kind.count as usize).enumerate();
+    places
+        .filter(|(_, place)| !is_found(**place))
+        .map(|(index, _)| {
+            at.item(index)
+                .fault("where a robot that recognises it can come into its range")
+        })
+        .collect()
+}
+
+/// Where robots of a kind may come to.
+fn reach(checked: &Checked, robot: &RobotSpec) -> Reach {
+    let world = rectangle(&checked.spec.world);
+    let starts = match &robot.start {
+        Placement::Fixed { at_m, .. } => at_m
+            .iter()
+            .map(|place| Rectangle::spanned(*place, *place))
+            .collect(),
+        Placement::Uniform { within_m } | Placement::Clustered { within_m, .. } => {
+            vec![within_m.unwrap_or(world)]
+        }
+    };
+    let solids = match robot.layer {
+        Layer::Ground => checked.scenario.solids(),
+        Layer::Air => &[],
+    };
+    Reach::new(
+        world,
+        robot.radius_m,
+        solids.iter().flat_map(parts),
+        &starts,
+    )
+}
+
+fn parts(solid: &Solid) -> Vec<reach::Solid> {
+    match solid {
+        Solid::Polygon(polygon) => polygon.edges().map(reach::Solid::Wall).collect(),
+        Solid::Disc(disc) => vec![reach::Solid::Pillar(*disc)],
+        Solid::Map(map) => map
+            .outline()
+            .iter()
+            .copied()
+            .map(reach::Solid::Wall)
+            .collect(),
+    }
+}

@@ -1,0 +1,117 @@
+//! Room for all that is put anywhere.
+
+use super::ground::rectangle;
+use super::{Checked, Scenario};
+use crate::body::{Layer, RobotSpec};
+use base::document::Place;
+use base::fault::Fault;
+use base::geometry::{Point, Rectangle};
+use base::placement::Placement;
+use std::f64::consts::PI;
+
+/// Places that are looked at along each side of a rectangle.
+const SIDE: u32 = 128;
+
+/// Discs of one size that are put down one by one, anywhere, jam when they cover 0.547 of the plane
+/// (Feder, *Random sequential adsorption*, 1980); long before, a free place is hard to find.
+const MAX_SHARE: f64 = 0.5;
+
+/// The share of a rectangle that is free for discs, of the places of a lattice.
+fn share(scenario: &Scenario, within: &Rectangle, radius_m: f64, layer: Layer) -> f64 {
+    let size = within.size();
+    let at = |step: u32| (f64::from(step) + 0.5) / f64::from(SIDE);
+    let place = |(column, row)| {
+        within.min().plus(Point {
+            x: size.x * at(column),
+            y: size.y * at(row),
+        })
+    };
+    let places = (0..SIDE).flat_map(|row| (0..SIDE).map(move |column| (column, row)));
+    let free = places.filter(|&each| scenario.is_free(place(each), radius_m, layer));
+    #[expect(clippy::cast_precision_loss, reason = "at most SIDE squared")]
+    let free = free.count() as f64;
+    free / f64::from(SIDE * SIDE)
+}
+
+pub(super) fn faults(checked: &Checked, at: &Place) -> Vec<Fault> {
+    let world = rectangle(&checked.spec.world);
+    let scenario = &checked.scenario;
+    let mut faults = Vec::new();
+    for (name, kind) in &checked.spec.items {
+        let within = within(&kind.placement, &world);
+        let within = within.filter(|_| kind.count > 0);
+        if within.is_some_and(|within| share(scenario, &within, 0.0, Layer::Ground) == 0.0) {
+            let at = at.key("items").key(name).key("count");
+            faults.push(at.fault("0: there is no free place where these are to be"));
+        }
+    }
+    let mut is_fine = true;
+    for (name, kind) in &checked.spec.robots {
+        let at = at.key("robots").key(name);
+        let fault = fault_of(kind, checked, &at);
+        is_fine &= fault.is_none();
+        faults.extend(fault);
+    }
+    if is_fine {
+        let layers = [Layer::Ground, Layer::Air];
+        faults.extend(
+            layers
+                .into_iter()
+                .filter_map(|layer| crowd(checked, layer, at)),
+        );
+    }
+    faults
+}
+
+/// Where those are put that have no given place.
+fn within(placement: &Placement, world: &Rectangle) -> Option<Rectangle> {
+    match placement {
+        Placement::Fixed { .. } => None,
+        Placement::Uniform { within_m } | Placement::Clustered { within_m, .. } => {
+            Some(within_m.unwrap_or(*world))
+        }
+    }
+}
+
+/// There is a place for one robot of the kind.
+fn fault_of(kind: &RobotSpec, checked: &Checked, at: &Place) -> Option<Fault> {
+    let scenario = &checked.scenario;
+    let within = within(&kind.start, &rectangle(&checked.spec.world)).filter(|_| kind.count > 0)?;
+    let has_none = share(scenario, &within, kind.radius_m, kind.layer) == 0.0;
+    has_none.then(|| {
+        let radius_m = kind.radius_m;
+        at.key("count").fault(format!(
+            "0: of {} places where one of radius_m = {radius_m} is to start, none is free",
+            SIDE * SIDE
+        ))
+    })
+}
+
+/// All robots of a layer have room beside each other.
+fn crowd(checked: &Checked, layer: Layer, at: &Place) -> Option<Fault> {
+    let kinds = checked
+        .spec
+        .robots
+        .iter()
+        .filter(|(_, kind)| kind.layer == layer);
+    let areas = kinds.map(|(name, kind)| {
+        let area_m2 = f64::from(kind.count) * PI * kind.radius_m * kind.radius_m;
+        (area_m2, name, kind)
+    });
+    let areas: Vec<(f64, &String, &RobotSpec)> = areas.collect();
+    let total_m2: f64 = areas.iter().map(|(area_m2, ..)| area_m2).sum();
+    let world = rectangle(&checked.spec.world);
+    let free_m2 = world.area_m2() * share(&checked.scenario, &world, 0.0, layer);
+    let largest = areas.iter().max_by(|one, other| one.0.total_cmp(&other.0));
+    let (area_m2, name, _) = largest.filter(|_| total_m2 > MAX_SHARE * free_m2)?;
+    let share = MAX_SHARE * 100.0;
+    let allowed = format!(
+        "fewer: robots that are put down anywhere can cover {share} % of the {free_m2:.0} m2 that are \
+         free, and all {} robots would cover {total_m2:.0} m2, {area_m2:.0} m2 these",
+        match layer {
+            Layer::Ground => "ground",
+            Layer::Air => "air",
+        }
+    );
+    Some(at.key("robots").key(name).key("count").fault(allowed))
+}

@@ -1,0 +1,390 @@
+use super::super::{Checked, ScenarioSpec};
+use base::document::Document;
+use base::fault::Faults;
+
+const GOOD: &str = r#"
+[clock]
+step_s = 0.1
+cap_s = 120
+
+[world]
+size_m = [20, 10]
+obstacles = [
+    { polygon_m = [[0, 0], [4, 0], [4, 4], [0, 4]] },
+    { circle = { at_m = [15, 5], radius_m = 1 } },
+]
+
+[terrain.mud]
+areas_m = [[[10, 0], [20, 0], [20, 10]]]
+
+[items.mine]
+count = 2
+placement = { kind = "fixed", at_m = [[5, 5], [19, 9]] }
+
+[robots.rover]
+count = 2
+radius_m = 0.5
+start = { kind = "fixed", at_m = [[6, 6], [7, 6]], heading_deg = [0, 90] }
+drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
+
+[robots.rover.sensors.eye]
+kind = "items"
+range_m = 3
+detects = { mine = [[0, 1], [3, 0.5]] }
+false_alarms_per_m2_s = { mine = 0.01 }
+
+[robots.bird]
+count = 1
+radius_m = 0.3
+layer = "air"
+drive = { max_speed_m_s = 5, max_turn_rate_deg_s = 90 }
+"#;
+
+fn read(text: &str) -> Result<Checked, Faults> {
+    let document = Document::parse("t", text).unwrap();
+    ScenarioSpec::read(&document, &|file| Err(format!("there is no {file}")))
+}
+
+/// The faults of the good scenario with this in place of that, without their lines.
+fn faults(this: &str, that: &str) -> Vec<String> {
+    assert!(GOOD.contains(this), "{this}");
+    let faults = read(&GOOD.replace(this, that)).unwrap_err().0;
+    let told = faults.iter().map(ToString::to_string);
+    told.map(|fault| {
+        let (origin, rest) = fault.split_once(": ").unwrap();
+        assert!(origin.starts_with("t:"), "{fault}");
+        rest.to_owned()
+    })
+    .collect()
+}
+
+fn fault(this: &str, that: &str) -> String {
+    let faults = faults(this, that);
+    assert_eq!(faults.len(), 1, "{faults:?}");
+    faults.concat()
+}
+
+#[test]
+fn a_good_scenario_is_read() {
+    let Checked { spec, scenario } = read(GOOD).unwrap();
+    assert_eq!(scenario.robots(), 3);
+    assert_eq!(spec.robots.keys().collect::<Vec<_>>(), ["bird", "rover"]);
+}
+
+#[test]
+fn keys_that_are_not_the_engines_are_left_to_others() {
+    assert!(read(&format!("merit = 3\nstudy = 4\nx = 5\n{GOOD}")).is_ok());
+}
+
+#[test]
+fn faults_of_every_part_are_told_at_once_with_their_lines() {
+    let bad = GOOD
+        .replace("cap_s = 120", "cap_s = 1e7\n")
+        .replace("0.1\n", "0.01\n")
+        .replace("[4, 4]", "[-1, 2]")
+        .replace("detects = { mine", "detects = { mien");
+    let told = read(&bad).unwrap_err().to_string();
+    let expected = "t:4: clock.cap_s = 10000000.0: must be at most 1000000: a run has at most \
+                    100000000 steps, here of 0.01 s\n\
+                    t:30: robots.rover.sensors.eye.detects.mien = [[0, 1], [3, 0.5]]: must be under \
+                    one of mine; did you mean mine?\n\
+                    t:10: world.obstacles[0].polygon_m = [[0, 0], [4, 0], [-1, 2], [0, 4]]: must be a \
+                    polygon that does not cross or touch itself; its edges from vertices 1 and 3 do";
+    assert_eq!(told, expected);
+}
+
+#[test]
+fn a_types_fault_is_told_before_what_values_mean_together() {
+    assert_eq!(
+        faults("radius_m = 0.5", "radius_m = nan"),
+        ["robots.rover.radius_m = NaN: must be a number from 0 to 100, in metres"]
+    );
+}
+
+#[test]
+fn names_can_stand_in_a_column_and_a_path() {
+    let long = "x".repeat(65);
+    for name in ["\"a b\"", "\"\"", "\"a.b\"", "\"ä\"", &long] {
+        let told = fault("[robots.bird]", &format!("[robots.{name}]"));
+        assert!(told.ends_with(
+            "must be under a name of at most 64 letters a to z or A to Z, digits, _ and -"
+        ));
+    }
+    assert!(fault("[terrain.mud]", "[terrain.\"m d\"]").starts_with("terrain.\"m d\" = {...}"));
+    assert!(
+        fault("sensors.eye]", "sensors.\"\"]").starts_with("robots.rover.sensors.\"\" = {...}")
+    );
+}
+
+#[test]
+fn there_are_one_to_255_kinds_of_robots() {
+    let start = GOOD.find("[robots.rover]").unwrap();
+    let none = format!("{}[robots]", &GOOD[..start]);
+    assert_eq!(
+        read(&none).unwrap_err().to_string(),
+        "t:20: robots = {...}: must be a table of 1 to 255; it has 0"
+    );
+    let many: String = (0..256)
+        .map(|kind| format!("[robots.r{kind}]\nlike = \"ugv\"\ncount = 0\n"))
+        .collect();
+    let told = read(&format!("{}{many}", &GOOD[..start])).unwrap_err();
+    assert!(told.to_string().contains("it has 256"), "{told}");
+}
+
+#[test]
+fn rates_are_at_most_one_a_step() {
+    assert_eq!(
+        fault("range_m = 3", "range_m = 3\nrate_hz = 10.1"),
+        "robots.rover.sensors.eye.rate_hz = 10.1: must be at most 10, which is once in a step of 0.1 \
+         s"
+    );
+    assert!(read(&GOOD.replace("range_m = 3", "range_m = 3\nrate_hz = 10")).is_ok());
+    let brain = "radius_m = 0.3\nbrain = { rate_hz = 20 }";
+    assert!(fault("radius_m = 0.3", brain).starts_with("robots.bird.brain.rate_hz = 20: must be"));
+}
+
+#[test]
+fn a_step_is_short_enough_for_what_moves() {
+    assert_eq!(
+        faults("step_s = 0.1", "step_s = 3"),
+        [
+            "robots.bird.drive.max_speed_m_s = 5: must be at most 3.3333333333333335, with which it \
+             is across the world in a step of 3 s",
+            "robots.bird.drive.max_turn_rate_deg_s = 90: must be at most 60, half a turn in a step of \
+             3 s",
+            "robots.rover.drive.max_turn_rate_deg_s = 90: must be at most 60, half a turn in a step \
+             of 3 s",
+        ]
+    );
+}
+
+#[test]
+fn a_detection_table_ascends_and_has_probabilities() {
+    for table in [
+        "[]",
+        "[[0, 1.1]]",
+        "[[-1, 1]]",
+        "[[1, 1], [1, 0]]",
+        "[[2, 1], [1, 0]]",
+    ] {
+        let told = fault("[[0, 1], [3, 0.5]]", table);
+        assert!(
+            told.contains("must be at least one pair of a distance"),
+            "{told}"
+        );
+    }
+    let told = fault("mine = 0.01", "mine = -1");
+    assert!(told.ends_with("false_alarms_per_m2_s.mine = -1: must be a number from 0 to 1000"));
+    assert_eq!(
+        fault("mine = 0.01", "cow = 1"),
+        "robots.rover.sensors.eye.false_alarms_per_m2_s.cow = 1: must be under one of mine"
+    );
+}
+
+#[test]
+fn an_obstacle_is_at_least_partly_in_the_world() {
+    assert_eq!(
+        fault("[15, 5]", "[15, -2]"),
+        "world.obstacles[1] = {...}: must be at least partly in the world, from [0, 0] to [20, 10]"
+    );
+    assert!(read(&GOOD.replace("[15, 5]", "[15, -0.5]")).is_ok());
+}
+
+#[test]
+fn an_area_has_an_inside() {
+    let told = fault("[[[10, 0], [20, 0], [20, 10]]]", "[[[10, 0], [20, 0]]]");
+    assert!(told.starts_with("terrain.mud.areas_m[0] = [[10, 0], [20, 0]]: must be a polygon"));
+}
+
+#[test]
+fn given_places_are_enough_and_free() {
+    let of_items = |places: &str| fault("[[5, 5], [19, 9]]", places);
+    assert_eq!(
+        of_items("[[5, 5]]"),
+        "items.mine.placement.at_m = [[5, 5]]: must be a list of at least 2 places, the count; it has \
+         1"
+    );
+    let free = "must be in the world, from [0, 0] to [20, 10], and not in an obstacle";
+    assert_eq!(
+        of_items("[[5, 5], [20.1, 9]]"),
+        format!("items.mine.placement.at_m[1] = [20.1, 9]: {free}")
+    );
+    assert_eq!(
+        of_items("[[4, 1], [19, 9]]"),
+        format!("items.mine.placement.at_m[0] = [4, 1]: {free}")
+    );
+    assert_eq!(
+        fault("[[6, 6], [7, 6]]", "[[6, 6], [4.4, 1]]"),
+        "robots.rover.start.at_m[1] = [4.4, 1]: must be in the world, from [0, 0] to [20, 10], at \
+         least radius_m = 0.5 from its border and from any obstacle"
+    );
+    assert!(read(&GOOD.replace("[7, 6]", "[4.5, 1]")).is_ok());
+    assert!(
+        read(
+            &GOOD
+                .replace("[[6, 6], [7, 6]]", "[[6, 6], [7, 6], [0, 0]]")
+                .replace("[0, 90]", "[0, 90, 0]")
+        )
+        .is_ok()
+    );
+}
+
+#[test]
+fn each_given_place_has_a_heading_or_none_has() {
+    assert_eq!(
+        fault("[0, 90]", "[0]"),
+        "robots.rover.start.heading_deg = [0]: must be a list of 2 directions, one for each place"
+    );
+}
+
+#[test]
+fn robots_of_a_layer_do_not_stand_in_each_other() {
+    assert_eq!(
+        fault("[[6, 6], [7, 6]]", "[[6, 6], [6.9, 6]]"),
+        "robots.rover.start.at_m[1] = [6.9, 6]: must be at least 1 from the robot at [6, 6]"
+    );
+    let bird = "layer = \"air\"\nstart = { kind = \"fixed\", at_m = [[6, 6]] }";
+    assert!(read(&GOOD.replace("layer = \"air\"", bird)).is_ok());
+    let told = fault("layer = \"air\"", &bird.replace("air", "ground"));
+    assert!(told.contains("at least 0.8 from the robot at"), "{told}");
+}
+
+#[test]
+fn robots_that_start_anywhere_have_room() {
+    let bird = |count: &str, radius: &str| {
+        fault(
+            "count = 1\nradius_m = 0.3",
+            &format!("count = {count}\nradius_m = {radius}"),
+        )
+    };
+    let told = bird("1", "5.1");
+    assert_eq!(
+        told,
+        "robots.bird.count = 1: must be 0: of 16384 places where one of radius_m = 5.1 is to start, \
+         none is free"
+    );
+    let told = bird("400", "0.3");
+    assert!(told.starts_with("robots.bird.count = 400: must be fewer: robots that are put down"));
+    assert!(
+        told.contains("50 % of the 200 m2 that are free, and all air robots would cover 113 m2")
+    );
+}
+
+#[test]
+fn items_that_are_anywhere_have_room() {
+    let anywhere = "placement = { kind = \"uniform\", within_m = [[1, 1], [3, 3]] }";
+    let told = fault(
+        "placement = { kind = \"fixed\", at_m = [[5, 5], [19, 9]] }",
+        anywhere,
+    );
+    assert_eq!(
+        told,
+        "items.mine.count = 2: must be 0: there is no free place where these are to be"
+    );
+    let outside = anywhere.replace("[3, 3]", "[3, 13]");
+    let told = fault(
+        "placement = { kind = \"fixed\", at_m = [[5, 5], [19, 9]] }",
+        &outside,
+    );
+    assert!(told.contains("within_m = [[1, 1], [3, 13]]: must be two corners in the world, from"));
+}
+
+#[test]
+fn a_run_fits_into_memory() {
+    let rays = "count = 1000000\nsensors = { a = { kind = \"range\", rays = 1440, range_m = 1 } }";
+    let told = fault(
+        "count = 1\nradius_m = 0.3",
+        &format!("{rays}\nradius_m = 0"),
+    );
+    assert_eq!(
+        told,
+        "robots.bird.count = 1000000: must be fewer, or with fewer rays and messages: a run may take \
+         4 GB of memory, and this one takes about 13.5 GB, 13.5 GB for these"
+    );
+}
+
+#[test]
+fn points_can_be_many_in_a_small_place() {
+    let many = "count = 100000\nradius_m = 0";
+    assert!(read(&GOOD.replace("count = 1\nradius_m = 0.3", many)).is_ok());
+}
+
+/// A map of 2 m by 1 m of which the left half is solid, in a folder beside the scenario.
+fn open(file: &str) -> Result<Vec<u8>, String> {
+    let yaml = "image: room.pgm\nresolution: 1\norigin: [8, 4, 0]\nnegate: 0\n\
+                occupied_thresh: 0.65\nfree_thresh: 0.196\n";
+    match file {
+        "maps/room.yaml" => Ok(yaml.into()),
+        "maps/bad.yaml" => Ok(yaml.replace("resolution: 1", "resolution: -1").into()),
+        "maps/room.pgm" => Ok("P2 2 1 255  0 254".into()),
+        _ => Err(format!("there is no {file}")),
+    }
+}
+
+fn read_with_map(map: &str, start: &str) -> Result<Checked, String> {
+    let map = format!("{{ map = {map:?} }}");
+    let text = GOOD.replace("{ circle = { at_m = [15, 5], radius_m = 1 } }", &map);
+    let document = Document::parse("t", &text.replace("[7, 6]", start)).unwrap();
+    ScenarioSpec::read(&document, &open).map_err(|faults| faults.to_string())
+}
+
+#[test]
+fn a_map_is_read_and_is_in_the_way() {
+    assert!(read_with_map("maps/room.yaml", "[9.5, 4.5]").is_ok());
+    for (start, is_free) in [
+        ("[8.5, 4.5]", false),
+        ("[9.4, 4.5]", false),
+        ("[7.4, 4.5]", true),
+    ] {
+        let told = read_with_map("maps/room.yaml", start).err();
+        let expected = format!("t:23: robots.rover.start.at_m[1] = {start}: must be in the world");
+        assert_eq!(told.is_none(), is_free, "{start}");
+        assert!(
+            told.is_none_or(|told| told.starts_with(&expected)),
+            "{start}"
+        );
+    }
+}
+
+#[test]
+fn a_map_that_is_not_there_or_wrong_is_told() {
+    assert_eq!(
+        read_with_map("room.yaml", "[7, 6]").unwrap_err(),
+        "t:10: world.obstacles[1].map = \"room.yaml\": must be a file that can be read: there is no \
+         room.yaml"
+    );
+    let told = read_with_map("maps/bad.yaml", "[7, 6]").unwrap_err();
+    assert!(
+        told.starts_with("maps/bad.yaml:2: resolution = -1: must be"),
+        "{told}"
+    );
+}
+
+#[test]
+fn what_is_sought_can_be_recognised_by_a_robot() {
+    let clutter = "[items.cow]\ncount = 1\n[items.mine]";
+    assert_eq!(
+        fault("[items.mine]", clutter),
+        "items.cow = {...}: must be recognised by a robot: none has a sensor of kind \"items\" for \
+         these; of clutter, say sought = false"
+    );
+    assert!(
+        read(&GOOD.replace(
+            "[items.mine]",
+            &clutter.replace("1\n", "1\nsought = false\n")
+        ))
+        .is_ok()
+    );
+}
+
+#[test]
+fn a_given_place_behind_walls_is_out_of_reach() {
+    let wall = "{ polygon_m = [[13, 0], [13.5, 0], [13.5, 10], [13, 10]] },\n{ circle";
+    assert_eq!(
+        fault("{ circle", wall),
+        "items.mine.placement.at_m[1] = [19, 9]: must be where a robot that recognises it can come into \
+         its range"
+    );
+    let gap = wall.replace("[13.5, 10], [13, 10]", "[13.5, 8.9], [13, 8.9]");
+    assert!(read(&GOOD.replace("{ circle", &gap)).is_ok());
+}

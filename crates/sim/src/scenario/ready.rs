@@ -1,0 +1,231 @@
+//! A scenario as runs need it: checked, in SI units and radians, and with what never changes
+//! computed once.
+
+use super::ScenarioSpec;
+use crate::body::Layer;
+use crate::body::kind::Kind;
+use crate::sensing::timing::steps_of;
+use crate::world::grid::{NearCells, Still};
+use crate::world::items::ItemKind;
+use crate::world::obstacles::Solid;
+use crate::world::still::{Stands, Wall};
+use crate::world::terrain::{Area, Going, Terrain};
+use base::geometry::{Disc, Point, Rectangle, Segment};
+use brain::{Body, BrainSpec, RobotId};
+
+/// What is nearer to a wall than its radius by less, in metres, touches it by rounding.
+const TOLERANCE_M: f64 = 1e-9;
+use std::sync::Arc;
+
+/// Everything that does not change in a run. Runs share it.
+#[derive(Debug, Clone)]
+pub struct Scenario {
+    pub(crate) step_s: f64,
+    pub(crate) cap_s: f64,
+    /// Steps until the cap.
+    pub(crate) steps: u64,
+    pub(crate) world: Rectangle,
+    pub(crate) terrain: Option<Terrain>,
+    /// What is solid, and what of it is near.
+    solids: Vec<Solid>,
+    near_solids: NearCells,
+    /// By layer: what rays meet, and what bodies run into.
+    seen: [Stands; 2],
+    touched: [Stands; 2],
+    pub(crate) items: Vec<ItemKind>,
+    pub(crate) kinds: Vec<Kind>,
+    /// Two robots farther apart than this, from centre to centre, cannot touch in one step.
+    pub(crate) contact_m: f64,
+}
+
+impl Scenario {
+    /// The scenario that a checked spec describes, with its obstacles and areas of terrain as they
+    /// were read; later areas hold over earlier ones.
+    #[must_use]
+    pub fn new(spec: &ScenarioSpec, solids: Vec<Solid>, areas: Vec<Area>) -> Self {
+        let step_s = spec.clock.step_s;
+        let [width, height] = spec.world.size_m;
+        let size_m = Point {
+            x: width.0,
+            y: height.0,
+        };
+        let items: Vec<ItemKind> = spec.items.iter().map(ItemKind::new).collect();
+        let names: Vec<String> = items.iter().map(|kind| kind.name.clone()).collect();
+        let kinds = spec.robots.iter();
+        let kinds: Vec<Kind> = kinds
+            .map(|(name, spec)| Kind::new(name, spec, &names, step_s))
+            .collect();
+        let world = Rectangle::spanned(Point::default(), size_m);
+        let fastest = areas.iter().map(Area::speed).fold(1.0, f64::max);
+        let touch_m = greatest(&kinds, |kind| kind.touch_m(fastest * step_s));
+        let rays_m = greatest(&kinds, |kind| kind.rays_m);
+        let stands = |layer, reach_m| {
+            let (walls, discs) = in_the_way(&world, &solids, layer);
+            Stands::new(size_m, &walls, &discs, reach_m)
+        };
+        let layers = [Layer::Ground, Layer::Air];
+        Self {
+            step_s,
+            cap_s: spec.clock.cap_s,
+            steps: steps_of(spec.clock.cap_s, step_s),
+            world,
+            terrain: (!areas.is_empty()).then(|| Terrain::new(size_m, areas)),
+            near_solids: NearCells::new(size_m, &solids, 0.0),
+            seen: layers.map(|layer| stands(layer, rays_m)),
+            touched: layers.map(|layer| stands(layer, touch_m)),
+            contact_m: 2.0 * touch_m,
+            solids,
+            items,
+            kinds,
+        }
+    }
+
+    /// What is solid on the ground.
+    #[must_use]
+    pub fn solids(&self) -> &[Solid] {
+        &self.solids
+    }
+
+    /// Robots of all kinds together.
+    #[must_use]
+    pub fn robots(&self) -> usize {
+        self.kinds.iter().map(|kind| kind.count as usize).sum()
+    }
+
+    pub(crate) fn biggest_radius_m(&self) -> f64 {
+        greatest(&self.kinds, |kind| kind.radius_m)
+    }
+
+    /// Whether all robots can be in each other's way.
+    #[inline]
+    pub(crate) fn is_one_layer(&self) -> bool {
+        self.kinds
+            .windows(2)
+            .all(|pair| pair[0].layer == pair[1].layer)
+    }
+
+    /// Items that are to be found.
+    pub(crate) fn sought(&self) -> u32 {
+        self.items
+            .iter()
+            .filter(|kind| kind.is_sought)
+            .map(|kind| kind.count)
+            .sum()
+    }
+
+    /// Nobody looks for items farther away.
+    pub(crate) fn items_reach_m(&self) -> f64 {
+        greatest(&self.kinds, Kind::items_reach_m)
+    }
+
+    /// Time of a step.
+    #[must_use]
+    pub fn step_s(&self) -> f64 {
+        self.step_s
+    }
+
+    /// A run ends here at the latest.
+    #[must_use]
+    pub fn cap_s(&self) -> f64 {
+        self.cap_s
+    }
+
+    /// The world.
+    #[must_use]
+    pub fn world(&self) -> Rectangle {
+        self.world
+    }
+
+    /// Names of the kinds of robots, in the order in which ids count them.
+    pub fn robot_kinds(&self) -> impl Iterator<Item = &str> {
+        self.kinds.iter().map(|kind| kind.name.as_str())
+    }
+
+    /// Names of the kinds of items, in the order in which contacts count them.
+    pub fn item_kinds(&self) -> impl Iterator<Item = &str> {
+        self.items.iter().map(|kind| kind.name.as_str())
+    }
+
+    /// What the brains of a kind of robots are, and what they know of their bodies.
+    #[must_use]
+    pub fn mind_of(&self, kind: u8) -> Option<(&Arc<BrainSpec>, &Arc<Body>)> {
+        let kind = self.kinds.get(usize::from(kind))?;
+        Some((&kind.brain, &kind.body))
+    }
+
+    /// The name of a robot's kind.
+    pub(crate) fn name_of(&self, id: RobotId) -> &str {
+        &self.kinds[usize::from(id.kind)].name
+    }
+
+    /// What rays meet in a layer.
+    #[inline]
+    pub(crate) fn seen(&self, layer: Layer) -> &Stands {
+        &self.seen[layer as usize]
+    }
+
+    /// What bodies of a layer run into.
+    #[inline]
+    pub(crate) fn touched(&self, layer: Layer) -> &Stands {
+        &self.touched[layer as usize]
+    }
+
+    /// What the ground does to a robot of a layer.
+    #[inline]
+    pub(crate) fn going(&self, place: Point, layer: Layer) -> Going {
+        match &self.terrain {
+            Some(terrain) if layer == Layer::Ground => terrain.at(place),
+            _ => Going::EASY,
+        }
+    }
+
+    /// What hides things from each other: everything on the ground.
+    #[inline]
+    pub(crate) fn hiding(&self) -> &Stands {
+        self.touched(Layer::Ground)
+    }
+
+    /// Whether a disc of a layer fits into a place.
+    pub(crate) fn is_free(&self, place: Point, radius_m: f64, layer: Layer) -> bool {
+        let corner = Point {
+            x: radius_m,
+            y: radius_m,
+        };
+        let is_inside =
+            self.world.contains(corner.to(place)) && self.world.contains(place.plus(corner));
+        let touched = self.touched(layer);
+        let clear_m = radius_m - TOLERANCE_M;
+        is_inside
+            && touched
+                .walls_near(place)
+                .all(|wall| wall.distance(place) >= clear_m)
+            && touched
+                .discs_near(place)
+                .all(|disc| disc.distance(place) >= clear_m)
+            && !(layer == Layer::Ground && self.is_covered(place))
+    }
+
+    fn is_covered(&self, place: Point) -> bool {
+        let mut near = self.near_solids.at(place).iter();
+        near.any(|number| self.solids[*number as usize].covers(place))
+    }
+}
+
+fn greatest(kinds: &[Kind], value: impl Fn(&Kind) -> f64) -> f64 {
+    kinds.iter().map(value).fold(0.0, f64::max)
+}
+
+fn in_the_way(world: &Rectangle, solids: &[Solid], layer: Layer) -> (Vec<Wall>, Vec<Disc>) {
+    let mut segments: Vec<Segment> = world.room().to_vec();
+    let mut discs = Vec::new();
+    if layer == Layer::Ground {
+        for solid in solids {
+            match solid {
+                Solid::Polygon(polygon) => segments.extend(polygon.edges()),
+                Solid::Disc(disc) => discs.push(*disc),
+                Solid::Map(map) => segments.extend(map.outline()),
+            }
+        }
+    }
+    (segments.iter().filter_map(Wall::of).collect(), discs)
+}

@@ -1,0 +1,143 @@
+//! What stands in the way in one layer, found by place.
+
+use super::grid::{NearCells, Still};
+use base::geometry::{Disc, Point, Rectangle, Segment};
+
+/// A straight side of something solid.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Wall {
+    pub(crate) start: Point,
+    /// Of length 1, with free space to its left.
+    pub(crate) along: Point,
+    pub(crate) length: f64,
+}
+
+impl Wall {
+    /// The wall of a segment, if that has a length.
+    pub(crate) fn of(segment: &Segment) -> Option<Self> {
+        let length = segment.length_m();
+        (length > 0.0).then(|| Self {
+            start: segment.from,
+            along: segment.way().times(1.0 / length),
+            length,
+        })
+    }
+
+    #[inline]
+    pub(crate) fn end(&self) -> Point {
+        self.start.plus(self.along.times(self.length))
+    }
+
+    fn segment(&self) -> Segment {
+        Segment {
+            from: self.start,
+            to: self.end(),
+        }
+    }
+}
+
+impl Still for Wall {
+    fn bounds(&self) -> [Point; 2] {
+        let bounds = Rectangle::spanned(self.start, self.end());
+        [bounds.min(), bounds.max()]
+    }
+
+    fn distance(&self, from: Point) -> f64 {
+        self.segment().distance_m(from)
+    }
+}
+
+impl Still for Disc {
+    fn bounds(&self) -> [Point; 2] {
+        let corner = Point {
+            x: self.radius_m,
+            y: self.radius_m,
+        };
+        [corner.to(self.centre), self.centre.plus(corner)]
+    }
+
+    fn distance(&self, from: Point) -> f64 {
+        self.distance_m(from)
+    }
+}
+
+/// Walls and discs, by what is near.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Stands {
+    walls: Vec<Wall>,
+    discs: Vec<Disc>,
+    near_walls: NearCells,
+    near_discs: NearCells,
+}
+
+impl Stands {
+    /// For questions about places at most `reach_m` away.
+    pub(crate) fn new(size_m: Point, walls: &[Wall], discs: &[Disc], reach_m: f64) -> Self {
+        Self {
+            near_walls: NearCells::new(size_m, walls, reach_m),
+            near_discs: NearCells::new(size_m, discs, reach_m),
+            walls: walls.to_vec(),
+            discs: discs.to_vec(),
+        }
+    }
+
+    /// All walls that are within reach of a place, and maybe some more.
+    #[inline]
+    pub(crate) fn walls_near(&self, place: Point) -> impl Iterator<Item = &Wall> + Clone {
+        let numbers = self.near_walls.at(place).iter();
+        numbers.map(|number| &self.walls[*number as usize])
+    }
+
+    /// All discs that are within reach of a place, and maybe some more.
+    #[inline]
+    pub(crate) fn discs_near(&self, place: Point) -> impl Iterator<Item = &Disc> + Clone {
+        let numbers = self.near_discs.at(place).iter();
+        numbers.map(|number| &self.discs[*number as usize])
+    }
+
+    /// Whether the straight way between two places crosses nothing.
+    pub(crate) fn is_open(&self, from: Point, to: Point) -> bool {
+        let way = from.to(to);
+        let sees_past = |cell: usize| {
+            let walls = self.near_walls.of(cell).iter();
+            walls
+                .map(|number| &self.walls[*number as usize])
+                .all(|wall| !wall.crosses(from, way))
+        };
+        let sees_past_discs = |cell: usize| {
+            let discs = self.near_discs.of(cell).iter();
+            discs
+                .map(|number| &self.discs[*number as usize])
+                .all(|disc| !crosses(disc, from, way))
+        };
+        self.near_walls.grid().on_the_way(from, to).all(sees_past)
+            && self
+                .near_discs
+                .grid()
+                .on_the_way(from, to)
+                .all(sees_past_discs)
+    }
+}
+
+impl Wall {
+    /// Whether a way from `from` goes through the wall, from either side.
+    fn crosses(&self, from: Point, way: Point) -> bool {
+        let offset = from.to(self.start);
+        let across = way.cross(self.along);
+        if across == 0.0 {
+            return false;
+        }
+        let share = offset.cross(self.along) / across;
+        let place = offset.cross(way) / across;
+        (0.0..=1.0).contains(&share) && (0.0..=self.length).contains(&place)
+    }
+}
+
+fn crosses(disc: &Disc, from: Point, way: Point) -> bool {
+    Segment {
+        from,
+        to: from.plus(way),
+    }
+    .distance_m(disc.centre)
+        < disc.radius_m
+}

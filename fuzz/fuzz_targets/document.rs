@@ -1,0 +1,24 @@
+//! No text makes the reader of documents panic.
+
+#![no_main]
+
+use base::document::{Document, Section};
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|text: &str| {
+    for document in [
+        Document::parse("file", text),
+        Document::parse_yaml("file", text),
+    ] {
+        let faults = document.and_then(|document| {
+            document.read(|root: &Section| {
+                root.only(&["cap_s", "robots"]);
+                let count = root.section("robots").integer("count", 1..=100);
+                root.number("cap_s", 0.0..=1e6).and(count)
+            })
+        });
+        if let Err(faults) = faults {
+            assert!(!faults.to_string().is_empty());
+        }
+    }
+});

@@ -1,0 +1,89 @@
+"""What a person gives on the command line, as values put over what a scenario says."""
+
+import tomllib
+from typing import Annotated, Any
+
+import typer
+
+from agent_economy._core import InputError
+from agent_economy.scenario import Override
+
+Sets = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--set",
+        metavar="PATH=VALUE",
+        help="A value of the scenario, as clock.cap_s=60; may be repeated.",
+        show_default=False,
+    ),
+]
+"""The option --set, which every command has that takes a scenario."""
+
+
+def overrides(
+    sets: list[str] | None,
+    vary: list[str] | None = None,
+    *,
+    merit: str | None = None,
+    design: str | None = None,
+) -> tuple[Override, ...]:
+    """Return what options say, as values put over the file's.
+
+    Raises:
+        InputError: If a --set is not PATH=VALUE, or a --vary not PATH=VALUES; or one is given twice
+            for one path.
+    """
+    changes = [assigned(text) for text in once("--set", sets or [])]
+    changes += [varied(text) for text in once("--vary", vary or [])]
+    options = {("merit",): merit, ("study", "design"): design}
+    changes += [
+        Override(path, value, f"--{path[-1]}")
+        for path, value in options.items()
+        if value is not None
+    ]
+    return tuple(changes)
+
+
+def once(option: str, given: list[str]) -> list[str]:
+    """Return what is given, unless it is given twice for one path.
+
+    Raises:
+        InputError: If it is.
+    """
+    paths = [text.partition("=")[0].strip() for text in given]
+    twice = next((path for path in paths if paths.count(path) > 1), None)
+    if twice:
+        such = f", such as {twice}=1..4,8" if option == "--vary" else ""
+        message = f"{option} {twice}: is given twice: must be given once{such}"
+        raise InputError(message)
+    return given
+
+
+def assigned(text: str) -> Override:
+    """Return the value of PATH=VALUE."""
+    path, value = parts("--set", text, "PATH=VALUE, such as clock.cap_s=60")
+    return Override.at(path, parsed(value), f"--set {path}")
+
+
+def varied(text: str) -> Override:
+    """Return the factor and values of PATH=VALUES."""
+    path, values = parts("--vary", text, "PATH=VALUES, such as robots.wanderer.count=1..12")
+    return Override(("study", "vary", path), values, "--vary")
+
+
+def parts(option: str, text: str, allowed: str) -> tuple[str, str]:
+    """Return what stands before and after the first equals sign."""
+    path, equals, value = text.partition("=")
+    if not equals:
+        message = f"{option} = {text!r}: must be {allowed}"
+        raise InputError(message)
+    return path.strip(), value.strip()
+
+
+def parsed(text: str) -> Any:
+    """Return a value as TOML has it; what is no TOML is a text."""
+    try:
+        document = tomllib.loads(f"value = {text}")
+    except tomllib.TOMLDecodeError:
+        return text
+    return document["value"] if len(document) == 1 else text
