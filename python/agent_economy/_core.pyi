@@ -1,4 +1,5 @@
 from collections.abc import Sequence
+from collections.abc import Mapping
 from typing import Any, Literal, TypedDict, final, type_check_only
 
 import numpy as np
@@ -7,6 +8,7 @@ from numpy.typing import NDArray
 __all__ = [
     "CONTACTS",
     "FIRST_LOOK",
+    "Brain",
     "Configuration",
     "InputError",
     "Procedure",
@@ -40,6 +42,14 @@ class Fault(TypedDict):
 
 class InputError(ValueError):
     faults: Sequence[Fault]
+
+@final
+class Brain:
+    def __new__(cls, spec: Mapping[str, Any], body: Mapping[str, Any]) -> Brain: ...
+    def step(self, percept: Mapping[str, Any]) -> dict[str, Any]: ...
+    def copy(self) -> Brain: ...
+    @staticmethod
+    def schemas() -> dict[str, dict[str, Any]]: ...
 
 @final
 class Procedure:
