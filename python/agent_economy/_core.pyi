@@ -1,5 +1,4 @@
-from collections.abc import Sequence
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, Literal, TypedDict, final, type_check_only
 
 import numpy as np
