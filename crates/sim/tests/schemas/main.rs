@@ -44,13 +44,37 @@ fn the_reference_is_what_the_types_say() {
     hold(PAGE, &format!("{by_hand}{MARK}{}", page::reference()));
 }
 
-#[test]
-fn the_tutorials_scenario_is_without_faults() {
+/// The scenario in the tutorial.
+fn tutorial() -> String {
     let text = fs::read_to_string(path(PAGE)).unwrap();
     let (_, after) = text.split_once("```toml\n").unwrap();
     let (whole, _) = after.split_once("```\n").unwrap();
-    assert!(whole.contains("engine = \"metric\""));
-    let document = Document::parse(PAGE, whole).unwrap();
+    whole.to_owned()
+}
+
+fn faults(text: &str) -> Vec<String> {
+    let document = Document::parse("my.toml", text).unwrap();
     let read = ScenarioSpec::read(&document, &|_| Err("no".to_owned()));
-    assert!(read.is_ok(), "{}", read.unwrap_err());
+    let faults = read.map_or_else(|faults| faults.0, |_| Vec::new());
+    faults.iter().map(ToString::to_string).collect()
+}
+
+#[test]
+fn the_tutorials_scenario_is_without_faults() {
+    assert!(tutorial().contains("engine = \"metric\""));
+    assert_eq!(faults(&tutorial()), [String::new(); 0]);
+}
+
+#[test]
+fn the_tutorials_faults_are_those_that_are_told() {
+    let bad = tutorial()
+        .replace("radius_m = 0.25", "raduis_m = 0.25")
+        .replace("range_m = 3", "range_m = -3");
+    let told = faults(&bad);
+    let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let page = words(&fs::read_to_string(path(PAGE)).unwrap());
+    assert_eq!(told.len(), 3, "{told:?}");
+    for fault in told {
+        assert!(page.contains(&words(&fault)), "{fault}");
+    }
 }
