@@ -4,6 +4,7 @@ pub mod body;
 pub mod clock;
 pub mod engine;
 pub mod radio;
+pub mod runner;
 pub mod scenario;
 pub mod sensing;
 pub mod world;

@@ -222,6 +222,12 @@ impl Document {
         self
     }
 
+    /// How faults name it as a whole: the file that it was read from.
+    #[must_use]
+    pub fn file(&self) -> &str {
+        &self.root.origin
+    }
+
     /// What stands at `path`.
     #[must_use]
     pub fn get(&self, path: &[&str]) -> Option<&Node> {

@@ -16,7 +16,7 @@ use crate::body::path::{Course, Path};
 use crate::scenario::Scenario;
 use crate::world::terrain::Going;
 use base::geometry::Disc;
-use brain::{Motion, RobotId};
+use brain::RobotId;
 use rayon::prelude::*;
 
 /// What all robots are about to do, kept between steps so that nothing is allocated.

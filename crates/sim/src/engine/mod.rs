@@ -10,6 +10,7 @@ mod mind;
 mod neighbours;
 mod outcome;
 mod outside;
+mod seen;
 mod sense;
 mod share_out;
 mod simulation;
@@ -18,5 +19,8 @@ mod tick;
 mod view;
 
 pub use outcome::Outcome;
+pub use seen::{Item, Robot};
 pub use simulation::{NoRobot, Simulation};
 pub use state::{NoRoom, State, Status};
+
+pub(crate) use tick::Workshop;

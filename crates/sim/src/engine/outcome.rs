@@ -8,8 +8,8 @@ use crate::scenario::Scenario;
 pub struct Outcome {
     /// Until the last sought item was found; the cap if that was not.
     pub time_s: f64,
-    /// Whether all sought items were found.
-    pub is_complete: bool,
+    /// Whether sought items were not found.
+    pub has_failed: bool,
     /// Items found, by kind.
     pub found: Vec<u32>,
     /// Items not found, by kind.
@@ -52,7 +52,7 @@ impl Outcome {
         Self {
             // The step of the last find may be a rounding error beyond the cap.
             time_s: complete_s.map_or(scenario.cap_s, |time_s| time_s.min(scenario.cap_s)),
-            is_complete: complete_s.is_some(),
+            has_failed: complete_s.is_none() && scenario.sought() > 0,
             found,
             missed,
             false_alarms: state.tally.false_alarms,

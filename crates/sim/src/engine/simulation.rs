@@ -45,8 +45,7 @@ impl Simulation {
 
     /// Takes one step, also after the run is over.
     pub fn step(&mut self) {
-        self.workshop
-            .tick(&self.scenario, &mut self.state, &Outside::default());
+        self.workshop.step(&self.scenario, &mut self.state);
     }
 
     /// Takes one step with percepts of bodies outside, and with commands that stand for what the
@@ -117,7 +116,7 @@ impl Simulation {
     /// Puts the run where it was when `state` was copied from it.
     pub fn restore(&mut self, state: State) {
         self.state = state;
-        self.workshop.neighbours.forget();
+        self.workshop.forget();
     }
 
     /// Goes on with another scenario: see [`State::changed`].
@@ -137,7 +136,7 @@ impl Simulation {
         let is_finite = |at: &Point| at.x.is_finite() && at.y.is_finite();
         if let Some(at) = percept.position.map(|read| read.value).filter(is_finite) {
             self.state.discs[robot].centre = at;
-            self.workshop.neighbours.forget();
+            self.workshop.forget();
         }
         let heading_rad = percept.heading_rad.map(|read| read.value);
         if let Some(heading_rad) = heading_rad.filter(|heading_rad| heading_rad.abs() < 1e6) {

@@ -15,7 +15,7 @@ use rayon::prelude::*;
 /// step to step, so that after the first ones a step allocates nothing.
 #[derive(Debug, Clone)]
 pub(crate) struct Workshop {
-    pub(crate) neighbours: Neighbours,
+    neighbours: Neighbours,
     desks: Vec<Desk>,
     moves: Moves,
     /// Whether threads may share the work of one step.
@@ -30,6 +30,16 @@ impl Workshop {
             moves: Moves::default(),
             may_share,
         }
+    }
+
+    /// Takes one step into which nothing comes from outside.
+    pub(crate) fn step(&mut self, scenario: &Scenario, state: &mut State) {
+        self.tick(scenario, state, &Outside::default());
+    }
+
+    /// Begins another run, or goes on with one that has been changed.
+    pub(crate) fn forget(&mut self) {
+        self.neighbours.forget();
     }
 
     /// Takes one step.

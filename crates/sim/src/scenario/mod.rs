@@ -1,5 +1,6 @@
 //! A scenario of the metric engine, gathered from the modules that own its parts.
 
+mod bounds;
 mod checks;
 pub mod models;
 mod ready;

@@ -11,10 +11,11 @@ use crate::world::obstacles::Solid;
 use crate::world::still::{Stands, Wall};
 use crate::world::terrain::{Area, Going, Terrain};
 use base::geometry::{Disc, Point, Rectangle, Segment};
-use brain::RobotId;
+use brain::{Body, BrainSpec, RobotId};
 
 /// What is nearer to a wall than its radius by less, in metres, touches it by rounding.
 const TOLERANCE_M: f64 = 1e-9;
+use std::sync::Arc;
 
 /// Everything that does not change in a run. Runs share it.
 #[derive(Debug, Clone)]
@@ -80,7 +81,8 @@ impl Scenario {
     }
 
     /// What is solid on the ground.
-    pub(crate) fn solids(&self) -> &[Solid] {
+    #[must_use]
+    pub fn solids(&self) -> &[Solid] {
         &self.solids
     }
 
@@ -114,6 +116,41 @@ impl Scenario {
     /// Nobody looks for items farther away.
     pub(crate) fn items_reach_m(&self) -> f64 {
         greatest(&self.kinds, Kind::items_reach_m)
+    }
+
+    /// Time of a step.
+    #[must_use]
+    pub fn step_s(&self) -> f64 {
+        self.step_s
+    }
+
+    /// A run ends here at the latest.
+    #[must_use]
+    pub fn cap_s(&self) -> f64 {
+        self.cap_s
+    }
+
+    /// The world.
+    #[must_use]
+    pub fn world(&self) -> Rectangle {
+        self.world
+    }
+
+    /// Names of the kinds of robots, in the order in which ids count them.
+    pub fn robot_kinds(&self) -> impl Iterator<Item = &str> {
+        self.kinds.iter().map(|kind| kind.name.as_str())
+    }
+
+    /// Names of the kinds of items, in the order in which contacts count them.
+    pub fn item_kinds(&self) -> impl Iterator<Item = &str> {
+        self.items.iter().map(|kind| kind.name.as_str())
+    }
+
+    /// What the brains of a kind of robots are, and what they know of their bodies.
+    #[must_use]
+    pub fn mind_of(&self, kind: u8) -> Option<(&Arc<BrainSpec>, &Arc<Body>)> {
+        let kind = self.kinds.get(usize::from(kind))?;
+        Some((&kind.brain, &kind.body))
     }
 
     /// The name of a robot's kind.

@@ -109,18 +109,16 @@ impl Items {
         self.buckets.fill(self.places.iter().copied());
     }
 
-    pub(crate) fn places(&self) -> &[Point] {
-        &self.places
-    }
-
     /// The kind of each item, and the step at which it was found.
     pub(crate) fn each(&self) -> impl Iterator<Item = (u16, Option<u64>)> {
         self.kinds.iter().copied().zip(self.found.iter().copied())
     }
 
-    /// The step at which an item was found.
-    pub(crate) fn found(&self, number: u32) -> Option<u64> {
-        self.found[number as usize]
+    /// The kind and the place of each item, and the step at which it was found.
+    pub(crate) fn each_place(&self) -> impl Iterator<Item = (u16, Point, Option<u64>)> {
+        self.each()
+            .zip(&self.places)
+            .map(|((kind, found), at)| (kind, *at, found))
     }
 
     /// Marks an item as found; whether it was not before.

@@ -92,6 +92,15 @@ impl Terrain {
         }
     }
 
+    /// The greatest factors that there are, and at least 1.
+    pub(crate) fn most(&self) -> Going {
+        let most = |most: Going, area: &Area| Going {
+            speed: most.speed.max(area.going.speed),
+            energy: most.energy.max(area.going.energy),
+        };
+        self.areas.iter().fold(Going::EASY, most)
+    }
+
     #[inline]
     pub(crate) fn at(&self, place: Point) -> Going {
         let numbers = self.near.at(place).iter().rev();

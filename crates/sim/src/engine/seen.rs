@@ -1,0 +1,88 @@
+//! What can be seen of a run from outside: where everything is, and how it fares.
+
+use super::state::{State, Status};
+use crate::scenario::Scenario;
+use base::geometry::Point;
+use brain::{Motion, RobotId};
+
+/// A robot of a run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Robot {
+    /// Which it is.
+    pub id: RobotId,
+    /// Where its centre is.
+    pub at: Point,
+    /// Its course: 0 along x, anticlockwise, from -pi to pi.
+    pub heading_rad: f64,
+    /// Ahead.
+    pub speed_m_s: f64,
+    /// What its brain wants.
+    pub wanted: Motion,
+    /// Whether it can go on.
+    pub status: Status,
+    /// Whether its body is outside.
+    pub is_external: bool,
+    /// Whether something stopped it in the last step.
+    pub is_touching: bool,
+    /// Taken from its battery.
+    pub energy_j: f64,
+    /// Share of its battery that is left; `None` if it has none that empties.
+    pub battery: Option<f64>,
+    /// How far it has gone.
+    pub distance_m: f64,
+    /// New contacts that it has had.
+    pub collisions: u32,
+}
+
+/// An item of a run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Item {
+    /// Place of its kind in the scenario.
+    pub kind: u16,
+    /// Where it is.
+    pub at: Point,
+    /// When it was found, if it was.
+    pub found_s: Option<f64>,
+}
+
+impl State {
+    /// Steps that have been taken.
+    #[must_use]
+    pub fn tick(&self) -> u64 {
+        self.tick
+    }
+
+    /// All robots, in the order of their kinds and indices.
+    pub fn each_robot(&self, scenario: &Scenario) -> impl Iterator<Item = Robot> {
+        (0..self.robots()).map(|robot| {
+            let (id, hull) = (self.ids[robot], &self.hulls[robot]);
+            let battery = scenario.kinds[usize::from(id.kind)].battery;
+            let battery = battery.filter(|battery| battery.capacity_j.is_finite());
+            Robot {
+                id,
+                at: self.discs[robot].centre,
+                heading_rad: self.courses[robot].heading_rad,
+                speed_m_s: hull.speed_m_s,
+                wanted: self.minds[robot].wanted,
+                status: hull.status,
+                is_external: hull.is_external,
+                is_touching: hull.is_pressed,
+                energy_j: hull.energy_j,
+                battery: battery.map(|battery| 1.0 - hull.energy_j / battery.capacity_j),
+                distance_m: hull.distance_m,
+                collisions: hull.collisions,
+            }
+        })
+    }
+
+    /// All items, in the order of their kinds and indices.
+    pub fn each_item(&self, scenario: &Scenario) -> impl Iterator<Item = Item> {
+        #[expect(clippy::cast_precision_loss, reason = "steps are at most 1e8")]
+        let seconds = |tick: u64| tick as f64 * scenario.step_s;
+        self.items.each_place().map(move |(kind, at, found)| Item {
+            kind,
+            at,
+            found_s: found.map(seconds),
+        })
+    }
+}

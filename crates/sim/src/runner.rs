@@ -1,0 +1,189 @@
+//! The metric engine behind the seam that studies use.
+
+use crate::engine::{Outcome, State, Workshop};
+use crate::scenario::{Scenario, ScenarioSpec};
+use base::document::Document;
+use base::fault::Faults;
+use base::question::{Configuration, Engine, Measure, NamedMerit};
+use base::runner::{Column, Kind, Runner};
+use std::borrow::Cow;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// Gives the bytes of a file that the scenario in a file names, or says why it cannot.
+pub type OpenBeside = fn(scenario: &str, name: &str) -> Result<Vec<u8>, String>;
+
+/// The metric engine, as scenarios name it.
+#[derive(Debug, Clone, Copy)]
+pub struct Metric {
+    /// Finds the maps that scenarios name.
+    pub open: OpenBeside,
+}
+
+/// Runs of a scenario.
+#[derive(Debug, Clone)]
+pub struct Runs(pub Arc<Scenario>);
+
+impl Metric {
+    /// Reads what a run depends on.
+    ///
+    /// # Errors
+    /// Everything that is wrong with it.
+    pub fn scenario(&self, document: &Document) -> Result<Scenario, Faults> {
+        let file = document.file();
+        let checked = ScenarioSpec::read(document, &|name| (self.open)(file, name))?;
+        Ok(checked.scenario)
+    }
+}
+
+impl Engine for Metric {
+    fn name(&self) -> &'static str {
+        "metric"
+    }
+
+    fn keys(&self) -> &'static [&'static str] {
+        &ScenarioSpec::KEYS
+    }
+
+    fn read(&self, document: &Document) -> Result<Configuration, Faults> {
+        let scenario = self.scenario(document)?;
+        Ok(Configuration {
+            robots: scenario.team(),
+            cap_s: scenario.cap_s,
+            facts: scenario.facts(),
+            runner: Box::new(Runs(Arc::new(scenario))),
+        })
+    }
+
+    fn measures(&self, _: &Document) -> Vec<Measure> {
+        let false_alarms = Measure {
+            usual_max: Some(100.0),
+            ..Measure::new("false_alarms", "false_alarms")
+        };
+        let bounded = [
+            ("time", "time_s"),
+            ("robots", "robots"),
+            ("failed", "failed"),
+            ("price", "price"),
+            ("found", "found"),
+            ("missed", "missed"),
+            ("collisions", "collisions"),
+            ("energy", "energy_j"),
+            ("distance", "distance_m"),
+            ("stopped", "robots_stopped"),
+        ];
+        let bounded = bounded.map(|(name, column)| Measure::new(name, column));
+        bounded.into_iter().chain([false_alarms]).collect()
+    }
+
+    fn merits(&self) -> &'static [NamedMerit] {
+        &[NamedMerit::EQUATION_5_2]
+    }
+
+    fn factors(&self) -> Option<&'static [&'static str]> {
+        None
+    }
+
+    fn most_robots(&self) -> u32 {
+        1_000_000
+    }
+}
+
+impl Runner for Runs {
+    fn columns(&self) -> Vec<Column> {
+        let scenario = &*self.0;
+        let most = scenario.bounds();
+        let fixed = |name, kind, value| column(name, kind, value, Some(value));
+        let mut columns = vec![
+            up_to("time_s", Kind::Real, scenario.cap_s),
+            up_to("failed", Kind::Flag, 1.0),
+            fixed("robots", Kind::Whole, most.robots),
+            fixed("price", Kind::Real, most.price),
+            up_to("found", Kind::Whole, most.sought),
+            up_to("missed", Kind::Whole, most.sought),
+            column("false_alarms", Kind::Whole, 0.0, None),
+            up_to("collisions", Kind::Whole, most.collisions),
+            up_to("energy_j", Kind::Real, most.energy_j),
+            up_to("distance_m", Kind::Real, most.distance_m),
+            up_to("robots_stopped", Kind::Whole, most.robots),
+        ];
+        for kind in &scenario.items {
+            let count = f64::from(kind.count);
+            columns.push(up_to(format!("found_{}", kind.name), Kind::Whole, count));
+            columns.push(up_to(format!("missed_{}", kind.name), Kind::Whole, count));
+        }
+        columns
+    }
+
+    fn run_block(&self, seed: u64, runs: Range<u64>) -> Vec<Vec<f64>> {
+        let mut columns = vec![Vec::new(); self.columns().len()];
+        let mut workshop = Workshop::new(&self.0, false);
+        for run in runs {
+            let values = self.run(&mut workshop, seed, run);
+            for (number, column) in columns.iter_mut().enumerate() {
+                column.push(values.as_ref().map_or(f64::NAN, |values| values[number]));
+            }
+        }
+        columns
+    }
+}
+
+impl Runs {
+    /// One run's outcome, in the order of the columns; `None` for a run that is quarantined, since
+    /// it has no room to begin in or is not finite.
+    fn run(&self, workshop: &mut Workshop, seed: u64, run: u64) -> Option<Vec<f64>> {
+        let scenario = &*self.0;
+        let mut state = State::new(scenario, seed, run).ok()?;
+        workshop.forget();
+        while !state.is_over(scenario) {
+            workshop.step(scenario, &mut state);
+        }
+        let outcome = Outcome::of(scenario, &state);
+        outcome.is_finite().then(|| self.values(&outcome))
+    }
+
+    #[expect(clippy::cast_precision_loss, reason = "counts below 2^53")]
+    fn values(&self, outcome: &Outcome) -> Vec<f64> {
+        let scenario = &*self.0;
+        let sought = |counts: &[u32]| {
+            let kinds = scenario.items.iter().zip(counts);
+            let sought = kinds.filter(|(kind, _)| kind.is_sought);
+            f64::from(sought.map(|(_, count)| count).sum::<u32>())
+        };
+        let most = scenario.bounds();
+        let mut values = vec![
+            outcome.time_s,
+            f64::from(u8::from(outcome.has_failed)),
+            most.robots,
+            most.price,
+            sought(&outcome.found),
+            sought(&outcome.missed),
+            outcome.false_alarms as f64,
+            outcome.collisions as f64,
+            outcome.energy_j,
+            outcome.distance_m,
+            f64::from(outcome.robots_stopped),
+        ];
+        let kinds = outcome.found.iter().zip(&outcome.missed);
+        values.extend(kinds.flat_map(|(found, missed)| [f64::from(*found), f64::from(*missed)]));
+        values
+    }
+}
+
+fn up_to(name: impl Into<Cow<'static, str>>, kind: Kind, most: f64) -> Column {
+    column(name, kind, 0.0, Some(most))
+}
+
+fn column(
+    name: impl Into<Cow<'static, str>>,
+    kind: Kind,
+    least: f64,
+    greatest: Option<f64>,
+) -> Column {
+    Column {
+        name: name.into(),
+        kind,
+        least: Some(least),
+        greatest,
+    }
+}

@@ -1,0 +1,102 @@
+//! What no run of a scenario goes beyond, and what is the same in all.
+
+use super::Scenario;
+use crate::body::Layer;
+use crate::body::kind::Kind;
+use crate::world::terrain::Going;
+
+/// Rounding in a sum of many steps, and a step that begins before the cap, must not go beyond.
+const HAIR: f64 = 1.001;
+
+/// The most that runs can give, of what has bounds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Bounds {
+    pub(crate) robots: f64,
+    pub(crate) price: f64,
+    pub(crate) sought: f64,
+    pub(crate) collisions: f64,
+    pub(crate) energy_j: f64,
+    pub(crate) distance_m: f64,
+}
+
+impl Scenario {
+    pub(crate) fn bounds(&self) -> Bounds {
+        let hardest = self
+            .terrain
+            .as_ref()
+            .map_or(Going::EASY, |terrain| terrain.most());
+        let of_team = |of_one: &dyn Fn(&Kind) -> f64| {
+            self.kinds
+                .iter()
+                .map(|kind| f64::from(kind.count) * of_one(kind))
+                .sum::<f64>()
+        };
+        #[expect(clippy::cast_precision_loss, reason = "steps are at most 1e8")]
+        let steps = self.steps as f64;
+        Bounds {
+            robots: of_team(&|_| 1.0),
+            price: of_team(&|kind| kind.price),
+            sought: f64::from(self.sought()),
+            collisions: of_team(&|_| steps),
+            energy_j: of_team(&|kind| self.most_energy_j(kind, hardest)),
+            distance_m: of_team(&|kind| self.most_distance_m(kind, hardest)),
+        }
+    }
+
+    fn longest_s(&self) -> f64 {
+        HAIR * (self.cap_s + self.step_s)
+    }
+
+    fn most_distance_m(&self, kind: &Kind, hardest: Going) -> f64 {
+        let speed = if kind.layer == Layer::Ground {
+            hardest.speed
+        } else {
+            1.0
+        };
+        let fastest = kind
+            .drive
+            .max_speed_m_s
+            .max(kind.drive.max_reverse_speed_m_s);
+        fastest * speed * self.longest_s()
+    }
+
+    fn most_energy_j(&self, kind: &Kind, hardest: Going) -> f64 {
+        let Some(battery) = &kind.battery else {
+            return 0.0;
+        };
+        let effort = if kind.layer == Layer::Ground {
+            hardest.energy
+        } else {
+            1.0
+        };
+        let standing_w = battery.idle_w + kind.sensing_w(0);
+        let moving_j = battery.move_w * self.longest_s()
+            + battery.move_j_per_m * self.most_distance_m(kind, hardest);
+        let spent_j = standing_w * self.longest_s() + effort * moving_j;
+        spent_j.min(battery.capacity_j)
+    }
+
+    /// Robots of each kind.
+    pub(crate) fn team(&self) -> Vec<(String, u32)> {
+        self.kinds
+            .iter()
+            .map(|kind| (kind.name.clone(), kind.count))
+            .collect()
+    }
+
+    /// What is the same in all runs, for people.
+    pub(crate) fn facts(&self) -> Vec<(String, String)> {
+        let size = self.world.size();
+        let world = format!("{} m by {} m, {} obstacles", size.x, size.y, self.solids().len());
+        let clock = format!("{} s a step, cap {} s", self.step_s, self.cap_s);
+        let items = self.items.iter().map(|kind| {
+            let clutter = if kind.is_sought { "" } else { " (not sought)" };
+            (
+                format!("items {}", kind.name),
+                format!("{}{clutter}", kind.count),
+            )
+        });
+        let facts = [("world".to_owned(), world), ("clock".to_owned(), clock)];
+        facts.into_iter().chain(items).collect()
+    }
+}
