@@ -40,6 +40,7 @@
 mod engine;
 mod merit;
 mod published;
+mod schema;
 mod study;
 mod trial;
 mod values;
@@ -48,6 +49,7 @@ mod vary;
 pub use engine::{Configuration, Engine};
 pub use merit::{Measure, Merit, NamedMerit, Term};
 pub use published::Published;
+pub use schema::schema;
 pub use study::{Design, Study};
 pub use values::Values;
 pub use vary::Factor;

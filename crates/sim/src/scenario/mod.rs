@@ -53,6 +53,12 @@ impl ScenarioSpec {
     /// The keys at the root of a document that it is read from.
     pub const KEYS: [&str; 5] = ["clock", "world", "terrain", "items", "robots"];
 
+    /// What may stand under [`ScenarioSpec::KEYS`], once every robot kind says what its model says.
+    #[must_use]
+    pub fn schema() -> &'static Schema {
+        &SCHEMA
+    }
+
     /// Reads what stands under [`ScenarioSpec::KEYS`], and nothing else.
     ///
     /// # Errors

@@ -25,7 +25,9 @@ impl Model {
         ("quadrotor", Self::Quadrotor),
     ];
 
-    fn text(self) -> &'static str {
+    /// Its TOML, which a robot kind's table is filled in with.
+    #[must_use]
+    pub fn text(self) -> &'static str {
         match self {
             Self::Tracked => include_str!("tracked.toml"),
             Self::Ugv => include_str!("ugv.toml"),
