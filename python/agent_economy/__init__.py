@@ -10,6 +10,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from agent_economy import classic, study
     from agent_economy._core import InputError
+    from agent_economy.brain import Brain
     from agent_economy.runs import Outcome, replicate, run
     from agent_economy.scenario import Scenario
     from agent_economy.simulation import Simulation
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     __version__: str
 
 __all__ = [
+    "Brain",
     "InputError",
     "Outcome",
     "Scenario",
@@ -31,6 +33,7 @@ __all__ = [
 ]
 
 _HOMES = {
+    "Brain": "agent_economy.brain",
     "InputError": "agent_economy._core",
     "Outcome": "agent_economy.runs",
     "Scenario": "agent_economy.scenario",

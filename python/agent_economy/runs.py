@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from agent_economy import _core
 from agent_economy.merit import Merit
-from agent_economy.scenario import Scenario
+from agent_economy.scenario import Scenario, loaded
 
 Status = Literal["complete", "incomplete", "quarantined", "running"]
 
@@ -86,7 +86,7 @@ def run(scenario: Scenario | str | Path, seed: int = 0, run: int = 0) -> Outcome
     Raises:
         InputError: If the scenario is wrong, or an argument out of range; all faults at once.
     """
-    scenario = Scenario.of(scenario)
+    scenario = loaded(scenario)
     configuration = scenario.configuration({})
     given = _core.run_one(configuration, seed=seed, run=run)
     values = {name: np.array([value]) for name, value in given.items()}
@@ -120,7 +120,7 @@ def replicate(
     Raises:
         InputError: If the scenario is wrong, or an argument out of range; all faults at once.
     """
-    scenario = Scenario.of(scenario)
+    scenario = loaded(scenario)
     configuration = scenario.configuration({})
     given = _core.run_block(
         [configuration], seed=seed, first_run=first_run, runs=runs, threads=threads

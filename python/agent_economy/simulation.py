@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from agent_economy import _core
 from agent_economy._core import InputError
 from agent_economy.runs import Outcome, table
-from agent_economy.scenario import Given, Override, Scenario
+from agent_economy.scenario import Given, Override, Scenario, loaded
 
 Floats = NDArray[np.float64]
 
@@ -88,7 +88,7 @@ class Simulation:
             InputError: If the scenario is wrong or of another engine, an argument out of range, or
                 the world has no room for the team or the items.
         """
-        self.scenario = Scenario.of(scenario)
+        self.scenario = loaded(scenario)
         self._run = _core.Simulation(compiled(self.scenario), seed=seed, run=run, threads=threads)
         self.seed, self.run = seed, run
         self._changes: tuple[Change, ...] = ()
@@ -254,5 +254,4 @@ def compiled(scenario: Scenario) -> _core.MetricScenario:
             "engine's runs are stepped by hand; see agent_economy.classic.trace"
         )
         raise InputError(message)
-    source = scenario.source
-    return _core.read_metric(source.file, source.text, source.changes())
+    return _core.read_metric(scenario.source)

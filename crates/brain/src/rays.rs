@@ -55,6 +55,13 @@ pub(crate) struct Sector {
     sides: [Side; 3],
 }
 
+/// The way straight ahead.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Lane {
+    pub(crate) half_width_m: f64,
+    sector: Sector,
+}
+
 /// The points with `normal . point <= at`.
 #[derive(Debug, Clone, Copy)]
 struct Side {
@@ -103,8 +110,26 @@ impl Ring {
     /// knows better.
     #[inline]
     pub(crate) fn range_m(&self, ranges_m: &[f64], ray: usize) -> f64 {
-        let range_m = ranges_m.get(ray).copied().unwrap_or_default();
-        range_m.max(0.0).min(self.range_m)
+        let measured_m = ranges_m.get(ray).copied().unwrap_or_default();
+        let sensible_m = if measured_m > 0.0 { measured_m } else { 0.0 };
+        if sensible_m < self.range_m {
+            sensible_m
+        } else {
+            self.range_m
+        }
+    }
+
+    /// The shortest range of some rays; infinite if there are none.
+    #[inline]
+    pub(crate) fn shortest_m(&self, ranges_m: &[f64], rays: &[usize]) -> f64 {
+        let mut shortest_m = f64::INFINITY;
+        for ray in rays {
+            let length_m = self.range_m(ranges_m, *ray);
+            if length_m < shortest_m {
+                shortest_m = length_m;
+            }
+        }
+        shortest_m
     }
 
     /// A bearing off a ray, by a share of the angle to the next.
@@ -121,35 +146,81 @@ impl Ring {
     }
 
     /// Distance from the robot's centre to what is not known to be free, straight ahead.
+    ///
+    /// It is asked at each step, so chords beside the lane are left out at once, and beyond half
+    /// its sight a chord counts as being as near as its rays allow.
     #[inline]
-    pub(crate) fn free_ahead_m(&self, ranges_m: &[f64], ahead: &Sector) -> f64 {
+    pub(crate) fn free_ahead_m(&self, ranges_m: &[f64], lane: &Lane) -> f64 {
+        let mut nearest = Nearest::new(self.range_m);
+        let far_m = self.range_m / 2.0;
         let chords = self.chords.get(..self.ahead).unwrap_or_default();
-        self.nearest_m(ranges_m, ahead, chords)
+        for chord in chords {
+            let ends_m = chord.rays.map(|ray| self.range_m(ranges_m, ray));
+            let [from, to] = chord.directions;
+            let (from_m, to_m) = (from.y * ends_m[0], to.y * ends_m[1]);
+            let half = lane.half_width_m;
+            let is_left = from_m > half && to_m > half;
+            let is_right = from_m < -half && to_m < -half;
+            if is_left || is_right {
+                continue;
+            }
+            if ends_m[0] > far_m && ends_m[1] > far_m {
+                nearest.look_roughly(chord, ends_m);
+            } else {
+                nearest.look(chord, ends_m, &lane.sector);
+            }
+        }
+        nearest.m()
     }
 
     /// Distance from the robot's centre to what is not known to be free within a sector.
     pub(crate) fn free_m(&self, ranges_m: &[f64], sector: &Sector) -> f64 {
-        self.nearest_m(ranges_m, sector, &self.chords)
+        let mut nearest = Nearest::new(self.range_m);
+        for chord in &self.chords {
+            let ends_m = chord.rays.map(|ray| self.range_m(ranges_m, ray));
+            nearest.look(chord, ends_m, sector);
+        }
+        nearest.m()
+    }
+}
+
+/// Square of the distance to the nearest so far.
+struct Nearest {
+    squared_m2: f64,
+}
+
+impl Nearest {
+    fn new(range_m: f64) -> Self {
+        Self {
+            squared_m2: range_m * range_m,
+        }
     }
 
     #[inline]
-    fn nearest_m(&self, ranges_m: &[f64], sector: &Sector, chords: &[Chord]) -> f64 {
-        let mut nearest_m = self.range_m;
-        for chord in chords {
-            let [a, b] = chord.rays.map(|ray| self.range_m(ranges_m, ray));
-            if a.min(b) * chord.nearest_share >= nearest_m {
-                continue;
-            }
-            let [from, to] = chord.directions;
-            let part = sector.part(Segment {
-                from: from.times(a),
-                to: to.times(b),
-            });
-            if let Some(part) = part {
-                nearest_m = nearest_m.min(part.distance_m(Point::default()));
-            }
+    fn look_roughly(&mut self, chord: &Chord, ends_m: [f64; 2]) {
+        let least_m = ends_m[0].min(ends_m[1]) * chord.nearest_share;
+        self.squared_m2 = self.squared_m2.min(least_m * least_m);
+    }
+
+    #[inline]
+    fn look(&mut self, chord: &Chord, ends_m: [f64; 2], sector: &Sector) {
+        let least_m = ends_m[0].min(ends_m[1]) * chord.nearest_share;
+        if least_m * least_m >= self.squared_m2 {
+            return;
         }
-        nearest_m
+        let [from, to] = chord.directions;
+        let part = sector.part(Segment {
+            from: from.times(ends_m[0]),
+            to: to.times(ends_m[1]),
+        });
+        if let Some(part) = part {
+            let nearest = part.nearest(Point::default());
+            self.squared_m2 = self.squared_m2.min(nearest.length_squared());
+        }
+    }
+
+    fn m(&self) -> f64 {
+        libm::sqrt(self.squared_m2)
     }
 }
 
@@ -192,6 +263,15 @@ impl Chord {
     }
 }
 
+impl Lane {
+    pub(crate) fn new(half_width_m: f64) -> Self {
+        Self {
+            half_width_m,
+            sector: Sector::new(0.0, 0.0, half_width_m),
+        }
+    }
+}
+
 impl Sector {
     /// Courses from `from_rad` anticlockwise to `to_rad`, at most half a turn; a body of this half
     /// width.
@@ -200,7 +280,7 @@ impl Sector {
             x: course.y,
             y: -course.x,
         };
-        let behind = direction((from_rad + to_rad) / 2.0).times(-1.0);
+        let behind = direction(f64::midpoint(from_rad, to_rad)).times(-1.0);
         // Right beside the body on its outermost courses.
         let (beside, _) = sin_cos((to_rad - from_rad) / 2.0);
         let side = |normal, at| Side { normal, at };
@@ -263,9 +343,7 @@ mod tests {
     #[test]
     fn a_wall_behind_is_not_seen_ahead() {
         let mut ranges = [f64::INFINITY; 16];
-        for ray in 5..=11 {
-            ranges[ray] = 0.3;
-        }
+        ranges[5..=11].fill(0.3);
         let ring = ring(16, 3.0);
         assert!(free_m(&ring, &ranges, AHEAD) > 2.9);
         assert!((free_m(&ring, &ranges, (PI, PI)) - 0.3 * (PI / 16.0).cos()).abs() < 1e-12);

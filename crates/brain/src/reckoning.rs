@@ -38,6 +38,15 @@ impl Reckoning {
         told.max(wheels).max(0.0).min(body.max_speed_m_s)
     }
 
+    /// Whether it now goes ahead (1) or backwards (-1); if it stands, whether it is told to.
+    #[inline]
+    pub(crate) fn way(&self, percept: &Percept, body: &Body, told_m_s: f64) -> f64 {
+        let ahead_m_s = self.speed_m_s(percept, body, 1.0);
+        let back_m_s = self.speed_m_s(percept, body, -1.0);
+        let is_back = back_m_s > ahead_m_s || (told_m_s < 0.0 && ahead_m_s <= 0.0);
+        if is_back { -1.0 } else { 1.0 }
+    }
+
     /// Angle by which it has turned within the last `age_s`.
     #[inline]
     pub(crate) fn turned_within_rad(&self, age_s: f64) -> f64 {
@@ -45,11 +54,16 @@ impl Reckoning {
         f64::from(self.turn_rate_rad_s) * turning_s
     }
 
-    /// Angle by which it has turned since the last call, and so since the last step: from the
-    /// compass if there is one, else from the wheels, else as it was told.
+    /// Takes in what the percept says of the body's motion, at the beginning of a step. Returns the
+    /// angle by which it has turned since the last one: from the compass if there is one, else from
+    /// the wheels, else as it was told.
     #[inline]
     #[expect(clippy::cast_possible_truncation, reason = "kept short")]
-    pub(crate) fn turned_rad(&mut self, percept: &Percept, body: &Body) -> f64 {
+    pub(crate) fn take_in(&mut self, percept: &Percept, body: &Body) -> f64 {
+        if percept.touch.is_some_and(|touch| touch.value) {
+            // What it ran into has stopped it, whatever it was told.
+            self.speed_m_s = 0.0;
+        }
         let rate = self.turn_rate_rad_s(percept, body);
         let heading = percept.heading_rad.filter(is_of_now);
         let heading = heading.filter(|reading| reading.value.abs() <= MAX_HEADING_RAD);
@@ -109,7 +123,7 @@ mod tests {
         let (mut reckoning, body) = (Reckoning::default(), rover());
         let mut sum = 0.0;
         for percept in percepts {
-            sum += reckoning.turned_rad(percept, &body);
+            sum += reckoning.take_in(percept, &body);
             reckoning.told(TURN, &body);
         }
         sum

@@ -2,6 +2,7 @@
 //! Rust computes, and maps errors. No logic lives here.
 
 mod arguments;
+mod brain;
 mod classic_runs;
 mod classic_trace;
 mod configuration;
@@ -17,6 +18,8 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _core {
     #[pymodule_export]
+    use crate::brain::Brain;
+    #[pymodule_export]
     use crate::classic_runs::{exhaust, replicate};
     #[pymodule_export]
     use crate::classic_trace::{random_start, trace};
@@ -25,7 +28,7 @@ mod _core {
     #[pymodule_export]
     use crate::error::InputError;
     #[pymodule_export]
-    use crate::scenario::{read_document, read_scenario};
+    use crate::scenario::{files_wanted, read_document, read_scenario};
     #[pymodule_export]
     use crate::selection::{Procedure, mean_bounds, mean_exceeds, reference, selection};
     #[pymodule_export]

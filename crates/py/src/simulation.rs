@@ -2,10 +2,9 @@
 
 use crate::arguments::Arguments;
 use crate::configuration::{ColumnTuple, as_tuple};
-use crate::engines::METRIC;
 use crate::error::input_error;
 use crate::long_work::interruptible;
-use crate::scenario::{GivenOverride, document};
+use crate::scenario::Source;
 use base::fault::{Fault, Faults};
 use base::runner::Runner;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
@@ -13,7 +12,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use sim::engine::{self, NoRoom, Robot};
 use sim::runner::Runs;
-use sim::scenario::Scenario;
+use sim::scenario::{Scenario, ScenarioSpec};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
 use std::time::Duration;
@@ -28,18 +27,13 @@ const BETWEEN_LOOKS: Duration = Duration::from_millis(1);
 #[pyclass(frozen, module = "agent_economy._core")]
 pub(crate) struct MetricScenario(Arc<Scenario>);
 
-/// What a run of a TOML text with changes, as `read_scenario` takes them, depends on.
+/// What a run of a source depends on.
 #[pyfunction]
-#[pyo3(signature = (file, text, overrides))]
-pub(crate) fn read_metric(
-    file: &str,
-    text: &str,
-    overrides: Vec<GivenOverride>,
-) -> PyResult<MetricScenario> {
-    let document = document(file, text, overrides)?;
-    let read = METRIC.scenario(&document);
-    let scenario = read.map_err(|faults| input_error(&faults, file))?;
-    Ok(MetricScenario(Arc::new(scenario)))
+pub(crate) fn read_metric(source: Source) -> PyResult<MetricScenario> {
+    let file = source.file.clone();
+    let read = ScenarioSpec::read(&source.document()?);
+    let checked = read.map_err(|faults| input_error(&faults, &file))?;
+    Ok(MetricScenario(Arc::new(checked.scenario)))
 }
 
 /// A whole run, at one of its moments.
