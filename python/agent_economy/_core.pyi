@@ -1,5 +1,5 @@
-from collections.abc import Sequence
-from typing import Any, Literal, TypedDict, final, type_check_only
+from collections.abc import Mapping, Sequence
+from typing import Any, Literal, Protocol, TypedDict, final, type_check_only
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +11,7 @@ __all__ = [
     "InputError",
     "Procedure",
     "exhaust",
+    "files_wanted",
     "mean_bounds",
     "mean_exceeds",
     "random_start",
@@ -83,18 +84,21 @@ class Configuration:
         self,
     ) -> list[tuple[str, Literal["whole", "real", "flag"], float | None, float | None]]: ...
 
-def read_scenario(
-    file: str, text: str, overrides: list[tuple[list[str], Any, str]]
-) -> dict[str, Any]: ...
-def read_document(
-    file: str, text: str, overrides: list[tuple[list[str], Any, str]]
-) -> dict[str, Any]: ...
-def read_configuration(
-    file: str,
-    text: str,
-    overrides: list[tuple[list[str], Any, str]],
-    values: dict[str, str | int | float],
-) -> Configuration: ...
+@type_check_only
+class _Source(Protocol):
+    @property
+    def file(self) -> str: ...
+    @property
+    def text(self) -> str: ...
+    @property
+    def changes(self) -> list[tuple[list[str], Any, str]]: ...
+    @property
+    def files(self) -> Mapping[str, bytes | str]: ...
+
+def files_wanted(source: _Source) -> list[str]: ...
+def read_scenario(source: _Source) -> dict[str, Any]: ...
+def read_document(source: _Source) -> dict[str, Any]: ...
+def read_configuration(source: _Source, values: dict[str, str | int | float]) -> Configuration: ...
 def run_block(
     configurations: list[Configuration],
     *,

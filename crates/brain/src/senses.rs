@@ -29,6 +29,12 @@ impl Senses<'_> {
         self.body.period_s as f32
     }
 
+    /// Whether it still touches something; a collision may hold it, and it gets nowhere meanwhile.
+    #[inline]
+    pub(crate) fn is_held(&self) -> bool {
+        self.touches(f64::INFINITY)
+    }
+
     /// Uniform numbers; every call begins with the first.
     pub(crate) fn dice(&self) -> Dice {
         Dice::new(self.percept.dice)

@@ -4,7 +4,7 @@ use crate::arguments::Arguments;
 use crate::engines::ENGINES;
 use crate::error::input_error;
 use crate::long_work::interruptible;
-use crate::scenario::{GivenOverride, document, value};
+use crate::scenario::{Source, value};
 use base::document::Value;
 use base::question;
 use base::runner::{Column, Kind, Runner};
@@ -52,17 +52,15 @@ fn as_tuple(column: &Column) -> ColumnTuple {
     (column.name.to_string(), kind, column.least, column.greatest)
 }
 
-/// The configuration of a TOML text with changes, as `read_scenario` takes them, and a value at the
-/// path of each factor in `values`; only what a run depends on is read and checked.
+/// The configuration of a source with a value at the path of each factor in `values`; only what a
+/// run depends on is read and checked.
 #[pyfunction]
-#[pyo3(signature = (file, text, overrides, values))]
 pub(crate) fn read_configuration(
-    file: &str,
-    text: &str,
-    overrides: Vec<GivenOverride>,
+    source: Source,
     values: &Bound<PyDict>,
 ) -> PyResult<Configuration> {
-    let document = document(file, text, overrides)?;
+    let file = source.file.clone();
+    let document = source.document()?;
     let values = values.iter().map(|(path, given)| {
         let path: String = path.extract()?;
         let value = value(std::slice::from_ref(&path), &given, "study.vary")?;
@@ -70,7 +68,7 @@ pub(crate) fn read_configuration(
     });
     let values: Vec<(String, Value)> = values.collect::<PyResult<_>>()?;
     let read = question::Configuration::read(&ENGINES, document, &values);
-    let read = read.map_err(|faults| input_error(&faults, file))?;
+    let read = read.map_err(|faults| input_error(&faults, &file))?;
     Ok(Configuration {
         runner: read.runner,
     })

@@ -24,7 +24,7 @@ mod _core {
     #[pymodule_export]
     use crate::error::InputError;
     #[pymodule_export]
-    use crate::scenario::{read_document, read_scenario};
+    use crate::scenario::{files_wanted, read_document, read_scenario};
     #[pymodule_export]
     use crate::selection::{Procedure, mean_bounds, mean_exceeds, reference, selection};
 

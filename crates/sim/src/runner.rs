@@ -10,31 +10,13 @@ use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Gives the bytes of a file that the scenario in a file names, or says why it cannot.
-pub type OpenBeside = fn(scenario: &str, name: &str) -> Result<Vec<u8>, String>;
-
 /// The metric engine, as scenarios name it.
 #[derive(Debug, Clone, Copy)]
-pub struct Metric {
-    /// Finds the maps that scenarios name.
-    pub open: OpenBeside,
-}
+pub struct Metric;
 
 /// Runs of a scenario.
 #[derive(Debug, Clone)]
 pub struct Runs(pub Arc<Scenario>);
-
-impl Metric {
-    /// Reads what a run depends on.
-    ///
-    /// # Errors
-    /// Everything that is wrong with it.
-    pub fn scenario(&self, document: &Document) -> Result<Scenario, Faults> {
-        let file = document.file();
-        let checked = ScenarioSpec::read(document, &|name| (self.open)(file, name))?;
-        Ok(checked.scenario)
-    }
-}
 
 impl Engine for Metric {
     fn name(&self) -> &'static str {
@@ -46,13 +28,17 @@ impl Engine for Metric {
     }
 
     fn read(&self, document: &Document) -> Result<Configuration, Faults> {
-        let scenario = self.scenario(document)?;
+        let scenario = ScenarioSpec::read(document)?.scenario;
         Ok(Configuration {
             robots: scenario.team(),
             cap_s: scenario.cap_s,
             facts: scenario.facts(),
             runner: Box::new(Runs(Arc::new(scenario))),
         })
+    }
+
+    fn files(&self, document: &Document) -> Vec<String> {
+        ScenarioSpec::files(document)
     }
 
     fn measures(&self, _: &Document) -> Vec<Measure> {

@@ -34,7 +34,7 @@ fn every_shipped_scenario_is_without_faults() {
     assert!(shipped.len() >= 2);
     for (name, text) in shipped {
         let document = Document::parse(&name, &text).unwrap();
-        let read = ScenarioSpec::read(&document, &open);
+        let read = ScenarioSpec::read_with(&document, open);
         assert!(read.is_ok(), "{}", read.unwrap_err());
     }
 }

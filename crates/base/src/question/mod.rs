@@ -108,6 +108,12 @@ impl Scenario {
     }
 }
 
+/// The files that a document of one of `engines` names and that have not been read.
+#[must_use]
+pub fn files_wanted(engines: &[&dyn Engine], document: &Document) -> Vec<String> {
+    engine_of(engines, document).map_or_else(|_| Vec::new(), |engine| engine.files(document))
+}
+
 impl Configuration {
     /// Reads what a run depends on, and nothing else, of a scenario with `values` at the paths of
     /// factors.

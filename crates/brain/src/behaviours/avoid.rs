@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 /// Two sides that differ by less are equally free, in metres.
 const SAME_M: f64 = 0.01;
 
-/// For one who is still touched behind.
+/// For one who is still touched behind, or whose compass is stuck.
 const PATIENCE_S: f32 = 10.0;
 
 /// For one who cannot turn.
@@ -84,11 +84,11 @@ pub(crate) enum Memory {
     Clear { since_s: f32 },
     /// It has so long to back off once it touches nothing, and loses patience after a time.
     Backing { left_s: f32, patience_s: f32 },
-    /// It turns since a time, and so long at least.
+    /// It turns since a time, and has so far to turn at least.
     Turning {
         is_left: bool,
         since_s: f32,
-        least_s: f32,
+        least_rad: f32,
     },
 }
 
@@ -142,10 +142,7 @@ impl Behaviour for Ready {
                 self.look(memory, clear_s, senses)
             }
             Memory::Backing { .. } => Some(self.go_on_backing(memory, senses)),
-            Memory::Turning { since_s, .. } => {
-                *since_s += period_s;
-                self.go_on_turning(memory, senses)
-            }
+            Memory::Turning { .. } => self.go_on_turning(memory, senses),
         }
     }
 
@@ -182,8 +179,7 @@ impl Ready {
         let Memory::Backing { left_s, patience_s } = memory else {
             return Motion::default();
         };
-        // A collision may hold it for a while, in which it gets nowhere.
-        if !senses.touches(f64::INFINITY) {
+        if !senses.is_held() {
             *left_s -= senses.period_s();
         }
         *patience_s -= senses.period_s();
@@ -220,25 +216,32 @@ impl Ready {
         *memory = Memory::Turning {
             is_left,
             since_s: 0.0,
-            least_s: (least_rad / self.turn_rate_rad_s) as f32,
+            least_rad: least_rad as f32,
         };
         self.on_the_spot(is_left)
     }
 
+    #[expect(clippy::cast_possible_truncation, reason = "kept short")]
     fn go_on_turning(&self, memory: &mut Memory, senses: &Senses) -> Option<Motion> {
         let Memory::Turning {
             is_left,
             since_s,
-            least_s,
-        } = *memory
+            least_rad,
+        } = memory
         else {
             return None;
         };
+        let is_left = *is_left;
+        if !senses.is_held() {
+            *since_s += senses.period_s();
+        }
+        *least_rad -= senses.turned_rad.abs() as f32;
+        let has_turned = *least_rad <= 0.0 || *since_s >= PATIENCE_S;
+        let is_round = f64::from(*since_s) * self.turn_rate_rad_s > TAU;
         let [left_m, right_m] = self.nearest_m(senses);
         // Where nothing is clear, somewhere is the least near.
-        let is_round = f64::from(since_s) * self.turn_rate_rad_s > TAU;
         let clear_m = if is_round { self.near_m } else { self.clear_m };
-        if since_s >= least_s && left_m.min(right_m) >= clear_m {
+        if has_turned && left_m.min(right_m) >= clear_m {
             *memory = CLEAR;
             return None;
         }
@@ -361,6 +364,26 @@ mod tests {
             .map(|rate| rate * 0.1)
             .sum();
         assert!((FRAC_PI_4..FRAC_PI_4 + 0.4).contains(&turned), "{turned}");
+    }
+
+    #[test]
+    fn while_a_collision_holds_it_its_turn_does_not_pass() {
+        let mut brain = brain(&rover());
+        let mut step = |touches, turn_rate_rad_s| {
+            let value = Motion {
+                speed_m_s: 0.0,
+                turn_rate_rad_s,
+            };
+            let percept = Percept {
+                motion: Some(now(value)),
+                ..percept(&[], 0, touches)
+            };
+            brain.step(&percept).motion.turn_rate_rad_s
+        };
+        assert!((0..6).all(|_| step(false, 0.0) == 0.0));
+        assert!((0..100).all(|_| step(true, 0.0) != 0.0));
+        let turning = (0..40).take_while(|_| step(false, PI / 2.0) != 0.0);
+        assert_eq!(turning.count(), 4);
     }
 
     #[test]

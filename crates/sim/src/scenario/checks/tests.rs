@@ -42,7 +42,7 @@ drive = { max_speed_m_s = 5, max_turn_rate_deg_s = 90 }
 
 fn read(text: &str) -> Result<Checked, Faults> {
     let document = Document::parse("t", text).unwrap();
-    ScenarioSpec::read(&document, &|file| Err(format!("there is no {file}")))
+    ScenarioSpec::read(&document)
 }
 
 /// The faults of the good scenario with this in place of that, without their lines.
@@ -325,7 +325,7 @@ fn read_with_map(map: &str, start: &str) -> Result<Checked, String> {
     let map = format!("{{ map = {map:?} }}");
     let text = GOOD.replace("{ circle = { at_m = [15, 5], radius_m = 1 } }", &map);
     let document = Document::parse("t", &text.replace("[7, 6]", start)).unwrap();
-    ScenarioSpec::read(&document, &open).map_err(|faults| faults.to_string())
+    ScenarioSpec::read_with(&document, open).map_err(|faults| faults.to_string())
 }
 
 #[test]

@@ -77,7 +77,7 @@ mod tests {
 
     fn read(more: &str) -> Result<crate::body::RobotSpec, String> {
         let document = Document::parse("t.toml", &format!("{REST}{more}")).unwrap();
-        let read = ScenarioSpec::read(&document, &|_| Err("no".to_owned()));
+        let read = ScenarioSpec::read(&document);
         let robots = read.map(|checked| checked.spec.robots);
         robots
             .map(|mut robots| robots.remove("r").unwrap())
@@ -122,7 +122,7 @@ mod tests {
         let document =
             format!("{REST}like = \"ugv\"").replace("cap_s = 9", "cap_s = 9\nstep_s = 1");
         let document = Document::parse("t.toml", &document).unwrap();
-        let told = ScenarioSpec::read(&document, &|_| Err("no".to_owned())).unwrap_err();
+        let told = ScenarioSpec::read(&document).unwrap_err();
         let expected = "shipped model ugv:12: robots.r.drive.max_turn_rate_deg_s = 229: must be at \
                         most 180, half a turn in a step of 1 s";
         assert!(told.to_string().contains(expected), "{told}");
