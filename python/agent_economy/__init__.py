@@ -9,14 +9,16 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from agent_economy import classic, study
     from agent_economy._core import InputError
+    from agent_economy.brain import Brain
     from agent_economy.scenario import Scenario
     from agent_economy.study.errors import StudyError
 
     __version__: str
 
-__all__ = ["InputError", "Scenario", "StudyError", "__version__", "classic", "study"]
+__all__ = ["Brain", "InputError", "Scenario", "StudyError", "__version__", "classic", "study"]
 
 _HOMES = {
+    "Brain": "agent_economy.brain",
     "InputError": "agent_economy._core",
     "Scenario": "agent_economy.scenario",
     "StudyError": "agent_economy.study.errors",

@@ -1,5 +1,6 @@
-from collections.abc import Mapping, Sequence
-from typing import Any, Literal, Protocol, TypedDict, final, type_check_only
+from collections.abc import Sequence
+from collections.abc import Mapping
+from typing import Any, Literal, TypedDict, final, type_check_only
 
 import numpy as np
 from numpy.typing import NDArray
@@ -7,11 +8,11 @@ from numpy.typing import NDArray
 __all__ = [
     "CONTACTS",
     "FIRST_LOOK",
+    "Brain",
     "Configuration",
     "InputError",
     "Procedure",
     "exhaust",
-    "files_wanted",
     "mean_bounds",
     "mean_exceeds",
     "random_start",
@@ -41,6 +42,14 @@ class Fault(TypedDict):
 
 class InputError(ValueError):
     faults: Sequence[Fault]
+
+@final
+class Brain:
+    def __new__(cls, spec: Mapping[str, Any], body: Mapping[str, Any]) -> Brain: ...
+    def step(self, percept: Mapping[str, Any]) -> dict[str, Any]: ...
+    def copy(self) -> Brain: ...
+    @staticmethod
+    def schemas() -> dict[str, dict[str, Any]]: ...
 
 @final
 class Procedure:
@@ -84,21 +93,18 @@ class Configuration:
         self,
     ) -> list[tuple[str, Literal["whole", "real", "flag"], float | None, float | None]]: ...
 
-@type_check_only
-class _Source(Protocol):
-    @property
-    def file(self) -> str: ...
-    @property
-    def text(self) -> str: ...
-    @property
-    def changes(self) -> list[tuple[list[str], Any, str]]: ...
-    @property
-    def files(self) -> Mapping[str, bytes | str]: ...
-
-def files_wanted(source: _Source) -> list[str]: ...
-def read_scenario(source: _Source) -> dict[str, Any]: ...
-def read_document(source: _Source) -> dict[str, Any]: ...
-def read_configuration(source: _Source, values: dict[str, str | int | float]) -> Configuration: ...
+def read_scenario(
+    file: str, text: str, overrides: list[tuple[list[str], Any, str]]
+) -> dict[str, Any]: ...
+def read_document(
+    file: str, text: str, overrides: list[tuple[list[str], Any, str]]
+) -> dict[str, Any]: ...
+def read_configuration(
+    file: str,
+    text: str,
+    overrides: list[tuple[list[str], Any, str]],
+    values: dict[str, str | int | float],
+) -> Configuration: ...
 def run_block(
     configurations: list[Configuration],
     *,

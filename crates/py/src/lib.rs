@@ -2,6 +2,7 @@
 //! Rust computes, and maps errors. No logic lives here.
 
 mod arguments;
+mod brain;
 mod classic_runs;
 mod classic_trace;
 mod configuration;
@@ -15,6 +16,8 @@ use pyo3::prelude::*;
 
 #[pymodule]
 mod _core {
+    #[pymodule_export]
+    use crate::brain::Brain;
     #[pymodule_export]
     use crate::classic_runs::{exhaust, replicate};
     #[pymodule_export]
