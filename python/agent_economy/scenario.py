@@ -241,8 +241,8 @@ class Scenario:
         """
         if self.engine != "metric":
             message = (
-                f"{self.source.file}: engine = {self.engine!r}: must be 'metric': the "
-                "others' runs are not stepped by hand, and have no brains; see agent_economy.classic.trace"
+                f"{self.source.file}: engine = {self.engine!r}: must be 'metric': others have no "
+                "brains and no runs stepped by hand; see agent_economy.classic.trace"
             )
             raise InputError(message)
         return _core.read_metric(self.source)
