@@ -7,9 +7,11 @@ unless said otherwise.
 """
 
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any, Generic, NotRequired, TypeAlias, TypedDict, TypeVar, cast
 
 from agent_economy import _core
+from agent_economy.scenario import Scenario, loaded
 
 T = TypeVar("T")
 
@@ -217,6 +219,21 @@ class Brain:
     def __init__(self, spec: Mapping[str, Any] | None, body: Body) -> None:
         """Make a mind that has just been switched on."""
         self._mind = _core.Brain({} if spec is None else spec, body)
+
+    @classmethod
+    def of(cls, scenario: Scenario | str | Path, kind: str) -> "Brain":
+        """Return a brain as a scenario's robots of a kind have it, in their body.
+
+        Args:
+            scenario: A scenario of the metric engine, its file, or the name of one that ships.
+            kind: Name of a kind of robots.
+
+        Raises:
+            InputError: If the scenario is wrong or of another engine, or has no such kind.
+        """
+        brain = cls.__new__(cls)
+        vars(brain)["_mind"] = _core.Brain.of(loaded(scenario).metric(), kind)
+        return brain
 
     def step(self, percept: Percept) -> Command:
         """Return what the robot is to do; to be called once in each of the body's periods.

@@ -233,6 +233,20 @@ class Scenario:
         """
         return _core.read_configuration(self.source, dict(values))
 
+    def metric(self) -> _core.MetricScenario:
+        """Return what a run of the metric engine needs.
+
+        Raises:
+            InputError: If the scenario is of another engine.
+        """
+        if self.engine != "metric":
+            message = (
+                f"{self.source.file}: engine = {self.engine!r}: must be 'metric': others have no "
+                "brains and no runs stepped by hand; see agent_economy.classic.trace"
+            )
+            raise InputError(message)
+        return _core.read_metric(self.source)
+
 
 def loaded(given: Scenario | str | Path) -> Scenario:
     """Return a scenario that is given, or read the one of a file or a name, as `load` does.

@@ -1,9 +1,10 @@
 """A run of the metric engine, stepped by hand."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from threading import RLock
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 import pyarrow as pa
@@ -11,6 +12,7 @@ from numpy.typing import NDArray
 
 from agent_economy import _core
 from agent_economy._core import InputError
+from agent_economy.brain import Command, Percept
 from agent_economy.runs import Outcome, table
 from agent_economy.scenario import Given, Override, Scenario, loaded
 
@@ -89,7 +91,7 @@ class Simulation:
                 the world has no room for the team or the items.
         """
         self.scenario = loaded(scenario)
-        self._run = _core.Simulation(compiled(self.scenario), seed=seed, run=run, threads=threads)
+        self._run = _core.Simulation(self.scenario.metric(), seed=seed, run=run, threads=threads)
         self.seed, self.run = seed, run
         self._changes: tuple[Change, ...] = ()
         self._lock = RLock()
@@ -99,16 +101,56 @@ class Simulation:
         which = f"{self.scenario.name!r}, seed={self.seed}, run={self.run}"
         return f"<Simulation of {which}: tick {self.tick}>"
 
-    def step(self, steps: int = 1) -> None:
+    def step(
+        self,
+        steps: int = 1,
+        *,
+        percepts: Mapping[str, Percept] | None = None,
+        commands: Mapping[str, Command] | None = None,
+    ) -> dict[str, Command]:
         """Take steps, also after the run is over; Ctrl-C stops between two.
 
+        A body can be outside: from the first percept given for a robot on, it is where its percepts
+        say, its brain steps with each of them, and the command is returned instead of carried out.
+        The run adds what other robots told it to the percept, and counts as found what the percept
+        has contacts of. In a step without a percept for it, it stands, and its brain does not step.
+
         Args:
-            steps: How many, 0 or more.
+            steps: How many, 0 or more; 1 with percepts or commands.
+            percepts: By name, what robots perceive whose bodies are outside.
+            commands: By name, what other robots are to do in this step, whatever their brains would
+                decide; sensors and bodies stay as they are.
+
+        Returns:
+            By name, what the brains of the robots in `percepts` want of their bodies; one that is
+            empty or broken wants nothing.
 
         Raises:
-            InputError: If an argument is not allowed; no step is taken then.
+            InputError: If anything is not allowed, all faults at once; no step is taken then.
         """
-        self._run.step(steps)
+        if percepts is None and commands is None:
+            self._run.step(steps)
+            return {}
+        if steps != 1:
+            message = f"steps = {steps!r}: must be 1 with percepts or commands"
+            raise InputError(message)
+        both = as_dict("percepts", percepts), as_dict("commands", commands)
+        return cast("dict[str, Command]", self._run.step_with(*both))
+
+    def percept(self, robot: str) -> Percept | None:
+        """Return what a robot will perceive in the next step; the run does not go on.
+
+        Args:
+            robot: Its name.
+
+        Returns:
+            None if its brain does not step then, as between two of its periods, or if it is empty
+            or broken, or its body outside. Of a ray that meets nothing the range is None.
+
+        Raises:
+            InputError: If there is no such robot.
+        """
+        return cast("Percept | None", self._run.percept(robot))
 
     def finish(self) -> Outcome:
         """Take steps until the run is over; Ctrl-C stops between two."""
@@ -147,7 +189,7 @@ class Simulation:
             raise InputError(message)
         with self._lock:
             changed = self.scenario.changed((Override.at(path, value, "change"),))
-            tick = self._run.change(compiled(changed))
+            tick = self._run.change(changed.metric())
             self.scenario = changed
             self._changes += (Change(tick, path, value),)
 
@@ -221,6 +263,11 @@ class Simulation:
         return STATUSES[self._run.status]
 
     @property
+    def outside(self) -> NDArray[np.bool_]:
+        """Whether each robot's body is outside, shape (robots,): see `step`."""
+        return self._run.outside
+
+    @property
     def battery(self) -> Floats:
         """Share of each robot's battery that is left, shape (robots,), 0 to 1.
 
@@ -242,16 +289,13 @@ class Simulation:
         )
 
 
-def compiled(scenario: Scenario) -> _core.MetricScenario:
-    """Return a scenario as a run needs it.
+def as_dict(name: str, given: Mapping[str, Any] | None) -> dict[str, Any]:
+    """Return a mapping as a dict; None is an empty one.
 
     Raises:
-        InputError: If it is of another engine.
+        InputError: If it is no mapping.
     """
-    if scenario.engine != "metric":
-        message = (
-            f"{scenario.source.file}: engine = {scenario.engine!r}: must be 'metric': no other "
-            "engine's runs are stepped by hand; see agent_economy.classic.trace"
-        )
-        raise InputError(message)
-    return _core.read_metric(scenario.source)
+    if given is None or isinstance(given, Mapping):
+        return dict(given or {})
+    message = f"{name} = {given!r}: must be a dict by the names of robots"
+    raise InputError(message)

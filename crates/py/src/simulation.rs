@@ -3,11 +3,14 @@
 use crate::arguments::Arguments;
 use crate::configuration::{ColumnTuple, as_tuple};
 use crate::error::input_error;
+use crate::exchange;
 use crate::long_work::interruptible;
+use crate::outside;
 use crate::scenario::Source;
 use base::fault::{Fault, Faults};
 use base::runner::Runner;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
+use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use sim::engine::{self, NoRoom, Robot};
@@ -25,7 +28,7 @@ const BETWEEN_LOOKS: Duration = Duration::from_millis(1);
 
 /// A scenario of the metric engine, as its runs need it.
 #[pyclass(frozen, module = "agent_economy._core")]
-pub(crate) struct MetricScenario(Arc<Scenario>);
+pub(crate) struct MetricScenario(pub(crate) Arc<Scenario>);
 
 /// What a run of a source depends on.
 #[pyfunction]
@@ -100,6 +103,42 @@ impl Simulation {
         })
     }
 
+    /// Takes one step with percepts of bodies outside and commands for other robots, dicts by the
+    /// robots' names; returns the commands for bodies outside.
+    fn step_with<'py>(
+        &self,
+        py: Python<'py>,
+        percepts: &Bound<'py, PyDict>,
+        commands: &Bound<'py, PyDict>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let mut run = self.locked(py)?;
+        let read = outside::read(&run, percepts, commands);
+        let (percepts, commands) = read.map_err(|faults| input_error(&faults, ""))?;
+        let work = robots(&run);
+        let answers = self.take(py, &mut run, work, |run, _| {
+            run.step_with(percepts, commands)
+        })?;
+        let answers = answers.map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
+        outside::write(py, run.scenario(), &answers)
+    }
+
+    /// What a robot will perceive in the next step; None if its brain does not step in it.
+    fn percept<'py>(
+        &self,
+        py: Python<'py>,
+        robot: &Bound<'py, PyAny>,
+    ) -> PyResult<Option<Bound<'py, PyAny>>> {
+        let mut run = self.locked(py)?;
+        let id = outside::robot_of(run.scenario(), "robot", &robot.to_string());
+        let id = id.map_err(|fault| input_error(&Faults(vec![fault]), ""))?;
+        let work = robots(&run);
+        let percept = self.take(py, &mut run, work, |run, _| run.percept(id))?;
+        let percept = percept.map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
+        percept
+            .map(|percept| exchange::write(py, &percept))
+            .transpose()
+    }
+
     /// What the run has given so far, by column; None if it is not finite.
     fn outcome<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
         let run = self.locked(py)?;
@@ -167,11 +206,10 @@ impl Simulation {
     #[getter]
     fn robots(&self, py: Python) -> PyResult<Vec<String>> {
         let run = self.locked(py)?;
-        let kinds: Vec<&str> = run.scenario().robot_kinds().collect();
         let robots = run.state().each_robot(run.scenario());
-        let named =
-            robots.map(|robot| format!("{}/{}", kinds[usize::from(robot.id.kind)], robot.id.index));
-        Ok(named.collect())
+        Ok(robots
+            .map(|robot| outside::name_of(run.scenario(), robot.id))
+            .collect())
     }
 
     /// `x_m`, `y_m` and `heading_rad` of each robot.
@@ -191,6 +229,12 @@ impl Simulation {
     #[getter]
     fn status<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<u8>>> {
         Ok(self.each(py, |robot| robot.status as u8)?.into_pyarray(py))
+    }
+
+    /// Whether each robot's body is outside.
+    #[getter]
+    fn outside<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<bool>>> {
+        Ok(self.each(py, |robot| robot.is_external)?.into_pyarray(py))
     }
 
     /// Share of each robot's battery that is left; 1 for one that never empties.
