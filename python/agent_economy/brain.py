@@ -7,7 +7,7 @@ unless said otherwise.
 """
 
 from collections.abc import Mapping, Sequence
-from typing import Any, Generic, Literal, NotRequired, TypeAlias, TypedDict, TypeVar, cast
+from typing import Any, Generic, NotRequired, TypeAlias, TypedDict, TypeVar, cast
 
 from agent_economy import _core
 
@@ -216,7 +216,7 @@ class Brain:
 
     def __init__(self, spec: Mapping[str, Any] | None, body: Body) -> None:
         """Make a mind that has just been switched on."""
-        self._core = _core.Brain({} if spec is None else spec, body)
+        self._mind = _core.Brain({} if spec is None else spec, body)
 
     def step(self, percept: Percept) -> Command:
         """Return what the robot is to do; to be called once in each of the body's periods.
@@ -224,15 +224,18 @@ class Brain:
         Raises:
             InputError: If the percept has a wrong name, or something of a wrong kind.
         """
-        return cast("Command", self._core.step(percept))
+        return cast("Command", self._mind.step(percept))
 
     def copy(self) -> "Brain":
         """Return a brain with the same memories, which then goes its own way."""
         brain = Brain.__new__(Brain)
-        brain._core = self._core.copy()
+        vars(brain)["_mind"] = self._mind.copy()
         return brain
 
 
-def schemas() -> dict[Literal["BrainSpec", "Body", "Percept", "Command"], dict[str, Any]]:
-    """Return the JSON Schemas of all that enters and leaves a brain, for other languages."""
-    return cast("Any", _core.Brain.schemas())
+def schemas() -> dict[str, dict[str, Any]]:
+    """Return the JSON Schemas of all that enters and leaves a brain, for other languages.
+
+    They are those of BrainSpec, Body, Percept and Command.
+    """
+    return _core.Brain.schemas()

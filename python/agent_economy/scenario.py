@@ -234,6 +234,20 @@ class Scenario:
         return _core.read_configuration(self.source, dict(values))
 
 
+def loaded(given: Scenario | str | Path) -> Scenario:
+    """Return a scenario that is given, or read the one of a file or a name, as `load` does.
+
+    Raises:
+        InputError: If it is none of these, or wrong; all faults at once.
+    """
+    if isinstance(given, Scenario):
+        return given
+    if isinstance(given, str | Path):
+        return Scenario.load(given)
+    message = f"scenario = {given!r}: must be a Scenario, a file, or the name of one that ships"
+    raise InputError(message)
+
+
 def factor(fields: dict[str, Any]) -> Factor:
     """Return a factor as the compiled part read it."""
     return Factor(fields["path"], tuple(fields["values"]), fields["range"])

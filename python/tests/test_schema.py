@@ -4,6 +4,7 @@ import json
 import tomllib
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 from jsonschema import Draft7Validator
@@ -55,7 +56,7 @@ def test_spoiled_scenarios_are_not_valid(good: str, bad: str, validator: Draft7V
     assert not validator.is_valid(tomllib.loads(text.replace(good, bad)))
 
 
-def objects(part: object) -> Iterator[dict[str, object]]:
+def objects(part: Any) -> Iterator[dict[str, Any]]:
     """Yield every table of the schema that describes keys."""
     if isinstance(part, dict):
         if isinstance(part.get("properties"), dict):

@@ -12,6 +12,7 @@ use pyo3::types::PyDict;
 use schemars::{JsonSchema, schema_for};
 use serde::de::DeserializeOwned;
 use serde_json::{Map, Number, Value as Json};
+use serde_path_to_error::Segment;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// A robot's mind.
@@ -93,21 +94,28 @@ fn below(name: &str, path: &str) -> String {
 /// A percept comes many times a second, so it is read without a schema, up to its first fault.
 fn read_percept(given: &Bound<PyAny>) -> Result<Percept, Fault> {
     let json = json("", given)?;
-    serde_path_to_error::deserialize(json).map_err(|error| {
-        let allowed = format!("readable: {}", error.inner());
-        fault(&error.path().to_string(), None, allowed)
+    serde_path_to_error::deserialize(&json).map_err(|error| {
+        let path = error.path().to_string();
+        let path = if path == "." { "" } else { &path };
+        let given = found(&json, error.path().iter()).to_string();
+        fault(path, given, format!("readable: {}", error.inner()))
     })
 }
 
-fn fault(path: &str, given: Option<&Bound<PyAny>>, allowed: String) -> Fault {
-    let path = below("percept", path);
-    match given {
-        Some(given) => Fault::new(path, Some(given.to_string()), allowed),
-        None => Fault {
-            path: String::new(),
-            ..Fault::new(path.clone(), None, format!("{path}: must be {allowed}"))
-        },
-    }
+/// The innermost value on a path that is there.
+fn found<'j, 'p>(json: &'j Json, path: impl Iterator<Item = &'p Segment>) -> &'j Json {
+    path.fold(json, |json, segment| {
+        let next = match segment {
+            Segment::Map { key } => json.get(key),
+            Segment::Seq { index } => json.get(index),
+            _ => None,
+        };
+        next.unwrap_or(json)
+    })
+}
+
+fn fault(path: &str, given: String, allowed: String) -> Fault {
+    Fault::new(below("percept", path), Some(given), allowed)
 }
 
 /// A Python value as JSON has it: infinity is null.
@@ -128,7 +136,7 @@ fn json(path: &str, given: &Bound<PyAny>) -> Result<Json, Fault> {
     } else if let Ok(items) = given.try_iter() {
         let item = |(index, item): (usize, PyResult<Bound<PyAny>>)| {
             let path = format!("{path}[{index}]");
-            let item = item.map_err(|error| fault(&path, None, error.to_string()))?;
+            let item = item.map_err(|error| fault(&path, error.to_string(), "there".to_owned()))?;
             json(&path, &item)
         };
         items.enumerate().map(item).collect()
@@ -146,7 +154,7 @@ fn number(path: &str, given: &Bound<PyAny>) -> Result<Json, Fault> {
     }
     let number = number.and_then(Number::from_f64).map(Json::Number);
     let allowed = "a number, a text, true, false, None, or a list or dict of these";
-    number.ok_or_else(|| fault(path, Some(given), allowed.to_owned()))
+    number.ok_or_else(|| fault(path, given.to_string(), allowed.to_owned()))
 }
 
 fn as_json(command: &Command) -> Json {

@@ -11,6 +11,7 @@ mod error;
 mod long_work;
 mod scenario;
 mod selection;
+mod simulation;
 
 use pyo3::prelude::*;
 
@@ -23,13 +24,15 @@ mod _core {
     #[pymodule_export]
     use crate::classic_trace::{random_start, trace};
     #[pymodule_export]
-    use crate::configuration::{Configuration, read_configuration, run_block};
+    use crate::configuration::{Configuration, read_configuration, run_block, run_one};
     #[pymodule_export]
     use crate::error::InputError;
     #[pymodule_export]
     use crate::scenario::{files_wanted, read_document, read_scenario};
     #[pymodule_export]
     use crate::selection::{Procedure, mean_bounds, mean_exceeds, reference, selection};
+    #[pymodule_export]
+    use crate::simulation::{MetricScenario, Simulation, Snapshot, read_metric};
 
     use classic::Contact;
     use pyo3::prelude::*;
