@@ -18,7 +18,7 @@ fn open(file: &str) -> Result<Vec<u8>, String> {
 
 fuzz_target!(|text: &str| {
     let read = Document::parse("t", text)
-        .and_then(|document| ScenarioSpec::read(&document, &open).map(drop));
+        .and_then(|document| ScenarioSpec::read_with(&document, open).map(drop));
     if let Err(faults) = read {
         assert!(!faults.0.is_empty());
         for fault in faults.0 {

@@ -1,6 +1,8 @@
 //! Documents made at random from the schema of scenarios, as they should be and spoiled, and good
 //! scenarios spoiled: each is read, or its faults are told.
 
+#![expect(clippy::unwrap_used, reason = "a test may panic")]
+
 mod made;
 
 use base::document::{Document, Node, Value};
@@ -67,7 +69,7 @@ fn are_told(faults: &Faults) -> bool {
 #[test]
 fn the_good_scenario_is_good() {
     let document = Document::parse("t", GOOD).unwrap();
-    let read = ScenarioSpec::read(&document, &open);
+    let read = ScenarioSpec::read_with(&document, open);
     assert!(read.is_ok(), "{}", read.unwrap_err());
 }
 
@@ -77,7 +79,7 @@ fn spoiling_leaves_some_scenarios_good_and_makes_others_bad() {
     let is_good = |seed: u64| {
         let mut root = good.get(&[]).unwrap().value.clone();
         spoiled(&mut root, &mut Dice(seed));
-        ScenarioSpec::read(&document(&root), &open).is_ok()
+        ScenarioSpec::read_with(&document(&root), open).is_ok()
     };
     let good = (0..200).filter(|seed| is_good(*seed)).count();
     assert!((20..180).contains(&good), "{good}");
@@ -115,7 +117,7 @@ proptest! {
         for _ in 0..=dice.below(3) {
             spoiled(&mut root, &mut dice);
         }
-        if let Err(faults) = ScenarioSpec::read(&document(&root), &open) {
+        if let Err(faults) = ScenarioSpec::read_with(&document(&root), open) {
             prop_assert!(are_told(&faults), "{faults}\n{root:?}");
         }
     }

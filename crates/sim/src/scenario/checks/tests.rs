@@ -124,9 +124,8 @@ fn there_are_one_to_255_kinds_of_robots() {
         read(&none).unwrap_err().to_string(),
         "t:20: robots = {...}: must be a table of 1 to 255; it has 0"
     );
-    let many: String = (0..256)
-        .map(|kind| format!("[robots.r{kind}]\nlike = \"ugv\"\ncount = 0\n"))
-        .collect();
+    let many = (0..256).map(|kind| format!("[robots.r{kind}]\nlike = \"ugv\"\ncount = 0\n"));
+    let many = many.collect::<Vec<_>>().concat();
     let told = read(&format!("{}{many}", &GOOD[..start])).unwrap_err();
     assert!(told.to_string().contains("it has 256"), "{told}");
 }
