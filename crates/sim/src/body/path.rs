@@ -132,3 +132,75 @@ impl Path {
         (chords.clamp(1.0, MAX_CHORDS) as u32).next_power_of_two()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+    use std::f64::consts::PI;
+
+    fn path(length_m: f64, turn_rad: f64, heading_rad: f64) -> Path {
+        Path {
+            start: Point { x: 3.0, y: -2.0 },
+            front: Course::new(heading_rad).front,
+            length_m,
+            turn_rad,
+            until: 1.0,
+        }
+    }
+
+    proptest! {
+        /// With heading h, and a turn by a along the length s: the centre of the circle of radius
+        /// s / a is to the left, and the body is across it from where the heading h + a points.
+        #[test]
+        fn a_step_ends_on_the_arc_of_the_closed_form(
+            length in -50.0_f64..50.0, turn in 0.01_f64..PI, is_left: bool, heading in -PI..PI,
+        ) {
+            let turn = if is_left { turn } else { -turn };
+            let radius = length / turn;
+            let end = Point {
+                x: 3.0 + radius * (libm::sin(heading + turn) - libm::sin(heading)),
+                y: -2.0 - radius * (libm::cos(heading + turn) - libm::cos(heading)),
+            };
+            let there = path(length, turn, heading).at(1.0);
+            prop_assert!(there.to(end).length() < 1e-10, "{there:?} {end:?}");
+        }
+
+        #[test]
+        fn a_slight_turn_is_as_exact_as_a_strong_one(turn in -1e-3_f64..1e-3) {
+            // By the series of the closed form: sin(a) / a and (1 - cos(a)) / a.
+            let square = turn * turn;
+            let end = Point {
+                x: 3.0 + 10.0 * (1.0 - square / 6.0 + square * square / 120.0),
+                y: -2.0 + 10.0 * (turn / 2.0 - turn * square / 24.0),
+            };
+            prop_assert!(path(10.0, turn, 0.0).at(1.0).to(end).length() < 1e-14 * 10.0);
+        }
+
+        #[test]
+        fn on_the_way_a_body_is_hardly_off_its_arc(
+            length in -1000.0_f64..1000.0, turn in -PI..PI, share in 0.0..1.0,
+        ) {
+            let path = path(length, turn, 0.3);
+            let part = Path { length_m: length * share, turn_rad: turn * share, ..path };
+            prop_assert!(path.at(share).to(part.at(1.0)).length() <= MAX_SAGITTA_M);
+        }
+
+        #[test]
+        fn a_body_that_is_stopped_stays_there(
+            length in -9.0_f64..9.0, turn in -PI..PI, until in 0.0..1.0, later in 0.0..1.0,
+        ) {
+            let free = path(length, turn, 0.3);
+            let stopped = Path { until, ..free };
+            prop_assert_eq!(stopped.at(until + later * (1.0 - until)), free.at(until));
+        }
+    }
+
+    #[test]
+    fn the_longest_arc_of_a_scenario_is_followed_closely_enough() {
+        // 100 m/s for 10 s, ten times as fast on some ground, half a turn.
+        let path = path(10_000.0, PI, 0.0);
+        let sagitta_m = path.length_m * PI / 8.0 / f64::from(path.chords()).powi(2);
+        assert!(sagitta_m <= MAX_SAGITTA_M, "{sagitta_m}");
+    }
+}
