@@ -133,8 +133,14 @@ mod tests {
     fn the_stopping_distance_is_that_of_the_closed_form_for_any_step() {
         for step_s in [0.001, 0.07, 0.1, 0.3, 2.0] {
             // v^2 / (2 a), ahead and backwards.
-            assert!((stopping_m(&ROVER, 2.0, step_s) - 0.5).abs() < 1e-12, "{step_s}");
-            assert!((stopping_m(&ROVER, -1.0, step_s) + 0.125).abs() < 1e-12, "{step_s}");
+            assert!(
+                (stopping_m(&ROVER, 2.0, step_s) - 0.5).abs() < 1e-12,
+                "{step_s}"
+            );
+            assert!(
+                (stopping_m(&ROVER, -1.0, step_s) + 0.125).abs() < 1e-12,
+                "{step_s}"
+            );
         }
     }
 

@@ -71,12 +71,23 @@ fn assert_free(simulation: &Simulation, context: &str) {
             [radius_m - HAIR_M; 2].into(),
             [SIDE_M - radius_m + HAIR_M; 2].into(),
         );
-        assert!(inner.contains(robot.at), "{context}: {robot:?} in {world:?}");
-        for other in all[..place].iter().filter(|other| is_bird(other) == is_bird(robot)) {
+        assert!(
+            inner.contains(robot.at),
+            "{context}: {robot:?} in {world:?}"
+        );
+        for other in all[..place]
+            .iter()
+            .filter(|other| is_bird(other) == is_bird(robot))
+        {
             let gap_m = robot.at.to(other.at).length() - radius_m - self::radius_m(other);
             assert!(gap_m > -HAIR_M, "{context}: {gap_m} {robot:?} {other:?}");
         }
-        for solid in simulation.scenario().solids().iter().filter(|_| !is_bird(robot)) {
+        for solid in simulation
+            .scenario()
+            .solids()
+            .iter()
+            .filter(|_| !is_bird(robot))
+        {
             let depth_m = match solid {
                 Solid::Polygon(polygon) => depth_m(polygon, robot) + radius_m,
                 Solid::Disc(disc) => disc.radius_m + radius_m - disc.centre.to(robot.at).length(),
@@ -107,7 +118,10 @@ fn nobody_overlaps_anything_or_gets_through_a_wall_at_any_speed_or_step() {
             let context = format!("seed {seed}, step {step}");
             assert_free(&simulation, &context);
             for (robot, was_left) in robots(&simulation).iter().zip(&sides) {
-                assert!(is_bird(robot) || is_left(robot) == *was_left, "{context}: {robot:?}");
+                assert!(
+                    is_bird(robot) || is_left(robot) == *was_left,
+                    "{context}: {robot:?}"
+                );
             }
         }
     }

@@ -54,14 +54,20 @@ fn assert_share(values: &[f64], expected: f64, is_one: impl Fn(f64) -> bool) {
     let count = values.len() as f64;
     let share = values.iter().filter(|value| is_one(**value)).count() as f64 / count;
     let error = (expected * (1.0 - expected) / count).sqrt();
-    assert!((share - expected).abs() <= 5.0 * error, "{share} {expected}");
+    assert!(
+        (share - expected).abs() <= 5.0 * error,
+        "{share} {expected}"
+    );
 }
 
 #[test]
 fn a_whole_circle_has_its_first_ray_ahead_and_none_twice() {
     let degrees = |spec: &RangeSpec| {
         let bearings = bearings(spec);
-        bearings.iter().map(|rad| (rad.to_degrees() * 1e6).round() / 1e6).collect::<Vec<_>>()
+        bearings
+            .iter()
+            .map(|rad| (rad.to_degrees() * 1e6).round() / 1e6)
+            .collect::<Vec<_>>()
     };
     assert_eq!(degrees(&spec(4)), [0.0, 90.0, 180.0, -90.0]);
     let facing = |facing_deg, fov_deg, rays| RangeSpec {
@@ -91,7 +97,11 @@ fn nothing_at_the_range_or_farther_gives_an_echo() {
         ..spec(1)
     };
     // Noise brings back no echo of what is out of range.
-    assert!(looks(&noisy, 5.001, 2000).iter().all(|range| range.is_infinite()));
+    assert!(
+        looks(&noisy, 5.001, 2000)
+            .iter()
+            .all(|range| range.is_infinite())
+    );
 }
 
 #[test]
@@ -104,10 +114,17 @@ fn noise_has_the_moments_that_are_asked_for() {
     let values = looks(&noisy, 2.0, 200_000);
     let count = values.len() as f64;
     let mean = values.iter().sum::<f64>() / count;
-    let variance = values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / count;
+    let variance = values
+        .iter()
+        .map(|value| (value - mean).powi(2))
+        .sum::<f64>()
+        / count;
     // A standard deviation of 0.1 and of 5 % of 2 m; five standard errors, as above.
     assert!((mean - 2.0).abs() < 5.0 * 0.2 / count.sqrt(), "{mean}");
-    assert!((variance / 0.04 - 1.0).abs() < 5.0 * (2.0 / count).sqrt(), "{variance}");
+    assert!(
+        (variance / 0.04 - 1.0).abs() < 5.0 * (2.0 / count).sqrt(),
+        "{variance}"
+    );
     assert_share(&values, 0.158_655_254, |value| value > 2.2);
 }
 
@@ -126,7 +143,10 @@ fn errors_of_neighbouring_rays_and_of_looks_in_a_row_are_independent() {
         let count = products.len() as f64;
         let correlation = products.iter().sum::<f64>() / count;
         // Eight of five standard errors: wrong less than once in 200,000.
-        assert!(correlation.abs() < 5.0 / count.sqrt(), "{lag}: {correlation}");
+        assert!(
+            correlation.abs() < 5.0 / count.sqrt(),
+            "{lag}: {correlation}"
+        );
     }
 }
 
@@ -169,7 +189,11 @@ fn what_is_always_lost_is_never_measured_and_what_never_is_always() {
         noise_m: 0.1,
         ..spec(1)
     };
-    assert!(looks(&always, 3.0, 1000).iter().all(|value| value.is_infinite()));
+    assert!(
+        looks(&always, 3.0, 1000)
+            .iter()
+            .all(|value| value.is_infinite())
+    );
     assert!(looks(&spec(1), 3.0, 1000).iter().all(|value| *value == 3.0));
 }
 

@@ -63,7 +63,10 @@ impl Scene {
 
     /// The distance at which a ray meets the first thing, all held against it one by one.
     fn plain(&self, direction: Point) -> f64 {
-        let walls = self.walls.iter().filter_map(|wall| wall.hit(self.at, direction));
+        let walls = self
+            .walls
+            .iter()
+            .filter_map(|wall| wall.hit(self.at, direction));
         let discs = self.discs.iter().filter_map(|disc| {
             let ahead = direction.dot(self.at.to(disc.centre));
             let beside = direction.cross(self.at.to(disc.centre));
@@ -113,16 +116,24 @@ fn rays_agree_with_a_plain_version_in_thousands_of_scenes() {
             let plain_m = scene.plain(direction);
             met += u32::from(plain_m < scene.range_m);
             let error_m = (range_m - plain_m).abs();
-            assert!(error_m <= 1e-9 * scene.range_m.max(1.0), "{number}: {range_m} {plain_m}");
+            assert!(
+                error_m <= 1e-9 * scene.range_m.max(1.0),
+                "{number}: {range_m} {plain_m}"
+            );
         }
     }
     // The seeds are fixed, so these are: the comparison is of something, and of almost all.
-    assert!(grazing * 1000 < compared && met * 3 > compared, "{grazing} {met} {compared}");
+    assert!(
+        grazing * 1000 < compared && met * 3 > compared,
+        "{grazing} {met} {compared}"
+    );
 }
 
 /// A ring of as many rays about a robot at a place, that looks along x.
 fn ring(count: u32) -> Vec<f64> {
-    (0..count).map(|ray| TAU * f64::from(ray) / f64::from(count) - PI).collect()
+    (0..count)
+        .map(|ray| TAU * f64::from(ray) / f64::from(count) - PI)
+        .collect()
 }
 
 const AHEAD: Point = Point { x: 1.0, y: 0.0 };
@@ -131,7 +142,11 @@ fn square(side_m: f64) -> Vec<Segment> {
     let half = side_m / 2.0;
     let corners = [[-half, -half], [half, -half], [half, half], [-half, half]].map(Point::from);
     let next = corners.iter().cycle().skip(1);
-    corners.iter().zip(next).map(|(&from, &to)| Segment { from, to }).collect()
+    corners
+        .iter()
+        .zip(next)
+        .map(|(&from, &to)| Segment { from, to })
+        .collect()
 }
 
 #[test]
@@ -232,6 +247,9 @@ fn one_in_a_disc_sees_it_at_no_distance() {
         range_m: 3.0,
     };
     let ranges_m = scene.cast(AHEAD, &ring(32));
-    assert!(ranges_m.iter().all(|range_m| *range_m >= 0.0), "{ranges_m:?}");
+    assert!(
+        ranges_m.iter().all(|range_m| *range_m >= 0.0),
+        "{ranges_m:?}"
+    );
     assert_eq!(scene.cast(AHEAD, &[0.0]), [0.0]);
 }
