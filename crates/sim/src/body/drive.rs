@@ -51,9 +51,7 @@ impl Drive {
     /// factor on the greatest speeds. Nothing that is not a number is wanted.
     #[inline]
     pub(crate) fn step(&self, speed_m_s: f64, wanted: Motion, terrain: f64, step_s: f64) -> Driven {
-        let least = -self.max_reverse_speed_m_s * terrain;
-        let most = self.max_speed_m_s * terrain;
-        let after = or_zero(wanted.speed_m_s).max(least).min(most);
+        let after = self.possible(or_zero(wanted.speed_m_s), terrain);
         let most_turn = self.max_turn_rate_rad_s;
         let turn_rate_rad_s = or_zero(wanted.turn_rate_rad_s)
             .max(-most_turn)
@@ -75,6 +73,16 @@ impl Drive {
             turn_rate_rad_s,
             length_m: (speed_m_s + after) / 2.0 * step_s,
         }
+    }
+}
+
+impl Drive {
+    /// The nearest speed that it has where `terrain` is a factor on the greatest.
+    #[inline]
+    pub(crate) fn possible(&self, speed_m_s: f64, terrain: f64) -> f64 {
+        let least = -self.max_reverse_speed_m_s * terrain;
+        let most = self.max_speed_m_s * terrain;
+        speed_m_s.max(least).min(most)
     }
 }
 
