@@ -143,3 +143,6 @@ fn bearings(spec: &RangeSpec) -> Vec<f64> {
     };
     (0..spec.rays).map(bearing).collect()
 }
+
+#[cfg(test)]
+mod tests;

@@ -31,7 +31,7 @@ pub(crate) struct Near {
 #[derive(Debug, Clone, Copy, Default)]
 struct NearDisc {
     centre: Point,
-    /// Square of the distance to the centre, less the square of the radius.
+    /// Square of the distance to the centre, less the square of the radius; 0 for one in the disc.
     power: f64,
 }
 
@@ -69,7 +69,7 @@ impl Near {
             }
             self.discs[found] = NearDisc {
                 centre: way,
-                power: square - disc.radius_m * disc.radius_m,
+                power: (square - disc.radius_m * disc.radius_m).max(0.0),
             };
             found += usize::from(square < reach * reach);
         }
@@ -216,3 +216,6 @@ fn meet_wall<S: Simd>(simd: S, [x, y]: [S::f64s; 2], wall: &NearWall, nearest: &
         *nearest = simd.select_f64s(meets, distance, *nearest);
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -181,6 +181,46 @@ fn a_detection_table_ascends_and_has_probabilities() {
 }
 
 #[test]
+fn a_look_has_no_more_false_contacts_than_can_be_drawn() {
+    // A circle of 3 m for 0.1 s.
+    let told = fault("mine = 0.01", "mine = 200");
+    let end = "must be lower, so that a look has at most 500 false contacts; in its whole range and \
+               0.1 s it has 565";
+    assert!(told.ends_with(end), "{told}");
+    assert!(read(&GOOD.replace("mine = 0.01", "mine = 150")).is_ok());
+    let slow = GOOD.replace("range_m = 3", "range_m = 3\nrate_hz = 0.01");
+    assert!(read(&slow).is_ok());
+    assert!(fault("mine = 0.01 }", "mine = 1 }\nrate_hz = 0.01").contains("and 100 s it has 2827"));
+}
+
+#[test]
+fn a_robot_has_at_most_32_sensors() {
+    let sensors = |count: u32| -> String {
+        let sensor = |number| format!("[robots.rover.sensors.c{number}]\nkind = \"heading\"\n");
+        (0..count).map(sensor).collect()
+    };
+    let with = |count| format!("{}[robots.bird]", sensors(count));
+    assert!(read(&GOOD.replace("[robots.bird]", &with(31))).is_ok());
+    let told = fault("[robots.bird]", &with(32));
+    assert!(
+        told.ends_with("must be a table of 0 to 32; it has 33"),
+        "{told}"
+    );
+}
+
+#[test]
+fn a_battery_that_is_never_full_is_none() {
+    let told = fault(
+        "count = 1\nradius_m = 0.3",
+        "count = 1\nbattery = { capacity_j = 0 }\nradius_m = 0.3",
+    );
+    assert!(
+        told.starts_with("robots.bird.battery.capacity_j = 0: must be"),
+        "{told}"
+    );
+}
+
+#[test]
 fn an_obstacle_is_at_least_partly_in_the_world() {
     assert_eq!(
         fault("[15, 5]", "[15, -2]"),
