@@ -66,7 +66,7 @@ impl Moves {
     ) -> Moved {
         self.plans.resize(state.robots(), Plan::REST);
         share_out(&mut self.plans, is_shared, |robot, plan| {
-            *plan = planned(scenario, state, robot)
+            *plan = planned(scenario, state, robot);
         });
         self.meetings
             .collect(&self.plans, &state.discs, neighbours, scenario.contact_m);
@@ -110,7 +110,7 @@ fn planned(scenario: &Scenario, state: &State, robot: usize) -> Plan {
     let meeting = (path.length_m != 0.0).then(|| {
         let stands = scenario.touched(kind.layer);
         let (walls, discs) = (stands.walls_near(path.start), stands.discs_near(path.start));
-        meets_still(&path, disc.radius_m, walls, discs)
+        meets_still(&path, disc.radius_m, &walls, &discs)
     });
     let meeting = meeting.flatten();
     path.until = meeting.unwrap_or(1.0);

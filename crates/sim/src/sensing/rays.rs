@@ -151,6 +151,7 @@ impl WithSimd for Cast<'_> {
     type Output = ();
 
     #[inline(always)]
+    #[expect(clippy::inline_always, reason = "else it is not compiled for the vectors at hand")]
     fn with_simd<S: Simd>(self, simd: S) {
         let cosines = S::as_simd_f64s(self.rays.cosines.as_flattened()).0;
         let sines = S::as_simd_f64s(self.rays.sines.as_flattened()).0;
@@ -179,6 +180,7 @@ impl WithSimd for Cast<'_> {
 
 /// A ray of direction u meets the disc about c at the lesser root of t^2 - 2 (u.c) t + power.
 #[inline(always)]
+#[expect(clippy::inline_always, reason = "as its caller")]
 fn meet_disc<S: Simd>(simd: S, [x, y]: [S::f64s; 2], disc: &NearDisc, nearest: &mut S::f64s) {
     let centre_x = simd.splat_f64s(disc.centre.x);
     let centre_y = simd.splat_f64s(disc.centre.y);
@@ -198,6 +200,7 @@ fn meet_disc<S: Simd>(simd: S, [x, y]: [S::f64s; 2], disc: &NearDisc, nearest: &
 
 /// A ray comes nearer to the wall's line by `approach` a metre, and meets it from the free side.
 #[inline(always)]
+#[expect(clippy::inline_always, reason = "as its caller")]
 fn meet_wall<S: Simd>(simd: S, [x, y]: [S::f64s; 2], wall: &NearWall, nearest: &mut S::f64s) {
     let along_x = simd.splat_f64s(wall.along.x);
     let along_y = simd.splat_f64s(wall.along.y);
