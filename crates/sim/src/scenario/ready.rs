@@ -11,9 +11,7 @@ use crate::world::obstacles::Solid;
 use crate::world::still::{Stands, Wall};
 use crate::world::terrain::{Area, Going, Terrain};
 use base::geometry::{Disc, Point, Rectangle, Segment};
-use brain::{Body, BrainSpec, RobotId};
-
-use std::sync::Arc;
+use brain::{Brain, RobotId};
 
 /// Everything that does not change in a run. Runs share it.
 #[derive(Debug, Clone)]
@@ -147,11 +145,10 @@ impl Scenario {
         self.items.iter().map(|kind| kind.name.as_str())
     }
 
-    /// What the brains of a kind of robots are, and what they know of their bodies.
+    /// The brain with which robots of a kind begin.
     #[must_use]
-    pub fn mind_of(&self, kind: u8) -> Option<(&Arc<BrainSpec>, &Arc<Body>)> {
-        let kind = self.kinds.get(usize::from(kind))?;
-        Some((&kind.brain, &kind.body))
+    pub fn brain(&self, kind: u8) -> Option<&Brain> {
+        self.kinds.get(usize::from(kind)).map(|kind| &kind.brain)
     }
 
     /// The name of a robot's kind.

@@ -151,7 +151,10 @@ impl WithSimd for Cast<'_> {
     type Output = ();
 
     #[inline(always)]
-    #[expect(clippy::inline_always, reason = "else it is not compiled for the vectors at hand")]
+    #[expect(
+        clippy::inline_always,
+        reason = "else it is not compiled for the vectors at hand"
+    )]
     fn with_simd<S: Simd>(self, simd: S) {
         let cosines = S::as_simd_f64s(self.rays.cosines.as_flattened()).0;
         let sines = S::as_simd_f64s(self.rays.sines.as_flattened()).0;
