@@ -87,7 +87,12 @@ impl Scenario {
     /// What is the same in all runs, for people.
     pub(crate) fn facts(&self) -> Vec<(String, String)> {
         let size = self.world.size();
-        let world = format!("{} m by {} m, {} obstacles", size.x, size.y, self.solids().len());
+        let world = format!(
+            "{} m by {} m, {} obstacles",
+            size.x,
+            size.y,
+            self.solids().len()
+        );
         let clock = format!("{} s a step, cap {} s", self.step_s, self.cap_s);
         let items = self.items.iter().map(|kind| {
             let clutter = if kind.is_sought { "" } else { " (not sought)" };
