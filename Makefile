@@ -6,7 +6,7 @@ RUST := $(shell find crates/*/src crates/*/Cargo.toml) Cargo.toml Cargo.lock
 # maturin, and what it starts, are found in the environment.
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 
-.PHONY: help study test bench bench-store verify-selection fuzz picture replication lint rust-test \
+.PHONY: help study test bench bench-store verify-selection fuzz schemas picture replication lint rust-test \
 	python-test clean
 
 help: ## Say what can be made
@@ -35,6 +35,7 @@ python-test: .venv/installed
 
 bench: ## Robot-decisions per second
 	cargo bench -p agent-economy-classic
+	cargo bench -p agent-economy-brain
 
 bench-store: .venv/installed ## Rows a second into a study's store, and bytes a row
 	$(BIN)/python scripts/store_speed.py
@@ -44,6 +45,9 @@ verify-selection: ## Does the race keep its guarantee? 20,000 macro-replications
 
 replication: .venv/installed ## Recompute every figure of docs/replication.md
 	$(BIN)/python scripts/replication.py
+
+schemas: ## Write the JSON Schema and the reference of scenarios anew from their types
+	RENEW_SCHEMAS=1 cargo test --locked -p agent-economy-sim --test schemas -- --test-threads=1
 
 picture: study ## Take docs/report.png anew (needs Chromium)
 	$(BIN)/python scripts/report_picture.py

@@ -26,7 +26,7 @@ struct Rates {
 pub(crate) fn report() {
     println!("| robots | simulator | bare program | bare, with noise | ratio |");
     println!("|---|---|---|---|---|");
-    for robots in [100, 900, 10_000] {
+    for robots in sizes() {
         let rates = rates(robots);
         println!(
             "| {robots} | {:.2} | {:.2} | {:.2} | {:.2} |",
@@ -67,4 +67,10 @@ fn rates(robots: u32) -> Rates {
         bare_with_noise,
         ratio,
     }
+}
+
+/// Of the teams: as asked for, or the usual ones.
+fn sizes() -> Vec<u32> {
+    let asked = std::env::args().nth(2).and_then(|robots| robots.parse().ok());
+    asked.map_or(vec![100, 1_600, 10_000], |robots| vec![robots])
 }

@@ -19,6 +19,8 @@ pub(crate) struct Senses<'s> {
     pub(crate) ahead: Option<Seen>,
     /// Angle by which the body turned since the last step.
     pub(crate) turned_rad: f64,
+    /// At most so fast it now goes; negative if backwards.
+    pub(crate) now_m_s: f64,
 }
 
 impl Senses<'_> {
@@ -27,6 +29,12 @@ impl Senses<'_> {
     #[expect(clippy::cast_possible_truncation, reason = "kept short")]
     pub(crate) fn period_s(&self) -> f32 {
         self.body.period_s as f32
+    }
+
+    /// Whether it still touches something; a collision may hold it, and it gets nowhere meanwhile.
+    #[inline]
+    pub(crate) fn is_held(&self) -> bool {
+        self.touches(f64::INFINITY)
     }
 
     /// Uniform numbers; every call begins with the first.
@@ -50,16 +58,16 @@ impl Senses<'_> {
             .is_some_and(|touch| touch.value && touch.age_s <= since_s - LEAVING_S)
     }
 
-    /// Fresh scans: the ring, its ranges, and what a behaviour knows of the ring.
+    /// Fresh scans: the ranges, and what a behaviour knows of the ring.
     #[inline]
     pub(crate) fn scans_with<'a, T>(
         &'a self,
         known: &'a [T],
-    ) -> impl Iterator<Item = (&'a Ring, &'a [f64], &'a T)> {
+    ) -> impl Iterator<Item = (&'a [f64], &'a T)> {
         let rings = self.rings.iter().zip(&self.percept.scans).zip(known);
         rings.filter_map(|((ring, scan), known)| {
             let (_, ranges_m) = ring.fresh(Some(scan))?;
-            Some((ring, ranges_m, known))
+            Some((ranges_m, known))
         })
     }
 

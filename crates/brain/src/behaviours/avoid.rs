@@ -1,9 +1,9 @@
 //! Getting out of the way of what is too near.
 
 use super::{ahead, half_sight_m};
-use crate::body::Body;
+use crate::body::{Body, RangeRing};
 use crate::command::Motion;
-use crate::rays::Ring;
+use crate::rays::sensible_m;
 use crate::senses::Senses;
 use crate::subsumption::Behaviour;
 use alloc::vec::Vec;
@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 /// Two sides that differ by less are equally free, in metres.
 const SAME_M: f64 = 0.01;
 
-/// For one who is still touched behind.
+/// For one who is still touched behind, or whose compass is stuck.
 const PATIENCE_S: f32 = 10.0;
 
 /// For one who cannot turn.
@@ -84,11 +84,11 @@ pub(crate) enum Memory {
     Clear { since_s: f32 },
     /// It has so long to back off once it touches nothing, and loses patience after a time.
     Backing { left_s: f32, patience_s: f32 },
-    /// It turns since a time, and so long at least.
+    /// It turns since a time, and has so far to turn at least.
     Turning {
         is_left: bool,
         since_s: f32,
-        least_s: f32,
+        least_rad: f32,
     },
 }
 
@@ -98,9 +98,10 @@ const CLEAR: Memory = Memory::Clear { since_s: 0.0 };
 impl Ready {
     pub(super) fn new(spec: &Avoid, body: &Body) -> Self {
         let half_rad = (spec.sector_deg / 2.0).to_radians();
-        let rings = body.rings.iter().map(|ring| Ring::new(ring, body.period_s));
-        let sides = rings
-            .map(|ring| [(0.0, half_rad), (-half_rad, 0.0)].map(|(a, b)| ring.rays_within(a, b)));
+        let rings = body.rings.iter();
+        let sides = rings.map(|ring| {
+            [(0.0, half_rad), (-half_rad, 0.0)].map(|bounds| rays_within(ring, bounds))
+        });
         let back_m_s = body.max_reverse_speed_m_s;
         let near_m = spec.near_m.min(half_sight_m(body));
         Self {
@@ -118,6 +119,26 @@ impl Ready {
             sides: sides.collect(),
         }
     }
+}
+
+/// The shortest range of some rays; infinite if there are none.
+#[inline]
+fn shortest_m(ranges_m: &[f64], rays: &[usize]) -> f64 {
+    let mut shortest_m = f64::INFINITY;
+    for ray in rays {
+        let length_m = sensible_m(ranges_m.get(*ray).copied().unwrap_or_default());
+        if length_m < shortest_m {
+            shortest_m = length_m;
+        }
+    }
+    shortest_m
+}
+
+/// The rays with bearings within some bounds.
+fn rays_within(ring: &RangeRing, (least_rad, most_rad): (f64, f64)) -> Vec<usize> {
+    let rays = ring.bearings_rad.iter().enumerate();
+    let within = rays.filter(|(_, bearing)| (least_rad..=most_rad).contains(bearing));
+    within.map(|(ray, _)| ray).collect()
 }
 
 impl Behaviour for Ready {
@@ -142,10 +163,7 @@ impl Behaviour for Ready {
                 self.look(memory, clear_s, senses)
             }
             Memory::Backing { .. } => Some(self.go_on_backing(memory, senses)),
-            Memory::Turning { since_s, .. } => {
-                *since_s += period_s;
-                self.go_on_turning(memory, senses)
-            }
+            Memory::Turning { .. } => self.go_on_turning(memory, senses),
         }
     }
 
@@ -182,8 +200,7 @@ impl Ready {
         let Memory::Backing { left_s, patience_s } = memory else {
             return Motion::default();
         };
-        // A collision may hold it for a while, in which it gets nowhere.
-        if !senses.touches(f64::INFINITY) {
+        if !senses.is_held() {
             *left_s -= senses.period_s();
         }
         *patience_s -= senses.period_s();
@@ -220,25 +237,32 @@ impl Ready {
         *memory = Memory::Turning {
             is_left,
             since_s: 0.0,
-            least_s: (least_rad / self.turn_rate_rad_s) as f32,
+            least_rad: least_rad as f32,
         };
         self.on_the_spot(is_left)
     }
 
+    #[expect(clippy::cast_possible_truncation, reason = "kept short")]
     fn go_on_turning(&self, memory: &mut Memory, senses: &Senses) -> Option<Motion> {
         let Memory::Turning {
             is_left,
             since_s,
-            least_s,
-        } = *memory
+            least_rad,
+        } = memory
         else {
             return None;
         };
+        let is_left = *is_left;
+        if !senses.is_held() {
+            *since_s += senses.period_s();
+        }
+        *least_rad -= senses.turned_rad.abs() as f32;
+        let has_turned = *least_rad <= 0.0 || *since_s >= PATIENCE_S;
+        let is_round = f64::from(*since_s) * self.turn_rate_rad_s > TAU;
         let [left_m, right_m] = self.nearest_m(senses);
         // Where nothing is clear, somewhere is the least near.
-        let is_round = f64::from(since_s) * self.turn_rate_rad_s > TAU;
         let clear_m = if is_round { self.near_m } else { self.clear_m };
-        if since_s >= least_s && left_m.min(right_m) >= clear_m {
+        if has_turned && left_m.min(right_m) >= clear_m {
             *memory = CLEAR;
             return None;
         }
@@ -257,9 +281,9 @@ impl Ready {
     #[inline]
     fn nearest_m(&self, senses: &Senses) -> [f64; 2] {
         let mut nearest_m = [f64::INFINITY; 2];
-        for (ring, ranges_m, [left, right]) in senses.scans_with(&self.sides) {
-            nearest_m[0] = ring.shortest_m(ranges_m, left).min(nearest_m[0]);
-            nearest_m[1] = ring.shortest_m(ranges_m, right).min(nearest_m[1]);
+        for (ranges_m, [left, right]) in senses.scans_with(&self.sides) {
+            nearest_m[0] = shortest_m(ranges_m, left).min(nearest_m[0]);
+            nearest_m[1] = shortest_m(ranges_m, right).min(nearest_m[1]);
         }
         nearest_m.map(|nearest_m| nearest_m - senses.body.radius_m)
     }
@@ -361,6 +385,26 @@ mod tests {
             .map(|rate| rate * 0.1)
             .sum();
         assert!((FRAC_PI_4..FRAC_PI_4 + 0.4).contains(&turned), "{turned}");
+    }
+
+    #[test]
+    fn while_a_collision_holds_it_its_turn_does_not_pass() {
+        let mut brain = brain(&rover());
+        let mut step = |touches, turn_rate_rad_s| {
+            let value = Motion {
+                speed_m_s: 0.0,
+                turn_rate_rad_s,
+            };
+            let percept = Percept {
+                motion: Some(now(value)),
+                ..percept(&[], 0, touches)
+            };
+            brain.step(&percept).motion.turn_rate_rad_s
+        };
+        assert!((0..6).all(|_| step(false, 0.0) == 0.0));
+        assert!((0..100).all(|_| step(true, 0.0) != 0.0));
+        let turning = (0..40).take_while(|_| step(false, PI / 2.0) != 0.0);
+        assert_eq!(turning.count(), 4);
     }
 
     #[test]

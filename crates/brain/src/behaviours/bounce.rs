@@ -157,7 +157,9 @@ fn go_on_turning(memory: &mut Memory, senses: &Senses) -> Option<Motion> {
         return None;
     };
     *left_rad -= senses.turned_rad as f32;
-    *patience_s -= senses.period_s();
+    if !senses.is_held() {
+        *patience_s -= senses.period_s();
+    }
     if left_rad.abs() <= DONE_RAD || *patience_s <= 0.0 {
         *memory = GOING;
         return None;

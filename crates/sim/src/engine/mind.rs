@@ -4,6 +4,7 @@ use super::air::Sent;
 use crate::body::kind::Kind;
 use crate::sensing::{Measure, Sensor};
 use brain::{Brain, Contact, Heard, Motion, Neighbour, Percept, SensorRequest};
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// What decides for one robot.
@@ -75,6 +76,20 @@ impl Mind {
     pub(crate) fn wait_neighbour(&mut self, late: Late<Neighbour>) {
         if let Some(backlog) = &mut self.backlog {
             backlog.neighbours.push(late);
+        }
+    }
+
+    /// Items have other numbers from now on; what was seen of one that is gone is forgotten.
+    pub(crate) fn renumber_items(&mut self, numbers: &BTreeMap<usize, usize>) {
+        if let Some(backlog) = &mut self.backlog {
+            backlog.contacts.retain_mut(|late| {
+                let Some(item) = &mut late.what.1 else {
+                    return true;
+                };
+                let number = numbers.get(&(*item as usize));
+                let number = number.and_then(|number| u32::try_from(*number).ok());
+                number.inspect(|number| *item = *number).is_some()
+            });
         }
     }
 

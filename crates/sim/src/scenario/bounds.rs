@@ -76,8 +76,9 @@ impl Scenario {
         spent_j.min(battery.capacity_j)
     }
 
-    /// Robots of each kind.
-    pub(crate) fn team(&self) -> Vec<(String, u32)> {
+    /// Robots of each kind, in the order in which ids count them.
+    #[must_use]
+    pub fn team(&self) -> Vec<(String, u32)> {
         self.kinds
             .iter()
             .map(|kind| (kind.name.clone(), kind.count))

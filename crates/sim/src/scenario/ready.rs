@@ -14,9 +14,6 @@ use base::geometry::{Disc, Point, Rectangle, Segment};
 use brain::{Body, BrainSpec, RobotId};
 use std::sync::Arc;
 
-/// What is nearer to a wall than its radius by less, in metres, touches it by rounding.
-const TOLERANCE_M: f64 = 1e-9;
-
 /// What is near a robot is looked up with so much more reach than is needed, in metres; that holds
 /// until a robot has gone half of it.
 pub(crate) const SKIN_M: f64 = 0.6;
@@ -43,6 +40,9 @@ pub struct Scenario {
 }
 
 impl Scenario {
+    /// What is nearer to something than its radius by less, in metres, touches it by rounding.
+    pub(crate) const TOLERANCE_M: f64 = 1e-9;
+
     /// The scenario that a checked spec describes, with its obstacles and areas of terrain as they
     /// were read; later areas hold over earlier ones.
     #[must_use]
@@ -189,6 +189,12 @@ impl Scenario {
         self.touched(Layer::Ground)
     }
 
+    /// The greatest factor on speed that there is, at least 1.
+    pub(crate) fn fastest(&self) -> f64 {
+        let terrain = self.terrain.as_ref();
+        terrain.map_or(1.0, |terrain| terrain.most().speed)
+    }
+
     /// Whether a disc of a layer fits into a place.
     pub(crate) fn is_free(&self, place: Point, radius_m: f64, layer: Layer) -> bool {
         let corner = Point {
@@ -198,7 +204,7 @@ impl Scenario {
         let is_inside =
             self.world.contains(corner.to(place)) && self.world.contains(place.plus(corner));
         let touched = self.touched(layer);
-        let clear_m = radius_m - TOLERANCE_M;
+        let clear_m = radius_m - Self::TOLERANCE_M;
         is_inside
             && touched
                 .walls_near(place)

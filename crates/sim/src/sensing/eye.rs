@@ -17,16 +17,14 @@ pub(crate) enum Use {
     Thing = 2,
     /// Things that are not there.
     FalseAlarm = 3,
-    /// Whether a ray's echo is lost.
-    Miss = 4,
+    /// Whether a ray's echo is lost or false.
+    Echo = 4,
     /// What a brain has for dice; not a sensor's.
     Dice = 5,
     /// A message that may be lost; not a sensor's.
     Radio = 6,
-    /// Whether a ray has an echo of nothing.
-    FalseEcho = 7,
-    /// How far away that is.
-    EchoPlace = 8,
+    /// How far away a false echo is.
+    EchoPlace = 7,
 }
 
 /// Uses of one sensor are numbered on from here.

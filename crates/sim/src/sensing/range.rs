@@ -78,9 +78,14 @@ impl Ring {
     /// One pass in the machine's widest vectors.
     #[inline]
     pub(crate) fn look(&self, eye: &Eye, near: &mut Near, to: &mut Vec<f64>) {
+        self.look_with(Arch::new(), eye, near, to);
+    }
+
+    #[inline]
+    fn look_with(&self, arch: Arch, eye: &Eye, near: &mut Near, to: &mut Vec<f64>) {
         to.resize(self.rays.groups() * GROUP, 0.0);
         let (to_groups, _) = to.as_chunks_mut();
-        Arch::new().dispatch(RingLook {
+        arch.dispatch(RingLook {
             ring: self,
             eye,
             near,
@@ -110,11 +115,11 @@ impl WithSimd for RingLook<'_> {
             to,
         } = self;
         ring.rays.cast(simd, eye.front, near, ring.range_m, to);
-        if ring.miss > 0.0 {
-            ring.lose(eye, to);
-        }
         if ring.false_echo > 0.0 {
             ring.invent(eye, to);
+        }
+        if ring.miss > 0.0 {
+            ring.lose(eye, to);
         }
         if ring.noise_m > 0.0 || ring.noise_share > 0.0 {
             ring.blur(eye, to);
@@ -137,7 +142,7 @@ impl Ring {
     )]
     fn lose(&self, eye: &Eye, to: &mut [[f64; GROUP]]) {
         for (hand, groups) in (0..).zip(to.chunks_mut(GROUPS)) {
-            let chances = eye.deal(Use::Miss, hand);
+            let chances = eye.deal(Use::Echo, hand);
             for (distances, chances) in groups.iter_mut().zip(&chances) {
                 for (distance, chance) in distances.iter_mut().zip(chances) {
                     let is_lost = share(*chance) < self.miss;
@@ -147,6 +152,7 @@ impl Ring {
         }
     }
 
+    /// A ray's least chances are of a loss, its greatest of a false echo; the loss has its way.
     #[inline(always)]
     #[expect(
         clippy::inline_always,
@@ -154,11 +160,11 @@ impl Ring {
     )]
     fn invent(&self, eye: &Eye, to: &mut [[f64; GROUP]]) {
         for (hand, groups) in (0..).zip(to.chunks_mut(GROUPS)) {
-            let chances = eye.deal(Use::FalseEcho, hand);
+            let chances = eye.deal(Use::Echo, hand);
             let places = eye.deal(Use::EchoPlace, hand);
             for ((distances, chances), places) in groups.iter_mut().zip(&chances).zip(&places) {
                 for ((distance, chance), place) in distances.iter_mut().zip(chances).zip(places) {
-                    let is_false = share(*chance) < self.false_echo;
+                    let is_false = share(*chance) > 1.0 - self.false_echo;
                     let before = *distance * share(*place);
                     *distance = if is_false { before } else { *distance };
                 }
@@ -217,3 +223,6 @@ fn bearings(spec: &RangeSpec) -> Vec<f64> {
     };
     (0..spec.rays).map(bearing).collect()
 }
+
+#[cfg(test)]
+mod tests;

@@ -43,7 +43,7 @@ struct Few<T> {
 #[derive(Debug, Clone, Copy, Default)]
 struct NearDisc {
     centre: Point,
-    /// Square of the distance to the centre, less the square of the radius.
+    /// Square of the distance to the centre, less the square of the radius; 0 for one in the disc.
     power: f64,
 }
 
@@ -94,7 +94,7 @@ impl Near {
         self.discs.take(discs, |disc| {
             let centre = at.to(disc.centre);
             let square = centre.length_squared();
-            let power = square - disc.radius_m * disc.radius_m;
+            let power = (square - disc.radius_m * disc.radius_m).max(0.0);
             let reach = range_m + disc.radius_m;
             (NearDisc { centre, power }, square < reach * reach)
         });
@@ -280,3 +280,6 @@ impl Piece for NearWall {
         simd.div_f64s(area, span)
     }
 }
+
+#[cfg(test)]
+mod tests;
