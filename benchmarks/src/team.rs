@@ -71,6 +71,8 @@ fn rates(robots: u32) -> Rates {
 
 /// Of the teams: as asked for, or the usual ones.
 fn sizes() -> Vec<u32> {
-    let asked = std::env::args().nth(2).and_then(|robots| robots.parse().ok());
+    let asked = std::env::args()
+        .nth(2)
+        .and_then(|robots| robots.parse().ok());
     asked.map_or(vec![100, 1_600, 10_000], |robots| vec![robots])
 }

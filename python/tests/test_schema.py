@@ -71,5 +71,6 @@ def objects(part: Any) -> Iterator[dict[str, Any]]:
 def test_every_key_is_described(validator: Draft7Validator) -> None:
     keys = [item for table in objects(validator.schema) for item in table.items()]
     assert len(keys) > 100
-    bare = [key for key, part in keys if key != "kind" and "description" not in part]
+    told = ("description", "$ref", "const")
+    bare = [key for key, part in keys if not any(word in part for word in told)]
     assert bare == []

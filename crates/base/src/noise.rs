@@ -4,6 +4,11 @@
 //! once, so that what one sensor draws changes nothing for another, and skipping a look nothing for
 //! the next. The generator is Philox4x32-10 (see [`crate::random`]), with a key for each entity.
 
+#![expect(
+    clippy::inline_always,
+    reason = "it is compiled for the vectors of its callers"
+)]
+
 use crate::philox::{Blocks, LANES, blocks};
 use crate::random::{Entity, Purpose, stream};
 use rand_philox::Philox;
@@ -52,7 +57,6 @@ impl Noise {
     /// This is for loops: it is compiled for the instructions of the function that it is in.
     #[must_use]
     #[inline(always)]
-    #[expect(clippy::inline_always, reason = "it is vectorised where it is used")]
     pub fn deal(self, use_of: u32, time: u64, hand: u32) -> Blocks {
         #[expect(clippy::cast_possible_truncation, reason = "a few")]
         let first = hand.wrapping_mul(LANES as u32);
@@ -63,7 +67,6 @@ impl Noise {
 /// A number from 0 to 1, neither included.
 #[must_use]
 #[inline(always)]
-#[expect(clippy::inline_always, reason = "it is vectorised where it is used")]
 pub fn share(word: u32) -> f64 {
     (whole(word) + 0.5) * WORD
 }
@@ -74,7 +77,6 @@ pub fn share(word: u32) -> f64 {
 /// Annals of Mathematical Statistics 29 (1958).
 #[must_use]
 #[inline(always)]
-#[expect(clippy::inline_always, reason = "it is vectorised where it is used")]
 pub fn normal_pair(words: [u32; 2]) -> [f64; 2] {
     let radius = (-2.0 * ln_of_share(share(words[0]))).sqrt();
     let [cosine, sine] = on_circle(words[1]);
@@ -84,7 +86,6 @@ pub fn normal_pair(words: [u32; 2]) -> [f64; 2] {
 /// Two for each lane: see [`normal_pair`].
 #[must_use]
 #[inline(always)]
-#[expect(clippy::inline_always, reason = "it is vectorised where it is used")]
 pub fn normal_pairs(words: [&[u32; LANES]; 2]) -> [[f64; LANES]; 2] {
     let mut pairs = [[0.0; LANES]; 2];
     for lane in 0..LANES {
@@ -99,7 +100,6 @@ pub fn normal_pairs(words: [&[u32; LANES]; 2]) -> [[f64; LANES]; 2] {
 ///
 /// The first two bits are the quarter that it is in, the others its place there.
 #[inline(always)]
-#[expect(clippy::inline_always, reason = "it is vectorised where it is used")]
 fn on_circle(word: u32) -> [f64; 2] {
     let x = ((whole(word & 0x3FFF_FFFF) + 0.5) * QUARTER - 0.5) * FRAC_PI_2;
     let square = x * x;
@@ -129,14 +129,12 @@ fn on_circle(word: u32) -> [f64; 2] {
 
 /// The word as a number.
 #[inline(always)]
-#[expect(clippy::inline_always, reason = "it is vectorised where it is used")]
 fn whole(word: u32) -> f64 {
     f64::from_bits(WHOLE_BITS | u64::from(word)) - WHOLE
 }
 
 /// The natural logarithm of a number from 2^-33 to 1, within 1e-11; without branches.
 #[inline(always)]
-#[expect(clippy::inline_always, reason = "it is vectorised where it is used")]
 fn ln_of_share(x: f64) -> f64 {
     // x = m 2^e with m from sqrt(1/2) to sqrt(2); ln m = 2 artanh((m - 1) / (m + 1)).
     const EXPONENT_ONE: u64 = 1023 << 52;

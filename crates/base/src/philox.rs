@@ -4,6 +4,11 @@
 //! that every machine has. A ring of sixteen rays needs four blocks, and its loop is compiled for
 //! the machine's own instructions: in eight 64-bit lanes each round is six of them.
 
+#![expect(
+    clippy::inline_always,
+    reason = "it is compiled for the vectors of its callers"
+)]
+
 /// Blocks that are made together.
 pub const LANES: usize = 8;
 
@@ -19,7 +24,6 @@ const LOW: u64 = 0xFFFF_FFFF;
 /// Blocks for the counters `time`, `use_of` and `first`, `first + 1`, ... from the highest word to
 /// the lowest.
 #[inline(always)]
-#[expect(clippy::inline_always, reason = "it is vectorised where it is used")]
 pub(crate) fn blocks(mut key: [u32; 2], first: u32, use_of: u32, time: u64) -> Blocks {
     #[expect(clippy::cast_possible_truncation, reason = "below LANES")]
     let index = |lane| u64::from(first.wrapping_add(lane as u32));
@@ -42,7 +46,6 @@ pub(crate) fn blocks(mut key: [u32; 2], first: u32, use_of: u32, time: u64) -> B
 
 /// One round of all blocks; what is in the upper halves of words is nothing.
 #[inline(always)]
-#[expect(clippy::inline_always, reason = "it is vectorised where it is used")]
 fn round([a, b, c, d]: [Words; 4], key: [u32; 2]) -> [Words; 4] {
     let product = |words: Words, by: u64| words.map(|word| (word & LOW) * by);
     let mixed = |product: Words, with: Words, key: u32| {

@@ -66,7 +66,7 @@ impl Moves {
     ) -> Moved {
         self.plans.resize(state.robots(), Plan::REST);
         share_out(&mut self.plans, is_shared, |robot, plan| {
-            *plan = planned(scenario, state, neighbours, robot)
+            *plan = planned(scenario, state, neighbours, robot);
         });
         self.meetings
             .collect(&self.plans, &state.discs, neighbours, scenario.contact_m);
@@ -111,7 +111,7 @@ fn planned(scenario: &Scenario, state: &State, neighbours: &Neighbours, robot: u
     let meeting = may_touch.then(|| {
         let stands = scenario.touched(kind.layer);
         let (walls, discs) = (stands.walls_near(path.start), stands.discs_near(path.start));
-        meets_still(&path, disc.radius_m, walls, discs)
+        meets_still(&path, disc.radius_m, &walls, &discs)
     });
     let meeting = meeting.flatten();
     path.until = meeting.unwrap_or(1.0);

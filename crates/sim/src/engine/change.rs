@@ -70,7 +70,8 @@ impl State {
                 ..before.hulls[was]
             };
             self.minds[robot] = kept_mind(&before.minds[was], old_kind, kind);
-            let is_same = kind.radius_m == old_kind.radius_m && kind.layer == old_kind.layer;
+            let is_same =
+                kind.radius_m.total_cmp(&old_kind.radius_m).is_eq() && kind.layer == old_kind.layer;
             let is_placed = self.hulls[robot].is_external || is_same_ground && is_same;
             *room = if is_placed {
                 Room::Same

@@ -30,7 +30,7 @@ impl Mind {
         }
     }
 
-    pub(crate) fn switch(&mut self, request: &SensorRequest) {
+    pub(crate) fn switch(&mut self, request: SensorRequest) {
         let bit = 1_u32.checked_shl(request.sensor.into()).unwrap_or(0);
         if request.on {
             self.sensors_off &= !bit;

@@ -73,7 +73,7 @@ impl Eye<'_> {
 
     /// The way to a place of the world, from the robot's front.
     #[inline]
-    pub(crate) fn to_own(&self, place: Point) -> Point {
+    pub(crate) fn own(&self, place: Point) -> Point {
         let way = self.at.to(place);
         Point {
             x: self.front.dot(way),
@@ -82,7 +82,7 @@ impl Eye<'_> {
     }
 
     /// The place of the world at a way from the robot's front.
-    pub(crate) fn to_world(&self, way: Point) -> Point {
+    pub(crate) fn world_of(&self, way: Point) -> Point {
         Point {
             x: self.at.x + self.front.x * way.x - self.front.y * way.y,
             y: self.at.y + self.front.y * way.x + self.front.x * way.y,

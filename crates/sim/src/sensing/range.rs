@@ -1,5 +1,10 @@
 //! A ring of rays that measure distances.
 
+#![expect(
+    clippy::inline_always,
+    reason = "it is compiled for the vectors of its callers"
+)]
+
 use super::eye::{Eye, Use};
 use super::rays::{GROUP, Near, Rays};
 use base::noise::{HAND, normal_pairs, share};
@@ -136,10 +141,6 @@ const GROUPS: usize = HAND / GROUP;
 
 impl Ring {
     #[inline(always)]
-    #[expect(
-        clippy::inline_always,
-        reason = "it is compiled for the caller's vectors"
-    )]
     fn lose(&self, eye: &Eye, to: &mut [[f64; GROUP]]) {
         for (hand, groups) in (0..).zip(to.chunks_mut(GROUPS)) {
             let chances = eye.deal(Use::Echo, hand);
@@ -154,10 +155,6 @@ impl Ring {
 
     /// A ray's least chances are of a loss, its greatest of a false echo; the loss has its way.
     #[inline(always)]
-    #[expect(
-        clippy::inline_always,
-        reason = "it is compiled for the caller's vectors"
-    )]
     fn invent(&self, eye: &Eye, to: &mut [[f64; GROUP]]) {
         for (hand, groups) in (0..).zip(to.chunks_mut(GROUPS)) {
             let chances = eye.deal(Use::Echo, hand);
@@ -173,10 +170,6 @@ impl Ring {
     }
 
     #[inline(always)]
-    #[expect(
-        clippy::inline_always,
-        reason = "it is compiled for the caller's vectors"
-    )]
     fn blur(&self, eye: &Eye, to: &mut [[f64; GROUP]]) {
         for (hand, groups) in (0..).zip(to.chunks_mut(GROUPS)) {
             let words = eye.deal(Use::Error, hand);
@@ -193,10 +186,6 @@ impl Ring {
 
     /// What was out of range stays so: there is no echo to be measured.
     #[inline(always)]
-    #[expect(
-        clippy::inline_always,
-        reason = "it is compiled for the caller's vectors"
-    )]
     fn blurred(&self, distance: f64, deviation: f64) -> f64 {
         let spread = self.noise_m + self.noise_share * distance;
         let measured = distance + spread * deviation;

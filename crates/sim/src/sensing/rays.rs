@@ -10,6 +10,11 @@
 //! multiplications, quotients and roots only, without fused ones: so all instruction sets give the
 //! same bits.
 
+#![expect(
+    clippy::inline_always,
+    reason = "it is compiled for the vectors of its callers"
+)]
+
 use crate::world::still::Wall;
 use base::geometry::{Disc, Point};
 use pulp::Simd;
@@ -145,10 +150,6 @@ impl Rays {
     ///
     /// `front` is the direction of the robot's front, of length 1.
     #[inline(always)]
-    #[expect(
-        clippy::inline_always,
-        reason = "it is compiled for the caller's vectors"
-    )]
     pub(crate) fn cast<S: Simd>(
         &self,
         simd: S,
@@ -193,10 +194,6 @@ trait Piece {
 
 /// Shortens rays to where they meet the pieces.
 #[inline(always)]
-#[expect(
-    clippy::inline_always,
-    reason = "it is compiled for the caller's vectors"
-)]
 #[expect(
     clippy::cast_possible_truncation,
     reason = "robots have 32-bit numbers"
