@@ -66,7 +66,7 @@ impl Moves {
     ) -> Moved {
         self.plans.resize(state.robots(), Plan::REST);
         share_out(&mut self.plans, is_shared, |robot, plan| {
-            *plan = planned(scenario, state, robot);
+            *plan = planned(scenario, state, neighbours, robot);
         });
         self.meetings
             .collect(&self.plans, &state.discs, neighbours, scenario.contact_m);
@@ -81,7 +81,7 @@ impl Moves {
 
 /// What a robot does if no other is in its way.
 #[inline]
-fn planned(scenario: &Scenario, state: &State, robot: usize) -> Plan {
+fn planned(scenario: &Scenario, state: &State, neighbours: &Neighbours, robot: usize) -> Plan {
     let (hull, disc, mind) = (
         &state.hulls[robot],
         &state.discs[robot],
@@ -107,7 +107,8 @@ fn planned(scenario: &Scenario, state: &State, robot: usize) -> Plan {
         turn_rad: driven.turn_rate_rad_s * scenario.step_s,
         until: 1.0,
     };
-    let meeting = (path.length_m != 0.0).then(|| {
+    let may_touch = path.length_m != 0.0 && neighbours.may_touch(robot);
+    let meeting = may_touch.then(|| {
         let stands = scenario.touched(kind.layer);
         let (walls, discs) = (stands.walls_near(path.start), stands.discs_near(path.start));
         meets_still(&path, disc.radius_m, &walls, &discs)

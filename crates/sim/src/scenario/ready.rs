@@ -13,6 +13,10 @@ use crate::world::terrain::{Area, Going, Terrain};
 use base::geometry::{Disc, Point, Rectangle, Segment};
 use brain::{Brain, RobotId};
 
+/// What is near a robot is looked up with so much more reach than is needed, in metres; that holds
+/// until a robot has gone half of it.
+pub(crate) const SKIN_M: f64 = 0.6;
+
 /// Everything that does not change in a run. Runs share it.
 #[derive(Debug, Clone)]
 pub struct Scenario {
@@ -60,7 +64,7 @@ impl Scenario {
         let rays_m = greatest(&kinds, |kind| kind.rays_m);
         let stands = |layer, reach_m| {
             let (walls, discs) = in_the_way(&world, &solids, layer);
-            Stands::new(size_m, &walls, &discs, reach_m)
+            Stands::new(size_m, &walls, &discs, reach_m + SKIN_M / 2.0)
         };
         let layers = [Layer::Ground, Layer::Air];
         Self {

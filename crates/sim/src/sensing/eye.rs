@@ -3,6 +3,7 @@
 use crate::world::still::Stands;
 use base::geometry::Point;
 use base::noise::{Noise, normal_pair};
+use base::philox::Blocks;
 
 /// What a look draws random numbers for. The numbers stay: a change changes every result.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -16,12 +17,14 @@ pub(crate) enum Use {
     Thing = 2,
     /// Things that are not there.
     FalseAlarm = 3,
-    /// Lost and false echoes of rays.
+    /// Whether a ray's echo is lost or false.
     Echo = 4,
     /// What a brain has for dice; not a sensor's.
     Dice = 5,
     /// A message that may be lost; not a sensor's.
     Radio = 6,
+    /// How far away a false echo is.
+    EchoPlace = 7,
 }
 
 /// Uses of one sensor are numbered on from here.
@@ -55,6 +58,17 @@ impl Eye<'_> {
     pub(crate) fn words(&self, used: Use, index: u32) -> [u32; 4] {
         self.noise
             .words(used.of_sensor(self.sensor), self.look, index)
+    }
+
+    /// A word for each thing of a hand: see [`Noise::deal`].
+    #[inline(always)]
+    #[expect(
+        clippy::inline_always,
+        reason = "it is compiled for the caller's vectors"
+    )]
+    pub(crate) fn deal(&self, used: Use, hand: u32) -> Blocks {
+        self.noise
+            .deal(used.of_sensor(self.sensor), self.look, hand)
     }
 
     /// The way to a place of the world, from the robot's front.
