@@ -3,3 +3,4 @@
 mod change;
 mod common;
 mod contact;
+mod meetings;
