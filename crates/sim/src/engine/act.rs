@@ -47,6 +47,16 @@ pub(crate) enum Stop {
     Robot,
 }
 
+impl Stop {
+    /// Still this, or else by a robot that ran into it.
+    pub(crate) fn or_robot(self) -> Self {
+        match self {
+            Self::Still => Self::Still,
+            Self::Nothing | Self::Robot => Self::Robot,
+        }
+    }
+}
+
 /// What comes of all robots' moves.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct Moved {
@@ -73,7 +83,8 @@ impl Moves {
         let met = self.meetings.resolve(&mut self.plans, state, neighbours);
         let moved = go(&self.plans, scenario, state, is_shared);
         Moved {
-            collisions: moved.collisions + met,
+            // Each stops somebody who moves, but for those that begin at the very same time.
+            collisions: (moved.collisions + met).min(state.robots() as u64),
             ..moved
         }
     }

@@ -110,10 +110,12 @@ impl Meetings {
 
     fn stop(&mut self, plans: &mut [Plan], neighbours: &Neighbours, robot: u32, share: f64) {
         let plan = &mut plans[robot as usize];
-        plan.stop = Stop::Robot;
         if plan.path.until <= share {
+            // It may have been stopped by a wall, which counts for itself.
+            plan.stop = plan.stop.or_robot();
             return;
         }
+        plan.stop = Stop::Robot;
         plan.path.until = share;
         for other in neighbours.of(robot as usize).robots {
             let robots = [robot.min(*other), robot.max(*other)];
