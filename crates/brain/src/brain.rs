@@ -88,6 +88,7 @@ impl Brain {
             body,
             rings: &sight.rings,
             ahead: sight.ahead(percept, body, &self.moved),
+            speed_m_s: self.moved.speed_m_s(percept, body, 1.0),
             turned_rad,
         };
         let wanted = arbitrate(&self.kind.behaviours, &mut self.layers, &senses);

@@ -17,6 +17,8 @@ pub(crate) struct Senses<'s> {
     pub(crate) rings: &'s [Ring],
     /// What is seen straight ahead; `None` if nothing looks there or nothing came in.
     pub(crate) ahead: Option<Seen>,
+    /// At most so fast it goes ahead now.
+    pub(crate) speed_m_s: f64,
     /// Angle by which the body turned since the last step.
     pub(crate) turned_rad: f64,
 }
@@ -38,6 +40,12 @@ impl Senses<'_> {
     /// Uniform numbers; every call begins with the first.
     pub(crate) fn dice(&self) -> Dice {
         Dice::new(self.percept.dice)
+    }
+
+    /// So far it still goes if it brakes now.
+    #[inline]
+    pub(crate) fn stopping_m(&self) -> f64 {
+        self.speed_m_s * self.speed_m_s / (2.0 * self.body.max_acceleration_m_s2)
     }
 
     /// Whether something stands nearer ahead than `near_m`, to one who has gone straight for

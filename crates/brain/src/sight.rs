@@ -317,6 +317,7 @@ mod tests {
                     body: &body,
                     rings: &sight.rings,
                     ahead: sight.ahead(&percept, &body, &moved),
+                speed_m_s: moved.speed_m_s(&percept, &body, 1.0),
                     turned_rad: 0.0,
                 };
                 let wanted = Motion { speed_m_s: body.max_speed_m_s, turn_rate_rad_s: rate };

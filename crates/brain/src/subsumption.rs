@@ -184,6 +184,7 @@ mod tests {
                 body: &body,
                 rings: &sight.rings,
                 ahead: sight.ahead(&percept, &body, &moved),
+                speed_m_s: moved.speed_m_s(&percept, &body, 1.0),
                 turned_rad,
             };
             let wanted = arbitrate(&behaviours, &mut layers, &senses);
@@ -261,6 +262,7 @@ mod tests {
                 body: &body,
                 rings: &[],
                 ahead: None,
+                speed_m_s: 0.0,
                 turned_rad: 0.0,
             };
             arbitrate(&bells, &mut layers, &senses).speed_m_s
