@@ -5,3 +5,5 @@ mod collisions;
 mod common;
 mod contact;
 mod meetings;
+mod radio;
+mod sensors;
