@@ -1,7 +1,11 @@
 //! The engine from outside: what a run may and may not do, whatever its scenario.
 
+mod battery;
 mod change;
 mod collisions;
 mod common;
 mod contact;
+mod judge;
 mod meetings;
+mod radio;
+mod sensors;
