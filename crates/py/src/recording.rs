@@ -107,8 +107,8 @@ pub(crate) fn recorded_setting<'py>(
 fn bodies<'py>(py: Python<'py>, scenario: &Scenario) -> PyResult<Bound<'py, PyDict>> {
     let dict = PyDict::new(py);
     for (number, kind) in (0..).zip(scenario.robot_kinds()) {
-        if let Some((_, body)) = scenario.mind_of(number) {
-            dict.set_item(kind, exchange::write(py, &**body)?)?;
+        if let Some(brain) = scenario.brain(number) {
+            dict.set_item(kind, exchange::write(py, brain.body())?)?;
         }
     }
     Ok(dict)

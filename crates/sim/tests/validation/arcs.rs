@@ -83,7 +83,7 @@ fn a_body_stays_on_its_circle_for_100_000_steps() {
     let mut off: Vec<Row> = off.collect();
     let worst_m = off.iter().map(|row| row.measured).fold(0.0, f64::max);
     let (_, speed, turn) = ARCS[1];
-    off.extend(rows("radius 5 m, by Euler's method", euler(speed, turn)));
+    off.extend(rows("radius 5 m by Euler's method", euler(speed, turn)));
     assert_published("arcs.csv", &off);
     assert!(worst_m < MOST_M, "{off:#?}");
 }

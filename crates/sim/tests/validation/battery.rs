@@ -48,7 +48,7 @@ fn cases() -> Vec<Case> {
             7.0 + 3.0 + 11.0 + 4.0,
         ),
         case(
-            "driving in mud, half as fast, twice the effort",
+            "driving in mud: half as fast with twice the effort",
             mud(),
             circling(),
             7.0 + 2.0 * (3.0 + 11.0 * 0.5),

@@ -24,8 +24,11 @@ fn before_a_line_m2(radius_m: f64, line_m: f64) -> f64 {
     PI * square - beyond
 }
 
+/// A name, what of the scenario is another, and the area in view.
+type View = (&'static str, Vec<(&'static str, Value)>, f64);
+
 /// Where the robot stands and what hides a part of its view, with the area that is left.
-fn views() -> [(&'static str, Vec<(&'static str, Value)>, f64); 3] {
+fn views() -> [View; 3] {
     let start = |x, y| ("robots.watcher.start.at_m", places([Point { x, y }]));
     let corners = [(21.0, 0.0), (22.0, 0.0), (22.0, 40.0), (21.0, 40.0)];
     let corners = places(corners.map(|(x, y)| Point { x, y }));

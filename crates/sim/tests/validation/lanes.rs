@@ -26,7 +26,11 @@ fn mow(range_m: f64, number: u64) -> Vec<u32> {
     let mow = |lane: u32| {
         ahead(&mut simulation, LANE_STEPS);
         // One more look, from the end of the lane, and a turn into the next.
-        let turn_rad = if lane % 2 == 0 { FRAC_PI_2 } else { -FRAC_PI_2 };
+        let turn_rad = if lane.is_multiple_of(2) {
+            FRAC_PI_2
+        } else {
+            -FRAC_PI_2
+        };
         turn(&mut simulation, turn_rad);
         let found = found(&simulation);
         ahead(&mut simulation, 10);

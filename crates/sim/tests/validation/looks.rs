@@ -10,7 +10,7 @@ const CENTRE: Point = Point { x: 10.0, y: 10.0 };
 
 /// Items at each distance, and runs.
 const ITEMS: u32 = 2000;
-const RUNS: u64 = 10;
+const RUNS: u64 = 20;
 
 /// Looks that are followed.
 const LOOKS: u32 = 8;
@@ -43,13 +43,13 @@ fn left(changes: &[(&str, Value)]) -> Vec<[u32; LOOKS as usize]> {
     let mut left = vec![[0; LOOKS as usize]; distances];
     for number in 0..RUNS {
         let mut simulation = run(&scenario, 1, number);
-        for look in 0..LOOKS as usize {
+        for look in 0..LOOKS {
             // Five looks a second: one in two steps.
             simulation.step();
             simulation.step();
             let items = simulation.state().each_item(&scenario);
             for (item, _) in items.enumerate().filter(|(_, item)| item.found_s.is_none()) {
-                left[item / ITEMS as usize][look] += 1;
+                left[item / ITEMS as usize][look as usize] += 1;
             }
         }
     }

@@ -91,7 +91,7 @@ pub(crate) fn assert_wrong(rows: &[Row]) {
     assert!(most > SIGMAS, "at most {most} standard errors off");
 }
 
-/// The file behind the page says the same; with RENEW_VALIDATION=1 it is written.
+/// The file behind the page says the same; with `RENEW_VALIDATION=1` it is written.
 pub(crate) fn assert_published(name: &str, rows: &[Row]) {
     let folder = [env!("CARGO_MANIFEST_DIR"), "../../docs/validation"];
     let file = folder.iter().collect::<PathBuf>().join(name);

@@ -17,9 +17,8 @@ const CORRECTION: f64 = 0.616;
 ///
 /// A renewal argument: let p = w c / A be the mean number of passes on a way, c the mean way. After a
 /// pass, passes are fewer than at the constant rate by p (2 d / c - E l^2 / 2 c^2), where d is the
-/// mean way from an item to the wall, and more by the sum of q_k - p, where q_k is the probability of
-/// a pass on the k-th way after it. The rate at which items are found first is higher by what passes
-/// are fewer.
+/// mean way from an item to the wall, and more by what the probabilities of a pass on each later way
+/// are above p. The rate at which items are found first is higher by what passes are fewer.
 pub(crate) fn long_ways(width: f64) -> f64 {
     let passes = width * FRAC_PI_4;
     1.0 / (1.0 - CORRECTION * passes)
@@ -58,12 +57,12 @@ fn way(from: Point, along: Point) -> (f64, Wall) {
 /// The direction by the cosine law.
 fn away(wall: &Wall, dice: &mut Dice) -> Point {
     let sine = 2.0 * dice.unit() - 1.0;
-    let side = Point {
+    let tangent = Point {
         x: -wall.inward.y,
         y: wall.inward.x,
     };
     let cosine = (1.0 - sine * sine).sqrt();
-    wall.inward.times(cosine).plus(side.times(sine))
+    wall.inward.times(cosine).plus(tangent.times(sine))
 }
 
 /// What passes are fewer after a pass, by the mean number on a way; of many items.
