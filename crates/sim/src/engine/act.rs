@@ -241,7 +241,8 @@ impl Hull {
     fn collide(&mut self, kind: &Kind, tick: u64) {
         self.collisions += 1;
         self.held_until = tick + 1 + kind.collision.stop_steps;
-        if self.collisions >= kind.collision.breaks_after && self.status == Status::Active {
+        let is_too_often = self.collisions >= kind.collision.breaks_after;
+        if is_too_often && self.status == Status::Active && !self.is_external {
             self.status = Status::Broken;
         }
     }
@@ -249,7 +250,8 @@ impl Hull {
     /// Takes a step's energy from the battery.
     #[inline]
     fn drain(&mut self, plan: &Plan, kind: &Kind, gone_m: f64, step_s: f64) {
-        let Some(battery) = kind.battery.filter(|_| self.status == Status::Active) else {
+        let is_drained = self.status == Status::Active && !self.is_external;
+        let Some(battery) = kind.battery.filter(|_| is_drained) else {
             return;
         };
         let is_moving = gone_m > 0.0 || plan.path.turn_rad != 0.0;

@@ -7,5 +7,6 @@ mod common;
 mod contact;
 mod judge;
 mod meetings;
+mod outside;
 mod radio;
 mod sensors;
