@@ -8,7 +8,7 @@ use crate::radio::Radio;
 use crate::sensing::timing::Rhythm;
 use crate::sensing::{Measure, Sensor};
 use base::placement::Placement;
-use brain::{Body, BrainSpec, RangeRing};
+use brain::{Body, Brain, BrainSpec, RangeRing};
 use std::sync::Arc;
 
 /// What all robots of a kind have in common.
@@ -34,6 +34,8 @@ pub(crate) struct Kind {
     pub(crate) rhythm: Rhythm,
     pub(crate) brain: Arc<BrainSpec>,
     pub(crate) body: Arc<Body>,
+    /// One that has just been switched on; its clones share what is the same for all.
+    pub(crate) mind: Brain,
 }
 
 impl Kind {
@@ -60,6 +62,7 @@ impl Kind {
                 .collect(),
             item_kinds: item_kinds.to_vec(),
         };
+        let (brain, body) = (Arc::new(spec.brain.clone()), Arc::new(body));
         let mut kind = Self {
             all_on_w: 0.0,
             name: name.to_owned(),
@@ -78,8 +81,9 @@ impl Kind {
             sensors,
             radio: spec.radio.as_ref().map(|radio| Radio::new(radio, step_s)),
             rhythm,
-            brain: Arc::new(spec.brain.clone()),
-            body: Arc::new(body),
+            mind: Brain::new(Arc::clone(&brain), Arc::clone(&body)),
+            brain,
+            body,
         };
         kind.all_on_w = kind.some_on_w(0);
         kind
