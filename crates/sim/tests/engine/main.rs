@@ -9,4 +9,6 @@ mod judge;
 mod meetings;
 mod outside;
 mod radio;
+mod random;
+mod robust;
 mod sensors;
