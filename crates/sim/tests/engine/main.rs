@@ -5,6 +5,7 @@ mod change;
 mod collisions;
 mod common;
 mod contact;
+mod determinism;
 mod judge;
 mod meetings;
 mod outside;
