@@ -140,6 +140,10 @@ impl Ring {
 
     /// Looks at chords that are far away; returns those that are near, as bits.
     #[inline]
+    #[expect(
+        clippy::needless_bitwise_bool,
+        reason = "branches would be mispredicted"
+    )]
     fn look_roughly(&self, chords: &[Chord], ranges_m: &[f64], nearest: &mut Nearest) -> u64 {
         let far_m = self.range_m / 2.0;
         let mut bits = 0;

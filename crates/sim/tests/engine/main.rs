@@ -5,6 +5,7 @@
     clippy::cast_precision_loss,
     clippy::cast_sign_loss,
     clippy::float_cmp,
+    clippy::similar_names,
     clippy::unnecessary_wraps,
     clippy::unwrap_used,
     reason = "tests count, compare what is exact by construction, and may fail by a panic"
