@@ -6,8 +6,8 @@ RUST := $(shell find crates/*/src crates/*/Cargo.toml) Cargo.toml Cargo.lock
 # maturin, and what it starts, are found in the environment.
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 
-.PHONY: help study test bench bench-store verify-selection fuzz schemas picture replication lint rust-test \
-	python-test clean
+.PHONY: help study test bench bench-store verify-selection fuzz schemas picture replication \
+	validation lint rust-test python-test clean
 
 help: ## Say what can be made
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "%-17s %s\n", $$1, $$2 }' Makefile
@@ -42,6 +42,10 @@ bench-store: .venv/installed ## Rows a second into a study's store, and bytes a 
 
 verify-selection: ## Does the race keep its guarantee? 20,000 macro-replications a problem
 	cargo run --release --locked -p agent-economy-select --example verify
+
+validation: .venv/installed ## Measure and draw docs/validation.md anew
+	RENEW_VALIDATION=1 cargo test --locked -p agent-economy-sim --test validation
+	$(BIN)/python scripts/validation.py
 
 replication: .venv/installed ## Recompute every figure of docs/replication.md
 	$(BIN)/python scripts/replication.py

@@ -42,6 +42,12 @@ impl Senses<'_> {
         Dice::new(self.percept.dice)
     }
 
+    /// So far it still goes if it brakes now.
+    #[inline]
+    pub(crate) fn stopping_m(&self) -> f64 {
+        self.now_m_s * self.now_m_s / (2.0 * self.body.max_acceleration_m_s2)
+    }
+
     /// Whether something stands nearer ahead than `near_m`, to one who has gone straight for
     /// `straight_s`: what was seen before that says nothing.
     #[inline]

@@ -38,15 +38,14 @@ impl Brain {
         let scenario = &scenario.get().0;
         let place = scenario.robot_kinds().position(|known| known == kind);
         let kind_number = place.and_then(|place| u8::try_from(place).ok());
-        let mind = kind_number.and_then(|number| scenario.mind_of(number));
-        let (spec, body) = mind.ok_or_else(|| {
+        let brain = kind_number.and_then(|number| scenario.brain(number));
+        let brain = brain.ok_or_else(|| {
             let given = Some(format!("{kind:?}"));
             let kinds: Vec<&str> = scenario.robot_kinds().collect();
             let fault = Fault::not_one_of("kind".to_owned(), given, kind, kinds.into_iter());
             input_error(&Faults(vec![fault]), "")
         })?;
-        let brain = brain::Brain::new(Arc::clone(spec), Arc::clone(body));
-        Ok(Self(Mutex::new(brain)))
+        Ok(Self(Mutex::new(brain.clone())))
     }
 
     /// The command for a percept; both are dicts.

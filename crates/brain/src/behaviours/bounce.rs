@@ -29,8 +29,8 @@ const LEAST_BLIND_RAD: f64 = FRAC_PI_4;
 #[serde(default, deny_unknown_fields)]
 #[schemars(inline)]
 pub struct Bounce {
-    /// It turns when something stands nearer ahead than this, from its hull, in metres; at most half
-    /// as far as its range sensors see.
+    /// It turns so far before what stands ahead, from its hull, in metres, and brakes in time for
+    /// that; at most half as far as its range sensors see.
     #[schemars(range(min = 0.0, max = 1000.0))]
     pub turn_at_m: f64,
     /// Time that it goes straight on after a turn before lower behaviours have their way, in
@@ -56,6 +56,7 @@ impl Default for Bounce {
 #[derive(Debug, Clone)]
 pub(crate) struct Ready {
     turn_at_m: f64,
+    half_sight_m: f64,
     hold_s: f64,
     held: Motion,
 }
@@ -74,8 +75,10 @@ const GOING: Memory = Memory::Going { since_s: 0.0 };
 
 impl Ready {
     pub(super) fn new(spec: &Bounce, body: &Body) -> Self {
+        let half_sight_m = half_sight_m(body);
         Self {
-            turn_at_m: spec.turn_at_m.min(half_sight_m(body)),
+            turn_at_m: spec.turn_at_m.min(half_sight_m),
+            half_sight_m,
             hold_s: spec.hold_s,
             held: ahead(spec.speed_m_s, body),
         }
@@ -99,8 +102,9 @@ impl Behaviour for Ready {
             Memory::Going { since_s } => {
                 let straight_s = f64::from(*since_s);
                 *since_s += senses.period_s();
+                let near_m = (self.turn_at_m + senses.stopping_m()).min(self.half_sight_m);
                 let is_stopped =
-                    senses.stands_ahead(self.turn_at_m, straight_s) || senses.touches(straight_s);
+                    senses.stands_ahead(near_m, straight_s) || senses.touches(straight_s);
                 is_stopped.then(|| self.turn(memory, senses))
             }
             Memory::Turning { .. } => go_on_turning(memory, senses),
@@ -234,6 +238,25 @@ mod tests {
             assert!(squares >= 24, "{squares} of 25");
             assert!(walk.least_gap_m > 0.0, "{}", walk.least_gap_m);
         }
+    }
+
+    /// If it braked only where it should turn, it would come so near that what avoids obstacles takes
+    /// over, turns no farther than it must, and leads it along the walls for ever.
+    #[test]
+    fn weak_brakes_do_not_keep_it_along_the_walls() {
+        let mut body = rover();
+        (body.max_speed_m_s, body.max_acceleration_m_s2) = (2.0, 2.0);
+        body.rings[0].range_m = 5.0;
+        let mut walk = Walk::new(body.clone(), room(20.0, 20.0), [9.0, 9.0], 0.3);
+        let mut brain = Brain::new(Arc::new(BrainSpec::default()), Arc::new(body));
+        let mut in_the_middle = 0;
+        for _ in 0..2000 {
+            walk.go(&mut brain, 10);
+            let off_m = (walk.at.x - 10.0).abs().max((walk.at.y - 10.0).abs());
+            in_the_middle += u32::from(off_m < 5.0);
+        }
+        // A quarter of the room: were it everywhere alike, 500; along the walls, 10.
+        assert!(in_the_middle > 200, "{in_the_middle}");
     }
 
     #[test]

@@ -8,7 +8,7 @@ use crate::radio::Radio;
 use crate::sensing::timing::Rhythm;
 use crate::sensing::{Measure, Sensor};
 use base::placement::Placement;
-use brain::{Body, Brain, BrainSpec, RangeRing};
+use brain::{Body, Brain, RangeRing};
 use std::sync::Arc;
 
 /// What all robots of a kind have in common.
@@ -32,10 +32,8 @@ pub(crate) struct Kind {
     all_on_w: f64,
     /// When its brain steps.
     pub(crate) rhythm: Rhythm,
-    pub(crate) brain: Arc<BrainSpec>,
-    pub(crate) body: Arc<Body>,
-    /// One that has just been switched on; its clones share what is the same for all.
-    pub(crate) mind: Brain,
+    /// As a robot begins with it; clones share what is the same for all.
+    pub(crate) brain: Brain,
 }
 
 impl Kind {
@@ -62,7 +60,6 @@ impl Kind {
                 .collect(),
             item_kinds: item_kinds.to_vec(),
         };
-        let (brain, body) = (Arc::new(spec.brain.clone()), Arc::new(body));
         let mut kind = Self {
             all_on_w: 0.0,
             name: name.to_owned(),
@@ -81,9 +78,7 @@ impl Kind {
             sensors,
             radio: spec.radio.as_ref().map(|radio| Radio::new(radio, step_s)),
             rhythm,
-            mind: Brain::new(Arc::clone(&brain), Arc::clone(&body)),
-            brain,
-            body,
+            brain: Brain::new(Arc::new(spec.brain.clone()), Arc::new(body)),
         };
         kind.all_on_w = kind.some_on_w(0);
         kind

@@ -49,6 +49,16 @@ pub(crate) enum Stop {
     Robot,
 }
 
+impl Stop {
+    /// Still this, or else by a robot that ran into it.
+    pub(crate) fn or_robot(self) -> Self {
+        match self {
+            Self::Still => Self::Still,
+            Self::Nothing | Self::Robot => Self::Robot,
+        }
+    }
+}
+
 /// What comes of all robots' moves.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct Moved {
@@ -77,7 +87,8 @@ impl Moves {
         let met = self.meetings.resolve(&mut self.plans, state, neighbours);
         let moved = go(&self.plans, scenario, state, is_shared);
         Moved {
-            collisions: moved.collisions + met,
+            // Each stops somebody who moves, but for those that begin at the very same time.
+            collisions: (moved.collisions + met).min(state.robots() as u64),
             ..moved
         }
     }
@@ -237,7 +248,8 @@ impl Hull {
     fn collide(&mut self, kind: &Kind, tick: u64) {
         self.collisions += 1;
         self.held_until = tick + 1 + kind.collision.stop_steps;
-        if self.collisions >= kind.collision.breaks_after && self.status == Status::Active {
+        let is_too_often = self.collisions >= kind.collision.breaks_after;
+        if is_too_often && self.status == Status::Active && !self.is_external {
             self.status = Status::Broken;
         }
     }
@@ -245,7 +257,8 @@ impl Hull {
     /// Takes a step's energy from the battery.
     #[inline]
     fn drain(&mut self, plan: &Plan, kind: &Kind, gone_m: f64, step_s: f64) {
-        let Some(battery) = kind.battery.filter(|_| self.status == Status::Active) else {
+        let is_drained = self.status == Status::Active && !self.is_external;
+        let Some(battery) = kind.battery.filter(|_| is_drained) else {
             return;
         };
         let is_moving = gone_m > 0.0 || plan.path.turn_rad != 0.0;

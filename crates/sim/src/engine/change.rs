@@ -170,7 +170,9 @@ fn no_room(scenario: &Scenario, name: &str, index: usize) -> NoRoom {
 }
 
 fn kept_mind(mind: &Mind, from: &Kind, to: &Kind) -> Mind {
-    let is_same = from.brain == to.brain && from.body == to.body && from.sensors == to.sensors;
+    let is_same = from.brain.spec() == to.brain.spec()
+        && from.brain.body() == to.brain.body()
+        && from.sensors == to.sensors;
     if is_same && from.needs_backlog() == to.needs_backlog() {
         mind.clone()
     } else {

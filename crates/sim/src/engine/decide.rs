@@ -166,7 +166,7 @@ fn clear(percept: &mut Percept, kind: &Kind) {
     percept.inbox.clear();
     percept
         .scans
-        .resize_with(kind.body.rings.len(), Default::default);
+        .resize_with(kind.brain.body().rings.len(), Default::default);
     for scan in &mut percept.scans {
         scan.age_s = None;
         scan.ranges_m.clear();

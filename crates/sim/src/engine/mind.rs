@@ -22,7 +22,7 @@ pub(crate) struct Mind {
 impl Mind {
     pub(crate) fn new(kind: &Kind) -> Self {
         Self {
-            brain: kind.mind.clone(),
+            brain: kind.brain.clone(),
             wanted: Motion::default(),
             sensors_off: 0,
             backlog: kind.needs_backlog().then(|| Box::new(Backlog::new(kind))),

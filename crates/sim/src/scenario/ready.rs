@@ -11,8 +11,7 @@ use crate::world::obstacles::Solid;
 use crate::world::still::{Stands, Wall};
 use crate::world::terrain::{Area, Going, Terrain};
 use base::geometry::{Disc, Point, Rectangle, Segment};
-use brain::{Body, BrainSpec, RobotId};
-use std::sync::Arc;
+use brain::{Brain, RobotId};
 
 /// What is near a robot is looked up with so much more reach than is needed, in metres; that holds
 /// until a robot has gone half of it.
@@ -150,11 +149,10 @@ impl Scenario {
         self.items.iter().map(|kind| kind.name.as_str())
     }
 
-    /// What the brains of a kind of robots are, and what they know of their bodies.
+    /// The brain with which robots of a kind begin.
     #[must_use]
-    pub fn mind_of(&self, kind: u8) -> Option<(&Arc<BrainSpec>, &Arc<Body>)> {
-        let kind = self.kinds.get(usize::from(kind))?;
-        Some((&kind.brain, &kind.body))
+    pub fn brain(&self, kind: u8) -> Option<&Brain> {
+        self.kinds.get(usize::from(kind)).map(|kind| &kind.brain)
     }
 
     /// The name of a robot's kind.

@@ -120,7 +120,7 @@ impl WithSimd for RingLook<'_> {
             near,
             to,
         } = self;
-        ring.rays.cast(simd, eye.front, near, ring.range_m, to);
+        ring.rays.cast(simd, (eye.front, ring.range_m), near, to);
         if ring.false_echo > 0.0 {
             ring.invent(eye, to);
         }

@@ -3,6 +3,9 @@
 use super::grid::{NearCells, Still};
 use base::geometry::{Disc, Point, Rectangle, Segment};
 
+/// What is nearer to a wall than this share of a way to it is on the wall.
+const HAIR: f64 = 1e-9;
+
 /// A straight side of something solid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Wall {
@@ -158,7 +161,8 @@ impl Stands {
 }
 
 impl Wall {
-    /// Whether a way from `from` goes through the wall, from either side.
+    /// Whether a way from `from` goes through the wall, from either side; a way that begins or ends
+    /// on it does not.
     fn crosses(&self, from: Point, way: Point) -> bool {
         let offset = from.to(self.start);
         let across = way.cross(self.along);
@@ -167,7 +171,7 @@ impl Wall {
         }
         let share = offset.cross(self.along) / across;
         let place = offset.cross(way) / across;
-        (0.0..=1.0).contains(&share) && (0.0..=self.length).contains(&place)
+        (HAIR..=1.0 - HAIR).contains(&share) && (0.0..=self.length).contains(&place)
     }
 }
 
@@ -179,3 +183,6 @@ fn crosses(disc: &Disc, from: Point, way: Point) -> bool {
     .distance_m(disc.centre)
         < disc.radius_m
 }
+
+#[cfg(test)]
+mod tests;
