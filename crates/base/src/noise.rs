@@ -11,7 +11,7 @@
 
 use crate::philox::{Blocks, LANES, blocks};
 use crate::random::{Entity, Purpose, stream};
-use rand_philox::Philox;
+use rand_philox::philox4x32_10;
 use std::f64::consts::{FRAC_PI_2, LN_2};
 
 /// Things that are dealt words together: one for each word of so many blocks.
@@ -46,9 +46,9 @@ impl Noise {
     #[must_use]
     #[inline]
     pub fn words(self, use_of: u32, time: u64, index: u32) -> [u32; 4] {
-        let counter = (u128::from(time) << 64) | (u128::from(use_of) << 32) | u128::from(index);
-        let mut stream = Philox::new(self.key, counter);
-        std::array::from_fn(|_| stream.next_u32())
+        #[expect(clippy::cast_possible_truncation, reason = "two halves")]
+        let [low, high] = [time as u32, (time >> 32) as u32];
+        philox4x32_10([index, use_of, low, high], self.key)
     }
 
     /// A word for each of [`HAND`] things, the `hand`-th so many: for the thing `lane` of row `row`

@@ -154,7 +154,7 @@ impl Ring {
             };
             let is_beside = (from > chord.beside_m[0]) & (to > chord.beside_m[1]);
             let is_far = (from > far_m) & (to > far_m);
-            let least_m = lesser(self.within_m(from), self.within_m(to)) * chord.nearest_share;
+            let least_m = lesser(lesser(from, to), self.range_m) * chord.nearest_share;
             let counts = is_far & !is_beside;
             let squared_m2 = if counts {
                 least_m * least_m
