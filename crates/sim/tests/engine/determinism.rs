@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Everything that a step can share out: rays, radios, items, contacts, two layers.
-fn crowd(robots: u32, side_m: f64) -> String {
+pub(crate) fn crowd(robots: u32, side_m: f64) -> String {
     let birds = robots / 5;
     let rovers = robots - birds;
     format!(
@@ -37,7 +37,7 @@ fn crowd(robots: u32, side_m: f64) -> String {
 }
 
 /// Every seventh robot speaks, and every eleventh is steered by hand.
-fn commands(simulation: &Simulation, step: u32) -> BTreeMap<RobotId, Command> {
+pub(crate) fn commands(simulation: &Simulation, step: u32) -> BTreeMap<RobotId, Command> {
     let told = |(number, robot): (u32, RobotId)| {
         let mut command = Command::default();
         if (number + step) % 7 == 0 {
