@@ -6,8 +6,8 @@ RUST := $(shell find crates/*/src crates/*/Cargo.toml) Cargo.toml Cargo.lock
 # maturin, and what it starts, are found in the environment.
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 
-.PHONY: help study test bench bench-store verify-selection fuzz schemas picture replication \
-	validation lint rust-test python-test clean
+.PHONY: help study test bench bench-store verify-selection fuzz golden schemas picture \
+	replication validation lint rust-test python-test clean
 
 help: ## Say what can be made
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "%-17s %s\n", $$1, $$2 }' Makefile
@@ -46,6 +46,10 @@ verify-selection: ## Does the race keep its guarantee? 20,000 macro-replications
 validation: .venv/installed ## Measure and draw docs/validation.md anew
 	RENEW_VALIDATION=1 cargo test --locked -p agent-economy-sim --test validation
 	$(BIN)/python scripts/validation.py
+
+golden: ## Runs of the metric engine are the same bytes from a debug and from a release build
+	cargo test --locked --profile dev -p agent-economy-sim --test engine golden
+	cargo test --locked --release -p agent-economy-sim --test engine golden
 
 replication: .venv/installed ## Recompute every figure of docs/replication.md
 	$(BIN)/python scripts/replication.py

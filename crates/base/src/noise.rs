@@ -103,7 +103,8 @@ pub fn normal_pairs(words: [&[u32; LANES]; 2]) -> [[f64; LANES]; 2] {
 fn on_circle(word: u32) -> [f64; 2] {
     let x = ((whole(word & 0x3FFF_FFFF) + 0.5) * QUARTER - 0.5) * FRAC_PI_2;
     let square = x * x;
-    let sine = 1.0 / 362_880.0;
+    let sine = -1.0 / 39_916_800.0;
+    let sine = sine * square + 1.0 / 362_880.0;
     let sine = sine * square - 1.0 / 5_040.0;
     let sine = sine * square + 1.0 / 120.0;
     let sine = sine * square - 1.0 / 6.0;

@@ -147,7 +147,7 @@ impl ItemDetector {
             if !self.sector.holds(way) || self.is_hidden(eye, *place) {
                 continue;
             }
-            let words = eye.words(Use::Thing, *number);
+            let words = eye.words(Use::Thing, items.thing(*number));
             if share(words[0]) < detection.probability(way.length()) {
                 give(blurred(way, self.noise_m, words), kind, Some(*number));
             }

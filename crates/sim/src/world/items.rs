@@ -59,17 +59,24 @@ pub(crate) struct Item {
 pub(crate) struct Items {
     places: Vec<Point>,
     kinds: Vec<u16>,
+    /// For which thing a look at it draws: its kind and its place within it.
+    things: Vec<u32>,
     /// The step at which it was found.
     found: Vec<Option<u64>>,
     buckets: Buckets,
 }
 
 impl Items {
+    #[expect(clippy::cast_possible_truncation, reason = "items have 32-bit numbers")]
     pub(crate) fn new(places: Vec<Point>, kinds: Vec<u16>, size_m: Point, reach_m: f64) -> Self {
         let mut buckets = Buckets::new(size_m, reach_m);
         buckets.fill(places.iter().copied());
+        let first = |kind: u16| kinds.partition_point(|other| *other < kind);
+        let thing =
+            |(number, kind): (u32, &u16)| (u32::from(*kind) << 20) + number - first(*kind) as u32;
         Self {
             found: vec![None; places.len()],
+            things: (0..).zip(&kinds).map(thing).collect(),
             places,
             kinds,
             buckets,
@@ -127,6 +134,12 @@ impl Items {
         let is_new = found.is_none();
         found.get_or_insert(tick);
         is_new
+    }
+
+    /// What a look at an item draws for: the same whatever items of other kinds there are.
+    #[inline]
+    pub(crate) fn thing(&self, number: u32) -> u32 {
+        self.things[number as usize]
     }
 
     #[inline]

@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Everything that a step can share out: rays, radios, items, contacts, two layers.
-fn crowd(robots: u32, side_m: f64) -> String {
+pub(crate) fn crowd(robots: u32, side_m: f64) -> String {
     let birds = robots / 5;
     let rovers = robots - birds;
     format!(
@@ -37,7 +37,7 @@ fn crowd(robots: u32, side_m: f64) -> String {
 }
 
 /// Every seventh robot speaks, and every eleventh is steered by hand.
-fn commands(simulation: &Simulation, step: u32) -> BTreeMap<RobotId, Command> {
+pub(crate) fn commands(simulation: &Simulation, step: u32) -> BTreeMap<RobotId, Command> {
     let told = |(number, robot): (u32, RobotId)| {
         let mut command = Command::default();
         if (number + step) % 7 == 0 {
@@ -242,6 +242,33 @@ fn a_robot_more_or_a_kind_more_changes_nothing_for_the_others_at_first() {
     assert_eq!(perceived(&field(40, "")).0, alone.0);
     assert_eq!(perceived(&field(6, kind)), alone);
     assert_eq!(perceived(&field(6, items)).1, alone.1);
+}
+
+/// Looks at an item draw for its kind and index, so that they do not depend on other kinds' counts.
+#[test]
+fn more_items_of_one_kind_change_no_look_at_another() {
+    let field = |mines: u32| {
+        format!(
+            "[clock]\ncap_s = 100\n[world]\nsize_m = [20, 20]\n[items.mine]\ncount = {mines}\n\
+             [items.stone]\ncount = 9\nsought = false\n[robots.rover]\ncount = 1\nradius_m = 0.3\n\
+             drive = {{ max_speed_m_s = 0, max_turn_rate_deg_s = 0 }}\n\
+             [robots.rover.sensors.eye]\nkind = \"items\"\nrange_m = 50\nnoise_m = 1\n\
+             detects = {{ mine = 0.5, stone = 0.5 }}\n"
+        )
+    };
+    let seen = |mines: u32| {
+        let mut simulation = start(&field(mines));
+        let mut stones = Vec::new();
+        for _ in 0..50 {
+            let contacts = simulation.percept(id(0, 0)).unwrap().unwrap().contacts;
+            stones.extend(contacts.into_iter().filter(|contact| contact.kind == 1));
+            simulation.step();
+        }
+        stones.sort_by(|one, other| one.range_m.total_cmp(&other.range_m));
+        stones
+    };
+    assert!(seen(3).len() > 100);
+    assert_eq!(seen(3), seen(5));
 }
 
 #[test]

@@ -17,6 +17,7 @@ mod collisions;
 mod common;
 mod contact;
 mod determinism;
+mod golden;
 mod judge;
 mod meetings;
 mod outside;

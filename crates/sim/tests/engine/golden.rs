@@ -1,0 +1,92 @@
+//! Hashes of runs that never change unless a commit says why.
+//!
+//! They are in golden.txt: a scenario, a step, and the hash of the state after it, for the first
+//! steps and the last. To renew them:
+//!
+//! ```text
+//! RENEW_GOLDEN=1 cargo test -p agent-economy-sim --test engine golden
+//! ```
+//!
+//! `make golden` holds builds with other optimisations against the same file.
+
+use crate::common::scenario;
+use crate::determinism::{commands, crowd};
+use base::document::Document;
+use sim::engine::Simulation;
+use sim::scenario::ScenarioSpec;
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use std::fs;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+const STEPS: u64 = 50;
+
+fn at(parts: &[&str]) -> PathBuf {
+    [env!("CARGO_MANIFEST_DIR")].iter().chain(parts).collect()
+}
+
+fn line(name: &str, simulation: &Simulation) -> String {
+    let state = simulation.state();
+    format!("{name} {} {:016x}\n", state.tick(), state.hash())
+}
+
+/// A run of a shipped scenario, to its end.
+fn shipped(name: &str) -> String {
+    let open = |file: &str| {
+        let file = at(&["../../scenarios", file]);
+        fs::read(file).map_err(|why| why.to_string())
+    };
+    let text = String::from_utf8(open(name).unwrap()).unwrap();
+    let document = Document::parse(name, &text).unwrap();
+    let checked = ScenarioSpec::read(&document, &open).unwrap();
+    let mut simulation = Simulation::new(Arc::new(checked.scenario), 1, 0).unwrap();
+    let mut lines = line(name, &simulation);
+    while !simulation.state().is_over(simulation.scenario()) {
+        simulation.step();
+        if simulation.state().tick() <= STEPS {
+            lines += &line(name, &simulation);
+        }
+    }
+    lines + &line(name, &simulation)
+}
+
+/// A run in which everything is in use: radios, beside what brains do, by hand.
+fn everything() -> String {
+    let mut simulation = Simulation::new(scenario(&crowd(100, 25.0)), 1, 0).unwrap();
+    let mut lines = String::new();
+    for step in 0..200 {
+        let told = commands(&simulation, step);
+        simulation.step_with(BTreeMap::new(), told).unwrap();
+        if simulation.state().tick() <= STEPS || step == 199 {
+            lines += &line("everything", &simulation);
+        }
+    }
+    lines
+}
+
+#[test]
+fn runs_are_the_same_bytes_as_ever() {
+    let mut found = String::new();
+    let mut names: Vec<String> = fs::read_dir(at(&["../../scenarios"]))
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort_unstable();
+    for name in names.iter().filter(|name| name.ends_with(".toml")) {
+        let text = fs::read_to_string(at(&["../../scenarios", name])).unwrap();
+        if text.contains("engine = \"metric\"") {
+            write!(found, "{}", shipped(name)).unwrap();
+        }
+    }
+    found += &everything();
+    let file = at(&["tests/engine/golden.txt"]);
+    if std::env::var_os("RENEW_GOLDEN").is_some() {
+        fs::write(&file, &found).unwrap();
+    }
+    let golden = fs::read_to_string(&file).unwrap();
+    for (found, golden) in found.lines().zip(golden.lines()) {
+        assert_eq!(found, golden, "the first step that is not as it was");
+    }
+    assert_eq!(found.lines().count(), golden.lines().count());
+}
