@@ -39,7 +39,7 @@ fn shipped(name: &str) -> String {
     };
     let text = String::from_utf8(open(name).unwrap()).unwrap();
     let document = Document::parse(name, &text).unwrap();
-    let checked = ScenarioSpec::read(&document, &open).unwrap();
+    let checked = ScenarioSpec::read_with(&document, open).unwrap();
     let mut simulation = Simulation::new(Arc::new(checked.scenario), 1, 0).unwrap();
     let mut lines = line(name, &simulation);
     while !simulation.state().is_over(simulation.scenario()) {
