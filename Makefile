@@ -35,6 +35,7 @@ python-test: .venv/installed
 
 bench: ## Robot-decisions per second
 	cargo bench -p agent-economy-classic
+	cargo bench -p agent-economy-brain
 
 bench-store: .venv/installed ## Rows a second into a study's store, and bytes a row
 	$(BIN)/python scripts/store_speed.py

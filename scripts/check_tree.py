@@ -67,9 +67,11 @@ def brain_faults() -> list[str]:
     library = ROOT / "crates/brain/src/lib.rs"
     if NO_STD not in library.read_text(encoding="utf-8"):
         faults.append(f"crate brain must have {NO_STD}")
-    for file in library.parent.rglob("*.rs"):
-        if re.search(r"\bextern crate std\b", file.read_text(encoding="utf-8")):
-            faults.append(f"{file.relative_to(ROOT)}: a brain must not use std")
+    faults += [
+        f"{file.relative_to(ROOT)}: a brain must not use std"
+        for file in library.parent.rglob("*.rs")
+        if re.search(r"\bextern crate std\b", file.read_text(encoding="utf-8"))
+    ]
     brain = next(each for each in packages() if each["name"] == "agent-economy-brain")
     used = {each["name"] for each in brain["dependencies"] if each["kind"] != "dev"}
     return faults + [f"crate brain must not use {each}" for each in used - BRAIN_USES]

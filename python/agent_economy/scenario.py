@@ -233,6 +233,34 @@ class Scenario:
         """
         return _core.read_configuration(self.source, dict(values))
 
+    def metric(self) -> _core.MetricScenario:
+        """Return what a run of the metric engine needs.
+
+        Raises:
+            InputError: If the scenario is of another engine.
+        """
+        if self.engine != "metric":
+            message = (
+                f"{self.source.file}: engine = {self.engine!r}: must be 'metric': others have no "
+                "brains and no runs stepped by hand; see agent_economy.classic.trace"
+            )
+            raise InputError(message)
+        return _core.read_metric(self.source)
+
+
+def loaded(given: Scenario | str | Path) -> Scenario:
+    """Return a scenario that is given, or read the one of a file or a name, as `load` does.
+
+    Raises:
+        InputError: If it is none of these, or wrong; all faults at once.
+    """
+    if isinstance(given, Scenario):
+        return given
+    if isinstance(given, str | Path):
+        return Scenario.load(given)
+    message = f"scenario = {given!r}: must be a Scenario, a file, or the name of one that ships"
+    raise InputError(message)
+
 
 def factor(fields: dict[str, Any]) -> Factor:
     """Return a factor as the compiled part read it."""

@@ -83,13 +83,14 @@ impl Brain {
     fn motion(&mut self, percept: &Percept) -> Motion {
         let Kind { body, sight, .. } = &*self.kind;
         let turned_rad = self.moved.take_in(percept, body);
+        let now_m_s = self.moved.now_m_s(percept, body);
         let senses = Senses {
             percept,
             body,
             rings: &sight.rings,
-            ahead: sight.ahead(percept, body, &self.moved),
-            speed_m_s: self.moved.speed_m_s(percept, body, 1.0),
+            ahead: sight.ahead(percept, body, now_m_s),
             turned_rad,
+            now_m_s,
         };
         let wanted = arbitrate(&self.kind.behaviours, &mut self.layers, &senses);
         let mut motion = possible(wanted, body);

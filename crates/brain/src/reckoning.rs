@@ -27,24 +27,19 @@ pub(crate) struct Reckoning {
 }
 
 impl Reckoning {
-    /// At most so fast it now goes ahead (or backwards, with a `way` of -1), in m/s.
+    /// At most so fast it now goes, in m/s; negative if backwards. What it was told, or what the
+    /// wheels say if that is more.
     #[inline]
-    pub(crate) fn speed_m_s(&self, percept: &Percept, body: &Body, way: f64) -> f64 {
-        let wheels = percept
-            .motion
-            .map_or(0.0, |motion| motion.value.speed_m_s * way);
-        let told = f64::from(self.speed_m_s) * way;
-        // `max` also turns nonsense from the wheels into nothing.
-        told.max(wheels).max(0.0).min(body.max_speed_m_s)
-    }
-
-    /// Whether it now goes ahead (1) or backwards (-1); if it stands, whether it is told to.
-    #[inline]
-    pub(crate) fn way(&self, percept: &Percept, body: &Body, told_m_s: f64) -> f64 {
-        let ahead_m_s = self.speed_m_s(percept, body, 1.0);
-        let back_m_s = self.speed_m_s(percept, body, -1.0);
-        let is_back = back_m_s > ahead_m_s || (told_m_s < 0.0 && ahead_m_s <= 0.0);
-        if is_back { -1.0 } else { 1.0 }
+    pub(crate) fn now_m_s(&self, percept: &Percept, body: &Body) -> f64 {
+        let told = f64::from(self.speed_m_s);
+        let most = body.max_speed_m_s;
+        match percept.motion {
+            // Nonsense is not more.
+            Some(wheels) if wheels.value.speed_m_s.abs() > told.abs() => {
+                wheels.value.speed_m_s.max(-most).min(most)
+            }
+            _ => told,
+        }
     }
 
     /// Angle by which it has turned within the last `age_s`.

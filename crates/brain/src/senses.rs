@@ -17,10 +17,10 @@ pub(crate) struct Senses<'s> {
     pub(crate) rings: &'s [Ring],
     /// What is seen straight ahead; `None` if nothing looks there or nothing came in.
     pub(crate) ahead: Option<Seen>,
-    /// At most so fast it goes ahead now.
-    pub(crate) speed_m_s: f64,
     /// Angle by which the body turned since the last step.
     pub(crate) turned_rad: f64,
+    /// At most so fast it now goes; negative if backwards.
+    pub(crate) now_m_s: f64,
 }
 
 impl Senses<'_> {
@@ -45,7 +45,7 @@ impl Senses<'_> {
     /// So far it still goes if it brakes now.
     #[inline]
     pub(crate) fn stopping_m(&self) -> f64 {
-        self.speed_m_s * self.speed_m_s / (2.0 * self.body.max_acceleration_m_s2)
+        self.now_m_s * self.now_m_s / (2.0 * self.body.max_acceleration_m_s2)
     }
 
     /// Whether something stands nearer ahead than `near_m`, to one who has gone straight for
@@ -64,16 +64,16 @@ impl Senses<'_> {
             .is_some_and(|touch| touch.value && touch.age_s <= since_s - LEAVING_S)
     }
 
-    /// Fresh scans: the ring, its ranges, and what a behaviour knows of the ring.
+    /// Fresh scans: the ranges, and what a behaviour knows of the ring.
     #[inline]
     pub(crate) fn scans_with<'a, T>(
         &'a self,
         known: &'a [T],
-    ) -> impl Iterator<Item = (&'a Ring, &'a [f64], &'a T)> {
+    ) -> impl Iterator<Item = (&'a [f64], &'a T)> {
         let rings = self.rings.iter().zip(&self.percept.scans).zip(known);
         rings.filter_map(|((ring, scan), known)| {
             let (_, ranges_m) = ring.fresh(Some(scan))?;
-            Some((ring, ranges_m, known))
+            Some((ranges_m, known))
         })
     }
 

@@ -11,8 +11,9 @@
 use crate::body::Body;
 use crate::command::Motion;
 use crate::percept::Percept;
-use crate::rays::{Lane, Ring, Sector};
+use crate::rays::Ring;
 use crate::reckoning::Reckoning;
+use crate::sector::Sector;
 use crate::senses::Senses;
 use alloc::vec::Vec;
 use core::f64::consts::{FRAC_PI_2, PI};
@@ -33,7 +34,7 @@ pub(crate) struct Seen {
 #[derive(Debug, Clone)]
 pub(crate) struct Sight {
     pub(crate) rings: Vec<Ring>,
-    lane: Lane,
+    half_width_m: f64,
 
     looks_ahead: bool,
     looks_behind: bool,
@@ -43,11 +44,11 @@ pub(crate) struct Sight {
 
 impl Sight {
     pub(crate) fn new(body: &Body) -> Self {
-        let rings = body.rings.iter();
-        let rings: Vec<Ring> = rings.map(|ring| Ring::new(ring, body.period_s)).collect();
         let half_width_m = body.radius_m * (1.0 + ROOM);
+        let ring = |ring| Ring::new(ring, half_width_m, body.period_s);
+        let rings: Vec<Ring> = body.rings.iter().map(ring).collect();
         Self {
-            lane: Lane::new(half_width_m),
+            half_width_m,
             looks_ahead: rings.iter().any(|ring| ring.looks_ahead),
             looks_behind: rings.iter().any(|ring| ring.looks_behind),
             rings,
@@ -57,29 +58,29 @@ impl Sight {
 
     /// What is seen straight ahead.
     #[inline]
-    pub(crate) fn ahead(&self, percept: &Percept, body: &Body, moved: &Reckoning) -> Option<Seen> {
-        let speed_m_s = moved.speed_m_s(percept, body, 1.0);
+    pub(crate) fn ahead(&self, percept: &Percept, body: &Body, now_m_s: f64) -> Option<Seen> {
         let free = |ring: &Ring, _, ranges_m: &[f64]| {
             let looks = ring.looks_ahead;
-            looks.then(|| ring.free_ahead_m(ranges_m, &self.lane))
+            looks.then(|| ring.free_ahead_m(ranges_m))
         };
-        self.seen(percept, body, speed_m_s, free)
+        self.seen(percept, body, now_m_s.max(0.0), free)
     }
 
     /// What sight allows of a motion; in a direction in which the body has no range sensor it is
     /// blind, and not limited.
     #[inline]
     pub(crate) fn limited(&self, wanted: Motion, senses: &Senses, moved: &Reckoning) -> Motion {
-        let Senses { percept, body, .. } = *senses;
-        let way = moved.way(percept, body, wanted.speed_m_s);
+        let Senses { body, now_m_s, .. } = *senses;
+        let goes_back = now_m_s < 0.0 || (now_m_s == 0.0 && wanted.speed_m_s < 0.0);
+        let way = if goes_back { -1.0 } else { 1.0 };
         let looks = if way > 0.0 {
             self.looks_ahead
         } else {
             self.looks_behind
         };
-        let now_m_s = moved.speed_m_s(percept, body, way);
+        let now_m_s = now_m_s.abs();
         let wanted_m_s = (wanted.speed_m_s * way).max(0.0);
-        if !looks || now_m_s.max(wanted_m_s) == 0.0 {
+        if !looks || (now_m_s == 0.0 && wanted_m_s == 0.0) {
             return wanted;
         }
         let seen = self.on_the_way(wanted, way, senses, moved);
@@ -109,6 +110,7 @@ impl Sight {
             percept,
             body,
             ahead,
+            now_m_s,
             ..
         } = *senses;
         let goes_straight = wanted.turn_rate_rad_s == 0.0
@@ -117,7 +119,7 @@ impl Sight {
         if goes_straight {
             return ahead;
         }
-        let now_m_s = moved.speed_m_s(percept, body, way);
+        let now_m_s = now_m_s.abs();
         let fastest_m_s = now_m_s.max(wanted.speed_m_s.abs());
         let turning_s = body.period_s + 2.0 * self.stopping_s2_m * fastest_m_s;
         self.seen(percept, body, now_m_s, |ring, age_s, ranges_m| {
@@ -152,7 +154,7 @@ impl Sight {
             let Some(free_m) = free_m(ring, age_s, ranges_m) else {
                 continue;
             };
-            let free_m = free_m - self.lane.half_width_m - gone_m(body, speed_m_s, age_s);
+            let free_m = free_m - self.half_width_m - gone_m(body, speed_m_s, age_s);
             let so_far = nearest.unwrap_or(Seen { free_m, age_s });
             nearest = Some(Seen {
                 free_m: free_m.min(so_far.free_m),
@@ -175,7 +177,7 @@ impl Sight {
             (least + over, most)
         };
         let back_rad = if way < 0.0 { PI } else { 0.0 };
-        Sector::new(back_rad + least, back_rad + most, self.lane.half_width_m)
+        Sector::new(back_rad + least, back_rad + most, self.half_width_m)
     }
 
     /// The most, up to `wanted_m_s`, at which it can stop within `free_m` if it goes at `now_m_s`.
@@ -312,13 +314,14 @@ mod tests {
             walk.wiring = wiring;
             for _ in 0..300 {
                 let percept = walk.percept();
+                let now_m_s = moved.now_m_s(&percept, &body);
                 let senses = super::Senses {
                     percept: &percept,
                     body: &body,
                     rings: &sight.rings,
-                    ahead: sight.ahead(&percept, &body, &moved),
-                speed_m_s: moved.speed_m_s(&percept, &body, 1.0),
+                    ahead: sight.ahead(&percept, &body, now_m_s),
                     turned_rad: 0.0,
+                    now_m_s,
                 };
                 let wanted = Motion { speed_m_s: body.max_speed_m_s, turn_rate_rad_s: rate };
                 let motion = sight.limited(wanted, &senses, &moved);

@@ -179,13 +179,14 @@ mod tests {
         for _ in 0..600 {
             let percept = walk.percept();
             let turned_rad = moved.take_in(&percept, &body);
+            let now_m_s = moved.now_m_s(&percept, &body);
             let senses = Senses {
                 percept: &percept,
                 body: &body,
                 rings: &sight.rings,
-                ahead: sight.ahead(&percept, &body, &moved),
-                speed_m_s: moved.speed_m_s(&percept, &body, 1.0),
+                ahead: sight.ahead(&percept, &body, now_m_s),
                 turned_rad,
+                now_m_s,
             };
             let wanted = arbitrate(&behaviours, &mut layers, &senses);
             let motion = sight.limited(wanted, &senses, &moved);
@@ -262,8 +263,8 @@ mod tests {
                 body: &body,
                 rings: &[],
                 ahead: None,
-                speed_m_s: 0.0,
                 turned_rad: 0.0,
+                now_m_s: 0.0,
             };
             arbitrate(&bells, &mut layers, &senses).speed_m_s
         })

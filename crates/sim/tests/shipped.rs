@@ -1,5 +1,7 @@
 //! The scenarios that come with the program.
 
+#![expect(clippy::unwrap_used, reason = "a test may panic")]
+
 use base::document::{Document, Value};
 use sim::scenario::ScenarioSpec;
 use sim::scenario::models::Model;

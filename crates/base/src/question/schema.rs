@@ -3,40 +3,57 @@
 //! Their faults are told by the sections that read them, which know what else there is: what can be
 //! varied, and what a figure of merit can weigh.
 
-use super::MAX_CAP_S;
-use super::merit::{MAX_MAX, MAX_WEIGHT, NamedMerit};
+use super::merit::{MAX_MAX, MAX_WEIGHT};
 use super::study::CONFIDENCE;
-use serde_json::{Value as Json, json};
+use super::{Engine, MAX_CAP_S, Measure};
+use crate::document::Document;
+use serde_json::{Map, Value as Json, json};
 
-/// What a scenario of `engine` may say under the question's keys, with the figures of merit that
-/// have names.
+/// What a scenario of `engine` may say under the question's keys; what can be weighed may depend on
+/// the `document`.
 #[must_use]
-pub fn schema(engine: &str, merits: &[NamedMerit]) -> Json {
+pub fn schema(engine: &dyn Engine, document: &Document) -> Json {
     json!({
         "type": "object",
         "properties": {
             "engine": {
                 "description": "The simulator.",
-                "const": engine,
+                "const": engine.name(),
             },
             "summary": {
                 "description": "One line for people: what is done, by whom, for how long.",
                 "type": "string",
                 "minLength": 1,
             },
-            "merit": merit(merits),
+            "merit": merit(engine, document),
             "study": study(),
             "published": published(),
         },
         "required": ["engine", "summary", "merit"],
         "additionalProperties": false,
+        "definitions": { "Term": term() },
     })
 }
 
-fn merit(merits: &[NamedMerit]) -> Json {
-    let names: Vec<&str> = merits.iter().map(|merit| merit.name).collect();
+fn merit(engine: &dyn Engine, document: &Document) -> Json {
+    let names: Vec<&str> = engine.merits().iter().map(|merit| merit.name).collect();
+    let to_term = json!({ "$ref": "#/definitions/Term" });
+    let term = |measure: Measure| (measure.name.into_owned(), to_term.clone());
+    let terms: Map<String, Json> = engine.measures(document).into_iter().map(term).collect();
+    json!({
+        "description": "What a run is scored by; higher is better. A name, or weights of your own: \
+                        what a second, a robot and so on is worth, such as \
+                        `{ time = -0.03, robots = -0.2, failed = -5 }`.",
+        "anyOf": [
+            { "type": "string", "enum": names },
+            { "type": "object", "properties": terms, "additionalProperties": false },
+        ],
+    })
+}
+
+fn term() -> Json {
     let weight = json!({
-        "description": "What it weighs; below 0 for what is better small.",
+        "description": "The weight; below 0 for what is better small.",
         "type": "number",
         "minimum": -MAX_WEIGHT,
         "maximum": MAX_WEIGHT,
@@ -46,7 +63,8 @@ fn merit(merits: &[NamedMerit]) -> Json {
         "properties": {
             "weight": weight,
             "max": {
-                "description": "A value above this counts as this; a term without a bound of its own needs it.",
+                "description": "A value above this counts as this; a term without a bound of its \
+                                own needs it.",
                 "type": "number",
                 "minimum": 0,
                 "maximum": MAX_MAX,
@@ -56,13 +74,8 @@ fn merit(merits: &[NamedMerit]) -> Json {
         "additionalProperties": false,
     });
     json!({
-        "description": "What a run is scored by; higher is better. A name, or weights of your own: \
-                        what a second, a robot and so on is worth, such as \
-                        `{ time = -0.03, robots = -0.2, failed = -5 }`.",
-        "anyOf": [
-            { "type": "string", "enum": names },
-            { "type": "object", "additionalProperties": { "anyOf": [weight, capped] } },
-        ],
+        "description": "What a value of a run weighs.",
+        "anyOf": [weight, capped],
     })
 }
 

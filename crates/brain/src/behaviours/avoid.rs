@@ -1,9 +1,9 @@
 //! Getting out of the way of what is too near.
 
 use super::{ahead, half_sight_m};
-use crate::body::Body;
+use crate::body::{Body, RangeRing};
 use crate::command::Motion;
-use crate::rays::Ring;
+use crate::rays::sensible_m;
 use crate::senses::Senses;
 use crate::subsumption::Behaviour;
 use alloc::vec::Vec;
@@ -98,9 +98,10 @@ const CLEAR: Memory = Memory::Clear { since_s: 0.0 };
 impl Ready {
     pub(super) fn new(spec: &Avoid, body: &Body) -> Self {
         let half_rad = (spec.sector_deg / 2.0).to_radians();
-        let rings = body.rings.iter().map(|ring| Ring::new(ring, body.period_s));
-        let sides = rings
-            .map(|ring| [(0.0, half_rad), (-half_rad, 0.0)].map(|(a, b)| ring.rays_within(a, b)));
+        let rings = body.rings.iter();
+        let sides = rings.map(|ring| {
+            [(0.0, half_rad), (-half_rad, 0.0)].map(|bounds| rays_within(ring, bounds))
+        });
         let back_m_s = body.max_reverse_speed_m_s;
         let near_m = spec.near_m.min(half_sight_m(body));
         Self {
@@ -118,6 +119,26 @@ impl Ready {
             sides: sides.collect(),
         }
     }
+}
+
+/// The shortest range of some rays; infinite if there are none.
+#[inline]
+fn shortest_m(ranges_m: &[f64], rays: &[usize]) -> f64 {
+    let mut shortest_m = f64::INFINITY;
+    for ray in rays {
+        let length_m = sensible_m(ranges_m.get(*ray).copied().unwrap_or_default());
+        if length_m < shortest_m {
+            shortest_m = length_m;
+        }
+    }
+    shortest_m
+}
+
+/// The rays with bearings within some bounds.
+fn rays_within(ring: &RangeRing, (least_rad, most_rad): (f64, f64)) -> Vec<usize> {
+    let rays = ring.bearings_rad.iter().enumerate();
+    let within = rays.filter(|(_, bearing)| (least_rad..=most_rad).contains(bearing));
+    within.map(|(ray, _)| ray).collect()
 }
 
 impl Behaviour for Ready {
@@ -260,9 +281,9 @@ impl Ready {
     #[inline]
     fn nearest_m(&self, senses: &Senses) -> [f64; 2] {
         let mut nearest_m = [f64::INFINITY; 2];
-        for (ring, ranges_m, [left, right]) in senses.scans_with(&self.sides) {
-            nearest_m[0] = ring.shortest_m(ranges_m, left).min(nearest_m[0]);
-            nearest_m[1] = ring.shortest_m(ranges_m, right).min(nearest_m[1]);
+        for (ranges_m, [left, right]) in senses.scans_with(&self.sides) {
+            nearest_m[0] = shortest_m(ranges_m, left).min(nearest_m[0]);
+            nearest_m[1] = shortest_m(ranges_m, right).min(nearest_m[1]);
         }
         nearest_m.map(|nearest_m| nearest_m - senses.body.radius_m)
     }

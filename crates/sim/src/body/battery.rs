@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct BatterySpec {
     /// Energy when full, in joules; left out, it never empties and is only counted.
-    #[schemars(range(min = 0.0, max = 1e12))]
+    #[schemars(range(min = 0.001, max = 1e12))]
     pub capacity_j: Option<f64>,
     /// Power of the computer and all else that is always on, in watts.
     #[serde(default)]

@@ -8,6 +8,10 @@ use super::path::Path;
 use crate::world::still::Wall;
 use base::geometry::{Disc, Point};
 
+/// How far a point may pass beside a wall's end and still meet it, in metres: none slips through
+/// where two walls meet.
+const CRACK_M: f64 = 1e-9;
+
 /// The share of `way` after which a point at `from` comes within `radius_m` of the origin.
 #[inline]
 fn meets_origin(from: Point, way: Point, radius_m: f64) -> Option<f64> {
@@ -38,7 +42,7 @@ fn meets_wall(from: Point, way: Point, radius_m: f64, wall: &Wall) -> Option<f64
         .then(|| (gap / closing).max(0.0))
         .filter(|share| {
             let foot = offset.dot(wall.along) + share * way.dot(wall.along);
-            *share <= 1.0 && (0.0..=wall.length).contains(&foot)
+            *share <= 1.0 && (-CRACK_M..=wall.length + CRACK_M).contains(&foot)
         });
     let at_start = meets_origin(offset, way, radius_m);
     let at_end = meets_origin(wall.end().to(from), way, radius_m);
@@ -54,8 +58,8 @@ fn earliest<const N: usize>(shares: [Option<f64>; N]) -> Option<f64> {
 pub(crate) fn meets_still<'a>(
     path: &Path,
     radius_m: f64,
-    walls: impl Iterator<Item = &'a Wall> + Clone,
-    discs: impl Iterator<Item = &'a Disc> + Clone,
+    walls: &(impl Iterator<Item = &'a Wall> + Clone),
+    discs: &(impl Iterator<Item = &'a Disc> + Clone),
 ) -> Option<f64> {
     let chords = path.chords();
     (0..chords).find_map(|chord| {

@@ -24,6 +24,7 @@ pub struct DriveSpec {
 
 /// A drive's limits, as the step needs them.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[expect(clippy::struct_field_names, reason = "they are limits")]
 pub(crate) struct Drive {
     pub(crate) max_speed_m_s: f64,
     pub(crate) max_reverse_speed_m_s: f64,
@@ -51,9 +52,7 @@ impl Drive {
     /// factor on the greatest speeds. Nothing that is not a number is wanted.
     #[inline]
     pub(crate) fn step(&self, speed_m_s: f64, wanted: Motion, terrain: f64, step_s: f64) -> Driven {
-        let least = -self.max_reverse_speed_m_s * terrain;
-        let most = self.max_speed_m_s * terrain;
-        let after = or_zero(wanted.speed_m_s).max(least).min(most);
+        let after = self.possible(or_zero(wanted.speed_m_s), terrain);
         let most_turn = self.max_turn_rate_rad_s;
         let turn_rate_rad_s = or_zero(wanted.turn_rate_rad_s)
             .max(-most_turn)
@@ -73,8 +72,18 @@ impl Drive {
         Driven {
             speed_m_s: after,
             turn_rate_rad_s,
-            length_m: (speed_m_s + after) / 2.0 * step_s,
+            length_m: f64::midpoint(speed_m_s, after) * step_s,
         }
+    }
+}
+
+impl Drive {
+    /// The nearest speed that it has where `terrain` is a factor on the greatest.
+    #[inline]
+    pub(crate) fn possible(&self, speed_m_s: f64, terrain: f64) -> f64 {
+        let least = -self.max_reverse_speed_m_s * terrain;
+        let most = self.max_speed_m_s * terrain;
+        speed_m_s.max(least).min(most)
     }
 }
 
@@ -98,4 +107,100 @@ impl Driven {
 
 fn or_zero(value: f64) -> f64 {
     if value.is_nan() { 0.0 } else { value }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    const ROVER: Drive = Drive {
+        max_speed_m_s: 2.0,
+        max_reverse_speed_m_s: 1.0,
+        max_acceleration_m_s2: 4.0,
+        max_turn_rate_rad_s: 1.5,
+    };
+
+    fn motion(speed_m_s: f64, turn_rate_rad_s: f64) -> Motion {
+        Motion {
+            speed_m_s,
+            turn_rate_rad_s,
+        }
+    }
+
+    /// Distance gone with so many steps until the body stands.
+    fn stopping_m(drive: &Drive, speed_m_s: f64, step_s: f64) -> f64 {
+        let (mut speed, mut way) = (speed_m_s, 0.0);
+        while speed != 0.0 {
+            let driven = drive.step(speed, Motion::default(), 1.0, step_s);
+            (speed, way) = (driven.speed_m_s, way + driven.length_m);
+        }
+        way
+    }
+
+    #[test]
+    fn the_stopping_distance_is_that_of_the_closed_form_for_any_step() {
+        for step_s in [0.001, 0.07, 0.1, 0.3, 2.0] {
+            // v^2 / (2 a), ahead and backwards.
+            assert!(
+                (stopping_m(&ROVER, 2.0, step_s) - 0.5).abs() < 1e-12,
+                "{step_s}"
+            );
+            assert!(
+                (stopping_m(&ROVER, -1.0, step_s) + 0.125).abs() < 1e-12,
+                "{step_s}"
+            );
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn the_way_is_the_integral_of_the_speed(
+            speed in -1.0..2.0, wanted in -3.0..3.0, terrain in 0.0..3.0, step in 0.01..2.0,
+        ) {
+            let driven = ROVER.step(speed, motion(wanted, 0.0), terrain, step);
+            let (parts, mut now, mut way) = (20_000, speed, 0.0);
+            let target = wanted.clamp(-terrain, 2.0 * terrain);
+            let part_s = step / f64::from(parts);
+            for _ in 0..parts {
+                let next = now + (target - now).clamp(-4.0 * part_s, 4.0 * part_s);
+                way += (now + next) / 2.0 * part_s;
+                now = next;
+            }
+            prop_assert!((driven.speed_m_s - now).abs() < 1e-9);
+            prop_assert!((driven.length_m - way).abs() < 1e-6, "{} {way}", driven.length_m);
+        }
+
+        #[test]
+        fn a_drive_keeps_its_limits_whatever_is_wanted(
+            speed: f64, turn: f64, now in -1.0..2.0, step in 0.001..10.0,
+        ) {
+            let driven = ROVER.step(now, motion(speed, turn), 1.0, step);
+            prop_assert!((-1.0..=2.0).contains(&driven.speed_m_s));
+            prop_assert!((driven.speed_m_s - now).abs() <= 4.0 * step + 1e-12);
+            prop_assert!(driven.turn_rate_rad_s.abs() <= 1.5);
+            prop_assert!((-step..=2.0 * step).contains(&driven.length_m));
+        }
+    }
+
+    #[test]
+    fn without_a_limit_speed_changes_at_once() {
+        let drive = Drive {
+            max_acceleration_m_s2: f64::INFINITY,
+            ..ROVER
+        };
+        let driven = drive.step(-1.0, motion(2.0, 0.5), 1.0, 0.1);
+        assert_eq!(driven.speed_m_s, 2.0);
+        assert_eq!(driven.length_m, 2.0 * 0.1);
+        assert_eq!(driven.turn_rate_rad_s, 0.5);
+    }
+
+    #[test]
+    fn nothing_that_is_not_a_number_is_wanted() {
+        let nan = motion(f64::NAN, f64::NAN);
+        assert_eq!(ROVER.step(0.0, nan, 1.0, 0.1), Driven::REST);
+        let infinite = motion(f64::NEG_INFINITY, f64::INFINITY);
+        let driven = ROVER.step(-1.0, infinite, 1.0, 0.1);
+        assert_eq!((driven.speed_m_s, driven.turn_rate_rad_s), (-1.0, 1.5));
+    }
 }

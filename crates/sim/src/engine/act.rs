@@ -47,6 +47,16 @@ pub(crate) enum Stop {
     Robot,
 }
 
+impl Stop {
+    /// Still this, or else by a robot that ran into it.
+    pub(crate) fn or_robot(self) -> Self {
+        match self {
+            Self::Still => Self::Still,
+            Self::Nothing | Self::Robot => Self::Robot,
+        }
+    }
+}
+
 /// What comes of all robots' moves.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct Moved {
@@ -66,14 +76,15 @@ impl Moves {
     ) -> Moved {
         self.plans.resize(state.robots(), Plan::REST);
         share_out(&mut self.plans, is_shared, |robot, plan| {
-            *plan = planned(scenario, state, robot)
+            *plan = planned(scenario, state, neighbours, robot);
         });
         self.meetings
             .collect(&self.plans, &state.discs, neighbours, scenario.contact_m);
         let met = self.meetings.resolve(&mut self.plans, state, neighbours);
         let moved = go(&self.plans, scenario, state, is_shared);
         Moved {
-            collisions: moved.collisions + met,
+            // Each stops somebody who moves, but for those that begin at the very same time.
+            collisions: (moved.collisions + met).min(state.robots() as u64),
             ..moved
         }
     }
@@ -81,7 +92,7 @@ impl Moves {
 
 /// What a robot does if no other is in its way.
 #[inline]
-fn planned(scenario: &Scenario, state: &State, robot: usize) -> Plan {
+fn planned(scenario: &Scenario, state: &State, neighbours: &Neighbours, robot: usize) -> Plan {
     let (hull, disc, mind) = (
         &state.hulls[robot],
         &state.discs[robot],
@@ -107,10 +118,11 @@ fn planned(scenario: &Scenario, state: &State, robot: usize) -> Plan {
         turn_rad: driven.turn_rate_rad_s * scenario.step_s,
         until: 1.0,
     };
-    let meeting = (path.length_m != 0.0).then(|| {
+    let may_touch = path.length_m != 0.0 && neighbours.may_touch(robot);
+    let meeting = may_touch.then(|| {
         let stands = scenario.touched(kind.layer);
         let (walls, discs) = (stands.walls_near(path.start), stands.discs_near(path.start));
-        meets_still(&path, disc.radius_m, walls, discs)
+        meets_still(&path, disc.radius_m, &walls, &discs)
     });
     let meeting = meeting.flatten();
     path.until = meeting.unwrap_or(1.0);

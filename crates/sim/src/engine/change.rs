@@ -1,27 +1,43 @@
 //! Going on with another scenario in the middle of a run.
 
 use super::mind::Mind;
-use super::state::{NoRoom, State, draws, entity};
+use super::state::{Hull, NoRoom, State, draws, entity};
+use crate::body::Layer;
 use crate::body::kind::Kind;
 use crate::scenario::Scenario;
-use base::placement::{NoPlaceFor, Things};
+use crate::world::items::Item;
+use base::geometry::Disc;
+use base::placement::{NoPlace, NoPlaceFor, Things};
 use std::collections::BTreeMap;
 
+/// Whether a robot stands well where it is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Room {
+    /// It stands where it stood, among what stood there.
+    Same,
+    /// It stays, but it or the world has another shape: the place must still do.
+    Doubtful,
+    /// It comes in, and can start elsewhere.
+    Wanted,
+}
+
 impl State {
-    /// The run as it goes on with another scenario of the same step.
+    /// The run as it goes on with another scenario of the same step and the same world's size.
     ///
     /// Robots and items that are in both, by the names of their kinds and their indices, stay as
     /// they are; others come in where they would start, or go. A robot whose brain, body or sensors
-    /// are now others begins with a new mind. Messages on their way are lost if the team changes.
+    /// are now others begins with a new mind, and is at once no faster than its drive now allows.
+    /// Messages on their way are lost if the team changes. Random numbers go by the place of a kind
+    /// among the kinds: a new kind whose name comes before another's gives that others.
     ///
     /// # Errors
-    /// If there is no room for what comes in.
+    /// If there is no room for what comes in, or for what stays where something else now is.
     pub fn changed(&self, from: &Scenario, to: &Scenario) -> Result<Self, NoRoom> {
         let mut next = Self::new(to, self.seed, self.run)?;
         next.tick = self.tick;
-        let is_new = next.keep_robots(self, from, to);
-        next.make_room(to, &is_new)?;
-        next.keep_items(self, from, to);
+        let rooms = next.keep_robots(self, from, to);
+        next.make_room(to, &rooms)?;
+        next.keep_items(self, from, to)?;
         next.tally = self.tally;
         next.count_sought(to);
         if next.ids == self.ids {
@@ -30,83 +46,133 @@ impl State {
         Ok(next)
     }
 
-    /// Takes over robots that were there; returns for each robot whether it was not.
-    fn keep_robots(&mut self, before: &Self, from: &Scenario, to: &Scenario) -> Vec<bool> {
+    /// Takes over robots that were there.
+    fn keep_robots(&mut self, before: &Self, from: &Scenario, to: &Scenario) -> Vec<Room> {
         let old = before.ids.iter().enumerate();
         let old = old.map(|(robot, id)| ((from.name_of(*id), id.index), robot));
         let old: BTreeMap<(&str, u32), usize> = old.collect();
-        let mut is_new = vec![false; self.robots()];
-        for robot in 0..self.robots() {
+        let is_same_ground = from.solids() == to.solids();
+        let mut rooms = vec![Room::Wanted; self.robots()];
+        for (robot, room) in rooms.iter_mut().enumerate() {
             let id = self.ids[robot];
             let Some(&was) = old.get(&(to.name_of(id), id.index)) else {
-                is_new[robot] = true;
                 continue;
             };
-            self.discs[robot].centre = before.discs[was].centre;
-            self.courses[robot] = before.courses[was];
-            self.hulls[robot] = before.hulls[was];
             let old_kind = &from.kinds[usize::from(before.ids[was].kind)];
             let kind = &to.kinds[usize::from(id.kind)];
+            self.discs[robot].centre = before.discs[was].centre;
+            self.courses[robot] = before.courses[was];
+            let speed_m_s = kind
+                .drive
+                .possible(before.hulls[was].speed_m_s, to.fastest());
+            self.hulls[robot] = Hull {
+                speed_m_s,
+                ..before.hulls[was]
+            };
             self.minds[robot] = kept_mind(&before.minds[was], old_kind, kind);
+            let is_same =
+                kind.radius_m.total_cmp(&old_kind.radius_m).is_eq() && kind.layer == old_kind.layer;
+            let is_placed = self.hulls[robot].is_external || is_same_ground && is_same;
+            *room = if is_placed {
+                Room::Same
+            } else {
+                Room::Doubtful
+            };
         }
-        is_new
+        rooms
     }
 
     /// Puts robots that are new elsewhere where somebody is in their place by now.
-    fn make_room(&mut self, scenario: &Scenario, is_new: &[bool]) -> Result<(), NoRoom> {
+    fn make_room(&mut self, scenario: &Scenario, rooms: &[Room]) -> Result<(), NoRoom> {
         let draws = draws(scenario, self.seed, self.run, Things::Robots);
-        for robot in (0..self.robots()).filter(|robot| is_new[*robot]) {
-            let (id, radius_m) = (self.ids[robot], self.discs[robot].radius_m);
-            let kind = &scenario.kinds[usize::from(id.kind)];
-            let is_alone = |place| {
-                let others = self.discs.iter().zip(&self.ids).enumerate();
-                let mut others = others.filter(|(other, (_, id))| {
-                    *other != robot && scenario.kinds[usize::from(id.kind)].layer == kind.layer
-                });
-                others.all(|(_, (disc, _))| disc.distance_m(place) >= radius_m)
-            };
-            if !is_alone(self.discs[robot].centre) {
-                let is_free =
-                    |place| scenario.is_free(place, radius_m, kind.layer) && is_alone(place);
-                let place = kind.start.place(&draws, entity(id), is_free);
-                self.discs[robot].centre = place.map_err(|why| NoPlaceFor {
-                    kind: id.kind,
-                    index: id.index,
-                    why,
-                })?;
+        for (robot, room) in rooms.iter().enumerate() {
+            if *room == Room::Same {
+                continue;
             }
+            let (id, Disc { centre, radius_m }) = (self.ids[robot], self.discs[robot]);
+            let kind = &scenario.kinds[usize::from(id.kind)];
+            let others = self.discs.iter().zip(&self.ids).enumerate();
+            let others = others.filter(|(other, (_, id))| {
+                *other != robot && scenario.kinds[usize::from(id.kind)].layer == kind.layer
+            });
+            let is_free = |place| {
+                scenario.is_free(place, radius_m, kind.layer)
+                    && others.clone().all(|(_, (disc, _))| {
+                        disc.distance_m(place) >= radius_m - Scenario::TOLERANCE_M
+                    })
+            };
+            if is_free(centre) {
+                continue;
+            }
+            let place = match room {
+                Room::Wanted => kind.start.place(&draws, entity(id), is_free),
+                _ => Err(NoPlace::Taken),
+            };
+            self.discs[robot].centre = place.map_err(|why| NoPlaceFor {
+                kind: id.kind,
+                index: id.index,
+                why,
+            })?;
         }
         Ok(())
     }
 
-    fn keep_items(&mut self, before: &Self, from: &Scenario, to: &Scenario) {
-        let old = before.items.named(from);
-        let old: BTreeMap<_, _> = old.collect();
-        let kept = self
-            .items
-            .named(to)
-            .map(|(name, item)| (item.number, old.get(&name)));
-        let kept: Vec<_> = kept
-            .filter_map(|(number, item)| Some((number, *item?)))
-            .collect();
+    /// Takes over items that were there, and what robots are about to be told of them.
+    fn keep_items(&mut self, before: &Self, from: &Scenario, to: &Scenario) -> Result<(), NoRoom> {
+        let old: BTreeMap<_, _> = before.items.named(from).collect();
+        let named = self.items.named(to);
+        let kept = named.filter_map(|(name, item)| Some((item.number, *old.get(&name)?)));
+        let kept: Vec<(usize, Item)> = kept.collect();
         self.items.keep(&kept);
+        if from.solids() != to.solids() {
+            self.check_items(to)?;
+        }
+        let numbers: BTreeMap<usize, usize> =
+            kept.iter().map(|(now, item)| (item.number, *now)).collect();
+        for mind in &mut self.minds {
+            mind.renumber_items(&numbers);
+        }
+        Ok(())
+    }
+
+    /// Items lie where something else now stands.
+    fn check_items(&self, scenario: &Scenario) -> Result<(), NoRoom> {
+        let mut items = self.items.named(scenario);
+        let is_taken = |item: &Item| !scenario.is_free(item.place, 0.0, Layer::Ground);
+        let taken = items.find(|(_, item)| is_taken(item));
+        taken.map_or(Ok(()), |((name, index), _)| {
+            Err(no_room(scenario, name, index))
+        })
     }
 
     /// Counts the sought items that are left.
     fn count_sought(&mut self, scenario: &Scenario) {
-        let is_left = |(kind, found): &(u16, Option<u64>)| {
-            scenario.items[usize::from(*kind)].is_sought && found.is_none()
-        };
-        let left = self.items.each().filter(is_left).count();
+        let is_sought = |kind: u16| scenario.items[usize::from(kind)].is_sought;
+        let sought = self.items.each().filter(|(kind, _)| is_sought(*kind));
+        let found: Vec<Option<u64>> = sought.map(|(_, found)| found).collect();
+        let left = found.iter().filter(|found| found.is_none()).count();
         self.tally.sought_left = u32::try_from(left).unwrap_or(u32::MAX);
-        if left > 0 {
-            self.tally.complete_at = None;
-        }
+        // What is left out can complete a run, and what comes in can open it again.
+        let last = found.into_iter().flatten().max();
+        self.tally.complete_at = last.filter(|_| left == 0);
+    }
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "items have 32-bit numbers")]
+fn no_room(scenario: &Scenario, name: &str, index: usize) -> NoRoom {
+    let kinds = (0..).zip(&scenario.items);
+    let kind = kinds.into_iter().find(|(_, kind)| kind.name == name);
+    NoRoom::Item {
+        kind: kind.map_or(0, |(number, _)| number),
+        index: index as u32,
+        why: NoPlace::Taken,
     }
 }
 
 fn kept_mind(mind: &Mind, from: &Kind, to: &Kind) -> Mind {
-    let is_same = from.brain == to.brain && from.body == to.body && from.sensors == to.sensors;
+    let is_same = from.brain.spec() == to.brain.spec()
+        && from.brain.body() == to.brain.body()
+        && from.sensors == to.sensors;
     if is_same && from.needs_backlog() == to.needs_backlog() {
         mind.clone()
     } else {

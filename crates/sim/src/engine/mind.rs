@@ -4,7 +4,7 @@ use super::air::Sent;
 use crate::body::kind::Kind;
 use crate::sensing::{Measure, Sensor};
 use brain::{Brain, Contact, Heard, Motion, Neighbour, Percept, SensorRequest};
-use std::sync::Arc;
+use std::collections::BTreeMap;
 
 /// What decides for one robot.
 #[derive(Debug, Clone)]
@@ -22,14 +22,14 @@ pub(crate) struct Mind {
 impl Mind {
     pub(crate) fn new(kind: &Kind) -> Self {
         Self {
-            brain: Brain::new(Arc::clone(&kind.brain), Arc::clone(&kind.body)),
+            brain: kind.brain.clone(),
             wanted: Motion::default(),
             sensors_off: 0,
             backlog: kind.needs_backlog().then(|| Box::new(Backlog::new(kind))),
         }
     }
 
-    pub(crate) fn switch(&mut self, request: &SensorRequest) {
+    pub(crate) fn switch(&mut self, request: SensorRequest) {
         let bit = 1_u32.checked_shl(request.sensor.into()).unwrap_or(0);
         if request.on {
             self.sensors_off &= !bit;
@@ -75,6 +75,20 @@ impl Mind {
     pub(crate) fn wait_neighbour(&mut self, late: Late<Neighbour>) {
         if let Some(backlog) = &mut self.backlog {
             backlog.neighbours.push(late);
+        }
+    }
+
+    /// Items have other numbers from now on; what was seen of one that is gone is forgotten.
+    pub(crate) fn renumber_items(&mut self, numbers: &BTreeMap<usize, usize>) {
+        if let Some(backlog) = &mut self.backlog {
+            backlog.contacts.retain_mut(|late| {
+                let Some(item) = &mut late.what.1 else {
+                    return true;
+                };
+                let number = numbers.get(&(*item as usize));
+                let number = number.and_then(|number| u32::try_from(*number).ok());
+                number.inspect(|number| *item = *number).is_some()
+            });
         }
     }
 

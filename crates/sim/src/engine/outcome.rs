@@ -16,7 +16,8 @@ pub struct Outcome {
     pub missed: Vec<u32>,
     /// Contacts of nothing that robots were told of.
     pub false_alarms: u64,
-    /// New contacts of two robots, or of a robot with what stands still.
+    /// New contacts of two robots, or of a robot with what stands still; in a step at most as many
+    /// as there are robots.
     pub collisions: u64,
     /// Of all robots.
     pub energy_j: f64,

@@ -7,6 +7,8 @@ mod ready;
 
 pub use ready::Scenario;
 
+pub(crate) use ready::SKIN_M;
+
 use crate::body::RobotSpec;
 use crate::clock::ClockSpec;
 use crate::world::WorldSpec;

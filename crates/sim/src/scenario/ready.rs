@@ -11,11 +11,11 @@ use crate::world::obstacles::Solid;
 use crate::world::still::{Stands, Wall};
 use crate::world::terrain::{Area, Going, Terrain};
 use base::geometry::{Disc, Point, Rectangle, Segment};
-use brain::{Body, BrainSpec, RobotId};
+use brain::{Brain, RobotId};
 
-/// What is nearer to a wall than its radius by less, in metres, touches it by rounding.
-const TOLERANCE_M: f64 = 1e-9;
-use std::sync::Arc;
+/// What is near a robot is looked up with so much more reach than is needed, in metres; that holds
+/// until a robot has gone half of it.
+pub(crate) const SKIN_M: f64 = 0.6;
 
 /// Everything that does not change in a run. Runs share it.
 #[derive(Debug, Clone)]
@@ -39,6 +39,9 @@ pub struct Scenario {
 }
 
 impl Scenario {
+    /// What is nearer to something than its radius by less, in metres, touches it by rounding.
+    pub(crate) const TOLERANCE_M: f64 = 1e-9;
+
     /// The scenario that a checked spec describes, with its obstacles and areas of terrain as they
     /// were read; later areas hold over earlier ones.
     #[must_use]
@@ -61,7 +64,7 @@ impl Scenario {
         let rays_m = greatest(&kinds, |kind| kind.rays_m);
         let stands = |layer, reach_m| {
             let (walls, discs) = in_the_way(&world, &solids, layer);
-            Stands::new(size_m, &walls, &discs, reach_m)
+            Stands::new(size_m, &walls, &discs, reach_m + SKIN_M / 2.0)
         };
         let layers = [Layer::Ground, Layer::Air];
         Self {
@@ -146,11 +149,10 @@ impl Scenario {
         self.items.iter().map(|kind| kind.name.as_str())
     }
 
-    /// What the brains of a kind of robots are, and what they know of their bodies.
+    /// The brain with which robots of a kind begin.
     #[must_use]
-    pub fn mind_of(&self, kind: u8) -> Option<(&Arc<BrainSpec>, &Arc<Body>)> {
-        let kind = self.kinds.get(usize::from(kind))?;
-        Some((&kind.brain, &kind.body))
+    pub fn brain(&self, kind: u8) -> Option<&Brain> {
+        self.kinds.get(usize::from(kind)).map(|kind| &kind.brain)
     }
 
     /// The name of a robot's kind.
@@ -185,6 +187,12 @@ impl Scenario {
         self.touched(Layer::Ground)
     }
 
+    /// The greatest factor on speed that there is, at least 1.
+    pub(crate) fn fastest(&self) -> f64 {
+        let terrain = self.terrain.as_ref();
+        terrain.map_or(1.0, |terrain| terrain.most().speed)
+    }
+
     /// Whether a disc of a layer fits into a place.
     pub(crate) fn is_free(&self, place: Point, radius_m: f64, layer: Layer) -> bool {
         let corner = Point {
@@ -194,7 +202,7 @@ impl Scenario {
         let is_inside =
             self.world.contains(corner.to(place)) && self.world.contains(place.plus(corner));
         let touched = self.touched(layer);
-        let clear_m = radius_m - TOLERANCE_M;
+        let clear_m = radius_m - Self::TOLERANCE_M;
         is_inside
             && touched
                 .walls_near(place)

@@ -87,6 +87,18 @@ pub(super) fn yes() -> bool {
     true
 }
 
+impl ItemsSpec {
+    /// False contacts of a kind in one look, on average, if nothing hides any.
+    pub(crate) fn false_alarms_a_look(&self, kind: &str, period_s: f64) -> f64 {
+        let rate = self.false_alarms_per_m2_s.get(kind).copied();
+        rate.unwrap_or(0.0) * self.sector().area_m2() * period_s
+    }
+
+    fn sector(&self) -> Sector {
+        Sector::new(self.range_m, self.fov_deg, self.facing_deg)
+    }
+}
+
 /// A detector, as looks need it.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct ItemDetector {
@@ -102,20 +114,16 @@ pub(crate) struct ItemDetector {
 impl ItemDetector {
     /// For `kinds` of items, by their order; a look is had every `period_s`.
     pub(crate) fn new(spec: &ItemsSpec, kinds: &[String], period_s: f64) -> Self {
-        let sector = Sector::new(spec.range_m, spec.fov_deg, spec.facing_deg);
         let detection = |kind: &String| match &spec.detects {
             None => Some(Detection::Constant(1.0)),
             Some(detects) => detects.get(kind).cloned(),
         };
         let false_alarm = |(number, kind): (u16, &String)| {
-            let rate = spec
-                .false_alarms_per_m2_s
-                .get(kind)
-                .filter(|rate| **rate > 0.0)?;
-            Some((number, Poisson::new(rate * sector.area_m2() * period_s)))
+            let mean = spec.false_alarms_a_look(kind, period_s);
+            (mean > 0.0).then(|| (number, Poisson::new(mean)))
         };
         Self {
-            sector,
+            sector: spec.sector(),
             detects: kinds.iter().map(detection).collect(),
             false_alarms: (0..).zip(kinds).filter_map(false_alarm).collect(),
             noise_m: spec.noise_m,
@@ -131,7 +139,7 @@ impl ItemDetector {
         mut give: impl FnMut(Point, u16, Option<u32>),
     ) {
         for (place, number) in items.near(eye.at, self.sector.range_m) {
-            let way = eye.to_own(*place);
+            let way = eye.own(*place);
             let kind = items.kind(*number);
             let Some(detection) = &self.detects[usize::from(kind)] else {
                 continue;
@@ -161,7 +169,7 @@ impl ItemDetector {
         for number in 1..=count {
             let words = eye.words(Use::FalseAlarm, index + number);
             let way = self.sector.place([share(words[0]), share(words[1])]);
-            if !self.is_hidden(eye, eye.to_world(way)) {
+            if !self.is_hidden(eye, eye.world_of(way)) {
                 give(way, kind, None);
             }
         }
@@ -169,5 +177,52 @@ impl ItemDetector {
 
     fn is_hidden(&self, eye: &Eye, place: Point) -> bool {
         self.needs_line_of_sight && !eye.sees(place)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_detection_table_is_linear_between_its_pairs_and_flat_beyond() {
+        let table = Detection::Table(vec![[1.0, 0.9], [2.0, 0.5], [4.0, 0.1]]);
+        for (distance_m, expected) in [
+            (0.0, 0.9),
+            (1.0, 0.9),
+            (1.5, 0.7),
+            (2.0, 0.5),
+            (3.0, 0.3),
+            (4.0, 0.1),
+            (99.0, 0.1),
+        ] {
+            let probability = table.probability(distance_m);
+            assert!(
+                (probability - expected).abs() < 1e-12,
+                "{distance_m}: {probability}"
+            );
+        }
+        let one = Detection::Table(vec![[1.0, 0.4]]);
+        assert_eq!([0.0, 1.0, 2.0].map(|at| one.probability(at)), [0.4; 3]);
+    }
+
+    #[test]
+    fn a_detection_curve_is_half_where_it_says_and_a_bell() {
+        let curve = Detection::Curve {
+            best: 0.8,
+            half_m: 1.5,
+        };
+        for (distance_m, expected) in [(0.0, 0.8), (1.5, 0.4), (3.0, 0.05), (4.5, 0.8 / 512.0)] {
+            assert!(
+                (curve.probability(distance_m) - expected).abs() < 1e-12,
+                "{distance_m}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_constant_detection_does_not_depend_on_the_distance() {
+        let constant = Detection::Constant(0.3);
+        assert_eq!([0.0, 7.0].map(|at| constant.probability(at)), [0.3; 2]);
     }
 }

@@ -5,7 +5,7 @@
 pub(crate) mod eye;
 pub mod heading;
 pub mod items;
-mod poisson;
+pub(crate) mod poisson;
 pub mod position;
 pub mod range;
 pub(crate) mod rays;

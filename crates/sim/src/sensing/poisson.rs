@@ -1,5 +1,8 @@
 //! How often something rare happens.
 
+/// Greatest mean that scenarios may ask for: below e^-700 a probability would be 0.
+pub(crate) const MAX_MEAN: f64 = 500.0;
+
 /// Counts above this are cut; means that scenarios allow are far below.
 const MOST: u32 = 10_000;
 
@@ -12,7 +15,7 @@ pub(crate) struct Poisson {
 }
 
 impl Poisson {
-    /// With a mean of at most some hundreds: below e^-700 a probability is 0.
+    /// With a mean of at most [`MAX_MEAN`].
     pub(crate) fn new(mean: f64) -> Self {
         Self {
             mean,
@@ -34,5 +37,61 @@ impl Poisson {
             }
         }
         count
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A draw is the inverse of the distribution: the share of counts above `count` is what the
+    /// closed form says, to the fineness of the shares.
+    #[test]
+    fn draws_have_the_distribution_of_the_closed_form() {
+        for mean in [1e-3, 0.3, 4.0, 50.0, 500.0_f64] {
+            let poisson = Poisson::new(mean);
+            let steps = 20_000;
+            let draws =
+                (0..steps).map(|step| poisson.draw((f64::from(step) + 0.5) / f64::from(steps)));
+            let draws: Vec<f64> = draws.map(f64::from).collect();
+            let count = f64::from(steps);
+            let average = draws.iter().sum::<f64>() / count;
+            let variance = draws
+                .iter()
+                .map(|draw| (draw - average).powi(2))
+                .sum::<f64>()
+                / count;
+            let fine = 1e-3 * mean.max(mean.sqrt()) + 2.0 / count;
+            assert!((average - mean).abs() < fine, "{mean}: {average}");
+            assert!(
+                (variance / mean - 1.0).abs() < 0.02 || mean < 0.1,
+                "{mean}: {variance}"
+            );
+            let none = draws.iter().filter(|draw| **draw == 0.0).count() as f64 / count;
+            assert!(
+                (none - libm::exp(-mean)).abs() <= 1.0 / count,
+                "{mean}: {none}"
+            );
+        }
+    }
+
+    #[test]
+    fn counts_grow_with_the_share_and_end() {
+        for mean in [0.0, 1e-9, 2.0, 600.0] {
+            let poisson = Poisson::new(mean);
+            let shares = [
+                0.5 / 4_294_967_296.0,
+                0.1,
+                0.5,
+                0.9,
+                1.0 - 0.5 / 4_294_967_296.0,
+            ];
+            let draws = shares.map(|share| poisson.draw(share));
+            assert!(draws.windows(2).all(|pair| pair[0] <= pair[1]), "{draws:?}");
+            assert!(
+                f64::from(draws[4]) < mean + 20.0 + 10.0 * mean.sqrt(),
+                "{mean}: {draws:?}"
+            );
+        }
     }
 }

@@ -49,3 +49,66 @@ impl Sector {
         Point { x, y }.times(range_m)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn way(range_m: f64, bearing_deg: f64) -> Point {
+        let (y, x) = sin_cos(bearing_deg.to_radians());
+        Point { x, y }.times(range_m)
+    }
+
+    proptest! {
+        #[test]
+        fn a_sector_holds_what_is_in_range_and_in_its_angle(
+            range in 0.1..1000.0_f64, width in 0.0..360.0_f64, facing in -180.0..180.0,
+            share in 0.0..2.0_f64, off in -180.0..180.0_f64,
+        ) {
+            prop_assume!((off.abs() - width / 2.0).abs() > 1e-4 && (share - 1.0).abs() > 1e-9);
+            let sector = Sector::new(range, width, facing);
+            let holds = sector.holds(way(share * range, facing + off));
+            prop_assert_eq!(holds, share <= 1.0 && off.abs() <= width / 2.0);
+        }
+
+        #[test]
+        fn a_place_in_a_sector_is_held_by_it(
+            range in 0.1..1000.0_f64, width in 1.0..=360.0_f64, facing in -180.0..180.0,
+            one in 1e-6..0.999_999_f64, other in 1e-6..0.999_999_f64,
+        ) {
+            let sector = Sector::new(range, width, facing);
+            prop_assert!(sector.holds(sector.place([one, other])));
+        }
+    }
+
+    #[test]
+    fn a_whole_circle_has_no_edge() {
+        let circle = Sector::new(2.0, 360.0, 0.0);
+        for step in 0..100_000 {
+            let bearing_deg = 179.999 + f64::from(step) * 2e-8;
+            assert!(circle.holds(way(1.999_999, bearing_deg)));
+        }
+        assert!(circle.holds(Point::default()));
+        assert!((circle.area_m2() - 4.0 * std::f64::consts::PI).abs() < 1e-12);
+    }
+
+    #[test]
+    fn places_are_spread_evenly_over_the_area() {
+        let sector = Sector::new(2.0, 90.0, 30.0);
+        let side = 300;
+        let at = |step: u32| (f64::from(step) + 0.5) / f64::from(side);
+        let places = (0..side).flat_map(|a| (0..side).map(move |b| [at(a), at(b)]));
+        // A quarter of the area is within half the range, and half of it on the left.
+        let count = |holds: &dyn Fn(Point) -> bool| {
+            places
+                .clone()
+                .filter(|&two| holds(sector.place(two)))
+                .count() as f64
+                / f64::from(side * side)
+        };
+        let facing = way(1.0, 30.0);
+        assert!((count(&|way: Point| way.length() < 1.0) - 0.25).abs() < 0.01);
+        assert!((count(&|way: Point| facing.cross(way) > 0.0) - 0.5).abs() < 0.01);
+    }
+}

@@ -96,7 +96,14 @@ impl Grid {
             // Along a row, and by rounding, the share may be anything: then the whole way counts.
             from.x + way.x * share.clamp(0.0, 1.0)
         };
-        let (low, high) = (row as f64 * self.cell_m(), (row + 1) as f64 * self.cell_m());
+        let (mut low, mut high) = (row as f64 * self.cell_m(), (row + 1) as f64 * self.cell_m());
+        // What is outside is in the nearest cell.
+        if row == 0 {
+            low = f64::NEG_INFINITY;
+        }
+        if row + 1 == self.rows {
+            high = f64::INFINITY;
+        }
         let ends = if way.y.abs() < 1e-9 {
             [from.x, to.x]
         } else {
@@ -200,3 +207,6 @@ impl NearCells {
         &self.numbers[self.starts[cell] as usize..self.starts[cell + 1] as usize]
     }
 }
+
+#[cfg(test)]
+mod tests;

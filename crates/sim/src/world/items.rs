@@ -50,7 +50,7 @@ impl ItemKind {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Item {
     pub(crate) number: usize,
-    place: Point,
+    pub(crate) place: Point,
     found: Option<u64>,
 }
 

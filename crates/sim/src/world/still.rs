@@ -3,6 +3,9 @@
 use super::grid::{NearCells, Still};
 use base::geometry::{Disc, Point, Rectangle, Segment};
 
+/// What is nearer to a wall than this share of a way to it is on the wall.
+const HAIR: f64 = 1e-9;
+
 /// A straight side of something solid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Wall {
@@ -95,6 +98,44 @@ impl Stands {
         numbers.map(|number| &self.discs[*number as usize])
     }
 
+    /// The numbers of all discs within `radius_m` of a place.
+    #[inline]
+    pub(crate) fn numbers_of_discs(
+        &self,
+        place: Point,
+        radius_m: f64,
+    ) -> impl Iterator<Item = u32> {
+        let numbers = self.near_discs.at(place).iter().copied();
+        numbers.filter(move |number| self.disc(*number).distance_m(place) < radius_m)
+    }
+
+    /// The numbers of all walls within `radius_m` of a place of which some place no farther away
+    /// than `gone_m` sees the face.
+    #[inline]
+    pub(crate) fn numbers_of_faces(
+        &self,
+        place: Point,
+        radius_m: f64,
+        gone_m: f64,
+    ) -> impl Iterator<Item = u32> {
+        let numbers = self.near_walls.at(place).iter().copied();
+        numbers.filter(move |number| {
+            let wall = self.wall(*number);
+            let height_m = place.to(wall.start).cross(wall.along);
+            height_m > -gone_m && wall.distance(place) < radius_m
+        })
+    }
+
+    #[inline]
+    pub(crate) fn disc(&self, number: u32) -> &Disc {
+        &self.discs[number as usize]
+    }
+
+    #[inline]
+    pub(crate) fn wall(&self, number: u32) -> &Wall {
+        &self.walls[number as usize]
+    }
+
     /// Whether the straight way between two places crosses nothing.
     pub(crate) fn is_open(&self, from: Point, to: Point) -> bool {
         let way = from.to(to);
@@ -120,7 +161,8 @@ impl Stands {
 }
 
 impl Wall {
-    /// Whether a way from `from` goes through the wall, from either side.
+    /// Whether a way from `from` goes through the wall, from either side; a way that begins or ends
+    /// on it does not.
     fn crosses(&self, from: Point, way: Point) -> bool {
         let offset = from.to(self.start);
         let across = way.cross(self.along);
@@ -129,7 +171,7 @@ impl Wall {
         }
         let share = offset.cross(self.along) / across;
         let place = offset.cross(way) / across;
-        (0.0..=1.0).contains(&share) && (0.0..=self.length).contains(&place)
+        (HAIR..=1.0 - HAIR).contains(&share) && (0.0..=self.length).contains(&place)
     }
 }
 
@@ -141,3 +183,6 @@ fn crosses(disc: &Disc, from: Point, way: Point) -> bool {
     .distance_m(disc.centre)
         < disc.radius_m
 }
+
+#[cfg(test)]
+mod tests;

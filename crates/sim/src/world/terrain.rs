@@ -109,3 +109,55 @@ impl Terrain {
         area.map_or(Going::EASY, |area| area.going)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn area(corners: &[[f64; 2]], speed: f64) -> Area {
+        let corners: Vec<Point> = corners.iter().map(|corner| Point::from(*corner)).collect();
+        let spec = TerrainSpec {
+            speed,
+            energy: 1.0 / speed,
+            areas_m: Vec::new(),
+        };
+        Area::new(Polygon::new(&corners).unwrap(), &spec)
+    }
+
+    proptest! {
+        #[test]
+        fn the_last_area_that_holds_a_place_says_what_it_is_like(
+            areas in prop::collection::vec(
+                ((0.0..9.0, 0.0..9.0), (0.1..5.0, 0.1..5.0), 0.1..2.0_f64), 0..20,
+            ),
+            place in (0.0..=10.0, 0.0..=10.0),
+        ) {
+            let areas: Vec<Area> = areas.into_iter().map(|((x, y), (wide, high), speed)| {
+                area(&[[x, y], [x + wide, y], [x, y + high]], speed)
+            }).collect();
+            let place = Point::from([place.0, place.1]);
+            let last = areas.iter().rev().find(|area| area.polygon.contains(place));
+            let expected = last.map_or(Going::EASY, |area| area.going);
+            let terrain = Terrain::new(Point { x: 10.0, y: 10.0 }, areas.clone());
+            prop_assert_eq!(terrain.at(place), expected);
+            let most = terrain.most();
+            prop_assert!(most.speed >= expected.speed && most.energy >= expected.energy);
+        }
+    }
+
+    #[test]
+    fn the_edge_of_an_area_belongs_to_it() {
+        let mud = area(&[[1.0, 1.0], [3.0, 1.0], [3.0, 2.0], [1.0, 2.0]], 0.5);
+        let terrain = Terrain::new(Point { x: 4.0, y: 4.0 }, vec![mud]);
+        let speed = |x: f64, y: f64| terrain.at(Point { x, y }).speed;
+        assert_eq!(
+            [speed(1.0, 1.5), speed(2.0, 2.0), speed(3.0, 1.0)],
+            [0.5; 3]
+        );
+        assert_eq!(
+            [speed(0.999, 1.5), speed(2.0, 2.001), speed(0.0, 0.0)],
+            [1.0; 3]
+        );
+    }
+}

@@ -1,6 +1,5 @@
 //! The JSON Schema of a whole scenario file, for editors.
 
-use base::question::{self, NamedMerit};
 use schemars::transform::{RemoveRefSiblings, Transform};
 use serde_json::{Map, Value as Json, json};
 use sim::scenario::ScenarioSpec;
@@ -10,8 +9,9 @@ use std::collections::BTreeSet;
 /// need say nothing that the model says.
 pub(crate) fn schema() -> Json {
     let mut schema = ScenarioSpec::schema().json().clone();
-    let question = question::schema("metric", &[NamedMerit::EQUATION_5_2]);
+    let question = crate::question();
     schema["properties"] = joined(&question["properties"], &schema["properties"]);
+    schema["definitions"] = joined(&question["definitions"], &schema["definitions"]);
     let required = [&question["required"], &schema["required"]];
     schema["required"] = required
         .into_iter()

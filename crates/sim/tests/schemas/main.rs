@@ -1,10 +1,14 @@
 //! What is made from the types of a scenario: the JSON Schema for editors, and the reference part of
 //! docs/scenario.md. `make schemas` writes both anew, these tests hold them to the types.
 
+#![expect(clippy::unwrap_used, reason = "a test may panic")]
+
 mod editor;
 mod page;
 
 use base::document::Document;
+use base::question::{self, Engine};
+use sim::runner::Metric;
 use sim::scenario::ScenarioSpec;
 use std::fs;
 use std::path::PathBuf;
@@ -14,6 +18,11 @@ const PAGE: &str = "docs/scenario.md";
 
 /// What stands before it is written by hand.
 const MARK: &str = "<!-- From here on made by `make schemas` from the types. -->\n";
+
+/// The schema of the question's keys.
+fn question() -> serde_json::Value {
+    question::schema(&Metric, &Document::parse("", "").unwrap())
+}
 
 fn path(file: &str) -> PathBuf {
     [env!("CARGO_MANIFEST_DIR"), "../..", file].iter().collect()
@@ -62,7 +71,7 @@ fn faults(text: &str) -> Vec<String> {
 #[test]
 fn the_tutorials_scenario_is_without_faults() {
     assert!(tutorial().contains("engine = \"metric\""));
-    assert_eq!(faults(&tutorial()), [String::new(); 0]);
+    assert!(faults(&tutorial()).is_empty());
 }
 
 #[test]
@@ -76,5 +85,14 @@ fn the_tutorials_faults_are_those_that_are_told() {
     assert_eq!(told.len(), 3, "{told:?}");
     for fault in told {
         assert!(page.contains(&words(&fault)), "{fault}");
+    }
+}
+
+#[test]
+fn all_that_can_be_weighed_is_in_the_tutorial() {
+    let page = fs::read_to_string(path(PAGE)).unwrap();
+    for measure in Metric.measures(&Document::parse("", "").unwrap()) {
+        let row = format!("| `{}` | ", measure.name);
+        assert!(page.contains(&row), "{row}");
     }
 }

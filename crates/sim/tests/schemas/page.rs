@@ -1,33 +1,32 @@
 //! The reference: every key of a scenario, explained once.
 
 use base::document::schema::Schema;
-use base::question::{self, NamedMerit};
 use serde_json::{Map, Value as Json};
 use sim::scenario::ScenarioSpec;
 use std::fmt::Write;
 
 /// Definitions that several keys share, by the headings of their own sections.
-const SHARED: [(&str, &str); 2] = [("Placement", "A placement"), ("Detection", "A detection")];
+const SHARED: [(&str, &str); 3] = [
+    ("Term", "A term"),
+    ("Placement", "A placement"),
+    ("Detection", "A detection"),
+];
 
 /// The text of the reference.
 pub(crate) fn reference() -> String {
-    let question = question::schema("metric", &[NamedMerit::EQUATION_5_2]);
-    let question = Schema::closed(question.try_into().unwrap());
+    let question = Schema::closed(crate::question().try_into().unwrap());
     let mut page = Page {
         schema: &question,
         text: String::from("\n## Every key\n\n### At the top\n\n"),
     };
     page.section(question.json(), "");
+    page.shared();
     page.schema = ScenarioSpec::schema();
     let root = page.schema.json()["properties"].as_object().unwrap();
     for (key, part) in root {
         page.inner(part, key);
     }
-    for (name, heading) in SHARED {
-        let part = &page.schema.json()["definitions"][name];
-        page.head(heading, part, part);
-        page.section(part, "");
-    }
+    page.shared();
     page.text
 }
 
@@ -39,6 +38,17 @@ struct Page<'s> {
 type Object = Map<String, Json>;
 
 impl<'s> Page<'s> {
+    /// The sections of what several keys share.
+    fn shared(&mut self) {
+        for (name, heading) in SHARED {
+            let definitions = &self.schema.json()["definitions"];
+            if let Some(part) = definitions.get(name) {
+                self.head(heading, part, part);
+                self.section(part, "");
+            }
+        }
+    }
+
     /// What has a section of its own at `path`, if it is no plain value, and the heading of that.
     fn own_section(&self, part: &'s Json, path: &str) -> Option<(&'s Json, String)> {
         let keywords = self.schema.keywords(part).unwrap();
@@ -134,7 +144,8 @@ impl<'s> Page<'s> {
                 || self.schema.words(form),
                 |kind| format!("`kind = \"{kind}\"`"),
             );
-            write!(self.text, "**{}.** {about}\n\n", capital(&name)).unwrap();
+            let line = format!("**{}.** {about}", capital(&name));
+            write!(self.text, "{}\n\n", line.trim_end()).unwrap();
             self.rows(keywords, path, &|key| {
                 !common.iter().any(|each| each == key)
             });

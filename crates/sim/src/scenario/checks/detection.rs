@@ -3,6 +3,8 @@
 use super::ScenarioSpec;
 use crate::sensing::Measures;
 use crate::sensing::items::{Detection, ItemsSpec};
+use crate::sensing::poisson::MAX_MEAN;
+use crate::sensing::timing::Rhythm;
 use base::document::Place;
 use base::fault::Fault;
 
@@ -16,7 +18,12 @@ pub(super) fn faults(spec: &ScenarioSpec, at: &Place) -> Vec<Fault> {
         for (name, sensor) in &of.sensors {
             let at = at.key("robots").key(robot).key("sensors").key(name);
             match &sensor.measures {
-                Measures::Items(items) => faults.extend(faults_of(items, &kinds, &at)),
+                Measures::Items(items) => {
+                    faults.extend(faults_of(items, &kinds, &at));
+                    let step_s = spec.clock.step_s;
+                    let period_s = Rhythm::new(sensor.rate_hz, step_s).period_s(step_s);
+                    faults.extend(too_many(items, period_s, &at));
+                }
                 Measures::Robots(robots) => {
                     let detection = robots.detects.as_ref();
                     faults.extend(detection.and_then(|each| fault_of(each, &at.key("detects"))));
@@ -48,6 +55,21 @@ fn faults_of(items: &ItemsSpec, kinds: &[&str], at: &Place) -> Vec<Fault> {
         }
     }
     faults
+}
+
+/// False contacts beyond what one look can give.
+fn too_many(items: &ItemsSpec, period_s: f64, at: &Place) -> Vec<Fault> {
+    let rates = items.false_alarms_per_m2_s.iter();
+    let rates = rates.filter(|(_, rate)| (0.0..=MAX_FALSE_ALARMS).contains(*rate));
+    let means = rates.map(|(kind, _)| (kind, items.false_alarms_a_look(kind, period_s)));
+    let faults = means.filter(|(_, mean)| *mean > MAX_MEAN).map(|(kind, mean)| {
+        let allowed = format!(
+            "lower, so that a look has at most {MAX_MEAN} false contacts; in its whole range and \
+             {period_s} s it has {mean:.0}"
+        );
+        at.key("false_alarms_per_m2_s").key(kind).fault(allowed)
+    });
+    faults.collect()
 }
 
 fn fault_of(detection: &Detection, at: &Place) -> Option<Fault> {

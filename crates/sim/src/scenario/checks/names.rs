@@ -7,8 +7,8 @@ use base::fault::Fault;
 /// Kinds are counted in a byte of the random streams' key.
 const MAX_KINDS: usize = 255;
 
-/// Most sensors of a robot.
-const MAX_SENSORS: usize = 255;
+/// Most sensors of a robot: which are off is a bit for each.
+const MAX_SENSORS: usize = 32;
 
 /// Most characters of a name.
 const MAX_LENGTH: usize = 64;

@@ -124,9 +124,8 @@ fn there_are_one_to_255_kinds_of_robots() {
         read(&none).unwrap_err().to_string(),
         "t:20: robots = {...}: must be a table of 1 to 255; it has 0"
     );
-    let many: String = (0..256)
-        .map(|kind| format!("[robots.r{kind}]\nlike = \"ugv\"\ncount = 0\n"))
-        .collect();
+    let many = (0..256).map(|kind| format!("[robots.r{kind}]\nlike = \"ugv\"\ncount = 0\n"));
+    let many = many.collect::<Vec<_>>().concat();
     let told = read(&format!("{}{many}", &GOOD[..start])).unwrap_err();
     assert!(told.to_string().contains("it has 256"), "{told}");
 }
@@ -178,6 +177,46 @@ fn a_detection_table_ascends_and_has_probabilities() {
     assert_eq!(
         fault("mine = 0.01", "cow = 1"),
         "robots.rover.sensors.eye.false_alarms_per_m2_s.cow = 1: must be under one of mine"
+    );
+}
+
+#[test]
+fn a_look_has_no_more_false_contacts_than_can_be_drawn() {
+    // A circle of 3 m for 0.1 s.
+    let told = fault("mine = 0.01", "mine = 200");
+    let end = "must be lower, so that a look has at most 500 false contacts; in its whole range and \
+               0.1 s it has 565";
+    assert!(told.ends_with(end), "{told}");
+    assert!(read(&GOOD.replace("mine = 0.01", "mine = 150")).is_ok());
+    let slow = GOOD.replace("range_m = 3", "range_m = 3\nrate_hz = 0.01");
+    assert!(read(&slow).is_ok());
+    assert!(fault("mine = 0.01 }", "mine = 1 }\nrate_hz = 0.01").contains("and 100 s it has 2827"));
+}
+
+#[test]
+fn a_robot_has_at_most_32_sensors() {
+    let sensors = |count: u32| -> String {
+        let sensor = |number| format!("[robots.rover.sensors.c{number}]\nkind = \"heading\"\n");
+        (0..count).map(sensor).collect()
+    };
+    let with = |count| format!("{}[robots.bird]", sensors(count));
+    assert!(read(&GOOD.replace("[robots.bird]", &with(31))).is_ok());
+    let told = fault("[robots.bird]", &with(32));
+    assert!(
+        told.ends_with("must be a table of 0 to 32; it has 33"),
+        "{told}"
+    );
+}
+
+#[test]
+fn a_battery_that_is_never_full_is_none() {
+    let told = fault(
+        "count = 1\nradius_m = 0.3",
+        "count = 1\nbattery = { capacity_j = 0 }\nradius_m = 0.3",
+    );
+    assert!(
+        told.starts_with("robots.bird.battery.capacity_j = 0: must be"),
+        "{told}"
     );
 }
 

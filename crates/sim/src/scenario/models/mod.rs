@@ -96,9 +96,15 @@ mod tests {
     fn what_is_written_holds_over_the_model() {
         let robot = read("like = \"ugv\"\nradius_m = 0.5\ndrive = { max_speed_m_s = 1 }").unwrap();
         let ugv = read("like = \"ugv\"").unwrap();
-        assert!((robot.radius_m, robot.drive.max_speed_m_s) == (0.5, 1.0));
-        assert_eq!(robot.sensors, ugv.sensors);
-        assert!(robot.drive.max_turn_rate_deg_s == ugv.drive.max_turn_rate_deg_s);
+        let expected = crate::body::RobotSpec {
+            radius_m: 0.5,
+            drive: crate::body::drive::DriveSpec {
+                max_speed_m_s: 1.0,
+                ..ugv.drive
+            },
+            ..ugv
+        };
+        assert_eq!(robot, expected);
     }
 
     #[test]

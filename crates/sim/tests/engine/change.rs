@@ -1,0 +1,384 @@
+//! Going on with another scenario in the middle of a run.
+
+use crate::common::{first, go, id, robots, scenario, start, told};
+use sim::engine::{Item, NoRoom, Robot, Simulation};
+
+const GROUND: &str = "
+[clock]
+step_s = 0.1
+cap_s = 60
+[world]
+size_m = [20, 10]
+obstacles = [{ circle = { at_m = [10, 5], radius_m = 1 } }]
+[items.flag]
+count = 3
+[items.mine]
+count = 5
+[robots.bird]
+count = 2
+layer = \"air\"
+radius_m = 0.3
+drive = { max_speed_m_s = 5, max_turn_rate_deg_s = 90 }
+[robots.bird.sensors.eye]
+kind = \"items\"
+range_m = 2
+latency_s = 0.5
+detects = { mine = 0.5 }
+false_alarms_per_m2_s = { mine = 0.1 }
+needs_line_of_sight = false
+[robots.rover]
+count = 6
+radius_m = 0.4
+drive = { max_speed_m_s = 2, max_acceleration_m_s2 = 2, max_turn_rate_deg_s = 90 }
+battery = { capacity_j = 1000, idle_w = 5, move_j_per_m = 2 }
+[robots.rover.sensors.sonar]
+kind = \"range\"
+rays = 16
+range_m = 3
+noise_m = 0.02
+[robots.rover.sensors.mates]
+kind = \"robots\"
+range_m = 5
+[robots.rover.sensors.eye]
+kind = \"items\"
+range_m = 1
+[robots.rover.radio]
+range_m = 20
+loss = 0.3
+";
+
+fn with(changes: &[(&str, &str)]) -> String {
+    changes
+        .iter()
+        .fold(GROUND.to_owned(), |text, (this, that)| {
+            assert!(text.contains(this), "{this}");
+            text.replacen(this, that, 1)
+        })
+}
+
+/// A run of some seconds that goes on with these changes.
+fn changed(changes: &[(&str, &str)]) -> (Vec<Robot>, Result<Simulation, NoRoom>) {
+    let mut simulation = start(GROUND);
+    (0..70).for_each(|_| simulation.step());
+    let before = robots(&simulation);
+    let hash = simulation.state().hash();
+    match simulation.change(scenario(&with(changes))) {
+        Ok(()) => (before, Ok(simulation)),
+        Err(why) => {
+            assert_eq!(simulation.state().hash(), hash, "nothing has changed");
+            (before, Err(why))
+        }
+    }
+}
+
+fn items(simulation: &Simulation) -> Vec<Item> {
+    simulation
+        .state()
+        .each_item(simulation.scenario())
+        .collect()
+}
+
+fn of_kind(robots: &[Robot], kind: u8) -> Vec<Robot> {
+    robots
+        .iter()
+        .copied()
+        .filter(|robot| robot.id.kind == kind)
+        .collect()
+}
+
+fn assert_apart(robots: &[Robot], radius_m: f64) {
+    for (place, one) in robots.iter().enumerate() {
+        for other in &robots[..place] {
+            assert!(
+                one.at.to(other.at).length() > 2.0 * radius_m - 1e-8,
+                "{one:?} {other:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn with_the_same_scenario_a_run_goes_on_as_if_nothing_were() {
+    let (_, simulation) = changed(&[]);
+    let mut simulation = simulation.unwrap();
+    let mut other = start(GROUND);
+    (0..70).for_each(|_| other.step());
+    for _ in 0..200 {
+        assert_eq!(simulation.state().hash(), other.state().hash());
+        simulation.step();
+        other.step();
+    }
+    assert_eq!(simulation.outcome(), other.outcome());
+}
+
+#[test]
+fn a_greater_team_has_the_robots_that_there_were_and_new_ones_beside_them() {
+    let (before, simulation) = changed(&[("count = 6", "count = 40")]);
+    let simulation = simulation.unwrap();
+    let after = robots(&simulation);
+    assert_eq!(after.len(), 42);
+    assert_eq!(after[..8], before[..]);
+    assert_apart(&of_kind(&after, 1), 0.4);
+    assert!(
+        after[8..]
+            .iter()
+            .all(|robot| robot.distance_m == 0.0 && robot.collisions == 0)
+    );
+    // In the middle of the world stands a pillar of 1 m.
+    let pillar = [10.0, 5.0].into();
+    assert!(
+        after[8..]
+            .iter()
+            .all(|robot| robot.at.to(pillar).length() >= 1.4 - 1e-9)
+    );
+}
+
+#[test]
+fn a_smaller_team_has_lost_its_last_robots_only() {
+    let (before, simulation) = changed(&[("count = 6", "count = 4"), ("count = 2", "count = 0")]);
+    let mut simulation = simulation.unwrap();
+    // Kinds that have no robots are still there.
+    assert_eq!(robots(&simulation), before[2..6]);
+    (0..50).for_each(|_| simulation.step());
+    assert_eq!(robots(&simulation).len(), 4);
+}
+
+#[test]
+fn a_robot_that_comes_and_goes_changes_nothing_for_the_others_meanwhile() {
+    let mut simulation = start(GROUND);
+    (0..70).for_each(|_| simulation.step());
+    let before = robots(&simulation);
+    simulation
+        .change(scenario(&with(&[("count = 6", "count = 7")])))
+        .unwrap();
+    simulation.change(scenario(GROUND)).unwrap();
+    assert_eq!(robots(&simulation), before);
+}
+
+#[test]
+fn items_that_were_there_stay_and_stay_found() {
+    let mut simulation = start(GROUND);
+    while simulation.outcome().found[1] < 2 {
+        simulation.step();
+    }
+    let before = items(&simulation);
+    let more = with(&[("count = 3", "count = 4"), ("count = 5", "count = 9")]);
+    simulation.change(scenario(&more)).unwrap();
+    let after = items(&simulation);
+    assert_eq!(after[..3], before[..3]);
+    assert_eq!(after[4..9], before[3..]);
+    assert!(
+        after[9..]
+            .iter()
+            .chain(&after[3..4])
+            .all(|item| item.found_s.is_none())
+    );
+}
+
+const LATE: &str = "
+[clock]
+cap_s = 60
+[world]
+size_m = [20, 10]
+[items.flag]
+count = 1
+placement = { kind = \"fixed\", at_m = [[2, 5]] }
+[items.mine]
+count = 2
+placement = { kind = \"fixed\", at_m = [[1, 6], [18, 5]] }
+[robots.bird]
+count = 1
+layer = \"air\"
+radius_m = 0.4
+start = { kind = \"fixed\", at_m = [[1, 5]] }
+drive = { max_speed_m_s = 0, max_turn_rate_deg_s = 0 }
+[robots.bird.sensors.eye]
+kind = \"items\"
+range_m = 2
+latency_s = 0.5
+";
+
+/// A camera that is half a second late has seen an item that is then gone, and others have its
+/// number.
+#[test]
+fn nobody_is_told_of_an_item_that_is_gone_or_of_another_in_its_place() {
+    let found = |changes: &[(&str, &str)]| {
+        let mut simulation = start(LATE);
+        simulation.step();
+        let text = LATE.to_owned();
+        let text = changes
+            .iter()
+            .fold(text, |text, (this, that)| text.replace(this, that));
+        simulation.change(scenario(&text)).unwrap();
+        (0..4).for_each(|_| simulation.step());
+        assert_eq!(simulation.outcome().found.iter().sum::<u32>(), 0);
+        let mut outcomes = Vec::new();
+        for _ in 0..2 {
+            simulation.step();
+            let found: Vec<bool> = items(&simulation)
+                .iter()
+                .map(|item| item.found_s.is_some())
+                .collect();
+            outcomes.push(found);
+        }
+        outcomes
+    };
+    assert_eq!(found(&[]), [[true, true, false]; 2]);
+    assert_eq!(
+        found(&[("count = 1\nplacement", "count = 0\nplacement")]),
+        [[true, false]; 2]
+    );
+    let none = [
+        ("count = 1\nplacement", "count = 0\nplacement"),
+        ("count = 2", "count = 0"),
+    ];
+    assert_eq!(found(&none), [[false; 0]; 2]);
+}
+
+#[test]
+fn a_run_is_complete_when_what_is_not_found_is_left_out_and_open_when_more_comes_in() {
+    let mut simulation = start(GROUND);
+    let is_found = |item: &Item| item.found_s.is_some();
+    // Until the first mine of all is found, and no flag counts.
+    while !items(&simulation)
+        .iter()
+        .any(|item| item.kind == 1 && is_found(item))
+    {
+        simulation.step();
+    }
+    let found: Vec<Item> = items(&simulation)
+        .into_iter()
+        .filter(|item| item.kind == 1)
+        .collect();
+    let last = found.iter().rposition(is_found).unwrap();
+    let all_found = found[..=last].iter().all(is_found);
+    let few = with(&[
+        ("count = 3", "count = 0"),
+        ("count = 5", &format!("count = {}", last + 1)),
+    ]);
+    simulation.change(scenario(&few)).unwrap();
+    assert_eq!(simulation.state().is_over(simulation.scenario()), all_found);
+    // So that the test says something whichever was found first: leave all out but clutter.
+    let clutter = with(&[
+        ("count = 3", "count = 0"),
+        ("count = 5", "count = 5\nsought = false"),
+    ]);
+    simulation.change(scenario(&clutter)).unwrap();
+    assert!(!simulation.outcome().has_failed);
+    simulation.change(scenario(GROUND)).unwrap();
+    assert!(!simulation.state().is_over(simulation.scenario()));
+    assert!(simulation.outcome().has_failed);
+}
+
+#[test]
+fn the_last_item_to_be_found_can_be_left_out() {
+    let line = "
+[clock]
+cap_s = 60
+[world]
+size_m = [20, 10]
+[items.mine]
+count = 2
+placement = { kind = \"fixed\", at_m = [[4, 5], [18, 5]] }
+[robots.rover]
+count = 1
+radius_m = 0.4
+start = { kind = \"fixed\", at_m = [[1, 5]], heading_deg = [0] }
+drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
+[robots.rover.sensors.eye]
+kind = \"items\"
+range_m = 1
+";
+    let mut simulation = start(line);
+    (0..50).for_each(|_| told(&mut simulation, [(id(0, 0), go(1.0, 0.0))]));
+    assert_eq!(simulation.outcome().found, [1]);
+    let found_s = items(&simulation)[0].found_s.unwrap();
+    simulation
+        .change(scenario(&line.replace("count = 2", "count = 1")))
+        .unwrap();
+    assert!(simulation.state().is_over(simulation.scenario()));
+    let outcome = simulation.outcome();
+    assert!(!outcome.has_failed);
+    assert_eq!(outcome.time_s, found_s);
+}
+
+#[test]
+fn a_robot_is_at_once_no_faster_than_its_drive_allows() {
+    let fast = "
+[clock]
+step_s = 0.1
+cap_s = 60
+[world]
+size_m = [200, 20]
+[robots.rover]
+count = 1
+radius_m = 0.4
+start = { kind = \"fixed\", at_m = [[20, 10]], heading_deg = [0] }
+drive = { max_speed_m_s = 100, max_acceleration_m_s2 = 100, max_turn_rate_deg_s = 90 }
+";
+    let mut simulation = start(fast);
+    (0..10).for_each(|_| told(&mut simulation, [(id(0, 0), go(100.0, 0.0))]));
+    assert_eq!(first(&simulation).speed_m_s, 100.0);
+    let slow = fast
+        .replace("max_speed_m_s = 100", "max_speed_m_s = 1")
+        .replace("max_acceleration_m_s2 = 100", "max_acceleration_m_s2 = 0.1");
+    simulation.change(scenario(&slow)).unwrap();
+    assert_eq!(first(&simulation).speed_m_s, 1.0);
+    (0..100).for_each(|_| simulation.step());
+    assert!(first(&simulation).at.x < 200.0 - 0.4 + 1e-6);
+}
+
+#[test]
+fn parameters_of_the_others_change_nothing_for_a_robot() {
+    let (before, simulation) = changed(&[
+        ("max_speed_m_s = 5", "max_speed_m_s = 4"),
+        ("range_m = 2\n", "range_m = 1\n"),
+    ]);
+    let after = robots(&simulation.unwrap());
+    assert_eq!(of_kind(&after, 1), of_kind(&before, 1));
+    let birds = of_kind(&after, 0);
+    assert!(birds.iter().all(|bird| bird.speed_m_s <= 4.0));
+}
+
+#[test]
+fn what_has_no_room_is_refused_and_nothing_changes() {
+    let pillar = "at_m = [10, 5], radius_m = 1";
+    // Whoever stands in what is built over half of the world.
+    let (_, refused) = changed(&[(pillar, "at_m = [0, 5], radius_m = 10")]);
+    assert!(matches!(
+        refused,
+        Err(NoRoom::Item { .. } | NoRoom::Robot(_))
+    ));
+    // A robot that has grown into the wall or into another.
+    let grown = "radius_m = 0.4\ndrive";
+    let (_, refused) = changed(&[(grown, "radius_m = 1.4\ndrive"), ("count = 3", "count = 0")]);
+    assert!(matches!(refused, Err(NoRoom::Robot(_))));
+    // Birds are above what stands on the ground.
+    let text = with(&[("count = 6", "count = 0"), ("count = 3", "count = 0")]);
+    let text = text.replace("count = 5", "count = 0");
+    let mut simulation = start(&text);
+    let built = text.replace(pillar, "at_m = [10, 5], radius_m = 9.9");
+    assert!(simulation.change(scenario(&built)).is_ok());
+}
+
+#[test]
+fn a_given_place_that_somebody_has_by_now_is_refused() {
+    let two = "
+[clock]
+cap_s = 60
+[world]
+size_m = [20, 10]
+[robots.rover]
+count = 1
+radius_m = 0.4
+start = { kind = \"fixed\", at_m = [[1, 5], [3, 5]], heading_deg = [0, 0] }
+drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
+";
+    let mut simulation = start(two);
+    let more = scenario(&two.replace("count = 1", "count = 2"));
+    (0..15).for_each(|_| told(&mut simulation, [(id(0, 0), go(1.0, 0.0))]));
+    let mut other = simulation.clone();
+    assert!(matches!(other.change(more.clone()), Err(NoRoom::Robot(_))));
+    (0..15).for_each(|_| told(&mut simulation, [(id(0, 0), go(1.0, 0.0))]));
+    assert!(simulation.change(more).is_ok());
+}

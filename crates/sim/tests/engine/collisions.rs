@@ -1,0 +1,151 @@
+//! What a contact does to a robot: it stops, is held, counts once, and may break.
+
+use crate::common::{first, go, id, robots, start, told};
+use sim::engine::{Robot, Simulation, Status};
+
+/// One robot half a metre from the wall that it looks at, at 1 m/s; or two, face to face.
+fn text(collision: &str, robots: u32) -> String {
+    format!(
+        "[clock]\nstep_s = 0.1\ncap_s = 100\n[world]\nsize_m = [10, 10]\n\
+         [robots.rover]\ncount = {robots}\nradius_m = 0.5\n\
+         start = {{ kind = \"fixed\", at_m = [[9, 5], [7, 5]], heading_deg = [0, 0] }}\n\
+         drive = {{ max_speed_m_s = 1, max_reverse_speed_m_s = 1, max_turn_rate_deg_s = 180 }}\n\
+         collision = {{ {collision} }}\n"
+    )
+}
+
+/// Robots after each of so many steps in which they are told the same.
+fn drive(simulation: &mut Simulation, steps: u32, commands: &[(u32, f64, f64)]) -> Vec<Vec<Robot>> {
+    let step = |_| {
+        let commands = commands
+            .iter()
+            .map(|(index, speed, turn)| (id(0, *index), go(*speed, *turn)));
+        told(simulation, commands);
+        robots(simulation)
+    };
+    (0..steps).map(step).collect()
+}
+
+#[test]
+fn pressing_on_against_a_wall_counts_once() {
+    let mut simulation = start(&text("", 1));
+    let ways = drive(&mut simulation, 40, &[(0, 1.0, 0.0)]);
+    // 0.5 m at 1 m/s: the wall is touched at the end of the fifth step, or in the sixth.
+    assert!(ways[3][0].collisions == 0 && !ways[3][0].is_touching);
+    assert!(
+        ways[5..]
+            .iter()
+            .all(|robots| robots[0].collisions == 1 && robots[0].is_touching)
+    );
+    assert!((first(&simulation).at.x - 9.5).abs() < 1e-9);
+    assert!((first(&simulation).distance_m - 0.5).abs() < 1e-9);
+    assert_eq!(simulation.outcome().collisions, 1);
+}
+
+#[test]
+fn a_robot_that_turns_on_the_spot_at_a_wall_is_free_to_leave() {
+    let mut simulation = start(&text("", 1));
+    drive(&mut simulation, 10, &[(0, 1.0, 0.0)]);
+    // A quarter of a turn, along the wall.
+    drive(&mut simulation, 5, &[(0, 0.0, std::f64::consts::PI)]);
+    assert!(!first(&simulation).is_touching);
+    drive(&mut simulation, 20, &[(0, 1.0, 0.0)]);
+    let robot = first(&simulation);
+    assert!(
+        (robot.at.y - 7.0).abs() < 1e-9 && (robot.at.x - 9.5).abs() < 1e-9,
+        "{robot:?}"
+    );
+    assert_eq!(robot.collisions, 1);
+    // Who has been free and comes back has had a new contact.
+    drive(&mut simulation, 5, &[(0, 0.0, -std::f64::consts::PI)]);
+    drive(&mut simulation, 5, &[(0, -1.0, 0.0)]);
+    drive(&mut simulation, 9, &[(0, 1.0, 0.0)]);
+    assert_eq!(first(&simulation).collisions, 2);
+    assert_eq!(simulation.outcome().collisions, 2);
+}
+
+#[test]
+fn a_robot_that_reverses_from_a_wall_is_free_at_once() {
+    let mut simulation = start(&text("", 1));
+    drive(&mut simulation, 10, &[(0, 1.0, 0.0)]);
+    let ways = drive(&mut simulation, 3, &[(0, -1.0, 0.0)]);
+    assert!((ways[0][0].at.x - 9.4).abs() < 1e-9 && !ways[0][0].is_touching);
+    assert!((ways[2][0].at.x - 9.2).abs() < 1e-9);
+}
+
+#[test]
+fn a_robot_is_held_for_as_long_as_its_scenario_says() {
+    for (stop_s, steps) in [(0.0, 0), (0.3, 3), (0.25, 3), (1.0, 10)] {
+        let mut simulation = start(&text(&format!("stop_s = {stop_s}"), 1));
+        let mut hit = 0;
+        while first(&simulation).collisions == 0 {
+            drive(&mut simulation, 1, &[(0, 1.0, 0.0)]);
+            hit += 1;
+            assert!(hit < 9);
+        }
+        let ways = drive(&mut simulation, steps + 2, &[(0, -1.0, 1.0)]);
+        for (step, robots) in ways.iter().enumerate() {
+            let is_held = step < steps as usize;
+            assert_eq!(robots[0].at.x > 9.499, is_held, "{stop_s} {step}");
+            assert_eq!(robots[0].is_touching, is_held, "{stop_s} {step}");
+            // Neither goes nor turns who is held.
+            assert_eq!(robots[0].heading_rad == 0.0, is_held, "{stop_s} {step}");
+        }
+    }
+}
+
+#[test]
+fn a_robot_is_broken_after_so_many_collisions() {
+    let mut simulation = start(&text("breaks_after = 3", 1));
+    for collision in 1..=3 {
+        assert_eq!(first(&simulation).status, Status::Active);
+        drive(&mut simulation, 8, &[(0, 1.0, 0.0)]);
+        assert_eq!(first(&simulation).collisions, collision);
+        drive(&mut simulation, 3, &[(0, -1.0, 0.0)]);
+    }
+    assert_eq!(first(&simulation).status, Status::Broken);
+    assert_eq!(simulation.outcome().robots_stopped, 1);
+    assert!(simulation.state().is_over(simulation.scenario()));
+    let at = first(&simulation).at;
+    drive(&mut simulation, 5, &[(0, -1.0, 1.0)]);
+    assert_eq!(first(&simulation).at, at);
+}
+
+#[test]
+fn of_two_robots_that_meet_both_are_stopped_and_the_contact_counts_once() {
+    let mut simulation = start(&text("stop_s = 0.2", 2));
+    // The second comes from behind at 1 m/s, the first reverses at half of that: 1 m between them.
+    let ways = drive(&mut simulation, 9, &[(0, -0.5, 0.0), (1, 1.0, 0.0)]);
+    let last = &ways[8];
+    assert!((last[0].at.x - last[1].at.x - 1.0).abs() < 1e-9);
+    assert!((last[0].at.x - (9.0 - 1.0 / 3.0)).abs() < 1e-9);
+    assert!(
+        last.iter()
+            .all(|robot| robot.collisions == 1 && robot.is_touching)
+    );
+    assert!(last.iter().all(|robot| robot.speed_m_s == 0.0));
+    assert_eq!(simulation.outcome().collisions, 1);
+    // Apart again, both are free.
+    drive(&mut simulation, 5, &[(0, 0.5, 0.0), (1, -0.5, 0.0)]);
+    assert!(robots(&simulation).iter().all(|robot| !robot.is_touching));
+    assert_eq!(simulation.outcome().collisions, 1);
+}
+
+#[test]
+fn who_is_run_into_from_behind_is_stopped_too() {
+    let mut simulation = start(&text("", 2));
+    let ways = drive(&mut simulation, 11, &[(0, -0.001, 0.0), (1, 1.0, 0.0)]);
+    assert_eq!(ways[8][0].collisions, 0);
+    assert!(ways[10].iter().all(|robot| robot.collisions == 1));
+    assert_eq!(simulation.outcome().collisions, 1);
+}
+
+#[test]
+fn a_broken_robot_is_in_the_way_of_others() {
+    let mut simulation = start(&text("breaks_after = 1", 2));
+    let ways = drive(&mut simulation, 30, &[(0, 1.0, 0.0), (1, 1.0, 0.0)]);
+    let last = &ways[29];
+    assert!(last.iter().all(|robot| robot.status == Status::Broken));
+    assert!((last[1].at.x - 8.5).abs() < 1e-9, "{last:?}");
+    assert_eq!(simulation.outcome().collisions, 2);
+}

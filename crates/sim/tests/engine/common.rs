@@ -1,0 +1,104 @@
+//! Scenarios made of text, and runs stepped by hand.
+
+use base::document::Document;
+use base::fault::Faults;
+use base::geometry::Point;
+use base::random::{Entity, Purpose, Stream, stream, unit};
+use brain::{Command, Message, Motion, RobotId};
+use sim::engine::{Robot, Simulation};
+use sim::scenario::{Scenario, ScenarioSpec};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// The scenario of a text, or what is wrong with it.
+pub(crate) fn read(text: &str) -> Result<Scenario, Faults> {
+    let document = Document::parse("t.toml", text)?;
+    let checked = ScenarioSpec::read(&document)?;
+    Ok(checked.scenario)
+}
+
+/// The scenario of a text in which nothing is wrong.
+pub(crate) fn scenario(text: &str) -> Arc<Scenario> {
+    Arc::new(read(text).unwrap_or_else(|faults| panic!("{faults}\n{text}")))
+}
+
+/// A run of a scenario, at its beginning.
+pub(crate) fn start(text: &str) -> Simulation {
+    Simulation::new(scenario(text), 1, 0).unwrap()
+}
+
+/// All robots, as they are now.
+pub(crate) fn robots(simulation: &Simulation) -> Vec<Robot> {
+    let scenario = simulation.scenario();
+    simulation.state().each_robot(scenario).collect()
+}
+
+/// The first robot of the first kind.
+pub(crate) fn first(simulation: &Simulation) -> Robot {
+    robots(simulation)[0]
+}
+
+pub(crate) fn id(kind: u8, index: u32) -> RobotId {
+    RobotId { kind, index }
+}
+
+pub(crate) fn motion(speed_m_s: f64, turn_rate_rad_s: f64) -> Motion {
+    Motion {
+        speed_m_s,
+        turn_rate_rad_s,
+    }
+}
+
+/// A command to move.
+pub(crate) fn go(speed_m_s: f64, turn_rate_rad_s: f64) -> Command {
+    Command {
+        motion: motion(speed_m_s, turn_rate_rad_s),
+        ..Command::default()
+    }
+}
+
+/// A command to stand and send this.
+pub(crate) fn say(messages: &[Message]) -> Command {
+    Command {
+        outbox: messages.to_vec(),
+        ..Command::default()
+    }
+}
+
+/// One step in which these robots are told what to do.
+pub(crate) fn told(
+    simulation: &mut Simulation,
+    commands: impl IntoIterator<Item = (RobotId, Command)>,
+) {
+    let commands: BTreeMap<RobotId, Command> = commands.into_iter().collect();
+    simulation.step_with(BTreeMap::new(), commands).unwrap();
+}
+
+/// Random numbers for a test.
+pub(crate) struct Random(Stream);
+
+impl Random {
+    pub(crate) fn new(seed: u64) -> Self {
+        let entity = Entity { kind: 0, index: 0 };
+        Self(stream(seed, 0, entity, Purpose::Start))
+    }
+
+    pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * unit(&mut self.0)
+    }
+
+    pub(crate) fn below(&mut self, end: u32) -> u32 {
+        self.0.bounded(end)
+    }
+
+    pub(crate) fn one_of<T: Copy>(&mut self, values: &[T]) -> T {
+        values[self.below(u32::try_from(values.len()).unwrap()) as usize]
+    }
+
+    pub(crate) fn point(&mut self, width: f64, height: f64) -> Point {
+        Point {
+            x: self.between(0.0, width),
+            y: self.between(0.0, height),
+        }
+    }
+}
