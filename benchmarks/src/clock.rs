@@ -21,6 +21,11 @@ fn threads() -> Vec<(String, u64)> {
 
 /// What some work took.
 #[derive(Debug, Clone, Copy)]
+#[allow(
+    dead_code,
+    clippy::struct_field_names,
+    reason = "for worlds shared by threads"
+)]
 pub(crate) struct Took {
     /// Of all threads together.
     pub(crate) cpu_s: f64,

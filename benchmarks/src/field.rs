@@ -115,7 +115,6 @@ impl Chance {
             .0
             .wrapping_mul(6_364_136_223_846_793_005)
             .wrapping_add(1_442_695_040_888_963_407);
-        #[expect(clippy::cast_possible_truncation, reason = "32 bits are left")]
         let word = (self.0 >> 32) as u32;
         f64::from(word) / 4_294_967_296.0
     }

@@ -9,6 +9,13 @@
     clippy::print_stdout,
     reason = "a benchmark may fail, and prints"
 )]
+#![allow(
+    clippy::inline_always,
+    clippy::needless_bitwise_bool,
+    clippy::too_many_arguments,
+    clippy::too_many_lines,
+    reason = "the bare program is one long step, compiled for the vectors at hand"
+)]
 
 mod clock;
 mod field;

@@ -11,7 +11,9 @@ if TYPE_CHECKING:
     from agent_economy import classic, study
     from agent_economy._core import InputError
     from agent_economy.brain import Brain
-    from agent_economy.runs import Outcome, replicate, run
+    from agent_economy.outcome import Outcome
+    from agent_economy.recording import Recording, Rerun, rerun
+    from agent_economy.runs import replicate, run
     from agent_economy.scenario import Scenario
     from agent_economy.simulation import Simulation
     from agent_economy.study.errors import StudyError
@@ -22,12 +24,15 @@ __all__ = [
     "Brain",
     "InputError",
     "Outcome",
+    "Recording",
+    "Rerun",
     "Scenario",
     "Simulation",
     "StudyError",
     "__version__",
     "classic",
     "replicate",
+    "rerun",
     "run",
     "study",
 ]
@@ -35,11 +40,14 @@ __all__ = [
 _HOMES = {
     "Brain": "agent_economy.brain",
     "InputError": "agent_economy._core",
-    "Outcome": "agent_economy.runs",
+    "Outcome": "agent_economy.outcome",
+    "Recording": "agent_economy.recording",
+    "Rerun": "agent_economy.recording",
     "Scenario": "agent_economy.scenario",
     "Simulation": "agent_economy.simulation",
     "StudyError": "agent_economy.study.errors",
     "replicate": "agent_economy.runs",
+    "rerun": "agent_economy.recording",
     "run": "agent_economy.runs",
 }
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from agent_economy import _core
 from agent_economy._core import InputError
 from agent_economy.brain import Command, Percept
-from agent_economy.runs import Outcome, table
+from agent_economy.outcome import Outcome, table
 from agent_economy.scenario import Given, Override, Scenario, loaded
 
 Floats = NDArray[np.float64]

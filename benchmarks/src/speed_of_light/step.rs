@@ -218,7 +218,6 @@ fn decide(team: &mut Team, robot: usize, ranges: &Rays) -> f64 {
     if *turning == 0 && left.min(right) < NEAR_M {
         let word = u64::from(team.key[robot]).wrapping_add(team.tick << 32);
         let chance = (word ^ (word >> 29)).wrapping_mul(0xBF58_476D_1CE4_E5B9) >> 60;
-        #[expect(clippy::cast_possible_truncation, reason = "four bits")]
         let steps = 4 + chance as i32;
         *turning = if left > right { steps } else { -steps };
     }

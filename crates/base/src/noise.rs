@@ -224,10 +224,12 @@ mod tests {
     fn a_hand_is_dealt_the_words_of_as_many_things() {
         let noise = Noise::of(7, 3, Entity { kind: 1, index: 2 });
         let dealt = noise.deal(3, 1 << 40, 5);
-        for lane in 0..LANES {
+        let words = |lane: usize| {
             let index = u32::try_from(5 * LANES + lane).unwrap();
-            let words = noise.words(3, 1 << 40, index);
-            assert_eq!(std::array::from_fn(|row| dealt[row][lane]), words);
+            noise.words(3, 1 << 40, index)
+        };
+        for (row, dealt) in dealt.iter().enumerate() {
+            assert_eq!(*dealt, std::array::from_fn(|lane| words(lane)[row]));
         }
     }
 
@@ -249,7 +251,10 @@ mod tests {
         let pairs = normal_pairs([&dealt[0], &dealt[1]]);
         for lane in 0..LANES {
             let expected = normal_pair([dealt[0][lane], dealt[1][lane]]);
-            assert_eq!([pairs[0][lane], pairs[1][lane]], expected);
+            assert_eq!(
+                [pairs[0][lane], pairs[1][lane]].map(f64::to_bits),
+                expected.map(f64::to_bits)
+            );
         }
     }
 }

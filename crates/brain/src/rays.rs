@@ -120,28 +120,51 @@ impl Ring {
     /// Distance from the robot's centre to what is not known to be free, straight ahead.
     ///
     /// It is asked at each step, so chords beside the way are left out at once, and beyond half its
-    /// sight a chord counts as being as near as its rays allow.
+    /// sight a chord counts as being as near as its rays allow. Which of these holds for a chord is
+    /// as good as random: branches would cost more than all the rest, so it is first decided for
+    /// all, and only near chords are looked at in turn.
     #[inline]
     pub(crate) fn free_ahead_m(&self, ranges_m: &[f64]) -> f64 {
         let mut nearest = Nearest::new(self.range_m);
-        let far_m = self.range_m / 2.0;
         let chords = self.chords.get(..self.ahead).unwrap_or_default();
-        for chord in chords {
+        for chords in chords.chunks(64) {
+            let mut near = self.look_roughly(chords, ranges_m, &mut nearest);
+            while let Some(chord) = chords.get(near.trailing_zeros() as usize) {
+                let ends_m = chord.rays.map(|ray| self.range_m(ranges_m, ray));
+                nearest.look(chord, ends_m, &self.lane);
+                near &= near - 1;
+            }
+        }
+        nearest.m()
+    }
+
+    /// Looks at chords that are far away; returns those that are near, as bits.
+    #[inline]
+    #[expect(
+        clippy::needless_bitwise_bool,
+        reason = "branches would be mispredicted"
+    )]
+    fn look_roughly(&self, chords: &[Chord], ranges_m: &[f64], nearest: &mut Nearest) -> u64 {
+        let far_m = self.range_m / 2.0;
+        let mut bits = 0;
+        for (number, chord) in chords.iter().enumerate() {
             let [from, to] = chord.rays.map(|ray| ranges_m.get(ray).copied());
             let (Some(from), Some(to)) = (from, to) else {
                 continue;
             };
-            if from > chord.beside_m[0] && to > chord.beside_m[1] {
-                continue;
-            }
-            let ends_m = [self.within_m(from), self.within_m(to)];
-            if from > far_m && to > far_m {
-                nearest.look_roughly(chord, ends_m);
+            let is_beside = (from > chord.beside_m[0]) & (to > chord.beside_m[1]);
+            let is_far = (from > far_m) & (to > far_m);
+            let least_m = lesser(self.within_m(from), self.within_m(to)) * chord.nearest_share;
+            let counts = is_far & !is_beside;
+            let squared_m2 = if counts {
+                least_m * least_m
             } else {
-                nearest.look(chord, ends_m, &self.lane);
-            }
+                f64::INFINITY
+            };
+            nearest.squared_m2 = lesser(squared_m2, nearest.squared_m2);
+            bits |= u64::from(!is_far & !is_beside) << number;
         }
-        nearest.m()
+        bits
     }
 
     /// Distance from the robot's centre to what is not known to be free within a sector.
@@ -162,6 +185,12 @@ pub(crate) fn sensible_m(measured_m: f64) -> f64 {
     if measured_m > 0.0 { measured_m } else { 0.0 }
 }
 
+/// Of two numbers; unlike `min` it need not know of what is none.
+#[inline]
+fn lesser(one: f64, other: f64) -> f64 {
+    if one < other { one } else { other }
+}
+
 /// Square of the distance to the nearest so far.
 struct Nearest {
     squared_m2: f64,
@@ -172,12 +201,6 @@ impl Nearest {
         Self {
             squared_m2: range_m * range_m,
         }
-    }
-
-    #[inline]
-    fn look_roughly(&mut self, chord: &Chord, ends_m: [f64; 2]) {
-        let least_m = ends_m[0].min(ends_m[1]) * chord.nearest_share;
-        self.squared_m2 = self.squared_m2.min(least_m * least_m);
     }
 
     #[inline]

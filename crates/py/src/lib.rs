@@ -11,6 +11,7 @@ mod error;
 mod exchange;
 mod long_work;
 mod outside;
+mod recording;
 mod scenario;
 mod selection;
 mod simulation;
@@ -29,6 +30,8 @@ mod _core {
     use crate::configuration::{Configuration, read_configuration, run_block, run_one};
     #[pymodule_export]
     use crate::error::InputError;
+    #[pymodule_export]
+    use crate::recording::{recorded_moment, recorded_setting};
     #[pymodule_export]
     use crate::scenario::{files_wanted, read_document, read_scenario};
     #[pymodule_export]

@@ -267,7 +267,7 @@ impl Simulation {
 impl Simulation {
     /// The run, when no other thread has it. Meanwhile the interpreter is free, since whoever has
     /// it may need that, and Ctrl-C is looked for.
-    fn locked(&self, py: Python) -> PyResult<MutexGuard<'_, engine::Simulation>> {
+    pub(crate) fn locked(&self, py: Python) -> PyResult<MutexGuard<'_, engine::Simulation>> {
         loop {
             match self.run.try_lock() {
                 Ok(run) => return Ok(run),

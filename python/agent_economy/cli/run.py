@@ -1,6 +1,7 @@
 """The command `run`."""
 
 import json
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Annotated
 
@@ -14,12 +15,12 @@ from agent_economy import runs
 from agent_economy.cli.gauge import gauge
 from agent_economy.cli.given import Seed, Sets, overrides
 from agent_economy.cli.told import faults_told
-from agent_economy.runs import Outcome
+from agent_economy.outcome import Outcome
 from agent_economy.scenario import Scenario
 from agent_economy.simulation import Simulation
 
 
-def run(
+def run(  # noqa: PLR0913  (typer's options are arguments)
     scenario: Annotated[
         Path, typer.Argument(help="A scenario's TOML file, or the name of one.", show_default=False)
     ],
@@ -29,21 +30,42 @@ def run(
         int, typer.Option("--run", min=0, help="Which run of the seed: each is another world.")
     ] = 0,
     sets: Sets = None,
+    record: Annotated[
+        Path | None,
+        typer.Option(
+            help="File for a recording, NAME.mcap, as Foxglove shows.", show_default=False
+        ),
+    ] = None,
+    every: Annotated[
+        int, typer.Option(min=1, help="Steps from one recorded moment to the next.")
+    ] = 1,
+    percepts: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="ROBOT",
+            help="Record what the brain of rover/0 perceives and wants; may be repeated.",
+            show_default=False,
+        ),
+    ] = None,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print the outcome as JSON instead of the table.")
     ] = False,
 ) -> None:
     """Run a scenario once, and tell what came of it.
 
-    It is the same run, of the same seed and number, as one of agent-economy replicate.
+    It is the same run, of the same seed and number, as one of agent-economy replicate. A recording
+    is enough to take it again: agent-economy rerun FILE.
 
     Exit codes: 0 the run is over, 2 something given is not allowed, 130 stopped by Ctrl-C.
 
-    Example: agent-economy run search --seed 7 --set robots.rover.count=6
+    Example: agent-economy run search --seed 7 --set robots.rover.count=6 --record run.mcap
     """
     with faults_told():
         given = Scenario.load(scenario, overrides(sets))
-        outcome = watched(given, seed, number)
+        if record is None:
+            outcome = watched(given, seed, number)
+        else:
+            outcome = recorded(Simulation(given, seed, number), record, every, percepts or [])
     if as_json:
         typer.echo(json.dumps({"seed": seed, "status": outcome.status, **outcome.row}, indent=2))
     else:
@@ -55,9 +77,23 @@ def watched(scenario: Scenario, seed: int, number: int) -> Outcome:
     if scenario.engine != "metric":
         return runs.run(scenario, seed, number)
     simulation = Simulation(scenario, seed, number)
-    with gauge(scenario.cap_s, "simulated seconds") as tell:
+    return shown(simulation, simulation.step)
+
+
+def recorded(simulation: Simulation, path: Path, every: int, percepts: Sequence[str]) -> Outcome:
+    """The same, into a file."""
+    # What writes recordings takes as long to load as all the rest.
+    from agent_economy.recording import Recording  # noqa: PLC0415
+
+    with Recording(simulation, path, every=every, percepts=percepts) as recording:
+        return shown(simulation, recording.step)
+
+
+def shown(simulation: Simulation, step: Callable[[], object]) -> Outcome:
+    """Step until the run is over."""
+    with gauge(simulation.scenario.cap_s, "simulated seconds") as tell:
         while not simulation.is_over:
-            simulation.step()
+            step()
             tell(simulation.time_s)
     return simulation.outcome()
 

@@ -164,7 +164,7 @@ mod tests {
             let part_s = step / f64::from(parts);
             for _ in 0..parts {
                 let next = now + (target - now).clamp(-4.0 * part_s, 4.0 * part_s);
-                way += (now + next) / 2.0 * part_s;
+                way += f64::midpoint(now, next) * part_s;
                 now = next;
             }
             prop_assert!((driven.speed_m_s - now).abs() < 1e-9);

@@ -67,8 +67,8 @@ impl Meetings {
 
     fn add(&mut self, plans: &[Plan], [one, other]: [&Disc; 2], robots: [u32; 2]) {
         let reach_m = one.radius_m + other.radius_m;
-        let lengths_m = robots.map(|robot| plans[robot as usize].path.length_m.abs());
-        let length_m = lengths_m[0] + lengths_m[1];
+        let goes_m = |robot: u32| plans[robot as usize].path.length_m.abs();
+        let length_m = goes_m(robots[0]) + goes_m(robots[1]);
         let gap_m = one.centre.to(other.centre).length() - reach_m;
         if gap_m <= length_m && length_m > 0.0 {
             self.pairs.push(Pair {

@@ -101,7 +101,7 @@ impl Neighbours {
             let robots = first..discs.len().min(first + ROBOTS_PER_PIECE);
             piece.clear();
             for robot in robots {
-                piece.add(scenario, buckets, reach_m, (ids, discs), robot);
+                piece.add(scenario, (buckets, reach_m), (ids, discs), robot);
             }
         };
         if is_shared {
@@ -158,8 +158,7 @@ impl Piece {
     fn add(
         &mut self,
         scenario: &Scenario,
-        buckets: &Buckets,
-        reach_m: &[f64],
+        (buckets, reach_m): (&Buckets, &[f64]),
         (ids, discs): (&[RobotId], &[Disc]),
         robot: usize,
     ) {
@@ -172,7 +171,9 @@ impl Piece {
             is_one_layer || scenario.kinds[other_kind].layer == kind.layer
         };
         let near = buckets.near(centre, reach_m);
-        self.add_robots(scenario, near, centre, reach_m, (robot, is_in_layer));
+        let contact_m = scenario.contact_m + SKIN_M;
+        let near = near.map(|(place, other)| (centre.to(*place).length_squared(), *other));
+        self.add_robots(near, [reach_m, contact_m], robot, is_in_layer);
         let robots = self.end();
         if kind.rays_m > 0.0 {
             let stands = scenario.seen(kind.layer);
@@ -185,39 +186,36 @@ impl Piece {
         } else {
             self.ends.push([robots; 3]);
         }
-        let touch_m = (scenario.contact_m + SKIN_M) / 2.0;
+        let touch_m = f64::midpoint(scenario.contact_m, SKIN_M);
         let is_near_still = is_near(scenario.touched(kind.layer), centre, touch_m);
         self.may_touch.push(is_near_still);
     }
 
-    /// Adds the robots of a layer that are near one.
+    /// Adds the robots of a layer that are near one, of those whose square distance is given.
     ///
     /// Whether one is near is as good as random: it is written down in any case.
-    fn add_robots<'a>(
+    fn add_robots(
         &mut self,
-        scenario: &Scenario,
-        near: impl Iterator<Item = &'a (Point, u32)>,
-        centre: Point,
-        reach_m: f64,
-        (robot, is_in_layer): (usize, impl Fn(u32) -> bool),
+        near: impl Iterator<Item = (f64, u32)>,
+        [reach_m, contact_m]: [f64; 2],
+        robot: usize,
+        is_in_layer: impl Fn(u32) -> bool,
     ) {
         let first = self.pairs.len();
-        let contact_m = scenario.contact_m + SKIN_M;
         let mut end = self.things.len();
-        near.for_each(|(place, other)| {
-            let square = centre.to(*place).length_squared();
-            let is_near = (square < reach_m * reach_m) & (*other as usize != robot);
+        near.for_each(|(square, other)| {
+            let is_near = square < reach_m * reach_m && other as usize != robot;
             if end == self.things.len() {
                 self.things.push(0);
             }
-            self.things[end] = *other;
-            end += usize::from(is_near && is_in_layer(*other));
-            if square < contact_m * contact_m && *other as usize > robot && is_in_layer(*other) {
+            self.things[end] = other;
+            end += usize::from(is_near && is_in_layer(other));
+            if square < contact_m * contact_m && other as usize > robot && is_in_layer(other) {
                 #[expect(
                     clippy::cast_possible_truncation,
                     reason = "robots have 32-bit numbers"
                 )]
-                self.pairs.push([robot as u32, *other]);
+                self.pairs.push([robot as u32, other]);
             }
         });
         self.things.truncate(end);

@@ -16,3 +16,79 @@ impl Outside {
         self.percepts.is_empty() && self.commands.is_empty()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::Simulation;
+    use crate::scenario::ScenarioSpec;
+    use base::document::Document;
+    use base::geometry::Point;
+    use brain::{About, Message, RobotId};
+    use std::sync::Arc;
+
+    const TWO: &str = "
+[clock]
+cap_s = 100
+[world]
+size_m = [40, 20]
+[robots.rover]
+count = 2
+radius_m = 0.2
+start = { kind = \"fixed\", at_m = [[10, 10], [12, 10]] }
+drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
+radio = { range_m = 5 }
+";
+
+    fn start() -> Simulation {
+        let document = Document::parse("t", TWO).unwrap();
+        let read = ScenarioSpec::read(&document);
+        Simulation::new(Arc::new(read.unwrap().scenario), 1, 0).unwrap()
+    }
+
+    const HERE: RobotId = RobotId { kind: 0, index: 0 };
+    const OUT: RobotId = RobotId { kind: 0, index: 1 };
+
+    /// One step in which the first robot speaks and the other is outside, at a place.
+    fn speak(simulation: &mut Simulation, x: f64) {
+        let message = Message {
+            about: About::Item {
+                kind: 0,
+                at: Point::default(),
+            },
+            confidence: 1.0,
+        };
+        let command = Command {
+            outbox: vec![message],
+            ..Command::default()
+        };
+        let percept = Percept {
+            position: Some(brain::Reading {
+                value: Point { x, y: 10.0 },
+                age_s: 0.0,
+            }),
+            ..Percept::default()
+        };
+        let (percepts, commands) = ([(OUT, percept)], [(HERE, command)]);
+        simulation
+            .step_with(percepts.into(), commands.into())
+            .unwrap();
+    }
+
+    fn waiting(simulation: &Simulation) -> usize {
+        let backlog = simulation.state().minds[1].backlog.as_ref().unwrap();
+        backlog.inbox.len()
+    }
+
+    #[test]
+    fn bodies_outside_hear_where_they_are_and_once() {
+        let mut simulation = start();
+        speak(&mut simulation, 12.0);
+        assert_eq!(waiting(&simulation), 1);
+        // Its next percept takes that message to its brain; out of range it hears no more.
+        speak(&mut simulation, 39.0);
+        assert_eq!(waiting(&simulation), 0);
+        speak(&mut simulation, 6.0);
+        assert_eq!(waiting(&simulation), 1);
+    }
+}

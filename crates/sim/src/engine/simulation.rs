@@ -15,7 +15,8 @@ use std::sync::Arc;
 ///
 /// A body can be outside: from the first percept that [`Simulation::step_with`] gets for a robot, it
 /// is where its percepts say, and its brain's commands are handed out instead of carried out. In a
-/// step without a percept it stands, and its brain is not asked.
+/// step without a percept it stands, and its brain is not asked. It knows for itself how it fares:
+/// it neither breaks nor empties here, and takes no energy.
 #[derive(Debug, Clone)]
 pub struct Simulation {
     scenario: Arc<Scenario>,

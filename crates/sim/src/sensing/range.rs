@@ -12,6 +12,7 @@ use base::trig::wrapped;
 use pulp::{Arch, Simd, WithSimd};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::array::from_fn;
 
 /// Rays from the robot's centre, evenly spread over the field of view.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -119,7 +120,7 @@ impl WithSimd for RingLook<'_> {
             near,
             to,
         } = self;
-        ring.rays.cast(simd, eye.front, near, ring.range_m, to);
+        ring.rays.cast(simd, (eye.front, ring.range_m), near, to);
         if ring.false_echo > 0.0 {
             ring.invent(eye, to);
         }
@@ -129,9 +130,11 @@ impl WithSimd for RingLook<'_> {
         if ring.noise_m > 0.0 || ring.noise_share > 0.0 {
             ring.blur(eye, to);
         }
-        for distance in to.as_flattened_mut() {
-            let is_echo = *distance < ring.range_m;
-            *distance = if is_echo { *distance } else { f64::INFINITY };
+        for distances in to {
+            *distances = distances.map(|distance| {
+                let is_echo = distance < ring.range_m;
+                if is_echo { distance } else { f64::INFINITY }
+            });
         }
     }
 }
@@ -139,16 +142,21 @@ impl WithSimd for RingLook<'_> {
 /// Random numbers are dealt to hands of four groups of rays.
 const GROUPS: usize = HAND / GROUP;
 
+/// Groups are written as a whole: stores of some lanes would be waited for by the next load.
 impl Ring {
     #[inline(always)]
     fn lose(&self, eye: &Eye, to: &mut [[f64; GROUP]]) {
         for (hand, groups) in (0..).zip(to.chunks_mut(GROUPS)) {
             let chances = eye.deal(Use::Echo, hand);
             for (distances, chances) in groups.iter_mut().zip(&chances) {
-                for (distance, chance) in distances.iter_mut().zip(chances) {
-                    let is_lost = share(*chance) < self.miss;
-                    *distance = if is_lost { self.range_m } else { *distance };
-                }
+                *distances = from_fn(|lane| {
+                    let is_lost = share(chances[lane]) < self.miss;
+                    if is_lost {
+                        self.range_m
+                    } else {
+                        distances[lane]
+                    }
+                });
             }
         }
     }
@@ -160,11 +168,11 @@ impl Ring {
             let chances = eye.deal(Use::Echo, hand);
             let places = eye.deal(Use::EchoPlace, hand);
             for ((distances, chances), places) in groups.iter_mut().zip(&chances).zip(&places) {
-                for ((distance, chance), place) in distances.iter_mut().zip(chances).zip(places) {
-                    let is_false = share(*chance) > 1.0 - self.false_echo;
-                    let before = *distance * share(*place);
-                    *distance = if is_false { before } else { *distance };
-                }
+                *distances = from_fn(|lane| {
+                    let is_false = share(chances[lane]) > 1.0 - self.false_echo;
+                    let before = distances[lane] * share(places[lane]);
+                    if is_false { before } else { distances[lane] }
+                });
             }
         }
     }
@@ -176,9 +184,7 @@ impl Ring {
             for (pair, words) in groups.chunks_mut(2).zip(words.chunks(2)) {
                 let deviations = normal_pairs([&words[0], &words[1]]);
                 for (distances, deviations) in pair.iter_mut().zip(&deviations) {
-                    for (distance, deviation) in distances.iter_mut().zip(deviations) {
-                        *distance = self.blurred(*distance, *deviation);
-                    }
+                    *distances = from_fn(|lane| self.blurred(distances[lane], deviations[lane]));
                 }
             }
         }

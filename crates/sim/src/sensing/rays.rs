@@ -106,6 +106,10 @@ impl Near {
         self.walls.take(walls, |wall| {
             let (start, end) = (at.to(wall.start), at.to(wall.end()));
             let area = start.cross(end);
+            #[expect(
+                clippy::needless_bitwise_bool,
+                reason = "a branch would be mispredicted"
+            )]
             let is_near = (area > 0.0) & (area < range_m * wall.length);
             (NearWall { start, end, area }, is_near)
         });
@@ -150,12 +154,15 @@ impl Rays {
     ///
     /// `front` is the direction of the robot's front, of length 1.
     #[inline(always)]
+    #[expect(
+        clippy::inline_always,
+        reason = "else it is not compiled for the vectors at hand"
+    )]
     pub(crate) fn cast<S: Simd>(
         &self,
         simd: S,
-        front: Point,
+        (front, range_m): (Point, f64),
         near: &mut Near,
-        range_m: f64,
         to: &mut [[f64; GROUP]],
     ) {
         let cosines = S::as_simd_f64s(self.cosines.as_flattened()).0;

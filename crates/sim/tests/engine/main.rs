@@ -1,7 +1,26 @@
 //! The engine from outside: what a run may and may not do, whatever its scenario.
 
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_precision_loss,
+    clippy::cast_sign_loss,
+    clippy::float_cmp,
+    clippy::similar_names,
+    clippy::unnecessary_wraps,
+    clippy::unwrap_used,
+    reason = "tests count, compare what is exact by construction, and may fail by a panic"
+)]
+
+mod battery;
 mod change;
 mod collisions;
 mod common;
 mod contact;
+mod determinism;
+mod judge;
 mod meetings;
+mod outside;
+mod radio;
+mod random;
+mod robust;
+mod sensors;

@@ -71,8 +71,8 @@ fn a_whole_circle_has_its_first_ray_ahead_and_none_twice() {
     };
     assert_eq!(degrees(&spec(4)), [0.0, 90.0, 180.0, -90.0]);
     let facing = |facing_deg, fov_deg, rays| RangeSpec {
-        facing_deg,
         fov_deg,
+        facing_deg,
         ..spec(rays)
     };
     assert_eq!(degrees(&facing(90.0, 360.0, 3)), [90.0, -150.0, -30.0]);

@@ -28,7 +28,7 @@ impl WithSimd for Cast<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         self.rays
-            .cast(simd, self.front, self.near, self.range_m, self.to);
+            .cast(simd, (self.front, self.range_m), self.near, self.to);
     }
 }
 

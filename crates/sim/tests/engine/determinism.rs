@@ -1,0 +1,263 @@
+//! The same scenario, seed and run give the same bytes, however they are come by.
+
+use crate::common::{Random, id, read, robots, scenario, start};
+use crate::random;
+use base::geometry::Point;
+use base::runner::{Runner, Work};
+use brain::{About, Command, Message, Percept, RobotId};
+use rayon::ThreadPoolBuilder;
+use sim::engine::{Outcome, Simulation};
+use sim::runner::Runs;
+use sim::scenario::Scenario;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// Everything that a step can share out: rays, radios, items, contacts, two layers.
+fn crowd(robots: u32, side_m: f64) -> String {
+    let birds = robots / 5;
+    let rovers = robots - birds;
+    format!(
+        "[clock]\nstep_s = 0.1\ncap_s = 100\n[world]\nsize_m = [{side_m}, {side_m}]\n\
+         obstacles = [{{ circle = {{ at_m = [10, 10], radius_m = 3 }} }}, {{ polygon_m = [[15, 2], [16, 2], [16, 9]] }}]\n\
+         [items.mine]\ncount = {robots}\n[items.scrap]\ncount = 50\nsought = false\n\
+         [robots.bird]\ncount = {birds}\nlayer = \"air\"\nradius_m = 0.3\n\
+         drive = {{ max_speed_m_s = 5, max_acceleration_m_s2 = 3, max_turn_rate_deg_s = 90 }}\n\
+         [robots.bird.sensors.eye]\nkind = \"items\"\nrange_m = 2\nlatency_s = 0.3\nneeds_line_of_sight = false\n\
+         detects = {{ mine = 0.1 }}\nfalse_alarms_per_m2_s = {{ scrap = 0.01 }}\n\
+         [robots.bird.radio]\nrange_m = 6\nloss = 0.2\n\
+         [robots.rover]\ncount = {rovers}\nradius_m = 0.25\n\
+         drive = {{ max_speed_m_s = 1, max_acceleration_m_s2 = 2, max_turn_rate_deg_s = 120 }}\n\
+         battery = {{ capacity_j = 60, idle_w = 5, move_j_per_m = 20 }}\ncollision = {{ stop_s = 0.3, breaks_after = 20 }}\n\
+         [robots.rover.sensors.sonar]\nkind = \"range\"\nrays = 12\nrange_m = 2\nnoise_m = 0.02\nmiss = 0.1\n\
+         [robots.rover.sensors.gps]\nkind = \"position\"\nnoise_m = 1\nrate_hz = 3\n\
+         [robots.rover.sensors.mates]\nkind = \"robots\"\nrange_m = 3\ndetects = 0.5\nnoise_m = 0.1\n\
+         [robots.rover.sensors.eye]\nkind = \"items\"\nrange_m = 1\ndetects = {{ mine = 0.05, scrap = 0.1 }}\n\
+         [robots.rover.radio]\nrange_m = 4\nloss = 0.2\ndelay_s = 0.2\nneeds_line_of_sight = true\n"
+    )
+}
+
+/// Every seventh robot speaks, and every eleventh is steered by hand.
+fn commands(simulation: &Simulation, step: u32) -> BTreeMap<RobotId, Command> {
+    let told = |(number, robot): (u32, RobotId)| {
+        let mut command = Command::default();
+        if (number + step) % 7 == 0 {
+            command.outbox = vec![
+                Message {
+                    about: About::Item {
+                        kind: 0,
+                        at: Point::default()
+                    },
+                    confidence: f64::from(number),
+                };
+                2
+            ];
+        } else if (number + step) % 11 == 0 {
+            command.motion.speed_m_s = 1.0;
+        } else {
+            return None;
+        }
+        Some((robot, command))
+    };
+    let ids = robots(simulation).into_iter().map(|robot| robot.id);
+    (0..).zip(ids).filter_map(told).collect()
+}
+
+/// Hashes after each step, of the percepts of some robots too, and the outcome.
+fn trace(simulation: &mut Simulation, steps: u32) -> (Vec<u64>, Vec<Option<Percept>>, Outcome) {
+    let (mut hashes, mut percepts) = (Vec::new(), Vec::new());
+    for step in 0..steps {
+        let commands = commands(simulation, step);
+        simulation.step_with(BTreeMap::new(), commands).unwrap();
+        hashes.push(simulation.state().hash());
+        let some = robots(simulation)
+            .into_iter()
+            .map(|robot| robot.id)
+            .step_by(97);
+        for id in some.collect::<Vec<_>>() {
+            percepts.push(simulation.percept(id).unwrap());
+        }
+    }
+    (hashes, percepts, simulation.outcome())
+}
+
+#[test]
+fn a_world_of_5000_robots_is_the_same_for_any_number_of_threads() {
+    let scenario = scenario(&crowd(5000, 160.0));
+    let on = |threads| {
+        let pool = ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
+        let mut simulation = Simulation::new(Arc::clone(&scenario), 3, 1).unwrap();
+        pool.install(|| trace(&mut simulation, 12))
+    };
+    let alone = on(1);
+    assert!(
+        alone.2.collisions > 20 && alone.2.found[0] > 100,
+        "{:?}",
+        alone.2
+    );
+    let heard = alone
+        .1
+        .iter()
+        .flatten()
+        .map(|percept| percept.inbox.len())
+        .sum::<usize>();
+    assert!(heard > 50, "{heard}");
+    for threads in [2, 3, 8] {
+        assert_eq!(on(threads), alone, "{threads} threads");
+    }
+}
+
+#[test]
+fn the_age_of_the_lists_of_near_robots_changes_nothing() {
+    let scenario = scenario(&crowd(120, 25.0));
+    let anew = |each: u32| {
+        let mut simulation = Simulation::new(Arc::clone(&scenario), 1, 0).unwrap();
+        let mut hashes = Vec::new();
+        for step in 0..120 {
+            if each > 0 && step % each == 0 {
+                // To put a state back makes the lists anew.
+                simulation.restore(simulation.state().clone());
+            }
+            let commands = commands(&simulation, step);
+            simulation.step_with(BTreeMap::new(), commands).unwrap();
+            hashes.push(simulation.state().hash());
+        }
+        (hashes, simulation.outcome())
+    };
+    let never = anew(0);
+    for each in [1, 2, 7, 50] {
+        assert_eq!(anew(each), never, "every {each} steps");
+    }
+}
+
+#[test]
+fn a_run_goes_on_from_any_copy_of_its_state() {
+    let scenario = scenario(&crowd(60, 20.0));
+    let mut simulation = Simulation::new(Arc::clone(&scenario), 1, 0).unwrap();
+    let mut states = vec![simulation.state().clone()];
+    for _ in 0..60 {
+        simulation.step();
+        states.push(simulation.state().clone());
+    }
+    // Backwards, and into a simulation that has been elsewhere.
+    let mut other = Simulation::new(scenario, 99, 7).unwrap();
+    (0..10).for_each(|_| other.step());
+    for (tick, state) in states.iter().enumerate().rev().step_by(7) {
+        other.restore(state.clone());
+        for later in tick..60 {
+            assert_eq!(other.state().hash(), states[later].hash());
+            other.step();
+        }
+        assert_eq!(other.outcome(), simulation.outcome());
+    }
+}
+
+/// What a run gives, in the order of the columns.
+fn by_hand(scenario: &Arc<Scenario>, seed: u64, run: u64) -> Option<Outcome> {
+    let mut simulation = Simulation::new(Arc::clone(scenario), seed, run).ok()?;
+    Some(simulation.finish())
+}
+
+#[test]
+fn runs_in_a_block_are_those_stepped_by_hand_one_by_one() {
+    for seed in 0..60 {
+        let Ok(scenario) = read(&random::text(seed)) else {
+            continue;
+        };
+        let runs = Runs(Arc::new(scenario));
+        let names: Vec<_> = runs
+            .columns()
+            .into_iter()
+            .map(|column| column.name)
+            .collect();
+        // One block, and blocks of one run: a workshop is used again in the first only.
+        let block = runs.run_block(seed, 3..9, Work::ALONE);
+        for (place, run) in (3..9).enumerate() {
+            let alone = runs.run_block(seed, run..run + 1, Work::ALONE);
+            let bits = |columns: &[Vec<f64>], place: usize| -> Vec<u64> {
+                columns
+                    .iter()
+                    .map(|column| column[place].to_bits())
+                    .collect()
+            };
+            assert_eq!(bits(&block, place), bits(&alone, 0), "{seed}");
+            let Some(outcome) = by_hand(&runs.0, seed, run) else {
+                assert!(alone[0][0].is_nan());
+                continue;
+            };
+            let value =
+                |name: &str| alone[names.iter().position(|other| other == name).unwrap()][0];
+            assert_eq!(value("time_s"), outcome.time_s);
+            assert_eq!(value("energy_j"), outcome.energy_j);
+            assert_eq!(value("distance_m"), outcome.distance_m);
+            assert_eq!(value("collisions"), outcome.collisions as f64);
+            assert_eq!(value("false_alarms"), outcome.false_alarms as f64);
+            assert_eq!(value("robots_stopped"), f64::from(outcome.robots_stopped));
+            assert_eq!(value("failed"), f64::from(u8::from(outcome.has_failed)));
+        }
+    }
+}
+
+/// A robot's own random numbers, and where it and the items are, do not depend on who else there is.
+#[test]
+fn a_robot_more_or_a_kind_more_changes_nothing_for_the_others_at_first() {
+    let field = |rovers: u32, more: &str| {
+        format!(
+            "[clock]\ncap_s = 100\n[world]\nsize_m = [500, 500]\n[items.mine]\ncount = 20\n\
+             placement = {{ kind = \"clustered\", clusters = 3, spread_m = 9 }}\n\
+             [robots.rover]\ncount = {rovers}\nradius_m = 0.3\n\
+             drive = {{ max_speed_m_s = 1, max_turn_rate_deg_s = 90 }}\n\
+             [robots.rover.sensors.gps]\nkind = \"position\"\nnoise_m = 2\n\
+             [robots.rover.sensors.sonar]\nkind = \"range\"\nrays = 9\nrange_m = 4\nnoise_m = 0.1\nfalse_echo = 0.5\n\
+             [robots.rover.sensors.eye]\nkind = \"items\"\nrange_m = 50\ndetects = {{ mine = 0.5 }}\nnoise_m = 1\n\
+             false_alarms_per_m2_s = {{ mine = 0.001 }}\n{more}"
+        )
+    };
+    let kind = "[robots.zebra]\ncount = 5\nradius_m = 0.3\n\
+                drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }\n";
+    let items = "[items.stone]\ncount = 7\nsought = false\n";
+    let perceived = |text: &str| {
+        let mut simulation = start(text);
+        let mut percepts = Vec::new();
+        for _ in 0..30 {
+            percepts.extend((0..6).map(|index| simulation.percept(id(0, index)).unwrap()));
+            simulation.step();
+        }
+        let items = simulation.state().each_item(simulation.scenario());
+        let mines: Vec<_> = items.filter(|item| item.kind == 0).collect();
+        (percepts, mines)
+    };
+    let alone = perceived(&field(6, ""));
+    let contacts = alone
+        .0
+        .iter()
+        .flatten()
+        .map(|percept| percept.contacts.len())
+        .sum::<usize>();
+    assert!(contacts > 100, "{contacts}");
+    // In a world as wide as this nobody sees or meets anybody.
+    assert_eq!(perceived(&field(7, "")).0, alone.0);
+    assert_eq!(perceived(&field(40, "")).0, alone.0);
+    assert_eq!(perceived(&field(6, kind)), alone);
+    assert_eq!(perceived(&field(6, items)).1, alone.1);
+}
+
+#[test]
+fn seeds_and_runs_are_different_worlds() {
+    let text = crowd(20, 20.0);
+    let scenario = scenario(&text);
+    let mut random = Random::new(1);
+    let mut hashes = std::collections::BTreeSet::new();
+    for _ in 0..50 {
+        let (seed, run) = (
+            u64::from(random.below(1 << 30)),
+            u64::from(random.below(1 << 30)),
+        );
+        let simulation = Simulation::new(Arc::clone(&scenario), seed, run).unwrap();
+        assert!(hashes.insert(simulation.state().hash()));
+        let again = Simulation::new(Arc::clone(&scenario), seed, run).unwrap();
+        assert_eq!(simulation.state().hash(), again.state().hash());
+    }
+}

@@ -1,0 +1,229 @@
+//! Who hears what, and when.
+
+use crate::common::{id, say, start, told};
+use base::geometry::Point;
+use brain::{About, Heard, Message, RobotId};
+use sim::engine::Simulation;
+
+/// Robots at places on a line through the middle of a field of 40 m, with a wall at 30 m.
+fn line(radio: &str, places_m: &[f64], more: &str) -> String {
+    let places: Vec<String> = places_m.iter().map(|x| format!("[{x}, 10]")).collect();
+    format!(
+        "[clock]\nstep_s = 0.1\ncap_s = 100000\n[world]\nsize_m = [40, 20]\n\
+         obstacles = [{{ polygon_m = [[30, 9], [30.1, 9], [30.1, 11], [30, 11]] }}]\n\
+         [robots.rover]\ncount = {}\nradius_m = 0.2\n\
+         start = {{ kind = \"fixed\", at_m = [{}] }}\n\
+         drive = {{ max_speed_m_s = 1, max_turn_rate_deg_s = 90 }}\nbrain = {{ behaviours = [] }}\n\
+         radio = {{ {radio} }}\n{more}",
+        places.len(),
+        places.join(", ")
+    )
+}
+
+/// A message that can be told from others.
+fn message(number: f64) -> Message {
+    let at = Point { x: number, y: 0.0 };
+    Message {
+        about: About::Item { kind: 0, at },
+        confidence: 0.5,
+    }
+}
+
+fn number(heard: &Heard) -> f64 {
+    match heard.message.about {
+        About::Item { at, .. } => at.x,
+        About::Sender { .. } => f64::NAN,
+    }
+}
+
+fn inbox(simulation: &mut Simulation, id: RobotId) -> Vec<Heard> {
+    let percept = simulation.percept(id).unwrap();
+    percept.map_or(Vec::new(), |percept| percept.inbox)
+}
+
+/// Of so many robots of the first kind, those that hear something now.
+fn hearers(simulation: &mut Simulation, robots: u32) -> Vec<u32> {
+    (0..robots)
+        .filter(|index| !inbox(simulation, id(0, *index)).is_empty())
+        .collect()
+}
+
+#[test]
+fn those_in_range_hear_a_message_in_the_next_step_and_once() {
+    let places = [10.0, 12.0, 15.0, 15.41, 5.0, 4.59];
+    let mut simulation = start(&line("range_m = 5", &places, ""));
+    told(&mut simulation, [(id(0, 0), say(&[message(7.0)]))]);
+    assert_eq!(hearers(&mut simulation, 6), [1, 2, 4]);
+    let heard = inbox(&mut simulation, id(0, 1));
+    assert_eq!(heard.len(), 1);
+    assert_eq!(
+        (heard[0].from, heard[0].age_s, heard[0].message),
+        (id(0, 0), 0.1, message(7.0))
+    );
+    simulation.step();
+    assert_eq!(hearers(&mut simulation, 6), [0; 0]);
+}
+
+#[test]
+fn a_delay_is_as_long_as_the_scenario_says() {
+    for (delay_s, steps) in [
+        (0.0, 1),
+        (0.05, 1),
+        (0.1, 1),
+        (0.11, 2),
+        (0.3, 3),
+        (2.0, 20),
+    ] {
+        let text = line(
+            &format!("range_m = 5, delay_s = {delay_s}"),
+            &[9.0, 10.0],
+            "",
+        );
+        let mut simulation = start(&text);
+        // One message a step: they come one a step.
+        for step in 0..30_u32 {
+            let heard = inbox(&mut simulation, id(0, 1));
+            let expected = step.checked_sub(steps).map(f64::from);
+            assert_eq!(
+                heard.iter().map(number).collect::<Vec<_>>(),
+                Vec::from_iter(expected)
+            );
+            let age_s = f64::from(steps) * 0.1;
+            assert!(
+                heard
+                    .iter()
+                    .all(|heard| (heard.age_s - age_s).abs() < 1e-12)
+            );
+            told(
+                &mut simulation,
+                [(id(0, 0), say(&[message(f64::from(step))]))],
+            );
+        }
+    }
+}
+
+#[test]
+fn messages_are_lost_as_often_as_the_scenario_says_and_by_each_alone() {
+    let mut simulation = start(&line("range_m = 9, loss = 0.3", &[9.0, 10.0, 11.0], ""));
+    let (count, mut heard, mut both) = (20_000, [0.0; 2], 0.0);
+    for _ in 0..count {
+        told(&mut simulation, [(id(0, 0), say(&[message(0.0)]))]);
+        let now = hearers(&mut simulation, 3);
+        heard[0] += f64::from(u8::from(now.contains(&1)));
+        heard[1] += f64::from(u8::from(now.contains(&2)));
+        both += f64::from(u8::from(now.len() == 2));
+    }
+    // Five standard errors: wrong for a right program less than once in a million.
+    let assert_share = |hits: f64, share: f64| {
+        let error = (share * (1.0 - share) / f64::from(count)).sqrt();
+        assert!(
+            (hits / f64::from(count) - share).abs() < 5.0 * error,
+            "{hits}"
+        );
+    };
+    heard.into_iter().for_each(|heard| assert_share(heard, 0.7));
+    assert_share(both, 0.49);
+}
+
+#[test]
+fn two_messages_of_a_step_are_lost_one_by_one() {
+    let mut simulation = start(&line("range_m = 9, loss = 0.5", &[9.0, 10.0], ""));
+    let mut counts = [0.0_f64; 3];
+    for _ in 0..10_000 {
+        told(
+            &mut simulation,
+            [(id(0, 0), say(&[message(0.0), message(1.0)]))],
+        );
+        counts[inbox(&mut simulation, id(0, 1)).len()] += 1.0;
+    }
+    // As above.
+    let error = (0.25_f64 * 0.75 * 10_000.0).sqrt();
+    assert!((counts[0] - 2500.0).abs() < 5.0 * error && (counts[2] - 2500.0).abs() < 5.0 * error);
+}
+
+#[test]
+fn a_robot_sends_the_first_messages_of_a_step_and_hears_as_many() {
+    let text = line("range_m = 9, messages_per_step = 3", &[9.0, 10.0, 11.0], "");
+    let mut simulation = start(&text);
+    let many: Vec<Message> = (0..5).map(|place| message(f64::from(place))).collect();
+    told(&mut simulation, [(id(0, 0), say(&many))]);
+    let numbers = |simulation: &mut Simulation, index| -> Vec<f64> {
+        inbox(simulation, id(0, index)).iter().map(number).collect()
+    };
+    assert_eq!(numbers(&mut simulation, 1), [0.0, 1.0, 2.0]);
+    // Of what two send, the third hears the first three; the two hear each other.
+    let more: Vec<Message> = (10..12).map(|place| message(f64::from(place))).collect();
+    told(
+        &mut simulation,
+        [(id(0, 0), say(&more)), (id(0, 1), say(&many))],
+    );
+    assert_eq!(numbers(&mut simulation, 2), [10.0, 11.0, 0.0]);
+    assert_eq!(numbers(&mut simulation, 0), [0.0, 1.0, 2.0]);
+    assert_eq!(numbers(&mut simulation, 1), [10.0, 11.0]);
+    let mute = line("range_m = 9, messages_per_step = 0", &[9.0, 10.0], "");
+    let mut simulation = start(&mute);
+    told(&mut simulation, [(id(0, 0), say(&many))]);
+    assert_eq!(hearers(&mut simulation, 2), [0; 0]);
+}
+
+#[test]
+fn obstacles_silence_a_radio_that_needs_to_see() {
+    for (needs, expected) in [("false", vec![1, 2]), ("true", vec![1])] {
+        let radio = format!("range_m = 9, needs_line_of_sight = {needs}");
+        let mut simulation = start(&line(&radio, &[28.0, 29.0, 32.0], ""));
+        told(&mut simulation, [(id(0, 0), say(&[message(0.0)]))]);
+        assert_eq!(hearers(&mut simulation, 3), expected);
+    }
+}
+
+#[test]
+fn a_slow_brain_hears_everything_since_its_last_step_once() {
+    let slow = "[robots.slow]\ncount = 1\nradius_m = 0.2\nbrain = { rate_hz = 1, behaviours = [] }\n\
+                start = { kind = \"fixed\", at_m = [[9, 10]] }\nradio = { range_m = 5 }\n\
+                drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }\n";
+    let mut simulation = start(&line("range_m = 5", &[10.0], slow));
+    let mut heard = Vec::new();
+    for step in 0..41_u32 {
+        if let Some(percept) = simulation.percept(id(1, 0)).unwrap() {
+            assert_eq!(step % 10, 0);
+            for each in &percept.inbox {
+                heard.push(number(each));
+                assert!((each.age_s - (f64::from(step) - number(each)) * 0.1).abs() < 1e-9);
+            }
+        }
+        told(
+            &mut simulation,
+            [(id(0, 0), say(&[message(f64::from(step))]))],
+        );
+    }
+    assert_eq!(heard, (0..40).map(f64::from).collect::<Vec<_>>());
+}
+
+#[test]
+fn who_has_no_radio_neither_sends_nor_hears() {
+    let mute = "[robots.zero]\ncount = 1\nradius_m = 0.2\n\
+                start = { kind = \"fixed\", at_m = [[9, 10]] }\n\
+                drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }\n";
+    let mut simulation = start(&line("range_m = 5", &[10.0, 11.0], mute));
+    let all = [id(0, 0), id(1, 0)].map(|id| (id, say(&[message(0.0)])));
+    told(&mut simulation, all);
+    assert_eq!(hearers(&mut simulation, 2), [1]);
+    assert!(inbox(&mut simulation, id(1, 0)).is_empty());
+}
+
+#[test]
+fn who_cannot_go_on_neither_sends_nor_hears() {
+    // The first is empty after the second step.
+    let weak = "[robots.alpha]\ncount = 1\nradius_m = 0.2\nbattery = { capacity_j = 2, idle_w = 10 }\n\
+                start = { kind = \"fixed\", at_m = [[9, 10]] }\nradio = { range_m = 5, delay_s = 0.2 }\n\
+                drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }\nbrain = { behaviours = [] }\n";
+    let mut simulation = start(&line("range_m = 5", &[10.0], weak));
+    let both = [id(0, 0), id(1, 0)].map(|id| (id, say(&[message(0.0)])));
+    let mut heard = Vec::new();
+    for _ in 0..6 {
+        told(&mut simulation, both.clone());
+        heard.push([id(0, 0), id(1, 0)].map(|id| inbox(&mut simulation, id).len()));
+    }
+    // Its messages of the first two steps are on their way and arrive; it is told nothing more.
+    assert_eq!(heard, [[1, 0], [0, 1], [0, 1], [0, 0], [0, 0], [0, 0]]);
+}
