@@ -15,6 +15,7 @@ ROOT = Path(__file__).resolve().parent.parent
 
 CRATE_USES = {
     "agent-economy-base": set[str](),
+    "agent-economy-benchmarks": {"agent-economy-base", "agent-economy-sim"},
     "agent-economy-brain": {"agent-economy-base"},
     "agent-economy-classic": {"agent-economy-base"},
     "agent-economy-py": {

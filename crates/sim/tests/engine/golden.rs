@@ -17,7 +17,7 @@ use sim::scenario::ScenarioSpec;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 const STEPS: u64 = 50;
@@ -73,7 +73,11 @@ fn runs_are_the_same_bytes_as_ever() {
         .map(|entry| entry.unwrap().file_name().into_string().unwrap())
         .collect();
     names.sort_unstable();
-    for name in names.iter().filter(|name| name.ends_with(".toml")) {
+    for name in names.iter().filter(|name| {
+        Path::new(name)
+            .extension()
+            .is_some_and(|kind| kind == "toml")
+    }) {
         let text = fs::read_to_string(at(&["../../scenarios", name])).unwrap();
         if text.contains("engine = \"metric\"") {
             write!(found, "{}", shipped(name)).unwrap();
