@@ -8,6 +8,7 @@ mod contact;
 mod determinism;
 mod golden;
 mod judge;
+mod layers;
 mod meetings;
 mod outside;
 mod radio;
