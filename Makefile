@@ -6,8 +6,8 @@ RUST := $(shell find crates/*/src crates/*/Cargo.toml) Cargo.toml Cargo.lock
 # maturin, and what it starts, are found in the environment.
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 
-.PHONY: help study test bench bench-store verify-selection fuzz golden picture replication lint \
-	rust-test python-test clean
+.PHONY: help study test bench bench-store verify-selection fuzz schemas golden picture replication \
+	validation lint rust-test python-test clean
 
 help: ## Say what can be made
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "%-17s %s\n", $$1, $$2 }' Makefile
@@ -35,6 +35,7 @@ python-test: .venv/installed
 
 bench: ## Robot-decisions per second
 	cargo bench -p agent-economy-classic
+	cargo bench -p agent-economy-brain
 
 bench-store: .venv/installed ## Rows a second into a study's store, and bytes a row
 	$(BIN)/python scripts/store_speed.py
@@ -46,8 +47,15 @@ golden: ## Runs of the metric engine are the same bytes from a debug and from a 
 	cargo test --locked --profile dev -p agent-economy-sim --test engine golden
 	cargo test --locked --release -p agent-economy-sim --test engine golden
 
+validation: .venv/installed ## Measure and draw docs/validation.md anew
+	RENEW_VALIDATION=1 cargo test --locked -p agent-economy-sim --test validation
+	$(BIN)/python scripts/validation.py
+
 replication: .venv/installed ## Recompute every figure of docs/replication.md
 	$(BIN)/python scripts/replication.py
+
+schemas: ## Write the JSON Schema and the reference of scenarios anew from their types
+	RENEW_SCHEMAS=1 cargo test --locked -p agent-economy-sim --test schemas -- --test-threads=1
 
 picture: study ## Take docs/report.png anew (needs Chromium)
 	$(BIN)/python scripts/report_picture.py

@@ -7,7 +7,9 @@ import json
 import re
 import subprocess
 import sys
+from functools import cache
 from pathlib import Path
+from typing import Any
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -27,13 +29,19 @@ CRATE_USES = {
 }
 """Which of our crates each may use; a new crate is added here on purpose."""
 
+BRAIN_USES = {"agent-economy-base", "libm", "schemars", "serde"}
+"""All that the crate brain may use: nothing with a clock, a file, a thread or chance of its own."""
+
+NO_STD = "#![cfg_attr(not(test), no_std)]"
+"""What keeps the standard library, and with it the outside world, out of the crate brain."""
+
 CODE = {"crates": ["*.rs"], "python": ["*.py", "*.pyi"], "scripts": ["*.py"]}
 MAX_LINES = 600
 
 
 def main() -> None:
     """Print every fault and exit with 1 if there is one."""
-    faults = [*crate_faults(), *length_faults(), *document_faults()]
+    faults = [*crate_faults(), *brain_faults(), *length_faults(), *document_faults()]
     for fault in faults:
         print(fault)
     print(f"check_tree: {len(faults)} faults")
@@ -42,10 +50,8 @@ def main() -> None:
 
 def crate_faults() -> list[str]:
     """Return uses of one crate by another that the layers do not allow."""
-    command = ["cargo", "metadata", "--format-version=1", "--no-deps", "--locked"]
-    output = subprocess.run(command, cwd=ROOT, check=True, capture_output=True, text=True).stdout
     faults = []
-    for package in json.loads(output)["packages"]:
+    for package in packages():
         name = package["name"]
         if name not in CRATE_USES:
             faults.append(f"crate {name} has no place among the layers in {__file__}")
@@ -53,6 +59,31 @@ def crate_faults() -> list[str]:
         used = {each["name"] for each in package["dependencies"]} & CRATE_USES.keys()
         faults += [f"crate {name} must not use {each}" for each in used - CRATE_USES[name]]
     return faults
+
+
+def brain_faults() -> list[str]:
+    """Return ways by which more than percepts could enter a brain."""
+    faults = []
+    library = ROOT / "crates/brain/src/lib.rs"
+    if NO_STD not in library.read_text(encoding="utf-8"):
+        faults.append(f"crate brain must have {NO_STD}")
+    faults += [
+        f"{file.relative_to(ROOT)}: a brain must not use std"
+        for file in library.parent.rglob("*.rs")
+        if re.search(r"\bextern crate std\b", file.read_text(encoding="utf-8"))
+    ]
+    brain = next(each for each in packages() if each["name"] == "agent-economy-brain")
+    used = {each["name"] for each in brain["dependencies"] if each["kind"] != "dev"}
+    return faults + [f"crate brain must not use {each}" for each in used - BRAIN_USES]
+
+
+@cache
+def packages() -> list[dict[str, Any]]:
+    """Return what cargo knows of our crates."""
+    command = ["cargo", "metadata", "--format-version=1", "--no-deps", "--locked"]
+    output = subprocess.run(command, cwd=ROOT, check=True, capture_output=True, text=True).stdout
+    found: list[dict[str, Any]] = json.loads(output)["packages"]
+    return found
 
 
 def length_faults() -> list[str]:

@@ -1,6 +1,7 @@
 """How many robots, of which kinds, does this job need? Answered by fast simulation.
 
-`classic` is the 2003 grid simulator; `Scenario` reads what a job is; `study` answers.
+`Scenario` reads what a job is; `run`, `replicate` and `Simulation` run it; `study` answers;
+`classic` is more of the 2003 grid simulator.
 """
 
 from importlib import import_module
@@ -9,17 +10,45 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from agent_economy import classic, study
     from agent_economy._core import InputError
+    from agent_economy.brain import Brain
+    from agent_economy.outcome import Outcome
+    from agent_economy.recording import Recording, Rerun, rerun
+    from agent_economy.runs import replicate, run
     from agent_economy.scenario import Scenario
+    from agent_economy.simulation import Simulation
     from agent_economy.study.errors import StudyError
 
     __version__: str
 
-__all__ = ["InputError", "Scenario", "StudyError", "__version__", "classic", "study"]
+__all__ = [
+    "Brain",
+    "InputError",
+    "Outcome",
+    "Recording",
+    "Rerun",
+    "Scenario",
+    "Simulation",
+    "StudyError",
+    "__version__",
+    "classic",
+    "replicate",
+    "rerun",
+    "run",
+    "study",
+]
 
 _HOMES = {
+    "Brain": "agent_economy.brain",
     "InputError": "agent_economy._core",
+    "Outcome": "agent_economy.outcome",
+    "Recording": "agent_economy.recording",
+    "Rerun": "agent_economy.recording",
     "Scenario": "agent_economy.scenario",
+    "Simulation": "agent_economy.simulation",
     "StudyError": "agent_economy.study.errors",
+    "replicate": "agent_economy.runs",
+    "rerun": "agent_economy.recording",
+    "run": "agent_economy.runs",
 }
 
 

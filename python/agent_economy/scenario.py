@@ -1,7 +1,7 @@
 """What a job is: a scenario, read from a TOML file and checked as a whole."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +16,9 @@ Given = Value | Sequence[Any] | Mapping[str, Any]
 """What can be put into a scenario: a value, a list or a table."""
 
 VARY = "study.vary."
+
+MAX_BYTES = 2**28
+"""Of a file that a scenario names: a map of 64 million cells, and some more."""
 
 
 @dataclass(frozen=True)
@@ -71,15 +74,43 @@ class Override:
 
 @dataclass(frozen=True)
 class Source:
-    """What a scenario was read from: a text, how faults name it, and what was put over it."""
+    """What a scenario was read from, whole: nothing else is needed to read it again elsewhere.
+
+    Attributes:
+        file: How faults name the text.
+        text: TOML.
+        overrides: What was put over it.
+        files: The files that it names, such as maps, by their names: their bytes, or why they
+            cannot be read.
+    """
 
     file: str
     text: str = field(repr=False)
     overrides: tuple[Override, ...]
+    files: Mapping[str, bytes | str] = field(default_factory=dict, repr=False)
 
+    @property
     def changes(self) -> list[tuple[list[str], Given, str]]:
-        """Return the overrides as the compiled part takes them."""
+        """The overrides as the compiled part takes them."""
         return [(list(each.path), each.value, each.origin) for each in self.overrides]
+
+    def complete(self) -> "Source":
+        """Return the source with all files that it names, read from beside its own."""
+        source = self
+        while wanted := _core.files_wanted(source):
+            found = {name: content(Path(self.file).parent / name) for name in wanted}
+            source = replace(source, files={**source.files, **found})
+        return source
+
+
+def content(path: Path) -> bytes | str:
+    """Return what is in a file, or why it cannot be read."""
+    try:
+        if path.stat().st_size > MAX_BYTES:
+            return f"it has more than {MAX_BYTES} bytes"
+        return path.read_bytes()
+    except OSError as error:
+        return error.strerror or str(error)
 
 
 @dataclass(frozen=True)
@@ -145,10 +176,19 @@ class Scenario:
         Raises:
             InputError: If anything in it is wrong; all faults at once.
         """
-        source = Source(file, text, overrides)
-        fields = _core.read_scenario(file, text, source.changes())
+        return cls.of(Source(file, text, overrides))
+
+    @classmethod
+    def of(cls, source: Source) -> "Scenario":
+        """Read a scenario from its source; files that it names and does not have are read.
+
+        Raises:
+            InputError: If anything in it is wrong; all faults at once.
+        """
+        source = source.complete()
+        fields = _core.read_scenario(source)
         return cls(
-            name=Path(file).stem.strip(".") or "scenario",
+            name=Path(source.file).stem.strip(".") or "scenario",
             source=source,
             merit=merit(fields.pop("merit")),
             facts=tuple(fields.pop("facts")),
@@ -159,8 +199,7 @@ class Scenario:
 
     def to_dict(self) -> dict[str, Any]:
         """Return the whole scenario as its file could have it, as nested dicts and lists."""
-        source = self.source
-        return _core.read_document(source.file, source.text, source.changes())
+        return _core.read_document(self.source)
 
     def replace(self, path: str, value: Given) -> "Scenario":
         """Return the scenario with another value at a path, checked as a whole.
@@ -183,7 +222,7 @@ class Scenario:
             InputError: If any is not allowed; all faults at once.
         """
         every = (*self.source.overrides, *overrides)
-        return Scenario.loads(self.source.text, self.source.file, every)
+        return Scenario.of(replace(self.source, overrides=every))
 
     def configuration(self, values: Mapping[str, Value]) -> _core.Configuration:
         """Return what is run: the scenario with a value for each path of `values`.
@@ -192,8 +231,35 @@ class Scenario:
             InputError: If a path is none that can be varied, or a value is not allowed there,
                 alone or with the others; all faults at once.
         """
-        source = self.source
-        return _core.read_configuration(source.file, source.text, source.changes(), dict(values))
+        return _core.read_configuration(self.source, dict(values))
+
+    def metric(self) -> _core.MetricScenario:
+        """Return what a run of the metric engine needs.
+
+        Raises:
+            InputError: If the scenario is of another engine.
+        """
+        if self.engine != "metric":
+            message = (
+                f"{self.source.file}: engine = {self.engine!r}: must be 'metric': others have no "
+                "brains and no runs stepped by hand; see agent_economy.classic.trace"
+            )
+            raise InputError(message)
+        return _core.read_metric(self.source)
+
+
+def loaded(given: Scenario | str | Path) -> Scenario:
+    """Return a scenario that is given, or read the one of a file or a name, as `load` does.
+
+    Raises:
+        InputError: If it is none of these, or wrong; all faults at once.
+    """
+    if isinstance(given, Scenario):
+        return given
+    if isinstance(given, str | Path):
+        return Scenario.load(given)
+    message = f"scenario = {given!r}: must be a Scenario, a file, or the name of one that ships"
+    raise InputError(message)
 
 
 def factor(fields: dict[str, Any]) -> Factor:

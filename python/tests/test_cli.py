@@ -28,7 +28,9 @@ def test_version_names_the_program() -> None:
     assert given.stdout.startswith("agent-economy 0.")
 
 
-@pytest.mark.parametrize("command", ["study", "answer", "watch", "check", "scenarios"])
+@pytest.mark.parametrize(
+    "command", ["study", "answer", "watch", "run", "replicate", "check", "scenarios"]
+)
 def test_help_has_an_example(command: str) -> None:
     for given in (run("--help"), run(command, "--help")):
         assert given.returncode == 0

@@ -1,16 +1,15 @@
 """Configurations and blocks of their runs."""
 
-import signal
 import subprocess
 import sys
 import threading
 import time
 from pathlib import Path
-from types import FrameType
 from typing import Any
 
 import numpy as np
 import pytest
+from alarm import ringing
 
 from agent_economy import InputError, Scenario, _core
 from agent_economy.study import design
@@ -173,23 +172,8 @@ def test_bad_arguments_of_a_block_are_told_at_once(scenario: Scenario) -> None:
 
 
 def test_a_signal_ends_a_long_block_soon(scenario: Scenario) -> None:
-    class AlarmError(Exception):
-        pass
-
-    def ring(_number: int, _frame: FrameType | None) -> None:
-        raise AlarmError
-
-    before = signal.signal(signal.SIGALRM, ring)
-    begin = time.monotonic()
-    try:
-        signal.setitimer(signal.ITIMER_REAL, 0.3)
-        with pytest.raises(AlarmError):
-            block(teams(scenario, *range(100, 140)), runs=100_000)
-    finally:
-        signal.setitimer(signal.ITIMER_REAL, 0)
-        signal.signal(signal.SIGALRM, before)
-    # The promise is one second; the bound allows for a busy machine.
-    assert time.monotonic() - begin < 3
+    with ringing(0.3):
+        block(teams(scenario, *range(100, 140)), runs=100_000)
     assert block(teams(scenario, 2), runs=3)["robots"].tolist() == [[2, 2, 2]]
 
 

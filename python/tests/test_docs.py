@@ -1,8 +1,13 @@
 """Documents say what the program does."""
 
+import re
+import shlex
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
+
+import pytest
 
 from agent_economy import Scenario, study
 
@@ -15,7 +20,36 @@ def test_every_table_of_the_replication_page_is_what_the_program_gives() -> None
     assert given.returncode == 0, given.stderr
 
 
+def test_the_validation_page_and_its_pictures_are_drawn_from_what_was_measured() -> None:
+    command = [sys.executable, str(ROOT / "scripts/validation.py"), "--check"]
+    given = subprocess.run(command, capture_output=True, text=True, check=False, timeout=300)
+    assert given.returncode == 0, given.stderr
+
+
 def test_the_readme_quotes_the_answer_that_make_study_gives() -> None:
     answer = study.run(Scenario.load(ROOT / "scenarios/classic.toml"))
     quoted = " ".join((ROOT / "README.md").read_text().replace("\n> ", " ").split())
     assert answer.sentence in quoted
+
+
+def test_the_examples_of_the_page_on_running_scenarios_run(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    page = (ROOT / "docs/simulation.md").read_text()
+    blocks = re.findall(r"^```(python)?\n(.*?)^```$", page, re.DOTALL | re.MULTILINE)
+    names: dict[str, Any] = {}
+    for language, text in blocks:
+        if language:
+            exec(text, names)  # noqa: S102  (ours)
+            continue
+        for line in text.splitlines():
+            command = [sys.executable, "-m", *shlex.split(line.replace("-", "_", 1), comments=True)]
+            given = subprocess.run(command, capture_output=True, text=True, check=False)
+            assert given.returncode == 0, given.stderr
+    assert (tmp_path / "runs.parquet").exists()
+    printed = capsys.readouterr().out.splitlines()
+    promised = re.findall(r"^print\(.*?\)\s+# (.*)", page, re.MULTILINE)
+    for line, words in zip(printed, promised, strict=False):
+        assert line == words or words.startswith("share of"), (line, words)
+    assert len(printed) >= len(promised) == 3

@@ -16,6 +16,7 @@ pub mod fault;
 pub mod geometry;
 pub mod map;
 pub mod noise;
+pub mod philox;
 pub mod placement;
 pub mod question;
 pub mod random;

@@ -4,13 +4,27 @@
 //! once, so that what one sensor draws changes nothing for another, and skipping a look nothing for
 //! the next. The generator is Philox4x32-10 (see [`crate::random`]), with a key for each entity.
 
-use crate::random::{Entity, Purpose, stream};
-use crate::trig::sin_cos;
-use rand_philox::Philox;
-use std::f64::consts::{LN_2, TAU};
+#![expect(
+    clippy::inline_always,
+    reason = "it is compiled for the vectors of its callers"
+)]
 
-/// 2^-32.
+use crate::philox::{Blocks, LANES, blocks};
+use crate::random::{Entity, Purpose, stream};
+use rand_philox::Philox;
+use std::f64::consts::{FRAC_PI_2, LN_2};
+
+/// Things that are dealt words together: one for each word of so many blocks.
+pub const HAND: usize = 4 * LANES;
+
+/// 2^-32, and 2^-30.
 const WORD: f64 = 1.0 / 4_294_967_296.0;
+const QUARTER: f64 = 1.0 / 1_073_741_824.0;
+
+/// The last bits of this number, as a float, hold a whole number below 2^52: so one is converted
+/// that is known to be that small, on every machine in the same few instructions.
+const WHOLE_BITS: u64 = 0x4330_0000_0000_0000;
+const WHOLE: f64 = 4_503_599_627_370_496.0;
 
 /// The random numbers of one entity in one run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -32,24 +46,29 @@ impl Noise {
     #[must_use]
     #[inline]
     pub fn words(self, use_of: u32, time: u64, index: u32) -> [u32; 4] {
-        let mut words = [0; 4];
-        self.fill(use_of, time, index, &mut words);
-        words
+        let counter = (u128::from(time) << 64) | (u128::from(use_of) << 32) | u128::from(index);
+        let mut stream = Philox::new(self.key, counter);
+        std::array::from_fn(|_| stream.next_u32())
     }
 
-    /// As many words as there is room for; they are those of the `index`-th thing and on.
-    #[inline]
-    pub fn fill(self, use_of: u32, time: u64, index: u32, words: &mut [u32]) {
-        let counter = (u128::from(time) << 64) | (u128::from(use_of) << 32) | u128::from(index);
-        Philox::new(self.key, counter).fill_u32(words);
+    /// A word for each of [`HAND`] things, the `hand`-th so many: for the thing `lane` of row `row`
+    /// that of number `LANES * row + lane`.
+    ///
+    /// This is for loops: it is compiled for the instructions of the function that it is in.
+    #[must_use]
+    #[inline(always)]
+    pub fn deal(self, use_of: u32, time: u64, hand: u32) -> Blocks {
+        #[expect(clippy::cast_possible_truncation, reason = "a few")]
+        let first = hand.wrapping_mul(LANES as u32);
+        blocks(self.key, first, use_of, time)
     }
 }
 
 /// A number from 0 to 1, neither included.
 #[must_use]
-#[inline]
+#[inline(always)]
 pub fn share(word: u32) -> f64 {
-    (f64::from(word) + 0.5) * WORD
+    (whole(word) + 0.5) * WORD
 }
 
 /// Two independent numbers of the standard normal distribution, at most 6.8 from 0.
@@ -57,15 +76,65 @@ pub fn share(word: u32) -> f64 {
 /// Source: G. E. P. Box and M. E. Muller, *A note on the generation of random normal deviates*,
 /// Annals of Mathematical Statistics 29 (1958).
 #[must_use]
-#[inline]
+#[inline(always)]
 pub fn normal_pair(words: [u32; 2]) -> [f64; 2] {
     let radius = (-2.0 * ln_of_share(share(words[0]))).sqrt();
-    let (sine, cosine) = sin_cos(TAU * (share(words[1]) - 0.5));
+    let [cosine, sine] = on_circle(words[1]);
     [radius * cosine, radius * sine]
 }
 
+/// Two for each lane: see [`normal_pair`].
+#[must_use]
+#[inline(always)]
+pub fn normal_pairs(words: [&[u32; LANES]; 2]) -> [[f64; LANES]; 2] {
+    let mut pairs = [[0.0; LANES]; 2];
+    for lane in 0..LANES {
+        let [one, other] = normal_pair([words[0][lane], words[1][lane]]);
+        pairs[0][lane] = one;
+        pairs[1][lane] = other;
+    }
+    pairs
+}
+
+/// A point of the circle of radius 1, each as likely, within 1e-10; without branches.
+///
+/// The first two bits are the quarter that it is in, the others its place there.
+#[inline(always)]
+fn on_circle(word: u32) -> [f64; 2] {
+    let x = ((whole(word & 0x3FFF_FFFF) + 0.5) * QUARTER - 0.5) * FRAC_PI_2;
+    let square = x * x;
+    let sine = 1.0 / 362_880.0;
+    let sine = sine * square - 1.0 / 5_040.0;
+    let sine = sine * square + 1.0 / 120.0;
+    let sine = sine * square - 1.0 / 6.0;
+    let sine = x + x * (square * sine);
+    let cosine = -1.0 / 3_628_800.0;
+    let cosine = cosine * square + 1.0 / 40_320.0;
+    let cosine = cosine * square - 1.0 / 720.0;
+    let cosine = cosine * square + 1.0 / 24.0;
+    let cosine = cosine * square - 1.0 / 2.0;
+    let cosine = cosine * square + 1.0;
+    let quarter = u64::from(word >> 30);
+    let [one, other] = if quarter & 1 == 0 {
+        [cosine, sine]
+    } else {
+        [sine, cosine]
+    };
+    let flip = |is_negative: u64, value: f64| f64::from_bits(value.to_bits() ^ (is_negative << 63));
+    [
+        flip((quarter ^ quarter >> 1) & 1, one),
+        flip(quarter >> 1, other),
+    ]
+}
+
+/// The word as a number.
+#[inline(always)]
+fn whole(word: u32) -> f64 {
+    f64::from_bits(WHOLE_BITS | u64::from(word)) - WHOLE
+}
+
 /// The natural logarithm of a number from 2^-33 to 1, within 1e-11; without branches.
-#[inline]
+#[inline(always)]
 fn ln_of_share(x: f64) -> f64 {
     // x = m 2^e with m from sqrt(1/2) to sqrt(2); ln m = 2 artanh((m - 1) / (m + 1)).
     const EXPONENT_ONE: u64 = 1023 << 52;
@@ -74,9 +143,7 @@ fn ln_of_share(x: f64) -> f64 {
         .to_bits()
         .wrapping_sub(ROOT_HALF)
         .wrapping_add(EXPONENT_ONE);
-    // The biased exponent as a float, without a conversion from 64-bit integers: it is put into
-    // the last bits of 2^52.
-    let biased = f64::from_bits(0x4330_0000_0000_0000 | (shifted >> 52)) - 4_503_599_627_370_496.0;
+    let biased = f64::from_bits(WHOLE_BITS | (shifted >> 52)) - WHOLE;
     let exponent = biased - 1023.0;
     let mantissa = f64::from_bits((shifted & 0x000F_FFFF_FFFF_FFFF).wrapping_add(ROOT_HALF));
     let z = (mantissa - 1.0) / (mantissa + 1.0);
@@ -151,9 +218,43 @@ mod tests {
             noise(2).words(3, 4, 6),
         ];
         assert!(others.iter().all(|other| *other != here));
-        let mut many = [0; 8];
-        noise(2).fill(3, 4, 5, &mut many);
-        assert_eq!(many[..4], here);
-        assert_eq!(many[4..], noise(2).words(3, 4, 6));
+    }
+
+    #[test]
+    fn a_hand_is_dealt_the_words_of_as_many_things() {
+        let noise = Noise::of(7, 3, Entity { kind: 1, index: 2 });
+        let dealt = noise.deal(3, 1 << 40, 5);
+        let words = |lane: usize| {
+            let index = u32::try_from(5 * LANES + lane).unwrap();
+            noise.words(3, 1 << 40, index)
+        };
+        for (row, dealt) in dealt.iter().enumerate() {
+            assert_eq!(*dealt, std::array::from_fn(|lane| words(lane)[row]));
+        }
+    }
+
+    #[test]
+    fn points_of_the_circle_are_those_of_the_reference() {
+        for step in 0..=2_000_000_u32 {
+            let word = step.wrapping_mul(2147);
+            let [x, y] = on_circle(word);
+            // The first quarter is that about the x-axis.
+            let angle = (share(word) - 0.125) * std::f64::consts::TAU;
+            assert!((x - libm::cos(angle)).abs() < 1e-9, "{word}");
+            assert!((y - libm::sin(angle)).abs() < 1e-9, "{word}");
+        }
+    }
+
+    #[test]
+    fn normal_numbers_by_lanes_are_those_one_by_one() {
+        let dealt = Noise::of(7, 3, Entity { kind: 1, index: 2 }).deal(3, 4, 5);
+        let pairs = normal_pairs([&dealt[0], &dealt[1]]);
+        for lane in 0..LANES {
+            let expected = normal_pair([dealt[0][lane], dealt[1][lane]]);
+            assert_eq!(
+                [pairs[0][lane], pairs[1][lane]].map(f64::to_bits),
+                expected.map(f64::to_bits)
+            );
+        }
     }
 }

@@ -33,19 +33,24 @@ pub struct RobotId {
 #[serde(deny_unknown_fields)]
 pub struct Body {
     /// Of the disc that it covers.
+    #[schemars(range(min = 0.0))]
     pub radius_m: f64,
     /// At most so fast ahead.
+    #[schemars(range(min = 0.0))]
     pub max_speed_m_s: f64,
     /// At most so fast backwards; 0 if it cannot.
     #[serde(default)]
+    #[schemars(range(min = 0.0))]
     pub max_reverse_speed_m_s: f64,
     /// It gains and loses speed at most so fast; infinite if at once (`null` in JSON).
     #[serde(default = "at_once", with = "crate::infinite::number")]
-    #[schemars(with = "Option<f64>")]
+    #[schemars(with = "Option<f64>", range(min = 0.0))]
     pub max_acceleration_m_s2: f64,
     /// It turns at most so fast, either way.
+    #[schemars(range(min = 0.0))]
     pub max_turn_rate_rad_s: f64,
     /// Time between two steps of the brain.
+    #[schemars(range(min = 0.0))]
     pub period_s: f64,
     /// Names of its sensors, in the order in which requests count them.
     #[serde(default)]
@@ -65,10 +70,13 @@ pub struct RangeRing {
     /// Direction of each ray from the robot's front, anticlockwise; above -pi, up to pi.
     pub bearings_rad: Vec<f64>,
     /// Nothing farther from the robot's centre is measured.
+    #[schemars(range(min = 0.0))]
     pub range_m: f64,
     /// Time between two scans.
+    #[schemars(range(min = 0.0))]
     pub period_s: f64,
     /// Time from a scan until the brain has it.
+    #[schemars(range(min = 0.0))]
     pub latency_s: f64,
 }
 

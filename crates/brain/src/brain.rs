@@ -82,18 +82,20 @@ impl Brain {
 
     fn motion(&mut self, percept: &Percept) -> Motion {
         let Kind { body, sight, .. } = &*self.kind;
-        let turned_rad = self.moved.turned_rad(percept, body);
+        let turned_rad = self.moved.take_in(percept, body);
+        let now_m_s = self.moved.now_m_s(percept, body);
         let senses = Senses {
             percept,
             body,
             rings: &sight.rings,
-            ahead: sight.ahead(percept, body, &self.moved),
+            ahead: sight.ahead(percept, body, now_m_s),
             turned_rad,
+            now_m_s,
         };
         let wanted = arbitrate(&self.kind.behaviours, &mut self.layers, &senses);
         let mut motion = possible(wanted, body);
         if self.kind.spec.speed_limited_by_sight {
-            motion.speed_m_s = sight.limited_m_s(motion, &senses, &self.moved);
+            motion = sight.limited(motion, &senses, &self.moved);
         }
         possible(motion, body)
     }
@@ -103,12 +105,25 @@ impl Brain {
 fn possible(wanted: Motion, body: &Body) -> Motion {
     let within = |value: f64, least: f64, most: f64| {
         let value = value.max(least).min(most);
-        if value.is_finite() { value } else { 0.0 }
+        // Adding 0 makes -0 a plain 0.
+        if value.is_finite() { value + 0.0 } else { 0.0 }
     };
     let turn = body.max_turn_rate_rad_s;
     let back = -body.max_reverse_speed_m_s;
     Motion {
         speed_m_s: within(wanted.speed_m_s, back, body.max_speed_m_s),
         turn_rate_rad_s: within(wanted.turn_rate_rad_s, -turn, turn),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_brain_of_three_behaviours_takes_some_hundred_bytes() {
+        let layer = size_of::<Layer<Memory>>();
+        let all = size_of::<Brain>() + 3 * layer;
+        assert!(all <= 112, "{all} bytes, {layer} a layer");
     }
 }

@@ -27,9 +27,9 @@ impl Dice {
     }
 
     /// A whole number below `end`; 0 if that is 0.
-    #[expect(clippy::cast_possible_truncation, reason = "below `end`")]
-    pub fn below(&mut self, end: usize) -> usize {
-        ((u128::from(self.word()) * end as u128) >> 32) as usize
+    pub fn below(&mut self, end: u32) -> u32 {
+        let product = u64::from(self.word()) * u64::from(end);
+        u32::try_from(product >> 32).unwrap_or_default()
     }
 
     fn word(&mut self) -> u32 {
@@ -64,7 +64,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn numbers_lie_within_their_bounds(words: [u32; 4], end in 1_usize..1000) {
+        fn numbers_lie_within_their_bounds(words: [u32; 4], end in 1_u32..1000) {
             let mut dice = Dice::new(words);
             for _ in 0..20 {
                 prop_assert!((0.0..1.0).contains(&dice.unit()));
@@ -92,7 +92,7 @@ mod tests {
         for _ in 0..16_000 {
             let mut dice = Dice::new(std::array::from_fn(|_| random.next_u32()));
             for bins in &mut bins {
-                bins[dice.below(16)] += 1;
+                bins[dice.below(16) as usize] += 1;
             }
         }
         for (place, bins) in bins.iter().enumerate() {
@@ -107,7 +107,7 @@ mod tests {
     #[test]
     fn dice_of_zeros_do_not_stay_zeros() {
         let mut dice = Dice::new([0; 4]);
-        let later: Vec<usize> = (0..8).map(|_| dice.below(1 << 30)).skip(4).collect();
+        let later: Vec<u32> = (0..8).map(|_| dice.below(1 << 30)).skip(4).collect();
         assert!(later.iter().all(|number| *number > 0), "{later:?}");
     }
 }

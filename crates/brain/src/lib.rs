@@ -39,6 +39,7 @@ mod infinite;
 mod percept;
 mod rays;
 mod reckoning;
+mod sector;
 mod senses;
 mod sight;
 mod spec;

@@ -6,6 +6,7 @@
 
 use crate::body::RangeRing;
 use crate::percept::Scan;
+use crate::sector::{Sector, direction};
 use alloc::vec::Vec;
 use base::geometry::{Point, Segment};
 use base::trig::{sin_cos, wrapped};
@@ -32,6 +33,8 @@ pub(crate) struct Ring {
     chords: Vec<Chord>,
     /// So many of the first chords are all that can lie ahead.
     ahead: usize,
+    /// The way straight ahead.
+    lane: Sector,
     /// Whether it has rays about its front, and about its back.
     pub(crate) looks_ahead: bool,
     pub(crate) looks_behind: bool,
@@ -44,28 +47,20 @@ struct Chord {
     directions: [Point; 2],
     /// A chord between rays of at least some length is nowhere nearer than this share of it.
     nearest_share: f64,
+    /// Where both rays are longer than this, the whole chord is beside the way straight ahead.
+    beside_m: [f64; 2],
     /// Of the ray nearest to the front.
     off_front_rad: f64,
     gap_rad: f64,
 }
 
-/// Where a body can get: within half its width of a way with any course between two.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Sector {
-    sides: [Side; 3],
-}
-
-/// The points with `normal . point <= at`.
-#[derive(Debug, Clone, Copy)]
-struct Side {
-    normal: Point,
-    at: f64,
-}
-
 impl Ring {
-    /// `period_s` is that of the brain.
-    pub(crate) fn new(ring: &RangeRing, period_s: f64) -> Self {
+    /// On a body of this half width, with a brain of this period.
+    pub(crate) fn new(ring: &RangeRing, half_width_m: f64, period_s: f64) -> Self {
         let mut chords = chords(&ring.bearings_rad);
+        for chord in &mut chords {
+            chord.beside_m = chord.beside_m(half_width_m, ring.range_m);
+        }
         chords.sort_by(|a, b| a.off_front_rad.total_cmp(&b.off_front_rad));
         let looks = |towards_rad: f64| {
             let off = |bearing: &f64| wrapped(bearing - towards_rad).abs();
@@ -84,6 +79,7 @@ impl Ring {
                 .fold(LOOKS_RAD, f64::min),
             ahead: chords.partition_point(|chord| chord.off_front_rad < FRAC_PI_2),
             chords,
+            lane: Sector::new(0.0, 0.0, half_width_m),
             looks_ahead: looks(0.0),
             looks_behind: looks(PI),
         }
@@ -99,12 +95,20 @@ impl Ring {
         (is_whole && age_s <= self.fresh_s).then_some((age_s, &scan.ranges_m))
     }
 
-    /// The range that counts: a ray that measured nonsense sees something right here, since nobody
-    /// knows better.
+    /// A ray's range, at most what the sensor sees.
     #[inline]
     pub(crate) fn range_m(&self, ranges_m: &[f64], ray: usize) -> f64 {
-        let range_m = ranges_m.get(ray).copied().unwrap_or_default();
-        range_m.max(0.0).min(self.range_m)
+        self.within_m(ranges_m.get(ray).copied().unwrap_or_default())
+    }
+
+    #[inline]
+    fn within_m(&self, measured_m: f64) -> f64 {
+        let sensible_m = sensible_m(measured_m);
+        if sensible_m < self.range_m {
+            sensible_m
+        } else {
+            self.range_m
+        }
     }
 
     /// A bearing off a ray, by a share of the angle to the next.
@@ -113,43 +117,111 @@ impl Ring {
         bearing_rad + share * self.gap_rad
     }
 
-    /// The rays with bearings within some bounds.
-    pub(crate) fn rays_within(&self, least_rad: f64, most_rad: f64) -> Vec<usize> {
-        let rays = self.bearings_rad.iter().enumerate();
-        let within = rays.filter(|(_, bearing)| (least_rad..=most_rad).contains(bearing));
-        within.map(|(ray, _)| ray).collect()
+    /// Distance from the robot's centre to what is not known to be free, straight ahead.
+    ///
+    /// It is asked at each step, so chords beside the way are left out at once, and beyond half its
+    /// sight a chord counts as being as near as its rays allow. Which of these holds for a chord is
+    /// as good as random: branches would cost more than all the rest, so it is first decided for
+    /// all, and only near chords are looked at in turn.
+    #[inline]
+    pub(crate) fn free_ahead_m(&self, ranges_m: &[f64]) -> f64 {
+        let mut nearest = Nearest::new(self.range_m);
+        let chords = self.chords.get(..self.ahead).unwrap_or_default();
+        for chords in chords.chunks(64) {
+            let mut near = self.look_roughly(chords, ranges_m, &mut nearest);
+            while let Some(chord) = chords.get(near.trailing_zeros() as usize) {
+                let ends_m = chord.rays.map(|ray| self.range_m(ranges_m, ray));
+                nearest.look(chord, ends_m, &self.lane);
+                near &= near - 1;
+            }
+        }
+        nearest.m()
     }
 
-    /// Distance from the robot's centre to what is not known to be free, straight ahead.
+    /// Looks at chords that are far away; returns those that are near, as bits.
     #[inline]
-    pub(crate) fn free_ahead_m(&self, ranges_m: &[f64], ahead: &Sector) -> f64 {
-        let chords = self.chords.get(..self.ahead).unwrap_or_default();
-        self.nearest_m(ranges_m, ahead, chords)
+    #[expect(
+        clippy::needless_bitwise_bool,
+        reason = "branches would be mispredicted"
+    )]
+    fn look_roughly(&self, chords: &[Chord], ranges_m: &[f64], nearest: &mut Nearest) -> u64 {
+        let far_m = self.range_m / 2.0;
+        let mut bits = 0;
+        for (number, chord) in chords.iter().enumerate() {
+            let [from, to] = chord.rays.map(|ray| ranges_m.get(ray).copied());
+            let (Some(from), Some(to)) = (from, to) else {
+                continue;
+            };
+            let is_beside = (from > chord.beside_m[0]) & (to > chord.beside_m[1]);
+            let is_far = (from > far_m) & (to > far_m);
+            let least_m = lesser(self.within_m(from), self.within_m(to)) * chord.nearest_share;
+            let counts = is_far & !is_beside;
+            let squared_m2 = if counts {
+                least_m * least_m
+            } else {
+                f64::INFINITY
+            };
+            nearest.squared_m2 = lesser(squared_m2, nearest.squared_m2);
+            bits |= u64::from(!is_far & !is_beside) << number;
+        }
+        bits
     }
 
     /// Distance from the robot's centre to what is not known to be free within a sector.
     pub(crate) fn free_m(&self, ranges_m: &[f64], sector: &Sector) -> f64 {
-        self.nearest_m(ranges_m, sector, &self.chords)
+        let mut nearest = Nearest::new(self.range_m);
+        for chord in &self.chords {
+            let ends_m = chord.rays.map(|ray| self.range_m(ranges_m, ray));
+            nearest.look(chord, ends_m, sector);
+        }
+        nearest.m()
+    }
+}
+
+/// The range that counts: a ray that measured nonsense sees something right here, since nobody
+/// knows better.
+#[inline]
+pub(crate) fn sensible_m(measured_m: f64) -> f64 {
+    if measured_m > 0.0 { measured_m } else { 0.0 }
+}
+
+/// Of two numbers; unlike `min` it need not know of what is none.
+#[inline]
+fn lesser(one: f64, other: f64) -> f64 {
+    if one < other { one } else { other }
+}
+
+/// Square of the distance to the nearest so far.
+struct Nearest {
+    squared_m2: f64,
+}
+
+impl Nearest {
+    fn new(range_m: f64) -> Self {
+        Self {
+            squared_m2: range_m * range_m,
+        }
     }
 
     #[inline]
-    fn nearest_m(&self, ranges_m: &[f64], sector: &Sector, chords: &[Chord]) -> f64 {
-        let mut nearest_m = self.range_m;
-        for chord in chords {
-            let [a, b] = chord.rays.map(|ray| self.range_m(ranges_m, ray));
-            if a.min(b) * chord.nearest_share >= nearest_m {
-                continue;
-            }
-            let [from, to] = chord.directions;
-            let part = sector.part(Segment {
-                from: from.times(a),
-                to: to.times(b),
-            });
-            if let Some(part) = part {
-                nearest_m = nearest_m.min(part.distance_m(Point::default()));
-            }
+    fn look(&mut self, chord: &Chord, ends_m: [f64; 2], sector: &Sector) {
+        let least_m = ends_m[0].min(ends_m[1]) * chord.nearest_share;
+        if least_m * least_m >= self.squared_m2 {
+            return;
         }
-        nearest_m
+        let [from, to] = chord.directions;
+        let part = sector.part(Segment {
+            from: from.times(ends_m[0]),
+            to: to.times(ends_m[1]),
+        });
+        if let Some(part) = part {
+            let nearest = part.nearest(Point::default());
+            self.squared_m2 = self.squared_m2.min(nearest.length_squared());
+        }
+    }
+
+    fn m(&self) -> f64 {
+        libm::sqrt(self.squared_m2)
     }
 }
 
@@ -185,60 +257,26 @@ impl Chord {
         Self {
             rays,
             directions: bearings.map(direction),
+            beside_m: [f64::INFINITY; 2],
             nearest_share: sin_cos(gap_rad / 2.0).1,
             off_front_rad: from.min(to),
             gap_rad,
         }
     }
-}
 
-impl Sector {
-    /// Courses from `from_rad` anticlockwise to `to_rad`, at most half a turn; a body of this half
-    /// width.
-    pub(crate) fn new(from_rad: f64, to_rad: f64, half_width_m: f64) -> Self {
-        let right_of = |course: Point| Point {
-            x: course.y,
-            y: -course.x,
-        };
-        let behind = direction((from_rad + to_rad) / 2.0).times(-1.0);
-        // Right beside the body on its outermost courses.
-        let (beside, _) = sin_cos((to_rad - from_rad) / 2.0);
-        let side = |normal, at| Side { normal, at };
-        Self {
-            sides: [
-                side(right_of(direction(from_rad)), half_width_m),
-                side(right_of(direction(to_rad)).times(-1.0), half_width_m),
-                side(behind, half_width_m * beside),
-            ],
-        }
-    }
-
-    /// The part of a segment that lies within.
-    #[inline]
-    fn part(&self, whole: Segment) -> Option<Segment> {
-        let (mut first, mut last) = (0.0_f64, 1.0_f64);
-        for side in &self.sides {
-            let from = side.normal.dot(whole.from) - side.at;
-            let to = side.normal.dot(whole.to) - side.at;
-            if from > 0.0 && to > 0.0 {
-                return None;
-            } else if from > 0.0 {
-                first = first.max(from / (from - to));
-            } else if to > 0.0 {
-                last = last.min(from / (from - to));
+    /// Infinite where that cannot be told from the lengths, or the rays are never so long.
+    fn beside_m(&self, half_width_m: f64, range_m: f64) -> [f64; 2] {
+        let asides = self.directions.map(|direction| direction.y);
+        let is_one_side = asides[0] * asides[1] > 0.0;
+        asides.map(|aside| {
+            let beside_m = half_width_m / aside.abs();
+            if is_one_side && beside_m < range_m {
+                beside_m
+            } else {
+                f64::INFINITY
             }
-        }
-        let along = |share: f64| whole.from.plus(whole.way().times(share));
-        (first <= last).then(|| Segment {
-            from: along(first),
-            to: along(last),
         })
     }
-}
-
-fn direction(bearing_rad: f64) -> Point {
-    let (y, x) = sin_cos(bearing_rad);
-    Point { x, y }
 }
 
 #[cfg(test)]
@@ -250,7 +288,7 @@ mod tests {
     const AHEAD: (f64, f64) = (0.0, 0.0);
 
     fn free_m(ring: &RangeRing, ranges_m: &[f64], (from, to): (f64, f64)) -> f64 {
-        Ring::new(ring, 0.1).free_m(ranges_m, &Sector::new(from, to, 0.25))
+        Ring::new(ring, 0.25, 0.1).free_m(ranges_m, &Sector::new(from, to, 0.25))
     }
 
     #[test]
@@ -263,9 +301,7 @@ mod tests {
     #[test]
     fn a_wall_behind_is_not_seen_ahead() {
         let mut ranges = [f64::INFINITY; 16];
-        for ray in 5..=11 {
-            ranges[ray] = 0.3;
-        }
+        ranges[5..=11].fill(0.3);
         let ring = ring(16, 3.0);
         assert!(free_m(&ring, &ranges, AHEAD) > 2.9);
         assert!((free_m(&ring, &ranges, (PI, PI)) - 0.3 * (PI / 16.0).cos()).abs() < 1e-12);

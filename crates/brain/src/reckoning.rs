@@ -27,15 +27,19 @@ pub(crate) struct Reckoning {
 }
 
 impl Reckoning {
-    /// At most so fast it now goes ahead (or backwards, with a `way` of -1), in m/s.
+    /// At most so fast it now goes, in m/s; negative if backwards. What it was told, or what the
+    /// wheels say if that is more.
     #[inline]
-    pub(crate) fn speed_m_s(&self, percept: &Percept, body: &Body, way: f64) -> f64 {
-        let wheels = percept
-            .motion
-            .map_or(0.0, |motion| motion.value.speed_m_s * way);
-        let told = f64::from(self.speed_m_s) * way;
-        // `max` also turns nonsense from the wheels into nothing.
-        told.max(wheels).max(0.0).min(body.max_speed_m_s)
+    pub(crate) fn now_m_s(&self, percept: &Percept, body: &Body) -> f64 {
+        let told = f64::from(self.speed_m_s);
+        let most = body.max_speed_m_s;
+        match percept.motion {
+            // Nonsense is not more.
+            Some(wheels) if wheels.value.speed_m_s.abs() > told.abs() => {
+                wheels.value.speed_m_s.max(-most).min(most)
+            }
+            _ => told,
+        }
     }
 
     /// Angle by which it has turned within the last `age_s`.
@@ -45,11 +49,16 @@ impl Reckoning {
         f64::from(self.turn_rate_rad_s) * turning_s
     }
 
-    /// Angle by which it has turned since the last call, and so since the last step: from the
-    /// compass if there is one, else from the wheels, else as it was told.
+    /// Takes in what the percept says of the body's motion, at the beginning of a step. Returns the
+    /// angle by which it has turned since the last one: from the compass if there is one, else from
+    /// the wheels, else as it was told.
     #[inline]
     #[expect(clippy::cast_possible_truncation, reason = "kept short")]
-    pub(crate) fn turned_rad(&mut self, percept: &Percept, body: &Body) -> f64 {
+    pub(crate) fn take_in(&mut self, percept: &Percept, body: &Body) -> f64 {
+        if percept.touch.is_some_and(|touch| touch.value) {
+            // What it ran into has stopped it, whatever it was told.
+            self.speed_m_s = 0.0;
+        }
         let rate = self.turn_rate_rad_s(percept, body);
         let heading = percept.heading_rad.filter(is_of_now);
         let heading = heading.filter(|reading| reading.value.abs() <= MAX_HEADING_RAD);
@@ -109,7 +118,7 @@ mod tests {
         let (mut reckoning, body) = (Reckoning::default(), rover());
         let mut sum = 0.0;
         for percept in percepts {
-            sum += reckoning.turned_rad(percept, &body);
+            sum += reckoning.take_in(percept, &body);
             reckoning.told(TURN, &body);
         }
         sum

@@ -19,6 +19,8 @@ pub(crate) struct Senses<'s> {
     pub(crate) ahead: Option<Seen>,
     /// Angle by which the body turned since the last step.
     pub(crate) turned_rad: f64,
+    /// At most so fast it now goes; negative if backwards.
+    pub(crate) now_m_s: f64,
 }
 
 impl Senses<'_> {
@@ -29,9 +31,21 @@ impl Senses<'_> {
         self.body.period_s as f32
     }
 
+    /// Whether it still touches something; a collision may hold it, and it gets nowhere meanwhile.
+    #[inline]
+    pub(crate) fn is_held(&self) -> bool {
+        self.touches(f64::INFINITY)
+    }
+
     /// Uniform numbers; every call begins with the first.
     pub(crate) fn dice(&self) -> Dice {
         Dice::new(self.percept.dice)
+    }
+
+    /// So far it still goes if it brakes now.
+    #[inline]
+    pub(crate) fn stopping_m(&self) -> f64 {
+        self.now_m_s * self.now_m_s / (2.0 * self.body.max_acceleration_m_s2)
     }
 
     /// Whether something stands nearer ahead than `near_m`, to one who has gone straight for
@@ -50,12 +64,22 @@ impl Senses<'_> {
             .is_some_and(|touch| touch.value && touch.age_s <= since_s - LEAVING_S)
     }
 
-    /// Fresh scans: the ring, its place among the body's rings, and its ranges.
-    pub(crate) fn scans(&self) -> impl Iterator<Item = (usize, &Ring, &[f64])> {
-        let rings = self.rings.iter().enumerate();
-        rings.filter_map(|(place, ring)| {
-            let (_, ranges_m) = ring.fresh(self.percept.scans.get(place))?;
-            Some((place, ring, ranges_m))
+    /// Fresh scans: the ranges, and what a behaviour knows of the ring.
+    #[inline]
+    pub(crate) fn scans_with<'a, T>(
+        &'a self,
+        known: &'a [T],
+    ) -> impl Iterator<Item = (&'a [f64], &'a T)> {
+        let rings = self.rings.iter().zip(&self.percept.scans).zip(known);
+        rings.filter_map(|((ring, scan), known)| {
+            let (_, ranges_m) = ring.fresh(Some(scan))?;
+            Some((ranges_m, known))
         })
+    }
+
+    /// Fresh scans: the ring, and its ranges.
+    pub(crate) fn scans(&self) -> impl Iterator<Item = (&Ring, &[f64])> {
+        let rings = self.rings.iter().zip(&self.percept.scans);
+        rings.filter_map(|(ring, scan)| Some((ring, ring.fresh(Some(scan))?.1)))
     }
 }

@@ -2,7 +2,8 @@
 //!
 //! At speed `v` it goes on for a period before it can think again, and then needs `v^2 / (2 a)` to
 //! stop; if it already goes at `u > v`, slowing down takes `(u - v)^2 / (2 a)` more. All this must
-//! fit into what was free when the scan was measured, less what it may have gone since.
+//! fit into what was free when the scan was measured, less what it may have gone since. Along a
+//! curve it must fit into all that the curve can sweep, or the robot stops before it turns.
 //!
 //! In words of an invariant: after each step it can still stop in time. If the scan leaves room for
 //! the next step that stays so by the law; if not, it brakes as hard as it can, and it stays so too.
@@ -10,8 +11,9 @@
 use crate::body::Body;
 use crate::command::Motion;
 use crate::percept::Percept;
-use crate::rays::{Ring, Sector};
+use crate::rays::Ring;
 use crate::reckoning::Reckoning;
+use crate::sector::Sector;
 use crate::senses::Senses;
 use alloc::vec::Vec;
 use core::f64::consts::{FRAC_PI_2, PI};
@@ -32,8 +34,8 @@ pub(crate) struct Seen {
 #[derive(Debug, Clone)]
 pub(crate) struct Sight {
     pub(crate) rings: Vec<Ring>,
-    straight: Sector,
     half_width_m: f64,
+
     looks_ahead: bool,
     looks_behind: bool,
     /// 1 / (2 a).
@@ -42,11 +44,10 @@ pub(crate) struct Sight {
 
 impl Sight {
     pub(crate) fn new(body: &Body) -> Self {
-        let rings = body.rings.iter();
-        let rings: Vec<Ring> = rings.map(|ring| Ring::new(ring, body.period_s)).collect();
         let half_width_m = body.radius_m * (1.0 + ROOM);
+        let ring = |ring| Ring::new(ring, half_width_m, body.period_s);
+        let rings: Vec<Ring> = body.rings.iter().map(ring).collect();
         Self {
-            straight: Sector::new(0.0, 0.0, half_width_m),
             half_width_m,
             looks_ahead: rings.iter().any(|ring| ring.looks_ahead),
             looks_behind: rings.iter().any(|ring| ring.looks_behind),
@@ -57,56 +58,82 @@ impl Sight {
 
     /// What is seen straight ahead.
     #[inline]
-    pub(crate) fn ahead(&self, percept: &Percept, body: &Body, moved: &Reckoning) -> Option<Seen> {
-        let speed_m_s = moved.speed_m_s(percept, body, 1.0);
+    pub(crate) fn ahead(&self, percept: &Percept, body: &Body, now_m_s: f64) -> Option<Seen> {
         let free = |ring: &Ring, _, ranges_m: &[f64]| {
             let looks = ring.looks_ahead;
-            looks.then(|| ring.free_ahead_m(ranges_m, &self.straight))
+            looks.then(|| ring.free_ahead_m(ranges_m))
         };
-        self.seen(percept, body, speed_m_s, free)
+        self.seen(percept, body, now_m_s.max(0.0), free)
     }
 
-    /// The speed that sight allows for a motion; in a direction in which the body has no range
-    /// sensor it is blind, and not limited.
+    /// What sight allows of a motion; in a direction in which the body has no range sensor it is
+    /// blind, and not limited.
     #[inline]
-    pub(crate) fn limited_m_s(&self, wanted: Motion, senses: &Senses, moved: &Reckoning) -> f64 {
-        let Senses {
-            percept,
-            body,
-            ahead,
-            ..
-        } = *senses;
-        let way = if wanted.speed_m_s < 0.0 { -1.0 } else { 1.0 };
-        let wanted_m_s = wanted.speed_m_s * way;
-        let is_blind = !if way > 0.0 {
+    pub(crate) fn limited(&self, wanted: Motion, senses: &Senses, moved: &Reckoning) -> Motion {
+        let Senses { body, now_m_s, .. } = *senses;
+        let goes_back = now_m_s < 0.0 || (now_m_s == 0.0 && wanted.speed_m_s < 0.0);
+        let way = if goes_back { -1.0 } else { 1.0 };
+        let looks = if way > 0.0 {
             self.looks_ahead
         } else {
             self.looks_behind
         };
-        if wanted_m_s == 0.0 || is_blind {
-            return wanted.speed_m_s;
+        let now_m_s = now_m_s.abs();
+        let wanted_m_s = (wanted.speed_m_s * way).max(0.0);
+        if !looks || (now_m_s == 0.0 && wanted_m_s == 0.0) {
+            return wanted;
         }
-        let now_m_s = moved.speed_m_s(percept, body, way);
+        let seen = self.on_the_way(wanted, way, senses, moved);
+        let free_m = seen.map_or(0.0, |seen| seen.free_m);
+        // A turn that leads where it could not stop waits until it stands.
+        let can_turn = now_m_s * now_m_s * self.stopping_s2_m <= free_m;
+        Motion {
+            speed_m_s: way * self.speed_m_s(wanted_m_s, now_m_s, free_m, body.period_s),
+            turn_rate_rad_s: if can_turn {
+                wanted.turn_rate_rad_s
+            } else {
+                0.0
+            },
+        }
+    }
+
+    /// What is seen where a motion leads.
+    #[inline]
+    fn on_the_way(
+        &self,
+        wanted: Motion,
+        way: f64,
+        senses: &Senses,
+        moved: &Reckoning,
+    ) -> Option<Seen> {
+        let Senses {
+            percept,
+            body,
+            ahead,
+            now_m_s,
+            ..
+        } = *senses;
         let goes_straight = wanted.turn_rate_rad_s == 0.0
             && way > 0.0
             && ahead.is_some_and(|seen| moved.turned_within_rad(seen.age_s) == 0.0);
-        let seen = if goes_straight {
-            ahead
-        } else {
-            self.seen(percept, body, now_m_s, |ring, age_s, ranges_m| {
-                let looks = if way > 0.0 {
-                    ring.looks_ahead
-                } else {
-                    ring.looks_behind
-                };
-                let turned_rad = moved.turned_within_rad(age_s);
-                // Turned farther than that, what it saw is not where it goes.
-                let looks = looks && turned_rad.abs() <= FRAC_PI_2;
-                looks.then(|| ring.free_m(ranges_m, &self.sector(wanted, turned_rad, body)))
-            })
-        };
-        let free_m = seen.map_or(0.0, |seen| seen.free_m);
-        way * self.speed_m_s(wanted_m_s, now_m_s, free_m, body.period_s)
+        if goes_straight {
+            return ahead;
+        }
+        let now_m_s = now_m_s.abs();
+        let fastest_m_s = now_m_s.max(wanted.speed_m_s.abs());
+        let turning_s = body.period_s + 2.0 * self.stopping_s2_m * fastest_m_s;
+        self.seen(percept, body, now_m_s, |ring, age_s, ranges_m| {
+            let looks = if way > 0.0 {
+                ring.looks_ahead
+            } else {
+                ring.looks_behind
+            };
+            let turned_rad = moved.turned_within_rad(age_s);
+            // Turned farther than that, what it saw is not where it goes.
+            let looks = looks && turned_rad.abs() <= FRAC_PI_2;
+            let turn_rad = wanted.turn_rate_rad_s * turning_s;
+            looks.then(|| ring.free_m(ranges_m, &self.sector(turned_rad, turn_rad, way)))
+        })
     }
 
     /// The nearest that rings see; each is asked how far from the centre it sees, if it looks.
@@ -138,9 +165,7 @@ impl Sight {
     }
 
     /// Courses from where it looked to where it will stand, turning all the time.
-    fn sector(&self, wanted: Motion, turned_rad: f64, body: &Body) -> Sector {
-        let stopping_s = 2.0 * self.stopping_s2_m * wanted.speed_m_s.abs();
-        let turn_rad = wanted.turn_rate_rad_s * (body.period_s + stopping_s);
+    fn sector(&self, turned_rad: f64, turn_rad: f64, way: f64) -> Sector {
         let last_rad = turned_rad + turn_rad;
         let least = turned_rad.min(last_rad).min(0.0);
         let most = turned_rad.max(last_rad).max(0.0);
@@ -151,7 +176,7 @@ impl Sight {
         } else {
             (least + over, most)
         };
-        let back_rad = if wanted.speed_m_s < 0.0 { PI } else { 0.0 };
+        let back_rad = if way < 0.0 { PI } else { 0.0 };
         Sector::new(back_rad + least, back_rad + most, self.half_width_m)
     }
 
@@ -198,6 +223,7 @@ fn gone_m(body: &Body, speed_m_s: f64, age_s: f64) -> f64 {
 }
 
 #[cfg(test)]
+#[expect(clippy::float_cmp, reason = "exact by construction")]
 mod tests {
     use crate::behaviours::{BehaviourSpec, Cruise};
     use crate::world_of_walls::{Walk, Wiring, outline, ring, room, rover};
@@ -288,16 +314,17 @@ mod tests {
             walk.wiring = wiring;
             for _ in 0..300 {
                 let percept = walk.percept();
+                let now_m_s = moved.now_m_s(&percept, &body);
                 let senses = super::Senses {
                     percept: &percept,
                     body: &body,
                     rings: &sight.rings,
-                    ahead: sight.ahead(&percept, &body, &moved),
+                    ahead: sight.ahead(&percept, &body, now_m_s),
                     turned_rad: 0.0,
+                    now_m_s,
                 };
                 let wanted = Motion { speed_m_s: body.max_speed_m_s, turn_rate_rad_s: rate };
-                let speed_m_s = sight.limited_m_s(wanted, &senses, &moved);
-                let motion = Motion { speed_m_s, ..wanted };
+                let motion = sight.limited(wanted, &senses, &moved);
                 moved.told(motion, &body);
                 walk.step(motion);
             }
@@ -387,11 +414,11 @@ mod tests {
     fn backing_it_stops_before_a_wall_too() {
         let mut body = rover();
         body.max_reverse_speed_m_s = 1.0;
-        let wall = Segment {
+        let across = Segment {
             from: Point { x: 0.0, y: 9.0 },
             to: Point { x: 0.0, y: -9.0 },
         };
-        let mut walk = Walk::new(body.clone(), vec![wall], [2.0, 0.0], 0.0);
+        let mut walk = Walk::new(body.clone(), vec![across], [2.0, 0.0], 0.0);
         let spec = BrainSpec {
             behaviours: vec![BehaviourSpec::Cruise(Cruise {
                 speed_m_s: Some(-1.0),

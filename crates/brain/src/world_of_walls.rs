@@ -114,7 +114,7 @@ impl Walk {
 
     #[expect(clippy::cast_precision_loss, reason = "few")]
     pub(crate) fn percept(&mut self) -> Percept {
-        if self.steps % (self.wiring.scans_apart + 1) == 0 {
+        if self.steps.is_multiple_of(self.wiring.scans_apart + 1) {
             let ring = self.body.rings.first();
             let ranges = ring.map(|ring| self.ranges_m(ring));
             self.scans.extend(ranges.map(|ranges| (self.steps, ranges)));

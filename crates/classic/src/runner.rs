@@ -6,7 +6,7 @@ use crate::replicate::run_of;
 use crate::scenario::Clock;
 use crate::search::{Outcome, Task};
 use crate::world::ITEMS;
-use base::runner::{Column, Kind, Runner};
+use base::runner::{Column, Kind, Runner, Work};
 use std::ops::Range;
 
 /// All that a run depends on, besides its seed and its number.
@@ -41,10 +41,10 @@ impl Runner for Configuration {
         ]
     }
 
-    fn run_block(&self, seed: u64, runs: Range<u64>) -> Vec<Vec<f64>> {
+    fn run_block(&self, seed: u64, runs: Range<u64>, work: Work) -> Vec<Vec<f64>> {
         let mut columns = vec![Vec::new(); self.columns().len()];
         let mut search = FastSearch::new(self.task);
-        for run in runs {
+        for run in runs.take_while(|_| !work.is_stopped()) {
             let outcome = run_of(&mut search, self.robots, seed, run);
             for (column, value) in columns.iter_mut().zip(self.values(outcome)) {
                 column.push(value);
@@ -112,7 +112,7 @@ mod tests {
         ] {
             let configuration = configuration(robots, contact, 2000);
             let expected = replicate(robots, 5..205, 7, configuration.task);
-            let block = configuration.run_block(7, 5..205);
+            let block = configuration.run_block(7, 5..205, Work::ALONE);
             for (index, outcome) in expected.into_iter().enumerate() {
                 let row: Vec<f64> = block.iter().map(|column| column[index]).collect();
                 assert_eq!(row, configuration.values(outcome));
@@ -124,7 +124,7 @@ mod tests {
     fn every_run_is_within_the_columns_bounds() {
         for (robots, cap_paints) in [(1, 0), (2, 11), (5, 12), (100, 23), (250, 300), (3, 6720)] {
             let configuration = configuration(robots, Contact::Touch, cap_paints);
-            let block = configuration.run_block(1, 0..200);
+            let block = configuration.run_block(1, 0..200, Work::ALONE);
             for (column, values) in configuration.columns().iter().zip(block) {
                 let least = column.least.unwrap_or(f64::NEG_INFINITY);
                 let greatest = column.greatest.unwrap_or(f64::INFINITY);

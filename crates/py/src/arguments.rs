@@ -1,5 +1,6 @@
 //! Arguments of Python functions, checked at the edge: all faults of a call in one exception.
 
+use crate::configuration::MAX_RUNS;
 use crate::error::input_error;
 use base::fault::{Fault, Faults};
 use classic::Contact;
@@ -29,6 +30,16 @@ impl Arguments {
             self.fault(name, given, allowed);
         }
         number
+    }
+
+    /// What all chance comes from.
+    pub(crate) fn seed(&self, given: &Bound<PyAny>) -> Option<u64> {
+        self.integer("seed", given, 0..=u64::MAX)
+    }
+
+    /// The number of a run. Tables number them in 64 bits, one of them a sign.
+    pub(crate) fn run(&self, name: &str, given: &Bound<PyAny>) -> Option<u64> {
+        self.integer(name, given, 0..=i64::MAX.cast_unsigned() - MAX_RUNS)
     }
 
     /// A team size.

@@ -4,28 +4,30 @@ use crate::arguments::Arguments;
 use crate::engines::ENGINES;
 use crate::error::input_error;
 use crate::long_work::interruptible;
-use crate::scenario::{GivenOverride, document, value};
+use crate::scenario::{Source, value};
 use base::document::Value;
 use base::question;
-use base::runner::{Column, Kind, Runner};
+use base::runner::{Column, Kind, Runner, Work};
 use numpy::{IntoPyArray, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use rayon::prelude::*;
 use std::ops::Range;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
 /// Runs of one call, of all configurations together: some half a gigabyte of outcomes.
-const MAX_RUNS: u64 = 10_000_000;
+pub(crate) const MAX_RUNS: u64 = 10_000_000;
 
-/// Runs that one task takes from the pool: few, since each may take a tenth of a second, and the
-/// wait after Ctrl-C is one task's. Starting one costs less than a microsecond.
+/// Most runs that one task takes from the pool: starting one costs less than a microsecond.
 const RUNS_PER_TASK: u64 = 16;
+
+/// So many tasks a thread, where there are few runs: some runs take longer than others.
+const TASKS_PER_THREAD: u64 = 4;
 
 /// Tasks whose results wait as they came, so that these take little memory beside the columns.
 const TASKS_BEFORE_JOINING: usize = 4096;
 
-type ColumnTuple = (String, &'static str, Option<f64>, Option<f64>);
+pub(crate) type ColumnTuple = (String, &'static str, Option<f64>, Option<f64>);
 
 /// A scenario with values for everything that a study varies, ready to be run.
 #[pyclass(frozen, module = "agent_economy._core")]
@@ -43,7 +45,7 @@ impl Configuration {
     }
 }
 
-fn as_tuple(column: &Column) -> ColumnTuple {
+pub(crate) fn as_tuple(column: &Column) -> ColumnTuple {
     let kind = match column.kind {
         Kind::Whole => "whole",
         Kind::Real => "real",
@@ -52,17 +54,15 @@ fn as_tuple(column: &Column) -> ColumnTuple {
     (column.name.to_string(), kind, column.least, column.greatest)
 }
 
-/// The configuration of a TOML text with changes, as `read_scenario` takes them, and a value at the
-/// path of each factor in `values`; only what a run depends on is read and checked.
+/// The configuration of a source with a value at the path of each factor in `values`; only what a
+/// run depends on is read and checked.
 #[pyfunction]
-#[pyo3(signature = (file, text, overrides, values))]
 pub(crate) fn read_configuration(
-    file: &str,
-    text: &str,
-    overrides: Vec<GivenOverride>,
+    source: Source,
     values: &Bound<PyDict>,
 ) -> PyResult<Configuration> {
-    let document = document(file, text, overrides)?;
+    let file = source.file.clone();
+    let document = source.document()?;
     let values = values.iter().map(|(path, given)| {
         let path: String = path.extract()?;
         let value = value(std::slice::from_ref(&path), &given, "study.vary")?;
@@ -70,7 +70,7 @@ pub(crate) fn read_configuration(
     });
     let values: Vec<(String, Value)> = values.collect::<PyResult<_>>()?;
     let read = question::Configuration::read(&ENGINES, document, &values);
-    let read = read.map_err(|faults| input_error(&faults, file))?;
+    let read = read.map_err(|faults| input_error(&faults, &file))?;
     Ok(Configuration {
         runner: read.runner,
     })
@@ -93,10 +93,10 @@ pub(crate) fn run_block<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let check = Arguments::default();
     let given = given_configurations(&check, configurations);
-    let seed = check.integer("seed", seed, 0..=u64::MAX);
+    let seed = check.seed(seed);
     let count = given.as_ref().map_or(1, Vec::len).max(1) as u64;
     let runs = check.integer("runs", runs, 0..=MAX_RUNS / count);
-    let first_run = check.integer("first_run", first_run, 0..=u64::MAX - MAX_RUNS);
+    let first_run = check.run("first_run", first_run);
     let threads = check.threads(threads);
     let all = (|| Some((given?, seed?, first_run?, runs?, threads?)))();
     let (given, seed, first_run, runs, threads) = check.or_faults(all)?;
@@ -104,6 +104,29 @@ pub(crate) fn run_block<'py>(
     let runs = first_run..first_run + runs;
     let columns = interruptible(py, threads, |stop| in_tasks(&runners, seed, &runs, stop))?;
     as_dict(py, &runners, columns)
+}
+
+/// The outcome of one run, by column: the same as of [`run_block`].
+#[pyfunction]
+#[pyo3(signature = (configuration, *, seed, run))]
+pub(crate) fn run_one<'py>(
+    py: Python<'py>,
+    configuration: &Bound<'py, Configuration>,
+    seed: &Bound<'py, PyAny>,
+    run: &Bound<'py, PyAny>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let check = Arguments::default();
+    let (seed, run) = (check.seed(seed), check.run("run", run));
+    let (seed, run) = check.or_faults(seed.zip(run))?;
+    let runners = [&*configuration.get().runner];
+    let columns = interruptible(py, None, |stop| {
+        in_tasks(&runners, seed, &(run..run + 1), stop)
+    })?;
+    let dict = PyDict::new(py);
+    for (column, values) in runners[0].columns().iter().zip(columns) {
+        dict.set_item(&*column.name, values.first())?;
+    }
+    Ok(dict)
 }
 
 fn given_configurations<'py>(
@@ -138,15 +161,21 @@ fn in_tasks(
     runs: &Range<u64>,
     stop: &AtomicBool,
 ) -> Vec<Vec<f64>> {
+    let threads = rayon::current_num_threads() as u64;
+    let total = (runs.end - runs.start) * runners.len() as u64;
+    let work = Work {
+        stop,
+        may_share: total < threads,
+    };
+    let per_task = (total / (threads * TASKS_PER_THREAD)).clamp(1, RUNS_PER_TASK);
     let tasks = runners
         .iter()
-        .flat_map(|runner| parts(runs).map(move |part| (runner, part)));
+        .flat_map(|runner| parts(runs, per_task).map(move |part| (runner, part)));
     let tasks: Vec<_> = tasks.collect();
     let mut columns = vec![Vec::new(); number_of_columns(runners)];
     for some in tasks.chunks(TASKS_BEFORE_JOINING) {
         let done = some.par_iter().with_max_len(1).map(|(runner, part)| {
-            let is_wanted = !stop.load(Ordering::Relaxed);
-            is_wanted.then(|| runner.run_block(seed, part.clone()))
+            (!work.is_stopped()).then(|| runner.run_block(seed, part.clone(), work))
         });
         let done: Vec<Option<Vec<Vec<f64>>>> = done.collect();
         for block in done.into_iter().flatten() {
@@ -158,12 +187,11 @@ fn in_tasks(
     columns
 }
 
-/// Ranges of at most [`RUNS_PER_TASK`] that make up `runs`.
-fn parts(runs: &Range<u64>) -> impl Iterator<Item = Range<u64>> {
+/// Ranges of at most `length` that make up `runs`.
+fn parts(runs: &Range<u64>, length: u64) -> impl Iterator<Item = Range<u64>> {
     let Range { start, end } = *runs;
-    let firsts =
-        (0..(end - start).div_ceil(RUNS_PER_TASK)).map(move |part| start + part * RUNS_PER_TASK);
-    firsts.map(move |first| first..end.min(first + RUNS_PER_TASK))
+    let firsts = (0..(end - start).div_ceil(length)).map(move |part| start + part * length);
+    firsts.map(move |first| first..end.min(first + length))
 }
 
 fn number_of_columns(runners: &[&dyn Runner]) -> usize {

@@ -2,31 +2,42 @@
 //! Rust computes, and maps errors. No logic lives here.
 
 mod arguments;
+mod brain;
 mod classic_runs;
 mod classic_trace;
 mod configuration;
 mod engines;
 mod error;
+mod exchange;
 mod long_work;
+mod outside;
+mod recording;
 mod scenario;
 mod selection;
+mod simulation;
 
 use pyo3::prelude::*;
 
 #[pymodule]
 mod _core {
     #[pymodule_export]
+    use crate::brain::Brain;
+    #[pymodule_export]
     use crate::classic_runs::{exhaust, replicate};
     #[pymodule_export]
     use crate::classic_trace::{random_start, trace};
     #[pymodule_export]
-    use crate::configuration::{Configuration, read_configuration, run_block};
+    use crate::configuration::{Configuration, read_configuration, run_block, run_one};
     #[pymodule_export]
     use crate::error::InputError;
     #[pymodule_export]
-    use crate::scenario::{read_document, read_scenario};
+    use crate::recording::{recorded_moment, recorded_setting};
+    #[pymodule_export]
+    use crate::scenario::{files_wanted, read_document, read_scenario};
     #[pymodule_export]
     use crate::selection::{Procedure, mean_bounds, mean_exceeds, reference, selection};
+    #[pymodule_export]
+    use crate::simulation::{MetricScenario, Simulation, Snapshot, read_metric};
 
     use classic::Contact;
     use pyo3::prelude::*;

@@ -4,64 +4,83 @@ use crate::engines::ENGINES;
 use crate::error::input_error;
 use base::document::{Document, Node, Override, Table, Value};
 use base::fault::{Fault, Faults};
-use base::question::{Factor, Merit, Published, Scenario, Values};
+use base::question::{self, Factor, Merit, Published, Scenario, Values};
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict};
+use std::collections::BTreeMap;
 
 /// Changes as Python gives them: (path, value, origin).
 pub(crate) type GivenOverride<'py> = (Vec<String>, Bound<'py, PyAny>, String);
 
-/// The scenario of a TOML text, as a dict that `agent_economy.scenario` makes typed.
+/// What a scenario is read from, as Python has it: see `Source` in `agent_economy.scenario`.
 ///
 /// `overrides` are (path, value, origin): `value` is put at `path` over what the text says, and
-/// `origin` is how faults name it.
-#[pyfunction]
-#[pyo3(signature = (file, text, overrides))]
-pub(crate) fn read_scenario<'py>(
-    py: Python<'py>,
-    file: &str,
-    text: &str,
+/// `origin` is how faults name it. `files` are those that the text names, by their names: bytes, or
+/// a text that says why they cannot be read.
+#[derive(FromPyObject)]
+pub(crate) struct Source<'py> {
+    pub(crate) file: String,
+    text: String,
+    #[pyo3(attribute("changes"))]
     overrides: Vec<GivenOverride<'py>>,
-) -> PyResult<Bound<'py, PyDict>> {
-    let document = document(file, text, overrides)?;
-    let read = Scenario::read(&ENGINES, document);
-    as_dict(py, &read.map_err(|faults| input_error(&faults, file))?)
+    files: BTreeMap<String, GivenFile>,
 }
 
-/// The whole document of a TOML text with overrides, unchecked, as dicts, lists and values.
+#[derive(FromPyObject)]
+enum GivenFile {
+    Bytes(Vec<u8>),
+    Refusal(String),
+}
+
+/// The scenario of a source, as a dict that `agent_economy.scenario` makes typed.
 #[pyfunction]
-#[pyo3(signature = (file, text, overrides))]
+pub(crate) fn read_scenario<'py>(
+    py: Python<'py>,
+    source: Source<'py>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let file = source.file.clone();
+    let read = Scenario::read(&ENGINES, source.document()?);
+    as_dict(py, &read.map_err(|faults| input_error(&faults, &file))?)
+}
+
+/// The files that a source names and does not have; when it has them, it may name more.
+#[pyfunction]
+pub(crate) fn files_wanted(source: Source) -> PyResult<Vec<String>> {
+    Ok(question::files_wanted(&ENGINES, &source.document()?))
+}
+
+/// The whole document of a source, unchecked, as dicts, lists and values.
+#[pyfunction]
 pub(crate) fn read_document<'py>(
     py: Python<'py>,
-    file: &str,
-    text: &str,
-    overrides: Vec<GivenOverride<'py>>,
+    source: Source<'py>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let document = document(file, text, overrides)?;
+    let document = source.document()?;
     document.get(&[]).map_or_else(
         || Ok(PyDict::new(py).into_any()),
         |root| plain(py, &root.value),
     )
 }
 
-pub(crate) fn document(
-    file: &str,
-    text: &str,
-    overrides: Vec<GivenOverride>,
-) -> PyResult<Document> {
-    let parsed = Document::parse(file, text).map_err(|faults| input_error(&faults, file))?;
-    let overrides: PyResult<Vec<Override>> = overrides
-        .into_iter()
-        .map(|(path, given, origin)| {
+impl Source<'_> {
+    pub(crate) fn document(self) -> PyResult<Document> {
+        let parsed = Document::parse(&self.file, &self.text);
+        let parsed = parsed.map_err(|faults| input_error(&faults, &self.file))?;
+        let overrides = self.overrides.into_iter().map(|(path, given, origin)| {
             Ok(Override {
                 value: value(&path, &given, &origin)?,
                 path,
                 origin,
             })
-        })
-        .collect();
-    Ok(parsed.with(&overrides?))
+        });
+        let overrides: Vec<Override> = overrides.collect::<PyResult<_>>()?;
+        let files = self.files.into_iter().map(|(name, file)| match file {
+            GivenFile::Bytes(bytes) => (name, Ok(bytes)),
+            GivenFile::Refusal(why) => (name, Err(why)),
+        });
+        Ok(parsed.with(&overrides).with_files(files.collect()))
+    }
 }
 
 /// A Python value at `path` as documents have it.

@@ -5,36 +5,18 @@ use crate::scenario::{Scenario, ScenarioSpec};
 use base::document::Document;
 use base::fault::Faults;
 use base::question::{Configuration, Engine, Measure, NamedMerit};
-use base::runner::{Column, Kind, Runner};
+use base::runner::{Column, Kind, Runner, Work};
 use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Gives the bytes of a file that the scenario in a file names, or says why it cannot.
-pub type OpenBeside = fn(scenario: &str, name: &str) -> Result<Vec<u8>, String>;
-
 /// The metric engine, as scenarios name it.
 #[derive(Debug, Clone, Copy)]
-pub struct Metric {
-    /// Finds the maps that scenarios name.
-    pub open: OpenBeside,
-}
+pub struct Metric;
 
 /// Runs of a scenario.
 #[derive(Debug, Clone)]
 pub struct Runs(pub Arc<Scenario>);
-
-impl Metric {
-    /// Reads what a run depends on.
-    ///
-    /// # Errors
-    /// Everything that is wrong with it.
-    pub fn scenario(&self, document: &Document) -> Result<Scenario, Faults> {
-        let file = document.file();
-        let checked = ScenarioSpec::read(document, &|name| (self.open)(file, name))?;
-        Ok(checked.scenario)
-    }
-}
 
 impl Engine for Metric {
     fn name(&self) -> &'static str {
@@ -46,13 +28,17 @@ impl Engine for Metric {
     }
 
     fn read(&self, document: &Document) -> Result<Configuration, Faults> {
-        let scenario = self.scenario(document)?;
+        let scenario = ScenarioSpec::read(document)?.scenario;
         Ok(Configuration {
             robots: scenario.team(),
             cap_s: scenario.cap_s,
             facts: scenario.facts(),
             runner: Box::new(Runs(Arc::new(scenario))),
         })
+    }
+
+    fn files(&self, document: &Document) -> Vec<String> {
+        ScenarioSpec::files(document)
     }
 
     fn measures(&self, _: &Document) -> Vec<Measure> {
@@ -115,11 +101,13 @@ impl Runner for Runs {
         columns
     }
 
-    fn run_block(&self, seed: u64, runs: Range<u64>) -> Vec<Vec<f64>> {
+    fn run_block(&self, seed: u64, runs: Range<u64>, work: Work) -> Vec<Vec<f64>> {
         let mut columns = vec![Vec::new(); self.columns().len()];
-        let mut workshop = Workshop::new(&self.0, false);
-        for run in runs {
-            let values = self.run(&mut workshop, seed, run);
+        let mut workshop = Workshop::new(&self.0, work.may_share);
+        for run in runs.take_while(|_| !work.is_stopped()) {
+            let state = State::new(&self.0, seed, run).ok();
+            let outcome = state.map(|state| self.finish(&mut workshop, state, work));
+            let values = outcome.and_then(|outcome| self.values(&outcome));
             for (number, column) in columns.iter_mut().enumerate() {
                 column.push(values.as_ref().map_or(f64::NAN, |values| values[number]));
             }
@@ -129,21 +117,23 @@ impl Runner for Runs {
 }
 
 impl Runs {
-    /// One run's outcome, in the order of the columns; `None` for a run that is quarantined, since
-    /// it has no room to begin in or is not finite.
-    fn run(&self, workshop: &mut Workshop, seed: u64, run: u64) -> Option<Vec<f64>> {
+    fn finish(&self, workshop: &mut Workshop, mut state: State, work: Work) -> Outcome {
         let scenario = &*self.0;
-        let mut state = State::new(scenario, seed, run).ok()?;
         workshop.forget();
-        while !state.is_over(scenario) {
+        while !state.is_over(scenario) && !work.is_stopped() {
             workshop.step(scenario, &mut state);
         }
-        let outcome = Outcome::of(scenario, &state);
-        outcome.is_finite().then(|| self.values(&outcome))
+        Outcome::of(scenario, &state)
     }
 
+    /// What a run of the scenario gave, in the order of the columns; `None` if it is not finite, so
+    /// that the run is quarantined.
+    #[must_use]
     #[expect(clippy::cast_precision_loss, reason = "counts below 2^53")]
-    fn values(&self, outcome: &Outcome) -> Vec<f64> {
+    pub fn values(&self, outcome: &Outcome) -> Option<Vec<f64>> {
+        if !outcome.is_finite() {
+            return None;
+        }
         let scenario = &*self.0;
         let sought = |counts: &[u32]| {
             let kinds = scenario.items.iter().zip(counts);
@@ -166,7 +156,7 @@ impl Runs {
         ];
         let kinds = outcome.found.iter().zip(&outcome.missed);
         values.extend(kinds.flat_map(|(found, missed)| [f64::from(*found), f64::from(*missed)]));
-        values
+        Some(values)
     }
 }
 

@@ -1,13 +1,18 @@
 //! The scenarios that come with the program.
 
-use base::document::Document;
+#![expect(clippy::unwrap_used, reason = "a test may panic")]
+
+use base::document::{Document, Value};
 use sim::scenario::ScenarioSpec;
+use sim::scenario::models::Model;
 use std::path::PathBuf;
 
+fn root() -> PathBuf {
+    [env!("CARGO_MANIFEST_DIR"), "../.."].iter().collect()
+}
+
 fn folder() -> PathBuf {
-    [env!("CARGO_MANIFEST_DIR"), "../..", "scenarios"]
-        .iter()
-        .collect()
+    root().join("scenarios")
 }
 
 /// The texts of the shipped scenarios of the metric engine, by file.
@@ -31,7 +36,43 @@ fn every_shipped_scenario_is_without_faults() {
     assert!(shipped.len() >= 2);
     for (name, text) in shipped {
         let document = Document::parse(&name, &text).unwrap();
-        let read = ScenarioSpec::read(&document, &open);
+        let read = ScenarioSpec::read_with(&document, open);
         assert!(read.is_ok(), "{}", read.unwrap_err());
+    }
+}
+
+/// The paths of all numbers in a table, and the numbers.
+fn numbers(value: &Value, path: &str) -> Vec<(String, String)> {
+    match value {
+        Value::Table(table) => table
+            .iter()
+            .flat_map(|(key, node)| {
+                let dot = if path.is_empty() { "" } else { "." };
+                numbers(&node.value, &format!("{path}{dot}{key}"))
+            })
+            .collect(),
+        Value::Integer(number) => vec![(path.to_owned(), number.to_string())],
+        Value::Float(number) => vec![(path.to_owned(), number.to_string())],
+        _ => Vec::new(),
+    }
+}
+
+#[test]
+fn every_figure_of_a_shipped_robot_is_in_docs_with_its_source() {
+    let page = std::fs::read_to_string(root().join("docs/robots.md")).unwrap();
+    for (name, model) in Model::NAMES {
+        let (_, after) = page.split_once(&format!("\n## {name}\n")).unwrap();
+        let section = after.split("\n## ").next().unwrap();
+        let rows = section
+            .lines()
+            .filter(|line| line.starts_with("| `"))
+            .count();
+        let document = Document::parse(name, model.text()).unwrap();
+        let numbers = numbers(&document.get(&[]).unwrap().value, "");
+        for (path, number) in &numbers {
+            let row = format!("| `{path}` | {number} | ");
+            assert!(section.contains(&row), "{name}: {row}");
+        }
+        assert_eq!(rows, numbers.len(), "{name}");
     }
 }

@@ -11,6 +11,9 @@ import typer
 from agent_economy import __version__
 from agent_economy.cli.answer import answer
 from agent_economy.cli.check import check
+from agent_economy.cli.replicate import replicate
+from agent_economy.cli.rerun import rerun
+from agent_economy.cli.run import run
 from agent_economy.cli.scenarios import scenarios
 from agent_economy.cli.study import study
 from agent_economy.cli.watch import watch
@@ -48,5 +51,8 @@ def root(
 app.command()(study)
 app.command()(answer)
 app.command()(watch)
+app.command()(run)
+app.command()(replicate)
+app.command()(rerun)
 app.command()(check)
 app.command()(scenarios)

@@ -19,6 +19,11 @@ Sets = Annotated[
 ]
 """The option --set, which every command has that takes a scenario."""
 
+Seed = Annotated[
+    int, typer.Option("--seed", min=0, max=2**64 - 1, help="Of all chance: same seed, same bytes.")
+]
+"""The option --seed of a command that runs a scenario."""
+
 
 def overrides(
     sets: list[str] | None,

@@ -20,7 +20,7 @@ INTERRUPTED = 130
 
 @contextmanager
 def faults_told() -> Iterator[None]:
-    """Say what is not allowed, or why a study cannot go on, and end with the exit code for it."""
+    """Say what is not allowed, why a study cannot go on, or that Ctrl-C came; end with its code."""
     try:
         yield
     # First, since what is wrong with a store is both.
@@ -30,3 +30,6 @@ def faults_told() -> Iterator[None]:
     except InputError as error:
         typer.echo(str(error), err=True)
         raise typer.Exit(BAD_INPUT) from None
+    except KeyboardInterrupt:
+        typer.echo("\nStopped.", err=True)
+        raise typer.Exit(INTERRUPTED) from None

@@ -146,7 +146,8 @@ def plan_of(folder: str | Path) -> Plan:
     Raises:
         InputError: If there is none.
     """
-    return plans.read(read(Path(folder)).asked, str(Path(folder) / "study.toml"))
+    store = read(Path(folder))
+    return plans.read(store.asked, str(Path(folder) / "study.toml"), store.content)
 
 
 def refuse(folder: str | Path) -> Compute:

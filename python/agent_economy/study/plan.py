@@ -7,7 +7,7 @@ over it, so that the folder alone goes on.
 import hashlib
 import json
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from importlib.metadata import version
@@ -17,7 +17,7 @@ from typing import Any
 import tomli_w
 
 from agent_economy._core import InputError
-from agent_economy.scenario import Override, Scenario
+from agent_economy.scenario import Override, Scenario, Source
 from agent_economy.study import design
 from agent_economy.study.arguments import FIRST_LOOK, Floats, Guarantee, is_whole, question_faults
 from agent_economy.study.design import Values
@@ -87,9 +87,16 @@ class Plan:
                 {"path": list(each.path), "value": each.value} for each in source.overrides
             ],
             "scenario": source.text,
+            "files": {name: digest(data) for name, data in self.files.items()},
         }
         document = {"format": FORMAT, "question": given(question), "data": given(data)}
         return HEADER + tomli_w.dumps(document, multiline_strings=True)
+
+    @property
+    def files(self) -> dict[str, bytes]:
+        """The files that the scenario names, by their names."""
+        files = self.scenario.source.files.items()
+        return {name: data for name, data in files if isinstance(data, bytes)}
 
     @cached_property
     def identity(self) -> str:
@@ -101,7 +108,8 @@ class Plan:
         """
         document = self.scenario.to_dict()
         runs = {key: value for key, value in document.items() if key not in WITHOUT_RUNS}
-        parts = [version("agent-economy"), self.seed, self.runs, self.configurations, runs]
+        files = {name: digest(data) for name, data in self.files.items()}
+        parts = [version("agent-economy"), self.seed, self.runs, self.configurations, runs, files]
         text = json.dumps(parts, sort_keys=True, default=str)
         return hashlib.sha256(text.encode()).hexdigest()
 
@@ -181,8 +189,18 @@ def tightened(plan: Plan, confidence: float) -> Plan:
     return replace(plan, confidence=float(confidence))
 
 
-def read(text: str, file: str) -> Plan:
+def digest(data: bytes) -> str:
+    """Return what tells a file's content from any other."""
+    return hashlib.sha256(data).hexdigest()
+
+
+def read(text: str, file: str, content: Callable[[str], bytes]) -> Plan:
     """Return the plan of a study.toml.
+
+    Args:
+        text: Its text.
+        file: How faults name it.
+        content: Gives what is in a file by its digest.
 
     Raises:
         InputError: If it is none, or of a newer version.
@@ -196,7 +214,7 @@ def read(text: str, file: str) -> Plan:
         message = f"{file}: format = {document.get('format')}: must be {FORMAT}; a newer program's?"
         raise InputError(message)
     try:
-        found = of_document(document)
+        found = of_document(document, content)
         if found.identity == document["data"]["identity"]:
             return found
     except (KeyError, TypeError, ValueError) as error:
@@ -212,14 +230,15 @@ def read(text: str, file: str) -> Plan:
     raise InputError(message)
 
 
-def of_document(document: Mapping[str, Any]) -> Plan:
+def of_document(document: Mapping[str, Any], content: Callable[[str], bytes]) -> Plan:
     """Return the plan of a parsed study.toml."""
     data, question = document["data"], document["question"]
     overrides = tuple(
         Override(tuple(each["path"]), each["value"], "study.toml") for each in data["changes"]
     )
+    files = {name: content(known) for name, known in data.get("files", {}).items()}
     return make(
-        Scenario.loads(data["scenario"], data["name"], overrides),
+        Scenario.of(Source(data["name"], data["scenario"], overrides, files)),
         seed=int(data["seed"]),
         delta=question["delta"],
         confidence=question["confidence"],

@@ -19,7 +19,7 @@ from agent_economy.study.answer.effort import remaining
 from agent_economy.study.answer.evidence import Evidence, Sample
 from agent_economy.study.answer.results import Ending
 from agent_economy.study.arguments import Floats
-from agent_economy.study.plan import Plan, is_same_data
+from agent_economy.study.plan import Plan, digest, is_same_data
 from agent_economy.study.rectangle import Columns, Compute, Rectangle
 from agent_economy.study.selection import Elimination, Integers, drive, in_words, within
 from agent_economy.study.store import Store
@@ -121,7 +121,10 @@ def hold(
         InputError: If the folder holds another study, is damaged, or cannot be written.
     """
     columns = plan.engine.columns
-    with Store.open(folder, plan.text(), columns, may_replace=is_same_data) as store:
+    content = {digest(data): data for data in plan.files.values()}
+    with Store.open(
+        folder, plan.text(), columns, content=content, may_replace=is_same_data
+    ) as store:
         race = Race(plan, store, compute or in_pieces(plan.engine), on_progress)
         evidence, ending = race.run()
         answer = conclude(plan, evidence, ending)

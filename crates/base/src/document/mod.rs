@@ -147,11 +147,15 @@ pub struct Override {
     pub origin: String,
 }
 
-/// A whole document.
+/// A whole document, and the files that it names, as far as they have been read.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Document {
     root: Node,
+    files: Files,
 }
+
+/// Files by the names by which a document calls them: their bytes, or why they cannot be read.
+pub type Files = BTreeMap<String, Result<Vec<u8>, String>>;
 
 impl Document {
     /// Reads TOML `text`; `file` is how faults name it.
@@ -159,7 +163,7 @@ impl Document {
     /// # Errors
     /// Every place at which the text is not TOML.
     pub fn parse(file: &str, text: &str) -> Result<Self, Faults> {
-        parse::parse(file, text).map(|root| Self { root })
+        parse::parse(file, text).map(Self::of)
     }
 
     /// Reads the YAML `text` of one flat file: mappings, lists and plain values, a few levels deep.
@@ -170,7 +174,36 @@ impl Document {
     /// # Errors
     /// What in the text is not such YAML.
     pub fn parse_yaml(file: &str, text: &str) -> Result<Self, Faults> {
-        yaml::parse(file, text).map(|root| Self { root })
+        yaml::parse(file, text).map(Self::of)
+    }
+
+    fn of(root: Node) -> Self {
+        Self {
+            root,
+            files: Files::new(),
+        }
+    }
+
+    /// The document with files that it names.
+    #[must_use]
+    pub fn with_files(mut self, files: Files) -> Self {
+        self.files = files;
+        self
+    }
+
+    /// The bytes of a file that it names.
+    ///
+    /// # Errors
+    /// Why it cannot be read.
+    pub fn open(&self, name: &str) -> Result<Vec<u8>, String> {
+        let not_there = || Err("it has not been read".to_owned());
+        self.files.get(name).cloned().unwrap_or_else(not_there)
+    }
+
+    /// Whether it is known what is in a file that it names, or why it cannot be read.
+    #[must_use]
+    pub fn has_file(&self, name: &str) -> bool {
+        self.files.contains_key(name)
     }
 
     /// Puts `value` at `path`, over what the file says; `origin` is how faults name it.
@@ -220,12 +253,6 @@ impl Document {
             self.set(&path, each.value.clone(), &each.origin);
         }
         self
-    }
-
-    /// How faults name it as a whole: the file that it was read from.
-    #[must_use]
-    pub fn file(&self) -> &str {
-        &self.root.origin
     }
 
     /// What stands at `path`.

@@ -22,6 +22,12 @@ pub trait Engine: Sync {
     /// Everything that is wrong there.
     fn read(&self, document: &Document) -> Result<Configuration, Faults>;
 
+    /// The files that a document names and that have not been read: see [`Document::open`]. When
+    /// they have, it may name more. It is asked of documents with faults too.
+    fn files(&self, _document: &Document) -> Vec<String> {
+        Vec::new()
+    }
+
     /// What a figure of merit can weigh, in the order of its sum; it is asked of documents with
     /// faults too.
     fn measures(&self, document: &Document) -> Vec<Measure>;

@@ -4,10 +4,10 @@ use crate::document::{Document, Node, Section, Table, Value};
 use std::borrow::Cow;
 
 /// Largest weight, so that no sum overflows and `1e30` is told as the slip that it is.
-const MAX_WEIGHT: f64 = 1e6;
+pub(super) const MAX_WEIGHT: f64 = 1e6;
 
 /// Largest `max` of a term.
-const MAX_MAX: f64 = 1e12;
+pub(super) const MAX_MAX: f64 = 1e12;
 
 /// What a figure of merit can weigh.
 #[derive(Debug, Clone, PartialEq)]

@@ -40,6 +40,7 @@
 mod engine;
 mod merit;
 mod published;
+mod schema;
 mod study;
 mod trial;
 mod values;
@@ -48,6 +49,7 @@ mod vary;
 pub use engine::{Configuration, Engine};
 pub use merit::{Measure, Merit, NamedMerit, Term};
 pub use published::Published;
+pub use schema::schema;
 pub use study::{Design, Study};
 pub use values::Values;
 pub use vary::Factor;
@@ -104,6 +106,12 @@ impl Scenario {
         });
         Faults::or(faults, scenario)
     }
+}
+
+/// The files that a document of one of `engines` names and that have not been read.
+#[must_use]
+pub fn files_wanted(engines: &[&dyn Engine], document: &Document) -> Vec<String> {
+    engine_of(engines, document).map_or_else(|_| Vec::new(), |engine| engine.files(document))
 }
 
 impl Configuration {

@@ -9,7 +9,7 @@ use std::fmt;
 const MAX_POINTS: u32 = 100_000;
 
 /// How often a study's answer is to be right, if the scenario does not say.
-const CONFIDENCE: f64 = 0.95;
+pub(super) const CONFIDENCE: f64 = 0.95;
 
 /// What a study does.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,6 +1,6 @@
 use super::*;
 use crate::fault::Fault;
-use crate::runner::{Column, Kind, Runner};
+use crate::runner::{Column, Kind, Runner, Work};
 use std::ops::Range;
 
 const EXAMPLE: &str = r#"
@@ -30,7 +30,7 @@ impl Runner for Waiting {
         ["time_s", "failed", "robots"].map(column).into()
     }
 
-    fn run_block(&self, _: u64, runs: Range<u64>) -> Vec<Vec<f64>> {
+    fn run_block(&self, _: u64, runs: Range<u64>, _: Work) -> Vec<Vec<f64>> {
         vec![runs.map(|_| 0.0).collect(); 3]
     }
 }

@@ -1,9 +1,9 @@
 //! Getting out of the way of what is too near.
 
 use super::{ahead, half_sight_m};
-use crate::body::Body;
+use crate::body::{Body, RangeRing};
 use crate::command::Motion;
-use crate::rays::Ring;
+use crate::rays::sensible_m;
 use crate::senses::Senses;
 use crate::subsumption::Behaviour;
 use alloc::vec::Vec;
@@ -13,6 +13,9 @@ use serde::{Deserialize, Serialize};
 
 /// Two sides that differ by less are equally free, in metres.
 const SAME_M: f64 = 0.01;
+
+/// For one who is still touched behind, or whose compass is stuck.
+const PATIENCE_S: f32 = 10.0;
 
 /// For one who cannot turn.
 const LEAST_TURN_RATE_RAD_S: f64 = 1e-3;
@@ -28,7 +31,7 @@ pub struct Avoid {
     /// sensors see.
     #[schemars(range(min = 0.0, max = 1000.0))]
     pub near_m: f64,
-    /// It is clear when everything is farther than `near_m` by this, in metres.
+    /// It is clear when everything is farther than `near_m` by this, in metres; at most by as much.
     #[schemars(range(min = 0.0, max = 1000.0))]
     pub clear_by_m: f64,
     /// Angle about the front in which it looks, in degrees.
@@ -79,13 +82,13 @@ pub(crate) struct Ready {
 pub(crate) enum Memory {
     /// It has been clear for so long.
     Clear { since_s: f32 },
-    /// It has so long to back off.
-    Backing { left_s: f32 },
-    /// It turns since a time, and so long at least.
+    /// It has so long to back off once it touches nothing, and loses patience after a time.
+    Backing { left_s: f32, patience_s: f32 },
+    /// It turns since a time, and has so far to turn at least.
     Turning {
         is_left: bool,
         since_s: f32,
-        least_s: f32,
+        least_rad: f32,
     },
 }
 
@@ -95,9 +98,10 @@ const CLEAR: Memory = Memory::Clear { since_s: 0.0 };
 impl Ready {
     pub(super) fn new(spec: &Avoid, body: &Body) -> Self {
         let half_rad = (spec.sector_deg / 2.0).to_radians();
-        let rings = body.rings.iter().map(|ring| Ring::new(ring, body.period_s));
-        let sides = rings
-            .map(|ring| [(0.0, half_rad), (-half_rad, 0.0)].map(|(a, b)| ring.rays_within(a, b)));
+        let rings = body.rings.iter();
+        let sides = rings.map(|ring| {
+            [(0.0, half_rad), (-half_rad, 0.0)].map(|bounds| rays_within(ring, bounds))
+        });
         let back_m_s = body.max_reverse_speed_m_s;
         let near_m = spec.near_m.min(half_sight_m(body));
         Self {
@@ -115,6 +119,26 @@ impl Ready {
             sides: sides.collect(),
         }
     }
+}
+
+/// The shortest range of some rays; infinite if there are none.
+#[inline]
+fn shortest_m(ranges_m: &[f64], rays: &[usize]) -> f64 {
+    let mut shortest_m = f64::INFINITY;
+    for ray in rays {
+        let length_m = sensible_m(ranges_m.get(*ray).copied().unwrap_or_default());
+        if length_m < shortest_m {
+            shortest_m = length_m;
+        }
+    }
+    shortest_m
+}
+
+/// The rays with bearings within some bounds.
+fn rays_within(ring: &RangeRing, (least_rad, most_rad): (f64, f64)) -> Vec<usize> {
+    let rays = ring.bearings_rad.iter().enumerate();
+    let within = rays.filter(|(_, bearing)| (least_rad..=most_rad).contains(bearing));
+    within.map(|(ray, _)| ray).collect()
 }
 
 impl Behaviour for Ready {
@@ -138,15 +162,8 @@ impl Behaviour for Ready {
                 *since_s += period_s;
                 self.look(memory, clear_s, senses)
             }
-            Memory::Backing { left_s } if *left_s > 0.0 => {
-                *left_s -= period_s;
-                Some(self.back)
-            }
-            Memory::Backing { .. } => Some(self.turn_from_touch(memory, senses)),
-            Memory::Turning { since_s, .. } => {
-                *since_s += period_s;
-                self.go_on_turning(memory, senses)
-            }
+            Memory::Backing { .. } => Some(self.go_on_backing(memory, senses)),
+            Memory::Turning { .. } => self.go_on_turning(memory, senses),
         }
     }
 
@@ -168,13 +185,30 @@ impl Ready {
             if self.backing_s <= 0.0 {
                 return Some(self.turn_from_touch(memory, senses));
             }
-            let left_s = self.backing_s as f32 - senses.period_s();
-            *memory = Memory::Backing { left_s };
+            *memory = Memory::Backing {
+                left_s: self.backing_s as f32,
+                patience_s: PATIENCE_S,
+            };
             return Some(self.back);
         }
         let [left_m, right_m] = self.nearest_m(senses);
         let is_near = left_m.min(right_m) < self.near_m;
         is_near.then(|| self.turn(memory, [left_m, right_m], 0.0, senses))
+    }
+
+    fn go_on_backing(&self, memory: &mut Memory, senses: &Senses) -> Motion {
+        let Memory::Backing { left_s, patience_s } = memory else {
+            return Motion::default();
+        };
+        if !senses.is_held() {
+            *left_s -= senses.period_s();
+        }
+        *patience_s -= senses.period_s();
+        if left_s.min(*patience_s) > senses.period_s() / 2.0 {
+            self.back
+        } else {
+            self.turn_from_touch(memory, senses)
+        }
     }
 
     fn turn_from_touch(&self, memory: &mut Memory, senses: &Senses) -> Motion {
@@ -193,34 +227,42 @@ impl Ready {
         least_rad: f64,
         senses: &Senses,
     ) -> Motion {
-        let is_same = left_m == right_m || (left_m - right_m).abs() < SAME_M;
-        let is_left = if is_same {
-            senses.dice().below(2) == 0
-        } else {
+        // Not a number if nothing is seen on both.
+        let differs = (left_m - right_m).abs() >= SAME_M;
+        let is_left = if differs {
             left_m > right_m
+        } else {
+            senses.dice().below(2) == 0
         };
         *memory = Memory::Turning {
             is_left,
             since_s: 0.0,
-            least_s: (least_rad / self.turn_rate_rad_s) as f32,
+            least_rad: least_rad as f32,
         };
         self.on_the_spot(is_left)
     }
 
+    #[expect(clippy::cast_possible_truncation, reason = "kept short")]
     fn go_on_turning(&self, memory: &mut Memory, senses: &Senses) -> Option<Motion> {
         let Memory::Turning {
             is_left,
             since_s,
-            least_s,
-        } = *memory
+            least_rad,
+        } = memory
         else {
             return None;
         };
+        let is_left = *is_left;
+        if !senses.is_held() {
+            *since_s += senses.period_s();
+        }
+        *least_rad -= senses.turned_rad.abs() as f32;
+        let has_turned = *least_rad <= 0.0 || *since_s >= PATIENCE_S;
+        let is_round = f64::from(*since_s) * self.turn_rate_rad_s > TAU;
         let [left_m, right_m] = self.nearest_m(senses);
         // Where nothing is clear, somewhere is the least near.
-        let is_round = f64::from(since_s) * self.turn_rate_rad_s > TAU;
         let clear_m = if is_round { self.near_m } else { self.clear_m };
-        if since_s >= least_s && left_m.min(right_m) >= clear_m {
+        if has_turned && left_m.min(right_m) >= clear_m {
             *memory = CLEAR;
             return None;
         }
@@ -239,14 +281,165 @@ impl Ready {
     #[inline]
     fn nearest_m(&self, senses: &Senses) -> [f64; 2] {
         let mut nearest_m = [f64::INFINITY; 2];
-        for (place, ring, ranges_m) in senses.scans() {
-            let sides = self.sides.get(place).into_iter().flatten();
-            for (nearest_m, rays) in nearest_m.iter_mut().zip(sides) {
-                for ray in rays {
-                    *nearest_m = nearest_m.min(ring.range_m(ranges_m, *ray));
-                }
-            }
+        for (ranges_m, [left, right]) in senses.scans_with(&self.sides) {
+            nearest_m[0] = shortest_m(ranges_m, left).min(nearest_m[0]);
+            nearest_m[1] = shortest_m(ranges_m, right).min(nearest_m[1]);
         }
         nearest_m.map(|nearest_m| nearest_m - senses.body.radius_m)
+    }
+}
+
+#[cfg(test)]
+#[expect(clippy::float_cmp, reason = "exact by construction")]
+mod tests {
+    use super::*;
+    use crate::behaviours::{BehaviourSpec, Cruise};
+    use crate::world_of_walls::{Walk, now, outline, room, rover};
+    use crate::{Brain, BrainSpec, Percept, Scan};
+    use proptest::prelude::*;
+    use std::sync::Arc;
+
+    fn brain(body: &Body) -> Brain {
+        let behaviours = vec![
+            BehaviourSpec::Cruise(Cruise::default()),
+            BehaviourSpec::Avoid(Avoid::default()),
+        ];
+        let spec = BrainSpec {
+            behaviours,
+            ..BrainSpec::default()
+        };
+        Brain::new(Arc::new(spec), Arc::new(body.clone()))
+    }
+
+    fn percept(ranges: &[(usize, f64)], dice: u32, touches: bool) -> Percept {
+        let mut ranges_m = vec![2.0; 16];
+        for (ray, range_m) in ranges {
+            ranges_m[*ray] = *range_m;
+        }
+        Percept {
+            dice: [dice; 4],
+            touch: Some(now(touches)),
+            scans: vec![Scan {
+                age_s: Some(0.0),
+                ranges_m,
+            }],
+            ..Percept::default()
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn it_turns_to_the_freer_side(dice: u32, near in 0.25_f64..0.35, far in 0.5_f64..2.0) {
+            for (near_ray, sign) in [(1, -1.0), (15, 1.0)] {
+                let ranges = [(near_ray, near), (16 - near_ray, far)];
+                let motion = brain(&rover()).step(&percept(&ranges, dice, false)).motion;
+                prop_assert_eq!(motion.speed_m_s, 0.0);
+                prop_assert!(motion.turn_rate_rad_s * sign > 1.0);
+            }
+        }
+
+        #[test]
+        fn what_is_beside_or_behind_is_not_in_its_way(ray in 4_usize..=12, range in 0.25_f64..2.0) {
+            let motion = brain(&rover()).step(&percept(&[(ray, range)], 0, false)).motion;
+            prop_assert_eq!(motion.turn_rate_rad_s, 0.0);
+        }
+    }
+
+    #[test]
+    fn between_sides_that_are_the_same_the_dice_decide() {
+        let turn = |dice| {
+            let percept = percept(&[(0, 0.3)], dice, false);
+            brain(&rover()).step(&percept).motion.turn_rate_rad_s
+        };
+        assert!(turn(0) > 1.0 && turn(u32::MAX) < -1.0);
+    }
+
+    #[test]
+    fn it_keeps_to_a_side_until_it_is_clear_and_then_goes_straight_on_for_its_hold() {
+        let mut brain = brain(&rover());
+        let mut step = |ranges: &[(usize, f64)]| brain.step(&percept(ranges, 0, false)).motion;
+        assert!(step(&[(1, 0.3)]).turn_rate_rad_s < 0.0);
+        // Now the other side is freer, and then it is less near but not yet clear.
+        assert!(step(&[(1, 0.4), (15, 0.3)]).turn_rate_rad_s < 0.0);
+        assert!(step(&[(15, 0.42)]).turn_rate_rad_s < 0.0);
+        let straight = step(&[(15, 0.46)]);
+        assert!(straight.turn_rate_rad_s == 0.0 && straight.speed_m_s > 0.0);
+    }
+
+    #[test]
+    fn it_backs_off_from_what_it_touches_and_turns_by_an_eighth_at_least() {
+        let mut body = rover();
+        body.max_reverse_speed_m_s = 0.5;
+        let mut brain = brain(&body);
+        for _ in 0..10 {
+            brain.step(&percept(&[], 0, false));
+        }
+        let mut step = |touches| brain.step(&percept(&[], 0, touches)).motion;
+        assert!((0..30).all(|_| step(true).speed_m_s == -0.5));
+        let motions: Vec<Motion> = (0..40).map(|_| step(false)).collect();
+        let backing = motions.iter().take_while(|motion| motion.speed_m_s < 0.0);
+        assert_eq!(backing.count(), 3);
+        let turning = motions.iter().skip(3).map(|motion| motion.turn_rate_rad_s);
+        let turned: f64 = turning
+            .take_while(|rate| *rate != 0.0)
+            .map(|rate| rate * 0.1)
+            .sum();
+        assert!((FRAC_PI_4..FRAC_PI_4 + 0.4).contains(&turned), "{turned}");
+    }
+
+    #[test]
+    fn while_a_collision_holds_it_its_turn_does_not_pass() {
+        let mut brain = brain(&rover());
+        let mut step = |touches, turn_rate_rad_s| {
+            let value = Motion {
+                speed_m_s: 0.0,
+                turn_rate_rad_s,
+            };
+            let percept = Percept {
+                motion: Some(now(value)),
+                ..percept(&[], 0, touches)
+            };
+            brain.step(&percept).motion.turn_rate_rad_s
+        };
+        assert!((0..6).all(|_| step(false, 0.0) == 0.0));
+        assert!((0..100).all(|_| step(true, 0.0) != 0.0));
+        let turning = (0..40).take_while(|_| step(false, PI / 2.0) != 0.0);
+        assert_eq!(turning.count(), 4);
+    }
+
+    #[test]
+    fn touch_is_not_believed_while_it_leaves() {
+        let mut brain = brain(&rover());
+        let mut step = |touches| brain.step(&percept(&[], 0, touches)).motion.turn_rate_rad_s;
+        assert!((0..5).all(|_| step(true) == 0.0));
+        assert!(step(true) != 0.0 || step(true) != 0.0);
+    }
+
+    #[test]
+    fn it_leaves_a_dead_end_that_is_hardly_wider_than_itself() {
+        let alley = outline(&[[0.0, -0.4], [3.0, -0.4], [3.0, 0.4], [0.0, 0.4]]);
+        let walls = alley.into_iter().take(3).collect();
+        let mut walk = Walk::new(rover(), walls, [1.0, 0.0], 0.0);
+        walk.go(&mut brain(&rover()), 600);
+        assert!(walk.at.x < 0.0, "{:?}", walk.at);
+    }
+
+    #[test]
+    fn the_blind_leave_a_wall_that_they_touch() {
+        let mut body = rover();
+        body.rings.clear();
+        body.max_reverse_speed_m_s = 0.5;
+        let mut walk = Walk::new(body.clone(), room(5.0, 5.0), [2.5, 2.5], 0.3);
+        walk.wiring.touch = true;
+        let mut brain = brain(&body);
+        let mut touches = 0;
+        let mut farthest_m = 0.0_f64;
+        for _ in 0..3000 {
+            let before = walk.is_touching;
+            walk.go(&mut brain, 1);
+            touches += usize::from(walk.is_touching && !before);
+            farthest_m = farthest_m.max((walk.at.x - 2.5).hypot(walk.at.y - 2.5));
+        }
+        assert!(touches > 20 && farthest_m > 2.25, "{touches} {farthest_m}");
     }
 }

@@ -29,8 +29,8 @@ const LEAST_BLIND_RAD: f64 = FRAC_PI_4;
 #[serde(default, deny_unknown_fields)]
 #[schemars(inline)]
 pub struct Bounce {
-    /// It turns when something stands nearer ahead than this, from its hull, in metres; at most half
-    /// as far as its range sensors see.
+    /// It turns so far before what stands ahead, from its hull, in metres, and brakes in time for
+    /// that; at most half as far as its range sensors see.
     #[schemars(range(min = 0.0, max = 1000.0))]
     pub turn_at_m: f64,
     /// Time that it goes straight on after a turn before lower behaviours have their way, in
@@ -56,6 +56,7 @@ impl Default for Bounce {
 #[derive(Debug, Clone)]
 pub(crate) struct Ready {
     turn_at_m: f64,
+    half_sight_m: f64,
     hold_s: f64,
     held: Motion,
 }
@@ -74,8 +75,10 @@ const GOING: Memory = Memory::Going { since_s: 0.0 };
 
 impl Ready {
     pub(super) fn new(spec: &Bounce, body: &Body) -> Self {
+        let half_sight_m = half_sight_m(body);
         Self {
-            turn_at_m: spec.turn_at_m.min(half_sight_m(body)),
+            turn_at_m: spec.turn_at_m.min(half_sight_m),
+            half_sight_m,
             hold_s: spec.hold_s,
             held: ahead(spec.speed_m_s, body),
         }
@@ -99,8 +102,9 @@ impl Behaviour for Ready {
             Memory::Going { since_s } => {
                 let straight_s = f64::from(*since_s);
                 *since_s += senses.period_s();
+                let near_m = (self.turn_at_m + senses.stopping_m()).min(self.half_sight_m);
                 let is_stopped =
-                    senses.stands_ahead(self.turn_at_m, straight_s) || senses.touches(straight_s);
+                    senses.stands_ahead(near_m, straight_s) || senses.touches(straight_s);
                 is_stopped.then(|| self.turn(memory, senses))
             }
             Memory::Turning { .. } => go_on_turning(memory, senses),
@@ -136,8 +140,8 @@ impl Ready {
         let mut dice = senses.dice();
         let free_m = senses.body.radius_m + self.turn_at_m;
         let is_free = |(_, _, range_m): &(&Ring, usize, f64)| *range_m > free_m;
-        let count = rays(senses).filter(is_free).count();
-        let chosen = rays(senses).filter(is_free).nth(dice.below(count));
+        let count = rays(senses).filter(is_free).fold(0, |count, _| count + 1);
+        let chosen = rays(senses).filter(is_free).nth(dice.below(count) as usize);
         let longest = || rays(senses).max_by(|a, b| a.2.total_cmp(&b.2));
         let angle_rad = match chosen.or_else(longest) {
             Some((ring, ray, _)) => ring.about_rad(ray, dice.between(-0.5, 0.5)),
@@ -157,7 +161,9 @@ fn go_on_turning(memory: &mut Memory, senses: &Senses) -> Option<Motion> {
         return None;
     };
     *left_rad -= senses.turned_rad as f32;
-    *patience_s -= senses.period_s();
+    if !senses.is_held() {
+        *patience_s -= senses.period_s();
+    }
     if left_rad.abs() <= DONE_RAD || *patience_s <= 0.0 {
         *memory = GOING;
         return None;
@@ -175,8 +181,186 @@ fn on_the_spot(left_rad: f64, senses: &Senses) -> Motion {
 
 /// Each ray of each fresh scan: its ring, its place there, and its range.
 fn rays<'s>(senses: &'s Senses) -> impl Iterator<Item = (&'s Ring, usize, f64)> {
-    senses.scans().flat_map(|(_, ring, ranges_m)| {
+    senses.scans().flat_map(|(ring, ranges_m)| {
         let rays = 0..ranges_m.len();
         rays.map(move |ray| (ring, ray, ring.range_m(ranges_m, ray)))
     })
+}
+
+#[cfg(test)]
+#[expect(clippy::float_cmp, reason = "exact by construction")]
+mod tests {
+    use super::*;
+    use crate::behaviours::{BehaviourSpec, Cruise};
+    use crate::world_of_walls::{Walk, Wiring, now, room, rover};
+    use crate::{Brain, BrainSpec, Percept, Scan};
+    use proptest::prelude::*;
+    use std::sync::Arc;
+
+    fn brain(body: &Body, bounce: Bounce) -> Brain {
+        let behaviours = vec![
+            BehaviourSpec::Cruise(Cruise::default()),
+            BehaviourSpec::Bounce(bounce),
+        ];
+        let spec = BrainSpec {
+            behaviours,
+            ..BrainSpec::default()
+        };
+        Brain::new(Arc::new(spec), Arc::new(body.clone()))
+    }
+
+    /// In how many of the squares of 1 m it has been after a time.
+    fn squares_visited(walk: &mut Walk, brain: &mut Brain, seconds: usize) -> usize {
+        let mut visited = std::collections::BTreeSet::new();
+        for _ in 0..seconds {
+            walk.go(brain, 10);
+            #[expect(clippy::cast_possible_truncation, reason = "within the room")]
+            visited.insert([walk.at.x.floor() as i32, walk.at.y.floor() as i32]);
+        }
+        visited.len()
+    }
+
+    #[test]
+    fn a_room_is_searched_all_over_and_its_walls_are_not_touched() {
+        let body = rover();
+        for wiring in [
+            Wiring::default(),
+            Wiring {
+                compass: true,
+                scans_apart: 1,
+                latency: 1,
+                ..Wiring::default()
+            },
+        ] {
+            let mut walk = Walk::new(body.clone(), room(5.0, 5.0), [2.5, 2.5], 0.3);
+            walk.wiring = wiring;
+            let squares = squares_visited(&mut walk, &mut brain(&body, Bounce::default()), 600);
+            assert!(squares >= 24, "{squares} of 25");
+            assert!(walk.least_gap_m > 0.0, "{}", walk.least_gap_m);
+        }
+    }
+
+    /// If it braked only where it should turn, it would come so near that what avoids obstacles takes
+    /// over, turns no farther than it must, and leads it along the walls for ever.
+    #[test]
+    fn weak_brakes_do_not_keep_it_along_the_walls() {
+        let mut body = rover();
+        (body.max_speed_m_s, body.max_acceleration_m_s2) = (2.0, 2.0);
+        body.rings[0].range_m = 5.0;
+        let mut walk = Walk::new(body.clone(), room(20.0, 20.0), [9.0, 9.0], 0.3);
+        let mut brain = Brain::new(Arc::new(BrainSpec::default()), Arc::new(body));
+        let mut in_the_middle = 0;
+        for _ in 0..2000 {
+            walk.go(&mut brain, 10);
+            let off_m = (walk.at.x - 10.0).abs().max((walk.at.y - 10.0).abs());
+            in_the_middle += u32::from(off_m < 5.0);
+        }
+        // A quarter of the room: were it everywhere alike, 500; along the walls, 10.
+        assert!(in_the_middle > 200, "{in_the_middle}");
+    }
+
+    #[test]
+    fn the_blind_search_by_touch() {
+        let mut body = rover();
+        body.rings.clear();
+        let mut walk = Walk::new(body.clone(), room(5.0, 5.0), [2.5, 2.5], 0.3);
+        walk.wiring.touch = true;
+        let squares = squares_visited(&mut walk, &mut brain(&body, Bounce::default()), 600);
+        assert!(squares >= 24, "{squares} of 25");
+    }
+
+    #[test]
+    fn a_robot_that_sees_less_far_than_it_should_turn_at_still_goes() {
+        let mut body = rover();
+        body.rings[0].range_m = 0.6;
+        let mut walk = Walk::new(body.clone(), room(9.0, 9.0), [4.0, 4.0], 0.0);
+        walk.go(&mut brain(&body, Bounce::default()), 20);
+        assert!(walk.at.x > 4.3, "{:?}", walk.at);
+    }
+
+    /// The angle by which it turns when it stands before what it sees, with a compass or without.
+    fn turn_rad(ranges_m: &[f64], dice: [u32; 4], has_compass: bool) -> f64 {
+        let body = rover();
+        let mut brain = brain(&body, Bounce::default());
+        let mut turned_rad = 0.0;
+        for step in 0..60 {
+            let command = brain.step(&Percept {
+                dice,
+                heading_rad: has_compass.then(|| now(wrapped(3.0 + turned_rad))),
+                scans: vec![Scan {
+                    age_s: Some(0.0),
+                    ranges_m: ranges_m.to_vec(),
+                }],
+                ..Percept::default()
+            });
+            if step > 0 && command.motion.turn_rate_rad_s == 0.0 {
+                break;
+            }
+            turned_rad += command.motion.turn_rate_rad_s * body.period_s;
+        }
+        turned_rad
+    }
+
+    proptest! {
+        #[test]
+        fn it_turns_to_a_course_that_is_free(dice: [u32; 4], has_compass: bool, free in 1_usize..16) {
+            let mut ranges = [0.5; 16];
+            ranges[free] = 2.0;
+            let bearing = wrapped(f64::from(u32::try_from(free).unwrap()) * TAU / 16.0);
+            let off = wrapped(turn_rad(&ranges, dice, has_compass) - bearing);
+            prop_assert!(off.abs() <= TAU / 32.0 + 0.03, "{off}");
+        }
+
+        #[test]
+        fn with_nothing_free_it_turns_to_where_it_sees_farthest(dice: [u32; 4]) {
+            let mut ranges = [0.5; 16];
+            ranges[4] = 0.6;
+            let off = turn_rad(&ranges, dice, false) - TAU / 4.0;
+            prop_assert!(off.abs() <= TAU / 32.0 + 0.03, "{off}");
+        }
+    }
+
+    #[test]
+    fn all_free_courses_are_drawn_alike() {
+        // Seven free rays, 7000 draws, one for each of evenly spread dice: off by one at most.
+        let mut ranges = [2.0; 16];
+        for ray in [0, 1, 2, 3, 4, 12, 13, 14, 15] {
+            ranges[ray] = 0.5;
+        }
+        let mut counts = [0_u32; 7];
+        for draw in 0..7000_u32 {
+            let dice = [draw * (u32::MAX / 7000), 1 << 31, 0, 0];
+            let bearing = turn_rad(&ranges, dice, false).rem_euclid(TAU);
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "5 to 11"
+            )]
+            let ray = (bearing / (TAU / 16.0)).round() as usize;
+            counts[ray - 5] += 1;
+        }
+        assert!(
+            counts.iter().all(|count| (999..=1001).contains(count)),
+            "{counts:?}"
+        );
+    }
+
+    #[test]
+    fn a_robot_that_cannot_turn_loses_patience() {
+        let mut body = rover();
+        body.max_turn_rate_rad_s = 0.0;
+        let mut brain = brain(&body, Bounce::default());
+        let walled = |range_m| Percept {
+            scans: vec![Scan {
+                age_s: Some(0.0),
+                ranges_m: vec![range_m; 16],
+            }],
+            ..Percept::default()
+        };
+        for _ in 0..10 {
+            assert_eq!(brain.step(&walled(0.5)).motion.speed_m_s, 0.0);
+        }
+        let speeds = (0..700).map(|_| brain.step(&walled(3.0)).motion.speed_m_s);
+        assert!(speeds.fold(0.0, f64::max) == 1.0);
+    }
 }

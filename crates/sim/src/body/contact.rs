@@ -58,8 +58,8 @@ fn earliest<const N: usize>(shares: [Option<f64>; N]) -> Option<f64> {
 pub(crate) fn meets_still<'a>(
     path: &Path,
     radius_m: f64,
-    walls: impl Iterator<Item = &'a Wall> + Clone,
-    discs: impl Iterator<Item = &'a Disc> + Clone,
+    walls: &(impl Iterator<Item = &'a Wall> + Clone),
+    discs: &(impl Iterator<Item = &'a Disc> + Clone),
 ) -> Option<f64> {
     let chords = path.chords();
     (0..chords).find_map(|chord| {

@@ -24,6 +24,7 @@ pub struct DriveSpec {
 
 /// A drive's limits, as the step needs them.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[expect(clippy::struct_field_names, reason = "they are limits")]
 pub(crate) struct Drive {
     pub(crate) max_speed_m_s: f64,
     pub(crate) max_reverse_speed_m_s: f64,
@@ -71,7 +72,7 @@ impl Drive {
         Driven {
             speed_m_s: after,
             turn_rate_rad_s,
-            length_m: (speed_m_s + after) / 2.0 * step_s,
+            length_m: f64::midpoint(speed_m_s, after) * step_s,
         }
     }
 }
@@ -163,7 +164,7 @@ mod tests {
             let part_s = step / f64::from(parts);
             for _ in 0..parts {
                 let next = now + (target - now).clamp(-4.0 * part_s, 4.0 * part_s);
-                way += (now + next) / 2.0 * part_s;
+                way += f64::midpoint(now, next) * part_s;
                 now = next;
             }
             prop_assert!((driven.speed_m_s - now).abs() < 1e-9);

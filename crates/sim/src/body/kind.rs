@@ -8,7 +8,7 @@ use crate::radio::Radio;
 use crate::sensing::timing::Rhythm;
 use crate::sensing::{Measure, Sensor};
 use base::placement::Placement;
-use brain::{Body, BrainSpec, RangeRing};
+use brain::{Body, Brain, RangeRing};
 use std::sync::Arc;
 
 /// What all robots of a kind have in common.
@@ -32,8 +32,8 @@ pub(crate) struct Kind {
     all_on_w: f64,
     /// When its brain steps.
     pub(crate) rhythm: Rhythm,
-    pub(crate) brain: Arc<BrainSpec>,
-    pub(crate) body: Arc<Body>,
+    /// As a robot begins with it; clones share what is the same for all.
+    pub(crate) brain: Brain,
 }
 
 impl Kind {
@@ -78,8 +78,7 @@ impl Kind {
             sensors,
             radio: spec.radio.as_ref().map(|radio| Radio::new(radio, step_s)),
             rhythm,
-            brain: Arc::new(spec.brain.clone()),
-            body: Arc::new(body),
+            brain: Brain::new(Arc::new(spec.brain.clone()), Arc::new(body)),
         };
         kind.all_on_w = kind.some_on_w(0);
         kind

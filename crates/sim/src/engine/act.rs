@@ -6,9 +6,11 @@
 //! bounces.
 
 use super::meetings::Meetings;
+use super::mind::Mind;
 use super::neighbours::Neighbours;
-use super::share_out::{ROBOTS_PER_TASK, share_out};
+use super::share_out::ROBOTS_PER_TASK;
 use super::state::{Hull, State, Status};
+use super::view::View;
 use crate::body::contact::meets_still;
 use crate::body::drive::Driven;
 use crate::body::kind::Kind;
@@ -66,7 +68,13 @@ pub(crate) struct Moved {
 }
 
 impl Moves {
-    /// Moves all robots.
+    /// Room for the plans of so many robots.
+    pub(crate) fn plans(&mut self, robots: usize) -> &mut [Plan] {
+        self.plans.resize(robots, Plan::REST);
+        &mut self.plans
+    }
+
+    /// Moves all robots as far as their plans say.
     pub(crate) fn act(
         &mut self,
         scenario: &Scenario,
@@ -74,10 +82,6 @@ impl Moves {
         neighbours: &Neighbours,
         is_shared: bool,
     ) -> Moved {
-        self.plans.resize(state.robots(), Plan::REST);
-        share_out(&mut self.plans, is_shared, |robot, plan| {
-            *plan = planned(scenario, state, robot)
-        });
         self.meetings
             .collect(&self.plans, &state.discs, neighbours, scenario.contact_m);
         let met = self.meetings.resolve(&mut self.plans, state, neighbours);
@@ -92,15 +96,18 @@ impl Moves {
 
 /// What a robot does if no other is in its way.
 #[inline]
-fn planned(scenario: &Scenario, state: &State, robot: usize) -> Plan {
-    let (hull, disc, mind) = (
-        &state.hulls[robot],
-        &state.discs[robot],
-        &state.minds[robot],
-    );
-    let kind = &scenario.kinds[usize::from(state.ids[robot].kind)];
+pub(crate) fn planned(view: &View, robot: usize, mind: &Mind) -> Plan {
+    let View {
+        scenario,
+        tick,
+        hulls,
+        discs,
+        courses,
+        ..
+    } = *view;
+    let (hull, disc, kind) = (&hulls[robot], &discs[robot], view.kind(robot));
     let sensing_w = kind.sensing_w(mind.sensors_off);
-    if !hull.can_move(state.tick) {
+    if !hull.can_move(tick) {
         return Plan {
             path: Path::rest(disc.centre),
             sensing_w,
@@ -113,15 +120,16 @@ fn planned(scenario: &Scenario, state: &State, robot: usize) -> Plan {
         .step(hull.speed_m_s, mind.wanted, going.speed, scenario.step_s);
     let mut path = Path {
         start: disc.centre,
-        front: state.courses[robot].front,
+        front: courses[robot].front,
         length_m: driven.length_m,
         turn_rad: driven.turn_rate_rad_s * scenario.step_s,
         until: 1.0,
     };
-    let meeting = (path.length_m != 0.0).then(|| {
+    let may_touch = path.length_m != 0.0 && view.neighbours.may_touch(robot);
+    let meeting = may_touch.then(|| {
         let stands = scenario.touched(kind.layer);
         let (walls, discs) = (stands.walls_near(path.start), stands.discs_near(path.start));
-        meets_still(&path, disc.radius_m, walls, discs)
+        meets_still(&path, disc.radius_m, &walls, &discs)
     });
     let meeting = meeting.flatten();
     path.until = meeting.unwrap_or(1.0);

@@ -70,7 +70,8 @@ impl State {
                 ..before.hulls[was]
             };
             self.minds[robot] = kept_mind(&before.minds[was], old_kind, kind);
-            let is_same = kind.radius_m == old_kind.radius_m && kind.layer == old_kind.layer;
+            let is_same =
+                kind.radius_m.total_cmp(&old_kind.radius_m).is_eq() && kind.layer == old_kind.layer;
             let is_placed = self.hulls[robot].is_external || is_same_ground && is_same;
             *room = if is_placed {
                 Room::Same
@@ -169,7 +170,9 @@ fn no_room(scenario: &Scenario, name: &str, index: usize) -> NoRoom {
 }
 
 fn kept_mind(mind: &Mind, from: &Kind, to: &Kind) -> Mind {
-    let is_same = from.brain == to.brain && from.body == to.body && from.sensors == to.sensors;
+    let is_same = from.brain.spec() == to.brain.spec()
+        && from.brain.body() == to.brain.body()
+        && from.sensors == to.sensors;
     if is_same && from.needs_backlog() == to.needs_backlog() {
         mind.clone()
     } else {

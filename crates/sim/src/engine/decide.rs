@@ -83,7 +83,7 @@ impl Desk {
         let eye = view.eye(robot, 0, 0);
         for contact in &self.percept.contacts {
             let (y, x) = sin_cos(contact.bearing_rad);
-            let place = eye.to_world(Point { x, y }.times(contact.range_m));
+            let place = eye.world_of(Point { x, y }.times(contact.range_m));
             let near = view.items.near(place, RECOGNISED_WITHIN_M);
             let same = near.filter(|(_, item)| view.items.kind(*item) == contact.kind);
             let distances = same.map(|(at, item)| (place.to(*at).length(), *item));
@@ -128,7 +128,7 @@ impl Desk {
     fn obey(&mut self, view: &View, robot: usize, mind: &mut Mind) {
         mind.wanted = self.command.motion;
         for request in &self.command.requests {
-            mind.switch(request);
+            mind.switch(*request);
         }
         let most = view
             .kind(robot)
@@ -166,7 +166,7 @@ fn clear(percept: &mut Percept, kind: &Kind) {
     percept.inbox.clear();
     percept
         .scans
-        .resize_with(kind.body.rings.len(), Default::default);
+        .resize_with(kind.brain.body().rings.len(), Default::default);
     for scan in &mut percept.scans {
         scan.age_s = None;
         scan.ranges_m.clear();

@@ -56,30 +56,23 @@ impl Meetings {
     ) {
         self.pairs.clear();
         self.queue.clear();
-        for (robot, disc) in discs.iter().enumerate() {
-            let first = self.pairs.len();
-            for other in neighbours.of(robot) {
-                let far = &discs[*other as usize];
-                let square = disc.centre.to(far.centre).length_squared();
-                if *other as usize > robot && square < contact_m * contact_m {
-                    self.add(plans, discs, robot, *other as usize);
-                }
+        for pair in neighbours.pairs() {
+            let [one, other] = pair.map(|robot| &discs[robot as usize]);
+            let square = one.centre.to(other.centre).length_squared();
+            if square < contact_m * contact_m {
+                self.add(plans, [one, other], *pair);
             }
-            self.pairs[first..].sort_unstable_by_key(|pair| pair.robots);
         }
     }
 
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "robots have 32-bit numbers"
-    )]
-    fn add(&mut self, plans: &[Plan], discs: &[Disc], one: usize, other: usize) {
-        let reach_m = discs[one].radius_m + discs[other].radius_m;
-        let length_m = plans[one].path.length_m.abs() + plans[other].path.length_m.abs();
-        let gap_m = discs[one].centre.to(discs[other].centre).length() - reach_m;
+    fn add(&mut self, plans: &[Plan], [one, other]: [&Disc; 2], robots: [u32; 2]) {
+        let reach_m = one.radius_m + other.radius_m;
+        let goes_m = |robot: u32| plans[robot as usize].path.length_m.abs();
+        let length_m = goes_m(robots[0]) + goes_m(robots[1]);
+        let gap_m = one.centre.to(other.centre).length() - reach_m;
         if gap_m <= length_m && length_m > 0.0 {
             self.pairs.push(Pair {
-                robots: [one as u32, other as u32],
+                robots,
                 reach_m,
                 share: f64::INFINITY,
             });
@@ -124,7 +117,7 @@ impl Meetings {
         }
         plan.stop = Stop::Robot;
         plan.path.until = share;
-        for other in neighbours.of(robot as usize) {
+        for other in neighbours.of(robot as usize).robots {
             let robots = [robot.min(*other), robot.max(*other)];
             if let Ok(pair) = self.pairs.binary_search_by_key(&robots, |pair| pair.robots) {
                 self.predict(plans, pair);

@@ -5,7 +5,6 @@ use crate::body::kind::Kind;
 use crate::sensing::{Measure, Sensor};
 use brain::{Brain, Contact, Heard, Motion, Neighbour, Percept, SensorRequest};
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
 /// What decides for one robot.
 #[derive(Debug, Clone)]
@@ -23,14 +22,14 @@ pub(crate) struct Mind {
 impl Mind {
     pub(crate) fn new(kind: &Kind) -> Self {
         Self {
-            brain: Brain::new(Arc::clone(&kind.brain), Arc::clone(&kind.body)),
+            brain: kind.brain.clone(),
             wanted: Motion::default(),
             sensors_off: 0,
             backlog: kind.needs_backlog().then(|| Box::new(Backlog::new(kind))),
         }
     }
 
-    pub(crate) fn switch(&mut self, request: &SensorRequest) {
+    pub(crate) fn switch(&mut self, request: SensorRequest) {
         let bit = 1_u32.checked_shl(request.sensor.into()).unwrap_or(0);
         if request.on {
             self.sensors_off &= !bit;

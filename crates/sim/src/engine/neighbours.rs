@@ -1,17 +1,17 @@
-//! Which robots are near which.
+//! What is near each robot.
 //!
-//! Each robot has a list of the robots of its layer that are within its reach and a skin; it holds
-//! until some robot has gone half the skin. The lists only say where to look: what is made of them
-//! does not depend on their age, so they are no part of a run's state.
+//! Each robot has a list of the robots of its layer that are within its reach and a skin, and of
+//! what stands still there; it holds until some robot has gone half the skin (L. Verlet, *Computer
+//! "experiments" on classical fluids*, Physical Review 159, 1967). The lists only say where to look:
+//! what is made of them does not depend on their age, so they are no part of a run's state.
 
-use crate::scenario::Scenario;
+use crate::scenario::{SKIN_M, Scenario};
 use crate::world::buckets::Buckets;
+use crate::world::grid::Still;
+use crate::world::still::Stands;
 use base::geometry::{Disc, Point};
 use brain::RobotId;
 use rayon::prelude::*;
-
-/// Lists are made with so much more reach than is needed, in metres.
-const SKIN_M: f64 = 0.6;
 
 /// Robots whose lists are in one piece: a task for a thread.
 const ROBOTS_PER_PIECE: usize = 1024;
@@ -27,11 +27,25 @@ pub(crate) struct Neighbours {
     reach_m: Vec<f64>,
 }
 
+/// The lists of some robots that follow each other.
 #[derive(Debug, Clone, Default)]
 struct Piece {
-    /// Where each robot's list ends.
-    ends: Vec<u32>,
-    near: Vec<u32>,
+    /// Where each robot's lists end: of robots, of discs, of walls. They follow each other.
+    ends: Vec<[u32; 3]>,
+    things: Vec<u32>,
+    /// Whether a robot may touch something that stands still in the next step.
+    may_touch: Vec<bool>,
+    /// Robots that may touch each other in the next step, the lesser first; ascending.
+    pairs: Vec<[u32; 2]>,
+}
+
+/// What may be near a robot, in no order.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Vicinity<'a> {
+    pub(crate) robots: &'a [u32],
+    /// What rays can meet of what stands still.
+    pub(crate) discs: &'a [u32],
+    pub(crate) walls: &'a [u32],
 }
 
 impl Neighbours {
@@ -85,10 +99,9 @@ impl Neighbours {
         let list = |(number, piece): (usize, &mut Piece)| {
             let first = number * ROBOTS_PER_PIECE;
             let robots = first..discs.len().min(first + ROBOTS_PER_PIECE);
-            piece.ends.clear();
-            piece.near.clear();
+            piece.clear();
             for robot in robots {
-                piece.add(scenario, buckets, reach_m, (ids, discs), robot);
+                piece.add(scenario, (buckets, reach_m), (ids, discs), robot);
             }
         };
         if is_shared {
@@ -98,13 +111,32 @@ impl Neighbours {
         }
     }
 
-    /// Robots in reach of one, and maybe some more; not in any order.
+    /// What is in reach of a robot, and maybe some more.
     #[inline]
-    pub(crate) fn of(&self, robot: usize) -> &[u32] {
+    pub(crate) fn of(&self, robot: usize) -> Vicinity<'_> {
         let piece = &self.pieces[robot / ROBOTS_PER_PIECE];
         let place = robot % ROBOTS_PER_PIECE;
-        let start = place.checked_sub(1).map_or(0, |before| piece.ends[before]);
-        &piece.near[start as usize..piece.ends[place] as usize]
+        let start = place
+            .checked_sub(1)
+            .map_or(0, |before| piece.ends[before][2]);
+        let [robots, discs, walls] = piece.ends[place];
+        let some = |from: u32, to: u32| &piece.things[from as usize..to as usize];
+        Vicinity {
+            robots: some(start, robots),
+            discs: some(robots, discs),
+            walls: some(discs, walls),
+        }
+    }
+
+    /// Whether a robot may touch something that stands still in the next step.
+    #[inline]
+    pub(crate) fn may_touch(&self, robot: usize) -> bool {
+        self.pieces[robot / ROBOTS_PER_PIECE].may_touch[robot % ROBOTS_PER_PIECE]
+    }
+
+    /// Robots that may touch each other in the next step, the lesser first; ascending.
+    pub(crate) fn pairs(&self) -> impl Iterator<Item = &[u32; 2]> {
+        self.pieces.iter().flat_map(|piece| &piece.pairs)
     }
 
     /// Robots of any layer within a distance of a place, and maybe some more; not in any order.
@@ -116,32 +148,92 @@ impl Neighbours {
 }
 
 impl Piece {
+    fn clear(&mut self) {
+        self.ends.clear();
+        self.things.clear();
+        self.may_touch.clear();
+        self.pairs.clear();
+    }
+
     fn add(
         &mut self,
         scenario: &Scenario,
-        buckets: &Buckets,
-        reach_m: &[f64],
+        (buckets, reach_m): (&Buckets, &[f64]),
         (ids, discs): (&[RobotId], &[Disc]),
         robot: usize,
     ) {
-        let kind = usize::from(ids[robot].kind);
-        let reach_m = reach_m[kind] + SKIN_M;
-        let centre = discs[robot].centre;
+        let (id, centre) = (ids[robot], discs[robot].centre);
+        let kind = &scenario.kinds[usize::from(id.kind)];
+        let reach_m = reach_m[usize::from(id.kind)] + SKIN_M;
         let is_one_layer = scenario.is_one_layer();
-        let layer = scenario.kinds[kind].layer;
-        for (place, other) in buckets.near(centre, reach_m) {
-            let is_near = centre.to(*place).length_squared() < reach_m * reach_m;
-            if is_near && *other as usize != robot {
-                let other_kind = usize::from(ids[*other as usize].kind);
-                if is_one_layer || scenario.kinds[other_kind].layer == layer {
-                    self.near.push(*other);
-                }
-            }
+        let is_in_layer = |other: u32| {
+            let other_kind = usize::from(ids[other as usize].kind);
+            is_one_layer || scenario.kinds[other_kind].layer == kind.layer
+        };
+        let near = buckets.near(centre, reach_m);
+        let contact_m = scenario.contact_m + SKIN_M;
+        let near = near.map(|(place, other)| (centre.to(*place).length_squared(), *other));
+        self.add_robots(near, [reach_m, contact_m], robot, is_in_layer);
+        let robots = self.end();
+        if kind.rays_m > 0.0 {
+            let stands = scenario.seen(kind.layer);
+            let reach_m = kind.rays_m + SKIN_M / 2.0;
+            self.things.extend(stands.numbers_of_discs(centre, reach_m));
+            let discs = self.end();
+            self.things
+                .extend(stands.numbers_of_faces(centre, reach_m, SKIN_M / 2.0));
+            self.ends.push([robots, discs, self.end()]);
+        } else {
+            self.ends.push([robots; 3]);
         }
-        #[expect(
-            clippy::cast_possible_truncation,
-            reason = "robots of a piece have not that many"
-        )]
-        self.ends.push(self.near.len() as u32);
+        let touch_m = f64::midpoint(scenario.contact_m, SKIN_M);
+        let is_near_still = is_near(scenario.touched(kind.layer), centre, touch_m);
+        self.may_touch.push(is_near_still);
     }
+
+    /// Adds the robots of a layer that are near one, of those whose square distance is given.
+    ///
+    /// Whether one is near is as good as random: it is written down in any case.
+    fn add_robots(
+        &mut self,
+        near: impl Iterator<Item = (f64, u32)>,
+        [reach_m, contact_m]: [f64; 2],
+        robot: usize,
+        is_in_layer: impl Fn(u32) -> bool,
+    ) {
+        let first = self.pairs.len();
+        let mut end = self.things.len();
+        near.for_each(|(square, other)| {
+            let is_near = square < reach_m * reach_m && other as usize != robot;
+            if end == self.things.len() {
+                self.things.push(0);
+            }
+            self.things[end] = other;
+            end += usize::from(is_near && is_in_layer(other));
+            if square < contact_m * contact_m && other as usize > robot && is_in_layer(other) {
+                #[expect(
+                    clippy::cast_possible_truncation,
+                    reason = "robots have 32-bit numbers"
+                )]
+                self.pairs.push([robot as u32, other]);
+            }
+        });
+        self.things.truncate(end);
+        self.pairs[first..].sort_unstable();
+    }
+
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "robots of a piece have not that many"
+    )]
+    fn end(&self) -> u32 {
+        self.things.len() as u32
+    }
+}
+
+fn is_near(stands: &Stands, place: Point, radius_m: f64) -> bool {
+    let mut walls = stands.walls_near(place);
+    let mut discs = stands.discs_near(place);
+    walls.any(|wall| wall.distance(place) < radius_m)
+        || discs.any(|disc| disc.distance_m(place) < radius_m)
 }

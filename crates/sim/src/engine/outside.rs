@@ -42,7 +42,7 @@ radio = { range_m = 5 }
 
     fn start() -> Simulation {
         let document = Document::parse("t", TWO).unwrap();
-        let read = ScenarioSpec::read(&document, &|_| Err(String::new()));
+        let read = ScenarioSpec::read(&document);
         Simulation::new(Arc::new(read.unwrap().scenario), 1, 0).unwrap()
     }
 

@@ -1,6 +1,7 @@
 //! What can be seen of a run from outside: where everything is, and how it fares.
 
 use super::state::{State, Status};
+use crate::body::Layer;
 use crate::scenario::Scenario;
 use base::geometry::Point;
 use brain::{Motion, RobotId};
@@ -12,6 +13,10 @@ pub struct Robot {
     pub id: RobotId,
     /// Where its centre is.
     pub at: Point,
+    /// Of the disc that it covers.
+    pub radius_m: f64,
+    /// On the ground or in the air.
+    pub layer: Layer,
     /// Its course: 0 along x, anticlockwise, from -pi to pi.
     pub heading_rad: f64,
     /// Ahead.
@@ -56,11 +61,15 @@ impl State {
     pub fn each_robot(&self, scenario: &Scenario) -> impl Iterator<Item = Robot> {
         (0..self.robots()).map(|robot| {
             let (id, hull) = (self.ids[robot], &self.hulls[robot]);
-            let battery = scenario.kinds[usize::from(id.kind)].battery;
-            let battery = battery.filter(|battery| battery.capacity_j.is_finite());
+            let kind = &scenario.kinds[usize::from(id.kind)];
+            let battery = kind
+                .battery
+                .filter(|battery| battery.capacity_j.is_finite());
             Robot {
                 id,
                 at: self.discs[robot].centre,
+                radius_m: self.discs[robot].radius_m,
+                layer: kind.layer,
                 heading_rad: self.courses[robot].heading_rad,
                 speed_m_s: hull.speed_m_s,
                 wanted: self.minds[robot].wanted,

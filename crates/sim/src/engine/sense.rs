@@ -22,7 +22,6 @@ pub(crate) struct Senses {
     /// What rays of the robot can meet, once one of its rings has looked.
     near: Near,
     is_near_known: bool,
-    words: Vec<u32>,
     values: Vec<f64>,
     /// Items that robots were told of, in the order of the robots.
     pub(crate) sightings: Vec<u32>,
@@ -158,14 +157,16 @@ impl Look<'_> {
     #[inline]
     fn measure(&self, measure: &Measure, senses: &mut Senses) {
         let eye = &self.eye;
-        senses.values.clear();
+        if !matches!(measure, Measure::Range(_)) {
+            senses.values.clear();
+        }
         match measure {
             Measure::Range(ring) => {
                 if !senses.is_near_known {
                     gather(self.view, self.robot, &mut senses.near);
                     senses.is_near_known = true;
                 }
-                ring.look(eye, &senses.near, &mut senses.words, &mut senses.values);
+                ring.look(eye, &mut senses.near, &mut senses.values);
             }
             Measure::Position { noise_m } => {
                 let [x, y] = deviations(eye).map(|deviation| deviation * noise_m);
@@ -291,14 +292,16 @@ fn deviations(eye: &Eye) -> [f64; 2] {
 #[inline]
 fn gather(view: &View, robot: usize, near: &mut Near) {
     let kind = view.kind(robot);
-    let at = view.discs[robot].centre;
     let stands = view.scenario.seen(kind.layer);
-    let robots = view.neighbours.of(robot).iter();
-    let discs = robots.map(|other| &view.discs[*other as usize]);
+    let vicinity = view.neighbours.of(robot);
+    let robots = vicinity.robots.iter();
+    let robots = robots.map(|other| &view.discs[*other as usize]);
+    let discs = vicinity.discs.iter().map(|number| stands.disc(*number));
+    let walls = vicinity.walls.iter().map(|number| stands.wall(*number));
     near.gather(
-        at,
+        view.discs[robot].centre,
         kind.rays_m,
-        discs.chain(stands.discs_near(at)),
-        stands.walls_near(at),
+        robots.chain(discs),
+        walls,
     );
 }

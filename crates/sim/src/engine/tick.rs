@@ -1,6 +1,6 @@
 //! One step of a run: sense, tell, decide, act, judge.
 
-use super::act::Moves;
+use super::act::{Moves, Plan, planned};
 use super::decide::Desk;
 use super::mind::Mind;
 use super::neighbours::Neighbours;
@@ -21,6 +21,9 @@ pub(crate) struct Workshop {
     /// Whether threads may share the work of one step.
     may_share: bool,
 }
+
+/// The part of one thread: its desk, and its robots' minds and plans.
+type Share<'a> = ((&'a mut Desk, &'a mut [Mind]), &'a mut [Plan]);
 
 impl Workshop {
     pub(crate) fn new(scenario: &Scenario, may_share: bool) -> Self {
@@ -45,7 +48,7 @@ impl Workshop {
     /// Takes one step.
     pub(crate) fn tick(&mut self, scenario: &Scenario, state: &mut State, outside: &Outside) {
         self.refresh(scenario, state);
-        self.sense_and_decide(scenario, state, outside);
+        self.sense_decide_and_plan(scenario, state, outside);
         self.speak(scenario, state);
         self.judge(scenario, state);
         self.act(scenario, state);
@@ -64,8 +67,9 @@ impl Workshop {
             .refresh(scenario, &state.ids, &state.discs, is_shared);
     }
 
-    /// Lets all robots sense and decide, each from the same view.
-    fn sense_and_decide(&mut self, scenario: &Scenario, state: &mut State, outside: &Outside) {
+    /// Lets all robots sense, decide and plan their ways, each from the same view: all of one robot
+    /// before the next, so that what is known of it is read from memory once.
+    fn sense_decide_and_plan(&mut self, scenario: &Scenario, state: &mut State, outside: &Outside) {
         let (robots, is_shared) = (state.robots(), self.is_shared(state));
         let desks = if is_shared {
             4 * rayon::current_num_threads()
@@ -74,19 +78,24 @@ impl Workshop {
         };
         self.desks.resize_with(desks, Desk::default);
         self.desks.iter_mut().for_each(Desk::clear);
+        let plans = self.moves.plans(robots);
         let (mut view, minds) = state.view(scenario, &self.neighbours);
         view.outside = (!outside.is_empty()).then_some(outside);
         let share = robots.div_ceil(desks).max(1);
-        let serve = |(number, (desk, minds)): (usize, (&mut Desk, &mut [Mind]))| {
-            for (place, mind) in minds.iter_mut().enumerate() {
-                desk.serve(&view, number * share + place, mind);
+        let serve = |(number, ((desk, minds), plans)): (usize, Share)| {
+            for (place, (mind, plan)) in minds.iter_mut().zip(plans).enumerate() {
+                let robot = number * share + place;
+                desk.serve(&view, robot, mind);
+                *plan = planned(&view, robot, mind);
             }
         };
         if is_shared {
             let tasks = self.desks.par_iter_mut().zip(minds.par_chunks_mut(share));
+            let tasks = tasks.zip(plans.par_chunks_mut(share));
             tasks.enumerate().for_each(serve);
         } else {
             let tasks = self.desks.iter_mut().zip(minds.chunks_mut(share));
+            let tasks = tasks.zip(plans.chunks_mut(share));
             tasks.enumerate().for_each(serve);
         }
     }

@@ -3,7 +3,7 @@
 use super::Scenario;
 use crate::body::Layer;
 use crate::body::kind::Kind;
-use crate::world::terrain::Going;
+use crate::world::terrain::{Going, Terrain};
 
 /// Rounding in a sum of many steps, and a step that begins before the cap, must not go beyond.
 const HAIR: f64 = 1.001;
@@ -21,10 +21,7 @@ pub(crate) struct Bounds {
 
 impl Scenario {
     pub(crate) fn bounds(&self) -> Bounds {
-        let hardest = self
-            .terrain
-            .as_ref()
-            .map_or(Going::EASY, |terrain| terrain.most());
+        let hardest = self.terrain.as_ref().map_or(Going::EASY, Terrain::most);
         let of_team = |of_one: &dyn Fn(&Kind) -> f64| {
             self.kinds
                 .iter()
@@ -76,8 +73,9 @@ impl Scenario {
         spent_j.min(battery.capacity_j)
     }
 
-    /// Robots of each kind.
-    pub(crate) fn team(&self) -> Vec<(String, u32)> {
+    /// Robots of each kind, in the order in which ids count them.
+    #[must_use]
+    pub fn team(&self) -> Vec<(String, u32)> {
         self.kinds
             .iter()
             .map(|kind| (kind.name.clone(), kind.count))

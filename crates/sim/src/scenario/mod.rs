@@ -7,13 +7,15 @@ mod ready;
 
 pub use ready::Scenario;
 
+pub(crate) use ready::SKIN_M;
+
 use crate::body::RobotSpec;
 use crate::clock::ClockSpec;
 use crate::world::WorldSpec;
 use crate::world::items::ItemSpec;
 use crate::world::terrain::TerrainSpec;
-use base::document::Document;
 use base::document::schema::Schema;
+use base::document::{Document, Files};
 use base::fault::Faults;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -46,10 +48,6 @@ pub struct Checked {
     pub scenario: Scenario,
 }
 
-/// Gives the bytes of a file that a scenario names, relative to the scenario's own, or says why it
-/// cannot.
-pub type Open<'o> = &'o dyn Fn(&str) -> Result<Vec<u8>, String>;
-
 /// Other keys at the root are the question's.
 static SCHEMA: LazyLock<Schema> = LazyLock::new(|| Schema::of::<ScenarioSpec>().open());
 
@@ -57,15 +55,51 @@ impl ScenarioSpec {
     /// The keys at the root of a document that it is read from.
     pub const KEYS: [&str; 5] = ["clock", "world", "terrain", "items", "robots"];
 
+    /// What may stand under [`ScenarioSpec::KEYS`], once every robot kind says what its model says.
+    #[must_use]
+    pub fn schema() -> &'static Schema {
+        &SCHEMA
+    }
+
     /// Reads what stands under [`ScenarioSpec::KEYS`], and nothing else.
     ///
     /// # Errors
     /// Everything that is wrong there: keys and values first, and if these are right, what they mean
     /// together.
-    pub fn read(document: &Document, open: Open) -> Result<Checked, Faults> {
+    pub fn read(document: &Document) -> Result<Checked, Faults> {
         let mut document = document.clone();
         models::fill(&mut document);
         let spec = document.typed(&SCHEMA)?;
-        checks::checked(spec, &document.place(), open)
+        checks::checked(spec, &document.place(), &|name| document.open(name))
+    }
+
+    /// The same of a document whose files `open` reads: it gives the bytes of one by its name, or
+    /// says why it cannot.
+    ///
+    /// # Errors
+    /// As [`ScenarioSpec::read`].
+    pub fn read_with(
+        document: &Document,
+        open: impl Fn(&str) -> Result<Vec<u8>, String>,
+    ) -> Result<Checked, Faults> {
+        let mut document = document.clone();
+        let mut files = Files::new();
+        // What has been read may name more.
+        loop {
+            let wanted = Self::files(&document);
+            if wanted.is_empty() {
+                return Self::read(&document);
+            }
+            files.extend(wanted.into_iter().map(|name| (name.clone(), open(&name))));
+            document = document.with_files(files.clone());
+        }
+    }
+
+    /// The files that a document names and that have not been read.
+    pub(crate) fn files(document: &Document) -> Vec<String> {
+        let mut filled = document.clone();
+        models::fill(&mut filled);
+        let spec: Result<Self, Faults> = filled.typed(&SCHEMA);
+        spec.map_or_else(|_| Vec::new(), |spec| checks::files_wanted(&spec, document))
     }
 }

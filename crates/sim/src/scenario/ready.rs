@@ -11,9 +11,11 @@ use crate::world::obstacles::Solid;
 use crate::world::still::{Stands, Wall};
 use crate::world::terrain::{Area, Going, Terrain};
 use base::geometry::{Disc, Point, Rectangle, Segment};
-use brain::{Body, BrainSpec, RobotId};
+use brain::{Brain, RobotId};
 
-use std::sync::Arc;
+/// What is near a robot is looked up with so much more reach than is needed, in metres; that holds
+/// until a robot has gone half of it.
+pub(crate) const SKIN_M: f64 = 0.6;
 
 /// Everything that does not change in a run. Runs share it.
 #[derive(Debug, Clone)]
@@ -62,7 +64,7 @@ impl Scenario {
         let rays_m = greatest(&kinds, |kind| kind.rays_m);
         let stands = |layer, reach_m| {
             let (walls, discs) = in_the_way(&world, &solids, layer);
-            Stands::new(size_m, &walls, &discs, reach_m)
+            Stands::new(size_m, &walls, &discs, reach_m + SKIN_M / 2.0)
         };
         let layers = [Layer::Ground, Layer::Air];
         Self {
@@ -147,11 +149,10 @@ impl Scenario {
         self.items.iter().map(|kind| kind.name.as_str())
     }
 
-    /// What the brains of a kind of robots are, and what they know of their bodies.
+    /// The brain with which robots of a kind begin.
     #[must_use]
-    pub fn mind_of(&self, kind: u8) -> Option<(&Arc<BrainSpec>, &Arc<Body>)> {
-        let kind = self.kinds.get(usize::from(kind))?;
-        Some((&kind.brain, &kind.body))
+    pub fn brain(&self, kind: u8) -> Option<&Brain> {
+        self.kinds.get(usize::from(kind)).map(|kind| &kind.brain)
     }
 
     /// The name of a robot's kind.

@@ -3,6 +3,7 @@
 use crate::world::still::Stands;
 use base::geometry::Point;
 use base::noise::{Noise, normal_pair};
+use base::philox::Blocks;
 
 /// What a look draws random numbers for. The numbers stay: a change changes every result.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -16,12 +17,14 @@ pub(crate) enum Use {
     Thing = 2,
     /// Things that are not there.
     FalseAlarm = 3,
-    /// Lost and false echoes of rays.
+    /// Whether a ray's echo is lost or false.
     Echo = 4,
     /// What a brain has for dice; not a sensor's.
     Dice = 5,
     /// A message that may be lost; not a sensor's.
     Radio = 6,
+    /// How far away a false echo is.
+    EchoPlace = 7,
 }
 
 /// Uses of one sensor are numbered on from here.
@@ -57,9 +60,20 @@ impl Eye<'_> {
             .words(used.of_sensor(self.sensor), self.look, index)
     }
 
+    /// A word for each thing of a hand: see [`Noise::deal`].
+    #[inline(always)]
+    #[expect(
+        clippy::inline_always,
+        reason = "it is compiled for the caller's vectors"
+    )]
+    pub(crate) fn deal(&self, used: Use, hand: u32) -> Blocks {
+        self.noise
+            .deal(used.of_sensor(self.sensor), self.look, hand)
+    }
+
     /// The way to a place of the world, from the robot's front.
     #[inline]
-    pub(crate) fn to_own(&self, place: Point) -> Point {
+    pub(crate) fn own(&self, place: Point) -> Point {
         let way = self.at.to(place);
         Point {
             x: self.front.dot(way),
@@ -68,7 +82,7 @@ impl Eye<'_> {
     }
 
     /// The place of the world at a way from the robot's front.
-    pub(crate) fn to_world(&self, way: Point) -> Point {
+    pub(crate) fn world_of(&self, way: Point) -> Point {
         Point {
             x: self.at.x + self.front.x * way.x - self.front.y * way.y,
             y: self.at.y + self.front.y * way.x + self.front.x * way.y,

@@ -139,7 +139,7 @@ impl ItemDetector {
         mut give: impl FnMut(Point, u16, Option<u32>),
     ) {
         for (place, number) in items.near(eye.at, self.sector.range_m) {
-            let way = eye.to_own(*place);
+            let way = eye.own(*place);
             let kind = items.kind(*number);
             let Some(detection) = &self.detects[usize::from(kind)] else {
                 continue;
@@ -169,7 +169,7 @@ impl ItemDetector {
         for number in 1..=count {
             let words = eye.words(Use::FalseAlarm, index + number);
             let way = self.sector.place([share(words[0]), share(words[1])]);
-            if !self.is_hidden(eye, eye.to_world(way)) {
+            if !self.is_hidden(eye, eye.world_of(way)) {
                 give(way, kind, None);
             }
         }

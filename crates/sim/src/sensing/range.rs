@@ -1,11 +1,18 @@
 //! A ring of rays that measure distances.
 
+#![expect(
+    clippy::inline_always,
+    reason = "it is compiled for the vectors of its callers"
+)]
+
 use super::eye::{Eye, Use};
-use super::rays::{Near, Rays};
-use base::noise::{normal_pair, share};
+use super::rays::{GROUP, Near, Rays};
+use base::noise::{HAND, normal_pairs, share};
 use base::trig::wrapped;
+use pulp::{Arch, Simd, WithSimd};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::array::from_fn;
 
 /// Rays from the robot's centre, evenly spread over the field of view.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -73,57 +80,125 @@ impl Ring {
     }
 
     /// The distance of each ray's echo, infinite where none comes back.
+    ///
+    /// One pass in the machine's widest vectors.
     #[inline]
-    pub(crate) fn look(&self, eye: &Eye, near: &Near, words: &mut Vec<u32>, to: &mut Vec<f64>) {
-        self.rays.cast(eye.front, near, self.range_m, to);
-        if self.miss > 0.0 || self.false_echo > 0.0 {
-            self.lose_and_invent(eye, words, to);
+    pub(crate) fn look(&self, eye: &Eye, near: &mut Near, to: &mut Vec<f64>) {
+        self.look_with(Arch::new(), eye, near, to);
+    }
+
+    #[inline]
+    fn look_with(&self, arch: Arch, eye: &Eye, near: &mut Near, to: &mut Vec<f64>) {
+        to.resize(self.rays.groups() * GROUP, 0.0);
+        let (to_groups, _) = to.as_chunks_mut();
+        arch.dispatch(RingLook {
+            ring: self,
+            eye,
+            near,
+            to: to_groups,
+        });
+        to.truncate(self.bearings_rad.len());
+    }
+}
+
+/// A ring's look, as one piece of work for vectors.
+struct RingLook<'a> {
+    ring: &'a Ring,
+    eye: &'a Eye<'a>,
+    near: &'a mut Near,
+    to: &'a mut [[f64; GROUP]],
+}
+
+impl WithSimd for RingLook<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Self {
+            ring,
+            eye,
+            near,
+            to,
+        } = self;
+        ring.rays.cast(simd, (eye.front, ring.range_m), near, to);
+        if ring.false_echo > 0.0 {
+            ring.invent(eye, to);
         }
-        if self.noise_m > 0.0 || self.noise_share > 0.0 {
-            self.blur(eye, words, to);
+        if ring.miss > 0.0 {
+            ring.lose(eye, to);
         }
-        for distance in to {
-            *distance = if *distance < self.range_m {
-                *distance
-            } else {
-                f64::INFINITY
-            };
+        if ring.noise_m > 0.0 || ring.noise_share > 0.0 {
+            ring.blur(eye, to);
+        }
+        for distances in to {
+            *distances = distances.map(|distance| {
+                let is_echo = distance < ring.range_m;
+                if is_echo { distance } else { f64::INFINITY }
+            });
+        }
+    }
+}
+
+/// Random numbers are dealt to hands of four groups of rays.
+const GROUPS: usize = HAND / GROUP;
+
+/// Groups are written as a whole: stores of some lanes would be waited for by the next load.
+impl Ring {
+    #[inline(always)]
+    fn lose(&self, eye: &Eye, to: &mut [[f64; GROUP]]) {
+        for (hand, groups) in (0..).zip(to.chunks_mut(GROUPS)) {
+            let chances = eye.deal(Use::Echo, hand);
+            for (distances, chances) in groups.iter_mut().zip(&chances) {
+                *distances = from_fn(|lane| {
+                    let is_lost = share(chances[lane]) < self.miss;
+                    if is_lost {
+                        self.range_m
+                    } else {
+                        distances[lane]
+                    }
+                });
+            }
         }
     }
 
-    fn blur(&self, eye: &Eye, words: &mut Vec<u32>, to: &mut [f64]) {
-        draw(eye, Use::Error, to.len(), words);
-        let (pairs, _) = words.as_chunks::<2>();
-        for (distances, pair) in to.chunks_mut(2).zip(pairs) {
-            for (distance, deviation) in distances.iter_mut().zip(normal_pair(*pair)) {
-                let spread = self.noise_m + self.noise_share * *distance;
-                // What was out of range stays so: there is no echo to be measured.
-                if *distance < self.range_m {
-                    *distance = (*distance + spread * deviation).max(0.0);
+    /// A ray's least chances are of a loss, its greatest of a false echo; the loss has its way.
+    #[inline(always)]
+    fn invent(&self, eye: &Eye, to: &mut [[f64; GROUP]]) {
+        for (hand, groups) in (0..).zip(to.chunks_mut(GROUPS)) {
+            let chances = eye.deal(Use::Echo, hand);
+            let places = eye.deal(Use::EchoPlace, hand);
+            for ((distances, chances), places) in groups.iter_mut().zip(&chances).zip(&places) {
+                *distances = from_fn(|lane| {
+                    let is_false = share(chances[lane]) > 1.0 - self.false_echo;
+                    let before = distances[lane] * share(places[lane]);
+                    if is_false { before } else { distances[lane] }
+                });
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn blur(&self, eye: &Eye, to: &mut [[f64; GROUP]]) {
+        for (hand, groups) in (0..).zip(to.chunks_mut(GROUPS)) {
+            let words = eye.deal(Use::Error, hand);
+            for (pair, words) in groups.chunks_mut(2).zip(words.chunks(2)) {
+                let deviations = normal_pairs([&words[0], &words[1]]);
+                for (distances, deviations) in pair.iter_mut().zip(&deviations) {
+                    *distances = from_fn(|lane| self.blurred(distances[lane], deviations[lane]));
                 }
             }
         }
     }
 
-    fn lose_and_invent(&self, eye: &Eye, words: &mut Vec<u32>, to: &mut [f64]) {
-        draw(eye, Use::Echo, 2 * to.len(), words);
-        let (pairs, _) = words.as_chunks::<2>();
-        for (distance, [chance, place]) in to.iter_mut().zip(pairs) {
-            let chance = share(*chance);
-            if chance < self.miss {
-                *distance = self.range_m;
-            } else if chance > 1.0 - self.false_echo {
-                *distance *= share(*place);
-            }
-        }
+    /// What was out of range stays so: there is no echo to be measured.
+    #[inline(always)]
+    fn blurred(&self, distance: f64, deviation: f64) -> f64 {
+        let spread = self.noise_m + self.noise_share * distance;
+        let measured = distance + spread * deviation;
+        let measured = if measured > 0.0 { measured } else { 0.0 };
+        let is_echo = distance < self.range_m;
+        if is_echo { measured } else { distance }
     }
-}
-
-fn draw(eye: &Eye, used: Use, count: usize, words: &mut Vec<u32>) {
-    words.clear();
-    words.resize(count.next_multiple_of(4), 0);
-    let used = used.of_sensor(eye.sensor);
-    eye.noise.fill(used, eye.look, 0, words);
 }
 
 /// A whole circle has no ray twice; a sector has one on each edge.

@@ -1,31 +1,48 @@
 //! Exact rays: how far a ring's rays go before they meet something.
 //!
 //! This is where a run's time goes. What is near has been gathered ([`Near`]), relative to the
-//! robot; here each vector of rays is held against it, piece by piece. Most pieces miss all rays of
-//! a vector, which a comparison tells before a root or a quotient is taken: some three cycles a
-//! piece and vector. The result is a minimum over pieces, so their order changes nothing, and it is
-//! made of additions, multiplications, quotients and roots only, without fused ones: so all
-//! instruction sets give the same bits.
+//! robot; here each vector of rays is held against it, piece by piece. Whether a piece meets any ray
+//! of a vector is as good as random, so the pieces that do are noted first, without a branch, in
+//! some four cycles a piece and vector; only for those a root or a quotient is taken, some twenty
+//! cycles more.
+//!
+//! The result is a minimum over pieces, so their order changes nothing, and it is made of additions,
+//! multiplications, quotients and roots only, without fused ones: so all instruction sets give the
+//! same bits.
+
+#![expect(
+    clippy::inline_always,
+    reason = "it is compiled for the vectors of its callers"
+)]
 
 use crate::world::still::Wall;
 use base::geometry::{Disc, Point};
-use pulp::{Arch, Simd, WithSimd};
+use pulp::Simd;
 
 /// Rays are handled in groups of so many; the widest vector there is holds that many.
-const GROUP: usize = 8;
+pub(crate) const GROUP: usize = base::philox::LANES;
 
 /// How far a ray may pass beside a wall's end and still meet it, in metres: no ray slips through
 /// where two walls meet.
 const CRACK_M: f64 = 1e-9;
 
+/// Where a product stands for a quotient it may be off by rounding, but by less than this factor.
+const HAIR: f64 = 1.0 + 1e-12;
+
 /// What rays can meet, relative to a robot.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Near {
-    /// Of these, the first so many.
-    discs: Vec<NearDisc>,
-    disc_count: usize,
-    walls: Vec<NearWall>,
-    wall_count: usize,
+    discs: Few<NearDisc>,
+    walls: Few<NearWall>,
+    /// Numbers of those that meet a vector of rays: as many as there are discs or walls.
+    hits: Vec<u32>,
+}
+
+/// The first so many of a list that never shrinks.
+#[derive(Debug, Clone, Default)]
+struct Few<T> {
+    all: Vec<T>,
+    count: usize,
 }
 
 #[derive(Debug, Clone, Copy, Default)]
@@ -35,22 +52,42 @@ struct NearDisc {
     power: f64,
 }
 
+/// A wall with the robot on its free side, to the left of the way from its start to its end.
 #[derive(Debug, Clone, Copy, Default)]
 struct NearWall {
-    /// Direction, with what is free to its left.
-    along: Point,
-    /// The robot's distance from its line; above 0.
-    height: f64,
-    /// How far along the line the robot is, from the wall's beginning.
-    foot: f64,
-    length: f64,
+    start: Point,
+    end: Point,
+    /// Twice the area between it and the robot.
+    area: f64,
+}
+
+impl<T: Copy + Default> Few<T> {
+    /// Takes those that `near` says are.
+    ///
+    /// That is as good as random: each is written down in any case, and then written over if it was
+    /// not, which is faster than a branch that is mispredicted.
+    #[inline]
+    fn take<U>(&mut self, from: impl Iterator<Item = U>, near: impl Fn(U) -> (T, bool)) {
+        let mut count = 0;
+        from.for_each(|each| {
+            if count == self.all.len() {
+                self.all.push(T::default());
+            }
+            let (value, is_near) = near(each);
+            self.all[count] = value;
+            count += usize::from(is_near);
+        });
+        self.count = count;
+    }
+
+    #[inline]
+    fn of(&self) -> &[T] {
+        &self.all[..self.count]
+    }
 }
 
 impl Near {
-    /// Takes what of these a ray of `range_m` from `at` can meet.
-    ///
-    /// Whether a thing is near is as good as random: it is written down in any case, and then
-    /// written over if it was not, which is faster than a branch that is mispredicted.
+    /// Takes what of these a ray of `range_m` from `at` can meet, and maybe some more.
     #[inline]
     pub(crate) fn gather<'a>(
         &mut self,
@@ -59,40 +96,27 @@ impl Near {
         discs: impl Iterator<Item = &'a Disc>,
         walls: impl Iterator<Item = &'a Wall>,
     ) {
-        let mut found = 0;
-        for disc in discs {
-            let way = at.to(disc.centre);
-            let square = way.length_squared();
+        self.discs.take(discs, |disc| {
+            let centre = at.to(disc.centre);
+            let square = centre.length_squared();
+            let power = (square - disc.radius_m * disc.radius_m).max(0.0);
             let reach = range_m + disc.radius_m;
-            if found == self.discs.len() {
-                self.discs.push(NearDisc::default());
-            }
-            self.discs[found] = NearDisc {
-                centre: way,
-                power: (square - disc.radius_m * disc.radius_m).max(0.0),
-            };
-            found += usize::from(square < reach * reach);
+            (NearDisc { centre, power }, square < reach * reach)
+        });
+        self.walls.take(walls, |wall| {
+            let (start, end) = (at.to(wall.start), at.to(wall.end()));
+            let area = start.cross(end);
+            #[expect(
+                clippy::needless_bitwise_bool,
+                reason = "a branch would be mispredicted"
+            )]
+            let is_near = (area > 0.0) & (area < range_m * wall.length);
+            (NearWall { start, end, area }, is_near)
+        });
+        let most = self.discs.count.max(self.walls.count);
+        if self.hits.len() < most {
+            self.hits.resize(most, 0);
         }
-        self.disc_count = found;
-        let mut found = 0;
-        for wall in walls {
-            let way = at.to(wall.start);
-            let height = way.cross(wall.along);
-            let foot = -way.dot(wall.along);
-            if found == self.walls.len() {
-                self.walls.push(NearWall::default());
-            }
-            self.walls[found] = NearWall {
-                along: wall.along,
-                height,
-                foot,
-                length: wall.length,
-            };
-            let is_near = (height > 0.0) & (height < range_m);
-            let is_beside = (foot > -range_m) & (foot < wall.length + range_m);
-            found += usize::from(is_near & is_beside);
-        }
-        self.wall_count = found;
     }
 }
 
@@ -102,7 +126,6 @@ pub(crate) struct Rays {
     /// The last direction repeated until the groups are full.
     cosines: Vec<[f64; GROUP]>,
     sines: Vec<[f64; GROUP]>,
-    count: usize,
 }
 
 impl Rays {
@@ -119,45 +142,34 @@ impl Rays {
         Self {
             cosines: of(|(_, cosine)| cosine),
             sines: of(|(sine, _)| sine),
-            count: bearings_rad.len(),
         }
+    }
+
+    /// Groups of rays.
+    pub(crate) fn groups(&self) -> usize {
+        self.cosines.len()
     }
 
     /// The distance at which each ray meets what is near, `range_m` where it meets nothing.
     ///
     /// `front` is the direction of the robot's front, of length 1.
-    #[inline]
-    pub(crate) fn cast(&self, front: Point, near: &Near, range_m: f64, to: &mut Vec<f64>) {
-        to.clear();
-        to.resize(self.cosines.len() * GROUP, range_m);
-        Arch::new().dispatch(Cast {
-            rays: self,
-            front,
-            near,
-            to,
-        });
-        to.truncate(self.count);
-    }
-}
-
-struct Cast<'a> {
-    rays: &'a Rays,
-    front: Point,
-    near: &'a Near,
-    to: &'a mut [f64],
-}
-
-impl WithSimd for Cast<'_> {
-    type Output = ();
-
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) {
-        let cosines = S::as_simd_f64s(self.rays.cosines.as_flattened()).0;
-        let sines = S::as_simd_f64s(self.rays.sines.as_flattened()).0;
-        let nearest = S::as_mut_simd_f64s(self.to).0;
-        let front_x = simd.splat_f64s(self.front.x);
-        let front_y = simd.splat_f64s(self.front.y);
-        for ((cosine, sine), nearest) in cosines.iter().zip(sines).zip(nearest) {
+    #[expect(
+        clippy::inline_always,
+        reason = "else it is not compiled for the vectors at hand"
+    )]
+    pub(crate) fn cast<S: Simd>(
+        &self,
+        simd: S,
+        (front, range_m): (Point, f64),
+        near: &mut Near,
+        to: &mut [[f64; GROUP]],
+    ) {
+        let cosines = S::as_simd_f64s(self.cosines.as_flattened()).0;
+        let sines = S::as_simd_f64s(self.sines.as_flattened()).0;
+        let to = S::as_mut_simd_f64s(to.as_flattened_mut()).0;
+        let (front_x, front_y) = (simd.splat_f64s(front.x), simd.splat_f64s(front.y));
+        for ((cosine, sine), to) in cosines.iter().zip(sines).zip(to) {
             let x = simd.sub_f64s(
                 simd.mul_f64s(*cosine, front_x),
                 simd.mul_f64s(*sine, front_y),
@@ -166,54 +178,110 @@ impl WithSimd for Cast<'_> {
                 simd.mul_f64s(*cosine, front_y),
                 simd.mul_f64s(*sine, front_x),
             );
-            let rays = [x, y];
-            for disc in &self.near.discs[..self.near.disc_count] {
-                meet_disc(simd, rays, disc, nearest);
-            }
-            for wall in &self.near.walls[..self.near.wall_count] {
-                meet_wall(simd, rays, wall, nearest);
-            }
+            let nearest = simd.splat_f64s(range_m);
+            let nearest = meet(simd, [x, y], near.discs.of(), &mut near.hits, nearest);
+            *to = meet(simd, [x, y], near.walls.of(), &mut near.hits, nearest);
         }
     }
 }
 
-/// A ray of direction u meets the disc about c at the lesser root of t^2 - 2 (u.c) t + power.
+/// Something that rays can meet.
+trait Piece {
+    /// Which rays meet it, if no farther than `reach`, and what their distances are made of.
+    fn meets<S: Simd>(
+        &self,
+        simd: S,
+        rays: [S::f64s; 2],
+        reach: S::f64s,
+    ) -> (S::m64s, [S::f64s; 2]);
+
+    /// Their distances.
+    fn distance<S: Simd>(simd: S, parts: [S::f64s; 2]) -> S::f64s;
+}
+
+/// Shortens rays to where they meet the pieces.
 #[inline(always)]
-fn meet_disc<S: Simd>(simd: S, [x, y]: [S::f64s; 2], disc: &NearDisc, nearest: &mut S::f64s) {
-    let centre_x = simd.splat_f64s(disc.centre.x);
-    let centre_y = simd.splat_f64s(disc.centre.y);
-    let ahead = simd.add_f64s(simd.mul_f64s(x, centre_x), simd.mul_f64s(y, centre_y));
-    let root = simd.sub_f64s(simd.mul_f64s(ahead, ahead), simd.splat_f64s(disc.power));
-    let zero = simd.splat_f64s(0.0);
-    let meets = simd.and_m64s(
-        simd.greater_than_f64s(ahead, zero),
-        simd.greater_than_or_equal_f64s(root, zero),
-    );
-    if simd.first_true_m64s(meets) < S::F64_LANES {
-        let distance = simd.sub_f64s(ahead, simd.sqrt_f64s(root));
-        let is_nearer = simd.and_m64s(meets, simd.less_than_f64s(distance, *nearest));
-        *nearest = simd.select_f64s(is_nearer, distance, *nearest);
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "robots have 32-bit numbers"
+)]
+fn meet<S: Simd, P: Piece>(
+    simd: S,
+    rays: [S::f64s; 2],
+    pieces: &[P],
+    hits: &mut [u32],
+    mut nearest: S::f64s,
+) -> S::f64s {
+    // The same for all pieces, so that their order changes nothing.
+    let reach = simd.mul_f64s(nearest, simd.splat_f64s(HAIR));
+    let mut found = 0;
+    for (number, piece) in pieces.iter().enumerate() {
+        let (meets, _) = piece.meets(simd, rays, reach);
+        hits[found] = number as u32;
+        found += usize::from(simd.first_true_m64s(meets) < S::F64_LANES);
+    }
+    for number in &hits[..found] {
+        let (meets, parts) = pieces[*number as usize].meets(simd, rays, reach);
+        let distance = P::distance(simd, parts);
+        let is_nearer = simd.and_m64s(meets, simd.less_than_f64s(distance, nearest));
+        nearest = simd.select_f64s(is_nearer, distance, nearest);
+    }
+    nearest
+}
+
+/// A ray of direction u meets the disc about c at the lesser root of t^2 - 2 (u.c) t + power.
+impl Piece for NearDisc {
+    #[inline(always)]
+    fn meets<S: Simd>(&self, simd: S, [x, y]: [S::f64s; 2], _: S::f64s) -> (S::m64s, [S::f64s; 2]) {
+        let centre_x = simd.splat_f64s(self.centre.x);
+        let centre_y = simd.splat_f64s(self.centre.y);
+        let ahead = simd.add_f64s(simd.mul_f64s(x, centre_x), simd.mul_f64s(y, centre_y));
+        let square = simd.mul_f64s(ahead, ahead);
+        let root = simd.sub_f64s(square, simd.splat_f64s(self.power));
+        let zero = simd.splat_f64s(0.0);
+        let meets = simd.and_m64s(
+            simd.greater_than_f64s(ahead, zero),
+            simd.greater_than_or_equal_f64s(root, zero),
+        );
+        (meets, [ahead, root])
+    }
+
+    #[inline(always)]
+    fn distance<S: Simd>(simd: S, [ahead, root]: [S::f64s; 2]) -> S::f64s {
+        simd.sub_f64s(ahead, simd.sqrt_f64s(root))
     }
 }
 
-/// A ray comes nearer to the wall's line by `approach` a metre, and meets it from the free side.
-#[inline(always)]
-fn meet_wall<S: Simd>(simd: S, [x, y]: [S::f64s; 2], wall: &NearWall, nearest: &mut S::f64s) {
-    let along_x = simd.splat_f64s(wall.along.x);
-    let along_y = simd.splat_f64s(wall.along.y);
-    let approach = simd.sub_f64s(simd.mul_f64s(x, along_y), simd.mul_f64s(y, along_x));
-    let height = simd.splat_f64s(wall.height);
-    let is_nearer = simd.less_than_f64s(height, simd.mul_f64s(approach, *nearest));
-    if simd.first_true_m64s(is_nearer) < S::F64_LANES {
-        let distance = simd.div_f64s(height, approach);
-        let drift = simd.add_f64s(simd.mul_f64s(x, along_x), simd.mul_f64s(y, along_y));
-        let place = simd.add_f64s(simd.splat_f64s(wall.foot), simd.mul_f64s(distance, drift));
-        let is_on_wall = simd.and_m64s(
-            simd.greater_than_or_equal_f64s(place, simd.splat_f64s(-CRACK_M)),
-            simd.less_than_or_equal_f64s(place, simd.splat_f64s(wall.length + CRACK_M)),
+/// A ray passes between the wall's ends if it leaves the start to its right and the end to its left.
+impl Piece for NearWall {
+    #[inline(always)]
+    fn meets<S: Simd>(
+        &self,
+        simd: S,
+        [x, y]: [S::f64s; 2],
+        reach: S::f64s,
+    ) -> (S::m64s, [S::f64s; 2]) {
+        let start = simd.sub_f64s(
+            simd.mul_f64s(x, simd.splat_f64s(self.start.y)),
+            simd.mul_f64s(y, simd.splat_f64s(self.start.x)),
         );
-        let meets = simd.and_m64s(is_nearer, is_on_wall);
-        *nearest = simd.select_f64s(meets, distance, *nearest);
+        let end = simd.sub_f64s(
+            simd.mul_f64s(x, simd.splat_f64s(self.end.y)),
+            simd.mul_f64s(y, simd.splat_f64s(self.end.x)),
+        );
+        let is_between = simd.and_m64s(
+            simd.less_than_or_equal_f64s(start, simd.splat_f64s(CRACK_M)),
+            simd.greater_than_or_equal_f64s(end, simd.splat_f64s(-CRACK_M)),
+        );
+        let span = simd.sub_f64s(end, start);
+        let area = simd.splat_f64s(self.area);
+        let is_in_reach = simd.less_than_f64s(area, simd.mul_f64s(span, reach));
+        (simd.and_m64s(is_between, is_in_reach), [area, span])
+    }
+
+    #[inline(always)]
+    fn distance<S: Simd>(simd: S, [area, span]: [S::f64s; 2]) -> S::f64s {
+        simd.div_f64s(area, span)
     }
 }
 

@@ -56,7 +56,7 @@ impl RobotDetector {
 
     /// Where a robot at `place` seems to be, if the look recognises it.
     pub(crate) fn look(&self, eye: &Eye, place: Point, id: RobotId) -> Option<Point> {
-        let way = eye.to_own(place);
+        let way = eye.own(place);
         if !self.sector.holds(way) || (self.needs_line_of_sight && !eye.sees(place)) {
             return None;
         }

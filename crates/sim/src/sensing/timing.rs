@@ -19,7 +19,7 @@ impl Rhythm {
 
     /// The number of the beat that is on this step, from 0.
     #[inline]
-    pub(crate) fn beat(&self, tick: u64) -> Option<u64> {
+    pub(crate) fn beat(self, tick: u64) -> Option<u64> {
         if self.is_each_step() {
             return Some(tick);
         }
@@ -28,16 +28,16 @@ impl Rhythm {
         is_beat.then_some(now)
     }
 
-    pub(crate) fn is_each_step(&self) -> bool {
+    pub(crate) fn is_each_step(self) -> bool {
         self.beats_per_step >= 1.0
     }
 
-    pub(crate) fn period_s(&self, step_s: f64) -> f64 {
+    pub(crate) fn period_s(self, step_s: f64) -> f64 {
         step_s / self.beats_per_step
     }
 
     /// Beats that fall into so many steps, at most.
-    pub(crate) fn beats_in(&self, steps: u64) -> usize {
+    pub(crate) fn beats_in(self, steps: u64) -> usize {
         usize::try_from(self.beats_until(steps)).unwrap_or(usize::MAX - 2) + 1
     }
 
@@ -48,7 +48,7 @@ impl Rhythm {
         clippy::cast_sign_loss,
         reason = "steps are at most 1e8"
     )]
-    fn beats_until(&self, tick: u64) -> u64 {
+    fn beats_until(self, tick: u64) -> u64 {
         (tick as f64 * self.beats_per_step + HAIR).floor() as u64
     }
 }

@@ -98,6 +98,44 @@ impl Stands {
         numbers.map(|number| &self.discs[*number as usize])
     }
 
+    /// The numbers of all discs within `radius_m` of a place.
+    #[inline]
+    pub(crate) fn numbers_of_discs(
+        &self,
+        place: Point,
+        radius_m: f64,
+    ) -> impl Iterator<Item = u32> {
+        let numbers = self.near_discs.at(place).iter().copied();
+        numbers.filter(move |number| self.disc(*number).distance_m(place) < radius_m)
+    }
+
+    /// The numbers of all walls within `radius_m` of a place of which some place no farther away
+    /// than `gone_m` sees the face.
+    #[inline]
+    pub(crate) fn numbers_of_faces(
+        &self,
+        place: Point,
+        radius_m: f64,
+        gone_m: f64,
+    ) -> impl Iterator<Item = u32> {
+        let numbers = self.near_walls.at(place).iter().copied();
+        numbers.filter(move |number| {
+            let wall = self.wall(*number);
+            let height_m = place.to(wall.start).cross(wall.along);
+            height_m > -gone_m && wall.distance(place) < radius_m
+        })
+    }
+
+    #[inline]
+    pub(crate) fn disc(&self, number: u32) -> &Disc {
+        &self.discs[number as usize]
+    }
+
+    #[inline]
+    pub(crate) fn wall(&self, number: u32) -> &Wall {
+        &self.walls[number as usize]
+    }
+
     /// Whether the straight way between two places crosses nothing.
     pub(crate) fn is_open(&self, from: Point, to: Point) -> bool {
         let way = from.to(to);

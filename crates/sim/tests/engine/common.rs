@@ -13,7 +13,7 @@ use std::sync::Arc;
 /// The scenario of a text, or what is wrong with it.
 pub(crate) fn read(text: &str) -> Result<Scenario, Faults> {
     let document = Document::parse("t.toml", text)?;
-    let checked = ScenarioSpec::read(&document, &|file| Err(format!("there is no {file}")))?;
+    let checked = ScenarioSpec::read(&document)?;
     Ok(checked.scenario)
 }
 

@@ -3,7 +3,7 @@
 use crate::common::{Random, id, read, robots, scenario, start};
 use crate::random;
 use base::geometry::Point;
-use base::runner::Runner;
+use base::runner::{Runner, Work};
 use brain::{About, Command, Message, Percept, RobotId};
 use rayon::ThreadPoolBuilder;
 use sim::engine::{Outcome, Simulation};
@@ -40,7 +40,7 @@ pub(crate) fn crowd(robots: u32, side_m: f64) -> String {
 pub(crate) fn commands(simulation: &Simulation, step: u32) -> BTreeMap<RobotId, Command> {
     let told = |(number, robot): (u32, RobotId)| {
         let mut command = Command::default();
-        if (number + step) % 7 == 0 {
+        if (number + step).is_multiple_of(7) {
             command.outbox = vec![
                 Message {
                     about: About::Item {
@@ -51,7 +51,7 @@ pub(crate) fn commands(simulation: &Simulation, step: u32) -> BTreeMap<RobotId, 
                 };
                 2
             ];
-        } else if (number + step) % 11 == 0 {
+        } else if (number + step).is_multiple_of(11) {
             command.motion.speed_m_s = 1.0;
         } else {
             return None;
@@ -146,8 +146,8 @@ fn a_run_goes_on_from_any_copy_of_its_state() {
     (0..10).for_each(|_| other.step());
     for (tick, state) in states.iter().enumerate().rev().step_by(7) {
         other.restore(state.clone());
-        for later in tick..60 {
-            assert_eq!(other.state().hash(), states[later].hash());
+        for later in &states[tick..60] {
+            assert_eq!(other.state().hash(), later.hash());
             other.step();
         }
         assert_eq!(other.outcome(), simulation.outcome());
@@ -173,9 +173,9 @@ fn runs_in_a_block_are_those_stepped_by_hand_one_by_one() {
             .map(|column| column.name)
             .collect();
         // One block, and blocks of one run: a workshop is used again in the first only.
-        let block = runs.run_block(seed, 3..9);
+        let block = runs.run_block(seed, 3..9, Work::ALONE);
         for (place, run) in (3..9).enumerate() {
-            let alone = runs.run_block(seed, run..run + 1);
+            let alone = runs.run_block(seed, run..run + 1, Work::ALONE);
             let bits = |columns: &[Vec<f64>], place: usize| -> Vec<u64> {
                 columns
                     .iter()

@@ -2,7 +2,7 @@
 
 use crate::common::{Random, go, id, robots, scenario, start};
 use base::geometry::Point;
-use brain::{Brain, Contact, Neighbour, Percept, Reading, RobotId, Scan};
+use brain::{Contact, Neighbour, Percept, Reading, RobotId, Scan};
 use sim::engine::{NoRobot, Simulation, Status};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -112,8 +112,7 @@ fn others_see_a_body_where_it_is_put() {
 fn commands_are_those_of_a_brain_that_is_given_the_percepts() {
     let mut simulation = start(FIELD);
     let shared = Arc::clone(simulation.scenario());
-    let (spec, body) = shared.mind_of(0).unwrap();
-    let mut brain = Brain::new(Arc::clone(spec), Arc::clone(body));
+    let mut brain = shared.brain(0).unwrap().clone();
     let mut random = Random::new(3);
     for _ in 0..500 {
         let ranges_m: Vec<f64> = (0..8)

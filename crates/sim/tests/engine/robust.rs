@@ -3,12 +3,13 @@
 use crate::common::{Random, motion, read, robots};
 use crate::random;
 use base::geometry::Point;
-use base::runner::{Kind, Runner};
+use base::runner::{Kind, Runner, Work};
 use brain::{About, Command, Message, SensorRequest};
 use sim::engine::{Simulation, State, Status};
 use sim::runner::Runs;
 use sim::scenario::Scenario;
 use std::collections::BTreeMap;
+use std::f64::consts::PI;
 use std::sync::Arc;
 
 /// Random scenarios that have passed their checks.
@@ -58,7 +59,7 @@ fn assert_sane(simulation: &Simulation, seed: u64) {
     for robot in robots(simulation) {
         let beside_m = world.distance_m(robot.at);
         assert!(beside_m < 1e-6, "{seed}: {robot:?}");
-        assert!(robot.heading_rad.abs() <= 3.1416, "{seed}: {robot:?}");
+        assert!(robot.heading_rad.abs() <= PI + 1e-9, "{seed}: {robot:?}");
         assert!(
             robot.battery.is_none_or(|left| (0.0..=1.0).contains(&left)),
             "{seed}: {robot:?}"
@@ -104,7 +105,7 @@ fn every_outcome_is_within_the_bounds_of_its_columns() {
     for (seed, scenario) in scenarios(150) {
         let runs = Runs(Arc::clone(&scenario));
         let columns = runs.columns();
-        let values = runs.run_block(seed, 5..8);
+        let values = runs.run_block(seed, 5..8, Work::ALONE);
         assert_eq!(columns.len(), values.len());
         for (column, values) in columns.iter().zip(&values) {
             assert_eq!(values.len(), 3);

@@ -6,7 +6,7 @@ import fcntl
 import os
 import sqlite3
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -15,6 +15,7 @@ from agent_economy.study.errors import StoreError
 
 ASKED = "study.toml"
 BLOCKS = "blocks"
+FILES = "files"
 LEDGER = "ledger.sqlite"
 LOCK = ".lock"
 UNFINISHED = ".unfinished-"
@@ -101,7 +102,7 @@ def is_worked_on(folder: Path) -> bool:
 def remove_unfinished(folder: Path) -> None:
     """Remove what killed processes left half-written. The folder must be locked."""
     with told(folder):
-        for place in (folder / BLOCKS, folder):
+        for place in (folder / BLOCKS, folder / FILES, folder):
             for path in place.glob(f"{UNFINISHED}*"):
                 if path.is_file():
                     path.unlink()
@@ -141,6 +142,21 @@ def sync_folder(folder: Path) -> None:
         os.fsync(descriptor)
     finally:
         os.close(descriptor)
+
+
+def keep(folder: Path, content: Mapping[str, bytes]) -> None:
+    """Write down files that a study needs besides study.toml, by their digests, which are names.
+
+    Raises:
+        InputError: If one cannot be written.
+    """
+    place = folder / FILES
+    if content:
+        with told(place, "made"):
+            place.mkdir(exist_ok=True)
+    for name, data in content.items():
+        if not (place / name).exists():
+            write_whole(place / name, data)
 
 
 def settle(

@@ -1,10 +1,12 @@
 """A study's store for those who watch: no lock, nothing written, also while another writes."""
 
+import hashlib
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from agent_economy._core import InputError
+from agent_economy.study.errors import StoreError
 from agent_economy.study.store import folder as files
 from agent_economy.study.store.columns import Column
 from agent_economy.study.store.ledger import Block, Decision, snapshot
@@ -37,6 +39,19 @@ class ReadStore:
     def decisions(self) -> list[Decision]:
         """Return the decisions so far, by round."""
         return snapshot(self.folder / files.LEDGER)[2]
+
+    def content(self, digest: str) -> bytes:
+        """Return what is in a file that the study needs besides study.toml, by its digest.
+
+        Raises:
+            InputError: If it is missing, or is another.
+        """
+        path = self.folder / files.FILES / digest
+        data = files.read_bytes(path)
+        if data is None or hashlib.sha256(data).hexdigest() != digest:
+            message = f"{path}: is missing or damaged: restore it, or start in another folder"
+            raise StoreError(message)
+        return data
 
     def runs(self) -> "DuckDBPyRelation":
         """Return the runs so far, a row each, to ask in SQL.

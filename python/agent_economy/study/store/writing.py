@@ -2,9 +2,10 @@
 
 import hashlib
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, Self
 
 import numpy as np
@@ -51,6 +52,7 @@ class Store:
         asked: str,
         columns: Sequence[Column],
         *,
+        content: Mapping[str, bytes] = MappingProxyType({}),
         may_replace: Callable[[str, str], bool] = never,
     ) -> Self:
         """Open a study's folder, made if it is not there.
@@ -59,6 +61,7 @@ class Store:
             folder: Where; what a killed process left half-done is put right.
             asked: The text of study.toml.
             columns: Of every run.
+            content: Files that the study needs besides, by their digests.
             may_replace: Whether the study.toml that is there (first) may become the one asked
                 (second): they ask another question about the same runs.
 
@@ -72,6 +75,7 @@ class Store:
             opened.callback(os.close, files.lock(folder))
             files.remove_unfinished(folder)
             store = cls(folder, tuple(columns), opened)
+            files.keep(folder, content)
             store._begin(asked, may_replace)
             store._opened = opened.pop_all()
             return store

@@ -69,9 +69,13 @@ fn drop_null(schema: &mut Object) {
 }
 
 fn drop_null_values(value: &mut Json) {
-    if let Json::Object(object) = value {
-        object.retain(|_, value| !value.is_null());
-        object.values_mut().for_each(drop_null_values);
+    match value {
+        Json::Object(table) => {
+            table.retain(|_, value| !value.is_null());
+            table.values_mut().for_each(drop_null_values);
+        }
+        Json::Array(items) => items.iter_mut().for_each(drop_null_values),
+        _ => {}
     }
 }
 

@@ -93,6 +93,12 @@ impl Schema {
         check.faults
     }
 
+    /// What `part` of the schema allows, as the end of "must be ...".
+    #[must_use]
+    pub fn words(&self, part: &Json) -> String {
+        words::words(self, part)
+    }
+
     /// The keywords of `schema`, or of what it refers to; none for a schema that allows anything.
     #[must_use]
     pub fn keywords<'s>(&'s self, schema: &'s Json) -> Option<&'s Object> {

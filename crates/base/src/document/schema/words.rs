@@ -8,7 +8,11 @@ use serde_json::Value as Json;
 /// What `schema` allows.
 pub(super) fn words(schema: &Schema, part: &Json) -> String {
     if let Some(names) = choices(schema, part) {
-        return format!("one of {}", quoted(&names).join(", "));
+        let names = quoted(&names);
+        return match &names[..] {
+            [only] => only.clone(),
+            _ => format!("one of {}", names.join(", ")),
+        };
     }
     let Some(keywords) = schema.keywords(part) else {
         return "a value".to_owned();

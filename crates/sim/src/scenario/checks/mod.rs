@@ -11,9 +11,13 @@ mod rates;
 mod reach;
 mod room;
 
-use super::{Checked, Open, Scenario, ScenarioSpec};
-use base::document::Place;
+use super::{Checked, Scenario, ScenarioSpec};
+use base::document::{Document, Place};
 use base::fault::{Fault, Faults};
+use std::cell::RefCell;
+
+/// Gives the bytes of a file that a scenario names, or says why it cannot.
+type Open<'o> = &'o dyn Fn(&str) -> Result<Vec<u8>, String>;
 
 /// A check: what is wrong with a scenario that stands `at` the root of a document.
 type Check = fn(&ScenarioSpec, &Place) -> Vec<Fault>;
@@ -45,6 +49,20 @@ pub(super) fn checked(spec: ScenarioSpec, at: &Place, open: Open) -> Result<Chec
         .flat_map(|check| check(&checked, at));
     Faults::or(of_places.collect(), Some(()))?;
     Ok(checked)
+}
+
+/// The files of obstacles that have not been read.
+pub(super) fn files_wanted(spec: &ScenarioSpec, document: &Document) -> Vec<String> {
+    let wanted = RefCell::new(Vec::new());
+    let open = |name: &str| {
+        if !document.has_file(name) {
+            wanted.borrow_mut().push(name.to_owned());
+        }
+        document.open(name)
+    };
+    let at = document.place();
+    let _ = ground::solids(&spec.world, &at.key("world"), &open, &mut Vec::new());
+    wanted.into_inner()
 }
 
 #[cfg(test)]

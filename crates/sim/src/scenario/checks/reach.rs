@@ -41,7 +41,7 @@ struct Finder<'s> {
 
 fn finders<'s>(spec: &'s ScenarioSpec, item: &str) -> Vec<Finder<'s>> {
     let finder = |robot: &'s RobotSpec| {
-        let ranges_m = robot
+        let ranges = robot
             .sensors
             .values()
             .filter_map(|sensor| match &sensor.measures {
@@ -52,7 +52,7 @@ fn finders<'s>(spec: &'s ScenarioSpec, item: &str) -> Vec<Finder<'s>> {
                 }
                 _ => None,
             });
-        let range_m = ranges_m.reduce(f64::max)?;
+        let range_m = ranges.reduce(f64::max)?;
         Some(Finder { robot, range_m })
     };
     spec.robots.values().filter_map(finder).collect()

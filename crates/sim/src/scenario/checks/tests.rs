@@ -42,7 +42,7 @@ drive = { max_speed_m_s = 5, max_turn_rate_deg_s = 90 }
 
 fn read(text: &str) -> Result<Checked, Faults> {
     let document = Document::parse("t", text).unwrap();
-    ScenarioSpec::read(&document, &|file| Err(format!("there is no {file}")))
+    ScenarioSpec::read(&document)
 }
 
 /// The faults of the good scenario with this in place of that, without their lines.
@@ -124,9 +124,8 @@ fn there_are_one_to_255_kinds_of_robots() {
         read(&none).unwrap_err().to_string(),
         "t:20: robots = {...}: must be a table of 1 to 255; it has 0"
     );
-    let many: String = (0..256)
-        .map(|kind| format!("[robots.r{kind}]\nlike = \"ugv\"\ncount = 0\n"))
-        .collect();
+    let many = (0..256).map(|kind| format!("[robots.r{kind}]\nlike = \"ugv\"\ncount = 0\n"));
+    let many = many.collect::<Vec<_>>().concat();
     let told = read(&format!("{}{many}", &GOOD[..start])).unwrap_err();
     assert!(told.to_string().contains("it has 256"), "{told}");
 }
@@ -365,7 +364,7 @@ fn read_with_map(map: &str, start: &str) -> Result<Checked, String> {
     let map = format!("{{ map = {map:?} }}");
     let text = GOOD.replace("{ circle = { at_m = [15, 5], radius_m = 1 } }", &map);
     let document = Document::parse("t", &text.replace("[7, 6]", start)).unwrap();
-    ScenarioSpec::read(&document, &open).map_err(|faults| faults.to_string())
+    ScenarioSpec::read_with(&document, open).map_err(|faults| faults.to_string())
 }
 
 #[test]

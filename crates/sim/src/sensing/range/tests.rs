@@ -32,7 +32,7 @@ fn looks(spec: &RangeSpec, wall_m: f64, count: u64) -> Vec<f64> {
     let ring = Ring::new(spec);
     let mut near = Near::default();
     near.gather(Point::default(), RANGE_M, [].iter(), walls.iter());
-    let (mut words, mut ranges_m) = (Vec::new(), Vec::new());
+    let mut ranges_m = Vec::new();
     let look = |look| {
         let eye = Eye {
             at: Point::default(),
@@ -42,7 +42,7 @@ fn looks(spec: &RangeSpec, wall_m: f64, count: u64) -> Vec<f64> {
             look,
             stands: &stands,
         };
-        ring.look(&eye, &near, &mut words, &mut ranges_m);
+        ring.look(&eye, &mut near, &mut ranges_m);
         ranges_m.clone()
     };
     (0..count).flat_map(look).collect()
@@ -71,8 +71,8 @@ fn a_whole_circle_has_its_first_ray_ahead_and_none_twice() {
     };
     assert_eq!(degrees(&spec(4)), [0.0, 90.0, 180.0, -90.0]);
     let facing = |facing_deg, fov_deg, rays| RangeSpec {
-        facing_deg,
         fov_deg,
+        facing_deg,
         ..spec(rays)
     };
     assert_eq!(degrees(&facing(90.0, 360.0, 3)), [90.0, -150.0, -30.0]);
@@ -217,8 +217,8 @@ fn rays_of_a_turned_robot_are_turned_with_it() {
             look: 0,
             stands: &stands,
         };
-        let (mut words, mut ranges_m) = (Vec::new(), Vec::new());
-        ring.look(&eye, &near, &mut words, &mut ranges_m);
+        let mut ranges_m = Vec::new();
+        ring.look(&eye, &mut near, &mut ranges_m);
         ranges_m.iter().position(|range_m| range_m.is_finite())
     };
     // The disc is to the left, ahead, behind, and to the right.
@@ -226,4 +226,62 @@ fn rays_of_a_turned_robot_are_turned_with_it() {
         [0.0, FRAC_PI_2, -FRAC_PI_2, PI].map(look),
         [Some(1), Some(0), Some(2), Some(3)]
     );
+}
+
+/// Everything that a look can do, in each instruction set that this machine has.
+#[test]
+fn a_look_gives_the_same_bits_in_every_instruction_set() {
+    let mut everything = RangeSpec {
+        noise_m: 0.1,
+        noise_share: 0.05,
+        miss: 0.1,
+        false_echo: 0.1,
+        ..spec(1)
+    };
+    let room = base::geometry::Rectangle::spanned([-3.0, -2.0].into(), [4.0, 3.0].into()).room();
+    let walls: Vec<Wall> = room.iter().filter_map(Wall::of).collect();
+    let discs: Vec<Disc> = (1..9_i8)
+        .map(|number| Disc {
+            centre: Point {
+                x: f64::from(number) / 3.0 - 1.6,
+                y: f64::from(number * number % 7) / 2.0 - 1.4,
+            },
+            radius_m: 0.2,
+        })
+        .collect();
+    let stands = Stands::new(Point { x: 10.0, y: 10.0 }, &walls, &discs, RANGE_M);
+    for (rays, look) in (1..=100).zip(0..) {
+        everything.rays = rays;
+        let ring = Ring::new(&everything);
+        let (y, x) = base::trig::sin_cos(f64::from(rays));
+        let eye = Eye {
+            at: Point::default(),
+            front: Point { x, y },
+            noise: Noise::of(3, 0, Entity { kind: 0, index: 0 }),
+            sensor: 2,
+            look,
+            stands: &stands,
+        };
+        let in_set = |arch: Arch| -> Vec<u64> {
+            let (mut near, mut ranges_m) = (Near::default(), Vec::new());
+            near.gather(eye.at, RANGE_M, discs.iter(), walls.iter());
+            ring.look_with(arch, &eye, &mut near, &mut ranges_m);
+            ranges_m.iter().map(|range_m| range_m.to_bits()).collect()
+        };
+        let plain = in_set(Arch::Scalar);
+        for arch in instruction_sets() {
+            assert_eq!(in_set(arch), plain, "{arch:?}, {rays} rays");
+        }
+    }
+}
+
+fn instruction_sets() -> Vec<Arch> {
+    #[cfg(target_arch = "x86_64")]
+    let wide = [
+        pulp::x86::V3::try_new().map(Arch::V3),
+        pulp::x86::V4::try_new().map(Arch::V4),
+    ];
+    #[cfg(not(target_arch = "x86_64"))]
+    let wide = [Some(Arch::new())];
+    wide.into_iter().flatten().collect()
 }

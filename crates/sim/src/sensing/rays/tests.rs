@@ -3,6 +3,7 @@ use base::geometry::Segment;
 use base::random::{Entity, Purpose, Stream, stream, unit};
 use base::trig::sin_cos;
 use proptest::prelude::*;
+use pulp::{Arch, WithSimd};
 use std::f64::consts::{PI, TAU};
 
 fn between(random: &mut Stream, low: f64, high: f64) -> f64 {
@@ -11,6 +12,24 @@ fn between(random: &mut Stream, low: f64, high: f64) -> f64 {
 
 fn random(scene: u64) -> Stream {
     stream(5, scene, Entity { kind: 0, index: 0 }, Purpose::Item)
+}
+
+struct Cast<'a> {
+    rays: &'a Rays,
+    front: Point,
+    near: &'a mut Near,
+    range_m: f64,
+    to: &'a mut [[f64; GROUP]],
+}
+
+impl WithSimd for Cast<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        self.rays
+            .cast(simd, (self.front, self.range_m), self.near, self.to);
+    }
 }
 
 /// Walls and discs, a place from which rays go, and how far.
@@ -57,7 +76,16 @@ impl Scene {
         // What an earlier place has left there does not matter.
         near.gather(Point::default(), 1e9, self.discs.iter(), walls.iter());
         near.gather(self.at, self.range_m, self.discs.iter(), walls.iter());
-        Rays::new(bearings_rad).cast(front, &near, self.range_m, &mut ranges_m);
+        let rays = Rays::new(bearings_rad);
+        ranges_m.resize(rays.groups() * GROUP, 7.0);
+        Arch::new().dispatch(Cast {
+            rays: &rays,
+            front,
+            near: &mut near,
+            range_m: self.range_m,
+            to: ranges_m.as_chunks_mut().0,
+        });
+        ranges_m.truncate(bearings_rad.len());
         ranges_m
     }
 

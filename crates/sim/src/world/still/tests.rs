@@ -100,7 +100,7 @@ fn a_way_is_open_if_nothing_at_all_crosses_it() {
                     to = to.plus(Point {
                         x: 1.5 * scene.size.x,
                         y: 0.0,
-                    })
+                    });
                 }
                 4 => to = to.plus(Point { x: 0.3, y: -2.0 }.times(scene.size.y)),
                 _ => {}

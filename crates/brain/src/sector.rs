@@ -1,0 +1,67 @@
+//! Where a body can get on its way.
+
+use base::geometry::{Point, Segment};
+use base::trig::sin_cos;
+
+/// Where a body can get: within half its width of a way with any course between two.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Sector {
+    sides: [Side; 3],
+}
+
+/// The points with `normal . point <= at`.
+#[derive(Debug, Clone, Copy)]
+struct Side {
+    normal: Point,
+    at: f64,
+}
+
+impl Sector {
+    /// Courses from `from_rad` anticlockwise to `to_rad`, at most half a turn; a body of this half
+    /// width.
+    pub(crate) fn new(from_rad: f64, to_rad: f64, half_width_m: f64) -> Self {
+        let right_of = |course: Point| Point {
+            x: course.y,
+            y: -course.x,
+        };
+        let behind = direction(f64::midpoint(from_rad, to_rad)).times(-1.0);
+        // Right beside the body on its outermost courses.
+        let (beside, _) = sin_cos((to_rad - from_rad) / 2.0);
+        let side = |normal, at| Side { normal, at };
+        Self {
+            sides: [
+                side(right_of(direction(from_rad)), half_width_m),
+                side(right_of(direction(to_rad)).times(-1.0), half_width_m),
+                side(behind, half_width_m * beside),
+            ],
+        }
+    }
+
+    /// The part of a segment that lies within.
+    #[inline]
+    pub(crate) fn part(&self, whole: Segment) -> Option<Segment> {
+        let (mut first, mut last) = (0.0_f64, 1.0_f64);
+        for side in &self.sides {
+            let from = side.normal.dot(whole.from) - side.at;
+            let to = side.normal.dot(whole.to) - side.at;
+            if from > 0.0 && to > 0.0 {
+                return None;
+            } else if from > 0.0 {
+                first = first.max(from / (from - to));
+            } else if to > 0.0 {
+                last = last.min(from / (from - to));
+            }
+        }
+        let along = |share: f64| whole.from.plus(whole.way().times(share));
+        (first <= last).then(|| Segment {
+            from: along(first),
+            to: along(last),
+        })
+    }
+}
+
+/// Of length 1.
+pub(crate) fn direction(bearing_rad: f64) -> Point {
+    let (y, x) = sin_cos(bearing_rad);
+    Point { x, y }
+}

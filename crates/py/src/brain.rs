@@ -1,0 +1,99 @@
+//! Brains, for whoever has percepts of their own: live robots, other simulators, learning.
+
+use crate::error::input_error;
+use crate::exchange::{self, below};
+use crate::scenario::value;
+use crate::simulation::MetricScenario;
+use base::document::Document;
+use base::document::schema::Schema;
+use base::fault::{Fault, Faults};
+use brain::{Body, BrainSpec, Command, Percept};
+use pyo3::prelude::*;
+use schemars::{JsonSchema, schema_for};
+use serde::de::DeserializeOwned;
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// A robot's mind.
+#[pyclass(frozen, module = "agent_economy._core")]
+pub(crate) struct Brain(Mutex<brain::Brain>);
+
+#[pymethods]
+impl Brain {
+    /// As a scenario's `[robots.KIND.brain]` says, in a body; both are dicts.
+    #[new]
+    fn new(spec: &Bound<PyAny>, body: &Bound<PyAny>) -> PyResult<Self> {
+        let mut faults = Vec::new();
+        let spec = read::<BrainSpec>("brain", spec, &mut faults)?;
+        let body = read::<Body>("body", body, &mut faults)?;
+        let both = spec.zip(body);
+        let (spec, body) = Faults::or(faults, both).map_err(|faults| input_error(&faults, ""))?;
+        let brain = brain::Brain::new(Arc::new(spec), Arc::new(body));
+        Ok(Self(Mutex::new(brain)))
+    }
+
+    /// As the robots of a kind of a scenario have it.
+    #[staticmethod]
+    fn of(scenario: &Bound<MetricScenario>, kind: &str) -> PyResult<Self> {
+        let scenario = &scenario.get().0;
+        let place = scenario.robot_kinds().position(|known| known == kind);
+        let kind_number = place.and_then(|place| u8::try_from(place).ok());
+        let brain = kind_number.and_then(|number| scenario.brain(number));
+        let brain = brain.ok_or_else(|| {
+            let given = Some(format!("{kind:?}"));
+            let kinds: Vec<&str> = scenario.robot_kinds().collect();
+            let fault = Fault::not_one_of("kind".to_owned(), given, kind, kinds.into_iter());
+            input_error(&Faults(vec![fault]), "")
+        })?;
+        Ok(Self(Mutex::new(brain.clone())))
+    }
+
+    /// The command for a percept; both are dicts.
+    fn step<'py>(&self, percept: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        let read = exchange::read("percept", percept);
+        let read: Percept = read.map_err(|fault| input_error(&Faults(vec![fault]), ""))?;
+        let command = self.with(|brain| brain.step(&read));
+        exchange::write(percept.py(), &command)
+    }
+
+    /// A brain with the same memories, which then goes its own way.
+    fn copy(&self) -> Self {
+        Self(Mutex::new(self.with(|brain| brain.clone())))
+    }
+
+    /// The JSON Schemas of all that enters and leaves a brain, by name.
+    #[staticmethod]
+    fn schemas(py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
+        let schemas = [
+            ("BrainSpec", schema_for!(BrainSpec)),
+            ("Body", schema_for!(Body)),
+            ("Percept", schema_for!(Percept)),
+            ("Command", schema_for!(Command)),
+        ];
+        exchange::write(py, &schemas.into_iter().collect::<BTreeMap<_, _>>())
+    }
+}
+
+impl Brain {
+    fn with<T>(&self, act: impl FnOnce(&mut brain::Brain) -> T) -> T {
+        act(&mut self.0.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+}
+
+/// What a dict says that is checked as a document is; `name` is how faults name it.
+fn read<T: DeserializeOwned + JsonSchema>(
+    name: &str,
+    given: &Bound<PyAny>,
+    faults: &mut Vec<Fault>,
+) -> PyResult<Option<T>> {
+    let mut document = Document::parse("", "").map_err(|faults| input_error(&faults, ""))?;
+    document.set(&[], value(&[name.to_owned()], given, name)?, "");
+    let read = document.typed(&Schema::of::<T>());
+    let wrong = read.as_ref().err().into_iter().flat_map(|faults| &faults.0);
+    faults.extend(wrong.map(|fault| Fault {
+        origin: None,
+        path: below(name, &fault.path),
+        ..fault.clone()
+    }));
+    Ok(read.ok())
+}

@@ -1,0 +1,116 @@
+//! What enters and leaves brains, as Python has it: dicts, lists and values.
+//!
+//! It comes many times a second, so it is read without a schema, up to its first fault.
+
+use base::document::path_of;
+use base::fault::Fault;
+use pyo3::IntoPyObjectExt;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use serde_json::{Map, Number, Value as Json};
+use serde_path_to_error::Segment;
+
+/// What a dict says; `at` is how a fault names it.
+pub(crate) fn read<T: DeserializeOwned>(at: &str, given: &Bound<PyAny>) -> Result<T, Fault> {
+    let json = json(at, given)?;
+    serde_path_to_error::deserialize(&json).map_err(|error| {
+        let path = error.path().to_string();
+        let path = below(at, if path == "." { "" } else { &path });
+        let given = found(&json, error.path().iter()).to_string();
+        Fault::new(path, Some(given), format!("readable: {}", error.inner()))
+    })
+}
+
+/// The same as Python has it.
+pub(crate) fn write<'py>(py: Python<'py>, told: &impl Serialize) -> PyResult<Bound<'py, PyAny>> {
+    // It holds texts for keys, and numbers, which JSON has: never a fault.
+    as_python(py, &serde_json::to_value(told).unwrap_or_default())
+}
+
+pub(crate) fn below(at: &str, path: &str) -> String {
+    match path.chars().next() {
+        None => at.to_owned(),
+        Some('[') => format!("{at}{path}"),
+        Some(_) => format!("{at}.{path}"),
+    }
+}
+
+/// The innermost value on a path that is there.
+fn found<'j, 'p>(json: &'j Json, path: impl Iterator<Item = &'p Segment>) -> &'j Json {
+    path.fold(json, |json, segment| {
+        let next = match segment {
+            Segment::Map { key } => json.get(key),
+            Segment::Seq { index } => json.get(index),
+            _ => None,
+        };
+        next.unwrap_or(json)
+    })
+}
+
+/// A Python value as JSON has it: infinity is null.
+fn json(at: &str, given: &Bound<PyAny>) -> Result<Json, Fault> {
+    if given.is_none() {
+        Ok(Json::Null)
+    } else if let Ok(truth) = given.extract::<bool>() {
+        Ok(Json::Bool(truth))
+    } else if let Ok(text) = given.extract::<String>() {
+        Ok(Json::String(text))
+    } else if let Ok(dict) = given.cast::<PyDict>() {
+        let entry = |(key, given): (Bound<PyAny>, Bound<PyAny>)| {
+            let key = key.to_string();
+            Ok((key.clone(), json(&path_of(at, &key), &given)?))
+        };
+        let entries: Result<Map<String, Json>, Fault> = dict.iter().map(entry).collect();
+        entries.map(Json::Object)
+    } else if let Ok(items) = given.try_iter() {
+        let item = |(index, item): (usize, PyResult<Bound<PyAny>>)| {
+            let at = format!("{at}[{index}]");
+            let item = item.map_err(|error| fault(&at, error.to_string(), "there"))?;
+            json(&at, &item)
+        };
+        items.enumerate().map(item).collect()
+    } else if let Ok(whole) = given.extract::<i64>() {
+        Ok(Json::from(whole))
+    } else {
+        number(at, given)
+    }
+}
+
+fn number(at: &str, given: &Bound<PyAny>) -> Result<Json, Fault> {
+    let number = given.extract::<f64>().ok();
+    if number == Some(f64::INFINITY) {
+        return Ok(Json::Null);
+    }
+    let number = number.and_then(Number::from_f64).map(Json::Number);
+    let allowed = "a number, a text, true, false, None, or a list or dict of these";
+    number.ok_or_else(|| fault(at, given.to_string(), allowed))
+}
+
+fn fault(at: &str, given: String, allowed: &str) -> Fault {
+    Fault::new(at.to_owned(), Some(given), allowed.to_owned())
+}
+
+fn as_python<'py>(py: Python<'py>, value: &Json) -> PyResult<Bound<'py, PyAny>> {
+    match value {
+        Json::Null => Ok(py.None().into_bound(py)),
+        Json::Bool(truth) => truth.into_bound_py_any(py),
+        Json::Number(number) => match number.as_i64() {
+            Some(whole) => whole.into_bound_py_any(py),
+            None => number.as_f64().into_bound_py_any(py),
+        },
+        Json::String(text) => text.into_bound_py_any(py),
+        Json::Array(items) => {
+            let items = items.iter().map(|item| as_python(py, item));
+            items.collect::<PyResult<Vec<_>>>()?.into_bound_py_any(py)
+        }
+        Json::Object(entries) => {
+            let dict = PyDict::new(py);
+            for (key, value) in entries {
+                dict.set_item(key, as_python(py, value)?)?;
+            }
+            Ok(dict.into_any())
+        }
+    }
+}

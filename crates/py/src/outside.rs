@@ -1,0 +1,129 @@
+//! What comes into a run from outside and goes there, by robots' names: KIND/INDEX.
+
+use crate::exchange;
+use base::document::path_of;
+use base::fault::{Fault, Faults, nearest};
+use brain::{Command, Percept, RobotId};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use serde::de::DeserializeOwned;
+use sim::engine::Simulation;
+use sim::scenario::Scenario;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Something for each of some robots.
+pub(crate) type ByRobot<T> = BTreeMap<RobotId, T>;
+
+/// A robot's name.
+pub(crate) fn name_of(scenario: &Scenario, id: RobotId) -> String {
+    let kind = scenario.robot_kinds().nth(id.kind.into());
+    format!("{}/{}", kind.unwrap_or_default(), id.index)
+}
+
+/// The robot of a name; `path` is what a fault names.
+pub(crate) fn robot_of(scenario: &Scenario, path: &str, name: &str) -> Result<RobotId, Fault> {
+    let (kind, index) = name.rsplit_once('/').unwrap_or((name, ""));
+    let team = scenario.team();
+    let place = team.iter().position(|(known, _)| known == kind);
+    let id = place.zip(index.parse().ok()).and_then(|(place, index)| {
+        let is_there = index < team[place].1 && name == format!("{kind}/{index}");
+        let kind = u8::try_from(place).ok()?;
+        is_there.then_some(RobotId { kind, index })
+    });
+    id.ok_or_else(|| no_robot(&team, path, name))
+}
+
+fn no_robot(team: &[(String, u32)], path: &str, name: &str) -> Fault {
+    let there = team.iter().filter(|(_, count)| *count > 0);
+    let (kind, index) = name.rsplit_once('/').unwrap_or((name, "0"));
+    let kinds = there.clone().map(|(kind, _)| kind.as_str());
+    let suggestion = nearest(kind, kinds).map(|near| match index.parse::<u32>() {
+        Ok(index)
+            if there
+                .clone()
+                .any(|(kind, count)| kind == near && index < *count) =>
+        {
+            format!("{near}/{index}")
+        }
+        _ => format!("{near}/0"),
+    });
+    let names = there.map(|(kind, count)| match count {
+        1 => format!("{kind}/0"),
+        _ => format!("{kind}/0 to {kind}/{}", count - 1),
+    });
+    let names: Vec<String> = names.collect();
+    let allowed = format!("one of the run's robots: {}", names.join(", "));
+    Fault {
+        suggestion,
+        ..Fault::new(path.to_owned(), Some(format!("{name:?}")), allowed)
+    }
+}
+
+/// The percepts and commands of a step.
+///
+/// # Errors
+/// Everything that is wrong with them; of each percept and command the first fault.
+pub(crate) fn read(
+    run: &Simulation,
+    percepts: &Bound<PyDict>,
+    commands: &Bound<PyDict>,
+) -> Result<(ByRobot<Percept>, ByRobot<Command>), Faults> {
+    let mut faults = Vec::new();
+    let percepts = by_robot(run.scenario(), "percepts", percepts, &mut faults);
+    let commands = by_robot(run.scenario(), "commands", commands, &mut faults);
+    faults.extend(commanded_outside(run, &percepts, &commands));
+    Faults::or(faults, Some((percepts, commands)))
+}
+
+fn by_robot<T: DeserializeOwned>(
+    scenario: &Scenario,
+    argument: &str,
+    given: &Bound<PyDict>,
+    faults: &mut Vec<Fault>,
+) -> ByRobot<T> {
+    let entry = |(name, given): (Bound<PyAny>, Bound<PyAny>)| {
+        let name = name.to_string();
+        let id = robot_of(scenario, argument, &name)?;
+        Ok((id, exchange::read(&path_of(argument, &name), &given)?))
+    };
+    let entries = given.iter().map(entry);
+    entries
+        .filter_map(|read| read.map_err(|fault| faults.push(fault)).ok())
+        .collect()
+}
+
+/// A body outside obeys its own brain: its command is handed out, and none goes in.
+fn commanded_outside(
+    run: &Simulation,
+    percepts: &ByRobot<Percept>,
+    commands: &ByRobot<Command>,
+) -> Vec<Fault> {
+    if commands.is_empty() {
+        return Vec::new();
+    }
+    let robots = run.state().each_robot(run.scenario());
+    let outside = robots.filter(|robot| robot.is_external);
+    let outside: BTreeSet<RobotId> = outside.map(|robot| robot.id).collect();
+    let of_outside = commands
+        .keys()
+        .filter(|id| outside.contains(id) || percepts.contains_key(id));
+    let fault = |id: &RobotId| {
+        let name = format!("{:?}", name_of(run.scenario(), *id));
+        let allowed = "a robot whose body is not outside: it gives percepts, and gets commands";
+        Fault::new("commands".to_owned(), Some(name), allowed.to_owned())
+    };
+    of_outside.map(fault).collect()
+}
+
+/// Something for each of some robots, as Python has it.
+pub(crate) fn write<'py, T: serde::Serialize>(
+    py: Python<'py>,
+    scenario: &Scenario,
+    told: &ByRobot<T>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let dict = PyDict::new(py);
+    for (id, told) in told {
+        dict.set_item(name_of(scenario, *id), exchange::write(py, told)?)?;
+    }
+    Ok(dict)
+}

@@ -1,0 +1,131 @@
+//! What recordings hold of a run.
+
+use crate::exchange;
+use crate::simulation::Simulation;
+use base::map::OccupancyMap;
+use base::trig::sin_cos;
+use numpy::{IntoPyArray, PyArray2, PyArrayMethods};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use sim::body::Layer;
+use sim::engine::Robot;
+use sim::scenario::Scenario;
+use sim::world::obstacles::Solid;
+
+/// What changes in a run, all of one moment; an array has an entry a robot.
+///
+/// `tick`, `hash`, `poses` (`x_m`, `y_m`, `heading_rad`), `half_turns` (sine and cosine of half the
+/// heading, the same on every machine), `speeds`, `wanted` (`speed_m_s`, `turn_rate_rad_s`),
+/// `status`, `battery` and `collisions` as `Simulation` has them; `found_s` has an entry an item.
+#[pyfunction]
+pub(crate) fn recorded_moment<'py>(
+    py: Python<'py>,
+    simulation: &Bound<'py, Simulation>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let run = simulation.get().locked(py)?;
+    let robots: Vec<Robot> = run.state().each_robot(run.scenario()).collect();
+    let dict = PyDict::new(py);
+    dict.set_item("tick", run.state().tick())?;
+    dict.set_item("hash", run.state().hash())?;
+    dict.set_item("poses", rows(py, &robots, pose)?)?;
+    dict.set_item("half_turns", rows(py, &robots, half_turn)?)?;
+    dict.set_item("wanted", rows(py, &robots, wanted)?)?;
+    dict.set_item("speeds", each(py, &robots, |robot| robot.speed_m_s))?;
+    dict.set_item("status", each(py, &robots, |robot| robot.status as u8))?;
+    dict.set_item(
+        "battery",
+        each(py, &robots, |robot| robot.battery.unwrap_or(1.0)),
+    )?;
+    dict.set_item("collisions", each(py, &robots, |robot| robot.collisions))?;
+    let items = run.state().each_item(run.scenario());
+    let found: Vec<f64> = items.map(|item| item.found_s.unwrap_or(f64::NAN)).collect();
+    dict.set_item("found_s", found.into_pyarray(py))?;
+    Ok(dict)
+}
+
+fn pose(robot: &Robot) -> [f64; 3] {
+    [robot.at.x, robot.at.y, robot.heading_rad]
+}
+
+fn half_turn(robot: &Robot) -> [f64; 2] {
+    sin_cos(robot.heading_rad / 2.0).into()
+}
+
+fn wanted(robot: &Robot) -> [f64; 2] {
+    [robot.wanted.speed_m_s, robot.wanted.turn_rate_rad_s]
+}
+
+fn each<'py, T: numpy::Element>(
+    py: Python<'py>,
+    robots: &[Robot],
+    of: impl Fn(&Robot) -> T,
+) -> Bound<'py, numpy::PyArray1<T>> {
+    robots.iter().map(of).collect::<Vec<T>>().into_pyarray(py)
+}
+
+fn rows<'py, const N: usize>(
+    py: Python<'py>,
+    robots: &[Robot],
+    of: impl Fn(&Robot) -> [f64; N],
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let rows: Vec<[f64; N]> = robots.iter().map(of).collect();
+    rows.into_flattened()
+        .into_pyarray(py)
+        .reshape([robots.len(), N])
+}
+
+/// What changes only when the scenario does: of each robot `radius_m` and `is_flying`; `bodies`, what
+/// brains know of them, by kind; and `maps`, the obstacles that are maps, in their order: `corners_m`
+/// anticlockwise from the origin, `resolution_m`, and `occupancy`, shape (rows, columns), the lowest
+/// row first.
+#[pyfunction]
+pub(crate) fn recorded_setting<'py>(
+    py: Python<'py>,
+    simulation: &Bound<'py, Simulation>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let run = simulation.get().locked(py)?;
+    let robots: Vec<Robot> = run.state().each_robot(run.scenario()).collect();
+    let maps = run
+        .scenario()
+        .solids()
+        .iter()
+        .filter_map(|solid| match solid {
+            Solid::Map(map) => Some(map_dict(py, map)),
+            _ => None,
+        });
+    let dict = PyDict::new(py);
+    dict.set_item("radius_m", each(py, &robots, |robot| robot.radius_m))?;
+    dict.set_item(
+        "is_flying",
+        each(py, &robots, |robot| robot.layer == Layer::Air),
+    )?;
+    dict.set_item("bodies", bodies(py, run.scenario())?)?;
+    dict.set_item("maps", maps.collect::<PyResult<Vec<_>>>()?)?;
+    Ok(dict)
+}
+
+fn bodies<'py>(py: Python<'py>, scenario: &Scenario) -> PyResult<Bound<'py, PyDict>> {
+    let dict = PyDict::new(py);
+    for (number, kind) in (0..).zip(scenario.robot_kinds()) {
+        if let Some(brain) = scenario.brain(number) {
+            dict.set_item(kind, exchange::write(py, brain.body())?)?;
+        }
+    }
+    Ok(dict)
+}
+
+fn map_dict<'py>(py: Python<'py>, map: &OccupancyMap) -> PyResult<Bound<'py, PyDict>> {
+    let (columns, rows) = (map.columns(), map.rows());
+    let places = (0..rows).flat_map(|row| (0..columns).map(move |column| (column, row)));
+    let cells = places.map(|(column, row)| map.occupancy(column, row).unwrap_or(-1));
+    let cells: Vec<i8> = cells.collect();
+    let shape = [rows as usize, columns as usize];
+    let dict = PyDict::new(py);
+    dict.set_item(
+        "corners_m",
+        map.corners().map(|corner| (corner.x, corner.y)).to_vec(),
+    )?;
+    dict.set_item("resolution_m", map.resolution_m())?;
+    dict.set_item("occupancy", cells.into_pyarray(py).reshape(shape)?)?;
+    Ok(dict)
+}

@@ -1,0 +1,353 @@
+//! Runs of the metric engine, stepped by hand.
+
+use crate::arguments::Arguments;
+use crate::configuration::{ColumnTuple, as_tuple};
+use crate::error::input_error;
+use crate::exchange;
+use crate::long_work::interruptible;
+use crate::outside;
+use crate::scenario::Source;
+use base::fault::{Fault, Faults};
+use base::runner::Runner;
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use sim::engine::{self, NoRoom, Robot};
+use sim::runner::Runs;
+use sim::scenario::{Scenario, ScenarioSpec};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
+use std::time::Duration;
+
+/// Steps of so many robots together take some milliseconds: less than it pays to wake a thread for.
+const SHORT: u64 = 1024;
+
+/// Time between two looks at whether another thread is done.
+const BETWEEN_LOOKS: Duration = Duration::from_millis(1);
+
+/// A scenario of the metric engine, as its runs need it.
+#[pyclass(frozen, module = "agent_economy._core")]
+pub(crate) struct MetricScenario(pub(crate) Arc<Scenario>);
+
+/// What a run of a source depends on.
+#[pyfunction]
+pub(crate) fn read_metric(source: Source) -> PyResult<MetricScenario> {
+    let file = source.file.clone();
+    let read = ScenarioSpec::read(&source.document()?);
+    let checked = read.map_err(|faults| input_error(&faults, &file))?;
+    Ok(MetricScenario(Arc::new(checked.scenario)))
+}
+
+/// A whole run, at one of its moments.
+#[pyclass(frozen, module = "agent_economy._core")]
+pub(crate) struct Snapshot(engine::Simulation);
+
+/// A run. Threads may share it: one waits until the other is done.
+#[pyclass(frozen, module = "agent_economy._core")]
+pub(crate) struct Simulation {
+    run: Mutex<engine::Simulation>,
+    threads: Option<usize>,
+}
+
+#[pymethods]
+impl Simulation {
+    #[new]
+    #[pyo3(signature = (scenario, *, seed, run, threads))]
+    fn new(
+        py: Python,
+        scenario: &Bound<MetricScenario>,
+        seed: &Bound<PyAny>,
+        run: &Bound<PyAny>,
+        threads: &Bound<PyAny>,
+    ) -> PyResult<Self> {
+        let check = Arguments::default();
+        let (seed, run, threads) = (
+            check.seed(seed),
+            check.run("run", run),
+            check.threads(threads),
+        );
+        let all = (|| Some((seed?, run?, threads?)))();
+        let (seed, run, threads) = check.or_faults(all)?;
+        let scenario = &scenario.get().0;
+        let begun = py.detach(|| engine::Simulation::new(Arc::clone(scenario), seed, run));
+        let begun = begun.map_err(|why| no_room(scenario, why))?;
+        Ok(Self {
+            run: Mutex::new(begun),
+            threads,
+        })
+    }
+
+    /// Takes steps, also after the run is over. Ctrl-C stops it between two.
+    fn step(&self, py: Python, steps: &Bound<PyAny>) -> PyResult<()> {
+        let check = Arguments::default();
+        let steps = check.integer("steps", steps, 0..=u64::MAX);
+        let steps = check.or_faults(steps)?;
+        let mut run = self.locked(py)?;
+        let work = robots(&run).max(1).saturating_mul(steps);
+        let steps = 0..steps;
+        self.take(py, &mut run, work, |run, stop| {
+            for _ in steps.take_while(|_| !stop.load(Ordering::Relaxed)) {
+                run.step();
+            }
+        })
+    }
+
+    /// Takes steps until the run is over. Ctrl-C stops it between two.
+    fn finish(&self, py: Python) -> PyResult<()> {
+        let mut run = self.locked(py)?;
+        self.take(py, &mut run, u64::MAX, |run, stop| {
+            while !stop.load(Ordering::Relaxed) && !run.state().is_over(run.scenario()) {
+                run.step();
+            }
+        })
+    }
+
+    /// Takes one step with percepts of bodies outside and commands for other robots, dicts by the
+    /// robots' names; returns the commands for bodies outside.
+    fn step_with<'py>(
+        &self,
+        py: Python<'py>,
+        percepts: &Bound<'py, PyDict>,
+        commands: &Bound<'py, PyDict>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let mut run = self.locked(py)?;
+        let read = outside::read(&run, percepts, commands);
+        let (percepts, commands) = read.map_err(|faults| input_error(&faults, ""))?;
+        let work = robots(&run);
+        let answers = self.take(py, &mut run, work, |run, _| {
+            run.step_with(percepts, commands)
+        })?;
+        let answers = answers.map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
+        outside::write(py, run.scenario(), &answers)
+    }
+
+    /// What a robot will perceive in the next step; None if its brain does not step in it.
+    fn percept<'py>(
+        &self,
+        py: Python<'py>,
+        robot: &Bound<'py, PyAny>,
+    ) -> PyResult<Option<Bound<'py, PyAny>>> {
+        let mut run = self.locked(py)?;
+        let id = outside::robot_of(run.scenario(), "robot", &robot.to_string());
+        let id = id.map_err(|fault| input_error(&Faults(vec![fault]), ""))?;
+        let work = robots(&run);
+        let percept = self.take(py, &mut run, work, |run, _| run.percept(id))?;
+        let percept = percept.map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
+        percept
+            .map(|percept| exchange::write(py, &percept))
+            .transpose()
+    }
+
+    /// What the run has given so far, by column; None if it is not finite.
+    fn outcome<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
+        let run = self.locked(py)?;
+        let runs = Runs(Arc::clone(run.scenario()));
+        let Some(values) = runs.values(&run.outcome()) else {
+            return Ok(None);
+        };
+        let dict = PyDict::new(py);
+        for (column, value) in runs.columns().iter().zip(values) {
+            dict.set_item(&*column.name, value)?;
+        }
+        Ok(Some(dict))
+    }
+
+    /// What a run tells: see `Configuration.columns`.
+    #[getter]
+    fn columns(&self, py: Python) -> PyResult<Vec<ColumnTuple>> {
+        let runs = Runs(Arc::clone(self.locked(py)?.scenario()));
+        Ok(runs.columns().iter().map(as_tuple).collect())
+    }
+
+    /// Goes on with another scenario; returns how many steps have been taken.
+    fn change(&self, py: Python, scenario: &Bound<MetricScenario>) -> PyResult<u64> {
+        let mut guard = self.locked(py)?;
+        let (run, to) = (&mut *guard, &scenario.get().0);
+        let faults = unchangeable(run.scenario(), to);
+        Faults::or(faults, Some(())).map_err(|faults| input_error(&faults, ""))?;
+        let changed = py.detach(|| run.change(Arc::clone(to)));
+        changed.map_err(|why| no_room(to, why))?;
+        Ok(run.state().tick())
+    }
+
+    fn snapshot(&self, py: Python) -> PyResult<Snapshot> {
+        Ok(Snapshot(self.locked(py)?.clone()))
+    }
+
+    fn restore(&self, py: Python, snapshot: &Bound<Snapshot>) -> PyResult<()> {
+        *self.locked(py)? = snapshot.get().0.clone();
+        Ok(())
+    }
+
+    /// Steps that have been taken.
+    #[getter]
+    fn tick(&self, py: Python) -> PyResult<u64> {
+        Ok(self.locked(py)?.state().tick())
+    }
+
+    #[getter]
+    fn step_s(&self, py: Python) -> PyResult<f64> {
+        Ok(self.locked(py)?.scenario().step_s())
+    }
+
+    #[getter]
+    fn is_over(&self, py: Python) -> PyResult<bool> {
+        let run = self.locked(py)?;
+        Ok(run.state().is_over(run.scenario()))
+    }
+
+    #[getter]
+    fn hash(&self, py: Python) -> PyResult<u64> {
+        Ok(self.locked(py)?.state().hash())
+    }
+
+    /// KIND/INDEX of each robot.
+    #[getter]
+    fn robots(&self, py: Python) -> PyResult<Vec<String>> {
+        let run = self.locked(py)?;
+        let robots = run.state().each_robot(run.scenario());
+        Ok(robots
+            .map(|robot| outside::name_of(run.scenario(), robot.id))
+            .collect())
+    }
+
+    /// `x_m`, `y_m` and `heading_rad` of each robot.
+    #[getter]
+    fn poses<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let poses = self.each(py, |robot| [robot.at.x, robot.at.y, robot.heading_rad])?;
+        let shape = [poses.len(), 3];
+        poses.into_flattened().into_pyarray(py).reshape(shape)
+    }
+
+    #[getter]
+    fn speeds<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        Ok(self.each(py, |robot| robot.speed_m_s)?.into_pyarray(py))
+    }
+
+    /// 0 active, 1 empty, 2 broken.
+    #[getter]
+    fn status<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<u8>>> {
+        Ok(self.each(py, |robot| robot.status as u8)?.into_pyarray(py))
+    }
+
+    /// Whether each robot's body is outside.
+    #[getter]
+    fn outside<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<bool>>> {
+        Ok(self.each(py, |robot| robot.is_external)?.into_pyarray(py))
+    }
+
+    /// Share of each robot's battery that is left; 1 for one that never empties.
+    #[getter]
+    fn battery<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let left = self.each(py, |robot| robot.battery.unwrap_or(1.0))?;
+        Ok(left.into_pyarray(py))
+    }
+
+    /// `kind`, `x_m`, `y_m` and `found_s` of each item; NaN where it is not found.
+    #[getter]
+    fn items<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let run = self.locked(py)?;
+        let names: Vec<&str> = run.scenario().item_kinds().collect();
+        let items: Vec<_> = run.state().each_item(run.scenario()).collect();
+        let kinds = items.iter().map(|item| names[usize::from(item.kind)]);
+        let numbers = |number: fn(&engine::Item) -> f64| {
+            let numbers: Vec<f64> = items.iter().map(number).collect();
+            numbers.into_pyarray(py)
+        };
+        let dict = PyDict::new(py);
+        dict.set_item("kind", kinds.collect::<Vec<_>>())?;
+        dict.set_item("x_m", numbers(|item| item.at.x))?;
+        dict.set_item("y_m", numbers(|item| item.at.y))?;
+        dict.set_item("found_s", numbers(|item| item.found_s.unwrap_or(f64::NAN)))?;
+        Ok(dict)
+    }
+}
+
+impl Simulation {
+    /// The run, when no other thread has it. Meanwhile the interpreter is free, since whoever has
+    /// it may need that, and Ctrl-C is looked for.
+    pub(crate) fn locked(&self, py: Python) -> PyResult<MutexGuard<'_, engine::Simulation>> {
+        loop {
+            match self.run.try_lock() {
+                Ok(run) => return Ok(run),
+                // A step is whole or has panicked, which is told where it does.
+                Err(TryLockError::Poisoned(run)) => return Ok(run.into_inner()),
+                Err(TryLockError::WouldBlock) => {
+                    py.detach(|| std::thread::sleep(BETWEEN_LOOKS));
+                    py.check_signals()?;
+                }
+            }
+        }
+    }
+
+    /// Lets a run go on: here if that is little work, in robots times steps, else where threads
+    /// share it and Ctrl-C is looked for.
+    fn take<T: Send>(
+        &self,
+        py: Python,
+        run: &mut engine::Simulation,
+        work: u64,
+        go: impl FnOnce(&mut engine::Simulation, &AtomicBool) -> T + Send,
+    ) -> PyResult<T> {
+        if work <= SHORT {
+            let stop = AtomicBool::new(false);
+            return Ok(py.detach(|| go(run, &stop)));
+        }
+        interruptible(py, self.threads, |stop| go(run, stop))
+    }
+
+    /// Something of each robot, in their order.
+    fn each<T>(&self, py: Python, of: impl Fn(&Robot) -> T) -> PyResult<Vec<T>> {
+        let run = self.locked(py)?;
+        let robots = run.state().each_robot(run.scenario());
+        Ok(robots.map(|robot| of(&robot)).collect())
+    }
+}
+
+fn robots(run: &engine::Simulation) -> u64 {
+    run.state().robots() as u64
+}
+
+/// What cannot be another in the middle of a run: every time in it is counted in steps, and every
+/// place is within the world.
+fn unchangeable(from: &Scenario, to: &Scenario) -> Vec<Fault> {
+    let fault = |path: &str, given: String, was: String| {
+        let allowed = format!("{was}, as when the run began");
+        Fault::new(path.to_owned(), Some(given), allowed)
+    };
+    let mut faults = Vec::new();
+    let [was_s, is_s] = [from, to].map(Scenario::step_s);
+    if was_s.to_bits() != is_s.to_bits() {
+        faults.push(fault("clock.step_s", is_s.to_string(), was_s.to_string()));
+    }
+    let [was, is] = [from, to].map(|scenario| scenario.world().size());
+    if was != is {
+        let shown = |size: base::geometry::Point| format!("[{}, {}]", size.x, size.y);
+        faults.push(fault("world.size_m", shown(is), shown(was)));
+    }
+    faults
+}
+
+/// That a run has no room for something, by the name of its kind.
+fn no_room(scenario: &Scenario, why: NoRoom) -> PyErr {
+    let named =
+        |kind: u8, index: u32, names: Vec<&str>, what: &str, why: &dyn std::fmt::Display| {
+            let name = names.get(usize::from(kind)).copied().unwrap_or_default();
+            let sentence = format!("{what}.{name}: the run has no room for {name}/{index}: {why}");
+            Fault::new(String::new(), None, sentence)
+        };
+    let fault = match why {
+        NoRoom::Item { kind, index, why } => {
+            named(kind, index, scenario.item_kinds().collect(), "items", &why)
+        }
+        NoRoom::Robot(robot) => named(
+            robot.kind,
+            robot.index,
+            scenario.robot_kinds().collect(),
+            "robots",
+            &robot.why,
+        ),
+    };
+    input_error(&Faults(vec![fault]), "")
+}

@@ -1,0 +1,124 @@
+//! Documents made at random from the schema of scenarios, as they should be and spoiled, and good
+//! scenarios spoiled: each is read, or its faults are told.
+
+#![expect(clippy::unwrap_used, reason = "a test may panic")]
+
+mod made;
+
+use base::document::{Document, Node, Value};
+use base::fault::Faults;
+use made::{Dice, made, spoiled};
+use proptest::prelude::*;
+use sim::scenario::ScenarioSpec;
+
+/// Small enough that what is spoiled in it is likely to matter.
+const GOOD: &str = r#"
+clock = { cap_s = 60 }
+world = { size_m = [20, 10], obstacles = [
+    { polygon_m = [[0, 0], [4, 0], [4, 4], [0, 4]] },
+    { circle = { at_m = [15, 5], radius_m = 1 } },
+    { map = "room.yaml" },
+] }
+terrain = { mud = { speed = 0.5, areas_m = [[[10, 0], [20, 0], [20, 10]]] } }
+[items]
+mine = { count = 2, placement = { kind = "fixed", at_m = [[5, 5], [19, 9]] } }
+scrap = { count = 3, sought = false, placement = { kind = "clustered", clusters = 2, spread_m = 1 } }
+[robots.rover]
+count = 2
+radius_m = 0.5
+start = { kind = "fixed", at_m = [[6, 6], [7, 6]], heading_deg = [0, 90] }
+drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
+battery = { capacity_j = 1000 }
+radio = { range_m = 10, delay_s = 0.3 }
+brain = { behaviours = [{ kind = "cruise" }, { kind = "avoid", near_m = 0.2 }] }
+[robots.rover.sensors]
+eye = { kind = "items", range_m = 3, detects = { mine = [[0, 1], [3, 0.5]], scrap = 0.1 } }
+sonar = { kind = "range", rays = 8, range_m = 2 }
+[robots.bird]
+like = "quadrotor"
+count = 1
+start = { kind = "uniform", within_m = [[10, 1], [19, 9]] }
+"#;
+
+fn open(file: &str) -> Result<Vec<u8>, String> {
+    match file {
+        "room.yaml" => Ok(
+            "image: room.pgm\nresolution: 0.5\norigin: [9, 8, 0.5]\nnegate: 0\n\
+                           occupied_thresh: 0.65\nfree_thresh: 0.196\n"
+                .into(),
+        ),
+        "room.pgm" => Ok("P2 3 2 255  0 205 254  0 254 254".into()),
+        _ => Err("there is no such file".to_owned()),
+    }
+}
+
+fn document(root: &Value) -> Document {
+    let mut document = Document::parse("t", "").unwrap();
+    document.set(&[], root.clone(), "t");
+    document
+}
+
+/// That every fault says where and what, and that none is of a type that disagrees with its schema.
+fn are_told(faults: &Faults) -> bool {
+    let is_told = |fault: &base::fault::Fault| {
+        fault.origin.is_some() && !fault.allowed.starts_with("readable")
+    };
+    !faults.0.is_empty() && faults.0.iter().all(is_told)
+}
+
+#[test]
+fn the_good_scenario_is_good() {
+    let document = Document::parse("t", GOOD).unwrap();
+    let read = ScenarioSpec::read_with(&document, open);
+    assert!(read.is_ok(), "{}", read.unwrap_err());
+}
+
+#[test]
+fn spoiling_leaves_some_scenarios_good_and_makes_others_bad() {
+    let good = Document::parse("t", GOOD).unwrap();
+    let is_good = |seed: u64| {
+        let mut root = good.get(&[]).unwrap().value.clone();
+        spoiled(&mut root, &mut Dice(seed));
+        ScenarioSpec::read_with(&document(&root), open).is_ok()
+    };
+    let good = (0..200).filter(|seed| is_good(*seed)).count();
+    assert!((20..180).contains(&good), "{good}");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2000))]
+
+    #[test]
+    fn what_the_schema_allows_is_read(seed: u64) {
+        let schema = ScenarioSpec::schema();
+        let root = made(schema, schema.json(), &mut Dice(seed));
+        let read = document(&root).typed::<ScenarioSpec>(schema);
+        prop_assert!(read.is_ok(), "{}\n{root:?}", read.unwrap_err());
+    }
+
+    #[test]
+    fn what_is_spoiled_is_read_or_told(seed: u64) {
+        let schema = ScenarioSpec::schema();
+        let mut dice = Dice(seed);
+        let mut root = made(schema, schema.json(), &mut dice);
+        for _ in 0..=dice.below(3) {
+            spoiled(&mut root, &mut dice);
+        }
+        if let Err(faults) = document(&root).typed::<ScenarioSpec>(schema) {
+            prop_assert!(are_told(&faults), "{faults}\n{root:?}");
+        }
+    }
+
+    #[test]
+    fn a_good_scenario_spoiled_is_read_or_told(seed: u64) {
+        let good = Document::parse("t", GOOD).unwrap();
+        let Node { value: mut root, .. } = good.get(&[]).unwrap().clone();
+        let mut dice = Dice(seed);
+        for _ in 0..=dice.below(3) {
+            spoiled(&mut root, &mut dice);
+        }
+        if let Err(faults) = ScenarioSpec::read_with(&document(&root), open) {
+            prop_assert!(are_told(&faults), "{faults}\n{root:?}");
+        }
+    }
+}

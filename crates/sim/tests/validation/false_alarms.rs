@@ -1,0 +1,107 @@
+//! False alarms are a Poisson process over the area in view.
+
+use crate::rows::{Row, assert_published, assert_right, assert_wrong};
+use crate::setup::{list, places, run, scenario};
+use base::document::{Node, Table, Value};
+use base::geometry::Point;
+use std::f64::consts::PI;
+
+const TEXT: &str = include_str!("../../../../docs/validation/false-alarms.toml");
+const RANGE_M: f64 = 2.0;
+
+/// False contacts for each square metre in view in one look: 1.6 a second, ten looks a second.
+const PER_M2: f64 = 0.16;
+const LOOKS: u32 = 40_000;
+
+/// Counts from this on are taken together.
+const MANY: u64 = 6;
+
+/// The part of a disc on the centre's side of a line at a distance from it.
+fn before_a_line_m2(radius_m: f64, line_m: f64) -> f64 {
+    let square = radius_m * radius_m;
+    let beyond =
+        square * libm::acos(line_m / radius_m) - line_m * (square - line_m * line_m).sqrt();
+    PI * square - beyond
+}
+
+/// A name, what of the scenario is another, and the area in view.
+type View = (&'static str, Vec<(&'static str, Value)>, f64);
+
+/// Where the robot stands and what hides a part of its view, with the area that is left.
+fn views() -> [View; 3] {
+    let start = |x, y| ("robots.watcher.start.at_m", places([Point { x, y }]));
+    let corners = [(21.0, 0.0), (22.0, 0.0), (22.0, 40.0), (21.0, 40.0)];
+    let corners = places(corners.map(|(x, y)| Point { x, y }));
+    let node = Node {
+        value: corners,
+        origin: "the check".to_owned(),
+    };
+    let wall = Value::Table(Table::from([("polygon_m".to_owned(), node)]));
+    [
+        ("open", vec![], PI * RANGE_M * RANGE_M),
+        (
+            "1 m before a wall",
+            vec![("world.obstacles", list([wall]))],
+            before_a_line_m2(RANGE_M, 1.0),
+        ),
+        (
+            "0.5 m before the border",
+            vec![start(0.5, 20.0)],
+            before_a_line_m2(RANGE_M, 0.5),
+        ),
+    ]
+}
+
+/// How many looks gave each count.
+fn counts(changes: &[(&str, Value)]) -> Vec<u32> {
+    let mut simulation = run(&scenario(TEXT, changes), 1, 0);
+    let mut counts = vec![0; usize::try_from(MANY).unwrap() + 1];
+    let mut before = 0;
+    for _ in 0..LOOKS {
+        simulation.step();
+        let so_far = simulation.outcome().false_alarms;
+        counts[usize::try_from((so_far - before).min(MANY)).unwrap()] += 1;
+        before = so_far;
+    }
+    counts
+}
+
+/// Probabilities of 0, 1, ... and of `MANY` or more.
+fn poisson(mean: f64) -> Vec<f64> {
+    let mut left = 1.0;
+    let mut probability = libm::exp(-mean);
+    let mut all = Vec::new();
+    for count in 1..=MANY {
+        all.push(probability);
+        left -= probability;
+        probability *= mean / f64::from(u32::try_from(count).unwrap());
+    }
+    all.push(left);
+    all
+}
+
+/// With a rate that may be another than that of the scenario.
+fn rows(per_m2: f64) -> Vec<Row> {
+    let views = views().into_iter();
+    let rows = views.flat_map(|(series, changes, area_m2)| {
+        let counts = counts(&changes).into_iter();
+        let shares = counts.zip(poisson(per_m2 * area_m2));
+        let rows = (0..).zip(shares).map(move |(count, (looks, probability))| {
+            Row::share(series, f64::from(count), looks, LOOKS, probability)
+        });
+        rows.collect::<Vec<_>>()
+    });
+    rows.collect()
+}
+
+#[test]
+fn false_alarms_in_a_look_are_poisson_with_the_mean_of_the_area_in_view() {
+    let rows = rows(PER_M2);
+    assert_published("false-alarms.csv", &rows);
+    assert_right(&rows);
+}
+
+#[test]
+fn a_rate_of_false_alarms_5_percent_off_is_noticed() {
+    assert_wrong(&rows(1.05 * PER_M2));
+}

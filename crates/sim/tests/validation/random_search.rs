@@ -1,0 +1,144 @@
+//! A search at random finds as B. O. Koopman, *Search and Screening* (OEG Report 56, 1946), says.
+
+use crate::rows::{Row, assert_published, assert_right, assert_wrong};
+use crate::setup::{Dice, away, found, robots, run, scenario, step, time_s, whole, width_of_looks};
+use crate::ways::long_ways;
+use base::document::Value;
+use sim::engine::Simulation;
+use std::f64::consts::PI;
+
+const TEXT: &str = include_str!("../../../../docs/validation/random-search.toml");
+const BOUNCE: &str = include_str!("../../../../docs/validation/bounce.toml");
+const AREA_M2: f64 = 2500.0;
+const RANGE_M: f64 = 0.5;
+const SPEED_M_S: f64 = 5.0;
+const STEP_S: f64 = 0.1;
+const BOUNCE_M_S: f64 = 2.0;
+const ITEMS: f64 = 300.0;
+
+/// Where the share found is read, in areas that have been swept, each part as often as it was.
+const SWEPT: [f64; 7] = [0.125, 0.25, 0.5, 0.75, 1.0, 1.5, 2.0];
+
+/// Runs of each team; their shares differ by some 0.06, since items are swept together.
+const RUNS: u64 = 200;
+
+/// What one run has found so far, and should have.
+#[derive(Clone, Copy)]
+struct Found {
+    share: f64,
+    expected: f64,
+}
+
+/// One run, by `SWEPT`.
+type Search = [Found; SWEPT.len()];
+
+/// Effective width of sweep of one who looks at each step.
+fn width_m() -> f64 {
+    2.0 * RANGE_M * width_of_looks(SPEED_M_S * STEP_S, RANGE_M)
+}
+
+/// What a search at random finds of what is spread over an area, after so long a way of all robots:
+/// Koopman's law, what robots see from where they start, and that ways are long.
+fn koopman(robots: u32, gone_m: f64) -> f64 {
+    let unseen = 1.0 - PI * RANGE_M * RANGE_M / AREA_M2;
+    let unseen: f64 = (0..robots).map(|_| unseen).product();
+    let rate = width_m() / AREA_M2 * long_ways(width_m() / AREA_M2.sqrt());
+    1.0 - unseen * libm::exp(-rate * gone_m)
+}
+
+/// The searches of a team.
+fn searches(robots: u32, range_m: f64) -> Vec<Search> {
+    let changes = [
+        ("robots.searcher.count", whole(robots)),
+        ("robots.searcher.sensors.eye.range_m", Value::Float(range_m)),
+    ];
+    let scenario = scenario(TEXT, &changes);
+    let search = |number: u64| {
+        let mut simulation = run(&scenario, u64::from(robots), number);
+        let mut dice = Dice::of_run(number);
+        SWEPT.map(|swept| {
+            let gone_m = sweep(&mut simulation, &mut dice, swept * AREA_M2 / width_m());
+            Found {
+                share: f64::from(found(&simulation)) / ITEMS,
+                expected: koopman(robots, gone_m),
+            }
+        })
+    };
+    (0..RUNS).map(search).collect()
+}
+
+/// Goes on until looks have been had over `least_m` of all robots' ways together; returns over how
+/// much they have.
+fn sweep(simulation: &mut Simulation, dice: &mut Dice, least_m: f64) -> f64 {
+    loop {
+        let robots = robots(simulation);
+        let gone_m: f64 = robots.iter().map(|robot| robot.distance_m).sum();
+        let commands = away(&robots, simulation, 0.0, dice);
+        step(simulation, commands);
+        // The look of this step was from where it had begun.
+        if gone_m >= least_m {
+            return gone_m;
+        }
+    }
+}
+
+fn rows(series: &str, searches: &[Search]) -> Vec<Row> {
+    let row = |(place, swept): (usize, &f64)| {
+        let found = searches.iter().map(|search| search[place]);
+        let expected: Vec<f64> = found.clone().map(|found| found.expected).collect();
+        let shares: Vec<f64> = found.map(|found| found.share).collect();
+        let expected = Row::mean("", 0.0, &expected, None).measured;
+        Row::mean(series, *swept, &shares, Some(expected))
+    };
+    SWEPT.iter().enumerate().map(row).collect()
+}
+
+/// What a robot with a body and the shipped brain finds, by what it would sweep at full speed; there
+/// is no closed form for it.
+fn bounce() -> Vec<Row> {
+    let scenario = scenario(BOUNCE, &[]);
+    let search = |number| {
+        let mut simulation = run(&scenario, 3, number);
+        SWEPT.map(|swept| {
+            let last_s = swept * AREA_M2 / (2.0 * RANGE_M * BOUNCE_M_S);
+            while time_s(&simulation) < last_s {
+                simulation.step();
+            }
+            let share = f64::from(found(&simulation)) / ITEMS;
+            Found {
+                share,
+                expected: f64::NAN,
+            }
+        })
+    };
+    let searches: Vec<Search> = (0..RUNS / 4).map(search).collect();
+    let rows = rows("shipped brain", &searches);
+    let unexpected = |row| Row {
+        expected: None,
+        ..row
+    };
+    rows.into_iter().map(unexpected).collect()
+}
+
+#[test]
+fn random_search_finds_as_koopman_says_whatever_the_number_of_robots() {
+    let teams = [(1, "1 robot"), (4, "4 robots"), (16, "16 robots")];
+    let teams = teams.map(|(robots, series)| (series, searches(robots, RANGE_M)));
+    let each = teams.iter();
+    let mut all: Vec<Row> = each
+        .flat_map(|(series, searches)| rows(series, searches))
+        .collect();
+    all.extend(rows("all", &teams.map(|(_, searches)| searches).concat()));
+    assert_right(&all);
+    let shipped = bounce();
+    // While it braked too late to turn, it went along the walls and had found 0.03.
+    assert!(shipped[SWEPT.len() - 1].measured > 0.5, "{shipped:#?}");
+    all.extend(shipped);
+    assert_published("random-search.csv", &all);
+}
+
+#[test]
+fn a_width_of_sweep_5_percent_off_is_no_random_search_of_that_width() {
+    let searches = [1, 4, 16].map(|robots| searches(robots, 0.95 * RANGE_M));
+    assert_wrong(&rows("all", &searches.concat()));
+}

@@ -1,0 +1,202 @@
+//! Scenarios, and scripts for robots.
+
+use base::document::{Document, Node, Value};
+use base::geometry::Point;
+use base::random::{Entity, Purpose, Stream, stream, unit};
+use base::trig::{sin_cos, wrapped};
+use brain::{Command, Motion, RobotId};
+use sim::engine::{Robot, Simulation};
+use sim::scenario::{Scenario, ScenarioSpec};
+use std::collections::BTreeMap;
+use std::f64::consts::FRAC_PI_2;
+use std::sync::Arc;
+
+/// What is nearer to a wall or another body by no more touches it, in metres.
+const TOUCH_M: f64 = 1e-6;
+
+/// The scenario of a text with some values changed, by their paths.
+pub(crate) fn scenario(text: &str, changes: &[(&str, Value)]) -> Arc<Scenario> {
+    let mut document = Document::parse("validation", text).unwrap();
+    for (path, value) in changes {
+        let path: Vec<&str> = path.split('.').collect();
+        document.set(&path, value.clone(), "the check");
+    }
+    let read = ScenarioSpec::read(&document);
+    Arc::new(read.unwrap_or_else(|faults| panic!("{faults}")).scenario)
+}
+
+/// A run at its beginning.
+pub(crate) fn run(scenario: &Arc<Scenario>, seed: u64, run: u64) -> Simulation {
+    Simulation::new(Arc::clone(scenario), seed, run).unwrap()
+}
+
+/// A list as documents have it.
+pub(crate) fn list(values: impl IntoIterator<Item = Value>) -> Value {
+    let node = |value| Node {
+        value,
+        origin: "the check".to_owned(),
+    };
+    Value::List(values.into_iter().map(node).collect())
+}
+
+/// A list of places as documents have it.
+pub(crate) fn places(places: impl IntoIterator<Item = Point>) -> Value {
+    let place = |Point { x, y }| list([x, y].map(Value::Float));
+    list(places.into_iter().map(place))
+}
+
+/// A number as documents have it.
+pub(crate) fn whole(number: u32) -> Value {
+    Value::Integer(number.into())
+}
+
+/// So many places on a circle.
+pub(crate) fn circle(centre: Point, radius_m: f64, count: u32) -> impl Iterator<Item = Point> {
+    (0..count).map(move |number| {
+        let (y, x) = sin_cos(f64::from(number) / f64::from(count) * std::f64::consts::TAU);
+        centre.plus(Point { x, y }.times(radius_m))
+    })
+}
+
+/// The only robot of a run.
+pub(crate) fn only(simulation: &Simulation) -> Robot {
+    let mut robots = simulation.state().each_robot(simulation.scenario());
+    robots.next().unwrap()
+}
+
+/// The first robot of a kind.
+pub(crate) const fn first_of(kind: u8) -> RobotId {
+    RobotId { kind, index: 0 }
+}
+
+/// To move so.
+pub(crate) fn moving(speed_m_s: f64, turn_rate_rad_s: f64) -> Command {
+    let motion = Motion {
+        speed_m_s,
+        turn_rate_rad_s,
+    };
+    Command {
+        motion,
+        ..Command::default()
+    }
+}
+
+/// To turn on the spot by an angle, in one step.
+pub(crate) fn turning(by_rad: f64, step_s: f64) -> Command {
+    moving(0.0, by_rad / step_s)
+}
+
+/// Takes a step with these commands; brains that get none decide themselves.
+pub(crate) fn step(simulation: &mut Simulation, commands: BTreeMap<RobotId, Command>) {
+    if commands.is_empty() {
+        simulation.step();
+    } else {
+        simulation.step_with(BTreeMap::new(), commands).unwrap();
+    }
+}
+
+/// The random numbers of scripts.
+pub(crate) struct Dice(Stream);
+
+impl Dice {
+    pub(crate) fn of_run(run: u64) -> Self {
+        let script = Entity { kind: 0, index: 0 };
+        // Another seed than those of simulations.
+        Self(stream(0x5C21_7000, run, script, Purpose::Noise))
+    }
+
+    /// A number from 0 to 1.
+    pub(crate) fn unit(&mut self) -> f64 {
+        unit(&mut self.0)
+    }
+
+    /// The turn that takes a robot away from what it touches, given by the normals there, by the
+    /// cosine law: the sine of the angle from the first normal is uniform.
+    fn turn_away_rad(&mut self, heading_rad: f64, normals: &[Point]) -> f64 {
+        let normal = normals[0];
+        let facing_rad = libm::atan2(normal.y, normal.x);
+        for _ in 0..1000 {
+            let angle_rad = libm::asin(2.0 * self.unit() - 1.0);
+            let course_rad = facing_rad + angle_rad;
+            let (y, x) = sin_cos(course_rad);
+            let way = Point { x, y };
+            if normals.iter().all(|normal| normal.dot(way) > 0.0) {
+                return wrapped(course_rad - heading_rad);
+            }
+        }
+        // It is wedged in: it tries another way in the next step.
+        FRAC_PI_2
+    }
+}
+
+/// Turns for all robots that touch something, away from it by the cosine law.
+pub(crate) fn away(
+    robots: &[Robot],
+    simulation: &Simulation,
+    radius_m: f64,
+    dice: &mut Dice,
+) -> BTreeMap<RobotId, Command> {
+    let scenario = simulation.scenario();
+    let touching = robots.iter().filter(|robot| robot.is_touching);
+    let turns = touching.filter_map(|robot| {
+        let mut normals = walls_at(robot.at, scenario, radius_m);
+        if radius_m > 0.0 {
+            normals.extend(partners(robots, robot, radius_m));
+        }
+        let is_known = !normals.is_empty();
+        is_known.then(|| {
+            let turn_rad = dice.turn_away_rad(robot.heading_rad, &normals);
+            (robot.id, turning(turn_rad, scenario.step_s()))
+        })
+    });
+    turns.collect()
+}
+
+/// Directions from the robots that one touches.
+pub(crate) fn partners(robots: &[Robot], robot: &Robot, radius_m: f64) -> Vec<Point> {
+    let others = robots.iter().filter(|other| other.id != robot.id);
+    let ways = others.map(|other| other.at.to(robot.at));
+    ways.filter(|way| way.length_squared() < (2.0 * radius_m + TOUCH_M).powi(2))
+        .collect()
+}
+
+/// Inward normals of the world's walls that a body touches.
+fn walls_at(at: Point, scenario: &Scenario, radius_m: f64) -> Vec<Point> {
+    let size = scenario.world().size();
+    let near_m = radius_m + TOUCH_M;
+    let walls = [
+        (at.x, 1.0, 0.0),
+        (size.x - at.x, -1.0, 0.0),
+        (at.y, 0.0, 1.0),
+        (size.y - at.y, 0.0, -1.0),
+    ];
+    let touched = walls.iter().filter(|(gap_m, ..)| *gap_m < near_m);
+    touched.map(|&(_, x, y)| Point { x, y }).collect()
+}
+
+/// All robots of a run.
+pub(crate) fn robots(simulation: &Simulation) -> Vec<Robot> {
+    let scenario = simulation.scenario();
+    simulation.state().each_robot(scenario).collect()
+}
+
+/// Items found so far.
+pub(crate) fn found(simulation: &Simulation) -> u32 {
+    simulation.outcome().found.iter().sum()
+}
+
+/// Who looks every `apart_m` sees a strip as wide as this many times the width of one who looks all
+/// the time.
+///
+/// The area of discs of radius r, d apart in a row, is for each of them d sqrt(r^2 - d^2/4) +
+/// 2 r^2 asin(d / 2r); divided by d and by 2r.
+pub(crate) fn width_of_looks(apart_m: f64, radius_m: f64) -> f64 {
+    let q = apart_m / (2.0 * radius_m);
+    f64::midpoint((1.0 - q * q).sqrt(), libm::asin(q) / q)
+}
+
+/// Time since a run began.
+#[expect(clippy::cast_precision_loss, reason = "few steps")]
+pub(crate) fn time_s(simulation: &Simulation) -> f64 {
+    simulation.state().tick() as f64 * simulation.scenario().step_s()
+}

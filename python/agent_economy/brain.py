@@ -1,0 +1,258 @@
+"""A robot's mind, for whoever has percepts of their own: live robots, other simulators, learning.
+
+A percept comes in, a command goes out, and nothing else: no clock, no files, no chance but the
+percept's dice. The same percepts give the same commands. Both are plain dicts, with the names and
+units of the scenario: metres, seconds and radians, angles anticlockwise from the robot's front
+unless said otherwise.
+"""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any, Generic, NotRequired, TypeAlias, TypedDict, TypeVar, cast
+
+from agent_economy import _core
+from agent_economy.scenario import Scenario, loaded
+
+T = TypeVar("T")
+
+Point: TypeAlias = Sequence[float]
+"""[x, y] in the world, in metres."""
+
+
+class RangeRing(TypedDict):
+    """The rays of a range sensor.
+
+    Attributes:
+        bearings_rad: Direction of each ray from the robot's front; above -pi, up to pi.
+        range_m: Nothing farther from the robot's centre is measured.
+        period_s: Time between two scans.
+        latency_s: Time from a scan until the brain has it.
+    """
+
+    bearings_rad: Sequence[float]
+    range_m: float
+    period_s: float
+    latency_s: float
+
+
+class Body(TypedDict):
+    """What a brain knows of its body.
+
+    Attributes:
+        radius_m: Of the disc that it covers.
+        max_speed_m_s: At most so fast ahead.
+        max_turn_rate_rad_s: It turns at most so fast, either way.
+        period_s: Time between two steps of the brain.
+        max_reverse_speed_m_s: At most so fast backwards; left out, it cannot.
+        max_acceleration_m_s2: It gains and loses speed at most so fast; left out, at once.
+        sensors: Names of its sensors, in the order in which requests count them.
+        rings: Its range rings, in the order in which percepts have their scans.
+        item_kinds: Names of the kinds of items that there are.
+    """
+
+    radius_m: float
+    max_speed_m_s: float
+    max_turn_rate_rad_s: float
+    period_s: float
+    max_reverse_speed_m_s: NotRequired[float]
+    max_acceleration_m_s2: NotRequired[float]
+    sensors: NotRequired[Sequence[str]]
+    rings: NotRequired[Sequence[RangeRing]]
+    item_kinds: NotRequired[Sequence[str]]
+
+
+class Motion(TypedDict):
+    """A speed ahead (negative is backwards) and a rate of turn (anticlockwise)."""
+
+    speed_m_s: float
+    turn_rate_rad_s: float
+
+
+class RobotId(TypedDict):
+    """Which robot: the `index`-th of the `kind`-th kind, both counted from 0."""
+
+    kind: int
+    index: int
+
+
+class AboutItem(TypedDict):
+    """An item: the place of its kind in `Body.item_kinds`, and where it is."""
+
+    kind: int
+    at: Point
+
+
+class AboutSender(TypedDict):
+    """The sender itself: where it is, and its course; 0 along x."""
+
+    at: Point
+    heading_rad: float
+
+
+class About(TypedDict, total=False):
+    """What a message is about: one of the two."""
+
+    item: AboutItem
+    sender: AboutSender
+
+
+class Message(TypedDict):
+    """What one robot tells others, and how sure it is, 0 to 1."""
+
+    about: About
+    confidence: float
+
+
+class Reading(TypedDict, Generic[T]):
+    """A value, and how old it is."""
+
+    value: T
+    age_s: float
+
+
+class Scan(TypedDict, total=False):
+    """What a range ring measured; empty if there is no scan.
+
+    Attributes:
+        age_s: Time since it was measured.
+        ranges_m: From the robot's centre to what reflects, in the order of the ring's bearings;
+            `math.inf` where nothing came back.
+    """
+
+    age_s: float | None
+    ranges_m: Sequence[float | None]
+
+
+class Contact(TypedDict):
+    """An item that a sensor recognised, or something that it took for one."""
+
+    kind: int
+    range_m: float
+    bearing_rad: float
+    age_s: float
+
+
+class Neighbour(TypedDict):
+    """A robot that a sensor recognised."""
+
+    range_m: float
+    bearing_rad: float
+    age_s: float
+    id: RobotId
+
+
+# "from" is no name in Python.
+Heard = TypedDict("Heard", {"from": RobotId, "age_s": float, "message": Message})
+"""A message that came in: who sent it, how long ago, and what."""
+
+
+class Percept(TypedDict, total=False):
+    """All that a robot knows of this moment; any part of it may be missing.
+
+    Attributes:
+        time_s: Time since the mission began.
+        dice: Four random whole numbers below 2^32, the only chance that a brain has.
+        position: Where it is in the world.
+        heading_rad: Its course: 0 along x.
+        motion: How it moves, from its wheels or rotors.
+        battery: Share of the battery's capacity that is left, 0 to 1.
+        touch: Whether it touches something.
+        scans: Of each range ring of its body, in the body's order.
+        contacts: Items that its sensors recognised since the last step, or took for such.
+        neighbours: Robots that its sensors recognised since the last step.
+        inbox: What other robots told since the last step.
+    """
+
+    time_s: float
+    dice: Sequence[int]
+    position: Reading[Point] | None
+    heading_rad: Reading[float] | None
+    motion: Reading[Motion] | None
+    battery: Reading[float] | None
+    touch: Reading[bool] | None
+    scans: Sequence[Scan]
+    contacts: Sequence[Contact]
+    neighbours: Sequence[Neighbour]
+    inbox: Sequence[Heard]
+
+
+class SensorRequest(TypedDict):
+    """A sensor, by its place in `Body.sensors`, to be switched on or off."""
+
+    sensor: int
+    on: bool
+
+
+class Command(TypedDict):
+    """All that a brain wants of its body in this step.
+
+    Attributes:
+        motion: How to move, within the body's limits.
+        requests: Sensors to switch; each stays so until it is switched again.
+        outbox: What to tell other robots.
+    """
+
+    motion: Motion
+    requests: list[SensorRequest]
+    outbox: list[Message]
+
+
+class Brain:
+    """The mind of one robot.
+
+    Args:
+        spec: What a scenario says under `[robots.KIND.brain]`; None for the default brain, which
+            searches: ahead, at obstacles a random turn, and out of the way of what is too near.
+        body: What it knows of its body.
+
+    Raises:
+        InputError: If anything in either is wrong; all faults at once.
+
+    Example:
+        >>> from agent_economy import Brain
+        >>> rover = {"radius_m": 0.25, "max_speed_m_s": 1, "max_turn_rate_rad_s": 1.5,
+        ...          "period_s": 0.1}
+        >>> Brain(None, rover).step({})["motion"]
+        {'speed_m_s': 1.0, 'turn_rate_rad_s': 0.0}
+    """
+
+    def __init__(self, spec: Mapping[str, Any] | None, body: Body) -> None:
+        """Make a mind that has just been switched on."""
+        self._mind = _core.Brain({} if spec is None else spec, body)
+
+    @classmethod
+    def of(cls, scenario: Scenario | str | Path, kind: str) -> "Brain":
+        """Return a brain as a scenario's robots of a kind have it, in their body.
+
+        Args:
+            scenario: A scenario of the metric engine, its file, or the name of one that ships.
+            kind: Name of a kind of robots.
+
+        Raises:
+            InputError: If the scenario is wrong or of another engine, or has no such kind.
+        """
+        brain = cls.__new__(cls)
+        vars(brain)["_mind"] = _core.Brain.of(loaded(scenario).metric(), kind)
+        return brain
+
+    def step(self, percept: Percept) -> Command:
+        """Return what the robot is to do; to be called once in each of the body's periods.
+
+        Raises:
+            InputError: If the percept has a wrong name, or something of a wrong kind.
+        """
+        return cast("Command", self._mind.step(percept))
+
+    def copy(self) -> "Brain":
+        """Return a brain with the same memories, which then goes its own way."""
+        brain = Brain.__new__(Brain)
+        vars(brain)["_mind"] = self._mind.copy()
+        return brain
+
+
+def schemas() -> dict[str, dict[str, Any]]:
+    """Return the JSON Schemas of all that enters and leaves a brain, for other languages.
+
+    They are those of BrainSpec, Body, Percept and Command.
+    """
+    return _core.Brain.schemas()

@@ -1,0 +1,145 @@
+"""The command `run`."""
+
+import json
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich import box
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+from agent_economy import runs
+from agent_economy.cli.gauge import gauge
+from agent_economy.cli.given import Seed, Sets, overrides
+from agent_economy.cli.told import faults_told
+from agent_economy.outcome import Outcome
+from agent_economy.scenario import Scenario
+from agent_economy.simulation import Simulation
+
+
+def run(  # noqa: PLR0913  (typer's options are arguments)
+    scenario: Annotated[
+        Path, typer.Argument(help="A scenario's TOML file, or the name of one.", show_default=False)
+    ],
+    *,
+    seed: Seed = 0,
+    number: Annotated[
+        int, typer.Option("--run", min=0, help="Which run of the seed: each is another world.")
+    ] = 0,
+    sets: Sets = None,
+    record: Annotated[
+        Path | None,
+        typer.Option(
+            help="File for a recording, NAME.mcap, as Foxglove shows.", show_default=False
+        ),
+    ] = None,
+    every: Annotated[
+        int, typer.Option(min=1, help="Steps from one recorded moment to the next.")
+    ] = 1,
+    percepts: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="ROBOT",
+            help="Record what the brain of rover/0 perceives and wants; may be repeated.",
+            show_default=False,
+        ),
+    ] = None,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print the outcome as JSON instead of the table.")
+    ] = False,
+) -> None:
+    """Run a scenario once, and tell what came of it.
+
+    It is the same run, of the same seed and number, as one of agent-economy replicate. A recording
+    is enough to take it again: agent-economy rerun FILE.
+
+    Exit codes: 0 the run is over, 2 something given is not allowed, 130 stopped by Ctrl-C.
+
+    Example: agent-economy run search --seed 7 --set robots.rover.count=6 --record run.mcap
+    """
+    with faults_told():
+        given = Scenario.load(scenario, overrides(sets))
+        if record is None:
+            outcome = watched(given, seed, number)
+        else:
+            outcome = recorded(Simulation(given, seed, number), record, every, percepts or [])
+    if as_json:
+        typer.echo(json.dumps({"seed": seed, "status": outcome.status, **outcome.row}, indent=2))
+    else:
+        show(given, seed, outcome)
+
+
+def watched(scenario: Scenario, seed: int, number: int) -> Outcome:
+    """Run once, and show how far it is if that takes long."""
+    if scenario.engine != "metric":
+        return runs.run(scenario, seed, number)
+    simulation = Simulation(scenario, seed, number)
+    return shown(simulation, simulation.step)
+
+
+def recorded(simulation: Simulation, path: Path, every: int, percepts: Sequence[str]) -> Outcome:
+    """The same, into a file."""
+    # What writes recordings takes as long to load as all the rest.
+    from agent_economy.recording import Recording  # noqa: PLC0415
+
+    with Recording(simulation, path, every=every, percepts=percepts) as recording:
+        return shown(simulation, recording.step)
+
+
+def shown(simulation: Simulation, step: Callable[[], object]) -> Outcome:
+    """Step until the run is over."""
+    with gauge(simulation.scenario.cap_s, "simulated seconds") as tell:
+        while not simulation.is_over:
+            step()
+            tell(simulation.time_s)
+    return simulation.outcome()
+
+
+def show(scenario: Scenario, seed: int, outcome: Outcome) -> None:
+    """Print an outcome for people."""
+    title = f"{scenario.name}, seed {seed}, run {outcome.run}: {outcome.status}"
+    table = Table(
+        title=Text(title, style="bold"), title_justify="left", box=box.SIMPLE, show_header=False
+    )
+    table.add_column(no_wrap=True)
+    table.add_column()
+    for name, words in lines(scenario, outcome):
+        table.add_row(name, Text(words))
+    Console(highlight=False).print(table)
+
+
+def lines(scenario: Scenario, outcome: Outcome) -> list[tuple[str, str]]:
+    """Return what an outcome tells, as names and words."""
+    if outcome.status == "quarantined":
+        return [("", "The run gave nothing: it had no room to begin in, or was not finite.")]
+    found = {f"{kind} found": counts(outcome, kind) for kind in outcome.found}
+    told: dict[str, str | None] = {
+        **found,
+        "time": f"{outcome.time_s:.1f} s of {scenario.cap_s:g} s",
+        "energy": number(outcome.energy_j, "J"),
+        "distance": number(outcome.distance_m, "m"),
+        "collisions": number(outcome.collisions),
+        "false alarms": number(outcome.false_alarms),
+        "robots": number(outcome.robots),
+        "robots stopped": number(outcome.robots_stopped),
+        "price": number(outcome.price),
+        "merit": None if outcome.merit is None else f"{outcome.merit:.3f}",
+    }
+    return [(name, words) for name, words in told.items() if words is not None]
+
+
+def counts(outcome: Outcome, kind: str) -> str:
+    """Return how many items of a kind were found, and of how many if that is known."""
+    found, missed = outcome.found[kind] or 0, outcome.missed.get(kind)
+    return f"{found}" if missed is None else f"{found} of {found + missed}"
+
+
+def number(value: float | None, unit: str = "") -> str | None:
+    """Return a number as people read it; None where there is none."""
+    if value is None:
+        return None
+    digits = 0 if isinstance(value, int) or value >= 100 or value.is_integer() else 1  # noqa: PLR2004  (a look)
+    return f"{value:,.{digits}f} {unit}".strip()

@@ -1,0 +1,9 @@
+"""Recordings of runs: MCAP files that Foxglove shows, and that are enough to take the run again.
+
+`Recording` writes one, `rerun` takes its run again; docs/simulation.md says what is in it.
+"""
+
+from agent_economy.recording.recorder import Recording
+from agent_economy.recording.rerunning import Rerun, rerun
+
+__all__ = ["Recording", "Rerun", "rerun"]

@@ -1,0 +1,108 @@
+"""Which run a recording is of: written so that the file alone is enough to take it again."""
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from agent_economy import __version__, _core
+from agent_economy._core import InputError
+from agent_economy.recording.file import File, strict
+from agent_economy.scenario import Override, Scenario, Source
+from agent_economy.simulation import Change, Simulation
+
+FORMAT = "1"
+
+RUN, CHANGE, END = "agent_economy.run", "agent_economy.change", "agent_economy.end"
+"""Names of metadata: which run it is, a change in the middle, and how it stands at its end."""
+
+FILES = "files/"
+"""What the names of attachments begin with that a scenario names."""
+
+
+@dataclass(frozen=True)
+class Identity:
+    """Which run a recording is of.
+
+    Attributes:
+        scenario: What it began with.
+        seed: Of all chance.
+        run: Its number.
+        program: The version that recorded it.
+    """
+
+    scenario: Scenario
+    seed: int
+    run: int
+    program: str
+
+
+def write_identity(file: File, simulation: Simulation) -> None:
+    """Write which run it is, before its first message."""
+    source = simulation.scenario.source
+    began = source.overrides[: len(source.overrides) - len(simulation.changes)]
+    name = Path(source.file).name
+    file.note(
+        RUN,
+        {
+            "format": FORMAT,
+            "program": __version__,
+            "scenario": name,
+            "overrides": json.dumps([[list(each.path), strict(each.value)] for each in began]),
+            "seed": str(simulation.seed),
+            "run": str(simulation.run),
+        },
+    )
+    file.attach(f"scenario/{name}", "application/toml", source.text.encode())
+
+
+def write_files(file: File, files: Mapping[str, bytes | str], before: set[str]) -> None:
+    """Attach the files that a scenario names, but those that were attached before."""
+    for name in sorted(files.keys() - before):
+        data = files[name]
+        if isinstance(data, bytes):
+            file.attach(f"{FILES}{name}", "application/octet-stream", data)
+
+
+def write_change(file: File, change: Change) -> None:
+    """Write a change of the scenario."""
+    values = {
+        "tick": str(change.tick),
+        "path": change.path,
+        "value": json.dumps(strict(change.value)),
+    }
+    file.note(CHANGE, values)
+
+
+def write_end(file: File, tick: int, state_hash: int) -> None:
+    """Write how the run stands where the recording ends."""
+    file.note(END, {"tick": str(tick), "hash": f"{state_hash:016x}"})
+
+
+def read_identity(values: Mapping[str, str], attached: Mapping[str, bytes]) -> Identity:
+    """Return which run a recording is of, from its metadata and attachments; no other file is read.
+
+    Raises:
+        InputError: If anything of it is missing, or of another format.
+    """
+    if values["format"] != FORMAT:
+        message = f"is of format {values['format']!r}: must be {FORMAT!r}"
+        raise InputError(message)
+    name = values["scenario"]
+    overrides = tuple(
+        Override(tuple(keys), value, "recording") for keys, value in json.loads(values["overrides"])
+    )
+    files: dict[str, bytes | str] = {
+        key.removeprefix(FILES): data for key, data in attached.items() if key.startswith(FILES)
+    }
+    source = Source(name, attached[f"scenario/{name}"].decode(), overrides, files)
+    if missing := _core.files_wanted(source):
+        message = f"lacks what the scenario names: {', '.join(missing)}"
+        raise InputError(message)
+    seed, run = int(values["seed"]), int(values["run"])
+    return Identity(Scenario.of(source), seed, run, values["program"])
+
+
+def read_change(values: Mapping[str, str]) -> Change:
+    """Return a change that was written."""
+    return Change(int(values["tick"]), values["path"], json.loads(values["value"]))

@@ -1,0 +1,146 @@
+"""What is written of a run at one moment: where all are, how they are, and what has happened."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from foxglove_schemas_protobuf.Log_pb2 import Log
+
+from agent_economy import _core
+from agent_economy.recording import schemas
+from agent_economy.recording.file import File
+from agent_economy.recording.messages import log, scene
+from agent_economy.recording.moving import Frames, item, robot
+from agent_economy.recording.still import grid, still
+from agent_economy.simulation import STATUSES, Simulation
+
+Moment = Mapping[str, Any]
+"""What changes in a run: see `recorded_moment` of the compiled part."""
+
+TOPICS = {
+    "/run": schemas.RUN,
+    "/team": schemas.TEAM,
+    "/robots": schemas.ROBOTS,
+    "/input": schemas.INPUT,
+    "/outcome": schemas.OUTCOME,
+}
+
+LEVELS = {"empty": Log.WARNING, "broken": Log.ERROR}
+
+
+def moment_of(simulation: Simulation) -> Moment:
+    """Return how a run is now."""
+    return _core.recorded_moment(simulation._run)  # noqa: SLF001  (ours)
+
+
+class Moments:
+    """The moments of a run, as long as its scenario does not change.
+
+    A viewer that jumps in time shows the last message of each topic: so each is whole, and what
+    changes seldom has a topic of its own and is written when it does.
+    """
+
+    def __init__(
+        self, file: File, simulation: Simulation, setting: Mapping[str, Any], time_ns: int
+    ) -> None:
+        """Write what stays as it is, and the first moment."""
+        for topic, schema in TOPICS.items():
+            file.declare(topic, schema)
+        self._file = file
+        self._changes = len(simulation.changes)
+        self._names = simulation.robots
+        self._frames = Frames(self._names)
+        self._bodies = {name: setting[name].tolist() for name in ("radius_m", "is_flying")}
+        document = simulation.scenario.to_dict()
+        kinds = document.get("items", {})
+        self._sought = {name: kind.get("sought", True) for name, kind in kinds.items()}
+        self._items = list(named(simulation.items.to_pylist()))
+        self.last = moment_of(simulation)
+        file.write_json("/team", {"robots": self._names, **self._bodies}, time_ns)
+        file.write("/scene/world", scene(still(document), time_ns), time_ns)
+        for number, given in enumerate(setting["maps"]):
+            file.write(f"/map/{number}", grid(given, time_ns), time_ns)
+        self._write_bodies(self.last, time_ns)
+        self._write_items(self.last, time_ns)
+        self._write_numbers(self.last, time_ns)
+
+    def write(self, moment: Moment, time_ns: int) -> None:
+        """Write a moment."""
+        before, self.last = self.last, moment
+        self._write_numbers(moment, time_ns)
+        if (moment["status"] != before["status"]).any():
+            self._write_bodies(moment, time_ns)
+        if (np.isnan(moment["found_s"]) != np.isnan(before["found_s"])).any():
+            self._write_items(moment, time_ns)
+        self._log_events(before, moment, time_ns)
+
+    def _write_numbers(self, moment: Moment, time_ns: int) -> None:
+        poses, half_turns = moment["poses"], moment["half_turns"]
+        self._file.write("/tf", self._frames.at(time_ns, poses, half_turns), time_ns)
+        self._file.write_json("/robots", states(moment), time_ns)
+        run = {
+            "tick": moment["tick"],
+            "hash": f"{moment['hash']:016x}",
+            "changes": self._changes,
+            "found": int(np.isfinite(moment["found_s"]).sum()),
+            "stopped": int((moment["status"] != 0).sum()),
+        }
+        self._file.write_json("/run", run, time_ns)
+
+    def _write_bodies(self, moment: Moment, time_ns: int) -> None:
+        rows = zip(self._names, STATUSES[moment["status"]], *self._bodies.values(), strict=True)
+        bodies = [
+            robot(name, status, radius_m, is_flying=is_flying)
+            for name, status, radius_m, is_flying in rows
+        ]
+        self._file.write("/scene/robots", scene(bodies, time_ns), time_ns)
+
+    def _write_items(self, moment: Moment, time_ns: int) -> None:
+        rows = zip(self._items, np.isfinite(moment["found_s"]).tolist(), strict=True)
+        items = [
+            item(name, at, is_found=is_found, is_sought=self._sought[name.rpartition("/")[0]])
+            for (name, at), is_found in rows
+        ]
+        self._file.write("/scene/items", scene(items, time_ns), time_ns)
+
+    def _log_events(self, before: Moment, moment: Moment, time_ns: int) -> None:
+        """Tell what has happened since the moment before."""
+        is_new = np.isfinite(moment["found_s"]) & np.isnan(before["found_s"])
+        for place in np.flatnonzero(is_new).tolist():
+            words = f"found at {moment['found_s'][place]:.3f} s"
+            self._file.write("/log", log(time_ns, Log.INFO, self._items[place][0], words), time_ns)
+        for place in np.flatnonzero(moment["collisions"] > before["collisions"]).tolist():
+            words = f"collision, {moment['collisions'][place]} so far"
+            self._file.write("/log", log(time_ns, Log.WARNING, self._names[place], words), time_ns)
+        for place in np.flatnonzero(moment["status"] != before["status"]).tolist():
+            status = str(STATUSES[moment["status"][place]])
+            level = LEVELS.get(status, Log.INFO)
+            self._file.write("/log", log(time_ns, level, self._names[place], status), time_ns)
+
+
+def named(items: list[dict[str, Any]]) -> list[tuple[str, tuple[float, float]]]:
+    """Return the name, KIND/INDEX, and the place of each item."""
+    counts: dict[str, int] = {}
+    rows = []
+    for each in items:
+        kind = each["kind"]
+        counts[kind] = counts.get(kind, -1) + 1
+        rows.append((f"{kind}/{counts[kind]}", (each["x_m"], each["y_m"])))
+    return rows
+
+
+def states(moment: Moment) -> dict[str, list[Any]]:
+    """Return how each robot is, as lists."""
+    x_m, y_m, heading_rad = moment["poses"].T.tolist()
+    speed_m_s, turn_rate_rad_s = moment["wanted"].T.tolist()
+    return {
+        "x_m": x_m,
+        "y_m": y_m,
+        "heading_rad": heading_rad,
+        "speed_m_s": moment["speeds"].tolist(),
+        "wanted_speed_m_s": speed_m_s,
+        "wanted_turn_rate_rad_s": turn_rate_rad_s,
+        "status": STATUSES[moment["status"]].tolist(),
+        "battery": moment["battery"].tolist(),
+        "collisions": moment["collisions"].tolist(),
+    }

@@ -1,0 +1,120 @@
+"""What a recording says of its run: read from the file alone, as far as that goes."""
+
+import json
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import IO, Any
+
+from mcap.exceptions import EndOfFile
+from mcap.records import Attachment, Channel, Footer, McapRecord, Message, Metadata
+from mcap.stream_reader import StreamReader
+
+from agent_economy._core import InputError
+from agent_economy.recording.identity import CHANGE, RUN, Identity, read_change, read_identity
+from agent_economy.simulation import Change
+
+MAX_BYTES = 2**30
+"""Of one record: an attached map and some more."""
+
+
+@dataclass(frozen=True)
+class Point:
+    """A state that was recorded.
+
+    Attributes:
+        tick: Steps that had been taken.
+        changes: Changes of the scenario until then.
+        hash: Of the state, 64 bits, hexadecimal.
+    """
+
+    tick: int
+    changes: int
+    hash: str
+
+
+@dataclass
+class Recorded:
+    """What a recording says of its run.
+
+    Attributes:
+        points: States, in their order.
+        changes: Of the scenario, in their order.
+        inputs: What came from outside, by the tick.
+        is_whole: Whether the file has its end.
+    """
+
+    points: list[Point] = field(default_factory=list)
+    changes: list[Change] = field(default_factory=list)
+    inputs: dict[int, dict[str, Any]] = field(default_factory=dict)
+    is_whole: bool = False
+    _run: Mapping[str, str] | None = None
+    _attached: dict[str, bytes] = field(default_factory=dict)
+    _topics: dict[int, str] = field(default_factory=dict)
+
+    def take(self, record: McapRecord) -> None:
+        """Add what a record says; most say nothing of what is needed here."""
+        match record:
+            case Metadata() if record.name == RUN:
+                self._run = record.metadata
+            case Metadata() if record.name == CHANGE:
+                self.changes.append(read_change(record.metadata))
+            case Attachment():
+                self._attached[record.name] = record.data
+            case Channel():
+                self._topics[record.id] = record.topic
+            case Message():
+                self._take_message(self._topics.get(record.channel_id, ""), record.data)
+            case Footer():
+                self.is_whole = True
+
+    def identity(self) -> Identity:
+        """Return which run it is.
+
+        Raises:
+            InputError: If what was read does not say so.
+        """
+        if self._run is None:
+            message = f"is no recording of a run: it has no metadata {RUN!r}"
+            raise InputError(message)
+        return read_identity(self._run, self._attached)
+
+    def _take_message(self, topic: str, data: bytes) -> None:
+        if topic == "/run":
+            values = json.loads(data)
+            self.points.append(Point(values["tick"], values["changes"], values["hash"]))
+        elif topic == "/input":
+            values = json.loads(data)
+            self.inputs[values.pop("tick")] = values
+
+
+def read(path: Path) -> tuple[Identity, Recorded]:
+    """Read which run a recording is of, and what it says of it.
+
+    A file that is cut, as by a process that was killed, is read as far as it goes.
+
+    Raises:
+        InputError: If it cannot be read, is damaged, or is no recording of a run of this program.
+    """
+    recorded = Recorded()
+    try:
+        with path.open("rb") as stream:
+            for record in records(stream):
+                recorded.take(record)
+        return recorded.identity(), recorded
+    except InputError as error:
+        message = f"{path}: {error}"
+    except OSError as error:
+        message = f"{path}: cannot be read: {error.strerror or error}"
+    # What libraries raise for damaged bytes is listed nowhere.
+    except Exception as error:  # noqa: BLE001
+        message = f"{path}: is no MCAP file, or damaged: {error or type(error).__name__}"
+    raise InputError(message)
+
+
+def records(stream: IO[bytes]) -> Iterator[McapRecord]:
+    """Yield a file's records up to its end, or where it is cut."""
+    reader = StreamReader(stream, validate_crcs=True, record_size_limit=MAX_BYTES)
+    with suppress(EndOfFile):
+        yield from reader.records

@@ -1,0 +1,218 @@
+"""A run on its way into a file."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from types import TracebackType
+from typing import Self
+
+from foxglove_schemas_protobuf.Log_pb2 import Log
+
+from agent_economy import _core
+from agent_economy._core import InputError
+from agent_economy.brain import Command, Percept
+from agent_economy.outcome import Outcome
+from agent_economy.recording.file import File, strict
+from agent_economy.recording.identity import write_change, write_end, write_files, write_identity
+from agent_economy.recording.messages import SECOND_NS, log
+from agent_economy.recording.minds import Minds
+from agent_economy.recording.moments import Moments, moment_of
+from agent_economy.simulation import Simulation
+
+FLUSH_NS = 5 * SECOND_NS
+"""What is simulated in this time is lost if the process is killed; shorter takes more room."""
+
+
+class Recording:
+    """A run on its way into a file in MCAP, which Foxglove shows and `rerun` takes again.
+
+    Use it as a context manager, and step it instead of the simulation.
+
+    Attributes:
+        simulation: The run; between two steps it can be looked at and changed.
+    """
+
+    simulation: Simulation
+
+    def __init__(
+        self,
+        simulation: Simulation,
+        path: str | Path,
+        *,
+        every: int = 1,
+        percepts: Sequence[str] = (),
+    ) -> None:
+        """Begin a recording, with the run as it is now.
+
+        Args:
+            simulation: The run; at its beginning, or what came before cannot be taken again but
+                for its changes.
+            path: The file; one that is there is written anew.
+            every: Steps from one recorded moment to the next, 1 or more.
+            percepts: Names of robots, KIND/INDEX, of which all is recorded that their brains
+                perceive and want, and their range scans, in every step. None by default: those of
+                all robots take some twenty times the room of all the rest.
+
+        Raises:
+            InputError: If an argument is not allowed, or the file cannot be written.
+        """
+        chosen = tuple(percepts)
+        check(simulation, every, chosen)
+        self.simulation = simulation
+        self._every, self._chosen = every, chosen
+        self._step_s = simulation._run.step_s  # noqa: SLF001  (ours)
+        self._file = File(Path(path))
+        self._is_open = True
+        self._flushed_ns = self._time_ns(simulation.tick)
+        self._changes = simulation.changes[:0]
+        self._files: set[str] = set()
+        write_identity(self._file, simulation)
+        self._take_in_scenario()
+        # Whoever finds the file of a killed process can see which run it was.
+        self._file.flush()
+
+    def step(
+        self,
+        steps: int = 1,
+        *,
+        percepts: Mapping[str, Percept] | None = None,
+        commands: Mapping[str, Command] | None = None,
+    ) -> dict[str, Command]:
+        """Take steps as `Simulation.step` does, and record them.
+
+        Raises:
+            InputError: If anything is not allowed, or the simulation was put back to an earlier
+                moment.
+        """
+        if percepts is not None or commands is not None:
+            return self._step(steps, percepts or {}, commands or {})
+        for _ in range(steps):
+            self._step(1, None, None)
+        return {}
+
+    def finish(self) -> Outcome:
+        """Take steps until the run is over, and record them; Ctrl-C stops between two."""
+        while not self.simulation.is_over:
+            self.step()
+        return self.simulation.outcome()
+
+    def note(self) -> None:
+        """Record the run as it is now, for whoever steps the simulation itself.
+
+        Raises:
+            InputError: If the simulation was put back to an earlier moment.
+        """
+        self._keep_up()
+        time_ns = self._time_ns(self.simulation.tick)
+        if self.simulation.tick != self._moments.last["tick"]:
+            self._moments.write(moment_of(self.simulation), time_ns)
+        if time_ns - self._flushed_ns >= FLUSH_NS:
+            self._file.flush()
+            self._flushed_ns = time_ns
+
+    def close(self) -> None:
+        """Record the last moment and the outcome so far, and close the file."""
+        if not self._is_open:
+            return
+        self._is_open = False
+        try:
+            self.note()
+            last, outcome = self._moments.last, self.simulation.outcome()
+            row = {"status": outcome.status, **outcome.row}
+            self._file.write_json("/outcome", row, self._time_ns(last["tick"]))
+            write_end(self._file, last["tick"], last["hash"])
+        finally:
+            self._file.close()
+
+    def __enter__(self) -> Self:
+        """Return the recording."""
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """Close it, whatever has happened."""
+        self.close()
+
+    def _step(
+        self,
+        steps: int,
+        percepts: Mapping[str, Percept] | None,
+        commands: Mapping[str, Command] | None,
+    ) -> dict[str, Command]:
+        self._keep_up()
+        tick = self.simulation.tick
+        perceived = self._minds.perceive(self.simulation, percepts or {})
+        try:
+            return self.simulation.step(steps, percepts=percepts, commands=commands)
+        finally:
+            # Also after Ctrl-C: a step that was taken cannot be taken again without its input.
+            if self.simulation.tick > tick:
+                given = {"percepts": percepts or {}, "commands": commands or {}}
+                self._write_step(tick, perceived, given)
+
+    def _write_step(
+        self,
+        tick: int,
+        perceived: Mapping[str, Mapping[str, object]],
+        given: Mapping[str, Mapping[str, object]],
+    ) -> None:
+        time_ns = self._time_ns(tick)
+        if any(given.values()):
+            self._file.write_json("/input", strict({"tick": tick, **given}), time_ns)
+        if perceived:
+            wanted = moment_of(self.simulation)["wanted"].tolist()
+            self._minds.write(perceived, wanted, time_ns)
+        if self.simulation.tick % self._every == 0:
+            self.note()
+
+    def _keep_up(self) -> None:
+        """Take in what was done to the simulation since the last step."""
+        simulation, seen = self.simulation, self._changes
+        if simulation.tick < self._moments.last["tick"] or simulation.changes[: len(seen)] != seen:
+            message = "the simulation was put back: must go on from where it was recorded last"
+            raise InputError(message)
+        if simulation.changes != seen:
+            self._take_in_scenario()
+
+    def _take_in_scenario(self) -> None:
+        """Write what was changed, the files that came with it, and the scene as it now is."""
+        simulation = self.simulation
+        time_ns = self._time_ns(simulation.tick)
+        files = simulation.scenario.source.files
+        write_files(self._file, files, self._files)
+        self._files |= files.keys()
+        for change in simulation.changes[len(self._changes) :]:
+            write_change(self._file, change)
+            words = f"{change.path} = {change.value!r}"
+            self._file.write("/log", log(time_ns, Log.INFO, "scenario", words), time_ns)
+        self._changes = simulation.changes
+        setting = _core.recorded_setting(simulation._run)  # noqa: SLF001  (ours)
+        places = {name: place for place, name in enumerate(simulation.robots)}
+        chosen = {name: places[name] for name in self._chosen if name in places}
+        self._minds = Minds(self._file, chosen, setting["bodies"])
+        self._moments = Moments(self._file, simulation, setting, time_ns)
+
+    def _time_ns(self, tick: int) -> int:
+        return round(tick * self._step_s * SECOND_NS)
+
+
+def check(simulation: Simulation, every: int, percepts: Sequence[str]) -> None:
+    """See to it that arguments are allowed.
+
+    Raises:
+        InputError: If one is not; all faults at once.
+    """
+    faults = []
+    if not isinstance(simulation, Simulation):
+        faults.append(f"simulation = {simulation!r}: must be a Simulation")
+    elif unknown := set(percepts) - set(simulation.robots):
+        first, last = simulation.robots[0], simulation.robots[-1]
+        given = ", ".join(sorted(map(repr, unknown)))
+        faults.append(f"percepts: {given}: must be among the run's robots: {first} to {last}")
+    if isinstance(every, bool) or not isinstance(every, int) or every < 1:
+        faults.append(f"every = {every!r}: must be a whole number, 1 or more")
+    if faults:
+        raise InputError("\n".join(faults))

@@ -1,0 +1,87 @@
+"""Runs of a scenario, of whatever engine: one, or a table of many."""
+
+from pathlib import Path
+
+import numpy as np
+import pyarrow as pa
+
+from agent_economy import _core
+from agent_economy.outcome import Outcome, table
+from agent_economy.scenario import Scenario, loaded
+from agent_economy.simulation import Simulation
+
+
+def run(
+    scenario: Scenario | str | Path,
+    seed: int = 0,
+    run: int = 0,
+    record: str | Path | None = None,
+) -> Outcome:
+    """Run a scenario once; Ctrl-C stops it within a second.
+
+    Args:
+        scenario: A scenario, its file, or the name of one that ships.
+        seed: Of all chance, 0 to 2^64 - 1.
+        run: Its number, 0 to 2^63 - 10,000,001; each is another world.
+        record: A file for a recording of all of it, in MCAP (see `agent_economy.recording`); of the
+            metric engine's runs only.
+
+    Returns:
+        The same, on any machine, as row `run` of `replicate`.
+
+    Raises:
+        InputError: If the scenario is wrong, or an argument out of range; all faults at once. If
+            the file cannot be written, or a run to be recorded has no room for its team or items.
+    """
+    scenario = loaded(scenario)
+    if record is not None:
+        return recorded(Simulation(scenario, seed, run), record)
+    configuration = scenario.configuration({})
+    given = _core.run_one(configuration, seed=seed, run=run)
+    values = {name: np.array([value]) for name, value in given.items()}
+    return Outcome.of(table(configuration.columns, values, scenario.merit, run).to_pylist()[0])
+
+
+def replicate(
+    scenario: Scenario | str | Path,
+    runs: int,
+    seed: int = 0,
+    threads: int | None = None,
+    first_run: int = 0,
+) -> pa.Table:
+    """Run a scenario many times; Ctrl-C stops it within a second.
+
+    Args:
+        scenario: A scenario, its file, or the name of one that ships.
+        runs: How many, 0 to 10,000,000.
+        seed: Of all chance, 0 to 2^64 - 1.
+        threads: 1 to 1024; None for as many as there are processors. It changes no result.
+        first_run: The number of the first; the others follow.
+
+    Returns:
+        A row a run: `run`, `time_s` (of the last find; the cap if not all was found), `complete`
+        (whether it was), then what else the engine tells, and `merit`. Of the metric engine that is
+        `robots`, `price`, `found` and `missed` (of what is sought), `false_alarms`, `collisions`,
+        `energy_j`, `distance_m`, `robots_stopped`, and `found_KIND` and `missed_KIND` of each kind
+        of items. Counts are int64, `complete` is a bool. A run that is quarantined (see
+        `Outcome.status`) has nulls everywhere but in `run`; what never happened is null.
+
+    Raises:
+        InputError: If the scenario is wrong, or an argument out of range; all faults at once.
+    """
+    scenario = loaded(scenario)
+    configuration = scenario.configuration({})
+    given = _core.run_block(
+        [configuration], seed=seed, first_run=first_run, runs=runs, threads=threads
+    )
+    values = {name: array[0] for name, array in given.items()}
+    return table(configuration.columns, values, scenario.merit, first_run)
+
+
+def recorded(simulation: Simulation, path: str | Path) -> Outcome:
+    """Run to the end, and record it."""
+    # What writes recordings takes longer to load than most runs take.
+    from agent_economy.recording import Recording  # noqa: PLC0415
+
+    with Recording(simulation, path) as recording:
+        return recording.finish()

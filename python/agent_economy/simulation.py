@@ -1,0 +1,301 @@
+"""A run of the metric engine, stepped by hand."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from threading import RLock
+from typing import Any, NamedTuple, cast
+
+import numpy as np
+import pyarrow as pa
+from numpy.typing import NDArray
+
+from agent_economy import _core
+from agent_economy._core import InputError
+from agent_economy.brain import Command, Percept
+from agent_economy.outcome import Outcome, table
+from agent_economy.scenario import Given, Override, Scenario, loaded
+
+Floats = NDArray[np.float64]
+
+STATUSES = np.array(["active", "empty", "broken"])
+"""What a robot can be, by the compiled part's numbers."""
+
+
+FIXED = ("clock.step_s", "world.size_m")
+"""What stays: times are counted in steps, and every place is within the world."""
+
+
+class Change(NamedTuple):
+    """A value that was put into a scenario in the middle of a run.
+
+    Attributes:
+        tick: Steps that had been taken.
+        path: Keys from the scenario's root, with dots between.
+        value: What was put there.
+    """
+
+    tick: int
+    path: str
+    value: Given
+
+
+@dataclass(frozen=True)
+class Snapshot:
+    """A whole run at one moment, for `Simulation.restore` of any simulation of this process.
+
+    It cannot be pickled: keep the scenario, the seed, the run and its `changes`, and step again.
+    """
+
+    scenario: Scenario
+    seed: int
+    run: int
+    changes: tuple[Change, ...]
+    _inside: _core.Snapshot = field(repr=False)
+
+
+class Simulation:
+    """A run of the metric engine, stepped by hand: it is `run`, step by step.
+
+    Arrays and tables are copies: they stay as they are when the run goes on. Threads may share a
+    simulation; each call waits until another thread's is done.
+
+    Attributes:
+        scenario: What the run is of, with all changes so far.
+        seed: Of all chance.
+        run: Its number.
+    """
+
+    scenario: Scenario
+    seed: int
+    run: int
+
+    def __init__(
+        self,
+        scenario: Scenario | str | Path,
+        seed: int = 0,
+        run: int = 0,
+        threads: int | None = None,
+    ) -> None:
+        """Begin a run.
+
+        Args:
+            scenario: A scenario of the metric engine, its file, or the name of one that ships.
+            seed: Of all chance, 0 to 2^64 - 1.
+            run: Its number, 0 to 2^63 - 10,000,001; each is another world.
+            threads: 1 to 1024, for worlds of thousands of robots; None for as many as there are
+                processors. It changes no result.
+
+        Raises:
+            InputError: If the scenario is wrong or of another engine, an argument out of range, or
+                the world has no room for the team or the items.
+        """
+        self.scenario = loaded(scenario)
+        self._run = _core.Simulation(self.scenario.metric(), seed=seed, run=run, threads=threads)
+        self.seed, self.run = seed, run
+        self._changes: tuple[Change, ...] = ()
+        self._lock = RLock()
+
+    def __repr__(self) -> str:
+        """Return which run it is, and where."""
+        which = f"{self.scenario.name!r}, seed={self.seed}, run={self.run}"
+        return f"<Simulation of {which}: tick {self.tick}>"
+
+    def step(
+        self,
+        steps: int = 1,
+        *,
+        percepts: Mapping[str, Percept] | None = None,
+        commands: Mapping[str, Command] | None = None,
+    ) -> dict[str, Command]:
+        """Take steps, also after the run is over; Ctrl-C stops between two.
+
+        A body can be outside: from the first percept given for a robot on, it is where its percepts
+        say, its brain steps with each of them, and the command is returned instead of carried out.
+        The run adds what other robots told it to the percept, and counts as found what the percept
+        has contacts of. In a step without a percept for it, it stands, and its brain does not step.
+
+        Args:
+            steps: How many, 0 or more; 1 with percepts or commands.
+            percepts: By name, what robots perceive whose bodies are outside.
+            commands: By name, what other robots are to do in this step, whatever their brains would
+                decide; sensors and bodies stay as they are.
+
+        Returns:
+            By name, what the brains of the robots in `percepts` want of their bodies; one that is
+            empty or broken wants nothing.
+
+        Raises:
+            InputError: If anything is not allowed, all faults at once; no step is taken then.
+        """
+        if percepts is None and commands is None:
+            self._run.step(steps)
+            return {}
+        if steps != 1:
+            message = f"steps = {steps!r}: must be 1 with percepts or commands"
+            raise InputError(message)
+        both = as_dict("percepts", percepts), as_dict("commands", commands)
+        return cast("dict[str, Command]", self._run.step_with(*both))
+
+    def percept(self, robot: str) -> Percept | None:
+        """Return what a robot will perceive in the next step; the run does not go on.
+
+        Args:
+            robot: Its name.
+
+        Returns:
+            None if its brain does not step then, as between two of its periods, or if it is empty
+            or broken, or its body outside. Of a ray that meets nothing the range is None.
+
+        Raises:
+            InputError: If there is no such robot.
+        """
+        return cast("Percept | None", self._run.percept(robot))
+
+    def finish(self) -> Outcome:
+        """Take steps until the run is over; Ctrl-C stops between two."""
+        self._run.finish()
+        return self.outcome()
+
+    def outcome(self) -> Outcome:
+        """Return what the run has given so far; once it is over, what `run` returns."""
+        with self._lock:
+            columns, given = self._run.columns, self._run.outcome()
+            is_over, merit = self._run.is_over, self.scenario.merit
+        values = {name: np.array([np.nan]) for name, *_ in columns} | {
+            name: np.array([value]) for name, value in (given or {}).items()
+        }
+        row = table(columns, values, merit, self.run).to_pylist()[0]
+        return Outcome.of(row, None if is_over or given is None else "running")
+
+    def change(self, path: str, value: Given) -> None:
+        """Put a value into the scenario, and go on with that.
+
+        Robots and items that are in both scenarios, by kind and index, stay as they are; others
+        come in where they would start, or go. A robot whose brain, body or sensors are now others
+        begins with a new mind. Messages on their way are lost if the team changes.
+
+        Args:
+            path: Keys from the root, with dots between, such as "robots.rover.count"; any but
+                `clock.step_s` and `world.size_m`.
+            value: As the file could have it.
+
+        Raises:
+            InputError: If the value is not allowed there, or there is no room for what comes in;
+                nothing has changed then.
+        """
+        if path in FIXED:
+            message = f"change: {path} = {value!r}: must stay as it was when the run began"
+            raise InputError(message)
+        with self._lock:
+            changed = self.scenario.changed((Override.at(path, value, "change"),))
+            tick = self._run.change(changed.metric())
+            self.scenario = changed
+            self._changes += (Change(tick, path, value),)
+
+    @property
+    def changes(self) -> tuple[Change, ...]:
+        """What was changed, in order: with it a run can be taken again."""
+        return self._changes
+
+    def snapshot(self) -> Snapshot:
+        """Return the whole run as it is now; it costs as much memory as the run."""
+        with self._lock:
+            inside = self._run.snapshot()
+            return Snapshot(self.scenario, self.seed, self.run, self._changes, inside)
+
+    def restore(self, snapshot: Snapshot) -> None:
+        """Be the run that a snapshot is of: its scenario, its seed, its moment, its changes.
+
+        Raises:
+            InputError: If it is no `Snapshot`.
+        """
+        if not isinstance(snapshot, Snapshot):
+            message = f"snapshot = {snapshot!r}: must be what snapshot() returned"
+            raise InputError(message)
+        with self._lock:
+            self._run.restore(snapshot._inside)  # noqa: SLF001  (ours)
+            self.scenario, self._changes = snapshot.scenario, snapshot.changes
+            self.seed, self.run = snapshot.seed, snapshot.run
+
+    @property
+    def tick(self) -> int:
+        """Steps that have been taken."""
+        return self._run.tick
+
+    @property
+    def time_s(self) -> float:
+        """Time that they took in the world."""
+        with self._lock:
+            return self._run.tick * self._run.step_s
+
+    @property
+    def is_over(self) -> bool:
+        """Whether nothing more can come: all is found, time is up, or no robot can go on."""
+        return self._run.is_over
+
+    @property
+    def hash(self) -> int:
+        """A number of 64 bits that tells runs apart that differ in anything that shows."""
+        return self._run.hash
+
+    @property
+    def robots(self) -> tuple[str, ...]:
+        """Names of the robots, KIND/INDEX, in the order of all arrays of robots."""
+        return tuple(self._run.robots)
+
+    @property
+    def poses(self) -> Floats:
+        """Where each robot is, shape (robots, 3): x and y in metres, heading in radians.
+
+        A heading is 0 along x, anticlockwise, from -pi to pi.
+        """
+        return self._run.poses
+
+    @property
+    def speeds(self) -> Floats:
+        """How fast each robot goes ahead, in metres a second, shape (robots,)."""
+        return self._run.speeds
+
+    @property
+    def status(self) -> NDArray[np.str_]:
+        """Whether each robot can go on, shape (robots,): "active", or "empty" or "broken"."""
+        return STATUSES[self._run.status]
+
+    @property
+    def outside(self) -> NDArray[np.bool_]:
+        """Whether each robot's body is outside, shape (robots,): see `step`."""
+        return self._run.outside
+
+    @property
+    def battery(self) -> Floats:
+        """Share of each robot's battery that is left, shape (robots,), 0 to 1.
+
+        A robot whose battery never empties, or that has none, has 1.
+        """
+        return self._run.battery
+
+    @property
+    def items(self) -> pa.Table:
+        """A row an item: `kind`, `x_m`, `y_m`, and `found_s`, null until it is found."""
+        given: dict[str, Any] = self._run.items
+        return pa.table(
+            {
+                "kind": pa.array(given["kind"], pa.string()),
+                "x_m": given["x_m"],
+                "y_m": given["y_m"],
+                "found_s": pa.array(given["found_s"], mask=np.isnan(given["found_s"])),
+            }
+        )
+
+
+def as_dict(name: str, given: Mapping[str, Any] | None) -> dict[str, Any]:
+    """Return a mapping as a dict; None is an empty one.
+
+    Raises:
+        InputError: If it is no mapping.
+    """
+    if given is None or isinstance(given, Mapping):
+        return dict(given or {})
+    message = f"{name} = {given!r}: must be a dict by the names of robots"
+    raise InputError(message)

@@ -1,0 +1,48 @@
+"""Scenarios of the metric engine for tests."""
+
+from typing import Any
+
+from agent_economy import Scenario
+from agent_economy.scenario import Override
+
+ENDLESS = {
+    "clock.cap_s": 1_000_000,
+    "items.mine.sought": False,
+    "robots.rover.battery.capacity_j": 1e12,
+}
+"""Nobody looks for anything for weeks."""
+
+HUGE = {"robots.rover.count": 3000, "world.size_m": [300, 300], "clock.cap_s": 1}
+"""Enough robots for threads to share a step."""
+
+FULL = """
+engine = "metric"
+summary = "The second robot starts where the first one stands."
+merit = "equation-5.2"
+
+[clock]
+step_s = 0.1
+cap_s = 10
+
+[world]
+size_m = [10, 10]
+
+[items.mine]
+count = 1
+
+[robots.first]
+like = "ugv"
+count = 1
+start = { kind = "fixed", at_m = [[5, 5]] }
+
+[robots.second]
+like = "ugv"
+count = 1
+start = { kind = "uniform", within_m = [[4.9, 4.9], [5.1, 5.1]] }
+"""
+
+
+def search(changes: dict[str, Any] | None = None) -> Scenario:
+    """Return the shipped search, with other values at paths."""
+    overrides = [Override.at(path, value, "test") for path, value in (changes or {}).items()]
+    return Scenario.load("search", tuple(overrides))

@@ -1,0 +1,117 @@
+"""Brains in Python: what enters and leaves them has the names of Rust's, and faults are told."""
+
+import math
+import typing
+from typing import Any
+
+import numpy as np
+import pytest
+
+import agent_economy as ae
+from agent_economy import brain
+from agent_economy.brain import Body, Percept
+
+ROVER: Body = {
+    "radius_m": 0.25,
+    "max_speed_m_s": 1.0,
+    "max_turn_rate_rad_s": 1.5,
+    "max_acceleration_m_s2": 1.0,
+    "period_s": 0.1,
+    "rings": [
+        {
+            "bearings_rad": [math.remainder(i * math.tau / 16, math.tau) for i in range(16)],
+            "range_m": 3.0,
+            "period_s": 0.1,
+            "latency_s": 0.0,
+        }
+    ],
+}
+OPEN: Percept = {"scans": [{"age_s": 0.0, "ranges_m": [math.inf] * 16}]}
+WALLED: Percept = {"dice": [7, 7, 7, 7], "scans": [{"age_s": 0.0, "ranges_m": [0.5] * 16}]}
+
+
+def test_a_brain_goes_where_it_sees_that_it_is_free() -> None:
+    rover = ae.Brain(None, ROVER)
+    command = rover.step(OPEN)
+    assert command["motion"] == {"speed_m_s": 1.0, "turn_rate_rad_s": 0.0}
+    assert (command["requests"], command["outbox"]) == ([], [])
+    assert ae.Brain(None, ROVER).step({})["motion"]["speed_m_s"] == 0.0
+
+
+def test_a_copy_has_the_same_future_and_then_goes_its_own_way() -> None:
+    rover = ae.Brain(None, ROVER)
+    rover.step(OPEN)
+    rover.step(WALLED)
+    copy = rover.copy()
+    commands = [rover.step(WALLED) for _ in range(5)]
+    assert [copy.step(WALLED) for _ in range(5)] == commands
+    assert commands[0]["motion"]["turn_rate_rad_s"] != 0.0
+
+
+def test_arrays_none_and_whole_numbers_are_read_as_lists_nothing_and_numbers() -> None:
+    arrays: Any = {
+        "touch": None,
+        "dice": np.zeros(4, dtype=np.uint32),
+        "scans": [{"age_s": 0, "ranges_m": np.full(16, np.inf)}],
+    }
+    assert ae.Brain(None, ROVER).step(arrays) == ae.Brain(None, ROVER).step(OPEN)
+
+
+def test_all_faults_of_spec_and_body_are_told_at_once_with_their_paths() -> None:
+    spec = {"rate_hz": -1, "behaviours": [{"kind": "cruise"}, {"kind": "avoid", "neer_m": 0.2}]}
+    body: Any = {name: value for name, value in ROVER.items() if name != "radius_m"}
+    with pytest.raises(ae.InputError) as caught:
+        ae.Brain(spec, body)
+    told = str(caught.value).splitlines()
+    assert len(told) == 3
+    assert told[0].startswith("brain.behaviours[1].neer_m = 0.2: must be")
+    assert told[0].endswith("did you mean near_m?")
+    assert told[1].startswith("brain.rate_hz = -1: must be")
+    assert told[2].startswith("body.radius_m is missing")
+
+
+@pytest.mark.parametrize(
+    ("percept", "told"),
+    [
+        ({"scanz": []}, "unknown field `scanz`"),
+        ({"scans": [{"ranges_m": [1.0, math.nan]}]}, "percept.scans[0].ranges_m[1] = nan: must be"),
+        ({"touch": {"value": 3, "age_s": 0.0}}, "percept.touch.value = 3: must be readable"),
+        ({"dice": [1, 2, 3]}, "percept.dice = [1,2,3]: must be readable"),
+        ({"time_s": object}, "percept.time_s = <class 'object'>: must be a number"),
+        ("far", 'percept = "far": must be readable'),
+    ],
+)
+def test_a_fault_of_a_percept_names_its_path(percept: Any, told: str) -> None:
+    with pytest.raises(ae.InputError) as caught:
+        ae.Brain(None, ROVER).step(percept)
+    assert told in str(caught.value)
+
+
+def names(schema: dict[str, Any]) -> set[str]:
+    return set(schema.get("properties", {}))
+
+
+@pytest.mark.parametrize("name", ["Body", "Percept", "Command"])
+def test_the_types_have_the_names_of_the_rust_types(name: str) -> None:
+    schema = brain.schemas()[name]
+    for each, here in [(name, schema), *schema.get("$defs", {}).items()]:
+        if "properties" not in here:
+            continue
+        python_name = "Reading" if each.startswith("Reading") else each
+        assert names(here) == set(getattr(brain, python_name).__annotations__), each
+
+
+def test_what_must_be_in_a_body_is_what_rust_needs() -> None:
+    for each in ("Body", "RangeRing"):
+        schema = brain.schemas()["Body"]
+        schema = schema if each == "Body" else schema["$defs"][each]
+        assert set(schema["required"]) == getattr(brain, each).__required_keys__
+
+
+def test_a_message_is_about_what_rust_knows() -> None:
+    about = brain.schemas()["Command"]["$defs"]["About"]["oneOf"]
+    kinds = {kind: here for each in about for kind, here in each["properties"].items()}
+    hints = typing.get_type_hints(brain.About)
+    assert kinds.keys() == hints.keys()
+    for kind, here in kinds.items():
+        assert names(here) == set(hints[kind].__annotations__)

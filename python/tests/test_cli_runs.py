@@ -1,0 +1,144 @@
+"""The commands that run scenarios, as a user meets them."""
+
+import json
+import os
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+import pyarrow as pa
+import pytest
+from metric import ENDLESS, FULL
+from pyarrow import csv, parquet
+from test_cli import COMMAND, run
+
+import agent_economy as ae
+
+
+def test_run_tells_what_came_of_it() -> None:
+    given = run("run", "search", "--seed", "7", "--run", "1")
+    outcome = ae.run("search", 7, 1)
+    assert (given.returncode, given.stderr) == (0, "")
+    lines = [" ".join(line.split()) for line in given.stdout.splitlines()]
+    assert lines[0] == f"search, seed 7, run 1: {outcome.status}"
+    assert f"mine found {outcome.found['mine']} of 4" in lines
+    assert f"time {outcome.time_s:.1f} s of 120 s" in lines
+    assert f"energy {outcome.energy_j:,.0f} J" in lines
+    assert "nan" not in given.stdout.lower()
+
+
+def test_run_as_json_is_the_row_of_replicate() -> None:
+    given = run("run", "search", "--run", "3", "--seed", "5", "--json")
+    assert given.returncode == 0, given.stderr
+    row = ae.replicate("search", 1, seed=5, first_run=3).to_pylist()[0]
+    told = json.loads(given.stdout)
+    assert told == {"seed": 5, "status": ae.run("search", 5, 3).status, **row}
+
+
+def test_run_takes_the_classic_engine_and_values() -> None:
+    given = run("run", "classic", "--set", "robots.wanderer.count=9", "--json")
+    assert json.loads(given.stdout)["robots"] == 9
+    shown = run("run", "classic")
+    assert "item found" in shown.stdout
+    assert "energy" not in shown.stdout
+
+
+def test_replicate_tells_means_and_leaves_a_table(tmp_path: Path) -> None:
+    out = tmp_path / "runs.parquet"
+    given = run("replicate", "search", "--runs", "30", "--seed", "4", "--out", out)
+    assert given.returncode == 0, given.stderr
+    expected = ae.replicate("search", 30, 4)
+    assert parquet.read_table(out).equals(expected)
+    assert [file.name for file in tmp_path.iterdir()] == ["runs.parquet"]
+    rows = {line.split()[0]: line.split() for line in given.stdout.splitlines() if line.split()}
+    share = sum(expected["complete"].to_pylist()) / 30
+    assert rows["complete"][1:3] == ["30", f"{share:.4g}"]
+    assert rows["time_s"][1] == "30"
+    assert given.stdout.splitlines()[0].strip() == "search, seed 4, 30 runs"
+    assert given.stdout.splitlines()[-1] == f"All runs: {out}"
+
+
+def test_replicate_as_json_has_an_interval_round_each_mean(tmp_path: Path) -> None:
+    out = tmp_path / "runs.csv"
+    options = ["--runs", "25", "--threads", "1", "--json", "--out", str(out)]
+    given = run("replicate", "classic", *options)
+    assert given.returncode == 0, given.stderr
+    told = json.loads(given.stdout)
+    assert (told["scenario"], told["seed"], told["runs"]) == ("classic", 0, 25)
+    columns = {each["column"]: each for each in told["columns"]}
+    assert columns["time_s"]["low"] < columns["time_s"]["mean"] < columns["time_s"]["high"]
+    assert columns["time_s"]["least"] <= columns["time_s"]["low"]
+    assert 0 <= columns["complete"]["low"] <= columns["complete"]["mean"] <= 1
+    assert csv.read_csv(out)["paints"].equals(ae.replicate("classic", 25)["paints"])
+
+
+def test_a_single_run_has_a_mean_and_no_interval() -> None:
+    told = json.loads(run("replicate", "search", "--runs", "1", "--json").stdout)
+    time_s = next(each for each in told["columns"] if each["column"] == "time_s")
+    assert time_s["mean"] == ae.run("search").time_s
+    assert (time_s["low"], time_s["high"]) == (None, None)
+
+
+def test_runs_that_gave_nothing_are_told_and_not_counted(tmp_path: Path) -> None:
+    full = tmp_path / "full.toml"
+    full.write_text(FULL)
+    told = json.loads(run("replicate", full, "--runs", "3", "--json").stdout)
+    assert {each["runs"] for each in told["columns"]} == {0}
+    alone = run("run", full)
+    assert alone.returncode == 2
+    assert "robots.second: the run has no room for second/0" in alone.stderr
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (["run", "serach"], "did you mean search?"),
+        (["run", "search", "--set", "robots.rover.cuont=3"], "did you mean count?"),
+        (["run", "search", "--run", "9223372036854775807"], "run = 9223372036854775807: must be"),
+        (["replicate", "search", "--out", "runs.txt"], "must end in one of .parquet, .csv"),
+        (["replicate", "search", "--out", "none/runs.csv"], "must be in a folder that is there"),
+        (["replicate", "search", "--runs", "0"], "--runs"),
+    ],
+)
+def test_what_is_not_allowed_is_told(arguments: list[str], told: str, tmp_path: Path) -> None:
+    given = run(*arguments, cwd=tmp_path)
+    assert given.returncode == 2
+    assert told in " ".join(given.stderr.split())
+    assert "Traceback" not in given.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("command", ["run", "replicate"])
+def test_long_runs_tell_how_far_they_are_and_ctrl_c_ends_them_soon(
+    command: str, tmp_path: Path
+) -> None:
+    out = ["--out", str(tmp_path / "runs.csv")] if command == "replicate" else []
+    endless = [f"--set={path}={json.dumps(value)}" for path, value in ENDLESS.items()]
+    values = endless if command == "run" else ["--runs", "10000000"]
+    with subprocess.Popen(
+        [*COMMAND, command, "search", *values, *out],
+        stderr=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+        env=os.environ | {"COLUMNS": "200"},
+    ) as process:
+        assert process.stderr
+        first = process.stderr.readline()
+        begin = time.monotonic()
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate(timeout=20)
+    assert " of 1" in first
+    assert " left" in first
+    assert process.returncode == 130
+    # The promise is one second; the bound allows for a busy machine.
+    assert time.monotonic() - begin < 3
+    assert errors.endswith("Stopped.\n")
+    assert "Traceback" not in errors
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_table_of_a_command_has_the_types_of_the_api(tmp_path: Path) -> None:
+    out = tmp_path / "runs.parquet"
+    run("replicate", "search", "--runs", "2", "--out", out)
+    assert parquet.read_schema(out).field("complete").type == pa.bool_()

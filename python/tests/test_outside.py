@@ -1,0 +1,199 @@
+"""What comes into a run from outside: percepts of bodies, commands for robots."""
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+from metric import search
+
+from agent_economy import Brain, InputError, Scenario, Simulation
+from agent_economy.brain import Command, Percept
+
+STOP: Command = {"motion": {"speed_m_s": 0.0, "turn_rate_rad_s": 0.0}, "requests": [], "outbox": []}
+
+
+def percept_at(x_m: float, y_m: float, heading_rad: float, **more: Any) -> Percept:
+    """Return what a body perceives that is somewhere."""
+    percept: Percept = {
+        "position": {"value": [x_m, y_m], "age_s": 0.0},
+        "heading_rad": {"value": heading_rad, "age_s": 0.0},
+    }
+    return percept | more  # type: ignore[return-value]
+
+
+def scans(far_m: float | None) -> list[dict[str, Any]]:
+    """Return what a rover's scanner measures where everything is equally far away."""
+    first = Simulation("search").percept("rover/0")
+    assert first is not None
+    rays = len(first["scans"][0]["ranges_m"])
+    return [{"age_s": 0.0, "ranges_m": [far_m] * rays}]
+
+
+def test_a_body_outside_is_where_its_percepts_say() -> None:
+    simulation = Simulation("search", seed=2)
+    others = simulation.poses[[0, 2, 3]]
+    simulation.step(percepts={"rover/1": percept_at(3.5, 7.25, 0.5)})
+    np.testing.assert_allclose(simulation.poses[1], [3.5, 7.25, 0.5])
+    assert simulation.outside.tolist() == [False, True, False, False]
+    assert (simulation.poses[[0, 2, 3]] != others).any()
+    simulation.step(10)
+    np.testing.assert_allclose(simulation.poses[1], [3.5, 7.25, 0.5])
+    assert simulation.percept("rover/1") is None
+
+
+def test_the_command_of_a_body_outside_is_that_of_its_brain() -> None:
+    simulation = Simulation("search", seed=2)
+    brain = Brain.of("search", "rover")
+    near, far = scans(0.4), scans(3.0)
+    wanted = set()
+    for step in range(80):
+        percept = percept_at(
+            5 + step / 100,
+            8,
+            0.1,
+            dice=[step, 2, 3, 4],
+            time_s=step / 10,
+            scans=near if step % 9 == 0 else far,
+        )
+        command = brain.step(percept)
+        assert simulation.step(percepts={"rover/0": percept}) == {"rover/0": command}
+        wanted.add(tuple(command["motion"].values()))
+    assert len(wanted) == 2, "ahead, and a turn"
+
+
+def test_what_a_body_outside_has_found_is_found() -> None:
+    simulation = Simulation("search", seed=2)
+    item = simulation.items.to_pylist()[0]
+    contact = {"kind": 0, "range_m": 0.5, "bearing_rad": 0.0, "age_s": 0.0}
+    percept = percept_at(item["x_m"] - 0.5, item["y_m"], 0.0, contacts=[contact])
+    simulation.step(percepts={"rover/0": percept})
+    assert simulation.items["found_s"].to_pylist() == [0.0, None, None, None]
+    assert simulation.outcome().found == {"mine": 1}
+
+
+def test_commands_of_scenarios_brains_for_what_robots_perceive_are_the_run() -> None:
+    by_hand, plain = (Simulation("search", seed=4) for _ in range(2))
+    brains = {robot: Brain.of(by_hand.scenario, "rover") for robot in by_hand.robots}
+    for _ in range(150):
+        percepts = {robot: by_hand.percept(robot) for robot in by_hand.robots}
+        commands = {
+            robot: brains[robot].step(percept) for robot, percept in percepts.items() if percept
+        }
+        assert by_hand.step(commands=commands) == {}
+        plain.step()
+    assert by_hand.hash == plain.hash
+    assert not by_hand.outside.any()
+
+
+def test_looking_at_percepts_changes_nothing() -> None:
+    looked, plain = (Simulation("open-field", seed=4) for _ in range(2))
+    for _ in range(40):
+        for robot in looked.robots:
+            looked.percept(robot)
+        looked.step()
+        plain.step()
+    assert looked.hash == plain.hash
+
+
+def test_between_two_steps_of_its_brain_a_robot_perceives_nothing() -> None:
+    simulation = Simulation(search({"robots.rover.brain.rate_hz": 5}), seed=4)
+    perceived = []
+    for _ in range(10):
+        perceived.append(simulation.percept("rover/0") is not None)
+        simulation.step()
+    assert sum(perceived) == 5
+    assert perceived[:2] in ([True, False], [False, True])
+
+
+def test_scripted_robots_do_what_they_are_told() -> None:
+    simulation = Simulation("search", seed=4)
+    begun = simulation.poses
+    for _ in range(30):
+        simulation.step(commands={"rover/2": STOP})
+    moved = np.abs(simulation.poses - begun).sum(axis=1) > 0.01
+    assert moved.tolist() == [True, True, False, True]
+    simulation.step(30)
+    assert np.abs(simulation.poses[2] - begun[2]).sum() > 0.01
+
+
+def test_what_comes_from_outside_is_part_of_a_snapshot() -> None:
+    simulation = Simulation("search", seed=4)
+    simulation.step(percepts={"rover/0": percept_at(4, 4, 1)})
+    snapshot = simulation.snapshot()
+    simulation.step(percepts={"rover/0": percept_at(6, 6, 1)})
+    simulation.step(20)
+    after = simulation.hash
+    simulation.restore(snapshot)
+    assert simulation.outside[0]
+    simulation.step(percepts={"rover/0": percept_at(6, 6, 1)})
+    simulation.step(20)
+    assert simulation.hash == after
+
+
+FAULTS: list[tuple[dict[str, Any], str]] = [
+    ({"percepts": {"rvoer/1": {}}}, r'percepts = "rvoer/1": must be .*did you mean rover/1\?'),
+    ({"percepts": {"rover/4": {}}}, r"must be one of the run's robots: rover/0 to rover/3"),
+    ({"percepts": {"rover/01": {}}}, "must be one of the run's robots"),
+    ({"percepts": {1: {}}}, 'percepts = "1": must be one of'),
+    ({"percepts": [1]}, r"percepts = \[1\]: must be a dict by the names of robots"),
+    ({"commands": "rover/1"}, "commands = 'rover/1': must be a dict"),
+    ({"percepts": {"rover/1": {"tiem_s": 1}}}, r'percepts."rover/1".tiem_s = 1: must be readable'),
+    ({"percepts": {"rover/1": {"time_s": math.nan}}}, r'percepts."rover/1".time_s = nan: must be'),
+    ({"commands": {"rover/1": {"motion": 3}}}, r'commands."rover/1".motion = 3: must be readable'),
+    ({"steps": 2, "commands": {"rover/1": STOP}}, "steps = 2: must be 1 with percepts or commands"),
+    (
+        {"percepts": {"rover/1": {}}, "commands": {"rover/1": STOP}},
+        'commands = "rover/1": must be a robot whose body is not outside',
+    ),
+]
+
+
+@pytest.mark.parametrize(("arguments", "told"), FAULTS)
+def test_what_is_not_allowed_is_told_and_no_step_is_taken(
+    arguments: dict[str, Any], told: str
+) -> None:
+    simulation = Simulation("search", seed=4)
+    before = simulation.hash
+    with pytest.raises(InputError, match=told):
+        simulation.step(**arguments)
+    assert simulation.hash == before
+    assert not simulation.outside.any()
+
+
+def test_faults_of_several_robots_are_told_at_once() -> None:
+    percepts: Any = {"rover/1": {"dice": 3}, "rover/9": {}}
+    with pytest.raises(InputError) as caught:
+        Simulation("search").step(percepts=percepts, commands={"rover/7": STOP})
+    assert len(str(caught.value).splitlines()) == 3
+    assert len(caught.value.faults) == 3
+
+
+def test_a_body_far_outside_of_the_world_does_no_harm() -> None:
+    simulation = Simulation("search", seed=4)
+    for far in (1e308, -1e308, 25.5, -0.1):
+        simulation.step(percepts={"rover/0": percept_at(far, far, far)})
+        simulation.step(2)
+    assert simulation.finish().status in {"complete", "incomplete"}
+
+
+def test_a_robot_that_is_not_there_perceives_nothing() -> None:
+    with pytest.raises(InputError, match=r'robot = "rover/7": must be one of the run\'s robots'):
+        Simulation("search").percept("rover/7")
+
+
+def test_a_kind_that_is_not_there_has_no_brain() -> None:
+    with pytest.raises(InputError, match=r'kind = "rovre": .*did you mean "rover"\?'):
+        Brain.of("search", "rovre")
+    with pytest.raises(InputError, match="engine = 'classic': must be 'metric'"):
+        Brain.of("classic", "wanderer")
+
+
+def test_a_brain_of_a_scenario_is_as_the_scenario_says() -> None:
+    slow = search({"robots.rover.drive.max_speed_m_s": 0.25})
+    open_space: Any = {"scans": scans(None)}
+    commands = [
+        Brain.of(each, "rover").step(open_space) for each in (slow, Scenario.load("search"))
+    ]
+    assert [command["motion"]["speed_m_s"] for command in commands] == [0.25, 1.0]
+    assert set(Brain.of("open-field", "bird").step({})) == set(STOP)

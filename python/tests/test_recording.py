@@ -1,0 +1,378 @@
+"""Recordings of runs, and runs taken again from them."""
+
+import json
+import math
+import random
+import shutil
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import jsonschema
+import numpy as np
+import pytest
+from conftest import ROOT
+from mcap.records import Channel
+from mcap.stream_reader import StreamReader
+from metric import ENDLESS, search
+from recorded import SECOND_NS, contents
+from test_cli import run
+
+import agent_economy as ae
+from agent_economy import InputError, Scenario
+from agent_economy.brain import Command, Percept
+from agent_economy.recording.file import File
+
+SCENARIOS = ROOT / "scenarios"
+
+SHORT = {"clock.cap_s": 10}
+
+DRIVE: Command = {
+    "motion": {"speed_m_s": 0.5, "turn_rate_rad_s": 0.3},
+    "requests": [],
+    "outbox": [],
+}
+
+
+def short(path: Path, seed: int = 1) -> Path:
+    """Record ten seconds of the shipped search."""
+    ae.run(search(SHORT), seed, record=path)
+    return path
+
+
+def test_a_recorded_run_is_the_run(tmp_path: Path) -> None:
+    recorded = ae.run("open-field", 3, 1, record=tmp_path / "run.mcap")
+    assert recorded == ae.run("open-field", 3, 1)
+
+
+def test_poses_are_those_of_the_run_in_every_step(tmp_path: Path) -> None:
+    topics = contents(short(tmp_path / "run.mcap")).topics
+    simulation = ae.Simulation(search(SHORT), 1)
+    assert len(topics["/tf"]) == len(topics["/robots"]) == len(topics["/run"])
+    for frames, robots, at in zip(topics["/tf"], topics["/robots"], topics["/run"], strict=True):
+        assert frames.time_ns == robots.time_ns == at.time_ns == simulation.tick * SECOND_NS // 10
+        assert at.content["hash"] == f"{simulation.hash:016x}"
+        told = [robots.content[name] for name in ("x_m", "y_m", "heading_rad")]
+        assert np.array_equal(np.transpose(told), simulation.poses)
+        assert robots.content["speed_m_s"] == simulation.speeds.tolist()
+        assert robots.content["battery"] == simulation.battery.tolist()
+        assert robots.content["status"] == simulation.status.tolist()
+        each = frames.content.transforms
+        assert tuple(frame.child_frame_id for frame in each) == simulation.robots
+        for frame, (x_m, y_m, heading_rad) in zip(each, simulation.poses.tolist(), strict=True):
+            assert (frame.translation.x, frame.translation.y) == (x_m, y_m)
+            turn = 2 * math.atan2(frame.rotation.z, frame.rotation.w)
+            assert math.cos(turn - heading_rad) == pytest.approx(1, abs=1e-15)
+            now_ns = frame.timestamp.seconds * SECOND_NS + frame.timestamp.nanos
+            assert now_ns == frames.time_ns
+        simulation.step()
+    assert topics["/run"][-1].content["tick"] == simulation.tick - 1 == 100
+
+
+def test_the_same_run_is_the_same_bytes(tmp_path: Path) -> None:
+    first, again, other = (tmp_path / name for name in ("first", "again", "other"))
+    assert short(first).read_bytes() == short(again).read_bytes()
+    assert short(other, seed=2).read_bytes() != first.read_bytes()
+
+
+def test_the_file_alone_is_enough_to_take_the_run_again(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    there = tmp_path / "there"
+    shutil.copytree(SCENARIOS, there)
+    scenario = Scenario.load(there / "open-field.toml").replace("clock.cap_s", 20)
+    ae.run(scenario, seed=2**64 - 1, run=7, record=tmp_path / "run.mcap")
+    shutil.rmtree(there)
+    monkeypatch.chdir(tmp_path)
+    again = ae.rerun("run.mcap")
+    assert (again.agrees, again.is_whole, again.tick) == (True, True, 200)
+    assert (again.seed, again.run, again.scenario.name) == (2**64 - 1, 7, "open-field")
+    assert again.outcome == ae.run(again.scenario, 2**64 - 1, 7)
+
+
+def test_changes_in_mid_run_are_taken_again(tmp_path: Path) -> None:
+    simulation = ae.Simulation(search(), 4)
+    simulation.change("robots.rover.count", 5)
+    with ae.Recording(simulation, tmp_path / "run.mcap") as recording:
+        recording.step(30)
+        simulation.change("robots.rover.count", 2)
+        simulation.change("world.obstacles", [{"circle": {"at_m": [12, 12], "radius_m": 1}}])
+        recording.step(30)
+    again = ae.rerun(tmp_path / "run.mcap")
+    assert again.agrees
+    assert int(again.hash, 16) == simulation.hash
+    topics = contents(tmp_path / "run.mcap").topics
+    assert [len(each.content["robots"]) for each in topics["/team"]] == [5, 2]
+    assert [len(each.content.entities) for each in topics["/scene/robots"]] == [5, 2]
+    said = [each.content.message for each in topics["/log"] if each.content.name == "scenario"]
+    assert said[:2] == ["robots.rover.count = 5", "robots.rover.count = 2"]
+
+
+def test_what_comes_from_outside_is_taken_again(tmp_path: Path) -> None:
+    simulation = ae.Simulation(search(), 4)
+    percept: Percept = {
+        "position": {"value": (3.0, 4.0), "age_s": 0.0},
+        "scans": [{"age_s": 0.0, "ranges_m": [math.inf] * 36}],
+    }
+    with ae.Recording(simulation, tmp_path / "run.mcap") as recording:
+        recording.step(commands={"rover/0": DRIVE})
+        answers = recording.step(percepts={"rover/1": percept})
+        recording.step(5)
+    assert set(answers) == {"rover/1"}
+    assert ae.rerun(tmp_path / "run.mcap").agrees
+    assert len(contents(tmp_path / "run.mcap").topics["/input"]) == 2
+
+
+def test_a_step_that_is_refused_is_not_recorded(tmp_path: Path) -> None:
+    with ae.Recording(ae.Simulation("search"), tmp_path / "run.mcap") as recording:
+        with pytest.raises(InputError):
+            recording.step(commands={"rover/9": DRIVE})
+        recording.step(2)
+    assert "/input" not in contents(tmp_path / "run.mcap").topics
+    assert ae.rerun(tmp_path / "run.mcap").agrees
+
+
+def test_a_run_that_was_meddled_with_does_not_agree(tmp_path: Path) -> None:
+    simulation = ae.Simulation("search")
+    with ae.Recording(simulation, tmp_path / "run.mcap") as recording:
+        recording.step(20)
+        simulation.step(commands={"rover/0": DRIVE})
+        recording.step(20)
+    again = ae.rerun(tmp_path / "run.mcap")
+    assert (again.agrees, again.differs_at) == (False, 22)
+
+
+def test_a_brain_gives_the_recorded_commands_for_the_recorded_percepts(tmp_path: Path) -> None:
+    simulation = ae.Simulation("open-field", 5)
+    chosen = ("rover/1", "bird/0")
+    with ae.Recording(simulation, tmp_path / "run.mcap", every=10, percepts=chosen) as recording:
+        recording.step(300)
+    plain = ae.Simulation("open-field", 5)
+    plain.step(300)
+    assert plain.hash == simulation.hash
+    topics = contents(tmp_path / "run.mcap").topics
+    for name in chosen:
+        brain = ae.Brain.of("open-field", name.partition("/")[0])
+        percepts, commands = topics[f"/percept/{name}"], topics[f"/command/{name}"]
+        # The bird breaks early.
+        assert len(percepts) == len(commands) > (20 if name == "bird/0" else 299)
+        for (time_ns, percept), command in zip(percepts, commands, strict=True):
+            assert time_ns == command.time_ns
+            assert brain.step(percept)["motion"] == command.content["motion"]
+
+
+def test_scans_are_what_was_perceived_along_the_bearings_of_the_body(tmp_path: Path) -> None:
+    simulation = ae.Simulation("search", 5)
+    with ae.Recording(simulation, tmp_path / "run.mcap", percepts=["rover/0"]) as recording:
+        recording.step(20)
+    with (tmp_path / "run.mcap").open("rb") as stream:
+        channels = [each for each in StreamReader(stream).records if isinstance(each, Channel)]
+    about = next(each.metadata for each in channels if each.topic == "/percept/rover/0")
+    body = json.loads(about["body"])
+    topics = contents(tmp_path / "run.mcap").topics
+    bearings = body["rings"][0]["bearings_rad"]
+    percepts = {each.time_ns: each.content for each in topics["/percept/rover/0"]}
+    assert topics["/scan/rover/0/0"]
+    for time_ns, scan in topics["/scan/rover/0/0"]:
+        ranges = percepts[time_ns]["scans"][0]["ranges_m"]
+        assert list(scan.ranges) == [math.inf if each is None else each for each in ranges]
+        steps = np.linspace(scan.start_angle, scan.end_angle, len(ranges))
+        assert np.allclose(np.exp(1j * steps), np.exp(1j * np.array(bearings)), atol=1e-12)
+
+
+def test_the_scene_is_the_scenarios_and_shows_what_is_found(tmp_path: Path) -> None:
+    outcome = ae.run("open-field", 3, record=tmp_path / "run.mcap")
+    topics = contents(tmp_path / "run.mcap").topics
+    world = {each.id: each for each in topics["/scene/world"][0].content.entities}
+    border = {(point.x, point.y) for point in world["border"].lines[0].points}
+    assert border == {(0, 0), (60, 0), (60, 40), (0, 40)}
+    assert set(world) == {
+        "border", "obstacle/1", "obstacle/2", "obstacle/3", "ground/grass/0", "ground/swamp/0",
+    }  # fmt: skip
+    circle = world["obstacle/2"].cylinders[0]
+    assert (circle.pose.position.x, circle.pose.position.y, circle.size.x) == (12, 10, 4)
+    grid = topics["/map/0"][0].content
+    assert (grid.column_count, len(grid.data) // grid.row_stride) == (48, 36)
+    first, last = topics["/scene/items"][0].content, topics["/scene/items"][-1].content
+    assert len(first.entities) == len(last.entities) == 18
+    were = {each.id: each.spheres[0].color.g for each in first.entities}
+    repainted = [each.id for each in last.entities if were[each.id] != each.spheres[0].color.g]
+    told = [each.content.name for each in topics["/log"] if "found" in each.content.message]
+    assert sorted(told) == sorted(repainted)
+    assert sum(found or 0 for found in outcome.found.values()) == len(told) > 0
+
+
+def test_what_happens_to_robots_is_in_the_log_and_in_their_colours(tmp_path: Path) -> None:
+    crowded = search({"robots.rover.count": 20, "robots.rover.collision.breaks_after": 1, **SHORT})
+    path = tmp_path / "run.mcap"
+    outcome = ae.run(crowded.replace("world.size_m", [26, 25]), 1, record=path)
+    topics = contents(path).topics
+    words = [each.content.message for each in topics["/log"]]
+    assert words.count("broken") == outcome.robots_stopped
+    assert topics["/run"][-1].content["stopped"] == outcome.robots_stopped
+    assert topics["/outcome"][0].content["robots_stopped"] == outcome.robots_stopped
+
+
+def test_what_is_json_holds_to_its_schema(tmp_path: Path) -> None:
+    simulation = ae.Simulation("open-field", 2)
+    with ae.Recording(simulation, tmp_path / "run.mcap", percepts=["rover/0"]) as recording:
+        recording.step(5, commands=None)
+        recording.step(commands={"rover/2": DRIVE})
+    topics, schemas, *_ = contents(tmp_path / "run.mcap")
+    declared = {
+        topic: schema for topic, schema in schemas.items() if schema.encoding == "jsonschema"
+    }
+    assert set(declared) == {
+        "/run", "/team", "/robots", "/input", "/outcome", "/percept/rover/0", "/command/rover/0",
+    }  # fmt: skip
+    for topic, schema in declared.items():
+        for message in topics[topic]:
+            jsonschema.validate(message.content, json.loads(schema.data))
+
+
+@pytest.mark.parametrize(("every", "steps"), [(1, 25), (10, 25), (10, 30), (100, 7)])
+def test_every_nth_moment_is_recorded_and_the_first_and_the_last(
+    tmp_path: Path, every: int, steps: int
+) -> None:
+    with ae.Recording(ae.Simulation("search"), tmp_path / "run.mcap", every=every) as recording:
+        recording.step(steps)
+    ticks = [each.content["tick"] for each in contents(tmp_path / "run.mcap").topics["/run"]]
+    assert ticks == sorted({*range(0, steps, every), steps})
+    assert ae.rerun(tmp_path / "run.mcap").agrees
+
+
+def test_a_run_put_back_is_not_recorded_any_further(tmp_path: Path) -> None:
+    simulation = ae.Simulation("search")
+    recording = ae.Recording(simulation, tmp_path / "run.mcap")
+    before = simulation.snapshot()
+    recording.step(5)
+    simulation.restore(before)
+    with pytest.raises(InputError, match="put back"):
+        recording.step()
+
+
+def test_wrong_arguments_are_told_together(tmp_path: Path) -> None:
+    with pytest.raises(InputError) as told:
+        ae.Recording(ae.Simulation("search"), tmp_path / "run", every=0, percepts=["rover/4"])
+    assert "every = 0: must be a whole number, 1 or more" in str(told.value)
+    assert "'rover/4': must be among the run's robots: rover/0 to rover/3" in str(told.value)
+    assert not (tmp_path / "run").exists()
+    with pytest.raises(InputError, match="cannot be written: No such file"):
+        ae.run("search", record=tmp_path / "none" / "run.mcap")
+    with pytest.raises(InputError, match="must be 'metric'"):
+        ae.run("classic", record=tmp_path / "run")
+
+
+def test_a_file_that_is_cut_is_compared_as_far_as_it_goes(tmp_path: Path) -> None:
+    whole = short(tmp_path / "run.mcap").read_bytes()
+    (cut := tmp_path / "cut.mcap").touch()
+    ticks = []
+    for length in np.linspace(len(whole) - 1, 0, 24, dtype=int).tolist():
+        cut.write_bytes(whole[:length])
+        try:
+            again = ae.rerun(cut)
+        except InputError as error:
+            assert "is no recording of a run" in str(error) or "damaged" in str(error)  # noqa: PT017
+        else:
+            assert (again.agrees, again.is_whole) == (True, False)
+            ticks.append(again.tick)
+    assert ticks == sorted(ticks, reverse=True)
+    assert ticks[0] == 100
+
+
+def test_damage_never_ends_in_anything_but_a_word(tmp_path: Path) -> None:
+    whole = short(tmp_path / "run.mcap").read_bytes()
+    dice = random.Random(1)  # noqa: S311
+    refused = 0
+    for _ in range(60):
+        damaged = bytearray(whole)
+        damaged[dice.randrange(len(whole))] ^= 1 << dice.randrange(8)
+        (tmp_path / "damaged.mcap").write_bytes(damaged)
+        try:
+            ae.rerun(tmp_path / "damaged.mcap")
+        except InputError as error:
+            refused += str(tmp_path) in str(error)
+    assert refused > 20
+
+
+@pytest.mark.parametrize("content", [b"", b"engine = 'metric'", b"\x89MCAP0\r\n", b"\x00" * 100])
+def test_what_is_no_recording_is_refused(tmp_path: Path, content: bytes) -> None:
+    (tmp_path / "other").write_bytes(content)
+    with pytest.raises(InputError, match="other: is no "):
+        ae.rerun(tmp_path / "other")
+
+
+def test_a_recording_does_not_make_the_program_read_other_files(tmp_path: Path) -> None:
+    path = tmp_path / "run.mcap"
+    file = File(path)
+    text = (SCENARIOS / "open-field.toml").read_bytes()
+    file.attach("scenario/open-field.toml", "application/toml", text)
+    run = {"format": "1", "program": "0", "scenario": "open-field.toml"}
+    file.note("agent_economy.run", {**run, "overrides": "[]", "seed": "0", "run": "0"})
+    file.close()
+    with pytest.raises(InputError, match=r"lacks what the scenario names: open-field\.yaml"):
+        ae.rerun(path)
+
+
+KILLED = """
+import sys, agent_economy as ae
+from metric import ENDLESS, search
+with ae.Recording(ae.Simulation(search(ENDLESS)), sys.argv[1]) as recording:
+    while True:
+        recording.step()
+"""
+
+
+def test_a_killed_process_leaves_what_it_had_recorded(tmp_path: Path) -> None:
+    path = tmp_path / "run.mcap"
+    script = [sys.executable, "-c", KILLED, str(path)]
+    process = subprocess.Popen(script, cwd=Path(__file__).parent)
+    try:
+        deadline = time.monotonic() + 60
+        while time.monotonic() < deadline and not (path.exists() and path.stat().st_size > 200_000):
+            time.sleep(0.05)
+    finally:
+        process.kill()
+        process.wait()
+    again = ae.rerun(path)
+    assert (again.agrees, again.is_whole) == (True, False)
+    assert again.tick >= 100
+    assert again.scenario.to_dict() == search(ENDLESS).to_dict()
+
+
+def test_recording_off_loads_nothing_of_it() -> None:
+    script = (
+        "import sys, agent_economy as ae; ae.run('search'); ae.Simulation('search').step();"
+        "print([name for name in sys.modules if name.startswith(('mcap', 'google.protobuf'))])"
+    )
+    given = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, check=True
+    )
+    assert given.stdout.strip() == "[]"
+
+
+def test_the_command_line_records_and_takes_again(tmp_path: Path) -> None:
+    path = str(tmp_path / "run.mcap")
+    args = ("search", "--seed", "7", "--set", "clock.cap_s=10", "--every", "5")
+    given = run("run", *args, "--record", path, "--percepts", "rover/0")
+    assert given.returncode == 0, given.stderr
+    assert {"/tf", "/percept/rover/0"} < contents(Path(path)).topics.keys()
+    again = run("rerun", path)
+    assert (again.returncode, again.stderr) == (0, "")
+    assert again.stdout.startswith("search, seed 7, run 0: the same as recorded after each of 100")
+    told = json.loads(run("rerun", path, "--json").stdout)
+    assert (told["agrees"], told["differs_at"], told["tick"]) == (True, None, 100)
+    refused = run("rerun", "README.md")
+    assert refused.returncode == 2
+    assert "Traceback" not in refused.stderr
+
+
+def test_the_command_line_says_when_a_run_is_not_the_same(tmp_path: Path) -> None:
+    simulation = ae.Simulation("search")
+    with ae.Recording(simulation, tmp_path / "run.mcap") as recording:
+        simulation.step(commands={"rover/0": DRIVE})
+        recording.step(3)
+    given = run("rerun", str(tmp_path / "run.mcap"))
+    assert given.returncode == 1
+    assert "search, seed 0, run 0: not the same as recorded from step 2 on" in given.stdout

@@ -1,0 +1,95 @@
+"""Claims about files that a scenario names, such as maps: they travel with it."""
+
+import shutil
+from pathlib import Path
+
+import pytest
+
+import agent_economy as ae
+from agent_economy import study
+from agent_economy.shipped import find
+
+YAML = """image: room.pgm
+resolution: 1
+origin: [0, 0, 0]
+negate: 0
+occupied_thresh: 0.65
+free_thresh: 0.196
+"""
+
+TEXT = """
+engine = "metric"
+summary = "A room of two cells, one of them solid."
+merit = { distance = 1 }
+clock = { cap_s = 1 }
+world = { size_m = [2, 1], obstacles = [{ map = "maps/room.yaml" }] }
+
+[robots.rover]
+count = 1
+radius_m = 0.1
+drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
+
+[study]
+vary = { "robots.rover.count" = "1,2" }
+delta = 0.5
+"""
+
+
+@pytest.fixture
+def room(tmp_path: Path) -> Path:
+    maps = tmp_path / "maps"
+    maps.mkdir()
+    (maps / "room.yaml").write_text(YAML)
+    (maps / "room.pgm").write_text("P2 2 1 255  0 254")
+    file = tmp_path / "room.toml"
+    file.write_text(TEXT)
+    return file
+
+
+def test_a_scenario_needs_its_files_no_more_once_it_is_read(room: Path) -> None:
+    scenario = ae.Scenario.load(room)
+    assert set(scenario.source.files) == {"maps/room.yaml", "maps/room.pgm"}
+    shutil.rmtree(room.parent / "maps")
+    assert scenario.replace("clock.cap_s", 2).cap_s == 2
+    assert scenario.configuration({"robots.rover.count": 2}).columns
+
+
+def test_a_study_goes_on_without_the_files_beside_its_scenario(room: Path) -> None:
+    out = room.parent / "study"
+    first = study.run(ae.Scenario.load(room), out=out)
+    shutil.rmtree(room.parent / "maps")
+    assert study.resume(out).sentence == first.sentence
+
+
+def test_a_study_whose_map_has_changed_is_another_study(room: Path) -> None:
+    out = room.parent / "study"
+    study.run(ae.Scenario.load(room), out=out)
+    (room.parent / "maps" / "room.pgm").write_text("P2 2 1 255  254 0")
+    with pytest.raises(ae.InputError, match="holds another study"):
+        study.run(ae.Scenario.load(room), out=out)
+
+
+def test_a_studys_file_that_is_damaged_is_told(room: Path) -> None:
+    out = room.parent / "study"
+    study.run(ae.Scenario.load(room), out=out)
+    damaged = min((out / "files").iterdir())
+    damaged.write_bytes(b"")
+    with pytest.raises(ae.InputError, match=f"{damaged.name}: is missing or damaged"):
+        study.resume(out)
+
+
+def test_a_file_that_is_not_there_is_told_at_its_line(room: Path) -> None:
+    (room.parent / "maps" / "room.pgm").unlink()
+    with pytest.raises(ae.InputError) as told:
+        ae.Scenario.load(room)
+    assert "maps/room.yaml:1: image" in str(told.value)
+    (room.parent / "maps" / "room.yaml").unlink()
+    with pytest.raises(ae.InputError) as told:
+        ae.Scenario.load(room)
+    assert 'room.toml:6: world.obstacles[0].map = "maps/room.yaml"' in str(told.value)
+    assert "No such file" in str(told.value)
+
+
+def test_shipped_maps_are_found_by_the_name_of_their_scenario() -> None:
+    assert find("open-field").with_suffix(".yaml").exists()
+    assert ae.Scenario.load("open-field").source.files

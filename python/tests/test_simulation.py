@@ -1,0 +1,287 @@
+"""A run of the metric engine, stepped by hand."""
+
+import pickle
+import threading
+from typing import Any
+
+import numpy as np
+import pytest
+from alarm import ringing
+from metric import ENDLESS, FULL, HUGE, search
+
+import agent_economy as ae
+from agent_economy import InputError, Scenario, Simulation
+
+
+def stepped(steps: int, **arguments: Any) -> Simulation:
+    """Return a run of the search after some steps."""
+    simulation = Simulation("search", **{"seed": 1, "run": 3} | arguments)
+    simulation.step(steps)
+    return simulation
+
+
+@pytest.mark.parametrize("name", ["search", "open-field"])
+def test_a_run_stepped_by_hand_is_the_run(name: str) -> None:
+    by_hand = Simulation(name, seed=7, run=1)
+    while not by_hand.is_over:
+        assert by_hand.outcome().status == "running"
+        by_hand.step()
+    at_once = Simulation(name, seed=7, run=1)
+    assert at_once.finish() == by_hand.outcome() == ae.run(name, 7, 1)
+    assert at_once.hash == by_hand.hash
+    assert at_once.tick == by_hand.tick
+
+
+def test_many_steps_are_one_step_many_times() -> None:
+    one_by_one = stepped(0)
+    for _ in range(60):
+        one_by_one.step()
+    assert stepped(60).hash == one_by_one.hash
+    assert stepped(61).hash != one_by_one.hash
+
+
+def test_threads_change_no_step() -> None:
+    huge = search(HUGE)
+    hashes = set()
+    for threads in (1, 2, 8, None):
+        simulation = Simulation(huge, seed=3, threads=threads)
+        simulation.step(4)
+        hashes.add(simulation.hash)
+    assert len(hashes) == 1
+
+
+def test_arrays_have_a_row_a_robot_in_the_order_of_names() -> None:
+    simulation = Simulation("open-field")
+    assert simulation.robots == ("bird/0", "rover/0", "rover/1", "rover/2")
+    simulation.step(30)
+    assert simulation.poses.shape == (4, 3)
+    assert simulation.poses.dtype == simulation.battery.dtype == simulation.speeds.dtype
+    assert (np.abs(simulation.poses[:, 2]) <= np.pi).all()
+    assert simulation.status.tolist() == ["active"] * 4
+    assert ((simulation.battery < 1) & (simulation.battery > 0.9)).all()
+    assert (simulation.speeds >= 0).all()
+    assert simulation.speeds.max() > 0
+
+
+def test_robots_begin_where_the_scenario_says() -> None:
+    simulation = Simulation("open-field")
+    begun = simulation.poses[1:]
+    np.testing.assert_allclose(begun[:, :2], [[2, 2], [4, 2], [6, 2]])
+    np.testing.assert_allclose(begun[:, 2], np.deg2rad([45, 45, 45]))
+
+
+def test_a_battery_that_never_empties_is_full() -> None:
+    tireless = search({"robots.rover.battery.capacity_j": 1.0})
+    simulation = Simulation(tireless)
+    simulation.finish()
+    assert simulation.status.tolist() == ["empty"] * 4
+    assert (simulation.battery <= 0).all()
+    assert simulation.outcome().robots_stopped == 4
+
+
+def test_arrays_are_copies() -> None:
+    simulation = stepped(0)
+    poses, items = simulation.poses, simulation.items
+    kept = poses.copy()
+    simulation.step(50)
+    np.testing.assert_array_equal(poses, kept)
+    poses[:] = 0
+    assert (simulation.poses != 0).any()
+    assert items["found_s"].null_count == 4
+
+
+def test_items_are_found_when_the_outcome_says() -> None:
+    simulation = Simulation("search", seed=1)
+    run = next(run for run in range(20) if ae.run("search", 1, run).complete)
+    simulation = Simulation("search", seed=1, run=run)
+    before = simulation.items
+    outcome = simulation.finish()
+    after = simulation.items
+    assert before.select(["kind", "x_m", "y_m"]).equals(after.select(["kind", "x_m", "y_m"]))
+    assert after["kind"].to_pylist() == ["mine"] * 4
+    assert max(after["found_s"].to_pylist()) == outcome.time_s
+
+
+def test_time_goes_by_steps() -> None:
+    simulation = stepped(25)
+    assert (simulation.tick, simulation.time_s) == (25, 2.5)
+
+
+def test_steps_go_on_after_the_end() -> None:
+    simulation = stepped(0)
+    outcome = simulation.finish()
+    tick = simulation.tick
+    simulation.step(5)
+    assert simulation.tick == tick + 5
+    assert simulation.outcome().time_s == outcome.time_s
+
+
+def test_a_snapshot_is_the_whole_run() -> None:
+    simulation = stepped(40)
+    snapshot = simulation.snapshot()
+    first = (simulation.finish(), simulation.hash)
+    for _ in range(2):
+        simulation.restore(snapshot)
+        assert simulation.tick == 40
+        assert (simulation.finish(), simulation.hash) == first
+
+
+def test_a_snapshot_keeps_what_was_changed() -> None:
+    simulation = stepped(20)
+    simulation.change("robots.rover.count", 6)
+    snapshot = simulation.snapshot()
+    simulation.step(20)
+    hash_of_six = simulation.hash
+    simulation.change("robots.rover.count", 2)
+    simulation.restore(snapshot)
+    assert len(simulation.robots) == 6
+    assert simulation.scenario.robots == {"rover": 6}
+    assert [change.value for change in simulation.changes] == [6]
+    simulation.step(20)
+    assert simulation.hash == hash_of_six
+
+
+def test_a_snapshot_goes_into_another_simulation() -> None:
+    here, there = stepped(33), Simulation("open-field", seed=99)
+    there.restore(here.snapshot())
+    assert (there.seed, there.run, there.tick) == (1, 3, 33)
+    assert there.finish() == here.finish()
+    assert there.hash == here.hash
+
+
+def test_what_is_no_snapshot_is_told() -> None:
+    with pytest.raises(InputError, match=r"snapshot = 7: must be what snapshot\(\) returned"):
+        stepped(0).restore(7)  # type: ignore[arg-type]
+    with pytest.raises(TypeError):
+        pickle.dumps(stepped(0).snapshot())
+
+
+def test_a_larger_team_leaves_the_others_where_they_are() -> None:
+    simulation = stepped(30)
+    before, battery = simulation.poses, simulation.battery
+    simulation.change("robots.rover.count", 7)
+    assert simulation.robots == tuple(f"rover/{index}" for index in range(7))
+    np.testing.assert_array_equal(simulation.poses[:4], before)
+    np.testing.assert_array_equal(simulation.battery[:4], battery)
+    assert simulation.tick == 30
+    simulation.change("robots.rover.count", 3)
+    np.testing.assert_array_equal(simulation.poses, before[:3])
+    assert simulation.finish().robots == 3
+
+
+def test_any_path_can_be_changed_and_what_comes_of_it_is_new() -> None:
+    simulation, same = stepped(30), stepped(30)
+    simulation.change("robots.rover.drive.max_speed_m_s", 0.2)
+    simulation.step(30)
+    same.step(30)
+    assert (simulation.speeds <= 0.2).all()
+    assert (same.speeds > 0.2).any()
+
+
+def test_the_cap_can_be_moved() -> None:
+    simulation = stepped(30)
+    simulation.change("clock.cap_s", 2.5)
+    assert simulation.is_over
+    assert simulation.outcome().status == "incomplete"
+    assert simulation.outcome().time_s == 2.5
+
+
+def test_changes_are_a_record_that_gives_the_same_run() -> None:
+    simulation = stepped(10)
+    simulation.change("robots.rover.count", 6)
+    simulation.step(10)
+    simulation.change("items.mine.count", 9)
+    outcome = simulation.finish()
+    assert [(change.tick, change.path) for change in simulation.changes] == [
+        (10, "robots.rover.count"),
+        (20, "items.mine.count"),
+    ]
+    again = stepped(0)
+    for change in simulation.changes:
+        again.step(change.tick - again.tick)
+        again.change(change.path, change.value)
+    assert again.finish() == outcome
+    assert again.hash == simulation.hash
+
+
+@pytest.mark.parametrize(
+    ("path", "value", "told"),
+    [
+        (
+            "clock.step_s",
+            0.05,
+            "change: clock.step_s = 0.05: must stay as it was when the run began",
+        ),
+        ("world.size_m", [30, 30], "change: world.size_m = .*: must stay as it was"),
+        (
+            "clock",
+            {"step_s": 0.05, "cap_s": 9},
+            "clock.step_s = 0.05: must be 0.1, as when the run",
+        ),
+        ("world", {"size_m": [30, 30]}, r"world.size_m = \[30, 30\]: must be \[25, 25\], as when"),
+        ("robots.rover.cuont", 3, r"change: robots.rover.cuont = 3: .*did you mean count\?"),
+        ("robots.rover.count", -1, "change: robots.rover.count = -1: must be a whole number from"),
+        ("engine", "classic", "engine = 'classic': must be 'metric'|must be one of the known keys"),
+    ],
+)
+def test_a_change_that_is_not_allowed_changes_nothing(path: str, value: Any, told: str) -> None:
+    simulation = stepped(15)
+    before = simulation.hash
+    with pytest.raises(InputError, match=told):
+        simulation.change(path, value)
+    assert simulation.hash == before
+    assert simulation.changes == ()
+    assert simulation.scenario == Scenario.load("search")
+
+
+def test_a_team_without_room_is_told_by_name() -> None:
+    told = "robots.second: the run has no room for second/0: no free place found"
+    with pytest.raises(InputError, match=told):
+        Simulation(Scenario.loads(FULL))
+    alone = Simulation(Scenario.loads(FULL).replace("robots.second.count", 0))
+    before = alone.hash
+    with pytest.raises(InputError, match=told):
+        alone.change("robots.second.count", 1)
+    assert alone.hash == before
+    assert alone.robots == ("first/0",)
+
+
+def test_the_classic_engine_is_not_stepped_by_hand() -> None:
+    with pytest.raises(InputError, match="engine = 'classic': must be 'metric'"):
+        Simulation("classic")
+
+
+def test_faults_of_arguments_are_told_at_once() -> None:
+    with pytest.raises(InputError) as caught:
+        Simulation("search", seed=-1, run=2**63, threads=5000)
+    told = str(caught.value).splitlines()
+    assert [line.partition(" = ")[0] for line in told] == ["seed", "run", "threads"]
+    for steps in (-1, 1.5, True, "3"):
+        with pytest.raises(InputError, match="steps = .*: must be a whole number from 0"):
+            stepped(0).step(steps)  # type: ignore[arg-type]
+
+
+def test_a_signal_ends_many_steps_between_two() -> None:
+    simulation = Simulation(search(ENDLESS))
+    with ringing(0.3):
+        simulation.step(2**60)
+    with ringing(0.3):
+        simulation.finish()
+    again = Simulation(search(ENDLESS))
+    again.step(simulation.tick)
+    assert simulation.tick > 0
+    assert again.hash == simulation.hash
+
+
+def test_threads_can_share_a_simulation() -> None:
+    simulation = Simulation(search(HUGE))
+    workers = [threading.Thread(target=simulation.step, args=(2,)) for _ in range(3)]
+    for worker in workers:
+        worker.start()
+    while any(worker.is_alive() for worker in workers):
+        assert simulation.poses.shape == (3000, 3)
+    assert simulation.tick == 6
+
+
+def test_a_simulation_says_which_run_it_is() -> None:
+    assert repr(stepped(4)) == "<Simulation of 'search', seed=1, run=3: tick 4>"
