@@ -3,7 +3,7 @@
 use crate::common::{Random, id, read, robots, scenario, start};
 use crate::random;
 use base::geometry::Point;
-use base::runner::Runner;
+use base::runner::{Runner, Work};
 use brain::{About, Command, Message, Percept, RobotId};
 use rayon::ThreadPoolBuilder;
 use sim::engine::{Outcome, Simulation};
@@ -173,9 +173,9 @@ fn runs_in_a_block_are_those_stepped_by_hand_one_by_one() {
             .map(|column| column.name)
             .collect();
         // One block, and blocks of one run: a workshop is used again in the first only.
-        let block = runs.run_block(seed, 3..9);
+        let block = runs.run_block(seed, 3..9, Work::ALONE);
         for (place, run) in (3..9).enumerate() {
-            let alone = runs.run_block(seed, run..run + 1);
+            let alone = runs.run_block(seed, run..run + 1, Work::ALONE);
             let bits = |columns: &[Vec<f64>], place: usize| -> Vec<u64> {
                 columns
                     .iter()

@@ -3,7 +3,7 @@
 use crate::common::{Random, motion, read, robots};
 use crate::random;
 use base::geometry::Point;
-use base::runner::{Kind, Runner};
+use base::runner::{Kind, Runner, Work};
 use brain::{About, Command, Message, SensorRequest};
 use sim::engine::{Simulation, State, Status};
 use sim::runner::Runs;
@@ -104,7 +104,7 @@ fn every_outcome_is_within_the_bounds_of_its_columns() {
     for (seed, scenario) in scenarios(150) {
         let runs = Runs(Arc::clone(&scenario));
         let columns = runs.columns();
-        let values = runs.run_block(seed, 5..8);
+        let values = runs.run_block(seed, 5..8, Work::ALONE);
         assert_eq!(columns.len(), values.len());
         for (column, values) in columns.iter().zip(&values) {
             assert_eq!(values.len(), 3);
