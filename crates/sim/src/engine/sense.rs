@@ -239,7 +239,7 @@ impl Look<'_> {
         &self,
         detector: &RobotDetector,
         mind: &mut Mind,
-        mut percept: Option<&mut Percept>,
+        percept: Option<&mut Percept>,
     ) {
         let view = self.view;
         let is_told_now = self.sensor.latency_steps == 0;
