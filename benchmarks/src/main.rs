@@ -19,15 +19,23 @@
 
 mod clock;
 mod field;
+mod search;
 mod speed_of_light;
 mod team;
+mod world;
 
 fn main() {
     let rayon = rayon::ThreadPoolBuilder::new().num_threads(1);
     rayon.build_global().expect("no pool has been made yet");
     let only = std::env::args().nth(1);
     let is_wanted = |name: &str| only.as_deref().is_none_or(|only| only == name);
-    if is_wanted("team") {
-        team::report();
+    let reports = [
+        ("team", team::report as fn()),
+        ("search", search::report),
+        ("world", world::report),
+    ];
+    for (name, report) in reports.iter().filter(|(name, _)| is_wanted(name)) {
+        println!("\n{name}\n");
+        report();
     }
 }

@@ -10,13 +10,15 @@ use crate::body::kind::Kind;
 use crate::sensing::eye::Use;
 use base::geometry::Point;
 use base::trig::sin_cos;
-use brain::{Command, Motion, Percept, Reading};
+use brain::{Command, Motion, Percept, Reading, Scan};
 
 /// What a thread needs to let robots decide, and what comes of it. It is used again in each step, so
 /// that nothing is allocated.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Desk {
     pub(crate) percept: Percept,
+    /// Scans that the last robot's percept had no use for.
+    scans: Vec<Scan>,
     pub(crate) command: Command,
     pub(crate) senses: Senses,
     /// Messages that robots send, in their order.
@@ -68,7 +70,9 @@ impl Desk {
         } else {
             let is_time = self.perceive(view, robot, mind);
             if let Some(command) = outside.commands.get(&robot) {
-                self.command.clone_from(command);
+                self.command.motion = command.motion;
+                self.command.requests.clone_from(&command.requests);
+                self.command.outbox.clone_from(&command.outbox);
             } else if is_time {
                 mind.brain.step_into(&self.percept, &mut self.command);
             } else {
@@ -97,13 +101,36 @@ impl Desk {
     pub(crate) fn perceive(&mut self, view: &View, robot: usize, mind: &mut Mind) -> bool {
         let kind = view.kind(robot);
         let beat = kind.rhythm.beat(view.tick);
-        clear(&mut self.percept, kind);
+        self.clear_percept(kind);
         let percept = beat.map(|_| &mut self.percept);
         sense(view, robot, mind, &mut self.senses, percept);
         if let Some(beat) = beat {
             self.tell(view, robot, beat);
         }
         beat.is_some()
+    }
+
+    /// Empties the percept but for the room that its lists have.
+    #[inline]
+    fn clear_percept(&mut self, kind: &Kind) {
+        let percept = &mut self.percept;
+        percept.position = None;
+        percept.heading_rad = None;
+        percept.contacts.clear();
+        percept.neighbours.clear();
+        percept.inbox.clear();
+        let rings = kind.brain.body().rings.len();
+        // Kinds have more or fewer rings.
+        while percept.scans.len() > rings {
+            self.scans.extend(percept.scans.pop());
+        }
+        while percept.scans.len() < rings {
+            percept.scans.push(self.scans.pop().unwrap_or_default());
+        }
+        for scan in &mut percept.scans {
+            scan.age_s = None;
+            scan.ranges_m.clear();
+        }
     }
 
     /// Adds to the percept what the robot knows of itself.
@@ -154,21 +181,4 @@ impl Desk {
 )]
 fn now<T>(value: T) -> Option<Reading<T>> {
     Some(Reading { value, age_s: 0.0 })
-}
-
-/// Empties a percept but for the room that its lists have.
-#[inline]
-fn clear(percept: &mut Percept, kind: &Kind) {
-    percept.position = None;
-    percept.heading_rad = None;
-    percept.contacts.clear();
-    percept.neighbours.clear();
-    percept.inbox.clear();
-    percept
-        .scans
-        .resize_with(kind.brain.body().rings.len(), Default::default);
-    for scan in &mut percept.scans {
-        scan.age_s = None;
-        scan.ranges_m.clear();
-    }
 }

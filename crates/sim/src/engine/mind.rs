@@ -92,6 +92,12 @@ impl Mind {
         }
     }
 
+    /// Robots that were recognised and that the brain has not been told of.
+    pub(crate) fn neighbours(&mut self) -> &mut [Late<Neighbour>] {
+        let backlog = self.backlog.as_deref_mut();
+        backlog.map_or(&mut [], |backlog| &mut backlog.neighbours)
+    }
+
     pub(crate) fn is_on(&self, sensor: usize) -> bool {
         self.sensors_off & (1 << sensor) == 0
     }
@@ -166,9 +172,6 @@ impl Backlog {
             }
             late.due > now
         });
-        // Looks of near robots come in no order of their own.
-        self.neighbours
-            .sort_by_key(|late| (late.taken, late.what.id));
         self.neighbours.retain(|late| {
             if late.due <= now {
                 let age_s = age_s(late.taken, now, step_s);

@@ -239,9 +239,15 @@ impl Look<'_> {
         &self,
         detector: &RobotDetector,
         mind: &mut Mind,
-        mut percept: Option<&mut Percept>,
+        percept: Option<&mut Percept>,
     ) {
         let view = self.view;
+        let is_told_now = self.sensor.latency_steps == 0;
+        let mut percept = percept.filter(|_| is_told_now);
+        let told = percept
+            .as_deref()
+            .map_or(0, |percept| percept.neighbours.len());
+        let waiting = mind.neighbours().len();
         for other in view.neighbours.about(self.eye.at, detector.sector.range_m) {
             let other = other as usize;
             let way = (other != self.robot)
@@ -254,17 +260,15 @@ impl Look<'_> {
                 age_s: 0.0,
                 id: view.ids[other],
             };
-            match percept
-                .as_deref_mut()
-                .filter(|_| self.sensor.latency_steps == 0)
-            {
+            match percept.as_deref_mut() {
                 Some(percept) => percept.neighbours.push(neighbour),
                 None => mind.wait_neighbour(self.late(neighbour)),
             }
         }
         // Lists of near robots have no order of their own.
-        if let Some(percept) = percept {
-            percept.neighbours.sort_by_key(|neighbour| neighbour.id);
+        match percept {
+            Some(percept) => percept.neighbours[told..].sort_unstable_by_key(|each| each.id),
+            None => mind.neighbours()[waiting..].sort_unstable_by_key(|late| late.what.id),
         }
     }
 

@@ -84,7 +84,7 @@ impl Ring {
     /// One pass in the machine's widest vectors.
     #[inline]
     pub(crate) fn look(&self, eye: &Eye, near: &mut Near, to: &mut Vec<f64>) {
-        self.look_with(Arch::new(), eye, near, to);
+        self.look_with(instruction_set(), eye, near, to);
     }
 
     #[inline]
@@ -100,6 +100,15 @@ impl Ring {
         to.truncate(self.bearings_rad.len());
     }
 }
+
+/// The widest that this machine has.
+#[cfg(not(test))]
+fn instruction_set() -> Arch {
+    Arch::new()
+}
+
+#[cfg(test)]
+use tests::instruction_set;
 
 /// A ring's look, as one piece of work for vectors.
 struct RingLook<'a> {

@@ -11,7 +11,7 @@
     clippy::similar_names,
     clippy::unnecessary_wraps,
     clippy::unwrap_used,
-    reason = "tests count, compare what is exact by construction, and may fail by a panic"
+    reason = "tests count, compare what is exact by construction, write scenarios, and may panic"
 )]
 
 mod battery;
@@ -22,6 +22,7 @@ mod contact;
 mod determinism;
 mod golden;
 mod judge;
+mod layers;
 mod meetings;
 mod outside;
 mod radio;

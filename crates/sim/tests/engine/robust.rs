@@ -9,6 +9,7 @@ use sim::engine::{Simulation, State, Status};
 use sim::runner::Runs;
 use sim::scenario::Scenario;
 use std::collections::BTreeMap;
+use std::f64::consts::PI;
 use std::sync::Arc;
 
 /// Random scenarios that have passed their checks.
@@ -58,10 +59,7 @@ fn assert_sane(simulation: &Simulation, seed: u64) {
     for robot in robots(simulation) {
         let beside_m = world.distance_m(robot.at);
         assert!(beside_m < 1e-6, "{seed}: {robot:?}");
-        assert!(
-            robot.heading_rad.abs() <= std::f64::consts::PI + 1e-9,
-            "{seed}: {robot:?}"
-        );
+        assert!(robot.heading_rad.abs() <= PI + 1e-9, "{seed}: {robot:?}");
         assert!(
             robot.battery.is_none_or(|left| (0.0..=1.0).contains(&left)),
             "{seed}: {robot:?}"

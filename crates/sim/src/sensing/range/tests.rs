@@ -1,9 +1,14 @@
 use super::*;
+use crate::engine::Simulation;
+use crate::scenario::{Scenario, ScenarioSpec};
+use crate::world::obstacles::Solid;
 use crate::world::still::{Stands, Wall};
 use base::geometry::{Disc, Point, Segment};
 use base::noise::Noise;
 use base::random::Entity;
+use std::cell::Cell;
 use std::f64::consts::{FRAC_PI_2, PI};
+use std::sync::Arc;
 
 const RANGE_M: f64 = 5.0;
 
@@ -273,6 +278,53 @@ fn a_look_gives_the_same_bits_in_every_instruction_set() {
             assert_eq!(in_set(arch), plain, "{arch:?}, {rays} rays");
         }
     }
+}
+
+thread_local! {
+    static INSTRUCTION_SET: Cell<Arch> = Cell::new(Arch::new());
+}
+
+/// What looks of this thread are taken with.
+pub(super) fn instruction_set() -> Arch {
+    INSTRUCTION_SET.get()
+}
+
+#[test]
+fn a_run_has_the_same_bits_in_every_instruction_set() {
+    let spec = serde_json::json!({
+        "clock": {"cap_s": 1e4},
+        "world": {"size_m": [12, 9]},
+        "robots": {"rover": {
+            "count": 30,
+            "radius_m": 0.2,
+            "drive": {"max_speed_m_s": 1.0, "max_turn_rate_deg_s": 90},
+            "sensors": {
+                "lidar": {"kind": "range", "rays": 55, "fov_deg": 270, "range_m": 10,
+                    "noise_m": 0.02, "noise_share": 0.01, "miss": 0.01, "false_echo": 0.01},
+                "sonar": {"kind": "range", "rays": 16, "range_m": 3, "rate_hz": 4},
+            },
+        }},
+    });
+    let spec: ScenarioSpec = serde_json::from_value(spec).unwrap();
+    let solids = vec![Solid::Disc(Disc {
+        centre: Point { x: 3.0, y: 4.0 },
+        radius_m: 0.7,
+    })];
+    let scenario = Arc::new(Scenario::new(&spec, solids, Vec::new()));
+    let hashes = |arch| {
+        INSTRUCTION_SET.set(arch);
+        let mut simulation = Simulation::new(Arc::clone(&scenario), 3, 4).unwrap();
+        let step = |_| {
+            simulation.step();
+            simulation.state().hash()
+        };
+        (0..500).map(step).collect::<Vec<u64>>()
+    };
+    let plain = hashes(Arch::Scalar);
+    for arch in instruction_sets() {
+        assert!(hashes(arch) == plain, "{arch:?}");
+    }
+    assert!(plain.windows(2).all(|pair| pair[0] != pair[1]));
 }
 
 fn instruction_sets() -> Vec<Arch> {

@@ -1,0 +1,83 @@
+//! Runs of `scenarios/search.toml` a second: four robots with scanners of 55 rays search for items.
+
+use crate::clock::{Took, median, took};
+use base::document::Document;
+use base::runner::{Runner, Work};
+use rayon::prelude::*;
+use sim::engine::Simulation;
+use sim::runner::Runs;
+use sim::scenario::{Scenario, ScenarioSpec};
+use std::path::Path;
+use std::sync::Arc;
+
+/// Runs of a task for a thread, and of a piece of work.
+const TASK: u64 = 5;
+const PIECE: u64 = 200;
+
+/// Pieces of work for each number of threads.
+const PIECES: u64 = 15;
+
+/// Prints the table.
+pub(crate) fn report() {
+    let scenario = Arc::new(scenario());
+    let updates = updates_per_run(&scenario);
+    let runs = Runs(Arc::clone(&scenario));
+    let pools = [1, 2].map(|threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+        pool.build().expect("threads can be made")
+    });
+    let mut rates = [const { Vec::new() }; 2];
+    let mut speed_ups = Vec::new();
+    for piece in 0..PIECES {
+        let [one, two] = [0, 1].map(|number| {
+            let took = took(|| pools[number].install(|| block(&runs, piece)));
+            rates[number].push(rate(took) * [1.0, 2.0][number]);
+            took
+        });
+        speed_ups.push(2.0 * one.cpu_s / two.cpu_s);
+    }
+    println!("| robot-updates a run | runs/s, one thread | two threads | speed-up |");
+    println!("|---|---|---|---|");
+    let [one, two] = rates.map(median);
+    println!(
+        "| {updates:.0} | {one:.0} | {two:.0} | {:.2} |",
+        median(speed_ups)
+    );
+}
+
+fn scenario() -> Scenario {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenarios/search.toml");
+    let text = std::fs::read_to_string(file).expect("the scenario ships");
+    let document = Document::parse("search.toml", &text).expect("it is TOML");
+    let checked = ScenarioSpec::read(&document).map_err(|faults| faults.to_string());
+    checked.expect("it has no faults").scenario
+}
+
+/// Runs in a second of each thread's time.
+#[expect(clippy::cast_precision_loss, reason = "hundreds")]
+fn rate(took: Took) -> f64 {
+    PIECE as f64 / took.cpu_s
+}
+
+fn block(runs: &Runs, piece: u64) {
+    let tasks = (0..PIECE / TASK).into_par_iter();
+    let outcomes = tasks.map(|task| {
+        let first = piece * PIECE + task * TASK;
+        runs.run_block(7, first..first + TASK, Work::ALONE)
+    });
+    let times = outcomes.map(|columns| columns[0].iter().sum::<f64>());
+    assert!(times.sum::<f64>().is_finite());
+}
+
+/// On average.
+#[expect(clippy::cast_precision_loss, reason = "thousands")]
+fn updates_per_run(scenario: &Arc<Scenario>) -> f64 {
+    let robots = scenario.robots() as f64;
+    let steps = (0..100).map(|run| {
+        let simulation = Simulation::new(Arc::clone(scenario), 7, run);
+        let mut simulation = simulation.expect("there is room");
+        simulation.finish();
+        simulation.state().tick() as f64
+    });
+    steps.sum::<f64>() / 100.0 * robots
+}

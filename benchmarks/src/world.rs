@@ -1,0 +1,44 @@
+//! A million sensing robots in one world: what they take of memory and time.
+
+use crate::clock::took;
+use crate::field::Field;
+use sim::engine::Simulation;
+use std::sync::Arc;
+
+const ROBOTS: u32 = 1_000_000;
+
+/// Steps after which nothing grows any more, and steps that are timed.
+const WARM_UP: usize = 8;
+const STEPS: usize = 12;
+
+/// Prints the table.
+pub(crate) fn report() {
+    println!("| threads | memory at most, MB | steps/s | robot-updates/s, millions |");
+    println!("|---|---|---|---|");
+    let field = Field::new(ROBOTS);
+    let scenario = Arc::new(field.scenario());
+    let simulation = Simulation::new(scenario, 1, 0);
+    let mut simulation = simulation.expect("there is room");
+    for threads in [1, 2] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+        let pool = pool.build().expect("threads can be made");
+        pool.install(|| (0..WARM_UP).for_each(|_| simulation.step()));
+        let step = |_| took(|| pool.install(|| simulation.step())).longest_s;
+        // Lists of what is near are made anew in some steps only: their mean counts.
+        #[expect(clippy::cast_precision_loss, reason = "a dozen")]
+        let step_s = (0..STEPS).map(step).sum::<f64>() / STEPS as f64;
+        let (rate, updates) = (1.0 / step_s, f64::from(ROBOTS) / step_s / 1e6);
+        println!(
+            "| {threads} | {:.0} | {rate:.2} | {updates:.2} |",
+            memory_mb()
+        );
+    }
+}
+
+/// The most memory that this process has had.
+fn memory_mb() -> f64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+    let kib = line.and_then(|line| line.trim().trim_end_matches(" kB").parse::<f64>().ok());
+    kib.unwrap_or(f64::NAN) * 1024.0 / 1e6
+}

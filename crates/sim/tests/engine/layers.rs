@@ -1,0 +1,113 @@
+//! On the ground and in the air: who is in whose way, and sees whom.
+
+use crate::common::{go, id, robots, start, told};
+use sim::engine::Simulation;
+
+/// Rovers and birds on lines along x that a pillar stands on, in a field of 20 m with mud.
+const FIELD: &str = "
+[clock]
+step_s = 0.1
+cap_s = 100
+[world]
+size_m = [20, 10]
+obstacles = [{ circle = { at_m = [10, 5], radius_m = 1 } }]
+[terrain.mud]
+speed = 0.5
+areas_m = [[[0, 7], [20, 7], [20, 10], [0, 10]]]
+[robots.bird]
+count = 3
+layer = \"air\"
+radius_m = 0.5
+start = { kind = \"fixed\", at_m = [[4, 5], [2, 2], [16, 2]], heading_deg = [0, 0, 180] }
+drive = { max_speed_m_s = 2, max_turn_rate_deg_s = 90 }
+[robots.bird.sensors.sonar]
+kind = \"range\"
+rays = 1
+range_m = 18
+[robots.rover]
+count = 3
+radius_m = 0.5
+start = { kind = \"fixed\", at_m = [[4, 5], [10, 2], [4, 8]], heading_deg = [0, 0, 0] }
+drive = { max_speed_m_s = 2, max_turn_rate_deg_s = 90 }
+[robots.rover.sensors.sonar]
+kind = \"range\"
+rays = 1
+range_m = 18
+";
+
+fn all_ahead(simulation: &mut Simulation, steps: u32) {
+    for _ in 0..steps {
+        let ids = robots(simulation).into_iter().map(|robot| robot.id);
+        let commands: Vec<_> = ids.map(|id| (id, go(2.0, 0.0))).collect();
+        told(simulation, commands);
+    }
+}
+
+#[test]
+fn birds_fly_over_obstacles_and_rovers_and_stop_at_the_border() {
+    let mut simulation = start(FIELD);
+    all_ahead(&mut simulation, 100);
+    let all = robots(&simulation);
+    assert!(
+        (all[0].at.x - 19.5).abs() < 1e-9,
+        "over the pillar, to the border"
+    );
+    assert!((all[3].at.x - 8.5).abs() < 1e-9, "to the pillar");
+    // Two birds meet half way, over the rover that was there.
+    assert!((all[1].at.x - 8.5).abs() < 1e-9 && (all[2].at.x - 9.5).abs() < 1e-9);
+    assert!((all[4].at.x - 19.5).abs() < 1e-9);
+    let collisions: Vec<u32> = all.iter().map(|robot| robot.collisions).collect();
+    assert_eq!(collisions, [1, 1, 1, 1, 1, 0]);
+    assert_eq!(simulation.outcome().collisions, 4);
+}
+
+#[test]
+fn rays_meet_what_is_in_the_way_of_their_layer() {
+    let mut simulation = start(FIELD);
+    let range_m = |simulation: &mut Simulation, kind, index| {
+        simulation.percept(id(kind, index)).unwrap().unwrap().scans[0].ranges_m[0]
+    };
+    // A bird over a rover sees neither that nor the pillar, but the border and other birds.
+    assert_eq!(range_m(&mut simulation, 0, 0), 16.0);
+    assert_eq!(range_m(&mut simulation, 0, 1), 13.5);
+    assert_eq!(range_m(&mut simulation, 1, 0), 5.0);
+    assert_eq!(range_m(&mut simulation, 1, 1), 10.0);
+}
+
+#[test]
+fn ground_slows_those_on_it() {
+    let mut simulation = start(FIELD);
+    all_ahead(&mut simulation, 10);
+    let all = robots(&simulation);
+    assert!((all[5].distance_m - 1.0).abs() < 1e-9 && (all[5].speed_m_s - 1.0).abs() < 1e-12);
+    let text = FIELD.replace(
+        "at_m = [[4, 5], [2, 2], [16, 2]]",
+        "at_m = [[4, 8], [2, 2], [16, 2]]",
+    );
+    let mut simulation = start(&text);
+    all_ahead(&mut simulation, 10);
+    assert!(
+        (robots(&simulation)[0].distance_m - 2.0).abs() < 1e-9,
+        "but not those over it"
+    );
+}
+
+#[test]
+fn who_turns_and_drives_goes_around_a_circle_exactly() {
+    let mut simulation = start(FIELD);
+    // A circle of 0.4 m in 60 steps.
+    let turn = std::f64::consts::TAU / 6.0;
+    let begin = robots(&simulation)[4];
+    for step in 1..=60_u32 {
+        told(&mut simulation, [(id(1, 1), go(0.4 * turn, turn))]);
+        let robot = robots(&simulation)[4];
+        let angle = f64::from(step) * turn * 0.1;
+        let x = 10.0 + 0.4 * libm::sin(angle);
+        let y = 2.0 + 0.4 * (1.0 - libm::cos(angle));
+        assert!(
+            robot.at.to([x, y].into()).length() < 1e-12,
+            "{step}: {robot:?}"
+        );
+    }
+    assert!(robots(&simulation)[4].at.to(begin.at).length() < 1e-12);
+}
