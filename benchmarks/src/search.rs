@@ -1,6 +1,6 @@
 //! Runs of `scenarios/search.toml` a second: four robots with scanners of 55 rays search for items.
 
-use crate::clock::{Took, median, took};
+use crate::clock::{median, took};
 use base::document::Document;
 use base::runner::{Runner, Work};
 use rayon::prelude::*;
@@ -13,6 +13,7 @@ use std::sync::Arc;
 /// Runs of a task for a thread, and of a piece of work.
 const TASK: u64 = 5;
 const PIECE: u64 = 200;
+const RUNS: f64 = 200.0;
 
 /// Pieces of work for each number of threads.
 const PIECES: u64 = 15;
@@ -30,11 +31,12 @@ pub(crate) fn report() {
     let mut speed_ups = Vec::new();
     for piece in 0..PIECES {
         let [one, two] = [0, 1].map(|number| {
-            let took = took(|| pools[number].install(|| block(&runs, piece)));
-            rates[number].push(rate(took) * [1.0, 2.0][number]);
-            took
+            let took_s = took(|| pools[number].install(|| block(&runs, piece)));
+            let rate = [1.0, 2.0][number] * RUNS / took_s;
+            rates[number].push(rate);
+            rate
         });
-        speed_ups.push(2.0 * one.cpu_s / two.cpu_s);
+        speed_ups.push(two / one);
     }
     println!("| robot-updates a run | runs/s, one thread | two threads | speed-up |");
     println!("|---|---|---|---|");
@@ -51,12 +53,6 @@ fn scenario() -> Scenario {
     let document = Document::parse("search.toml", &text).expect("it is TOML");
     let checked = ScenarioSpec::read(&document).map_err(|faults| faults.to_string());
     checked.expect("it has no faults").scenario
-}
-
-/// Runs in a second of each thread's time.
-#[expect(clippy::cast_precision_loss, reason = "hundreds")]
-fn rate(took: Took) -> f64 {
-    PIECE as f64 / took.cpu_s
 }
 
 fn block(runs: &Runs, piece: u64) {

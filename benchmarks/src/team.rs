@@ -8,10 +8,10 @@ use sim::engine::Simulation;
 use std::sync::Arc;
 
 /// Robot-updates in each piece of work: some ten milliseconds.
-const UPDATES: u32 = 50_000;
+const UPDATES: u32 = 20_000;
 
 /// Pieces of work of each program.
-const PIECES: usize = 61;
+const PIECES: usize = 101;
 
 /// Millions of robot-updates in a second of processor time.
 struct Rates {
@@ -47,8 +47,8 @@ fn rates(robots: u32) -> Rates {
     let mut rates = [const { Vec::new() }; 3];
     for _ in 0..PIECES {
         let mut piece = |number: usize, step: &mut dyn FnMut()| {
-            let took = took(|| (0..steps).for_each(|_| step()));
-            rates[number].push(f64::from(steps * robots) / took.cpu_s / 1e6);
+            let took_s = took(|| (0..steps).for_each(|_| step()));
+            rates[number].push(f64::from(steps * robots) / took_s / 1e6);
         };
         piece(0, &mut || simulation.step());
         piece(1, &mut || bare.step());

@@ -23,10 +23,10 @@ pub(crate) fn report() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
         let pool = pool.build().expect("threads can be made");
         pool.install(|| (0..WARM_UP).for_each(|_| simulation.step()));
-        let step = |_| took(|| pool.install(|| simulation.step())).longest_s;
+        let step = |_| took(|| pool.install(|| simulation.step()));
         // Lists of what is near are made anew in some steps only: their mean counts.
         #[expect(clippy::cast_precision_loss, reason = "a dozen")]
-        let step_s = (0..STEPS).map(step).sum::<f64>() / STEPS as f64;
+        let step_s = (0..STEPS).map(step).sum::<f64>() / (STEPS * threads) as f64;
         let (rate, updates) = (1.0 / step_s, f64::from(ROBOTS) / step_s / 1e6);
         println!(
             "| {threads} | {:.0} | {rate:.2} | {updates:.2} |",

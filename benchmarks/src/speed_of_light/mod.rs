@@ -8,6 +8,11 @@
 //! robots, sensors, latency, layers of behaviours, messages, the order of collisions, steps that any
 //! number of threads take to the same end.
 
+#![expect(
+    clippy::needless_bitwise_bool,
+    reason = "branches would be mispredicted"
+)]
+
 mod lists;
 mod rays;
 mod step;

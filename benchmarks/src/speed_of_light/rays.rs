@@ -1,5 +1,10 @@
 //! Sixteen rays, the same in every robot's own frame, against what is near in that frame.
 
+#![expect(
+    clippy::inline_always,
+    reason = "it is compiled for the vectors of its callers"
+)]
+
 use super::RANGE_M;
 use pulp::Simd;
 

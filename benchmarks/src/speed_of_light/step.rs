@@ -1,5 +1,10 @@
 //! One step of all robots, as one function for vectors.
 
+#![expect(
+    clippy::inline_always,
+    reason = "it is compiled for the vectors of its callers"
+)]
+
 use super::rays::{NearDisc, NearWall, Rays, cast, directions};
 use super::{RADIUS_M, RANGE_M, SPEED_M_S, STEP_S, TURN_RAD_S, Team};
 use base::geometry::Point;

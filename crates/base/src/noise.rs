@@ -9,7 +9,7 @@
     reason = "it is compiled for the vectors of its callers"
 )]
 
-use crate::philox::{Blocks, LANES, blocks};
+use crate::philox::{Blocks, LANES, Words, blocks};
 use crate::random::{Entity, Purpose, stream};
 use rand_philox::philox4x32_10;
 use std::f64::consts::{FRAC_PI_2, LN_2};
@@ -25,6 +25,9 @@ const QUARTER: f64 = 1.0 / 1_073_741_824.0;
 /// that is known to be that small, on every machine in the same few instructions.
 const WHOLE_BITS: u64 = 0x4330_0000_0000_0000;
 const WHOLE: f64 = 4_503_599_627_370_496.0;
+
+/// The lower half of a number.
+const LOW: u64 = 0xFFFF_FFFF;
 
 /// The random numbers of one entity in one run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -68,7 +71,14 @@ impl Noise {
 #[must_use]
 #[inline(always)]
 pub fn share(word: u32) -> f64 {
-    (whole(word) + 0.5) * WORD
+    share_of(u64::from(word))
+}
+
+/// The same of the lower half of a number.
+#[must_use]
+#[inline(always)]
+pub fn share_of(word: u64) -> f64 {
+    (whole(word & LOW) + 0.5) * WORD
 }
 
 /// Two independent numbers of the standard normal distribution, at most 6.8 from 0.
@@ -78,44 +88,42 @@ pub fn share(word: u32) -> f64 {
 #[must_use]
 #[inline(always)]
 pub fn normal_pair(words: [u32; 2]) -> [f64; 2] {
-    let radius = (-2.0 * ln_of_share(share(words[0]))).sqrt();
-    let [cosine, sine] = on_circle(words[1]);
-    [radius * cosine, radius * sine]
+    pair_of(words.map(u64::from))
 }
 
 /// Two for each lane: see [`normal_pair`].
 #[must_use]
 #[inline(always)]
-pub fn normal_pairs(words: [&[u32; LANES]; 2]) -> [[f64; LANES]; 2] {
+pub fn normal_pairs(words: [&Words; 2]) -> [[f64; LANES]; 2] {
     let mut pairs = [[0.0; LANES]; 2];
     for lane in 0..LANES {
-        let [one, other] = normal_pair([words[0][lane], words[1][lane]]);
+        let [one, other] = pair_of([words[0][lane], words[1][lane]]);
         pairs[0][lane] = one;
         pairs[1][lane] = other;
     }
     pairs
 }
 
+#[inline(always)]
+fn pair_of(words: [u64; 2]) -> [f64; 2] {
+    let radius = (-2.0 * ln_of_share(share_of(words[0]))).sqrt();
+    let [cosine, sine] = on_circle(words[1]);
+    [radius * cosine, radius * sine]
+}
+
 /// A point of the circle of radius 1, each as likely, within 1e-10; without branches.
 ///
 /// The first two bits are the quarter that it is in, the others its place there.
 #[inline(always)]
-fn on_circle(word: u32) -> [f64; 2] {
-    let x = ((whole(word & 0x3FFF_FFFF) + 0.5) * QUARTER - 0.5) * FRAC_PI_2;
-    let square = x * x;
-    let sine = -1.0 / 39_916_800.0;
-    let sine = sine * square + 1.0 / 362_880.0;
-    let sine = sine * square - 1.0 / 5_040.0;
-    let sine = sine * square + 1.0 / 120.0;
-    let sine = sine * square - 1.0 / 6.0;
-    let sine = x + x * (square * sine);
-    let cosine = -1.0 / 3_628_800.0;
-    let cosine = cosine * square + 1.0 / 40_320.0;
-    let cosine = cosine * square - 1.0 / 720.0;
-    let cosine = cosine * square + 1.0 / 24.0;
-    let cosine = cosine * square - 1.0 / 2.0;
-    let cosine = cosine * square + 1.0;
-    let quarter = u64::from(word >> 30);
+fn on_circle(word: u64) -> [f64; 2] {
+    let x = ((whole(word & (LOW >> 2)) + 0.5) * QUARTER - 0.5) * FRAC_PI_2;
+    let q = x * x;
+    // Sums of pairs of terms, and of pairs of those: the last is known sooner than by Horner's rule.
+    let last = (-1.0 / 5_040.0 + q * (1.0 / 362_880.0)) - (q * q) * (1.0 / 39_916_800.0);
+    let sine = x + x * (q * ((-1.0 / 6.0 + q * (1.0 / 120.0)) + (q * q) * last));
+    let first = (1.0 - q * 0.5) + (q * q) * (1.0 / 24.0 - q * (1.0 / 720.0));
+    let cosine = first + (q * q) * (q * q) * (1.0 / 40_320.0 - q * (1.0 / 3_628_800.0));
+    let quarter = (word >> 30) & 3;
     let [one, other] = if quarter & 1 == 0 {
         [cosine, sine]
     } else {
@@ -128,10 +136,10 @@ fn on_circle(word: u32) -> [f64; 2] {
     ]
 }
 
-/// The word as a number.
+/// A number below 2^52 as a float.
 #[inline(always)]
-fn whole(word: u32) -> f64 {
-    f64::from_bits(WHOLE_BITS | u64::from(word)) - WHOLE
+fn whole(number: u64) -> f64 {
+    f64::from_bits(WHOLE_BITS | number) - WHOLE
 }
 
 /// The natural logarithm of a number from 2^-33 to 1, within 1e-11; without branches.
@@ -144,19 +152,15 @@ fn ln_of_share(x: f64) -> f64 {
         .to_bits()
         .wrapping_sub(ROOT_HALF)
         .wrapping_add(EXPONENT_ONE);
-    let biased = f64::from_bits(WHOLE_BITS | (shifted >> 52)) - WHOLE;
-    let exponent = biased - 1023.0;
+    let exponent = whole(shifted >> 52) - 1023.0;
     let mantissa = f64::from_bits((shifted & 0x000F_FFFF_FFFF_FFFF).wrapping_add(ROOT_HALF));
     let z = (mantissa - 1.0) / (mantissa + 1.0);
-    let square = z * z;
-    let series = 1.0 / 13.0;
-    let series = series * square + 1.0 / 11.0;
-    let series = series * square + 1.0 / 9.0;
-    let series = series * square + 1.0 / 7.0;
-    let series = series * square + 1.0 / 5.0;
-    let series = series * square + 1.0 / 3.0;
-    let series = series * square + 1.0;
-    2.0 * z * series + exponent * LN_2
+    let q = z * z;
+    let [third, fifth, seventh] = [1.0 / 3.0, 1.0 / 5.0, 1.0 / 7.0];
+    let [ninth, eleventh, thirteenth] = [1.0 / 9.0, 1.0 / 11.0, 1.0 / 13.0];
+    let first = (1.0 + q * third) + (q * q) * (fifth + q * seventh);
+    let last = (ninth + q * eleventh) + (q * q) * thirteenth;
+    2.0 * z * (first + (q * q) * (q * q) * last) + exponent * LN_2
 }
 
 #[cfg(test)]
@@ -230,7 +234,10 @@ mod tests {
             noise.words(3, 1 << 40, index)
         };
         for (row, dealt) in dealt.iter().enumerate() {
-            assert_eq!(*dealt, std::array::from_fn(|lane| words(lane)[row]));
+            assert_eq!(
+                dealt.map(|word| word & LOW),
+                std::array::from_fn(|lane| u64::from(words(lane)[row]))
+            );
         }
     }
 
@@ -238,7 +245,7 @@ mod tests {
     fn points_of_the_circle_are_those_of_the_reference() {
         for step in 0..=2_000_000_u32 {
             let word = step.wrapping_mul(2147);
-            let [x, y] = on_circle(word);
+            let [x, y] = on_circle(u64::from(word));
             // The first quarter is that about the x-axis.
             let angle = (share(word) - 0.125) * std::f64::consts::TAU;
             assert!((x - libm::cos(angle)).abs() < 1e-9, "{word}");
@@ -251,7 +258,8 @@ mod tests {
         let dealt = Noise::of(7, 3, Entity { kind: 1, index: 2 }).deal(3, 4, 5);
         let pairs = normal_pairs([&dealt[0], &dealt[1]]);
         for lane in 0..LANES {
-            let expected = normal_pair([dealt[0][lane], dealt[1][lane]]);
+            let word = |row: usize| u32::try_from(dealt[row][lane] & LOW).unwrap();
+            let expected = normal_pair([word(0), word(1)]);
             assert_eq!(
                 [pairs[0][lane], pairs[1][lane]].map(f64::to_bits),
                 expected.map(f64::to_bits)

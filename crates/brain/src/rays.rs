@@ -120,9 +120,9 @@ impl Ring {
     /// Distance from the robot's centre to what is not known to be free, straight ahead.
     ///
     /// It is asked at each step, so chords beside the way are left out at once, and beyond half its
-    /// sight a chord counts as being as near as its rays allow. Which of these holds for a chord is
-    /// as good as random: branches would cost more than all the rest, so it is first decided for
-    /// all, and only near chords are looked at in turn.
+    /// sight a chord counts as being as near as its rays allow. Whether one is nearer than that is
+    /// as good as random: a branch would cost more than all the rest, so it is first decided for
+    /// all, and then near ones are looked at in turn.
     #[inline]
     pub(crate) fn free_ahead_m(&self, ranges_m: &[f64]) -> f64 {
         let mut nearest = Nearest::new(self.range_m);
@@ -142,29 +142,30 @@ impl Ring {
     #[inline]
     #[expect(
         clippy::needless_bitwise_bool,
-        reason = "branches would be mispredicted"
+        reason = "a branch would be mispredicted"
     )]
     fn look_roughly(&self, chords: &[Chord], ranges_m: &[f64], nearest: &mut Nearest) -> u64 {
         let far_m = self.range_m / 2.0;
-        let mut bits = 0;
+        let mut near = 0;
         for (number, chord) in chords.iter().enumerate() {
             let [from, to] = chord.rays.map(|ray| ranges_m.get(ray).copied());
             let (Some(from), Some(to)) = (from, to) else {
                 continue;
             };
-            let is_beside = (from > chord.beside_m[0]) & (to > chord.beside_m[1]);
+            if from > chord.beside_m[0] && to > chord.beside_m[1] {
+                continue;
+            }
             let is_far = (from > far_m) & (to > far_m);
             let least_m = lesser(lesser(from, to), self.range_m) * chord.nearest_share;
-            let counts = is_far & !is_beside;
-            let squared_m2 = if counts {
+            let squared_m2 = if is_far {
                 least_m * least_m
             } else {
                 f64::INFINITY
             };
             nearest.squared_m2 = lesser(squared_m2, nearest.squared_m2);
-            bits |= u64::from(!is_far & !is_beside) << number;
+            near |= u64::from(!is_far) << number;
         }
-        bits
+        near
     }
 
     /// Distance from the robot's centre to what is not known to be free within a sector.

@@ -8,6 +8,7 @@ use super::mind::{Backlog, Late, Mind, age_s};
 use super::view::View;
 use crate::sensing::eye::{Eye, Use};
 use crate::sensing::items::ItemDetector;
+use crate::sensing::range::Room;
 use crate::sensing::rays::Near;
 use crate::sensing::robots::RobotDetector;
 use crate::sensing::{Measure, Sensor};
@@ -19,8 +20,8 @@ use brain::{Contact, Neighbour, Percept, Reading};
 /// What looks need to be taken, and what the judge needs to know of them.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Senses {
-    /// What rays of the robot can meet, once one of its rings has looked.
-    near: Near,
+    /// With what rays of the robot can meet, once one of its rings has looked.
+    room: Room,
     is_near_known: bool,
     values: Vec<f64>,
     /// Items that robots were told of, in the order of the robots.
@@ -163,10 +164,10 @@ impl Look<'_> {
         match measure {
             Measure::Range(ring) => {
                 if !senses.is_near_known {
-                    gather(self.view, self.robot, &mut senses.near);
+                    gather(self.view, self.robot, &mut senses.room.near);
                     senses.is_near_known = true;
                 }
-                ring.look(eye, &mut senses.near, &mut senses.values);
+                ring.look(eye, &mut senses.room, &mut senses.values);
             }
             Measure::Position { noise_m } => {
                 let [x, y] = deviations(eye).map(|deviation| deviation * noise_m);

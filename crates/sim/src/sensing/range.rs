@@ -7,7 +7,7 @@
 
 use super::eye::{Eye, Use};
 use super::rays::{GROUP, Near, Rays};
-use base::noise::{HAND, normal_pairs, share};
+use base::noise::{HAND, normal_pairs, share_of};
 use base::trig::wrapped;
 use pulp::{Arch, Simd, WithSimd};
 use schemars::JsonSchema;
@@ -83,22 +83,31 @@ impl Ring {
     ///
     /// One pass in the machine's widest vectors.
     #[inline]
-    pub(crate) fn look(&self, eye: &Eye, near: &mut Near, to: &mut Vec<f64>) {
-        self.look_with(instruction_set(), eye, near, to);
+    pub(crate) fn look(&self, eye: &Eye, room: &mut Room, to: &mut Vec<f64>) {
+        self.look_with(instruction_set(), eye, room, to);
     }
 
     #[inline]
-    fn look_with(&self, arch: Arch, eye: &Eye, near: &mut Near, to: &mut Vec<f64>) {
+    fn look_with(&self, arch: Arch, eye: &Eye, room: &mut Room, to: &mut Vec<f64>) {
         to.resize(self.rays.groups() * GROUP, 0.0);
+        room.deviations.resize(self.rays.groups(), [0.0; GROUP]);
         let (to_groups, _) = to.as_chunks_mut();
         arch.dispatch(RingLook {
             ring: self,
             eye,
-            near,
+            room,
             to: to_groups,
         });
         to.truncate(self.bearings_rad.len());
     }
+}
+
+/// What looks of rings need, kept between them so that nothing is allocated.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Room {
+    pub(crate) near: Near,
+    /// Normal deviations of rays.
+    deviations: Vec<[f64; GROUP]>,
 }
 
 /// The widest that this machine has.
@@ -114,7 +123,7 @@ use tests::instruction_set;
 struct RingLook<'a> {
     ring: &'a Ring,
     eye: &'a Eye<'a>,
-    near: &'a mut Near,
+    room: &'a mut Room,
     to: &'a mut [[f64; GROUP]],
 }
 
@@ -126,9 +135,14 @@ impl WithSimd for RingLook<'_> {
         let Self {
             ring,
             eye,
-            near,
+            room,
             to,
         } = self;
+        let Room { near, deviations } = room;
+        // First, since it waits for nothing: the processor goes on with it while rays are cast.
+        if ring.is_noisy() {
+            deviate(eye, deviations);
+        }
         ring.rays.cast(simd, (eye.front, ring.range_m), near, to);
         if ring.false_echo > 0.0 {
             ring.invent(eye, to);
@@ -136,14 +150,22 @@ impl WithSimd for RingLook<'_> {
         if ring.miss > 0.0 {
             ring.lose(eye, to);
         }
-        if ring.noise_m > 0.0 || ring.noise_share > 0.0 {
-            ring.blur(eye, to);
+        for (distances, deviations) in to.iter_mut().zip(deviations) {
+            *distances = from_fn(|lane| ring.measured(distances[lane], deviations[lane]));
         }
-        for distances in to {
-            *distances = distances.map(|distance| {
-                let is_echo = distance < ring.range_m;
-                if is_echo { distance } else { f64::INFINITY }
-            });
+    }
+}
+
+/// Draws a normal deviation for each ray.
+#[inline(always)]
+fn deviate(eye: &Eye, to: &mut [[f64; GROUP]]) {
+    for (hand, groups) in (0..).zip(to.chunks_mut(GROUPS)) {
+        let words = eye.deal(Use::Error, hand);
+        for (pair, words) in groups.chunks_mut(2).zip(words.chunks(2)) {
+            let drawn = normal_pairs([&words[0], &words[1]]);
+            for (deviations, drawn) in pair.iter_mut().zip(drawn) {
+                *deviations = drawn;
+            }
         }
     }
 }
@@ -159,7 +181,7 @@ impl Ring {
             let chances = eye.deal(Use::Echo, hand);
             for (distances, chances) in groups.iter_mut().zip(&chances) {
                 *distances = from_fn(|lane| {
-                    let is_lost = share(chances[lane]) < self.miss;
+                    let is_lost = share_of(chances[lane]) < self.miss;
                     if is_lost {
                         self.range_m
                     } else {
@@ -178,35 +200,26 @@ impl Ring {
             let places = eye.deal(Use::EchoPlace, hand);
             for ((distances, chances), places) in groups.iter_mut().zip(&chances).zip(&places) {
                 *distances = from_fn(|lane| {
-                    let is_false = share(chances[lane]) > 1.0 - self.false_echo;
-                    let before = distances[lane] * share(places[lane]);
+                    let is_false = share_of(chances[lane]) > 1.0 - self.false_echo;
+                    let before = distances[lane] * share_of(places[lane]);
                     if is_false { before } else { distances[lane] }
                 });
             }
         }
     }
 
-    #[inline(always)]
-    fn blur(&self, eye: &Eye, to: &mut [[f64; GROUP]]) {
-        for (hand, groups) in (0..).zip(to.chunks_mut(GROUPS)) {
-            let words = eye.deal(Use::Error, hand);
-            for (pair, words) in groups.chunks_mut(2).zip(words.chunks(2)) {
-                let deviations = normal_pairs([&words[0], &words[1]]);
-                for (distances, deviations) in pair.iter_mut().zip(&deviations) {
-                    *distances = from_fn(|lane| self.blurred(distances[lane], deviations[lane]));
-                }
-            }
-        }
+    fn is_noisy(&self) -> bool {
+        self.noise_m > 0.0 || self.noise_share > 0.0
     }
 
-    /// What was out of range stays so: there is no echo to be measured.
+    /// What is out of range stays so, whatever the noise: there is no echo to be measured.
     #[inline(always)]
-    fn blurred(&self, distance: f64, deviation: f64) -> f64 {
+    fn measured(&self, distance: f64, deviation: f64) -> f64 {
         let spread = self.noise_m + self.noise_share * distance;
         let measured = distance + spread * deviation;
         let measured = if measured > 0.0 { measured } else { 0.0 };
-        let is_echo = distance < self.range_m;
-        if is_echo { measured } else { distance }
+        let is_echo = (distance < self.range_m) && (measured < self.range_m);
+        if is_echo { measured } else { f64::INFINITY }
     }
 }
 

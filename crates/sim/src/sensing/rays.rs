@@ -2,9 +2,9 @@
 //!
 //! This is where a run's time goes. What is near has been gathered ([`Near`]), relative to the
 //! robot; here each vector of rays is held against it, piece by piece. Whether a piece meets any ray
-//! of a vector is as good as random, so the pieces that do are noted first, without a branch, in
-//! some four cycles a piece and vector; only for those a root or a quotient is taken, some twenty
-//! cycles more.
+//! of a vector is as good as random, and a mispredicted branch costs as much as four of these tests.
+//! So first all pieces that do are noted, without a branch, in some four cycles a disc and seven a
+//! wall and vector; then a root or a quotient is taken for each of those, in some twenty cycles.
 //!
 //! The result is a minimum over pieces, so their order changes nothing, and it is made of additions,
 //! multiplications, quotients and roots only, without fused ones: so all instruction sets give the
@@ -18,6 +18,7 @@
 use crate::world::still::Wall;
 use base::geometry::{Disc, Point};
 use pulp::Simd;
+use std::array::from_fn;
 
 /// Rays are handled in groups of so many; the widest vector there is holds that many.
 pub(crate) const GROUP: usize = base::philox::LANES;
@@ -34,8 +35,10 @@ const HAIR: f64 = 1.0 + 1e-12;
 pub(crate) struct Near {
     discs: Few<NearDisc>,
     walls: Few<NearWall>,
-    /// Numbers of those that meet a vector of rays: as many as there are discs or walls.
-    hits: Vec<u32>,
+    /// Directions of the rays of each group in the world, along x and y.
+    rays: Vec<[[f64; GROUP]; 2]>,
+    /// Which vector of rays meets which piece.
+    hits: Vec<[u32; 2]>,
 }
 
 /// The first so many of a list that never shrinks.
@@ -68,13 +71,16 @@ impl<T: Copy + Default> Few<T> {
     /// not, which is faster than a branch that is mispredicted.
     #[inline]
     fn take<U>(&mut self, from: impl Iterator<Item = U>, near: impl Fn(U) -> (T, bool)) {
+        let most = from.size_hint().1.unwrap_or(0);
+        if self.all.len() < most {
+            self.all.resize(most, T::default());
+        }
         let mut count = 0;
         from.for_each(|each| {
-            if count == self.all.len() {
-                self.all.push(T::default());
-            }
             let (value, is_near) = near(each);
-            self.all[count] = value;
+            if let Some(place) = self.all.get_mut(count) {
+                *place = value;
+            }
             count += usize::from(is_near);
         });
         self.count = count;
@@ -113,10 +119,6 @@ impl Near {
             let is_near = (area > 0.0) & (area < range_m * wall.length);
             (NearWall { start, end, area }, is_near)
         });
-        let most = self.discs.count.max(self.walls.count);
-        if self.hits.len() < most {
-            self.hits.resize(most, 0);
-        }
     }
 }
 
@@ -136,7 +138,7 @@ impl Rays {
         };
         let groups = 0..bearings_rad.len().div_ceil(GROUP);
         let of = |part: fn((f64, f64)) -> f64| {
-            let group = |group| std::array::from_fn(|lane| part(direction(group, lane)));
+            let group = |group| from_fn(|lane| part(direction(group, lane)));
             groups.clone().map(group).collect()
         };
         Self {
@@ -154,10 +156,6 @@ impl Rays {
     ///
     /// `front` is the direction of the robot's front, of length 1.
     #[inline(always)]
-    #[expect(
-        clippy::inline_always,
-        reason = "else it is not compiled for the vectors at hand"
-    )]
     pub(crate) fn cast<S: Simd>(
         &self,
         simd: S,
@@ -165,23 +163,23 @@ impl Rays {
         near: &mut Near,
         to: &mut [[f64; GROUP]],
     ) {
-        let cosines = S::as_simd_f64s(self.cosines.as_flattened()).0;
-        let sines = S::as_simd_f64s(self.sines.as_flattened()).0;
-        let to = S::as_mut_simd_f64s(to.as_flattened_mut()).0;
-        let (front_x, front_y) = (simd.splat_f64s(front.x), simd.splat_f64s(front.y));
-        for ((cosine, sine), to) in cosines.iter().zip(sines).zip(to) {
-            let x = simd.sub_f64s(
-                simd.mul_f64s(*cosine, front_x),
-                simd.mul_f64s(*sine, front_y),
-            );
-            let y = simd.add_f64s(
-                simd.mul_f64s(*cosine, front_y),
-                simd.mul_f64s(*sine, front_x),
-            );
-            let nearest = simd.splat_f64s(range_m);
-            let nearest = meet(simd, [x, y], near.discs.of(), &mut near.hits, nearest);
-            *to = meet(simd, [x, y], near.walls.of(), &mut near.hits, nearest);
-        }
+        near.rays.clear();
+        let directions = self.cosines.iter().zip(&self.sines);
+        near.rays.extend(directions.map(|(cosines, sines)| {
+            [
+                from_fn(|lane| cosines[lane] * front.x - sines[lane] * front.y),
+                from_fn(|lane| cosines[lane] * front.y + sines[lane] * front.x),
+            ]
+        }));
+        to.fill([range_m; GROUP]);
+        let Near {
+            discs,
+            walls,
+            rays,
+            hits,
+        } = near;
+        meet(simd, rays, discs.of(), hits, to);
+        meet(simd, rays, walls.of(), hits, to);
     }
 }
 
@@ -203,30 +201,46 @@ trait Piece {
 #[inline(always)]
 #[expect(
     clippy::cast_possible_truncation,
-    reason = "robots have 32-bit numbers"
+    reason = "rays and robots have 32-bit numbers"
 )]
 fn meet<S: Simd, P: Piece>(
     simd: S,
-    rays: [S::f64s; 2],
+    rays: &[[[f64; GROUP]; 2]],
     pieces: &[P],
-    hits: &mut [u32],
-    mut nearest: S::f64s,
-) -> S::f64s {
-    // The same for all pieces, so that their order changes nothing.
-    let reach = simd.mul_f64s(nearest, simd.splat_f64s(HAIR));
+    hits: &mut Vec<[u32; 2]>,
+    to: &mut [[f64; GROUP]],
+) {
+    let to = S::as_mut_simd_f64s(to.as_flattened_mut()).0;
+    let rays = S::as_simd_f64s(rays.as_flattened().as_flattened()).0;
+    let in_group = GROUP / S::F64_LANES;
+    // The vectors along x of a group come before those along y.
+    let direction = |vector: usize| {
+        let x = vector / in_group * 2 * in_group + vector % in_group;
+        [rays[x], rays[x + in_group]]
+    };
+    if hits.len() < to.len() * pieces.len() {
+        hits.resize(to.len() * pieces.len(), [0; 2]);
+    }
     let mut found = 0;
-    for (number, piece) in pieces.iter().enumerate() {
-        let (meets, _) = piece.meets(simd, rays, reach);
-        hits[found] = number as u32;
-        found += usize::from(simd.first_true_m64s(meets) < S::F64_LANES);
+    for (vector, nearest) in to.iter().enumerate() {
+        let (rays, reach) = (
+            direction(vector),
+            simd.mul_f64s(*nearest, simd.splat_f64s(HAIR)),
+        );
+        for (number, piece) in pieces.iter().enumerate() {
+            let (meets, _) = piece.meets(simd, rays, reach);
+            hits[found] = [vector as u32, number as u32];
+            found += usize::from(simd.first_true_m64s(meets) < S::F64_LANES);
+        }
     }
-    for number in &hits[..found] {
-        let (meets, parts) = pieces[*number as usize].meets(simd, rays, reach);
-        let distance = P::distance(simd, parts);
-        let is_nearer = simd.and_m64s(meets, simd.less_than_f64s(distance, nearest));
-        nearest = simd.select_f64s(is_nearer, distance, nearest);
+    for [vector, number] in &hits[..found] {
+        let nearest = &mut to[*vector as usize];
+        let reach = simd.mul_f64s(*nearest, simd.splat_f64s(HAIR));
+        let piece = &pieces[*number as usize];
+        let (meets, parts) = piece.meets(simd, direction(*vector as usize), reach);
+        let distance = simd.select_f64s(meets, P::distance(simd, parts), reach);
+        *nearest = simd.min_f64s(distance, *nearest);
     }
-    nearest
 }
 
 /// A ray of direction u meets the disc about c at the lesser root of t^2 - 2 (u.c) t + power.

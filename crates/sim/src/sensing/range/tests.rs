@@ -35,8 +35,9 @@ fn looks(spec: &RangeSpec, wall_m: f64, count: u64) -> Vec<f64> {
     let walls: Vec<Wall> = Wall::of(&segment).into_iter().collect();
     let stands = Stands::new(size_m, &walls, &[], RANGE_M);
     let ring = Ring::new(spec);
-    let mut near = Near::default();
-    near.gather(Point::default(), RANGE_M, [].iter(), walls.iter());
+    let mut room = Room::default();
+    room.near
+        .gather(Point::default(), RANGE_M, [].iter(), walls.iter());
     let mut ranges_m = Vec::new();
     let look = |look| {
         let eye = Eye {
@@ -47,7 +48,7 @@ fn looks(spec: &RangeSpec, wall_m: f64, count: u64) -> Vec<f64> {
             look,
             stands: &stands,
         };
-        ring.look(&eye, &mut near, &mut ranges_m);
+        ring.look(&eye, &mut room, &mut ranges_m);
         ranges_m.clone()
     };
     (0..count).flat_map(look).collect()
@@ -208,8 +209,9 @@ fn rays_of_a_turned_robot_are_turned_with_it() {
         centre: Point { x: 0.0, y: 2.0 },
         radius_m: 0.5,
     };
-    let mut near = Near::default();
-    near.gather(Point::default(), RANGE_M, [disc].iter(), [].iter());
+    let mut room = Room::default();
+    room.near
+        .gather(Point::default(), RANGE_M, [disc].iter(), [].iter());
     let ring = Ring::new(&spec(4));
     let stands = Stands::new(Point { x: 10.0, y: 10.0 }, &[], &[disc], RANGE_M);
     let look = |heading_rad: f64| {
@@ -223,7 +225,7 @@ fn rays_of_a_turned_robot_are_turned_with_it() {
             stands: &stands,
         };
         let mut ranges_m = Vec::new();
-        ring.look(&eye, &mut near, &mut ranges_m);
+        ring.look(&eye, &mut room, &mut ranges_m);
         ranges_m.iter().position(|range_m| range_m.is_finite())
     };
     // The disc is to the left, ahead, behind, and to the right.
@@ -268,9 +270,10 @@ fn a_look_gives_the_same_bits_in_every_instruction_set() {
             stands: &stands,
         };
         let in_set = |arch: Arch| -> Vec<u64> {
-            let (mut near, mut ranges_m) = (Near::default(), Vec::new());
-            near.gather(eye.at, RANGE_M, discs.iter(), walls.iter());
-            ring.look_with(arch, &eye, &mut near, &mut ranges_m);
+            let (mut room, mut ranges_m) = (Room::default(), Vec::new());
+            room.near
+                .gather(eye.at, RANGE_M, discs.iter(), walls.iter());
+            ring.look_with(arch, &eye, &mut room, &mut ranges_m);
             ranges_m.iter().map(|range_m| range_m.to_bits()).collect()
         };
         let plain = in_set(Arch::Scalar);
