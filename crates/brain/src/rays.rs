@@ -31,6 +31,8 @@ pub(crate) struct Ring {
     /// Between the two nearest rays.
     gap_rad: f64,
     chords: Vec<Chord>,
+    /// No chord is nearer than this share of the shortest ray.
+    nearest_share: f64,
     /// So many of the first chords are all that can lie ahead.
     ahead: usize,
     /// The way straight ahead.
@@ -78,6 +80,10 @@ impl Ring {
                 .map(|chord| chord.gap_rad)
                 .fold(LOOKS_RAD, f64::min),
             ahead: chords.partition_point(|chord| chord.off_front_rad < FRAC_PI_2),
+            nearest_share: chords
+                .iter()
+                .map(|chord| chord.nearest_share)
+                .fold(1.0, f64::min),
             chords,
             lane: Sector::new(0.0, 0.0, half_width_m),
             looks_ahead: looks(0.0),
@@ -115,6 +121,15 @@ impl Ring {
     pub(crate) fn about_rad(&self, ray: usize, share: f64) -> f64 {
         let bearing_rad = self.bearings_rad.get(ray).copied().unwrap_or_default();
         bearing_rad + share * self.gap_rad
+    }
+
+    /// Distance from the robot's centre to the nearest that it sees, and maybe less.
+    #[inline]
+    pub(crate) fn nearest_m(&self, ranges_m: &[f64]) -> f64 {
+        let nearest_m = ranges_m.iter().fold(self.range_m, |nearest_m, range_m| {
+            lesser(sensible_m(*range_m), nearest_m)
+        });
+        nearest_m * self.nearest_share
     }
 
     /// Distance from the robot's centre to what is not known to be free, straight ahead.

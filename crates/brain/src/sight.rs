@@ -97,7 +97,7 @@ impl Sight {
         }
     }
 
-    /// What is seen where a motion leads.
+    /// What is seen where a motion leads; less, but enough for it, if that is sooner told.
     #[inline]
     fn on_the_way(
         &self,
@@ -120,8 +120,10 @@ impl Sight {
             return ahead;
         }
         let now_m_s = now_m_s.abs();
-        let fastest_m_s = now_m_s.max(wanted.speed_m_s.abs());
-        let turning_s = body.period_s + 2.0 * self.stopping_s2_m * fastest_m_s;
+        let wanted_m_s = (wanted.speed_m_s * way).max(0.0);
+        let turning_s = body.period_s + 2.0 * self.stopping_s2_m * now_m_s.max(wanted_m_s);
+        let stopping_m = now_m_s * now_m_s * self.stopping_s2_m;
+        let needed_m = stopping_m.max(self.way_m(wanted_m_s, now_m_s, body.period_s));
         self.seen(percept, body, now_m_s, |ring, age_s, ranges_m| {
             let looks = if way > 0.0 {
                 ring.looks_ahead
@@ -130,9 +132,18 @@ impl Sight {
             };
             let turned_rad = moved.turned_within_rad(age_s);
             // Turned farther than that, what it saw is not where it goes.
-            let looks = looks && turned_rad.abs() <= FRAC_PI_2;
+            if !looks || turned_rad.abs() > FRAC_PI_2 {
+                return None;
+            }
+            // The nearest anywhere is soon told, and mostly it is far enough.
+            let nearest_m = ring.nearest_m(ranges_m);
+            let enough_m = needed_m + self.half_width_m + gone_m(body, now_m_s, age_s);
             let turn_rad = wanted.turn_rate_rad_s * turning_s;
-            looks.then(|| ring.free_m(ranges_m, &self.sector(turned_rad, turn_rad, way)))
+            Some(if nearest_m > enough_m {
+                nearest_m
+            } else {
+                ring.free_m(ranges_m, &self.sector(turned_rad, turn_rad, way))
+            })
         })
     }
 
@@ -183,12 +194,18 @@ impl Sight {
     /// The most, up to `wanted_m_s`, at which it can stop within `free_m` if it goes at `now_m_s`.
     #[inline]
     fn speed_m_s(&self, wanted_m_s: f64, now_m_s: f64, free_m: f64, period_s: f64) -> f64 {
-        let slowing_m_s = (now_m_s - wanted_m_s).max(0.0);
-        let squares = wanted_m_s * wanted_m_s + slowing_m_s * slowing_m_s;
-        if wanted_m_s * period_s + squares * self.stopping_s2_m <= free_m {
+        if self.way_m(wanted_m_s, now_m_s, period_s) <= free_m {
             return wanted_m_s;
         }
         self.most_m_s(now_m_s, free_m, period_s).min(wanted_m_s)
+    }
+
+    /// How far it goes if it wants to go so fast for a period, and then brakes.
+    #[inline]
+    fn way_m(&self, wanted_m_s: f64, now_m_s: f64, period_s: f64) -> f64 {
+        let slowing_m_s = (now_m_s - wanted_m_s).max(0.0);
+        let squares = wanted_m_s * wanted_m_s + slowing_m_s * slowing_m_s;
+        wanted_m_s * period_s + squares * self.stopping_s2_m
     }
 
     /// The `v` with `v period + (v^2 + max(0, now - v)^2) / (2 a) = free`, or 0.

@@ -61,7 +61,7 @@ impl Neighbours {
             rays_m.max(scenario.contact_m)
         });
         let reach_m: Vec<f64> = reach_m.collect();
-        let cell_m = reach_m.iter().copied().fold(0.0, f64::max) + SKIN_M;
+        let cell_m = (reach_m.iter().copied().fold(0.0, f64::max) + SKIN_M) / 2.0;
         Self {
             buckets: Buckets::new(scenario.world.size(), cell_m),
             pieces: Vec::new(),

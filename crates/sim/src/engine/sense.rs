@@ -301,12 +301,16 @@ fn gather(view: &View, robot: usize, near: &mut Near) {
     let vicinity = view.neighbours.of(robot);
     let robots = vicinity.robots.iter();
     let robots = robots.map(|other| &view.discs[*other as usize]);
-    let discs = vicinity.discs.iter().map(|number| stands.disc(*number));
+    let discs = |overlap: bool| {
+        let numbers = vicinity.discs.iter().copied();
+        let numbers = numbers.filter(move |number| stands.overlaps(*number) == overlap);
+        numbers.map(|number| stands.disc(number))
+    };
     let walls = vicinity.walls.iter().map(|number| stands.wall(*number));
     near.gather(
         view.discs[robot].centre,
         kind.rays_m,
-        robots.chain(discs),
+        (robots.chain(discs(false)), discs(true)),
         walls,
     );
 }

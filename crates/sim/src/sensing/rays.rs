@@ -2,13 +2,12 @@
 //!
 //! This is where a run's time goes. What is near has been gathered ([`Near`]), relative to the
 //! robot; here each vector of rays is held against it, piece by piece. Whether a piece meets any ray
-//! of a vector is as good as random, and a mispredicted branch costs as much as four of these tests.
-//! So first all pieces that do are noted, without a branch, in some four cycles a disc and seven a
-//! wall and vector; then a root or a quotient is taken for each of those, in some twenty cycles.
+//! of a vector is as good as random, so there is no branch; and a root or a quotient takes as long
+//! as three of these tests, so which piece is met first is found without, and one is taken of it.
 //!
-//! The result is a minimum over pieces, so their order changes nothing, and it is made of additions,
-//! multiplications, quotients and roots only, without fused ones: so all instruction sets give the
-//! same bits.
+//! The result is a minimum over pieces, so their order changes nothing but the last bit where two
+//! are as near, and it is made of additions, multiplications, quotients and roots only, without
+//! fused ones: so all instruction sets give the same bits.
 
 #![expect(
     clippy::inline_always,
@@ -27,18 +26,14 @@ pub(crate) const GROUP: usize = base::philox::LANES;
 /// where two walls meet.
 const CRACK_M: f64 = 1e-9;
 
-/// Where a product stands for a quotient it may be off by rounding, but by less than this factor.
-const HAIR: f64 = 1.0 + 1e-12;
-
 /// What rays can meet, relative to a robot.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Near {
-    discs: Few<NearDisc>,
+    /// Discs that overlap no other: of two, a ray meets that whose centre is less far along it.
+    apart: Few<NearDisc>,
+    /// Discs that may overlap each other.
+    overlapping: Few<NearDisc>,
     walls: Few<NearWall>,
-    /// Directions of the rays of each group in the world, along x and y.
-    rays: Vec<[[f64; GROUP]; 2]>,
-    /// Which vector of rays meets which piece.
-    hits: Vec<[u32; 2]>,
 }
 
 /// The first so many of a list that never shrinks.
@@ -99,16 +94,21 @@ impl Near {
         &mut self,
         at: Point,
         range_m: f64,
-        discs: impl Iterator<Item = &'a Disc>,
+        (apart, overlapping): (
+            impl Iterator<Item = &'a Disc>,
+            impl Iterator<Item = &'a Disc>,
+        ),
         walls: impl Iterator<Item = &'a Wall>,
     ) {
-        self.discs.take(discs, |disc| {
+        let near = |disc: &Disc| {
             let centre = at.to(disc.centre);
             let square = centre.length_squared();
             let power = (square - disc.radius_m * disc.radius_m).max(0.0);
             let reach = range_m + disc.radius_m;
             (NearDisc { centre, power }, square < reach * reach)
-        });
+        };
+        self.apart.take(apart, near);
+        self.overlapping.take(overlapping, near);
         self.walls.take(walls, |wall| {
             let (start, end) = (at.to(wall.start), at.to(wall.end()));
             let area = start.cross(end);
@@ -160,142 +160,126 @@ impl Rays {
         &self,
         simd: S,
         (front, range_m): (Point, f64),
-        near: &mut Near,
+        near: &Near,
         to: &mut [[f64; GROUP]],
     ) {
-        near.rays.clear();
-        let directions = self.cosines.iter().zip(&self.sines);
-        near.rays.extend(directions.map(|(cosines, sines)| {
-            [
-                from_fn(|lane| cosines[lane] * front.x - sines[lane] * front.y),
-                from_fn(|lane| cosines[lane] * front.y + sines[lane] * front.x),
-            ]
-        }));
-        to.fill([range_m; GROUP]);
-        let Near {
-            discs,
-            walls,
-            rays,
-            hits,
-        } = near;
-        meet(simd, rays, discs.of(), hits, to);
-        meet(simd, rays, walls.of(), hits, to);
-    }
-}
-
-/// Something that rays can meet.
-trait Piece {
-    /// Which rays meet it, if no farther than `reach`, and what their distances are made of.
-    fn meets<S: Simd>(
-        &self,
-        simd: S,
-        rays: [S::f64s; 2],
-        reach: S::f64s,
-    ) -> (S::m64s, [S::f64s; 2]);
-
-    /// Their distances.
-    fn distance<S: Simd>(simd: S, parts: [S::f64s; 2]) -> S::f64s;
-}
-
-/// Shortens rays to where they meet the pieces.
-#[inline(always)]
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "rays and robots have 32-bit numbers"
-)]
-fn meet<S: Simd, P: Piece>(
-    simd: S,
-    rays: &[[[f64; GROUP]; 2]],
-    pieces: &[P],
-    hits: &mut Vec<[u32; 2]>,
-    to: &mut [[f64; GROUP]],
-) {
-    let to = S::as_mut_simd_f64s(to.as_flattened_mut()).0;
-    let rays = S::as_simd_f64s(rays.as_flattened().as_flattened()).0;
-    let in_group = GROUP / S::F64_LANES;
-    // The vectors along x of a group come before those along y.
-    let direction = |vector: usize| {
-        let x = vector / in_group * 2 * in_group + vector % in_group;
-        [rays[x], rays[x + in_group]]
-    };
-    if hits.len() < to.len() * pieces.len() {
-        hits.resize(to.len() * pieces.len(), [0; 2]);
-    }
-    let mut found = 0;
-    for (vector, nearest) in to.iter().enumerate() {
-        let (rays, reach) = (
-            direction(vector),
-            simd.mul_f64s(*nearest, simd.splat_f64s(HAIR)),
-        );
-        for (number, piece) in pieces.iter().enumerate() {
-            let (meets, _) = piece.meets(simd, rays, reach);
-            hits[found] = [vector as u32, number as u32];
-            found += usize::from(simd.first_true_m64s(meets) < S::F64_LANES);
+        let cosines = S::as_simd_f64s(self.cosines.as_flattened()).0;
+        let sines = S::as_simd_f64s(self.sines.as_flattened()).0;
+        let to = S::as_mut_simd_f64s(to.as_flattened_mut()).0;
+        let (front_x, front_y) = (simd.splat_f64s(front.x), simd.splat_f64s(front.y));
+        for ((cosine, sine), to) in cosines.iter().zip(sines).zip(to) {
+            let x = simd.sub_f64s(
+                simd.mul_f64s(*cosine, front_x),
+                simd.mul_f64s(*sine, front_y),
+            );
+            let y = simd.add_f64s(
+                simd.mul_f64s(*cosine, front_y),
+                simd.mul_f64s(*sine, front_x),
+            );
+            let rays = Beam { simd, x, y };
+            let to_wall = rays.to_walls(near.walls.of(), range_m);
+            let to_disc = rays.to_discs_apart(near.apart.of());
+            let to_any_disc = rays.to_discs(near.overlapping.of(), to_disc);
+            *to = simd.min_f64s(to_wall, to_any_disc);
         }
     }
-    for [vector, number] in &hits[..found] {
-        let nearest = &mut to[*vector as usize];
-        let reach = simd.mul_f64s(*nearest, simd.splat_f64s(HAIR));
-        let piece = &pieces[*number as usize];
-        let (meets, parts) = piece.meets(simd, direction(*vector as usize), reach);
-        let distance = simd.select_f64s(meets, P::distance(simd, parts), reach);
-        *nearest = simd.min_f64s(distance, *nearest);
-    }
 }
 
-/// A ray of direction u meets the disc about c at the lesser root of t^2 - 2 (u.c) t + power.
-impl Piece for NearDisc {
+/// A vector of rays: their directions.
+#[derive(Clone, Copy)]
+struct Beam<S: Simd> {
+    simd: S,
+    x: S::f64s,
+    y: S::f64s,
+}
+
+impl<S: Simd> Beam<S> {
+    /// The distance to the first of the walls, `range_m` at most.
+    ///
+    /// A ray passes between a wall's ends if it leaves the start to its right and the end to its
+    /// left. The distance is the wall's area by its span across the ray; of two walls that with the
+    /// lesser quotient is nearer, for which products tell.
     #[inline(always)]
-    fn meets<S: Simd>(&self, simd: S, [x, y]: [S::f64s; 2], _: S::f64s) -> (S::m64s, [S::f64s; 2]) {
-        let centre_x = simd.splat_f64s(self.centre.x);
-        let centre_y = simd.splat_f64s(self.centre.y);
-        let ahead = simd.add_f64s(simd.mul_f64s(x, centre_x), simd.mul_f64s(y, centre_y));
-        let square = simd.mul_f64s(ahead, ahead);
-        let root = simd.sub_f64s(square, simd.splat_f64s(self.power));
+    fn to_walls(self, walls: &[NearWall], range_m: f64) -> S::f64s {
+        let Self { simd, .. } = self;
+        let [before, behind] = [CRACK_M, -CRACK_M].map(|crack_m| simd.splat_f64s(crack_m));
+        let mut nearest = [simd.splat_f64s(range_m), simd.splat_f64s(1.0)];
+        for wall in walls {
+            let [start, end] = [wall.start, wall.end].map(|place| self.across(place));
+            let [area, span] = [simd.splat_f64s(wall.area), simd.sub_f64s(end, start)];
+            let is_between = simd.and_m64s(
+                simd.less_than_or_equal_f64s(start, before),
+                simd.greater_than_or_equal_f64s(end, behind),
+            );
+            let is_nearer = simd.less_than_f64s(
+                simd.mul_f64s(area, nearest[1]),
+                simd.mul_f64s(nearest[0], span),
+            );
+            let is_met = simd.and_m64s(is_between, is_nearer);
+            nearest = [
+                simd.select_f64s(is_met, area, nearest[0]),
+                simd.select_f64s(is_met, span, nearest[1]),
+            ];
+        }
+        simd.div_f64s(nearest[0], nearest[1])
+    }
+
+    /// The distance to the first of some discs that do not overlap, infinite if there is none.
+    #[inline(always)]
+    fn to_discs_apart(self, discs: &[NearDisc]) -> S::f64s {
+        let Self { simd, .. } = self;
+        let mut nearest = [simd.splat_f64s(f64::INFINITY), simd.splat_f64s(0.0)];
+        for disc in discs {
+            let (meets, [ahead, square]) = self.meets(disc);
+            let is_met = simd.and_m64s(meets, simd.less_than_f64s(ahead, nearest[0]));
+            nearest = [
+                simd.select_f64s(is_met, ahead, nearest[0]),
+                simd.select_f64s(is_met, square, nearest[1]),
+            ];
+        }
+        simd.sub_f64s(nearest[0], simd.sqrt_f64s(nearest[1]))
+    }
+
+    /// The distance to the first of any discs, `nearest` at most.
+    #[inline(always)]
+    fn to_discs(self, discs: &[NearDisc], mut nearest: S::f64s) -> S::f64s {
+        let Self { simd, .. } = self;
+        for disc in discs {
+            let (meets, [ahead, square]) = self.meets(disc);
+            let distance = simd.sub_f64s(ahead, simd.sqrt_f64s(square));
+            let distance = simd.select_f64s(meets, distance, nearest);
+            nearest = simd.min_f64s(distance, nearest);
+        }
+        nearest
+    }
+
+    /// Which rays meet a disc, how far along them its centre is, and the square of half the chord.
+    ///
+    /// A ray of direction u meets the disc about c at the lesser root of t^2 - 2 (u.c) t + power.
+    #[inline(always)]
+    fn meets(self, disc: &NearDisc) -> (S::m64s, [S::f64s; 2]) {
+        let Self { simd, x, y } = self;
+        let ahead = simd.add_f64s(
+            simd.mul_f64s(x, simd.splat_f64s(disc.centre.x)),
+            simd.mul_f64s(y, simd.splat_f64s(disc.centre.y)),
+        );
+        let square = simd.sub_f64s(simd.mul_f64s(ahead, ahead), simd.splat_f64s(disc.power));
         let zero = simd.splat_f64s(0.0);
         let meets = simd.and_m64s(
             simd.greater_than_f64s(ahead, zero),
-            simd.greater_than_or_equal_f64s(root, zero),
+            simd.greater_than_or_equal_f64s(square, zero),
         );
-        (meets, [ahead, root])
+        (meets, [ahead, square])
     }
 
+    /// How far a place is to the left of each ray.
     #[inline(always)]
-    fn distance<S: Simd>(simd: S, [ahead, root]: [S::f64s; 2]) -> S::f64s {
-        simd.sub_f64s(ahead, simd.sqrt_f64s(root))
-    }
-}
-
-/// A ray passes between the wall's ends if it leaves the start to its right and the end to its left.
-impl Piece for NearWall {
-    #[inline(always)]
-    fn meets<S: Simd>(
-        &self,
-        simd: S,
-        [x, y]: [S::f64s; 2],
-        reach: S::f64s,
-    ) -> (S::m64s, [S::f64s; 2]) {
-        let start = simd.sub_f64s(
-            simd.mul_f64s(x, simd.splat_f64s(self.start.y)),
-            simd.mul_f64s(y, simd.splat_f64s(self.start.x)),
-        );
-        let end = simd.sub_f64s(
-            simd.mul_f64s(x, simd.splat_f64s(self.end.y)),
-            simd.mul_f64s(y, simd.splat_f64s(self.end.x)),
-        );
-        let is_between = simd.and_m64s(
-            simd.less_than_or_equal_f64s(start, simd.splat_f64s(CRACK_M)),
-            simd.greater_than_or_equal_f64s(end, simd.splat_f64s(-CRACK_M)),
-        );
-        let span = simd.sub_f64s(end, start);
-        let area = simd.splat_f64s(self.area);
-        let is_in_reach = simd.less_than_f64s(area, simd.mul_f64s(span, reach));
-        (simd.and_m64s(is_between, is_in_reach), [area, span])
-    }
-
-    #[inline(always)]
-    fn distance<S: Simd>(simd: S, [area, span]: [S::f64s; 2]) -> S::f64s {
-        simd.div_f64s(area, span)
+    fn across(self, place: Point) -> S::f64s {
+        let Self { simd, x, y } = self;
+        simd.sub_f64s(
+            simd.mul_f64s(x, simd.splat_f64s(place.y)),
+            simd.mul_f64s(y, simd.splat_f64s(place.x)),
+        )
     }
 }
 

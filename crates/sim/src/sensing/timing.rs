@@ -49,7 +49,7 @@ impl Rhythm {
         reason = "steps are at most 1e8"
     )]
     fn beats_until(self, tick: u64) -> u64 {
-        (tick as f64 * self.beats_per_step + HAIR).floor() as u64
+        (tick as f64 * self.beats_per_step + HAIR) as u64
     }
 }
 

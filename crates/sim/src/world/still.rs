@@ -69,6 +69,8 @@ impl Still for Disc {
 pub(crate) struct Stands {
     walls: Vec<Wall>,
     discs: Vec<Disc>,
+    /// Whether a disc overlaps another.
+    overlaps: Vec<bool>,
     near_walls: NearCells,
     near_discs: NearCells,
 }
@@ -80,6 +82,7 @@ impl Stands {
             near_walls: NearCells::new(size_m, walls, reach_m),
             near_discs: NearCells::new(size_m, discs, reach_m),
             walls: walls.to_vec(),
+            overlaps: overlaps(discs),
             discs: discs.to_vec(),
         }
     }
@@ -131,6 +134,12 @@ impl Stands {
         &self.discs[number as usize]
     }
 
+    /// Whether a disc overlaps another disc that stands here.
+    #[inline]
+    pub(crate) fn overlaps(&self, number: u32) -> bool {
+        self.overlaps[number as usize]
+    }
+
     #[inline]
     pub(crate) fn wall(&self, number: u32) -> &Wall {
         &self.walls[number as usize]
@@ -173,6 +182,25 @@ impl Wall {
         let place = offset.cross(way) / across;
         (HAIR..=1.0 - HAIR).contains(&share) && (0.0..=self.length).contains(&place)
     }
+}
+
+/// Whether each disc overlaps another.
+fn overlaps(discs: &[Disc]) -> Vec<bool> {
+    let left_m = |disc: usize| discs[disc].centre.x - discs[disc].radius_m;
+    let right_m = |disc: usize| discs[disc].centre.x + discs[disc].radius_m;
+    let mut order: Vec<usize> = (0..discs.len()).collect();
+    order.sort_by(|one, other| left_m(*one).total_cmp(&left_m(*other)));
+    let mut overlaps = vec![false; discs.len()];
+    for (place, one) in order.iter().enumerate() {
+        let beside = order[place + 1..].iter();
+        for other in beside.take_while(|other| left_m(**other) < right_m(*one)) {
+            if discs[*one].distance_m(discs[*other].centre) < discs[*other].radius_m {
+                overlaps[*one] = true;
+                overlaps[*other] = true;
+            }
+        }
+    }
+    overlaps
 }
 
 fn crosses(disc: &Disc, from: Point, way: Point) -> bool {
