@@ -17,7 +17,7 @@ fn random(scene: u64) -> Stream {
 struct Cast<'a> {
     rays: &'a Rays,
     front: Point,
-    near: &'a mut Near,
+    near: &'a Near,
     range_m: f64,
     to: &'a mut [[f64; GROUP]],
 }
@@ -70,18 +70,28 @@ impl Scene {
         }
     }
 
+    /// Those that overlap no other, and the others.
+    fn discs(&self) -> (impl Iterator<Item = &Disc>, impl Iterator<Item = &Disc>) {
+        let overlaps = |disc: &&Disc| {
+            let mut others = self.discs.iter().filter(|other| *other != *disc);
+            others.any(|other| disc.distance_m(other.centre) < other.radius_m)
+        };
+        let apart = self.discs.iter().filter(move |disc| !overlaps(disc));
+        (apart, self.discs.iter().filter(overlaps))
+    }
+
     fn cast(&self, front: Point, bearings_rad: &[f64]) -> Vec<f64> {
         let walls: Vec<Wall> = self.walls.iter().filter_map(Wall::of).collect();
         let (mut near, mut ranges_m) = (Near::default(), vec![7.0; 3]);
         // What an earlier place has left there does not matter.
-        near.gather(Point::default(), 1e9, self.discs.iter(), walls.iter());
-        near.gather(self.at, self.range_m, self.discs.iter(), walls.iter());
+        near.gather(Point::default(), 1e9, self.discs(), walls.iter());
+        near.gather(self.at, self.range_m, self.discs(), walls.iter());
         let rays = Rays::new(bearings_rad);
         ranges_m.resize(rays.groups() * GROUP, 7.0);
         Arch::new().dispatch(Cast {
             rays: &rays,
             front,
-            near: &mut near,
+            near: &near,
             range_m: self.range_m,
             to: ranges_m.as_chunks_mut().0,
         });

@@ -167,3 +167,22 @@ fn a_wall_hides_from_both_of_its_sides() {
     let (left, right) = (Point { x: 1.0, y: 1.0 }, Point { x: 3.0, y: 2.0 });
     assert!(!stands.is_open(left, right) && !stands.is_open(right, left));
 }
+
+#[test]
+fn discs_that_overlap_others_are_known() {
+    let disc = |x, y, radius_m| Disc {
+        centre: Point { x, y },
+        radius_m,
+    };
+    let discs = [
+        disc(8.0, 2.0, 1.0),
+        disc(2.0, 2.0, 1.0),
+        disc(5.0, 8.0, 1.0),
+        disc(3.5, 2.5, 0.75),
+        disc(2.0, 7.0, 0.5),
+        disc(2.1, 7.0, 0.1),
+    ];
+    let stands = Stands::new(Point { x: 10.0, y: 10.0 }, &[], &discs, 1.0);
+    let overlaps: Vec<bool> = (0..6).map(|number| stands.overlaps(number)).collect();
+    assert_eq!(overlaps, [false, true, false, true, true, true]);
+}
