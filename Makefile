@@ -2,12 +2,13 @@
 
 PYTHON ?= python3
 BIN := .venv/bin
+WASM := wasm32-unknown-unknown
 RUST := $(shell find crates/*/src crates/*/Cargo.toml) Cargo.toml Cargo.lock
 # maturin, and what it starts, are found in the environment.
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 
 .PHONY: help study test bench bench-store verify-selection fuzz golden schemas picture \
-	replication validation lint rust-test python-test clean
+	replication validation lint wasm rust-test python-test clean
 
 help: ## Say what can be made
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "%-17s %s\n", $$1, $$2 }' Makefile
@@ -15,7 +16,7 @@ help: ## Say what can be made
 study: .venv/installed ## Answer the 2003 experiment's question: how many robots?
 	$(BIN)/agent-economy study scenarios/classic.toml
 
-test: lint rust-test python-test ## Run every check, as CI does
+test: lint wasm rust-test python-test ## Run every check, as CI does
 
 lint: .venv/installed ## Formatters, linters, types, stubs, layers
 	cargo fmt --all --check
@@ -26,6 +27,16 @@ lint: .venv/installed ## Formatters, linters, types, stubs, layers
 	$(BIN)/stubtest agent_economy._core
 	$(BIN)/lint-imports --no-cache
 	$(BIN)/python scripts/check_tree.py
+
+# A toolchain without rustup may lack it: then nothing here can be proven, and that is said.
+wasm: ## The metric simulator and the brain compile for browsers
+	@if [ -d "$$(rustc --print target-libdir --target $(WASM))" ] || rustup target add $(WASM); then \
+		cargo check --locked --target $(WASM) \
+			-p agent-economy-base -p agent-economy-brain -p agent-economy-sim; \
+	else \
+		echo "SKIPPED: not checked that the simulator compiles for $(WASM);" \
+			"to have it: rustup target add $(WASM)"; \
+	fi
 
 rust-test:
 	cargo test --locked
