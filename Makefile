@@ -7,7 +7,7 @@ RUST := $(shell find crates/*/src crates/*/Cargo.toml) Cargo.toml Cargo.lock
 # maturin, and what it starts, are found in the environment.
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 
-.PHONY: help study test bench bench-store verify-selection fuzz golden schemas picture \
+.PHONY: help study test bench bench-peers bench-store verify-selection fuzz golden schemas picture \
 	replication validation lint wasm rust-test python-test clean
 
 help: ## Say what can be made
@@ -21,8 +21,8 @@ test: lint wasm rust-test python-test ## Run every check, as CI does
 lint: .venv/installed ## Formatters, linters, types, stubs, layers
 	cargo fmt --all --check
 	cargo clippy --workspace --all-targets --locked -- -D warnings
-	$(BIN)/ruff format --check python scripts
-	$(BIN)/ruff check python scripts
+	$(BIN)/ruff format --check python scripts benchmarks/peers
+	$(BIN)/ruff check python scripts benchmarks/peers
 	$(BIN)/mypy
 	$(BIN)/stubtest agent_economy._core
 	$(BIN)/lint-imports --no-cache
@@ -44,9 +44,13 @@ rust-test:
 python-test: .venv/installed
 	$(BIN)/pytest
 
-bench: ## Robot-decisions per second
+bench: ## Speed of both simulators and the brain
 	cargo bench -p agent-economy-classic
 	cargo bench -p agent-economy-brain
+	cargo run --release --locked -p agent-economy-benchmarks
+
+bench-peers: ## Speed of other simulators beside ours (installs them in benchmarks/.venv)
+	$(PYTHON) benchmarks/peers/run.py
 
 bench-store: .venv/installed ## Rows a second into a study's store, and bytes a row
 	$(BIN)/python scripts/store_speed.py
@@ -80,7 +84,7 @@ fuzz: ## Broken input to every reader, a minute each
 	done
 
 clean: ## Remove what was made
-	rm -rf .venv target studies fuzz/target fuzz/corpus fuzz/artifacts
+	rm -rf .venv benchmarks/.venv target studies fuzz/target fuzz/corpus fuzz/artifacts
 
 .venv/packages: requirements.lock
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "needs Python 3.11 or newer: make PYTHON=...")'
