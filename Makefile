@@ -2,12 +2,13 @@
 
 PYTHON ?= python3
 BIN := .venv/bin
+WASM := wasm32-unknown-unknown
 RUST := $(shell find crates/*/src crates/*/Cargo.toml) Cargo.toml Cargo.lock
 # maturin, and what it starts, are found in the environment.
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 
-.PHONY: help study test bench bench-store verify-selection fuzz golden schemas picture \
-	replication validation lint rust-test python-test clean
+.PHONY: help study test bench bench-peers bench-store verify-selection fuzz golden schemas picture \
+	replication validation lint wasm rust-test python-test clean
 
 help: ## Say what can be made
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "%-17s %s\n", $$1, $$2 }' Makefile
@@ -15,17 +16,27 @@ help: ## Say what can be made
 study: .venv/installed ## Answer the 2003 experiment's question: how many robots?
 	$(BIN)/agent-economy study scenarios/classic.toml
 
-test: lint rust-test python-test ## Run every check, as CI does
+test: lint wasm rust-test python-test ## Run every check, as CI does
 
 lint: .venv/installed ## Formatters, linters, types, stubs, layers
 	cargo fmt --all --check
 	cargo clippy --workspace --all-targets --locked -- -D warnings
-	$(BIN)/ruff format --check python scripts
-	$(BIN)/ruff check python scripts
+	$(BIN)/ruff format --check python scripts benchmarks/peers
+	$(BIN)/ruff check python scripts benchmarks/peers
 	$(BIN)/mypy
 	$(BIN)/stubtest agent_economy._core
 	$(BIN)/lint-imports --no-cache
 	$(BIN)/python scripts/check_tree.py
+
+# A toolchain without rustup may lack it: then nothing here can be proven, and that is said.
+wasm: ## The metric simulator and the brain compile for browsers
+	@if [ -d "$$(rustc --print target-libdir --target $(WASM))" ] || rustup target add $(WASM); then \
+		cargo check --locked --target $(WASM) \
+			-p agent-economy-base -p agent-economy-brain -p agent-economy-sim; \
+	else \
+		echo "SKIPPED: not checked that the simulator compiles for $(WASM);" \
+			"to have it: rustup target add $(WASM)"; \
+	fi
 
 rust-test:
 	cargo test --locked
@@ -33,9 +44,13 @@ rust-test:
 python-test: .venv/installed
 	$(BIN)/pytest
 
-bench: ## Robot-decisions per second
+bench: ## Speed of both simulators and the brain
 	cargo bench -p agent-economy-classic
 	cargo bench -p agent-economy-brain
+	cargo run --release --locked -p agent-economy-benchmarks
+
+bench-peers: ## Speed of other simulators beside ours (installs them in benchmarks/.venv)
+	$(PYTHON) benchmarks/peers/run.py
 
 bench-store: .venv/installed ## Rows a second into a study's store, and bytes a row
 	$(BIN)/python scripts/store_speed.py
@@ -69,7 +84,7 @@ fuzz: ## Broken input to every reader, a minute each
 	done
 
 clean: ## Remove what was made
-	rm -rf .venv target studies fuzz/target fuzz/corpus fuzz/artifacts
+	rm -rf .venv benchmarks/.venv target studies fuzz/target fuzz/corpus fuzz/artifacts
 
 .venv/packages: requirements.lock
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "needs Python 3.11 or newer: make PYTHON=...")'

@@ -36,7 +36,13 @@ BRAIN_USES = {"agent-economy-base", "libm", "schemars", "serde"}
 NO_STD = "#![cfg_attr(not(test), no_std)]"
 """What keeps the standard library, and with it the outside world, out of the crate brain."""
 
-CODE = {"crates": ["*.rs"], "python": ["*.py", "*.pyi"], "scripts": ["*.py"]}
+CODE = {
+    "benchmarks/peers": ["*.py", "*.rs"],
+    "benchmarks/src": ["*.rs"],
+    "crates": ["*.rs"],
+    "python": ["*.py", "*.pyi"],
+    "scripts": ["*.py"],
+}
 MAX_LINES = 600
 
 
@@ -100,7 +106,7 @@ def length_faults() -> list[str]:
 
 def document_faults() -> list[str]:
     """Return paths of this tree that a document names or links and that do not exist."""
-    named = re.compile(r"`((?:crates|python|scenarios|scripts|docs)/[^`\s*<>]*)`")
+    named = re.compile(r"`((?:benchmarks|crates|python|scenarios|scripts|docs)/[^`\s*<>]*)`")
     linked = re.compile(r"\]\((?!https?:|#)([^)\s#]+)")
     faults = []
     for file in [*ROOT.glob("*.md"), *(ROOT / "docs").glob("*.md")]:

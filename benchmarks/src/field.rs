@@ -16,7 +16,7 @@ pub(crate) struct Field {
     pub(crate) side_m: f64,
     pub(crate) pillars: Vec<Disc>,
     /// Their least and greatest corners.
-    boxes: Vec<[Point; 2]>,
+    pub(crate) boxes: Vec<[Point; 2]>,
 }
 
 impl Field {

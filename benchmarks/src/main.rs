@@ -1,6 +1,7 @@
 //! How fast the metric simulator is, beside a bare program of the same work, in one run.
 //!
 //! `make bench`, or `cargo run --release -p agent-economy-benchmarks -- [team | search | world]`.
+//! `-- field` prints the team's field in JSON instead.
 //! Times are those for which threads had a processor; each figure is the median of many short
 //! pieces of work, those that are compared taken in turns. docs/speed.md says what came of it.
 
@@ -9,16 +10,9 @@
     clippy::print_stdout,
     reason = "a benchmark may fail, and prints"
 )]
-#![allow(
-    clippy::inline_always,
-    clippy::needless_bitwise_bool,
-    clippy::too_many_arguments,
-    clippy::too_many_lines,
-    reason = "the bare program is one long step, compiled for the vectors at hand"
-)]
-
 mod clock;
 mod field;
+mod peers;
 mod search;
 mod speed_of_light;
 mod team;
@@ -28,6 +22,9 @@ fn main() {
     let rayon = rayon::ThreadPoolBuilder::new().num_threads(1);
     rayon.build_global().expect("no pool has been made yet");
     let only = std::env::args().nth(1);
+    if only.as_deref() == Some("field") {
+        return peers::report();
+    }
     let is_wanted = |name: &str| only.as_deref().is_none_or(|only| only == name);
     let reports = [
         ("team", team::report as fn()),

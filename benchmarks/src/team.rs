@@ -39,8 +39,7 @@ fn rates(robots: u32) -> Rates {
     let field = Field::new(robots);
     let scenario = Arc::new(field.scenario());
     let mut simulation = Simulation::new(scenario, 1, 0).expect("there is room");
-    let each = simulation.state().each_robot(simulation.scenario());
-    let starts: Vec<(Point, f64)> = each.map(|robot| (robot.at, robot.heading_rad)).collect();
+    let starts = starts(&simulation);
     let mut bare = Team::new(&field, &starts, false);
     let mut noisy = Team::new(&field, &starts, true);
     let steps = (UPDATES / robots).max(1);
@@ -67,6 +66,12 @@ fn rates(robots: u32) -> Rates {
         bare_with_noise,
         ratio,
     }
+}
+
+/// Where robots are, and where they look to.
+pub(crate) fn starts(simulation: &Simulation) -> Vec<(Point, f64)> {
+    let each = simulation.state().each_robot(simulation.scenario());
+    each.map(|robot| (robot.at, robot.heading_rad)).collect()
 }
 
 /// Of the teams: as asked for, or the usual ones.

@@ -38,6 +38,7 @@ pub(super) fn directions() -> [Rays; 2] {
     [rays(|(_, cosine)| cosine), rays(|(sine, _)| sine)]
 }
 
+#[expect(clippy::too_many_arguments, reason = "they lie in different places")]
 #[inline(always)]
 pub(super) fn cast<S: Simd>(
     simd: S,

@@ -107,6 +107,7 @@ impl WithSimd for Step<'_> {
 }
 
 /// Fills what is near, in the robot's frame; returns by how much touching things push it.
+#[expect(clippy::too_many_lines, reason = "one pass over what is near")]
 #[inline(always)]
 fn gather(team: &mut Team, room: &mut Room, robot: usize) -> Point {
     let Team {
