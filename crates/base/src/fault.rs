@@ -92,18 +92,28 @@ impl Faults {
 }
 
 /// The candidate spelled most like `word`, if one is near enough to be meant.
+///
+/// One that only goes on where `word` ends is as near as can be: often the unit was left out.
 #[must_use]
 pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let word = word.to_lowercase();
+    let distance = |candidate: &str| {
+        if word.len() >= LEAST_STEM && candidate.starts_with(&word) {
+            1
+        } else {
+            strsim::damerau_levenshtein(&word, candidate)
+        }
+    };
     candidates
         .into_iter()
-        .map(|candidate| {
-            let (word, lower) = (word.to_lowercase(), candidate.to_lowercase());
-            (strsim::damerau_levenshtein(&word, &lower), candidate)
-        })
+        .map(|candidate| (distance(&candidate.to_lowercase()), candidate))
         .filter(|(distance, candidate)| *distance <= 1 + candidate.len() / 4)
         .min()
         .map(|(_, candidate)| candidate)
 }
+
+/// Letters from which on a beginning says which word is meant.
+const LEAST_STEM: usize = 3;
 
 #[cfg(test)]
 mod tests {
@@ -123,6 +133,14 @@ mod tests {
         assert_eq!(place("a:b.toml"), Some(("a:b.toml".to_owned(), None)));
         assert_eq!(place("map.yaml:2"), Some(("map.yaml".to_owned(), Some(2))));
         assert_eq!(place("--set clock.cap_s"), None);
+    }
+
+    #[test]
+    fn nearest_finds_a_word_whose_unit_was_left_out() {
+        assert_eq!(nearest("radius", ["radio", "radius_m"]), Some("radius_m"));
+        let keys = ["max_speed_m_s", "max_turn_rate_deg_s"];
+        assert_eq!(nearest("max_turn_rate", keys), Some(keys[1]));
+        assert_eq!(nearest("m", keys), None);
     }
 
     #[test]
