@@ -25,10 +25,11 @@ pub(super) fn solids(
         match solid(obstacle, &at, open) {
             Ok(solid) => {
                 let [least, greatest] = solid.bounds();
-                if !rectangle.overlaps(&Rectangle::spanned(least, greatest)) {
+                if rectangle.overlaps(&Rectangle::spanned(least, greatest)) {
+                    solids.push(solid);
+                } else {
                     faults.push(at.fault(format!("at least partly in {}", words(world))));
                 }
-                solids.push(solid);
             }
             Err(told) => faults.extend(told),
         }

@@ -15,6 +15,7 @@ use super::{Checked, Scenario, ScenarioSpec};
 use base::document::{Document, Place};
 use base::fault::{Fault, Faults};
 use std::cell::RefCell;
+use std::collections::BTreeSet;
 
 /// Gives the bytes of a file that a scenario names, or says why it cannot.
 type Open<'o> = &'o dyn Fn(&str) -> Result<Vec<u8>, String>;
@@ -31,24 +32,29 @@ const CHECKS: [Check; 6] = [
     memory::faults,
 ];
 
-/// A check of what stands where, which cannot be said while an obstacle is wrong.
+/// A check of what stands where, in a world of the obstacles that are right.
 type CheckOfPlaces = fn(&Checked, &Place) -> Vec<Fault>;
 
 const CHECKS_OF_PLACES: [CheckOfPlaces; 3] = [places::faults, room::faults, reach::faults];
 
 /// `spec`, which stands `at` the root of a document, if nothing is wrong with it.
 pub(super) fn checked(spec: ScenarioSpec, at: &Place, open: Open) -> Result<Checked, Faults> {
-    let mut faults: Vec<Fault> = CHECKS.iter().flat_map(|check| check(&spec, at)).collect();
-    let solids = ground::solids(&spec.world, &at.key("world"), open, &mut faults);
-    let areas = ground::areas(&spec.terrain, &at.key("terrain"), &mut faults);
-    Faults::or(faults, Some(()))?;
+    let faults: Vec<Fault> = CHECKS.iter().flat_map(|check| check(&spec, at)).collect();
+    let mut of_places = Vec::new();
+    let solids = ground::solids(&spec.world, &at.key("world"), open, &mut of_places);
+    let areas = ground::areas(&spec.terrain, &at.key("terrain"), &mut of_places);
+    if !faults.is_empty() {
+        return Err(Faults([faults, of_places].concat()));
+    }
     let scenario = Scenario::new(&spec, solids, areas);
     let checked = Checked { spec, scenario };
-    let of_places = CHECKS_OF_PLACES
-        .iter()
-        .flat_map(|check| check(&checked, at));
-    Faults::or(of_places.collect(), Some(()))?;
-    Ok(checked)
+    // What is wrong in a world without the obstacles that are wrong is wrong with them too.
+    for check in CHECKS_OF_PLACES {
+        let told: BTreeSet<String> = of_places.iter().map(|fault| fault.path.clone()).collect();
+        let more = check(&checked, at).into_iter();
+        of_places.extend(more.filter(|fault| !told.contains(&fault.path)));
+    }
+    Faults::or(of_places, Some(checked))
 }
 
 /// The files of obstacles that have not been read.

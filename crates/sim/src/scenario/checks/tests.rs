@@ -221,6 +221,19 @@ fn a_battery_that_is_never_full_is_none() {
 }
 
 #[test]
+fn wrong_obstacles_and_wrong_places_are_told_at_once() {
+    let text = GOOD
+        .replace("[15, 5]", "[150, 5]")
+        .replace("[19, 9]", "[190, 9]");
+    let faults = read(&text).unwrap_err().0;
+    let paths: Vec<&str> = faults.iter().map(|fault| fault.path.as_str()).collect();
+    assert_eq!(
+        paths,
+        ["world.obstacles[1]", "items.mine.placement.at_m[1]"]
+    );
+}
+
+#[test]
 fn an_obstacle_is_at_least_partly_in_the_world() {
     assert_eq!(
         fault("[15, 5]", "[15, -2]"),
