@@ -251,8 +251,13 @@ impl Look<'_> {
         let waiting = mind.neighbours().len();
         for other in view.neighbours.about(self.eye.at, detector.sector.range_m) {
             let other = other as usize;
-            let way = (other != self.robot)
-                .then(|| detector.look(&self.eye, view.discs[other].centre, view.ids[other]));
+            let way = (other != self.robot).then(|| {
+                detector.look(
+                    &self.eye,
+                    view.discs[other].centre,
+                    view.scenario.entity(view.ids[other]),
+                )
+            });
             let Some(way) = way.flatten() else { continue };
             let (range_m, bearing_rad) = polar(way);
             let neighbour = Neighbour {

@@ -7,6 +7,7 @@ use super::sector::Sector;
 use crate::world::items::Items;
 use base::geometry::Point;
 use base::noise::share;
+use base::random::{Entity, kind_key};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -106,9 +107,19 @@ pub(crate) struct ItemDetector {
     /// By the item's kind; `None` is never seen.
     detects: Vec<Option<Detection>>,
     /// By the kind that they are taken for; only those that there are.
-    false_alarms: Vec<(u16, Poisson)>,
+    false_alarms: Vec<FalseAlarm>,
     noise_m: f64,
     needs_line_of_sight: bool,
+}
+
+/// Contacts of nothing that are taken for one kind of item.
+#[derive(Debug, Clone, PartialEq)]
+struct FalseAlarm {
+    kind: u16,
+    /// Of the kind, in random streams.
+    key: u32,
+    /// How many there are in a look.
+    count: Poisson,
 }
 
 impl ItemDetector {
@@ -120,7 +131,11 @@ impl ItemDetector {
         };
         let false_alarm = |(number, kind): (u16, &String)| {
             let mean = spec.false_alarms_a_look(kind, period_s);
-            (mean > 0.0).then(|| (number, Poisson::new(mean)))
+            (mean > 0.0).then(|| FalseAlarm {
+                kind: number,
+                key: kind_key(kind),
+                count: Poisson::new(mean),
+            })
         };
         Self {
             sector: spec.sector(),
@@ -147,30 +162,29 @@ impl ItemDetector {
             if !self.sector.holds(way) || self.is_hidden(eye, *place) {
                 continue;
             }
-            let words = eye.words(Use::Thing, items.thing(*number));
+            let words = eye.words_of(Use::Thing, items.thing(*number));
             if share(words[0]) < detection.probability(way.length()) {
                 give(blurred(way, self.noise_m, words), kind, Some(*number));
             }
         }
-        for (kind, poisson) in &self.false_alarms {
-            self.false_contacts(eye, *kind, poisson, &mut give);
+        for false_alarm in &self.false_alarms {
+            self.false_contacts(eye, false_alarm, &mut give);
         }
     }
 
     fn false_contacts(
         &self,
         eye: &Eye,
-        kind: u16,
-        poisson: &Poisson,
+        FalseAlarm { kind, key, count }: &FalseAlarm,
         give: &mut impl FnMut(Point, u16, Option<u32>),
     ) {
-        let index = u32::from(kind) << 16;
-        let count = poisson.draw(share(eye.words(Use::FalseAlarm, index)[0]));
+        let draw = |index| eye.words_of(Use::FalseAlarm, Entity { kind: *key, index });
+        let count = count.draw(share(draw(0)[0]));
         for number in 1..=count {
-            let words = eye.words(Use::FalseAlarm, index + number);
+            let words = draw(number);
             let way = self.sector.place([share(words[0]), share(words[1])]);
             if !self.is_hidden(eye, eye.world_of(way)) {
-                give(way, kind, None);
+                give(way, *kind, None);
             }
         }
     }

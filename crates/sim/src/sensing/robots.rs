@@ -6,7 +6,7 @@ use super::range::whole_circle;
 use super::sector::Sector;
 use base::geometry::Point;
 use base::noise::share;
-use brain::RobotId;
+use base::random::Entity;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -55,12 +55,12 @@ impl RobotDetector {
     }
 
     /// Where a robot at `place` seems to be, if the look recognises it.
-    pub(crate) fn look(&self, eye: &Eye, place: Point, id: RobotId) -> Option<Point> {
+    pub(crate) fn look(&self, eye: &Eye, place: Point, robot: Entity) -> Option<Point> {
         let way = eye.own(place);
         if !self.sector.holds(way) || (self.needs_line_of_sight && !eye.sees(place)) {
             return None;
         }
-        let words = eye.words(Use::Thing, (u32::from(id.kind) << 20) | id.index);
+        let words = eye.words_of(Use::Thing, robot);
         let is_seen = share(words[0]) < self.detects.probability(way.length());
         is_seen.then(|| blurred(way, self.noise_m, words))
     }

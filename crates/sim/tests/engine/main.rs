@@ -29,3 +29,4 @@ mod radio;
 mod random;
 mod robust;
 mod sensors;
+mod streams;
