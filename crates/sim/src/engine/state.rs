@@ -49,7 +49,7 @@ pub(crate) struct Hull {
     pub(crate) status: Status,
     /// Its percepts come from outside, and its commands go there.
     pub(crate) is_external: bool,
-    /// Something stopped it in the last step, or it has not moved freely since.
+    /// It touched something in the last step, or it has not moved freely since.
     pub(crate) is_touching: bool,
     /// Something stopped it in the last step.
     pub(crate) is_pressed: bool,
