@@ -21,6 +21,7 @@ impl Outside {
 mod tests {
     use super::*;
     use crate::engine::Simulation;
+    use crate::engine::waiting::MOST_WAITING;
     use crate::scenario::ScenarioSpec;
     use base::document::Document;
     use base::geometry::Point;
@@ -77,7 +78,7 @@ radio = { range_m = 5 }
 
     fn waiting(simulation: &Simulation) -> usize {
         let backlog = simulation.state().minds[1].backlog.as_ref().unwrap();
-        backlog.inbox.len()
+        backlog.inbox.lates.len()
     }
 
     #[test]
@@ -90,5 +91,28 @@ radio = { range_m = 5 }
         assert_eq!(waiting(&simulation), 0);
         speak(&mut simulation, 6.0);
         assert_eq!(waiting(&simulation), 1);
+    }
+
+    #[test]
+    fn what_waits_for_a_body_that_gets_no_percepts_fills_no_memory() {
+        let mut simulation = start();
+        speak(&mut simulation, 12.0);
+        let message = Message {
+            about: About::Item {
+                kind: 0,
+                at: Point::default(),
+            },
+            confidence: 1.0,
+        };
+        let command = Command {
+            outbox: vec![message; 4],
+            ..Command::default()
+        };
+        for step in 1..3000 {
+            let commands = [(HERE, command.clone())].into();
+            simulation.step_with([].into(), commands).unwrap();
+            let sent = 4 * step;
+            assert!((sent.min(MOST_WAITING)..=2 * MOST_WAITING).contains(&waiting(&simulation)));
+        }
     }
 }

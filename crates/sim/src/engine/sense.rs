@@ -4,8 +4,9 @@
 //! percept if the brain steps now. Everything else goes into the robot's backlog, from which the
 //! brain is told when it steps.
 
-use super::mind::{Backlog, Late, Mind, age_s};
+use super::mind::{Backlog, Mind, age_s};
 use super::view::View;
+use super::waiting::Late;
 use crate::sensing::eye::{Eye, Use};
 use crate::sensing::items::ItemDetector;
 use crate::sensing::range::Room;
@@ -67,6 +68,9 @@ pub(crate) fn sense(
     let kind = view.kind(robot);
     let mut ring = 0;
     senses.is_near_known = false;
+    if percept.is_none() {
+        mind.forget(view.tick);
+    }
     for (number, sensor) in kind.sensors.iter().enumerate() {
         let is_of_use = percept.is_some() || sensor.outlasts_a_step();
         let beat = sensor

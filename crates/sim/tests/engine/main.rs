@@ -30,3 +30,4 @@ mod random;
 mod robust;
 mod sensors;
 mod streams;
+mod waiting;
