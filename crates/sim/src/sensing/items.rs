@@ -2,8 +2,7 @@
 
 use super::eye::{Eye, Use, blurred};
 use super::poisson::Poisson;
-use super::range::whole_circle;
-use super::sector::Sector;
+use super::sector::{Sector, SectorSpec};
 use crate::world::items::Items;
 use base::geometry::Point;
 use base::noise::share;
@@ -15,17 +14,9 @@ use std::collections::BTreeMap;
 /// What detects items within a sector; each look at an item is a draw of its own.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ItemsSpec {
-    /// It looks no farther from the robot's centre, in metres.
-    #[schemars(range(min = 0.0, max = 10_000.0))]
-    pub range_m: f64,
-    /// Angle that it covers, in degrees.
-    #[serde(default = "whole_circle")]
-    #[schemars(range(min = 0.0, max = 360.0))]
-    pub fov_deg: f64,
-    /// Its middle, in degrees anticlockwise from the robot's front.
-    #[serde(default)]
-    #[schemars(range(min = -180.0, max = 180.0))]
-    pub facing_deg: f64,
+    /// Where it looks.
+    #[serde(flatten)]
+    pub sector: SectorSpec,
     /// Probability of detection in one look, for each kind of item that it can recognise; left out,
     /// it recognises all kinds always.
     pub detects: Option<BTreeMap<String, Detection>>,
@@ -92,11 +83,7 @@ impl ItemsSpec {
     /// False contacts of a kind in one look, on average, if nothing hides any.
     pub(crate) fn false_alarms_a_look(&self, kind: &str, period_s: f64) -> f64 {
         let rate = self.false_alarms_per_m2_s.get(kind).copied();
-        rate.unwrap_or(0.0) * self.sector().area_m2() * period_s
-    }
-
-    fn sector(&self) -> Sector {
-        Sector::new(self.range_m, self.fov_deg, self.facing_deg)
+        rate.unwrap_or(0.0) * Sector::new(&self.sector).area_m2() * period_s
     }
 }
 
@@ -138,7 +125,7 @@ impl ItemDetector {
             })
         };
         Self {
-            sector: spec.sector(),
+            sector: Sector::new(&spec.sector),
             detects: kinds.iter().map(detection).collect(),
             false_alarms: (0..).zip(kinds).filter_map(false_alarm).collect(),
             noise_m: spec.noise_m,

@@ -1,6 +1,6 @@
 //! What a contact does to a robot: it stops, is held, counts once, and may break.
 
-use crate::common::{Random, first, go, id, robots, start, told};
+use crate::common::{self, Random, first, go, id, robots, start, told};
 use base::geometry::Point;
 use base::trig::sin_cos;
 use sim::engine::{Robot, Simulation, Status};
@@ -17,16 +17,13 @@ fn text(collision: &str, robots: u32) -> String {
     )
 }
 
-/// Robots after each of so many steps in which they are told the same.
+/// Robots after each of so many steps in which some of the first kind, by index, are told the same.
 fn drive(simulation: &mut Simulation, steps: u32, commands: &[(u32, f64, f64)]) -> Vec<Vec<Robot>> {
-    let step = |_| {
-        let commands = commands
-            .iter()
-            .map(|(index, speed, turn)| (id(0, *index), go(*speed, *turn)));
-        told(simulation, commands);
-        robots(simulation)
-    };
-    (0..steps).map(step).collect()
+    let commands = commands.iter();
+    let commands: Vec<_> = commands
+        .map(|(index, speed, turn)| (id(0, *index), *speed, *turn))
+        .collect();
+    common::drive(simulation, steps, &commands)
 }
 
 #[test]

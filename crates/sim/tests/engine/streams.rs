@@ -1,8 +1,8 @@
 //! Common random numbers: what kinds there are changes nothing for the others.
 
-use crate::common::{go, id, robots, say, start, told};
+use crate::common::{go, id, message, robots, say, start, told};
 use base::geometry::Point;
-use brain::{About, Message, Percept, RobotId};
+use brain::{Percept, RobotId};
 use sim::engine::Simulation;
 
 const ROVERS: &str = "
@@ -104,18 +104,11 @@ fn rovers(simulation: &Simulation) -> Vec<(Point, f64, u32)> {
 
 /// One step in which the first rover speaks, and the next is told its way.
 fn step(simulation: &mut Simulation) {
-    let message = Message {
-        about: About::Item {
-            kind: 0,
-            at: Point::default(),
-        },
-        confidence: 1.0,
-    };
     let rover = kind(simulation, "rover");
     told(
         simulation,
         [
-            (id(rover, 0), say(&[message, message])),
+            (id(rover, 0), say(&[message(1.0); 2])),
             (id(rover, 1), go(0.3, 1.0)),
         ],
     );

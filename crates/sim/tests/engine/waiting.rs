@@ -1,8 +1,6 @@
 //! What waits for a brain that hardly ever steps.
 
-use crate::common::{id, say, start, told};
-use base::geometry::Point;
-use brain::{About, Message};
+use crate::common::{id, message, say, start, told};
 
 /// A slow mind beside three items and a robot, which it sees in each step.
 const SLOW: &str = "
@@ -38,15 +36,8 @@ radio = { range_m = 9 }
 #[test]
 fn a_brain_that_hardly_steps_is_told_of_the_newest_thousand_of_a_kind() {
     let mut simulation = start(SLOW);
-    let message = Message {
-        about: About::Item {
-            kind: 0,
-            at: Point::default(),
-        },
-        confidence: 1.0,
-    };
     for _ in 0..1000 {
-        told(&mut simulation, [(id(1, 0), say(&[message; 4]))]);
+        told(&mut simulation, [(id(1, 0), say(&[message(1.0); 4]))]);
     }
     let percept = simulation.percept(id(0, 0)).unwrap().unwrap();
     let ages = [
