@@ -15,6 +15,9 @@ Value = str | int | float
 Given = Value | Sequence[Any] | Mapping[str, Any]
 """What can be put into a scenario: a value, a list or a table."""
 
+RECORDING = b"\x89MCAP"
+"""What recordings begin with."""
+
 VARY = "study.vary."
 
 MAX_BYTES = 2**28
@@ -161,10 +164,7 @@ class Scenario:
             message = f"{file}: cannot be read: {error.strerror}{shipped.meant(file)}"
             raise InputError(message) from None
         except UnicodeDecodeError as error:
-            message = (
-                f"{file}: is not UTF-8 text: byte {error.start} is {error.object[error.start]:#x}"
-            )
-            raise InputError(message) from None
+            raise InputError(no_text(file, error)) from None
         return cls.loads(text, file=str(file), overrides=overrides)
 
     @classmethod
@@ -260,6 +260,14 @@ def loaded(given: Scenario | str | Path) -> Scenario:
         return Scenario.load(given)
     message = f"scenario = {given!r}: must be a Scenario, a file, or the name of one that ships"
     raise InputError(message)
+
+
+def no_text(file: Path, error: UnicodeDecodeError) -> str:
+    """Return what is wrong with a file that is no text."""
+    if error.object.startswith(RECORDING):
+        again = f"agent-economy rerun {file}"
+        return f"{file}: must be a scenario, and is a recording; to take its run again: {again}"
+    return f"{file}: is not UTF-8 text: byte {error.start} is {error.object[error.start]:#x}"
 
 
 def factor(fields: dict[str, Any]) -> Factor:

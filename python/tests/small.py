@@ -1,7 +1,6 @@
 """A small study, for processes that are killed while they work on it."""
 
 from pathlib import Path
-from types import TracebackType
 from typing import Self
 
 from agent_economy import Scenario, study
@@ -16,12 +15,7 @@ class NoScript:
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        traceback: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         pass
 
     def text(self) -> str:

@@ -87,6 +87,17 @@ def test_a_fault_of_a_percept_names_its_path(percept: Any, told: str) -> None:
     assert told in str(caught.value)
 
 
+def test_a_percept_that_holds_itself_is_told() -> None:
+    ring: list[Any] = []
+    ring.append(ring)
+    knot: dict[str, Any] = {}
+    knot["scans"] = [knot]
+    percepts: list[Any] = [{"scans": ring}, knot]
+    for percept in percepts:
+        with pytest.raises(ae.InputError, match=r"no more than 32 lists and dicts deep"):
+            ae.Brain(None, ROVER).step(percept)
+
+
 def names(schema: dict[str, Any]) -> set[str]:
     return set(schema.get("properties", {}))
 

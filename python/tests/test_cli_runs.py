@@ -86,8 +86,25 @@ def test_runs_that_gave_nothing_are_told_and_not_counted(tmp_path: Path) -> None
     told = json.loads(run("replicate", full, "--runs", "3", "--json").stdout)
     assert {each["runs"] for each in told["columns"]} == {0}
     alone = run("run", full)
-    assert alone.returncode == 2
+    assert alone.returncode == 0
+    assert "run 0: quarantined" in alone.stdout
     assert "robots.second: the run has no room for second/0" in alone.stderr
+    outcome = ae.run(full)
+    told = json.loads(run("run", full, "--json").stdout)
+    assert told == {"seed": 0, "status": "quarantined", **outcome.row}
+    recorded = run("run", full, "--record", "none.mcap", cwd=tmp_path)
+    assert recorded.returncode == 2
+    assert "the run has no room for second/0" in recorded.stderr
+
+
+def test_a_recording_in_place_of_a_scenario_is_to_be_taken_again(tmp_path: Path) -> None:
+    recorded = tmp_path / "run.mcap"
+    short = ["--set", "clock.cap_s=1", "--record", str(recorded)]
+    assert run("run", "search", *short).returncode == 0
+    for command in ("run", "replicate", "check", "study"):
+        given = run(command, recorded, cwd=tmp_path)
+        assert given.returncode == 2
+        assert f"agent-economy rerun {recorded}" in given.stderr + given.stdout
 
 
 @pytest.mark.parametrize(

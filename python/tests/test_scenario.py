@@ -142,6 +142,26 @@ def test_any_kind_of_value_reaches_the_check(classic_toml: Path) -> None:
         scenario.replace("clock.cap_s", {"a": None})
 
 
+def nested(depth: int) -> list[Any]:
+    given: list[Any] = [1.5]
+    for _ in range(depth - 1):
+        given = [given]
+    return given
+
+
+def test_a_value_that_holds_itself_is_told(classic_toml: Path) -> None:
+    scenario = Scenario.load(classic_toml)
+    ring: list[Any] = []
+    ring.append(ring)
+    knot: dict[str, Any] = {}
+    knot["a"] = [knot]
+    for value in (ring, knot, nested(33), nested(100_000)):
+        with pytest.raises(InputError, match="no more than 32 lists and dicts deep"):
+            scenario.replace("clock.cap_s", value)
+    with pytest.raises(InputError, match="clock.cap_s = .*must be a number"):
+        scenario.replace("clock.cap_s", nested(32))
+
+
 @pytest.mark.parametrize(
     ("values", "sizes"),
     [("1..3", (1, 2, 3)), ("7", (7,)), ("4, 2,4", (2, 4)), ("1..2,9", (1, 2, 9))],

@@ -1,32 +1,45 @@
 //! Random streams that depend on what they are for, never on when they are asked.
 //!
 //! A draw is a pure function of (seed, run, entity, purpose, position in the stream). So any run
-//! can be computed alone, on any thread, in any order; adding a robot of one kind changes nobody
-//! else's stream; and two teams compared under one run number meet the same world (common random
-//! numbers): the configuration is not part of the key.
+//! can be computed alone, on any thread, in any order; adding a robot, or a kind of robots, changes
+//! nobody else's stream; and two teams compared under one run number meet the same world (common
+//! random numbers): the configuration is not part of the key.
 //!
 //! Generator: Philox4x32-10 (Salmon, Moraes, Dror and Shaw, *Parallel random numbers: as easy as
-//! 1, 2, 3*, SC'11). The 64-bit key is the seed; the 128-bit counter is laid out as
+//! 1, 2, 3*, SC'11). The 128-bit counter is laid out as
 //!
 //! ```text
 //! bit 127            64 63      56 55       36 35        28 27         0
 //!     run (64)          kind (8)   index (20)  purpose (8)  block (28)
 //! ```
 //!
-//! A stream holds 2^28 blocks of four 32-bit words.
+//! and the 64-bit key is the seed, whose highest 24 bits are crossed (exclusive or) with the highest
+//! 24 of the kind's 32: for seeds below 2^40 no two streams have the same key and counter. A stream
+//! holds 2^28 blocks of four 32-bit words.
 
 pub use rand_philox::Philox as Stream;
 
 /// Robots of one kind that can have streams of their own: indices are below this.
 pub const MAX_INDEX: u32 = 1 << 20;
 
-/// Whose stream it is: the `index`-th robot (or item, ...) of the `kind`-th kind.
+/// Whose stream it is: the `index`-th robot (or item, ...) of a kind.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Entity {
-    /// Place of the kind in the scenario.
-    pub kind: u8,
+    /// What tells the kind from others: of a kind with a name, its [`kind_key`].
+    pub kind: u32,
     /// Place within the kind, below [`MAX_INDEX`].
     pub index: u32,
+}
+
+/// What tells a kind from others in random streams: a hash of its name, so that it is the same
+/// whatever other kinds there are. Two names may have the same, one pair in 2^32.
+///
+/// FNV-1a (G. Fowler, L. C. Noll, K.-P. Vo and D. Eastlake, *The FNV non-cryptographic hash
+/// algorithm*).
+#[must_use]
+pub fn kind_key(name: &str) -> u32 {
+    let hashed = |hash: u32, byte| (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193);
+    name.bytes().fold(0x811c_9dc5, hashed)
 }
 
 /// What a stream is used for. A purpose keeps its number for ever: a change changes every result.
@@ -61,13 +74,15 @@ pub enum Purpose {
 #[inline]
 pub fn stream(seed: u64, run: u64, entity: Entity, purpose: Purpose) -> Stream {
     debug_assert!(entity.index < MAX_INDEX, "entity index out of range");
-    let place = (u64::from(entity.kind) << 56)
+    let [low_kind, high_kind @ ..] = entity.kind.to_le_bytes();
+    let place = (u64::from(low_kind) << 56)
         | (u64::from(entity.index) << 36)
         | (u64::from(purpose as u8) << 28);
     let [s0, s1, s2, s3, s4, s5, s6, s7] = seed.to_le_bytes();
+    let [k1, k2, k3] = high_kind;
     let key = [
         u32::from_le_bytes([s0, s1, s2, s3]),
-        u32::from_le_bytes([s4, s5, s6, s7]),
+        u32::from_le_bytes([s4, s5 ^ k1, s6 ^ k2, s7 ^ k3]),
     ];
     Stream::new(key, (u128::from(run) << 64) | u128::from(place))
 }
@@ -85,7 +100,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn draws(seed: u64, run: u64, kind: u8, index: u32) -> [u32; 8] {
+    fn draws(seed: u64, run: u64, kind: u32, index: u32) -> [u32; 8] {
         let mut stream = stream(seed, run, Entity { kind, index }, Purpose::Start);
         std::array::from_fn(|_| stream.next_u32())
     }
@@ -97,10 +112,24 @@ mod tests {
         assert_eq!(draws(7, 5, 0, 3)[..4], expected);
     }
 
+    #[test]
+    fn keys_of_kinds_are_the_same_for_ever() {
+        // Test vectors of FNV-1a, 32 bits, in the RFC draft of its makers.
+        let expected = [0x811c_9dc5, 0xe40c_292c, 0xbf9c_f968];
+        assert_eq!(["", "a", "foobar"].map(kind_key), expected);
+    }
+
+    #[test]
+    fn the_whole_of_a_kind_s_key_is_in_its_streams() {
+        // Philox4x32-10 with key (7, 0x01020300) and counter words (2^28, 0x04000030, 5, 0).
+        let expected = rand_philox::philox4x32_10([1 << 28, 0x0400_0030, 5, 0], [7, 0x0102_0300]);
+        assert_eq!(draws(7, 5, 0x0102_0304, 3)[..4], expected);
+    }
+
     proptest! {
         #[test]
         fn changing_any_part_of_the_key_changes_the_stream(
-            seed: u64, run: u64, kind: u8, index in 0..MAX_INDEX,
+            seed: u64, run: u64, kind: u32, index in 0..MAX_INDEX,
         ) {
             let here = draws(seed, run, kind, index);
             prop_assert_ne!(here, draws(seed ^ 1, run, kind, index));
@@ -108,6 +137,8 @@ mod tests {
             prop_assert_ne!(here, draws(seed, run ^ 1, kind, index));
             prop_assert_ne!(here, draws(seed, run ^ (1 << 63), kind, index));
             prop_assert_ne!(here, draws(seed, run, kind ^ 1, index));
+            prop_assert_ne!(here, draws(seed, run, kind ^ (1 << 8), index));
+            prop_assert_ne!(here, draws(seed, run, kind ^ (1 << 31), index));
             prop_assert_ne!(here, draws(seed, run, kind, index ^ 1));
         }
     }

@@ -12,9 +12,18 @@ use serde::de::DeserializeOwned;
 use serde_json::{Map, Number, Value as Json};
 use serde_path_to_error::Segment;
 
+/// Lists and dicts are at most so deep in each other; a list that holds itself is deeper.
+pub(crate) const MAX_DEPTH: usize = 32;
+
+/// That what is at a path is deeper: Python may not be able to show it.
+pub(crate) fn too_deep(at: String) -> Fault {
+    let allowed = format!("no more than {MAX_DEPTH} lists and dicts deep; does one hold itself?");
+    Fault::new(at, Some("...".to_owned()), allowed)
+}
+
 /// What a dict says; `at` is how a fault names it.
 pub(crate) fn read<T: DeserializeOwned>(at: &str, given: &Bound<PyAny>) -> Result<T, Fault> {
-    let json = json(at, given)?;
+    let json = json(at, given, MAX_DEPTH)?;
     serde_path_to_error::deserialize(&json).map_err(|error| {
         let path = error.path().to_string();
         let path = below(at, if path == "." { "" } else { &path });
@@ -49,8 +58,9 @@ fn found<'j, 'p>(json: &'j Json, path: impl Iterator<Item = &'p Segment>) -> &'j
     })
 }
 
-/// A Python value as JSON has it: infinity is null.
-fn json(at: &str, given: &Bound<PyAny>) -> Result<Json, Fault> {
+/// A Python value as JSON has it: infinity is null. It is at most so `deep`.
+fn json(at: &str, given: &Bound<PyAny>, deep: usize) -> Result<Json, Fault> {
+    let too_deep = || too_deep(at.to_owned());
     if given.is_none() {
         Ok(Json::Null)
     } else if let Ok(truth) = given.extract::<bool>() {
@@ -58,17 +68,19 @@ fn json(at: &str, given: &Bound<PyAny>) -> Result<Json, Fault> {
     } else if let Ok(text) = given.extract::<String>() {
         Ok(Json::String(text))
     } else if let Ok(dict) = given.cast::<PyDict>() {
+        let deep = deep.checked_sub(1).ok_or_else(too_deep)?;
         let entry = |(key, given): (Bound<PyAny>, Bound<PyAny>)| {
             let key = key.to_string();
-            Ok((key.clone(), json(&path_of(at, &key), &given)?))
+            Ok((key.clone(), json(&path_of(at, &key), &given, deep)?))
         };
         let entries: Result<Map<String, Json>, Fault> = dict.iter().map(entry).collect();
         entries.map(Json::Object)
     } else if let Ok(items) = given.try_iter() {
+        let deep = deep.checked_sub(1).ok_or_else(too_deep)?;
         let item = |(index, item): (usize, PyResult<Bound<PyAny>>)| {
             let at = format!("{at}[{index}]");
             let item = item.map_err(|error| fault(&at, error.to_string(), "there"))?;
-            json(&at, &item)
+            json(&at, &item, deep)
         };
         items.enumerate().map(item).collect()
     } else if let Ok(whole) = given.extract::<i64>() {

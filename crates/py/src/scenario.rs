@@ -2,6 +2,7 @@
 
 use crate::engines::ENGINES;
 use crate::error::input_error;
+use crate::exchange::{MAX_DEPTH, too_deep};
 use base::document::{Document, Node, Override, Table, Value};
 use base::fault::{Fault, Faults};
 use base::question::{self, Factor, Merit, Published, Scenario, Values};
@@ -85,6 +86,11 @@ impl Source<'_> {
 
 /// A Python value at `path` as documents have it.
 pub(crate) fn value(path: &[String], given: &Bound<PyAny>, origin: &str) -> PyResult<Value> {
+    nested((path, origin), given, MAX_DEPTH)
+}
+
+/// A value that is at most so `deep`.
+fn nested(at: At, given: &Bound<PyAny>, deep: usize) -> PyResult<Value> {
     if let Ok(boolean) = given.cast::<PyBool>() {
         return Ok(Value::Bool(boolean.is_true()));
     }
@@ -94,36 +100,43 @@ pub(crate) fn value(path: &[String], given: &Bound<PyAny>, origin: &str) -> PyRe
     if let Ok(number) = given.extract::<i64>() {
         return Ok(Value::Integer(number));
     }
+    let too_deep = || refusal(at.1, too_deep(at.0.join(".")));
     if let Ok(dict) = given.cast::<PyDict>() {
-        return table(path, dict, origin);
+        return table(at, dict, deep.checked_sub(1).ok_or_else(too_deep)?);
     }
     if let Ok(items) = given.extract::<Vec<Bound<PyAny>>>() {
-        let items = items.iter().map(|item| node(path, item, origin));
+        let deep = deep.checked_sub(1).ok_or_else(too_deep)?;
+        let items = items.iter().map(|item| node(at, item, deep));
         return items.collect::<PyResult<_>>().map(Value::List);
     }
     given.extract::<f64>().map(Value::Float).map_err(|_| {
         let allowed = "a text, a number, true, false, or a list or dict of these".to_owned();
-        let fault = Fault {
-            origin: Some(origin.to_owned()),
-            ..Fault::new(path.join("."), Some(given.to_string()), allowed)
-        };
-        input_error(&Faults(vec![fault]), "")
+        let given = Some(given.to_string());
+        refusal(at.1, Fault::new(at.0.join("."), given, allowed))
     })
 }
 
-fn node(path: &[String], given: &Bound<PyAny>, origin: &str) -> PyResult<Node> {
+/// The path of a value, and its origin.
+type At<'a> = (&'a [String], &'a str);
+
+fn refusal(origin: &str, fault: Fault) -> PyErr {
+    let origin = Some(origin.to_owned());
+    input_error(&Faults(vec![Fault { origin, ..fault }]), "")
+}
+
+fn node(at: At, given: &Bound<PyAny>, deep: usize) -> PyResult<Node> {
     Ok(Node {
-        value: value(path, given, origin)?,
-        origin: origin.to_owned(),
+        value: nested(at, given, deep)?,
+        origin: at.1.to_owned(),
     })
 }
 
-fn table(path: &[String], dict: &Bound<PyDict>, origin: &str) -> PyResult<Value> {
+fn table((path, origin): At, dict: &Bound<PyDict>, deep: usize) -> PyResult<Value> {
     let mut table = Table::new();
     for (key, given) in dict {
         let key = key.str()?.to_string();
         let inner: Vec<String> = path.iter().chain([&key]).cloned().collect();
-        table.insert(key, node(&inner, &given, origin)?);
+        table.insert(key, node((&inner, origin), &given, deep)?);
     }
     Ok(Value::Table(table))
 }

@@ -12,6 +12,7 @@ from rich.table import Table
 from rich.text import Text
 
 from agent_economy import runs
+from agent_economy._core import InputError
 from agent_economy.cli.gauge import gauge
 from agent_economy.cli.given import Seed, Sets, overrides
 from agent_economy.cli.told import faults_told
@@ -56,7 +57,8 @@ def run(  # noqa: PLR0913  (typer's options are arguments)
     It is the same run, of the same seed and number, as one of agent-economy replicate. A recording
     is enough to take it again: agent-economy rerun FILE.
 
-    Exit codes: 0 the run is over, 2 something given is not allowed, 130 stopped by Ctrl-C.
+    Exit codes: 0 the run is over, or quarantined, 2 something given is not allowed, 130 stopped by
+    Ctrl-C.
 
     Example: agent-economy run search --seed 7 --set robots.rover.count=6 --record run.mcap
     """
@@ -76,7 +78,13 @@ def watched(scenario: Scenario, seed: int, number: int) -> Outcome:
     """Run once, and show how far it is if that takes long."""
     if scenario.engine != "metric":
         return runs.run(scenario, seed, number)
-    simulation = Simulation(scenario, seed, number)
+    try:
+        simulation = Simulation(scenario, seed, number)
+    except InputError as no_room:
+        # A run that cannot begin is quarantined, as in a table of runs; what is not allowed is not.
+        outcome = runs.run(scenario, seed, number)
+        typer.echo(str(no_room), err=True)
+        return outcome
     return shown(simulation, simulation.step)
 
 

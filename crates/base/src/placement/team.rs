@@ -8,8 +8,10 @@ use crate::random::Entity;
 /// The robots of one kind.
 #[derive(Debug, Clone, Copy)]
 pub struct Group<'p> {
-    /// Number of the kind, that of [`Entity::kind`].
+    /// Number of the kind, for [`NoPlaceFor`].
     pub kind: u8,
+    /// That of [`Entity::kind`].
+    pub key: u32,
     /// How many robots.
     pub count: u32,
     /// Radius of a robot.
@@ -80,11 +82,11 @@ fn place(
     is_free: impl Fn(Point) -> bool,
     is_open: impl Fn(Point) -> bool,
 ) -> Result<Point, NoPlaceFor> {
-    let Group {
-        kind, placement, ..
-    } = *group;
-    placement
-        .candidates(draws, Entity { kind, index }, is_free)
+    let Group { kind, key, .. } = *group;
+    let entity = Entity { kind: key, index };
+    group
+        .placement
+        .candidates(draws, entity, is_free)
         .and_then(|candidates| candidates.first(is_open))
         .map_err(|why| NoPlaceFor { kind, index, why })
 }

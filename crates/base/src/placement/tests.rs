@@ -222,6 +222,7 @@ fn what_a_person_may_write_is_in_the_schema() {
 fn group(kind: u8, count: u32, radius_m: f64, placement: &Placement) -> Group<'_> {
     Group {
         kind,
+        key: kind.into(),
         count,
         radius_m,
         layer: 0,
@@ -304,7 +305,7 @@ proptest! {
 
     #[test]
     fn a_place_depends_on_its_own_kind_and_index(
-        seed: u64, run: u64, kind: u8, index in 0..MAX_INDEX - 1,
+        seed: u64, run: u64, kind: u32, index in 0..MAX_INDEX - 1,
     ) {
         let clustered = Placement::Clustered { clusters: 1 << 20, spread_m: 1.0, within_m: None };
         let there = Draws { seed, run, ..draws(1e3, Things::Items) };

@@ -12,13 +12,24 @@ use base::geometry::{Disc, Point};
 /// where two walls meet.
 const CRACK_M: f64 = 1e-9;
 
+/// The sine of the greatest angle off a tangent, squared, that is rounding: who goes along something
+/// round leaves it.
+const ALONG: f64 = 1e-24;
+
+/// Whether `way` leads a point at `from` closer to the origin.
+#[inline]
+fn is_closing(from: Point, way: Point) -> bool {
+    let closing = -from.dot(way);
+    closing > 0.0 && closing * closing > ALONG * from.length_squared() * way.length_squared()
+}
+
 /// The share of `way` after which a point at `from` comes within `radius_m` of the origin.
 #[inline]
 fn meets_origin(from: Point, way: Point, radius_m: f64) -> Option<f64> {
-    let closing = -from.dot(way);
-    if closing <= 0.0 {
+    if !is_closing(from, way) {
         return None;
     }
+    let closing = -from.dot(way);
     let power = from.length_squared() - radius_m * radius_m;
     if power <= 0.0 {
         return Some(0.0);
@@ -76,23 +87,52 @@ pub(crate) fn meets_still<'a>(
     })
 }
 
-/// The share of the step after which two bodies come within `reach_m` of each other.
-pub(crate) fn meets_moving(one: &Path, other: &Path, reach_m: f64) -> Option<f64> {
+/// How two bodies meet.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Encounter {
+    /// Share of the step after which they touch.
+    pub(crate) share: f64,
+    /// Which of them goes towards the other then.
+    pub(crate) comes: [bool; 2],
+}
+
+/// How two bodies come within `reach_m` of each other after a share `since` of the step.
+pub(crate) fn meets_moving(
+    [one, other]: [&Path; 2],
+    reach_m: f64,
+    since: f64,
+) -> Option<Encounter> {
     let chords = one.chords().max(other.chords());
     let ends = (1..=chords).map(|chord| f64::from(chord) / f64::from(chords));
-    let mut before = 0.0;
-    let mut from = other.at(0.0).to(one.at(0.0));
-    for end in ends {
+    let mut before = since;
+    let mut from = other.at(since).to(one.at(since));
+    for end in ends.filter(|end| *end > since) {
         // A body that stops on the way does so between two straight pieces.
         for after in pieces(before, end, one.until, other.until) {
             let next = other.at(after).to(one.at(after));
-            if let Some(share) = meets_origin(from, from.to(next), reach_m) {
-                return Some(before + share * (after - before));
+            let way = from.to(next);
+            if let Some(share) = meets_origin(from, way, reach_m) {
+                let ways = [one, other].map(|path| path.at(before).to(path.at(after)));
+                return Some(Encounter {
+                    share: before + share * (after - before),
+                    comes: comes(from.plus(way.times(share)), ways),
+                });
             }
             (before, from) = (after, next);
         }
     }
     None
+}
+
+/// Which of two bodies that meet goes towards the other, by the way from the other to the one.
+fn comes(apart: Point, [one, other]: [Point; 2]) -> [bool; 2] {
+    let comes = [is_closing(apart, one), is_closing(apart.times(-1.0), other)];
+    // They do meet: where rounding says that neither does it, both do.
+    if comes == [false; 2] {
+        [true; 2]
+    } else {
+        comes
+    }
 }
 
 fn pieces(before: f64, end: f64, one: f64, other: f64) -> impl Iterator<Item = f64> {

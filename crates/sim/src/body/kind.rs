@@ -8,6 +8,7 @@ use crate::radio::Radio;
 use crate::sensing::timing::Rhythm;
 use crate::sensing::{Measure, Sensor};
 use base::placement::Placement;
+use base::random::kind_key;
 use brain::{Body, Brain, RangeRing};
 use std::sync::Arc;
 
@@ -15,6 +16,8 @@ use std::sync::Arc;
 #[derive(Debug, Clone)]
 pub(crate) struct Kind {
     pub(crate) name: String,
+    /// Its name in random streams: [`kind_key`].
+    pub(crate) key: u32,
     pub(crate) count: u32,
     pub(crate) layer: Layer,
     pub(crate) radius_m: f64,
@@ -63,6 +66,7 @@ impl Kind {
         let mut kind = Self {
             all_on_w: 0.0,
             name: name.to_owned(),
+            key: kind_key(name),
             count: spec.count,
             layer: spec.layer,
             radius_m: spec.radius_m,

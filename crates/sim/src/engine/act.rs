@@ -2,8 +2,8 @@
 //!
 //! First each plans its path as if it were alone. Then the paths are cut where they meet what stands
 //! still, and where they meet each other, the earliest meeting first: who stops may no longer be in
-//! the way of others, or now be in it. Last, all go. A meeting stops both bodies; neither slides nor
-//! bounces.
+//! the way of others, or now be in it. Last, all go. A meeting stops both bodies, but none that leaves
+//! what it touched before; nobody slides or bounces.
 
 use super::meetings::Meetings;
 use super::mind::Mind;
@@ -41,22 +41,14 @@ pub(crate) struct Plan {
     pub(crate) stop: Stop,
 }
 
-/// Why a robot does not go its way to the end.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// Why a robot does not go its way to the end; of two reasons, the greater counts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Stop {
     Nothing,
-    Still,
+    /// It does go on, but another presses against it.
+    Pressed,
     Robot,
-}
-
-impl Stop {
-    /// Still this, or else by a robot that ran into it.
-    pub(crate) fn or_robot(self) -> Self {
-        match self {
-            Self::Still => Self::Still,
-            Self::Nothing | Self::Robot => Self::Robot,
-        }
-    }
+    Still,
 }
 
 /// What comes of all robots' moves.
@@ -223,7 +215,7 @@ impl Hull {
     #[inline]
     fn go(&mut self, plan: &Plan, kind: &Kind, step_s: f64, tick: u64) -> Moved {
         let gone_m = plan.path.length_m.abs() * plan.path.until;
-        let is_stopped = plan.stop != Stop::Nothing;
+        let is_stopped = plan.stop > Stop::Pressed;
         self.speed_m_s = if is_stopped {
             0.0
         } else {
@@ -233,8 +225,10 @@ impl Hull {
         self.distance_m += gone_m;
         let is_collision = is_stopped && !self.is_touching;
         // Only going freely ends a touch: a robot that turns on the spot is still there.
-        self.is_touching = is_stopped || (self.is_touching && gone_m == 0.0);
-        self.is_pressed = is_stopped || (self.is_pressed && tick < self.held_until);
+        self.is_touching = plan.stop != Stop::Nothing || (self.is_touching && gone_m == 0.0);
+        let stands_pressed = plan.stop == Stop::Pressed && gone_m == 0.0;
+        let stays_pressed = self.is_pressed && tick < self.held_until;
+        self.is_pressed = is_stopped || stands_pressed || stays_pressed;
         if is_collision {
             self.collide(kind, tick);
         }

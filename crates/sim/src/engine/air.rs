@@ -82,9 +82,11 @@ impl View<'_> {
         {
             return false;
         }
-        let sender = self.ids[from];
-        let used = Use::Radio as u32 | u32::from(sender.kind) << 8 | outgoing.number << 16;
-        let words = self.noises[to].words(used, self.tick, sender.index);
+        let sender = self.scenario.entity(self.ids[from]);
+        let used = Use::Radio as u32 | outgoing.number << 16;
+        // Steps are at most 1e8: the sender's kind is in the half of their number that is free.
+        let time = u64::from(sender.kind) << 32 | self.tick;
+        let words = self.noises[to].words(used, time, sender.index);
         let is_lost = share(words[0]) < radio.loss;
         !is_lost && (!radio.needs_line_of_sight || self.scenario.hiding().is_open(here, there))
     }

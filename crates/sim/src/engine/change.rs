@@ -1,7 +1,7 @@
 //! Going on with another scenario in the middle of a run.
 
 use super::mind::Mind;
-use super::state::{Hull, NoRoom, State, draws, entity};
+use super::state::{Hull, NoRoom, State, draws};
 use crate::body::Layer;
 use crate::body::kind::Kind;
 use crate::scenario::Scenario;
@@ -27,8 +27,7 @@ impl State {
     /// Robots and items that are in both, by the names of their kinds and their indices, stay as
     /// they are; others come in where they would start, or go. A robot whose brain, body or sensors
     /// are now others begins with a new mind, and is at once no faster than its drive now allows.
-    /// Messages on their way are lost if the team changes. Random numbers go by the place of a kind
-    /// among the kinds: a new kind whose name comes before another's gives that others.
+    /// Messages on their way are lost if the team changes.
     ///
     /// # Errors
     /// If there is no room for what comes in, or for what stays where something else now is.
@@ -105,7 +104,7 @@ impl State {
                 continue;
             }
             let place = match room {
-                Room::Wanted => kind.start.place(&draws, entity(id), is_free),
+                Room::Wanted => kind.start.place(&draws, scenario.entity(id), is_free),
                 _ => Err(NoPlace::Taken),
             };
             self.discs[robot].centre = place.map_err(|why| NoPlaceFor {
@@ -158,13 +157,12 @@ impl State {
     }
 }
 
-#[expect(clippy::cast_possible_truncation, reason = "items have 32-bit numbers")]
-fn no_room(scenario: &Scenario, name: &str, index: usize) -> NoRoom {
+fn no_room(scenario: &Scenario, name: &str, index: u32) -> NoRoom {
     let kinds = (0..).zip(&scenario.items);
     let kind = kinds.into_iter().find(|(_, kind)| kind.name == name);
     NoRoom::Item {
         kind: kind.map_or(0, |(number, _)| number),
-        index: index as u32,
+        index,
         why: NoPlace::Taken,
     }
 }

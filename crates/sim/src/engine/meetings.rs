@@ -1,9 +1,12 @@
 //! Where the paths of robots meet in one step, resolved in the order of time.
+//!
+//! Two robots that meet are both stopped. Of two that touch already, only who would come closer is:
+//! nobody is held by another who presses against it.
 
 use super::act::{Plan, Stop};
 use super::neighbours::Neighbours;
 use super::state::State;
-use crate::body::contact::meets_moving;
+use crate::body::contact::{Encounter, meets_moving};
 use base::geometry::Disc;
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
@@ -22,6 +25,10 @@ struct Pair {
     reach_m: f64,
     /// Share of the step after which they meet, as far as is known; infinite if they do not.
     share: f64,
+    /// Which of them goes towards the other then.
+    comes: [bool; 2],
+    /// Share of the step from which on they are still to be looked at; infinite if both stand.
+    since: f64,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -75,6 +82,8 @@ impl Meetings {
                 robots,
                 reach_m,
                 share: f64::INFINITY,
+                comes: [false; 2],
+                since: 0.0,
             });
         }
     }
@@ -91,18 +100,27 @@ impl Meetings {
             self.predict(plans, pair);
         }
         while let Some(Reverse(Meeting { share, pair })) = self.queue.pop() {
-            let robots = self.pairs[pair].robots;
             // What was predicted before one of them was stopped does not hold.
             if self.pairs[pair].share.to_bits() != share.to_bits() {
                 continue;
             }
-            self.pairs[pair].share = f64::NEG_INFINITY;
+            let Pair { robots, comes, .. } = self.pairs[pair];
             let is_old = robots
                 .iter()
                 .all(|robot| state.hulls[*robot as usize].is_touching);
             collisions += u64::from(!is_old);
-            for robot in robots {
-                self.stop(plans, neighbours, robot, share);
+            self.pairs[pair].since = f64::INFINITY;
+            for (robot, comes) in robots.into_iter().zip(comes) {
+                if comes || !is_old {
+                    self.stop(plans, neighbours, robot, share);
+                } else {
+                    let stop = &mut plans[robot as usize].stop;
+                    *stop = (*stop).max(Stop::Pressed);
+                }
+            }
+            if is_old && comes != [true; 2] {
+                self.pairs[pair].since = share;
+                self.predict(plans, pair);
             }
         }
         collisions
@@ -112,7 +130,7 @@ impl Meetings {
         let plan = &mut plans[robot as usize];
         if plan.path.until <= share {
             // It may have been stopped by a wall, which counts for itself.
-            plan.stop = plan.stop.or_robot();
+            plan.stop = plan.stop.max(Stop::Robot);
             return;
         }
         plan.stop = Stop::Robot;
@@ -125,16 +143,16 @@ impl Meetings {
         }
     }
 
-    /// Finds when a pair that has not met yet will.
+    /// Finds when a pair will meet.
     fn predict(&mut self, plans: &[Plan], number: usize) {
         let pair = &mut self.pairs[number];
-        if pair.share == f64::NEG_INFINITY {
+        pair.share = f64::INFINITY;
+        if pair.since == f64::INFINITY {
             return;
         }
-        let [one, other] = pair.robots.map(|robot| &plans[robot as usize].path);
-        let share = meets_moving(one, other, pair.reach_m);
-        pair.share = share.unwrap_or(f64::INFINITY);
-        if let Some(share) = share {
+        let paths = pair.robots.map(|robot| &plans[robot as usize].path);
+        if let Some(Encounter { share, comes }) = meets_moving(paths, pair.reach_m, pair.since) {
+            (pair.share, pair.comes) = (share, comes);
             self.queue.push(Reverse(Meeting {
                 share,
                 pair: number,

@@ -1,6 +1,7 @@
 //! A robot's brain, and what waits for it.
 
 use super::air::Sent;
+use super::waiting::{Late, Waiting};
 use crate::body::kind::Kind;
 use crate::sensing::{Measure, Sensor};
 use brain::{Brain, Contact, Heard, Motion, Neighbour, Percept, SensorRequest};
@@ -44,14 +45,16 @@ impl Mind {
             return;
         };
         let inbox = &mut backlog.inbox;
+        inbox.forget(now);
         if inbox
+            .lates
             .iter()
             .rev()
             .take_while(|late| late.due == now)
             .count()
             < most
         {
-            inbox.push(Late {
+            inbox.lates.push(Late {
                 taken: sent.at,
                 due: now,
                 what: sent.heard,
@@ -66,22 +69,30 @@ impl Mind {
         }
     }
 
+    /// Makes room for what is recognised in a step in which the brain does not step.
+    pub(crate) fn forget(&mut self, now: u64) {
+        if let Some(backlog) = &mut self.backlog {
+            backlog.contacts.forget(now);
+            backlog.neighbours.forget(now);
+        }
+    }
+
     pub(crate) fn wait_contact(&mut self, late: Late<(Contact, Option<u32>)>) {
         if let Some(backlog) = &mut self.backlog {
-            backlog.contacts.push(late);
+            backlog.contacts.lates.push(late);
         }
     }
 
     pub(crate) fn wait_neighbour(&mut self, late: Late<Neighbour>) {
         if let Some(backlog) = &mut self.backlog {
-            backlog.neighbours.push(late);
+            backlog.neighbours.lates.push(late);
         }
     }
 
     /// Items have other numbers from now on; what was seen of one that is gone is forgotten.
     pub(crate) fn renumber_items(&mut self, numbers: &BTreeMap<usize, usize>) {
         if let Some(backlog) = &mut self.backlog {
-            backlog.contacts.retain_mut(|late| {
+            backlog.contacts.lates.retain_mut(|late| {
                 let Some(item) = &mut late.what.1 else {
                     return true;
                 };
@@ -95,7 +106,7 @@ impl Mind {
     /// Robots that were recognised and that the brain has not been told of.
     pub(crate) fn neighbours(&mut self) -> &mut [Late<Neighbour>] {
         let backlog = self.backlog.as_deref_mut();
-        backlog.map_or(&mut [], |backlog| &mut backlog.neighbours)
+        backlog.map_or(&mut [], |backlog| &mut backlog.neighbours.lates)
     }
 
     pub(crate) fn is_on(&self, sensor: usize) -> bool {
@@ -108,17 +119,9 @@ impl Mind {
 pub(crate) struct Backlog {
     /// By sensor; empty for one that tells at once.
     kept: Vec<Vec<Look>>,
-    pub(crate) contacts: Vec<Late<(Contact, Option<u32>)>>,
-    pub(crate) neighbours: Vec<Late<Neighbour>>,
-    pub(crate) inbox: Vec<Late<Heard>>,
-}
-
-/// Something measured, and when the robot will have it.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Late<T> {
-    pub(crate) taken: u64,
-    pub(crate) due: u64,
-    pub(crate) what: T,
+    pub(crate) contacts: Waiting<(Contact, Option<u32>)>,
+    pub(crate) neighbours: Waiting<Neighbour>,
+    pub(crate) inbox: Waiting<Heard>,
 }
 
 /// A look of which the newest counts.
@@ -163,32 +166,24 @@ impl Backlog {
         to: &mut Percept,
         mut found: impl FnMut(Option<u32>),
     ) {
-        self.contacts.retain(|late| {
-            if late.due <= now {
-                let (contact, item) = late.what;
-                let age_s = age_s(late.taken, now, step_s);
-                to.contacts.push(Contact { age_s, ..contact });
-                found(item);
-            }
-            late.due > now
+        self.contacts.tell(now, |late| {
+            let (contact, item) = late.what;
+            let age_s = age_s(late.taken, now, step_s);
+            to.contacts.push(Contact { age_s, ..contact });
+            found(item);
         });
-        self.neighbours.retain(|late| {
-            if late.due <= now {
-                let age_s = age_s(late.taken, now, step_s);
-                to.neighbours.push(Neighbour { age_s, ..late.what });
-            }
-            late.due > now
+        self.neighbours.tell(now, |late| {
+            let age_s = age_s(late.taken, now, step_s);
+            to.neighbours.push(Neighbour { age_s, ..late.what });
         });
         self.tell_messages(now, step_s, to);
     }
-}
 
-impl Backlog {
     fn tell_messages(&mut self, now: u64, step_s: f64, to: &mut Percept) {
-        for late in self.inbox.drain(..) {
+        self.inbox.tell(now, |late| {
             let age_s = age_s(late.taken, now, step_s);
             to.inbox.push(Heard { age_s, ..late.what });
-        }
+        });
     }
 }
 

@@ -17,6 +17,7 @@ mod simulation;
 mod state;
 mod tick;
 mod view;
+mod waiting;
 
 pub use outcome::Outcome;
 pub use seen::{Item, Robot};

@@ -21,6 +21,7 @@ impl Outside {
 mod tests {
     use super::*;
     use crate::engine::Simulation;
+    use crate::engine::waiting::MOST_WAITING;
     use crate::scenario::ScenarioSpec;
     use base::document::Document;
     use base::geometry::Point;
@@ -49,8 +50,7 @@ radio = { range_m = 5 }
     const HERE: RobotId = RobotId { kind: 0, index: 0 };
     const OUT: RobotId = RobotId { kind: 0, index: 1 };
 
-    /// One step in which the first robot speaks and the other is outside, at a place.
-    fn speak(simulation: &mut Simulation, x: f64) {
+    fn saying(messages: usize) -> Command {
         let message = Message {
             about: About::Item {
                 kind: 0,
@@ -58,10 +58,15 @@ radio = { range_m = 5 }
             },
             confidence: 1.0,
         };
-        let command = Command {
-            outbox: vec![message],
+        Command {
+            outbox: vec![message; messages],
             ..Command::default()
-        };
+        }
+    }
+
+    /// One step in which the first robot speaks and the other is outside, at a place.
+    fn speak(simulation: &mut Simulation, x: f64) {
+        let command = saying(1);
         let percept = Percept {
             position: Some(brain::Reading {
                 value: Point { x, y: 10.0 },
@@ -77,7 +82,7 @@ radio = { range_m = 5 }
 
     fn waiting(simulation: &Simulation) -> usize {
         let backlog = simulation.state().minds[1].backlog.as_ref().unwrap();
-        backlog.inbox.len()
+        backlog.inbox.lates.len()
     }
 
     #[test]
@@ -90,5 +95,18 @@ radio = { range_m = 5 }
         assert_eq!(waiting(&simulation), 0);
         speak(&mut simulation, 6.0);
         assert_eq!(waiting(&simulation), 1);
+    }
+
+    #[test]
+    fn what_waits_for_a_body_that_gets_no_percepts_fills_no_memory() {
+        let mut simulation = start();
+        speak(&mut simulation, 12.0);
+        let command = saying(4);
+        for step in 1..3000 {
+            let commands = [(HERE, command.clone())].into();
+            simulation.step_with([].into(), commands).unwrap();
+            let sent = 4 * step;
+            assert!((sent.min(MOST_WAITING)..=2 * MOST_WAITING).contains(&waiting(&simulation)));
+        }
     }
 }

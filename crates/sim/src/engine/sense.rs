@@ -4,8 +4,9 @@
 //! percept if the brain steps now. Everything else goes into the robot's backlog, from which the
 //! brain is told when it steps.
 
-use super::mind::{Backlog, Late, Mind, age_s};
+use super::mind::{Backlog, Mind, age_s};
 use super::view::View;
+use super::waiting::Late;
 use crate::sensing::eye::{Eye, Use};
 use crate::sensing::items::ItemDetector;
 use crate::sensing::range::Room;
@@ -67,6 +68,9 @@ pub(crate) fn sense(
     let kind = view.kind(robot);
     let mut ring = 0;
     senses.is_near_known = false;
+    if percept.is_none() {
+        mind.forget(view.tick);
+    }
     for (number, sensor) in kind.sensors.iter().enumerate() {
         let is_of_use = percept.is_some() || sensor.outlasts_a_step();
         let beat = sensor
@@ -251,8 +255,13 @@ impl Look<'_> {
         let waiting = mind.neighbours().len();
         for other in view.neighbours.about(self.eye.at, detector.sector.range_m) {
             let other = other as usize;
-            let way = (other != self.robot)
-                .then(|| detector.look(&self.eye, view.discs[other].centre, view.ids[other]));
+            let way = (other != self.robot).then(|| {
+                detector.look(
+                    &self.eye,
+                    view.discs[other].centre,
+                    view.scenario.entity(view.ids[other]),
+                )
+            });
             let Some(way) = way.flatten() else { continue };
             let (range_m, bearing_rad) = polar(way);
             let neighbour = Neighbour {

@@ -49,7 +49,7 @@ pub(crate) struct Hull {
     pub(crate) status: Status,
     /// Its percepts come from outside, and its commands go there.
     pub(crate) is_external: bool,
-    /// Something stopped it in the last step, or it has not moved freely since.
+    /// It touched something in the last step, or it has not moved freely since.
     pub(crate) is_touching: bool,
     /// Something stopped it in the last step.
     pub(crate) is_pressed: bool,
@@ -127,6 +127,7 @@ impl State {
         let kinds = (0..).zip(&scenario.kinds);
         let groups = kinds.map(|(number, kind)| Group {
             kind: number,
+            key: kind.key,
             count: kind.count,
             radius_m: kind.radius_m,
             layer: kind.layer as u8,
@@ -143,7 +144,7 @@ impl State {
                     kind: group.kind,
                     index,
                 };
-                let heading_rad = group.placement.heading_rad(&draws, entity(id));
+                let heading_rad = group.placement.heading_rad(&draws, scenario.entity(id));
                 self.add(scenario, id, place, heading_rad);
             }
         }
@@ -159,7 +160,8 @@ impl State {
         });
         self.courses.push(Course::new(heading_rad));
         self.hulls.push(Hull::default());
-        self.noises.push(Noise::of(self.seed, self.run, entity(id)));
+        self.noises
+            .push(Noise::of(self.seed, self.run, scenario.entity(id)));
         self.minds.push(Mind::new(kind));
     }
 
@@ -247,13 +249,6 @@ impl State {
     }
 }
 
-pub(super) fn entity(id: RobotId) -> Entity {
-    Entity {
-        kind: id.kind,
-        index: id.index,
-    }
-}
-
 pub(super) fn draws(scenario: &Scenario, seed: u64, run: u64, things: Things) -> Draws {
     Draws {
         seed,
@@ -265,23 +260,23 @@ pub(super) fn draws(scenario: &Scenario, seed: u64, run: u64, things: Things) ->
 
 fn place_items(scenario: &Scenario, seed: u64, run: u64) -> Result<Items, NoRoom> {
     let draws = draws(scenario, seed, run, Things::Items);
-    let (mut places, mut kinds) = (Vec::new(), Vec::new());
+    let mut items = Vec::new();
     for (number, kind) in (0..).zip(&scenario.items) {
         for index in 0..kind.count {
-            let entity = Entity {
-                kind: number,
+            let thing = Entity {
+                kind: kind.key,
                 index,
             };
             let is_free = |place| scenario.is_free(place, 0.0, Layer::Ground);
-            let place = kind.placement.place(&draws, entity, is_free);
-            places.push(place.map_err(|why| NoRoom::Item {
+            let place = kind.placement.place(&draws, thing, is_free);
+            let place = place.map_err(|why| NoRoom::Item {
                 kind: number,
                 index,
                 why,
-            })?);
-            kinds.push(u16::from(number));
+            })?;
+            items.push((thing, u16::from(number), place));
         }
     }
     let reach_m = scenario.items_reach_m();
-    Ok(Items::new(places, kinds, scenario.world.size(), reach_m))
+    Ok(Items::new(&items, scenario.world.size(), reach_m))
 }

@@ -11,6 +11,7 @@ use crate::world::obstacles::Solid;
 use crate::world::still::{Stands, Wall};
 use crate::world::terrain::{Area, Going, Terrain};
 use base::geometry::{Disc, Point, Rectangle, Segment};
+use base::random::Entity;
 use brain::{Brain, RobotId};
 
 /// What is near a robot is looked up with so much more reach than is needed, in metres; that holds
@@ -153,6 +154,14 @@ impl Scenario {
     #[must_use]
     pub fn brain(&self, kind: u8) -> Option<&Brain> {
         self.kinds.get(usize::from(kind)).map(|kind| &kind.brain)
+    }
+
+    /// Whose random numbers a robot has.
+    pub(crate) fn entity(&self, id: RobotId) -> Entity {
+        Entity {
+            kind: self.kinds[usize::from(id.kind)].key,
+            index: id.index,
+        }
     }
 
     /// The name of a robot's kind.

@@ -4,6 +4,7 @@ use crate::world::still::Stands;
 use base::geometry::Point;
 use base::noise::{Noise, normal_pair};
 use base::philox::Blocks;
+use base::random::Entity;
 
 /// What a look draws random numbers for. The numbers stay: a change changes every result.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -58,6 +59,15 @@ impl Eye<'_> {
     pub(crate) fn words(&self, used: Use, index: u32) -> [u32; 4] {
         self.noise
             .words(used.of_sensor(self.sensor), self.look, index)
+    }
+
+    /// The words for one thing of a kind.
+    #[inline]
+    pub(crate) fn words_of(&self, used: Use, thing: Entity) -> [u32; 4] {
+        // Looks are at most 1e8: the kind is in the half of their number that is free.
+        let time = u64::from(thing.kind) << 32 | self.look;
+        self.noise
+            .words(used.of_sensor(self.sensor), time, thing.index)
     }
 
     /// A word for each thing of a hand: see [`Noise::deal`].

@@ -2,11 +2,11 @@
 
 use super::eye::{Eye, Use, blurred};
 use super::poisson::Poisson;
-use super::range::whole_circle;
-use super::sector::Sector;
+use super::sector::{Sector, SectorSpec};
 use crate::world::items::Items;
 use base::geometry::Point;
 use base::noise::share;
+use base::random::{Entity, kind_key};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -14,17 +14,9 @@ use std::collections::BTreeMap;
 /// What detects items within a sector; each look at an item is a draw of its own.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ItemsSpec {
-    /// It looks no farther from the robot's centre, in metres.
-    #[schemars(range(min = 0.0, max = 10_000.0))]
-    pub range_m: f64,
-    /// Angle that it covers, in degrees.
-    #[serde(default = "whole_circle")]
-    #[schemars(range(min = 0.0, max = 360.0))]
-    pub fov_deg: f64,
-    /// Its middle, in degrees anticlockwise from the robot's front.
-    #[serde(default)]
-    #[schemars(range(min = -180.0, max = 180.0))]
-    pub facing_deg: f64,
+    /// Where it looks.
+    #[serde(flatten)]
+    pub sector: SectorSpec,
     /// Probability of detection in one look, for each kind of item that it can recognise; left out,
     /// it recognises all kinds always.
     pub detects: Option<BTreeMap<String, Detection>>,
@@ -91,11 +83,7 @@ impl ItemsSpec {
     /// False contacts of a kind in one look, on average, if nothing hides any.
     pub(crate) fn false_alarms_a_look(&self, kind: &str, period_s: f64) -> f64 {
         let rate = self.false_alarms_per_m2_s.get(kind).copied();
-        rate.unwrap_or(0.0) * self.sector().area_m2() * period_s
-    }
-
-    fn sector(&self) -> Sector {
-        Sector::new(self.range_m, self.fov_deg, self.facing_deg)
+        rate.unwrap_or(0.0) * Sector::new(&self.sector).area_m2() * period_s
     }
 }
 
@@ -106,9 +94,19 @@ pub(crate) struct ItemDetector {
     /// By the item's kind; `None` is never seen.
     detects: Vec<Option<Detection>>,
     /// By the kind that they are taken for; only those that there are.
-    false_alarms: Vec<(u16, Poisson)>,
+    false_alarms: Vec<FalseAlarm>,
     noise_m: f64,
     needs_line_of_sight: bool,
+}
+
+/// Contacts of nothing that are taken for one kind of item.
+#[derive(Debug, Clone, PartialEq)]
+struct FalseAlarm {
+    kind: u16,
+    /// Of the kind, in random streams.
+    key: u32,
+    /// How many there are in a look.
+    count: Poisson,
 }
 
 impl ItemDetector {
@@ -120,10 +118,14 @@ impl ItemDetector {
         };
         let false_alarm = |(number, kind): (u16, &String)| {
             let mean = spec.false_alarms_a_look(kind, period_s);
-            (mean > 0.0).then(|| (number, Poisson::new(mean)))
+            (mean > 0.0).then(|| FalseAlarm {
+                kind: number,
+                key: kind_key(kind),
+                count: Poisson::new(mean),
+            })
         };
         Self {
-            sector: spec.sector(),
+            sector: Sector::new(&spec.sector),
             detects: kinds.iter().map(detection).collect(),
             false_alarms: (0..).zip(kinds).filter_map(false_alarm).collect(),
             noise_m: spec.noise_m,
@@ -147,30 +149,29 @@ impl ItemDetector {
             if !self.sector.holds(way) || self.is_hidden(eye, *place) {
                 continue;
             }
-            let words = eye.words(Use::Thing, items.thing(*number));
+            let words = eye.words_of(Use::Thing, items.thing(*number));
             if share(words[0]) < detection.probability(way.length()) {
                 give(blurred(way, self.noise_m, words), kind, Some(*number));
             }
         }
-        for (kind, poisson) in &self.false_alarms {
-            self.false_contacts(eye, *kind, poisson, &mut give);
+        for false_alarm in &self.false_alarms {
+            self.false_contacts(eye, false_alarm, &mut give);
         }
     }
 
     fn false_contacts(
         &self,
         eye: &Eye,
-        kind: u16,
-        poisson: &Poisson,
+        FalseAlarm { kind, key, count }: &FalseAlarm,
         give: &mut impl FnMut(Point, u16, Option<u32>),
     ) {
-        let index = u32::from(kind) << 16;
-        let count = poisson.draw(share(eye.words(Use::FalseAlarm, index)[0]));
+        let draw = |index| eye.words_of(Use::FalseAlarm, Entity { kind: *key, index });
+        let count = count.draw(share(draw(0)[0]));
         for number in 1..=count {
-            let words = eye.words(Use::FalseAlarm, index + number);
+            let words = draw(number);
             let way = self.sector.place([share(words[0]), share(words[1])]);
             if !self.is_hidden(eye, eye.world_of(way)) {
-                give(way, kind, None);
+                give(way, *kind, None);
             }
         }
     }

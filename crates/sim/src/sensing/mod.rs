@@ -10,7 +10,7 @@ pub mod position;
 pub mod range;
 pub(crate) mod rays;
 pub mod robots;
-mod sector;
+pub mod sector;
 pub(crate) mod timing;
 
 use heading::HeadingSpec;

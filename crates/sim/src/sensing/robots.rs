@@ -2,28 +2,19 @@
 
 use super::eye::{Eye, Use, blurred};
 use super::items::{Detection, yes};
-use super::range::whole_circle;
-use super::sector::Sector;
+use super::sector::{Sector, SectorSpec};
 use base::geometry::Point;
 use base::noise::share;
-use brain::RobotId;
+use base::random::Entity;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// What recognises other robots within a sector, and tells which they are.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RobotsSpec {
-    /// It looks no farther from the robot's centre, in metres.
-    #[schemars(range(min = 0.0, max = 10_000.0))]
-    pub range_m: f64,
-    /// Angle that it covers, in degrees.
-    #[serde(default = "whole_circle")]
-    #[schemars(range(min = 0.0, max = 360.0))]
-    pub fov_deg: f64,
-    /// Its middle, in degrees anticlockwise from the robot's front.
-    #[serde(default)]
-    #[schemars(range(min = -180.0, max = 180.0))]
-    pub facing_deg: f64,
+    /// Where it looks.
+    #[serde(flatten)]
+    pub sector: SectorSpec,
     /// Probability of detection in one look; left out, always.
     pub detects: Option<Detection>,
     /// Standard deviation of where a robot seems to be, along each axis, in metres.
@@ -47,7 +38,7 @@ pub(crate) struct RobotDetector {
 impl RobotDetector {
     pub(crate) fn new(spec: &RobotsSpec) -> Self {
         Self {
-            sector: Sector::new(spec.range_m, spec.fov_deg, spec.facing_deg),
+            sector: Sector::new(&spec.sector),
             detects: spec.detects.clone().unwrap_or(Detection::Constant(1.0)),
             noise_m: spec.noise_m,
             needs_line_of_sight: spec.needs_line_of_sight,
@@ -55,12 +46,12 @@ impl RobotDetector {
     }
 
     /// Where a robot at `place` seems to be, if the look recognises it.
-    pub(crate) fn look(&self, eye: &Eye, place: Point, id: RobotId) -> Option<Point> {
+    pub(crate) fn look(&self, eye: &Eye, place: Point, robot: Entity) -> Option<Point> {
         let way = eye.own(place);
         if !self.sector.holds(way) || (self.needs_line_of_sight && !eye.sees(place)) {
             return None;
         }
-        let words = eye.words(Use::Thing, (u32::from(id.kind) << 20) | id.index);
+        let words = eye.words_of(Use::Thing, robot);
         let is_seen = share(words[0]) < self.detects.probability(way.length());
         is_seen.then(|| blurred(way, self.noise_m, words))
     }

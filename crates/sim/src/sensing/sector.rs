@@ -1,7 +1,26 @@
 //! A field of view.
 
+use super::range::whole_circle;
 use base::geometry::Point;
 use base::trig::sin_cos;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A field of view.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SectorSpec {
+    /// It looks no farther from the robot's centre, in metres.
+    #[schemars(range(min = 0.0, max = 10_000.0))]
+    pub range_m: f64,
+    /// Angle that it covers, in degrees.
+    #[serde(default = "whole_circle")]
+    #[schemars(range(min = 0.0, max = 360.0))]
+    pub fov_deg: f64,
+    /// Its middle, in degrees anticlockwise from the robot's front.
+    #[serde(default)]
+    #[schemars(range(min = -180.0, max = 180.0))]
+    pub facing_deg: f64,
+}
 
 /// What is within some distance and angle of a direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,11 +35,11 @@ pub(crate) struct Sector {
 }
 
 impl Sector {
-    pub(crate) fn new(range_m: f64, width_deg: f64, facing_deg: f64) -> Self {
-        let (width_rad, facing_rad) = (width_deg.to_radians(), facing_deg.to_radians());
+    pub(crate) fn new(spec: &SectorSpec) -> Self {
+        let (width_rad, facing_rad) = (spec.fov_deg.to_radians(), spec.facing_deg.to_radians());
         let (y, x) = sin_cos(facing_rad);
         Self {
-            range_m,
+            range_m: spec.range_m,
             width_rad,
             facing_rad,
             facing: Point { x, y },
@@ -60,6 +79,14 @@ mod tests {
         Point { x, y }.times(range_m)
     }
 
+    fn seen(range_m: f64, fov_deg: f64, facing_deg: f64) -> Sector {
+        Sector::new(&SectorSpec {
+            range_m,
+            fov_deg,
+            facing_deg,
+        })
+    }
+
     proptest! {
         #[test]
         fn a_sector_holds_what_is_in_range_and_in_its_angle(
@@ -67,7 +94,7 @@ mod tests {
             share in 0.0..2.0_f64, off in -180.0..180.0_f64,
         ) {
             prop_assume!((off.abs() - width / 2.0).abs() > 1e-4 && (share - 1.0).abs() > 1e-9);
-            let sector = Sector::new(range, width, facing);
+            let sector = seen(range, width, facing);
             let holds = sector.holds(way(share * range, facing + off));
             prop_assert_eq!(holds, share <= 1.0 && off.abs() <= width / 2.0);
         }
@@ -77,14 +104,14 @@ mod tests {
             range in 0.1..1000.0_f64, width in 1.0..=360.0_f64, facing in -180.0..180.0,
             one in 1e-6..0.999_999_f64, other in 1e-6..0.999_999_f64,
         ) {
-            let sector = Sector::new(range, width, facing);
+            let sector = seen(range, width, facing);
             prop_assert!(sector.holds(sector.place([one, other])));
         }
     }
 
     #[test]
     fn a_whole_circle_has_no_edge() {
-        let circle = Sector::new(2.0, 360.0, 0.0);
+        let circle = seen(2.0, 360.0, 0.0);
         for step in 0..100_000 {
             let bearing_deg = 179.999 + f64::from(step) * 2e-8;
             assert!(circle.holds(way(1.999_999, bearing_deg)));
@@ -95,7 +122,7 @@ mod tests {
 
     #[test]
     fn places_are_spread_evenly_over_the_area() {
-        let sector = Sector::new(2.0, 90.0, 30.0);
+        let sector = seen(2.0, 90.0, 30.0);
         let side = 300;
         let at = |step: u32| (f64::from(step) + 0.5) / f64::from(side);
         let places = (0..side).flat_map(|a| (0..side).map(move |b| [at(a), at(b)]));

@@ -4,6 +4,7 @@ use super::buckets::Buckets;
 use crate::scenario::Scenario;
 use base::geometry::Point;
 use base::placement::Placement;
+use base::random::{Entity, kind_key};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -30,6 +31,8 @@ fn yes() -> bool {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct ItemKind {
     pub(crate) name: String,
+    /// Its name in random streams: [`kind_key`].
+    pub(crate) key: u32,
     pub(crate) count: u32,
     pub(crate) is_sought: bool,
     pub(crate) placement: Placement,
@@ -39,6 +42,7 @@ impl ItemKind {
     pub(crate) fn new((name, spec): (&String, &ItemSpec)) -> Self {
         Self {
             name: name.clone(),
+            key: kind_key(name),
             count: spec.count,
             is_sought: spec.sought,
             placement: spec.placement.clone(),
@@ -59,26 +63,23 @@ pub(crate) struct Item {
 pub(crate) struct Items {
     places: Vec<Point>,
     kinds: Vec<u16>,
-    /// For which thing a look at it draws: its kind and its place within it.
-    things: Vec<u32>,
+    /// Whose draw a look at it is.
+    things: Vec<Entity>,
     /// The step at which it was found.
     found: Vec<Option<u64>>,
     buckets: Buckets,
 }
 
 impl Items {
-    #[expect(clippy::cast_possible_truncation, reason = "items have 32-bit numbers")]
-    pub(crate) fn new(places: Vec<Point>, kinds: Vec<u16>, size_m: Point, reach_m: f64) -> Self {
+    /// Items, each with its place and the number of its kind.
+    pub(crate) fn new(each: &[(Entity, u16, Point)], size_m: Point, reach_m: f64) -> Self {
         let mut buckets = Buckets::new(size_m, reach_m);
-        buckets.fill(places.iter().copied());
-        let first = |kind: u16| kinds.partition_point(|other| *other < kind);
-        let thing =
-            |(number, kind): (u32, &u16)| (u32::from(*kind) << 20) + number - first(*kind) as u32;
+        buckets.fill(each.iter().map(|(.., place)| *place));
         Self {
-            found: vec![None; places.len()],
-            things: (0..).zip(&kinds).map(thing).collect(),
-            places,
-            kinds,
+            found: vec![None; each.len()],
+            things: each.iter().map(|(thing, ..)| *thing).collect(),
+            places: each.iter().map(|(.., place)| *place).collect(),
+            kinds: each.iter().map(|(_, kind, _)| *kind).collect(),
             buckets,
         }
     }
@@ -93,17 +94,17 @@ impl Items {
     pub(crate) fn named<'a>(
         &self,
         scenario: &'a Scenario,
-    ) -> impl Iterator<Item = ((&'a str, usize), Item)> {
+    ) -> impl Iterator<Item = ((&'a str, u32), Item)> {
         (0..self.places.len()).map(|number| {
-            let kind = self.kinds[number];
-            let first = self.kinds.partition_point(|other| *other < kind);
-            let name = scenario.items[usize::from(kind)].name.as_str();
+            let name = scenario.items[usize::from(self.kinds[number])]
+                .name
+                .as_str();
             let item = Item {
                 number,
                 place: self.places[number],
                 found: self.found[number],
             };
-            ((name, number - first), item)
+            ((name, self.things[number].index), item)
         })
     }
 
@@ -138,7 +139,7 @@ impl Items {
 
     /// What a look at an item draws for: the same whatever items of other kinds there are.
     #[inline]
-    pub(crate) fn thing(&self, number: u32) -> u32 {
+    pub(crate) fn thing(&self, number: u32) -> Entity {
         self.things[number as usize]
     }
 

@@ -15,7 +15,7 @@ use sim::scenario::ScenarioSpec;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-const WARM_UP: usize = 3000;
+const WARM_UP: usize = 6000;
 
 /// In so many of the steps after that, some list may be longer than it has ever been.
 const NEW_MOSTS: usize = 3;

@@ -1,6 +1,6 @@
 //! Going on with another scenario in the middle of a run.
 
-use crate::common::{first, go, id, robots, scenario, start, told};
+use crate::common::{drive, first, id, replaced, robots, scenario, start};
 use sim::engine::{Item, NoRoom, Robot, Simulation};
 
 const GROUND: &str = "
@@ -48,12 +48,7 @@ loss = 0.3
 ";
 
 fn with(changes: &[(&str, &str)]) -> String {
-    changes
-        .iter()
-        .fold(GROUND.to_owned(), |text, (this, that)| {
-            assert!(text.contains(this), "{this}");
-            text.replacen(this, that, 1)
-        })
+    replaced(GROUND, changes)
 }
 
 /// A run of some seconds that goes on with these changes.
@@ -205,11 +200,9 @@ fn nobody_is_told_of_an_item_that_is_gone_or_of_another_in_its_place() {
     let found = |changes: &[(&str, &str)]| {
         let mut simulation = start(LATE);
         simulation.step();
-        let text = LATE.to_owned();
-        let text = changes
-            .iter()
-            .fold(text, |text, (this, that)| text.replace(this, that));
-        simulation.change(scenario(&text)).unwrap();
+        simulation
+            .change(scenario(&replaced(LATE, changes)))
+            .unwrap();
         (0..4).for_each(|_| simulation.step());
         assert_eq!(simulation.outcome().found.iter().sum::<u32>(), 0);
         let mut outcomes = Vec::new();
@@ -290,7 +283,7 @@ kind = \"items\"
 range_m = 1
 ";
     let mut simulation = start(line);
-    (0..50).for_each(|_| told(&mut simulation, [(id(0, 0), go(1.0, 0.0))]));
+    drive(&mut simulation, 50, &[(id(0, 0), 1.0, 0.0)]);
     assert_eq!(simulation.outcome().found, [1]);
     let found_s = items(&simulation)[0].found_s.unwrap();
     simulation
@@ -317,7 +310,7 @@ start = { kind = \"fixed\", at_m = [[20, 10]], heading_deg = [0] }
 drive = { max_speed_m_s = 100, max_acceleration_m_s2 = 100, max_turn_rate_deg_s = 90 }
 ";
     let mut simulation = start(fast);
-    (0..10).for_each(|_| told(&mut simulation, [(id(0, 0), go(100.0, 0.0))]));
+    drive(&mut simulation, 10, &[(id(0, 0), 100.0, 0.0)]);
     assert_eq!(first(&simulation).speed_m_s, 100.0);
     let slow = fast
         .replace("max_speed_m_s = 100", "max_speed_m_s = 1")
@@ -376,9 +369,9 @@ drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
 ";
     let mut simulation = start(two);
     let more = scenario(&two.replace("count = 1", "count = 2"));
-    (0..15).for_each(|_| told(&mut simulation, [(id(0, 0), go(1.0, 0.0))]));
+    drive(&mut simulation, 15, &[(id(0, 0), 1.0, 0.0)]);
     let mut other = simulation.clone();
     assert!(matches!(other.change(more.clone()), Err(NoRoom::Robot(_))));
-    (0..15).for_each(|_| told(&mut simulation, [(id(0, 0), go(1.0, 0.0))]));
+    drive(&mut simulation, 15, &[(id(0, 0), 1.0, 0.0)]);
     assert!(simulation.change(more).is_ok());
 }

@@ -1,7 +1,10 @@
 //! What a contact does to a robot: it stops, is held, counts once, and may break.
 
-use crate::common::{first, go, id, robots, start, told};
+use crate::common::{self, Random, first, go, id, robots, start, told};
+use base::geometry::Point;
+use base::trig::sin_cos;
 use sim::engine::{Robot, Simulation, Status};
+use std::f64::consts::FRAC_PI_2;
 
 /// One robot half a metre from the wall that it looks at, at 1 m/s; or two, face to face.
 fn text(collision: &str, robots: u32) -> String {
@@ -14,16 +17,13 @@ fn text(collision: &str, robots: u32) -> String {
     )
 }
 
-/// Robots after each of so many steps in which they are told the same.
+/// Robots after each of so many steps in which some of the first kind, by index, are told the same.
 fn drive(simulation: &mut Simulation, steps: u32, commands: &[(u32, f64, f64)]) -> Vec<Vec<Robot>> {
-    let step = |_| {
-        let commands = commands
-            .iter()
-            .map(|(index, speed, turn)| (id(0, *index), go(*speed, *turn)));
-        told(simulation, commands);
-        robots(simulation)
-    };
-    (0..steps).map(step).collect()
+    let commands = commands.iter();
+    let commands: Vec<_> = commands
+        .map(|(index, speed, turn)| (id(0, *index), *speed, *turn))
+        .collect();
+    common::drive(simulation, steps, &commands)
 }
 
 #[test]
@@ -148,4 +148,116 @@ fn a_broken_robot_is_in_the_way_of_others() {
     assert!(last.iter().all(|robot| robot.status == Status::Broken));
     assert!((last[1].at.x - 8.5).abs() < 1e-9, "{last:?}");
     assert_eq!(simulation.outcome().collisions, 2);
+}
+
+/// Two robots in contact in a wide world. The second looks at the first, which is at `apart_rad` from
+/// it and looks along `course_rad`.
+fn touching(collision: &str, apart_rad: f64, course_rad: f64) -> String {
+    let (y, x) = sin_cos(apart_rad);
+    let behind = Point {
+        x: 50.0 - x,
+        y: 50.0 - y,
+    };
+    let degrees = [course_rad, apart_rad].map(f64::to_degrees);
+    format!(
+        "[clock]\nstep_s = 0.1\ncap_s = 100\n[world]\nsize_m = [100, 100]\n\
+         [robots.rover]\ncount = 2\nradius_m = 0.5\n\
+         start = {{ kind = \"fixed\", at_m = [[50, 50], [{}, {}]], heading_deg = {degrees:?} }}\n\
+         drive = {{ max_speed_m_s = 2, max_reverse_speed_m_s = 2, max_turn_rate_deg_s = 180 }}\n\
+         collision = {{ {collision} }}\n",
+        behind.x, behind.y
+    )
+}
+
+#[test]
+fn a_slow_robot_leaves_freely_while_a_faster_one_presses_from_behind() {
+    let random = &mut Random::new(5);
+    let mut pressed = 0;
+    for scene in 0..200 {
+        let apart_rad = random.between(-3.0, 3.0);
+        // Away from the one behind, or along it.
+        let any_rad = random.between(-1.5, 1.5);
+        let off_rad = random.one_of(&[any_rad, FRAC_PI_2, -FRAC_PI_2, 0.0]);
+        let slow_m_s = random.between(0.1, 0.9);
+        let mut simulation = start(&touching("", apart_rad, apart_rad + off_rad));
+        // It runs into the one that stands, and presses on.
+        drive(&mut simulation, 3, &[(0, 0.0, 0.0), (1, 2.0, 0.0)]);
+        assert!(robots(&simulation).iter().all(|robot| robot.is_touching));
+        let ways = drive(&mut simulation, 20, &[(0, slow_m_s, 0.0), (1, 2.0, 0.0)]);
+        // Who leaves sideways lets the other pass in the end.
+        let is_pressing = |(_, now): &(u32, &Vec<Robot>)| now[1].is_touching;
+        for (step, now) in (1..).zip(&ways).take_while(is_pressing) {
+            let way_m = slow_m_s * 0.1 * f64::from(step);
+            let context = format!("scene {scene}, step {step}: {off_rad} {now:?}");
+            assert!((now[0].distance_m - way_m).abs() < 1e-9, "{context}");
+            assert!(now[0].at.to(now[1].at).length() > 1.0 - 1e-9, "{context}");
+            assert_eq!(now[0].speed_m_s, slow_m_s, "{context}");
+            assert!(!now[0].is_touching, "{context}");
+            assert!(now.iter().all(|robot| robot.collisions == 1), "{context}");
+            pressed += 1;
+        }
+    }
+    assert!(pressed > 200 * 10, "{pressed}");
+}
+
+#[test]
+fn who_is_pressed_and_stands_feels_it_and_is_hit_once() {
+    let mut simulation = start(&touching("stop_s = 0.3", 0.4, 0.4));
+    let ways = drive(&mut simulation, 20, &[(0, 0.0, 0.0), (1, 1.0, 0.0)]);
+    let mut all = ways[1..].iter().flatten();
+    assert!(all.all(|robot| robot.is_touching && robot.collisions == 1 && robot.distance_m < 1e-9));
+    assert_eq!(simulation.outcome().collisions, 1);
+}
+
+#[test]
+fn one_that_comes_round_in_a_step_to_what_it_leaves_is_stopped_there() {
+    // It leaves on an arc of half a turn, back to where the other presses.
+    for turn_rad_s in [3.1, -3.1] {
+        let text =
+            touching("", 0.0, 0.9_f64.copysign(turn_rad_s)).replace("step_s = 0.1", "step_s = 1");
+        let mut simulation = start(&text);
+        drive(&mut simulation, 1, &[(0, 0.0, 0.0), (1, 2.0, 0.0)]);
+        let ways = drive(&mut simulation, 1, &[(0, 2.0, turn_rad_s), (1, 2.0, 0.0)]);
+        let gap_m = ways[0][0].at.to(ways[0][1].at).length() - 1.0;
+        assert!(
+            gap_m.abs() < 1e-9 && ways[0][0].distance_m > 1.0,
+            "{gap_m} {ways:?}"
+        );
+    }
+}
+
+#[test]
+fn in_a_crowd_that_presses_from_all_sides_none_overlaps_another() {
+    for seed in 0..20 {
+        let random = &mut Random::new(seed);
+        let step_s = random.one_of(&[0.05, 0.2]);
+        let kind = |name: &str, radius_m: f64| {
+            format!(
+                "[robots.{name}]\ncount = 12\nradius_m = {radius_m}\n\
+                 drive = {{ max_speed_m_s = 3, max_reverse_speed_m_s = 2, max_turn_rate_deg_s = 700 }}\n"
+            )
+        };
+        let kinds = kind("big", 0.3) + &kind("small", 0.15);
+        let mut simulation = start(&format!(
+            "[clock]\nstep_s = {step_s}\ncap_s = 100\n[world]\nsize_m = [4, 4]\n{kinds}"
+        ));
+        let mut touching = 0;
+        for _ in 0..150 {
+            let commands = robots(&simulation).into_iter().map(|robot| {
+                let speed = random.one_of(&[3.0, 3.0, 1.0, 0.2, -2.0]);
+                (robot.id, go(speed, random.one_of(&[0.0, 0.0, 12.0, -5.0])))
+            });
+            let commands: Vec<_> = commands.collect();
+            told(&mut simulation, commands);
+            let now = robots(&simulation);
+            for (place, one) in now.iter().enumerate() {
+                touching += u32::from(one.is_touching);
+                for other in &now[..place] {
+                    let gap_m = one.at.to(other.at).length() - one.radius_m - other.radius_m;
+                    assert!(gap_m > -1e-9, "seed {seed}: {gap_m} {one:?} {other:?}");
+                }
+            }
+        }
+        assert!(touching > 1000, "{touching}");
+    }
 }

@@ -4,7 +4,7 @@ use base::document::Document;
 use base::fault::Faults;
 use base::geometry::Point;
 use base::random::{Entity, Purpose, Stream, stream, unit};
-use brain::{Command, Message, Motion, RobotId};
+use brain::{About, Command, Message, Motion, RobotId};
 use sim::engine::{Robot, Simulation};
 use sim::scenario::{Scenario, ScenarioSpec};
 use std::collections::BTreeMap;
@@ -63,6 +63,40 @@ pub(crate) fn say(messages: &[Message]) -> Command {
         outbox: messages.to_vec(),
         ..Command::default()
     }
+}
+
+/// A message that can be told from others.
+pub(crate) fn message(number: f64) -> Message {
+    let at = Point { x: number, y: 0.0 };
+    Message {
+        about: About::Item { kind: 0, at },
+        confidence: 0.5,
+    }
+}
+
+/// A text with others in place of some of its parts, each of which is there.
+pub(crate) fn replaced(text: &str, changes: &[(&str, &str)]) -> String {
+    changes.iter().fold(text.to_owned(), |text, (this, that)| {
+        assert!(text.contains(this), "{this}");
+        text.replacen(this, that, 1)
+    })
+}
+
+/// Steps in which robots are told the same speeds and rates of turn; all robots after each.
+pub(crate) fn drive(
+    simulation: &mut Simulation,
+    steps: u32,
+    commands: &[(RobotId, f64, f64)],
+) -> Vec<Vec<Robot>> {
+    let step = |_| {
+        let commands = commands.iter();
+        told(
+            simulation,
+            commands.map(|(id, speed, turn)| (*id, go(*speed, *turn))),
+        );
+        robots(simulation)
+    };
+    (0..steps).map(step).collect()
 }
 
 /// One step in which these robots are told what to do.

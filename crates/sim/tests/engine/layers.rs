@@ -1,6 +1,6 @@
 //! On the ground and in the air: who is in whose way, and sees whom.
 
-use crate::common::{go, id, robots, start, told};
+use crate::common::{drive, go, id, robots, start, told};
 use sim::engine::Simulation;
 
 /// Rovers and birds on lines along x that a pillar stands on, in a field of 20 m with mud.
@@ -36,11 +36,9 @@ range_m = 18
 ";
 
 fn all_ahead(simulation: &mut Simulation, steps: u32) {
-    for _ in 0..steps {
-        let ids = robots(simulation).into_iter().map(|robot| robot.id);
-        let commands: Vec<_> = ids.map(|id| (id, go(2.0, 0.0))).collect();
-        told(simulation, commands);
-    }
+    let ids = robots(simulation).into_iter().map(|robot| robot.id);
+    let ahead: Vec<_> = ids.map(|id| (id, 2.0, 0.0)).collect();
+    drive(simulation, steps, &ahead);
 }
 
 #[test]

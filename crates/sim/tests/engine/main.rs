@@ -29,3 +29,5 @@ mod radio;
 mod random;
 mod robust;
 mod sensors;
+mod streams;
+mod waiting;

@@ -1,7 +1,6 @@
 //! Who hears what, and when.
 
-use crate::common::{id, say, start, told};
-use base::geometry::Point;
+use crate::common::{id, message, say, start, told};
 use brain::{About, Heard, Message, RobotId};
 use sim::engine::Simulation;
 
@@ -18,15 +17,6 @@ fn line(radio: &str, places_m: &[f64], more: &str) -> String {
         places.len(),
         places.join(", ")
     )
-}
-
-/// A message that can be told from others.
-fn message(number: f64) -> Message {
-    let at = Point { x: number, y: 0.0 };
-    Message {
-        about: About::Item { kind: 0, at },
-        confidence: 0.5,
-    }
 }
 
 fn number(heard: &Heard) -> f64 {

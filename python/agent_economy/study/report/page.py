@@ -3,7 +3,6 @@
 import subprocess
 import sys
 from collections.abc import Iterator
-from types import TracebackType
 from typing import Self
 
 import jinja2
@@ -48,12 +47,7 @@ class ChartScript:
         """Return itself."""
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        traceback: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         """End the process if it still runs."""
         self._process.kill()
         self._process.communicate()

@@ -3,8 +3,10 @@
 use super::ScenarioSpec;
 use base::document::Place;
 use base::fault::Fault;
+use base::random::kind_key;
+use std::collections::BTreeMap;
 
-/// Kinds are counted in a byte of the random streams' key.
+/// Robots' kinds are counted in a byte of their ids.
 const MAX_KINDS: usize = 255;
 
 /// Most sensors of a robot: which are off is a bit for each.
@@ -28,6 +30,8 @@ pub(super) fn faults(spec: &ScenarioSpec, at: &Place) -> Vec<Fault> {
         MAX_KINDS,
         &at.key("terrain"),
     ));
+    faults.extend(twins(&names(&spec.robots), &robots));
+    faults.extend(twins(&names(&spec.items), &at.key("items")));
     for (name, robot) in &spec.robots {
         let sensors = robots.key(name).key("sensors");
         faults.extend(faults_of(&names(&robot.sensors), 0, MAX_SENSORS, &sensors));
@@ -35,7 +39,7 @@ pub(super) fn faults(spec: &ScenarioSpec, at: &Place) -> Vec<Fault> {
     faults
 }
 
-fn names<T>(table: &std::collections::BTreeMap<String, T>) -> Vec<&str> {
+fn names<T>(table: &BTreeMap<String, T>) -> Vec<&str> {
     table.keys().map(String::as_str).collect()
 }
 
@@ -53,6 +57,20 @@ fn faults_of(names: &[&str], least: usize, most: usize, at: &Place) -> Vec<Fault
         faults.push(at.fault(allowed));
     }
     faults
+}
+
+/// Kinds that would have the random numbers of another.
+fn twins(names: &[&str], at: &Place) -> Vec<Fault> {
+    let mut known = BTreeMap::new();
+    let twins = names.iter().filter_map(|name| {
+        let other = *known.entry(kind_key(name)).or_insert(*name);
+        (other != *name).then(|| {
+            at.key(name).fault(format!(
+                "under another name: random numbers go by a hash of it, which is that of {other} too"
+            ))
+        })
+    });
+    twins.collect()
 }
 
 fn is_fine(name: &str) -> bool {

@@ -48,7 +48,7 @@ fn finders<'s>(spec: &'s ScenarioSpec, item: &str) -> Vec<Finder<'s>> {
                 Measures::Items(items) => {
                     let detects = items.detects.as_ref();
                     let is_known = detects.is_none_or(|kinds| kinds.contains_key(item));
-                    is_known.then_some(items.range_m)
+                    is_known.then_some(items.sector.range_m)
                 }
                 _ => None,
             });

@@ -117,6 +117,29 @@ fn names_can_stand_in_a_column_and_a_path() {
 }
 
 #[test]
+fn two_kinds_never_have_the_same_random_numbers() {
+    // Words that FNV-1a does not tell apart.
+    for what in ["items", "robots"] {
+        let rest = if what == "items" {
+            "count = 0"
+        } else {
+            "like = \"ugv\"\ncount = 0"
+        };
+        let kind = |name: &str| format!("\n[{what}.{name}]\n{rest}\n");
+        let both = kind("costarring") + &kind("liquid");
+        let told = read(&format!("{GOOD}{both}")).unwrap_err().to_string();
+        assert!(
+            told.contains(&format!(
+                "{what}.liquid = {{...}}: must be under another name: random numbers go by a hash of \
+                 it, which is that of costarring too"
+            )),
+            "{told}"
+        );
+        assert!(read(&format!("{GOOD}{}", kind("liquid"))).is_ok());
+    }
+}
+
+#[test]
 fn there_are_one_to_255_kinds_of_robots() {
     let start = GOOD.find("[robots.rover]").unwrap();
     let none = format!("{}[robots]", &GOOD[..start]);

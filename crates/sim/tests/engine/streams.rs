@@ -1,0 +1,153 @@
+//! Common random numbers: what kinds there are changes nothing for the others.
+
+use crate::common::{go, id, message, robots, say, start, told};
+use base::geometry::Point;
+use brain::{Percept, RobotId};
+use sim::engine::Simulation;
+
+const ROVERS: &str = "
+[clock]
+cap_s = 60
+[world]
+size_m = [20, 15]
+obstacles = [{ circle = { at_m = [10, 5], radius_m = 1 } }]
+[items.clutter]
+count = 9
+sought = false
+placement = { kind = \"clustered\", clusters = 3, spread_m = 1 }
+[items.mine]
+count = 9
+[robots.rover]
+count = 5
+radius_m = 0.3
+drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
+[robots.rover.sensors.compass]
+kind = \"heading\"
+noise_deg = 5
+[robots.rover.sensors.eye]
+kind = \"items\"
+range_m = 2
+latency_s = 0.3
+noise_m = 0.1
+detects = { clutter = 0.2, mine = 0.3 }
+false_alarms_per_m2_s = { clutter = 0.2, mine = 0.1 }
+[robots.rover.sensors.mates]
+kind = \"robots\"
+range_m = 9
+detects = 0.5
+noise_m = 0.1
+[robots.rover.sensors.sonar]
+kind = \"range\"
+rays = 12
+range_m = 3
+noise_m = 0.02
+miss = 0.1
+[robots.rover.radio]
+range_m = 50
+loss = 0.5
+";
+
+/// Kinds whose names come first, and which nothing of the others meets.
+const OTHERS: &str = "
+[items.aaa]
+count = 20
+sought = false
+[robots.aaa]
+count = 4
+layer = \"air\"
+radius_m = 0.4
+drive = { max_speed_m_s = 5, max_turn_rate_deg_s = 90 }
+";
+
+fn kind(simulation: &Simulation, name: &str) -> u8 {
+    let mut names = simulation.scenario().robot_kinds();
+    u8::try_from(names.position(|other| other == name).unwrap()).unwrap()
+}
+
+/// What a rover perceives of its own and of the other rovers, and of items of each kind but the first.
+fn perceived(simulation: &mut Simulation, index: u32) -> Percept {
+    let rover = kind(simulation, "rover");
+    let mut percept = simulation.percept(id(rover, index)).unwrap().unwrap();
+    let named = |id: RobotId| RobotId { kind: 0, ..id };
+    percept.neighbours.retain(|other| other.id.kind == rover);
+    for other in &mut percept.neighbours {
+        other.id = named(other.id);
+    }
+    for heard in &mut percept.inbox {
+        heard.from = named(heard.from);
+    }
+    let first = simulation.scenario().item_kinds().next() == Some("aaa");
+    for contact in &mut percept.contacts {
+        contact.kind -= u16::from(first);
+    }
+    percept
+        .contacts
+        .sort_by(|one, other| one.range_m.total_cmp(&other.range_m));
+    percept
+}
+
+/// Places of the items of a kind.
+fn places(simulation: &Simulation, name: &str) -> Vec<Point> {
+    let kinds: Vec<&str> = simulation.scenario().item_kinds().collect();
+    let items = simulation.state().each_item(simulation.scenario());
+    let items = items.filter(|item| kinds[usize::from(item.kind)] == name);
+    items.map(|item| item.at).collect()
+}
+
+fn rovers(simulation: &Simulation) -> Vec<(Point, f64, u32)> {
+    let rover = kind(simulation, "rover");
+    let rovers = robots(simulation).into_iter();
+    let rovers = rovers.filter(|robot| robot.id.kind == rover);
+    let seen = rovers.map(|robot| (robot.at, robot.heading_rad, robot.collisions));
+    seen.collect()
+}
+
+/// One step in which the first rover speaks, and the next is told its way.
+fn step(simulation: &mut Simulation) {
+    let rover = kind(simulation, "rover");
+    told(
+        simulation,
+        [
+            (id(rover, 0), say(&[message(1.0); 2])),
+            (id(rover, 1), go(0.3, 1.0)),
+        ],
+    );
+}
+
+#[test]
+fn a_robot_of_another_kind_changes_nobody_elses_stream() {
+    let mut alone = start(ROVERS);
+    let mut among = start(&format!("{ROVERS}{OTHERS}"));
+    assert_eq!(kind(&among, "rover"), 1);
+    let mut contacts = 0;
+    for _ in 0..200 {
+        assert_eq!(rovers(&alone), rovers(&among));
+        for index in 0..5 {
+            let percept = perceived(&mut alone, index);
+            contacts += percept.contacts.len();
+            assert_eq!(percept, perceived(&mut among, index));
+        }
+        step(&mut alone);
+        step(&mut among);
+    }
+    assert!(contacts > 100, "{contacts}");
+}
+
+#[test]
+fn items_of_another_kind_leave_the_others_where_they_are() {
+    let [alone, among] = [start(ROVERS), start(&format!("{ROVERS}{OTHERS}"))];
+    for name in ["clutter", "mine"] {
+        assert_eq!(places(&alone, name), places(&among, name));
+    }
+}
+
+#[test]
+fn kinds_of_different_names_have_different_streams() {
+    let renamed = start(&ROVERS.replace("rover", "tank").replace("mine", "flag"));
+    let alone = start(ROVERS);
+    let ats = [&alone, &renamed].map(|run| robots(run).iter().map(|robot| robot.at).collect());
+    let [here, there]: [Vec<Point>; 2] = ats;
+    assert!(here.iter().all(|at| !there.contains(at)));
+    let flags = places(&renamed, "flag");
+    assert!(places(&alone, "mine").iter().all(|at| !flags.contains(at)));
+}
