@@ -21,7 +21,8 @@ pub struct Percept {
     pub position: Option<Reading<Point>>,
     /// Its course: 0 along x, anticlockwise.
     pub heading_rad: Option<Reading<f64>>,
-    /// How it moves, from its wheels or rotors.
+    /// How it moves, from its wheels or rotors. The simulator knows this, and what touches it and is
+    /// in its battery, exactly and at once: what is as hard to know as in life has a sensor.
     pub motion: Option<Reading<Motion>>,
     /// Share of the battery's capacity that is left, 0 to 1.
     pub battery: Option<Reading<f64>>,

@@ -41,7 +41,7 @@ pub struct RobotSpec {
     #[serde(default = "one")]
     #[schemars(range(min = 0.001, max = 1e6))]
     pub mass_kg: f64,
-    /// Mass that it carries, in kg; moving takes energy in proportion to the whole mass.
+    /// Mass that it carries, in kg; each metre takes energy in proportion to the whole mass.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1e6))]
     pub payload_kg: f64,

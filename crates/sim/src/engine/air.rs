@@ -88,6 +88,8 @@ impl View<'_> {
         let time = u64::from(sender.kind) << 32 | self.tick;
         let words = self.noises[to].words(used, time, sender.index);
         let is_lost = share(words[0]) < radio.loss;
-        !is_lost && (!radio.needs_line_of_sight || self.scenario.hiding().is_open(here, there))
+        let layers = [from, to].map(|robot| self.kind(robot).layer);
+        let is_open = || self.scenario.hiding(layers).is_open(here, there);
+        !is_lost && (!radio.needs_line_of_sight || is_open())
     }
 }

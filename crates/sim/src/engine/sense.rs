@@ -219,7 +219,12 @@ impl Look<'_> {
         senses: &mut Senses,
         mut percept: Option<&mut Percept>,
     ) {
+        let world = self.view.scenario.world;
         detector.look(&self.eye, self.view.items, |way, kind, item| {
+            // Beyond the border there is nothing to be taken for anything.
+            if item.is_none() && !world.contains(self.eye.world_of(way)) {
+                return;
+            }
             let (range_m, bearing_rad) = polar(way);
             let contact = Contact {
                 kind,
@@ -255,14 +260,21 @@ impl Look<'_> {
         let waiting = mind.neighbours().len();
         for other in view.neighbours.about(self.eye.at, detector.sector.range_m) {
             let other = other as usize;
-            let way = (other != self.robot).then(|| {
-                detector.look(
-                    &self.eye,
-                    view.discs[other].centre,
-                    view.scenario.entity(view.ids[other]),
-                )
-            });
-            let Some(way) = way.flatten() else { continue };
+            if other == self.robot {
+                continue;
+            }
+            let layers = [self.robot, other].map(|robot| view.kind(robot).layer);
+            let eye = Eye {
+                stands: view.scenario.hiding(layers),
+                ..self.eye
+            };
+            let (place, entity) = (
+                view.discs[other].centre,
+                view.scenario.entity(view.ids[other]),
+            );
+            let Some(way) = detector.look(&eye, place, entity) else {
+                continue;
+            };
             let (range_m, bearing_rad) = polar(way);
             let neighbour = Neighbour {
                 range_m,
@@ -304,12 +316,17 @@ fn deviations(eye: &Eye) -> [f64; 2] {
 
 /// What the rays of a robot can meet.
 #[inline]
-fn gather(view: &View, robot: usize, near: &mut Near) {
+fn gather<'v>(view: &View<'v>, robot: usize, near: &mut Near) {
     let kind = view.kind(robot);
     let stands = view.scenario.seen(kind.layer);
     let vicinity = view.neighbours.of(robot);
-    let robots = vicinity.robots.iter();
-    let robots = robots.map(|other| &view.discs[*other as usize]);
+    // A body outside may be where another is; simulated ones never are.
+    let (apart, loose) = if view.has_bodies_outside {
+        (&[][..], vicinity.robots)
+    } else {
+        (vicinity.robots, &[][..])
+    };
+    let robot_discs = |robots: &'v [u32]| robots.iter().map(|other| &view.discs[*other as usize]);
     let discs = |overlap: bool| {
         let numbers = vicinity.discs.iter().copied();
         let numbers = numbers.filter(move |number| stands.overlaps(*number) == overlap);
@@ -319,7 +336,10 @@ fn gather(view: &View, robot: usize, near: &mut Near) {
     near.gather(
         view.discs[robot].centre,
         kind.rays_m,
-        (robots.chain(discs(false)), discs(true)),
+        (
+            robot_discs(apart).chain(discs(false)),
+            robot_discs(loose).chain(discs(true)),
+        ),
         walls,
     );
 }

@@ -182,6 +182,7 @@ impl State {
             items: &self.items,
             neighbours,
             outside: None,
+            has_bodies_outside: self.hulls.iter().any(|hull| hull.is_external),
         };
         (view, &mut self.minds)
     }

@@ -124,6 +124,9 @@ impl Workshop {
 
     /// Sends what robots want to tell.
     fn speak(&self, scenario: &Scenario, state: &mut State) {
+        if self.desks.iter().all(|desk| desk.outbox.is_empty()) {
+            return;
+        }
         let mut air = std::mem::take(&mut state.air);
         let (view, _) = state.view(scenario, &self.neighbours);
         for outgoing in self.desks.iter().flat_map(|desk| &desk.outbox) {

@@ -3,6 +3,7 @@
 use super::neighbours::Neighbours;
 use super::outside::Outside;
 use super::state::{Hull, Status};
+use crate::body::Layer;
 use crate::body::kind::Kind;
 use crate::body::path::Course;
 use crate::scenario::Scenario;
@@ -25,6 +26,7 @@ pub(crate) struct View<'a> {
     pub(crate) items: &'a Items,
     pub(crate) neighbours: &'a Neighbours,
     pub(crate) outside: Option<&'a Outside>,
+    pub(crate) has_bodies_outside: bool,
 }
 
 impl<'a> View<'a> {
@@ -43,7 +45,9 @@ impl<'a> View<'a> {
             #[expect(clippy::cast_possible_truncation, reason = "a robot has at most 32")]
             sensor: sensor as u32,
             look,
-            stands: self.scenario.hiding(),
+            stands: self
+                .scenario
+                .hiding([self.kind(robot).layer, Layer::Ground]),
         }
     }
 

@@ -190,10 +190,11 @@ impl Scenario {
         }
     }
 
-    /// What hides things from each other: everything on the ground.
+    /// What hides things of two layers from each other: everything on the ground, unless both fly.
     #[inline]
-    pub(crate) fn hiding(&self) -> &Stands {
-        self.touched(Layer::Ground)
+    pub(crate) fn hiding(&self, layers: [Layer; 2]) -> &Stands {
+        let [one, other] = layers;
+        self.touched(if one == other { one } else { Layer::Ground })
     }
 
     /// The greatest factor on speed that there is, at least 1.

@@ -109,3 +109,26 @@ fn who_turns_and_drives_goes_around_a_circle_exactly() {
     }
     assert!(robots(&simulation)[4].at.to(begin.at).length() < 1e-12);
 }
+
+/// A bird, and another or a rover, on two sides of a wall.
+fn across_a_wall(other: &str) -> usize {
+    let text = format!(
+        "[clock]\nstep_s = 0.1\ncap_s = 10\n[world]\nsize_m = [20, 10]\n\
+         obstacles = [{{ polygon_m = [[9, 1], [10, 1], [10, 9], [9, 9]] }}]\n\
+         [robots.bird]\ncount = 1\nlayer = \"air\"\nradius_m = 0.5\n\
+         start = {{ kind = \"fixed\", at_m = [[5, 5]] }}\n\
+         drive = {{ max_speed_m_s = 2, max_turn_rate_deg_s = 90 }}\n\
+         sensors = {{ eye = {{ kind = \"robots\", range_m = 15 }} }}\n\
+         [robots.other]\ncount = 1\nlayer = \"{other}\"\nradius_m = 0.5\n\
+         start = {{ kind = \"fixed\", at_m = [[15, 5]] }}\n\
+         drive = {{ max_speed_m_s = 2, max_turn_rate_deg_s = 90 }}\n"
+    );
+    let percept = start(&text).percept(id(0, 0)).unwrap().unwrap();
+    percept.neighbours.len()
+}
+
+#[test]
+fn who_flies_is_hidden_by_a_wall_from_the_ground_but_not_from_others_who_fly() {
+    assert_eq!(across_a_wall("air"), 1);
+    assert_eq!(across_a_wall("ground"), 0);
+}

@@ -298,3 +298,23 @@ fn absurd_percepts_do_no_harm() {
         assert!(simulation.outcome().is_finite());
     }
 }
+
+#[test]
+fn rays_meet_what_stands_where_a_body_outside_is_too() {
+    let text = FIELD
+        .replace("[4, 2]", "[7.5, 5]")
+        .replace("[0, 90, 45]", "[0, 0, 45]");
+    let mut simulation = start(&text);
+    let ahead_m = |simulation: &mut Simulation| {
+        simulation.percept(id(0, 1)).unwrap().unwrap().scans[0].ranges_m[0]
+    };
+    assert!((ahead_m(&mut simulation) - 1.5).abs() < 1e-12);
+    for x in [9.0, 9.3, 9.5, 10.0] {
+        let (percepts, commands) = ([(OUT, at(x, 5.0))], [(id(0, 1), go(0.0, 0.0))]);
+        simulation
+            .step_with(percepts.into(), commands.into())
+            .unwrap();
+        let nearest_m = f64::min(9.0, x - 0.4) - 7.5;
+        assert!((ahead_m(&mut simulation) - nearest_m).abs() < 1e-12, "{x}");
+    }
+}

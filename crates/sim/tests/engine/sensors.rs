@@ -544,3 +544,20 @@ fn a_sensor_that_is_switched_off_measures_nothing_until_it_is_on_again() {
     let all = percepts(&mut simulation, 3, &go(0.0, 0.0));
     assert_eq!(has(all[1].as_ref().unwrap()), [true; 4]);
 }
+
+#[test]
+fn false_contacts_are_in_the_world_even_for_who_sees_through_walls() {
+    let sensors = sensor(
+        "eye",
+        "kind = \"items\"\nrange_m = 30\ndetects = {}\nneeds_line_of_sight = false\n\
+         false_alarms_per_m2_s = { mine = 0.01 }",
+    );
+    let more = "[items.mine]\ncount = 1\nsought = false";
+    let all = standing(&room(&sensors, more), 4_000);
+    let counts: Vec<f64> = all
+        .iter()
+        .map(|percept| percept.contacts.len() as f64)
+        .collect();
+    let mean = 400.0 * 0.01 * STEP_S;
+    assert_mean(&counts, mean, mean.sqrt());
+}
