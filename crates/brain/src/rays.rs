@@ -101,9 +101,14 @@ impl Ring {
         (is_whole && age_s <= self.fresh_s).then_some((age_s, &scan.ranges_m))
     }
 
+    /// Nothing farther is seen.
+    pub(crate) fn range_m(&self) -> f64 {
+        self.range_m
+    }
+
     /// A ray's range, at most what the sensor sees.
     #[inline]
-    pub(crate) fn range_m(&self, ranges_m: &[f64], ray: usize) -> f64 {
+    pub(crate) fn ray_m(&self, ranges_m: &[f64], ray: usize) -> f64 {
         self.within_m(ranges_m.get(ray).copied().unwrap_or_default())
     }
 
@@ -145,7 +150,7 @@ impl Ring {
         for chords in chords.chunks(64) {
             let mut near = self.look_roughly(chords, ranges_m, &mut nearest);
             while let Some(chord) = chords.get(near.trailing_zeros() as usize) {
-                let ends_m = chord.rays.map(|ray| self.range_m(ranges_m, ray));
+                let ends_m = chord.rays.map(|ray| self.ray_m(ranges_m, ray));
                 nearest.look(chord, ends_m, &self.lane);
                 near &= near - 1;
             }
@@ -187,7 +192,7 @@ impl Ring {
     pub(crate) fn free_m(&self, ranges_m: &[f64], sector: &Sector) -> f64 {
         let mut nearest = Nearest::new(self.range_m);
         for chord in &self.chords {
-            let ends_m = chord.rays.map(|ray| self.range_m(ranges_m, ray));
+            let ends_m = chord.rays.map(|ray| self.ray_m(ranges_m, ray));
             nearest.look(chord, ends_m, sector);
         }
         nearest.m()

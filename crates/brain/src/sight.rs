@@ -59,11 +59,8 @@ impl Sight {
     /// What is seen straight ahead.
     #[inline]
     pub(crate) fn ahead(&self, percept: &Percept, body: &Body, now_m_s: f64) -> Option<Seen> {
-        let free = |ring: &Ring, _, ranges_m: &[f64]| {
-            let looks = ring.looks_ahead;
-            looks.then(|| ring.free_ahead_m(ranges_m))
-        };
-        self.seen(percept, body, now_m_s.max(0.0), free)
+        let free_m = |ring: &Ring, _, ranges_m: &[f64]| Some(ring.free_ahead_m(ranges_m));
+        self.seen(percept, body, (1.0, now_m_s.max(0.0)), free_m)
     }
 
     /// What sight allows of a motion; in a direction in which the body has no range sensor it is
@@ -124,15 +121,10 @@ impl Sight {
         let turning_s = body.period_s + 2.0 * self.stopping_s2_m * now_m_s.max(wanted_m_s);
         let stopping_m = now_m_s * now_m_s * self.stopping_s2_m;
         let needed_m = stopping_m.max(self.way_m(wanted_m_s, now_m_s, body.period_s));
-        self.seen(percept, body, now_m_s, |ring, age_s, ranges_m| {
-            let looks = if way > 0.0 {
-                ring.looks_ahead
-            } else {
-                ring.looks_behind
-            };
+        self.seen(percept, body, (way, now_m_s), |ring, age_s, ranges_m| {
             let turned_rad = moved.turned_within_rad(age_s);
             // Turned farther than that, what it saw is not where it goes.
-            if !looks || turned_rad.abs() > FRAC_PI_2 {
+            if turned_rad.abs() > FRAC_PI_2 {
                 return None;
             }
             // The nearest anywhere is soon told, and mostly it is far enough.
@@ -147,24 +139,36 @@ impl Sight {
         })
     }
 
-    /// The nearest that rings see; each is asked how far from the centre it sees, if it looks.
+    /// The nearest that rings see on the way, ahead or back; each is asked how far from the centre it
+    /// sees, if it can tell.
+    ///
+    /// One that looks elsewhere may see something in the way beside the body, but that it sees
+    /// nothing says nothing.
     #[inline]
     fn seen(
         &self,
         percept: &Percept,
         body: &Body,
-        speed_m_s: f64,
+        (way, speed_m_s): (f64, f64),
         free_m: impl Fn(&Ring, f64, &[f64]) -> Option<f64>,
     ) -> Option<Seen> {
         let mut nearest: Option<Seen> = None;
+        let mut has_looked = false;
         for (place, ring) in self.rings.iter().enumerate() {
             let scan = ring.fresh(percept.scans.get(place));
             let Some((age_s, ranges_m)) = scan else {
                 continue;
             };
-            let Some(free_m) = free_m(ring, age_s, ranges_m) else {
+            let looks = if way > 0.0 {
+                ring.looks_ahead
+            } else {
+                ring.looks_behind
+            };
+            let free_m = free_m(ring, age_s, ranges_m);
+            let Some(free_m) = free_m.filter(|free_m| looks || *free_m < ring.range_m()) else {
                 continue;
             };
+            has_looked |= looks;
             let free_m = free_m - self.half_width_m - gone_m(body, speed_m_s, age_s);
             let so_far = nearest.unwrap_or(Seen { free_m, age_s });
             nearest = Some(Seen {
@@ -172,7 +176,7 @@ impl Sight {
                 age_s: age_s.max(so_far.age_s),
             });
         }
-        nearest
+        nearest.filter(|_| has_looked)
     }
 
     /// Courses from where it looked to where it will stand, turning all the time.

@@ -183,7 +183,7 @@ fn on_the_spot(left_rad: f64, senses: &Senses) -> Motion {
 fn rays<'s>(senses: &'s Senses) -> impl Iterator<Item = (&'s Ring, usize, f64)> {
     senses.scans().flat_map(|(ring, ranges_m)| {
         let rays = 0..ranges_m.len();
-        rays.map(move |ray| (ring, ray, ring.range_m(ranges_m, ray)))
+        rays.map(move |ray| (ring, ray, ring.ray_m(ranges_m, ray)))
     })
 }
 
