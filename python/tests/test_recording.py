@@ -264,6 +264,17 @@ def test_wrong_arguments_are_told_together(tmp_path: Path) -> None:
         ae.run("classic", record=tmp_path / "run")
 
 
+def test_a_run_without_robots_is_recorded_and_has_nobodys_percepts(tmp_path: Path) -> None:
+    nobody = ae.Simulation(search({"robots.rover.count": 0}))
+    with pytest.raises(
+        InputError, match="'rover/0': must be among the run's robots, and it has no"
+    ):
+        ae.Recording(nobody, tmp_path / "run.mcap", percepts=["rover/0"])
+    with ae.Recording(nobody, tmp_path / "run.mcap") as recording:
+        recording.step(3)
+    assert ae.rerun(tmp_path / "run.mcap").agrees
+
+
 def test_a_file_that_is_cut_is_compared_as_far_as_it_goes(tmp_path: Path) -> None:
     whole = short(tmp_path / "run.mcap").read_bytes()
     (cut := tmp_path / "cut.mcap").touch()

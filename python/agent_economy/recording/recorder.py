@@ -203,9 +203,10 @@ def check(simulation: Simulation, every: int, percepts: Sequence[str]) -> None:
     if not isinstance(simulation, Simulation):
         faults.append(f"simulation = {simulation!r}: must be a Simulation")
     elif unknown := set(percepts) - set(simulation.robots):
-        first, last = simulation.robots[0], simulation.robots[-1]
+        team = simulation.robots
         given = ", ".join(sorted(map(repr, unknown)))
-        faults.append(f"percepts: {given}: must be among the run's robots: {first} to {last}")
+        robots = f"robots: {team[0]} to {team[-1]}" if team else "robots, and it has none"
+        faults.append(f"percepts: {given}: must be among the run's {robots}")
     if isinstance(every, bool) or not isinstance(every, int) or every < 1:
         faults.append(f"every = {every!r}: must be a whole number, 1 or more")
     if faults:
