@@ -15,7 +15,11 @@ from agent_economy.recording.identity import write_change, write_end, write_file
 from agent_economy.recording.messages import SECOND_NS, log
 from agent_economy.recording.minds import Minds
 from agent_economy.recording.moments import Moments, moment_of
+from agent_economy.scenario import Source
 from agent_economy.simulation import Simulation
+
+ENDING = ".mcap"
+"""Of the names of recordings."""
 
 FLUSH_NS = 5 * SECOND_NS
 """What is simulated in this time is lost if the process is killed; shorter takes more room."""
@@ -45,7 +49,8 @@ class Recording:
         Args:
             simulation: The run; at its beginning, or what came before cannot be taken again but
                 for its changes.
-            path: The file; one that is there is written anew.
+            path: The file, NAME.mcap; one that is there is written anew, but for one that the
+                scenario was read from.
             every: Steps from one recorded moment to the next, 1 or more.
             percepts: Names of robots, KIND/INDEX, of which all is recorded that their brains
                 perceive and want, and their range scans, in every step. None by default: those of
@@ -55,11 +60,12 @@ class Recording:
             InputError: If an argument is not allowed, or the file cannot be written.
         """
         chosen = tuple(percepts)
-        check(simulation, every, chosen)
+        path = Path(path)
+        check(simulation, path, every, chosen)
         self.simulation = simulation
         self._every, self._chosen = every, chosen
         self._step_s = simulation._run.step_s  # noqa: SLF001  (ours)
-        self._file = File(Path(path))
+        self._file = File(path)
         self._is_open = True
         self._flushed_ns = self._time_ns(simulation.tick)
         self._changes = simulation.changes[:0]
@@ -193,13 +199,17 @@ class Recording:
         return round(tick * self._step_s * SECOND_NS)
 
 
-def check(simulation: Simulation, every: int, percepts: Sequence[str]) -> None:
+def check(simulation: Simulation, path: Path, every: int, percepts: Sequence[str]) -> None:
     """See to it that arguments are allowed.
 
     Raises:
         InputError: If one is not; all faults at once.
     """
     faults = []
+    if path.suffix != ENDING:
+        faults.append(f"{path}: a recording's name must end in {ENDING}")
+    elif isinstance(simulation, Simulation) and is_read_from(simulation.scenario.source, path):
+        faults.append(f"{path}: must be another file than what the scenario is read from")
     if not isinstance(simulation, Simulation):
         faults.append(f"simulation = {simulation!r}: must be a Simulation")
     elif unknown := set(percepts) - set(simulation.robots):
@@ -211,3 +221,10 @@ def check(simulation: Simulation, every: int, percepts: Sequence[str]) -> None:
         faults.append(f"every = {every!r}: must be a whole number, 1 or more")
     if faults:
         raise InputError("\n".join(faults))
+
+
+def is_read_from(source: Source, path: Path) -> bool:
+    """Return whether a file is a scenario's own, or one that it names."""
+    own = Path(source.file)
+    files = (own, *(own.parent / name for name in source.files))
+    return path.exists() and any(file.exists() and file.samefile(path) for file in files)
