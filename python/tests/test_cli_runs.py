@@ -114,6 +114,8 @@ def test_a_recording_in_place_of_a_scenario_is_to_be_taken_again(tmp_path: Path)
         (["run", "search", "--set", "robots.rover.cuont=3"], "did you mean count?"),
         (["run", "search", "--run", "9223372036854775807"], "run = 9223372036854775807: must be"),
         (["run", "search", "--record", "search.toml"], "recording's name must end in .mcap"),
+        (["run", "search", "--every", "1"], "--every: must come with --record"),
+        (["run", "search", "--percepts", "no/1", "--every", "5"], "--every and --percepts: must"),
         (["replicate", "search", "--out", "runs.txt"], "must end in one of .parquet, .csv"),
         (["replicate", "search", "--out", "none/runs.csv"], "must be in a folder that is there"),
         (["replicate", "search", "--runs", "0"], "--runs"),

@@ -8,6 +8,7 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from typing import Any
 
 import jsonschema
 import numpy as np
@@ -263,6 +264,33 @@ def test_wrong_arguments_are_told_together(tmp_path: Path) -> None:
         ae.run("search", record=tmp_path / "none" / "run.mcap")
     with pytest.raises(InputError, match="must be 'metric'"):
         ae.run("classic", record=tmp_path / "run.mcap")
+
+
+@pytest.mark.parametrize("steps", [-1, 1.5, "1", True, None])
+def test_a_recording_takes_no_other_numbers_of_steps_than_a_simulation(
+    tmp_path: Path, steps: Any
+) -> None:
+    simulation = ae.Simulation("search")
+    with ae.Recording(simulation, tmp_path / "run.mcap") as recording:
+        for each in (simulation, recording):
+            with pytest.raises(InputError, match=r"steps = .*: must be a whole number"):
+                each.step(steps)
+        assert recording.step(np.int64(2)) == {}  # type: ignore[arg-type]
+    assert simulation.tick == 2
+
+
+def test_a_recording_that_is_closed_takes_no_step(tmp_path: Path) -> None:
+    simulation = ae.Simulation("search")
+    with ae.Recording(simulation, tmp_path / "run.mcap") as recording:
+        recording.step(2)
+    for act in (recording.step, recording.note, recording.finish):
+        with pytest.raises(InputError, match="the recording is closed"):
+            act()
+    with pytest.raises(InputError, match="the recording is closed"):
+        recording.step(commands={"rover/0": DRIVE})
+    recording.close()
+    assert simulation.tick == 2
+    assert ae.rerun(tmp_path / "run.mcap").tick == 2
 
 
 def test_a_recording_never_takes_the_place_of_what_is_none(tmp_path: Path) -> None:

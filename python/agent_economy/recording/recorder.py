@@ -1,6 +1,7 @@
 """A run on its way into a file."""
 
 from collections.abc import Mapping, Sequence
+from numbers import Integral
 from pathlib import Path
 from typing import Self
 
@@ -85,11 +86,15 @@ class Recording:
         """Take steps as `Simulation.step` does, and record them.
 
         Raises:
-            InputError: If anything is not allowed, or the simulation was put back to an earlier
-                moment.
+            InputError: If anything is not allowed, the recording is closed, or the simulation was
+                put back to an earlier moment.
         """
+        self._keep_up()
         if percepts is not None or commands is not None:
             return self._step(steps, percepts or {}, commands or {})
+        if not is_whole(steps, 0):
+            message = f"steps = {steps!r}: must be a whole number, 0 or more"
+            raise InputError(message)
         for _ in range(steps):
             self._step(1, None, None)
         return {}
@@ -104,7 +109,8 @@ class Recording:
         """Record the run as it is now, for whoever steps the simulation itself.
 
         Raises:
-            InputError: If the simulation was put back to an earlier moment.
+            InputError: If the recording is closed, or the simulation was put back to an earlier
+                moment.
         """
         self._keep_up()
         time_ns = self._time_ns(self.simulation.tick)
@@ -118,7 +124,6 @@ class Recording:
         """Record the last moment and the outcome so far, and close the file."""
         if not self._is_open:
             return
-        self._is_open = False
         try:
             self.note()
             last, outcome = self._moments.last, self.simulation.outcome()
@@ -126,6 +131,7 @@ class Recording:
             self._file.write_json("/outcome", row, self._time_ns(last["tick"]))
             write_end(self._file, last["tick"], last["hash"])
         finally:
+            self._is_open = False
             self._file.close()
 
     def __enter__(self) -> Self:
@@ -170,6 +176,9 @@ class Recording:
 
     def _keep_up(self) -> None:
         """Take in what was done to the simulation since the last step."""
+        if not self._is_open:
+            message = "the recording is closed: step the simulation itself, or record it anew"
+            raise InputError(message)
         simulation, seen = self.simulation, self._changes
         if simulation.tick < self._moments.last["tick"] or simulation.changes[: len(seen)] != seen:
             message = "the simulation was put back: must go on from where it was recorded last"
@@ -217,10 +226,15 @@ def check(simulation: Simulation, path: Path, every: int, percepts: Sequence[str
         given = ", ".join(sorted(map(repr, unknown)))
         robots = f"robots: {team[0]} to {team[-1]}" if team else "robots, and it has none"
         faults.append(f"percepts: {given}: must be among the run's {robots}")
-    if isinstance(every, bool) or not isinstance(every, int) or every < 1:
+    if not is_whole(every, 1):
         faults.append(f"every = {every!r}: must be a whole number, 1 or more")
     if faults:
         raise InputError("\n".join(faults))
+
+
+def is_whole(value: object, least: int) -> bool:
+    """Return whether a value is a whole number, and no less than another."""
+    return isinstance(value, Integral) and not isinstance(value, bool) and int(value) >= least
 
 
 def is_read_from(source: Source, path: Path) -> bool:
