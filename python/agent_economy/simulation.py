@@ -226,8 +226,7 @@ class Simulation:
     @property
     def time_s(self) -> float:
         """Time that they took in the world."""
-        with self._lock:
-            return self._run.tick * self._run.step_s
+        return self._run.time_s
 
     @property
     def is_over(self) -> bool:
