@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 __all__ = [
     "CONTACTS",
     "FIRST_LOOK",
+    "MAX_IMAGE_BYTES",
     "Brain",
     "Configuration",
     "InputError",
@@ -35,6 +36,7 @@ __all__ = [
 
 CONTACTS: list[str]
 FIRST_LOOK: int
+MAX_IMAGE_BYTES: int
 
 @type_check_only
 class Fault(TypedDict):
@@ -148,6 +150,8 @@ class Simulation:
     def tick(self) -> int: ...
     @property
     def step_s(self) -> float: ...
+    @property
+    def time_s(self) -> float: ...
     @property
     def is_over(self) -> bool: ...
     @property

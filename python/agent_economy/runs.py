@@ -23,8 +23,8 @@ def run(
         scenario: A scenario, its file, or the name of one that ships.
         seed: Of all chance, 0 to 2^64 - 1.
         run: Its number, 0 to 2^63 - 10,000,001; each is another world.
-        record: A file for a recording of all of it, in MCAP (see `agent_economy.recording`); of the
-            metric engine's runs only.
+        record: A file for a recording of all of it, NAME.mcap (see `agent_economy.recording`); of
+            the metric engine's runs only.
 
     Returns:
         The same, on any machine, as row `run` of `replicate`.

@@ -1,5 +1,6 @@
 """What a job is: a scenario, read from a TOML file and checked as a whole."""
 
+import stat
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -20,8 +21,8 @@ RECORDING = b"\x89MCAP"
 
 VARY = "study.vary."
 
-MAX_BYTES = 2**28
-"""Of a file that a scenario names: a map of 64 million cells, and some more."""
+MAX_BYTES = 2**24
+"""Of a scenario's own file: half a million corners of obstacles, and more."""
 
 
 @dataclass(frozen=True)
@@ -101,19 +102,29 @@ class Source:
         """Return the source with all files that it names, read from beside its own."""
         source = self
         while wanted := _core.files_wanted(source):
-            found = {name: content(Path(self.file).parent / name) for name in wanted}
+            beside, most = Path(self.file).parent, _core.MAX_IMAGE_BYTES
+            found = {name: content(beside / name, most) for name in wanted}
             source = replace(source, files={**source.files, **found})
         return source
 
 
-def content(path: Path) -> bytes | str:
-    """Return what is in a file, or why it cannot be read."""
+def content(path: Path, most: int) -> bytes | str:
+    """Return what is in a file, or why it cannot be read: for one, that it has too many bytes."""
     try:
-        if path.stat().st_size > MAX_BYTES:
-            return f"it has more than {MAX_BYTES} bytes"
-        return path.read_bytes()
+        mode = path.stat().st_mode
+        # A pipe or a device may never end, or never begin. To open a folder is an error of its own.
+        if not (stat.S_ISREG(mode) or stat.S_ISDIR(mode)):
+            return "it is a pipe or a device; write what it gives into a file, and name that"
+        with path.open("rb") as stream:
+            data = stream.read(most + 1)
     except OSError as error:
         return error.strerror or str(error)
+    except ValueError as error:  # a name that no file can have
+        return str(error)
+    # Whoever is given a recording says so, however long it is.
+    if len(data) > most and not data.startswith(RECORDING):
+        return f"it has more than the {most:,} bytes that are allowed; make it smaller"
+    return data
 
 
 @dataclass(frozen=True)
@@ -158,11 +169,12 @@ class Scenario:
             InputError: If the file cannot be read or anything in it is wrong; all faults at once.
         """
         file = shipped.find(file)
+        data = content(file, MAX_BYTES)
+        if isinstance(data, str):
+            message = f"{file}: cannot be read: {data}{shipped.meant(file)}"
+            raise InputError(message)
         try:
-            text = file.read_text(encoding="utf-8")
-        except OSError as error:
-            message = f"{file}: cannot be read: {error.strerror}{shipped.meant(file)}"
-            raise InputError(message) from None
+            text = data.decode().replace("\r\n", "\n").replace("\r", "\n")
         except UnicodeDecodeError as error:
             raise InputError(no_text(file, error)) from None
         return cls.loads(text, file=str(file), overrides=overrides)

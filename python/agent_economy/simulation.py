@@ -118,8 +118,9 @@ class Simulation:
         Args:
             steps: How many, 0 or more; 1 with percepts or commands.
             percepts: By name, what robots perceive whose bodies are outside.
-            commands: By name, what other robots are to do in this step, whatever their brains would
-                decide; sensors and bodies stay as they are.
+            commands: By name, what other robots are to do from this step on, whatever their brains
+                would decide in it, until their brains decide again: in the next step, or later if
+                they are slower than the steps. Sensors and bodies stay as they are.
 
         Returns:
             By name, what the brains of the robots in `percepts` want of their bodies; one that is
@@ -226,8 +227,7 @@ class Simulation:
     @property
     def time_s(self) -> float:
         """Time that they took in the world."""
-        with self._lock:
-            return self._run.tick * self._run.step_s
+        return self._run.time_s
 
     @property
     def is_over(self) -> bool:

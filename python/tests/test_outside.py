@@ -9,6 +9,7 @@ from metric import search
 
 from agent_economy import Brain, InputError, Scenario, Simulation
 from agent_economy.brain import Command, Percept
+from agent_economy.recording.moments import moment_of
 
 STOP: Command = {"motion": {"speed_m_s": 0.0, "turn_rate_rad_s": 0.0}, "requests": [], "outbox": []}
 
@@ -40,6 +41,18 @@ def test_a_body_outside_is_where_its_percepts_say() -> None:
     simulation.step(10)
     np.testing.assert_allclose(simulation.poses[1], [3.5, 7.25, 0.5])
     assert simulation.percept("rover/1") is None
+
+
+@pytest.mark.parametrize(("rate_hz", "steps"), [(10, 1), (5, 2), (1, 10)])
+def test_a_command_holds_until_the_brain_decides_again(rate_hz: float, steps: int) -> None:
+    simulation = Simulation(search({"robots.rover.brain.rate_hz": rate_hz}), seed=2)
+    simulation.step(20)
+    simulation.step(commands={"rover/0": STOP})
+    held = 0
+    while moment_of(simulation)["wanted"][0].tolist() == [0, 0]:
+        simulation.step()
+        held += 1
+    assert held == steps
 
 
 def test_the_command_of_a_body_outside_is_that_of_its_brain() -> None:

@@ -8,6 +8,7 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from typing import Any
 
 import jsonschema
 import numpy as np
@@ -71,7 +72,7 @@ def test_poses_are_those_of_the_run_in_every_step(tmp_path: Path) -> None:
 
 
 def test_the_same_run_is_the_same_bytes(tmp_path: Path) -> None:
-    first, again, other = (tmp_path / name for name in ("first", "again", "other"))
+    first, again, other = (tmp_path / f"{name}.mcap" for name in ("first", "again", "other"))
     assert short(first).read_bytes() == short(again).read_bytes()
     assert short(other, seed=2).read_bytes() != first.read_bytes()
 
@@ -255,13 +256,70 @@ def test_a_run_put_back_is_not_recorded_any_further(tmp_path: Path) -> None:
 def test_wrong_arguments_are_told_together(tmp_path: Path) -> None:
     with pytest.raises(InputError) as told:
         ae.Recording(ae.Simulation("search"), tmp_path / "run", every=0, percepts=["rover/4"])
+    assert f"{tmp_path}/run: a recording's name must end in .mcap" in str(told.value)
     assert "every = 0: must be a whole number, 1 or more" in str(told.value)
     assert "'rover/4': must be among the run's robots: rover/0 to rover/3" in str(told.value)
     assert not (tmp_path / "run").exists()
     with pytest.raises(InputError, match="cannot be written: No such file"):
         ae.run("search", record=tmp_path / "none" / "run.mcap")
     with pytest.raises(InputError, match="must be 'metric'"):
-        ae.run("classic", record=tmp_path / "run")
+        ae.run("classic", record=tmp_path / "run.mcap")
+
+
+@pytest.mark.parametrize("steps", [-1, 1.5, "1", True, None])
+def test_a_recording_takes_no_other_numbers_of_steps_than_a_simulation(
+    tmp_path: Path, steps: Any
+) -> None:
+    simulation = ae.Simulation("search")
+    with ae.Recording(simulation, tmp_path / "run.mcap") as recording:
+        for each in (simulation, recording):
+            with pytest.raises(InputError, match=r"steps = .*: must be a whole number"):
+                each.step(steps)
+        assert recording.step(np.int64(2)) == {}  # type: ignore[arg-type]
+    assert simulation.tick == 2
+
+
+def test_a_recording_that_is_closed_takes_no_step(tmp_path: Path) -> None:
+    simulation = ae.Simulation("search")
+    with ae.Recording(simulation, tmp_path / "run.mcap") as recording:
+        recording.step(2)
+    for act in (recording.step, recording.note, recording.finish):
+        with pytest.raises(InputError, match="the recording is closed"):
+            act()
+    with pytest.raises(InputError, match="the recording is closed"):
+        recording.step(commands={"rover/0": DRIVE})
+    recording.close()
+    assert simulation.tick == 2
+    assert ae.rerun(tmp_path / "run.mcap").tick == 2
+
+
+def test_a_recording_never_takes_the_place_of_what_is_none(tmp_path: Path) -> None:
+    text = (SCENARIOS / "open-field.toml").read_text().replace("open-field.yaml", "map.mcap")
+    (tmp_path / "map.mcap").write_bytes((SCENARIOS / "open-field.yaml").read_bytes())
+    shutil.copy(SCENARIOS / "open-field.pgm", tmp_path)
+    own = tmp_path / "own.mcap"
+    own.write_text(text)
+    (tmp_path / "link.mcap").symlink_to(own)
+    before = {file: file.read_bytes() for file in tmp_path.iterdir()}
+    for name in ("own.mcap", "link.mcap", "map.mcap"):
+        with pytest.raises(InputError, match=f"{name}: must be another file than what the scen"):
+            ae.run(own, record=tmp_path / name)
+    with pytest.raises(InputError, match=r"open-field.pgm: a recording's name must end in \.mcap"):
+        ae.run(own, record=tmp_path / "open-field.pgm")
+    assert {file: file.read_bytes() for file in tmp_path.iterdir()} == before
+    ae.run(own, record=tmp_path / "run.mcap")
+    assert ae.run(own, record=tmp_path / "run.mcap") == ae.run(own)
+
+
+def test_a_run_without_robots_is_recorded_and_has_nobodys_percepts(tmp_path: Path) -> None:
+    nobody = ae.Simulation(search({"robots.rover.count": 0}))
+    with pytest.raises(
+        InputError, match="'rover/0': must be among the run's robots, and it has no"
+    ):
+        ae.Recording(nobody, tmp_path / "run.mcap", percepts=["rover/0"])
+    with ae.Recording(nobody, tmp_path / "run.mcap") as recording:
+        recording.step(3)
+    assert ae.rerun(tmp_path / "run.mcap").agrees
 
 
 def test_a_file_that_is_cut_is_compared_as_far_as_it_goes(tmp_path: Path) -> None:

@@ -1,12 +1,13 @@
 """Claims about files that a scenario names, such as maps: they travel with it."""
 
+import os
 import shutil
 from pathlib import Path
 
 import pytest
 
 import agent_economy as ae
-from agent_economy import study
+from agent_economy import _core, scenario, study
 from agent_economy.shipped import find
 
 YAML = """image: room.pgm
@@ -88,6 +89,47 @@ def test_a_file_that_is_not_there_is_told_at_its_line(room: Path) -> None:
         ae.Scenario.load(room)
     assert 'room.toml:6: world.obstacles[0].map = "maps/room.yaml"' in str(told.value)
     assert "No such file" in str(told.value)
+
+
+@pytest.mark.parametrize("name", ["maps/room.yaml", "maps/room.pgm", "room.toml"])
+@pytest.mark.parametrize("other", ["/dev/zero", "pipe"])
+def test_what_may_never_end_is_not_read(room: Path, name: str, other: str) -> None:
+    os.mkfifo(room.parent / "pipe")
+    (room.parent / name).unlink()
+    (room.parent / name).symlink_to(room.parent / other)
+    with pytest.raises(ae.InputError) as told:
+        ae.Scenario.load(room)
+    assert Path(name).name in str(told.value)
+    assert "is a pipe or a device; write what it gives into a file" in str(told.value)
+
+
+def test_a_map_may_be_as_large_as_its_reader_takes(
+    room: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert _core.MAX_IMAGE_BYTES == 5 * 64_000_000
+    size = (room.parent / "maps" / "room.yaml").stat().st_size
+    monkeypatch.setattr(_core, "MAX_IMAGE_BYTES", size)
+    assert ae.Scenario.load(room).source.files
+    monkeypatch.setattr(_core, "MAX_IMAGE_BYTES", size - 1)
+    with pytest.raises(ae.InputError, match=rf"room.toml:6: .* more than the {size - 1} bytes"):
+        ae.Scenario.load(room)
+
+
+def test_a_file_that_is_too_large_for_a_scenario_is_not_read_to_its_end(tmp_path: Path) -> None:
+    with (tmp_path / "large.toml").open("wb") as large:
+        large.truncate(2**40)
+    with pytest.raises(ae.InputError, match=f"large.toml: .* more than the {scenario.MAX_BYTES:,}"):
+        ae.Scenario.load(tmp_path / "large.toml")
+    with (tmp_path / "large.toml").open("r+b") as large:
+        large.write(scenario.RECORDING)
+    with pytest.raises(ae.InputError, match="is a recording"):
+        ae.Scenario.load(tmp_path / "large.toml")
+
+
+def test_a_name_that_no_file_can_have_is_told(room: Path) -> None:
+    room.write_text(TEXT.replace("maps/room.yaml", "maps/\\u0000.yaml"))
+    with pytest.raises(ae.InputError, match="room.toml:6: .* null"):
+        ae.Scenario.load(room)
 
 
 def test_shipped_maps_are_found_by_the_name_of_their_scenario() -> None:

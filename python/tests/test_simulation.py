@@ -107,6 +107,14 @@ def test_time_goes_by_steps() -> None:
     assert (simulation.tick, simulation.time_s) == (25, 2.5)
 
 
+def test_times_are_the_decimals_that_people_expect() -> None:
+    simulation = Simulation("search", seed=7, run=2)
+    outcome = simulation.finish()
+    assert repr(outcome.time_s) == "56.4"
+    found_s = [*simulation.items["found_s"].to_pylist(), simulation.time_s]
+    assert [repr(each) for each in found_s] == [f"{each:.1f}" for each in found_s]
+
+
 def test_steps_go_on_after_the_end() -> None:
     simulation = stepped(0)
     outcome = simulation.finish()

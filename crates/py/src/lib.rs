@@ -48,6 +48,7 @@ mod _core {
         let none = PyTuple::empty(module.py());
         module.getattr("InputError")?.setattr("faults", none)?;
         module.add("FIRST_LOOK", select::schedule::next_look(0))?;
+        module.add("MAX_IMAGE_BYTES", base::map::MAX_IMAGE_BYTES)?;
         module.add("CONTACTS", Contact::NAMES.map(|(name, _)| name))
     }
 }

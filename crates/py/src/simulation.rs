@@ -192,6 +192,11 @@ impl Simulation {
     }
 
     #[getter]
+    fn time_s(&self, py: Python) -> PyResult<f64> {
+        Ok(self.locked(py)?.time_s())
+    }
+
+    #[getter]
     fn is_over(&self, py: Python) -> PyResult<bool> {
         let run = self.locked(py)?;
         Ok(run.state().is_over(run.scenario()))

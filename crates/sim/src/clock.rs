@@ -18,3 +18,42 @@ pub struct ClockSpec {
 fn tenth() -> f64 {
     0.1
 }
+
+/// Parts of a second to which times are told.
+const PARTS_PER_S: f64 = 1e9;
+
+/// The time of so many steps, as results tell it: 564 steps of 0.1 s are 56.4 s, where the product
+/// of the two is 56.400000000000006.
+#[expect(clippy::cast_precision_loss, reason = "steps are at most 1e8")]
+pub(crate) fn seconds(tick: u64, step_s: f64) -> f64 {
+    (tick as f64 * step_s * PARTS_PER_S).round() / PARTS_PER_S
+}
+
+#[cfg(test)]
+mod tests {
+    use super::seconds;
+
+    #[test]
+    fn times_of_decimal_steps_are_the_nearest_number_to_their_decimals() {
+        for (step_s, steps_per_s) in [(0.1, 10.0), (0.05, 20.0), (0.02, 50.0), (0.001, 1000.0)] {
+            for tick in (0..1_000_000_u32).chain([99_999_999, 100_000_000]) {
+                let exact = f64::from(tick) / steps_per_s;
+                assert_eq!(
+                    seconds(u64::from(tick), step_s),
+                    exact,
+                    "{tick} of {step_s}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_time_is_within_a_billionth_of_a_second_of_its_steps() {
+        for step_s in [0.001, 0.1, 1.0 / 3.0, 0.123_456_789_012, 10.0] {
+            for tick in [0_u32, 1, 2, 3, 1000, 1_000_000] {
+                let product = f64::from(tick) * step_s;
+                assert!((seconds(u64::from(tick), step_s) - product).abs() < 1e-9);
+            }
+        }
+    }
+}

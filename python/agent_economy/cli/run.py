@@ -1,7 +1,7 @@
 """The command `run`."""
 
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Annotated
 
@@ -38,8 +38,9 @@ def run(  # noqa: PLR0913  (typer's options are arguments)
         ),
     ] = None,
     every: Annotated[
-        int, typer.Option(min=1, help="Steps from one recorded moment to the next.")
-    ] = 1,
+        int | None,
+        typer.Option(min=1, help="Steps from one recorded moment to the next.", show_default="1"),
+    ] = None,
     percepts: Annotated[
         list[str] | None,
         typer.Option(
@@ -63,15 +64,28 @@ def run(  # noqa: PLR0913  (typer's options are arguments)
     Example: agent-economy run search --seed 7 --set robots.rover.count=6 --record run.mcap
     """
     with faults_told():
+        if record is None:
+            of_recordings_only({"--every": every, "--percepts": percepts})
         given = Scenario.load(scenario, overrides(sets))
         if record is None:
             outcome = watched(given, seed, number)
         else:
-            outcome = recorded(Simulation(given, seed, number), record, every, percepts or [])
+            outcome = recorded(Simulation(given, seed, number), record, every or 1, percepts or [])
     if as_json:
         typer.echo(json.dumps({"seed": seed, "status": outcome.status, **outcome.row}, indent=2))
     else:
         show(given, seed, outcome)
+
+
+def of_recordings_only(options: Mapping[str, object]) -> None:
+    """See to it that nothing is given that would change nothing.
+
+    Raises:
+        InputError: If an option has a value.
+    """
+    if given := [name for name, value in options.items() if value]:
+        message = f"{' and '.join(given)}: must come with --record: nothing is recorded without it"
+        raise InputError(message)
 
 
 def watched(scenario: Scenario, seed: int, number: int) -> Outcome:

@@ -1,6 +1,7 @@
 """A run on its way into a file."""
 
 from collections.abc import Mapping, Sequence
+from numbers import Integral
 from pathlib import Path
 from typing import Self
 
@@ -15,7 +16,11 @@ from agent_economy.recording.identity import write_change, write_end, write_file
 from agent_economy.recording.messages import SECOND_NS, log
 from agent_economy.recording.minds import Minds
 from agent_economy.recording.moments import Moments, moment_of
+from agent_economy.scenario import Source
 from agent_economy.simulation import Simulation
+
+ENDING = ".mcap"
+"""Of the names of recordings."""
 
 FLUSH_NS = 5 * SECOND_NS
 """What is simulated in this time is lost if the process is killed; shorter takes more room."""
@@ -45,7 +50,8 @@ class Recording:
         Args:
             simulation: The run; at its beginning, or what came before cannot be taken again but
                 for its changes.
-            path: The file; one that is there is written anew.
+            path: The file, NAME.mcap; one that is there is written anew, but for one that the
+                scenario was read from.
             every: Steps from one recorded moment to the next, 1 or more.
             percepts: Names of robots, KIND/INDEX, of which all is recorded that their brains
                 perceive and want, and their range scans, in every step. None by default: those of
@@ -55,11 +61,12 @@ class Recording:
             InputError: If an argument is not allowed, or the file cannot be written.
         """
         chosen = tuple(percepts)
-        check(simulation, every, chosen)
+        path = Path(path)
+        check(simulation, path, every, chosen)
         self.simulation = simulation
         self._every, self._chosen = every, chosen
         self._step_s = simulation._run.step_s  # noqa: SLF001  (ours)
-        self._file = File(Path(path))
+        self._file = File(path)
         self._is_open = True
         self._flushed_ns = self._time_ns(simulation.tick)
         self._changes = simulation.changes[:0]
@@ -79,11 +86,15 @@ class Recording:
         """Take steps as `Simulation.step` does, and record them.
 
         Raises:
-            InputError: If anything is not allowed, or the simulation was put back to an earlier
-                moment.
+            InputError: If anything is not allowed, the recording is closed, or the simulation was
+                put back to an earlier moment.
         """
+        self._keep_up()
         if percepts is not None or commands is not None:
             return self._step(steps, percepts or {}, commands or {})
+        if not is_whole(steps, 0):
+            message = f"steps = {steps!r}: must be a whole number, 0 or more"
+            raise InputError(message)
         for _ in range(steps):
             self._step(1, None, None)
         return {}
@@ -98,7 +109,8 @@ class Recording:
         """Record the run as it is now, for whoever steps the simulation itself.
 
         Raises:
-            InputError: If the simulation was put back to an earlier moment.
+            InputError: If the recording is closed, or the simulation was put back to an earlier
+                moment.
         """
         self._keep_up()
         time_ns = self._time_ns(self.simulation.tick)
@@ -112,7 +124,6 @@ class Recording:
         """Record the last moment and the outcome so far, and close the file."""
         if not self._is_open:
             return
-        self._is_open = False
         try:
             self.note()
             last, outcome = self._moments.last, self.simulation.outcome()
@@ -120,6 +131,7 @@ class Recording:
             self._file.write_json("/outcome", row, self._time_ns(last["tick"]))
             write_end(self._file, last["tick"], last["hash"])
         finally:
+            self._is_open = False
             self._file.close()
 
     def __enter__(self) -> Self:
@@ -164,6 +176,9 @@ class Recording:
 
     def _keep_up(self) -> None:
         """Take in what was done to the simulation since the last step."""
+        if not self._is_open:
+            message = "the recording is closed: step the simulation itself, or record it anew"
+            raise InputError(message)
         simulation, seen = self.simulation, self._changes
         if simulation.tick < self._moments.last["tick"] or simulation.changes[: len(seen)] != seen:
             message = "the simulation was put back: must go on from where it was recorded last"
@@ -193,20 +208,37 @@ class Recording:
         return round(tick * self._step_s * SECOND_NS)
 
 
-def check(simulation: Simulation, every: int, percepts: Sequence[str]) -> None:
+def check(simulation: Simulation, path: Path, every: int, percepts: Sequence[str]) -> None:
     """See to it that arguments are allowed.
 
     Raises:
         InputError: If one is not; all faults at once.
     """
     faults = []
+    if path.suffix != ENDING:
+        faults.append(f"{path}: a recording's name must end in {ENDING}")
+    elif isinstance(simulation, Simulation) and is_read_from(simulation.scenario.source, path):
+        faults.append(f"{path}: must be another file than what the scenario is read from")
     if not isinstance(simulation, Simulation):
         faults.append(f"simulation = {simulation!r}: must be a Simulation")
     elif unknown := set(percepts) - set(simulation.robots):
-        first, last = simulation.robots[0], simulation.robots[-1]
+        team = simulation.robots
         given = ", ".join(sorted(map(repr, unknown)))
-        faults.append(f"percepts: {given}: must be among the run's robots: {first} to {last}")
-    if isinstance(every, bool) or not isinstance(every, int) or every < 1:
+        robots = f"robots: {team[0]} to {team[-1]}" if team else "robots, and it has none"
+        faults.append(f"percepts: {given}: must be among the run's {robots}")
+    if not is_whole(every, 1):
         faults.append(f"every = {every!r}: must be a whole number, 1 or more")
     if faults:
         raise InputError("\n".join(faults))
+
+
+def is_whole(value: object, least: int) -> bool:
+    """Return whether a value is a whole number, and no less than another."""
+    return isinstance(value, Integral) and not isinstance(value, bool) and int(value) >= least
+
+
+def is_read_from(source: Source, path: Path) -> bool:
+    """Return whether a file is a scenario's own, or one that it names."""
+    own = Path(source.file)
+    files = (own, *(own.parent / name for name in source.files))
+    return path.exists() and any(file.exists() and file.samefile(path) for file in files)

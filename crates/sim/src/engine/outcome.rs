@@ -1,6 +1,7 @@
 //! What a run gives.
 
 use super::state::{State, Status};
+use crate::clock::seconds;
 use crate::scenario::Scenario;
 
 /// What a run gives, by the names of an outcome's columns.
@@ -30,7 +31,6 @@ pub struct Outcome {
 impl Outcome {
     /// What a run has given so far.
     #[must_use]
-    #[expect(clippy::cast_precision_loss, reason = "steps are at most 1e8")]
     pub fn of(scenario: &Scenario, state: &State) -> Self {
         let mut found = vec![0; scenario.items.len()];
         let mut missed = vec![0; scenario.items.len()];
@@ -45,7 +45,7 @@ impl Outcome {
         let complete_s = state
             .tally
             .complete_at
-            .map(|tick| tick as f64 * scenario.step_s);
+            .map(|tick| seconds(tick, scenario.step_s));
         let stopped = state
             .hulls
             .iter()

@@ -2,6 +2,7 @@
 
 use super::state::{State, Status};
 use crate::body::Layer;
+use crate::clock::seconds;
 use crate::scenario::Scenario;
 use base::geometry::Point;
 use brain::{Motion, RobotId};
@@ -86,12 +87,10 @@ impl State {
 
     /// All items, in the order of their kinds and indices.
     pub fn each_item(&self, scenario: &Scenario) -> impl Iterator<Item = Item> {
-        #[expect(clippy::cast_precision_loss, reason = "steps are at most 1e8")]
-        let seconds = |tick: u64| tick as f64 * scenario.step_s;
         self.items.each_place().map(move |(kind, at, found)| Item {
             kind,
             at,
-            found_s: found.map(seconds),
+            found_s: found.map(|tick| seconds(tick, scenario.step_s)),
         })
     }
 }

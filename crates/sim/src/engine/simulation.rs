@@ -5,6 +5,7 @@ use super::outside::Outside;
 use super::state::{NoRoom, State};
 use super::tick::Workshop;
 use crate::body::path::Course;
+use crate::clock::seconds;
 use crate::scenario::Scenario;
 use base::geometry::Point;
 use brain::{Command, Percept, RobotId};
@@ -100,6 +101,12 @@ impl Simulation {
     #[must_use]
     pub fn outcome(&self) -> Outcome {
         Outcome::of(&self.scenario, &self.state)
+    }
+
+    /// Time that its steps so far took in the world.
+    #[must_use]
+    pub fn time_s(&self) -> f64 {
+        seconds(self.state.tick(), self.scenario.step_s)
     }
 
     /// What the run is of.

@@ -39,7 +39,7 @@ fn a_run_is_complete_at_the_step_in_which_the_last_item_is_told_of() {
     ] {
         let (outcome, simulation) = finish(&line(60.0, &items, sensor));
         assert_eq!(simulation.state().tick(), last + 1, "{sensor}");
-        assert_eq!(outcome.time_s, last as f64 * 0.1, "{sensor}");
+        assert_eq!(outcome.time_s, last as f64 / 10.0, "{sensor}");
         assert_eq!(
             (outcome.found.as_slice(), outcome.missed.as_slice()),
             (&[2][..], &[0][..])
