@@ -87,6 +87,32 @@ def test_a_fault_of_a_percept_names_its_path(percept: Any, told: str) -> None:
     assert told in str(caught.value)
 
 
+CONTACT = {"kind": 0, "range_m": 1.0, "bearing_rad": 0.0, "age_s": 0.0}
+
+
+@pytest.mark.parametrize(
+    ("percept", "told"),
+    [
+        (
+            {"scans": [{"age_s": 0.0, "ranges_m": [1.0] * 15}]},
+            r"percept\.scans\[0\]\.ranges_m = a list of 15: must be a list of 16, one for each ray",
+        ),
+        (
+            {"scans": [OPEN["scans"][0]] * 2},
+            r"percept\.scans = a list of 2: must be a list of 1 at most, one for each range ring",
+        ),
+        ({"contacts": [CONTACT]}, r"percept\.contacts\[0\]\.kind = 0: must be below 0"),
+    ],
+)
+def test_a_percept_of_another_body_is_told(percept: Any, told: str) -> None:
+    with pytest.raises(ae.InputError, match=told):
+        ae.Brain(None, ROVER).step(percept)
+    simulation = ae.Simulation("search", seed=7)
+    percept["scans"] = [{"age_s": 0.0, "ranges_m": [1.0]}]
+    with pytest.raises(ae.InputError, match=r"rover/0.*must be a list of 55"):
+        simulation.step(percepts={"rover/0": {"scans": percept["scans"]}})
+
+
 def test_a_percept_that_holds_itself_is_told() -> None:
     ring: list[Any] = []
     ring.append(ring)

@@ -2,6 +2,7 @@
 
 use crate::error::input_error;
 use crate::exchange::{self, below};
+use crate::fit::fitting;
 use crate::scenario::value;
 use crate::simulation::MetricScenario;
 use base::document::Document;
@@ -51,6 +52,8 @@ impl Brain {
     /// The command for a percept; both are dicts.
     fn step<'py>(&self, percept: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         let read = exchange::read("percept", percept);
+        let fitting = |read| self.with(|brain| fitting("percept", read, brain.body()));
+        let read = read.and_then(fitting);
         let read: Percept = read.map_err(|fault| input_error(&Faults(vec![fault]), ""))?;
         let command = self.with(|brain| brain.step(&read));
         exchange::write(percept.py(), &command)

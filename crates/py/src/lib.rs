@@ -9,6 +9,7 @@ mod configuration;
 mod engines;
 mod error;
 mod exchange;
+mod fit;
 mod long_work;
 mod outside;
 mod recording;

@@ -1,6 +1,7 @@
 //! What comes into a run from outside and goes there, by robots' names: KIND/INDEX.
 
 use crate::exchange;
+use crate::fit::fitting;
 use base::document::path_of;
 use base::fault::{Fault, Faults, nearest};
 use brain::{Command, Percept, RobotId};
@@ -69,22 +70,29 @@ pub(crate) fn read(
     commands: &Bound<PyDict>,
 ) -> Result<(ByRobot<Percept>, ByRobot<Command>), Faults> {
     let mut faults = Vec::new();
-    let percepts = by_robot(run.scenario(), "percepts", percepts, &mut faults);
-    let commands = by_robot(run.scenario(), "commands", commands, &mut faults);
+    let scenario = run.scenario();
+    let fits = |at: &str, id: RobotId, percept: Percept| match scenario.brain(id.kind) {
+        Some(brain) => fitting(at, percept, brain.body()),
+        None => Ok(percept),
+    };
+    let percepts = by_robot(scenario, ("percepts", percepts), fits, &mut faults);
+    let as_it_is = |_: &str, _, command| Ok(command);
+    let commands = by_robot(scenario, ("commands", commands), as_it_is, &mut faults);
     faults.extend(commanded_outside(run, &percepts, &commands));
     Faults::or(faults, Some((percepts, commands)))
 }
 
 fn by_robot<T: DeserializeOwned>(
     scenario: &Scenario,
-    argument: &str,
-    given: &Bound<PyDict>,
+    (argument, given): (&str, &Bound<PyDict>),
+    fits: impl Fn(&str, RobotId, T) -> Result<T, Fault>,
     faults: &mut Vec<Fault>,
 ) -> ByRobot<T> {
     let entry = |(name, given): (Bound<PyAny>, Bound<PyAny>)| {
         let name = name.to_string();
         let id = robot_of(scenario, argument, &name)?;
-        Ok((id, exchange::read(&path_of(argument, &name), &given)?))
+        let at = path_of(argument, &name);
+        Ok((id, fits(&at, id, exchange::read(&at, &given)?)?))
     };
     let entries = given.iter().map(entry);
     entries

@@ -1,0 +1,47 @@
+//! Percepts that a body cannot have had: a slip in a driver, which the brain would only not see.
+
+use base::fault::Fault;
+use brain::{Body, Percept, Scan};
+
+/// `percept`, if it can be one of `body`; `at` is how a fault names it.
+pub(crate) fn fitting(at: &str, percept: Percept, body: &Body) -> Result<Percept, Fault> {
+    match misfit(at, &percept, body) {
+        Some(fault) => Err(fault),
+        None => Ok(percept),
+    }
+}
+
+fn misfit(at: &str, percept: &Percept, body: &Body) -> Option<Fault> {
+    let (scans, rings) = (percept.scans.len(), body.rings.len());
+    if scans > rings {
+        let allowed = format!("a list of {rings} at most, one for each range ring of the body");
+        return Some(counted(format!("{at}.scans"), scans, allowed));
+    }
+    let kinds = body.item_kinds.len();
+    let is_known = |kind: u16| usize::from(kind) < kinds;
+    let mut contacts = percept.contacts.iter().enumerate();
+    let unknown = contacts.find(|(_, contact)| !is_known(contact.kind));
+    let unknown = unknown.map(|(number, contact)| {
+        let path = format!("{at}.contacts[{number}].kind");
+        let allowed = format!("below {kinds}, the number of kinds of items that there are");
+        Fault::new(path, Some(contact.kind.to_string()), allowed)
+    });
+    unknown.or_else(|| {
+        let rings = percept.scans.iter().zip(&body.rings).enumerate();
+        rings.into_iter().find_map(|(number, (scan, ring))| {
+            let rays = ring.bearings_rad.len();
+            let is_whole = is_missing(scan) || scan.ranges_m.len() == rays;
+            let path = format!("{at}.scans[{number}].ranges_m");
+            let allowed = format!("a list of {rays}, one for each ray");
+            (!is_whole).then(|| counted(path, scan.ranges_m.len(), allowed))
+        })
+    })
+}
+
+fn is_missing(scan: &Scan) -> bool {
+    scan.age_s.is_none() && scan.ranges_m.is_empty()
+}
+
+fn counted(path: String, count: usize, allowed: String) -> Fault {
+    Fault::new(path, Some(format!("a list of {count}")), allowed)
+}
