@@ -2,6 +2,7 @@
 
 use super::mind::Mind;
 use super::state::{Hull, NoRoom, State, draws};
+use super::stay::{ids_of, is_same_team, stay, still_sayable};
 use crate::body::Layer;
 use crate::body::kind::Kind;
 use crate::scenario::Scenario;
@@ -34,27 +35,35 @@ impl State {
     pub fn changed(&self, from: &Scenario, to: &Scenario) -> Result<Self, NoRoom> {
         let mut next = Self::new(to, self.seed, self.run)?;
         next.tick = self.tick;
-        let rooms = next.keep_robots(self, from, to);
+        let old = stay(self, from, &next, to);
+        let rooms = next.keep_robots(self, &old, from, to);
         next.make_room(to, &rooms)?;
         next.keep_items(self, from, to)?;
         next.tally = self.tally;
         next.count_sought(to);
-        if next.ids == self.ids {
+        if is_same_team(self, &old) {
+            // Kinds are in the order of their names, so that those who hear have their numbers still.
             next.air = self.air.clone();
+            let ids = ids_of(self, &next, &old);
+            next.air
+                .retain(|heard| still_sayable(heard, &ids, from, to));
         }
         Ok(next)
     }
 
-    /// Takes over robots that were there.
-    fn keep_robots(&mut self, before: &Self, from: &Scenario, to: &Scenario) -> Vec<Room> {
-        let old = before.ids.iter().enumerate();
-        let old = old.map(|(robot, id)| ((from.name_of(*id), id.index), robot));
-        let old: BTreeMap<(&str, u32), usize> = old.collect();
+    /// Takes over robots that were there, each from its `old` number.
+    fn keep_robots(
+        &mut self,
+        before: &Self,
+        old: &[Option<usize>],
+        from: &Scenario,
+        to: &Scenario,
+    ) -> Vec<Room> {
         let is_same_ground = from.solids() == to.solids();
         let mut rooms = vec![Room::Wanted; self.robots()];
         for (robot, room) in rooms.iter_mut().enumerate() {
             let id = self.ids[robot];
-            let Some(&was) = old.get(&(to.name_of(id), id.index)) else {
+            let Some(was) = old[robot] else {
                 continue;
             };
             let old_kind = &from.kinds[usize::from(before.ids[was].kind)];

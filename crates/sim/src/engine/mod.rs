@@ -15,6 +15,7 @@ mod sense;
 mod share_out;
 mod simulation;
 mod state;
+mod stay;
 mod tick;
 mod view;
 mod waiting;

@@ -1,6 +1,7 @@
 //! Going on with another scenario in the middle of a run.
 
-use crate::common::{drive, first, id, replaced, robots, scenario, start};
+use crate::common::{drive, first, id, message, replaced, robots, say, scenario, start, told};
+use brain::{About, Heard, Percept};
 use sim::engine::{Item, NoRoom, Robot, Simulation};
 
 const GROUND: &str = "
@@ -374,4 +375,80 @@ drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
     assert!(matches!(other.change(more.clone()), Err(NoRoom::Robot(_))));
     drive(&mut simulation, 15, &[(id(0, 0), 1.0, 0.0)]);
     assert!(simulation.change(more).is_ok());
+}
+
+/// Robots of some kinds, all within each other's sight and radio, and kinds of items.
+fn talkers(kinds: &[(&str, u32)], items: &[&str], brain_hz: f64) -> String {
+    let items = items
+        .iter()
+        .map(|name| format!("[items.{name}]\ncount = 1\n"));
+    let items: String = items.collect();
+    let robots = kinds.iter().enumerate().map(|(row, (name, count))| {
+        let places: Vec<String> = (1..=*count)
+            .map(|x| format!("[{x}, {}]", row + 1))
+            .collect();
+        format!(
+            "[robots.{name}]\ncount = {count}\nradius_m = 0.2\nbrain = {{ rate_hz = {brain_hz} }}\n\
+             start = {{ kind = \"fixed\", at_m = [{}] }}\n\
+             drive = {{ max_speed_m_s = 0, max_turn_rate_deg_s = 0 }}\n\
+             radio = {{ range_m = 50, delay_s = 1 }}\n\
+             sensors = {{ mates = {{ kind = \"robots\", range_m = 50 }}, \
+             eye = {{ kind = \"items\", range_m = 50 }} }}\n",
+            places.join(", ")
+        )
+    });
+    let robots: String = robots.collect();
+    format!("[clock]\nstep_s = 0.1\ncap_s = 60\n[world]\nsize_m = [20, 10]\n{items}{robots}")
+}
+
+/// What a robot is told from now on until so many steps later.
+fn told_within(simulation: &mut Simulation, steps: u32, robot: brain::RobotId) -> Vec<Percept> {
+    let mut percepts = Vec::new();
+    for _ in 0..steps {
+        percepts.extend(simulation.percept(robot).unwrap());
+        simulation.step();
+    }
+    percepts
+}
+
+fn inbox_of(percepts: &[Percept]) -> Vec<Heard> {
+    percepts
+        .iter()
+        .flat_map(|percept| percept.inbox.clone())
+        .collect()
+}
+
+#[test]
+fn nobody_hears_what_was_sent_to_a_robot_of_another_name() {
+    let text = talkers(&[("m", 2), ("z", 1)], &[], 10.0);
+    let mut simulation = start(&text);
+    told(&mut simulation, [(id(0, 0), say(&[message(7.0)]))]);
+    let mut same = simulation.clone();
+    let other = talkers(&[("m", 2), ("y", 1)], &[], 10.0);
+    simulation.change(scenario(&other)).unwrap();
+    assert_eq!(inbox_of(&told_within(&mut simulation, 20, id(1, 0))), []);
+    same.change(scenario(&text)).unwrap();
+    assert_eq!(inbox_of(&told_within(&mut same, 20, id(1, 0))).len(), 1);
+}
+
+#[test]
+fn a_message_on_its_way_keeps_its_sender_and_its_item_when_kinds_have_other_numbers() {
+    let text = talkers(&[("m", 2)], &["mine"], 10.0);
+    let mut simulation = start(&text);
+    told(&mut simulation, [(id(0, 0), say(&[message(7.0)]))]);
+    let mut without = simulation.clone();
+    // A kind of no robots, and a kind of items, that come before the others.
+    let more = talkers(&[("a", 0), ("m", 2)], &["flag", "mine"], 10.0);
+    simulation.change(scenario(&more)).unwrap();
+    let heard = inbox_of(&told_within(&mut simulation, 20, id(1, 1)));
+    assert_eq!(heard.len(), 1);
+    assert_eq!(heard[0].from, id(1, 0));
+    let About::Item { kind, at } = heard[0].message.about else {
+        panic!("{heard:?}");
+    };
+    assert_eq!((kind, at.x), (1, 7.0));
+    // Nor does it become one about another item when there are none of its kind.
+    let gone = talkers(&[("m", 2)], &["flag"], 10.0);
+    without.change(scenario(&gone)).unwrap();
+    assert_eq!(inbox_of(&told_within(&mut without, 20, id(0, 1))), []);
 }
