@@ -36,7 +36,11 @@ impl State {
         let mut next = Self::new(to, self.seed, self.run)?;
         next.tick = self.tick;
         let old = stay(self, from, &next, to);
+        let ids = ids_of(self, &next, &old);
         let rooms = next.keep_robots(self, &old, from, to);
+        for mind in &mut next.minds {
+            mind.renumber_robots(&ids);
+        }
         next.make_room(to, &rooms)?;
         next.keep_items(self, from, to)?;
         next.tally = self.tally;
@@ -44,7 +48,6 @@ impl State {
         if is_same_team(self, &old) {
             // Kinds are in the order of their names, so that those who hear have their numbers still.
             next.air = self.air.clone();
-            let ids = ids_of(self, &next, &old);
             next.air
                 .retain(|heard| still_sayable(heard, &ids, from, to));
         }

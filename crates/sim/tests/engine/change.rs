@@ -383,12 +383,12 @@ fn talkers(kinds: &[(&str, u32)], items: &[&str], brain_hz: f64) -> String {
         .iter()
         .map(|name| format!("[items.{name}]\ncount = 1\n"));
     let items: String = items.collect();
-    let robots = kinds.iter().enumerate().map(|(row, (name, count))| {
-        let places: Vec<String> = (1..=*count)
-            .map(|x| format!("[{x}, {}]", row + 1))
-            .collect();
+    let robots = kinds.iter().map(|(name, count)| {
+        // Each kind in a row of its own, whatever others there are.
+        let y = 1.0 + 0.3 * f64::from(name.as_bytes()[0] - b'a');
+        let places: Vec<String> = (1..=*count).map(|x| format!("[{x}, {y}]")).collect();
         format!(
-            "[robots.{name}]\ncount = {count}\nradius_m = 0.2\nbrain = {{ rate_hz = {brain_hz} }}\n\
+            "[robots.{name}]\ncount = {count}\nradius_m = 0.1\nbrain = {{ rate_hz = {brain_hz} }}\n\
              start = {{ kind = \"fixed\", at_m = [{}] }}\n\
              drive = {{ max_speed_m_s = 0, max_turn_rate_deg_s = 0 }}\n\
              radio = {{ range_m = 50, delay_s = 1 }}\n\
@@ -451,4 +451,27 @@ fn a_message_on_its_way_keeps_its_sender_and_its_item_when_kinds_have_other_numb
     let gone = talkers(&[("m", 2)], &["flag"], 10.0);
     without.change(scenario(&gone)).unwrap();
     assert_eq!(inbox_of(&told_within(&mut without, 20, id(0, 1))), []);
+}
+
+#[test]
+fn what_waits_for_a_brain_names_robots_as_they_are_called_now_and_none_that_is_gone() {
+    let text = talkers(&[("b", 1), ("m", 2), ("z", 1)], &[], 0.2);
+    let mut simulation = start(&text);
+    simulation.step();
+    for sender in [id(0, 0), id(1, 0), id(2, 0)] {
+        told(&mut simulation, [(sender, say(&[message(7.0)]))]);
+    }
+    (0..15).for_each(|_| simulation.step());
+    let other = talkers(&[("a", 1), ("m", 2), ("y", 1), ("z", 1)], &[], 0.2);
+    simulation.change(scenario(&other)).unwrap();
+    // Of m/1, who has seen and heard all the others before.
+    let percepts = told_within(&mut simulation, 50, id(1, 1));
+    let senders: Vec<_> = inbox_of(&percepts).iter().map(|heard| heard.from).collect();
+    assert_eq!(senders, [id(1, 0), id(3, 0)]);
+    let old = percepts.iter().flat_map(|percept| &percept.neighbours);
+    let old = old.filter(|neighbour| neighbour.age_s > 3.15);
+    let mut seen: Vec<_> = old.map(|neighbour| neighbour.id).collect();
+    seen.sort_unstable();
+    seen.dedup();
+    assert_eq!(seen, [id(1, 0), id(3, 0)]);
 }
