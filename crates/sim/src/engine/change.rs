@@ -1,7 +1,7 @@
 //! Going on with another scenario in the middle of a run.
 
 use super::mind::Mind;
-use super::state::{Hull, NoRoom, State, draws};
+use super::state::{Hull, NoRoom, State, Status, draws};
 use super::stay::{ids_of, is_same_team, stay, still_sayable};
 use crate::body::Layer;
 use crate::body::kind::Kind;
@@ -27,7 +27,8 @@ impl State {
     ///
     /// Robots and items that are in both, by the names of their kinds and their indices, stay as
     /// they are; others come in where they would start, or go. A robot whose brain, body or sensors
-    /// are now others begins with a new mind, and is at once no faster than its drive now allows.
+    /// are now others begins with a new mind, and is at once no faster than its drive now allows. Of
+    /// a battery with another capacity there is left what has not been used so far.
     /// Messages on their way are lost if the team changes.
     ///
     /// # Errors
@@ -73,13 +74,7 @@ impl State {
             let kind = &to.kinds[usize::from(id.kind)];
             self.discs[robot].centre = before.discs[was].centre;
             self.courses[robot] = before.courses[was];
-            let speed_m_s = kind
-                .drive
-                .possible(before.hulls[was].speed_m_s, to.fastest());
-            self.hulls[robot] = Hull {
-                speed_m_s,
-                ..before.hulls[was]
-            };
+            self.hulls[robot] = kept_hull(&before.hulls[was], kind, to);
             self.minds[robot] = kept_mind(&before.minds[was], old_kind, kind);
             let is_same =
                 kind.radius_m.total_cmp(&old_kind.radius_m).is_eq() && kind.layer == old_kind.layer;
@@ -176,6 +171,23 @@ fn no_room(scenario: &Scenario, name: &str, index: u32) -> NoRoom {
         kind: kind.map_or(0, |(number, _)| number),
         index,
         why: NoPlace::Taken,
+    }
+}
+
+fn kept_hull(hull: &Hull, kind: &Kind, to: &Scenario) -> Hull {
+    let is_used_up = kind
+        .battery
+        .is_some_and(|battery| hull.energy_j >= battery.capacity_j);
+    let status = match hull.status {
+        Status::Broken => Status::Broken,
+        status if hull.is_external => status,
+        _ if is_used_up => Status::Empty,
+        _ => Status::Active,
+    };
+    Hull {
+        speed_m_s: kind.drive.possible(hull.speed_m_s, to.fastest()),
+        status,
+        ..*hull
     }
 }
 

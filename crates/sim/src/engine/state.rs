@@ -6,6 +6,7 @@ use super::mind::Mind;
 use super::neighbours::Neighbours;
 use super::view::View;
 use crate::body::Layer;
+use crate::body::kind::Kind;
 use crate::body::path::Course;
 use crate::scenario::Scenario;
 use crate::world::items::Items;
@@ -53,6 +54,15 @@ pub(crate) struct Hull {
     pub(crate) is_touching: bool,
     /// Something stopped it in the last step.
     pub(crate) is_pressed: bool,
+}
+
+impl Hull {
+    /// Share of its battery that is left, 0 to 1; `None` if it has none that empties.
+    pub(crate) fn charge(&self, kind: &Kind) -> Option<f64> {
+        let capacity_j = kind.battery?.capacity_j;
+        let left = (1.0 - self.energy_j / capacity_j).max(0.0);
+        capacity_j.is_finite().then_some(left)
+    }
 }
 
 /// Whether a robot can go on.

@@ -2,7 +2,7 @@
 
 use crate::common::{drive, first, id, message, replaced, robots, say, scenario, start, told};
 use brain::{About, Heard, Percept};
-use sim::engine::{Item, NoRoom, Robot, Simulation};
+use sim::engine::{Item, NoRoom, Robot, Simulation, Status};
 
 const GROUND: &str = "
 [clock]
@@ -474,4 +474,60 @@ fn what_waits_for_a_brain_names_robots_as_they_are_called_now_and_none_that_is_g
     seen.sort_unstable();
     seen.dedup();
     assert_eq!(seen, [id(1, 0), id(3, 0)]);
+}
+
+const DRAINED: &str = "
+[clock]
+step_s = 1
+cap_s = 1000
+[world]
+size_m = [20, 10]
+[robots.rover]
+count = 2
+radius_m = 0.4
+drive = { max_speed_m_s = 0, max_turn_rate_deg_s = 0 }
+battery = { capacity_j = 200, idle_w = 10 }
+";
+
+/// A run in which each robot has used 100 J, with another capacity from then on.
+fn recharged(capacity: &str) -> Simulation {
+    let mut simulation = start(DRAINED);
+    (0..10).for_each(|_| simulation.step());
+    let text = replaced(DRAINED, &[("capacity_j = 200, ", capacity)]);
+    simulation.change(scenario(&text)).unwrap();
+    simulation
+}
+
+#[test]
+fn a_battery_that_is_now_too_small_for_what_was_used_is_empty_and_nothing_is_given_back() {
+    let mut simulation = recharged("capacity_j = 50, ");
+    for _ in 0..3 {
+        for robot in robots(&simulation) {
+            assert_eq!(robot.battery, Some(0.0));
+            assert_eq!(robot.status, Status::Empty);
+            assert_eq!(robot.energy_j, 100.0);
+        }
+        simulation.step();
+    }
+    assert_eq!(simulation.outcome().energy_j, 200.0);
+}
+
+#[test]
+fn a_robot_that_was_empty_goes_on_with_a_greater_battery() {
+    let mut simulation = recharged("capacity_j = 50, ");
+    for (capacity, left) in [("capacity_j = 10000, ", Some(0.99)), ("", None)] {
+        let text = replaced(DRAINED, &[("capacity_j = 200, ", capacity)]);
+        simulation.change(scenario(&text)).unwrap();
+        let robot = first(&simulation);
+        assert_eq!((robot.status, robot.battery), (Status::Active, left));
+        let before = robot.energy_j;
+        simulation.step();
+        assert_eq!(first(&simulation).energy_j, before + 10.0);
+        let text = replaced(DRAINED, &[("capacity_j = 200, ", "capacity_j = 50, ")]);
+        simulation.change(scenario(&text)).unwrap();
+        simulation.change(scenario(&text)).unwrap();
+        assert_eq!(first(&simulation).status, Status::Empty);
+        let text = replaced(DRAINED, &[("capacity_j = 200, ", "capacity_j = 100, ")]);
+        simulation.change(scenario(&text)).unwrap();
+    }
 }
