@@ -2,7 +2,7 @@
 
 use super::mind::Mind;
 use super::state::{Hull, NoRoom, State, Status, draws};
-use super::stay::{ids_of, is_same_team, stay, still_sayable};
+use super::stay::{gone, ids_of, is_same_team, stay, still_sayable};
 use crate::body::Layer;
 use crate::body::kind::Kind;
 use crate::scenario::Scenario;
@@ -29,7 +29,8 @@ impl State {
     /// they are; others come in where they would start, or go. A robot whose brain, body or sensors
     /// are now others begins with a new mind, and is at once no faster than its drive now allows. Of
     /// a battery with another capacity there is left what has not been used so far.
-    /// Messages on their way are lost if the team changes.
+    /// Messages on their way are lost if the team changes. What robots have cost that go is still
+    /// part of the outcome.
     ///
     /// # Errors
     /// If there is no room for what comes in, or for what stays where something else now is.
@@ -45,6 +46,7 @@ impl State {
         next.make_room(to, &rooms)?;
         next.keep_items(self, from, to)?;
         next.tally = self.tally;
+        next.tally.gone = self.tally.gone.and(gone(self, &old).iter());
         next.count_sought(to);
         if is_same_team(self, &old) {
             // Kinds are in the order of their names, so that those who hear have their numbers still.

@@ -1,6 +1,6 @@
 //! What a run gives.
 
-use super::state::{State, Status};
+use super::state::State;
 use crate::scenario::Scenario;
 
 /// What a run gives, by the names of an outcome's columns.
@@ -19,11 +19,11 @@ pub struct Outcome {
     /// New contacts of two robots, or of a robot with what stands still; in a step at most as many
     /// as there are robots.
     pub collisions: u64,
-    /// Of all robots.
+    /// Of all robots, also those that were taken out of the run.
     pub energy_j: f64,
-    /// Of all robots.
+    /// Of all robots, also those that were taken out of the run.
     pub distance_m: f64,
-    /// Robots that could not go on: empty or broken.
+    /// Robots that could not go on: empty or broken; those that were taken out of the run so too.
     pub robots_stopped: u32,
 }
 
@@ -46,10 +46,7 @@ impl Outcome {
             .tally
             .complete_at
             .map(|tick| tick as f64 * scenario.step_s);
-        let stopped = state
-            .hulls
-            .iter()
-            .filter(|hull| hull.status != Status::Active);
+        let cost = state.tally.gone.and(state.hulls.iter());
         Self {
             // The step of the last find may be a rounding error beyond the cap.
             time_s: complete_s.map_or(scenario.cap_s, |time_s| time_s.min(scenario.cap_s)),
@@ -58,13 +55,9 @@ impl Outcome {
             missed,
             false_alarms: state.tally.false_alarms,
             collisions: state.tally.collisions,
-            energy_j: state.hulls.iter().map(|hull| hull.energy_j).sum(),
-            distance_m: state.hulls.iter().map(|hull| hull.distance_m).sum(),
-            #[expect(
-                clippy::cast_possible_truncation,
-                reason = "robots have 32-bit numbers"
-            )]
-            robots_stopped: stopped.count() as u32,
+            energy_j: cost.energy_j,
+            distance_m: cost.distance_m,
+            robots_stopped: cost.stopped,
         }
     }
 

@@ -78,7 +78,7 @@ pub enum Status {
 }
 
 /// What a run counts, besides what each robot does.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct Tally {
     pub(crate) false_alarms: u64,
     pub(crate) collisions: u64,
@@ -86,6 +86,27 @@ pub(crate) struct Tally {
     pub(crate) sought_left: u32,
     /// The step in which the last of them was found.
     pub(crate) complete_at: Option<u64>,
+    /// What robots cost that are no longer there.
+    pub(crate) gone: Cost,
+}
+
+/// What some robots have cost together.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct Cost {
+    pub(crate) energy_j: f64,
+    pub(crate) distance_m: f64,
+    pub(crate) stopped: u32,
+}
+
+impl Cost {
+    /// With what other robots have cost.
+    pub(crate) fn and<'a>(self, hulls: impl Iterator<Item = &'a Hull>) -> Self {
+        hulls.fold(self, |all, hull| Self {
+            energy_j: all.energy_j + hull.energy_j,
+            distance_m: all.distance_m + hull.distance_m,
+            stopped: all.stopped + u32::from(hull.status != Status::Active),
+        })
+    }
 }
 
 /// Something for which a run has no place.
@@ -249,6 +270,12 @@ impl State {
         }
         hash.add(self.tally.false_alarms);
         hash.add(self.tally.collisions);
+        let gone = self.tally.gone;
+        if gone != Cost::default() {
+            hash.add(gone.energy_j.to_bits());
+            hash.add(gone.distance_m.to_bits());
+            hash.add(gone.stopped.into());
+        }
         hash.value()
     }
 

@@ -1,6 +1,6 @@
 //! Who is still there when a run goes on with another scenario, and by which number.
 
-use super::state::State;
+use super::state::{Hull, State};
 use crate::scenario::Scenario;
 use brain::{About, Heard, RobotId};
 use std::collections::BTreeMap;
@@ -23,6 +23,16 @@ pub(super) fn stay(
 /// Whether nobody has come in and nobody has gone.
 pub(super) fn is_same_team(before: &State, old: &[Option<usize>]) -> bool {
     old.len() == before.robots() && old.iter().all(Option::is_some)
+}
+
+/// The hulls of those that go.
+pub(super) fn gone(before: &State, old: &[Option<usize>]) -> Vec<Hull> {
+    let mut stays = vec![false; before.robots()];
+    old.iter().flatten().for_each(|robot| stays[*robot] = true);
+    let hulls = before.hulls.iter().zip(stays);
+    hulls
+        .filter_map(|(hull, stays)| (!stays).then_some(*hull))
+        .collect()
 }
 
 /// What robots that were there and still are were called, and what they are called now: kinds of

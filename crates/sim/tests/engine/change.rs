@@ -531,3 +531,23 @@ fn a_robot_that_was_empty_goes_on_with_a_greater_battery() {
         simulation.change(scenario(&text)).unwrap();
     }
 }
+
+#[test]
+fn what_robots_have_cost_is_still_told_when_they_are_gone() {
+    let mut simulation = start(&DRAINED.replace("max_speed_m_s = 0", "max_speed_m_s = 0.1"));
+    let brisk = |index| (id(0, index), 0.1, 0.0);
+    drive(&mut simulation, 20, &[brisk(0), brisk(1)]);
+    let before = simulation.outcome();
+    assert!(before.distance_m > 0.0);
+    assert_eq!((before.energy_j, before.robots_stopped), (400.0, 2));
+    let hash = simulation.state().hash();
+    for count in [1, 0, 2, 1] {
+        let text = replaced(DRAINED, &[("count = 2", &format!("count = {count}"))]);
+        simulation.change(scenario(&text)).unwrap();
+        assert_eq!(simulation.outcome(), before);
+    }
+    assert_ne!(simulation.state().hash(), hash);
+    // One that has come in since costs its own besides.
+    simulation.step();
+    assert_eq!(simulation.outcome().energy_j, before.energy_j + 10.0);
+}
