@@ -6,6 +6,7 @@ use super::stay::{gone, ids_of, is_same_team, stay, still_sayable};
 use crate::body::Layer;
 use crate::body::kind::Kind;
 use crate::scenario::Scenario;
+use crate::world::crowd::Crowd;
 use crate::world::items::Item;
 use base::geometry::Disc;
 use base::placement::{NoPlace, NoPlaceFor, Things};
@@ -93,21 +94,22 @@ impl State {
     /// Puts robots that are new elsewhere where somebody is in their place by now.
     fn make_room(&mut self, scenario: &Scenario, rooms: &[Room]) -> Result<(), NoRoom> {
         let draws = draws(scenario, self.seed, self.run, Things::Robots);
+        let mut crowd = Crowd::new(scenario.world.size(), &self.discs);
         for (robot, room) in rooms.iter().enumerate() {
             if *room == Room::Same {
                 continue;
             }
             let (id, Disc { centre, radius_m }) = (self.ids[robot], self.discs[robot]);
             let kind = &scenario.kinds[usize::from(id.kind)];
-            let others = self.discs.iter().zip(&self.ids).enumerate();
-            let others = others.filter(|(other, (_, id))| {
-                *other != robot && scenario.kinds[usize::from(id.kind)].layer == kind.layer
-            });
+            let is_other = |other: &usize| {
+                let layer = scenario.kinds[usize::from(self.ids[*other].kind)].layer;
+                *other != robot && layer == kind.layer
+            };
+            let clear_m = radius_m - Scenario::TOLERANCE_M;
             let is_free = |place| {
+                let mut others = crowd.near(place, radius_m).filter(is_other);
                 scenario.is_free(place, radius_m, kind.layer)
-                    && others.clone().all(|(_, (disc, _))| {
-                        disc.distance_m(place) >= radius_m - Scenario::TOLERANCE_M
-                    })
+                    && others.all(|other| self.discs[other].distance_m(place) >= clear_m)
             };
             if is_free(centre) {
                 continue;
@@ -116,11 +118,13 @@ impl State {
                 Room::Wanted => kind.start.place(&draws, scenario.entity(id), is_free),
                 _ => Err(NoPlace::Taken),
             };
-            self.discs[robot].centre = place.map_err(|why| NoPlaceFor {
+            let place = place.map_err(|why| NoPlaceFor {
                 kind: id.kind,
                 index: id.index,
                 why,
             })?;
+            crowd.put(robot, centre, place);
+            self.discs[robot].centre = place;
         }
         Ok(())
     }

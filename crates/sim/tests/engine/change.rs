@@ -3,6 +3,7 @@
 use crate::common::{drive, first, id, message, replaced, robots, say, scenario, start, told};
 use brain::{About, Heard, Percept};
 use sim::engine::{Item, NoRoom, Robot, Simulation, Status};
+use std::time::{Duration, Instant};
 
 const GROUND: &str = "
 [clock]
@@ -550,4 +551,36 @@ fn what_robots_have_cost_is_still_told_when_they_are_gone() {
     // One that has come in since costs its own besides.
     simulation.step();
     assert_eq!(simulation.outcome().energy_j, before.energy_j + 10.0);
+}
+
+/// If each newcomer were compared with every other robot, this would take half a minute.
+#[test]
+fn a_hundred_thousand_robots_come_in_within_seconds_and_apart() {
+    let many = with(&[
+        ("size_m = [20, 10]", "size_m = [600, 600]"),
+        ("count = 6", "count = 100000"),
+        (
+            "radius_m = 0.4",
+            "radius_m = 0.4\nbrain = { behaviours = [] }",
+        ),
+    ]);
+    let few = scenario(&many.replace("count = 100000", "count = 1000"));
+    let (few, many) = (Simulation::new(few, 1, 0).unwrap(), scenario(&many));
+    let mut simulation = few;
+    drive(&mut simulation, 20, &[(id(1, 0), 2.0, 0.0)]);
+    let begin = Instant::now();
+    simulation.change(many).unwrap();
+    assert!(
+        begin.elapsed() < Duration::from_secs(10),
+        "{:?}",
+        begin.elapsed()
+    );
+    let mut rovers = of_kind(&robots(&simulation), 1);
+    assert_eq!(rovers.len(), 100_000);
+    rovers.sort_by(|one, other| one.at.x.total_cmp(&other.at.x));
+    for (place, one) in rovers.iter().enumerate() {
+        let after = rovers[place + 1..].iter();
+        let mut near = after.take_while(|other| other.at.x - one.at.x < 0.8);
+        assert!(near.all(|other| one.at.to(other.at).length() > 0.8 - 1e-8));
+    }
 }
