@@ -14,6 +14,7 @@ mod seen;
 mod sense;
 mod share_out;
 mod simulation;
+pub(crate) mod sizes;
 mod state;
 mod stay;
 mod tick;

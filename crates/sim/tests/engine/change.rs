@@ -563,6 +563,7 @@ fn a_hundred_thousand_robots_come_in_within_seconds_and_apart() {
             "radius_m = 0.4",
             "radius_m = 0.4\nbrain = { behaviours = [] }",
         ),
+        ("[robots.rover.radio]\nrange_m = 20\nloss = 0.3\n", ""),
     ]);
     let few = scenario(&many.replace("count = 100000", "count = 1000"));
     let (few, many) = (Simulation::new(few, 1, 0).unwrap(), scenario(&many));

@@ -373,8 +373,8 @@ fn a_run_fits_into_memory() {
     );
     assert_eq!(
         told,
-        "robots.bird.count = 1000000: must be fewer, or with fewer rays and messages: a run may take \
-         4 GB of memory, and this one takes about 13.5 GB, 13.5 GB for these"
+        "robots.bird.count = 1000000: must be fewer, or with fewer rays, contacts and messages: a run \
+         may take 4 GB of memory, and this one takes about 13.5 GB, 13.5 GB for these"
     );
 }
 
