@@ -160,14 +160,19 @@ impl Simulation {
         Ok(runs.columns().iter().map(as_tuple).collect())
     }
 
-    /// Goes on with another scenario; returns how many steps have been taken.
+    /// Goes on with another scenario; returns how many steps have been taken. After Ctrl-C the run
+    /// is as it was.
     fn change(&self, py: Python, scenario: &Bound<MetricScenario>) -> PyResult<u64> {
-        let mut guard = self.locked(py)?;
-        let (run, to) = (&mut *guard, &scenario.get().0);
+        let mut run = self.locked(py)?;
+        let to = &scenario.get().0;
         let faults = unchangeable(run.scenario(), to);
         Faults::or(faults, Some(())).map_err(|faults| input_error(&faults, ""))?;
-        let changed = py.detach(|| run.change(Arc::clone(to)));
-        changed.map_err(|why| no_room(to, why))?;
+        let work = robots(&run).saturating_add(to.robots() as u64);
+        let changed = self.take(py, &mut run, work, |run, _| {
+            run.state().changed(run.scenario(), to)
+        })?;
+        // Not before: what Ctrl-C breaks off has changed nothing.
+        run.go_on(Arc::clone(to), changed.map_err(|why| no_room(to, why))?);
         Ok(run.state().tick())
     }
 

@@ -18,19 +18,6 @@ impl Disc {
         self.centre.to(point).length_squared() <= self.radius_m * self.radius_m
     }
 
-    /// Whether the two have a point in common; discs that touch have.
-    #[must_use]
-    pub fn overlaps(&self, other: &Self) -> bool {
-        let reach = self.radius_m + other.radius_m;
-        self.centre.to(other.centre).length_squared() <= reach * reach
-    }
-
-    /// Its area, in square metres.
-    #[must_use]
-    pub fn area_m2(&self) -> f64 {
-        std::f64::consts::PI * self.radius_m * self.radius_m
-    }
-
     /// Distance from `point` to the disc; 0 within it.
     #[must_use]
     pub fn distance_m(&self, point: Point) -> f64 {
@@ -52,15 +39,5 @@ mod tests {
         assert!(!disc.contains([4.0, 5.000_001].into()));
         assert!((disc.distance_m([7.0, 9.0].into()) - 5.0).abs() < 1e-15);
         assert!(disc.distance_m([2.0, 2.0].into()).abs() < 1e-15);
-    }
-
-    #[test]
-    fn discs_that_touch_overlap() {
-        let disc = |x: f64| Disc {
-            centre: Point { x, y: 0.0 },
-            radius_m: 0.5,
-        };
-        assert!(disc(0.0).overlaps(&disc(1.0)));
-        assert!(!disc(0.0).overlaps(&disc(1.000_001)));
     }
 }

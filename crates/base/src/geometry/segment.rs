@@ -4,8 +4,8 @@ use super::Point;
 
 /// A straight wall from one point to another: free on its left, solid on its right.
 ///
-/// Two segments that meet have the same bits in the common end, so that nothing slips between them:
-/// see [`Segment::hit`].
+/// Two segments that meet have the same bits in the common end: what is asked of an end has one
+/// answer for both, and rounding opens no crack between them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Segment {
     /// Its beginning.

@@ -146,8 +146,8 @@ impl OccupancyMap {
 
     /// The edges between what is solid and what is not, as long as they are straight, in the world.
     ///
-    /// They make up closed lines, free on their left. Where they meet, they have the same bits: where
-    /// two solid cells touch by a corner only, no ray slips through (see [`Segment::hit`]).
+    /// They make up closed lines, free on their left. Where they meet, they have the same bits, so
+    /// that there is no crack, also where two solid cells touch by a corner only.
     #[must_use]
     pub fn outline(&self) -> &[Segment] {
         &self.outline

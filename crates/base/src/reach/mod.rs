@@ -35,15 +35,15 @@ pub enum Solid {
 #[derive(Debug, Clone)]
 pub struct Reach {
     cells: Cells,
-    /// Whether each cell may be come to, row by row.
-    is_flooded: Vec<bool>,
+    /// How many cells may be come to before each, row by row, and in all.
+    flooded_before: Vec<u32>,
 }
 
 impl Reach {
     /// Where a robot of `radius_m` may come to from anywhere in its `starts` (a single place is a
     /// rectangle from itself to itself), within the walls of `world` and among what is `solid`.
     ///
-    /// Takes a byte a cell, of at most [`MAX_CELLS`], and time with the cells and what is solid.
+    /// Takes some bytes a cell, of at most [`MAX_CELLS`], and time with the cells and what is solid.
     #[must_use]
     pub fn new(
         world: Rectangle,
@@ -62,11 +62,18 @@ impl Reach {
             }
         }
         let is_flooded = flood(&cells, is_closed, starts);
-        Self { cells, is_flooded }
+        let counts = is_flooded.iter().scan(0, |count, is_flooded| {
+            *count += u32::from(*is_flooded);
+            Some(*count)
+        });
+        Self {
+            cells,
+            flooded_before: std::iter::once(0).chain(counts).collect(),
+        }
     }
 
     /// Whether the robot's centre may come within `distance_m` of `point`, 0 for upon it. If not, it
-    /// never can.
+    /// never can. Takes time with the rows of cells that are so near.
     #[must_use]
     pub fn may_come_near(&self, point: Point, distance_m: f64) -> bool {
         let far_m = distance_m + self.cells.half_diagonal_m() + TOLERANCE_M;
@@ -75,7 +82,9 @@ impl Reach {
             radius_m: 0.0,
         });
         let mut near = self.cells.near(reach, far_m);
-        near.any(|cells| self.is_flooded[cells].contains(&true))
+        near.any(|cells| {
+            self.flooded_before[*cells.start()] < self.flooded_before[*cells.end() + 1]
+        })
     }
 }
 

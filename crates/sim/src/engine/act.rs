@@ -259,9 +259,11 @@ impl Hull {
         let move_w = if is_moving { battery.move_w } else { 0.0 };
         let moving_j = move_w * step_s + battery.move_j_per_m * gone_m;
         let standing_w = battery.idle_w + plan.sensing_w;
+        let used_j = self.energy_j;
         self.energy_j += standing_w * step_s + moving_j * plan.effort;
         if self.energy_j >= battery.capacity_j {
-            self.energy_j = battery.capacity_j;
+            // Nothing that was used is given back.
+            self.energy_j = battery.capacity_j.max(used_j);
             self.status = Status::Empty;
         }
     }

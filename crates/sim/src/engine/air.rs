@@ -46,6 +46,13 @@ impl Air {
         }
     }
 
+    /// Keeps what `is_kept`, which may change it.
+    pub(crate) fn retain(&mut self, mut is_kept: impl FnMut(&mut Heard) -> bool) {
+        for list in &mut self.due {
+            list.retain_mut(|sent| is_kept(&mut sent.heard));
+        }
+    }
+
     /// Sends a message to every robot that can hear it, of those that `view` shows.
     pub(crate) fn send(&mut self, view: &View, outgoing: Outgoing, radio: &Radio) {
         let from = outgoing.from as usize;

@@ -1,10 +1,12 @@
 //! Going on with another scenario in the middle of a run.
 
 use super::mind::Mind;
-use super::state::{Hull, NoRoom, State, draws};
+use super::state::{Hull, NoRoom, State, Status, draws};
+use super::stay::{gone, ids_of, is_same_team, stay, still_sayable};
 use crate::body::Layer;
 use crate::body::kind::Kind;
 use crate::scenario::Scenario;
+use crate::world::crowd::Crowd;
 use crate::world::items::Item;
 use base::geometry::Disc;
 use base::placement::{NoPlace, NoPlaceFor, Things};
@@ -26,48 +28,56 @@ impl State {
     ///
     /// Robots and items that are in both, by the names of their kinds and their indices, stay as
     /// they are; others come in where they would start, or go. A robot whose brain, body or sensors
-    /// are now others begins with a new mind, and is at once no faster than its drive now allows.
-    /// Messages on their way are lost if the team changes.
+    /// are now others begins with a new mind, and is at once no faster than its drive now allows. Of
+    /// a battery with another capacity there is left what has not been used so far.
+    /// Messages on their way are lost if the team changes. What robots have cost that go is still
+    /// part of the outcome.
     ///
     /// # Errors
     /// If there is no room for what comes in, or for what stays where something else now is.
     pub fn changed(&self, from: &Scenario, to: &Scenario) -> Result<Self, NoRoom> {
         let mut next = Self::new(to, self.seed, self.run)?;
         next.tick = self.tick;
-        let rooms = next.keep_robots(self, from, to);
+        let old = stay(self, from, &next, to);
+        let ids = ids_of(self, &next, &old);
+        let rooms = next.keep_robots(self, &old, from, to);
+        for mind in &mut next.minds {
+            mind.renumber_robots(&ids);
+        }
         next.make_room(to, &rooms)?;
         next.keep_items(self, from, to)?;
         next.tally = self.tally;
+        next.tally.gone = self.tally.gone.and(gone(self, &old).iter());
         next.count_sought(to);
-        if next.ids == self.ids {
+        if is_same_team(self, &old) {
+            // Kinds are in the order of their names, so that those who hear have their numbers still.
             next.air = self.air.clone();
+            next.air
+                .retain(|heard| still_sayable(heard, &ids, from, to));
         }
         Ok(next)
     }
 
-    /// Takes over robots that were there.
-    fn keep_robots(&mut self, before: &Self, from: &Scenario, to: &Scenario) -> Vec<Room> {
-        let old = before.ids.iter().enumerate();
-        let old = old.map(|(robot, id)| ((from.name_of(*id), id.index), robot));
-        let old: BTreeMap<(&str, u32), usize> = old.collect();
+    /// Takes over robots that were there, each from its `old` number.
+    fn keep_robots(
+        &mut self,
+        before: &Self,
+        old: &[Option<usize>],
+        from: &Scenario,
+        to: &Scenario,
+    ) -> Vec<Room> {
         let is_same_ground = from.solids() == to.solids();
         let mut rooms = vec![Room::Wanted; self.robots()];
         for (robot, room) in rooms.iter_mut().enumerate() {
             let id = self.ids[robot];
-            let Some(&was) = old.get(&(to.name_of(id), id.index)) else {
+            let Some(was) = old[robot] else {
                 continue;
             };
             let old_kind = &from.kinds[usize::from(before.ids[was].kind)];
             let kind = &to.kinds[usize::from(id.kind)];
             self.discs[robot].centre = before.discs[was].centre;
             self.courses[robot] = before.courses[was];
-            let speed_m_s = kind
-                .drive
-                .possible(before.hulls[was].speed_m_s, to.fastest());
-            self.hulls[robot] = Hull {
-                speed_m_s,
-                ..before.hulls[was]
-            };
+            self.hulls[robot] = kept_hull(&before.hulls[was], kind, to);
             self.minds[robot] = kept_mind(&before.minds[was], old_kind, kind);
             let is_same =
                 kind.radius_m.total_cmp(&old_kind.radius_m).is_eq() && kind.layer == old_kind.layer;
@@ -84,21 +94,22 @@ impl State {
     /// Puts robots that are new elsewhere where somebody is in their place by now.
     fn make_room(&mut self, scenario: &Scenario, rooms: &[Room]) -> Result<(), NoRoom> {
         let draws = draws(scenario, self.seed, self.run, Things::Robots);
+        let mut crowd = Crowd::new(scenario.world.size(), &self.discs);
         for (robot, room) in rooms.iter().enumerate() {
             if *room == Room::Same {
                 continue;
             }
             let (id, Disc { centre, radius_m }) = (self.ids[robot], self.discs[robot]);
             let kind = &scenario.kinds[usize::from(id.kind)];
-            let others = self.discs.iter().zip(&self.ids).enumerate();
-            let others = others.filter(|(other, (_, id))| {
-                *other != robot && scenario.kinds[usize::from(id.kind)].layer == kind.layer
-            });
+            let is_other = |other: &usize| {
+                let layer = scenario.kinds[usize::from(self.ids[*other].kind)].layer;
+                *other != robot && layer == kind.layer
+            };
+            let clear_m = radius_m - Scenario::TOLERANCE_M;
             let is_free = |place| {
+                let mut others = crowd.near(place, radius_m).filter(is_other);
                 scenario.is_free(place, radius_m, kind.layer)
-                    && others.clone().all(|(_, (disc, _))| {
-                        disc.distance_m(place) >= radius_m - Scenario::TOLERANCE_M
-                    })
+                    && others.all(|other| self.discs[other].distance_m(place) >= clear_m)
             };
             if is_free(centre) {
                 continue;
@@ -107,11 +118,13 @@ impl State {
                 Room::Wanted => kind.start.place(&draws, scenario.entity(id), is_free),
                 _ => Err(NoPlace::Taken),
             };
-            self.discs[robot].centre = place.map_err(|why| NoPlaceFor {
+            let place = place.map_err(|why| NoPlaceFor {
                 kind: id.kind,
                 index: id.index,
                 why,
             })?;
+            crowd.put(robot, centre, place);
+            self.discs[robot].centre = place;
         }
         Ok(())
     }
@@ -164,6 +177,23 @@ fn no_room(scenario: &Scenario, name: &str, index: u32) -> NoRoom {
         kind: kind.map_or(0, |(number, _)| number),
         index,
         why: NoPlace::Taken,
+    }
+}
+
+fn kept_hull(hull: &Hull, kind: &Kind, to: &Scenario) -> Hull {
+    let is_used_up = kind
+        .battery
+        .is_some_and(|battery| hull.energy_j >= battery.capacity_j);
+    let status = match hull.status {
+        Status::Broken => Status::Broken,
+        status if hull.is_external => status,
+        _ if is_used_up => Status::Empty,
+        _ => Status::Active,
+    };
+    Hull {
+        speed_m_s: kind.drive.possible(hull.speed_m_s, to.fastest()),
+        status,
+        ..*hull
     }
 }
 

@@ -144,10 +144,7 @@ impl Desk {
             speed_m_s: hull.speed_m_s,
             turn_rate_rad_s: hull.turn_rate_rad_s,
         });
-        let battery = kind
-            .battery
-            .filter(|battery| battery.capacity_j.is_finite());
-        percept.battery = battery.and_then(|battery| now(1.0 - hull.energy_j / battery.capacity_j));
+        percept.battery = hull.charge(kind).and_then(now);
     }
 
     /// Takes from the command what the body is to do.

@@ -4,7 +4,7 @@ use super::air::Sent;
 use super::waiting::{Late, Waiting};
 use crate::body::kind::Kind;
 use crate::sensing::{Measure, Sensor};
-use brain::{Brain, Contact, Heard, Motion, Neighbour, Percept, SensorRequest};
+use brain::{Brain, Contact, Heard, Motion, Neighbour, Percept, RobotId, SensorRequest};
 use std::collections::BTreeMap;
 
 /// What decides for one robot.
@@ -100,6 +100,18 @@ impl Mind {
                 let number = number.and_then(|number| u32::try_from(*number).ok());
                 number.inspect(|number| *item = *number).is_some()
             });
+        }
+    }
+
+    /// Robots have other numbers from now on; what was seen and heard of one that is gone is
+    /// forgotten.
+    pub(crate) fn renumber_robots(&mut self, numbers: &BTreeMap<RobotId, RobotId>) {
+        let renumber = |id: &mut RobotId| numbers.get(id).map(|now| *id = *now).is_some();
+        if let Some(backlog) = &mut self.backlog {
+            let neighbours = &mut backlog.neighbours.lates;
+            neighbours.retain_mut(|late| renumber(&mut late.what.id));
+            let inbox = &mut backlog.inbox.lates;
+            inbox.retain_mut(|late| renumber(&mut late.what.from));
         }
     }
 

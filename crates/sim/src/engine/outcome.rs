@@ -1,6 +1,6 @@
 //! What a run gives.
 
-use super::state::{State, Status};
+use super::state::State;
 use crate::clock::seconds;
 use crate::scenario::Scenario;
 
@@ -20,12 +20,14 @@ pub struct Outcome {
     /// New contacts of two robots, or of a robot with what stands still; in a step at most as many
     /// as there are robots.
     pub collisions: u64,
-    /// Of all robots.
+    /// Of all robots, also those that were taken out of the run.
     pub energy_j: f64,
-    /// Of all robots.
+    /// Of all robots, also those that were taken out of the run.
     pub distance_m: f64,
-    /// Robots that could not go on: empty or broken.
+    /// Robots that could not go on: empty or broken; those that were taken out of the run so too.
     pub robots_stopped: u32,
+    /// Whether every robot is somewhere, and looks somewhere.
+    is_placed: bool,
 }
 
 impl Outcome {
@@ -46,10 +48,7 @@ impl Outcome {
             .tally
             .complete_at
             .map(|tick| seconds(tick, scenario.step_s));
-        let stopped = state
-            .hulls
-            .iter()
-            .filter(|hull| hull.status != Status::Active);
+        let cost = state.tally.gone.and(state.hulls.iter());
         Self {
             // The step of the last find may be a rounding error beyond the cap.
             time_s: complete_s.map_or(scenario.cap_s, |time_s| time_s.min(scenario.cap_s)),
@@ -58,21 +57,59 @@ impl Outcome {
             missed,
             false_alarms: state.tally.false_alarms,
             collisions: state.tally.collisions,
-            energy_j: state.hulls.iter().map(|hull| hull.energy_j).sum(),
-            distance_m: state.hulls.iter().map(|hull| hull.distance_m).sum(),
-            #[expect(
-                clippy::cast_possible_truncation,
-                reason = "robots have 32-bit numbers"
-            )]
-            robots_stopped: stopped.count() as u32,
+            energy_j: cost.energy_j,
+            distance_m: cost.distance_m,
+            robots_stopped: cost.stopped,
+            is_placed: is_placed(state),
         }
     }
 
-    /// Whether all its numbers are finite.
+    /// Whether all its numbers are finite, and the places of the robots from which they came.
     #[must_use]
     pub fn is_finite(&self) -> bool {
-        [self.time_s, self.energy_j, self.distance_m]
-            .iter()
-            .all(|value| value.is_finite())
+        let numbers = [self.time_s, self.energy_j, self.distance_m];
+        self.is_placed && numbers.iter().all(|value| value.is_finite())
+    }
+}
+
+fn is_placed(state: &State) -> bool {
+    let places = state.discs.iter().map(|disc| disc.centre);
+    let places = places.map(|at| at.x + at.y);
+    let headings = state.courses.iter().map(|course| course.heading_rad);
+    places.chain(headings).all(f64::is_finite)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenario::ScenarioSpec;
+    use base::document::Document;
+
+    const ROVERS: &str = "
+[clock]
+cap_s = 60
+[world]
+size_m = [20, 10]
+[robots.rover]
+count = 2
+radius_m = 0.4
+drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
+";
+
+    #[test]
+    fn a_run_with_a_robot_that_is_nowhere_is_not_finite() {
+        let document = Document::parse("t.toml", ROVERS).unwrap();
+        let scenario = ScenarioSpec::read(&document).unwrap().scenario;
+        let state = State::new(&scenario, 1, 0).unwrap();
+        let is_finite = |state: &State| Outcome::of(&scenario, state).is_finite();
+        assert!(is_finite(&state));
+        for nowhere in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            let mut lost = state.clone();
+            lost.discs[1].centre.y = nowhere;
+            assert!(!is_finite(&lost));
+            let mut lost = state.clone();
+            lost.courses[0].heading_rad = nowhere;
+            assert!(!is_finite(&lost));
+        }
     }
 }

@@ -63,9 +63,6 @@ impl State {
         (0..self.robots()).map(|robot| {
             let (id, hull) = (self.ids[robot], &self.hulls[robot]);
             let kind = &scenario.kinds[usize::from(id.kind)];
-            let battery = kind
-                .battery
-                .filter(|battery| battery.capacity_j.is_finite());
             Robot {
                 id,
                 at: self.discs[robot].centre,
@@ -78,7 +75,7 @@ impl State {
                 is_external: hull.is_external,
                 is_touching: hull.is_pressed,
                 energy_j: hull.energy_j,
-                battery: battery.map(|battery| 1.0 - hull.energy_j / battery.capacity_j),
+                battery: hull.charge(kind),
                 distance_m: hull.distance_m,
                 collisions: hull.collisions,
             }

@@ -132,10 +132,16 @@ impl Simulation {
     /// # Errors
     /// If the world has no room for an item or robot that comes in; then nothing has changed.
     pub fn change(&mut self, scenario: Arc<Scenario>) -> Result<(), NoRoom> {
-        self.state = self.state.changed(&self.scenario, &scenario)?;
+        let state = self.state.changed(&self.scenario, &scenario)?;
+        self.go_on(scenario, state);
+        Ok(())
+    }
+
+    /// Goes on with another scenario, from the state that [`State::changed`] gave for it.
+    pub fn go_on(&mut self, scenario: Arc<Scenario>, state: State) {
+        self.state = state;
         self.workshop = Workshop::new(&scenario, true);
         self.scenario = scenario;
-        Ok(())
     }
 
     /// The body is outside, and where its percept says.

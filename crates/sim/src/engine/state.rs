@@ -6,6 +6,7 @@ use super::mind::Mind;
 use super::neighbours::Neighbours;
 use super::view::View;
 use crate::body::Layer;
+use crate::body::kind::Kind;
 use crate::body::path::Course;
 use crate::scenario::Scenario;
 use crate::world::items::Items;
@@ -55,6 +56,15 @@ pub(crate) struct Hull {
     pub(crate) is_pressed: bool,
 }
 
+impl Hull {
+    /// Share of its battery that is left, 0 to 1; `None` if it has none that empties.
+    pub(crate) fn charge(&self, kind: &Kind) -> Option<f64> {
+        let capacity_j = kind.battery?.capacity_j;
+        let left = (1.0 - self.energy_j / capacity_j).max(0.0);
+        capacity_j.is_finite().then_some(left)
+    }
+}
+
 /// Whether a robot can go on.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Status {
@@ -68,7 +78,7 @@ pub enum Status {
 }
 
 /// What a run counts, besides what each robot does.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct Tally {
     pub(crate) false_alarms: u64,
     pub(crate) collisions: u64,
@@ -76,6 +86,27 @@ pub(crate) struct Tally {
     pub(crate) sought_left: u32,
     /// The step in which the last of them was found.
     pub(crate) complete_at: Option<u64>,
+    /// What robots cost that are no longer there.
+    pub(crate) gone: Cost,
+}
+
+/// What some robots have cost together.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct Cost {
+    pub(crate) energy_j: f64,
+    pub(crate) distance_m: f64,
+    pub(crate) stopped: u32,
+}
+
+impl Cost {
+    /// With what other robots have cost.
+    pub(crate) fn and<'a>(self, hulls: impl Iterator<Item = &'a Hull>) -> Self {
+        hulls.fold(self, |all, hull| Self {
+            energy_j: all.energy_j + hull.energy_j,
+            distance_m: all.distance_m + hull.distance_m,
+            stopped: all.stopped + u32::from(hull.status != Status::Active),
+        })
+    }
 }
 
 /// Something for which a run has no place.
@@ -240,6 +271,12 @@ impl State {
         }
         hash.add(self.tally.false_alarms);
         hash.add(self.tally.collisions);
+        let gone = self.tally.gone;
+        if gone != Cost::default() {
+            hash.add(gone.energy_j.to_bits());
+            hash.add(gone.distance_m.to_bits());
+            hash.add(gone.stopped.into());
+        }
         hash.value()
     }
 

@@ -1,7 +1,9 @@
 //! Going on with another scenario in the middle of a run.
 
-use crate::common::{drive, first, id, replaced, robots, scenario, start};
-use sim::engine::{Item, NoRoom, Robot, Simulation};
+use crate::common::{drive, first, id, message, replaced, robots, say, scenario, start, told};
+use brain::{About, Heard, Percept};
+use sim::engine::{Item, NoRoom, Robot, Simulation, Status};
+use std::time::{Duration, Instant};
 
 const GROUND: &str = "
 [clock]
@@ -374,4 +376,212 @@ drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
     assert!(matches!(other.change(more.clone()), Err(NoRoom::Robot(_))));
     drive(&mut simulation, 15, &[(id(0, 0), 1.0, 0.0)]);
     assert!(simulation.change(more).is_ok());
+}
+
+/// Robots of some kinds, all within each other's sight and radio, and kinds of items.
+fn talkers(kinds: &[(&str, u32)], items: &[&str], brain_hz: f64) -> String {
+    let items = items
+        .iter()
+        .map(|name| format!("[items.{name}]\ncount = 1\n"));
+    let items: String = items.collect();
+    let robots = kinds.iter().map(|(name, count)| {
+        // Each kind in a row of its own, whatever others there are.
+        let y = 1.0 + 0.3 * f64::from(name.as_bytes()[0] - b'a');
+        let places: Vec<String> = (1..=*count).map(|x| format!("[{x}, {y}]")).collect();
+        format!(
+            "[robots.{name}]\ncount = {count}\nradius_m = 0.1\nbrain = {{ rate_hz = {brain_hz} }}\n\
+             start = {{ kind = \"fixed\", at_m = [{}] }}\n\
+             drive = {{ max_speed_m_s = 0, max_turn_rate_deg_s = 0 }}\n\
+             radio = {{ range_m = 50, delay_s = 1 }}\n\
+             sensors = {{ mates = {{ kind = \"robots\", range_m = 50 }}, \
+             eye = {{ kind = \"items\", range_m = 50 }} }}\n",
+            places.join(", ")
+        )
+    });
+    let robots: String = robots.collect();
+    format!("[clock]\nstep_s = 0.1\ncap_s = 60\n[world]\nsize_m = [20, 10]\n{items}{robots}")
+}
+
+/// What a robot is told from now on until so many steps later.
+fn told_within(simulation: &mut Simulation, steps: u32, robot: brain::RobotId) -> Vec<Percept> {
+    let mut percepts = Vec::new();
+    for _ in 0..steps {
+        percepts.extend(simulation.percept(robot).unwrap());
+        simulation.step();
+    }
+    percepts
+}
+
+fn inbox_of(percepts: &[Percept]) -> Vec<Heard> {
+    percepts
+        .iter()
+        .flat_map(|percept| percept.inbox.clone())
+        .collect()
+}
+
+#[test]
+fn nobody_hears_what_was_sent_to_a_robot_of_another_name() {
+    let text = talkers(&[("m", 2), ("z", 1)], &[], 10.0);
+    let mut simulation = start(&text);
+    told(&mut simulation, [(id(0, 0), say(&[message(7.0)]))]);
+    let mut same = simulation.clone();
+    let other = talkers(&[("m", 2), ("y", 1)], &[], 10.0);
+    simulation.change(scenario(&other)).unwrap();
+    assert_eq!(inbox_of(&told_within(&mut simulation, 20, id(1, 0))), []);
+    same.change(scenario(&text)).unwrap();
+    assert_eq!(inbox_of(&told_within(&mut same, 20, id(1, 0))).len(), 1);
+}
+
+#[test]
+fn a_message_on_its_way_keeps_its_sender_and_its_item_when_kinds_have_other_numbers() {
+    let text = talkers(&[("m", 2)], &["mine"], 10.0);
+    let mut simulation = start(&text);
+    told(&mut simulation, [(id(0, 0), say(&[message(7.0)]))]);
+    let mut without = simulation.clone();
+    // A kind of no robots, and a kind of items, that come before the others.
+    let more = talkers(&[("a", 0), ("m", 2)], &["flag", "mine"], 10.0);
+    simulation.change(scenario(&more)).unwrap();
+    let heard = inbox_of(&told_within(&mut simulation, 20, id(1, 1)));
+    assert_eq!(heard.len(), 1);
+    assert_eq!(heard[0].from, id(1, 0));
+    let About::Item { kind, at } = heard[0].message.about else {
+        panic!("{heard:?}");
+    };
+    assert_eq!((kind, at.x), (1, 7.0));
+    // Nor does it become one about another item when there are none of its kind.
+    let gone = talkers(&[("m", 2)], &["flag"], 10.0);
+    without.change(scenario(&gone)).unwrap();
+    assert_eq!(inbox_of(&told_within(&mut without, 20, id(0, 1))), []);
+}
+
+#[test]
+fn what_waits_for_a_brain_names_robots_as_they_are_called_now_and_none_that_is_gone() {
+    let text = talkers(&[("b", 1), ("m", 2), ("z", 1)], &[], 0.2);
+    let mut simulation = start(&text);
+    simulation.step();
+    for sender in [id(0, 0), id(1, 0), id(2, 0)] {
+        told(&mut simulation, [(sender, say(&[message(7.0)]))]);
+    }
+    (0..15).for_each(|_| simulation.step());
+    let other = talkers(&[("a", 1), ("m", 2), ("y", 1), ("z", 1)], &[], 0.2);
+    simulation.change(scenario(&other)).unwrap();
+    // Of m/1, who has seen and heard all the others before.
+    let percepts = told_within(&mut simulation, 50, id(1, 1));
+    let senders: Vec<_> = inbox_of(&percepts).iter().map(|heard| heard.from).collect();
+    assert_eq!(senders, [id(1, 0), id(3, 0)]);
+    let old = percepts.iter().flat_map(|percept| &percept.neighbours);
+    let old = old.filter(|neighbour| neighbour.age_s > 3.15);
+    let mut seen: Vec<_> = old.map(|neighbour| neighbour.id).collect();
+    seen.sort_unstable();
+    seen.dedup();
+    assert_eq!(seen, [id(1, 0), id(3, 0)]);
+}
+
+const DRAINED: &str = "
+[clock]
+step_s = 1
+cap_s = 1000
+[world]
+size_m = [20, 10]
+[robots.rover]
+count = 2
+radius_m = 0.4
+drive = { max_speed_m_s = 0, max_turn_rate_deg_s = 0 }
+battery = { capacity_j = 200, idle_w = 10 }
+";
+
+/// A run in which each robot has used 100 J, with another capacity from then on.
+fn recharged(capacity: &str) -> Simulation {
+    let mut simulation = start(DRAINED);
+    (0..10).for_each(|_| simulation.step());
+    let text = replaced(DRAINED, &[("capacity_j = 200, ", capacity)]);
+    simulation.change(scenario(&text)).unwrap();
+    simulation
+}
+
+#[test]
+fn a_battery_that_is_now_too_small_for_what_was_used_is_empty_and_nothing_is_given_back() {
+    let mut simulation = recharged("capacity_j = 50, ");
+    for _ in 0..3 {
+        for robot in robots(&simulation) {
+            assert_eq!(robot.battery, Some(0.0));
+            assert_eq!(robot.status, Status::Empty);
+            assert_eq!(robot.energy_j, 100.0);
+        }
+        simulation.step();
+    }
+    assert_eq!(simulation.outcome().energy_j, 200.0);
+}
+
+#[test]
+fn a_robot_that_was_empty_goes_on_with_a_greater_battery() {
+    let mut simulation = recharged("capacity_j = 50, ");
+    for (capacity, left) in [("capacity_j = 10000, ", Some(0.99)), ("", None)] {
+        let text = replaced(DRAINED, &[("capacity_j = 200, ", capacity)]);
+        simulation.change(scenario(&text)).unwrap();
+        let robot = first(&simulation);
+        assert_eq!((robot.status, robot.battery), (Status::Active, left));
+        let before = robot.energy_j;
+        simulation.step();
+        assert_eq!(first(&simulation).energy_j, before + 10.0);
+        let text = replaced(DRAINED, &[("capacity_j = 200, ", "capacity_j = 50, ")]);
+        simulation.change(scenario(&text)).unwrap();
+        simulation.change(scenario(&text)).unwrap();
+        assert_eq!(first(&simulation).status, Status::Empty);
+        let text = replaced(DRAINED, &[("capacity_j = 200, ", "capacity_j = 100, ")]);
+        simulation.change(scenario(&text)).unwrap();
+    }
+}
+
+#[test]
+fn what_robots_have_cost_is_still_told_when_they_are_gone() {
+    let mut simulation = start(&DRAINED.replace("max_speed_m_s = 0", "max_speed_m_s = 0.1"));
+    let brisk = |index| (id(0, index), 0.1, 0.0);
+    drive(&mut simulation, 20, &[brisk(0), brisk(1)]);
+    let before = simulation.outcome();
+    assert!(before.distance_m > 0.0);
+    assert_eq!((before.energy_j, before.robots_stopped), (400.0, 2));
+    let hash = simulation.state().hash();
+    for count in [1, 0, 2, 1] {
+        let text = replaced(DRAINED, &[("count = 2", &format!("count = {count}"))]);
+        simulation.change(scenario(&text)).unwrap();
+        assert_eq!(simulation.outcome(), before);
+    }
+    assert_ne!(simulation.state().hash(), hash);
+    // One that has come in since costs its own besides.
+    simulation.step();
+    assert_eq!(simulation.outcome().energy_j, before.energy_j + 10.0);
+}
+
+/// If each newcomer were compared with every other robot, this would take half a minute.
+#[test]
+fn a_hundred_thousand_robots_come_in_within_seconds_and_apart() {
+    let many = with(&[
+        ("size_m = [20, 10]", "size_m = [600, 600]"),
+        ("count = 6", "count = 100000"),
+        (
+            "radius_m = 0.4",
+            "radius_m = 0.4\nbrain = { behaviours = [] }",
+        ),
+        ("[robots.rover.radio]\nrange_m = 20\nloss = 0.3\n", ""),
+    ]);
+    let few = scenario(&many.replace("count = 100000", "count = 1000"));
+    let (few, many) = (Simulation::new(few, 1, 0).unwrap(), scenario(&many));
+    let mut simulation = few;
+    drive(&mut simulation, 20, &[(id(1, 0), 2.0, 0.0)]);
+    let begin = Instant::now();
+    simulation.change(many).unwrap();
+    assert!(
+        begin.elapsed() < Duration::from_secs(10),
+        "{:?}",
+        begin.elapsed()
+    );
+    let mut rovers = of_kind(&robots(&simulation), 1);
+    assert_eq!(rovers.len(), 100_000);
+    rovers.sort_by(|one, other| one.at.x.total_cmp(&other.at.x));
+    for (place, one) in rovers.iter().enumerate() {
+        let after = rovers[place + 1..].iter();
+        let mut near = after.take_while(|other| other.at.x - one.at.x < 0.8);
+        assert!(near.all(|other| one.at.to(other.at).length() > 0.8 - 1e-8));
+    }
 }

@@ -16,7 +16,6 @@ use robust::{Coord, orient2d};
 /// use base::geometry::{Point, Polygon};
 /// let wall = Polygon::new(&[[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]].map(Point::from))?;
 /// assert!(wall.contains(Point { x: 2.0, y: 0.5 }));
-/// assert_eq!(wall.area_m2(), 2.0);
 /// # Ok::<(), base::geometry::PolygonFault>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
@@ -85,21 +84,9 @@ impl Polygon {
         Ok(Self { vertices })
     }
 
-    /// Its vertices, clockwise.
-    #[must_use]
-    pub fn vertices(&self) -> &[Point] {
-        &self.vertices
-    }
-
     /// Its edges, with free space on their left, outside.
     pub fn edges(&self) -> impl Iterator<Item = Segment> + '_ {
         edges(&self.vertices)
-    }
-
-    /// Its area, in square metres.
-    #[must_use]
-    pub fn area_m2(&self) -> f64 {
-        anticlockwise_area(&self.vertices).abs()
     }
 
     /// The smallest rectangle that holds it.

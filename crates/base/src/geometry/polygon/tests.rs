@@ -97,10 +97,14 @@ fn a_line_that_only_touches_itself_is_no_polygon() {
     }
 }
 
+fn area_m2(polygon: &Polygon) -> f64 {
+    anticlockwise_area(&polygon.vertices).abs()
+}
+
 #[test]
 fn vertices_in_line_are_allowed() {
     let wall = polygon([[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]]).unwrap();
-    assert!((wall.area_m2() - 2.0).abs() < 1e-15);
+    assert!((area_m2(&wall) - 2.0).abs() < 1e-15);
 }
 
 #[test]
@@ -189,7 +193,7 @@ proptest! {
             .count();
         let counted = f64::from(u32::try_from(inside).unwrap()) * side * side;
         let edge_m: f64 = solid.edges().map(|edge| edge.length_m()).sum();
-        prop_assert!((counted - solid.area_m2()).abs() < edge_m * side * 2.0);
+        prop_assert!((counted - area_m2(&solid)).abs() < edge_m * side * 2.0);
     }
 
     #[test]

@@ -1,10 +1,19 @@
 //! A run fits into memory.
 
 use super::ScenarioSpec;
+use super::ground::rectangle;
 use crate::body::RobotSpec;
+use crate::engine::sizes::{
+    CONTACT_BYTES, HEARD_BYTES, LOOK_BYTES, MOST_WAITING, NEIGHBOUR_BYTES, SENT_BYTES,
+};
+use crate::radio::RadioSpec;
+use crate::sensing::items::ItemsSpec;
+use crate::sensing::sector::Sector;
 use crate::sensing::{Measures, SensorSpec};
 use base::document::Place;
 use base::fault::Fault;
+use base::geometry::Rectangle;
+use base::placement::Placement;
 
 /// Most bytes of a run, about: as many runs as there are processor cores are made at once.
 const MAX_BYTES: f64 = 4e9;
@@ -12,23 +21,23 @@ const MAX_BYTES: f64 = 4e9;
 /// A robot's state, its brain and its share of the indices, about.
 const ROBOT_BYTES: f64 = 2_000.0;
 
-/// A message or a contact, about.
-const MESSAGE_BYTES: f64 = 64.0;
+/// A number that was measured.
+const VALUE_BYTES: f64 = 8.0;
 
-/// A distance.
-const RAY_BYTES: f64 = 8.0;
+/// What a list takes besides its values, and of how many it has room at least.
+const LIST_BYTES: f64 = 16.0;
+const LEAST_VALUES: f64 = 4.0;
 
 /// An item, about.
 const ITEM_BYTES: f64 = 64.0;
 
 pub(super) fn faults(spec: &ScenarioSpec, at: &Place) -> Vec<Fault> {
-    let step_s = spec.clock.step_s;
     let items = spec.items.iter().map(|(name, kind)| {
         let bytes = f64::from(kind.count) * ITEM_BYTES;
         (bytes, at.key("items").key(name))
     });
     let robots = spec.robots.iter().map(|(name, robot)| {
-        let bytes = f64::from(robot.count) * bytes_of(robot, step_s);
+        let bytes = f64::from(robot.count) * bytes_of(robot, spec);
         (bytes, at.key("robots").key(name))
     });
     let all: Vec<(f64, Place)> = items.chain(robots).collect();
@@ -37,7 +46,7 @@ pub(super) fn faults(spec: &ScenarioSpec, at: &Place) -> Vec<Fault> {
     let largest = largest.filter(|_| total > MAX_BYTES);
     let told = largest.map(|(bytes, at)| {
         at.key("count").fault(format!(
-            "fewer, or with fewer rays and messages: a run may take {} GB of memory, and this one \
+            "fewer, or with fewer rays, contacts and messages: a run may take {} GB of memory, and this one \
              takes about {:.1} GB, {:.1} GB for these",
             MAX_BYTES / 1e9,
             total / 1e9,
@@ -47,25 +56,227 @@ pub(super) fn faults(spec: &ScenarioSpec, at: &Place) -> Vec<Fault> {
     told.into_iter().collect()
 }
 
-fn bytes_of(robot: &RobotSpec, step_s: f64) -> f64 {
-    let sensors: f64 = robot
-        .sensors
-        .values()
-        .map(|sensor| bytes_of_sensor(sensor, step_s))
+/// With all that its sensors and its radio have under way, by the means of what comes by chance, if
+/// everything is where it is put and each robot sends as much as it may.
+fn bytes_of(robot: &RobotSpec, spec: &ScenarioSpec) -> f64 {
+    let sensors = robot.sensors.values();
+    let sensors: f64 = sensors
+        .map(|sensor| bytes_of_sensor(sensor, robot, spec))
         .sum();
-    let messages = robot.radio.map_or(0.0, |radio| {
-        f64::from(radio.messages_per_step) * (1.0 + radio.delay_s / step_s)
-    });
-    ROBOT_BYTES + sensors + MESSAGE_BYTES * messages
+    let radio = robot.radio.as_ref();
+    ROBOT_BYTES + sensors + radio.map_or(0.0, |radio| bytes_of_radio(radio, robot, spec))
 }
 
-/// What the looks that are still under way take.
-fn bytes_of_sensor(sensor: &SensorSpec, step_s: f64) -> f64 {
-    let period_s = sensor.rate_hz.map_or(step_s, |rate_hz| 1.0 / rate_hz);
-    let looks = 1.0 + sensor.latency_s / period_s;
-    let bytes = match &sensor.measures {
-        Measures::Range(range) => f64::from(range.rays) * RAY_BYTES,
-        _ => MESSAGE_BYTES,
+/// What its messages take on their way to all who can hear them, and those that it has heard.
+fn bytes_of_radio(radio: &RadioSpec, robot: &RobotSpec, spec: &ScenarioSpec) -> f64 {
+    let step_s = spec.clock.step_s;
+    let a_step = f64::from(radio.messages_per_step);
+    let hearers = robots_within(radio.range_m, spec, |robot| robot.radio.is_some());
+    let delay = (radio.delay_s / step_s).max(1.0);
+    let waiting = (a_step * period_s(robot.brain.rate_hz, step_s) / step_s).min(most() + a_step);
+    a_step * delay * hearers * size(SENT_BYTES) + waiting * size(HEARD_BYTES)
+}
+
+/// What the looks take that are still under way, or wait for the brain.
+fn bytes_of_sensor(sensor: &SensorSpec, robot: &RobotSpec, spec: &ScenarioSpec) -> f64 {
+    let step_s = spec.clock.step_s;
+    let looks = Looks {
+        late: sensor.latency_s / period_s(sensor.rate_hz, step_s),
+        a_thought: period_s(robot.brain.rate_hz, step_s) / period_s(sensor.rate_hz, step_s),
+        is_told_at_once: sensor.latency_s == 0.0 && robot.brain.rate_hz.is_none(),
     };
-    looks * bytes
+    match &sensor.measures {
+        Measures::Range(range) => looks.bytes_kept(f64::from(range.rays), sensor),
+        Measures::Position(_) => looks.bytes_kept(2.0, sensor),
+        Measures::Heading(_) => looks.bytes_kept(1.0, sensor),
+        Measures::Items(items) => {
+            let a_look = contacts_a_look(items, period_s(sensor.rate_hz, step_s), spec);
+            looks.waiting(a_look) * size(CONTACT_BYTES)
+        }
+        Measures::Robots(robots) => {
+            let a_look = robots_within(robots.sector.range_m, spec, |_| true);
+            looks.waiting(a_look) * size(NEIGHBOUR_BYTES)
+        }
+    }
+}
+
+/// How many looks of a sensor there are at a time.
+struct Looks {
+    /// On their way to the robot.
+    late: f64,
+    /// From one step of the brain to the next.
+    a_thought: f64,
+    /// Whether the brain is told of each in the step in which it is taken.
+    is_told_at_once: bool,
+}
+
+impl Looks {
+    /// Of a sensor of which the newest look counts.
+    fn bytes_kept(&self, values: f64, sensor: &SensorSpec) -> f64 {
+        if sensor.latency_s == 0.0 && sensor.rate_hz.is_none() {
+            return values * VALUE_BYTES;
+        }
+        let list_bytes = LIST_BYTES + values.max(LEAST_VALUES) * VALUE_BYTES;
+        (self.late + 2.0) * (size(LOOK_BYTES) + list_bytes)
+    }
+
+    /// What waits if each look gives so much of which all counts.
+    fn waiting(&self, a_look: f64) -> f64 {
+        if self.is_told_at_once {
+            return 0.0;
+        }
+        let late = a_look * self.late;
+        // What is too old is forgotten once there is twice as much as need be.
+        late + (a_look * self.a_thought.max(1.0)).min(late + most() + a_look)
+    }
+}
+
+/// Contacts that a look gives, on average: of nothing, and of items.
+fn contacts_a_look(sensor: &ItemsSpec, period_s: f64, spec: &ScenarioSpec) -> f64 {
+    let view_m2 = Sector::new(&sensor.sector).area_m2();
+    let contacts = spec.items.iter().map(|(name, kind)| {
+        let detects = sensor.detects.as_ref();
+        let is_known = detects.is_none_or(|kinds| kinds.contains_key(name));
+        let items = if is_known {
+            things_within(view_m2, kind.count, &kind.placement, spec)
+        } else {
+            0.0
+        };
+        sensor.false_alarms_a_look(name, period_s) + items
+    });
+    contacts.sum()
+}
+
+/// Robots that are in range, on average where they start; no more than have room beside each other.
+fn robots_within(range_m: f64, spec: &ScenarioSpec, counts: impl Fn(&RobotSpec) -> bool) -> f64 {
+    let view_m2 = std::f64::consts::PI * range_m * range_m;
+    let robots = spec.robots.values().filter(|robot| counts(robot));
+    let within = robots.map(|robot| {
+        let side = (range_m + robot.radius_m) / robot.radius_m;
+        // Points have room anywhere.
+        let room = if side.is_finite() {
+            side * side
+        } else {
+            f64::MAX
+        };
+        things_within(view_m2, robot.count, &robot.start, spec).min(room)
+    });
+    within.sum()
+}
+
+/// Of so many things those in such an area: on average, but all that lie at given places and all of
+/// a cluster.
+fn things_within(view_m2: f64, count: u32, placement: &Placement, spec: &ScenarioSpec) -> f64 {
+    let count = f64::from(count);
+    let anywhere = |within_m: &Option<Rectangle>| {
+        let within = within_m.unwrap_or_else(|| rectangle(&spec.world));
+        count * (view_m2 / within.area_m2()).min(1.0)
+    };
+    match placement {
+        Placement::Fixed { .. } => count,
+        Placement::Uniform { within_m } => anywhere(within_m),
+        Placement::Clustered {
+            clusters, within_m, ..
+        } => (count / f64::from(*clusters) + anywhere(within_m)).min(count),
+    }
+}
+
+/// Of a rhythm that beats so often, or else once a step.
+fn period_s(rate_hz: Option<f64>, step_s: f64) -> f64 {
+    rate_hz.map_or(step_s, |rate_hz| (1.0 / rate_hz).max(step_s))
+}
+
+fn most() -> f64 {
+    size(MOST_WAITING)
+}
+
+#[expect(clippy::cast_precision_loss, reason = "some thousands at most")]
+fn size(bytes: usize) -> f64 {
+    bytes as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use base::document::Document;
+
+    /// About what a run of so many robots takes, in megabytes, besides the robots themselves.
+    fn megabytes(step_s: f64, count: u32, robot: &str) -> f64 {
+        let text = format!(
+            "[clock]\nstep_s = {step_s}\ncap_s = 60\n[world]\nsize_m = [100, 100]\n\
+             [items.mine]\ncount = 100\n[robots.rover]\ncount = {count}\nradius_m = 0.5\n\
+             drive = {{ max_speed_m_s = 1, max_turn_rate_deg_s = 90 }}\n{robot}"
+        );
+        let document = Document::parse("t", &text).unwrap();
+        let spec: ScenarioSpec = document.typed(ScenarioSpec::schema()).unwrap();
+        let robot = &spec.robots["rover"];
+        f64::from(robot.count) * (bytes_of(robot, &spec) - ROBOT_BYTES) / 1e6
+    }
+
+    fn assert_about(expected: f64, given: f64) {
+        assert!(
+            (given / expected - 1.0).abs() < 0.02,
+            "{given} for {expected}"
+        );
+    }
+
+    #[test]
+    fn a_look_that_is_kept_counts_with_its_list() {
+        let sonar =
+            "sensors = { a = { kind = \"range\", rays = 1, range_m = 1, latency_s = 3600 } }";
+        // 3,600,000 looks of 40 bytes, each with a list of four numbers of 16 bytes more.
+        assert_about(3.0 * 3.6 * (40.0 + 16.0 + 32.0), megabytes(0.001, 3, sonar));
+    }
+
+    #[test]
+    fn contacts_count_by_how_many_a_look_gives() {
+        let eye = |more: &str| {
+            let eye = "kind = \"items\", range_m = 10, latency_s = 100";
+            megabytes(0.1, 10, &format!("sensors = {{ a = {{ {eye}, {more} }} }}"))
+        };
+        let contact = 10.0 * 1001.0 * size(CONTACT_BYTES) / 1e6;
+        let area_m2 = std::f64::consts::PI * 100.0;
+        assert_about(contact * area_m2 / 100.0, eye("detects = { mine = 1 }"));
+        let alarms = "detects = {}, false_alarms_per_m2_s = { mine = 1 }";
+        assert_about(contact * area_m2 / 10.0, eye(alarms));
+    }
+
+    #[test]
+    fn robots_count_that_start_in_range_as_far_as_they_have_room() {
+        let mates = |range_m: f64, side_m: f64| {
+            let mates = format!("kind = \"robots\", range_m = {range_m}, latency_s = 100");
+            let start = format!("kind = \"uniform\", within_m = [[0, 0], [{side_m}, {side_m}]]");
+            let robot = format!("start = {{ {start} }}\nsensors = {{ a = {{ {mates} }} }}");
+            megabytes(0.1, 1000, &robot)
+        };
+        let look = 1000.0 * 1001.0 * size(NEIGHBOUR_BYTES) / 1e6;
+        assert_about(look * 1000.0 * 0.0314, mates(10.0, 100.0));
+        assert_about(look * 1000.0, mates(100.0, 10.0));
+        assert_about(look * 9.0, mates(1.0, 10.0));
+    }
+
+    #[test]
+    fn what_waits_for_a_slow_brain_counts_until_it_is_forgotten() {
+        let mates = "sensors = { a = { kind = \"robots\", range_m = 200 } }";
+        assert!(megabytes(0.1, 10, mates).abs() < 1e-12);
+        let slow = |rate_hz: f64| {
+            megabytes(
+                0.1,
+                10,
+                &format!("brain = {{ rate_hz = {rate_hz} }}\n{mates}"),
+            )
+        };
+        let neighbour = 10.0 * size(NEIGHBOUR_BYTES) / 1e6;
+        assert_about(neighbour * 10.0 * 10.0, slow(1.0));
+        assert_about(neighbour * (2000.0 + 10.0), slow(0.0001));
+    }
+
+    #[test]
+    fn a_message_counts_once_for_each_robot_that_hears_it() {
+        let radio = "radio = { range_m = 200, messages_per_step = 10, delay_s = 60 }";
+        let sent = size(SENT_BYTES) / 1e6;
+        let expected = 200.0 * 200.0 * 10.0 * 600.0 * sent;
+        assert_about(expected, megabytes(0.1, 200, radio));
+        assert!(expected > 15_000.0);
+    }
 }

@@ -1,6 +1,7 @@
 //! Items that a robot can find.
 
 use super::ground::rectangle;
+use super::room::{lattice, within};
 use super::{Checked, ScenarioSpec};
 use crate::body::{Layer, RobotSpec};
 use crate::sensing::Measures;
@@ -28,7 +29,10 @@ pub(super) fn faults(checked: &Checked, at: &Place) -> Vec<Fault> {
                            clutter, say sought = false";
             faults.push(at.fault(allowed));
         }
-        faults.extend(out_of_reach(checked, kind, &finders, &at));
+        if !finders.is_empty() {
+            faults.extend(out_of_reach(checked, kind, &finders, &at));
+            faults.extend(all_out_of_reach(checked, kind, &finders, &at));
+        }
     }
     faults
 }
@@ -63,9 +67,6 @@ fn out_of_reach(checked: &Checked, kind: &ItemSpec, finders: &[Finder], at: &Pla
     let Placement::Fixed { at_m, .. } = &kind.placement else {
         return Vec::new();
     };
-    if finders.is_empty() {
-        return Vec::new();
-    }
     let reaches: Vec<(Reach, f64)> = finders
         .iter()
         .map(|finder| (reach(checked, finder.robot), finder.range_m))
@@ -84,6 +85,54 @@ fn out_of_reach(checked: &Checked, kind: &ItemSpec, finders: &[Finder], at: &Pla
                 .fault("where a robot that recognises it can come into its range")
         })
         .collect()
+}
+
+/// Items that are put anywhere in an area, if no finder comes near enough to any place of it.
+fn all_out_of_reach(
+    checked: &Checked,
+    kind: &ItemSpec,
+    finders: &[Finder],
+    at: &Place,
+) -> Option<Fault> {
+    let world = rectangle(&checked.spec.world);
+    let within = within(&kind.placement, &world)?;
+    let is_free = |place: &Point| checked.scenario.is_free(*place, 0.0, Layer::Ground);
+    let places = || lattice(within).filter(is_free);
+    // Where there is no place at all, there is no room, which is told elsewhere.
+    let is_fine = places().next().is_none()
+        || finders
+            .iter()
+            .any(|finder| starts_at_one(checked, finder.robot, places()))
+        || finders.iter().any(|finder| {
+            let reach = reach(checked, finder.robot);
+            places().any(|place| reach.may_come_near(place, finder.range_m))
+        });
+    let at = match &kind.placement {
+        Placement::Uniform { within_m: Some(_) }
+        | Placement::Clustered {
+            within_m: Some(_), ..
+        } => at.key("placement").key("within_m"),
+        _ => at.key("placement"),
+    };
+    let allowed = "where a robot that recognises one can come into its range: there is no such place \
+                   among those that are free";
+    (!is_fine).then(|| at.fault(allowed))
+}
+
+/// Whether a robot may start upon one of these places: mostly so, and sooner seen than where it may
+/// come to.
+fn starts_at_one(
+    checked: &Checked,
+    robot: &RobotSpec,
+    mut places: impl Iterator<Item = Point>,
+) -> bool {
+    let world = rectangle(&checked.spec.world);
+    let start = within(&robot.start, &world);
+    start.is_some_and(|start| {
+        places.any(|place| {
+            start.contains(place) && checked.scenario.is_free(place, robot.radius_m, robot.layer)
+        })
+    })
 }
 
 /// Where robots of a kind may come to.

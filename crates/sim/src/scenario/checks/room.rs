@@ -16,18 +16,23 @@ const SIDE: u32 = 128;
 /// (Feder, *Random sequential adsorption*, 1980); long before, a free place is hard to find.
 const MAX_SHARE: f64 = 0.5;
 
-/// The share of a rectangle that is free for discs, of the places of a lattice.
-fn share(scenario: &Scenario, within: &Rectangle, radius_m: f64, layer: Layer) -> f64 {
+/// The places of a lattice over a rectangle.
+pub(super) fn lattice(within: Rectangle) -> impl Iterator<Item = Point> {
     let size = within.size();
     let at = |step: u32| (f64::from(step) + 0.5) / f64::from(SIDE);
-    let place = |(column, row)| {
+    let place = move |(column, row)| {
         within.min().plus(Point {
             x: size.x * at(column),
             y: size.y * at(row),
         })
     };
     let places = (0..SIDE).flat_map(|row| (0..SIDE).map(move |column| (column, row)));
-    let free = places.filter(|&each| scenario.is_free(place(each), radius_m, layer));
+    places.map(place)
+}
+
+/// The share of a rectangle that is free for discs, of the places of a lattice.
+fn share(scenario: &Scenario, within: &Rectangle, radius_m: f64, layer: Layer) -> f64 {
+    let free = lattice(*within).filter(|place| scenario.is_free(*place, radius_m, layer));
     #[expect(clippy::cast_precision_loss, reason = "at most SIDE squared")]
     let free = free.count() as f64;
     free / f64::from(SIDE * SIDE)
@@ -64,7 +69,7 @@ pub(super) fn faults(checked: &Checked, at: &Place) -> Vec<Fault> {
 }
 
 /// Where those are put that have no given place.
-fn within(placement: &Placement, world: &Rectangle) -> Option<Rectangle> {
+pub(super) fn within(placement: &Placement, world: &Rectangle) -> Option<Rectangle> {
     match placement {
         Placement::Fixed { .. } => None,
         Placement::Uniform { within_m } | Placement::Clustered { within_m, .. } => {

@@ -373,8 +373,8 @@ fn a_run_fits_into_memory() {
     );
     assert_eq!(
         told,
-        "robots.bird.count = 1000000: must be fewer, or with fewer rays and messages: a run may take \
-         4 GB of memory, and this one takes about 13.5 GB, 13.5 GB for these"
+        "robots.bird.count = 1000000: must be fewer, or with fewer rays, contacts and messages: a run \
+         may take 4 GB of memory, and this one takes about 13.5 GB, 13.5 GB for these"
     );
 }
 
@@ -462,4 +462,71 @@ fn a_given_place_behind_walls_is_out_of_reach() {
     );
     let gap = wall.replace("[13.5, 10], [13, 10]", "[13.5, 8.9], [13, 8.9]");
     assert!(read(&GOOD.replace("{ circle", &gap)).is_ok());
+}
+
+/// The good scenario with a ring of walls, the last of which ends here, in which mines are, and a
+/// camera that does not see through it.
+fn ring(last_to: f64, placement: &str) -> String {
+    let wall = |low: [f64; 2], high: [f64; 2]| {
+        let ([left, bottom], [right, top]) = (low, high);
+        format!(
+            "{{ polygon_m = [[{left}, {bottom}], [{right}, {bottom}], [{right}, {top}], \
+             [{left}, {top}]] }},\n"
+        )
+    };
+    let walls = [
+        wall([8.0, 1.0], [14.0, 2.0]),
+        wall([8.0, 6.0], [14.0, 7.0]),
+        wall([13.0, 1.5], [14.0, 6.5]),
+        wall([8.0, 1.5], [9.0, last_to]),
+    ];
+    let pillar = "    { circle = { at_m = [15, 5], radius_m = 1 } },\n";
+    assert!(GOOD.contains(pillar));
+    GOOD.replace(pillar, &walls.concat())
+        .replace("range_m = 3", "range_m = 0.5")
+        .replace("[[0, 1], [3, 0.5]]", "1")
+        .replace(r#"{ kind = "fixed", at_m = [[5, 5], [19, 9]] }"#, placement)
+}
+
+#[test]
+fn items_anywhere_in_a_closed_ring_are_out_of_reach() {
+    let hollow = "within_m = [[9.5, 2.5], [12.5, 5.5]]";
+    for placement in [
+        format!(r#"{{ kind = "uniform", {hollow} }}"#),
+        format!(r#"{{ kind = "clustered", clusters = 1, spread_m = 1, {hollow} }}"#),
+    ] {
+        let faults = read(&ring(6.5, &placement)).unwrap_err().0;
+        assert_eq!(faults.len(), 1, "{faults:?}");
+        assert_eq!(faults[0].path, "items.mine.placement.within_m");
+        assert!(faults[0].to_string().contains("can come into its range"));
+        // With a gap, or a robot that starts within, or that sees or flies over the walls, they are
+        // not.
+        assert!(read(&ring(4.8, &placement)).is_ok());
+        let closed = ring(6.5, &placement);
+        for (this, that) in [
+            ("[[6, 6], [7, 6]]", "[[6, 6], [11, 4]]"),
+            ("range_m = 0.5", "range_m = 2.5"),
+            ("radius_m = 0.5\n", "radius_m = 0.5\nlayer = \"air\"\n"),
+        ] {
+            assert!(closed.contains(this), "{this}");
+            assert!(read(&closed.replace(this, that)).is_ok(), "{that}");
+        }
+    }
+    let somewhere = r#"{ kind = "uniform" }"#;
+    assert!(read(&ring(6.5, somewhere)).is_ok());
+}
+
+/// The walls of a ring and a world as large as there can be cells for it.
+#[test]
+fn looking_for_a_place_in_reach_is_done_within_seconds() {
+    let text = ring(
+        6.5,
+        r#"{ kind = "uniform", within_m = [[9.5, 2.5], [12.5, 5.5]] }"#,
+    );
+    let fine = text
+        .replace("radius_m = 0.5\n", "radius_m = 0.02\n")
+        .replace("range_m = 0.5", "range_m = 0.9");
+    let begin = std::time::Instant::now();
+    assert_eq!(read(&fine).unwrap_err().0.len(), 1);
+    assert!(begin.elapsed() < std::time::Duration::from_secs(10));
 }
