@@ -26,6 +26,18 @@ pub(crate) fn ring(rays: usize, range_m: f64) -> RangeRing {
     }
 }
 
+/// Where the ray from `origin` along `direction` comes upon a wall from its free side, in lengths of
+/// `direction`; from the solid side, or along it, it meets nothing. An end on the ray counts for both
+/// of its sides, so that a ray between two walls with a common end meets one of them.
+fn hit(wall: &Segment, origin: Point, direction: Point) -> Option<f64> {
+    let (from, to) = (origin.to(wall.from), origin.to(wall.to));
+    let (right, left) = (direction.cross(from), direction.cross(to));
+    let comes_from_free = right <= 0.0 && left >= 0.0 && left > right;
+    let ahead = (direction.dot(from) * left - direction.dot(to) * right)
+        / ((left - right) * direction.length_squared());
+    (comes_from_free && ahead >= 0.0).then_some(ahead)
+}
+
 /// A small robot with 16 sonars.
 pub(crate) fn rover() -> Body {
     Body {
@@ -141,7 +153,7 @@ impl Walk {
             let hits = self
                 .walls
                 .iter()
-                .filter_map(|wall| wall.hit(self.at, Point { x, y }));
+                .filter_map(|wall| hit(wall, self.at, Point { x, y }));
             let range_m = hits.fold(f64::INFINITY, f64::min);
             if range_m > ring.range_m {
                 f64::INFINITY

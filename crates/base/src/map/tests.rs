@@ -6,6 +6,18 @@ use std::fmt::Write;
 const ROOM: &str = "image: room.pgm\nresolution: 0.5\norigin: [1, 2, 0]\nnegate: 0\n\
                     occupied_thresh: 0.65\nfree_thresh: 0.196\n";
 
+/// Where the ray from `origin` along `direction` comes upon a wall from its free side, in lengths of
+/// `direction`; from the solid side, or along it, it meets nothing. An end on the ray counts for both
+/// of its sides, so that a ray between two walls with a common end meets one of them.
+fn hit(wall: &Segment, origin: Point, direction: Point) -> Option<f64> {
+    let (from, to) = (origin.to(wall.from), origin.to(wall.to));
+    let (right, left) = (direction.cross(from), direction.cross(to));
+    let comes_from_free = right <= 0.0 && left >= 0.0 && left > right;
+    let ahead = (direction.dot(from) * left - direction.dot(to) * right)
+        / ((left - right) * direction.length_squared());
+    (comes_from_free && ahead >= 0.0).then_some(ahead)
+}
+
 /// `ROOM` with lines instead of those for the same keys, or further ones.
 fn yaml(lines: &[&str]) -> String {
     let key = |line: &str| line.split(':').next().map(str::to_owned);
@@ -408,7 +420,7 @@ proptest! {
     fn no_ray_gets_into_what_is_solid(map in random_map(), nudge in -8_i32..=8) {
         // Through every corner of cells, where edges meet or two solid cells touch.
         let nearest = |origin, direction| {
-            let hits = map.outline().iter().filter_map(|edge| edge.hit(origin, direction));
+            let hits = map.outline().iter().filter_map(|edge| hit(edge, origin, direction));
             hits.fold(f64::INFINITY, f64::min)
         };
         let (solid, free): (Vec<_>, Vec<_>) = middles(&map).into_iter().partition(|at| at.1);

@@ -6,6 +6,18 @@ use proptest::prelude::*;
 use pulp::{Arch, WithSimd};
 use std::f64::consts::{PI, TAU};
 
+/// Where the ray from `origin` along `direction` comes upon a wall from its free side, in lengths of
+/// `direction`; from the solid side, or along it, it meets nothing. An end on the ray counts for both
+/// of its sides, so that a ray between two walls with a common end meets one of them.
+fn hit(wall: &Segment, origin: Point, direction: Point) -> Option<f64> {
+    let (from, to) = (origin.to(wall.from), origin.to(wall.to));
+    let (right, left) = (direction.cross(from), direction.cross(to));
+    let comes_from_free = right <= 0.0 && left >= 0.0 && left > right;
+    let ahead = (direction.dot(from) * left - direction.dot(to) * right)
+        / ((left - right) * direction.length_squared());
+    (comes_from_free && ahead >= 0.0).then_some(ahead)
+}
+
 fn between(random: &mut Stream, low: f64, high: f64) -> f64 {
     low + (high - low) * unit(random)
 }
@@ -104,7 +116,7 @@ impl Scene {
         let walls = self
             .walls
             .iter()
-            .filter_map(|wall| wall.hit(self.at, direction));
+            .filter_map(|wall| hit(wall, self.at, direction));
         let discs = self.discs.iter().filter_map(|disc| {
             let ahead = direction.dot(self.at.to(disc.centre));
             let beside = direction.cross(self.at.to(disc.centre));
