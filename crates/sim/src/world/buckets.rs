@@ -11,6 +11,8 @@ const FEW: usize = 16;
 /// It is filled anew without allocating, as long as it does not grow.
 #[derive(Debug, Clone)]
 pub(crate) struct Buckets {
+    size_m: Point,
+    reach_m: f64,
     grid: Grid,
     starts: Vec<u32>,
     cell_of: Vec<u32>,
@@ -20,9 +22,11 @@ pub(crate) struct Buckets {
 impl Buckets {
     /// For questions about places some `reach_m` away.
     pub(crate) fn new(size_m: Point, reach_m: f64) -> Self {
-        let grid = Grid::new(size_m, reach_m.max(0.1));
+        let reach_m = reach_m.max(0.1);
         Self {
-            grid,
+            size_m,
+            reach_m,
+            grid: Grid::over(0, size_m, reach_m),
             starts: Vec::new(),
             cell_of: Vec::new(),
             sorted: Vec::new(),
@@ -36,6 +40,7 @@ impl Buckets {
             self.sorted.extend(points.zip(0..));
             return;
         }
+        self.grid = Grid::over(points.len(), self.size_m, self.reach_m);
         self.count(points.clone());
         self.sorted.resize(points.len(), (Point::default(), 0));
         for ((point, number), cell) in points.zip(0..).zip(&self.cell_of) {

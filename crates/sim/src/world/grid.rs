@@ -6,6 +6,11 @@ use std::ops::Range;
 /// Cells that a grid has at most: lists for more would fill the memory of a small machine.
 const MAX_CELLS: f64 = 4e6;
 
+/// Cells that a grid over a few things has at most, and how many more for each of them: a large world
+/// in which little stands needs little memory.
+const CELLS: f64 = 4096.0;
+const CELLS_PER_THING: f64 = 64.0;
+
 /// Entries that the lists of a grid should have at most.
 const MAX_ENTRIES: usize = 1 << 24;
 
@@ -19,14 +24,25 @@ pub(crate) struct Grid {
 
 impl Grid {
     /// Cells of `cell_m` or larger over `size_m`.
+    pub(crate) fn new(size_m: Point, cell_m: f64) -> Self {
+        Self::of_at_most(MAX_CELLS, size_m, cell_m)
+    }
+
+    /// The same for so many things that are to be found by place.
+    #[expect(clippy::cast_precision_loss, reason = "at most millions")]
+    pub(crate) fn over(things: usize, size_m: Point, cell_m: f64) -> Self {
+        let most = CELLS + CELLS_PER_THING * things as f64;
+        Self::of_at_most(most.min(MAX_CELLS), size_m, cell_m)
+    }
+
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
         reason = "at most MAX_CELLS, and at least 1"
     )]
-    pub(crate) fn new(size_m: Point, cell_m: f64) -> Self {
-        let cell_m = cell_m.max((size_m.x * size_m.y / MAX_CELLS).sqrt());
-        let cell_m = cell_m.max(size_m.x.max(size_m.y) / MAX_CELLS);
+    fn of_at_most(most: f64, size_m: Point, cell_m: f64) -> Self {
+        let cell_m = cell_m.max((size_m.x * size_m.y / most).sqrt());
+        let cell_m = cell_m.max(size_m.x.max(size_m.y) / most);
         let count = |length: f64| (length / cell_m).ceil().max(1.0) as usize;
         Self {
             cells_per_m: 1.0 / cell_m,
@@ -149,7 +165,7 @@ pub(crate) struct NearCells {
 impl NearCells {
     /// With cells as small as is of use, as far as memory allows.
     pub(crate) fn new<T: Still>(size_m: Point, things: &[T], reach_m: f64) -> Self {
-        let mut grid = Grid::new(size_m, (reach_m / 2.0).max(0.25));
+        let mut grid = Grid::over(things.len(), size_m, (reach_m / 2.0).max(0.25));
         loop {
             let near = Self::on(grid, things, reach_m);
             if near.numbers.len() <= MAX_ENTRIES || grid.cells() == 1 {
