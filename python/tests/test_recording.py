@@ -7,6 +7,7 @@ import shutil
 import subprocess
 import sys
 import time
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +18,7 @@ from conftest import ROOT
 from mcap.records import Channel
 from mcap.stream_reader import StreamReader
 from metric import ENDLESS, search
-from recorded import SECOND_NS, contents
+from recorded import SECOND_NS, Message, contents
 from test_cli import run
 
 import agent_economy as ae
@@ -195,13 +196,55 @@ def test_the_scene_is_the_scenarios_and_shows_what_is_found(tmp_path: Path) -> N
     assert (circle.pose.position.x, circle.pose.position.y, circle.size.x) == (12, 10, 4)
     grid = topics["/map/0"][0].content
     assert (grid.column_count, len(grid.data) // grid.row_stride) == (48, 36)
-    first, last = topics["/scene/items"][0].content, topics["/scene/items"][-1].content
-    assert len(first.entities) == len(last.entities) == 18
-    were = {each.id: each.spheres[0].color.g for each in first.entities}
-    repainted = [each.id for each in last.entities if were[each.id] != each.spheres[0].color.g]
+    (items,) = topics["/scene/items"]
+    counts = {each.id: len(each.spheres) for each in items.content.entities}
+    assert counts == {"flag/0-1": 2, "mine/0-5": 6, "scrap/0-9": 10}
+    repainted = [each.id for each in topics["/scene/found/0"][-1].content.entities]
     told = [each.content.name for each in topics["/log"] if "found" in each.content.message]
     assert sorted(told) == sorted(repainted)
     assert sum(found or 0 for found in outcome.found.values()) == len(told) > 0
+
+
+MANY = {"items.mine.count": 3000, "robots.rover.count": 20, "clock.cap_s": 60}
+
+
+def found_at(topics: Mapping[str, list[Message]], time_ns: int) -> list[str]:
+    """Return what a viewer shows as found that jumps to a time: the last message of each topic."""
+    found = []
+    for topic in (name for name in topics if name.startswith("/scene/found/")):
+        until = [each.content for each in topics[topic] if each.time_ns <= time_ns]
+        found += [entity.id for entity in until[-1].entities] if until else []
+    return sorted(found)
+
+
+def test_wherever_a_viewer_jumps_to_it_shows_what_is_found_by_then(tmp_path: Path) -> None:
+    simulation = ae.Simulation(search(MANY), 1)
+    with ae.Recording(simulation, tmp_path / "run.mcap") as recording:
+        recording.step(400)
+        simulation.change("items.mine.count", 2900)
+        recording.step(100)
+        simulation.change("items.mine.count", 30)
+        recording.step(10)
+        left = simulation.items["found_s"].to_pylist()
+    topics = contents(tmp_path / "run.mcap").topics
+    assert set(topics) >= {f"/scene/found/{level}" for level in (0, 1)}
+    moments = topics["/run"]
+    counts = [each.content["found"] for each in moments]
+    assert max(counts) > 500
+    for each, count in zip(moments[::7], counts[::7], strict=True):
+        if each.time_ns not in {40 * SECOND_NS, 50 * SECOND_NS}:
+            assert len(set(found_at(topics, each.time_ns))) == count
+    expected = sorted(f"mine/{i}" for i, found_s in enumerate(left) if found_s is not None)
+    assert found_at(topics, moments[-1].time_ns) == expected
+
+
+def test_each_find_is_written_some_twenty_times_a_topic_and_not_all_items(tmp_path: Path) -> None:
+    outcome = ae.run(search(MANY), 1, record=tmp_path / "run.mcap")
+    topics = contents(tmp_path / "run.mcap").topics
+    assert len(topics["/scene/items"]) == 1
+    found = [name for name in topics if name.startswith("/scene/found/")]
+    written = sum(len(each.content.entities) for name in found for each in topics[name])
+    assert 0 < written < 20 * len(found) * sum(each or 0 for each in outcome.found.values())
 
 
 def test_what_happens_to_robots_is_in_the_log_and_in_their_colours(tmp_path: Path) -> None:

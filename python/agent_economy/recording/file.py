@@ -47,15 +47,30 @@ class File:
         """Add metadata."""
         self._writer.add_metadata(name, dict(values))
 
+    def has(self, topic: str) -> bool:
+        """Return whether anything was written on a topic, or declared."""
+        return topic in self._channels
+
     def write(self, topic: str, message: Message, time_ns: int) -> None:
         """Write a message of one of Foxglove's schemas."""
+        self.write_parts(topic, type(message), [message], time_ns)
+
+    def write_parts(
+        self, topic: str, kind: type[Message], parts: Iterable[Message], time_ns: int
+    ) -> None:
+        """Write one message whose lists are those of all parts, one after another.
+
+        What is in Python at once is a part; as bytes a message takes a tenth of that room.
+        """
         channel = self._channels.get(topic)
         if channel is None:
-            name = message.DESCRIPTOR.full_name
+            name = kind.DESCRIPTOR.full_name
             if name not in self._schemas:
-                self._schemas[name] = register_schema(self._writer, type(message))
+                self._schemas[name] = register_schema(self._writer, kind)
             channel = self._open(topic, "protobuf", self._schemas[name])
-        self._writer.add_message(channel, time_ns, message.SerializeToString(), time_ns)
+        # In Protobuf, bytes of messages one after another are those of the messages merged.
+        data = b"".join(part.SerializeToString() for part in parts)
+        self._writer.add_message(channel, time_ns, data, time_ns)
 
     def declare(self, topic: str, schema: str, about: Mapping[str, str] | None = None) -> None:
         """Say what is written on a topic as JSON, once."""
