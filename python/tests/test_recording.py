@@ -435,6 +435,47 @@ def test_a_recording_does_not_make_the_program_read_other_files(tmp_path: Path) 
         ae.rerun(path)
 
 
+FILLS = """
+import resource, sys, agent_economy as ae
+from agent_economy.recording import RecordingError
+simulation = ae.Simulation("search")
+resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, resource.RLIM_INFINITY))
+try:
+    with ae.Recording(simulation, sys.argv[1]) as recording:
+        recording.finish()
+except RecordingError as error:
+    print(error)
+try:
+    recording.step()
+except ae.InputError as error:
+    print(error)
+"""
+
+
+def test_a_disk_that_fills_is_told_with_the_file_and_what_helps(tmp_path: Path) -> None:
+    path = tmp_path / "run.mcap"
+    script = [sys.executable, "-c", FILLS, str(path)]
+    given = subprocess.run(script, capture_output=True, text=True, check=False)
+    assert (given.returncode, given.stderr) == (0, "")
+    full, closed = given.stdout.splitlines()
+    assert full.startswith(f"{path}: cannot be written any further: File too large: make room")
+    assert closed.startswith("the recording is closed")
+    again = ae.rerun(path)
+    assert (again.agrees, again.is_whole) == (True, False)
+    assert again.tick > 0
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no device that is always full")
+def test_the_command_line_says_that_a_disk_is_full(tmp_path: Path) -> None:
+    path = tmp_path / "run.mcap"
+    path.symlink_to("/dev/full")
+    given = run("run", "search", "--record", str(path))
+    assert given.returncode == 1
+    assert given.stderr.startswith(f"{path}: cannot be written any further: No space left")
+    assert len(given.stderr.splitlines()) == 1
+    assert "1 the disk takes no more" in " ".join(run("run", "--help").stdout.split())
+
+
 KILLED = """
 import sys, agent_economy as ae
 from metric import ENDLESS, search
