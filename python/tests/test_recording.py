@@ -127,6 +127,21 @@ def test_what_comes_from_outside_is_taken_again(tmp_path: Path) -> None:
     assert len(contents(tmp_path / "run.mcap").topics["/input"]) == 2
 
 
+@pytest.mark.parametrize("age_s", [-1e308, -5.0, 1.0, 1e308])
+def test_a_scan_from_outside_of_any_age_is_shown_within_the_run(
+    tmp_path: Path, age_s: float
+) -> None:
+    simulation = ae.Simulation("search", 4)
+    percept: Percept = {"scans": [{"age_s": age_s, "ranges_m": [-1e308] * 36}]}
+    with ae.Recording(simulation, tmp_path / "run.mcap", percepts=["rover/1"]) as recording:
+        recording.step(25)
+        recording.step(percepts={"rover/1": percept})
+    scan = contents(tmp_path / "run.mcap").topics["/scan/rover/1/0"][-1].content
+    taken_ns = scan.timestamp.seconds * SECOND_NS + scan.timestamp.nanos
+    assert taken_ns == (2.5 - min(max(age_s, 0), 2.5)) * SECOND_NS
+    assert ae.rerun(tmp_path / "run.mcap").agrees
+
+
 def test_a_step_that_is_refused_is_not_recorded(tmp_path: Path) -> None:
     with ae.Recording(ae.Simulation("search"), tmp_path / "run.mcap") as recording:
         with pytest.raises(InputError):
