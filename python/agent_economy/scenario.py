@@ -70,7 +70,13 @@ class Override:
         """Return a value put at keys with dots between them, from the root.
 
         What is varied is one key with dots of its own: study.vary.robots.wanderer.count.
+
+        Raises:
+            InputError: If the path is no text.
         """
+        if not isinstance(path, str):
+            message = f"{origin}: path = {path!r}: must be keys from the root, as clock.cap_s"
+            raise InputError(message)
         factor = path.removeprefix(VARY)
         keys = ("study", "vary", factor) if factor != path else tuple(path.split("."))
         return cls(keys, value, origin)

@@ -124,6 +124,12 @@ def test_a_percept_that_holds_itself_is_told() -> None:
             ae.Brain(None, ROVER).step(percept)
 
 
+@pytest.mark.parametrize("kind", [None, 0, ["rover"]])
+def test_a_kind_that_is_no_text_is_told(kind: Any) -> None:
+    with pytest.raises(ae.InputError, match=r"kind = .*: must be the name of a kind of robots"):
+        ae.Brain.of("search", kind)
+
+
 def names(schema: dict[str, Any]) -> set[str]:
     return set(schema.get("properties", {}))
 

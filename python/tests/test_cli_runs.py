@@ -119,6 +119,7 @@ def test_a_recording_in_place_of_a_scenario_is_to_be_taken_again(tmp_path: Path)
         (["replicate", "search", "--out", "runs.txt"], "must end in one of .parquet, .csv"),
         (["replicate", "search", "--out", "none/runs.csv"], "must be in a folder that is there"),
         (["replicate", "search", "--runs", "0"], "--runs"),
+        (["replicate", "search", "--out", "/proc/x.parquet"], "must be where files can be written"),
     ],
 )
 def test_what_is_not_allowed_is_told(arguments: list[str], told: str, tmp_path: Path) -> None:
@@ -127,6 +128,15 @@ def test_what_is_not_allowed_is_told(arguments: list[str], told: str, tmp_path: 
     assert told in " ".join(given.stderr.split())
     assert "Traceback" not in given.stderr
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_table_that_cannot_be_written_is_told_before_the_first_run(tmp_path: Path) -> None:
+    (tmp_path / "runs.csv").mkdir()
+    # So many runs would take longer than `run` waits.
+    given = run("replicate", "search", "--runs", "10000000", "--out", tmp_path / "runs.csv")
+    assert given.returncode == 2
+    assert given.stderr == f"--out {tmp_path}/runs.csv: must be a file, and is a folder\n"
+    assert [file.name for file in tmp_path.iterdir()] == ["runs.csv"]
 
 
 @pytest.mark.parametrize("command", ["run", "replicate"])

@@ -7,6 +7,7 @@ import shutil
 import subprocess
 import sys
 import time
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -14,10 +15,11 @@ import jsonschema
 import numpy as np
 import pytest
 from conftest import ROOT
+from mcap.reader import make_reader
 from mcap.records import Channel
 from mcap.stream_reader import StreamReader
 from metric import ENDLESS, search
-from recorded import SECOND_NS, contents
+from recorded import SECOND_NS, Message, contents
 from test_cli import run
 
 import agent_economy as ae
@@ -125,6 +127,21 @@ def test_what_comes_from_outside_is_taken_again(tmp_path: Path) -> None:
     assert len(contents(tmp_path / "run.mcap").topics["/input"]) == 2
 
 
+@pytest.mark.parametrize("age_s", [-1e308, -5.0, 1.0, 1e308])
+def test_a_scan_from_outside_of_any_age_is_shown_within_the_run(
+    tmp_path: Path, age_s: float
+) -> None:
+    simulation = ae.Simulation("search", 4)
+    percept: Percept = {"scans": [{"age_s": age_s, "ranges_m": [-1e308] * 36}]}
+    with ae.Recording(simulation, tmp_path / "run.mcap", percepts=["rover/1"]) as recording:
+        recording.step(25)
+        recording.step(percepts={"rover/1": percept})
+    scan = contents(tmp_path / "run.mcap").topics["/scan/rover/1/0"][-1].content
+    taken_ns = scan.timestamp.seconds * SECOND_NS + scan.timestamp.nanos
+    assert taken_ns == (2.5 - min(max(age_s, 0), 2.5)) * SECOND_NS
+    assert ae.rerun(tmp_path / "run.mcap").agrees
+
+
 def test_a_step_that_is_refused_is_not_recorded(tmp_path: Path) -> None:
     with ae.Recording(ae.Simulation("search"), tmp_path / "run.mcap") as recording:
         with pytest.raises(InputError):
@@ -195,13 +212,55 @@ def test_the_scene_is_the_scenarios_and_shows_what_is_found(tmp_path: Path) -> N
     assert (circle.pose.position.x, circle.pose.position.y, circle.size.x) == (12, 10, 4)
     grid = topics["/map/0"][0].content
     assert (grid.column_count, len(grid.data) // grid.row_stride) == (48, 36)
-    first, last = topics["/scene/items"][0].content, topics["/scene/items"][-1].content
-    assert len(first.entities) == len(last.entities) == 18
-    were = {each.id: each.spheres[0].color.g for each in first.entities}
-    repainted = [each.id for each in last.entities if were[each.id] != each.spheres[0].color.g]
+    (items,) = topics["/scene/items"]
+    counts = {each.id: len(each.spheres) for each in items.content.entities}
+    assert counts == {"flag/0-1": 2, "mine/0-5": 6, "scrap/0-9": 10}
+    repainted = [each.id for each in topics["/scene/found/0"][-1].content.entities]
     told = [each.content.name for each in topics["/log"] if "found" in each.content.message]
     assert sorted(told) == sorted(repainted)
     assert sum(found or 0 for found in outcome.found.values()) == len(told) > 0
+
+
+MANY = {"items.mine.count": 3000, "robots.rover.count": 20, "clock.cap_s": 60}
+
+
+def found_at(topics: Mapping[str, list[Message]], time_ns: int) -> list[str]:
+    """Return what a viewer shows as found that jumps to a time: the last message of each topic."""
+    found = []
+    for topic in (name for name in topics if name.startswith("/scene/found/")):
+        until = [each.content for each in topics[topic] if each.time_ns <= time_ns]
+        found += [entity.id for entity in until[-1].entities] if until else []
+    return sorted(found)
+
+
+def test_wherever_a_viewer_jumps_to_it_shows_what_is_found_by_then(tmp_path: Path) -> None:
+    simulation = ae.Simulation(search(MANY), 1)
+    with ae.Recording(simulation, tmp_path / "run.mcap") as recording:
+        recording.step(400)
+        simulation.change("items.mine.count", 2900)
+        recording.step(100)
+        simulation.change("items.mine.count", 30)
+        recording.step(10)
+        left = simulation.items["found_s"].to_pylist()
+    topics = contents(tmp_path / "run.mcap").topics
+    assert set(topics) >= {f"/scene/found/{level}" for level in (0, 1)}
+    moments = topics["/run"]
+    counts = [each.content["found"] for each in moments]
+    assert max(counts) > 500
+    for each, count in zip(moments[::7], counts[::7], strict=True):
+        if each.time_ns not in {40 * SECOND_NS, 50 * SECOND_NS}:
+            assert len(set(found_at(topics, each.time_ns))) == count
+    expected = sorted(f"mine/{i}" for i, found_s in enumerate(left) if found_s is not None)
+    assert found_at(topics, moments[-1].time_ns) == expected
+
+
+def test_each_find_is_written_some_twenty_times_a_topic_and_not_all_items(tmp_path: Path) -> None:
+    outcome = ae.run(search(MANY), 1, record=tmp_path / "run.mcap")
+    topics = contents(tmp_path / "run.mcap").topics
+    assert len(topics["/scene/items"]) == 1
+    found = [name for name in topics if name.startswith("/scene/found/")]
+    written = sum(len(each.content.entities) for name in found for each in topics[name])
+    assert 0 < written < 20 * len(found) * sum(each or 0 for each in outcome.found.values())
 
 
 def test_what_happens_to_robots_is_in_the_log_and_in_their_colours(tmp_path: Path) -> None:
@@ -331,12 +390,30 @@ def test_a_file_that_is_cut_is_compared_as_far_as_it_goes(tmp_path: Path) -> Non
         try:
             again = ae.rerun(cut)
         except InputError as error:
-            assert "is no recording of a run" in str(error) or "damaged" in str(error)  # noqa: PT017
+            assert "is no recording of a run" in str(error) or "lacks its sc" in str(error)  # noqa: PT017
         else:
             assert (again.agrees, again.is_whole) == (True, False)
             ticks.append(again.tick)
     assert ticks == sorted(ticks, reverse=True)
     assert ticks[0] == 100
+
+
+def test_a_file_that_is_cut_within_an_index_is_no_damaged_one(tmp_path: Path) -> None:
+    path = tmp_path / "run.mcap"
+    with ae.Recording(ae.Simulation(search(SHORT), 1), path) as recording:
+        recording.step(60)
+    whole = path.read_bytes()
+    with path.open("rb") as stream:
+        summary = make_reader(stream).get_summary()
+    assert summary is not None
+    chunks = summary.chunk_indexes
+    assert len(chunks) > 2
+    end = len(whole) - 1
+    inside = [each.chunk_start_offset + each.chunk_length + 20 for each in chunks]
+    for length in (*inside, *range(end - 400, end, 7)):
+        path.write_bytes(whole[:length])
+        again = ae.rerun(path)
+        assert (again.agrees, again.is_whole) == (True, False)
 
 
 def test_damage_never_ends_in_anything_but_a_word(tmp_path: Path) -> None:
@@ -371,6 +448,47 @@ def test_a_recording_does_not_make_the_program_read_other_files(tmp_path: Path) 
     file.close()
     with pytest.raises(InputError, match=r"lacks what the scenario names: open-field\.yaml"):
         ae.rerun(path)
+
+
+FILLS = """
+import resource, sys, agent_economy as ae
+from agent_economy.recording import RecordingError
+simulation = ae.Simulation("search")
+resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, resource.RLIM_INFINITY))
+try:
+    with ae.Recording(simulation, sys.argv[1]) as recording:
+        recording.finish()
+except RecordingError as error:
+    print(error)
+try:
+    recording.step()
+except ae.InputError as error:
+    print(error)
+"""
+
+
+def test_a_disk_that_fills_is_told_with_the_file_and_what_helps(tmp_path: Path) -> None:
+    path = tmp_path / "run.mcap"
+    script = [sys.executable, "-c", FILLS, str(path)]
+    given = subprocess.run(script, capture_output=True, text=True, check=False)
+    assert (given.returncode, given.stderr) == (0, "")
+    full, closed = given.stdout.splitlines()
+    assert full.startswith(f"{path}: cannot be written any further: File too large: make room")
+    assert closed.startswith("the recording is closed")
+    again = ae.rerun(path)
+    assert (again.agrees, again.is_whole) == (True, False)
+    assert again.tick > 0
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no device that is always full")
+def test_the_command_line_says_that_a_disk_is_full(tmp_path: Path) -> None:
+    path = tmp_path / "run.mcap"
+    path.symlink_to("/dev/full")
+    given = run("run", "search", "--record", str(path))
+    assert given.returncode == 1
+    assert given.stderr.startswith(f"{path}: cannot be written any further: No space left")
+    assert len(given.stderr.splitlines()) == 1
+    assert "1 the disk takes no more" in " ".join(run("run", "--help").stdout.split())
 
 
 KILLED = """

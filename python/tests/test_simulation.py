@@ -242,6 +242,15 @@ def test_a_change_that_is_not_allowed_changes_nothing(path: str, value: Any, tol
     assert simulation.scenario == Scenario.load("search")
 
 
+@pytest.mark.parametrize("path", [None, 1, ["clock", "cap_s"]])
+def test_a_path_that_is_no_text_is_told(path: Any) -> None:
+    simulation = Simulation("search")
+    for act in (simulation.change, simulation.scenario.replace):
+        with pytest.raises(InputError, match=r"path = .*: must be keys from the root"):
+            act(path, 1)
+    assert simulation.changes == ()
+
+
 def test_a_team_without_room_is_told_by_name() -> None:
     told = "robots.second: the run has no room for second/0: no free place found"
     with pytest.raises(InputError, match=told):

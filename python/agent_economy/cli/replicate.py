@@ -27,7 +27,7 @@ from agent_economy.cli.told import faults_told
 from agent_economy.scenario import Scenario
 from agent_economy.study.answer import estimate
 from agent_economy.study.answer.evidence import Interval
-from agent_economy.study.store.folder import write_whole
+from agent_economy.study.store.folder import try_out, write_whole
 
 WRITERS: dict[str, Callable[[pa.Table, io.BytesIO], None]] = {
     ".parquet": parquet.write_table,
@@ -96,7 +96,8 @@ def writer_of(out: Path) -> Callable[[pa.Table, io.BytesIO], None]:
     """Return what writes a file of a name.
 
     Raises:
-        InputError: If nothing does, or there is no folder for it.
+        InputError: If nothing does, or the file cannot be written: before the first run, not after
+            the last.
     """
     writer = WRITERS.get(out.suffix)
     if writer is None:
@@ -105,6 +106,14 @@ def writer_of(out: Path) -> Callable[[pa.Table, io.BytesIO], None]:
     if not out.parent.is_dir():
         message = f"--out {out}: must be in a folder that is there; {out.parent} is none"
         raise InputError(message)
+    if out.is_dir():
+        message = f"--out {out}: must be a file, and is a folder"
+        raise InputError(message)
+    try:
+        try_out(out)
+    except OSError as error:
+        message = f"--out {out}: must be where files can be written: {error.strerror or error}"
+        raise InputError(message) from None
     return writer
 
 

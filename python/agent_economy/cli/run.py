@@ -15,7 +15,7 @@ from agent_economy import runs
 from agent_economy._core import InputError
 from agent_economy.cli.gauge import gauge
 from agent_economy.cli.given import Seed, Sets, overrides
-from agent_economy.cli.told import faults_told
+from agent_economy.cli.told import FAILED, faults_told
 from agent_economy.outcome import Outcome
 from agent_economy.scenario import Scenario
 from agent_economy.simulation import Simulation
@@ -58,8 +58,8 @@ def run(  # noqa: PLR0913  (typer's options are arguments)
     It is the same run, of the same seed and number, as one of agent-economy replicate. A recording
     is enough to take it again: agent-economy rerun FILE.
 
-    Exit codes: 0 the run is over, or quarantined, 2 something given is not allowed, 130 stopped by
-    Ctrl-C.
+    Exit codes: 0 the run is over, or quarantined, 1 the disk takes no more of the recording, 2
+    something given is not allowed, 130 stopped by Ctrl-C.
 
     Example: agent-economy run search --seed 7 --set robots.rover.count=6 --record run.mcap
     """
@@ -103,12 +103,16 @@ def watched(scenario: Scenario, seed: int, number: int) -> Outcome:
 
 
 def recorded(simulation: Simulation, path: Path, every: int, percepts: Sequence[str]) -> Outcome:
-    """The same, into a file."""
+    """The same, into a file; end with an exit code if the disk takes no more."""
     # What writes recordings takes as long to load as all the rest.
-    from agent_economy.recording import Recording  # noqa: PLC0415
+    from agent_economy.recording import Recording, RecordingError  # noqa: PLC0415
 
-    with Recording(simulation, path, every=every, percepts=percepts) as recording:
-        return shown(simulation, recording.step)
+    try:
+        with Recording(simulation, path, every=every, percepts=percepts) as recording:
+            return shown(simulation, recording.step)
+    except RecordingError as error:
+        typer.echo(str(error), err=True)
+        raise typer.Exit(FAILED) from None
 
 
 def shown(simulation: Simulation, step: Callable[[], object]) -> Outcome:

@@ -3,7 +3,8 @@
 `Recording` writes one, `rerun` takes its run again; docs/simulation.md says what is in it.
 """
 
+from agent_economy.recording.file import RecordingError
 from agent_economy.recording.recorder import Recording
 from agent_economy.recording.rerunning import Rerun, rerun
 
-__all__ = ["Recording", "Rerun", "rerun"]
+__all__ = ["Recording", "RecordingError", "Rerun", "rerun"]

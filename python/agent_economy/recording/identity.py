@@ -89,13 +89,17 @@ def read_identity(values: Mapping[str, str], attached: Mapping[str, bytes]) -> I
         message = f"is of format {values['format']!r}: must be {FORMAT!r}"
         raise InputError(message)
     name = values["scenario"]
+    own = attached.get(f"scenario/{name}")
+    if own is None:
+        message = f"lacks its scenario, {name}: nothing of the run is there"
+        raise InputError(message)
     overrides = tuple(
         Override(tuple(keys), value, "recording") for keys, value in json.loads(values["overrides"])
     )
     files: dict[str, bytes | str] = {
         key.removeprefix(FILES): data for key, data in attached.items() if key.startswith(FILES)
     }
-    source = Source(name, attached[f"scenario/{name}"].decode(), overrides, files)
+    source = Source(name, own.decode(), overrides, files)
     if missing := _core.files_wanted(source):
         message = f"lacks what the scenario names: {', '.join(missing)}"
         raise InputError(message)

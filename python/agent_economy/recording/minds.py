@@ -56,6 +56,7 @@ class Minds:
             if age_s is None:
                 continue
             ranges = [np.inf if value is None else float(value) for value in each["ranges_m"]]
-            taken_ns = time_ns - round(age_s * SECOND_NS)
+            # No viewer has times before the run; a body outside may say any age.
+            taken_ns = time_ns - round(min(max(age_s, 0.0), time_ns / SECOND_NS) * SECOND_NS)
             message = scan(name, taken_ns, self._bearings[name][number], ranges)
             self._file.write(f"/scan/{name}/{number}", message, time_ns)

@@ -10,7 +10,7 @@ from agent_economy import _core
 from agent_economy.recording import schemas
 from agent_economy.recording.file import File
 from agent_economy.recording.messages import log, scene
-from agent_economy.recording.moving import Frames, item, robot
+from agent_economy.recording.moving import Frames, Items, robot
 from agent_economy.recording.still import grid, still
 from agent_economy.simulation import STATUSES, Simulation
 
@@ -53,15 +53,15 @@ class Moments:
         self._bodies = {name: setting[name].tolist() for name in ("radius_m", "is_flying")}
         document = simulation.scenario.to_dict()
         kinds = document.get("items", {})
-        self._sought = {name: kind.get("sought", True) for name, kind in kinds.items()}
-        self._items = list(named(simulation.items.to_pylist()))
+        sought = {name: kind.get("sought", True) for name, kind in kinds.items()}
+        self._items = Items(file, simulation.items, sought)
         self.last = moment_of(simulation)
         file.write_json("/team", {"robots": self._names, **self._bodies}, time_ns)
         file.write("/scene/world", scene(still(document), time_ns), time_ns)
         for number, given in enumerate(setting["maps"]):
             file.write(f"/map/{number}", grid(given, time_ns), time_ns)
         self._write_bodies(self.last, time_ns)
-        self._write_items(self.last, time_ns)
+        self._items.write_all(self.last["found_s"], time_ns)
         self._write_numbers(self.last, time_ns)
 
     def write(self, moment: Moment, time_ns: int) -> None:
@@ -71,7 +71,7 @@ class Moments:
         if (moment["status"] != before["status"]).any():
             self._write_bodies(moment, time_ns)
         if (np.isnan(moment["found_s"]) != np.isnan(before["found_s"])).any():
-            self._write_items(moment, time_ns)
+            self._items.write_finds(moment["found_s"], time_ns)
         self._log_events(before, moment, time_ns)
 
     def _write_numbers(self, moment: Moment, time_ns: int) -> None:
@@ -95,20 +95,13 @@ class Moments:
         ]
         self._file.write("/scene/robots", scene(bodies, time_ns), time_ns)
 
-    def _write_items(self, moment: Moment, time_ns: int) -> None:
-        rows = zip(self._items, np.isfinite(moment["found_s"]).tolist(), strict=True)
-        items = [
-            item(name, at, is_found=is_found, is_sought=self._sought[name.rpartition("/")[0]])
-            for (name, at), is_found in rows
-        ]
-        self._file.write("/scene/items", scene(items, time_ns), time_ns)
-
     def _log_events(self, before: Moment, moment: Moment, time_ns: int) -> None:
         """Tell what has happened since the moment before."""
         is_new = np.isfinite(moment["found_s"]) & np.isnan(before["found_s"])
         for place in np.flatnonzero(is_new).tolist():
             words = f"found at {moment['found_s'][place]:.3f} s"
-            self._file.write("/log", log(time_ns, Log.INFO, self._items[place][0], words), time_ns)
+            name = self._items.name(place)
+            self._file.write("/log", log(time_ns, Log.INFO, name, words), time_ns)
         for place in np.flatnonzero(moment["collisions"] > before["collisions"]).tolist():
             words = f"collision, {moment['collisions'][place]} so far"
             self._file.write("/log", log(time_ns, Log.WARNING, self._names[place], words), time_ns)
@@ -116,17 +109,6 @@ class Moments:
             status = str(STATUSES[moment["status"][place]])
             level = LEVELS.get(status, Log.INFO)
             self._file.write("/log", log(time_ns, level, self._names[place], status), time_ns)
-
-
-def named(items: list[dict[str, Any]]) -> list[tuple[str, tuple[float, float]]]:
-    """Return the name, KIND/INDEX, and the place of each item."""
-    counts: dict[str, int] = {}
-    rows = []
-    for each in items:
-        kind = each["kind"]
-        counts[kind] = counts.get(kind, -1) + 1
-        rows.append((f"{kind}/{counts[kind]}", (each["x_m"], each["y_m"])))
-    return rows
 
 
 def states(moment: Moment) -> dict[str, list[Any]]:

@@ -1,14 +1,14 @@
 """What a recording says of its run: read from the file alone, as far as that goes."""
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import IO, Any
+from typing import IO, Any, cast
 
 from mcap.exceptions import EndOfFile
-from mcap.records import Attachment, Channel, Footer, McapRecord, Message, Metadata
+from mcap.records import Attachment, Channel, McapRecord, Message, Metadata
 from mcap.stream_reader import StreamReader
 
 from agent_economy._core import InputError
@@ -53,6 +53,15 @@ class Recorded:
     _attached: dict[str, bytes] = field(default_factory=dict)
     _topics: dict[int, str] = field(default_factory=dict)
 
+    def take_all(self, stream: IO[bytes]) -> None:
+        """Add what a file says up to its end, or where it is cut."""
+        unbroken = cast("IO[bytes]", Unbroken(stream))  # the reader needs no more of a stream
+        reader = StreamReader(unbroken, validate_crcs=True, record_size_limit=MAX_BYTES)
+        with suppress(EndOfFile):
+            for record in reader.records:
+                self.take(record)
+            self.is_whole = True
+
     def take(self, record: McapRecord) -> None:
         """Add what a record says; most say nothing of what is needed here."""
         match record:
@@ -66,8 +75,6 @@ class Recorded:
                 self._topics[record.id] = record.topic
             case Message():
                 self._take_message(self._topics.get(record.channel_id, ""), record.data)
-            case Footer():
-                self.is_whole = True
 
     def identity(self) -> Identity:
         """Return which run it is.
@@ -100,8 +107,7 @@ def read(path: Path) -> tuple[Identity, Recorded]:
     recorded = Recorded()
     try:
         with path.open("rb") as stream:
-            for record in records(stream):
-                recorded.take(record)
+            recorded.take_all(stream)
         return recorded.identity(), recorded
     except InputError as error:
         message = f"{path}: {error}"
@@ -113,8 +119,23 @@ def read(path: Path) -> tuple[Identity, Recorded]:
     raise InputError(message)
 
 
-def records(stream: IO[bytes]) -> Iterator[McapRecord]:
-    """Yield a file's records up to its end, or where it is cut."""
-    reader = StreamReader(stream, validate_crcs=True, record_size_limit=MAX_BYTES)
-    with suppress(EndOfFile):
-        yield from reader.records
+class Unbroken:
+    """A stream that gives all of what is asked for, or says that it is cut.
+
+    The reader takes a cut for damage where it is in the middle of a number.
+    """
+
+    def __init__(self, stream: IO[bytes]) -> None:
+        """Begin where a stream is."""
+        self._stream = stream
+
+    def read(self, length: int) -> bytes:
+        """Return so many bytes.
+
+        Raises:
+            EndOfFile: If there are fewer.
+        """
+        data = self._stream.read(length)
+        if len(data) < length:
+            raise EndOfFile
+        return data

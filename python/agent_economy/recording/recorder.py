@@ -67,7 +67,6 @@ class Recording:
         self._every, self._chosen = every, chosen
         self._step_s = simulation._run.step_s  # noqa: SLF001  (ours)
         self._file = File(path)
-        self._is_open = True
         self._flushed_ns = self._time_ns(simulation.tick)
         self._changes = simulation.changes[:0]
         self._files: set[str] = set()
@@ -88,6 +87,7 @@ class Recording:
         Raises:
             InputError: If anything is not allowed, the recording is closed, or the simulation was
                 put back to an earlier moment.
+            RecordingError: If the disk takes no more; the recording is closed then.
         """
         self._keep_up()
         if percepts is not None or commands is not None:
@@ -122,7 +122,7 @@ class Recording:
 
     def close(self) -> None:
         """Record the last moment and the outcome so far, and close the file."""
-        if not self._is_open:
+        if not self._file.is_open:
             return
         try:
             self.note()
@@ -131,8 +131,8 @@ class Recording:
             self._file.write_json("/outcome", row, self._time_ns(last["tick"]))
             write_end(self._file, last["tick"], last["hash"])
         finally:
-            self._is_open = False
-            self._file.close()
+            if self._file.is_open:
+                self._file.close()
 
     def __enter__(self) -> Self:
         """Return the recording."""
@@ -176,7 +176,7 @@ class Recording:
 
     def _keep_up(self) -> None:
         """Take in what was done to the simulation since the last step."""
-        if not self._is_open:
+        if not self._file.is_open:
             message = "the recording is closed: step the simulation itself, or record it anew"
             raise InputError(message)
         simulation, seen = self.simulation, self._changes

@@ -128,6 +128,17 @@ def write_whole(path: Path, data: bytes | memoryview) -> None:
             raise
 
 
+def try_out(path: Path) -> None:
+    """See whether `write_whole` can write a file; nothing is left of the trial.
+
+    Raises:
+        OSError: If it cannot.
+    """
+    unfinished = path.with_name(UNFINISHED + path.name)
+    unfinished.touch()
+    unfinished.unlink()
+
+
 def write_all(descriptor: int, data: bytes | memoryview) -> None:
     """Write every byte: a write may take fewer than it is given."""
     left = memoryview(data)
