@@ -116,7 +116,7 @@ def test_what_comes_from_outside_is_taken_again(tmp_path: Path) -> None:
     simulation = ae.Simulation(search(), 4)
     percept: Percept = {
         "position": {"value": (3.0, 4.0), "age_s": 0.0},
-        "scans": [{"age_s": 0.0, "ranges_m": [math.inf] * 36}],
+        "scans": [{"age_s": 0.0, "ranges_m": [math.inf] * 55}],
     }
     with ae.Recording(simulation, tmp_path / "run.mcap") as recording:
         recording.step(commands={"rover/0": DRIVE})
@@ -132,7 +132,7 @@ def test_a_scan_from_outside_of_any_age_is_shown_within_the_run(
     tmp_path: Path, age_s: float
 ) -> None:
     simulation = ae.Simulation("search", 4)
-    percept: Percept = {"scans": [{"age_s": age_s, "ranges_m": [-1e308] * 36}]}
+    percept: Percept = {"scans": [{"age_s": age_s, "ranges_m": [-1e308] * 55}]}
     with ae.Recording(simulation, tmp_path / "run.mcap", percepts=["rover/1"]) as recording:
         recording.step(25)
         recording.step(percepts={"rover/1": percept})
