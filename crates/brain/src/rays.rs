@@ -109,17 +109,8 @@ impl Ring {
     /// A ray's range, at most what the sensor sees.
     #[inline]
     pub(crate) fn ray_m(&self, ranges_m: &[f64], ray: usize) -> f64 {
-        self.within_m(ranges_m.get(ray).copied().unwrap_or_default())
-    }
-
-    #[inline]
-    fn within_m(&self, measured_m: f64) -> f64 {
-        let sensible_m = sensible_m(measured_m);
-        if sensible_m < self.range_m {
-            sensible_m
-        } else {
-            self.range_m
-        }
+        let measured_m = ranges_m.get(ray).copied().unwrap_or_default();
+        lesser(sensible_m(measured_m), self.range_m)
     }
 
     /// A bearing off a ray, by a share of the angle to the next.
