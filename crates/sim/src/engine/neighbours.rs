@@ -5,7 +5,7 @@
 //! "experiments" on classical fluids*, Physical Review 159, 1967). The lists only say where to look:
 //! what is made of them does not depend on their age, so they are no part of a run's state.
 
-use crate::scenario::{SKIN_M, Scenario};
+use crate::scenario::Scenario;
 use crate::world::buckets::Buckets;
 use crate::world::grid::Still;
 use crate::world::still::Stands;
@@ -25,13 +25,15 @@ pub(crate) struct Neighbours {
     gone_m: f64,
     /// By kind.
     reach_m: Vec<f64>,
+    skin_m: f64,
 }
 
 /// The lists of some robots that follow each other.
 #[derive(Debug, Clone, Default)]
 struct Piece {
-    /// Where each robot's lists end: of robots, of discs, of walls. They follow each other.
-    ends: Vec<[u32; 3]>,
+    /// Where each robot's lists end: of robots, of discs apart, of discs that overlap, of walls. They
+    /// follow each other.
+    ends: Vec<[u32; 4]>,
     things: Vec<u32>,
     /// Whether a robot may touch something that stands still in the next step.
     may_touch: Vec<bool>,
@@ -43,8 +45,9 @@ struct Piece {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Vicinity<'a> {
     pub(crate) robots: &'a [u32],
-    /// What rays can meet of what stands still.
-    pub(crate) discs: &'a [u32],
+    /// What rays can meet of what stands still: discs that overlap no other, others, and walls.
+    pub(crate) discs_apart: &'a [u32],
+    pub(crate) discs_overlapping: &'a [u32],
     pub(crate) walls: &'a [u32],
 }
 
@@ -62,12 +65,13 @@ impl Neighbours {
         });
         let reach_m: Vec<f64> = reach_m.collect();
         // Half as wide as the reach: fewer are looked at in vain.
-        let cell_m = f64::midpoint(reach_m.iter().copied().fold(0.0, f64::max), SKIN_M);
+        let cell_m = f64::midpoint(reach_m.iter().copied().fold(0.0, f64::max), scenario.skin_m);
         Self {
             buckets: Buckets::new(scenario.world.size(), cell_m),
             pieces: Vec::new(),
             gone_m: f64::INFINITY,
             reach_m,
+            skin_m: scenario.skin_m,
         }
     }
 
@@ -89,7 +93,7 @@ impl Neighbours {
         discs: &[Disc],
         is_shared: bool,
     ) {
-        if 2.0 * self.gone_m <= SKIN_M {
+        if 2.0 * self.gone_m <= self.skin_m {
             return;
         }
         self.gone_m = 0.0;
@@ -119,13 +123,14 @@ impl Neighbours {
         let place = robot % ROBOTS_PER_PIECE;
         let start = place
             .checked_sub(1)
-            .map_or(0, |before| piece.ends[before][2]);
-        let [robots, discs, walls] = piece.ends[place];
+            .map_or(0, |before| piece.ends[before][3]);
+        let [robots, apart, overlapping, walls] = piece.ends[place];
         let some = |from: u32, to: u32| &piece.things[from as usize..to as usize];
         Vicinity {
             robots: some(start, robots),
-            discs: some(robots, discs),
-            walls: some(discs, walls),
+            discs_apart: some(robots, apart),
+            discs_overlapping: some(apart, overlapping),
+            walls: some(overlapping, walls),
         }
     }
 
@@ -143,7 +148,7 @@ impl Neighbours {
     /// Robots of any layer within a distance of a place, and maybe some more; not in any order.
     pub(crate) fn about(&self, place: Point, radius_m: f64) -> impl Iterator<Item = u32> {
         self.buckets
-            .near(place, radius_m + SKIN_M)
+            .near(place, radius_m + self.skin_m)
             .map(|(_, number)| *number)
     }
 }
@@ -165,29 +170,33 @@ impl Piece {
     ) {
         let (id, centre) = (ids[robot], discs[robot].centre);
         let kind = &scenario.kinds[usize::from(id.kind)];
-        let reach_m = reach_m[usize::from(id.kind)] + SKIN_M;
+        let skin_m = scenario.skin_m;
+        let reach_m = reach_m[usize::from(id.kind)] + skin_m;
         let is_one_layer = scenario.is_one_layer();
         let is_in_layer = |other: u32| {
             let other_kind = usize::from(ids[other as usize].kind);
             is_one_layer || scenario.kinds[other_kind].layer == kind.layer
         };
         let near = buckets.near(centre, reach_m);
-        let contact_m = scenario.contact_m + SKIN_M;
+        let contact_m = scenario.contact_m + skin_m;
         let near = near.map(|(place, other)| (centre.to(*place).length_squared(), *other));
         self.add_robots(near, [reach_m, contact_m], robot, is_in_layer);
         let robots = self.end();
         if kind.rays_m > 0.0 {
             let stands = scenario.seen(kind.layer);
-            let reach_m = kind.rays_m + SKIN_M / 2.0;
-            self.things.extend(stands.numbers_of_discs(centre, reach_m));
-            let discs = self.end();
+            let reach_m = kind.rays_m + skin_m / 2.0;
+            let [apart, overlapping] = stands.discs_within(centre, reach_m);
+            self.things.extend(apart);
+            let apart = self.end();
+            self.things.extend(overlapping);
+            let overlapping = self.end();
             self.things
-                .extend(stands.numbers_of_faces(centre, reach_m, SKIN_M / 2.0));
-            self.ends.push([robots, discs, self.end()]);
+                .extend(stands.numbers_of_faces(centre, reach_m, skin_m / 2.0));
+            self.ends.push([robots, apart, overlapping, self.end()]);
         } else {
-            self.ends.push([robots; 3]);
+            self.ends.push([robots; 4]);
         }
-        let touch_m = f64::midpoint(scenario.contact_m, SKIN_M);
+        let touch_m = f64::midpoint(scenario.contact_m, skin_m);
         let is_near_still = is_near(scenario.touched(kind.layer), centre, touch_m);
         self.may_touch.push(is_near_still);
     }

@@ -320,26 +320,17 @@ fn gather<'v>(view: &View<'v>, robot: usize, near: &mut Near) {
     let kind = view.kind(robot);
     let stands = view.scenario.seen(kind.layer);
     let vicinity = view.neighbours.of(robot);
+    near.begin(view.discs[robot].centre, kind.rays_m);
+    let bodies = vicinity.robots.iter();
+    let bodies = bodies.map(|other| &view.discs[*other as usize]);
     // A body outside may be where another is; simulated ones never are.
-    let (apart, loose) = if view.has_bodies_outside {
-        (&[][..], vicinity.robots)
+    if view.has_bodies_outside {
+        near.take_overlapping(bodies);
     } else {
-        (vicinity.robots, &[][..])
-    };
-    let robot_discs = |robots: &'v [u32]| robots.iter().map(|other| &view.discs[*other as usize]);
-    let discs = |overlap: bool| {
-        let numbers = vicinity.discs.iter().copied();
-        let numbers = numbers.filter(move |number| stands.overlaps(*number) == overlap);
-        numbers.map(|number| stands.disc(number))
-    };
-    let walls = vicinity.walls.iter().map(|number| stands.wall(*number));
-    near.gather(
-        view.discs[robot].centre,
-        kind.rays_m,
-        (
-            robot_discs(apart).chain(discs(false)),
-            robot_discs(loose).chain(discs(true)),
-        ),
-        walls,
-    );
+        near.take_apart(bodies);
+    }
+    let discs = |numbers: &'v [u32]| numbers.iter().map(|number| stands.disc(*number));
+    near.take_apart(discs(vicinity.discs_apart));
+    near.take_overlapping(discs(vicinity.discs_overlapping));
+    near.take_walls(vicinity.walls.iter().map(|number| stands.wall(*number)));
 }

@@ -7,8 +7,6 @@ mod ready;
 
 pub use ready::Scenario;
 
-pub(crate) use ready::SKIN_M;
-
 use crate::body::RobotSpec;
 use crate::clock::ClockSpec;
 use crate::world::WorldSpec;

@@ -14,9 +14,12 @@ use base::geometry::{Disc, Point, Rectangle, Segment};
 use base::random::Entity;
 use brain::{Brain, RobotId};
 
-/// What is near a robot is looked up with so much more reach than is needed, in metres; that holds
-/// until a robot has gone half of it.
-pub(crate) const SKIN_M: f64 = 0.6;
+/// What is near a robot is looked up with more reach than is needed: by this share of what rays
+/// reach, but by no less and no more than so many metres. That holds until a robot has gone half of
+/// it.
+const SKIN: f64 = 0.2;
+const LEAST_SKIN_M: f64 = 0.6;
+const MOST_SKIN_M: f64 = 2.0;
 
 /// Everything that does not change in a run. Runs share it.
 #[derive(Debug, Clone)]
@@ -37,6 +40,8 @@ pub struct Scenario {
     pub(crate) kinds: Vec<Kind>,
     /// Two robots farther apart than this, from centre to centre, cannot touch in one step.
     pub(crate) contact_m: f64,
+    /// What is near a robot is looked up with so much more reach than is needed.
+    pub(crate) skin_m: f64,
 }
 
 impl Scenario {
@@ -63,9 +68,10 @@ impl Scenario {
         let fastest = areas.iter().map(Area::speed).fold(1.0, f64::max);
         let touch_m = greatest(&kinds, |kind| kind.touch_m(fastest * step_s));
         let rays_m = greatest(&kinds, |kind| kind.rays_m);
+        let skin_m = (SKIN * rays_m).clamp(LEAST_SKIN_M, MOST_SKIN_M);
         let stands = |layer, reach_m| {
             let (walls, discs) = in_the_way(&world, &solids, layer);
-            Stands::new(size_m, &walls, &discs, reach_m + SKIN_M / 2.0)
+            Stands::new(size_m, &walls, &discs, reach_m + skin_m / 2.0)
         };
         let layers = [Layer::Ground, Layer::Air];
         Self {
@@ -78,6 +84,7 @@ impl Scenario {
             seen: layers.map(|layer| stands(layer, rays_m)),
             touched: layers.map(|layer| stands(layer, touch_m)),
             contact_m: 2.0 * touch_m,
+            skin_m,
             solids,
             items,
             kinds,

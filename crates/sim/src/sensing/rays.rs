@@ -29,6 +29,8 @@ const CRACK_M: f64 = 1e-9;
 /// What rays can meet, relative to a robot.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Near {
+    at: Point,
+    range_m: f64,
     /// Discs that overlap no other: of two, a ray meets that whose centre is less far along it.
     apart: Few<NearDisc>,
     /// Discs that may overlap each other.
@@ -65,19 +67,19 @@ impl<T: Copy + Default> Few<T> {
     /// That is as good as random: each is written down in any case, and then written over if it was
     /// not, which is faster than a branch that is mispredicted.
     #[inline]
-    fn take<U>(&mut self, from: impl Iterator<Item = U>, near: impl Fn(U) -> (T, bool)) {
-        let most = from.size_hint().1.unwrap_or(0);
+    fn take<U>(&mut self, from: impl ExactSizeIterator<Item = U>, near: impl Fn(U) -> (T, bool)) {
+        let most = self.count + from.len();
         if self.all.len() < most {
             self.all.resize(most, T::default());
         }
-        let mut count = 0;
-        from.for_each(|each| {
+        let mut count = self.count;
+        for each in from {
             let (value, is_near) = near(each);
             if let Some(place) = self.all.get_mut(count) {
                 *place = value;
             }
             count += usize::from(is_near);
-        });
+        }
         self.count = count;
     }
 
@@ -88,37 +90,60 @@ impl<T: Copy + Default> Few<T> {
 }
 
 impl Near {
-    /// Takes what of these a ray of `range_m` from `at` can meet, and maybe some more.
+    /// Nothing, as seen from a place by rays of `range_m`.
     #[inline]
-    pub(crate) fn gather<'a>(
-        &mut self,
-        at: Point,
-        range_m: f64,
-        (apart, overlapping): (
-            impl Iterator<Item = &'a Disc>,
-            impl Iterator<Item = &'a Disc>,
-        ),
-        walls: impl Iterator<Item = &'a Wall>,
-    ) {
-        let near = |disc: &Disc| {
-            let centre = at.to(disc.centre);
-            let square = centre.length_squared();
-            let power = (square - disc.radius_m * disc.radius_m).max(0.0);
-            let reach = range_m + disc.radius_m;
-            (NearDisc { centre, power }, square < reach * reach)
-        };
-        self.apart.take(apart, near);
-        self.overlapping.take(overlapping, near);
-        self.walls.take(walls, |wall| {
-            let (start, end) = (at.to(wall.start), at.to(wall.end()));
-            let area = start.cross(end);
-            #[expect(
-                clippy::needless_bitwise_bool,
-                reason = "a branch would be mispredicted"
-            )]
-            let is_near = (area > 0.0) & (area < range_m * wall.length);
-            (NearWall { start, end, area }, is_near)
-        });
+    pub(crate) fn begin(&mut self, at: Point, range_m: f64) {
+        (self.at, self.range_m) = (at, range_m);
+        (self.apart.count, self.overlapping.count, self.walls.count) = (0, 0, 0);
+    }
+
+    /// Takes what of these discs a ray can meet, and maybe some more; they overlap no others.
+    #[inline]
+    pub(crate) fn take_apart<'a>(&mut self, discs: impl ExactSizeIterator<Item = &'a Disc>) {
+        let (at, range_m) = (self.at, self.range_m);
+        self.apart
+            .take(discs, |disc| NearDisc::of(disc, at, range_m));
+    }
+
+    /// The same of discs that may overlap each other.
+    #[inline]
+    pub(crate) fn take_overlapping<'a>(&mut self, discs: impl ExactSizeIterator<Item = &'a Disc>) {
+        let (at, range_m) = (self.at, self.range_m);
+        self.overlapping
+            .take(discs, |disc| NearDisc::of(disc, at, range_m));
+    }
+
+    /// The same of walls.
+    #[inline]
+    pub(crate) fn take_walls<'a>(&mut self, walls: impl ExactSizeIterator<Item = &'a Wall>) {
+        let (at, range_m) = (self.at, self.range_m);
+        self.walls
+            .take(walls, |wall| NearWall::of(wall, at, range_m));
+    }
+}
+
+impl NearDisc {
+    #[inline]
+    fn of(disc: &Disc, at: Point, range_m: f64) -> (Self, bool) {
+        let centre = at.to(disc.centre);
+        let square = centre.length_squared();
+        let power = (square - disc.radius_m * disc.radius_m).max(0.0);
+        let reach = range_m + disc.radius_m;
+        (Self { centre, power }, square < reach * reach)
+    }
+}
+
+impl NearWall {
+    #[inline]
+    fn of(wall: &Wall, at: Point, range_m: f64) -> (Self, bool) {
+        let (start, end) = (at.to(wall.start), at.to(wall.end()));
+        let area = start.cross(end);
+        #[expect(
+            clippy::needless_bitwise_bool,
+            reason = "a branch would be mispredicted"
+        )]
+        let is_near = (area > 0.0) & (area < range_m * wall.length);
+        (Self { start, end, area }, is_near)
     }
 }
 
@@ -225,13 +250,21 @@ impl<S: Simd> Beam<S> {
     }
 
     /// The distance to the first of some discs that do not overlap, infinite if there is none.
+    ///
+    /// The first is that whose centre is ahead and least far. Taken for whole numbers, all distances
+    /// behind are greater than those ahead, so one comparison tells both.
     #[inline(always)]
     fn to_discs_apart(self, discs: &[NearDisc]) -> S::f64s {
         let Self { simd, .. } = self;
-        let mut nearest = [simd.splat_f64s(f64::INFINITY), simd.splat_f64s(0.0)];
+        let [never, zero] = [f64::INFINITY, 0.0].map(|number| simd.splat_f64s(number));
+        let mut nearest = [never, zero];
         for disc in discs {
-            let (meets, [ahead, square]) = self.meets(disc);
-            let is_met = simd.and_m64s(meets, simd.less_than_f64s(ahead, nearest[0]));
+            let [ahead, square] = self.chord(disc);
+            let [this, first] = [ahead, nearest[0]].map(|ahead| simd.transmute_u64s_f64s(ahead));
+            let is_met = simd.and_m64s(
+                simd.less_than_u64s(this, first),
+                simd.greater_than_or_equal_f64s(square, zero),
+            );
             nearest = [
                 simd.select_f64s(is_met, ahead, nearest[0]),
                 simd.select_f64s(is_met, square, nearest[1]),
@@ -244,32 +277,33 @@ impl<S: Simd> Beam<S> {
     #[inline(always)]
     fn to_discs(self, discs: &[NearDisc], mut nearest: S::f64s) -> S::f64s {
         let Self { simd, .. } = self;
+        let zero = simd.splat_f64s(0.0);
         for disc in discs {
-            let (meets, [ahead, square]) = self.meets(disc);
+            let [ahead, square] = self.chord(disc);
+            let is_met = simd.and_m64s(
+                simd.greater_than_f64s(ahead, zero),
+                simd.greater_than_or_equal_f64s(square, zero),
+            );
             let distance = simd.sub_f64s(ahead, simd.sqrt_f64s(square));
-            let distance = simd.select_f64s(meets, distance, nearest);
+            let distance = simd.select_f64s(is_met, distance, nearest);
             nearest = simd.min_f64s(distance, nearest);
         }
         nearest
     }
 
-    /// Which rays meet a disc, how far along them its centre is, and the square of half the chord.
+    /// How far along the rays a disc's centre is, and the square of half of what they cut out of it;
+    /// less than 0 if they pass it by.
     ///
     /// A ray of direction u meets the disc about c at the lesser root of t^2 - 2 (u.c) t + power.
     #[inline(always)]
-    fn meets(self, disc: &NearDisc) -> (S::m64s, [S::f64s; 2]) {
+    fn chord(self, disc: &NearDisc) -> [S::f64s; 2] {
         let Self { simd, x, y } = self;
         let ahead = simd.add_f64s(
             simd.mul_f64s(x, simd.splat_f64s(disc.centre.x)),
             simd.mul_f64s(y, simd.splat_f64s(disc.centre.y)),
         );
         let square = simd.sub_f64s(simd.mul_f64s(ahead, ahead), simd.splat_f64s(disc.power));
-        let zero = simd.splat_f64s(0.0);
-        let meets = simd.and_m64s(
-            simd.greater_than_f64s(ahead, zero),
-            simd.greater_than_or_equal_f64s(square, zero),
-        );
-        (meets, [ahead, square])
+        [ahead, square]
     }
 
     /// How far a place is to the left of each ray.

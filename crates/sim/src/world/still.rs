@@ -68,9 +68,9 @@ impl Still for Disc {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Stands {
     walls: Vec<Wall>,
+    /// First those that overlap no other.
     discs: Vec<Disc>,
-    /// Whether a disc overlaps another.
-    overlaps: Vec<bool>,
+    apart: u32,
     near_walls: NearCells,
     near_discs: NearCells,
 }
@@ -78,12 +78,19 @@ pub(crate) struct Stands {
 impl Stands {
     /// For questions about places at most `reach_m` away.
     pub(crate) fn new(size_m: Point, walls: &[Wall], discs: &[Disc], reach_m: f64) -> Self {
+        let overlaps = overlaps(discs);
+        let those = |overlap: bool| {
+            let pairs = discs.iter().zip(&overlaps);
+            pairs.filter_map(move |(disc, overlaps)| (*overlaps == overlap).then_some(*disc))
+        };
+        let discs: Vec<Disc> = those(false).chain(those(true)).collect();
         Self {
             near_walls: NearCells::new(size_m, walls, reach_m),
-            near_discs: NearCells::new(size_m, discs, reach_m),
+            near_discs: NearCells::new(size_m, &discs, reach_m),
             walls: walls.to_vec(),
-            overlaps: overlaps(discs),
-            discs: discs.to_vec(),
+            #[expect(clippy::cast_possible_truncation, reason = "discs have 32-bit numbers")]
+            apart: those(false).count() as u32,
+            discs,
         }
     }
 
@@ -101,15 +108,21 @@ impl Stands {
         numbers.map(|number| &self.discs[*number as usize])
     }
 
-    /// The numbers of all discs within `radius_m` of a place.
+    /// The numbers of all discs within `radius_m` of a place: of those that overlap no other, and of
+    /// the others.
     #[inline]
-    pub(crate) fn numbers_of_discs(
+    pub(crate) fn discs_within(
         &self,
         place: Point,
         radius_m: f64,
-    ) -> impl Iterator<Item = u32> {
-        let numbers = self.near_discs.at(place).iter().copied();
-        numbers.filter(move |number| self.disc(*number).distance_m(place) < radius_m)
+    ) -> [impl Iterator<Item = u32>; 2] {
+        let near = self.near_discs.at(place);
+        let (apart, overlapping) =
+            near.split_at(near.partition_point(|number| *number < self.apart));
+        [apart, overlapping].map(|numbers| {
+            let numbers = numbers.iter().copied();
+            numbers.filter(move |number| self.disc(*number).distance_m(place) < radius_m)
+        })
     }
 
     /// The numbers of all walls within `radius_m` of a place of which some place no farther away
@@ -132,12 +145,6 @@ impl Stands {
     #[inline]
     pub(crate) fn disc(&self, number: u32) -> &Disc {
         &self.discs[number as usize]
-    }
-
-    /// Whether a disc overlaps another disc that stands here.
-    #[inline]
-    pub(crate) fn overlaps(&self, number: u32) -> bool {
-        self.overlaps[number as usize]
     }
 
     #[inline]

@@ -36,12 +36,8 @@ fn looks(spec: &RangeSpec, wall_m: f64, count: u64) -> Vec<f64> {
     let stands = Stands::new(size_m, &walls, &[], RANGE_M);
     let ring = Ring::new(spec);
     let mut room = Room::default();
-    room.near.gather(
-        Point::default(),
-        RANGE_M,
-        ([].iter(), [].iter()),
-        walls.iter(),
-    );
+    room.near.begin(Point::default(), RANGE_M);
+    room.near.take_walls(walls.iter());
     let mut ranges_m = Vec::new();
     let look = |look| {
         let eye = Eye {
@@ -214,12 +210,8 @@ fn rays_of_a_turned_robot_are_turned_with_it() {
         radius_m: 0.5,
     };
     let mut room = Room::default();
-    room.near.gather(
-        Point::default(),
-        RANGE_M,
-        ([disc].iter(), [].iter()),
-        [].iter(),
-    );
+    room.near.begin(Point::default(), RANGE_M);
+    room.near.take_apart([disc].iter());
     let ring = Ring::new(&spec(4));
     let stands = Stands::new(Point { x: 10.0, y: 10.0 }, &[], &[disc], RANGE_M);
     let look = |heading_rad: f64| {
@@ -279,8 +271,9 @@ fn a_look_gives_the_same_bits_in_every_instruction_set() {
         };
         let in_set = |arch: Arch| -> Vec<u64> {
             let (mut room, mut ranges_m) = (Room::default(), Vec::new());
-            room.near
-                .gather(eye.at, RANGE_M, ([].iter(), discs.iter()), walls.iter());
+            room.near.begin(eye.at, RANGE_M);
+            room.near.take_overlapping(discs.iter());
+            room.near.take_walls(walls.iter());
             ring.look_with(arch, &eye, &mut room, &mut ranges_m);
             ranges_m.iter().map(|range_m| range_m.to_bits()).collect()
         };

@@ -83,21 +83,29 @@ impl Scene {
     }
 
     /// Those that overlap no other, and the others.
-    fn discs(&self) -> (impl Iterator<Item = &Disc>, impl Iterator<Item = &Disc>) {
+    fn discs(&self) -> [Vec<Disc>; 2] {
         let overlaps = |disc: &&Disc| {
             let mut others = self.discs.iter().filter(|other| *other != *disc);
             others.any(|other| disc.distance_m(other.centre) < other.radius_m)
         };
-        let apart = self.discs.iter().filter(move |disc| !overlaps(disc));
-        (apart, self.discs.iter().filter(overlaps))
+        let (overlapping, apart) = self.discs.iter().partition(overlaps);
+        [apart, overlapping]
     }
 
     fn cast(&self, front: Point, bearings_rad: &[f64]) -> Vec<f64> {
         let walls: Vec<Wall> = self.walls.iter().filter_map(Wall::of).collect();
         let (mut near, mut ranges_m) = (Near::default(), vec![7.0; 3]);
         // What an earlier place has left there does not matter.
-        near.gather(Point::default(), 1e9, self.discs(), walls.iter());
-        near.gather(self.at, self.range_m, self.discs(), walls.iter());
+        let [apart, overlapping] = self.discs();
+        for (at, range_m) in [(Point::default(), 1e9), (self.at, self.range_m)] {
+            near.begin(at, range_m);
+            // In two parts, as a robot takes other robots and what stands still.
+            for apart in apart.chunks(2) {
+                near.take_apart(apart.iter());
+            }
+            near.take_overlapping(overlapping.iter());
+            near.take_walls(walls.iter());
+        }
         let rays = Rays::new(bearings_rad);
         ranges_m.resize(rays.groups() * GROUP, 7.0);
         Arch::new().dispatch(Cast {

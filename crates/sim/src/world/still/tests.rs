@@ -169,7 +169,7 @@ fn a_wall_hides_from_both_of_its_sides() {
 }
 
 #[test]
-fn discs_that_overlap_others_are_known() {
+fn discs_that_overlap_others_are_told_apart() {
     let disc = |x, y, radius_m| Disc {
         centre: Point { x, y },
         radius_m,
@@ -183,6 +183,15 @@ fn discs_that_overlap_others_are_known() {
         disc(2.1, 7.0, 0.1),
     ];
     let stands = Stands::new(Point { x: 10.0, y: 10.0 }, &[], &discs, 1.0);
-    let overlaps: Vec<bool> = (0..6).map(|number| stands.overlaps(number)).collect();
-    assert_eq!(overlaps, [false, true, false, true, true, true]);
+    let found = |place: Point| {
+        stands.discs_within(place, 1.0).map(|numbers| {
+            numbers
+                .map(|number| stands.disc(number).centre.x)
+                .collect::<Vec<_>>()
+        })
+    };
+    assert_eq!(found(Point { x: 8.0, y: 2.0 }), [vec![8.0], vec![]]);
+    assert_eq!(found(Point { x: 5.0, y: 8.0 }), [vec![5.0], vec![]]);
+    assert_eq!(found(Point { x: 3.0, y: 2.0 }), [vec![], vec![2.0, 3.5]]);
+    assert_eq!(found(Point { x: 2.0, y: 7.0 }), [vec![], vec![2.0, 2.1]]);
 }
