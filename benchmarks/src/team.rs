@@ -7,11 +7,12 @@ use base::geometry::Point;
 use sim::engine::Simulation;
 use std::sync::Arc;
 
-/// Robot-updates in each piece of work: some ten milliseconds.
-const UPDATES: u32 = 20_000;
+/// Robot-updates in each piece of work: many steps also of the largest team, so that what the other
+/// programs have pushed out of the caches is a small part of it.
+const UPDATES: u32 = 200_000;
 
 /// Pieces of work of each program.
-const PIECES: usize = 101;
+const PIECES: usize = 31;
 
 /// Millions of robot-updates in a second of processor time.
 struct Rates {

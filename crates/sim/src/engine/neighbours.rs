@@ -182,23 +182,35 @@ impl Piece {
         let near = near.map(|(place, other)| (centre.to(*place).length_squared(), *other));
         self.add_robots(near, [reach_m, contact_m], robot, is_in_layer);
         let robots = self.end();
-        if kind.rays_m > 0.0 {
-            let stands = scenario.seen(kind.layer);
-            let reach_m = kind.rays_m + skin_m / 2.0;
-            let [apart, overlapping] = stands.discs_within(centre, reach_m);
-            self.things.extend(apart);
-            let apart = self.end();
-            self.things.extend(overlapping);
-            let overlapping = self.end();
-            self.things
-                .extend(stands.numbers_of_faces(centre, reach_m, skin_m / 2.0));
-            self.ends.push([robots, apart, overlapping, self.end()]);
+        let touch_m = f64::midpoint(scenario.contact_m, skin_m);
+        let nearest_m = if kind.rays_m > 0.0 {
+            let reach_m = touch_m.max(kind.rays_m + skin_m / 2.0);
+            self.add_seen(scenario.seen(kind.layer), centre, [reach_m, skin_m / 2.0])
         } else {
             self.ends.push([robots; 4]);
-        }
-        let touch_m = f64::midpoint(scenario.contact_m, skin_m);
-        let is_near_still = is_near(scenario.touched(kind.layer), centre, touch_m);
-        self.may_touch.push(is_near_still);
+            nearest_m(scenario.touched(kind.layer), centre)
+        };
+        self.may_touch.push(nearest_m < touch_m);
+    }
+
+    /// Adds what rays can meet of what stands still to a robot that has its robots; returns how far
+    /// the nearest is.
+    fn add_seen(&mut self, stands: &Stands, centre: Point, [reach_m, gone_m]: [f64; 2]) -> f64 {
+        let mut nearest_m = f64::INFINITY;
+        let mut number = |(number, distance_m): (u32, f64)| {
+            nearest_m = nearest_m.min(distance_m);
+            number
+        };
+        let robots = self.end();
+        let [apart, overlapping] = stands.discs_within(centre, reach_m);
+        self.things.extend(apart.map(&mut number));
+        let apart = self.end();
+        self.things.extend(overlapping.map(&mut number));
+        let overlapping = self.end();
+        let faces = stands.faces_within(centre, reach_m, gone_m);
+        self.things.extend(faces.map(&mut number));
+        self.ends.push([robots, apart, overlapping, self.end()]);
+        nearest_m
     }
 
     /// Adds the robots of a layer that are near one, of those whose square distance is given.
@@ -241,9 +253,9 @@ impl Piece {
     }
 }
 
-fn is_near(stands: &Stands, place: Point, radius_m: f64) -> bool {
-    let mut walls = stands.walls_near(place);
-    let mut discs = stands.discs_near(place);
-    walls.any(|wall| wall.distance(place) < radius_m)
-        || discs.any(|disc| disc.distance_m(place) < radius_m)
+/// How far the nearest is of what stands still near a place.
+fn nearest_m(stands: &Stands, place: Point) -> f64 {
+    let walls = stands.walls_near(place).map(|wall| wall.distance(place));
+    let discs = stands.discs_near(place).map(|disc| disc.distance_m(place));
+    walls.chain(discs).fold(f64::INFINITY, f64::min)
 }

@@ -81,7 +81,7 @@ impl Scenario {
             world,
             terrain: (!areas.is_empty()).then(|| Terrain::new(size_m, areas)),
             near_solids: NearCells::new(size_m, &solids, 0.0),
-            seen: layers.map(|layer| stands(layer, rays_m)),
+            seen: layers.map(|layer| stands(layer, rays_m.max(touch_m))),
             touched: layers.map(|layer| stands(layer, touch_m)),
             contact_m: 2.0 * touch_m,
             skin_m,

@@ -108,38 +108,41 @@ impl Stands {
         numbers.map(|number| &self.discs[*number as usize])
     }
 
-    /// The numbers of all discs within `radius_m` of a place: of those that overlap no other, and of
-    /// the others.
+    /// All discs within `radius_m` of a place, their numbers and distances: those that overlap no
+    /// other, and the others.
     #[inline]
     pub(crate) fn discs_within(
         &self,
         place: Point,
         radius_m: f64,
-    ) -> [impl Iterator<Item = u32>; 2] {
+    ) -> [impl Iterator<Item = (u32, f64)>; 2] {
         let near = self.near_discs.at(place);
-        let (apart, overlapping) =
-            near.split_at(near.partition_point(|number| *number < self.apart));
+        let apart = near.partition_point(|number| *number < self.apart);
+        let (apart, overlapping) = near.split_at(apart);
         [apart, overlapping].map(|numbers| {
-            let numbers = numbers.iter().copied();
-            numbers.filter(move |number| self.disc(*number).distance_m(place) < radius_m)
+            let distances = numbers
+                .iter()
+                .map(move |number| (*number, self.disc(*number).distance_m(place)));
+            distances.filter(move |(_, distance_m)| *distance_m < radius_m)
         })
     }
 
-    /// The numbers of all walls within `radius_m` of a place of which some place no farther away
-    /// than `gone_m` sees the face.
+    /// All walls within `radius_m` of a place of which some place no farther away than `gone_m` sees
+    /// the face, their numbers and distances.
     #[inline]
-    pub(crate) fn numbers_of_faces(
+    pub(crate) fn faces_within(
         &self,
         place: Point,
         radius_m: f64,
         gone_m: f64,
-    ) -> impl Iterator<Item = u32> {
-        let numbers = self.near_walls.at(place).iter().copied();
-        numbers.filter(move |number| {
+    ) -> impl Iterator<Item = (u32, f64)> {
+        let numbers = self.near_walls.at(place).iter();
+        let faces = numbers.filter_map(move |number| {
             let wall = self.wall(*number);
             let height_m = place.to(wall.start).cross(wall.along);
-            height_m > -gone_m && wall.distance(place) < radius_m
-        })
+            (height_m > -gone_m).then(|| (*number, wall.distance(place)))
+        });
+        faces.filter(move |(_, distance_m)| *distance_m < radius_m)
     }
 
     #[inline]

@@ -186,7 +186,7 @@ fn discs_that_overlap_others_are_told_apart() {
     let found = |place: Point| {
         stands.discs_within(place, 1.0).map(|numbers| {
             numbers
-                .map(|number| stands.disc(number).centre.x)
+                .map(|(number, _)| stands.disc(number).centre.x)
                 .collect::<Vec<_>>()
         })
     };
