@@ -1,4 +1,4 @@
-//! Discs of one size, found by where they are.
+//! Robots that stand somewhere, found by where they are.
 
 use crate::geometry::Point;
 use std::collections::HashMap;
@@ -6,59 +6,100 @@ use std::collections::HashMap;
 /// Discs that come nearer to each other than this, in metres, overlap; less is rounding.
 const TOLERANCE_M: f64 = 1e-9;
 
+/// Side of a cell in radii: a robot's surroundings are in few cells, and a cell holds a few robots.
+const SIDE: f64 = 8.0;
+
 /// Least side of a cell, in metres, so that the numbers of cells stay exact.
 const MIN_SIDE_M: f64 = 1e-3;
 
-/// Discs of one radius, in square cells of their diameter: if they do not overlap, a cell holds a
-/// few. Memory goes with the number of discs, never with the world's size.
+/// Where the robots of each kind stand. Memory goes with their number, never with the world's size.
 #[derive(Debug, Clone)]
-pub(super) struct Crowd {
-    radius_m: f64,
-    side_m: f64,
-    centres: Vec<Point>,
-    /// The last disc that was put into a cell.
-    last: HashMap<(i64, i64), usize>,
-    /// For each disc the one that was put into its cell before.
-    before: Vec<Option<usize>>,
+pub struct Crowd {
+    kinds: Vec<Discs>,
 }
 
 impl Crowd {
-    pub(super) fn new(radius_m: f64) -> Self {
+    /// Of nobody yet: a layer and a radius for each kind. Kinds are known by their order.
+    #[must_use]
+    pub fn new(kinds: impl IntoIterator<Item = (u8, f64)>) -> Self {
+        let discs = |(layer, radius_m)| Discs::new(layer, radius_m);
         Self {
-            radius_m,
-            side_m: (2.0 * radius_m).max(MIN_SIDE_M),
-            centres: Vec::new(),
-            last: HashMap::new(),
-            before: Vec::new(),
+            kinds: kinds.into_iter().map(discs).collect(),
         }
     }
 
-    pub(super) fn add(&mut self, centre: Point) {
-        let cell = (self.cell(centre.x), self.cell(centre.y));
-        self.before.push(self.last.insert(cell, self.centres.len()));
-        self.centres.push(centre);
+    /// A robot of a kind comes to stand here.
+    pub fn add(&mut self, kind: usize, centre: Point) {
+        self.kinds[kind].add(centre);
     }
 
-    /// Whether a disc about `centre` overlaps one of these; discs that only touch do not.
-    pub(super) fn overlaps(&self, centre: Point, radius_m: f64) -> bool {
+    /// A robot of a kind that stands here goes away.
+    pub fn remove(&mut self, kind: usize, centre: Point) {
+        self.kinds[kind].remove(centre);
+    }
+
+    /// Whether a robot of a kind would here overlap one of its layer; those that only touch do not.
+    #[must_use]
+    pub fn is_taken(&self, kind: usize, centre: Point) -> bool {
+        let Discs {
+            layer, radius_m, ..
+        } = self.kinds[kind];
+        let mut others = self.kinds.iter().filter(|other| other.layer == layer);
+        others.any(|other| other.overlap(centre, radius_m))
+    }
+}
+
+/// Discs of one radius, in square cells.
+#[derive(Debug, Clone)]
+struct Discs {
+    layer: u8,
+    radius_m: f64,
+    side_m: f64,
+    count: usize,
+    cells: HashMap<(i64, i64), Vec<Point>>,
+}
+
+impl Discs {
+    fn new(layer: u8, radius_m: f64) -> Self {
+        Self {
+            layer,
+            radius_m,
+            side_m: (SIDE * radius_m).max(MIN_SIDE_M),
+            count: 0,
+            cells: HashMap::new(),
+        }
+    }
+
+    fn add(&mut self, centre: Point) {
+        let cell = (self.cell(centre.x), self.cell(centre.y));
+        self.cells.entry(cell).or_default().push(centre);
+        self.count += 1;
+    }
+
+    fn remove(&mut self, centre: Point) {
+        let cell = (self.cell(centre.x), self.cell(centre.y));
+        let within = self.cells.entry(cell).or_default();
+        if let Some(at) = within.iter().position(|&other| other == centre) {
+            within.swap_remove(at);
+            self.count -= 1;
+        }
+    }
+
+    fn overlap(&self, centre: Point, radius_m: f64) -> bool {
         let reach_m = self.radius_m + radius_m - TOLERANCE_M;
         let is_near =
-            |other: Point| reach_m > 0.0 && centre.to(other).length_squared() < reach_m * reach_m;
-        let columns = self.cell(centre.x - reach_m)..=self.cell(centre.x + reach_m);
-        let rows = self.cell(centre.y - reach_m)..=self.cell(centre.y + reach_m);
+            |other: &Point| reach_m > 0.0 && centre.to(*other).length_squared() < reach_m * reach_m;
         // A large disc among a few small ones: these are fewer than the cells that it covers.
         let side = 2.0 * reach_m / self.side_m + 1.0;
-        if side * side > 9.0 + length(&self.centres) {
-            return self.centres.iter().any(|&other| is_near(other));
+        if side * side > 9.0 + length(self.count) {
+            return self.cells.values().flatten().any(is_near);
         }
+        let columns = self.cell(centre.x - reach_m)..=self.cell(centre.x + reach_m);
+        let rows = self.cell(centre.y - reach_m)..=self.cell(centre.y + reach_m);
         columns
             .flat_map(|column| rows.clone().map(move |row| (column, row)))
-            .any(|cell| self.within(cell).any(is_near))
-    }
-
-    fn within(&self, cell: (i64, i64)) -> impl Iterator<Item = Point> + '_ {
-        let last = self.last.get(&cell).copied();
-        std::iter::successors(last, |&disc| self.before[disc]).map(|disc| self.centres[disc])
+            .filter_map(|cell| self.cells.get(&cell))
+            .any(|within| within.iter().any(is_near))
     }
 
     #[expect(
@@ -71,6 +112,9 @@ impl Crowd {
 }
 
 #[expect(clippy::cast_precision_loss, reason = "at most 2^28 robots")]
-fn length(centres: &[Point]) -> f64 {
-    centres.len() as f64
+fn length(count: usize) -> f64 {
+    count as f64
 }
+
+#[cfg(test)]
+mod tests;

@@ -9,6 +9,7 @@ mod candidates;
 mod crowd;
 mod team;
 
+pub use crowd::Crowd;
 pub use team::{Group, NoPlaceFor, team};
 
 use crate::geometry::{Point, Rectangle};

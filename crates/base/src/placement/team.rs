@@ -58,16 +58,13 @@ pub fn team(
     let mut order: Vec<usize> = (0..groups.len()).collect();
     order.sort_by_key(|&at| !is_given(&groups[at]));
     let mut places = vec![Vec::new(); groups.len()];
-    let mut crowds: Vec<Crowd> = groups
-        .iter()
-        .map(|group| Crowd::new(group.radius_m))
-        .collect();
+    let mut crowd = Crowd::new(groups.iter().map(|group| (group.layer, group.radius_m)));
     for at in order {
         let group = &groups[at];
         for index in 0..group.count {
-            let is_open = |place| is_free(group, place) && !is_taken(groups, &crowds, group, place);
+            let is_open = |place| is_free(group, place) && !crowd.is_taken(at, place);
             let place = place(draws, group, index, |place| is_free(group, place), is_open)?;
-            crowds[at].add(place);
+            crowd.add(at, place);
             places[at].push(place);
         }
     }
@@ -89,12 +86,4 @@ fn place(
         .candidates(draws, entity, is_free)
         .and_then(|candidates| candidates.first(is_open))
         .map_err(|why| NoPlaceFor { kind, index, why })
-}
-
-fn is_taken(groups: &[Group], crowds: &[Crowd], group: &Group, place: Point) -> bool {
-    groups
-        .iter()
-        .zip(crowds)
-        .filter(|(other, _)| other.layer == group.layer)
-        .any(|(_, crowd)| crowd.overlaps(place, group.radius_m))
 }

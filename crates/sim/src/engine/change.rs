@@ -6,10 +6,8 @@ use super::stay::{gone, ids_of, is_same_team, stay, still_sayable};
 use crate::body::Layer;
 use crate::body::kind::Kind;
 use crate::scenario::Scenario;
-use crate::world::crowd::Crowd;
 use crate::world::items::Item;
-use base::geometry::Disc;
-use base::placement::{NoPlace, NoPlaceFor, Things};
+use base::placement::{Crowd, NoPlace, NoPlaceFor, Things};
 use std::collections::BTreeMap;
 
 /// Whether a robot stands well where it is.
@@ -94,27 +92,20 @@ impl State {
     /// Puts robots that are new elsewhere where somebody is in their place by now.
     fn make_room(&mut self, scenario: &Scenario, rooms: &[Room]) -> Result<(), NoRoom> {
         let draws = draws(scenario, self.seed, self.run, Things::Robots);
-        let mut crowd = Crowd::new(scenario.world.size(), &self.discs);
+        let mut crowd = self.crowd(scenario);
         for (robot, room) in rooms.iter().enumerate() {
             if *room == Room::Same {
                 continue;
             }
-            let (id, Disc { centre, radius_m }) = (self.ids[robot], self.discs[robot]);
-            let kind = &scenario.kinds[usize::from(id.kind)];
-            let is_other = |other: &usize| {
-                let layer = scenario.kinds[usize::from(self.ids[*other].kind)].layer;
-                *other != robot && layer == kind.layer
-            };
-            let clear_m = radius_m - Scenario::TOLERANCE_M;
+            let (id, centre) = (self.ids[robot], self.discs[robot].centre);
+            let number = usize::from(id.kind);
+            let kind = &scenario.kinds[number];
+            crowd.remove(number, centre);
             let is_free = |place| {
-                let mut others = crowd.near(place, radius_m).filter(is_other);
-                scenario.is_free(place, radius_m, kind.layer)
-                    && others.all(|other| self.discs[other].distance_m(place) >= clear_m)
+                scenario.is_free(place, kind.radius_m, kind.layer) && !crowd.is_taken(number, place)
             };
-            if is_free(centre) {
-                continue;
-            }
             let place = match room {
+                _ if is_free(centre) => Ok(centre),
                 Room::Wanted => kind.start.place(&draws, scenario.entity(id), is_free),
                 _ => Err(NoPlace::Taken),
             };
@@ -123,10 +114,20 @@ impl State {
                 index: id.index,
                 why,
             })?;
-            crowd.put(robot, centre, place);
+            crowd.add(number, place);
             self.discs[robot].centre = place;
         }
         Ok(())
+    }
+
+    /// Where the robots of each kind stand.
+    fn crowd(&self, scenario: &Scenario) -> Crowd {
+        let kinds = scenario.kinds.iter();
+        let mut crowd = Crowd::new(kinds.map(|kind| (kind.layer as u8, kind.radius_m)));
+        for (id, disc) in self.ids.iter().zip(&self.discs) {
+            crowd.add(usize::from(id.kind), disc.centre);
+        }
+        crowd
     }
 
     /// Takes over items that were there, and what robots are about to be told of them.

@@ -1,7 +1,6 @@
 //! What stands still: borders, obstacles, terrain, and the items to be found.
 
 pub(crate) mod buckets;
-pub(crate) mod crowd;
 pub(crate) mod grid;
 pub mod items;
 pub mod obstacles;
