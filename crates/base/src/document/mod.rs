@@ -153,6 +153,16 @@ pub struct Made {
 /// Files by the names by which a document calls them: their bytes, or why they cannot be read.
 pub type Files = BTreeMap<String, Result<Vec<u8>, String>>;
 
+impl Default for Document {
+    /// An empty one.
+    fn default() -> Self {
+        Self::of(Node {
+            value: Value::Table(Table::new()),
+            origin: String::new(),
+        })
+    }
+}
+
 impl Document {
     /// Reads TOML `text`; `file` is how faults name it.
     ///

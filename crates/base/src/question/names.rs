@@ -76,7 +76,8 @@ impl<'p> Unknown<'p> {
         let table = joined(&self.path[..self.place]);
         let one_more = match missing {
             [] => String::new(),
-            missing => format!("; a new one needs {} too", missing.join(", ")),
+            [one] => format!("; a new one needs {one} too"),
+            [first @ .., last] => format!("; a new one needs {} and {last} too", first.join(", ")),
         };
         format!(
             "under one of the names in {}{names}{one_more}",
