@@ -27,6 +27,7 @@ __all__ = [
     "recorded_moment",
     "recorded_setting",
     "reference",
+    "refusal",
     "replicate",
     "run_block",
     "run_one",
@@ -51,6 +52,8 @@ class Fault(TypedDict):
 
 class InputError(ValueError):
     faults: Sequence[Fault]
+
+def refusal(name: str, given: object, allowed: str) -> InputError: ...
 
 @final
 class Brain:

@@ -10,8 +10,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, Generic, NotRequired, TypeAlias, TypedDict, TypeVar, cast
 
-from agent_economy import _core
-from agent_economy._core import InputError
+from agent_economy import _core, given
 from agent_economy.scenario import Scenario, loaded
 
 T = TypeVar("T")
@@ -232,9 +231,7 @@ class Brain:
         Raises:
             InputError: If the scenario is wrong or of another engine, or has no such kind.
         """
-        if not isinstance(kind, str):
-            message = f"kind = {kind!r}: must be the name of a kind of robots"
-            raise InputError(message)
+        given.of_kind("kind", kind, str, "the name of a kind of robots")
         brain = cls.__new__(cls)
         vars(brain)["_mind"] = _core.Brain.of(loaded(scenario).metric(), kind)
         return brain

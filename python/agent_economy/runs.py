@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pyarrow as pa
 
-from agent_economy import _core
+from agent_economy import _core, given
 from agent_economy.outcome import Outcome, table
 from agent_economy.scenario import Scenario, loaded
 from agent_economy.simulation import Simulation
@@ -35,10 +35,11 @@ def run(
     """
     scenario = loaded(scenario)
     if record is not None:
-        return recorded(Simulation(scenario, seed, run), record)
+        path = given.path("record", record)
+        return recorded(Simulation(scenario, seed, run), path)
     configuration = scenario.configuration({})
-    given = _core.run_one(configuration, seed=seed, run=run)
-    values = {name: np.array([value]) for name, value in given.items()}
+    told = _core.run_one(configuration, seed=seed, run=run)
+    values = {name: np.array([value]) for name, value in told.items()}
     return Outcome.of(table(configuration.columns, values, scenario.merit, run).to_pylist()[0])
 
 
@@ -71,14 +72,14 @@ def replicate(
     """
     scenario = loaded(scenario)
     configuration = scenario.configuration({})
-    given = _core.run_block(
+    told = _core.run_block(
         [configuration], seed=seed, first_run=first_run, runs=runs, threads=threads
     )
-    values = {name: array[0] for name, array in given.items()}
+    values = {name: array[0] for name, array in told.items()}
     return table(configuration.columns, values, scenario.merit, first_run)
 
 
-def recorded(simulation: Simulation, path: str | Path) -> Outcome:
+def recorded(simulation: Simulation, path: Path) -> Outcome:
     """Run to the end, and record it."""
     # What writes recordings takes longer to load than most runs take.
     from agent_economy.recording import Recording  # noqa: PLC0415

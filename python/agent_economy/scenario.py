@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from agent_economy import _core, shipped
+from agent_economy import _core, given, shipped
 from agent_economy._core import InputError
 from agent_economy.merit import Merit, Term, in_words
 
@@ -74,9 +74,7 @@ class Override:
         Raises:
             InputError: If the path is no text.
         """
-        if not isinstance(path, str):
-            message = f"{origin}: path = {path!r}: must be keys from the root, as clock.cap_s"
-            raise InputError(message)
+        of_path(origin, path)
         factor = path.removeprefix(VARY)
         keys = ("study", "vary", factor) if factor != path else tuple(path.split("."))
         return cls(keys, value, origin)
@@ -98,6 +96,15 @@ class Source:
     text: str = field(repr=False)
     overrides: tuple[Override, ...]
     files: Mapping[str, bytes | str] = field(default_factory=dict, repr=False)
+
+    def __post_init__(self) -> None:
+        """See to it that a scenario can be read from it.
+
+        Raises:
+            InputError: If the text or its name is no text.
+        """
+        given.of_kind("file", self.file, str, "a text, the name of what is read")
+        given.of_kind("text", self.text, str, "a text in TOML")
 
     @property
     def changes(self) -> list[tuple[list[str], Given, str]]:
@@ -174,7 +181,7 @@ class Scenario:
         Raises:
             InputError: If the file cannot be read or anything in it is wrong; all faults at once.
         """
-        file = shipped.find(file)
+        file = shipped.find(given.path("file", file))
         data = content(file, MAX_BYTES)
         if isinstance(data, str):
             message = f"{file}: cannot be read: {data}{shipped.meant(file)}"
@@ -194,7 +201,7 @@ class Scenario:
         Raises:
             InputError: If anything in it is wrong; all faults at once.
         """
-        return cls.of(Source(file, text, overrides))
+        return cls.of(Source(file, text, all_overrides(overrides)))
 
     @classmethod
     def of(cls, source: Source) -> "Scenario":
@@ -203,6 +210,7 @@ class Scenario:
         Raises:
             InputError: If anything in it is wrong; all faults at once.
         """
+        given.of_kind("source", source, Source, "a Source, as Scenario.source is")
         source = source.complete()
         fields = _core.read_scenario(source)
         return cls(
@@ -239,7 +247,7 @@ class Scenario:
         Raises:
             InputError: If any is not allowed; all faults at once.
         """
-        every = (*self.source.overrides, *overrides)
+        every = self.source.overrides + all_overrides(overrides)
         return Scenario.of(replace(self.source, overrides=every))
 
     def configuration(self, values: Mapping[str, Value]) -> _core.Configuration:
@@ -249,6 +257,9 @@ class Scenario:
             InputError: If a path is none that can be varied, or a value is not allowed there,
                 alone or with the others; all faults at once.
         """
+        given.of_kind("values", values, Mapping, "a dict of values by their paths")
+        for path in values:
+            of_path("values", path)
         return _core.read_configuration(self.source, dict(values))
 
     def metric(self) -> _core.MetricScenario:
@@ -266,18 +277,39 @@ class Scenario:
         return _core.read_metric(self.source)
 
 
-def loaded(given: Scenario | str | Path) -> Scenario:
+def of_path(origin: str, path: object) -> None:
+    """See to it that something can be a path in a scenario.
+
+    Raises:
+        InputError: If it is no text.
+    """
+    given.of_kind(f"{origin}: path", path, str, "keys from the root, as clock.cap_s")
+
+
+def all_overrides(overrides: tuple[Override, ...]) -> tuple[Override, ...]:
+    """Return the overrides of an argument.
+
+    Raises:
+        InputError: If it is something else.
+    """
+    allowed = "a tuple of Override"
+    given.of_kind("overrides", overrides, tuple | list, allowed)
+    for each in overrides:
+        given.of_kind("overrides", each, Override, allowed)
+    return tuple(overrides)
+
+
+def loaded(scenario: Scenario | str | Path) -> Scenario:
     """Return a scenario that is given, or read the one of a file or a name, as `load` does.
 
     Raises:
         InputError: If it is none of these, or wrong; all faults at once.
     """
-    if isinstance(given, Scenario):
-        return given
-    if isinstance(given, str | Path):
-        return Scenario.load(given)
-    message = f"scenario = {given!r}: must be a Scenario, a file, or the name of one that ships"
-    raise InputError(message)
+    if isinstance(scenario, Scenario):
+        return scenario
+    allowed = "a Scenario, a file, or the name of one that ships"
+    given.of_kind("scenario", scenario, str | Path, allowed)
+    return Scenario.load(scenario)
 
 
 def no_text(file: Path, error: UnicodeDecodeError) -> str:

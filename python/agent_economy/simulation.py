@@ -10,8 +10,7 @@ import numpy as np
 import pyarrow as pa
 from numpy.typing import NDArray
 
-from agent_economy import _core
-from agent_economy._core import InputError
+from agent_economy import _core, given
 from agent_economy.brain import Command, Percept
 from agent_economy.outcome import Outcome, table
 from agent_economy.scenario import Given, Override, Scenario, loaded
@@ -132,9 +131,7 @@ class Simulation:
         if percepts is None and commands is None:
             self._run.step(steps)
             return {}
-        if steps != 1:
-            message = f"steps = {steps!r}: must be 1 with percepts or commands"
-            raise InputError(message)
+        given.check(steps == 1, "steps", steps, "1 with percepts or commands")
         both = as_dict("percepts", percepts), as_dict("commands", commands)
         return cast("dict[str, Command]", self._run.step_with(*both))
 
@@ -161,13 +158,13 @@ class Simulation:
     def outcome(self) -> Outcome:
         """Return what the run has given so far; once it is over, what `run` returns."""
         with self._lock:
-            columns, given = self._run.columns, self._run.outcome()
+            columns, told = self._run.columns, self._run.outcome()
             is_over, merit = self._run.is_over, self.scenario.merit
         values = {name: np.array([np.nan]) for name, *_ in columns} | {
-            name: np.array([value]) for name, value in (given or {}).items()
+            name: np.array([value]) for name, value in (told or {}).items()
         }
         row = table(columns, values, merit, self.run).to_pylist()[0]
-        return Outcome.of(row, None if is_over or given is None else "running")
+        return Outcome.of(row, None if is_over or told is None else "running")
 
     def change(self, path: str, value: Given) -> None:
         """Put a value into the scenario, and go on with that.
@@ -185,9 +182,8 @@ class Simulation:
             InputError: If the value is not allowed there, or there is no room for what comes in;
                 nothing has changed then.
         """
-        if path in FIXED:
-            message = f"change: {path} = {value!r}: must stay as it was when the run began"
-            raise InputError(message)
+        stays = path in FIXED
+        given.check(not stays, f"change: {path}", value, "as it was when the run began")
         with self._lock:
             changed = self.scenario.changed((Override.at(path, value, "change"),))
             tick = self._run.change(changed.metric())
@@ -211,9 +207,7 @@ class Simulation:
         Raises:
             InputError: If it is no `Snapshot`.
         """
-        if not isinstance(snapshot, Snapshot):
-            message = f"snapshot = {snapshot!r}: must be what snapshot() returned"
-            raise InputError(message)
+        given.of_kind("snapshot", snapshot, Snapshot, "what snapshot() returned")
         with self._lock:
             self._run.restore(snapshot._inside)  # noqa: SLF001  (ours)
             self.scenario, self._changes = snapshot.scenario, snapshot.changes
@@ -278,24 +272,24 @@ class Simulation:
     @property
     def items(self) -> pa.Table:
         """A row an item: `kind`, `x_m`, `y_m`, and `found_s`, null until it is found."""
-        given: dict[str, Any] = self._run.items
+        items: dict[str, Any] = self._run.items
         return pa.table(
             {
-                "kind": pa.array(given["kind"], pa.string()),
-                "x_m": given["x_m"],
-                "y_m": given["y_m"],
-                "found_s": pa.array(given["found_s"], mask=np.isnan(given["found_s"])),
+                "kind": pa.array(items["kind"], pa.string()),
+                "x_m": items["x_m"],
+                "y_m": items["y_m"],
+                "found_s": pa.array(items["found_s"], mask=np.isnan(items["found_s"])),
             }
         )
 
 
-def as_dict(name: str, given: Mapping[str, Any] | None) -> dict[str, Any]:
+def as_dict(name: str, mapping: Mapping[str, Any] | None) -> dict[str, Any]:
     """Return a mapping as a dict; None is an empty one.
 
     Raises:
         InputError: If it is no mapping.
     """
-    if given is None or isinstance(given, Mapping):
-        return dict(given or {})
-    message = f"{name} = {given!r}: must be a dict by the names of robots"
-    raise InputError(message)
+    if mapping is None:
+        return {}
+    given.of_kind(name, mapping, Mapping, "a dict by the names of robots")
+    return dict(mapping)

@@ -110,6 +110,27 @@ def test_a_recording_in_place_of_a_scenario_is_to_be_taken_again(tmp_path: Path)
 @pytest.mark.parametrize(
     ("arguments", "told"),
     [
+        (
+            ["run", "search", "--set", "robots.rovr.radius_m=3"],
+            "--set robots.rovr.radius_m: robots.rovr.radius_m = 3: must be under one of the names "
+            "in robots: rover; a new one needs count and drive too; did you mean "
+            "robots.rover.radius_m?",
+        ),
+        (
+            ["study", "search", "--vary", "robots.rovr.count=1..3"],
+            '--vary: robots.rovr.count = "1..3": must be under one of the names in robots: rover; '
+            "did you mean robots.rover.count?",
+        ),
+        (
+            ["study", "search", "--vary", "robots.rover.sensors.camra.range_m=1..3"],
+            "in robots.rover.sensors: camera, compass, gps, lidar; "
+            "did you mean robots.rover.sensors.camera.range_m?",
+        ),
+        (["run", "search", "--set", "robots.scout.like=ugv"], "a new one needs count too"),
+        (
+            ["study", "search", "--vary", "robots.rover.count=1..100000"],
+            "must be at most 10000 values; it has 100000",
+        ),
         (["run", "serach"], "did you mean search?"),
         (["run", "search", "--set", "robots.rover.cuont=3"], "did you mean count?"),
         (["run", "search", "--run", "9223372036854775807"], "run = 9223372036854775807: must be"),

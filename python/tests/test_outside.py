@@ -151,9 +151,12 @@ FAULTS: list[tuple[dict[str, Any], str]] = [
     ({"percepts": {1: {}}}, 'percepts = "1": must be one of'),
     ({"percepts": [1]}, r"percepts = \[1\]: must be a dict by the names of robots"),
     ({"commands": "rover/1"}, "commands = 'rover/1': must be a dict"),
-    ({"percepts": {"rover/1": {"tiem_s": 1}}}, r'percepts."rover/1".tiem_s = 1: must be readable'),
+    (
+        {"percepts": {"rover/1": {"tiem_s": 1}}},
+        r'percepts."rover/1".tiem_s = 1: must be one of the known',
+    ),
     ({"percepts": {"rover/1": {"time_s": math.nan}}}, r'percepts."rover/1".time_s = nan: must be'),
-    ({"commands": {"rover/1": {"motion": 3}}}, r'commands."rover/1".motion = 3: must be readable'),
+    ({"commands": {"rover/1": {"motion": 3}}}, r'commands."rover/1".motion = 3: must be a dict'),
     ({"steps": 2, "commands": {"rover/1": STOP}}, "steps = 2: must be 1 with percepts or commands"),
     (
         {"percepts": {"rover/1": {}}, "commands": {"rover/1": STOP}},

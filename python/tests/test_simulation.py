@@ -218,9 +218,9 @@ def test_changes_are_a_record_that_gives_the_same_run() -> None:
         (
             "clock.step_s",
             0.05,
-            "change: clock.step_s = 0.05: must stay as it was when the run began",
+            "change: clock.step_s = 0.05: must be as it was when the run began",
         ),
-        ("world.size_m", [30, 30], "change: world.size_m = .*: must stay as it was"),
+        ("world.size_m", [30, 30], "change: world.size_m = .*: must be as it was"),
         (
             "clock",
             {"step_s": 0.05, "cap_s": 9},

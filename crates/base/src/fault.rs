@@ -1,6 +1,13 @@
 //! What is wrong with something a person wrote, in words that tell how to mend it.
 
+use std::borrow::Cow;
 use std::fmt;
+
+/// Characters of a path or a value that a message shows.
+const SHOWN: usize = 100;
+
+/// Characters of an origin that a message shows: a file's path should be whole.
+const SHOWN_OF_ORIGIN: usize = 300;
 
 /// One thing that is wrong: where, what was given, what is allowed.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -59,18 +66,37 @@ impl Fault {
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(origin) = &self.origin {
-            write!(f, "{origin}: ")?;
+            write!(f, "{}: ", cut(origin, SHOWN_OF_ORIGIN))?;
         }
-        match (&self.path, &self.given) {
-            (path, _) if path.is_empty() => write!(f, "{}", self.allowed)?,
-            (path, Some(given)) => write!(f, "{path} = {given}: must be {}", self.allowed)?,
-            (path, None) => write!(f, "{path} is missing: must be {}", self.allowed)?,
+        let (path, allowed) = (shortened(&self.path), &self.allowed);
+        match self.given.as_deref().map(shortened) {
+            _ if path.is_empty() => f.write_str(allowed)?,
+            Some(given) => write!(f, "{path} = {given}: must be {allowed}")?,
+            None => write!(f, "{path} is missing: must be {allowed}")?,
         }
         match &self.suggestion {
-            Some(suggestion) => write!(f, "; did you mean {suggestion}?"),
+            Some(suggestion) => write!(f, "; did you mean {}?", shortened(suggestion)),
             None => Ok(()),
         }
     }
+}
+
+/// A path or a value as a message shows it: a long one without its middle.
+#[must_use]
+pub fn shortened(text: &str) -> Cow<'_, str> {
+    cut(text, SHOWN)
+}
+
+/// At most so many characters of a `text`: two thirds of them its first, the others its last.
+fn cut(text: &str, most: usize) -> Cow<'_, str> {
+    if text.chars().nth(most).is_none() {
+        return text.into();
+    }
+    let last = most / 3;
+    let head = text.char_indices().nth(most - last - "...".len());
+    let tail = text.char_indices().nth_back(last - 1);
+    let [head, tail] = [head, tail].map(|at| at.map_or(0, |(at, _)| at));
+    format!("{}...{}", &text[..head], &text[tail..]).into()
 }
 
 /// Everything that is wrong, at least one fault; shown one a line.
@@ -104,12 +130,21 @@ pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
             strsim::damerau_levenshtein(&word, candidate)
         }
     };
+    // What is so much longer is no slip of it, and a megabyte would take long to compare.
+    let length = word.chars().count();
+    let is_near = |candidate: &&str| length <= most_slips(candidate) + candidate.len();
     candidates
         .into_iter()
+        .filter(is_near)
         .map(|candidate| (distance(&candidate.to_lowercase()), candidate))
-        .filter(|(distance, candidate)| *distance <= 1 + candidate.len() / 4)
+        .filter(|(distance, candidate)| *distance <= most_slips(candidate))
         .min()
         .map(|(_, candidate)| candidate)
+}
+
+/// Letters in which a word may differ from a candidate that is meant.
+fn most_slips(candidate: &str) -> usize {
+    1 + candidate.len() / 4
 }
 
 /// Letters from which on a beginning says which word is meant.
@@ -133,6 +168,36 @@ mod tests {
         assert_eq!(place("a:b.toml"), Some(("a:b.toml".to_owned(), None)));
         assert_eq!(place("map.yaml:2"), Some(("map.yaml".to_owned(), Some(2))));
         assert_eq!(place("--set clock.cap_s"), None);
+    }
+
+    #[test]
+    fn a_megabyte_is_shown_by_its_ends() {
+        let long = "ö".repeat(1 << 20);
+        let (path, given) = (format!("robots.{long}.count"), format!("\"{long}\""));
+        let fault = Fault {
+            origin: Some(format!("--set {path}")),
+            suggestion: nearest(&long, ["rover", "ö"]).map(str::to_owned),
+            ..Fault::new(path.clone(), Some(given), "a number".to_owned())
+        };
+        let told = fault.to_string();
+        assert!(told.chars().count() < 600, "{told}");
+        for part in [
+            "--set robots.ö",
+            "ö...ö",
+            "ö.count = \"ö",
+            "ö\": must be a number",
+        ] {
+            assert!(told.contains(part), "{part}\nnot in\n{told}");
+        }
+        assert_eq!(fault.path, path);
+        assert_eq!(fault.suggestion, None);
+    }
+
+    #[test]
+    fn what_is_short_is_shown_whole() {
+        let [most, more] = [SHOWN, SHOWN + 1].map(|length| "x".repeat(length));
+        assert_eq!(shortened(&most), most);
+        assert_eq!(shortened(&more).chars().count(), SHOWN);
     }
 
     #[test]

@@ -4,6 +4,7 @@ use crate::configuration::MAX_RUNS;
 use crate::error::input_error;
 use base::fault::{Fault, Faults};
 use classic::Contact;
+use pyo3::exceptions::PyBaseException;
 use pyo3::prelude::*;
 use pyo3::types::PyBool;
 use std::cell::RefCell;
@@ -82,14 +83,21 @@ impl Arguments {
     }
 }
 
-/// A Python value as its author would write it, cut where it gets long.
-fn shown(given: &Bound<PyAny>) -> String {
-    let repr = given.repr().map(|repr| repr.to_string());
-    let repr = repr.unwrap_or_else(|_| "something that cannot be shown".to_owned());
-    match repr.char_indices().nth(LONGEST_SHOWN) {
-        Some((end, _)) => format!("{}...", &repr[..end]),
-        None => repr,
-    }
+/// The exception for an argument that is not what is `allowed` ("must be ...").
+#[pyfunction]
+pub(crate) fn refusal<'py>(
+    name: &str,
+    given: &Bound<'py, PyAny>,
+    allowed: String,
+) -> Bound<'py, PyBaseException> {
+    let check = Arguments::default();
+    check.fault(name, given, allowed);
+    let error = input_error(&Faults(check.faults.into_inner()), "");
+    error.into_value(given.py()).into_bound(given.py())
 }
 
-const LONGEST_SHOWN: usize = 80;
+/// A Python value as its author would write it.
+fn shown(given: &Bound<PyAny>) -> String {
+    let repr = given.repr().map(|repr| repr.to_string());
+    repr.unwrap_or_else(|_| "something that cannot be shown".to_owned())
+}

@@ -3,6 +3,7 @@
 use crate::error::input_error;
 use crate::exchange::{self, below};
 use crate::fit::fitting;
+use crate::refused::as_in_python;
 use crate::scenario::value;
 use crate::simulation::MetricScenario;
 use base::document::Document;
@@ -89,13 +90,14 @@ fn read<T: DeserializeOwned + JsonSchema>(
     given: &Bound<PyAny>,
     faults: &mut Vec<Fault>,
 ) -> PyResult<Option<T>> {
-    let mut document = Document::parse("", "").map_err(|faults| input_error(&faults, ""))?;
+    let mut document = Document::default();
     document.set(&[], value(&[name.to_owned()], given, name)?, "");
     let read = document.typed(&Schema::of::<T>());
     let wrong = read.as_ref().err().into_iter().flat_map(|faults| &faults.0);
     faults.extend(wrong.map(|fault| Fault {
         origin: None,
         path: below(name, &fault.path),
+        allowed: as_in_python(&fault.allowed),
         ..fault.clone()
     }));
     Ok(read.ok())

@@ -2,15 +2,17 @@
 //!
 //! It comes many times a second, so it is read without a schema, up to its first fault.
 
+use crate::refused;
 use base::document::path_of;
 use base::fault::Fault;
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyFloat};
+use schemars::JsonSchema;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Map, Number, Value as Json};
-use serde_path_to_error::Segment;
+use serde_path_to_error::{Path, Segment};
 
 /// Lists and dicts are at most so deep in each other; a list that holds itself is deeper.
 pub(crate) const MAX_DEPTH: usize = 32;
@@ -22,13 +24,19 @@ pub(crate) fn too_deep(at: String) -> Fault {
 }
 
 /// What a dict says; `at` is how a fault names it.
-pub(crate) fn read<T: DeserializeOwned>(at: &str, given: &Bound<PyAny>) -> Result<T, Fault> {
+pub(crate) fn read<T: DeserializeOwned + JsonSchema>(
+    at: &str,
+    given: &Bound<PyAny>,
+) -> Result<T, Fault> {
     let json = json(at, given, MAX_DEPTH)?;
     serde_path_to_error::deserialize(&json).map_err(|error| {
-        let path = error.path().to_string();
-        let path = below(at, if path == "." { "" } else { &path });
-        let given = found(&json, error.path().iter()).to_string();
-        Fault::new(path, Some(given), format!("readable: {}", error.inner()))
+        let fault = refused::fault::<T>(&json, error.path());
+        let path = below(at, &fault.path);
+        // It is null too, where it may not stand.
+        if is_infinite(given, error.path()) {
+            return Fault::new(path, Some("inf".to_owned()), "a finite number".to_owned());
+        }
+        Fault { path, ..fault }
     })
 }
 
@@ -46,16 +54,17 @@ pub(crate) fn below(at: &str, path: &str) -> String {
     }
 }
 
-/// The innermost value on a path that is there.
-fn found<'j, 'p>(json: &'j Json, path: impl Iterator<Item = &'p Segment>) -> &'j Json {
-    path.fold(json, |json, segment| {
-        let next = match segment {
-            Segment::Map { key } => json.get(key),
-            Segment::Seq { index } => json.get(index),
-            _ => None,
-        };
-        next.unwrap_or(json)
-    })
+/// Whether infinity stands at a path.
+fn is_infinite(given: &Bound<PyAny>, path: &Path) -> bool {
+    let found = path
+        .iter()
+        .try_fold(given.clone(), |given, each| match each {
+            Segment::Seq { index } => given.get_item(index),
+            Segment::Map { key } | Segment::Enum { variant: key } => given.get_item(key),
+            Segment::Unknown => Ok(given),
+        });
+    let number = found.and_then(|found| found.extract::<f64>());
+    number.is_ok_and(f64::is_infinite)
 }
 
 /// A Python value as JSON has it: infinity is null. It is at most so `deep`.
@@ -96,7 +105,11 @@ fn number(at: &str, given: &Bound<PyAny>) -> Result<Json, Fault> {
         return Ok(Json::Null);
     }
     let number = number.and_then(Number::from_f64).map(Json::Number);
-    let allowed = "a number, a text, true, false, None, or a list or dict of these";
+    let allowed = if given.is_instance_of::<PyFloat>() {
+        "a finite number, or inf for a ray that meets nothing"
+    } else {
+        "a number, a text, True, False, None, or a list or dict of these"
+    };
     number.ok_or_else(|| fault(at, given.to_string(), allowed))
 }
 

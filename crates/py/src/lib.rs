@@ -13,6 +13,7 @@ mod fit;
 mod long_work;
 mod outside;
 mod recording;
+mod refused;
 mod scenario;
 mod selection;
 mod simulation;
@@ -21,6 +22,8 @@ use pyo3::prelude::*;
 
 #[pymodule]
 mod _core {
+    #[pymodule_export]
+    use crate::arguments::refusal;
     #[pymodule_export]
     use crate::brain::Brain;
     #[pymodule_export]

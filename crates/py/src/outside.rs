@@ -7,6 +7,7 @@ use base::fault::{Fault, Faults, nearest};
 use brain::{Command, Percept, RobotId};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 use sim::engine::Simulation;
 use sim::scenario::Scenario;
@@ -82,7 +83,7 @@ pub(crate) fn read(
     Faults::or(faults, Some((percepts, commands)))
 }
 
-fn by_robot<T: DeserializeOwned>(
+fn by_robot<T: DeserializeOwned + JsonSchema>(
     scenario: &Scenario,
     (argument, given): (&str, &Bound<PyDict>),
     fits: impl Fn(&str, RobotId, T) -> Result<T, Fault>,

@@ -70,6 +70,10 @@ impl Engine for Metric {
         None
     }
 
+    fn names(&self, document: &Document, path: &[&str]) -> Option<Vec<String>> {
+        ScenarioSpec::names(document, path)
+    }
+
     fn most_robots(&self) -> u32 {
         1_000_000
     }

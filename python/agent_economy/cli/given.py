@@ -6,6 +6,7 @@ from typing import Annotated, Any
 import typer
 
 from agent_economy._core import InputError
+from agent_economy.given import check
 from agent_economy.scenario import Override
 
 Sets = Annotated[
@@ -79,9 +80,7 @@ def varied(text: str) -> Override:
 def parts(option: str, text: str, allowed: str) -> tuple[str, str]:
     """Return what stands before and after the first equals sign."""
     path, equals, value = text.partition("=")
-    if not equals:
-        message = f"{option} = {text!r}: must be {allowed}"
-        raise InputError(message)
+    check(bool(equals), option, text, allowed)
     return path.strip(), value.strip()
 
 

@@ -7,7 +7,7 @@ from typing import Self
 
 from foxglove_schemas_protobuf.Log_pb2 import Log
 
-from agent_economy import _core
+from agent_economy import _core, given
 from agent_economy._core import InputError
 from agent_economy.brain import Command, Percept
 from agent_economy.outcome import Outcome
@@ -60,8 +60,8 @@ class Recording:
         Raises:
             InputError: If an argument is not allowed, or the file cannot be written.
         """
-        chosen = tuple(percepts)
-        path = Path(path)
+        chosen = given.texts("percepts", percepts, "a list of robots' names")
+        path = given.path("path", path)
         check(simulation, path, every, chosen)
         self.simulation = simulation
         self._every, self._chosen = every, chosen
@@ -92,9 +92,7 @@ class Recording:
         self._keep_up()
         if percepts is not None or commands is not None:
             return self._step(steps, percepts or {}, commands or {})
-        if not is_whole(steps, 0):
-            message = f"steps = {steps!r}: must be a whole number, 0 or more"
-            raise InputError(message)
+        given.check(is_whole(steps, 0), "steps", steps, "a whole number, 0 or more")
         for _ in range(steps):
             self._step(1, None, None)
         return {}
@@ -156,18 +154,18 @@ class Recording:
         finally:
             # Also after Ctrl-C: a step that was taken cannot be taken again without its input.
             if self.simulation.tick > tick:
-                given = {"percepts": percepts or {}, "commands": commands or {}}
-                self._write_step(tick, perceived, given)
+                inputs = {"percepts": percepts or {}, "commands": commands or {}}
+                self._write_step(tick, perceived, inputs)
 
     def _write_step(
         self,
         tick: int,
         perceived: Mapping[str, Mapping[str, object]],
-        given: Mapping[str, Mapping[str, object]],
+        inputs: Mapping[str, Mapping[str, object]],
     ) -> None:
         time_ns = self._time_ns(tick)
-        if any(given.values()):
-            self._file.write_json("/input", strict({"tick": tick, **given}), time_ns)
+        if any(inputs.values()):
+            self._file.write_json("/input", strict({"tick": tick, **inputs}), time_ns)
         if perceived:
             wanted = moment_of(self.simulation)["wanted"].tolist()
             self._minds.write(perceived, wanted, time_ns)
@@ -220,14 +218,13 @@ def check(simulation: Simulation, path: Path, every: int, percepts: Sequence[str
     elif isinstance(simulation, Simulation) and is_read_from(simulation.scenario.source, path):
         faults.append(f"{path}: must be another file than what the scenario is read from")
     if not isinstance(simulation, Simulation):
-        faults.append(f"simulation = {simulation!r}: must be a Simulation")
+        faults += given.fault(False, "simulation", simulation, "a Simulation")  # noqa: FBT003
     elif unknown := set(percepts) - set(simulation.robots):
         team = simulation.robots
-        given = ", ".join(sorted(map(repr, unknown)))
+        names = ", ".join(sorted(map(repr, unknown)))
         robots = f"robots: {team[0]} to {team[-1]}" if team else "robots, and it has none"
-        faults.append(f"percepts: {given}: must be among the run's {robots}")
-    if not is_whole(every, 1):
-        faults.append(f"every = {every!r}: must be a whole number, 1 or more")
+        faults.append(f"percepts: {names}: must be among the run's {robots}")
+    faults += given.fault(is_whole(every, 1), "every", every, "a whole number, 1 or more")
     if faults:
         raise InputError("\n".join(faults))
 

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from pathlib import Path
 
+from agent_economy import given
 from agent_economy.outcome import Outcome
 from agent_economy.recording.reading import Point, Recorded, read
 from agent_economy.scenario import Scenario
@@ -51,7 +52,7 @@ def rerun(path: str | Path) -> Rerun:
         InputError: If the file cannot be read, is damaged, is no recording of a run, or this
             version does not take its scenario any more.
     """
-    identity, recorded = read(Path(path))
+    identity, recorded = read(given.path("path", path))
     simulation = Simulation(identity.scenario, identity.seed, identity.run)
     differs_at = None
     for point in recorded.points:

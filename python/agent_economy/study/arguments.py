@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from agent_economy import _core
 from agent_economy._core import InputError
+from agent_economy.given import fault
 
 Guarantee = Literal["indifference", "pgs"]
 Floats = NDArray[np.float64]
@@ -70,11 +71,6 @@ def question_faults(delta: object, confidence: object, guarantee: object) -> lis
         ),
         *fault(guarantee in names, "guarantee", guarantee, "one of " + ", ".join(map(repr, names))),
     ]
-
-
-def fault(is_allowed: bool, name: str, given: object, allowed: str) -> list[str]:  # noqa: FBT001
-    """Return what is wrong with a value, if anything."""
-    return [] if is_allowed else [f"{name} = {given!r}: must be {allowed}"]
 
 
 def is_whole(given: object, least: int, greatest: int) -> bool:

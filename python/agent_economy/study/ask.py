@@ -5,8 +5,9 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
+from agent_economy import given
 from agent_economy._core import InputError
-from agent_economy.scenario import Override, Scenario, Value
+from agent_economy.scenario import Override, Scenario, Value, of_path
 from agent_economy.study import files
 from agent_economy.study import plan as plans
 from agent_economy.study.answer.conclude import Answer
@@ -57,10 +58,9 @@ def run(  # noqa: PLR0913  (keywords with defaults)
         InputError: If anything is not allowed; or the folder holds another study, is damaged, or
             cannot be written.
     """
-    changes = [
-        Override(("study", "vary", path), written(values), "vary")
-        for path, values in (vary or {}).items()
-    ]
+    given.of_kind("scenario", scenario, Scenario, "a Scenario")
+    given.of_kind("vary", vary, Mapping | None, "a dict of values by their paths")
+    changes = [varied(path, values) for path, values in (vary or {}).items()]
     if design is not None:
         changes.append(Override(("study", "design"), design, "design"))
     asked = plans.make(
@@ -73,7 +73,7 @@ def run(  # noqa: PLR0913  (keywords with defaults)
         max_runs=max_runs,
     )
     if out is not None:
-        return pursue(asked, out, compute=compute, on_progress=on_progress)
+        return pursue(asked, given.path("out", out), compute=compute, on_progress=on_progress)
     with tempfile.TemporaryDirectory() as folder:
         return hold(asked, Path(folder), compute, on_progress)[0]
 
@@ -125,7 +125,8 @@ def pursue(
     Raises:
         InputError: As in `run`.
     """
-    place = Path(folder)
+    given.of_kind("asked", asked, Plan, "a Plan, as make_plan returns")
+    place = given.path("folder", folder)
     with ChartScript() as script:
 
         def finish(answer: Answer, evidence: Evidence) -> None:
@@ -133,6 +134,17 @@ def pursue(
                 files.write(place, answer, evidence, script)
 
         return hold(asked, place, compute, on_progress, finish)[0]
+
+
+def varied(path: str, values: str | Iterable[Value]) -> Override:
+    """Return what varies a factor.
+
+    Raises:
+        InputError: If the path is no text, or the values are no list.
+    """
+    of_path("vary", path)
+    given.of_kind(f"vary: {path}", values, Iterable, 'a list of values or a text, such as "1..40"')
+    return Override(("study", "vary", path), written(values), "vary")
 
 
 def written(values: str | Iterable[Value]) -> str:
@@ -146,7 +158,7 @@ def plan_of(folder: str | Path) -> Plan:
     Raises:
         InputError: If there is none.
     """
-    store = read(Path(folder))
+    store = read(folder)
     return plans.read(store.asked, str(Path(folder) / "study.toml"), store.content)
 
 

@@ -1,23 +1,25 @@
 """Classical procedures, to measure ours against and to teach with."""
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, get_args
 
 import numpy as np
 
 from agent_economy import _core
 from agent_economy._core import InputError
+from agent_economy.given import fault
 from agent_economy.study.arguments import (
     LEAST_CONFIDENCE,
     MAX_CONFIGURATIONS,
     Floats,
-    fault,
     is_between,
     is_whole,
 )
-from agent_economy.study.selection import LANE, Integers, Sampler, drive
+from agent_economy.study.selection import LANE, SAMPLER, Integers, Sampler, drive, shaped
 
 MAX_KN = 2000
+
+Name = Literal["equal", "rinott", "kn"]
 
 
 @dataclass(frozen=True)
@@ -29,7 +31,7 @@ class Reference:
 
 
 def reference(  # noqa: PLR0913  (keywords with defaults)
-    name: Literal["equal", "rinott", "kn"],
+    name: Name,
     sampler: Sampler,
     k: int,
     *,
@@ -59,7 +61,10 @@ def reference(  # noqa: PLR0913  (keywords with defaults)
     """
     most = MAX_KN if name == "kn" else MAX_CONFIGURATIONS
     sure = is_between(confidence, np.nextafter(LEAST_CONFIDENCE, 0), 1)
+    names = get_args(Name)
     faults = [
+        *fault(name in names, "name", name, "one of " + ", ".join(map(repr, names))),
+        *fault(callable(sampler), "sampler", sampler, SAMPLER),
         *fault(is_whole(k, 1, most), "k", k, f"a whole number from 1 to {most}"),
         *fault(is_whole(runs, 2, 10**6), "runs", runs, "a whole number from 2 to 1000000"),
         *fault(is_between(delta, 0, np.inf), "delta", delta, "a number above 0"),
@@ -70,9 +75,10 @@ def reference(  # noqa: PLR0913  (keywords with defaults)
         raise InputError("\n".join(faults))
 
     def ask(configurations: Integers, first_run: int, count: int) -> Floats:
-        merits = np.array(sampler(configurations, seed * LANE + first_run, count), dtype=np.float64)
-        if merits.shape != (len(configurations), count) or not np.isfinite(merits).all():
-            message = f"the sampler must return finite merits of shape {len(configurations), count}"
+        given = sampler(configurations, seed * LANE + first_run, count)
+        merits = shaped(given, (len(configurations), count))
+        if not np.isfinite(merits).all():
+            message = "the sampler must return finite merits"
             raise InputError(message)
         return merits
 

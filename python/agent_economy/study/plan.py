@@ -17,6 +17,7 @@ from typing import Any
 import tomli_w
 
 from agent_economy._core import InputError
+from agent_economy.given import check, fault, of_kind
 from agent_economy.scenario import Override, Scenario, Source
 from agent_economy.study import design
 from agent_economy.study.arguments import FIRST_LOOK, Floats, Guarantee, is_whole, question_faults
@@ -129,11 +130,12 @@ def make(  # noqa: PLR0913  (keywords with defaults)
     Raises:
         InputError: If anything is not allowed.
     """
+    of_kind("scenario", scenario, Scenario, "a Scenario")
     sure = confidence if confidence is not None else scenario.confidence
     faults = question_faults(delta if delta is not None else 1.0, sure, guarantee)
-    faults += [] if is_whole(seed, 0, MAX_SEED) else [f"seed = {seed!r}: must be 0 to {MAX_SEED}"]
-    if runs is not None and not is_whole(runs, 2, MAX_RUNS):
-        faults.append(f"runs = {runs!r}: must be a whole number from 2 to {MAX_RUNS}")
+    faults += fault(is_whole(seed, 0, MAX_SEED), "seed", seed, f"0 to {MAX_SEED}")
+    is_fixed = runs is None or is_whole(runs, 2, MAX_RUNS)
+    faults += fault(is_fixed, "runs", runs, f"a whole number from 2 to {MAX_RUNS}")
     if faults:
         raise InputError("\n".join(faults))
     configurations = tuple(design.points(scenario.factors, scenario.design, seed))
@@ -164,15 +166,9 @@ def check_max_runs(max_runs: int | None, runs: int | None, least: int) -> None:
     """
     if max_runs is None:
         return
-    if runs is not None:
-        message = f"max_runs = {max_runs!r}: must be left out where runs are given"
-        raise InputError(message)
-    if not is_whole(max_runs, least, 2**62):
-        message = (
-            f"max_runs = {max_runs!r}: must be a whole number of {least} or more, {FIRST_LOOK} of "
-            "each configuration"
-        )
-        raise InputError(message)
+    check(runs is None, "max_runs", max_runs, "left out where runs are given")
+    allowed = f"a whole number of {least} or more, {FIRST_LOOK} of each configuration"
+    check(is_whole(max_runs, least, 2**62), "max_runs", max_runs, allowed)
 
 
 def tightened(plan: Plan, confidence: float) -> Plan:

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from agent_economy import _core
+from agent_economy.given import check
 from agent_economy.study.answer.conclude import Answer, conclude
 from agent_economy.study.answer.effort import remaining
 from agent_economy.study.answer.evidence import Evidence, Sample
@@ -120,6 +121,8 @@ def hold(
     Raises:
         InputError: If the folder holds another study, is damaged, or cannot be written.
     """
+    for name, function in (("compute", compute), ("on_progress", on_progress)):
+        check(function is None or callable(function), name, function, "a function or None")
     columns = plan.engine.columns
     content = {digest(data): data for data in plan.files.values()}
     with Store.open(

@@ -13,10 +13,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from agent_economy import _core
 from agent_economy._core import InputError
+from agent_economy.given import check
 from agent_economy.study.arguments import Floats, Guarantee, checked_arguments
 
 Integers = NDArray[np.int64]
 Sampler = Callable[[Integers, int, int], ArrayLike]
+SAMPLER = "a function of configurations, a first run and a number of runs"
 
 LANE = 2**32
 """Run numbers that belong to one seed (and to one configuration, without common random numbers)."""
@@ -104,6 +106,7 @@ def select_best(  # noqa: PLR0913  (keywords with defaults)
         InputError: If an argument is not allowed, all faults at once; or if the sampler returns
             another shape, or a merit outside of `bounds`.
     """
+    check(callable(sampler), "sampler", sampler, SAMPLER)
     limits = checked_arguments(k, bounds, delta, confidence, guarantee, seed, max_runs)
     samples = Samples(sampler, limits, seed if common_random_numbers else seed * k)
     procedure = _core.selection(limits, delta=delta, confidence=confidence, guarantee=guarantee)
@@ -155,7 +158,7 @@ class Samples:
         """Return merits of the same run numbers for all configurations."""
         # A copy: what a sampler does to its arguments is its own.
         given = self._sampler(configurations.copy(), self._lane * LANE + first_run, runs)
-        return self._kept(configurations, self._shaped(given, (len(configurations), runs)))
+        return self._kept(configurations, shaped(given, (len(configurations), runs)))
 
     def apart(self, configurations: Integers, first_run: int, runs: int) -> Floats:
         """Return merits of run numbers that no two configurations share."""
@@ -163,19 +166,8 @@ class Samples:
             self._sampler(np.array([each]), (self._lane + int(each)) * LANE + first_run, runs)
             for each in configurations
         ]
-        shaped = [self._shaped(row, (1, runs)) for row in rows]
-        return self._kept(configurations, np.concatenate(shaped))
-
-    def _shaped(self, given: ArrayLike, shape: tuple[int, int]) -> Floats:
-        try:
-            merits = np.array(given, dtype=np.float64)
-        except (TypeError, ValueError) as error:
-            message = f"the sampler returned no array of numbers of shape {shape}: {error}"
-            raise InputError(message) from None
-        if merits.shape != shape:
-            message = f"the sampler returned shape {merits.shape}: must be {shape}"
-            raise InputError(message)
-        return merits
+        merits = [shaped(row, (1, runs)) for row in rows]
+        return self._kept(configurations, np.concatenate(merits))
 
     def _kept(self, configurations: Integers, merits: Floats) -> Floats:
         merits, quarantined = within(self._limits, configurations, merits)
@@ -208,6 +200,23 @@ class Samples:
             stopped=stopped,
             guarantee=in_words(procedure, delta, confidence, guarantee),
         )
+
+
+def shaped(given: ArrayLike, shape: tuple[int, int]) -> Floats:
+    """Return what a sampler gave as an array of a shape.
+
+    Raises:
+        InputError: If it is none.
+    """
+    try:
+        merits = np.array(given, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        message = f"the sampler returned no array of numbers of shape {shape}: {error}"
+        raise InputError(message) from None
+    if merits.shape != shape:
+        message = f"the sampler returned shape {merits.shape}: must be {shape}"
+        raise InputError(message)
+    return merits
 
 
 def within(limits: Floats, configurations: Integers, merits: Floats) -> tuple[Floats, Integers]:

@@ -40,9 +40,6 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::fmt;
 
-/// Characters of a value that a fault shows.
-const SHOWN: usize = 60;
-
 /// Keys and values of a table, in the order of the keys.
 pub type Table = BTreeMap<String, Node>;
 
@@ -87,17 +84,6 @@ impl fmt::Display for Value {
                 write!(f, "[{}]", items.join(", "))
             }
             Self::Table(_) => f.write_str("{...}"),
-        }
-    }
-}
-
-impl Value {
-    /// As in a fault: a long one by its beginning.
-    fn shown(&self) -> String {
-        let text = self.to_string();
-        match text.char_indices().nth(SHOWN) {
-            Some((end, _)) => format!("{}...", &text[..end]),
-            None => text,
         }
     }
 }
@@ -152,10 +138,30 @@ pub struct Override {
 pub struct Document {
     root: Node,
     files: Files,
+    made: Vec<Made>,
+}
+
+/// A table that was not there and was made for a value in it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Made {
+    /// Of the value.
+    pub path: Vec<String>,
+    /// Which key of the path leads to the table, from 0.
+    pub place: usize,
 }
 
 /// Files by the names by which a document calls them: their bytes, or why they cannot be read.
 pub type Files = BTreeMap<String, Result<Vec<u8>, String>>;
+
+impl Default for Document {
+    /// An empty one.
+    fn default() -> Self {
+        Self::of(Node {
+            value: Value::Table(Table::new()),
+            origin: String::new(),
+        })
+    }
+}
 
 impl Document {
     /// Reads TOML `text`; `file` is how faults name it.
@@ -181,6 +187,7 @@ impl Document {
         Self {
             root,
             files: Files::new(),
+            made: Vec::new(),
         }
     }
 
@@ -210,6 +217,7 @@ impl Document {
     ///
     /// Tables on the way are made; something on the way that is no table is replaced by one.
     pub fn set(&mut self, path: &[&str], value: Value, origin: &str) {
+        self.made.extend(self.missing(path));
         let mut node = &mut self.root;
         for key in path {
             if !matches!(node.value, Value::Table(_)) {
@@ -227,6 +235,21 @@ impl Document {
             value,
             origin: origin.to_owned(),
         };
+    }
+
+    /// The outermost table that is missing on a path.
+    fn missing(&self, path: &[&str]) -> Option<Made> {
+        let is_missing = |place: &usize| self.get(&path[..=*place]).is_none();
+        Some(Made {
+            place: (0..path.len().saturating_sub(1)).find(is_missing)?,
+            path: path.iter().map(|key| (*key).to_owned()).collect(),
+        })
+    }
+
+    /// The tables that were made for what was put into them.
+    #[must_use]
+    pub fn made(&self) -> &[Made] {
+        &self.made
     }
 
     /// Puts under the table at `path` all that `defaults` says and it does not.

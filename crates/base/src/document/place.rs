@@ -68,7 +68,7 @@ impl<'d> Place<'d> {
     /// What is written here, as a fault shows it.
     #[must_use]
     pub fn given(&self) -> Option<String> {
-        self.node.map(|node| node.value.shown())
+        self.node.map(|node| node.value.to_string())
     }
 
     /// What stands here is not what is `allowed` ("must be ...").

@@ -132,6 +132,21 @@ proptest! {
 }
 
 #[test]
+fn tables_are_known_that_were_made_for_a_value_in_them() {
+    let mut document = Document::parse("job.toml", "[robots.rover]\ncount = 2").unwrap();
+    for path in [
+        &["robots", "rover", "drive"][..],
+        &["robots", "scout", "drive", "speed"],
+        &["robots", "scout", "count"],
+    ] {
+        document.set(path, Value::Integer(1), "--set");
+    }
+    let made = document.made().iter();
+    let made: Vec<_> = made.map(|made| (made.path.join("."), made.place)).collect();
+    assert_eq!(made, [("robots.scout.drive.speed".to_owned(), 1)]);
+}
+
+#[test]
 fn what_stands_at_a_path_is_found_with_its_line() {
     let document = Document::parse("job.toml", "[a]\n\"b.c\" = 3\nd = 1").unwrap();
     let node = document.get(&["a", "b.c"]).unwrap();

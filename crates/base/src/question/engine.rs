@@ -39,6 +39,10 @@ pub trait Engine: Sync {
     /// its keys at which [`Engine::read`] takes a number, `true`, `false` or a name.
     fn factors(&self) -> Option<&'static [&'static str]>;
 
+    /// The names in the table at `path`, if it is one of things under names of a person's choice,
+    /// whether it is there or not; it is asked of documents with faults too.
+    fn names(&self, document: &Document, path: &[&str]) -> Option<Vec<String>>;
+
     /// The largest team.
     fn most_robots(&self) -> u32;
 }

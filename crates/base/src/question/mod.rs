@@ -39,6 +39,7 @@
 
 mod engine;
 mod merit;
+mod names;
 mod published;
 mod schema;
 mod study;
@@ -89,7 +90,7 @@ impl Scenario {
             root.only(&all_keys(engine));
             Some(())
         });
-        let read = engine.read(&document);
+        let read = names::read(engine, &document);
         let configuration = read.map_err(|told| faults.extend(told.0)).ok();
         let measures = engine.measures(&document);
         let (asked, told) = document.read_all(|root| asked(root, engine, &measures));
@@ -134,7 +135,7 @@ impl Configuration {
         for (path, value) in values {
             vary::put(&mut document, path, value, ORIGIN);
         }
-        engine.read(&document)
+        names::read(engine, &document)
     }
 }
 

@@ -90,6 +90,13 @@ impl Engine for Shop {
         None
     }
 
+    fn names(&self, document: &Document, path: &[&str]) -> Option<Vec<String>> {
+        match &document.get(path)?.value {
+            Value::Table(robots) if path == ["robots"] => Some(robots.keys().cloned().collect()),
+            _ => None,
+        }
+    }
+
     fn most_robots(&self) -> u32 {
         9
     }
@@ -210,8 +217,63 @@ fn a_misspelt_kind_is_told_and_not_made() {
     assert_eq!(
         faults_with(r#""robots.rovr.count" = "1""#),
         [
-            "t.toml:9: robots.rovr.count = 1: must be of a robot, an item or another thing that the \
-             scenario has"
+            "t.toml:9: robots.rovr.count = \"1\": must be under one of the names in robots: rover; \
+             did you mean robots.rover.count?"
+        ]
+    );
+}
+
+#[test]
+fn a_kind_that_is_not_there_suggests_the_nearest_one_and_is_told_once() {
+    for (vary, kind) in [("rovr.speed", "rovr"), ("rovr.cuont", "rovr")] {
+        let told = faults_with(&format!("\"robots.{vary}\" = \"0..2\""));
+        assert_eq!(told.len(), 1, "{told:?}");
+        let meant = vary.replace(kind, "rover");
+        let expected = format!("robots: rover; did you mean robots.{meant}?");
+        assert!(told[0].ends_with(&expected), "{told:?}");
+    }
+    let told = faults_with(r#""robots.zeppelin.speed" = "1""#);
+    assert!(told[0].ends_with("names in robots: rover"), "{told:?}");
+}
+
+fn faults_with_set(sets: &[(&str, Value)]) -> String {
+    let mut document = Document::parse("t.toml", EXAMPLE).unwrap();
+    for (path, value) in sets {
+        let keys: Vec<&str> = path.split('.').collect();
+        document.set(&keys, value.clone(), "--set");
+    }
+    let read = Scenario::read(&ENGINES, document);
+    read.err()
+        .map_or_else(String::new, |faults| faults.to_string())
+}
+
+#[test]
+fn a_value_of_a_kind_that_is_not_there_tells_the_kinds_and_what_a_new_one_needs() {
+    assert_eq!(
+        faults_with_set(&[("robots.rovr.speed", Value::Integer(1))]),
+        "--set: robots.rovr.speed = 1: must be under one of the names in robots: rover; a new one \
+         needs count too; did you mean robots.rover.speed?"
+    );
+}
+
+#[test]
+fn a_whole_new_kind_can_be_set() {
+    let [count, speed] = ["robots.scout.count", "robots.scout.speed"];
+    assert_eq!(faults_with_set(&[(count, Value::Integer(1))]), "");
+    let wrong = [(count, Value::Integer(1)), (speed, Value::Integer(7))];
+    assert_eq!(
+        faults_with_set(&wrong),
+        "--set: robots.scout.speed = 7: must be a number from 0 to 2"
+    );
+}
+
+#[test]
+fn too_many_values_are_told_by_their_number() {
+    assert_eq!(
+        faults_with(r#""robots.rover.count" = "1..100000""#),
+        [
+            "t.toml:9: study.vary.\"robots.rover.count\" = \"1..100000\": must be at most 10000 \
+             values; it has 100000"
         ]
     );
 }

@@ -1,10 +1,11 @@
 //! Whether each value of each factor is allowed: it is put into the scenario, which is read.
 
+use super::names::{Unknown, read};
 use super::values::{Values, values};
 use super::vary::{in_order_of, put};
 use super::{Configuration, Engine};
 use crate::document::{Document, Node, Value};
-use crate::fault::{Fault, Faults};
+use crate::fault::{Fault, Faults, shortened};
 
 /// Bad values of one factor that are told one by one.
 const TOLD: usize = 3;
@@ -49,9 +50,10 @@ struct Trial<'t> {
 
 impl Trial<'_> {
     /// What is wrong with the values of one factor.
-    fn faults(&self, path: &str, Node { value, origin }: &Node) -> Vec<Fault> {
-        let values = match value {
-            Value::Text(text) => values(text),
+    fn faults(&self, path: &str, node: &Node) -> Vec<Fault> {
+        let (given, origin) = (&node.value, &node.origin);
+        let values = match given {
+            Value::Text(text) => values(text).ok(),
             _ => None,
         };
         let values = match values {
@@ -65,12 +67,17 @@ impl Trial<'_> {
             put(&mut varied, path, &value, origin);
             faults.extend(self.fault(path, &value, origin, &varied));
         }
+        let keys: Vec<&str> = path.split('.').collect();
+        let unknown = Unknown::on(&keys, self.engine, self.document);
+        if let Some(unknown) = unknown.filter(|_| !faults.is_empty()) {
+            return vec![unknown.fault(given, origin, &[])];
+        }
         self.shortened(faults, path, origin)
     }
 
     /// What is wrong with a value that has been put into a document.
     fn fault(&self, path: &str, value: &Value, origin: &str, varied: &Document) -> Option<Fault> {
-        match self.engine.read(varied) {
+        match read(self.engine, varied) {
             Err(Faults(told)) => {
                 let new = told.into_iter().find(|fault| !self.known.contains(fault));
                 new.map(|fault| about(path, value, origin, fault))
@@ -94,6 +101,7 @@ impl Trial<'_> {
         let more = faults.len().saturating_sub(told);
         if more > 0 {
             faults.truncate(told);
+            let path = shortened(path);
             let sentence = format!("{more} more values of {path} are not allowed either");
             faults.push(Fault {
                 origin: Some(origin.to_owned()),
@@ -123,7 +131,8 @@ fn about(path: &str, value: &Value, origin: &str, fault: Fault) -> Fault {
     if fault.path == path {
         return fault;
     }
-    let allowed = format!("one with which {} is {}", fault.path, fault.allowed);
+    let other = shortened(&fault.path);
+    let allowed = format!("one with which {other} is {}", fault.allowed);
     Fault {
         origin: Some(origin.to_owned()),
         ..Fault::new(path.to_owned(), Some(value.to_string()), allowed)

@@ -3,7 +3,7 @@
 use crate::document::Value;
 
 /// Values that one factor may have.
-const MAX_VALUES: usize = 10_000;
+const MAX_VALUES: i128 = 10_000;
 
 /// What a text of values must be.
 pub(super) const ALLOWED: &str = "a text of values, such as \"1..40\" (both ends included), \"1,2,4\", \"0.5,1.0\" or \
@@ -18,9 +18,22 @@ pub enum Values {
     Between(f64, f64),
 }
 
-/// The values of a text, or `None` if it is none.
-pub(super) fn values(text: &str) -> Option<Values> {
-    between(text).or_else(|| listed(text).map(Values::Listed))
+/// The values of a text.
+///
+/// # Errors
+/// What is allowed, if it is none.
+pub(super) fn values(text: &str) -> Result<Values, String> {
+    if let Some(between) = between(text) {
+        return Ok(between);
+    }
+    let parts: Option<Vec<Part>> = text.split(',').map(Part::of).collect();
+    let parts = parts.ok_or(ALLOWED)?;
+    let count: i128 = parts.iter().map(Part::count).sum();
+    if count > MAX_VALUES {
+        return Err(format!("at most {MAX_VALUES} values; it has {count}"));
+    }
+    let values = parts.into_iter().flat_map(Part::values).collect();
+    Ok(Values::Listed(in_order(values)))
 }
 
 /// A range with a decimal point at either end.
@@ -32,23 +45,39 @@ fn between(text: &str) -> Option<Values> {
     (has_point && low < high).then_some(Values::Between(low, high))
 }
 
-fn listed(text: &str) -> Option<Vec<Value>> {
-    let mut values = Vec::new();
-    for part in text.split(',') {
-        match part.split_once("..") {
-            Some((low, high)) => values.extend(whole_numbers(low, high)?),
-            None => values.push(number(part).or_else(|| word(part))?),
-        }
-    }
-    (values.len() <= MAX_VALUES).then(|| in_order(values))
+/// What stands between two commas.
+enum Part {
+    One(Value),
+    /// Whole numbers from the first to the second, both included.
+    Run(i64, i64),
 }
 
-fn whole_numbers(low: &str, high: &str) -> Option<Vec<Value>> {
-    let (Value::Integer(low), Value::Integer(high)) = (number(low)?, number(high)?) else {
-        return None;
-    };
-    let count = usize::try_from(high.checked_sub(low)?).ok()?;
-    (count < MAX_VALUES).then(|| (low..=high).map(Value::Integer).collect())
+impl Part {
+    fn of(text: &str) -> Option<Self> {
+        let Some((low, high)) = text.split_once("..") else {
+            return number(text).or_else(|| word(text)).map(Self::One);
+        };
+        match (number(low)?, number(high)?) {
+            (Value::Integer(low), Value::Integer(high)) if low <= high => {
+                Some(Self::Run(low, high))
+            }
+            _ => None,
+        }
+    }
+
+    fn count(&self) -> i128 {
+        match self {
+            Self::One(_) => 1,
+            Self::Run(low, high) => i128::from(*high) - i128::from(*low) + 1,
+        }
+    }
+
+    fn values(self) -> Vec<Value> {
+        match self {
+            Self::One(value) => vec![value],
+            Self::Run(low, high) => (low..=high).map(Value::Integer).collect(),
+        }
+    }
 }
 
 /// A finite number that begins with a digit or a sign: `.3` is a slip of `1...3`.
@@ -110,9 +139,10 @@ mod tests {
 
     fn shown(text: &str) -> String {
         match values(text) {
-            None => "none".to_owned(),
-            Some(Values::Between(low, high)) => format!("{low} to {high}"),
-            Some(Values::Listed(values)) => {
+            Err(allowed) if allowed == ALLOWED => "none".to_owned(),
+            Err(allowed) => allowed,
+            Ok(Values::Between(low, high)) => format!("{low} to {high}"),
+            Ok(Values::Listed(values)) => {
                 let values: Vec<String> = values.iter().map(ToString::to_string).collect();
                 values.join(" ")
             }
@@ -156,11 +186,25 @@ mod tests {
             "1e999",
             "a b",
             "a..b",
-            "1..10001",
-            "1..9223372036854775807",
-            "-9223372036854775808..9223372036854775807",
         ] {
             assert_eq!(shown(text), "none", "{text}");
         }
+    }
+
+    #[test]
+    fn too_many_values_are_told_with_their_number_and_the_limit() {
+        for (text, count) in [
+            ("1..10001", "10001"),
+            ("1..10000,7", "10001"),
+            ("1..9223372036854775807", "9223372036854775807"),
+            (
+                "-9223372036854775808..9223372036854775807",
+                "18446744073709551616",
+            ),
+        ] {
+            let expected = format!("at most 10000 values; it has {count}");
+            assert_eq!(shown(text), expected, "{text}");
+        }
+        assert_eq!(values("1..10000").map(|_| ()), Ok(()));
     }
 }

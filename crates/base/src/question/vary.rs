@@ -68,7 +68,11 @@ pub(super) fn factors(vary: &Section, engine: &dyn Engine) -> Option<Vec<Factor>
         }
     }
     let factor = |path: &str| {
-        let values = vary.parsed(path, ALLOWED, values)?;
+        let read = match vary.value(path) {
+            Some(Value::Text(text)) => values(text),
+            _ => Err(ALLOWED.to_owned()),
+        };
+        let values = read.map_err(|allowed| vary.fault(path, &allowed)).ok()?;
         let path = path.to_owned();
         Some(Factor { path, values })
     };

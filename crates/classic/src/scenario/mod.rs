@@ -97,6 +97,10 @@ impl Engine for Classic {
         ])
     }
 
+    fn names(&self, _: &Document, _: &[&str]) -> Option<Vec<String>> {
+        None
+    }
+
     fn most_robots(&self) -> u32 {
         MAX_ROBOTS
     }

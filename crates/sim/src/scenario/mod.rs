@@ -13,7 +13,7 @@ use crate::world::WorldSpec;
 use crate::world::items::ItemSpec;
 use crate::world::terrain::TerrainSpec;
 use base::document::schema::Schema;
-use base::document::{Document, Files};
+use base::document::{Document, Files, Value};
 use base::fault::Faults;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -90,6 +90,21 @@ impl ScenarioSpec {
             }
             files.extend(wanted.into_iter().map(|name| (name.clone(), open(&name))));
             document = document.with_files(files.clone());
+        }
+    }
+
+    /// The names in the table at `path` of a document, those of a robot's model among them, if it is
+    /// one of things under names of a person's choice.
+    pub(crate) fn names(document: &Document, path: &[&str]) -> Option<Vec<String>> {
+        if !SCHEMA.has_names_at(path) {
+            return None;
+        }
+        let mut filled = document.clone();
+        models::fill(&mut filled);
+        match filled.get(path).map(|node| &node.value) {
+            None => Some(Vec::new()),
+            Some(Value::Table(table)) => Some(table.keys().cloned().collect()),
+            Some(_) => None,
         }
     }
 

@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 
+from agent_economy import given
 from agent_economy._core import InputError
 from agent_economy.study.errors import StoreError
 
@@ -84,10 +85,15 @@ def lock(folder: Path) -> int:
     raise StoreError(message)
 
 
-def is_worked_on(folder: Path) -> bool:
-    """Return whether a process has a folder now."""
+def is_worked_on(folder: str | Path) -> bool:
+    """Return whether a process has a folder now.
+
+    Raises:
+        InputError: If it is no path.
+    """
+    place = given.path("folder", folder)
     try:
-        descriptor = os.open(folder / LOCK, os.O_RDONLY | os.O_CLOEXEC)
+        descriptor = os.open(place / LOCK, os.O_RDONLY | os.O_CLOEXEC)
     except OSError:
         return False
     try:

@@ -89,7 +89,7 @@ impl<'s> Check<'s> {
             _ => "",
         };
         if !names.contains(&word) {
-            let given = Some(node.value.shown());
+            let given = Some(node.value.to_string());
             let names = names.iter().copied();
             let fault = Fault::not_one_of(path.to_owned(), given, word, names);
             self.push(node, fault);
@@ -99,7 +99,7 @@ impl<'s> Check<'s> {
     /// Tells that `node` is not what `schema` allows.
     pub(super) fn fault(&mut self, schema: &Json, node: &Node, path: &str) {
         let allowed = words(self.schema, schema);
-        let fault = Fault::new(path.to_owned(), Some(node.value.shown()), allowed);
+        let fault = Fault::new(path.to_owned(), Some(node.value.to_string()), allowed);
         self.push(node, fault);
     }
 
@@ -118,7 +118,7 @@ impl<'s> Check<'s> {
     ) {
         let names: Vec<&str> = known.clone().collect();
         let allowed = format!("one of the known keys here: {}", names.join(", "));
-        let fault = Fault::new(path_of(path, key), Some(value.value.shown()), allowed);
+        let fault = Fault::new(path_of(path, key), Some(value.value.to_string()), allowed);
         let suggestion = nearest(key, known).map(str::to_owned);
         self.push(
             value,

@@ -99,6 +99,30 @@ impl Schema {
         words::words(self, part)
     }
 
+    /// Whether a table at `path` has things under names of a person's choice.
+    #[must_use]
+    pub fn has_names_at(&self, path: &[&str]) -> bool {
+        self.has_names_below(&self.root, path)
+    }
+
+    fn has_names_below(&self, part: &Json, path: &[&str]) -> bool {
+        let Some(keywords) = self.keywords(part) else {
+            return false;
+        };
+        let others = keywords.get("additionalProperties");
+        let others = others.filter(|others| others.is_object());
+        let is_so = match path.split_first() {
+            None => others.is_some(),
+            Some((key, rest)) => {
+                let known = keywords.get("properties").and_then(|known| known.get(key));
+                let inner = known.or(others);
+                inner.is_some_and(|inner| self.has_names_below(inner, rest))
+            }
+        };
+        let mut forms = alternatives(keywords).iter();
+        is_so || forms.any(|form| self.has_names_below(form, path))
+    }
+
     /// The keywords of `schema`, or of what it refers to; none for a schema that allows anything.
     #[must_use]
     pub fn keywords<'s>(&'s self, schema: &'s Json) -> Option<&'s Object> {

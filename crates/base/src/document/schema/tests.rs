@@ -240,6 +240,20 @@ fn of_forms_of_other_types_the_one_of_its_type_is_meant() {
 }
 
 #[test]
+fn only_tables_without_keys_of_their_own_have_names_of_a_persons_choice() {
+    let has_names = |path: &[&str]| Schema::of::<Job>().has_names_at(path);
+    assert!(has_names(&["sensors"]));
+    for path in [
+        &[][..],
+        &["kind"],
+        &["sensors", "eye"],
+        &["nothing", "here"],
+    ] {
+        assert!(!has_names(path), "{path:?}");
+    }
+}
+
+#[test]
 fn each_place_of_a_pair_has_its_own_type() {
     let told = |given: &str| faults(&format!("pair = {given}")).join("\n");
     assert_eq!(told("[1, 2]"), "t:2: pair[1] = 2: must be a text in quotes");
@@ -251,11 +265,11 @@ fn each_place_of_a_pair_has_its_own_type() {
 }
 
 #[test]
-fn a_long_value_is_told_by_its_beginning() {
+fn a_long_value_is_told_by_its_ends() {
     let long = format!("kind = \"{}\"", "x".repeat(1000));
     let told = faults(&long).concat();
     assert!(
-        told.len() < 150 && told.contains("xxx...: must be"),
+        told.len() < 180 && told.contains("xxx...xxx") && told.contains("xxx\": must be"),
         "{told}"
     );
 }
