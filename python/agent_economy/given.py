@@ -4,6 +4,7 @@ from collections.abc import Iterable
 from os import PathLike
 from pathlib import Path
 from types import UnionType
+from typing import TypeGuard
 
 from agent_economy import _core
 
@@ -27,6 +28,18 @@ def of_kind(name: str, given: object, kinds: Kinds, allowed: str) -> None:
         InputError: If it is not.
     """
     check(isinstance(given, kinds), name, given, allowed)
+
+
+def is_text(given: object) -> TypeGuard[str]:
+    """Whether something is a text of whole characters, which half of a surrogate pair is not."""
+    if not isinstance(given, str):
+        return False
+    try:
+        given.encode()
+    except UnicodeEncodeError:
+        return False
+    else:
+        return True
 
 
 def path(name: str, given: str | PathLike[str]) -> Path:

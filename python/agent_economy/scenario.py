@@ -24,6 +24,9 @@ VARY = "study.vary."
 MAX_BYTES = 2**24
 """Of a scenario's own file: half a million corners of obstacles, and more."""
 
+MAX_KEYS = 32
+"""Of a path in a scenario: no table is so deep."""
+
 
 @dataclass(frozen=True)
 class Published:
@@ -103,8 +106,9 @@ class Source:
         Raises:
             InputError: If the text or its name is no text.
         """
-        given.of_kind("file", self.file, str, "a text, the name of what is read")
-        given.of_kind("text", self.text, str, "a text in TOML")
+        allowed = "a text, the name of what is read"
+        given.check(given.is_text(self.file), "file", self.file, allowed)
+        given.check(given.is_text(self.text), "text", self.text, "a text in TOML")
 
     @property
     def changes(self) -> list[tuple[list[str], Given, str]]:
@@ -281,9 +285,11 @@ def of_path(origin: str, path: object) -> None:
     """See to it that something can be a path in a scenario.
 
     Raises:
-        InputError: If it is no text.
+        InputError: If it is no text, or has too many keys.
     """
-    given.of_kind(f"{origin}: path", path, str, "keys from the root, as clock.cap_s")
+    allowed = f"keys from the root, as clock.cap_s; at most {MAX_KEYS}"
+    is_path = given.is_text(path) and path.count(".") < MAX_KEYS
+    given.check(is_path, f"{origin}: path", path, allowed)
 
 
 def all_overrides(overrides: tuple[Override, ...]) -> tuple[Override, ...]:

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from numbers import Integral
 from pathlib import Path
 from threading import RLock
 from typing import Any, NamedTuple, cast
@@ -131,7 +132,8 @@ class Simulation:
         if percepts is None and commands is None:
             self._run.step(steps)
             return {}
-        given.check(steps == 1, "steps", steps, "1 with percepts or commands")
+        is_one = isinstance(steps, Integral) and steps == 1
+        given.check(is_one, "steps", steps, "1 with percepts or commands")
         both = as_dict("percepts", percepts), as_dict("commands", commands)
         return cast("dict[str, Command]", self._run.step_with(*both))
 
@@ -182,10 +184,11 @@ class Simulation:
             InputError: If the value is not allowed there, or there is no room for what comes in;
                 nothing has changed then.
         """
+        override = Override.at(path, value, "change")
         stays = path in FIXED
         given.check(not stays, f"change: {path}", value, "as it was when the run began")
         with self._lock:
-            changed = self.scenario.changed((Override.at(path, value, "change"),))
+            changed = self.scenario.changed((override,))
             tick = self._run.change(changed.metric())
             self.scenario = changed
             self._changes += (Change(tick, path, value),)

@@ -40,6 +40,10 @@ def answer(**arguments: Any) -> study.Answer:
         (lambda: loads().changed((NO,)), r"^overrides = 5: must be a tuple of Override$"),
         (lambda: loads().configuration(NO), r"^values = 5: must be a dict of values"),
         (lambda: loads().configuration({NO: 1}), r"^values: path = 5: must be keys from the root"),
+        (lambda: loads(text="\ud800"), r"^text = '\\ud800': must be a text in TOML$"),
+        (lambda: loads().replace("a" + ".a" * 20_000, 1), r"path = 'a\.a.*; at most 32$"),
+        (lambda: loads().replace("\ud800", 1), r"path = '\\ud800': must be keys from the root"),
+        (lambda: ae.Simulation("search").change([1], 1), r"path = \[1\]: must be keys"),  # type: ignore[arg-type]
         (lambda: ae.rerun(NO), rf"^path = 5: {PATH}$"),
         (lambda: ae.run("search", record=NO), rf"^record = 5: {PATH}$"),
         (lambda: ae.run("search", seed="a"), r"^seed = 'a': must be a whole number from 0"),  # type: ignore[arg-type]

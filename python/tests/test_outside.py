@@ -156,6 +156,12 @@ FAULTS: list[tuple[dict[str, Any], str]] = [
         r'percepts."rover/1".tiem_s = 1: must be one of the known',
     ),
     ({"percepts": {"rover/1": {"time_s": math.nan}}}, r'percepts."rover/1".time_s = nan: must be'),
+    ({"percepts": {"rover/1": []}}, r'percepts."rover/1" = \[\]: must be a dict'),
+    ({"commands": {"rover/1": ()}}, r'commands."rover/1" = \[\]: must be a dict'),
+    (
+        {"percepts": {"rover/1": {"time_s": "\ud800"}}},
+        r'percepts."rover/1".time_s = .*: must be a text of whole characters',
+    ),
     ({"commands": {"rover/1": {"motion": 3}}}, r'commands."rover/1".motion = 3: must be a dict'),
     ({"steps": 2, "commands": {"rover/1": STOP}}, "steps = 2: must be 1 with percepts or commands"),
     (

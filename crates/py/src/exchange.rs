@@ -7,7 +7,7 @@ use base::document::path_of;
 use base::fault::Fault;
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyFloat};
+use pyo3::types::{PyDict, PyFloat, PyString};
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -29,6 +29,10 @@ pub(crate) fn read<T: DeserializeOwned + JsonSchema>(
     given: &Bound<PyAny>,
 ) -> Result<T, Fault> {
     let json = json(at, given, MAX_DEPTH)?;
+    // Serde would take a list for one by position.
+    if !json.is_object() {
+        return Err(fault(at, json.to_string(), "a dict"));
+    }
     serde_path_to_error::deserialize(&json).map_err(|error| {
         let fault = refused::fault::<T>(&json, error.path());
         let path = below(at, &fault.path);
@@ -74,8 +78,9 @@ fn json(at: &str, given: &Bound<PyAny>, deep: usize) -> Result<Json, Fault> {
         Ok(Json::Null)
     } else if let Ok(truth) = given.extract::<bool>() {
         Ok(Json::Bool(truth))
-    } else if let Ok(text) = given.extract::<String>() {
-        Ok(Json::String(text))
+    } else if let Ok(text) = given.cast::<PyString>() {
+        let text = text.extract().map(Json::String);
+        text.map_err(|_| fault(at, given.to_string(), "a text of whole characters"))
     } else if let Ok(dict) = given.cast::<PyDict>() {
         let deep = deep.checked_sub(1).ok_or_else(too_deep)?;
         let entry = |(key, given): (Bound<PyAny>, Bound<PyAny>)| {
