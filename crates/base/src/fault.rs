@@ -66,7 +66,8 @@ impl Fault {
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(origin) = &self.origin {
-            write!(f, "{}: ", cut(origin, SHOWN_OF_ORIGIN))?;
+            let origin = cut(origin, SHOWN_OF_ORIGIN);
+            write!(f, "{}: ", origin.replace(char::is_control, "?"))?;
         }
         let (path, allowed) = (shortened(&self.path), &self.allowed);
         match self.given.as_deref().map(shortened) {
@@ -191,6 +192,15 @@ mod tests {
         }
         assert_eq!(fault.path, path);
         assert_eq!(fault.suggestion, None);
+    }
+
+    #[test]
+    fn what_controls_a_terminal_is_not_printed() {
+        let fault = Fault {
+            origin: Some("--set robots.\u{1b}[31mred\n".to_owned()),
+            ..Fault::new("robots".to_owned(), None, "there".to_owned())
+        };
+        assert!(!fault.to_string().contains(char::is_control));
     }
 
     #[test]

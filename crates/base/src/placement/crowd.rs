@@ -78,8 +78,12 @@ impl Discs {
 
     fn remove(&mut self, centre: Point) {
         let cell = (self.cell(centre.x), self.cell(centre.y));
-        let within = self.cells.entry(cell).or_default();
-        if let Some(at) = within.iter().position(|&other| other == centre) {
+        let within = self.cells.get_mut(&cell);
+        let at = within
+            .as_deref()
+            .and_then(|within| within.iter().position(|&other| other == centre));
+        debug_assert!(at.is_some(), "nobody stands at {centre:?}");
+        if let Some((within, at)) = within.zip(at) {
             within.swap_remove(at);
             self.count -= 1;
         }

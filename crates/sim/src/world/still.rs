@@ -116,6 +116,7 @@ impl Stands {
         place: Point,
         radius_m: f64,
     ) -> [impl Iterator<Item = (u32, f64)>; 2] {
+        // Within a cell the numbers ascend.
         let near = self.near_discs.at(place);
         let apart = near.partition_point(|number| *number < self.apart);
         let (apart, overlapping) = near.split_at(apart);
@@ -129,6 +130,9 @@ impl Stands {
 
     /// All walls within `radius_m` of a place of which some place no farther away than `gone_m` sees
     /// the face, their numbers and distances.
+    ///
+    /// What is outside of something solid faces at least one of the walls that are nearest to it: so
+    /// these also tell what may be touched.
     #[inline]
     pub(crate) fn faces_within(
         &self,
