@@ -1,6 +1,8 @@
 """What is given to functions, seen to where it comes in: told as what is wrong in scenarios is."""
 
+import math
 from collections.abc import Iterable
+from numbers import Integral
 from os import PathLike
 from pathlib import Path
 from types import UnionType
@@ -40,6 +42,13 @@ def is_text(given: object) -> TypeGuard[str]:
         return False
     else:
         return True
+
+
+def is_whole(given: object, least: int, greatest: float = math.inf) -> bool:
+    """Whether something is a whole number (not a bool) in a range."""
+    if not isinstance(given, Integral) or isinstance(given, bool):
+        return False
+    return least <= int(given) <= greatest
 
 
 def path(name: str, given: str | PathLike[str]) -> Path:

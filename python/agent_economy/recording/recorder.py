@@ -1,7 +1,6 @@
 """A run on its way into a file."""
 
 from collections.abc import Mapping, Sequence
-from numbers import Integral
 from pathlib import Path
 from typing import Self
 
@@ -92,7 +91,7 @@ class Recording:
         self._keep_up()
         if percepts is not None or commands is not None:
             return self._step(steps, percepts or {}, commands or {})
-        given.check(is_whole(steps, 0), "steps", steps, "a whole number, 0 or more")
+        given.check(given.is_whole(steps, 0), "steps", steps, "a whole number, 0 or more")
         for _ in range(steps):
             self._step(1, None, None)
         return {}
@@ -224,14 +223,9 @@ def check(simulation: Simulation, path: Path, every: int, percepts: Sequence[str
         names = ", ".join(sorted(map(repr, unknown)))
         robots = f"robots: {team[0]} to {team[-1]}" if team else "robots, and it has none"
         faults.append(f"percepts: {names}: must be among the run's {robots}")
-    faults += given.fault(is_whole(every, 1), "every", every, "a whole number, 1 or more")
+    faults += given.fault(given.is_whole(every, 1), "every", every, "a whole number, 1 or more")
     if faults:
         raise InputError("\n".join(faults))
-
-
-def is_whole(value: object, least: int) -> bool:
-    """Return whether a value is a whole number, and no less than another."""
-    return isinstance(value, Integral) and not isinstance(value, bool) and int(value) >= least
 
 
 def is_read_from(source: Source, path: Path) -> bool:

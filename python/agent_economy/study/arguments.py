@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from agent_economy import _core
 from agent_economy._core import InputError
-from agent_economy.given import fault
+from agent_economy.given import fault, is_whole
 
 Guarantee = Literal["indifference", "pgs"]
 Floats = NDArray[np.float64]
@@ -71,12 +71,6 @@ def question_faults(delta: object, confidence: object, guarantee: object) -> lis
         ),
         *fault(guarantee in names, "guarantee", guarantee, "one of " + ", ".join(map(repr, names))),
     ]
-
-
-def is_whole(given: object, least: int, greatest: int) -> bool:
-    """Return whether something is a whole number (not a bool) in a range."""
-    whole = isinstance(given, int | np.integer) and not isinstance(given, bool)
-    return whole and least <= int(given) <= greatest  # type: ignore[call-overload]
 
 
 def is_between(given: object, above: float, below: float) -> bool:

@@ -7,13 +7,12 @@ import numpy as np
 
 from agent_economy import _core
 from agent_economy._core import InputError
-from agent_economy.given import fault
+from agent_economy.given import fault, is_whole
 from agent_economy.study.arguments import (
     LEAST_CONFIDENCE,
     MAX_CONFIGURATIONS,
     Floats,
     is_between,
-    is_whole,
 )
 from agent_economy.study.selection import LANE, SAMPLER, Integers, Sampler, drive, shaped
 

@@ -17,10 +17,10 @@ from typing import Any
 import tomli_w
 
 from agent_economy._core import InputError
-from agent_economy.given import check, fault, of_kind
+from agent_economy.given import check, fault, is_whole, of_kind
 from agent_economy.scenario import Override, Scenario, Source
 from agent_economy.study import design
-from agent_economy.study.arguments import FIRST_LOOK, Floats, Guarantee, is_whole, question_faults
+from agent_economy.study.arguments import FIRST_LOOK, Floats, Guarantee, question_faults
 from agent_economy.study.design import Values
 from agent_economy.study.engine import Engine
 
