@@ -35,6 +35,45 @@ class RangeRing(TypedDict):
     latency_s: float
 
 
+class Detector(TypedDict):
+    """A sensor that recognises items.
+
+    Attributes:
+        sensor: Its place in `Body.sensors`.
+        range_m: It looks no farther from the robot's centre.
+        width_rad: Angle that it covers.
+        facing_rad: Its middle, from the robot's front.
+        detects: For each kind of item, pairs of distance and probability of detection in one look;
+            empty if it never recognises that kind.
+        false_alarms_per_m2: False contacts of each kind in one look, for each square metre in view.
+        noise_m: Standard deviation of where a contact seems to be, along each axis.
+        needs_line_of_sight: Whether obstacles hide items from it.
+    """
+
+    sensor: int
+    range_m: float
+    width_rad: float
+    facing_rad: float
+    detects: Sequence[Sequence[Sequence[float]]]
+    false_alarms_per_m2: Sequence[float]
+    noise_m: float
+    needs_line_of_sight: bool
+
+
+class Other(TypedDict):
+    """What a brain knows of the bodies of a kind of robots.
+
+    Attributes:
+        radius_m: Of the disc that it covers.
+        is_in_the_way: Whether the two can run into each other: not if one of them flies.
+        max_acceleration_m_s2: It gains and loses speed at most so fast; left out, at once.
+    """
+
+    radius_m: float
+    is_in_the_way: bool
+    max_acceleration_m_s2: NotRequired[float | None]
+
+
 class Body(TypedDict):
     """What a brain knows of its body.
 
@@ -47,7 +86,13 @@ class Body(TypedDict):
         max_acceleration_m_s2: It gains and loses speed at most so fast; left out, at once.
         sensors: Names of its sensors, in the order in which requests count them.
         rings: Its range rings, in the order in which percepts have their scans.
+        detectors: What recognises items, in the order of its sensors.
+        position_noise_m: Standard deviation of its position sensor along each axis.
+        heading_noise_rad: Standard deviation of its compass.
+        neighbour_noise_m: Standard deviation of where other robots seem to be, along each axis.
         item_kinds: Names of the kinds of items that there are.
+        others: Bodies of all kinds of robots that there are, in the order in which ids count them.
+        field: Two opposite corners of where its mission is.
     """
 
     radius_m: float
@@ -58,7 +103,13 @@ class Body(TypedDict):
     max_acceleration_m_s2: NotRequired[float]
     sensors: NotRequired[Sequence[str]]
     rings: NotRequired[Sequence[RangeRing]]
+    detectors: NotRequired[Sequence[Detector]]
+    position_noise_m: NotRequired[float]
+    heading_noise_rad: NotRequired[float]
+    neighbour_noise_m: NotRequired[float]
     item_kinds: NotRequired[Sequence[str]]
+    others: NotRequired[Sequence[Other]]
+    field: NotRequired[tuple[Point, Point] | None]
 
 
 class Motion(TypedDict):
@@ -123,10 +174,21 @@ class Scan(TypedDict, total=False):
     ranges_m: Sequence[float | None]
 
 
+class Look(TypedDict):
+    """A look for items: the sensor, by its place in `Body.sensors`, and how long ago."""
+
+    sensor: int
+    age_s: float
+
+
 class Contact(TypedDict):
-    """An item that a sensor recognised, or something that it took for one."""
+    """An item that a sensor recognised, or something that it took for one.
+
+    Kind and sensor are their places in `Body.item_kinds` and `Body.sensors`.
+    """
 
     kind: int
+    sensor: NotRequired[int]
     range_m: float
     bearing_rad: float
     age_s: float
@@ -152,12 +214,15 @@ class Percept(TypedDict, total=False):
     Attributes:
         time_s: Time since the mission began.
         dice: Four random whole numbers below 2^32, the only chance that a brain has.
+        id: Which robot it is: it was told so before the mission.
+        of_kind: How many robots of its kind there are, itself among them; 0 if it was not told.
         position: Where it is in the world.
         heading_rad: Its course: 0 along x.
         motion: How it moves, from its wheels or rotors.
         battery: Share of the battery's capacity that is left, 0 to 1.
         touch: Whether it touches something.
         scans: Of each range ring of its body, in the body's order.
+        looks: Looks for items since the last step, also those that recognised none.
         contacts: Items that its sensors recognised since the last step, or took for such.
         neighbours: Robots that its sensors recognised since the last step.
         inbox: What other robots told since the last step.
@@ -165,12 +230,15 @@ class Percept(TypedDict, total=False):
 
     time_s: float
     dice: Sequence[int]
+    id: RobotId
+    of_kind: int
     position: Reading[Point] | None
     heading_rad: Reading[float] | None
     motion: Reading[Motion] | None
     battery: Reading[float] | None
     touch: Reading[bool] | None
     scans: Sequence[Scan]
+    looks: Sequence[Look]
     contacts: Sequence[Contact]
     neighbours: Sequence[Neighbour]
     inbox: Sequence[Heard]

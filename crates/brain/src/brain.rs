@@ -51,6 +51,16 @@ impl Brain {
         }
     }
 
+    /// The same mind, briefed as `told` is: both are of the same spec, in the same body but for what
+    /// they know of others.
+    #[must_use]
+    pub fn rebriefed(&self, told: &Self) -> Self {
+        Self {
+            kind: Arc::clone(&told.kind),
+            ..self.clone()
+        }
+    }
+
     /// What it was made of.
     #[must_use]
     pub fn spec(&self) -> &BrainSpec {

@@ -47,9 +47,9 @@ mod subsumption;
 #[cfg(test)]
 mod world_of_walls;
 
-pub use body::{Body, RangeRing, RobotId};
+pub use body::{Body, Detector, Other, RangeRing, RobotId};
 pub use brain::Brain;
 pub use command::{About, Command, Message, Motion, SensorRequest};
 pub use dice::Dice;
-pub use percept::{Contact, Heard, Neighbour, Percept, Reading, Scan};
+pub use percept::{Contact, Heard, Look, Neighbour, Percept, Reading, Scan};
 pub use spec::BrainSpec;

@@ -17,6 +17,10 @@ pub struct Percept {
     pub time_s: f64,
     /// Random bits of this step, the only chance that a brain has.
     pub dice: [u32; 4],
+    /// Which robot it is: it was told so before the mission.
+    pub id: RobotId,
+    /// How many robots of its kind there are, itself among them; 0 if it was not told.
+    pub of_kind: u32,
     /// Where it is in the world.
     pub position: Option<Reading<Point>>,
     /// Its course: 0 along x, anticlockwise.
@@ -30,6 +34,8 @@ pub struct Percept {
     pub touch: Option<Reading<bool>>,
     /// Of each range ring that its body has, in the body's order.
     pub scans: Vec<Scan>,
+    /// Looks for items that its sensors took since the last step, also those that recognised none.
+    pub looks: Vec<Look>,
     /// Items that its sensors recognised since the last step, or took for such.
     pub contacts: Vec<Contact>,
     /// Robots that its sensors recognised since the last step.
@@ -61,12 +67,25 @@ pub struct Scan {
     pub ranges_m: Vec<f64>,
 }
 
+/// A look for items.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Look {
+    /// Place of the sensor in [`Body::sensors`](crate::Body::sensors).
+    pub sensor: u16,
+    /// Time since it was taken.
+    pub age_s: f64,
+}
+
 /// An item that a sensor recognised, or something that it took for one.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Contact {
     /// Place of the item's kind in [`Body::item_kinds`](crate::Body::item_kinds).
     pub kind: u16,
+    /// Place of the sensor in [`Body::sensors`](crate::Body::sensors).
+    #[serde(default)]
+    pub sensor: u16,
     /// From the robot's centre, when it was measured.
     pub range_m: f64,
     /// From the robot's front, when it was measured; above -pi, up to pi.

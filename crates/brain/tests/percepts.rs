@@ -3,8 +3,8 @@
 use base::geometry::Point;
 use brain::behaviours::{Avoid, BehaviourSpec, Bounce, Cruise};
 use brain::{
-    About, Body, Brain, BrainSpec, Command, Contact, Heard, Message, Motion, Neighbour, Percept,
-    RangeRing, Reading, RobotId, Scan, SensorRequest,
+    About, Body, Brain, BrainSpec, Command, Contact, Heard, Look, Message, Motion, Neighbour,
+    Percept, RangeRing, Reading, RobotId, Scan, SensorRequest,
 };
 use proptest::prelude::*;
 use std::sync::Arc;
@@ -93,6 +93,7 @@ fn others(number: Numbers) -> impl Strategy<Value = (Vec<Contact>, Vec<Neighbour
     let seen = move || (number(0.0, 9.0), number(-3.0, 3.0), number(0.0, 1.0));
     let contact =
         (any::<u16>(), seen()).prop_map(|(kind, (range_m, bearing_rad, age_s))| Contact {
+            sensor: kind % 3,
             kind,
             range_m,
             bearing_rad,
@@ -127,19 +128,26 @@ fn percept(number: Numbers) -> impl Strategy<Value = Percept> {
         reading(any::<bool>(), number),
     );
     let clock = (number(0.0, 1e4), any::<[u32; 4]>());
-    (clock, readings, scans(number, 2), others(number)).prop_map(
-        |((time_s, dice), readings, scans, (contacts, neighbours, inbox))| Percept {
-            time_s,
-            dice,
-            position: readings.0,
-            heading_rad: readings.1,
-            motion: readings.2,
-            battery: readings.3,
-            touch: readings.4,
-            scans,
-            contacts,
-            neighbours,
-            inbox,
+    let look = (0_u16..3, number(0.0, 1.0)).prop_map(|(sensor, age_s)| Look { sensor, age_s });
+    let told = (robot(), 0_u32..4, proptest::collection::vec(look, 0..3));
+    (clock, readings, scans(number, 2), others(number), told).prop_map(
+        |((time_s, dice), readings, scans, (contacts, neighbours, inbox), (id, of_kind, looks))| {
+            Percept {
+                id,
+                of_kind,
+                looks,
+                time_s,
+                dice,
+                position: readings.0,
+                heading_rad: readings.1,
+                motion: readings.2,
+                battery: readings.3,
+                touch: readings.4,
+                scans,
+                contacts,
+                neighbours,
+                inbox,
+            }
         },
     )
 }

@@ -6,10 +6,12 @@ use super::drive::Drive;
 use super::{Layer, RobotSpec};
 use crate::radio::Radio;
 use crate::sensing::timing::Rhythm;
-use crate::sensing::{Measure, Sensor};
+use crate::sensing::{Measure, Measures, Sensor};
+use base::geometry::Rectangle;
 use base::placement::Placement;
 use base::random::kind_key;
-use brain::{Body, Brain, RangeRing};
+use brain::{Body, Brain, Detector, Other, RangeRing};
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// What all robots of a kind have in common.
@@ -39,9 +41,21 @@ pub(crate) struct Kind {
     pub(crate) brain: Brain,
 }
 
+/// What all robots are told before the mission.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Briefing<'a> {
+    pub(crate) item_kinds: &'a [String],
+    pub(crate) robots: &'a BTreeMap<String, RobotSpec>,
+    pub(crate) field: Rectangle,
+    pub(crate) step_s: f64,
+}
+
 impl Kind {
-    /// The kind that `spec` describes, in a world with these kinds of items and this step.
-    pub(crate) fn new(name: &str, spec: &RobotSpec, item_kinds: &[String], step_s: f64) -> Self {
+    /// The kind that `spec` describes.
+    pub(crate) fn new(name: &str, spec: &RobotSpec, briefing: &Briefing) -> Self {
+        let Briefing {
+            item_kinds, step_s, ..
+        } = *briefing;
         let sensors: Vec<Sensor> = spec
             .sensors
             .iter()
@@ -61,7 +75,22 @@ impl Kind {
                 .iter()
                 .filter_map(|sensor| ring(sensor, step_s))
                 .collect(),
+            detectors: detectors(spec, &sensors, item_kinds),
+            position_noise_m: noise(&sensors, |measure| match measure {
+                Measure::Position { noise_m } => Some(*noise_m),
+                _ => None,
+            }),
+            heading_noise_rad: noise(&sensors, |measure| match measure {
+                Measure::Heading { noise_rad } => Some(*noise_rad),
+                _ => None,
+            }),
+            neighbour_noise_m: noise(&sensors, |measure| match measure {
+                Measure::Robots(detector) => Some(detector.noise_m),
+                _ => None,
+            }),
             item_kinds: item_kinds.to_vec(),
+            others: others(spec.layer, briefing.robots),
+            field: Some(briefing.field),
         };
         let mut kind = Self {
             all_on_w: 0.0,
@@ -147,6 +176,30 @@ fn ring(sensor: &Sensor, step_s: f64) -> Option<RangeRing> {
         #[expect(clippy::cast_precision_loss, reason = "steps are at most 1e8")]
         latency_s: sensor.latency_steps as f64 * step_s,
     })
+}
+
+/// The greatest error of its sensors of some kind; 0 if it has none.
+fn noise(sensors: &[Sensor], of: impl Fn(&Measure) -> Option<f64>) -> f64 {
+    let noises = sensors.iter().filter_map(|sensor| of(&sensor.measure));
+    noises.fold(0.0, f64::max)
+}
+
+fn others(layer: Layer, robots: &BTreeMap<String, RobotSpec>) -> Vec<Other> {
+    let other = |spec: &RobotSpec| Other {
+        radius_m: spec.radius_m,
+        max_acceleration_m_s2: Drive::from(&spec.drive).max_acceleration_m_s2,
+        is_in_the_way: spec.layer == layer,
+    };
+    robots.values().map(other).collect()
+}
+
+fn detectors(spec: &RobotSpec, sensors: &[Sensor], item_kinds: &[String]) -> Vec<Detector> {
+    let numbered = (0..).zip(spec.sensors.values().zip(sensors));
+    let detectors = numbered.filter_map(|(number, (spec, sensor))| match &spec.measures {
+        Measures::Items(items) => Some(items.detector(number, item_kinds, sensor.period_s)),
+        _ => None,
+    });
+    detectors.collect()
 }
 
 fn rays_m(sensors: &[Sensor]) -> f64 {

@@ -200,10 +200,13 @@ fn kept_hull(hull: &Hull, kind: &Kind, to: &Scenario) -> Hull {
 
 fn kept_mind(mind: &Mind, from: &Kind, to: &Kind) -> Mind {
     let is_same = from.brain.spec() == to.brain.spec()
-        && from.brain.body() == to.brain.body()
+        && from.brain.body().is_same_but_for_others(to.brain.body())
         && from.sensors == to.sensors;
     if is_same && from.needs_backlog() == to.needs_backlog() {
-        mind.clone()
+        Mind {
+            brain: mind.brain.rebriefed(&to.brain),
+            ..mind.clone()
+        }
     } else {
         Mind::new(to)
     }

@@ -116,6 +116,7 @@ impl Desk {
         let percept = &mut self.percept;
         percept.position = None;
         percept.heading_rad = None;
+        percept.looks.clear();
         percept.contacts.clear();
         percept.neighbours.clear();
         percept.inbox.clear();
@@ -138,6 +139,8 @@ impl Desk {
         let (hull, kind) = (&view.hulls[robot], view.kind(robot));
         let percept = &mut self.percept;
         percept.time_s = view.time_s();
+        percept.id = view.ids[robot];
+        percept.of_kind = view.kind(robot).count;
         percept.dice = view.noises[robot].words(Use::Dice as u32, beat, 0);
         percept.touch = now(hull.is_pressed);
         percept.motion = now(Motion {

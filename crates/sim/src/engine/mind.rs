@@ -4,7 +4,7 @@ use super::air::Sent;
 use super::waiting::{Late, Waiting};
 use crate::body::kind::Kind;
 use crate::sensing::{Measure, Sensor};
-use brain::{Brain, Contact, Heard, Motion, Neighbour, Percept, RobotId, SensorRequest};
+use brain::{self, Brain, Contact, Heard, Motion, Neighbour, Percept, RobotId, SensorRequest};
 use std::collections::BTreeMap;
 
 /// What decides for one robot.
@@ -72,8 +72,15 @@ impl Mind {
     /// Makes room for what is recognised in a step in which the brain does not step.
     pub(crate) fn forget(&mut self, now: u64) {
         if let Some(backlog) = &mut self.backlog {
+            backlog.looks.forget(now);
             backlog.contacts.forget(now);
             backlog.neighbours.forget(now);
+        }
+    }
+
+    pub(crate) fn wait_look(&mut self, late: Late<brain::Look>) {
+        if let Some(backlog) = &mut self.backlog {
+            backlog.looks.lates.push(late);
         }
     }
 
@@ -131,6 +138,7 @@ impl Mind {
 pub(crate) struct Backlog {
     /// By sensor; empty for one that tells at once.
     kept: Vec<Vec<Look>>,
+    pub(crate) looks: Waiting<brain::Look>,
     pub(crate) contacts: Waiting<(Contact, Option<u32>)>,
     pub(crate) neighbours: Waiting<Neighbour>,
     pub(crate) inbox: Waiting<Heard>,
@@ -178,6 +186,10 @@ impl Backlog {
         to: &mut Percept,
         mut found: impl FnMut(Option<u32>),
     ) {
+        self.looks.tell(now, |late| {
+            let age_s = age_s(late.taken, now, step_s);
+            to.looks.push(brain::Look { age_s, ..late.what });
+        });
         self.contacts.tell(now, |late| {
             let (contact, item) = late.what;
             let age_s = age_s(late.taken, now, step_s);

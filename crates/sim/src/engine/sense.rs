@@ -16,7 +16,7 @@ use crate::sensing::{Measure, Sensor};
 use base::geometry::Point;
 use base::noise::{normal_pair, share};
 use base::trig::wrapped;
-use brain::{Contact, Neighbour, Percept, Reading};
+use brain::{self, Contact, Neighbour, Percept, Reading};
 
 /// What looks need to be taken, and what the judge needs to know of them.
 #[derive(Debug, Clone, Default)]
@@ -217,9 +217,19 @@ impl Look<'_> {
         detector: &ItemDetector,
         mind: &mut Mind,
         senses: &mut Senses,
-        mut percept: Option<&mut Percept>,
+        percept: Option<&mut Percept>,
     ) {
         let world = self.view.scenario.world;
+        let is_told_now = self.sensor.latency_steps == 0;
+        let mut percept = percept.filter(|_| is_told_now);
+        let look = brain::Look {
+            sensor: self.place(),
+            age_s: 0.0,
+        };
+        match percept.as_deref_mut() {
+            Some(percept) => percept.looks.push(look),
+            None => mind.wait_look(self.late(look)),
+        }
         detector.look(&self.eye, self.view.items, |way, kind, item| {
             // Beyond the border there is nothing to be taken for anything.
             if item.is_none() && !world.contains(self.eye.world_of(way)) {
@@ -228,14 +238,12 @@ impl Look<'_> {
             let (range_m, bearing_rad) = polar(way);
             let contact = Contact {
                 kind,
+                sensor: look.sensor,
                 range_m,
                 bearing_rad,
                 age_s: 0.0,
             };
-            match percept
-                .as_deref_mut()
-                .filter(|_| self.sensor.latency_steps == 0)
-            {
+            match percept.as_deref_mut() {
                 Some(percept) => {
                     percept.contacts.push(contact);
                     senses.note(item);
@@ -292,6 +300,13 @@ impl Look<'_> {
             Some(percept) => percept.neighbours[told..].sort_unstable_by_key(|each| each.id),
             None => mind.neighbours()[waiting..].sort_unstable_by_key(|late| late.what.id),
         }
+    }
+
+    /// Place of the sensor, as brains count it.
+    fn place(&self) -> u16 {
+        #[expect(clippy::cast_possible_truncation, reason = "a robot has at most 32")]
+        let place = self.number as u16;
+        place
     }
 
     fn late<T>(&self, what: T) -> Late<T> {

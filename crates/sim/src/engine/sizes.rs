@@ -8,6 +8,9 @@ use brain::{Contact, Heard, Neighbour};
 /// A contact that waits for a brain.
 pub(crate) const CONTACT_BYTES: usize = size_of::<Late<(Contact, Option<u32>)>>();
 
+/// A look for items, of which a brain is to be told, without its contacts.
+pub(crate) const GLANCE_BYTES: usize = size_of::<Late<brain::Look>>();
+
 /// A robot that was recognised and waits for a brain.
 pub(crate) const NEIGHBOUR_BYTES: usize = size_of::<Late<Neighbour>>();
 

@@ -3,7 +3,7 @@
 
 use super::ScenarioSpec;
 use crate::body::Layer;
-use crate::body::kind::Kind;
+use crate::body::kind::{Briefing, Kind};
 use crate::sensing::timing::steps_of;
 use crate::world::grid::{NearCells, Still};
 use crate::world::items::ItemKind;
@@ -60,11 +60,17 @@ impl Scenario {
         };
         let items: Vec<ItemKind> = spec.items.iter().map(ItemKind::new).collect();
         let names: Vec<String> = items.iter().map(|kind| kind.name.clone()).collect();
+        let world = Rectangle::spanned(Point::default(), size_m);
+        let briefing = Briefing {
+            item_kinds: &names,
+            robots: &spec.robots,
+            field: world,
+            step_s,
+        };
         let kinds = spec.robots.iter();
         let kinds: Vec<Kind> = kinds
-            .map(|(name, spec)| Kind::new(name, spec, &names, step_s))
+            .map(|(name, spec)| Kind::new(name, spec, &briefing))
             .collect();
-        let world = Rectangle::spanned(Point::default(), size_m);
         let fastest = areas.iter().map(Area::speed).fold(1.0, f64::max);
         let touch_m = greatest(&kinds, |kind| kind.touch_m(fastest * step_s));
         let rays_m = greatest(&kinds, |kind| kind.rays_m);

@@ -32,6 +32,9 @@ pub struct ItemsSpec {
     pub needs_line_of_sight: bool,
 }
 
+/// A brain is told of a bell by so many straight parts.
+const CURVE_PARTS: u32 = 16;
+
 /// Probability of detection in one look.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
@@ -65,6 +68,20 @@ impl Detection {
     }
 }
 
+impl Detection {
+    /// Pairs of distance and probability, linear between two, up to `range_m`.
+    fn pairs(&self, range_m: f64) -> Vec<[f64; 2]> {
+        match self {
+            Self::Constant(probability) => vec![[0.0, *probability]],
+            Self::Table(pairs) => pairs.clone(),
+            Self::Curve { .. } => (0..=CURVE_PARTS)
+                .map(|part| range_m * f64::from(part) / f64::from(CURVE_PARTS))
+                .map(|at| [at, self.probability(at)])
+                .collect(),
+        }
+    }
+}
+
 /// The value at `x`, linear between pairs; beyond the ends, that of the end.
 fn between(pairs: &[[f64; 2]], x: f64) -> f64 {
     let next = pairs.partition_point(|[at, _]| *at <= x);
@@ -80,6 +97,38 @@ pub(super) fn yes() -> bool {
 }
 
 impl ItemsSpec {
+    /// What brains are told of it: the sensor with this number, which looks every `period_s`.
+    pub(crate) fn detector(
+        &self,
+        sensor: u16,
+        item_kinds: &[String],
+        period_s: f64,
+    ) -> brain::Detector {
+        let sector = &self.sector;
+        let always = Detection::Constant(1.0);
+        let detects = item_kinds.iter().map(|kind| match &self.detects {
+            None => always.pairs(sector.range_m),
+            Some(detects) => detects
+                .get(kind)
+                .map_or_else(Vec::new, |detection| detection.pairs(sector.range_m)),
+        });
+        let rates = item_kinds
+            .iter()
+            .map(|kind| self.false_alarms_per_m2_s.get(kind));
+        brain::Detector {
+            sensor,
+            range_m: sector.range_m,
+            width_rad: sector.fov_deg.to_radians(),
+            facing_rad: sector.facing_deg.to_radians(),
+            detects: detects.collect(),
+            false_alarms_per_m2: rates
+                .map(|rate| rate.copied().unwrap_or(0.0) * period_s)
+                .collect(),
+            noise_m: self.noise_m,
+            needs_line_of_sight: self.needs_line_of_sight,
+        }
+    }
+
     /// False contacts of a kind in one look, on average, if nothing hides any.
     pub(crate) fn false_alarms_a_look(&self, kind: &str, period_s: f64) -> f64 {
         let rate = self.false_alarms_per_m2_s.get(kind).copied();

@@ -31,7 +31,7 @@ pub struct RobotsSpec {
 pub(crate) struct RobotDetector {
     pub(crate) sector: Sector,
     detects: Detection,
-    noise_m: f64,
+    pub(crate) noise_m: f64,
     needs_line_of_sight: bool,
 }
 

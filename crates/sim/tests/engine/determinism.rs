@@ -222,7 +222,10 @@ fn a_robot_more_or_a_kind_more_changes_nothing_for_the_others_at_first() {
         let mut simulation = start(text);
         let mut percepts = Vec::new();
         for _ in 0..30 {
-            percepts.extend((0..6).map(|index| simulation.percept(id(0, index)).unwrap()));
+            let percepts_now = (0..6).map(|index| simulation.percept(id(0, index)).unwrap());
+            // How many it is one of is told to each.
+            percepts
+                .extend(percepts_now.map(|percept| percept.map(|p| Percept { of_kind: 0, ..p })));
             simulation.step();
         }
         let items = simulation.state().each_item(simulation.scenario());

@@ -140,6 +140,7 @@ fn contacts_of_a_body_are_of_the_nearest_item_of_the_kind_within_a_metre() {
         // From [5, 5], looking along y.
         let (ahead, left) = (y - 5.0, 5.0 - x);
         Contact {
+            sensor: 0,
             kind,
             range_m: ahead.hypot(left),
             bearing_rad: libm::atan2(left, ahead),
@@ -265,6 +266,7 @@ fn absurd_percepts_do_no_harm() {
                 ],
                 contacts: vec![
                     Contact {
+                        sensor: 0,
                         kind: 1,
                         range_m: number(),
                         bearing_rad: number(),

@@ -4,7 +4,7 @@ use super::ScenarioSpec;
 use super::ground::rectangle;
 use crate::body::RobotSpec;
 use crate::engine::sizes::{
-    CONTACT_BYTES, HEARD_BYTES, LOOK_BYTES, MOST_WAITING, NEIGHBOUR_BYTES, SENT_BYTES,
+    CONTACT_BYTES, GLANCE_BYTES, HEARD_BYTES, LOOK_BYTES, MOST_WAITING, NEIGHBOUR_BYTES, SENT_BYTES,
 };
 use crate::radio::RadioSpec;
 use crate::sensing::items::ItemsSpec;
@@ -91,7 +91,7 @@ fn bytes_of_sensor(sensor: &SensorSpec, robot: &RobotSpec, spec: &ScenarioSpec) 
         Measures::Heading(_) => looks.bytes_kept(1.0, sensor),
         Measures::Items(items) => {
             let a_look = contacts_a_look(items, period_s(sensor.rate_hz, step_s), spec);
-            looks.waiting(a_look) * size(CONTACT_BYTES)
+            looks.waiting(a_look) * size(CONTACT_BYTES) + looks.waiting(1.0) * size(GLANCE_BYTES)
         }
         Measures::Robots(robots) => {
             let a_look = robots_within(robots.sector.range_m, spec, |_| true);
@@ -234,11 +234,15 @@ mod tests {
             let eye = "kind = \"items\", range_m = 10, latency_s = 100";
             megabytes(0.1, 10, &format!("sensors = {{ a = {{ {eye}, {more} }} }}"))
         };
-        let contact = 10.0 * 1001.0 * size(CONTACT_BYTES) / 1e6;
+        let looks = 10.0 * 1001.0 / 1e6;
+        let (contact, glance) = (size(CONTACT_BYTES), size(GLANCE_BYTES));
         let area_m2 = std::f64::consts::PI * 100.0;
-        assert_about(contact * area_m2 / 100.0, eye("detects = { mine = 1 }"));
+        assert_about(
+            looks * (contact * area_m2 / 100.0 + glance),
+            eye("detects = { mine = 1 }"),
+        );
         let alarms = "detects = {}, false_alarms_per_m2_s = { mine = 1 }";
-        assert_about(contact * area_m2 / 10.0, eye(alarms));
+        assert_about(looks * (contact * area_m2 / 10.0 + glance), eye(alarms));
     }
 
     #[test]
