@@ -1,0 +1,93 @@
+"""Brains in Python, in place of those that a scenario's robots have."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from typing import Protocol, TypeAlias, cast
+
+from agent_economy import _core, given
+from agent_economy.brain import Body, Command, Percept
+
+BY_KIND = "a dict by the names of kinds of robots"
+MAKES = "a class or function that makes the brain of a robot when it is called with its body"
+
+
+class BrainLike(Protocol):
+    """Whatever decides for one robot; `Brain` is one."""
+
+    def step(self, percept: Percept) -> Command:
+        """Return what the robot is to do."""
+
+
+Make: TypeAlias = Callable[[Body], BrainLike]
+"""A class or function that makes the brain of a robot when it is called with its body."""
+
+Brains: TypeAlias = Mapping[str, Make]
+"""What makes brains, by kind of robots."""
+
+
+@dataclass(frozen=True)
+class Each:
+    """A brain for each robot of a kind.
+
+    Attributes:
+        kind: Name of the kind.
+        make: What makes its brains.
+        brains: Of the robots, in their order.
+    """
+
+    kind: str
+    make: Make
+    brains: tuple[BrainLike, ...] = ()
+
+    def of(self, body: Body, count: int) -> "Each":
+        """Return the same for so many robots: those that are there, and new ones."""
+        news = range(len(self.brains), count)
+        made = tuple(self._made(index, body) for index in news)
+        return replace(self, brains=self.brains[:count] + made)
+
+    def step(self, index: int, percept: Percept) -> Command:
+        """Return what a robot is to do."""
+        try:
+            return self.brains[index].step(percept)
+        except Exception as error:
+            error.add_note(f"in the brain of {self.kind}/{index}, at {percept['time_s']:g} s")
+            raise
+
+    def _made(self, index: int, body: Body) -> BrainLike:
+        try:
+            brain = self.make(body)
+        except Exception as error:
+            error.add_note(f"when the brain of {self.kind}/{index} was made of its body")
+            raise
+        is_brain = callable(getattr(brain, "step", None))
+        given.check(is_brain, f"brains.{self.kind}", brain, "what makes objects with a step")
+        return brain
+
+
+def minds(
+    brains: Brains | None, metric: _core.MetricScenario, robots: Mapping[str, int]
+) -> list[Each]:
+    """Return what decides for the robots of some kinds, at the beginning of a run.
+
+    Raises:
+        InputError: If there is no such kind of robots, or nothing that makes brains.
+    """
+    if brains is None:
+        return []
+    given.of_kind("brains", brains, Mapping, BY_KIND)
+    for kind, make in brains.items():
+        given.of_kind("brains", kind, str, BY_KIND)
+        given.check(callable(make), f"brains.{kind}", make, MAKES)
+    return changed_minds([Each(kind, make) for kind, make in brains.items()], metric, robots)
+
+
+def changed_minds(
+    minds: list[Each], metric: _core.MetricScenario, robots: Mapping[str, int]
+) -> list[Each]:
+    """Return what decides from now on: robots that stay keep their brains, others get new ones.
+
+    Raises:
+        InputError: If there is no such kind of robots.
+    """
+    bodies = [cast("Body", _core.body(metric, "brains", mind.kind)) for mind in minds]
+    return [mind.of(body, robots[mind.kind]) for mind, body in zip(minds, bodies, strict=True)]
