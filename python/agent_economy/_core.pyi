@@ -1,4 +1,4 @@
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Literal, Protocol, TypedDict, final, type_check_only
 
 import numpy as np
@@ -151,7 +151,10 @@ class Snapshot: ...
 class _Mind(Protocol):
     @property
     def kind(self) -> str: ...
-    def step(self, index: int, percept: Any, /) -> Any: ...
+    @property
+    def is_in_arrays(self) -> bool: ...
+    @property
+    def step(self) -> Callable[..., object]: ...
 
 @final
 class Simulation:

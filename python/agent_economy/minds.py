@@ -1,14 +1,16 @@
 """Brains in Python, in place of those that a scenario's robots have."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
-from typing import Protocol, TypeAlias, cast
+from dataclasses import dataclass, field, replace
+from typing import Any, ClassVar, Protocol, TypeAlias, cast
 
 from agent_economy import _core, given
+from agent_economy.batch import Batch, Percepts
 from agent_economy.brain import Body, Command, Percept
+from agent_economy.commands import Commands, commands
 
 BY_KIND = "a dict by the names of kinds of robots"
-MAKES = "a class or function that makes the brain of a robot when it is called with its body"
+MAKES = "a Batch, or a class or function that makes a robot's brain when it is called with its body"
 
 
 class BrainLike(Protocol):
@@ -21,8 +23,8 @@ class BrainLike(Protocol):
 Make: TypeAlias = Callable[[Body], BrainLike]
 """A class or function that makes the brain of a robot when it is called with its body."""
 
-Brains: TypeAlias = Mapping[str, Make]
-"""What makes brains, by kind of robots."""
+Brains: TypeAlias = Mapping[str, Make | Batch]
+"""What makes the brains of robots, or is the brain of all, by kind."""
 
 
 @dataclass(frozen=True)
@@ -38,6 +40,7 @@ class Each:
     kind: str
     make: Make
     brains: tuple[BrainLike, ...] = ()
+    is_in_arrays: ClassVar[bool] = False
 
     def of(self, body: Body, count: int) -> "Each":
         """Return the same for so many robots: those that are there, and new ones."""
@@ -64,9 +67,46 @@ class Each:
         return brain
 
 
+@dataclass(frozen=True)
+class All:
+    """A brain for all robots of a kind at once.
+
+    Attributes:
+        kind: Name of the kind.
+        batch: What decides.
+        memory: What it remembers.
+        always: What is in its percepts besides what robots perceive.
+    """
+
+    kind: str
+    batch: Batch
+    memory: dict[str, Any] = field(default_factory=dict)
+    always: dict[str, Any] = field(default_factory=dict)
+    is_in_arrays: ClassVar[bool] = True
+
+    def of(self, body: Body, count: int) -> "All":
+        """Return the same for so many robots."""
+        return replace(self, always={"body": body, "count": count})
+
+    def step(self, percepts: dict[str, Any]) -> Commands:
+        """Return what robots are to do."""
+        time_s, robots = percepts["time_s"], len(percepts["robots"])
+        whole = cast("Percepts", self.always | percepts)
+        try:
+            told = self.batch.function(whole, self.memory)
+        except Exception as error:
+            error.add_note(f"in the brain of all of {self.kind}, at {time_s:g} s")
+            raise
+        return commands(f"brains.{self.kind}()", told, robots)
+
+
+Mind: TypeAlias = Each | All
+"""What decides for the robots of a kind."""
+
+
 def minds(
     brains: Brains | None, metric: _core.MetricScenario, robots: Mapping[str, int]
-) -> list[Each]:
+) -> list[Mind]:
     """Return what decides for the robots of some kinds, at the beginning of a run.
 
     Raises:
@@ -75,15 +115,21 @@ def minds(
     if brains is None:
         return []
     given.of_kind("brains", brains, Mapping, BY_KIND)
-    for kind, make in brains.items():
-        given.of_kind("brains", kind, str, BY_KIND)
-        given.check(callable(make), f"brains.{kind}", make, MAKES)
-    return changed_minds([Each(kind, make) for kind, make in brains.items()], metric, robots)
+    return changed_minds([mind(*each) for each in brains.items()], metric, robots)
+
+
+def mind(kind: str, make: Make | Batch) -> Mind:
+    """Return what decides for the robots of a kind, before there are any."""
+    given.of_kind("brains", kind, str, BY_KIND)
+    if isinstance(make, Batch):
+        return All(kind, make)
+    given.check(callable(make), f"brains.{kind}", make, MAKES)
+    return Each(kind, make)
 
 
 def changed_minds(
-    minds: list[Each], metric: _core.MetricScenario, robots: Mapping[str, int]
-) -> list[Each]:
+    minds: list[Mind], metric: _core.MetricScenario, robots: Mapping[str, int]
+) -> list[Mind]:
     """Return what decides from now on: robots that stay keep their brains, others get new ones.
 
     Raises:

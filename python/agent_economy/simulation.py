@@ -90,7 +90,7 @@ class Simulation:
             brains: By kind of robots, a class or function that makes a brain in Python when it is
                 called with a robot's body: an object whose `step(percept)` returns a command, as
                 that of `Brain` does. It decides for that robot in place of the scenario's brain,
-                in the same steps.
+                in the same steps. Or a `Batch`, which decides for all robots of the kind at once.
 
         Raises:
             InputError: If the scenario is wrong or of another engine, an argument out of range, or

@@ -1,5 +1,7 @@
 //! Brains in Python, in place of those of a scenario's kinds of robots.
 
+use crate::arrays;
+use crate::commands::Commands;
 use crate::error::input_error;
 use crate::exchange;
 use crate::outside::name_of;
@@ -16,7 +18,9 @@ use sim::scenario::Scenario;
 pub(crate) struct Elsewhere<'py> {
     /// Name of the kind.
     kind: String,
-    /// Takes a robot's index and its percept, and returns its command.
+    /// Whether `step` takes the percepts of all robots as arrays, and returns their commands, or
+    /// takes the index and percept of one, and returns its command.
+    is_in_arrays: bool,
     step: Bound<'py, PyAny>,
 }
 
@@ -26,9 +30,20 @@ impl Elsewhere<'_> {
         kind_of(scenario, "brains", &self.kind).ok()
     }
 
-    fn decide(&self, scenario: &Scenario, asked: &mut Asked) -> PyResult<()> {
-        let py = self.step.py();
-        let percept = exchange::write(py, &asked.percept)?;
+    fn decide(&self, scenario: &Scenario, asked: &mut [Asked]) -> PyResult<()> {
+        if self.is_in_arrays {
+            let percepts = arrays::percepts(self.step.py(), asked)?;
+            let commands: Commands = self.step.call1((percepts,))?.extract()?;
+            commands.give(asked);
+            return Ok(());
+        }
+        asked
+            .iter_mut()
+            .try_for_each(|asked| self.decide_for(scenario, asked))
+    }
+
+    fn decide_for(&self, scenario: &Scenario, asked: &mut Asked) -> PyResult<()> {
+        let percept = exchange::write(self.step.py(), &asked.percept)?;
         let command = self.step.call1((asked.robot.index, percept))?;
         let at = path_of("brains", &name_of(scenario, asked.robot));
         let read = exchange::read::<Command>(&format!("{at}.step()"), &command);
@@ -43,10 +58,11 @@ pub(crate) fn decide(
     brains: &[Elsewhere],
     outside: &mut Outside,
 ) -> PyResult<()> {
-    for brain in brains {
-        let kind = brain.kind(scenario);
-        let asked = outside.asked().iter_mut();
-        for asked in asked.filter(|asked| Some(asked.robot.kind) == kind) {
+    let robots = outside.asked();
+    for asked in robots.chunk_by_mut(|one, other| one.robot.kind == other.robot.kind) {
+        let kind = asked.first().map(|first| first.robot.kind);
+        let mut of_kind = brains.iter().filter(|brain| brain.kind(scenario) == kind);
+        if let Some(brain) = of_kind.next() {
             brain.decide(scenario, asked)?;
         }
     }

@@ -2,9 +2,11 @@
 //! Rust computes, and maps errors. No logic lives here.
 
 mod arguments;
+mod arrays;
 mod brain;
 mod classic_runs;
 mod classic_trace;
+mod commands;
 mod configuration;
 mod elsewhere;
 mod engines;

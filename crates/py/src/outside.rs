@@ -92,7 +92,7 @@ fn by_robot<T: DeserializeOwned + JsonSchema>(
     faults: &mut Vec<Fault>,
 ) -> ByRobot<T> {
     let entry = |(name, given): (Bound<PyAny>, Bound<PyAny>)| {
-        let name = name.to_string();
+        let name = exchange::text(&name);
         let id = robot_of(scenario, argument, &name)?;
         let at = path_of(argument, &name);
         Ok((id, fits(&at, id, exchange::read(&at, &given)?)?))

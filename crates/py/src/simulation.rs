@@ -150,7 +150,7 @@ impl Simulation {
         robot: &Bound<'py, PyAny>,
     ) -> PyResult<Option<Bound<'py, PyAny>>> {
         let mut run = self.locked(py)?;
-        let id = outside::robot_of(run.scenario(), "robot", &robot.to_string());
+        let id = outside::robot_of(run.scenario(), "robot", &exchange::text(robot));
         let id = id.map_err(|fault| input_error(&Faults(vec![fault]), ""))?;
         let work = robots(&run);
         let percept = self.take(py, &mut run, work, |run, _| run.percept(id))?;
