@@ -66,6 +66,10 @@ class Table:
             given.check(name in names, f"{path}.{name}", told[name], f"one of the known: {known}")
         self.path, self.told = path, told
 
+    def __contains__(self, name: str) -> bool:
+        """Whether there is something of a name."""
+        return name in self.told
+
     def part(self, name: str, names: Mapping[str, object]) -> "Table":
         """Return a table in this one; one that is left out is empty."""
         return Table(f"{self.path}.{name}", self.told.get(name, {}), names)
@@ -120,20 +124,22 @@ def commands(path: str, told: object, robots: int) -> Commands:
     return Commands(
         motion.numbers("speed_m_s", (robots,)),
         motion.numbers("turn_rate_rad_s", (robots,)),
-        requests(table.part("requests", batch.Requests.__annotations__), robots),
-        outbox(table.part("outbox", batch.Outbox.__annotations__), robots),
+        requests(table, robots) if "requests" in table else NO_REQUESTS,
+        outbox(table, robots) if "outbox" in table else NO_MESSAGES,
     )
 
 
-def requests(table: Table, robots: int) -> Requests:
+def requests(commands: Table, robots: int) -> Requests:
     """Return sensors to switch."""
+    table = commands.part("requests", batch.Requests.__annotations__)
     row = table.row(robots)
     sensor = table.whole("sensor", row.shape, (0, MOST)).astype(np.uint16)
     return Requests(row, sensor, table.array("on", row.shape, np.dtype(np.bool_)))
 
 
-def outbox(table: Table, robots: int) -> Outbox:
+def outbox(commands: Table, robots: int) -> Outbox:
     """Return messages to be sent."""
+    table = commands.part("outbox", batch.Outbox.__annotations__)
     row = table.row(robots)
     confidence = table.numbers("confidence", row.shape)
     item_kind = table.whole("item_kind", row.shape, (SENDER, MOST))
@@ -141,3 +147,8 @@ def outbox(table: Table, robots: int) -> Outbox:
     has_course = np.any(item_kind == SENDER)
     heading_rad = table.numbers("heading_rad", row.shape) if has_course else np.zeros(row.shape)
     return Outbox(row, confidence, item_kind, at, heading_rad)
+
+
+NOTHING = Table("commands", {}, batch.Commands.__annotations__)
+NO_REQUESTS, NO_MESSAGES = requests(NOTHING, 0), outbox(NOTHING, 0)
+"""Of most functions, in every step: to make them anew would take as long as all the rest."""
