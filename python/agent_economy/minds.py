@@ -50,10 +50,11 @@ class Each:
 
     def step(self, index: int, percept: Percept) -> Command:
         """Return what a robot is to do."""
+        time_s = percept["time_s"]
         try:
             return self.brains[index].step(percept)
         except Exception as error:
-            error.add_note(f"in the brain of {self.kind}/{index}, at {percept['time_s']:g} s")
+            error.add_note(f"in the brain of {self.kind}/{index}, at {time_s:g} s")
             raise
 
     def _made(self, index: int, body: Body) -> BrainLike:

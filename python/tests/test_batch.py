@@ -11,7 +11,7 @@ from bumpers import SMALL, Ahead, Talker
 from metric import ENDLESS, search
 
 import agent_economy as ae
-from agent_economy import Batch, InputError, Scenario, Simulation
+from agent_economy import Batch, InputError, Scenario, Simulation, batch
 from agent_economy.batch import Commands, Percepts
 from agent_economy.brain import Body, Command, Percept
 
@@ -155,6 +155,21 @@ def test_arrays_hold_what_each_robot_perceives() -> None:
                 each["id"]["index"] for each in percept["neighbours"]
             ]
     assert seen > 5
+
+
+def test_arrays_have_the_names_of_percepts_and_of_their_types() -> None:
+    told: list[Any] = []
+
+    def note(percepts: Percepts, memory: dict[str, Any]) -> Commands:
+        told.append(percepts)
+        return talk(percepts, memory)
+
+    Simulation(Scenario.loads(SMALL), brains={"bumper": Batch(note)}).step()
+    assert told[0].keys() == Percepts.__annotations__.keys()
+    assert told[0].keys() >= Percept.__annotations__.keys()
+    for name in ("contacts", "neighbours", "inbox"):
+        entries = getattr(batch, name.capitalize())
+        assert told[0][name].keys() == entries.__annotations__.keys()
 
 
 def test_robots_that_cannot_go_on_are_not_in_the_arrays() -> None:

@@ -156,6 +156,11 @@ def test_what_is_wrong_with_brains_is_told(brains: Any, told: str) -> None:
         Simulation("search", brains=brains).step()
 
 
+def test_engines_without_brains_have_none_in_python_either() -> None:
+    with pytest.raises(InputError, match="engine = 'classic': must be 'metric'"):
+        ae.run("classic", brains={"wanderer": Ahead})
+
+
 def test_numbers_beyond_all_bounds_are_what_the_body_can_do_of_them() -> None:
     far = saying({"motion": {"speed_m_s": 1e308, "turn_rate_rad_s": -1e308}})
     simulation = Simulation("search", brains={"rover": far})
