@@ -85,20 +85,26 @@ def replicate(  # noqa: PLR0913  (keywords with defaults)
     scenario = loaded(scenario)
     configuration = scenario.configuration({})
     if brains is not None:
-        given.check(
-            given.is_whole(runs, 0, _core.MAX_RUNS), "runs", runs, f"0 to {_core.MAX_RUNS:,}"
-        )
-        given.check(given.is_whole(first_run, 0), "first_run", first_run, "a whole number")
         begin = partial(Simulation, scenario, seed, threads=threads, brains=brains)
-        rows = [told_by(begin, first_run + number) for number in range(runs)]
+        rows = one_by_one(begin, first_run, runs)
         names = [name for name, *_ in configuration.columns]
         values = {name: np.array([row.get(name, np.nan) for row in rows]) for name in names}
-        return table(configuration.columns, values, scenario.merit, first_run)
-    told = _core.run_block(
-        [configuration], seed=seed, first_run=first_run, runs=runs, threads=threads
-    )
-    values = {name: array[0] for name, array in told.items()}
+    else:
+        told = _core.run_block(
+            [configuration], seed=seed, first_run=first_run, runs=runs, threads=threads
+        )
+        values = {name: array[0] for name, array in told.items()}
     return table(configuration.columns, values, scenario.merit, first_run)
+
+
+def one_by_one(
+    begin: Callable[[int], Simulation], first_run: int, runs: int
+) -> list[dict[str, float]]:
+    """Return what each run gives, by column; nothing of one that is quarantined."""
+    most = _core.MAX_RUNS
+    given.check(given.is_whole(runs, 0, most), "runs", runs, f"a whole number from 0 to {most}")
+    given.check(given.is_whole(first_run, 0), "first_run", first_run, "a whole number, 0 or more")
+    return [told_by(begin, first_run + number) for number in range(runs)]
 
 
 def told_by(begin: Callable[[int], Simulation], run: int) -> dict[str, float]:

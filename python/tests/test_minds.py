@@ -156,6 +156,13 @@ def test_what_is_wrong_with_brains_is_told(brains: Any, told: str) -> None:
         Simulation("search", brains=brains).step()
 
 
+def test_what_is_wrong_with_arguments_is_told_with_brains_too() -> None:
+    for wrong in ({"runs": -1}, {"runs": 1, "first_run": -1}, {"runs": 1, "seed": -1}):
+        given: Any = wrong
+        with pytest.raises(InputError, match=f"{[*wrong][-1]} = -1: must be a whole number"):
+            ae.replicate("search", brains={"rover": Ahead}, **given)
+
+
 def test_engines_without_brains_have_none_in_python_either() -> None:
     with pytest.raises(InputError, match="engine = 'classic': must be 'metric'"):
         ae.run("classic", brains={"wanderer": Ahead})
