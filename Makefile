@@ -7,8 +7,8 @@ RUST := $(shell find crates/*/src crates/*/Cargo.toml) Cargo.toml Cargo.lock
 # maturin, and what it starts, are found in the environment.
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 
-.PHONY: help study test bench bench-peers bench-store verify-selection fuzz golden schemas picture \
-	replication validation lint wasm rust-test python-test clean
+.PHONY: help study test bench bench-brains bench-peers bench-store verify-selection fuzz golden schemas \
+	picture examples replication validation lint wasm rust-test python-test clean
 
 help: ## Say what can be made
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "%-17s %s\n", $$1, $$2 }' Makefile
@@ -21,8 +21,8 @@ test: lint wasm rust-test python-test ## Run every check, as CI does
 lint: .venv/installed ## Formatters, linters, types, stubs, layers
 	cargo fmt --all --check
 	cargo clippy --workspace --all-targets --locked -- -D warnings
-	$(BIN)/ruff format --check python scripts benchmarks/peers
-	$(BIN)/ruff check python scripts benchmarks/peers
+	$(BIN)/ruff format --check python scripts examples benchmarks/peers
+	$(BIN)/ruff check python scripts examples benchmarks/peers
 	$(BIN)/mypy
 	$(BIN)/stubtest agent_economy._core
 	$(BIN)/lint-imports --no-cache
@@ -52,6 +52,9 @@ bench: ## Speed of both simulators and the brain
 bench-peers: ## Speed of other simulators beside ours (installs them in benchmarks/.venv)
 	$(PYTHON) benchmarks/peers/run.py
 
+bench-brains: .venv/installed ## Robot-updates a second with brains in Python
+	$(BIN)/python scripts/brain_speed.py
+
 bench-store: .venv/installed ## Rows a second into a study's store, and bytes a row
 	$(BIN)/python scripts/store_speed.py
 
@@ -71,6 +74,9 @@ replication: .venv/installed ## Recompute every figure of docs/replication.md
 
 schemas: ## Write the JSON Schema and the reference of scenarios anew from their types
 	RENEW_SCHEMAS=1 cargo test --locked -p agent-economy-sim --test schemas -- --test-threads=1
+
+examples: .venv/installed ## Write anew what examples print
+	RENEW_EXAMPLES=1 $(BIN)/pytest -q python/tests/test_examples.py
 
 picture: study ## Take docs/report.png anew (needs Chromium)
 	$(BIN)/python scripts/report_picture.py

@@ -40,6 +40,7 @@ CODE = {
     "benchmarks/peers": ["*.py", "*.rs"],
     "benchmarks/src": ["*.rs"],
     "crates": ["*.rs"],
+    "examples": ["*.py"],
     "python": ["*.py", "*.pyi"],
     "scripts": ["*.py"],
 }
@@ -106,10 +107,12 @@ def length_faults() -> list[str]:
 
 def document_faults() -> list[str]:
     """Return paths of this tree that a document names or links and that do not exist."""
-    named = re.compile(r"`((?:benchmarks|crates|python|scenarios|scripts|docs)/[^`\s*<>]*)`")
+    named = re.compile(
+        r"`((?:benchmarks|crates|examples|python|scenarios|scripts|docs)/[^`\s*<>]*)`"
+    )
     linked = re.compile(r"\]\((?!https?:|#)([^)\s#]+)")
     faults = []
-    for file in [*ROOT.glob("*.md"), *(ROOT / "docs").glob("*.md")]:
+    for file in [*ROOT.glob("*.md"), *ROOT.glob("docs/*.md"), *ROOT.glob("examples/*.md")]:
         text = file.read_text(encoding="utf-8")
         paths = [ROOT / path for path in named.findall(text)]
         paths += [file.parent / path for path in linked.findall(text)]

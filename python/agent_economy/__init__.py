@@ -10,6 +10,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from agent_economy import classic, study
     from agent_economy._core import InputError
+    from agent_economy.batch import Batch
     from agent_economy.brain import Brain
     from agent_economy.outcome import Outcome
     from agent_economy.recording import Recording, Rerun, rerun
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     __version__: str
 
 __all__ = [
+    "Batch",
     "Brain",
     "InputError",
     "Outcome",
@@ -38,6 +40,7 @@ __all__ = [
 ]
 
 _HOMES = {
+    "Batch": "agent_economy.batch",
     "Brain": "agent_economy.brain",
     "InputError": "agent_economy._core",
     "Outcome": "agent_economy.outcome",

@@ -1,4 +1,4 @@
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Literal, Protocol, TypedDict, final, type_check_only
 
 import numpy as np
@@ -8,13 +8,16 @@ __all__ = [
     "CONTACTS",
     "FIRST_LOOK",
     "MAX_IMAGE_BYTES",
+    "MAX_RUNS",
     "Brain",
     "Configuration",
     "InputError",
     "MetricScenario",
+    "NoRoomError",
     "Procedure",
     "Simulation",
     "Snapshot",
+    "body",
     "exhaust",
     "files_wanted",
     "mean_bounds",
@@ -38,6 +41,7 @@ __all__ = [
 CONTACTS: list[str]
 FIRST_LOOK: int
 MAX_IMAGE_BYTES: int
+MAX_RUNS: int
 
 @type_check_only
 class Fault(TypedDict):
@@ -52,6 +56,8 @@ class Fault(TypedDict):
 
 class InputError(ValueError):
     faults: Sequence[Fault]
+
+class NoRoomError(InputError): ...
 
 def refusal(name: str, given: object, allowed: str) -> InputError: ...
 
@@ -136,9 +142,19 @@ def run_one(configuration: Configuration, *, seed: int, run: int) -> dict[str, f
 class MetricScenario: ...
 
 def read_metric(source: _Source) -> MetricScenario: ...
+def body(scenario: MetricScenario, path: str, kind: str) -> dict[str, Any]: ...
 
 @final
 class Snapshot: ...
+
+@type_check_only
+class _Mind(Protocol):
+    @property
+    def kind(self) -> str: ...
+    @property
+    def is_in_arrays(self) -> bool: ...
+    @property
+    def step(self) -> Callable[..., object]: ...
 
 @final
 class Simulation:
@@ -175,8 +191,10 @@ class Simulation:
     def outside(self) -> NDArray[np.bool_]: ...
     def step(self, steps: int) -> None: ...
     def step_with(
-        self, percepts: dict[str, Any], commands: dict[str, Any]
+        self, percepts: dict[str, Any], commands: dict[str, Any], brains: Sequence[_Mind]
     ) -> dict[str, dict[str, Any]]: ...
+    @property
+    def decided(self) -> dict[str, dict[str, Any]]: ...
     def percept(self, robot: str) -> dict[str, Any] | None: ...
     def finish(self) -> None: ...
     def outcome(self) -> dict[str, float] | None: ...

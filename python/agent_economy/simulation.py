@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from agent_economy import _core, given
 from agent_economy.brain import Command, Percept
+from agent_economy.minds import Brains, changed_minds, minds
 from agent_economy.outcome import Outcome, table
 from agent_economy.scenario import Given, Override, Scenario, loaded
 
@@ -76,6 +77,7 @@ class Simulation:
         seed: int = 0,
         run: int = 0,
         threads: int | None = None,
+        brains: Brains | None = None,
     ) -> None:
         """Begin a run.
 
@@ -85,13 +87,19 @@ class Simulation:
             run: Its number, 0 to 2^63 - 10,000,001; each is another world.
             threads: 1 to 1024, for worlds of thousands of robots; None for as many as there are
                 processors. It changes no result.
+            brains: By kind of robots, a class or function that makes a brain in Python when it is
+                called with a robot's body: an object whose `step(percept)` returns a command, as
+                that of `Brain` does. It decides for that robot in place of the scenario's brain,
+                in the same steps. Or a `Batch`, which decides for all robots of the kind at once.
 
         Raises:
             InputError: If the scenario is wrong or of another engine, an argument out of range, or
                 the world has no room for the team or the items.
         """
         self.scenario = loaded(scenario)
-        self._run = _core.Simulation(self.scenario.metric(), seed=seed, run=run, threads=threads)
+        metric = self.scenario.metric()
+        self._run = _core.Simulation(metric, seed=seed, run=run, threads=threads)
+        self._minds = minds(brains, metric, self.scenario.robots)
         self.seed, self.run = seed, run
         self._changes: tuple[Change, ...] = ()
         self._lock = RLock()
@@ -127,15 +135,29 @@ class Simulation:
             empty or broken wants nothing.
 
         Raises:
-            InputError: If anything is not allowed, all faults at once; no step is taken then.
+            InputError: If anything is not allowed, all faults at once; no step is taken then. Nor
+                is it if a brain in Python raises something: what it raises comes out here.
         """
         if percepts is None and commands is None:
-            self._run.step(steps)
+            self._step(steps)
             return {}
         is_one = isinstance(steps, Integral) and steps == 1
         given.check(is_one, "steps", steps, "1 with percepts or commands")
         both = as_dict("percepts", percepts), as_dict("commands", commands)
-        return cast("dict[str, Command]", self._run.step_with(*both))
+        return cast("dict[str, Command]", self._run.step_with(*both, self._minds))
+
+    def _step(self, steps: int) -> None:
+        if not self._minds:
+            self._run.step(steps)
+            return
+        given.check(given.is_whole(steps, 0), "steps", steps, "a whole number, 0 or more")
+        for _ in range(steps):
+            self._run.step_with({}, {}, self._minds)
+
+    @property
+    def decided(self) -> dict[str, Command]:
+        """By robot, what the brains in Python that stepped in the last step decided."""
+        return cast("dict[str, Command]", self._run.decided)
 
     def percept(self, robot: str) -> Percept | None:
         """Return what a robot will perceive in the next step; the run does not go on.
@@ -154,6 +176,8 @@ class Simulation:
 
     def finish(self) -> Outcome:
         """Take steps until the run is over; Ctrl-C stops between two."""
+        while self._minds and not self._run.is_over:
+            self._step(1)
         self._run.finish()
         return self.outcome()
 
@@ -173,7 +197,8 @@ class Simulation:
 
         Robots and items that are in both scenarios, by kind and index, stay as they are; others
         come in where they would start, or go. A robot whose brain, body or sensors are now others
-        begins with a new mind. Messages on their way are lost if the team changes.
+        begins with a new mind; one in Python it keeps. Messages on their way are lost if the team
+        changes.
 
         Args:
             path: Keys from the root, with dots between, such as "robots.rover.count"; any but
@@ -189,8 +214,10 @@ class Simulation:
         given.check(not stays, f"change: {path}", value, "as it was when the run began")
         with self._lock:
             changed = self.scenario.changed((override,))
-            tick = self._run.change(changed.metric())
-            self.scenario = changed
+            metric = changed.metric()
+            after = changed_minds(self._minds, metric, changed.robots)
+            tick = self._run.change(metric)
+            self.scenario, self._minds = changed, after
             self._changes += (Change(tick, path, value),)
 
     @property
@@ -199,7 +226,12 @@ class Simulation:
         return self._changes
 
     def snapshot(self) -> Snapshot:
-        """Return the whole run as it is now; it costs as much memory as the run."""
+        """Return the whole run as it is now; it costs as much memory as the run.
+
+        Raises:
+            InputError: If it has brains in Python: what they remember is theirs.
+        """
+        self._have_no_minds("snapshot")
         with self._lock:
             inside = self._run.snapshot()
             return Snapshot(self.scenario, self.seed, self.run, self._changes, inside)
@@ -208,13 +240,19 @@ class Simulation:
         """Be the run that a snapshot is of: its scenario, its seed, its moment, its changes.
 
         Raises:
-            InputError: If it is no `Snapshot`.
+            InputError: If it is no `Snapshot`, or the run has brains in Python.
         """
+        self._have_no_minds("restore")
         given.of_kind("snapshot", snapshot, Snapshot, "what snapshot() returned")
         with self._lock:
             self._run.restore(snapshot._inside)  # noqa: SLF001  (ours)
             self.scenario, self._changes = snapshot.scenario, snapshot.changes
             self.seed, self.run = snapshot.seed, snapshot.run
+
+    def _have_no_minds(self, what: str) -> None:
+        kinds = [mind.kind for mind in self._minds]
+        allowed = "none: what brains in Python remember is in no snapshot; begin the run again"
+        given.check(not kinds, f"{what}: brains", kinds, allowed)
 
     @property
     def tick(self) -> int:

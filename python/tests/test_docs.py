@@ -32,11 +32,8 @@ def test_the_readme_quotes_the_answer_that_make_study_gives() -> None:
     assert answer.sentence in quoted
 
 
-def test_the_examples_of_the_page_on_running_scenarios_run(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    page = (ROOT / "docs/simulation.md").read_text()
+def run_blocks(page: str) -> None:
+    """Run what stands in a page's blocks, in order: Python, or commands."""
     blocks = re.findall(r"^```(python)?\n(.*?)^```$", page, re.DOTALL | re.MULTILINE)
     names: dict[str, Any] = {}
     for language, text in blocks:
@@ -47,9 +44,22 @@ def test_the_examples_of_the_page_on_running_scenarios_run(
             command = [sys.executable, "-m", *shlex.split(line.replace("-", "_", 1), comments=True)]
             given = subprocess.run(command, capture_output=True, text=True, check=False)
             assert given.returncode == 0, given.stderr
-    assert (tmp_path / "runs.parquet").exists()
+
+
+@pytest.mark.parametrize(("name", "prints"), [("simulation", 3), ("brains", 1)])
+def test_the_examples_of_a_page_run_and_print_what_it_says(
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    name: str,
+    prints: int,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    page = (ROOT / f"docs/{name}.md").read_text()
+    run_blocks(page)
+    assert (tmp_path / "runs.parquet").exists() == ("runs.parquet" in page)
     printed = capsys.readouterr().out.splitlines()
     promised = re.findall(r"^print\(.*?\)\s+# (.*)", page, re.MULTILINE)
     for line, words in zip(printed, promised, strict=False):
         assert line == words or words.startswith("share of"), (line, words)
-    assert len(printed) >= len(promised) == 3
+    assert len(printed) >= len(promised) == prints

@@ -1,5 +1,6 @@
 //! Brains, for whoever has percepts of their own: live robots, other simulators, learning.
 
+use crate::elsewhere::kind_of;
 use crate::error::input_error;
 use crate::exchange::{self, below};
 use crate::fit::fitting;
@@ -10,6 +11,7 @@ use base::document::Document;
 use base::document::schema::Schema;
 use base::fault::{Fault, Faults};
 use brain::{Body, BrainSpec, Command, Percept};
+use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use schemars::{JsonSchema, schema_for};
 use serde::de::DeserializeOwned;
@@ -38,15 +40,10 @@ impl Brain {
     #[staticmethod]
     fn of(scenario: &Bound<MetricScenario>, kind: &str) -> PyResult<Self> {
         let scenario = &scenario.get().0;
-        let place = scenario.robot_kinds().position(|known| known == kind);
-        let kind_number = place.and_then(|place| u8::try_from(place).ok());
-        let brain = kind_number.and_then(|number| scenario.brain(number));
-        let brain = brain.ok_or_else(|| {
-            let given = Some(format!("{kind:?}"));
-            let kinds: Vec<&str> = scenario.robot_kinds().collect();
-            let fault = Fault::not_one_of("kind".to_owned(), given, kind, kinds.into_iter());
-            input_error(&Faults(vec![fault]), "")
-        })?;
+        let number = kind_of(scenario, "kind", kind);
+        let number = number.map_err(|fault| input_error(&Faults(vec![fault]), ""))?;
+        let brain = scenario.brain(number);
+        let brain = brain.ok_or_else(|| PyRuntimeError::new_err("a kind has no brain"))?;
         Ok(Self(Mutex::new(brain.clone())))
     }
 

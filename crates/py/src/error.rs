@@ -14,9 +14,24 @@ create_exception!(
      `faults` are the same, each a dict, of a scenario or a call; else it is empty."
 );
 
+create_exception!(
+    agent_economy,
+    NoRoomError,
+    InputError,
+    "The world of a run has no room for its team or its items: another run's may have."
+);
+
 /// All faults in one exception, one a line; `file` is what was read, if it was one.
 pub(crate) fn input_error(faults: &Faults, file: &str) -> PyErr {
-    let error = InputError::new_err(faults.to_string());
+    noted(InputError::new_err(faults.to_string()), faults, file)
+}
+
+/// That a run has no room for something.
+pub(crate) fn no_room_error(faults: &Faults) -> PyErr {
+    noted(NoRoomError::new_err(faults.to_string()), faults, "")
+}
+
+fn noted(error: PyErr, faults: &Faults, file: &str) -> PyErr {
     Python::attach(|py| {
         let dicts: PyResult<Vec<_>> = faults
             .0

@@ -84,7 +84,7 @@ fn json(at: &str, given: &Bound<PyAny>, deep: usize) -> Result<Json, Fault> {
     } else if let Ok(dict) = given.cast::<PyDict>() {
         let deep = deep.checked_sub(1).ok_or_else(too_deep)?;
         let entry = |(key, given): (Bound<PyAny>, Bound<PyAny>)| {
-            let key = key.to_string();
+            let key = text(&key);
             Ok((key.clone(), json(&path_of(at, &key), &given, deep)?))
         };
         let entries: Result<Map<String, Json>, Fault> = dict.iter().map(entry).collect();
@@ -102,6 +102,12 @@ fn json(at: &str, given: &Bound<PyAny>, deep: usize) -> Result<Json, Fault> {
     } else {
         number(at, given)
     }
+}
+
+/// A name, as it is or as Python shows it: to show something looks for Ctrl-C, and would lose it.
+pub(crate) fn text(given: &Bound<PyAny>) -> String {
+    let text = given.extract::<String>();
+    text.unwrap_or_else(|_| given.to_string())
 }
 
 fn number(at: &str, given: &Bound<PyAny>) -> Result<Json, Fault> {

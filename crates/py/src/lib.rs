@@ -2,10 +2,13 @@
 //! Rust computes, and maps errors. No logic lives here.
 
 mod arguments;
+mod arrays;
 mod brain;
 mod classic_runs;
 mod classic_trace;
+mod commands;
 mod configuration;
+mod elsewhere;
 mod engines;
 mod error;
 mod exchange;
@@ -33,7 +36,9 @@ mod _core {
     #[pymodule_export]
     use crate::configuration::{Configuration, read_configuration, run_block, run_one};
     #[pymodule_export]
-    use crate::error::InputError;
+    use crate::elsewhere::body;
+    #[pymodule_export]
+    use crate::error::{InputError, NoRoomError};
     #[pymodule_export]
     use crate::recording::{recorded_moment, recorded_setting};
     #[pymodule_export]
@@ -53,6 +58,7 @@ mod _core {
         module.getattr("InputError")?.setattr("faults", none)?;
         module.add("FIRST_LOOK", select::schedule::next_look(0))?;
         module.add("MAX_IMAGE_BYTES", base::map::MAX_IMAGE_BYTES)?;
+        module.add("MAX_RUNS", crate::configuration::MAX_RUNS)?;
         module.add("CONTACTS", Contact::NAMES.map(|(name, _)| name))
     }
 }

@@ -61,7 +61,7 @@ fn no_robot(team: &[(String, u32)], path: &str, name: &str) -> Fault {
     }
 }
 
-/// The percepts and commands of a step.
+/// The percepts and commands of a step; the brains of some kinds are `elsewhere`.
 ///
 /// # Errors
 /// Everything that is wrong with them; of each percept and command the first fault.
@@ -69,6 +69,7 @@ pub(crate) fn read(
     run: &Simulation,
     percepts: &Bound<PyDict>,
     commands: &Bound<PyDict>,
+    elsewhere: &[u8],
 ) -> Result<(ByRobot<Percept>, ByRobot<Command>), Faults> {
     let mut faults = Vec::new();
     let scenario = run.scenario();
@@ -80,6 +81,7 @@ pub(crate) fn read(
     let as_it_is = |_: &str, _, command| Ok(command);
     let commands = by_robot(scenario, ("commands", commands), as_it_is, &mut faults);
     faults.extend(commanded_outside(run, &percepts, &commands));
+    faults.extend(without_brain(scenario, &percepts, elsewhere));
     Faults::or(faults, Some((percepts, commands)))
 }
 
@@ -90,7 +92,7 @@ fn by_robot<T: DeserializeOwned + JsonSchema>(
     faults: &mut Vec<Fault>,
 ) -> ByRobot<T> {
     let entry = |(name, given): (Bound<PyAny>, Bound<PyAny>)| {
-        let name = name.to_string();
+        let name = exchange::text(&name);
         let id = robot_of(scenario, argument, &name)?;
         let at = path_of(argument, &name);
         Ok((id, fits(&at, id, exchange::read(&at, &given)?)?))
@@ -122,6 +124,20 @@ fn commanded_outside(
         Fault::new("commands".to_owned(), Some(name), allowed.to_owned())
     };
     of_outside.map(fault).collect()
+}
+
+/// Only the brain of a scenario steps with percepts from outside.
+fn without_brain(
+    scenario: &Scenario,
+    percepts: &ByRobot<Percept>,
+    elsewhere: &[u8],
+) -> impl Iterator<Item = Fault> {
+    let given = percepts.keys().filter(|id| elsewhere.contains(&id.kind));
+    given.map(|id| {
+        let name = format!("{:?}", name_of(scenario, *id));
+        let allowed = "a robot that has the scenario's brain: step yours of `brains` yourself";
+        Fault::new("percepts".to_owned(), Some(name), allowed.to_owned())
+    })
 }
 
 /// Something for each of some robots, as Python has it.

@@ -2,7 +2,8 @@
 
 use crate::arguments::Arguments;
 use crate::configuration::{ColumnTuple, as_tuple};
-use crate::error::input_error;
+use crate::elsewhere::{self, Elsewhere};
+use crate::error::{input_error, no_room_error};
 use crate::exchange;
 use crate::long_work::interruptible;
 use crate::outside;
@@ -13,11 +14,12 @@ use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use sim::engine::{self, NoRoom, Robot};
+use sim::engine::{self, NoRoom, Outside, Robot};
 use sim::runner::Runs;
 use sim::scenario::{Scenario, ScenarioSpec};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
+use std::thread::{self, ThreadId};
 use std::time::Duration;
 
 /// Steps of so many robots together take some milliseconds: less than it pays to wake a thread for.
@@ -48,6 +50,8 @@ pub(crate) struct Snapshot(engine::Simulation);
 pub(crate) struct Simulation {
     run: Mutex<engine::Simulation>,
     threads: Option<usize>,
+    /// In which thread brains in Python are asked now.
+    asking: Mutex<Option<ThreadId>>,
 }
 
 #[pymethods]
@@ -75,6 +79,7 @@ impl Simulation {
         Ok(Self {
             run: Mutex::new(begun),
             threads,
+            asking: Mutex::new(None),
         })
     }
 
@@ -104,22 +109,38 @@ impl Simulation {
     }
 
     /// Takes one step with percepts of bodies outside and commands for other robots, dicts by the
-    /// robots' names; returns the commands for bodies outside.
+    /// robots' names, and with `brains` in Python for some kinds; returns the commands for bodies
+    /// outside. If a brain raises, no step is taken.
+    #[expect(clippy::needless_pass_by_value, reason = "as Python hands it over")]
     fn step_with<'py>(
         &self,
         py: Python<'py>,
         percepts: &Bound<'py, PyDict>,
         commands: &Bound<'py, PyDict>,
+        brains: Vec<Elsewhere<'py>>,
     ) -> PyResult<Bound<'py, PyDict>> {
         let mut run = self.locked(py)?;
-        let read = outside::read(&run, percepts, commands);
+        let kinds = brains.iter().filter_map(|brain| brain.kind(run.scenario()));
+        let kinds: Vec<u8> = kinds.collect();
+        let read = outside::read(&run, percepts, commands, &kinds);
         let (percepts, commands) = read.map_err(|faults| input_error(&faults, ""))?;
         let work = robots(&run);
-        let answers = self.take(py, &mut run, work, |run, _| {
-            run.step_with(percepts, commands)
+        let begun = self.take(py, &mut run, work, |run, _| {
+            run.ask(percepts, commands, &kinds)
         })?;
-        let answers = answers.map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
+        let mut begun = begun.map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
+        self.ask(run.scenario(), &brains, &mut begun)?;
+        let answers = self.take(py, &mut run, work, |run, _| run.answer(begun))?;
         outside::write(py, run.scenario(), &answers)
+    }
+
+    /// What brains in Python decided in the last step, by robot.
+    #[getter]
+    fn decided<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let run = self.locked(py)?;
+        let decided = run.asked().iter();
+        let decided = decided.map(|asked| (asked.robot, &asked.command)).collect();
+        outside::write(py, run.scenario(), &decided)
     }
 
     /// What a robot will perceive in the next step; None if its brain does not step in it.
@@ -129,7 +150,7 @@ impl Simulation {
         robot: &Bound<'py, PyAny>,
     ) -> PyResult<Option<Bound<'py, PyAny>>> {
         let mut run = self.locked(py)?;
-        let id = outside::robot_of(run.scenario(), "robot", &robot.to_string());
+        let id = outside::robot_of(run.scenario(), "robot", &exchange::text(robot));
         let id = id.map_err(|fault| input_error(&Faults(vec![fault]), ""))?;
         let work = robots(&run);
         let percept = self.take(py, &mut run, work, |run, _| run.percept(id))?;
@@ -283,12 +304,30 @@ impl Simulation {
                 Ok(run) => return Ok(run),
                 // A step is whole or has panicked, which is told where it does.
                 Err(TryLockError::Poisoned(run)) => return Ok(run.into_inner()),
+                Err(TryLockError::WouldBlock) if *self.asking() == Some(thread::current().id()) => {
+                    let sentence = "a brain must not look at the run that it is in, nor step it: \
+                                    all that it knows is its percept";
+                    let fault = Fault::new(String::new(), None, sentence.to_owned());
+                    return Err(input_error(&Faults(vec![fault]), ""));
+                }
                 Err(TryLockError::WouldBlock) => {
-                    py.detach(|| std::thread::sleep(BETWEEN_LOOKS));
+                    py.detach(|| thread::sleep(BETWEEN_LOOKS));
                     py.check_signals()?;
                 }
             }
         }
+    }
+
+    /// Asks brains in Python, in this thread: Python hands Ctrl-C to no other.
+    fn ask(&self, scenario: &Scenario, brains: &[Elsewhere], begun: &mut Outside) -> PyResult<()> {
+        *self.asking() = Some(thread::current().id());
+        let decided = elsewhere::decide(scenario, brains, begun);
+        *self.asking() = None;
+        decided
+    }
+
+    fn asking(&self) -> MutexGuard<'_, Option<ThreadId>> {
+        self.asking.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Lets a run go on: here if that is little work, in robots times steps, else where threads
@@ -359,5 +398,5 @@ fn no_room(scenario: &Scenario, why: NoRoom) -> PyErr {
             &robot.why,
         ),
     };
-    input_error(&Faults(vec![fault]), "")
+    no_room_error(&Faults(vec![fault]))
 }

@@ -153,7 +153,8 @@ class Recording:
         finally:
             # Also after Ctrl-C: a step that was taken cannot be taken again without its input.
             if self.simulation.tick > tick:
-                inputs = {"percepts": percepts or {}, "commands": commands or {}}
+                decided = {**self.simulation.decided, **(commands or {})}
+                inputs = {"percepts": percepts or {}, "commands": decided}
                 self._write_step(tick, perceived, inputs)
 
     def _write_step(

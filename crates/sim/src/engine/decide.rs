@@ -59,7 +59,9 @@ impl Desk {
         mind: &mut Mind,
         outside: &Outside,
     ) {
-        if let Some(percept) = outside.percepts.get(&robot) {
+        if let Some(command) = outside.asking.decided(robot) {
+            self.take(command);
+        } else if let Some(percept) = outside.percepts.get(&robot) {
             self.percept.clone_from(percept);
             mind.tell_messages(view.tick, view.scenario.step_s, &mut self.percept);
             self.recognise(view, robot);
@@ -70,9 +72,7 @@ impl Desk {
         } else {
             let is_time = self.perceive(view, robot, mind);
             if let Some(command) = outside.commands.get(&robot) {
-                self.command.motion = command.motion;
-                self.command.requests.clone_from(&command.requests);
-                self.command.outbox.clone_from(&command.outbox);
+                self.take(command);
             } else if is_time {
                 mind.brain.step_into(&self.percept, &mut self.command);
             } else {
@@ -80,6 +80,13 @@ impl Desk {
             }
         }
         self.obey(view, robot, mind);
+    }
+
+    /// Takes over what was decided elsewhere.
+    fn take(&mut self, command: &Command) {
+        self.command.motion = command.motion;
+        self.command.requests.clone_from(&command.requests);
+        self.command.outbox.clone_from(&command.outbox);
     }
 
     /// Notes the items that contacts from outside are of: the nearest of the kind, if it is near.

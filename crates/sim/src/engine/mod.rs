@@ -2,6 +2,7 @@
 
 mod act;
 mod air;
+mod asked;
 mod change;
 mod decide;
 mod hash;
@@ -21,7 +22,9 @@ mod tick;
 mod view;
 mod waiting;
 
+pub use asked::Asked;
 pub use outcome::Outcome;
+pub use outside::Outside;
 pub use seen::{Item, Robot};
 pub use simulation::{NoRobot, Simulation};
 pub use state::{NoRoom, State, Status};

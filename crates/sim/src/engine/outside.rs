@@ -1,19 +1,28 @@
 //! What comes from outside in a step: percepts of bodies that are not simulated, and commands that
 //! stand for what a brain would decide.
 
+use super::asked::{Asked, Asking};
 use brain::{Command, Percept};
 use std::collections::BTreeMap;
 
-/// Percepts and commands from outside, by the robot's number.
+/// What comes from outside into one step of a run.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Outside {
+pub struct Outside {
+    /// By the robot's number, as are commands.
     pub(crate) percepts: BTreeMap<usize, Percept>,
     pub(crate) commands: BTreeMap<usize, Command>,
+    pub(crate) asking: Asking,
 }
 
 impl Outside {
+    /// The robots that others decide for, in their order.
+    pub fn asked(&mut self) -> &mut [Asked] {
+        &mut self.asking.robots
+    }
+
     pub(crate) fn is_empty(&self) -> bool {
-        self.percepts.is_empty() && self.commands.is_empty()
+        let nobody_is_asked = self.asking.robots.is_empty();
+        self.percepts.is_empty() && self.commands.is_empty() && nobody_is_asked
     }
 }
 

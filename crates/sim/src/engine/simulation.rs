@@ -1,5 +1,6 @@
 //! One run, stepped by hand.
 
+use super::asked::Asked;
 use super::outcome::Outcome;
 use super::outside::Outside;
 use super::state::{NoRoom, State};
@@ -60,21 +61,47 @@ impl Simulation {
         percepts: BTreeMap<RobotId, Percept>,
         commands: BTreeMap<RobotId, Command>,
     ) -> Result<BTreeMap<RobotId, Command>, NoRobot> {
-        let outside = Outside {
-            percepts: self.numbered(percepts)?,
-            commands: self.numbered(commands)?,
-        };
-        for (robot, percept) in &outside.percepts {
-            self.put_outside(*robot, percept);
-        }
+        let outside = self.outside(percepts, commands)?;
+        Ok(self.answer(outside))
+    }
+
+    /// Begins such a step for a run in which others decide for the robots of some `kinds`: those
+    /// whose brains step in it, with what they perceive. What is decided is written to them, and
+    /// [`Simulation::answer`] takes the step. Until then nothing has changed but where bodies
+    /// outside are.
+    ///
+    /// # Errors
+    /// If a robot is not there.
+    pub fn ask(
+        &mut self,
+        percepts: BTreeMap<RobotId, Percept>,
+        commands: BTreeMap<RobotId, Command>,
+        kinds: &[u8],
+    ) -> Result<Outside, NoRobot> {
+        let mut outside = self.outside(percepts, commands)?;
+        self.workshop
+            .ask(&self.scenario, &mut self.state, kinds, &mut outside);
+        Ok(outside)
+    }
+
+    /// Takes the step that [`Simulation::ask`] began, which must be the last thing that was done to
+    /// the run; returns what the brains of bodies outside decide.
+    pub fn answer(&mut self, mut outside: Outside) -> BTreeMap<RobotId, Command> {
+        outside.asking.settle(&mut self.state.minds);
         self.workshop
             .tick(&self.scenario, &mut self.state, &outside);
+        self.workshop.asking = outside.asking;
         let ids = &self.state.ids;
-        Ok(self
-            .workshop
+        self.workshop
             .answers()
             .map(|(robot, command)| (ids[robot], command))
-            .collect())
+            .collect()
+    }
+
+    /// The robots of the last answered step for which others decided.
+    #[must_use]
+    pub fn asked(&self) -> &[Asked] {
+        self.workshop.asked()
     }
 
     /// What a robot will perceive in the next step; `None` if its brain does not step in it, or if
@@ -142,6 +169,23 @@ impl Simulation {
         self.state = state;
         self.workshop = Workshop::new(&scenario, true);
         self.scenario = scenario;
+    }
+
+    /// What comes from outside into a step, with bodies outside where their percepts say.
+    fn outside(
+        &mut self,
+        percepts: BTreeMap<RobotId, Percept>,
+        commands: BTreeMap<RobotId, Command>,
+    ) -> Result<Outside, NoRobot> {
+        let outside = Outside {
+            percepts: self.numbered(percepts)?,
+            commands: self.numbered(commands)?,
+            ..Outside::default()
+        };
+        for (robot, percept) in &outside.percepts {
+            self.put_outside(*robot, percept);
+        }
+        Ok(outside)
     }
 
     /// The body is outside, and where its percept says.

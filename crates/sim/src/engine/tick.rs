@@ -1,6 +1,7 @@
 //! One step of a run: sense, tell, decide, act, judge.
 
 use super::act::{Moves, Plan, planned};
+use super::asked::{Asked, Asking};
 use super::decide::Desk;
 use super::mind::Mind;
 use super::neighbours::Neighbours;
@@ -15,8 +16,10 @@ use rayon::prelude::*;
 /// step to step, so that after the first ones a step allocates nothing.
 #[derive(Debug, Clone)]
 pub(crate) struct Workshop {
-    neighbours: Neighbours,
-    desks: Vec<Desk>,
+    pub(super) neighbours: Neighbours,
+    pub(super) desks: Vec<Desk>,
+    /// Those of the last step for which others decided.
+    pub(super) asking: Asking,
     moves: Moves,
     /// Whether threads may share the work of one step.
     may_share: bool,
@@ -30,6 +33,7 @@ impl Workshop {
         Self {
             neighbours: Neighbours::new(scenario),
             desks: Vec::new(),
+            asking: Asking::default(),
             moves: Moves::default(),
             may_share,
         }
@@ -50,7 +54,7 @@ impl Workshop {
         self.refresh(scenario, state);
         self.sense_decide_and_plan(scenario, state, outside);
         self.speak(scenario, state);
-        self.judge(scenario, state);
+        self.judge(scenario, state, &outside.asking);
         self.act(scenario, state);
         state.tick += 1;
         hear(scenario, state);
@@ -61,16 +65,15 @@ impl Workshop {
     }
 
     /// Sees to it that neighbours are known.
-    fn refresh(&mut self, scenario: &Scenario, state: &State) {
+    pub(super) fn refresh(&mut self, scenario: &Scenario, state: &State) {
         let is_shared = self.is_shared(state);
         self.neighbours
             .refresh(scenario, &state.ids, &state.discs, is_shared);
     }
 
-    /// Lets all robots sense, decide and plan their ways, each from the same view: all of one robot
-    /// before the next, so that what is known of it is read from memory once.
-    fn sense_decide_and_plan(&mut self, scenario: &Scenario, state: &mut State, outside: &Outside) {
-        let (robots, is_shared) = (state.robots(), self.is_shared(state));
+    /// Clears desks for all threads that share the work of a step; whether more than one does.
+    pub(super) fn prepare_desks(&mut self, state: &State) -> bool {
+        let is_shared = self.is_shared(state);
         let desks = if is_shared {
             4 * rayon::current_num_threads()
         } else {
@@ -78,10 +81,18 @@ impl Workshop {
         };
         self.desks.resize_with(desks, Desk::default);
         self.desks.iter_mut().for_each(Desk::clear);
+        is_shared
+    }
+
+    /// Lets all robots sense, decide and plan their ways, each from the same view: all of one robot
+    /// before the next, so that what is known of it is read from memory once.
+    fn sense_decide_and_plan(&mut self, scenario: &Scenario, state: &mut State, outside: &Outside) {
+        let is_shared = self.prepare_desks(state);
+        let robots = state.robots();
         let plans = self.moves.plans(robots);
         let (mut view, minds) = state.view(scenario, &self.neighbours);
         view.outside = (!outside.is_empty()).then_some(outside);
-        let share = robots.div_ceil(desks).max(1);
+        let share = robots.div_ceil(self.desks.len()).max(1);
         let serve = |(number, ((desk, minds), plans)): (usize, Share)| {
             for (place, (mind, plan)) in minds.iter_mut().zip(plans).enumerate() {
                 let robot = number * share + place;
@@ -115,6 +126,11 @@ impl Workshop {
         is_time.then_some(desk.percept)
     }
 
+    /// The robots of the last step for which others decided.
+    pub(crate) fn asked(&self) -> &[Asked] {
+        &self.asking.robots
+    }
+
     /// What brains decided for bodies outside, by the robot's number.
     pub(crate) fn answers(&mut self) -> impl Iterator<Item = (usize, Command)> {
         self.desks
@@ -145,7 +161,11 @@ impl Workshop {
     }
 
     /// Marks what has been found.
-    fn judge(&self, scenario: &Scenario, state: &mut State) {
+    fn judge(&self, scenario: &Scenario, state: &mut State, asking: &Asking) {
+        state.tally.false_alarms += asking.false_alarms;
+        for item in &asking.sightings {
+            state.find(scenario, *item);
+        }
         for desk in &self.desks {
             state.tally.false_alarms += desk.senses.false_alarms;
             for item in &desk.senses.sightings {

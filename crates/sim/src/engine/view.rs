@@ -57,6 +57,11 @@ impl<'a> View<'a> {
         hull.status == Status::Active && !hull.is_external
     }
 
+    /// Whether its brain steps now, and its body is simulated.
+    pub(crate) fn is_due(&self, robot: usize) -> bool {
+        self.is_simulated(robot) && self.kind(robot).rhythm.beat(self.tick).is_some()
+    }
+
     /// Whether it can hear at all.
     pub(crate) fn is_listening(&self, robot: usize) -> bool {
         let hull = &self.hulls[robot];

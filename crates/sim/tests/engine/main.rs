@@ -14,6 +14,7 @@
     reason = "tests count, compare what is exact by construction, write scenarios, and may panic"
 )]
 
+mod asked;
 mod battery;
 mod change;
 mod collisions;

@@ -1,0 +1,238 @@
+//! What the robots of a kind perceive together: an array for each thing, with an entry a robot.
+
+use base::geometry::Point;
+use brain::{About, Motion, Percept, Reading};
+use numpy::{Element, IntoPyArray, PyArrayMethods};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
+use sim::engine::Asked;
+
+/// Stands in whole numbers for what is not about an item.
+pub(crate) const NO_ITEM: i64 = -1;
+
+/// What robots of one kind perceive, by the names in a percept; NaN, or false, is missing.
+///
+/// What there is any number of, such as contacts, has an entry each, and in `row` the place of its
+/// robot.
+pub(crate) fn percepts<'py>(py: Python<'py>, asked: &[Asked]) -> PyResult<Bound<'py, PyDict>> {
+    let told = Told {
+        py,
+        asked,
+        dict: PyDict::new(py),
+    };
+    let time_s = asked.first().map_or(0.0, |first| first.percept.time_s);
+    told.dict.set_item("time_s", time_s)?;
+    let indices = asked.iter().map(|asked| i64::from(asked.robot.index));
+    told.put("robots", array(py, indices))?;
+    told.put(
+        "dice",
+        table(py, asked.iter().map(|asked| asked.percept.dice))?,
+    )?;
+    told.reading("position", |percept| percept.position)?;
+    told.reading("heading_rad", |percept| percept.heading_rad)?;
+    told.reading("motion", |percept| percept.motion)?;
+    told.reading("battery", |percept| percept.battery)?;
+    told.reading("touch", |percept| percept.touch)?;
+    told.put("scans", scans(py, asked)?)?;
+    told.put("contacts", contacts(py, asked)?)?;
+    told.put("neighbours", neighbours(py, asked)?)?;
+    told.put("inbox", inbox(py, asked)?)?;
+    Ok(told.dict)
+}
+
+struct Told<'a, 'py> {
+    py: Python<'py>,
+    asked: &'a [Asked],
+    dict: Bound<'py, PyDict>,
+}
+
+impl<'py> Told<'_, 'py> {
+    fn put(&self, name: &str, what: impl IntoPyObject<'py>) -> PyResult<()> {
+        self.dict.set_item(name, what)
+    }
+
+    /// Puts a reading of each robot there: its `value`, and its `age_s`.
+    fn reading<T: Value>(
+        &self,
+        name: &str,
+        of: impl Fn(&Percept) -> Option<Reading<T>>,
+    ) -> PyResult<()> {
+        let readings = self.asked.iter().map(|asked| of(&asked.percept));
+        let readings: Vec<Option<Reading<T>>> = readings.collect();
+        let ages = readings
+            .iter()
+            .map(|reading| reading.as_ref().map_or(f64::NAN, |it| it.age_s));
+        let ages = array(self.py, ages);
+        let values = readings.into_iter().map(|reading| Some(reading?.value));
+        let dict = PyDict::new(self.py);
+        dict.set_item("value", T::arrays(self.py, values)?)?;
+        dict.set_item("age_s", ages)?;
+        self.put(name, dict)
+    }
+}
+
+/// What a reading can be of.
+trait Value: Sized {
+    /// An entry a robot; it is a dict where there are several arrays.
+    fn arrays(
+        py: Python<'_>,
+        values: impl Iterator<Item = Option<Self>>,
+    ) -> PyResult<Bound<'_, PyAny>>;
+}
+
+impl Value for f64 {
+    fn arrays(
+        py: Python<'_>,
+        values: impl Iterator<Item = Option<Self>>,
+    ) -> PyResult<Bound<'_, PyAny>> {
+        Ok(array(py, values.map(|value| value.unwrap_or(f64::NAN))))
+    }
+}
+
+impl Value for bool {
+    fn arrays(
+        py: Python<'_>,
+        values: impl Iterator<Item = Option<Self>>,
+    ) -> PyResult<Bound<'_, PyAny>> {
+        Ok(array(py, values.map(|value| value == Some(true))))
+    }
+}
+
+impl Value for Point {
+    fn arrays(
+        py: Python<'_>,
+        values: impl Iterator<Item = Option<Self>>,
+    ) -> PyResult<Bound<'_, PyAny>> {
+        table(
+            py,
+            values.map(|value| value.map_or([f64::NAN; 2], |at| [at.x, at.y])),
+        )
+    }
+}
+
+impl Value for Motion {
+    fn arrays(
+        py: Python<'_>,
+        values: impl Iterator<Item = Option<Self>>,
+    ) -> PyResult<Bound<'_, PyAny>> {
+        let parts = values.map(|value| match value {
+            Some(motion) => (motion.speed_m_s, motion.turn_rate_rad_s),
+            None => (f64::NAN, f64::NAN),
+        });
+        let (speeds, turns): (Vec<f64>, Vec<f64>) = parts.unzip();
+        let dict = PyDict::new(py);
+        dict.set_item("speed_m_s", speeds.into_pyarray(py))?;
+        dict.set_item("turn_rate_rad_s", turns.into_pyarray(py))?;
+        Ok(dict.into_any())
+    }
+}
+
+fn array<T: Element>(py: Python<'_>, values: impl Iterator<Item = T>) -> Bound<'_, PyAny> {
+    values.collect::<Vec<T>>().into_pyarray(py).into_any()
+}
+
+fn table<T: Element, const N: usize>(
+    py: Python<'_>,
+    rows: impl Iterator<Item = [T; N]>,
+) -> PyResult<Bound<'_, PyAny>> {
+    let rows: Vec<[T; N]> = rows.collect();
+    let shape = [rows.len(), N];
+    let table = rows.into_flattened().into_pyarray(py).reshape(shape)?;
+    Ok(table.into_any())
+}
+
+/// Of each ring `age_s` and `ranges_m`, with a row a robot.
+fn scans<'py>(py: Python<'py>, asked: &[Asked]) -> PyResult<Bound<'py, PyList>> {
+    let rings = asked.first().map_or(0, |first| first.percept.scans.len());
+    let scan = |ring: usize| {
+        let scans = || {
+            asked
+                .iter()
+                .filter_map(|asked| asked.percept.scans.get(ring))
+        };
+        let rays = scans().map(|scan| scan.ranges_m.len()).max().unwrap_or(0);
+        let mut ranges_m = Vec::with_capacity(asked.len() * rays);
+        for (row, scan) in scans().enumerate() {
+            ranges_m.extend_from_slice(&scan.ranges_m);
+            ranges_m.resize((row + 1) * rays, f64::NAN);
+        }
+        let ranges_m = ranges_m.into_pyarray(py).reshape([asked.len(), rays])?;
+        let dict = PyDict::new(py);
+        let ages = scans().map(|scan| scan.age_s.unwrap_or(f64::NAN));
+        dict.set_item("age_s", array(py, ages))?;
+        dict.set_item("ranges_m", ranges_m)?;
+        Ok(dict)
+    };
+    PyList::new(py, (0..rings).map(scan).collect::<PyResult<Vec<_>>>()?)
+}
+
+fn contacts<'py>(py: Python<'py>, asked: &[Asked]) -> PyResult<Bound<'py, PyDict>> {
+    let entries = Entries::new(py, asked, |percept| &percept.contacts)?;
+    entries.put("kind", |contact| i64::from(contact.kind))?;
+    entries.put("range_m", |contact| contact.range_m)?;
+    entries.put("bearing_rad", |contact| contact.bearing_rad)?;
+    entries.put("age_s", |contact| contact.age_s)?;
+    Ok(entries.dict)
+}
+
+fn neighbours<'py>(py: Python<'py>, asked: &[Asked]) -> PyResult<Bound<'py, PyDict>> {
+    let entries = Entries::new(py, asked, |percept| &percept.neighbours)?;
+    entries.put("range_m", |neighbour| neighbour.range_m)?;
+    entries.put("bearing_rad", |neighbour| neighbour.bearing_rad)?;
+    entries.put("age_s", |neighbour| neighbour.age_s)?;
+    entries.put("kind", |neighbour| i64::from(neighbour.id.kind))?;
+    entries.put("index", |neighbour| i64::from(neighbour.id.index))?;
+    Ok(entries.dict)
+}
+
+fn inbox<'py>(py: Python<'py>, asked: &[Asked]) -> PyResult<Bound<'py, PyDict>> {
+    let entries = Entries::new(py, asked, |percept| &percept.inbox)?;
+    entries.put("from_kind", |heard| i64::from(heard.from.kind))?;
+    entries.put("from_index", |heard| i64::from(heard.from.index))?;
+    entries.put("age_s", |heard| heard.age_s)?;
+    entries.put("confidence", |heard| heard.message.confidence)?;
+    entries.put("item_kind", |heard| match heard.message.about {
+        About::Item { kind, .. } => kind.into(),
+        About::Sender { .. } => NO_ITEM,
+    })?;
+    entries.put("heading_rad", |heard| match heard.message.about {
+        About::Sender { heading_rad, .. } => heading_rad,
+        About::Item { .. } => f64::NAN,
+    })?;
+    let places = entries
+        .all
+        .iter()
+        .map(|(_, heard)| match heard.message.about {
+            About::Item { at, .. } | About::Sender { at, .. } => [at.x, at.y],
+        });
+    entries.dict.set_item("at", table(py, places)?)?;
+    Ok(entries.dict)
+}
+
+/// What there is any number of for each robot, all in one list, and the place of its robot.
+struct Entries<'a, 'py, T> {
+    py: Python<'py>,
+    all: Vec<(i64, &'a T)>,
+    dict: Bound<'py, PyDict>,
+}
+
+impl<'a, 'py, T> Entries<'a, 'py, T> {
+    fn new(
+        py: Python<'py>,
+        asked: &'a [Asked],
+        of: impl Fn(&'a Percept) -> &'a Vec<T>,
+    ) -> PyResult<Self> {
+        let robots = (0..).zip(asked);
+        let all =
+            robots.flat_map(|(row, asked)| of(&asked.percept).iter().map(move |each| (row, each)));
+        let all: Vec<(i64, &T)> = all.collect();
+        let dict = PyDict::new(py);
+        dict.set_item("row", array(py, all.iter().map(|(row, _)| *row)))?;
+        Ok(Self { py, all, dict })
+    }
+
+    fn put<N: Element>(&self, name: &str, of: impl Fn(&T) -> N) -> PyResult<()> {
+        let values = self.all.iter().map(|(_, each)| of(each));
+        self.dict.set_item(name, array(self.py, values))
+    }
+}

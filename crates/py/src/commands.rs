@@ -1,0 +1,96 @@
+//! What the robots of a kind are to do, from arrays.
+
+use base::geometry::Point;
+use brain::{About, Message, Motion, SensorRequest};
+use numpy::{PyReadonlyArray1, PyReadonlyArray2};
+use pyo3::prelude::*;
+use sim::engine::Asked;
+
+/// Arrays as `agent_economy.batch` has checked them; `row` is the place of an entry's robot.
+#[derive(FromPyObject)]
+pub(crate) struct Commands<'py> {
+    speed_m_s: PyReadonlyArray1<'py, f64>,
+    turn_rate_rad_s: PyReadonlyArray1<'py, f64>,
+    requests: Requests<'py>,
+    outbox: Outbox<'py>,
+}
+
+#[derive(FromPyObject)]
+struct Requests<'py> {
+    row: PyReadonlyArray1<'py, i64>,
+    sensor: PyReadonlyArray1<'py, u16>,
+    on: PyReadonlyArray1<'py, bool>,
+}
+
+#[derive(FromPyObject)]
+struct Outbox<'py> {
+    row: PyReadonlyArray1<'py, i64>,
+    confidence: PyReadonlyArray1<'py, f64>,
+    item_kind: PyReadonlyArray1<'py, i64>,
+    at: PyReadonlyArray2<'py, f64>,
+    heading_rad: PyReadonlyArray1<'py, f64>,
+}
+
+impl Commands<'_> {
+    /// Gives each robot its part.
+    pub(crate) fn give(&self, asked: &mut [Asked]) {
+        let speeds = self.speed_m_s.as_array();
+        let turns = self.turn_rate_rad_s.as_array();
+        for (asked, (speed, turn)) in asked.iter_mut().zip(speeds.iter().zip(turns)) {
+            asked.command.motion = Motion {
+                speed_m_s: *speed,
+                turn_rate_rad_s: *turn,
+            };
+        }
+        self.requests.give(asked);
+        self.outbox.give(asked);
+    }
+}
+
+impl Requests<'_> {
+    fn give(&self, asked: &mut [Asked]) {
+        let switches = self.sensor.as_array().into_iter().zip(self.on.as_array());
+        for (row, (sensor, on)) in self.row.as_array().iter().zip(switches) {
+            let request = SensorRequest {
+                sensor: *sensor,
+                on: *on,
+            };
+            if let Some(asked) = at_row(asked, *row) {
+                asked.command.requests.push(request);
+            }
+        }
+    }
+}
+
+impl Outbox<'_> {
+    fn give(&self, asked: &mut [Asked]) {
+        let places = self.at.as_array();
+        let places = places
+            .rows()
+            .into_iter()
+            .map(|at| Point { x: at[0], y: at[1] });
+        let kinds = self.item_kind.as_array();
+        let abouts = places.zip(kinds.iter().zip(self.heading_rad.as_array()));
+        let abouts = abouts.map(|(at, (kind, heading_rad))| match u16::try_from(*kind) {
+            Ok(kind) => About::Item { kind, at },
+            Err(_) => About::Sender {
+                at,
+                heading_rad: *heading_rad,
+            },
+        });
+        let confidences = self.confidence.as_array();
+        let messages = abouts.zip(confidences).map(|(about, confidence)| Message {
+            about,
+            confidence: *confidence,
+        });
+        for (row, message) in self.row.as_array().iter().zip(messages) {
+            if let Some(asked) = at_row(asked, *row) {
+                asked.command.outbox.push(message);
+            }
+        }
+    }
+}
+
+fn at_row(asked: &mut [Asked], row: i64) -> Option<&mut Asked> {
+    asked.get_mut(usize::try_from(row).ok()?)
+}

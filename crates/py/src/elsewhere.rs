@@ -1,0 +1,95 @@
+//! Brains in Python, in place of those of a scenario's kinds of robots.
+
+use crate::arrays;
+use crate::commands::Commands;
+use crate::error::input_error;
+use crate::exchange;
+use crate::outside::name_of;
+use crate::simulation::MetricScenario;
+use base::document::path_of;
+use base::fault::{Fault, Faults};
+use brain::Command;
+use pyo3::prelude::*;
+use sim::engine::{Asked, Outside};
+use sim::scenario::Scenario;
+
+/// What decides for the robots of a kind, in Python.
+#[derive(FromPyObject)]
+pub(crate) struct Elsewhere<'py> {
+    /// Name of the kind.
+    kind: String,
+    /// Whether `step` takes the percepts of all robots as arrays, and returns their commands, or
+    /// takes the index and percept of one, and returns its command.
+    is_in_arrays: bool,
+    step: Bound<'py, PyAny>,
+}
+
+impl Elsewhere<'_> {
+    /// The number of its kind, if the scenario has robots of it.
+    pub(crate) fn kind(&self, scenario: &Scenario) -> Option<u8> {
+        kind_of(scenario, "brains", &self.kind).ok()
+    }
+
+    fn decide(&self, scenario: &Scenario, asked: &mut [Asked]) -> PyResult<()> {
+        if self.is_in_arrays {
+            let percepts = arrays::percepts(self.step.py(), asked)?;
+            let commands: Commands = self.step.call1((percepts,))?.extract()?;
+            commands.give(asked);
+            return Ok(());
+        }
+        asked
+            .iter_mut()
+            .try_for_each(|asked| self.decide_for(scenario, asked))
+    }
+
+    fn decide_for(&self, scenario: &Scenario, asked: &mut Asked) -> PyResult<()> {
+        let percept = exchange::write(self.step.py(), &asked.percept)?;
+        let command = self.step.call1((asked.robot.index, percept))?;
+        let at = path_of("brains", &name_of(scenario, asked.robot));
+        let read = exchange::read::<Command>(&format!("{at}.step()"), &command);
+        asked.command = read.map_err(|fault| input_error(&Faults(vec![fault]), ""))?;
+        Ok(())
+    }
+}
+
+/// Asks brains in Python what the robots of a step are to do.
+pub(crate) fn decide(
+    scenario: &Scenario,
+    brains: &[Elsewhere],
+    outside: &mut Outside,
+) -> PyResult<()> {
+    let robots = outside.asked();
+    for asked in robots.chunk_by_mut(|one, other| one.robot.kind == other.robot.kind) {
+        let kind = asked.first().map(|first| first.robot.kind);
+        let mut of_kind = brains.iter().filter(|brain| brain.kind(scenario) == kind);
+        if let Some(brain) = of_kind.next() {
+            brain.decide(scenario, asked)?;
+        }
+    }
+    Ok(())
+}
+
+/// The number of a kind of robots; `path` is what a fault names.
+pub(crate) fn kind_of(scenario: &Scenario, path: &str, kind: &str) -> Result<u8, Fault> {
+    let kinds: Vec<&str> = scenario.robot_kinds().collect();
+    let place = kinds.iter().position(|known| *known == kind);
+    let number = place.and_then(|place| u8::try_from(place).ok());
+    number.ok_or_else(|| {
+        let given = Some(format!("{kind:?}"));
+        Fault::not_one_of(path.to_owned(), given, kind, kinds.iter().copied())
+    })
+}
+
+/// What brains know of their bodies that are robots of a kind; `path` is what a fault names.
+#[pyfunction]
+pub(crate) fn body<'py>(
+    scenario: &Bound<'py, MetricScenario>,
+    path: &str,
+    kind: &str,
+) -> PyResult<Bound<'py, PyAny>> {
+    let py = scenario.py();
+    let scenario = &scenario.get().0;
+    let number = kind_of(scenario, path, kind);
+    let number = number.map_err(|fault| input_error(&Faults(vec![fault]), ""))?;
+    exchange::write(py, &scenario.brain(number).map(brain::Brain::body))
+}

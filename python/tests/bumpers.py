@@ -1,0 +1,127 @@
+"""Brains in Python for tests, and small robots to have them."""
+
+import math
+from typing import Any
+
+import numpy as np
+
+from agent_economy.brain import Body, Command, Percept
+
+SMALL = """
+engine = "metric"
+summary = "Blind robots bounce off what they touch."
+merit = "equation-5.2"
+[clock]
+cap_s = 60
+[world]
+size_m = [12, 8]
+[items.mine]
+count = 2
+[robots.bumper]
+radius_m = 0.2
+count = 3
+drive = { max_speed_m_s = 0.6, max_turn_rate_deg_s = 90, max_acceleration_m_s2 = 0.5 }
+radio = { range_m = 5, loss = 0.1, delay_s = 0.3 }
+[robots.bumper.sensors.mates]
+kind = "robots"
+range_m = 4
+latency_s = 0.4
+[robots.bumper.sensors.eye]
+kind = "items"
+range_m = 0.5
+detects = { mine = 0.5 }
+rate_hz = 2
+[robots.bumper.sensors.eye.false_alarms_per_m2_s]
+mine = 0.5
+[robots.bumper.brain]
+rate_hz = 4
+behaviours = [{ kind = "cruise" }, { kind = "bounce" }]
+"""
+"""Blind robots that bounce off what they touch, see late, hear late and take nothing for mines."""
+
+AHEAD: Command = {
+    "motion": {"speed_m_s": 9.0, "turn_rate_rad_s": 0.1},
+    "requests": [],
+    "outbox": [],
+}
+
+
+class Ahead:
+    """Goes ahead, along an arc."""
+
+    def __init__(self, body: Body) -> None:
+        """Begin in a body."""
+        self.body = body
+
+    def step(self, percept: Percept) -> Command:
+        """Return what the robot is to do."""
+        del percept
+        return AHEAD
+
+
+class Talker(Ahead):
+    """Tells of each contact where it began, turns away from whoever told it one, and blinks."""
+
+    def __init__(self, body: Body) -> None:
+        """Begin in a body."""
+        super().__init__(body)
+        self.steps = 0
+
+    def step(self, percept: Percept) -> Command:
+        """Return what the robot is to do."""
+        self.steps += 1
+        heard = sum(each["from"]["index"] + 1 for each in percept["inbox"])
+        about: Any = {"item": {"kind": 0, "at": [1.0, 2.0]}}
+        return {
+            "motion": {
+                "speed_m_s": 0.1 + 0.1 * len(percept["neighbours"]),
+                "turn_rate_rad_s": 0.2 * heard + percept["dice"][0] / 2**33,
+            },
+            "requests": [{"sensor": 1, "on": self.steps % 5 != 0}],
+            "outbox": [{"about": about, "confidence": 0.5} for _ in percept["contacts"]],
+        }
+
+
+class Bumper:
+    """Cruises and bounces as the shipped behaviours do in a body without eyes and compass."""
+
+    def __init__(self, body: Body) -> None:
+        """Begin in a body."""
+        self.body = body
+        self.period_s = np.float32(body["period_s"])
+        self.since_s = np.float32(0)
+        self.left_rad: np.float32 | None = None
+        self.patience_s = np.float32(0)
+
+    def step(self, percept: Percept) -> Command:
+        """Return what the robot is to do."""
+        touch, wheels = percept["touch"], percept["motion"]
+        assert touch is not None
+        assert wheels is not None
+        turned_rad = wheels["value"]["turn_rate_rad_s"] * self.body["period_s"]
+        left_rad = self.left(percept["dice"], turned_rad, is_held=touch["value"])
+        most = self.body["max_turn_rate_rad_s"]
+        turn = left_rad / self.body["period_s"]
+        speed_m_s = 0.0 if left_rad else self.body["max_speed_m_s"]
+        motion = {"speed_m_s": speed_m_s, "turn_rate_rad_s": min(max(turn, -most), most)}
+        return {"motion": motion, "requests": [], "outbox": []}  # type: ignore[typeddict-item]
+
+    def left(self, dice: Any, turned_rad: float, *, is_held: bool) -> float:
+        """Return how far it has still to turn; 0 if it goes ahead."""
+        if self.left_rad is not None:
+            self.left_rad -= np.float32(turned_rad)
+            self.patience_s -= np.float32(0) if is_held else self.period_s
+            if abs(self.left_rad) > np.float32(0.02) and self.patience_s > 0:
+                return float(self.left_rad)
+            self.left_rad, self.since_s = None, np.float32(0)
+            return 0.0
+        straight_s = float(self.since_s)
+        self.since_s += self.period_s
+        if not is_held or straight_s < 0.5:
+            return 0.0
+        least = math.pi / 4
+        left_rad = least + (math.tau - least - least) * (dice[1] / 2**32)
+        left_rad -= math.tau if left_rad > math.pi else 0.0
+        patience_s = 1 + 2 * abs(left_rad) / self.body["max_turn_rate_rad_s"]
+        self.left_rad, self.patience_s = np.float32(left_rad), np.float32(min(patience_s, 60))
+        return float(left_rad)

@@ -1,0 +1,303 @@
+"""A brain for all robots of a kind at once decides as one for each of them does."""
+
+import math
+import traceback
+from typing import Any
+
+import numpy as np
+import pytest
+from alarm import ringing
+from bumpers import SMALL, Ahead, Talker
+from metric import ENDLESS, search
+
+import agent_economy as ae
+from agent_economy import Batch, InputError, Scenario, Simulation, batch
+from agent_economy.batch import Commands, Percepts
+from agent_economy.brain import Body, Command, Percept
+
+
+class Shy(Ahead):
+    """Turns away from what the nearest ray meets, the slower the nearer it is."""
+
+    def step(self, percept: Percept) -> Command:
+        """Return what the robot is to do."""
+        ranges = [math.inf if far is None else far for far in percept["scans"][0]["ranges_m"]]
+        bearings = self.body["rings"][0]["bearings_rad"]
+        nearest_m = min([2.0, *ranges])
+        side = -1.0 if nearest_m < 2 and bearings[ranges.index(nearest_m)] > 0 else 1.0
+        touch = percept["touch"]
+        is_held = touch is not None and touch["value"]
+        motion = {
+            "speed_m_s": -0.1 if is_held else nearest_m - 0.5,
+            "turn_rate_rad_s": side * (2.0 - nearest_m),
+        }
+        return {"motion": motion, "requests": [], "outbox": []}  # type: ignore[typeddict-item]
+
+
+def shy(percepts: Percepts, memory: dict[str, Any]) -> Commands:
+    """Return what `Shy` decides, for all robots at once."""
+    del memory
+    ranges_m = percepts["scans"][0]["ranges_m"]
+    ranges_m = np.where(np.isnan(ranges_m), math.inf, ranges_m)
+    bearings = np.asarray(percepts["body"]["rings"][0]["bearings_rad"])
+    nearest_m = np.minimum(2.0, ranges_m.min(axis=1))
+    is_left = (nearest_m < 2) & (bearings[ranges_m.argmin(axis=1)] > 0)
+    speed_m_s = np.where(percepts["touch"]["value"], -0.1, nearest_m - 0.5)
+    turn_rate_rad_s = np.where(is_left, -1.0, 1.0) * (2.0 - nearest_m)
+    return {"motion": {"speed_m_s": speed_m_s, "turn_rate_rad_s": turn_rate_rad_s}}
+
+
+def talk(percepts: Percepts, memory: dict[str, Any]) -> Commands:
+    """Return what `Talker` decides, for all robots at once."""
+    robots = percepts["robots"]
+    steps = memory.setdefault("steps", np.zeros(percepts["count"], dtype=int))
+    steps[robots] += 1
+    inbox, rows = percepts["inbox"], np.arange(len(robots))
+    heard = np.bincount(inbox["row"], inbox["from_index"] + 1, len(robots))
+    mates = np.bincount(percepts["neighbours"]["row"], minlength=len(robots))
+    turn_rate_rad_s = 0.2 * heard + percepts["dice"][:, 0] / 2**33
+    seen = percepts["contacts"]["row"]
+    return {
+        "motion": {"speed_m_s": 0.1 + 0.1 * mates, "turn_rate_rad_s": turn_rate_rad_s},
+        "requests": {"row": rows, "sensor": 1, "on": steps[robots] % 5 != 0},
+        "outbox": {"row": seen, "item_kind": 0, "at": [1.0, 2.0], "confidence": 0.5},
+    }
+
+
+def finished(scenario: Scenario, brains: Any, run: int = 2) -> Simulation:
+    """Return a run that is over."""
+    simulation = Simulation(scenario, 7, run, brains=brains)
+    simulation.finish()
+    return simulation
+
+
+@pytest.mark.parametrize("run", range(3))
+def test_a_batch_is_the_same_run_as_a_class_with_the_same_rule(run: int) -> None:
+    scenario = search({"robots.rover.sensors.lidar.dropout": 0.1})
+    one, all_at_once = (finished(scenario, {"rover": each}, run) for each in (Shy, Batch(shy)))
+    assert one.hash == all_at_once.hash
+    assert one.outcome() == all_at_once.outcome()
+
+
+def test_what_a_batch_tells_switches_and_remembers_is_as_a_class_does() -> None:
+    scenario = Scenario.loads(SMALL)
+    one, all_at_once = (Simulation(scenario, brains={"bumper": x}) for x in (Talker, Batch(talk)))
+    said = 0
+    for _ in range(300):
+        one.step()
+        all_at_once.step()
+        assert all_at_once.decided == one.decided
+        said += sum(len(command["outbox"]) for command in one.decided.values())
+    assert one.hash == all_at_once.hash
+    assert said > 10
+
+
+def test_threads_that_share_a_step_change_no_byte() -> None:
+    huge = search({"robots.rover.count": 3000, "world.size_m": [300, 300], "clock.cap_s": 1})
+    runs = [Simulation(huge, threads=threads, brains={"rover": Batch(shy)}) for threads in (1, 3)]
+    assert len({run.finish().energy_j for run in runs}) == 1
+    assert len({run.hash for run in runs}) == 1
+
+
+def as_rows(percepts: Any, row: int) -> Any:
+    """Return what one robot perceives, as it would come to a brain of its own."""
+
+    def reading(told: Any) -> Any:
+        if math.isnan(told["age_s"][row]):
+            return None
+        value = told["value"]
+        if isinstance(value, dict):
+            value = {name: part[row].item() for name, part in value.items()}
+        else:
+            value = value[row].tolist()
+        return {"value": value, "age_s": told["age_s"][row].item()}
+
+    names = ("position", "heading_rad", "motion", "battery", "touch")
+    return {name: reading(percepts[name]) for name in names}
+
+
+def test_arrays_hold_what_each_robot_perceives() -> None:
+    told: list[Percepts] = []
+
+    def note(percepts: Percepts, memory: dict[str, Any]) -> Commands:
+        del memory
+        told.append(percepts)
+        return shy(percepts, {})
+
+    simulation = Simulation("open-field", brains={"rover": Batch(note)})
+    seen = 0
+    for _ in range(400):
+        alone = [simulation.percept(f"rover/{index}") for index in range(3)]
+        simulation.step()
+        percepts = told[-1]
+        assert percepts["robots"].tolist() == [0, 1, 2]
+        assert percepts["count"] == 3
+        for row, percept in enumerate(alone):
+            assert percept is not None
+            assert percepts["time_s"] == percept["time_s"]
+            assert percepts["dice"][row].tolist() == percept["dice"]
+            for name, value in as_rows(percepts, row).items():
+                assert percept[name] == value, name  # type: ignore[literal-required]
+            for ring, scan in zip(percepts["scans"], percept["scans"], strict=True):
+                ranges = [
+                    None if math.isinf(far) else far for far in ring["ranges_m"][row].tolist()
+                ]
+                assert ranges == scan["ranges_m"]
+                assert ring["age_s"][row] == scan["age_s"]
+            contacts = percepts["contacts"]
+            mine = contacts["row"] == row
+            seen += mine.sum()
+            assert contacts["bearing_rad"][mine].tolist() == [
+                each["bearing_rad"] for each in percept["contacts"]
+            ]
+            mates = percepts["neighbours"]
+            assert mates["index"][mates["row"] == row].tolist() == [
+                each["id"]["index"] for each in percept["neighbours"]
+            ]
+    assert seen > 5
+
+
+def test_arrays_have_the_names_of_percepts_and_of_their_types() -> None:
+    told: list[Any] = []
+
+    def note(percepts: Percepts, memory: dict[str, Any]) -> Commands:
+        told.append(percepts)
+        return talk(percepts, memory)
+
+    Simulation(Scenario.loads(SMALL), brains={"bumper": Batch(note)}).step()
+    assert told[0].keys() == Percepts.__annotations__.keys()
+    assert told[0].keys() >= Percept.__annotations__.keys()
+    for name in ("contacts", "neighbours", "inbox"):
+        entries = getattr(batch, name.capitalize())
+        assert told[0][name].keys() == entries.__annotations__.keys()
+
+
+def test_robots_that_cannot_go_on_are_not_in_the_arrays() -> None:
+    told: list[list[int]] = []
+
+    def note(percepts: Percepts, memory: dict[str, Any]) -> Commands:
+        del memory
+        told.append(percepts["robots"].tolist())
+        return {"motion": {"speed_m_s": percepts["robots"] * 0.5, "turn_rate_rad_s": 0.0}}
+
+    scenario = search({"robots.rover.battery.capacity_j": 500.0})
+    ae.run(scenario, brains={"rover": Batch(note)})
+    assert told[0] == [0, 1, 2, 3]
+    assert 0 < len(told[-1]) < 4
+
+
+def test_each_run_begins_with_an_empty_memory() -> None:
+    found: list[int] = []
+
+    def note(percepts: Percepts, memory: dict[str, Any]) -> Commands:
+        if percepts["time_s"] == 0:
+            found.append(len(memory))
+        memory["was_here"] = True
+        return {"motion": {"speed_m_s": 1.0, "turn_rate_rad_s": 0.0}}
+
+    ae.replicate("search", 3, brains={"rover": Batch(note)})
+    assert found == [0, 0, 0]
+
+
+def test_a_batch_goes_on_through_a_change() -> None:
+    counts: list[int] = []
+
+    def note(percepts: Percepts, memory: dict[str, Any]) -> Commands:
+        counts.append(percepts["count"])
+        memory["steps"] = memory.get("steps", 0) + 1
+        assert memory["steps"] == len(counts)
+        return shy(percepts, memory)
+
+    simulation = Simulation("search", brains={"rover": Batch(note)})
+    simulation.step(4)
+    simulation.change("robots.rover.count", 6)
+    simulation.step(4)
+    assert counts == [4, 4, 6, 6]
+
+
+STAND = {"speed_m_s": 0.0, "turn_rate_rad_s": 0.0}
+FAULTS: list[tuple[Any, str]] = [
+    (None, r"brains.rover\(\) = None: must be a dict with motion, requests, outbox"),
+    ({"speed": 1}, r"brains.rover\(\).speed = 1: must be one of the known: motion"),
+    ({}, r"motion.speed_m_s = None: must be one value for all, or an array of shape \(4,\)"),
+    ({"motion": STAND | {"speed_m_s": [1, 2]}}, r"motion.speed_m_s = \[1, 2\]: must be one value"),
+    ({"motion": STAND | {"speed_m_s": "fast"}}, r"motion.speed_m_s = 'fast': must be one value"),
+    (
+        {"motion": STAND | {"turn_rate_rad_s": [0, 0, math.nan, 0]}},
+        r"motion.turn_rate_rad_s\[2\] = nan: must be a finite number",
+    ),
+    (
+        {"motion": STAND, "requests": {"row": [4]}},
+        r"row\[0\] = 4.0: must be a whole number from 0 to 3",
+    ),
+    (
+        {"motion": STAND, "requests": {"row": [0], "on": True}},
+        "requests.sensor = None: must be one",
+    ),
+    (
+        {"motion": STAND, "outbox": {"row": [0], "confidence": 1, "item_kind": -1, "at": [1, 2]}},
+        "outbox.heading_rad = None: must be",
+    ),
+    ({"motion": STAND, "outbox": 3}, r"brains.rover\(\).outbox = 3: must be a dict with row"),
+]
+
+
+@pytest.mark.parametrize(("told", "words"), FAULTS)
+def test_what_is_wrong_with_commands_is_told_and_no_step_is_taken(told: Any, words: str) -> None:
+    simulation = Simulation("search", brains={"rover": Batch(lambda *_: told)})
+    with pytest.raises(InputError, match=words):
+        simulation.step()
+    assert simulation.tick == 0
+
+
+def test_what_cannot_be_called_is_no_batch() -> None:
+    with pytest.raises(InputError, match="Batch = 3: must be a function on arrays"):
+        Batch(3)  # type: ignore[arg-type]
+
+
+def test_what_a_batch_raises_comes_out_with_its_traceback() -> None:
+    def wrong(percepts: Percepts, memory: dict[str, Any]) -> Commands:
+        del percepts
+        return memory["nothing"]  # type: ignore[no-any-return]
+
+    with pytest.raises(KeyError) as caught:
+        ae.run("search", brains={"rover": Batch(wrong)})
+    assert caught.value.__notes__ == ["in the brain of all of rover, at 0 s"]
+    frames = traceback.extract_tb(caught.value.__traceback__)
+    assert frames[-1].name == "wrong"
+
+
+def test_a_signal_ends_runs_with_a_batch_soon() -> None:
+    with ringing(0.3):
+        ae.run(search(ENDLESS), brains={"rover": Batch(shy)})
+
+
+def test_only_the_sender_itself_has_a_course() -> None:
+    heard: list[Any] = []
+
+    def tell(percepts: Percepts, memory: dict[str, Any]) -> Commands:
+        del memory
+        heard.append(percepts["inbox"])
+        rows = [0, 0]
+        outbox = {"row": rows, "confidence": 1.0, "item_kind": [-1, 0], "at": [3, 4]}
+        return {"motion": STAND, "outbox": {**outbox, "heading_rad": 0.5}}  # type: ignore[typeddict-item]
+
+    simulation = Simulation(Scenario.loads(SMALL).replace("robots.bumper.radio.loss", 0.0))
+    simulation = Simulation(simulation.scenario, brains={"bumper": Batch(tell)})
+    simulation.step(40)
+    courses = [told["heading_rad"].tolist() for told in heard if len(told["row"])]
+    assert courses
+    assert {tuple(map(str, each[:2])) for each in courses} == {("0.5", "nan")}
+
+
+def test_bodies_are_those_of_the_class_way() -> None:
+    bodies: list[Body] = []
+
+    def note(percepts: Percepts, memory: dict[str, Any]) -> Commands:
+        del memory
+        bodies.append(percepts["body"])
+        return shy(percepts, {})
+
+    Simulation("search", brains={"rover": lambda body: bodies.append(body) or Ahead(body)})  # type: ignore[func-returns-value]
+    Simulation("search", brains={"rover": Batch(note)}).step()
+    assert bodies[0] == bodies[-1]
