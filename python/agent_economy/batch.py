@@ -42,11 +42,20 @@ class Scans(TypedDict):
     ranges_m: Floats
 
 
+class Looks(TypedDict):
+    """Looks for items: of the robot in a `row`, the `sensor` of `Body.sensors`, `age_s` ago."""
+
+    row: Whole
+    sensor: Whole
+    age_s: Floats
+
+
 class Contacts(TypedDict):
     """Items that sensors recognised; `row` is the place of the robot in the arrays of robots."""
 
     row: Whole
     kind: Whole
+    sensor: Whole
     range_m: Floats
     bearing_rad: Floats
     age_s: Floats
@@ -72,9 +81,15 @@ class Inbox(TypedDict):
         from_index: Place of the sender in its kind.
         age_s: Time since it was sent.
         confidence: How sure the sender is, 0 to 1.
-        item_kind: Kind of the item that it is about; -1 if it is about the sender.
+        item_kind: Kind of the item that it is about; -1 if it is about the sender, -2 if it is
+            about a place where the sender wants to be.
         at: Where that is, shape (messages, 2).
-        heading_rad: The sender's course; NaN of an item.
+        heading_rad: The sender's course; NaN if it is not about the sender.
+        looks: How often the looker has looked at the item, or the sender for items at all.
+        by_kind: Kind of the robot that looked.
+        by_index: Place of that robot in its kind.
+        mark: That robot's own number for the item.
+        is_done: Whether the sender has been at the place where it wanted to be.
     """
 
     row: Whole
@@ -85,6 +100,11 @@ class Inbox(TypedDict):
     item_kind: Whole
     at: Floats
     heading_rad: Floats
+    looks: Whole
+    by_kind: Whole
+    by_index: Whole
+    mark: Whole
+    is_done: Truths
 
 
 class Percepts(TypedDict):
@@ -102,6 +122,7 @@ class Percepts(TypedDict):
         battery: Share of each battery's capacity that is left, 0 to 1.
         touch: Whether each touches something.
         scans: Of each range ring of the body.
+        looks: Looks for items since the last step, also those that recognised none.
         contacts: Items that sensors recognised since the last step, or took for such.
         neighbours: Robots that sensors recognised since the last step.
         inbox: What other robots told since the last step.
@@ -118,6 +139,7 @@ class Percepts(TypedDict):
     battery: Readings[Floats]
     touch: Readings[Truths]
     scans: list[Scans]
+    looks: Looks
     contacts: Contacts
     neighbours: Neighbours
     inbox: Inbox
@@ -139,13 +161,15 @@ class Requests(TypedDict):
 
 
 class Outbox(TypedDict):
-    """What robots are to tell others; as in `Inbox`, and `heading_rad` only of senders."""
+    """What robots are to tell others; as in `Inbox`, the last three where they mean something."""
 
     row: ArrayLike
     confidence: ArrayLike
     item_kind: ArrayLike
     at: ArrayLike
     heading_rad: NotRequired[ArrayLike]
+    looks: NotRequired[ArrayLike]
+    is_done: NotRequired[ArrayLike]
 
 
 class Commands(TypedDict):

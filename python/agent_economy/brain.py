@@ -8,7 +8,7 @@ unless said otherwise.
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, Generic, NotRequired, TypeAlias, TypedDict, TypeVar, cast
+from typing import Any, Generic, Literal, NotRequired, TypeAlias, TypedDict, TypeVar, cast
 
 from agent_economy import _core, given
 from agent_economy.scenario import Scenario, loaded
@@ -67,11 +67,13 @@ class Other(TypedDict):
         radius_m: Of the disc that it covers.
         is_in_the_way: Whether the two can run into each other: not if one of them flies.
         max_acceleration_m_s2: It gains and loses speed at most so fast; left out, at once.
+        detectors: What it recognises items with.
     """
 
     radius_m: float
     is_in_the_way: bool
     max_acceleration_m_s2: NotRequired[float | None]
+    detectors: NotRequired[Sequence[Detector]]
 
 
 class Body(TypedDict):
@@ -126,25 +128,55 @@ class RobotId(TypedDict):
     index: int
 
 
+class Seen(TypedDict):
+    """The looks of one robot at one item: what counts once, whoever tells of it, and however often.
+
+    Attributes:
+        by: Who looked.
+        mark: The looker's own number for the item.
+        looks: How often it looked; of two reports with the same mark, the one with more holds.
+    """
+
+    by: RobotId
+    mark: int
+    looks: int
+
+
 class AboutItem(TypedDict):
-    """An item: the place of its kind in `Body.item_kinds`, and where it is."""
+    """An item: the place of its kind in `Body.item_kinds`, where it is, and whose looks say so.
+
+    Left out, they are the sender's.
+    """
 
     kind: int
     at: Point
+    seen: NotRequired[Seen]
 
 
 class AboutSender(TypedDict):
-    """The sender itself: where it is, and its course; 0 along x."""
+    """The sender itself: where it is, its course, and how often it has looked for items so far.
+
+    A course of 0 is along x.
+    """
 
     at: Point
     heading_rad: float
+    looks: NotRequired[int]
+
+
+class AboutGoal(TypedDict):
+    """A place where the sender wants to be, and what has become of that."""
+
+    at: Point
+    stand: Literal["going", "done"]
 
 
 class About(TypedDict, total=False):
-    """What a message is about: one of the two."""
+    """What a message is about: one of the three."""
 
     item: AboutItem
     sender: AboutSender
+    goal: AboutGoal
 
 
 class Message(TypedDict):

@@ -19,6 +19,11 @@ MOST = 2**16 - 1
 SENDER = -1
 """In place of an item's kind where a message is about its sender."""
 
+GOAL = -2
+"""In place of an item's kind where a message is about a place where its sender wants to be."""
+
+MOST_LOOKS = 2**32 - 1
+
 
 @dataclass(frozen=True)
 class Requests:
@@ -38,6 +43,8 @@ class Outbox:
     item_kind: Whole
     at: Floats
     heading_rad: Floats
+    looks: NDArray[np.uint32]
+    is_done: Truths
 
 
 @dataclass(frozen=True)
@@ -142,11 +149,17 @@ def outbox(commands: Table, robots: int) -> Outbox:
     table = commands.part("outbox", batch.Outbox.__annotations__)
     row = table.row(robots)
     confidence = table.numbers("confidence", row.shape)
-    item_kind = table.whole("item_kind", row.shape, (SENDER, MOST))
+    item_kind = table.whole("item_kind", row.shape, (GOAL, MOST))
     at = table.numbers("at", (len(row), 2))
     has_course = np.any(item_kind == SENDER)
     heading_rad = table.numbers("heading_rad", row.shape) if has_course else np.zeros(row.shape)
-    return Outbox(row, confidence, item_kind, at, heading_rad)
+    looks = np.zeros(row.shape, np.uint32)
+    if "looks" in table:
+        looks = table.whole("looks", row.shape, (0, MOST_LOOKS)).astype(np.uint32)
+    is_done = np.zeros(row.shape, np.bool_)
+    if "is_done" in table:
+        is_done = table.array("is_done", row.shape, np.dtype(np.bool_))
+    return Outbox(row, confidence, item_kind, at, heading_rad, looks, is_done)
 
 
 NOTHING = Table("commands", {}, batch.Commands.__annotations__)

@@ -71,7 +71,8 @@ class Talker(Ahead):
         """Return what the robot is to do."""
         self.steps += 1
         heard = sum(each["from"]["index"] + 1 for each in percept["inbox"])
-        about: Any = {"item": {"kind": 0, "at": [1.0, 2.0]}}
+        seen = {"by": {"kind": 0, "index": 1}, "mark": 2, "looks": 3}
+        about: Any = {"item": {"kind": 0, "at": [1.0, 2.0], "seen": seen}}
         return {
             "motion": {
                 "speed_m_s": 0.1 + 0.1 * len(percept["neighbours"]),

@@ -166,8 +166,11 @@ def test_arrays_have_the_names_of_percepts_and_of_their_types() -> None:
 
     Simulation(Scenario.loads(SMALL), brains={"bumper": Batch(note)}).step()
     assert told[0].keys() == Percepts.__annotations__.keys()
-    assert told[0].keys() >= Percept.__annotations__.keys()
-    for name in ("contacts", "neighbours", "inbox"):
+    # Of all robots of a kind together.
+    together = {"id": "robots", "of_kind": "count"}
+    percept = {together.get(name, name) for name in Percept.__annotations__}
+    assert told[0].keys() >= percept
+    for name in ("looks", "contacts", "neighbours", "inbox"):
         entries = getattr(batch, name.capitalize())
         assert told[0][name].keys() == entries.__annotations__.keys()
 

@@ -98,7 +98,7 @@ impl Body {
 }
 
 /// What a brain knows of the bodies of another kind of robots.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Other {
     /// Of the disc that it covers.
@@ -110,6 +110,9 @@ pub struct Other {
     pub max_acceleration_m_s2: f64,
     /// Whether the two can run into each other: not if one of them flies.
     pub is_in_the_way: bool,
+    /// What it recognises items with.
+    #[serde(default)]
+    pub detectors: Vec<Detector>,
 }
 
 /// A sensor that recognises items.

@@ -1,27 +1,33 @@
-//! The mind of one robot.
+//! The brain of one robot.
 
-use crate::behaviours::{Memory, Ready};
-use crate::body::Body;
+use crate::arbitration::Arbitration;
+use crate::behaviours::{BehaviourSpec, Memory, Ready};
+use crate::body::{Body, RobotId};
 use crate::command::{Command, Motion};
+use crate::mind::{Mind, Wants};
 use crate::percept::Percept;
 use crate::reckoning::Reckoning;
 use crate::senses::Senses;
 use crate::sight::Sight;
 use crate::spec::BrainSpec;
-use crate::subsumption::{Layer, arbitrate, layers};
+use crate::subsumption::{Layer, arbitrate, layers, wishes};
+use crate::thoughts::Thoughts;
+use crate::wish::Wish;
 use alloc::boxed::Box;
 use alloc::sync::Arc;
 use alloc::vec::Vec;
 
-/// The mind of one robot.
+/// The brain of one robot.
 ///
 /// A clone has the same memories and then goes its own way; all clones share what is the same for
-/// the kind of robot. So for a team, make one and clone it: each robot then takes some 100 bytes.
+/// the kind of robot. So for a team, make one and clone it: each robot then takes some 100 bytes, and
+/// what it believes, if it believes anything.
 #[derive(Debug, Clone)]
 pub struct Brain {
     kind: Arc<Kind>,
     moved: Reckoning,
     layers: Box<[Layer<Memory>]>,
+    mind: Option<Box<Mind>>,
 }
 
 /// What is the same for all robots of a kind.
@@ -42,6 +48,7 @@ impl Brain {
         Self {
             moved: Reckoning::default(),
             layers: layers(&behaviours),
+            mind: mind(&spec, &body),
             kind: Arc::new(Kind {
                 sight: Sight::new(&body),
                 spec,
@@ -73,6 +80,19 @@ impl Brain {
         &self.kind.body
     }
 
+    /// What it believes and wants; `None` if it has no mind.
+    #[must_use]
+    pub fn thoughts(&self) -> Option<Thoughts> {
+        self.mind.as_deref().map(Thoughts::of)
+    }
+
+    /// Robots have other numbers from now on; what is remembered of one that is gone is forgotten.
+    pub fn renumber(&mut self, now: impl Fn(RobotId) -> Option<RobotId>) {
+        if let Some(mind) = &mut self.mind {
+            mind.beliefs.renumber(&now);
+        }
+    }
+
     /// What the robot is to do, given what it knows; called once in each of the body's periods.
     ///
     /// Whatever the percept holds, the command holds finite numbers within the body's limits.
@@ -88,27 +108,93 @@ impl Brain {
         command.outbox.clear();
         command.motion = self.motion(percept);
         self.moved.told(command.motion, &self.kind.body);
+        if let Some(mind) = &mut self.mind {
+            mind.tell(self.kind.body.period_s, &mut command.outbox);
+        }
     }
 
     fn motion(&mut self, percept: &Percept) -> Motion {
-        let Kind { body, sight, .. } = &*self.kind;
+        let Kind {
+            spec,
+            body,
+            sight,
+            behaviours,
+        } = &*self.kind;
         let turned_rad = self.moved.take_in(percept, body);
         let now_m_s = self.moved.now_m_s(percept, body);
+        if let Some(mind) = &mut self.mind {
+            let moved = [now_m_s, turned_rad];
+            mind.beliefs.take_in(percept, body, &sight.rings, moved);
+        }
+        let (beliefs, mut wants) = match self.mind.as_deref_mut() {
+            Some(Mind { beliefs, wants }) => (Some(&*beliefs), Some(wants)),
+            None => (None, None),
+        };
         let senses = Senses {
             percept,
             body,
+            beliefs,
             rings: &sight.rings,
             ahead: sight.ahead(percept, body, now_m_s),
             turned_rad,
             now_m_s,
         };
-        let wanted = arbitrate(&self.kind.behaviours, &mut self.layers, &senses);
+        let wanted = match &mut wants {
+            None => moved(arbitrate(behaviours, &mut self.layers, &senses)),
+            Some(wants) => chosen(spec, behaviours, (&mut self.layers, wants), &senses),
+        };
         let mut motion = possible(wanted, body);
-        if self.kind.spec.speed_limited_by_sight {
+        if spec.speed_limited_by_sight {
             motion = sight.limited(motion, &senses, &self.moved);
+        }
+        if let (Some(beliefs), Some(wants)) = (beliefs, wants) {
+            let traffic = &mut wants.way.traffic;
+            traffic.look(&beliefs.others.movers, body, now_m_s);
+            motion = traffic.limited(motion, body, now_m_s);
         }
         possible(motion, body)
     }
+}
+
+/// What one without a mind does: it cannot be somewhere on purpose.
+fn moved(wanted: Option<(usize, Wish)>) -> Motion {
+    match wanted {
+        Some((_, Wish::Motion(motion))) => motion,
+        _ => Motion::default(),
+    }
+}
+
+/// What one with a mind does.
+fn chosen(
+    spec: &BrainSpec,
+    behaviours: &[Ready],
+    (layers, wants): (&mut [Layer<Memory>], &mut Wants),
+    senses: &Senses,
+) -> Motion {
+    let mut all = core::mem::take(&mut wants.wishes);
+    match spec.arbitration {
+        Arbitration::Goals => wishes(behaviours, layers, senses, &mut all),
+        Arbitration::Subsumption => {
+            all.clear();
+            all.extend(arbitrate(behaviours, layers, senses));
+        }
+    }
+    // The highest comes first: a motion there is a reflex, and one further down what is left to do.
+    let motion = match all.first() {
+        None => Motion::default(),
+        Some((_, Wish::Motion(motion))) => *motion,
+        Some((_, Wish::Aim(_))) => wants.serve(&all, behaviours, layers, senses),
+    };
+    wants.wishes = all;
+    motion
+}
+
+/// A mind, if the scenario asks for one or a behaviour needs it.
+fn mind(spec: &BrainSpec, body: &Body) -> Option<Box<Mind>> {
+    let mut behaviours = spec.behaviours.iter();
+    let is_needed = spec.beliefs.is_some() || behaviours.any(BehaviourSpec::needs_beliefs);
+    let beliefs = spec.beliefs.clone().unwrap_or_default();
+    is_needed.then(|| Box::new(Mind::new(&beliefs, body)))
 }
 
 /// Within the body's limits; nonsense is 0.
@@ -134,6 +220,6 @@ mod tests {
     fn a_brain_of_three_behaviours_takes_some_hundred_bytes() {
         let layer = size_of::<Layer<Memory>>();
         let all = size_of::<Brain>() + 3 * layer;
-        assert!(all <= 112, "{all} bytes, {layer} a layer");
+        assert!(all <= 128, "{all} bytes, {layer} a layer");
     }
 }

@@ -1,5 +1,6 @@
 //! What leaves a brain.
 
+use crate::body::RobotId;
 use alloc::vec::Vec;
 use base::geometry::Point;
 use schemars::JsonSchema;
@@ -57,6 +58,9 @@ pub enum About {
         kind: u16,
         /// Where it is in the world.
         at: Point,
+        /// Whose looks say so.
+        #[serde(default)]
+        seen: Seen,
     },
     /// The sender itself.
     Sender {
@@ -64,5 +68,39 @@ pub enum About {
         at: Point,
         /// Its course: 0 along x, anticlockwise.
         heading_rad: f64,
+        /// How often it has looked for items so far, on its way here.
+        #[serde(default)]
+        looks: u32,
     },
+    /// A place where the sender wants to be.
+    Goal {
+        /// Where in the world.
+        at: Point,
+        /// What has become of it.
+        stand: Stand,
+    },
+}
+
+/// The looks of one robot at one item: what counts once, whoever tells of it, and however often.
+#[derive(
+    Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema,
+)]
+#[serde(deny_unknown_fields)]
+pub struct Seen {
+    /// Who looked.
+    pub by: RobotId,
+    /// The looker's own number for the item.
+    pub mark: u32,
+    /// How often it looked: of two reports with the same mark, the one with more looks holds.
+    pub looks: u32,
+}
+
+/// What has become of a goal.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Stand {
+    /// The sender is on its way: nobody else needs to go.
+    Going,
+    /// The sender has been there.
+    Done,
 }

@@ -30,12 +30,16 @@
 
 extern crate alloc;
 
+mod arbitration;
 pub mod behaviours;
+mod beliefs;
 mod body;
 mod brain;
 mod command;
 mod dice;
+mod goals;
 mod infinite;
+mod mind;
 mod percept;
 mod rays;
 mod reckoning;
@@ -44,12 +48,20 @@ mod senses;
 mod sight;
 mod spec;
 mod subsumption;
+mod thoughts;
+mod way;
+mod wish;
 #[cfg(test)]
 mod world_of_walls;
 
+pub use arbitration::Arbitration;
+pub use beliefs::pose::Pose;
+pub use beliefs::{BeliefsSpec, TrustSpec};
 pub use body::{Body, Detector, Other, RangeRing, RobotId};
 pub use brain::Brain;
-pub use command::{About, Command, Message, Motion, SensorRequest};
+pub use command::{About, Command, Message, Motion, Seen, SensorRequest, Stand};
 pub use dice::Dice;
+pub use goals::Verdict;
 pub use percept::{Contact, Heard, Look, Neighbour, Percept, Reading, Scan};
 pub use spec::BrainSpec;
+pub use thoughts::{BelievedItem, BelievedRobot, Thoughts, Wanted};

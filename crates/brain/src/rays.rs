@@ -101,6 +101,20 @@ impl Ring {
         (is_whole && age_s <= self.fresh_s).then_some((age_s, &scan.ranges_m))
     }
 
+    /// Bearings and ranges of all rays, at most what the sensor sees.
+    #[inline]
+    pub(crate) fn rays(&self, ranges_m: &[f64]) -> impl Iterator<Item = (f64, f64)> {
+        let rays = self.bearings_rad.iter().zip(ranges_m);
+        rays.map(|(bearing_rad, range_m)| {
+            (*bearing_rad, lesser(sensible_m(*range_m), self.range_m))
+        })
+    }
+
+    /// Time from a scan until the brain has it.
+    pub(crate) fn latency_s(&self) -> f64 {
+        self.latency_s
+    }
+
     /// Nothing farther is seen.
     pub(crate) fn range_m(&self) -> f64 {
         self.range_m

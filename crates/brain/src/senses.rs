@@ -1,5 +1,6 @@
 //! What behaviours are given of a step.
 
+use crate::beliefs::Beliefs;
 use crate::body::Body;
 use crate::dice::Dice;
 use crate::percept::Percept;
@@ -14,6 +15,8 @@ const LEAVING_S: f64 = 0.5;
 pub(crate) struct Senses<'s> {
     pub(crate) percept: &'s Percept,
     pub(crate) body: &'s Body,
+    /// What a mind makes of all percepts so far; `None` without a mind.
+    pub(crate) beliefs: Option<&'s Beliefs>,
     pub(crate) rings: &'s [Ring],
     /// What is seen straight ahead; `None` if nothing looks there or nothing came in.
     pub(crate) ahead: Option<Seen>,

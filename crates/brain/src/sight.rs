@@ -341,6 +341,7 @@ mod tests {
                 let percept = walk.percept();
                 let now_m_s = moved.now_m_s(&percept, &body);
                 let senses = super::Senses {
+                    beliefs: None,
                     percept: &percept,
                     body: &body,
                     rings: &sight.rings,

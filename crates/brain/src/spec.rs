@@ -1,6 +1,8 @@
 //! What a scenario says of a brain.
 
+use crate::arbitration::Arbitration;
 use crate::behaviours::{Avoid, BehaviourSpec, Bounce, Cruise};
+use crate::beliefs::BeliefsSpec;
 use alloc::vec;
 use alloc::vec::Vec;
 use schemars::JsonSchema;
@@ -21,6 +23,10 @@ pub struct BrainSpec {
     /// It then stands when they see nothing, and can still hit what slips between two rays. A robot
     /// without a range sensor that looks where it goes is blind, and is not limited.
     pub speed_limited_by_sight: bool,
+    /// How one motion is made of what all behaviours want.
+    pub arbitration: Arbitration,
+    /// What it believes of the world; left out, it has what its behaviours need.
+    pub beliefs: Option<BeliefsSpec>,
     /// Its behaviours, the lowest first.
     #[schemars(length(max = 32))]
     pub behaviours: Vec<BehaviourSpec>,
@@ -31,6 +37,8 @@ impl Default for BrainSpec {
         Self {
             rate_hz: None,
             speed_limited_by_sight: true,
+            arbitration: Arbitration::default(),
+            beliefs: None,
             behaviours: vec![
                 BehaviourSpec::Cruise(Cruise::default()),
                 BehaviourSpec::Bounce(Bounce::default()),

@@ -6,13 +6,22 @@
 //! to its course, and so on for ever.
 
 use crate::command::Motion;
+use crate::goals::Verdict;
 use crate::senses::Senses;
+use crate::wish::Wish;
 use alloc::boxed::Box;
+use alloc::vec::Vec;
 
 /// A behaviour in a body.
 pub(crate) trait Behaviour {
     /// What a robot remembers for it.
     type Memory: Clone;
+
+    /// Whether it is of use only to a robot that knows where it is.
+    const NEEDS_BELIEFS: bool = false;
+
+    /// Whether it is of use only to a robot that recognises items.
+    const NEEDS_DETECTOR: bool = false;
 
     /// The memory of a robot that has just been switched on.
     fn memory(&self) -> Self::Memory;
@@ -22,9 +31,12 @@ pub(crate) trait Behaviour {
         0.0
     }
 
-    /// How it wants to move, if it has something to do. It is asked at each step at which no higher
+    /// What it asks for, if it has something to do. It is asked at each step at which no higher
     /// behaviour has control.
-    fn triggered(&self, memory: &mut Self::Memory, senses: &Senses) -> Option<Motion>;
+    fn triggered(&self, memory: &mut Self::Memory, senses: &Senses) -> Option<Wish>;
+
+    /// It is told that it does not get where it wants to be.
+    fn judged(&self, _memory: &mut Self::Memory, _verdict: Verdict) {}
 
     /// How it moves while it keeps control with nothing to do.
     fn held(&self) -> Motion;
@@ -41,6 +53,12 @@ pub(crate) struct Layer<M> {
     left_s: f32,
 }
 
+impl<M> Layer<M> {
+    pub(crate) fn memory(&mut self) -> &mut M {
+        &mut self.memory
+    }
+}
+
 /// A layer for each behaviour.
 pub(crate) fn layers<B: Behaviour>(behaviours: &[B]) -> Box<[Layer<B::Memory>]> {
     let memories = behaviours.iter().map(Behaviour::memory);
@@ -52,33 +70,54 @@ pub(crate) fn layers<B: Behaviour>(behaviours: &[B]) -> Box<[Layer<B::Memory>]> 
         .collect()
 }
 
-/// What the highest behaviour with something to do, or with hold time left, wants; if there is
-/// none, to stand. The lowest comes first.
+/// What the highest behaviour with something to do, or with hold time left, asks for, and its place.
+/// The lowest comes first.
 #[inline]
 pub(crate) fn arbitrate<B: Behaviour>(
     behaviours: &[B],
     layers: &mut [Layer<B::Memory>],
     senses: &Senses,
-) -> Motion {
+) -> Option<(usize, Wish)> {
     let mut wanted = None;
-    for (behaviour, layer) in behaviours.iter().zip(layers).rev() {
+    for (place, (behaviour, layer)) in behaviours.iter().zip(layers).enumerate().rev() {
         if wanted.is_none() {
-            wanted = step(behaviour, layer, senses);
+            wanted = step(behaviour, layer, senses).map(|wish| (place, wish));
         } else {
             behaviour.suppressed(&mut layer.memory);
             pass(layer, senses);
         }
     }
-    wanted.unwrap_or_default()
+    wanted
+}
+
+/// What all behaviours ask for, the highest first, down to the first that wants a motion: where it
+/// wants to be, nobody below it can know.
+pub(crate) fn wishes<B: Behaviour>(
+    behaviours: &[B],
+    layers: &mut [Layer<B::Memory>],
+    senses: &Senses,
+    wishes: &mut Vec<(usize, Wish)>,
+) {
+    wishes.clear();
+    let mut has_motion = false;
+    for (place, (behaviour, layer)) in behaviours.iter().zip(layers).enumerate().rev() {
+        if has_motion {
+            behaviour.suppressed(&mut layer.memory);
+            pass(layer, senses);
+        } else if let Some(wish) = step(behaviour, layer, senses) {
+            has_motion = matches!(wish, Wish::Motion(_));
+            wishes.push((place, wish));
+        }
+    }
 }
 
 #[inline]
 #[expect(clippy::cast_possible_truncation, reason = "kept short")]
-fn step<B: Behaviour>(
+pub(crate) fn step<B: Behaviour>(
     behaviour: &B,
     layer: &mut Layer<B::Memory>,
     senses: &Senses,
-) -> Option<Motion> {
+) -> Option<Wish> {
     let wanted = behaviour.triggered(&mut layer.memory, senses);
     if wanted.is_some() {
         layer.left_s = behaviour.hold_s() as f32;
@@ -87,7 +126,7 @@ fn step<B: Behaviour>(
     // Half a step, so that rounding adds none.
     let is_held = layer.left_s > senses.period_s() / 2.0;
     pass(layer, senses);
-    is_held.then(|| behaviour.held())
+    is_held.then(|| behaviour.held().into())
 }
 
 #[inline]
@@ -130,10 +169,10 @@ mod tests {
             }
         }
 
-        fn triggered(&self, memory: &mut Self::Memory, senses: &Senses) -> Option<Motion> {
+        fn triggered(&self, memory: &mut Self::Memory, senses: &Senses) -> Option<Wish> {
             match (self, memory) {
                 (Self::Shipped(ready), Some(memory)) => ready.triggered(memory, senses),
-                _ => Some(to_course_0(senses)),
+                _ => Some(to_course_0(senses).into()),
             }
         }
 
@@ -142,6 +181,13 @@ mod tests {
                 Self::Correct => Motion::default(),
                 Self::Shipped(ready) => ready.held(),
             }
+        }
+    }
+
+    fn motion(wish: Option<(usize, Wish)>) -> Motion {
+        match wish {
+            Some((_, Wish::Motion(motion))) => motion,
+            _ => Motion::default(),
         }
     }
 
@@ -183,12 +229,13 @@ mod tests {
             let senses = Senses {
                 percept: &percept,
                 body: &body,
+                beliefs: None,
                 rings: &sight.rings,
                 ahead: sight.ahead(&percept, &body, now_m_s),
                 turned_rad,
                 now_m_s,
             };
-            let wanted = arbitrate(&behaviours, &mut layers, &senses);
+            let wanted = motion(arbitrate(&behaviours, &mut layers, &senses));
             let motion = sight.limited(wanted, &senses, &moved);
             moved.told(motion, &body);
             walk.step(motion);
@@ -230,10 +277,10 @@ mod tests {
             self.hold_s
         }
 
-        fn triggered(&self, memory: &mut [usize; 2], _: &Senses) -> Option<Motion> {
+        fn triggered(&self, memory: &mut [usize; 2], _: &Senses) -> Option<Wish> {
             let step = memory[0] + memory[1];
             memory[0] += 1;
-            self.rings_at[step].then(|| self.held())
+            self.rings_at[step].then(|| self.held().into())
         }
 
         fn held(&self) -> Motion {
@@ -261,12 +308,13 @@ mod tests {
             let senses = Senses {
                 percept: &crate::Percept::default(),
                 body: &body,
+                beliefs: None,
                 rings: &[],
                 ahead: None,
                 turned_rad: 0.0,
                 now_m_s: 0.0,
             };
-            arbitrate(&bells, &mut layers, &senses).speed_m_s
+            motion(arbitrate(&bells, &mut layers, &senses)).speed_m_s
         })
     }
 

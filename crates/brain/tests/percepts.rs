@@ -3,8 +3,8 @@
 use base::geometry::Point;
 use brain::behaviours::{Avoid, BehaviourSpec, Bounce, Cruise};
 use brain::{
-    About, Body, Brain, BrainSpec, Command, Contact, Heard, Look, Message, Motion, Neighbour,
-    Percept, RangeRing, Reading, RobotId, Scan, SensorRequest,
+    About, Arbitration, Body, Brain, BrainSpec, Command, Contact, Heard, Look, Message, Motion,
+    Neighbour, Percept, RangeRing, Reading, RobotId, Scan, Seen, SensorRequest, Stand,
 };
 use proptest::prelude::*;
 use std::sync::Arc;
@@ -81,10 +81,27 @@ fn robot() -> impl Strategy<Value = RobotId> {
 }
 
 fn message(number: Numbers) -> impl Strategy<Value = Message> {
-    let item = (any::<u16>(), point(number)).prop_map(|(kind, at)| About::Item { kind, at });
-    let sender = (point(number), number(-4.0, 4.0))
-        .prop_map(|(at, heading_rad)| About::Sender { at, heading_rad });
-    (prop_oneof![item, sender], number(0.0, 1.0))
+    let seen = (robot(), any::<u32>(), any::<u32>());
+    let seen = seen.prop_map(|(by, mark, looks)| Seen { by, mark, looks });
+    let item = (any::<u16>(), point(number), seen).prop_map(|(kind, at, seen)| About::Item {
+        kind,
+        at,
+        seen,
+    });
+    let sender =
+        (point(number), number(-4.0, 4.0), any::<u32>()).prop_map(|(at, heading_rad, looks)| {
+            About::Sender {
+                at,
+                heading_rad,
+                looks,
+            }
+        });
+    let stands = [Stand::Going, Stand::Done];
+    let goal = (point(number), 0_usize..2).prop_map(move |(at, stand)| About::Goal {
+        at,
+        stand: stands[stand],
+    });
+    (prop_oneof![item, sender, goal], number(0.0, 1.0))
         .prop_map(|(about, confidence)| Message { about, confidence })
 }
 
@@ -280,6 +297,8 @@ fn a_brain_is_written_as_a_scenario_says_it() {
         }),
     ];
     let expected = BrainSpec {
+        arbitration: Arbitration::Subsumption,
+        beliefs: None,
         rate_hz: Some(10.0),
         speed_limited_by_sight: true,
         behaviours,

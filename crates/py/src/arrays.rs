@@ -1,17 +1,32 @@
 //! What the robots of a kind perceive together: an array for each thing, with an entry a robot.
 
 use base::geometry::Point;
-use brain::{About, Motion, Percept, Reading};
+use brain::{About, Heard, Motion, Percept, Reading, Seen, Stand};
 use numpy::{Element, IntoPyArray, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use sim::engine::Asked;
 
-/// Stands in whole numbers for what is not about an item.
-pub(crate) const NO_ITEM: i64 = -1;
+/// Stand in place of an item's kind for what is about a sender, or a place where it wants to be.
+pub(crate) const SENDER: i64 = -1;
+pub(crate) const GOAL: i64 = -2;
 
 /// What robots of one kind perceive, by the names in a percept; NaN, or false, is missing.
 ///
+/// Whose looks messages tell of; what is about no item is by its sender.
+fn seen(entries: &Entries<Heard>) -> PyResult<()> {
+    let of = |heard: &Heard| match heard.message.about {
+        About::Item { seen, .. } => seen,
+        _ => Seen {
+            by: heard.from,
+            ..Seen::default()
+        },
+    };
+    entries.put("by_kind", |heard| i64::from(of(heard).by.kind))?;
+    entries.put("by_index", |heard| i64::from(of(heard).by.index))?;
+    entries.put("mark", |heard| i64::from(of(heard).mark))
+}
+
 /// What there is any number of, such as contacts, has an entry each, and in `row` the place of its
 /// robot.
 pub(crate) fn percepts<'py>(py: Python<'py>, asked: &[Asked]) -> PyResult<Bound<'py, PyDict>> {
@@ -34,6 +49,7 @@ pub(crate) fn percepts<'py>(py: Python<'py>, asked: &[Asked]) -> PyResult<Bound<
     told.reading("battery", |percept| percept.battery)?;
     told.reading("touch", |percept| percept.touch)?;
     told.put("scans", scans(py, asked)?)?;
+    told.put("looks", looks(py, asked)?)?;
     told.put("contacts", contacts(py, asked)?)?;
     told.put("neighbours", neighbours(py, asked)?)?;
     told.put("inbox", inbox(py, asked)?)?;
@@ -166,9 +182,17 @@ fn scans<'py>(py: Python<'py>, asked: &[Asked]) -> PyResult<Bound<'py, PyList>> 
     PyList::new(py, (0..rings).map(scan).collect::<PyResult<Vec<_>>>()?)
 }
 
+fn looks<'py>(py: Python<'py>, asked: &[Asked]) -> PyResult<Bound<'py, PyDict>> {
+    let entries = Entries::new(py, asked, |percept| &percept.looks)?;
+    entries.put("sensor", |look| i64::from(look.sensor))?;
+    entries.put("age_s", |look| look.age_s)?;
+    Ok(entries.dict)
+}
+
 fn contacts<'py>(py: Python<'py>, asked: &[Asked]) -> PyResult<Bound<'py, PyDict>> {
     let entries = Entries::new(py, asked, |percept| &percept.contacts)?;
     entries.put("kind", |contact| i64::from(contact.kind))?;
+    entries.put("sensor", |contact| i64::from(contact.sensor))?;
     entries.put("range_m", |contact| contact.range_m)?;
     entries.put("bearing_rad", |contact| contact.bearing_rad)?;
     entries.put("age_s", |contact| contact.age_s)?;
@@ -193,17 +217,32 @@ fn inbox<'py>(py: Python<'py>, asked: &[Asked]) -> PyResult<Bound<'py, PyDict>> 
     entries.put("confidence", |heard| heard.message.confidence)?;
     entries.put("item_kind", |heard| match heard.message.about {
         About::Item { kind, .. } => kind.into(),
-        About::Sender { .. } => NO_ITEM,
+        About::Sender { .. } => SENDER,
+        About::Goal { .. } => GOAL,
     })?;
     entries.put("heading_rad", |heard| match heard.message.about {
         About::Sender { heading_rad, .. } => heading_rad,
-        About::Item { .. } => f64::NAN,
+        About::Item { .. } | About::Goal { .. } => f64::NAN,
+    })?;
+    entries.put("looks", |heard| match heard.message.about {
+        About::Item { seen, .. } => seen.looks.into(),
+        About::Sender { looks, .. } => looks.into(),
+        About::Goal { .. } => 0_i64,
+    })?;
+    seen(&entries)?;
+    entries.put("is_done", |heard| {
+        let About::Goal { stand, .. } = heard.message.about else {
+            return false;
+        };
+        stand == Stand::Done
     })?;
     let places = entries
         .all
         .iter()
         .map(|(_, heard)| match heard.message.about {
-            About::Item { at, .. } | About::Sender { at, .. } => [at.x, at.y],
+            About::Item { at, .. } | About::Sender { at, .. } | About::Goal { at, .. } => {
+                [at.x, at.y]
+            }
         });
     entries.dict.set_item("at", table(py, places)?)?;
     Ok(entries.dict)

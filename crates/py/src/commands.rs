@@ -1,7 +1,8 @@
 //! What the robots of a kind are to do, from arrays.
 
+use crate::arrays::GOAL;
 use base::geometry::Point;
-use brain::{About, Message, Motion, SensorRequest};
+use brain::{About, Message, Motion, Seen, SensorRequest, Stand};
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use sim::engine::Asked;
@@ -29,6 +30,8 @@ struct Outbox<'py> {
     item_kind: PyReadonlyArray1<'py, i64>,
     at: PyReadonlyArray2<'py, f64>,
     heading_rad: PyReadonlyArray1<'py, f64>,
+    looks: PyReadonlyArray1<'py, u32>,
+    is_done: PyReadonlyArray1<'py, bool>,
 }
 
 impl Commands<'_> {
@@ -71,12 +74,30 @@ impl Outbox<'_> {
             .map(|at| Point { x: at[0], y: at[1] });
         let kinds = self.item_kind.as_array();
         let abouts = places.zip(kinds.iter().zip(self.heading_rad.as_array()));
-        let abouts = abouts.map(|(at, (kind, heading_rad))| match u16::try_from(*kind) {
-            Ok(kind) => About::Item { kind, at },
-            Err(_) => About::Sender {
-                at,
-                heading_rad: *heading_rad,
-            },
+        let more = self
+            .looks
+            .as_array()
+            .into_iter()
+            .zip(self.is_done.as_array());
+        let abouts = abouts.zip(more).map(|((at, (kind, heading_rad)), more)| {
+            let (looks, is_done) = (*more.0, *more.1);
+            match u16::try_from(*kind) {
+                // By its sender: who hears it counts it so.
+                Ok(kind) => About::Item {
+                    kind,
+                    at,
+                    seen: Seen::default(),
+                },
+                Err(_) if *kind == GOAL => About::Goal {
+                    at,
+                    stand: if is_done { Stand::Done } else { Stand::Going },
+                },
+                Err(_) => About::Sender {
+                    at,
+                    heading_rad: *heading_rad,
+                    looks,
+                },
+            }
         });
         let confidences = self.confidence.as_array();
         let messages = abouts.zip(confidences).map(|(about, confidence)| Message {

@@ -6,6 +6,7 @@ use crate::command::Motion;
 use crate::rays::sensible_m;
 use crate::senses::Senses;
 use crate::subsumption::Behaviour;
+use crate::wish::Wish;
 use alloc::vec::Vec;
 use core::f64::consts::{FRAC_PI_4, PI, TAU};
 use schemars::JsonSchema;
@@ -154,17 +155,8 @@ impl Behaviour for Ready {
     }
 
     #[inline]
-    fn triggered(&self, memory: &mut Memory, senses: &Senses) -> Option<Motion> {
-        let period_s = senses.period_s();
-        match memory {
-            Memory::Clear { since_s } => {
-                let clear_s = f64::from(*since_s);
-                *since_s += period_s;
-                self.look(memory, clear_s, senses)
-            }
-            Memory::Backing { .. } => Some(self.go_on_backing(memory, senses)),
-            Memory::Turning { .. } => self.go_on_turning(memory, senses),
-        }
+    fn triggered(&self, memory: &mut Memory, senses: &Senses) -> Option<Wish> {
+        self.go_on(memory, senses).map(Wish::Motion)
     }
 
     fn held(&self) -> Motion {
@@ -178,6 +170,20 @@ impl Behaviour for Ready {
 }
 
 impl Ready {
+    #[inline]
+    fn go_on(&self, memory: &mut Memory, senses: &Senses) -> Option<Motion> {
+        let period_s = senses.period_s();
+        match memory {
+            Memory::Clear { since_s } => {
+                let clear_s = f64::from(*since_s);
+                *since_s += period_s;
+                self.look(memory, clear_s, senses)
+            }
+            Memory::Backing { .. } => Some(self.go_on_backing(memory, senses)),
+            Memory::Turning { .. } => self.go_on_turning(memory, senses),
+        }
+    }
+
     #[inline]
     #[expect(clippy::cast_possible_truncation, reason = "kept short")]
     fn look(&self, memory: &mut Memory, clear_s: f64, senses: &Senses) -> Option<Motion> {

@@ -6,6 +6,7 @@ use crate::command::Motion;
 use crate::rays::Ring;
 use crate::senses::Senses;
 use crate::subsumption::Behaviour;
+use crate::wish::Wish;
 use base::trig::wrapped;
 use core::f64::consts::{FRAC_PI_4, TAU};
 use schemars::JsonSchema;
@@ -97,18 +98,8 @@ impl Behaviour for Ready {
     }
 
     #[inline]
-    fn triggered(&self, memory: &mut Memory, senses: &Senses) -> Option<Motion> {
-        match memory {
-            Memory::Going { since_s } => {
-                let straight_s = f64::from(*since_s);
-                *since_s += senses.period_s();
-                let near_m = (self.turn_at_m + senses.stopping_m()).min(self.half_sight_m);
-                let is_stopped =
-                    senses.stands_ahead(near_m, straight_s) || senses.touches(straight_s);
-                is_stopped.then(|| self.turn(memory, senses))
-            }
-            Memory::Turning { .. } => go_on_turning(memory, senses),
-        }
+    fn triggered(&self, memory: &mut Memory, senses: &Senses) -> Option<Wish> {
+        self.go_on(memory, senses).map(Wish::Motion)
     }
 
     fn held(&self) -> Motion {
@@ -122,6 +113,21 @@ impl Behaviour for Ready {
 }
 
 impl Ready {
+    #[inline]
+    fn go_on(&self, memory: &mut Memory, senses: &Senses) -> Option<Motion> {
+        match memory {
+            Memory::Going { since_s } => {
+                let straight_s = f64::from(*since_s);
+                *since_s += senses.period_s();
+                let near_m = (self.turn_at_m + senses.stopping_m()).min(self.half_sight_m);
+                let is_stopped =
+                    senses.stands_ahead(near_m, straight_s) || senses.touches(straight_s);
+                is_stopped.then(|| self.turn(memory, senses))
+            }
+            Memory::Turning { .. } => go_on_turning(memory, senses),
+        }
+    }
+
     #[expect(clippy::cast_possible_truncation, reason = "kept short")]
     fn turn(&self, memory: &mut Memory, senses: &Senses) -> Motion {
         let left_rad = self.new_course_rad(senses);

@@ -5,6 +5,7 @@ use crate::body::Body;
 use crate::command::Motion;
 use crate::senses::Senses;
 use crate::subsumption::Behaviour;
+use crate::wish::Wish;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -38,8 +39,8 @@ impl Behaviour for Ready {
     fn memory(&self) {}
 
     #[inline]
-    fn triggered(&self, (): &mut (), _senses: &Senses) -> Option<Motion> {
-        Some(self.motion)
+    fn triggered(&self, (): &mut (), _senses: &Senses) -> Option<Wish> {
+        Some(self.motion.into())
     }
 
     fn held(&self) -> Motion {

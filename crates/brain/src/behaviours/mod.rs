@@ -4,15 +4,34 @@
 mod avoid;
 mod bounce;
 mod cruise;
+mod follow;
+mod frontier;
+mod hold;
+mod home;
+mod lanes;
+mod navigate;
+mod seek;
+mod spiral;
+mod survey;
 
 pub use avoid::Avoid;
 pub use bounce::Bounce;
 pub use cruise::Cruise;
+pub use follow::Follow;
+pub use frontier::Frontier;
+pub use hold::Hold;
+pub use home::Home;
+pub use lanes::Lanes;
+pub use navigate::{Navigate, Share};
+pub use seek::Seek;
+pub use spiral::Spiral;
 
 use crate::body::Body;
 use crate::command::Motion;
+use crate::goals::Verdict;
 use crate::senses::Senses;
 use crate::subsumption::Behaviour;
+use crate::wish::Wish;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -28,6 +47,30 @@ macro_rules! behaviours {
         }
 
         impl BehaviourSpec {
+            /// Its name in scenarios.
+            #[must_use]
+            pub fn name(&self) -> &'static str {
+                match self {
+                    $(Self::$kind(_) => stringify!($file),)+
+                }
+            }
+
+            /// Whether it is of use only to a robot that knows where it is.
+            #[must_use]
+            pub fn needs_beliefs(&self) -> bool {
+                match self {
+                    $(Self::$kind(_) => $file::Ready::NEEDS_BELIEFS,)+
+                }
+            }
+
+            /// Whether it is of use only to a robot that recognises items.
+            #[must_use]
+            pub fn needs_detector(&self) -> bool {
+                match self {
+                    $(Self::$kind(_) => $file::Ready::NEEDS_DETECTOR,)+
+                }
+            }
+
             pub(crate) fn ready(&self, body: &Body) -> Ready {
                 match self {
                     $(Self::$kind(spec) => Ready::$kind($file::Ready::new(spec, body)),)+
@@ -64,13 +107,22 @@ macro_rules! behaviours {
             }
 
             #[inline]
-            fn triggered(&self, memory: &mut Memory, senses: &Senses) -> Option<Motion> {
+            fn triggered(&self, memory: &mut Memory, senses: &Senses) -> Option<Wish> {
                 match (self, memory) {
                     $((Self::$kind(ready), Memory::$kind(memory)) => {
                         ready.triggered(memory, senses)
                     })+
                     // A robot's memories are made of its behaviours, in their order.
                     _ => None,
+                }
+            }
+
+            fn judged(&self, memory: &mut Memory, verdict: Verdict) {
+                match (self, memory) {
+                    $((Self::$kind(ready), Memory::$kind(memory)) => {
+                        ready.judged(memory, verdict)
+                    })+
+                    _ => {}
                 }
             }
 
@@ -97,6 +149,22 @@ behaviours! {
     Cruise in cruise;
     /// Searches by random bounces: straight on, and at an obstacle to a random free course.
     Bounce in bounce;
+    /// Searches lane by lane, which the team shares.
+    Lanes in lanes;
+    /// Searches in a spiral.
+    Spiral in spiral;
+    /// Searches at the nearest place that nobody has looked at.
+    Frontier in frontier;
+    /// Searches where beliefs say most is to be found a second.
+    Seek in seek;
+    /// Follows another robot.
+    Follow in follow;
+    /// Stays at a place.
+    Hold in hold;
+    /// Goes home before the battery is empty.
+    Home in home;
+    /// Visits places, around what is known to be in the way.
+    Navigate in navigate;
     /// Gets out of the way of what is too near.
     Avoid in avoid;
 }

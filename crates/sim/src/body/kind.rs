@@ -6,7 +6,7 @@ use super::drive::Drive;
 use super::{Layer, RobotSpec};
 use crate::radio::Radio;
 use crate::sensing::timing::Rhythm;
-use crate::sensing::{Measure, Measures, Sensor};
+use crate::sensing::{Measure, Measures, Sensor, SensorSpec};
 use base::geometry::Rectangle;
 use base::placement::Placement;
 use base::random::kind_key;
@@ -75,7 +75,7 @@ impl Kind {
                 .iter()
                 .filter_map(|sensor| ring(sensor, step_s))
                 .collect(),
-            detectors: detectors(spec, &sensors, item_kinds),
+            detectors: detectors(spec, briefing),
             position_noise_m: noise(&sensors, |measure| match measure {
                 Measure::Position { noise_m } => Some(*noise_m),
                 _ => None,
@@ -89,7 +89,7 @@ impl Kind {
                 _ => None,
             }),
             item_kinds: item_kinds.to_vec(),
-            others: others(spec.layer, briefing.robots),
+            others: others(spec.layer, briefing),
             field: Some(briefing.field),
         };
         let mut kind = Self {
@@ -184,22 +184,28 @@ fn noise(sensors: &[Sensor], of: impl Fn(&Measure) -> Option<f64>) -> f64 {
     noises.fold(0.0, f64::max)
 }
 
-fn others(layer: Layer, robots: &BTreeMap<String, RobotSpec>) -> Vec<Other> {
+fn others(layer: Layer, briefing: &Briefing) -> Vec<Other> {
     let other = |spec: &RobotSpec| Other {
         radius_m: spec.radius_m,
         max_acceleration_m_s2: Drive::from(&spec.drive).max_acceleration_m_s2,
         is_in_the_way: spec.layer == layer,
+        detectors: detectors(spec, briefing),
     };
-    robots.values().map(other).collect()
+    briefing.robots.values().map(other).collect()
 }
 
-fn detectors(spec: &RobotSpec, sensors: &[Sensor], item_kinds: &[String]) -> Vec<Detector> {
-    let numbered = (0..).zip(spec.sensors.values().zip(sensors));
-    let detectors = numbered.filter_map(|(number, (spec, sensor))| match &spec.measures {
-        Measures::Items(items) => Some(items.detector(number, item_kinds, sensor.period_s)),
+fn detectors(spec: &RobotSpec, briefing: &Briefing) -> Vec<Detector> {
+    let detector = |(number, sensor): (u16, &SensorSpec)| match &sensor.measures {
+        Measures::Items(items) => {
+            let period_s = Rhythm::new(sensor.rate_hz, briefing.step_s).period_s(briefing.step_s);
+            Some(items.detector(number, briefing.item_kinds, period_s))
+        }
         _ => None,
-    });
-    detectors.collect()
+    };
+    (0..)
+        .zip(spec.sensors.values())
+        .filter_map(detector)
+        .collect()
 }
 
 fn rays_m(sensors: &[Sensor]) -> f64 {

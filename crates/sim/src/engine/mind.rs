@@ -113,6 +113,7 @@ impl Mind {
     /// Robots have other numbers from now on; what was seen and heard of one that is gone is
     /// forgotten.
     pub(crate) fn renumber_robots(&mut self, numbers: &BTreeMap<RobotId, RobotId>) {
+        self.brain.renumber(|id| numbers.get(&id).copied());
         let renumber = |id: &mut RobotId| numbers.get(id).map(|now| *id = *now).is_some();
         if let Some(backlog) = &mut self.backlog {
             let neighbours = &mut backlog.neighbours.lates;

@@ -34,7 +34,7 @@ mod tests {
     use crate::scenario::ScenarioSpec;
     use base::document::Document;
     use base::geometry::Point;
-    use brain::{About, Message, RobotId};
+    use brain::{About, Message, RobotId, Seen};
     use std::sync::Arc;
 
     const TWO: &str = "
@@ -64,6 +64,7 @@ radio = { range_m = 5 }
             about: About::Item {
                 kind: 0,
                 at: Point::default(),
+                seen: Seen::default(),
             },
             confidence: 1.0,
         };

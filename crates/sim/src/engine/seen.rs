@@ -5,7 +5,7 @@ use crate::body::Layer;
 use crate::clock::seconds;
 use crate::scenario::Scenario;
 use base::geometry::Point;
-use brain::{Motion, RobotId};
+use brain::{Motion, RobotId, Thoughts};
 
 /// A robot of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -56,6 +56,13 @@ impl State {
     #[must_use]
     pub fn tick(&self) -> u64 {
         self.tick
+    }
+
+    /// What a robot believes and wants; `None` if there is no such robot, or it has no mind.
+    #[must_use]
+    pub fn thoughts(&self, id: RobotId) -> Option<Thoughts> {
+        let robot = self.ids.binary_search(&id).ok()?;
+        self.minds[robot].brain.thoughts()
     }
 
     /// All robots, in the order of their kinds and indices.

@@ -59,9 +59,13 @@ pub(super) fn still_sayable(
         return false;
     };
     heard.from = *sender;
-    let About::Item { kind, .. } = &mut heard.message.about else {
+    let About::Item { kind, seen, .. } = &mut heard.message.about else {
         return true;
     };
+    let Some(looker) = ids.get(&seen.by) else {
+        return false;
+    };
+    seen.by = *looker;
     let Some(was) = from.items.get(usize::from(*kind)) else {
         // Of no kind that there was: so it stays.
         return usize::from(*kind) >= to.items.len();

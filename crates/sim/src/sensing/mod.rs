@@ -66,8 +66,6 @@ pub enum Measures {
 pub(crate) struct Sensor {
     pub(crate) name: String,
     pub(crate) rhythm: Rhythm,
-    /// Time between two looks.
-    pub(crate) period_s: f64,
     /// From a look until the robot has it.
     pub(crate) latency_steps: u64,
     pub(crate) dropout: f64,
@@ -115,7 +113,6 @@ impl Sensor {
         Self {
             name: name.to_owned(),
             rhythm,
-            period_s: rhythm.period_s(step_s),
             latency_steps: steps_of(spec.latency_s, step_s),
             dropout: spec.dropout,
             power_w: spec.power_w,

@@ -9,7 +9,7 @@
 use allocation_counter::measure;
 use base::document::Document;
 use base::geometry::Point;
-use brain::{About, Command, Message, RobotId};
+use brain::{About, Command, Message, RobotId, Seen};
 use sim::engine::Simulation;
 use sim::scenario::ScenarioSpec;
 use std::collections::BTreeMap;
@@ -45,6 +45,7 @@ fn commands(messages: usize) -> BTreeMap<RobotId, Command> {
         about: About::Item {
             kind: 0,
             at: Point::default(),
+            seen: Seen::default(),
         },
         confidence: 0.5,
     };

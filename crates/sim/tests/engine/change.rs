@@ -444,7 +444,7 @@ fn a_message_on_its_way_keeps_its_sender_and_its_item_when_kinds_have_other_numb
     let heard = inbox_of(&told_within(&mut simulation, 20, id(1, 1)));
     assert_eq!(heard.len(), 1);
     assert_eq!(heard[0].from, id(1, 0));
-    let About::Item { kind, at } = heard[0].message.about else {
+    let About::Item { kind, at, .. } = heard[0].message.about else {
         panic!("{heard:?}");
     };
     assert_eq!((kind, at.x), (1, 7.0));

@@ -4,7 +4,7 @@ use base::document::Document;
 use base::fault::Faults;
 use base::geometry::Point;
 use base::random::{Entity, Purpose, Stream, stream, unit};
-use brain::{About, Command, Message, Motion, RobotId};
+use brain::{About, Command, Message, Motion, RobotId, Seen};
 use sim::engine::{Robot, Simulation};
 use sim::scenario::{Scenario, ScenarioSpec};
 use std::collections::BTreeMap;
@@ -69,7 +69,11 @@ pub(crate) fn say(messages: &[Message]) -> Command {
 pub(crate) fn message(number: f64) -> Message {
     let at = Point { x: number, y: 0.0 };
     Message {
-        about: About::Item { kind: 0, at },
+        about: About::Item {
+            kind: 0,
+            at,
+            seen: Seen::default(),
+        },
         confidence: 0.5,
     }
 }

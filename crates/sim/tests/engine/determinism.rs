@@ -4,7 +4,7 @@ use crate::common::{Random, id, read, robots, scenario, start};
 use crate::random;
 use base::geometry::Point;
 use base::runner::{Runner, Work};
-use brain::{About, Command, Message, Percept, RobotId};
+use brain::{About, Command, Message, Percept, RobotId, Seen};
 use rayon::ThreadPoolBuilder;
 use sim::engine::{Outcome, Simulation};
 use sim::runner::Runs;
@@ -45,7 +45,8 @@ pub(crate) fn commands(simulation: &Simulation, step: u32) -> BTreeMap<RobotId, 
                 Message {
                     about: About::Item {
                         kind: 0,
-                        at: Point::default()
+                        at: Point::default(),
+                        seen: Seen::default(),
                     },
                     confidence: f64::from(number),
                 };

@@ -22,7 +22,7 @@ fn line(radio: &str, places_m: &[f64], more: &str) -> String {
 fn number(heard: &Heard) -> f64 {
     match heard.message.about {
         About::Item { at, .. } => at.x,
-        About::Sender { .. } => f64::NAN,
+        About::Sender { .. } | About::Goal { .. } => f64::NAN,
     }
 }
 

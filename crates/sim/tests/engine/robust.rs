@@ -4,7 +4,7 @@ use crate::common::{Random, motion, read, robots};
 use crate::random;
 use base::geometry::Point;
 use base::runner::{Kind, Runner, Work};
-use brain::{About, Command, Message, SensorRequest};
+use brain::{About, Command, Message, Seen, SensorRequest};
 use sim::engine::{Simulation, State, Status};
 use sim::runner::Runs;
 use sim::scenario::Scenario;
@@ -33,10 +33,15 @@ fn command(random: &mut Random) -> Command {
         y: 2.0,
     };
     let about = match random.below(2) {
-        0 => About::Item { kind: 3, at },
+        0 => About::Item {
+            kind: 3,
+            at,
+            seen: Seen::default(),
+        },
         _ => About::Sender {
             at,
             heading_rad: 1.0,
+            looks: random.below(9),
         },
     };
     let message = Message {

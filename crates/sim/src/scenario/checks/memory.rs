@@ -14,12 +14,17 @@ use base::document::Place;
 use base::fault::Fault;
 use base::geometry::Rectangle;
 use base::placement::Placement;
+use brain::behaviours::BehaviourSpec;
 
 /// Most bytes of a run, about: as many runs as there are processor cores are made at once.
 const MAX_BYTES: f64 = 4e9;
 
 /// A robot's state, its brain and its share of the indices, about.
 const ROBOT_BYTES: f64 = 2_000.0;
+
+/// What a mind takes besides its maps, about, and a cell of those.
+const MIND_BYTES: f64 = 30_000.0;
+const CELL_BYTES: f64 = 16.0;
 
 /// A number that was measured.
 const VALUE_BYTES: f64 = 8.0;
@@ -64,7 +69,19 @@ fn bytes_of(robot: &RobotSpec, spec: &ScenarioSpec) -> f64 {
         .map(|sensor| bytes_of_sensor(sensor, robot, spec))
         .sum();
     let radio = robot.radio.as_ref();
-    ROBOT_BYTES + sensors + radio.map_or(0.0, |radio| bytes_of_radio(radio, robot, spec))
+    let radio = radio.map_or(0.0, |radio| bytes_of_radio(radio, robot, spec));
+    ROBOT_BYTES + sensors + radio + bytes_of_mind(robot)
+}
+
+/// What it believes, about.
+fn bytes_of_mind(robot: &RobotSpec) -> f64 {
+    let brain = &robot.brain;
+    let mut behaviours = brain.behaviours.iter();
+    if brain.beliefs.is_none() && !behaviours.any(BehaviourSpec::needs_beliefs) {
+        return 0.0;
+    }
+    let cells = brain.beliefs.clone().unwrap_or_default().cells;
+    MIND_BYTES + f64::from(cells) * CELL_BYTES
 }
 
 /// What its messages take on their way to all who can hear them, and those that it has heard.

@@ -5,6 +5,7 @@ mod detection;
 mod drive;
 mod ground;
 mod memory;
+mod minds;
 mod names;
 mod places;
 mod rates;
@@ -23,12 +24,13 @@ type Open<'o> = &'o dyn Fn(&str) -> Result<Vec<u8>, String>;
 /// A check: what is wrong with a scenario that stands `at` the root of a document.
 type Check = fn(&ScenarioSpec, &Place) -> Vec<Fault>;
 
-const CHECKS: [Check; 6] = [
+const CHECKS: [Check; 7] = [
     clock::faults,
     names::faults,
     rates::faults,
     drive::faults,
     detection::faults,
+    minds::faults,
     memory::faults,
 ];
 

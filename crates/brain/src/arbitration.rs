@@ -1,0 +1,16 @@
+//! How one motion is made of what all behaviours want.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// How one motion is made of what all behaviours want.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+pub enum Arbitration {
+    /// The highest behaviour with something to do has its way, for at least its hold time.
+    #[default]
+    Subsumption,
+    /// Behaviours that want to be somewhere have goals, which are served by their precedence, together
+    /// where they do not conflict; behaviours that want a motion keep their places among them.
+    Goals,
+}

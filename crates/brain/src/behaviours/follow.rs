@@ -1,0 +1,93 @@
+//! Following another robot.
+
+use crate::body::{Body, RobotId};
+use crate::command::Motion;
+use crate::senses::Senses;
+use crate::subsumption::Behaviour;
+use crate::wish::{Aim, Wish};
+use base::geometry::Point;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Follows another robot of its kind at a distance, as far as it sees it or is told where it is. The
+/// one that all follow has nothing to do here.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+#[schemars(inline)]
+pub struct Follow {
+    /// Which one, by its index within the kind; left out, the one before it, so that all go in a row
+    /// behind the first.
+    pub robot: Option<u32>,
+    /// It stays so far behind, from hull to hull, in metres.
+    #[schemars(range(min = 0.0, max = 1000.0))]
+    pub distance_m: f64,
+    /// What following is worth, beside what other behaviours want.
+    #[schemars(range(min = 0.0, max = 1e6))]
+    pub value: f64,
+}
+
+impl Default for Follow {
+    fn default() -> Self {
+        Self {
+            robot: None,
+            distance_m: 1.0,
+            value: 1.0,
+        }
+    }
+}
+
+/// [`Follow`] in a body.
+#[derive(Debug, Clone)]
+pub(crate) struct Ready {
+    spec: Follow,
+    apart_m: f64,
+    speed_m_s: f64,
+}
+
+impl Ready {
+    pub(super) fn new(spec: &Follow, body: &Body) -> Self {
+        Self {
+            spec: spec.clone(),
+            apart_m: spec.distance_m + 2.0 * body.radius_m,
+            speed_m_s: body.max_speed_m_s,
+        }
+    }
+
+    fn leader(&self, own: RobotId) -> Option<RobotId> {
+        let index = match self.spec.robot {
+            Some(robot) => robot,
+            None => own.index.checked_sub(1)?,
+        };
+        (index != own.index).then_some(RobotId { index, ..own })
+    }
+}
+
+impl Behaviour for Ready {
+    type Memory = ();
+
+    const NEEDS_BELIEFS: bool = true;
+
+    fn memory(&self) {}
+
+    fn triggered(&self, (): &mut (), senses: &Senses) -> Option<Wish> {
+        let beliefs = senses.beliefs?;
+        let pose = beliefs.pose()?;
+        let leader = self.leader(senses.percept.id)?;
+        let at: Point = beliefs.whereabouts(leader)?;
+        let way = at.to(pose.at);
+        let away_m = way.length();
+        if away_m <= self.apart_m {
+            return Some(Motion::default().into());
+        }
+        Some(Wish::Aim(Aim {
+            to: at.plus(way.times(self.apart_m / away_m)),
+            within_m: 0.1,
+            speed_m_s: self.speed_m_s,
+            value: self.spec.value,
+        }))
+    }
+
+    fn held(&self) -> Motion {
+        Motion::default()
+    }
+}

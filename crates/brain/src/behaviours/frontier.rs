@@ -1,0 +1,126 @@
+//! Searching where the looked-at ends.
+
+use super::survey::{Survey, aim, share};
+use crate::beliefs::{Beliefs, Map};
+use crate::body::Body;
+use crate::command::Motion;
+use crate::goals::Verdict;
+use crate::senses::Senses;
+use crate::subsumption::Behaviour;
+use crate::wish::{Aim, Wish};
+use alloc::boxed::Box;
+use base::geometry::Point;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A cell in which an item would have been missed with more than this has not been looked at.
+const UNSEEN: f64 = 0.5;
+
+/// A cell that the body does not fit into counts as so much farther, in metres.
+const SHUT_M: f64 = 1000.0;
+
+/// Searches by going to the nearest place that nobody has looked at: along the frontier between what was
+/// looked at and what was not (Yamauchi, *A frontier-based approach for autonomous exploration*, 1997).
+/// When all has been looked at, it has nothing to do.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+#[schemars(inline)]
+pub struct Frontier {
+    /// Its speed, in m/s; left out, the most that the body can.
+    #[schemars(range(min = 0.0, max = 100.0))]
+    pub speed_m_s: Option<f64>,
+    /// What searching is worth, beside what other behaviours want.
+    #[schemars(range(min = 0.0, max = 1e6))]
+    pub value: f64,
+}
+
+impl Default for Frontier {
+    fn default() -> Self {
+        Self {
+            speed_m_s: None,
+            value: 1.0,
+        }
+    }
+}
+
+/// [`Frontier`] in a body.
+#[derive(Debug, Clone)]
+pub(crate) struct Ready {
+    aim: Aim,
+}
+
+impl Ready {
+    pub(super) fn new(spec: &Frontier, body: &Body) -> Self {
+        Self {
+            aim: aim(spec.speed_m_s, spec.value, body),
+        }
+    }
+}
+
+/// The nearest place that has not been looked at; what others go for counts as ten times as far.
+fn nearest(survey: &Survey, beliefs: &Beliefs, map: &Map, at: Point) -> Option<Point> {
+    let mut best = (f64::INFINITY, None);
+    let near_m = 4.0 * map.field.cell_m;
+    for cell in (0..map.field.cells()).filter(|cell| map.unseen.of(*cell) > UNSEEN) {
+        let Some(way_m) = survey.wave.cell_distance_m(&map.field, cell) else {
+            continue;
+        };
+        // What can only be looked at from outside comes last.
+        let last_m = if survey.wave.is_shut(cell) {
+            SHUT_M
+        } else {
+            0.0
+        };
+        if way_m + last_m >= best.0 {
+            continue;
+        }
+        let place = map.field.centre(cell);
+        let far_m = last_m + way_m / share(beliefs, at, place, near_m);
+        if far_m < best.0 && !survey.is_given_up(place, map.field.cell_m) {
+            best = (far_m, Some(place));
+        }
+    }
+    best.1
+}
+
+fn is_unseen(map: &Map, place: Point) -> bool {
+    map.unseen.of(map.field.nearest_cell(place)) > UNSEEN
+}
+
+impl Behaviour for Ready {
+    type Memory = Option<Box<Survey>>;
+
+    const NEEDS_BELIEFS: bool = true;
+    const NEEDS_DETECTOR: bool = true;
+
+    fn memory(&self) -> Self::Memory {
+        None
+    }
+
+    fn triggered(&self, memory: &mut Self::Memory, senses: &Senses) -> Option<Wish> {
+        let beliefs = senses.beliefs?;
+        let (at, map) = (beliefs.pose()?.at, beliefs.map.as_ref()?);
+        let survey = memory.get_or_insert_default();
+        let going = survey.still_going(senses.body.period_s);
+        let going = going.filter(|to| is_unseen(map, *to));
+        let to = if let Some(to) = going {
+            to
+        } else {
+            survey.look(map, at, senses.body);
+            let to = nearest(survey, beliefs, map, at)?;
+            survey.going = Some((to, 0.0));
+            to
+        };
+        Some(Wish::Aim(Aim { to, ..self.aim }))
+    }
+
+    fn judged(&self, memory: &mut Self::Memory, _verdict: Verdict) {
+        if let Some(survey) = memory {
+            survey.give_up();
+        }
+    }
+
+    fn held(&self) -> Motion {
+        Motion::default()
+    }
+}

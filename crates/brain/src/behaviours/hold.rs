@@ -1,0 +1,88 @@
+//! Staying somewhere.
+
+use crate::beliefs::Beliefs;
+use crate::body::Body;
+use crate::command::Motion;
+use crate::senses::Senses;
+use crate::subsumption::Behaviour;
+use crate::wish::{Aim, Wish};
+use alloc::boxed::Box;
+use base::geometry::Point;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Stays where it is, or at a given place, and comes back if something moves it away.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+#[schemars(inline)]
+pub struct Hold {
+    /// The place, in metres; left out, where it is when it first has its way.
+    pub at_m: Option<Point>,
+    /// It is at a place that is no farther, in metres.
+    #[schemars(range(min = 0.01, max = 1000.0))]
+    pub within_m: f64,
+    /// What staying is worth, beside what other behaviours want.
+    #[schemars(range(min = 0.0, max = 1e6))]
+    pub value: f64,
+}
+
+impl Default for Hold {
+    fn default() -> Self {
+        Self {
+            at_m: None,
+            within_m: 1.0,
+            value: 0.1,
+        }
+    }
+}
+
+/// [`Hold`] in a body.
+#[derive(Debug, Clone)]
+pub(crate) struct Ready {
+    at: Option<Point>,
+    aim: Aim,
+}
+
+/// Where it stays, once it knows.
+pub(crate) type Memory = Option<Box<Point>>;
+
+impl Ready {
+    pub(super) fn new(spec: &Hold, body: &Body) -> Self {
+        Self {
+            at: spec.at_m,
+            aim: Aim {
+                to: Point::default(),
+                within_m: spec.within_m,
+                speed_m_s: body.max_speed_m_s,
+                value: spec.value,
+            },
+        }
+    }
+}
+
+impl Behaviour for Ready {
+    type Memory = Memory;
+
+    const NEEDS_BELIEFS: bool = true;
+
+    fn memory(&self) -> Memory {
+        None
+    }
+
+    fn triggered(&self, memory: &mut Memory, senses: &Senses) -> Option<Wish> {
+        let Some(pose) = senses.beliefs.and_then(Beliefs::pose) else {
+            return Some(Motion::default().into());
+        };
+        let to = **memory.get_or_insert_with(|| Box::new(self.at.unwrap_or(pose.at)));
+        let is_there = pose.at.to(to).length() <= self.aim.within_m;
+        Some(if is_there {
+            Motion::default().into()
+        } else {
+            Wish::Aim(Aim { to, ..self.aim })
+        })
+    }
+
+    fn held(&self) -> Motion {
+        Motion::default()
+    }
+}

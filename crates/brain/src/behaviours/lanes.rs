@@ -1,0 +1,262 @@
+//! Searching lane by lane.
+
+use crate::beliefs::field::Field;
+use crate::body::Body;
+use crate::command::Motion;
+use crate::goals::Verdict;
+use crate::senses::Senses;
+use crate::subsumption::Behaviour;
+use crate::wish::{Aim, Wish};
+use alloc::boxed::Box;
+use base::geometry::Point;
+use core::f64::consts::FRAC_PI_2;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Neighbouring lanes overlap by this share of what is seen from them.
+const OVERLAP: f64 = 0.1;
+
+/// Searches lane by lane, there and back, as one mows a lawn. Robots of its kind share all lanes
+/// alike: each takes an equal part of the whole way. At the end it goes over it again, with lanes across
+/// those before: what they missed, others may not.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+#[schemars(inline)]
+pub struct Lanes {
+    /// From one lane to the next, in metres; left out, as wide as its detector sees, less a tenth.
+    #[schemars(range(min = 0.1, max = 10_000.0))]
+    pub width_m: Option<f64>,
+    /// Its speed, in m/s; left out, the most that the body can.
+    #[schemars(range(min = 0.0, max = 100.0))]
+    pub speed_m_s: Option<f64>,
+    /// What searching is worth, beside what other behaviours want.
+    #[schemars(range(min = 0.0, max = 1e6))]
+    pub value: f64,
+}
+
+impl Default for Lanes {
+    fn default() -> Self {
+        Self {
+            width_m: None,
+            speed_m_s: None,
+            value: 1.0,
+        }
+    }
+}
+
+/// Nobody has more lanes.
+const MOST_CORNERS: usize = 100_000;
+
+/// [`Lanes`] in a body.
+#[derive(Debug, Clone)]
+pub(crate) struct Ready {
+    width_m: f64,
+    inset_m: f64,
+    aim: Aim,
+}
+
+/// Where it is on its way; `None` before it begins.
+pub(crate) type Memory = Option<Box<Progress>>;
+
+/// How far a robot has come on its part.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Progress {
+    /// Which part of how many.
+    part: [u32; 2],
+    /// How often it has gone over all of it; every second time its lanes run across those before.
+    passes: u32,
+    /// Places that it has visited this time, or given up.
+    visited: u32,
+    /// Where it is going, once it has found out.
+    to: Option<Point>,
+}
+
+impl Ready {
+    pub(super) fn new(spec: &Lanes, body: &Body) -> Self {
+        let (width_m, range_m) = swath_m(body);
+        let width_m = spec.width_m.unwrap_or(width_m * (1.0 - OVERLAP));
+        Self {
+            width_m: width_m.max(2.0 * body.radius_m),
+            inset_m: (range_m / 2.0).min(width_m / 2.0).max(1.5 * body.radius_m),
+            aim: Aim {
+                to: Point::default(),
+                within_m: (0.1 * width_m).clamp(0.2, 2.0),
+                speed_m_s: spec.speed_m_s.unwrap_or(body.max_speed_m_s),
+                value: spec.value,
+            },
+        }
+    }
+}
+
+impl Progress {
+    fn of(part: [u32; 2]) -> Self {
+        Self {
+            part,
+            passes: 0,
+            visited: 0,
+            to: None,
+        }
+    }
+
+    fn go_on(&mut self) {
+        self.visited = self.visited.wrapping_add(1);
+        self.to = None;
+    }
+}
+
+impl Ready {
+    /// Where a robot goes next.
+    fn place(&self, progress: &mut Progress, field: &Field) -> Option<Point> {
+        // After the last place of a pass comes the first of the next.
+        for _ in 0..2 {
+            if progress.to.is_none() {
+                let is_across = progress.passes % 2 == 1;
+                let track = Track::new(field, [self.width_m, self.inset_m], is_across);
+                progress.to = track.place_of_part(progress.part, progress.visited);
+            }
+            if progress.to.is_some() {
+                break;
+            }
+            (progress.passes, progress.visited) = (progress.passes.wrapping_add(1), 0);
+        }
+        progress.to
+    }
+}
+
+/// How wide a strip the best detector sees when the body goes straight on, and how far it sees; for a
+/// body without one, some metres.
+pub(super) fn swath_m(body: &Body) -> (f64, f64) {
+    let strips = body.detectors.iter().map(|detector| {
+        let half_rad = (detector.width_rad / 2.0).min(FRAC_PI_2);
+        let half_m = detector.range_m * crate::sector::direction(half_rad).y;
+        (2.0 * half_m, detector.range_m)
+    });
+    let widest = strips.fold(
+        (0.0, 0.0),
+        |one, other| if other.0 > one.0 { other } else { one },
+    );
+    if widest.0 > 0.0 { widest } else { (2.0, 1.0) }
+}
+
+/// The whole way over a field: lanes along its longer side, from one end to the other.
+struct Track {
+    field: Field,
+    inset_m: f64,
+    lanes: u32,
+    /// Length of a lane, and from one to the next.
+    lane_m: f64,
+    shift_m: f64,
+    is_upright: bool,
+}
+
+impl Track {
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a cast saturates"
+    )]
+    fn new(field: &Field, [width_m, inset_m]: [f64; 2], is_across: bool) -> Self {
+        let size = field.size();
+        let is_upright = (size.y > size.x) != is_across;
+        let (long_m, short_m) = if is_upright {
+            (size.y, size.x)
+        } else {
+            (size.x, size.y)
+        };
+        let lanes = libm::ceil(short_m / width_m).clamp(1.0, 1e6) as u32;
+        let inset_m = inset_m.min(long_m / 2.0);
+        Self {
+            field: *field,
+            inset_m,
+            lanes,
+            lane_m: long_m - 2.0 * inset_m,
+            shift_m: short_m / f64::from(lanes),
+            is_upright,
+        }
+    }
+
+    fn length_m(&self) -> f64 {
+        f64::from(self.lanes) * self.lane_m + f64::from(self.lanes - 1) * self.shift_m
+    }
+
+    /// The place so far along.
+    fn place(&self, along_m: f64) -> Point {
+        let period_m = self.lane_m + self.shift_m;
+        let lane = libm::floor(along_m / period_m).clamp(0.0, f64::from(self.lanes - 1));
+        let rest_m = along_m - lane * period_m;
+        let is_back = libm::fmod(lane, 2.0) > 0.5;
+        let (on_m, shifted_m) = if rest_m <= self.lane_m {
+            (rest_m, 0.0)
+        } else {
+            (self.lane_m, rest_m - self.lane_m)
+        };
+        let forth_m = if is_back { self.lane_m - on_m } else { on_m };
+        let long_m = self.inset_m + forth_m;
+        let short_m = (lane + 0.5) * self.shift_m + shifted_m;
+        self.field.place(if self.is_upright {
+            [short_m, long_m]
+        } else {
+            [long_m, short_m]
+        })
+    }
+
+    /// The next corner after a place on the way.
+    fn corner_after(&self, along_m: f64) -> f64 {
+        let period_m = self.lane_m + self.shift_m;
+        let periods = libm::floor(along_m / period_m + 1e-9);
+        let rest_m = along_m - periods * period_m;
+        let is_in_lane = rest_m < self.lane_m - 1e-6;
+        periods * period_m + if is_in_lane { self.lane_m } else { period_m }
+    }
+
+    /// The `number`-th place of one of so many equal parts: its beginning, its corners, its end. `None`
+    /// after that.
+    fn place_of_part(&self, [part, parts]: [u32; 2], number: u32) -> Option<Point> {
+        let part_m = self.length_m() / f64::from(parts);
+        let (from_m, to_m) = (f64::from(part) * part_m, f64::from(part + 1) * part_m);
+        let next = |along_m: &f64| Some(self.corner_after(*along_m)).filter(|m| *m < to_m - 1e-6);
+        let corners = core::iter::successors(Some(from_m), next).take(MOST_CORNERS);
+        let mut places = corners.chain([to_m]);
+        places
+            .nth(number as usize)
+            .map(|along_m| self.place(along_m))
+    }
+}
+
+impl Behaviour for Ready {
+    type Memory = Memory;
+
+    const NEEDS_BELIEFS: bool = true;
+
+    fn memory(&self) -> Memory {
+        None
+    }
+
+    fn triggered(&self, memory: &mut Memory, senses: &Senses) -> Option<Wish> {
+        let beliefs = senses.beliefs?;
+        let pose = beliefs.pose()?;
+        let field = &beliefs.map.as_ref()?.field;
+        let robots = senses.percept.of_kind.max(1);
+        let part = [senses.percept.id.index % robots, robots];
+        let progress = memory.get_or_insert_with(|| Box::new(Progress::of(part)));
+        if progress.part != part {
+            **progress = Progress::of(part);
+        }
+        let is_there = |to: Point| pose.at.to(to).length() <= self.aim.within_m;
+        if progress.to.is_some_and(is_there) {
+            progress.go_on();
+        }
+        let to = self.place(progress, field)?;
+        Some(Wish::Aim(Aim { to, ..self.aim }))
+    }
+
+    fn judged(&self, memory: &mut Memory, verdict: Verdict) {
+        if let Some(progress) = memory.as_mut().filter(|_| verdict == Verdict::Impossible) {
+            progress.go_on();
+        }
+    }
+
+    fn held(&self) -> Motion {
+        Motion::default()
+    }
+}

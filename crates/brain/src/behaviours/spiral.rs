@@ -1,0 +1,132 @@
+//! Searching in a spiral.
+
+use super::lanes::swath_m;
+use crate::body::Body;
+use crate::command::Motion;
+use crate::goals::Verdict;
+use crate::sector::direction;
+use crate::senses::Senses;
+use crate::subsumption::Behaviour;
+use crate::wish::{Aim, Wish};
+use alloc::boxed::Box;
+use base::geometry::Point;
+use core::f64::consts::TAU;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Neighbouring turns overlap by this share of what is seen from them.
+const OVERLAP: f64 = 0.1;
+
+/// Searches in a spiral around where it began, or around a given place, until nothing of the field is
+/// left outside; then again from the middle. What lies outside the field is left out.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+#[schemars(inline)]
+pub struct Spiral {
+    /// Its middle, in metres; left out, where the robot is when it begins.
+    pub around_m: Option<Point>,
+    /// From one turn to the next, in metres; left out, as wide as its detector sees, less a tenth.
+    #[schemars(range(min = 0.1, max = 10_000.0))]
+    pub width_m: Option<f64>,
+    /// Its speed, in m/s; left out, the most that the body can.
+    #[schemars(range(min = 0.0, max = 100.0))]
+    pub speed_m_s: Option<f64>,
+    /// What searching is worth, beside what other behaviours want.
+    #[schemars(range(min = 0.0, max = 1e6))]
+    pub value: f64,
+}
+
+impl Default for Spiral {
+    fn default() -> Self {
+        Self {
+            around_m: None,
+            width_m: None,
+            speed_m_s: None,
+            value: 1.0,
+        }
+    }
+}
+
+/// [`Spiral`] in a body.
+#[derive(Debug, Clone)]
+pub(crate) struct Ready {
+    around: Option<Point>,
+    width_m: f64,
+    aim: Aim,
+}
+
+/// Its middle, and how far along the spiral it is, in metres; `None` before it begins.
+pub(crate) type Memory = Option<Box<(Point, f64)>>;
+
+impl Ready {
+    pub(super) fn new(spec: &Spiral, body: &Body) -> Self {
+        let (width_m, _) = swath_m(body);
+        let width_m = spec.width_m.unwrap_or(width_m * (1.0 - OVERLAP));
+        let width_m = width_m.max(2.0 * body.radius_m);
+        Self {
+            around: spec.around_m,
+            width_m,
+            aim: Aim {
+                to: Point::default(),
+                within_m: width_m / 4.0,
+                speed_m_s: spec.speed_m_s.unwrap_or(body.max_speed_m_s),
+                value: spec.value,
+            },
+        }
+    }
+
+    /// The place so far along: of an Archimedean spiral, length = width / (4 pi) x angle^2, about.
+    fn place(&self, middle: Point, along_m: f64) -> (Point, f64) {
+        let angle_rad = libm::sqrt(2.0 * TAU * along_m / self.width_m);
+        let radius_m = self.width_m * angle_rad / TAU;
+        let angle_rad = libm::fmod(angle_rad, TAU);
+        (middle.plus(direction(angle_rad).times(radius_m)), radius_m)
+    }
+
+    /// The next place within the field that is not here.
+    fn next(&self, (middle, along_m): &mut (Point, f64), senses: &Senses) -> Option<Point> {
+        let beliefs = senses.beliefs?;
+        let (at, field) = (beliefs.pose()?.at, &beliefs.map.as_ref()?.field);
+        let size = field.size();
+        for _ in 0..100_000 {
+            let (place, radius_m) = self.place(*middle, *along_m);
+            if radius_m > size.length() {
+                *along_m = 0.0;
+                return None;
+            }
+            if field.holds(place) && at.to(place).length() > self.aim.within_m {
+                return Some(place);
+            }
+            *along_m += self.width_m / 2.0;
+        }
+        None
+    }
+}
+
+impl Behaviour for Ready {
+    type Memory = Memory;
+
+    const NEEDS_BELIEFS: bool = true;
+
+    fn memory(&self) -> Memory {
+        None
+    }
+
+    fn triggered(&self, memory: &mut Memory, senses: &Senses) -> Option<Wish> {
+        let at = senses.beliefs?.pose()?.at;
+        let middle = self.around.unwrap_or(at);
+        let spiral = memory.get_or_insert_with(|| Box::new((middle, 0.0)));
+        let to = self.next(spiral, senses)?;
+        Some(Wish::Aim(Aim { to, ..self.aim }))
+    }
+
+    fn judged(&self, memory: &mut Memory, verdict: Verdict) {
+        if let Some(spiral) = memory.as_mut().filter(|_| verdict == Verdict::Impossible) {
+            spiral.1 += self.width_m / 2.0;
+        }
+    }
+
+    fn held(&self) -> Motion {
+        Motion::default()
+    }
+}

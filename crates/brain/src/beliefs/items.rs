@@ -1,0 +1,420 @@
+//! Items: where they are believed to be, how surely, and who says so.
+//!
+//! Every belief is made of sources: for each robot that looked at the item, what its looks together say,
+//! and how many there were. A report carries the same, so that it may come any number of times, over
+//! any number of others, and each look counts once: of one source the report with the most looks holds.
+//!
+//! ```text
+//! log odds = log odds before any look + sum over sources of their log likelihood ratios
+//! a contact adds    ln(p N(d; S) / f)    p: probability of detection at that distance,
+//! a miss adds       ln(1 - p)            N: normal density of its being d off, f: false contacts a m2
+//! a report counts   as trust x its confidence + (1 - trust) x the confidence before any look
+//! ```
+
+use super::Map;
+use super::pose::Pose;
+use super::trust::{Trust, TrustSpec};
+use super::unseen::View;
+use crate::body::{Detector, RobotId};
+use crate::command::{About, Message, Seen};
+use crate::percept::Contact;
+use crate::sector::direction;
+use alloc::vec::Vec;
+use base::geometry::Point;
+use core::f64::consts::{LN_10, PI};
+
+/// So many items are kept in mind; the least believed is forgotten first.
+const MOST: usize = 64;
+
+/// So many robots' looks are kept apart for each item.
+const SOURCES: usize = 6;
+
+/// A contact is of an item it is not farther off than so many standard deviations.
+const GATE: f64 = 3.0;
+
+/// No position is better than this, in metres.
+const LEAST_DEVIATION_M: f64 = 0.05;
+
+/// One look says no more than this, and nobody is surer than that: natural logarithms of odds.
+const MOST_A_LOOK: f64 = 8.0;
+const MOST_AT_ALL: f64 = 15.0;
+
+/// Own looks that say 90% confirm or refute a report.
+const SURE: f64 = 2.0 * LN_10 * 0.477;
+
+/// Others are told again when what they were told is off by this.
+const TOLD_AGAIN: f64 = 0.05;
+
+/// An item, or what was taken for one.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Track {
+    /// Place of its kind in the body's `item_kinds`.
+    pub(crate) kind: u16,
+    /// In the world.
+    pub(crate) at: Point,
+    /// Of its position, along each axis.
+    pub(crate) variance_m2: f64,
+    /// Log odds before any look.
+    before: f64,
+    sources: [Source; SOURCES],
+    count: usize,
+}
+
+/// What the looks of one robot say.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+struct Source {
+    seen: Seen,
+    /// Log likelihood ratio of all its looks.
+    odds: f64,
+    /// What others were told last; 0 if nothing.
+    told: f64,
+    /// Whether own looks have confirmed or refuted it.
+    is_judged: bool,
+}
+
+/// All items that a robot believes in.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Items {
+    pub(crate) tracks: Vec<Track>,
+    marks: u32,
+}
+
+/// One look of an own detector.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct OwnLook<'l> {
+    pub(crate) by: RobotId,
+    pub(crate) detector: &'l Detector,
+    /// Where the robot was.
+    pub(crate) pose: Pose,
+    /// Items of each kind that there are in a square metre, before any look.
+    pub(crate) per_m2: &'l [f64],
+}
+
+impl Items {
+    /// Takes in a look: its contacts, and what it should have seen and did not.
+    pub(crate) fn look<'c>(
+        &mut self,
+        look: &OwnLook,
+        contacts: impl Iterator<Item = &'c Contact>,
+        map: Option<&Map>,
+    ) {
+        // A bit for each item that it recognised.
+        let mut recognised = 0_u64;
+        for contact in contacts {
+            recognised |= self.recognise(look, contact, recognised);
+        }
+        let view = View::new(look.detector, look.pose.heading_rad);
+        for (number, track) in self.tracks.iter_mut().enumerate() {
+            if recognised & (1 << number) == 0 && track.is_in(&view, look, map) {
+                let distance_m = look.pose.at.to(track.at).length();
+                let seen = look.detector.probability(track.kind.into(), distance_m);
+                track.add(look.by, &mut self.marks, libm::log1p(-seen.min(0.999)));
+            }
+        }
+    }
+
+    /// Takes in a contact; returns the bit of its item.
+    fn recognise(&mut self, look: &OwnLook, contact: &Contact, taken: u64) -> u64 {
+        let is_sensible =
+            (0.0..=1e6).contains(&contact.range_m) && contact.bearing_rad.abs() <= 10.0;
+        if !is_sensible {
+            return 0;
+        }
+        let way = direction(contact.bearing_rad).times(contact.range_m);
+        let at = look.pose.world_of(way);
+        let variance_m2 = look.variance_m2(contact.range_m);
+        let place = match self.nearest(contact.kind, at, variance_m2, taken) {
+            Some(place) => place,
+            None => self.begin(contact.kind, at, variance_m2, look.per_m2),
+        };
+        let track = &mut self.tracks[place];
+        let odds = track.likelihood(look, at, variance_m2, contact.range_m);
+        track.add(look.by, &mut self.marks, odds);
+        track.correct(at, variance_m2);
+        1 << place
+    }
+
+    /// The nearest item of a kind that can be at a place, but for those that are taken.
+    fn nearest(&self, kind: u16, at: Point, variance_m2: f64, taken: u64) -> Option<usize> {
+        let tracks = self.tracks.iter().enumerate();
+        let same =
+            tracks.filter(|(number, track)| track.kind == kind && taken & (1 << number) == 0);
+        let near = same.filter_map(|(number, track)| {
+            let square = track.at.to(at).length_squared();
+            let all_m2 = variance_m2 + track.variance_m2;
+            (square <= GATE * GATE * all_m2).then_some((square, number))
+        });
+        let nearest = near.min_by(|one, other| one.0.total_cmp(&other.0));
+        nearest.map(|(_, number)| number)
+    }
+
+    /// A new item at a place; returns its number.
+    fn begin(&mut self, kind: u16, at: Point, variance_m2: f64, per_m2: &[f64]) -> usize {
+        let per_m2 = per_m2.get(usize::from(kind)).copied().unwrap_or_default();
+        let before = (2.0 * PI * variance_m2 * per_m2).clamp(1e-9, 0.1);
+        let track = Track {
+            kind,
+            at,
+            variance_m2,
+            before: log_odds(before),
+            sources: [Source::default(); SOURCES],
+            count: 0,
+        };
+        if self.tracks.len() < MOST {
+            self.tracks.push(track);
+            return self.tracks.len() - 1;
+        }
+        let numbered = self.tracks.iter().enumerate();
+        let sums = numbered.map(|(number, track)| (track.sum(), number));
+        let least = sums.min_by(|one, other| one.0.total_cmp(&other.0));
+        let place = least.map_or(0, |(_, number)| number);
+        self.tracks[place] = track;
+        place
+    }
+
+    /// Takes in a report, unless it is of own looks; its place errs by a variance.
+    pub(crate) fn hear(&mut self, own: RobotId, report: &Report, variance_m2: f64, per_m2: &[f64]) {
+        if report.seen.by == own {
+            return;
+        }
+        let of_source = |track: &Track| track.place_of(report.seen).is_some();
+        let known = self.tracks.iter().position(of_source);
+        let near = || self.nearest(report.kind, report.at, variance_m2, 0);
+        let place = match known.or_else(near) {
+            Some(place) => place,
+            None => self.begin(report.kind, report.at, variance_m2, per_m2),
+        };
+        let track = &mut self.tracks[place];
+        let odds = log_odds(report.confidence.clamp(1e-6, 1.0 - 1e-6)) - track.before;
+        if track.replace(report.seen, odds) && !track.has_looked(own) {
+            track.correct(report.at, variance_m2);
+        }
+    }
+
+    /// Keeps what those looked at that `keep` has a number for.
+    pub(crate) fn renumber(&mut self, keep: impl Fn(&mut RobotId) -> bool) {
+        for track in &mut self.tracks {
+            let mut kept = 0;
+            for place in 0..track.count {
+                let mut source = track.sources[place];
+                if keep(&mut source.seen.by) {
+                    track.sources[kept] = source;
+                    kept += 1;
+                }
+            }
+            track.count = kept;
+        }
+        self.tracks.retain(|track| track.count > 0);
+    }
+
+    /// Learns from own looks whose reports were right.
+    pub(crate) fn learn(&mut self, own: RobotId, trust: &mut Trust, spec: &TrustSpec) {
+        for track in &mut self.tracks {
+            let Some(verdict) = track.own_verdict(own) else {
+                continue;
+            };
+            let before = track.before;
+            for source in &mut track.sources[..track.count] {
+                let is_report = source.seen.by != own && before + source.odds > 0.0;
+                if is_report && !source.is_judged {
+                    source.is_judged = true;
+                    trust.learn(source.seen.by, verdict, spec);
+                }
+            }
+        }
+    }
+
+    /// What others are to be told, at most so many messages: own looks and relayed ones.
+    pub(crate) fn tell(&mut self, outbox: &mut Vec<Message>, most: usize) {
+        let mut left = most;
+        for track in &mut self.tracks {
+            let (before, kind, at) = (track.before, track.kind, track.at);
+            for source in &mut track.sources[..track.count] {
+                let confidence = probability(before + source.odds);
+                if left == 0 || (confidence - source.told).abs() < TOLD_AGAIN {
+                    continue;
+                }
+                source.told = confidence;
+                left -= 1;
+                outbox.push(Message {
+                    about: About::Item {
+                        kind,
+                        at,
+                        seen: source.seen,
+                    },
+                    confidence,
+                });
+            }
+        }
+    }
+}
+
+/// What another robot tells of an item.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Report {
+    pub(crate) kind: u16,
+    pub(crate) at: Point,
+    pub(crate) seen: Seen,
+    pub(crate) confidence: f64,
+}
+
+impl OwnLook<'_> {
+    /// Of a contact at a distance, along each axis.
+    fn variance_m2(&self, range_m: f64) -> f64 {
+        let aside_m = range_m * self.pose.deviation_rad;
+        let noise_m = self.detector.noise_m.max(LEAST_DEVIATION_M);
+        noise_m * noise_m + aside_m * aside_m + self.pose.deviation_m * self.pose.deviation_m
+    }
+}
+
+impl Track {
+    /// How surely it is there, 0 to 1.
+    pub(crate) fn confidence(&self, own: RobotId, trust: &Trust, spec: &TrustSpec) -> f64 {
+        let sources = self.sources[..self.count].iter();
+        let before = probability(self.before);
+        let all = sources.map(|source| {
+            if source.seen.by == own {
+                return source.odds;
+            }
+            let trust = trust.of(source.seen.by, spec);
+            let told = probability(self.before + source.odds);
+            log_odds(trust * told + (1.0 - trust) * before) - self.before
+        });
+        probability(self.before + all.sum::<f64>())
+    }
+
+    /// Log odds with full trust in everybody.
+    fn sum(&self) -> f64 {
+        let sources = self.sources[..self.count].iter();
+        self.before + sources.map(|source| source.odds).sum::<f64>()
+    }
+
+    /// The logarithm of how much likelier a contact is if the item is there.
+    fn likelihood(&self, look: &OwnLook, at: Point, variance_m2: f64, range_m: f64) -> f64 {
+        let kind = usize::from(self.kind);
+        let seen = look.detector.probability(kind, range_m).max(1e-6);
+        let all_m2 = variance_m2
+            + if self.count == 0 {
+                0.0
+            } else {
+                self.variance_m2
+            };
+        let off = self.at.to(at).length_squared() / (2.0 * all_m2);
+        let false_per_m2 = look.detector.false_alarms_per_m2.get(kind);
+        let false_per_m2 = false_per_m2.copied().unwrap_or_default().max(1e-12);
+        let odds = libm::log(seen / (2.0 * PI * all_m2 * false_per_m2)) - off;
+        odds.clamp(-MOST_A_LOOK, MOST_AT_ALL)
+    }
+
+    /// Adds to what own looks say.
+    fn add(&mut self, by: RobotId, marks: &mut u32, odds: f64) {
+        let own = self.sources[..self.count]
+            .iter()
+            .position(|source| source.seen.by == by);
+        let place = own.unwrap_or_else(|| {
+            *marks = marks.wrapping_add(1);
+            let seen = Seen {
+                by,
+                mark: *marks,
+                looks: 0,
+            };
+            self.push(seen)
+        });
+        let source = &mut self.sources[place];
+        source.odds = (source.odds + odds).clamp(-MOST_AT_ALL, MOST_AT_ALL);
+        source.seen.looks = source.seen.looks.saturating_add(1);
+    }
+
+    /// A new source, in place of the least telling one if there is no room.
+    fn push(&mut self, seen: Seen) -> usize {
+        let place = if self.count < SOURCES {
+            self.count += 1;
+            self.count - 1
+        } else {
+            let numbered = self.sources.iter().enumerate();
+            let least =
+                numbered.min_by(|one, other| one.1.odds.abs().total_cmp(&other.1.odds.abs()));
+            least.map_or(0, |(number, _)| number)
+        };
+        self.sources[place] = Source {
+            seen,
+            ..Source::default()
+        };
+        place
+    }
+
+    fn place_of(&self, seen: Seen) -> Option<usize> {
+        let sources = self.sources[..self.count].iter();
+        let is_same = |source: &Source| source.seen.by == seen.by && source.seen.mark == seen.mark;
+        sources.into_iter().position(is_same)
+    }
+
+    /// Takes in what looks of a source say, if it says more than before.
+    fn replace(&mut self, seen: Seen, odds: f64) -> bool {
+        let known = self.place_of(seen);
+        let is_old = known.is_some_and(|place| self.sources[place].seen.looks >= seen.looks);
+        if is_old {
+            return false;
+        }
+        let place = known.unwrap_or_else(|| self.push(seen));
+        self.sources[place].seen = seen;
+        self.sources[place].odds = odds.clamp(-MOST_AT_ALL, MOST_AT_ALL);
+        true
+    }
+
+    fn has_looked(&self, own: RobotId) -> bool {
+        let mut sources = self.sources[..self.count].iter();
+        sources.any(|source| source.seen.by == own)
+    }
+
+    /// Whether own looks say that it is there, if they say something for sure.
+    fn own_verdict(&self, own: RobotId) -> Option<bool> {
+        let mut sources = self.sources[..self.count].iter();
+        let odds = sources.find(|source| source.seen.by == own)?.odds;
+        if self.before + odds > SURE {
+            Some(true)
+        } else if odds < -SURE {
+            Some(false)
+        } else {
+            None
+        }
+    }
+
+    /// Corrects where it is.
+    fn correct(&mut self, at: Point, variance_m2: f64) {
+        if self.count == 1 && self.sources[0].seen.looks <= 1 {
+            (self.at, self.variance_m2) = (at, variance_m2);
+            return;
+        }
+        let gain = self.variance_m2 / (self.variance_m2 + variance_m2);
+        self.at = self.at.plus(self.at.to(at).times(gain));
+        let least_m2 = LEAST_DEVIATION_M * LEAST_DEVIATION_M;
+        self.variance_m2 = (self.variance_m2 * (1.0 - gain)).max(least_m2);
+    }
+
+    /// Whether a look must have had it in view.
+    fn is_in(&self, view: &View, look: &OwnLook, map: Option<&Map>) -> bool {
+        let way = look.pose.at.to(self.at);
+        let error_m = 2.0 * libm::sqrt(self.variance_m2 + look.variance_m2(way.length()));
+        let length_m = way.length().max(1e-9);
+        let out = way.times(error_m / length_m);
+        let aside = Point {
+            x: -out.y,
+            y: out.x,
+        };
+        let corners = [way.plus(out), way.plus(aside), aside.to(way)];
+        let is_hidden = || {
+            look.detector.needs_line_of_sight
+                && map.is_some_and(|map| !map.filled.sees(&map.field, look.pose.at, self.at))
+        };
+        corners.iter().all(|corner| view.holds(*corner)) && !is_hidden()
+    }
+}
+
+fn log_odds(probability: f64) -> f64 {
+    libm::log(probability / (1.0 - probability))
+}
+
+fn probability(log_odds: f64) -> f64 {
+    1.0 / (1.0 + libm::exp(-log_odds))
+}

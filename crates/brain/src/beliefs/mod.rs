@@ -1,0 +1,346 @@
+//! What a robot believes, made of percepts: the *identifier* of a mind (after Rodin and Amin, who
+//! layer one into an identifier, a [goal selector](crate::goals) and an [adapter](crate::way)).
+//!
+//! Bounded: a robot's beliefs take at most 20 kB, and five bytes a cell of at most
+//! [`BeliefsSpec::cells`].
+
+mod drain;
+pub(crate) mod field;
+pub(crate) mod items;
+pub(crate) mod occupancy;
+pub(crate) mod others;
+pub(crate) mod peers;
+pub(crate) mod pose;
+mod telling;
+pub(crate) mod trust;
+pub(crate) mod unseen;
+
+pub use trust::TrustSpec;
+
+use crate::body::{Body, Detector, RobotId};
+use crate::percept::{Look, Percept};
+use crate::rays::Ring;
+use crate::sector::direction;
+use crate::thoughts::BelievedItem;
+use alloc::collections::BTreeMap;
+use alloc::string::String;
+use alloc::sync::Arc;
+use alloc::vec::Vec;
+use base::geometry::{Point, Rectangle};
+use base::trig::wrapped;
+use drain::Drain;
+use field::Field;
+use items::{Items, OwnLook};
+use occupancy::{Occupancy, Ray};
+use others::Others;
+use peers::Peers;
+use pose::{Localisation, Pose};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use telling::Told;
+use trust::Trust;
+use unseen::{Glance, Unseen};
+
+/// Something is on a robot that is known if it is no farther from it than this, besides its radius.
+const ON_IT_M: f64 = 0.15;
+
+/// Contacts of a look have its age, but for rounding.
+const SAME_S: f64 = 1e-6;
+
+/// What a mind believes, and how finely.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct BeliefsSpec {
+    /// Where it searches and what it maps, two opposite corners in metres; left out, the whole world.
+    pub area_m: Option<Rectangle>,
+    /// Its maps have cells at least so wide, in metres.
+    #[schemars(range(min = 0.05, max = 1000.0))]
+    pub cell_m: f64,
+    /// Its maps have at most so many cells; each takes a robot some ten bytes.
+    #[schemars(range(min = 16, max = 65_000))]
+    pub cells: u32,
+    /// How many items of each kind it expects before it has looked; left out, one of each kind.
+    pub expected: BTreeMap<String, f64>,
+    /// How far it trusts what others tell.
+    pub trust: TrustSpec,
+}
+
+impl Default for BeliefsSpec {
+    fn default() -> Self {
+        Self {
+            area_m: None,
+            cell_m: 0.25,
+            cells: 4096,
+            expected: BTreeMap::new(),
+            trust: TrustSpec::default(),
+        }
+    }
+}
+
+/// What is the same for all robots of a kind.
+#[derive(Debug)]
+struct Prior {
+    trust: TrustSpec,
+    /// Items of each kind in a square metre.
+    per_m2: Vec<f64>,
+}
+
+/// All that one robot believes.
+#[derive(Debug, Clone)]
+pub(crate) struct Beliefs {
+    prior: Arc<Prior>,
+    id: RobotId,
+    here: Localisation,
+    pub(crate) others: Others,
+    pub(crate) peers: Peers,
+    pub(crate) items: Items,
+    trust: Trust,
+    drain: Drain,
+    /// If it knows where its mission is.
+    pub(crate) map: Option<Map>,
+    speed_m_s: f64,
+    /// How often it has looked for items.
+    looks: u32,
+    told: Told,
+}
+
+/// The mission's field, what fills it, and where nobody has looked.
+#[derive(Debug, Clone)]
+pub(crate) struct Map {
+    pub(crate) field: Field,
+    pub(crate) filled: Occupancy,
+    pub(crate) unseen: Unseen,
+}
+
+impl Map {
+    fn new(spec: &BeliefsSpec, area: &Rectangle) -> Self {
+        let field = Field::new(area, spec.cell_m, spec.cells as usize);
+        Self {
+            filled: Occupancy::new(&field),
+            unseen: Unseen::new(field.cells()),
+            field,
+        }
+    }
+}
+
+impl Beliefs {
+    /// Those of a robot that has just been switched on.
+    pub(crate) fn new(spec: &BeliefsSpec, body: &Body) -> Self {
+        let area = spec.area_m.or(body.field);
+        let area_m2 = area.map_or(1.0, |area| area.area_m2().max(1.0));
+        let kinds = body.item_kinds.iter();
+        let expected = kinds.map(|kind| spec.expected.get(kind).copied().unwrap_or(1.0));
+        let prior = Prior {
+            trust: spec.trust.clone(),
+            per_m2: expected.map(|expected| expected / area_m2).collect(),
+        };
+        Self {
+            prior: Arc::new(prior),
+            id: RobotId::default(),
+            here: Localisation::default(),
+            others: Others::default(),
+            peers: Peers::default(),
+            items: Items::default(),
+            trust: Trust::default(),
+            drain: Drain::default(),
+            map: area.map(|area| Map::new(spec, &area)),
+            speed_m_s: 0.0,
+            looks: 0,
+            told: Told::default(),
+        }
+    }
+
+    /// Where it is, if it knows.
+    pub(crate) fn pose(&self) -> Option<Pose> {
+        self.here.pose()
+    }
+
+    /// So long the battery lasts, in seconds; infinite if nobody knows.
+    pub(crate) fn battery_s(&self) -> f64 {
+        self.drain.lasts_s()
+    }
+
+    /// Robots have other numbers from now on; what is known of one that is gone is forgotten.
+    pub(crate) fn renumber(&mut self, now: &impl Fn(RobotId) -> Option<RobotId>) {
+        let keep = |id: &mut RobotId| now(*id).map(|now| *id = now).is_some();
+        self.others
+            .movers
+            .retain_mut(|mover| mover.id.as_mut().is_none_or(keep));
+        self.peers.peers.retain_mut(|peer| keep(&mut peer.id));
+        self.trust.renumber(keep);
+        self.items.renumber(keep);
+    }
+
+    /// Items, by how surely they are there.
+    pub(crate) fn believed_items(&self) -> impl Iterator<Item = BelievedItem> {
+        self.items.tracks.iter().map(|track| BelievedItem {
+            kind: track.kind,
+            at: track.at,
+            deviation_m: libm::sqrt(track.variance_m2),
+            confidence: track.confidence(self.id, &self.trust, &self.prior.trust),
+        })
+    }
+
+    /// Where another robot is in the world, if it is seen, or has told of late.
+    pub(crate) fn whereabouts(&self, id: RobotId) -> Option<Point> {
+        let pose = self.pose()?;
+        let mut seen = self.others.movers.iter();
+        let seen = seen.find(|mover| mover.id == Some(id));
+        let told = || {
+            let peer = self.peers.fresh().find(|peer| peer.id == id)?;
+            peer.at.map(|(at, _)| at)
+        };
+        seen.map(|mover| pose.world_of(mover.at)).or_else(told)
+    }
+
+    /// Takes in a step: `now_m_s` is its speed, and `turned_rad` what it turned since the last.
+    pub(crate) fn take_in(
+        &mut self,
+        percept: &Percept,
+        body: &Body,
+        rings: &[Ring],
+        [now_m_s, turned_rad]: [f64; 2],
+    ) {
+        self.id = percept.id;
+        let way_m = f64::midpoint(self.speed_m_s, now_m_s) * body.period_s;
+        self.speed_m_s = now_m_s;
+        self.here.take_in(percept, body, way_m, turned_rad);
+        let way = direction(turned_rad / 2.0).times(way_m);
+        self.others.take_in(percept, body, way, turned_rad);
+        self.peers.pass(body.period_s);
+        self.drain.take_in(percept, body.period_s);
+        let Some(pose) = self.here.pose() else {
+            return;
+        };
+        self.fill_map(percept, &pose, rings, body.period_s);
+        let rate_rad_s = turned_rad / body.period_s.max(f64::MIN_POSITIVE);
+        for look in &percept.looks {
+            let then = earlier(&pose, [now_m_s, rate_rad_s], look.age_s);
+            self.take_look(look, percept, body, then);
+        }
+        for heard in &percept.inbox {
+            self.hear(heard, body, &pose);
+        }
+        self.items
+            .learn(self.id, &mut self.trust, &self.prior.trust);
+    }
+
+    fn fill_map(&mut self, percept: &Percept, pose: &Pose, rings: &[Ring], period_s: f64) {
+        let Some(map) = &mut self.map else {
+            return;
+        };
+        for (ring, scan) in rings.iter().zip(&percept.scans) {
+            let fresh = ring.fresh(Some(scan));
+            // An older scan was taken in before.
+            let new = fresh.filter(|(age_s, _)| *age_s < ring.latency_s() + period_s);
+            let Some((_, ranges_m)) = new else {
+                continue;
+            };
+            for (bearing_rad, free_m) in ring.rays(ranges_m) {
+                let at = direction(bearing_rad).times(free_m);
+                let ray = Ray {
+                    bearing_rad,
+                    free_m,
+                    is_hit: free_m < ring.range_m() && !self.others.is_on_one(at),
+                };
+                map.filled.take_in(&map.field, pose, ray);
+            }
+        }
+    }
+
+    /// Takes in a look for items, and its contacts.
+    fn take_look(&mut self, look: &Look, percept: &Percept, body: &Body, pose: Pose) {
+        let mut detectors = body.detectors.iter();
+        let Some(detector) = detectors.find(|detector| detector.sensor == look.sensor) else {
+            return;
+        };
+        self.looks = self.looks.saturating_add(1);
+        let own = OwnLook {
+            by: self.id,
+            detector,
+            pose,
+            per_m2: &self.prior.per_m2,
+        };
+        let is_of_it = |contact: &&crate::percept::Contact| {
+            contact.sensor == look.sensor && (contact.age_s - look.age_s).abs() < SAME_S
+        };
+        let contacts = percept.contacts.iter().filter(is_of_it);
+        self.items.look(&own, contacts, self.map.as_ref());
+        self.look_at_cells(detector, (pose.at, pose.heading_rad), [1.0, 1.0]);
+    }
+
+    /// Notes what a look that is so much trusted, and counts as so many, has seen of the field.
+    fn look_at_cells(
+        &mut self,
+        detector: &Detector,
+        (at, heading_rad): (Point, f64),
+        [trust, looks]: [f64; 2],
+    ) {
+        if let Some(Map {
+            field,
+            filled,
+            unseen,
+        }) = &mut self.map
+        {
+            let glance = Glance {
+                detector,
+                at,
+                heading_rad,
+                trust,
+                looks,
+            };
+            unseen.take_in(field, filled, &glance);
+        }
+    }
+}
+
+/// Where it was some time ago, at a speed and a rate of turn.
+fn earlier(pose: &Pose, [speed_m_s, rate_rad_s]: [f64; 2], age_s: f64) -> Pose {
+    // What is no age is none.
+    let age_s = if (0.0..=60.0).contains(&age_s) {
+        age_s
+    } else {
+        0.0
+    };
+    let heading_rad = wrapped(pose.heading_rad - rate_rad_s * age_s);
+    let way = direction(heading_rad + rate_rad_s * age_s / 2.0).times(-speed_m_s * age_s);
+    Pose {
+        at: pose.at.plus(way),
+        heading_rad,
+        ..*pose
+    }
+}
+
+impl Others {
+    /// Whether what is seen at a place, from this robot's front, is one of them.
+    pub(crate) fn is_on_one(&self, at: Point) -> bool {
+        self.movers.iter().any(|mover| {
+            let near_m = mover.radius_m + ON_IT_M;
+            mover.at.to(at).length_squared() <= near_m * near_m
+        })
+    }
+}
+
+/// Things that stand, as rays see them now: their bearings and how far they are from the centre.
+pub(crate) fn standing(
+    beliefs: &Beliefs,
+    rings: &[Ring],
+    percept: &Percept,
+    into: &mut Vec<crate::way::Hit>,
+) {
+    into.clear();
+    for (ring, scan) in rings.iter().zip(&percept.scans) {
+        let Some((_, ranges_m)) = ring.fresh(Some(scan)) else {
+            continue;
+        };
+        for (bearing_rad, range_m) in ring.rays(ranges_m) {
+            let at = direction(bearing_rad).times(range_m);
+            if range_m < ring.range_m() && !beliefs.others.is_on_one(at) {
+                into.push(crate::way::Hit {
+                    bearing_rad,
+                    range_m,
+                });
+            }
+        }
+    }
+}

@@ -1,0 +1,158 @@
+//! Robots nearby, and what else moves.
+
+use super::pose::turned;
+use crate::body::{Body, RobotId};
+use crate::percept::{Neighbour, Percept};
+use crate::sector::direction;
+use alloc::vec::Vec;
+use base::geometry::Point;
+
+/// So many of the nearest are kept in mind.
+const MOST: usize = 16;
+
+/// Who has not been seen for so long is forgotten, in seconds.
+const FORGOTTEN_S: f64 = 1.0;
+
+/// Of an exact sensor, a new velocity counts so much; of one that errs, less.
+const EXACT: f64 = 1.0;
+const NOISY: f64 = 0.3;
+
+/// Who is slower stands, in m/s.
+const MOVES_M_S: f64 = 0.1;
+
+/// Nothing goes faster, in m/s: a greater velocity is a slip of the sensors.
+const FASTEST_M_S: f64 = 100.0;
+
+/// A robot, or whatever else moves, as it is believed to be.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Mover {
+    /// Which robot, if it is known for one.
+    pub(crate) id: Option<RobotId>,
+    /// From this robot's front.
+    pub(crate) at: Point,
+    /// Over ground, along this robot's front and left.
+    pub(crate) velocity_m_s: Point,
+    /// The direction in which it last went, of length 1; of length 0 if it never moved.
+    pub(crate) course: Point,
+    /// Of the disc that it covers.
+    pub(crate) radius_m: f64,
+    /// It brakes at most so hard.
+    pub(crate) braking_m_s2: f64,
+    /// Time since it was last seen.
+    pub(crate) age_s: f64,
+    /// Looks at it so far: only two make a velocity.
+    pub(crate) looks: u32,
+}
+
+/// All of them, the nearest at most [`MOST`], in the order in which they were first seen.
+///
+/// They are kept in the robot's own frame and carried along by what it moves, so that nobody needs to
+/// know where in the world he is to keep out of others' way.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Others {
+    pub(crate) movers: Vec<Mover>,
+}
+
+impl Others {
+    /// Takes in a step in which the robot went `way` (from its front as it was) and turned.
+    pub(crate) fn take_in(&mut self, percept: &Percept, body: &Body, way: Point, turned_rad: f64) {
+        self.carry_on(body.period_s, way, turned_rad);
+        for neighbour in &percept.neighbours {
+            self.see(neighbour, body, turned_rad);
+        }
+        self.movers.retain(|mover| mover.age_s <= FORGOTTEN_S);
+        self.keep_nearest();
+    }
+
+    fn carry_on(&mut self, period_s: f64, way: Point, turned_rad: f64) {
+        let back = direction(-turned_rad);
+        for mover in &mut self.movers {
+            let moved = mover.velocity_m_s.times(period_s);
+            mover.at = turned(way.to(mover.at.plus(moved)), back);
+            mover.velocity_m_s = turned(mover.velocity_m_s, back);
+            mover.course = turned(mover.course, back);
+            mover.age_s += period_s;
+        }
+    }
+
+    fn see(&mut self, neighbour: &Neighbour, body: &Body, turned_rad: f64) {
+        let other = body.others.get(usize::from(neighbour.id.kind));
+        if other.is_some_and(|other| !other.is_in_the_way) || !is_sensible(neighbour) {
+            return;
+        }
+        // Since it was seen, this robot has turned on.
+        let since_rad = turned_rad / body.period_s.max(f64::MIN_POSITIVE) * neighbour.age_s;
+        let at = direction(neighbour.bearing_rad - since_rad).times(neighbour.range_m);
+        let share = if body.neighbour_noise_m > 0.0 {
+            NOISY
+        } else {
+            EXACT
+        };
+        let known = self.movers.iter_mut();
+        match known
+            .into_iter()
+            .find(|mover| mover.id == Some(neighbour.id))
+        {
+            Some(mover) => mover.correct(at, neighbour.age_s, share),
+            None => self.movers.push(Mover {
+                id: Some(neighbour.id),
+                at,
+                velocity_m_s: Point::default(),
+                course: Point::default(),
+                radius_m: other.map_or(body.radius_m, |other| other.radius_m),
+                braking_m_s2: other.map_or(body.max_acceleration_m_s2, |other| {
+                    other.max_acceleration_m_s2
+                }),
+                age_s: neighbour.age_s,
+                looks: 1,
+            }),
+        }
+    }
+
+    fn keep_nearest(&mut self) {
+        if self.movers.len() > MOST {
+            let distance = |mover: &Mover| mover.at.length_squared();
+            self.movers
+                .sort_by(|one, other| distance(one).total_cmp(&distance(other)));
+            self.movers.truncate(MOST);
+        }
+    }
+}
+
+impl Mover {
+    /// Takes in where it was seen; its velocity is corrected by what the guess was off.
+    fn correct(&mut self, at: Point, age_s: f64, share: f64) {
+        // What was told of before says nothing new.
+        let between_s = self.age_s - age_s;
+        if between_s <= 0.0 {
+            return;
+        }
+        let velocity = self.velocity_m_s;
+        let guess = velocity.times(age_s).to(self.at);
+        let change = guess.to(at).times(1.0 / between_s);
+        let share = if self.looks == 1 { 1.0 } else { share };
+        let corrected = velocity.plus(change.times(share));
+        if corrected.length_squared() <= FASTEST_M_S * FASTEST_M_S {
+            self.velocity_m_s = corrected;
+        }
+        let speed_m_s = self.speed_m_s();
+        if speed_m_s > MOVES_M_S {
+            self.course = self.velocity_m_s.times(1.0 / speed_m_s);
+        }
+        self.at = at.plus(self.velocity_m_s.times(age_s));
+        self.age_s = age_s;
+        self.looks = self.looks.saturating_add(1);
+    }
+
+    /// How fast it goes.
+    #[must_use]
+    pub(crate) fn speed_m_s(&self) -> f64 {
+        self.velocity_m_s.length()
+    }
+}
+
+fn is_sensible(neighbour: &Neighbour) -> bool {
+    let is_near = (0.0..=1e6).contains(&neighbour.range_m);
+    let is_angle = neighbour.bearing_rad.abs() <= 10.0;
+    is_near && is_angle && (0.0..=FORGOTTEN_S).contains(&neighbour.age_s)
+}

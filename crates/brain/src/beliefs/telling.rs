@@ -1,0 +1,149 @@
+//! What is told to others, and what others tell.
+
+use super::items::Report;
+use super::pose::Pose;
+use super::{Beliefs, Body};
+use crate::command::{About, Message, Seen, Stand};
+use crate::percept::Heard;
+use alloc::vec::Vec;
+use base::geometry::Point;
+
+/// Others are told where it is once in so long, and where it goes whenever that changes, or after as
+/// long; in seconds.
+const AGAIN_S: f64 = 1.0;
+
+/// So many messages about items are told in a step.
+const ITEMS_A_STEP: usize = 2;
+
+/// A team mate's way since its last message is looked at from at most so many places.
+const MOST_PLACES: f64 = 16.0;
+
+/// What is farther away than this is nonsense, in metres.
+const FARTHEST_M: f64 = 1e7;
+
+/// What was told, and how long ago.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Told {
+    goal: Option<Point>,
+    age_s: f64,
+}
+
+impl Beliefs {
+    /// Takes in a message.
+    pub(super) fn hear(&mut self, heard: &Heard, body: &Body, pose: &Pose) {
+        let confidence = heard.message.confidence;
+        if !(0.0..=1.0).contains(&confidence) {
+            return;
+        }
+        match heard.message.about {
+            About::Item { kind, at, seen } if is_place(at) => {
+                let report = Report {
+                    kind,
+                    at,
+                    seen: own_look(heard, seen, at),
+                    confidence,
+                };
+                let variance_m2 = report_variance_m2(body, pose);
+                self.items
+                    .hear(self.id, &report, variance_m2, &self.prior.per_m2);
+            }
+            About::Sender {
+                at,
+                heading_rad,
+                looks,
+            } if is_place(at) && heading_rad.abs() < 1e4 => {
+                self.hear_sender(heard, body, (at, heading_rad), looks);
+            }
+            About::Goal { at, stand } if is_place(at) => self.peers.goes(heard.from, at, stand),
+            _ => {}
+        }
+    }
+
+    /// A team mate has looked around on its way: that extends the own picture, towards it only.
+    fn hear_sender(
+        &mut self,
+        heard: &Heard,
+        body: &Body,
+        (at, heading_rad): (Point, f64),
+        looks: u32,
+    ) {
+        let (from, since) = self.peers.stands(heard.from, at, looks);
+        let other = body.others.get(usize::from(heard.from.kind));
+        let detectors = other.map_or(&body.detectors, |other| &other.detectors);
+        let Some(detector) = detectors.first().filter(|_| since > 0) else {
+            return;
+        };
+        let trust = self.trust.of(heard.from, &self.prior.trust) * heard.message.confidence;
+        let way = from.to(at);
+        let apart_m = (detector.range_m / 2.0).max(1e-3);
+        let places = libm::ceil(way.length() / apart_m).clamp(1.0, MOST_PLACES.min(since.into()));
+        let each = f64::from(since) / places;
+        let mut place = 1.0;
+        while place <= places {
+            let there = from.plus(way.times(place / places));
+            self.look_at_cells(detector, (there, heading_rad), [trust, each]);
+            place += 1.0;
+        }
+    }
+
+    /// Tells others what they need to know; `goal` is where it is going.
+    pub(crate) fn tell(&mut self, goal: Option<Point>, period_s: f64, outbox: &mut Vec<Message>) {
+        let Some(pose) = self.here.pose() else {
+            return;
+        };
+        let say = |about| Message {
+            about,
+            confidence: 1.0,
+        };
+        self.told.age_s += period_s;
+        let is_time = self.told.age_s >= AGAIN_S;
+        let before = self.told.goal;
+        if goal != before || is_time {
+            let left = before.filter(|_| goal.is_none());
+            let stand = |stand| move |at| say(About::Goal { at, stand });
+            outbox.extend(left.map(stand(Stand::Done)));
+            outbox.extend(goal.map(stand(Stand::Going)));
+            self.told.goal = goal;
+        }
+        if is_time {
+            self.told.age_s = 0.0;
+            outbox.push(say(About::Sender {
+                at: pose.at,
+                heading_rad: pose.heading_rad,
+                looks: self.looks,
+            }));
+        }
+        self.items.tell(outbox, ITEMS_A_STEP);
+    }
+}
+
+/// Whose looks a report is of: if it tells of none, of one of its sender at that place.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "only to be told apart"
+)]
+fn own_look(heard: &Heard, seen: Seen, at: Point) -> Seen {
+    if seen.looks > 0 {
+        return seen;
+    }
+    let [x, y] = [at.x, at.y].map(|along_m| libm::round(along_m) as i32 as u32);
+    Seen {
+        by: heard.from,
+        mark: x.wrapping_mul(0x9e37_79b9) ^ y,
+        looks: 1,
+    }
+}
+
+/// Of a place that another robot reports: both may be wrong about where they are.
+fn report_variance_m2(body: &Body, pose: &Pose) -> f64 {
+    let detectors = body.detectors.iter();
+    let noise_m = detectors
+        .map(|detector| detector.noise_m)
+        .fold(0.05, f64::max);
+    2.0 * pose.deviation_m * pose.deviation_m + noise_m * noise_m
+}
+
+fn is_place(at: Point) -> bool {
+    at.x.abs() <= FARTHEST_M && at.y.abs() <= FARTHEST_M
+}

@@ -1,0 +1,163 @@
+//! What a robot wants, which of it first, and whether it gets there: the *goal selector* of a mind.
+//!
+//! Each behaviour that wants to be somewhere has a goal. In every cycle each goal gets a
+//! [precedence](precedence) and a [verdict](fitness); goals that do not conflict are served together,
+//! others in order of precedence. What a verdict means:
+//!
+//! * *complete*: the behaviour goes on to its next place;
+//! * *impossible*: it is given up for now, for the next place of the behaviour;
+//! * *approaching*: nothing is to be done;
+//! * *receding*: the way there is found anew.
+
+pub(crate) mod fitness;
+pub(crate) mod precedence;
+
+use crate::wish::Aim;
+use alloc::vec::Vec;
+use base::geometry::Point;
+pub use fitness::Verdict;
+use fitness::{Fitness, Step};
+use precedence::{precedence, time_s};
+
+/// Another goal is on the way if the detour is no longer than this share of the way.
+const DETOUR: f64 = 0.15;
+
+/// What one behaviour wants, and what has become of it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Goal {
+    /// Place of the behaviour in the brain's list.
+    pub(crate) behaviour: usize,
+    pub(crate) aim: Aim,
+    pub(crate) precedence: f64,
+    pub(crate) verdict: Verdict,
+    fitness: Fitness,
+}
+
+/// All that a robot wants, by precedence: at most one goal a behaviour.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Goals {
+    pub(crate) goals: Vec<Goal>,
+}
+
+impl Goals {
+    /// Renews the goals from what behaviours aim at, given what is known of this step.
+    pub(crate) fn renew(&mut self, aims: impl Iterator<Item = (usize, Aim)>, step: &Step) {
+        let before = core::mem::take(&mut self.goals);
+        self.goals.extend(aims.map(|(behaviour, aim)| {
+            let mut known = before.iter();
+            let same = known.find(|goal| goal.behaviour == behaviour && goal.aim.to == aim.to);
+            // What was given up and is wanted again begins anew.
+            let same = same.filter(|goal| goal.verdict != Verdict::Impossible);
+            let mut fitness = same.map_or_else(Fitness::default, |goal| goal.fitness);
+            let way_m = step.at.to(aim.to).length();
+            let verdict = fitness.judge(way_m, &aim, step);
+            Goal {
+                behaviour,
+                aim,
+                precedence: precedence(&aim, time_s(way_m, &aim), step.battery_s),
+                verdict,
+                fitness,
+            }
+        }));
+        // Equal ones stay in the order of their behaviours.
+        self.goals
+            .sort_by(|one, other| other.precedence.total_cmp(&one.precedence));
+    }
+
+    /// The goal to go for: the first, or one that lies on the way to it.
+    pub(crate) fn next(&self, at: Point) -> Option<&Goal> {
+        let mut possible = self
+            .goals
+            .iter()
+            .filter(|goal| goal.verdict != Verdict::Impossible);
+        let first = possible.next()?;
+        let way_m = at.to(first.aim.to).length();
+        let detour_m = |goal: &&Goal| {
+            let (there, then) = (at.to(goal.aim.to), goal.aim.to.to(first.aim.to));
+            there.length() + then.length() - way_m
+        };
+        let on_the_way = possible.filter(|goal| detour_m(goal) <= DETOUR * way_m);
+        let nearest = on_the_way.min_by(|one, other| {
+            let far = |goal: &Goal| at.to(goal.aim.to).length_squared();
+            far(one).total_cmp(&far(other))
+        });
+        Some(nearest.unwrap_or(first))
+    }
+
+    /// Those that are not being reached.
+    pub(crate) fn in_trouble(&self) -> impl Iterator<Item = &Goal> {
+        let mut goals = self.goals.iter();
+        let is_in_trouble =
+            |goal: &&Goal| matches!(goal.verdict, Verdict::Impossible | Verdict::Receding);
+        core::iter::from_fn(move || goals.find(is_in_trouble))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn aim(x: f64, y: f64, value: f64) -> Aim {
+        Aim {
+            to: Point { x, y },
+            within_m: 0.5,
+            speed_m_s: 1.0,
+            value,
+        }
+    }
+
+    fn step(at: Point) -> Step {
+        Step {
+            at,
+            period_s: 0.1,
+            closed: None,
+            battery_s: f64::INFINITY,
+            going: None,
+        }
+    }
+
+    fn goals(aims: &[Aim], at: Point) -> Goals {
+        let mut goals = Goals::default();
+        goals.renew(aims.iter().copied().enumerate(), &step(at));
+        goals
+    }
+
+    const HERE: Point = Point { x: 0.0, y: 0.0 };
+
+    #[test]
+    fn precedence_changes_as_the_robot_moves() {
+        let aims = [aim(10.0, 0.0, 1.0), aim(-10.0, 0.0, 1.0)];
+        for (x, first) in [(2.0, 0), (-2.0, 1)] {
+            let at = Point { x, y: 0.0 };
+            assert_eq!(goals(&aims, at).next(at).unwrap().behaviour, first);
+        }
+    }
+
+    #[test]
+    fn a_goal_on_the_way_is_served_together_with_the_one_beyond() {
+        let aims = [aim(10.0, 0.0, 5.0), aim(5.0, 0.5, 0.1)];
+        assert_eq!(goals(&aims, HERE).next(HERE).unwrap().behaviour, 1);
+    }
+
+    #[test]
+    fn goals_that_conflict_are_served_in_order() {
+        let aims = [aim(10.0, 0.0, 5.0), aim(0.0, 5.0, 0.1)];
+        let goals = goals(&aims, HERE);
+        assert_eq!(goals.next(HERE).unwrap().behaviour, 0);
+        let order: Vec<usize> = goals.goals.iter().map(|goal| goal.behaviour).collect();
+        assert_eq!(order, [0, 1]);
+    }
+
+    #[test]
+    fn what_is_impossible_is_not_gone_for() {
+        let aims = [aim(10.0, 0.0, 5.0), aim(0.0, 5.0, 0.1)];
+        let mut goals = Goals::default();
+        let closed = Step {
+            closed: Some(aims[0].to),
+            ..step(HERE)
+        };
+        goals.renew(aims.iter().copied().enumerate(), &closed);
+        assert_eq!(goals.next(HERE).unwrap().behaviour, 1);
+        assert_eq!(goals.in_trouble().next().unwrap().behaviour, 0);
+    }
+}

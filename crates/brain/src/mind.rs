@@ -1,0 +1,98 @@
+//! A mind: identifier, goal selector, adapter (Rodin and Amin, *Intelligent navigation for an autonomous
+//! mobile robot*, 1988).
+//!
+//! * the *identifier* makes [beliefs](crate::beliefs) of percepts;
+//! * the *goal selector* chooses among the [goals](crate::goals) that behaviours have;
+//! * the *adapter* finds a [way](crate::way) there, and keeps out of others'.
+
+use crate::behaviours::{Memory, Ready};
+use crate::beliefs::{Beliefs, BeliefsSpec};
+use crate::body::Body;
+use crate::command::{Message, Motion};
+use crate::goals::fitness::Step;
+use crate::goals::{Goals, Verdict};
+use crate::senses::Senses;
+use crate::subsumption::{Behaviour, Layer};
+use crate::way::Way;
+use crate::wish::{Aim, Wish};
+use alloc::vec::Vec;
+
+/// What only robots have that believe something: most kinds do not.
+#[derive(Debug, Clone)]
+pub(crate) struct Mind {
+    pub(crate) beliefs: Beliefs,
+    pub(crate) wants: Wants,
+}
+
+/// What a robot wants, and how it gets there.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Wants {
+    pub(crate) goals: Goals,
+    pub(crate) way: Way,
+    going: Option<Aim>,
+    /// Kept so that nothing is allocated.
+    pub(crate) wishes: Vec<(usize, Wish)>,
+}
+
+impl Mind {
+    pub(crate) fn new(spec: &BeliefsSpec, body: &Body) -> Self {
+        Self {
+            beliefs: Beliefs::new(spec, body),
+            wants: Wants::default(),
+        }
+    }
+
+    /// Tells others what they need to know.
+    pub(crate) fn tell(&mut self, period_s: f64, outbox: &mut Vec<Message>) {
+        let going = self.wants.going.map(|aim| aim.to);
+        self.beliefs.tell(going, period_s, outbox);
+    }
+}
+
+impl Wants {
+    /// The motion that serves wishes best: those of behaviours by their places, none of them beside a
+    /// motion unless it is the lowest.
+    pub(crate) fn serve(
+        &mut self,
+        wishes: &[(usize, Wish)],
+        behaviours: &[Ready],
+        layers: &mut [Layer<Memory>],
+        senses: &Senses,
+    ) -> Motion {
+        let going = self.going.take().map(|aim| aim.to);
+        let Some(beliefs) = senses.beliefs else {
+            return Motion::default();
+        };
+        let Some(pose) = beliefs.pose() else {
+            return Motion::default();
+        };
+        let aims = wishes.iter().filter_map(|(behaviour, wish)| match wish {
+            Wish::Aim(aim) => Some((*behaviour, *aim)),
+            Wish::Motion(_) => None,
+        });
+        let step = Step {
+            at: pose.at,
+            period_s: senses.body.period_s,
+            closed: self.way.closed(),
+            battery_s: beliefs.battery_s(),
+            going,
+        };
+        self.goals.renew(aims, &step);
+        for goal in self.goals.in_trouble() {
+            if let (Some(behaviour), Some(layer)) = (
+                behaviours.get(goal.behaviour),
+                layers.get_mut(goal.behaviour),
+            ) {
+                behaviour.judged(layer.memory(), goal.verdict);
+            }
+            if goal.verdict == Verdict::Impossible && going == Some(goal.aim.to) {
+                self.way.find_anew();
+            }
+        }
+        let Some(goal) = self.goals.next(pose.at) else {
+            return Motion::default();
+        };
+        self.going = Some(goal.aim);
+        self.way.towards(&goal.aim, senses, beliefs)
+    }
+}

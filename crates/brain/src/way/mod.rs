@@ -1,0 +1,176 @@
+//! How to get to an aim: the *adapter* of a mind.
+//!
+//! The [path](path) leads around what is known to be filled; the next place on it is what the robot
+//! turns to. Of all that it can [reach](reachable) from here it takes what is best for that, or [gives
+//! way](shunting) if it gets nowhere. Last, it keeps out of [others' way](traffic).
+
+pub(crate) mod path;
+pub(crate) mod reachable;
+pub(crate) mod shunting;
+pub(crate) mod traffic;
+
+pub(crate) use reachable::Hit;
+
+use crate::beliefs::pose::Pose;
+use crate::beliefs::{Beliefs, Map, standing};
+use crate::command::Motion;
+use crate::senses::Senses;
+use crate::wish::Aim;
+use alloc::vec::Vec;
+use base::geometry::Point;
+use core::f64::consts::FRAC_PI_3;
+use path::Wave;
+use reachable::{Reachable, unhurried_m_s};
+use shunting::{Shunting, Step};
+use traffic::Traffic;
+
+/// A path is looked over after so long, in seconds.
+const LOOKED_OVER_S: f64 = 1.0;
+
+/// Room beside what is filled, as a share of a cell's width.
+const CELL_ROOM: f64 = 0.35;
+
+/// What one robot remembers of its way.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Way {
+    pub(crate) reachable: Reachable,
+    pub(crate) traffic: Traffic,
+    shunting: Shunting,
+    hits: Vec<Hit>,
+    wave: Wave,
+    plan: Option<Plan>,
+}
+
+/// A way that was found.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Plan {
+    to: Point,
+    /// The next place on it; `None` if there is no way.
+    next: Option<Point>,
+    age_s: f64,
+    /// Of the map, when it was found.
+    changes: u32,
+}
+
+impl Way {
+    /// The motion towards an aim; to stand, if it does not know where it is or there is no way.
+    pub(crate) fn towards(&mut self, aim: &Aim, senses: &Senses, beliefs: &Beliefs) -> Motion {
+        let Some(pose) = beliefs.pose() else {
+            return Motion::default();
+        };
+        let next = match &beliefs.map {
+            Some(map) => self.next(aim.to, &pose, map, senses),
+            None => Some(aim.to),
+        };
+        let Some(next) = next else {
+            return Motion::default();
+        };
+        standing(beliefs, senses.rings, senses.percept, &mut self.hits);
+        let step = Step {
+            aim: aim.to,
+            way: pose.own(next),
+            away_m: pose.at.to(aim.to).length(),
+            turned_rad: senses.turned_rad,
+            period_s: senses.body.period_s,
+            max_speed_m_s: senses.body.max_speed_m_s,
+            hits: &self.hits,
+            movers: &beliefs.others.movers,
+        };
+        let way = self.shunting.instead(&step, senses.dice());
+        let left_m = step.away_m - aim.within_m / 2.0;
+        let most_m_s = if self.shunting.gives_way() {
+            aim.speed_m_s
+        } else {
+            aim.speed_m_s.min(stopping_m_s(left_m, senses))
+        };
+        self.take(way, most_m_s, senses, beliefs)
+    }
+
+    /// A place to which there is no way as far as it knows.
+    pub(crate) fn closed(&self) -> Option<Point> {
+        let plan = self.plan.filter(|plan| plan.next.is_none())?;
+        Some(plan.to)
+    }
+
+    /// Forgets the way.
+    pub(crate) fn find_anew(&mut self) {
+        self.plan = None;
+    }
+
+    /// The next place on the way: the aim itself if nothing stands before it.
+    fn next(&mut self, to: Point, pose: &Pose, map: &Map, senses: &Senses) -> Option<Point> {
+        let plan = self.plan.filter(|plan| plan.to == to);
+        let period_s = senses.body.period_s;
+        let (is_old, is_there) = match plan {
+            None => (true, true),
+            Some(plan) => {
+                let near_m = 2.0 * map.field.cell_m;
+                let is_there = plan
+                    .next
+                    .is_some_and(|next| pose.at.to(next).length() < near_m);
+                (
+                    plan.age_s >= LOOKED_OVER_S,
+                    is_there && plan.next != Some(to),
+                )
+            }
+        };
+        if let (Some(plan), false) = (plan, is_old || is_there) {
+            self.plan = Some(Plan {
+                age_s: plan.age_s + period_s,
+                ..plan
+            });
+            return plan.next;
+        }
+        let is_straight = map.filled.is_free_between(&map.field, pose.at, to);
+        let next = if is_straight {
+            Some(to)
+        } else {
+            let is_known = plan.is_some_and(|plan| {
+                plan.changes == map.filled.changes && plan.next != Some(to) && !self.wave.is_new()
+            });
+            if !is_known {
+                let room_m = senses.body.radius_m + CELL_ROOM * map.field.cell_m;
+                self.wave.run(&map.field, &map.filled, to, room_m);
+            }
+            self.wave.ahead(&map.field, pose.at)
+        };
+        self.plan = Some(Plan {
+            to,
+            next,
+            age_s: 0.0,
+            changes: map.filled.changes,
+        });
+        next
+    }
+
+    /// Goes a way from its front, as well as that can be done.
+    fn take(&mut self, way: Point, most_m_s: f64, senses: &Senses, beliefs: &Beliefs) -> Motion {
+        let body = senses.body;
+        let speed_m_s = body.max_speed_m_s.min(most_m_s.max(0.1));
+        let movers = &beliefs.others.movers;
+        self.reachable.look(
+            self.hits.iter().copied(),
+            movers,
+            (body.radius_m, speed_m_s),
+        );
+        let aim_rad = libm::atan2(way.y, way.x);
+        let choice = self.reachable.best(aim_rad, way.length(), 0.0);
+        let turn_rad = choice.bearing_rad;
+        let aligned = (1.0 - turn_rad.abs() / FRAC_PI_3).max(0.0);
+        let free_m = choice.free_m.min(self.reachable.ahead_m());
+        Motion {
+            speed_m_s: most_m_s.min(unhurried_m_s(free_m)) * aligned,
+            turn_rate_rad_s: turn_rad / body.period_s,
+        }
+    }
+}
+
+/// The greatest speed from which it stops within a distance.
+fn stopping_m_s(left_m: f64, senses: &Senses) -> f64 {
+    let braking = 0.9 * senses.body.max_acceleration_m_s2;
+    if braking.is_finite() {
+        libm::sqrt(2.0 * braking * left_m.max(0.0))
+    } else {
+        left_m.max(0.0) / senses.body.period_s
+    }
+}

@@ -1,0 +1,84 @@
+//! Minds that can do what they are to do.
+
+use super::ScenarioSpec;
+use crate::body::RobotSpec;
+use crate::sensing::Measures;
+use base::document::Place;
+use base::fault::Fault;
+use base::geometry::{Point, Rectangle};
+
+/// Most items of a kind that a mind may expect.
+const MOST_EXPECTED: f64 = 1e6;
+
+pub(super) fn faults(spec: &ScenarioSpec, at: &Place) -> Vec<Fault> {
+    let robots = spec.robots.iter();
+    robots
+        .flat_map(|(name, robot)| {
+            let at = at.key("robots").key(name);
+            let mut faults = of_behaviours(robot, &at);
+            faults.extend(of_beliefs(robot, spec, &at.key("brain").key("beliefs")));
+            faults
+        })
+        .collect()
+}
+
+/// Behaviours that the robot's sensors are not enough for.
+fn of_behaviours(robot: &RobotSpec, at: &Place) -> Vec<Fault> {
+    let has = |is_it: fn(&Measures) -> bool| {
+        let mut sensors = robot.sensors.values();
+        sensors.any(|sensor| is_it(&sensor.measures))
+    };
+    let has_position = has(|measures| matches!(measures, Measures::Position(_)));
+    let has_heading = has(|measures| matches!(measures, Measures::Heading(_)));
+    let has_detector = has(|measures| matches!(measures, Measures::Items(_)));
+    let mut faults = Vec::new();
+    for (number, behaviour) in robot.brain.behaviours.iter().enumerate() {
+        let at = at.key("brain").key("behaviours").item(number).key("kind");
+        let name = behaviour.name();
+        let mut needs = |is_needed: bool, has: bool, what: &str| {
+            if is_needed && !has {
+                faults.push(at.fault(format!(
+                    "for {name} the robot needs a sensor of the kind {what}"
+                )));
+            }
+        };
+        needs(behaviour.needs_beliefs(), has_position, "position");
+        needs(behaviour.needs_beliefs(), has_heading, "heading");
+        needs(behaviour.needs_detector(), has_detector, "items");
+    }
+    faults
+}
+
+/// Beliefs about what there is not.
+fn of_beliefs(robot: &RobotSpec, spec: &ScenarioSpec, at: &Place) -> Vec<Fault> {
+    let Some(beliefs) = &robot.brain.beliefs else {
+        return Vec::new();
+    };
+    let kinds: Vec<&str> = spec.items.keys().map(String::as_str).collect();
+    let mut faults = Vec::new();
+    for (kind, expected) in &beliefs.expected {
+        let at = at.key("expected").key(kind);
+        if !kinds.contains(&kind.as_str()) {
+            faults.push(at.names_none_of(kind, kinds.iter().copied()));
+        } else if !(0.0..=MOST_EXPECTED).contains(expected) {
+            faults.push(at.fault(format!("a number from 0 to {MOST_EXPECTED}")));
+        }
+    }
+    let [width, height] = spec.world.size_m;
+    let corner = Point {
+        x: width.0,
+        y: height.0,
+    };
+    let world = Rectangle::spanned(Point::default(), corner);
+    let is_in_it = |area: &Rectangle| {
+        world.contains(area.min()) && world.contains(area.max()) && area.area_m2() > 0.0
+    };
+    if beliefs.area_m.as_ref().is_some_and(|area| !is_in_it(area)) {
+        let allowed = format!(
+            "two opposite corners within [0, 0] and [{}, {}]",
+            width.0, height.0
+        );
+        faults.push(at.key("area_m").fault(allowed));
+    }
+    faults
+}
