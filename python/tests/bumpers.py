@@ -71,7 +71,8 @@ class Talker(Ahead):
         """Return what the robot is to do."""
         self.steps += 1
         heard = sum(each["from"]["index"] + 1 for each in percept["inbox"])
-        seen = {"by": {"kind": 0, "index": 1}, "mark": 2, "looks": 3}
+        # As if it told of nobody's looks: a batch cannot.
+        seen = {"by": {"kind": 0, "index": 0}, "mark": 0, "looks": 0}
         about: Any = {"item": {"kind": 0, "at": [1.0, 2.0], "seen": seen}}
         return {
             "motion": {
