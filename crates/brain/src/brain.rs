@@ -1,6 +1,6 @@
 //! The mind of one robot.
 
-use crate::behaviours::{Memory, Ready};
+use crate::behaviours::{Memory, Ready, swarm};
 use crate::body::Body;
 use crate::command::{Command, Motion};
 use crate::percept::Percept;
@@ -61,6 +61,16 @@ impl Brain {
     #[must_use]
     pub fn body(&self) -> &Body {
         &self.kind.body
+    }
+
+    /// What it does with those near it, if it does nothing else: then its commands are those of
+    /// [`swarm::Ready::motion`], whatever else it may know.
+    #[must_use]
+    pub fn swarm(&self) -> Option<&swarm::Ready> {
+        match self.kind.behaviours.as_slice() {
+            [Ready::Swarm(ready)] if self.kind.body.rings.is_empty() => Some(ready),
+            _ => None,
+        }
     }
 
     /// What the robot is to do, given what it knows; called once in each of the body's periods.

@@ -4,10 +4,12 @@
 mod avoid;
 mod bounce;
 mod cruise;
+pub mod swarm;
 
 pub use avoid::Avoid;
 pub use bounce::Bounce;
 pub use cruise::Cruise;
+pub use swarm::Swarm;
 
 use crate::body::Body;
 use crate::command::Motion;
@@ -99,6 +101,8 @@ behaviours! {
     Bounce in bounce;
     /// Gets out of the way of what is too near.
     Avoid in avoid;
+    /// Goes with the others: keeps apart from them, takes their course, and stays with them.
+    Swarm in swarm;
 }
 
 /// Straight ahead at a speed, or else as fast as the body can.

@@ -48,7 +48,7 @@ impl Kind {
             .map(|(name, spec)| Sensor::new(name, spec, item_kinds, step_s))
             .collect();
         let rhythm = Rhythm::new(spec.brain.rate_hz, step_s);
-        let drive = Drive::from(&spec.drive);
+        let drive = Drive::new(&spec.drive, step_s);
         let body = Body {
             radius_m: spec.radius_m,
             max_speed_m_s: drive.max_speed_m_s,
@@ -121,6 +121,17 @@ impl Kind {
             ..
         } = self.drive;
         self.radius_m + 1.01 * max_speed_m_s.max(max_reverse_speed_m_s) * longest_s + 1e-3
+    }
+
+    /// It neither recognises robots nor talks to them from farther away.
+    pub(crate) fn robots_reach_m(&self) -> f64 {
+        let sensors = self.sensors.iter();
+        let detectors = sensors.filter_map(|sensor| match &sensor.measure {
+            Measure::Robots(detector) => Some(detector.sector.range_m),
+            _ => None,
+        });
+        let radio = self.radio.map(|radio| radio.range_m);
+        detectors.chain(radio).fold(0.0, f64::max)
     }
 
     /// It looks for items no farther.

@@ -110,11 +110,17 @@ pub(crate) fn planned(view: &View, robot: usize, mind: &Mind) -> Plan {
     let driven = kind
         .drive
         .step(hull.speed_m_s, mind.wanted, going.speed, scenario.step_s);
+    let turn_rad = driven.turn_rate_rad_s * scenario.step_s;
+    let (front, turn_rad) = if kind.drive.turns_at_once {
+        (courses[robot].turned(turn_rad).front, 0.0)
+    } else {
+        (courses[robot].front, turn_rad)
+    };
     let mut path = Path {
         start: disc.centre,
-        front: courses[robot].front,
+        front,
         length_m: driven.length_m,
-        turn_rad: driven.turn_rate_rad_s * scenario.step_s,
+        turn_rad,
         until: 1.0,
     };
     let may_touch = path.length_m != 0.0 && view.neighbours.may_touch(robot);
@@ -151,9 +157,9 @@ fn go(plans: &[Plan], scenario: &Scenario, state: &mut State, is_shared: bool) -
             let kind = &scenario.kinds[usize::from(id.kind)];
             moved.add(hull.go(plan, kind, scenario.step_s, *tick));
             if plan.path.length_m != 0.0 {
-                disc.centre = plan.path.at(1.0);
+                disc.centre = scenario.home(plan.path.at(1.0));
             }
-            *course = course.turned(plan.path.turn_rad);
+            *course = course.turned(plan.driven.turn_rate_rad_s * scenario.step_s);
         }
         moved
     };
@@ -255,7 +261,7 @@ impl Hull {
         let Some(battery) = kind.battery.filter(|_| is_drained) else {
             return;
         };
-        let is_moving = gone_m > 0.0 || plan.path.turn_rad != 0.0;
+        let is_moving = gone_m > 0.0 || plan.driven.turn_rate_rad_s != 0.0;
         let move_w = if is_moving { battery.move_w } else { 0.0 };
         let moving_j = move_w * step_s + battery.move_j_per_m * gone_m;
         let standing_w = battery.idle_w + plan.sensing_w;

@@ -8,6 +8,7 @@ use super::state::Status;
 use super::view::View;
 use crate::body::kind::Kind;
 use crate::sensing::eye::Use;
+use crate::world::items::RECOGNISED_WITHIN_M;
 use base::geometry::Point;
 use base::trig::sin_cos;
 use brain::{Command, Motion, Percept, Reading, Scan};
@@ -26,9 +27,6 @@ pub(crate) struct Desk {
     /// What the brains of bodies outside want of them.
     pub(crate) answers: Vec<(usize, Command)>,
 }
-
-/// A contact from outside is of an item that is not farther from where it seems to be, in metres.
-const RECOGNISED_WITHIN_M: f64 = 1.0;
 
 impl Desk {
     pub(crate) fn clear(&mut self) {
@@ -88,6 +86,7 @@ impl Desk {
         for contact in &self.percept.contacts {
             let (y, x) = sin_cos(contact.bearing_rad);
             let place = eye.world_of(Point { x, y }.times(contact.range_m));
+            let place = view.scenario.home(place);
             let near = view.items.near(place, RECOGNISED_WITHIN_M);
             let same = near.filter(|(_, item)| view.items.kind(*item) == contact.kind);
             let distances = same.map(|(at, item)| (place.to(*at).length(), *item));

@@ -31,3 +31,4 @@ mod robust;
 mod sensors;
 mod streams;
 mod waiting;
+mod wraps;
