@@ -63,8 +63,8 @@ impl Brain {
         &self.kind.body
     }
 
-    /// What it does with those near it, if it does nothing else: then its commands are those of
-    /// [`swarm::Ready::motion`], whatever else it may know.
+    /// How it goes with the others, if it does nothing else: then its commands are what this says,
+    /// whatever else it may know.
     #[must_use]
     pub fn swarm(&self) -> Option<&swarm::Ready> {
         match self.kind.behaviours.as_slice() {

@@ -129,10 +129,16 @@ impl Ready {
         self.separation_m
     }
 
-    /// How a robot moves whose course is `front`, of length 1, given those near it; `dice` gives it
-    /// its chance, if it takes any.
+    /// How fast it goes, always.
+    #[must_use]
+    pub fn speed_m_s(&self) -> f64 {
+        self.speed_m_s
+    }
+
+    /// How fast a robot turns whose course is `front`, of length 1, given those near it, in rad/s;
+    /// `dice` gives it its chance, if it takes any.
     #[inline]
-    pub fn motion(&self, front: Point, sums: &Sums, dice: impl FnOnce() -> Dice) -> Motion {
+    pub fn turn_rate_rad_s(&self, front: Point, sums: &Sums, dice: impl FnOnce() -> Dice) -> f64 {
         let course = front.plus(self.steering(sums));
         let turn_rad = libm::atan2(front.cross(course), front.dot(course));
         let turn_rad = if self.noise_rad > 0.0 {
@@ -141,10 +147,7 @@ impl Ready {
             turn_rad
         };
         let most = self.most_turn_rad_s;
-        Motion {
-            speed_m_s: self.speed_m_s,
-            turn_rate_rad_s: (turn_rad / self.period_s).max(-most).min(most),
-        }
+        (turn_rad / self.period_s).max(-most).min(most)
     }
 
     /// What the three ask for, as far as the limit grants it.
@@ -208,7 +211,11 @@ impl Behaviour for Ready {
 
     fn triggered(&self, (): &mut (), senses: &Senses) -> Option<Motion> {
         let sums = self.sums(&senses.percept.neighbours);
-        Some(self.motion(Point { x: 1.0, y: 0.0 }, &sums, || senses.dice()))
+        let front = Point { x: 1.0, y: 0.0 };
+        Some(Motion {
+            speed_m_s: self.speed_m_s,
+            turn_rate_rad_s: self.turn_rate_rad_s(front, &sums, || senses.dice()),
+        })
     }
 
     fn held(&self) -> Motion {

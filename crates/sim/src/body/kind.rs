@@ -7,9 +7,11 @@ use super::{Layer, RobotSpec};
 use crate::radio::Radio;
 use crate::sensing::timing::Rhythm;
 use crate::sensing::{Measure, Sensor};
+use base::geometry::Point;
 use base::placement::Placement;
 use base::random::kind_key;
-use brain::{Body, Brain, RangeRing};
+use brain::behaviours::swarm::{self, Sums};
+use brain::{Body, Brain, Dice, Motion, RangeRing};
 use std::sync::Arc;
 
 /// What all robots of a kind have in common.
@@ -37,6 +39,51 @@ pub(crate) struct Kind {
     pub(crate) rhythm: Rhythm,
     /// As a robot begins with it; clones share what is the same for all.
     pub(crate) brain: Brain,
+    /// If its robots do nothing but go with the others, in a world where nothing stands.
+    pub(crate) flocking: Option<Flocking>,
+}
+
+/// How robots go with the others that do nothing else, and see all of them at once and exactly.
+#[derive(Debug, Clone)]
+pub(crate) struct Flocking {
+    rule: swarm::Ready,
+    /// They see no farther.
+    pub(crate) reach_m: f64,
+    sees_courses: bool,
+}
+
+impl Flocking {
+    /// Of their reach, and of how near is too near.
+    #[inline]
+    pub(crate) fn squares(&self) -> [f64; 2] {
+        [self.reach_m, self.rule.separation_m()].map(|distance_m| distance_m * distance_m)
+    }
+
+    /// What a robot wants that is to turn so fast.
+    #[inline]
+    pub(crate) fn motion(&self, turn_rate_rad_s: f64) -> Motion {
+        Motion {
+            speed_m_s: self.rule.speed_m_s(),
+            turn_rate_rad_s,
+        }
+    }
+
+    /// How fast a robot turns whose course is `front`, given those in range.
+    #[inline]
+    pub(crate) fn turn_rate_rad_s(
+        &self,
+        front: Point,
+        sums: &Sums,
+        dice: impl FnOnce() -> Dice,
+    ) -> f64 {
+        let course = if self.sees_courses {
+            sums.course
+        } else {
+            Point::default()
+        };
+        let sums = Sums { course, ..*sums };
+        self.rule.turn_rate_rad_s(front, &sums, dice)
+    }
 }
 
 impl Kind {
@@ -83,9 +130,32 @@ impl Kind {
             radio: spec.radio.as_ref().map(|radio| Radio::new(radio, step_s)),
             rhythm,
             brain: Brain::new(Arc::new(spec.brain.clone()), Arc::new(body)),
+            flocking: None,
         };
         kind.all_on_w = kind.some_on_w(0);
         kind
+    }
+
+    /// How its robots go with the others in a world where nothing stands, if they do nothing else and
+    /// have what that takes, and no more.
+    pub(crate) fn as_flock(&self) -> Option<Flocking> {
+        let rule = self.brain.swarm()?;
+        let [sensor] = self.sensors.as_slice() else {
+            return None;
+        };
+        let Measure::Robots(detector) = &sensor.measure else {
+            return None;
+        };
+        let is_plain = self.rhythm.is_each_step()
+            && self.radio.is_none()
+            && sensor.tells_at_once()
+            && sensor.dropout == 0.0
+            && detector.is_exact();
+        is_plain.then(|| Flocking {
+            rule: rule.clone(),
+            reach_m: detector.sector.range_m,
+            sees_courses: detector.tells_courses(),
+        })
     }
 
     /// Whether anything that its robots measure or hear can wait for their brains.

@@ -43,7 +43,16 @@ impl Desk {
             mind.wanted = Motion::default();
         } else if let Some(outside) = view.outside {
             self.serve_from_outside(view, robot, mind, outside);
-        } else if !hull.is_external && self.perceive(view, robot, mind) {
+        } else if !hull.is_external {
+            self.serve_simulated(view, robot, mind);
+        }
+    }
+
+    #[inline]
+    fn serve_simulated(&mut self, view: &View, robot: usize, mind: &mut Mind) {
+        if let Some(motion) = view.flocked(robot, mind) {
+            mind.wanted = motion;
+        } else if self.perceive(view, robot, mind) {
             mind.brain.step_into(&self.percept, &mut self.command);
             self.obey(view, robot, mind);
         }
@@ -66,16 +75,14 @@ impl Desk {
         } else if view.hulls[robot].is_external {
             return;
         } else {
-            let is_time = self.perceive(view, robot, mind);
-            if let Some(command) = outside.commands.get(&robot) {
-                self.command.motion = command.motion;
-                self.command.requests.clone_from(&command.requests);
-                self.command.outbox.clone_from(&command.outbox);
-            } else if is_time {
-                mind.brain.step_into(&self.percept, &mut self.command);
-            } else {
+            let Some(command) = outside.commands.get(&robot) else {
+                self.serve_simulated(view, robot, mind);
                 return;
-            }
+            };
+            self.perceive(view, robot, mind);
+            self.command.motion = command.motion;
+            self.command.requests.clone_from(&command.requests);
+            self.command.outbox.clone_from(&command.outbox);
         }
         self.obey(view, robot, mind);
     }

@@ -4,6 +4,8 @@ mod act;
 mod air;
 mod change;
 mod decide;
+mod flocks;
+mod glide;
 mod hash;
 mod meetings;
 mod mind;

@@ -213,6 +213,7 @@ impl State {
             items: &self.items,
             neighbours,
             outside: None,
+            flocks: None,
             has_bodies_outside: self.hulls.iter().any(|hull| hull.is_external),
         };
         (view, &mut self.minds)

@@ -2,6 +2,8 @@
 
 use super::act::{Moves, Plan, planned};
 use super::decide::Desk;
+use super::flocks::Flocks;
+use super::glide::glide;
 use super::mind::Mind;
 use super::neighbours::Neighbours;
 use super::outside::Outside;
@@ -16,6 +18,7 @@ use rayon::prelude::*;
 #[derive(Debug, Clone)]
 pub(crate) struct Workshop {
     neighbours: Neighbours,
+    flocks: Flocks,
     desks: Vec<Desk>,
     moves: Moves,
     /// Whether threads may share the work of one step.
@@ -29,6 +32,7 @@ impl Workshop {
     pub(crate) fn new(scenario: &Scenario, may_share: bool) -> Self {
         Self {
             neighbours: Neighbours::new(scenario),
+            flocks: Flocks::new(scenario),
             desks: Vec::new(),
             moves: Moves::default(),
             may_share,
@@ -47,11 +51,15 @@ impl Workshop {
 
     /// Takes one step.
     pub(crate) fn tick(&mut self, scenario: &Scenario, state: &mut State, outside: &Outside) {
-        self.refresh(scenario, state);
-        self.sense_decide_and_plan(scenario, state, outside);
-        self.speak(scenario, state);
-        self.judge(scenario, state);
-        self.act(scenario, state);
+        if scenario.is_of_flocks_of_points() && outside.is_empty() {
+            self.glide(scenario, state);
+        } else {
+            self.refresh(scenario, state);
+            self.sense_decide_and_plan(scenario, state, outside);
+            self.speak(scenario, state);
+            self.judge(scenario, state);
+            self.act(scenario, state);
+        }
         state.tick += 1;
         hear(scenario, state);
     }
@@ -65,6 +73,15 @@ impl Workshop {
         let is_shared = self.is_shared(state);
         self.neighbours
             .refresh(scenario, &state.ids, &state.discs, is_shared);
+    }
+
+    /// A step of robots that are never in each other's way, and have nothing to tell or find.
+    fn glide(&mut self, scenario: &Scenario, state: &mut State) {
+        let is_shared = self.is_shared(state);
+        let (view, _) = state.view(scenario, &self.neighbours);
+        self.flocks.ask(&view, is_shared);
+        let moved = glide(scenario, state, &self.flocks, is_shared);
+        self.neighbours.note(moved.farthest_m);
     }
 
     /// Lets all robots sense, decide and plan their ways, each from the same view: all of one robot
@@ -81,12 +98,14 @@ impl Workshop {
         let plans = self.moves.plans(robots);
         let (mut view, minds) = state.view(scenario, &self.neighbours);
         view.outside = (!outside.is_empty()).then_some(outside);
+        self.flocks.ask(&view, is_shared);
+        view.flocks = Some(&self.flocks);
         let share = robots.div_ceil(desks).max(1);
         let serve = |(number, ((desk, minds), plans)): (usize, Share)| {
             for (place, (mind, plan)) in minds.iter_mut().zip(plans).enumerate() {
                 let robot = number * share + place;
                 desk.serve(&view, robot, mind);
-                *plan = planned(&view, robot, mind);
+                *plan = planned(scenario, view.tick, &view.body(robot, mind));
             }
         };
         if is_shared {

@@ -63,9 +63,14 @@ impl Scenario {
         let items: Vec<ItemKind> = spec.items.iter().map(ItemKind::new).collect();
         let names: Vec<String> = items.iter().map(|kind| kind.name.clone()).collect();
         let kinds = spec.robots.iter();
-        let kinds: Vec<Kind> = kinds
+        let mut kinds: Vec<Kind> = kinds
             .map(|(name, spec)| Kind::new(name, spec, &names, step_s))
             .collect();
+        if spec.world.wraps && solids.is_empty() {
+            for kind in &mut kinds {
+                kind.flocking = kind.as_flock();
+            }
+        }
         let world = Rectangle::spanned(Point::default(), size_m);
         let fastest = areas.iter().map(Area::speed).fold(1.0, f64::max);
         let touch_m = greatest(&kinds, |kind| kind.touch_m(fastest * step_s));
@@ -114,6 +119,13 @@ impl Scenario {
 
     pub(crate) fn biggest_radius_m(&self) -> f64 {
         greatest(&self.kinds, |kind| kind.radius_m)
+    }
+
+    /// Whether nothing can be touched, and nobody looks for what is near: all robots are points that
+    /// do nothing but go with the others.
+    pub(crate) fn is_of_flocks_of_points(&self) -> bool {
+        let is_one = |kind: &Kind| kind.flocking.is_some() && kind.radius_m == 0.0;
+        self.kinds.iter().all(is_one)
     }
 
     /// Whether all robots can be in each other's way.

@@ -52,6 +52,18 @@ impl RobotDetector {
         }
     }
 
+    /// Whether it recognises all robots in range, exactly where they are, unless something hides them.
+    pub(crate) fn is_exact(&self) -> bool {
+        self.sector.width_rad >= std::f64::consts::TAU
+            && self.detects == Detection::Constant(1.0)
+            && self.noise_m == 0.0
+            && self.course_noise_rad.unwrap_or(0.0) == 0.0
+    }
+
+    pub(crate) fn tells_courses(&self) -> bool {
+        self.course_noise_rad.is_some()
+    }
+
     /// Where a robot at `place` seems to be, if the look recognises it.
     pub(crate) fn look(&self, eye: &Eye, place: Point, robot: Entity) -> Option<Point> {
         let way = eye.own(place);

@@ -20,6 +20,7 @@ mod collisions;
 mod common;
 mod contact;
 mod determinism;
+mod flocks;
 mod golden;
 mod judge;
 mod layers;

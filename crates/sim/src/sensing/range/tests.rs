@@ -289,8 +289,16 @@ thread_local! {
 }
 
 /// What looks of this thread are taken with.
-pub(super) fn instruction_set() -> Arch {
+pub(in crate::sensing) fn instruction_set() -> Arch {
     INSTRUCTION_SET.get()
+}
+
+/// Does something with what an instruction set has.
+pub(in crate::sensing) fn with_set<T>(arch: Arch, work: impl FnOnce() -> T) -> T {
+    INSTRUCTION_SET.set(arch);
+    let done = work();
+    INSTRUCTION_SET.set(Arch::new());
+    done
 }
 
 #[test]
@@ -331,7 +339,7 @@ fn a_run_has_the_same_bits_in_every_instruction_set() {
     assert!(plain.windows(2).all(|pair| pair[0] != pair[1]));
 }
 
-fn instruction_sets() -> Vec<Arch> {
+pub(in crate::sensing) fn instruction_sets() -> Vec<Arch> {
     #[cfg(target_arch = "x86_64")]
     let wide = [
         pulp::x86::V3::try_new().map(Arch::V3),
