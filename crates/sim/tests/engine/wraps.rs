@@ -151,6 +151,20 @@ fn messages_are_heard_across_a_side_unless_something_silences_them() {
 }
 
 #[test]
+fn a_radio_that_reaches_all_around_is_heard_once_by_each() {
+    let mut random = Random::new(5);
+    let places: Vec<[f64; 2]> = (0..20).map(|_| random.point(20.0, 16.0).into()).collect();
+    let radio = "radius_m = 0\nradio = { range_m = 100 }";
+    let rovers = kind("rover", &places, radio).replacen("radius_m = 0.2\n", "", 1);
+    let mut simulation = start(&world("", &rovers));
+    told(&mut simulation, [(id(0, 0), say(&[message(7.0)]))]);
+    let heard: Vec<usize> = (1..20)
+        .map(|robot| percept(&mut simulation, robot).inbox.len())
+        .collect();
+    assert_eq!(heard, [1; 19]);
+}
+
+#[test]
 fn where_a_run_is_on_a_torus_does_not_matter() {
     let mut random = Random::new(3);
     let middle = Point { x: 10.0, y: 8.0 };

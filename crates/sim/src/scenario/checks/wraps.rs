@@ -1,11 +1,12 @@
-//! A world that wraps is large enough for what robots see, hear and touch.
+//! A world that wraps is large enough for what robots see and touch.
 
 use super::Checked;
 use crate::sensing::Measures;
 use base::document::Place;
 use base::fault::Fault;
 
-/// Of all images of a thing only the nearest is ever in reach.
+/// Of all images of a thing only the nearest is ever in reach. A radio may reach farther: who hears is
+/// told by the nearest image alone.
 pub(super) fn faults(checked: &Checked, at: &Place) -> Vec<Fault> {
     let (spec, scenario) = (&checked.spec, &checked.scenario);
     let Some(torus) = scenario.torus else {
@@ -25,11 +26,7 @@ pub(super) fn faults(checked: &Checked, at: &Place) -> Vec<Fault> {
             let at = at.key("sensors").key(name).key("range_m");
             Some((range_m(&sensor.measures)?, at))
         });
-        let radio = robot.radio.iter();
-        let radio = radio.map(|radio| (radio.range_m, at.key("radio").key("range_m")));
-        let too_far = sensors
-            .chain(radio)
-            .filter(|(range_m, _)| *range_m > most_m);
+        let too_far = sensors.filter(|(range_m, _)| *range_m > most_m);
         faults.extend(too_far.map(|(_, at)| at.fault(allowed(most_m))));
     }
     faults
