@@ -223,6 +223,7 @@ def overview() -> str:
         ],
         ["radio: (1 - loss) in range, 0 beyond; delay; cut", *nearness("radio")],
         ["collisions: a gas of discs in the plane", *nearness("collisions")],
+        ["swarms: order falls with noise (Vicsek 1995)", *nearness("vicsek")],
         ["places: uniform where it is free", *nearness("placement")],
     ]
     return table(["claim", "simulated", "farthest off"], lines)
@@ -234,7 +235,7 @@ def nearness(name: str) -> tuple[str, str]:
     best = min(row.precision for row in compared)
     worst = max(abs(row.sigmas) for row in compared)
     return (
-        f"{len(compared)} numbers, the surest to {Z95 * best:.1%}",
+        f"{len(compared)} numbers, the surest to {max(Z95 * best, 0.001):.1%}",
         f"{worst:.1f} standard errors",
     )
 
@@ -278,6 +279,7 @@ def specifications() -> dict[str, Spec]:
         "battery": battery(),
         "radio": radio(),
         "collisions": simple("collisions", "robots", "contacts of a robot with others, 1/s"),
+        "vicsek": simple("vicsek", "width of noise, rad", "order: length of the mean course"),
         "placement": placement(),
         "sense": sense(),
     }

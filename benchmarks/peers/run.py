@@ -1,4 +1,4 @@
-"""Measure other simulators beside ours, in turns on one machine, and print a table in Markdown.
+"""Measure other simulators beside ours, in turns on one machine, and print tables in Markdown.
 
 Ours is measured before and after each of them, so each ratio is of neighbours in time. Needs
 cargo; Python packages are installed in `benchmarks/.venv`. What cannot be installed is named and
@@ -14,7 +14,7 @@ import subprocess
 import sys
 import tempfile
 import venv
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +23,7 @@ ROOT = PEERS.parent.parent
 SPEED = ROOT / "target/release/speed"
 KRABMAGA = ROOT / "target/peers/release/agent-economy-peer-krabmaga"
 PYTHON = PEERS.parent / ".venv/bin/python"
+BIRDS = (1_000, 10_000, 100_000)
 QUIET = {**os.environ, "MPLBACKEND": "Agg", "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
 
 
@@ -34,11 +35,13 @@ class Peer:
         name: for people.
         install: commands that put it where it is run; they may run again.
         works: for each work a command, which gets the file of the field after its first words.
+        flocks: commands that measure flocks, by how many birds these have.
     """
 
     name: str
     install: list[list[str]]
     works: list[list[str]]
+    flocks: dict[int, list[str]] = field(default_factory=dict)
 
 
 def main() -> None:
@@ -46,8 +49,14 @@ def main() -> None:
     run(["cargo", "build", "--release", "--locked", "-p", "agent-economy-benchmarks"])
     if not PYTHON.exists():
         venv.create(PEERS.parent / ".venv", with_pip=True)
-    works = [work for peer in peers() if is_installed(peer) for work in peer.works]
+    installed = [peer for peer in peers() if is_installed(peer)]
     print(f"\n{machine()}\n")
+    measure_team([work for peer in installed for work in peer.works])
+    measure_flocks([flock for peer in installed for flock in peer.flocks.items()])
+
+
+def measure_team(works: list[list[str]]) -> None:
+    """Print how fast the sensing team is in each."""
     print(
         "| simulator | version | what a robot-update of it does | updates/s | ours then | ratio |"
     )
@@ -64,6 +73,17 @@ def main() -> None:
             before = after
 
 
+def measure_flocks(flocks: list[tuple[int, list[str]]]) -> None:
+    """Print how fast flocks are in each."""
+    print("\n| birds | simulator | version | besides | updates/s | ours then | ratio |")
+    print("|---|---|---|---|---|---|---|", flush=True)
+    for birds, command in sorted(flocks):
+        before = our_flock(birds)
+        measured = theirs(command)
+        if measured:
+            print(f"| {birds} {row(measured, (before + our_flock(birds)) / 2)}", flush=True)
+
+
 def peers() -> list[Peer]:
     """Return all that are measured."""
     manifest = ["--manifest-path", str(PEERS / "krabmaga/Cargo.toml")]
@@ -71,11 +91,23 @@ def peers() -> list[Peer]:
     build = ["cargo", "build", "--release", "--locked", *manifest, *target]
     works = [[str(KRABMAGA), "{field}", work] for work in ("neighbours", "rays")]
     return [
-        Peer("krABMaga", [build], works),
+        Peer("krABMaga", [build], works, flocks([str(KRABMAGA), "flock"], BIRDS)),
         python_peer("navground", "navground_team.py", ["lidar", "HL", "ORCA"]),
         python_peer("ir-sim", "irsim_team.py", [""]),
-        python_peer("mesa", "mesa_team.py", [""]),
+        mesa(),
     ]
+
+
+def mesa() -> Peer:
+    """Return Mesa, whose flocks are small for its sake."""
+    peer = python_peer("mesa", "mesa_team.py", [""])
+    script = str(PEERS / "mesa_flock.py")
+    return Peer(peer.name, peer.install, peer.works, flocks([str(PYTHON), script], BIRDS[:2]))
+
+
+def flocks(command: list[str], sizes: tuple[int, ...]) -> dict[int, list[str]]:
+    """Return a command for each size of flock."""
+    return {birds: [*command, str(birds)] for birds in sizes}
 
 
 def python_peer(package: str, script: str, works: list[str]) -> Peer:
@@ -112,6 +144,13 @@ def ours() -> float:
     table = output([str(SPEED), "team", "100"]).splitlines()
     cells = next(line for line in table if line.startswith("| 100 ")).split("|")
     return float(cells[2]) * 1e6
+
+
+def our_flock(birds: int) -> float:
+    """Return how many birds our simulator updates in a second, on one thread."""
+    table = output([str(SPEED), "flock", str(birds)]).splitlines()
+    cells = next(line for line in table if line.startswith(f"| {birds} | 1 ")).split("|")
+    return float(cells[3]) * 1e6
 
 
 def row(measured: dict[str, Any], ours_per_s: float) -> str:

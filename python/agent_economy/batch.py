@@ -62,11 +62,16 @@ class Contacts(TypedDict):
 
 
 class Neighbours(TypedDict):
-    """Robots that sensors recognised, `kind` and `index` as in `RobotId`."""
+    """Robots that sensors recognised, `kind` and `index` as in `RobotId`.
+
+    Attributes:
+        course_rad: Where it goes, from the robot's front; NaN if the sensor tells no courses.
+    """
 
     row: Whole
     range_m: Floats
     bearing_rad: Floats
+    course_rad: Floats
     age_s: Floats
     kind: Whole
     index: Whole

@@ -227,10 +227,15 @@ class Contact(TypedDict):
 
 
 class Neighbour(TypedDict):
-    """A robot that a sensor recognised."""
+    """A robot that a sensor recognised.
+
+    Attributes:
+        course_rad: Where it goes, from the robot's front; None if the sensor tells no courses.
+    """
 
     range_m: float
     bearing_rad: float
+    course_rad: NotRequired[float | None]
     age_s: float
     id: RobotId
 

@@ -23,8 +23,8 @@ STATUSES = np.array(["active", "empty", "broken"])
 """What a robot can be, by the compiled part's numbers."""
 
 
-FIXED = ("clock.step_s", "world.size_m")
-"""What stays: times are counted in steps, and every place is within the world."""
+FIXED = ("clock.step_s", "world.size_m", "world.wraps")
+"""What stays: times are counted in steps, and every place is within the world and its sides."""
 
 
 class Change(NamedTuple):
@@ -202,7 +202,7 @@ class Simulation:
 
         Args:
             path: Keys from the root, with dots between, such as "robots.rover.count"; any but
-                `clock.step_s` and `world.size_m`.
+                `clock.step_s`, `world.size_m` and `world.wraps`.
             value: As the file could have it.
 
         Raises:

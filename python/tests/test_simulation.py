@@ -221,12 +221,18 @@ def test_changes_are_a_record_that_gives_the_same_run() -> None:
             "change: clock.step_s = 0.05: must be as it was when the run began",
         ),
         ("world.size_m", [30, 30], "change: world.size_m = .*: must be as it was"),
+        ("world.wraps", True, "change: world.wraps = .*: must be as it was"),
         (
             "clock",
             {"step_s": 0.05, "cap_s": 9},
             "clock.step_s = 0.05: must be 0.1, as when the run",
         ),
         ("world", {"size_m": [30, 30]}, r"world.size_m = \[30, 30\]: must be \[25, 25\], as when"),
+        (
+            "world",
+            {"size_m": [25, 25], "wraps": True},
+            "world.wraps = true: must be false, as when",
+        ),
         ("robots.rover.cuont", 3, r"change: robots.rover.cuont = 3: .*did you mean count\?"),
         ("robots.rover.count", -1, "change: robots.rover.count = -1: must be a whole number from"),
         ("engine", "classic", "engine = 'classic': must be 'metric'|must be one of the known keys"),

@@ -1,7 +1,7 @@
 //! The brain of one robot.
 
 use crate::arbitration::Arbitration;
-use crate::behaviours::{BehaviourSpec, Memory, Ready};
+use crate::behaviours::{BehaviourSpec, Memory, Ready, swarm};
 use crate::body::{Body, RobotId};
 use crate::command::{Command, Motion};
 use crate::mind::{Mind, Wants};
@@ -90,6 +90,18 @@ impl Brain {
     pub fn renumber(&mut self, now: impl Fn(RobotId) -> Option<RobotId>) {
         if let Some(mind) = &mut self.mind {
             mind.beliefs.renumber(&now);
+        }
+    }
+
+    /// How it goes with the others, if it does nothing else: then its commands are what this says,
+    /// whatever else it may know.
+    #[must_use]
+    pub fn swarm(&self) -> Option<&swarm::Ready> {
+        match self.kind.behaviours.as_slice() {
+            [Ready::Swarm(ready)] if self.kind.body.rings.is_empty() && self.mind.is_none() => {
+                Some(ready)
+            }
+            _ => None,
         }
     }
 

@@ -102,6 +102,10 @@ pub struct Neighbour {
     pub range_m: f64,
     /// From the robot's front, when it was measured; above -pi, up to pi.
     pub bearing_rad: f64,
+    /// Where it goes, from the robot's front, when it was measured, from -pi to pi; `None` if the
+    /// sensor tells no courses.
+    #[serde(default)]
+    pub course_rad: Option<f64>,
     /// Time since it was measured.
     pub age_s: f64,
     /// Which robot it is.

@@ -116,12 +116,17 @@ fn others(number: Numbers) -> impl Strategy<Value = (Vec<Contact>, Vec<Neighbour
             bearing_rad,
             age_s,
         });
-    let neighbour = (robot(), seen()).prop_map(|(id, (range_m, bearing_rad, age_s))| Neighbour {
-        range_m,
-        bearing_rad,
-        age_s,
-        id,
-    });
+    let course = proptest::option::of(number(-3.0, 3.0));
+    let neighbour =
+        (robot(), seen(), course).prop_map(|(id, (range_m, bearing_rad, age_s), course_rad)| {
+            Neighbour {
+                range_m,
+                bearing_rad,
+                course_rad,
+                age_s,
+                id,
+            }
+        });
     let heard =
         (robot(), number(0.0, 1.0), message(number)).prop_map(|(from, age_s, message)| Heard {
             from,

@@ -11,8 +11,6 @@ use sim::engine::Asked;
 pub(crate) const SENDER: i64 = -1;
 pub(crate) const GOAL: i64 = -2;
 
-/// What robots of one kind perceive, by the names in a percept; NaN, or false, is missing.
-///
 /// Whose looks messages tell of; what is about no item is by its sender.
 fn seen(entries: &Entries<Heard>) -> PyResult<()> {
     let of = |heard: &Heard| match heard.message.about {
@@ -27,6 +25,8 @@ fn seen(entries: &Entries<Heard>) -> PyResult<()> {
     entries.put("mark", |heard| i64::from(of(heard).mark))
 }
 
+/// What robots of one kind perceive, by the names in a percept; NaN, or false, is missing.
+///
 /// What there is any number of, such as contacts, has an entry each, and in `row` the place of its
 /// robot.
 pub(crate) fn percepts<'py>(py: Python<'py>, asked: &[Asked]) -> PyResult<Bound<'py, PyDict>> {
@@ -203,6 +203,9 @@ fn neighbours<'py>(py: Python<'py>, asked: &[Asked]) -> PyResult<Bound<'py, PyDi
     let entries = Entries::new(py, asked, |percept| &percept.neighbours)?;
     entries.put("range_m", |neighbour| neighbour.range_m)?;
     entries.put("bearing_rad", |neighbour| neighbour.bearing_rad)?;
+    entries.put("course_rad", |neighbour| {
+        neighbour.course_rad.unwrap_or(f64::NAN)
+    })?;
     entries.put("age_s", |neighbour| neighbour.age_s)?;
     entries.put("kind", |neighbour| i64::from(neighbour.id.kind))?;
     entries.put("index", |neighbour| i64::from(neighbour.id.index))?;

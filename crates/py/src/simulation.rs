@@ -375,6 +375,10 @@ fn unchangeable(from: &Scenario, to: &Scenario) -> Vec<Fault> {
         let shown = |size: base::geometry::Point| format!("[{}, {}]", size.x, size.y);
         faults.push(fault("world.size_m", shown(is), shown(was)));
     }
+    let [was, is] = [from, to].map(Scenario::wraps);
+    if was != is {
+        faults.push(fault("world.wraps", is.to_string(), was.to_string()));
+    }
     faults
 }
 

@@ -8,11 +8,13 @@ mod disc;
 mod polygon;
 mod rectangle;
 mod segment;
+mod torus;
 
 pub use disc::Disc;
 pub use polygon::{Polygon, PolygonFault};
 pub use rectangle::Rectangle;
 pub use segment::Segment;
+pub use torus::Torus;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

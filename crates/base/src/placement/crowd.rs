@@ -1,6 +1,6 @@
 //! Robots that stand somewhere, found by where they are.
 
-use crate::geometry::Point;
+use crate::geometry::{Point, Torus};
 use std::collections::HashMap;
 
 /// Discs that come nearer to each other than this, in metres, overlap; less is rounding.
@@ -16,15 +16,18 @@ const MIN_SIDE_M: f64 = 1e-3;
 #[derive(Debug, Clone)]
 pub struct Crowd {
     kinds: Vec<Discs>,
+    torus: Option<Torus>,
 }
 
 impl Crowd {
-    /// Of nobody yet: a layer and a radius for each kind. Kinds are known by their order.
+    /// Of nobody yet: a layer and a radius for each kind. Kinds are known by their order. On a torus,
+    /// everybody stands in its rectangle.
     #[must_use]
-    pub fn new(kinds: impl IntoIterator<Item = (u8, f64)>) -> Self {
+    pub fn new(kinds: impl IntoIterator<Item = (u8, f64)>, torus: Option<Torus>) -> Self {
         let discs = |(layer, radius_m)| Discs::new(layer, radius_m);
         Self {
             kinds: kinds.into_iter().map(discs).collect(),
+            torus,
         }
     }
 
@@ -45,7 +48,12 @@ impl Crowd {
             layer, radius_m, ..
         } = self.kinds[kind];
         let mut others = self.kinds.iter().filter(|other| other.layer == layer);
-        others.any(|other| other.overlap(centre, radius_m))
+        others.any(|other| {
+            let reach_m = other.reach_m(radius_m);
+            let images = self.torus.map(|torus| torus.images_within(centre, reach_m));
+            let mut images = images.into_iter().flatten().chain([centre]);
+            reach_m > 0.0 && images.any(|centre| other.overlap(centre, reach_m))
+        })
     }
 }
 
@@ -89,10 +97,14 @@ impl Discs {
         }
     }
 
-    fn overlap(&self, centre: Point, radius_m: f64) -> bool {
-        let reach_m = self.radius_m + radius_m - TOLERANCE_M;
-        let is_near =
-            |other: &Point| reach_m > 0.0 && centre.to(*other).length_squared() < reach_m * reach_m;
+    /// Nearer than this to one of them, a disc overlaps it; two points never do.
+    fn reach_m(&self, radius_m: f64) -> f64 {
+        self.radius_m + radius_m - TOLERANCE_M
+    }
+
+    /// Whether one of them is nearer than `reach_m`.
+    fn overlap(&self, centre: Point, reach_m: f64) -> bool {
+        let is_near = |other: &Point| centre.to(*other).length_squared() < reach_m * reach_m;
         // A large disc among a few small ones: these are fewer than the cells that it covers.
         let side = 2.0 * reach_m / self.side_m + 1.0;
         if side * side > 9.0 + length(self.count) {

@@ -12,7 +12,7 @@ mod team;
 pub use crowd::Crowd;
 pub use team::{Group, NoPlaceFor, team};
 
-use crate::geometry::{Point, Rectangle};
+use crate::geometry::{Point, Rectangle, Torus};
 use crate::random::{self, Entity, Purpose};
 use candidates::Candidates;
 use schemars::JsonSchema;
@@ -74,6 +74,8 @@ pub struct Draws {
     pub run: u64,
     /// The world.
     pub world: Rectangle,
+    /// How the world goes on at its sides, if it does.
+    pub torus: Option<Torus>,
     /// What is placed.
     pub things: Things,
 }

@@ -58,7 +58,8 @@ pub fn team(
     let mut order: Vec<usize> = (0..groups.len()).collect();
     order.sort_by_key(|&at| !is_given(&groups[at]));
     let mut places = vec![Vec::new(); groups.len()];
-    let mut crowd = Crowd::new(groups.iter().map(|group| (group.layer, group.radius_m)));
+    let discs = groups.iter().map(|group| (group.layer, group.radius_m));
+    let mut crowd = Crowd::new(discs, draws.torus);
     for at in order {
         let group = &groups[at];
         for index in 0..group.count {

@@ -9,6 +9,7 @@ fn draws(side_m: f64, things: Things) -> Draws {
         seed: 7,
         run: 0,
         world: Rectangle::spanned(Point::default(), [side_m, side_m].into()),
+        torus: None,
         things,
     }
 }

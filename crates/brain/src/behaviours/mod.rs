@@ -13,6 +13,7 @@ mod navigate;
 mod seek;
 mod spiral;
 mod survey;
+pub mod swarm;
 
 pub use avoid::Avoid;
 pub use bounce::Bounce;
@@ -25,6 +26,7 @@ pub use lanes::Lanes;
 pub use navigate::{Navigate, Share};
 pub use seek::Seek;
 pub use spiral::Spiral;
+pub use swarm::Swarm;
 
 use crate::body::Body;
 use crate::command::Motion;
@@ -167,6 +169,8 @@ behaviours! {
     Navigate in navigate;
     /// Gets out of the way of what is too near.
     Avoid in avoid;
+    /// Goes with the others: keeps apart from them, takes their course, and stays with them.
+    Swarm in swarm;
 }
 
 /// Straight ahead at a speed, or else as fast as the body can.

@@ -17,34 +17,38 @@ pub struct DriveSpec {
     /// It gains and loses speed at most so fast, in m/s²; left out, speed changes at once.
     #[schemars(range(min = 0.001, max = 1000.0))]
     pub max_acceleration_m_s2: Option<f64>,
-    /// It turns at most so fast, in degrees a second.
+    /// It turns at most so fast, in degrees a second; left out, it first turns at once, as far as it
+    /// wants, and then goes straight.
     #[schemars(range(min = 0.0, max = 3600.0))]
-    pub max_turn_rate_deg_s: f64,
+    pub max_turn_rate_deg_s: Option<f64>,
 }
 
 /// A drive's limits, as the step needs them.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[expect(clippy::struct_field_names, reason = "they are limits")]
 pub(crate) struct Drive {
     pub(crate) max_speed_m_s: f64,
     pub(crate) max_reverse_speed_m_s: f64,
     /// Infinite if speed changes at once.
     pub(crate) max_acceleration_m_s2: f64,
     pub(crate) max_turn_rate_rad_s: f64,
+    /// Whether a step's turn is at its beginning.
+    pub(crate) turns_at_once: bool,
 }
 
-impl From<&DriveSpec> for Drive {
-    fn from(spec: &DriveSpec) -> Self {
+impl Drive {
+    pub(crate) fn new(spec: &DriveSpec, step_s: f64) -> Self {
+        // No course is farther off than half a turn.
+        let at_once_rad_s = std::f64::consts::PI / step_s;
+        let turn_rate = spec.max_turn_rate_deg_s.map(f64::to_radians);
         Self {
             max_speed_m_s: spec.max_speed_m_s,
             max_reverse_speed_m_s: spec.max_reverse_speed_m_s,
             max_acceleration_m_s2: spec.max_acceleration_m_s2.unwrap_or(f64::INFINITY),
-            max_turn_rate_rad_s: spec.max_turn_rate_deg_s.to_radians(),
+            max_turn_rate_rad_s: turn_rate.unwrap_or(at_once_rad_s),
+            turns_at_once: turn_rate.is_none(),
         }
     }
-}
 
-impl Drive {
     /// What the body does of what is wanted: the speed after the step, how far it goes in it, and
     /// its rate of turn.
     ///
@@ -119,6 +123,7 @@ mod tests {
         max_reverse_speed_m_s: 1.0,
         max_acceleration_m_s2: 4.0,
         max_turn_rate_rad_s: 1.5,
+        turns_at_once: false,
     };
 
     fn motion(speed_m_s: f64, turn_rate_rad_s: f64) -> Motion {

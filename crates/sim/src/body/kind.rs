@@ -7,10 +7,11 @@ use super::{Layer, RobotSpec};
 use crate::radio::Radio;
 use crate::sensing::timing::Rhythm;
 use crate::sensing::{Measure, Measures, Sensor, SensorSpec};
-use base::geometry::Rectangle;
+use base::geometry::{Point, Rectangle};
 use base::placement::Placement;
 use base::random::kind_key;
-use brain::{Body, Brain, Detector, Other, RangeRing};
+use brain::behaviours::swarm::{self, Sums};
+use brain::{Body, Brain, Detector, Dice, Motion, Other, RangeRing};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -39,6 +40,51 @@ pub(crate) struct Kind {
     pub(crate) rhythm: Rhythm,
     /// As a robot begins with it; clones share what is the same for all.
     pub(crate) brain: Brain,
+    /// If its robots do nothing but go with the others, in a world where nothing stands.
+    pub(crate) flocking: Option<Flocking>,
+}
+
+/// How robots go with the others that do nothing else, and see all of them at once and exactly.
+#[derive(Debug, Clone)]
+pub(crate) struct Flocking {
+    rule: swarm::Ready,
+    /// They see no farther.
+    pub(crate) reach_m: f64,
+    sees_courses: bool,
+}
+
+impl Flocking {
+    /// Of their reach, and of how near is too near.
+    #[inline]
+    pub(crate) fn squares(&self) -> [f64; 2] {
+        [self.reach_m, self.rule.separation_m()].map(|distance_m| distance_m * distance_m)
+    }
+
+    /// What a robot wants that is to turn so fast.
+    #[inline]
+    pub(crate) fn motion(&self, turn_rate_rad_s: f64) -> Motion {
+        Motion {
+            speed_m_s: self.rule.speed_m_s(),
+            turn_rate_rad_s,
+        }
+    }
+
+    /// How fast a robot turns whose course is `front`, given those in range.
+    #[inline]
+    pub(crate) fn turn_rate_rad_s(
+        &self,
+        front: Point,
+        sums: &Sums,
+        dice: impl FnOnce() -> Dice,
+    ) -> f64 {
+        let course = if self.sees_courses {
+            sums.course
+        } else {
+            Point::default()
+        };
+        let sums = Sums { course, ..*sums };
+        self.rule.turn_rate_rad_s(front, &sums, dice)
+    }
 }
 
 /// What all robots are told before the mission.
@@ -62,7 +108,7 @@ impl Kind {
             .map(|(name, spec)| Sensor::new(name, spec, item_kinds, step_s))
             .collect();
         let rhythm = Rhythm::new(spec.brain.rate_hz, step_s);
-        let drive = Drive::from(&spec.drive);
+        let drive = Drive::new(&spec.drive, step_s);
         let body = Body {
             radius_m: spec.radius_m,
             max_speed_m_s: drive.max_speed_m_s,
@@ -112,9 +158,32 @@ impl Kind {
             radio: spec.radio.as_ref().map(|radio| Radio::new(radio, step_s)),
             rhythm,
             brain: Brain::new(Arc::new(spec.brain.clone()), Arc::new(body)),
+            flocking: None,
         };
         kind.all_on_w = kind.some_on_w(0);
         kind
+    }
+
+    /// How its robots go with the others in a world where nothing stands, if they do nothing else and
+    /// have what that takes, and no more.
+    pub(crate) fn as_flock(&self) -> Option<Flocking> {
+        let rule = self.brain.swarm()?;
+        let [sensor] = self.sensors.as_slice() else {
+            return None;
+        };
+        let Measure::Robots(detector) = &sensor.measure else {
+            return None;
+        };
+        let is_plain = self.rhythm.is_each_step()
+            && self.radio.is_none()
+            && sensor.tells_at_once()
+            && sensor.dropout == 0.0
+            && detector.is_exact();
+        is_plain.then(|| Flocking {
+            rule: rule.clone(),
+            reach_m: detector.sector.range_m,
+            sees_courses: detector.tells_courses(),
+        })
     }
 
     /// Whether anything that its robots measure or hear can wait for their brains.
@@ -152,6 +221,17 @@ impl Kind {
         self.radius_m + 1.01 * max_speed_m_s.max(max_reverse_speed_m_s) * longest_s + 1e-3
     }
 
+    /// It neither recognises robots nor talks to them from farther away.
+    pub(crate) fn robots_reach_m(&self) -> f64 {
+        let sensors = self.sensors.iter();
+        let detectors = sensors.filter_map(|sensor| match &sensor.measure {
+            Measure::Robots(detector) => Some(detector.sector.range_m),
+            _ => None,
+        });
+        let radio = self.radio.map(|radio| radio.range_m);
+        detectors.chain(radio).fold(0.0, f64::max)
+    }
+
     /// It looks for items no farther.
     pub(crate) fn items_reach_m(&self) -> f64 {
         let detectors = self
@@ -187,7 +267,7 @@ fn noise(sensors: &[Sensor], of: impl Fn(&Measure) -> Option<f64>) -> f64 {
 fn others(layer: Layer, briefing: &Briefing) -> Vec<Other> {
     let other = |spec: &RobotSpec| Other {
         radius_m: spec.radius_m,
-        max_acceleration_m_s2: Drive::from(&spec.drive).max_acceleration_m_s2,
+        max_acceleration_m_s2: Drive::new(&spec.drive, briefing.step_s).max_acceleration_m_s2,
         is_in_the_way: spec.layer == layer,
         detectors: detectors(spec, briefing),
     };

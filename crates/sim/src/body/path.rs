@@ -34,6 +34,15 @@ impl Course {
         }
     }
 
+    /// The same as [`Course::turned`] where its front is known.
+    #[inline]
+    pub(crate) fn turned_to(self, by_rad: f64, front: Point) -> Self {
+        Self {
+            heading_rad: wrapped(self.heading_rad + by_rad),
+            front,
+        }
+    }
+
     #[inline]
     pub(crate) fn turned(self, by_rad: f64) -> Self {
         if by_rad == 0.0 {

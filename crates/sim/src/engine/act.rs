@@ -10,7 +10,6 @@ use super::mind::Mind;
 use super::neighbours::Neighbours;
 use super::share_out::ROBOTS_PER_TASK;
 use super::state::{Hull, State, Status};
-use super::view::View;
 use crate::body::contact::meets_still;
 use crate::body::drive::Driven;
 use crate::body::kind::Kind;
@@ -86,18 +85,32 @@ impl Moves {
     }
 }
 
+/// A body that is about to move, and what its brain wants of it.
+pub(crate) struct Body<'a> {
+    pub(crate) kind: &'a Kind,
+    pub(crate) hull: &'a Hull,
+    pub(crate) disc: &'a Disc,
+    pub(crate) course: &'a Course,
+    pub(crate) mind: &'a Mind,
+    /// Whether anything that stands still may be in its way.
+    pub(crate) may_touch: bool,
+}
+
 /// What a robot does if no other is in its way.
-#[inline]
-pub(crate) fn planned(view: &View, robot: usize, mind: &Mind) -> Plan {
-    let View {
-        scenario,
-        tick,
-        hulls,
-        discs,
-        courses,
+#[inline(always)]
+#[expect(
+    clippy::inline_always,
+    reason = "where nothing can be touched, little of it is left"
+)]
+pub(crate) fn planned(scenario: &Scenario, tick: u64, body: &Body) -> Plan {
+    let Body {
+        kind,
+        hull,
+        disc,
+        course,
+        mind,
         ..
-    } = *view;
-    let (hull, disc, kind) = (&hulls[robot], &discs[robot], view.kind(robot));
+    } = *body;
     let sensing_w = kind.sensing_w(mind.sensors_off);
     if !hull.can_move(tick) {
         return Plan {
@@ -110,14 +123,20 @@ pub(crate) fn planned(view: &View, robot: usize, mind: &Mind) -> Plan {
     let driven = kind
         .drive
         .step(hull.speed_m_s, mind.wanted, going.speed, scenario.step_s);
+    let turn_rad = driven.turn_rate_rad_s * scenario.step_s;
+    let (front, turn_rad) = if kind.drive.turns_at_once {
+        (course.turned(turn_rad).front, 0.0)
+    } else {
+        (course.front, turn_rad)
+    };
     let mut path = Path {
         start: disc.centre,
-        front: courses[robot].front,
+        front,
         length_m: driven.length_m,
-        turn_rad: driven.turn_rate_rad_s * scenario.step_s,
+        turn_rad,
         until: 1.0,
     };
-    let may_touch = path.length_m != 0.0 && view.neighbours.may_touch(robot);
+    let may_touch = path.length_m != 0.0 && body.may_touch;
     let meeting = may_touch.then(|| {
         let stands = scenario.touched(kind.layer);
         let (walls, discs) = (stands.walls_near(path.start), stands.discs_near(path.start));
@@ -150,10 +169,7 @@ fn go(plans: &[Plan], scenario: &Scenario, state: &mut State, is_shared: bool) -
         for ((plan, id), ((disc, course), hull)) in plans.iter().zip(ids).zip(bodies) {
             let kind = &scenario.kinds[usize::from(id.kind)];
             moved.add(hull.go(plan, kind, scenario.step_s, *tick));
-            if plan.path.length_m != 0.0 {
-                disc.centre = plan.path.at(1.0);
-            }
-            *course = course.turned(plan.path.turn_rad);
+            plan.carry_out(scenario, kind, disc, course);
         }
         moved
     };
@@ -183,12 +199,12 @@ type Bodies<'a> = (
 );
 
 impl Moved {
-    fn add(&mut self, other: Self) {
+    pub(crate) fn add(&mut self, other: Self) {
         self.farthest_m = self.farthest_m.max(other.farthest_m);
         self.collisions += other.collisions;
     }
 
-    fn and(mut self, other: Self) -> Self {
+    pub(crate) fn and(mut self, other: Self) -> Self {
         self.add(other);
         self
     }
@@ -202,6 +218,26 @@ impl Plan {
         sensing_w: 0.0,
         stop: Stop::Nothing,
     };
+
+    /// Brings a body where it goes.
+    #[inline]
+    pub(crate) fn carry_out(
+        &self,
+        scenario: &Scenario,
+        kind: &Kind,
+        disc: &mut Disc,
+        course: &mut Course,
+    ) {
+        if self.path.length_m != 0.0 {
+            disc.centre = scenario.home(self.path.at(1.0));
+        }
+        let turn_rad = self.driven.turn_rate_rad_s * scenario.step_s;
+        *course = if kind.drive.turns_at_once && turn_rad != 0.0 {
+            course.turned_to(turn_rad, self.path.front)
+        } else {
+            course.turned(turn_rad)
+        };
+    }
 }
 
 impl Hull {
@@ -213,7 +249,7 @@ impl Hull {
 
     /// What going its way does to it.
     #[inline]
-    fn go(&mut self, plan: &Plan, kind: &Kind, step_s: f64, tick: u64) -> Moved {
+    pub(crate) fn go(&mut self, plan: &Plan, kind: &Kind, step_s: f64, tick: u64) -> Moved {
         let gone_m = plan.path.length_m.abs() * plan.path.until;
         let is_stopped = plan.stop > Stop::Pressed;
         self.speed_m_s = if is_stopped {
@@ -255,7 +291,7 @@ impl Hull {
         let Some(battery) = kind.battery.filter(|_| is_drained) else {
             return;
         };
-        let is_moving = gone_m > 0.0 || plan.path.turn_rad != 0.0;
+        let is_moving = gone_m > 0.0 || plan.driven.turn_rate_rad_s != 0.0;
         let move_w = if is_moving { battery.move_w } else { 0.0 };
         let moving_j = move_w * step_s + battery.move_j_per_m * gone_m;
         let standing_w = battery.idle_w + plan.sensing_w;

@@ -84,7 +84,8 @@ impl Air {
 impl View<'_> {
     fn hears(&self, outgoing: &Outgoing, to: usize, radio: &Radio) -> bool {
         let from = outgoing.from as usize;
-        let (here, there) = (self.discs[from].centre, self.discs[to].centre);
+        let here = self.discs[from].centre;
+        let there = self.scenario.image(here, self.discs[to].centre);
         if !self.is_listening(to) || here.to(there).length_squared() > radio.range_m * radio.range_m
         {
             return false;

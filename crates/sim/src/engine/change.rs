@@ -22,7 +22,8 @@ enum Room {
 }
 
 impl State {
-    /// The run as it goes on with another scenario of the same step and the same world's size.
+    /// The run as it goes on with another scenario of the same step and the same world's size and
+    /// sides.
     ///
     /// Robots and items that are in both, by the names of their kinds and their indices, stay as
     /// they are; others come in where they would start, or go. A robot whose brain, body or sensors
@@ -109,6 +110,7 @@ impl State {
                 Room::Wanted => kind.start.place(&draws, scenario.entity(id), is_free),
                 _ => Err(NoPlace::Taken),
             };
+            let place = place.map(|place| scenario.home(place));
             let place = place.map_err(|why| NoPlaceFor {
                 kind: id.kind,
                 index: id.index,
@@ -123,7 +125,8 @@ impl State {
     /// Where the robots of each kind stand.
     fn crowd(&self, scenario: &Scenario) -> Crowd {
         let kinds = scenario.kinds.iter();
-        let mut crowd = Crowd::new(kinds.map(|kind| (kind.layer as u8, kind.radius_m)));
+        let discs = kinds.map(|kind| (kind.layer as u8, kind.radius_m));
+        let mut crowd = Crowd::new(discs, scenario.torus);
         for (id, disc) in self.ids.iter().zip(&self.discs) {
             crowd.add(usize::from(id.kind), disc.centre);
         }

@@ -8,6 +8,7 @@ use super::state::Status;
 use super::view::View;
 use crate::body::kind::Kind;
 use crate::sensing::eye::Use;
+use crate::world::items::RECOGNISED_WITHIN_M;
 use base::geometry::Point;
 use base::trig::sin_cos;
 use brain::{Command, Motion, Percept, Reading, Scan};
@@ -27,9 +28,6 @@ pub(crate) struct Desk {
     pub(crate) answers: Vec<(usize, Command)>,
 }
 
-/// A contact from outside is of an item that is not farther from where it seems to be, in metres.
-const RECOGNISED_WITHIN_M: f64 = 1.0;
-
 impl Desk {
     pub(crate) fn clear(&mut self) {
         self.senses.clear();
@@ -45,7 +43,16 @@ impl Desk {
             mind.wanted = Motion::default();
         } else if let Some(outside) = view.outside {
             self.serve_from_outside(view, robot, mind, outside);
-        } else if !hull.is_external && self.perceive(view, robot, mind) {
+        } else if !hull.is_external {
+            self.serve_simulated(view, robot, mind);
+        }
+    }
+
+    #[inline]
+    fn serve_simulated(&mut self, view: &View, robot: usize, mind: &mut Mind) {
+        if let Some(motion) = view.flocked(robot, mind) {
+            mind.wanted = motion;
+        } else if self.perceive(view, robot, mind) {
             mind.brain.step_into(&self.percept, &mut self.command);
             self.obey(view, robot, mind);
         }
@@ -70,14 +77,12 @@ impl Desk {
         } else if view.hulls[robot].is_external {
             return;
         } else {
-            let is_time = self.perceive(view, robot, mind);
-            if let Some(command) = outside.commands.get(&robot) {
-                self.take(command);
-            } else if is_time {
-                mind.brain.step_into(&self.percept, &mut self.command);
-            } else {
+            let Some(command) = outside.commands.get(&robot) else {
+                self.serve_simulated(view, robot, mind);
                 return;
-            }
+            };
+            self.perceive(view, robot, mind);
+            self.take(command);
         }
         self.obey(view, robot, mind);
     }
@@ -95,6 +100,7 @@ impl Desk {
         for contact in &self.percept.contacts {
             let (y, x) = sin_cos(contact.bearing_rad);
             let place = eye.world_of(Point { x, y }.times(contact.range_m));
+            let place = view.scenario.home(place);
             let near = view.items.near(place, RECOGNISED_WITHIN_M);
             let same = near.filter(|(_, item)| view.items.kind(*item) == contact.kind);
             let distances = same.map(|(at, item)| (place.to(*at).length(), *item));

@@ -7,7 +7,8 @@ use super::act::{Plan, Stop};
 use super::neighbours::Neighbours;
 use super::state::State;
 use crate::body::contact::{Encounter, meets_moving};
-use base::geometry::Disc;
+use crate::body::path::Path;
+use base::geometry::{Disc, Point};
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
@@ -23,6 +24,8 @@ pub(crate) struct Meetings {
 struct Pair {
     robots: [u32; 2],
     reach_m: f64,
+    /// From the other to its image that is nearest to the one.
+    shift: Point,
     /// Share of the step after which they meet, as far as is known; infinite if they do not.
     share: f64,
     /// Which of them goes towards the other then.
@@ -65,22 +68,26 @@ impl Meetings {
         self.queue.clear();
         for pair in neighbours.pairs() {
             let [one, other] = pair.map(|robot| &discs[robot as usize]);
-            let square = one.centre.to(other.centre).length_squared();
+            let image = neighbours.image(one.centre, other.centre);
+            let square = one.centre.to(image).length_squared();
             if square < contact_m * contact_m {
-                self.add(plans, [one, other], *pair);
+                self.add(plans, [one, other], image, *pair);
             }
         }
     }
 
-    fn add(&mut self, plans: &[Plan], [one, other]: [&Disc; 2], robots: [u32; 2]) {
+    /// Adds a pair of which the other is seen where its `image` is.
+    fn add(&mut self, plans: &[Plan], [one, other]: [&Disc; 2], image: Point, robots: [u32; 2]) {
         let reach_m = one.radius_m + other.radius_m;
         let goes_m = |robot: u32| plans[robot as usize].path.length_m.abs();
         let length_m = goes_m(robots[0]) + goes_m(robots[1]);
-        let gap_m = one.centre.to(other.centre).length() - reach_m;
-        if gap_m <= length_m && length_m > 0.0 {
+        let gap_m = one.centre.to(image).length() - reach_m;
+        // Points touch nothing that moves.
+        if gap_m <= length_m && length_m > 0.0 && reach_m > 0.0 {
             self.pairs.push(Pair {
                 robots,
                 reach_m,
+                shift: other.centre.to(image),
                 share: f64::INFINITY,
                 comes: [false; 2],
                 since: 0.0,
@@ -150,8 +157,13 @@ impl Meetings {
         if pair.since == f64::INFINITY {
             return;
         }
-        let paths = pair.robots.map(|robot| &plans[robot as usize].path);
-        if let Some(Encounter { share, comes }) = meets_moving(paths, pair.reach_m, pair.since) {
+        let [one, other] = pair.robots.map(|robot| &plans[robot as usize].path);
+        let other = Path {
+            start: other.start.plus(pair.shift),
+            ..*other
+        };
+        let encounter = meets_moving([one, &other], pair.reach_m, pair.since);
+        if let Some(Encounter { share, comes }) = encounter {
             (pair.share, pair.comes) = (share, comes);
             self.queue.push(Reverse(Meeting {
                 share,

@@ -5,6 +5,8 @@ mod air;
 mod asked;
 mod change;
 mod decide;
+mod flocks;
+mod glide;
 mod hash;
 mod meetings;
 mod mind;

@@ -9,7 +9,7 @@ use crate::scenario::Scenario;
 use crate::world::buckets::Buckets;
 use crate::world::grid::Still;
 use crate::world::still::Stands;
-use base::geometry::{Disc, Point};
+use base::geometry::{Disc, Point, Torus};
 use brain::RobotId;
 use rayon::prelude::*;
 
@@ -26,6 +26,7 @@ pub(crate) struct Neighbours {
     /// By kind.
     reach_m: Vec<f64>,
     skin_m: f64,
+    torus: Option<Torus>,
 }
 
 /// The lists of some robots that follow each other.
@@ -67,7 +68,9 @@ impl Neighbours {
         // Half as wide as the reach: fewer are looked at in vain.
         let cell_m = f64::midpoint(reach_m.iter().copied().fold(0.0, f64::max), scenario.skin_m);
         Self {
-            buckets: Buckets::new(scenario.world.size(), cell_m),
+            buckets: Buckets::new(scenario.world.size(), cell_m)
+                .on(scenario.torus, scenario.farthest_m() + scenario.skin_m),
+            torus: scenario.torus,
             pieces: Vec::new(),
             gone_m: f64::INFINITY,
             reach_m,
@@ -145,11 +148,21 @@ impl Neighbours {
         self.pieces.iter().flat_map(|piece| &piece.pairs)
     }
 
+    /// A robot's place as it is seen from another's: its nearest image, if the world wraps.
+    #[inline]
+    pub(crate) fn image(&self, from: Point, place: Point) -> Point {
+        self.torus.map_or(place, |torus| torus.image(from, place))
+    }
+
     /// Robots of any layer within a distance of a place, and maybe some more; not in any order.
     pub(crate) fn about(&self, place: Point, radius_m: f64) -> impl Iterator<Item = u32> {
-        self.buckets
-            .near(place, radius_m + self.skin_m)
-            .map(|(_, number)| *number)
+        let near = self.buckets.near(place, radius_m + self.skin_m);
+        // Of a robot's images the nearest was so when the lists were made, but for the farthest.
+        let near = near.filter(move |(image, _)| {
+            let torus = self.torus.as_ref();
+            torus.is_none_or(|torus| torus.is_nearest(place, *image))
+        });
+        near.map(|(_, number)| *number)
     }
 }
 

@@ -13,7 +13,7 @@ use crate::sensing::range::Room;
 use crate::sensing::rays::Near;
 use crate::sensing::robots::RobotDetector;
 use crate::sensing::{Measure, Sensor};
-use base::geometry::Point;
+use base::geometry::{Disc, Point};
 use base::noise::{normal_pair, share};
 use base::trig::wrapped;
 use brain::{self, Contact, Neighbour, Percept, Reading};
@@ -219,7 +219,8 @@ impl Look<'_> {
         senses: &mut Senses,
         percept: Option<&mut Percept>,
     ) {
-        let world = self.view.scenario.world;
+        let scenario = self.view.scenario;
+        let is_there = |place| scenario.torus.is_some() || scenario.world.contains(place);
         let is_told_now = self.sensor.latency_steps == 0;
         let mut percept = percept.filter(|_| is_told_now);
         let look = brain::Look {
@@ -232,7 +233,7 @@ impl Look<'_> {
         }
         detector.look(&self.eye, self.view.items, |way, kind, item| {
             // Beyond the border there is nothing to be taken for anything.
-            if item.is_none() && !world.contains(self.eye.world_of(way)) {
+            if item.is_none() && !is_there(self.eye.world_of(way)) {
                 return;
             }
             let (range_m, bearing_rad) = polar(way);
@@ -277,16 +278,19 @@ impl Look<'_> {
                 ..self.eye
             };
             let (place, entity) = (
-                view.discs[other].centre,
+                view.scenario.image(self.eye.at, view.discs[other].centre),
                 view.scenario.entity(view.ids[other]),
             );
             let Some(way) = detector.look(&eye, place, entity) else {
                 continue;
             };
+            let [own_rad, its_rad] =
+                [self.robot, other].map(|robot| view.courses[robot].heading_rad);
             let (range_m, bearing_rad) = polar(way);
             let neighbour = Neighbour {
                 range_m,
                 bearing_rad,
+                course_rad: detector.course_rad(&eye, its_rad - own_rad, entity),
                 age_s: 0.0,
                 id: view.ids[other],
             };
@@ -335,16 +339,23 @@ fn gather<'v>(view: &View<'v>, robot: usize, near: &mut Near) {
     let kind = view.kind(robot);
     let stands = view.scenario.seen(kind.layer);
     let vicinity = view.neighbours.of(robot);
-    near.begin(view.discs[robot].centre, kind.rays_m);
+    let at = view.discs[robot].centre;
+    near.begin(at, kind.rays_m);
     let bodies = vicinity.robots.iter();
-    let bodies = bodies.map(|other| &view.discs[*other as usize]);
+    let bodies = bodies.map(|other| {
+        let body = view.discs[*other as usize];
+        Disc {
+            centre: view.scenario.image(at, body.centre),
+            ..body
+        }
+    });
     // A body outside may be where another is; simulated ones never are.
     if view.has_bodies_outside {
         near.take_overlapping(bodies);
     } else {
         near.take_apart(bodies);
     }
-    let discs = |numbers: &'v [u32]| numbers.iter().map(|number| stands.disc(*number));
+    let discs = |numbers: &'v [u32]| numbers.iter().map(|number| *stands.disc(*number));
     near.take_apart(discs(vicinity.discs_apart));
     near.take_overlapping(discs(vicinity.discs_overlapping));
     near.take_walls(vicinity.walls.iter().map(|number| stands.wall(*number)));

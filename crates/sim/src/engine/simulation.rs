@@ -193,7 +193,7 @@ impl Simulation {
         self.state.hulls[robot].is_external = true;
         let is_finite = |at: &Point| at.x.is_finite() && at.y.is_finite();
         if let Some(at) = percept.position.map(|read| read.value).filter(is_finite) {
-            self.state.discs[robot].centre = at;
+            self.state.discs[robot].centre = self.scenario.home(at);
             self.workshop.forget();
         }
         let heading_rad = percept.heading_rad.map(|read| read.value);

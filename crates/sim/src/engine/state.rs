@@ -186,7 +186,7 @@ impl State {
         let kind = &scenario.kinds[usize::from(id.kind)];
         self.ids.push(id);
         self.discs.push(Disc {
-            centre,
+            centre: scenario.home(centre),
             radius_m: kind.radius_m,
         });
         self.courses.push(Course::new(heading_rad));
@@ -213,6 +213,7 @@ impl State {
             items: &self.items,
             neighbours,
             outside: None,
+            flocks: None,
             has_bodies_outside: self.hulls.iter().any(|hull| hull.is_external),
         };
         (view, &mut self.minds)
@@ -292,6 +293,7 @@ pub(super) fn draws(scenario: &Scenario, seed: u64, run: u64, things: Things) ->
         seed,
         run,
         world: scenario.world,
+        torus: scenario.torus,
         things,
     }
 }
@@ -312,9 +314,9 @@ fn place_items(scenario: &Scenario, seed: u64, run: u64) -> Result<Items, NoRoom
                 index,
                 why,
             })?;
-            items.push((thing, u16::from(number), place));
+            items.push((thing, u16::from(number), scenario.home(place)));
         }
     }
-    let reach_m = scenario.items_reach_m();
-    Ok(Items::new(&items, scenario.world.size(), reach_m))
+    let world = (scenario.world.size(), scenario.torus);
+    Ok(Items::new(&items, world, scenario.items_reach_m()))
 }

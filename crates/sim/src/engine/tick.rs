@@ -3,6 +3,8 @@
 use super::act::{Moves, Plan, planned};
 use super::asked::{Asked, Asking};
 use super::decide::Desk;
+use super::flocks::Flocks;
+use super::glide::glide;
 use super::mind::Mind;
 use super::neighbours::Neighbours;
 use super::outside::Outside;
@@ -17,6 +19,7 @@ use rayon::prelude::*;
 #[derive(Debug, Clone)]
 pub(crate) struct Workshop {
     pub(super) neighbours: Neighbours,
+    flocks: Flocks,
     pub(super) desks: Vec<Desk>,
     /// Those of the last step for which others decided.
     pub(super) asking: Asking,
@@ -32,6 +35,7 @@ impl Workshop {
     pub(crate) fn new(scenario: &Scenario, may_share: bool) -> Self {
         Self {
             neighbours: Neighbours::new(scenario),
+            flocks: Flocks::new(scenario),
             desks: Vec::new(),
             asking: Asking::default(),
             moves: Moves::default(),
@@ -51,11 +55,15 @@ impl Workshop {
 
     /// Takes one step.
     pub(crate) fn tick(&mut self, scenario: &Scenario, state: &mut State, outside: &Outside) {
-        self.refresh(scenario, state);
-        self.sense_decide_and_plan(scenario, state, outside);
-        self.speak(scenario, state);
-        self.judge(scenario, state, &outside.asking);
-        self.act(scenario, state);
+        if scenario.is_of_flocks_of_points() && outside.is_empty() {
+            self.glide(scenario, state);
+        } else {
+            self.refresh(scenario, state);
+            self.sense_decide_and_plan(scenario, state, outside);
+            self.speak(scenario, state);
+            self.judge(scenario, state, &outside.asking);
+            self.act(scenario, state);
+        }
         state.tick += 1;
         hear(scenario, state);
     }
@@ -69,6 +77,15 @@ impl Workshop {
         let is_shared = self.is_shared(state);
         self.neighbours
             .refresh(scenario, &state.ids, &state.discs, is_shared);
+    }
+
+    /// A step of robots that are never in each other's way, and have nothing to tell or find.
+    fn glide(&mut self, scenario: &Scenario, state: &mut State) {
+        let is_shared = self.is_shared(state);
+        let (view, _) = state.view(scenario, &self.neighbours);
+        self.flocks.ask(&view, is_shared);
+        let moved = glide(scenario, state, &self.flocks, is_shared);
+        self.neighbours.note(moved.farthest_m);
     }
 
     /// Clears desks for all threads that share the work of a step; whether more than one does.
@@ -92,12 +109,14 @@ impl Workshop {
         let plans = self.moves.plans(robots);
         let (mut view, minds) = state.view(scenario, &self.neighbours);
         view.outside = (!outside.is_empty()).then_some(outside);
+        self.flocks.ask(&view, is_shared);
+        view.flocks = Some(&self.flocks);
         let share = robots.div_ceil(self.desks.len()).max(1);
         let serve = |(number, ((desk, minds), plans)): (usize, Share)| {
             for (place, (mind, plan)) in minds.iter_mut().zip(plans).enumerate() {
                 let robot = number * share + place;
                 desk.serve(&view, robot, mind);
-                *plan = planned(&view, robot, mind);
+                *plan = planned(scenario, view.tick, &view.body(robot, mind));
             }
         };
         if is_shared {

@@ -1,5 +1,8 @@
 //! What every robot senses and decides from: the same moment for all.
 
+use super::act::Body;
+use super::flocks::Flocks;
+use super::mind::Mind;
 use super::neighbours::Neighbours;
 use super::outside::Outside;
 use super::state::{Hull, Status};
@@ -26,6 +29,7 @@ pub(crate) struct View<'a> {
     pub(crate) items: &'a Items,
     pub(crate) neighbours: &'a Neighbours,
     pub(crate) outside: Option<&'a Outside>,
+    pub(crate) flocks: Option<&'a Flocks>,
     pub(crate) has_bodies_outside: bool,
 }
 
@@ -48,6 +52,19 @@ impl<'a> View<'a> {
             stands: self
                 .scenario
                 .hiding([self.kind(robot).layer, Layer::Ground]),
+        }
+    }
+
+    /// Its body, as it is about to move.
+    #[inline]
+    pub(crate) fn body(&self, robot: usize, mind: &'a Mind) -> Body<'a> {
+        Body {
+            kind: self.kind(robot),
+            hull: &self.hulls[robot],
+            disc: &self.discs[robot],
+            course: &self.courses[robot],
+            mind,
+            may_touch: self.neighbours.may_touch(robot),
         }
     }
 

@@ -10,7 +10,7 @@ use crate::world::items::ItemKind;
 use crate::world::obstacles::Solid;
 use crate::world::still::{Stands, Wall};
 use crate::world::terrain::{Area, Going, Terrain};
-use base::geometry::{Disc, Point, Rectangle, Segment};
+use base::geometry::{Disc, Point, Rectangle, Segment, Torus};
 use base::random::Entity;
 use brain::{Brain, RobotId};
 
@@ -29,6 +29,8 @@ pub struct Scenario {
     /// Steps until the cap.
     pub(crate) steps: u64,
     pub(crate) world: Rectangle,
+    /// How the world goes on at its sides; `None` if it has a wall around it.
+    pub(crate) torus: Option<Torus>,
     pub(crate) terrain: Option<Terrain>,
     /// What is solid, and what of it is near.
     solids: Vec<Solid>,
@@ -68,16 +70,27 @@ impl Scenario {
             step_s,
         };
         let kinds = spec.robots.iter();
-        let kinds: Vec<Kind> = kinds
+        let mut kinds: Vec<Kind> = kinds
             .map(|(name, spec)| Kind::new(name, spec, &briefing))
             .collect();
+        if spec.world.wraps && solids.is_empty() {
+            for kind in &mut kinds {
+                kind.flocking = kind.as_flock();
+            }
+        }
         let fastest = areas.iter().map(Area::speed).fold(1.0, f64::max);
         let touch_m = greatest(&kinds, |kind| kind.touch_m(fastest * step_s));
         let rays_m = greatest(&kinds, |kind| kind.rays_m);
         let skin_m = (SKIN * rays_m).clamp(LEAST_SKIN_M, MOST_SKIN_M);
+        let torus = spec.world.wraps.then_some(Torus { size_m });
         let stands = |layer, reach_m| {
-            let (walls, discs) = in_the_way(&world, &solids, layer);
-            Stands::new(size_m, &walls, &discs, reach_m + skin_m / 2.0)
+            let border = torus.is_none().then_some(&world);
+            let (walls, discs) = in_the_way(border, &solids, layer);
+            let reach_m = reach_m + skin_m / 2.0;
+            match torus {
+                Some(torus) => Stands::on(torus, &walls, &discs, reach_m),
+                None => Stands::new(size_m, &walls, &discs, reach_m),
+            }
         };
         let layers = [Layer::Ground, Layer::Air];
         Self {
@@ -85,6 +98,7 @@ impl Scenario {
             cap_s: spec.clock.cap_s,
             steps: steps_of(spec.clock.cap_s, step_s),
             world,
+            torus,
             terrain: (!areas.is_empty()).then(|| Terrain::new(size_m, areas)),
             near_solids: NearCells::new(size_m, &solids, 0.0),
             seen: layers.map(|layer| stands(layer, rays_m.max(touch_m))),
@@ -111,6 +125,13 @@ impl Scenario {
 
     pub(crate) fn biggest_radius_m(&self) -> f64 {
         greatest(&self.kinds, |kind| kind.radius_m)
+    }
+
+    /// Whether nothing can be touched, and nobody looks for what is near: all robots are points that
+    /// do nothing but go with the others.
+    pub(crate) fn is_of_flocks_of_points(&self) -> bool {
+        let is_one = |kind: &Kind| kind.flocking.is_some() && kind.radius_m == 0.0;
+        self.kinds.iter().all(is_one)
     }
 
     /// Whether all robots can be in each other's way.
@@ -151,6 +172,12 @@ impl Scenario {
     #[must_use]
     pub fn world(&self) -> Rectangle {
         self.world
+    }
+
+    /// Whether the world goes on at its other side.
+    #[must_use]
+    pub fn wraps(&self) -> bool {
+        self.torus.is_some()
     }
 
     /// Names of the kinds of robots, in the order in which ids count them.
@@ -216,14 +243,39 @@ impl Scenario {
         terrain.map_or(1.0, |terrain| terrain.most().speed)
     }
 
+    /// Where a place is in the world: where a robot comes in that leaves a world that wraps.
+    #[inline]
+    pub(crate) fn home(&self, place: Point) -> Point {
+        self.torus.map_or(place, |torus| torus.home(place))
+    }
+
+    /// A place as it is seen from another: its nearest image, if the world wraps.
+    #[inline]
+    pub(crate) fn image(&self, from: Point, place: Point) -> Point {
+        self.torus.map_or(place, |torus| torus.image(from, place))
+    }
+
+    /// No robot touches, sees or hears another whose nearest image is farther away.
+    pub(crate) fn farthest_m(&self) -> f64 {
+        let rays_m = greatest(&self.kinds, |kind| kind.rays_m) + self.biggest_radius_m();
+        let told_m = greatest(&self.kinds, Kind::robots_reach_m);
+        let size_m = self.world.size();
+        let told_m = told_m.min(size_m.x.max(size_m.y) / 2.0);
+        rays_m.max(told_m).max(self.contact_m)
+    }
+
     /// Whether a disc of a layer fits into a place.
     pub(crate) fn is_free(&self, place: Point, radius_m: f64, layer: Layer) -> bool {
         let corner = Point {
             x: radius_m,
             y: radius_m,
         };
-        let is_inside =
-            self.world.contains(corner.to(place)) && self.world.contains(place.plus(corner));
+        let is_inside = match self.torus {
+            Some(_) => self.world.contains(place),
+            None => {
+                self.world.contains(corner.to(place)) && self.world.contains(place.plus(corner))
+            }
+        };
         let touched = self.touched(layer);
         let clear_m = radius_m - Self::TOLERANCE_M;
         is_inside
@@ -246,8 +298,12 @@ fn greatest(kinds: &[Kind], value: impl Fn(&Kind) -> f64) -> f64 {
     kinds.iter().map(value).fold(0.0, f64::max)
 }
 
-fn in_the_way(world: &Rectangle, solids: &[Solid], layer: Layer) -> (Vec<Wall>, Vec<Disc>) {
-    let mut segments: Vec<Segment> = world.room().to_vec();
+fn in_the_way(
+    border: Option<&Rectangle>,
+    solids: &[Solid],
+    layer: Layer,
+) -> (Vec<Wall>, Vec<Disc>) {
+    let mut segments: Vec<Segment> = border.map_or(Vec::new(), |border| border.room().to_vec());
     let mut discs = Vec::new();
     if layer == Layer::Ground {
         for solid in solids {

@@ -26,6 +26,8 @@ pub(crate) enum Use {
     Radio = 6,
     /// How far away a false echo is.
     EchoPlace = 7,
+    /// The error of a course that is told.
+    Course = 8,
 }
 
 /// Uses of one sensor are numbered on from here.

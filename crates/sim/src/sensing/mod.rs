@@ -3,6 +3,7 @@
 //! A robot gets what its sensors could recognise, and misses the rest. One file a sensor kind.
 
 pub(crate) mod eye;
+pub(crate) mod flock;
 pub mod heading;
 pub mod items;
 pub(crate) mod poisson;

@@ -112,12 +112,12 @@ pub(crate) struct Room {
 
 /// The widest that this machine has.
 #[cfg(not(test))]
-fn instruction_set() -> Arch {
+pub(super) fn instruction_set() -> Arch {
     Arch::new()
 }
 
 #[cfg(test)]
-use tests::instruction_set;
+pub(super) use tests::instruction_set;
 
 /// A ring's look, as one piece of work for vectors.
 struct RingLook<'a> {
@@ -242,4 +242,4 @@ fn bearings(spec: &RangeSpec) -> Vec<f64> {
 }
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;

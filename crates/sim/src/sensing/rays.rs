@@ -99,18 +99,18 @@ impl Near {
 
     /// Takes what of these discs a ray can meet, and maybe some more; they overlap no others.
     #[inline]
-    pub(crate) fn take_apart<'a>(&mut self, discs: impl ExactSizeIterator<Item = &'a Disc>) {
+    pub(crate) fn take_apart(&mut self, discs: impl ExactSizeIterator<Item = Disc>) {
         let (at, range_m) = (self.at, self.range_m);
         self.apart
-            .take(discs, |disc| NearDisc::of(disc, at, range_m));
+            .take(discs, |disc| NearDisc::of(&disc, at, range_m));
     }
 
     /// The same of discs that may overlap each other.
     #[inline]
-    pub(crate) fn take_overlapping<'a>(&mut self, discs: impl ExactSizeIterator<Item = &'a Disc>) {
+    pub(crate) fn take_overlapping(&mut self, discs: impl ExactSizeIterator<Item = Disc>) {
         let (at, range_m) = (self.at, self.range_m);
         self.overlapping
-            .take(discs, |disc| NearDisc::of(disc, at, range_m));
+            .take(discs, |disc| NearDisc::of(&disc, at, range_m));
     }
 
     /// The same of walls.

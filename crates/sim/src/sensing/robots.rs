@@ -4,8 +4,9 @@ use super::eye::{Eye, Use, blurred};
 use super::items::{Detection, yes};
 use super::sector::{Sector, SectorSpec};
 use base::geometry::Point;
-use base::noise::share;
+use base::noise::{normal_pair, share};
 use base::random::Entity;
+use base::trig::wrapped;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -21,6 +22,10 @@ pub struct RobotsSpec {
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1000.0))]
     pub noise_m: f64,
+    /// Standard deviation of the course that it tells of each robot, in degrees; left out, it tells
+    /// none.
+    #[schemars(range(min = 0.0, max = 180.0))]
+    pub course_noise_deg: Option<f64>,
     /// Whether obstacles hide robots.
     #[serde(default = "yes")]
     pub needs_line_of_sight: bool,
@@ -32,6 +37,7 @@ pub(crate) struct RobotDetector {
     pub(crate) sector: Sector,
     detects: Detection,
     pub(crate) noise_m: f64,
+    course_noise_rad: Option<f64>,
     needs_line_of_sight: bool,
 }
 
@@ -41,8 +47,21 @@ impl RobotDetector {
             sector: Sector::new(&spec.sector),
             detects: spec.detects.clone().unwrap_or(Detection::Constant(1.0)),
             noise_m: spec.noise_m,
+            course_noise_rad: spec.course_noise_deg.map(f64::to_radians),
             needs_line_of_sight: spec.needs_line_of_sight,
         }
+    }
+
+    /// Whether it recognises all robots in range, exactly where they are, unless something hides them.
+    pub(crate) fn is_exact(&self) -> bool {
+        self.sector.width_rad >= std::f64::consts::TAU
+            && self.detects == Detection::Constant(1.0)
+            && self.noise_m == 0.0
+            && self.course_noise_rad.unwrap_or(0.0) == 0.0
+    }
+
+    pub(crate) fn tells_courses(&self) -> bool {
+        self.course_noise_rad.is_some()
     }
 
     /// Where a robot at `place` seems to be, if the look recognises it.
@@ -54,5 +73,17 @@ impl RobotDetector {
         let words = eye.words_of(Use::Thing, robot);
         let is_seen = share(words[0]) < self.detects.probability(way.length());
         is_seen.then(|| blurred(way, self.noise_m, words))
+    }
+
+    /// The course of a robot that goes `course_rad` to the left of the one that looks, if it is told.
+    pub(crate) fn course_rad(&self, eye: &Eye, course_rad: f64, robot: Entity) -> Option<f64> {
+        let noise_rad = self.course_noise_rad?;
+        let error_rad = if noise_rad == 0.0 {
+            0.0
+        } else {
+            let [one, other, ..] = eye.words_of(Use::Course, robot);
+            noise_rad * normal_pair([one, other])[0]
+        };
+        Some(wrapped(course_rad + error_rad))
     }
 }

@@ -1,7 +1,7 @@
 //! Points sorted by the cell that they are in.
 
 use super::grid::Grid;
-use base::geometry::Point;
+use base::geometry::{Point, Torus};
 
 /// Points of so small a number are looked through one by one.
 const FEW: usize = 16;
@@ -17,6 +17,15 @@ pub(crate) struct Buckets {
     starts: Vec<u32>,
     cell_of: Vec<u32>,
     sorted: Vec<(Point, u32)>,
+    images: Option<Images>,
+}
+
+/// Points of a torus, and their images that are near its rectangle.
+#[derive(Debug, Clone)]
+struct Images {
+    torus: Torus,
+    reach_m: f64,
+    points: Vec<(Point, u32)>,
 }
 
 impl Buckets {
@@ -24,6 +33,7 @@ impl Buckets {
     pub(crate) fn new(size_m: Point, reach_m: f64) -> Self {
         let reach_m = reach_m.max(0.1);
         Self {
+            images: None,
             size_m,
             reach_m,
             grid: Grid::over(0, size_m, reach_m),
@@ -33,19 +43,39 @@ impl Buckets {
         }
     }
 
+    /// With all images of points for questions about places at most `farthest_m` away, if the world
+    /// is a torus.
+    pub(crate) fn on(mut self, torus: Option<Torus>, farthest_m: f64) -> Self {
+        self.images = torus.map(|torus| Images {
+            torus,
+            reach_m: farthest_m,
+            points: Vec::new(),
+        });
+        self
+    }
+
     /// Takes the points; each is known by its place in their order.
     pub(crate) fn fill(&mut self, points: impl ExactSizeIterator<Item = Point> + Clone) {
+        let Some(mut images) = self.images.take() else {
+            return self.sort(points.len(), points.zip(0..));
+        };
+        images.fill(points);
+        self.sort(images.points.len(), images.points.iter().copied());
+        self.images = Some(images);
+    }
+
+    fn sort(&mut self, count: usize, points: impl Iterator<Item = (Point, u32)> + Clone) {
         self.sorted.clear();
-        if points.len() <= FEW {
-            self.sorted.extend(points.zip(0..));
+        if count <= FEW {
+            self.sorted.extend(points);
             return;
         }
-        self.grid = Grid::over(points.len(), self.size_m, self.reach_m);
-        self.count(points.clone());
-        self.sorted.resize(points.len(), (Point::default(), 0));
-        for ((point, number), cell) in points.zip(0..).zip(&self.cell_of) {
+        self.grid = Grid::over(count, self.size_m, self.reach_m);
+        self.count(points.clone().map(|(point, _)| point));
+        self.sorted.resize(count, (Point::default(), 0));
+        for (point, cell) in points.zip(&self.cell_of) {
             let place = &mut self.starts[*cell as usize];
-            self.sorted[*place as usize] = (point, number);
+            self.sorted[*place as usize] = point;
             *place += 1;
         }
         // Each cell's start has moved to its end, which is where the next one starts.
@@ -73,7 +103,8 @@ impl Buckets {
         }
     }
 
-    /// All points within `radius_m` of a place with their numbers, and maybe some more.
+    /// All points within `radius_m` of a place with their numbers, and maybe some more; on a torus
+    /// as their images there.
     #[inline]
     pub(crate) fn near(&self, place: Point, radius_m: f64) -> impl Iterator<Item = &(Point, u32)> {
         let few = self.sorted.len() <= FEW;
@@ -87,6 +118,19 @@ impl Buckets {
             &self.sorted[self.starts[cells.start] as usize..self.starts[cells.end] as usize]
         });
         all.chain(spans).flatten()
+    }
+}
+
+impl Images {
+    fn fill(&mut self, points: impl Iterator<Item = Point> + Clone) {
+        let (torus, reach_m) = (self.torus, self.reach_m);
+        let images = points.clone().zip(0..).flat_map(|(point, number)| {
+            let images = torus.images_within(point, reach_m);
+            images.map(move |image| (image, number))
+        });
+        self.points.clear();
+        self.points.extend(points.zip(0..));
+        self.points.extend(images);
     }
 }
 
@@ -112,6 +156,27 @@ mod tests {
             let mut found: Vec<u32> = found.map(|(_, number)| *number).collect();
             found.sort_unstable();
             let expected: Vec<u32> = points.iter().zip(0..).filter(|(point, _)| is_near(point)).map(|(_, number)| number).collect();
+            prop_assert_eq!(found, expected);
+        }
+
+        #[test]
+        fn on_a_torus_all_points_within_the_radius_are_found_once_across_its_sides(
+            points in prop::collection::vec((0.0..10.0, 0.0..20.0), 0..60),
+            place in (0.0..10.0, 0.0..20.0),
+            radius in 0.0..5.0,
+        ) {
+            let point = |(x, y)| Point { x, y };
+            let points: Vec<Point> = points.into_iter().map(point).collect();
+            let (place, torus) = (point(place), Torus { size_m: Point { x: 10.0, y: 20.0 } });
+            let mut buckets = Buckets::new(torus.size_m, 1.5).on(Some(torus), 5.0);
+            buckets.fill(points.iter().copied());
+            let is_near = |point: &Point| place.to(*point).length() <= radius;
+            let found = buckets.near(place, radius).filter(|(point, _)| is_near(point));
+            let mut found: Vec<u32> = found.map(|(_, number)| *number).collect();
+            found.sort_unstable();
+            let images = points.iter().map(|point| torus.image(place, *point));
+            let expected = images.zip(0..).filter(|(point, _)| is_near(point));
+            let expected: Vec<u32> = expected.map(|(_, number)| number).collect();
             prop_assert_eq!(found, expected);
         }
     }

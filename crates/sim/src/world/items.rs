@@ -2,11 +2,14 @@
 
 use super::buckets::Buckets;
 use crate::scenario::Scenario;
-use base::geometry::Point;
+use base::geometry::{Point, Torus};
 use base::placement::Placement;
 use base::random::{Entity, kind_key};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+
+/// A contact from outside is of an item that is not farther from where it seems to be, in metres.
+pub(crate) const RECOGNISED_WITHIN_M: f64 = 1.0;
 
 /// A kind of item.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -72,8 +75,13 @@ pub(crate) struct Items {
 
 impl Items {
     /// Items, each with its place and the number of its kind.
-    pub(crate) fn new(each: &[(Entity, u16, Point)], size_m: Point, reach_m: f64) -> Self {
-        let mut buckets = Buckets::new(size_m, reach_m);
+    pub(crate) fn new(
+        each: &[(Entity, u16, Point)],
+        (size_m, torus): (Point, Option<Torus>),
+        reach_m: f64,
+    ) -> Self {
+        let farthest_m = reach_m.max(RECOGNISED_WITHIN_M);
+        let mut buckets = Buckets::new(size_m, reach_m).on(torus, farthest_m);
         buckets.fill(each.iter().map(|(.., place)| *place));
         Self {
             found: vec![None; each.len()],
@@ -84,7 +92,8 @@ impl Items {
         }
     }
 
-    /// All items within a distance of a place, with their numbers, and maybe some more.
+    /// All items within a distance of a place, with their numbers, and maybe some more; on a torus
+    /// as their images there.
     #[inline]
     pub(crate) fn near(&self, place: Point, radius_m: f64) -> impl Iterator<Item = &(Point, u32)> {
         self.buckets.near(place, radius_m)

@@ -11,11 +11,15 @@ use obstacles::ObstacleSpec;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A walled rectangle and what stands in it.
+/// A rectangle and what stands in it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct WorldSpec {
     /// Width and height, in metres; x runs from 0 to the width, y from 0 to the height.
     pub size_m: [Length; 2],
+    /// Whether it goes on at its other side: who leaves on one side comes in on the opposite one, and
+    /// all distances are to the nearest image. Left out, it has a wall around it.
+    #[serde(default)]
+    pub wraps: bool,
     /// What is in the way on the ground.
     #[serde(default)]
     pub obstacles: Vec<ObstacleSpec>,

@@ -1,7 +1,7 @@
 //! What stands in the way in one layer, found by place.
 
 use super::grid::{NearCells, Still};
-use base::geometry::{Disc, Point, Rectangle, Segment};
+use base::geometry::{Disc, Point, Rectangle, Segment, Torus};
 
 /// What is nearer to a wall than this share of a way to it is on the wall.
 const HAIR: f64 = 1e-9;
@@ -29,6 +29,13 @@ impl Wall {
     #[inline]
     pub(crate) fn end(&self) -> Point {
         self.start.plus(self.along.times(self.length))
+    }
+
+    fn shifted(&self, by: Point) -> Self {
+        Self {
+            start: self.start.plus(by),
+            ..*self
+        }
     }
 
     fn segment(&self) -> Segment {
@@ -73,6 +80,7 @@ pub(crate) struct Stands {
     apart: u32,
     near_walls: NearCells,
     near_discs: NearCells,
+    torus: Option<Torus>,
 }
 
 impl Stands {
@@ -91,6 +99,19 @@ impl Stands {
             #[expect(clippy::cast_possible_truncation, reason = "discs have 32-bit numbers")]
             apart: those(false).count() as u32,
             discs,
+            torus: None,
+        }
+    }
+
+    /// The same on a torus, within whose rectangle they all are: with the images that are near it.
+    pub(crate) fn on(torus: Torus, walls: &[Wall], discs: &[Disc], reach_m: f64) -> Self {
+        let (walls, discs) = (
+            with_images(torus, walls, reach_m, Wall::shifted),
+            with_images(torus, discs, reach_m, shifted),
+        );
+        Self {
+            torus: Some(torus),
+            ..Self::new(torus.size_m, &walls, &discs, reach_m)
         }
     }
 
@@ -161,6 +182,19 @@ impl Stands {
 
     /// Whether the straight way between two places crosses nothing.
     pub(crate) fn is_open(&self, from: Point, to: Point) -> bool {
+        // Of what is beyond a side of a torus only the nearest is known here: there the way is looked
+        // at where it comes in again.
+        let images = self.torus.into_iter().flat_map(|torus| {
+            let world = Rectangle::spanned(Point::default(), torus.size_m);
+            let images = torus
+                .shifts()
+                .map(move |by| [from, to].map(|end| end.plus(by)));
+            images.filter(move |[from, to]| world.overlaps(&Rectangle::spanned(*from, *to)))
+        });
+        self.is_open_here(from, to) && { images }.all(|[from, to]| self.is_open_here(from, to))
+    }
+
+    fn is_open_here(&self, from: Point, to: Point) -> bool {
         let way = from.to(to);
         let sees_past = |cell: usize| {
             let walls = self.near_walls.of(cell).iter();
@@ -196,6 +230,40 @@ impl Wall {
         let place = offset.cross(way) / across;
         (HAIR..=1.0 - HAIR).contains(&share) && (0.0..=self.length).contains(&place)
     }
+}
+
+fn shifted(disc: &Disc, by: Point) -> Disc {
+    Disc {
+        centre: disc.centre.plus(by),
+        ..*disc
+    }
+}
+
+/// Things on a torus, and their images that are within reach of its rectangle.
+fn with_images<T: Still + Clone>(
+    torus: Torus,
+    things: &[T],
+    reach_m: f64,
+    shifted: impl Fn(&T, Point) -> T,
+) -> Vec<T> {
+    let corner = Point {
+        x: reach_m,
+        y: reach_m,
+    };
+    let near = Rectangle::spanned(corner.times(-1.0), torus.size_m.plus(corner));
+    let images = torus
+        .shifts()
+        .flat_map(|by| things.iter().map(move |thing| (thing, by)));
+    let images = images.map(|(thing, by)| shifted(thing, by));
+    let is_near = |image: &T| {
+        let [low, high] = image.bounds();
+        near.overlaps(&Rectangle::spanned(low, high))
+    };
+    things
+        .iter()
+        .cloned()
+        .chain(images.filter(is_near))
+        .collect()
 }
 
 /// Whether each disc overlaps another.

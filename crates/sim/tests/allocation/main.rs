@@ -39,6 +39,17 @@ fn a_step_allocates_nothing() {
     assert!(outcome.found.iter().sum::<u32>() > 0);
 }
 
+#[test]
+fn a_flocks_step_allocates_nothing() {
+    let text = include_str!("../../../../python/agent_economy/scenarios/flock.toml");
+    let document = Document::parse("flock.toml", text).unwrap();
+    let scenario = ScenarioSpec::read(&document).unwrap().scenario;
+    let mut simulation = Simulation::new(Arc::new(scenario), 1, 0).unwrap();
+    (0..10).for_each(|_| simulation.step());
+    let steps = (0..300).map(|_| measure(|| simulation.step()).count_total);
+    assert_eq!(steps.sum::<u64>(), 0);
+}
+
 /// Commands of all rovers; what they hold is allocated before the step.
 fn commands(messages: usize) -> BTreeMap<RobotId, Command> {
     let message = Message {

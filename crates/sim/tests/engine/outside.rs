@@ -276,6 +276,7 @@ fn absurd_percepts_do_no_harm() {
                 ],
                 neighbours: vec![Neighbour {
                     range_m: number(),
+                    course_rad: None,
                     bearing_rad: number(),
                     age_s: 0.0,
                     id: id(9, 9),

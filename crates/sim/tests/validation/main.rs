@@ -18,4 +18,5 @@ mod rows;
 mod sense;
 mod setup;
 mod stopping;
+mod vicsek;
 mod ways;

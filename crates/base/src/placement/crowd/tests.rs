@@ -28,7 +28,7 @@ proptest! {
         moves in prop::collection::vec((0_usize..200, place()), 0..60),
         others in prop::collection::vec(robot(), 1..20),
     ) {
-        let mut crowd = Crowd::new(KINDS);
+        let mut crowd = Crowd::new(KINDS, None);
         for &(kind, centre) in &robots {
             crowd.add(kind, centre);
         }
@@ -44,4 +44,18 @@ proptest! {
             prop_assert_eq!(crowd.is_taken(other.0, other.1), expected);
         }
     }
+}
+
+#[test]
+fn on_a_torus_robots_overlap_across_its_sides() {
+    let size_m = Point { x: 10.0, y: 10.0 };
+    let mut crowd = Crowd::new(KINDS, Some(Torus { size_m }));
+    crowd.add(1, Point { x: 0.5, y: 9.5 });
+    for (x, y, is_taken) in [(9.5, 9.5, true), (9.5, 0.5, true), (8.0, 1.5, false)] {
+        assert_eq!(crowd.is_taken(1, Point { x, y }), is_taken, "{x} {y}");
+    }
+    // Points are taken by discs, and never by points.
+    assert!(crowd.is_taken(3, Point { x: 9.9, y: 0.0 }));
+    crowd.add(3, Point { x: 5.0, y: 5.0 });
+    assert!(!crowd.is_taken(3, Point { x: 5.0, y: 5.0 }));
 }

@@ -34,7 +34,8 @@ fn faults_of(drive: &DriveSpec, (step_s, across_m): (f64, f64), at: &Place) -> V
             )));
         }
     }
-    if drive.max_turn_rate_deg_s * step_s > MAX_TURN_DEG {
+    let turn_rate = drive.max_turn_rate_deg_s;
+    if turn_rate.is_some_and(|turn_rate| turn_rate * step_s > MAX_TURN_DEG) {
         faults.push(at.key("max_turn_rate_deg_s").fault(format!(
             "at most {}, half a turn in a step of {step_s} s",
             MAX_TURN_DEG / step_s

@@ -25,10 +25,15 @@ pub(super) fn solids(
         match solid(obstacle, &at, open) {
             Ok(solid) => {
                 let [least, greatest] = solid.bounds();
-                if rectangle.overlaps(&Rectangle::spanned(least, greatest)) {
+                let is_there = if world.wraps {
+                    rectangle.contains(least) && rectangle.contains(greatest)
+                } else {
+                    rectangle.overlaps(&Rectangle::spanned(least, greatest))
+                };
+                if is_there {
                     solids.push(solid);
                 } else {
-                    faults.push(at.fault(format!("at least partly in {}", words(world))));
+                    faults.push(at.fault(where_obstacles_are(world)));
                 }
             }
             Err(told) => faults.extend(told),
@@ -45,6 +50,14 @@ pub(super) fn rectangle(world: &WorldSpec) -> Rectangle {
         y: height.0,
     };
     Rectangle::spanned(Point::default(), corner)
+}
+
+fn where_obstacles_are(world: &WorldSpec) -> String {
+    if world.wraps {
+        format!("wholly in {}, as it wraps", words(world))
+    } else {
+        format!("at least partly in {}", words(world))
+    }
 }
 
 /// Where a world is, in words.

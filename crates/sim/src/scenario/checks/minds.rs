@@ -16,6 +16,7 @@ pub(super) fn faults(spec: &ScenarioSpec, at: &Place) -> Vec<Fault> {
         .flat_map(|(name, robot)| {
             let at = at.key("robots").key(name);
             let mut faults = of_behaviours(robot, &at);
+            faults.extend(of_wrapping(robot, spec, &at.key("brain")));
             faults.extend(of_beliefs(robot, spec, &at.key("brain").key("beliefs")));
             faults
         })
@@ -38,7 +39,7 @@ fn of_behaviours(robot: &RobotSpec, at: &Place) -> Vec<Fault> {
         let mut needs = |is_needed: bool, has: bool, what: &str| {
             if is_needed && !has {
                 faults.push(at.fault(format!(
-                    "for {name} the robot needs a sensor of the kind {what}"
+                    "one that the robot has the sensors for: {name} needs one of the kind {what}"
                 )));
             }
         };
@@ -47,6 +48,27 @@ fn of_behaviours(robot: &RobotSpec, at: &Place) -> Vec<Fault> {
         needs(behaviour.needs_detector(), has_detector, "items");
     }
     faults
+}
+
+/// Minds in a world that goes on at its other side: they draw maps, which end.
+fn of_wrapping(robot: &RobotSpec, spec: &ScenarioSpec, at: &Place) -> Vec<Fault> {
+    if !spec.world.wraps {
+        return Vec::new();
+    }
+    let behaviours = robot.brain.behaviours.iter().enumerate();
+    let minded = behaviours.filter(|(_, behaviour)| behaviour.needs_beliefs());
+    let at_behaviours = minded.map(|(number, behaviour)| {
+        let at = at.key("behaviours").item(number).key("kind");
+        at.fault(format!(
+            "one that needs no map, in a world that wraps: {} needs wraps = false",
+            behaviour.name()
+        ))
+    });
+    let beliefs = robot.brain.beliefs.iter().map(|_| {
+        at.key("beliefs")
+            .fault("left out in a world that wraps: maps need wraps = false")
+    });
+    at_behaviours.chain(beliefs).collect()
 }
 
 /// Beliefs about what there is not.

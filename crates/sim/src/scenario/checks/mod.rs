@@ -11,6 +11,7 @@ mod places;
 mod rates;
 mod reach;
 mod room;
+mod wraps;
 
 use super::{Checked, Scenario, ScenarioSpec};
 use base::document::{Document, Place};
@@ -37,7 +38,8 @@ const CHECKS: [Check; 7] = [
 /// A check of what stands where, in a world of the obstacles that are right.
 type CheckOfPlaces = fn(&Checked, &Place) -> Vec<Fault>;
 
-const CHECKS_OF_PLACES: [CheckOfPlaces; 3] = [places::faults, room::faults, reach::faults];
+const CHECKS_OF_PLACES: [CheckOfPlaces; 4] =
+    [wraps::faults, places::faults, room::faults, reach::faults];
 
 /// `spec`, which stands `at` the root of a document, if nothing is wrong with it.
 pub(super) fn checked(spec: ScenarioSpec, at: &Place, open: Open) -> Result<Checked, Faults> {

@@ -5,7 +5,7 @@ use super::{Checked, ScenarioSpec};
 use crate::body::{Layer, RobotSpec};
 use base::document::Place;
 use base::fault::Fault;
-use base::geometry::{Point, Rectangle};
+use base::geometry::{Point, Rectangle, Torus};
 use base::placement::Placement;
 
 /// Robots that come nearer to each other than this, in metres, overlap; less is rounding.
@@ -35,7 +35,7 @@ pub(super) fn faults(checked: &Checked, at: &Place) -> Vec<Fault> {
             }
         }
     }
-    faults.extend(overlaps(spec, at));
+    faults.extend(overlaps(spec, checked.scenario.torus, at));
     faults
 }
 
@@ -46,6 +46,9 @@ fn not_free(kind: &RobotSpec, spec: &ScenarioSpec) -> String {
     };
     let world = words(&spec.world);
     let radius_m = kind.radius_m;
+    if spec.world.wraps {
+        return format!("in {world}, at least radius_m = {radius_m} from any obstacle");
+    }
     format!("in {world}, at least radius_m = {radius_m} from its border{obstacles}")
 }
 
@@ -105,10 +108,12 @@ struct Standing<'d> {
     radius_m: f64,
     layer: Layer,
     at: Place<'d>,
+    /// Where it is seen to stand too, in a world that wraps.
+    is_image: bool,
 }
 
 /// Given places at which one robot would stand in another.
-fn overlaps(spec: &ScenarioSpec, at: &Place) -> Vec<Fault> {
+fn overlaps(spec: &ScenarioSpec, torus: Option<Torus>, at: &Place) -> Vec<Fault> {
     let standing = spec.robots.iter().flat_map(|(name, kind)| {
         let at = at.key("robots").key(name).key("start");
         given(&kind.start, kind.count, &at)
@@ -118,16 +123,21 @@ fn overlaps(spec: &ScenarioSpec, at: &Place) -> Vec<Fault> {
                 radius_m: kind.radius_m,
                 layer: kind.layer,
                 at,
+                is_image: false,
             })
     });
     let mut standing: Vec<Standing> = standing.collect();
+    if let Some(torus) = torus {
+        let images: Vec<Standing> = standing.iter().flat_map(|one| images(one, torus)).collect();
+        standing.extend(images);
+    }
     // By x, only those that begin before one ends can overlap it.
     standing.sort_by(|one, other| left(one).total_cmp(&left(other)));
     let first_overlap = |(index, one): (usize, &Standing)| {
         let right = one.place.x + one.radius_m;
         let after = standing[index + 1..].iter();
         let mut near = after.take_while(|other| left(other) < right);
-        let other = near.find(|other| overlap(one, other))?;
+        let other = near.find(|other| !other.is_image && overlap(one, other))?;
         let Point { x, y } = one.place;
         let radii_m = one.radius_m + other.radius_m;
         Some(
@@ -141,6 +151,16 @@ fn overlaps(spec: &ScenarioSpec, at: &Place) -> Vec<Fault> {
         .enumerate()
         .filter_map(first_overlap)
         .collect()
+}
+
+fn images<'d>(one: &Standing<'d>, torus: Torus) -> impl Iterator<Item = Standing<'d>> {
+    let images = torus.images_within(one.place, one.radius_m);
+    images.map(|place| Standing {
+        place,
+        at: one.at.clone(),
+        is_image: true,
+        ..*one
+    })
 }
 
 fn left(robot: &Standing) -> f64 {

@@ -29,7 +29,8 @@ pub(super) fn faults(checked: &Checked, at: &Place) -> Vec<Fault> {
                            clutter, say sought = false";
             faults.push(at.fault(allowed));
         }
-        if !finders.is_empty() {
+        // Which ways there are through a world that wraps is not looked into.
+        if !finders.is_empty() && !checked.spec.world.wraps {
             faults.extend(out_of_reach(checked, kind, &finders, &at));
             faults.extend(all_out_of_reach(checked, kind, &finders, &at));
         }

@@ -530,3 +530,62 @@ fn looking_for_a_place_in_reach_is_done_within_seconds() {
     assert_eq!(read(&fine).unwrap_err().0.len(), 1);
     assert!(begin.elapsed() < std::time::Duration::from_secs(10));
 }
+
+#[test]
+fn a_world_that_wraps_is_large_enough_and_holds_its_obstacles_wholly() {
+    let wraps = "size_m = [20, 10]\nwraps = true";
+    assert!(read(&GOOD.replace("size_m = [20, 10]", wraps)).is_ok());
+    // Half of 10 m, less the skin of 0.6 m and the radius of 0.5 m of the largest robot.
+    let far = GOOD
+        .replace("size_m = [20, 10]", wraps)
+        .replace("range_m = 3", "range_m = 4");
+    let told = read(&far).unwrap_err().to_string();
+    assert!(
+        told.contains("robots.rover.sensors.eye.range_m = 4: must be at most 3.900"),
+        "{told}"
+    );
+    let outside = GOOD
+        .replace("size_m = [20, 10]", wraps)
+        .replace("[15, 5]", "[19.5, 5]");
+    let told = read(&outside).unwrap_err().to_string();
+    assert!(
+        told.contains("world.obstacles[1]") && told.contains("as it wraps"),
+        "{told}"
+    );
+    let fast = GOOD
+        .replace("size_m = [20, 10]", wraps)
+        .replace("max_speed_m_s = 5", "max_speed_m_s = 50");
+    let told = read(&fast).unwrap_err().to_string();
+    assert!(told.contains("world.size_m"), "{told}");
+    let beside = GOOD
+        .replace("size_m = [20, 10]", wraps)
+        .replace("[[6, 6], [7, 6]]", "[[0.1, 6], [19.9, 6]]");
+    let told = read(&beside).unwrap_err().to_string();
+    assert!(told.contains("robots.rover.start.at_m["), "{told}");
+}
+
+#[test]
+fn minds_have_the_sensors_that_they_need_and_a_world_that_ends() {
+    let drive = "drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }\n";
+    let with = |brain: &str| format!("{drive}brain = {{ {brain} }}\n");
+    let hold = with("behaviours = [{ kind = \"cruise\" }, { kind = \"hold\" }]");
+    assert_eq!(
+        faults(drive, &hold),
+        [
+            "robots.rover.brain.behaviours[1].kind = \"hold\": must be one that the robot has \
+             the sensors for: hold needs one of the kind position",
+            "robots.rover.brain.behaviours[1].kind = \"hold\": must be one that the robot has \
+             the sensors for: hold needs one of the kind heading",
+        ]
+    );
+    let world = "size_m = [20, 10]\n";
+    let wraps = format!("{world}wraps = true\n");
+    let text = GOOD
+        .replace(drive, &with("beliefs = {}"))
+        .replace(world, &wraps);
+    let told = read(&text).unwrap_err().to_string();
+    assert!(
+        told.contains("robots.rover.brain.beliefs = ") && told.contains("need wraps = false"),
+        "{told}"
+    );
+}

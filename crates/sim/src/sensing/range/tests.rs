@@ -211,7 +211,7 @@ fn rays_of_a_turned_robot_are_turned_with_it() {
     };
     let mut room = Room::default();
     room.near.begin(Point::default(), RANGE_M);
-    room.near.take_apart([disc].iter());
+    room.near.take_apart([disc].into_iter());
     let ring = Ring::new(&spec(4));
     let stands = Stands::new(Point { x: 10.0, y: 10.0 }, &[], &[disc], RANGE_M);
     let look = |heading_rad: f64| {
@@ -272,7 +272,7 @@ fn a_look_gives_the_same_bits_in_every_instruction_set() {
         let in_set = |arch: Arch| -> Vec<u64> {
             let (mut room, mut ranges_m) = (Room::default(), Vec::new());
             room.near.begin(eye.at, RANGE_M);
-            room.near.take_overlapping(discs.iter());
+            room.near.take_overlapping(discs.iter().copied());
             room.near.take_walls(walls.iter());
             ring.look_with(arch, &eye, &mut room, &mut ranges_m);
             ranges_m.iter().map(|range_m| range_m.to_bits()).collect()
@@ -289,8 +289,16 @@ thread_local! {
 }
 
 /// What looks of this thread are taken with.
-pub(super) fn instruction_set() -> Arch {
+pub(in crate::sensing) fn instruction_set() -> Arch {
     INSTRUCTION_SET.get()
+}
+
+/// Does something with what an instruction set has.
+pub(in crate::sensing) fn with_set<T>(arch: Arch, work: impl FnOnce() -> T) -> T {
+    INSTRUCTION_SET.set(arch);
+    let done = work();
+    INSTRUCTION_SET.set(Arch::new());
+    done
 }
 
 #[test]
@@ -331,7 +339,7 @@ fn a_run_has_the_same_bits_in_every_instruction_set() {
     assert!(plain.windows(2).all(|pair| pair[0] != pair[1]));
 }
 
-fn instruction_sets() -> Vec<Arch> {
+pub(in crate::sensing) fn instruction_sets() -> Vec<Arch> {
     #[cfg(target_arch = "x86_64")]
     let wide = [
         pulp::x86::V3::try_new().map(Arch::V3),

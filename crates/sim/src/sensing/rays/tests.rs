@@ -101,9 +101,9 @@ impl Scene {
             near.begin(at, range_m);
             // In two parts, as a robot takes other robots and what stands still.
             for apart in apart.chunks(2) {
-                near.take_apart(apart.iter());
+                near.take_apart(apart.iter().copied());
             }
-            near.take_overlapping(overlapping.iter());
+            near.take_overlapping(overlapping.iter().copied());
             near.take_walls(walls.iter());
         }
         let rays = Rays::new(bearings_rad);

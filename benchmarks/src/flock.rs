@@ -1,0 +1,97 @@
+//! The flock of JuliaDynamics/ABMFrameworksComparison, by its declaration: 400 birds on each torus of
+//! 150 by 150, who see 15 far, for 100 steps from a random start.
+
+use crate::clock::{median, took_by_both};
+use sim::engine::Simulation;
+use sim::scenario::{Scenario, ScenarioSpec};
+use std::sync::Arc;
+
+/// Birds, and the side of the world for a first so many.
+const SIZES: [u32; 3] = [1_000, 10_000, 100_000];
+const BIRDS: f64 = 400.0;
+const SIDE_M: f64 = 150.0;
+
+/// Fewer birds are left to one thread.
+const SHARED: u32 = 2_048;
+
+/// Steps of a run, and bird-updates of a piece of work at least.
+const STEPS: u32 = 100;
+const UPDATES: u32 = 1_000_000;
+
+/// Pieces of work of each program.
+const PIECES: usize = 9;
+
+/// Prints the table.
+pub(crate) fn report() {
+    println!("| birds | threads | millions of updates/s | by the clock on the wall | hash |");
+    println!("|---|---|---|---|---|");
+    for birds in sizes() {
+        let scenario = Arc::new(scenario(birds));
+        let simulation = Simulation::new(scenario, 1, 0).expect("there is room");
+        compare(birds, simulation);
+    }
+}
+
+/// One thread and two, by turns.
+fn compare(birds: u32, mut simulation: Simulation) {
+    let start = simulation.state().clone();
+    let pools = [1, 2].map(|threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+        pool.build().expect("threads can be made")
+    });
+    let runs = (UPDATES / (birds * STEPS)).max(1);
+    let updates = f64::from(runs) * f64::from(birds) * f64::from(STEPS);
+    let mut rates = [const { Vec::new() }; 4];
+    let mut hashes = [0; 2];
+    for _ in 0..PIECES {
+        for (number, threads) in [(0, 1.0), (1, 2.0)] {
+            let work = || pools[number].install(|| fly(&mut simulation, &start, runs));
+            let [processors_s, wall_s] = took_by_both(work);
+            rates[number].push(threads * updates / processors_s / 1e6);
+            rates[2 + number].push(updates / wall_s / 1e6);
+            hashes[number] = simulation.state().hash();
+        }
+    }
+    let [one, two, one_by_wall, two_by_wall] = rates.map(median);
+    let rows = [(1, one, one_by_wall), (2, two, two_by_wall)];
+    let rows = rows.into_iter().zip(hashes);
+    for ((threads, rate, by_wall), hash) in rows.take(if birds < SHARED { 1 } else { 2 }) {
+        println!("| {birds} | {threads} | {rate:.2} | {by_wall:.2} | {hash:016x} |");
+    }
+}
+
+fn fly(simulation: &mut Simulation, start: &sim::engine::State, runs: u32) {
+    for _ in 0..runs {
+        simulation.restore(start.clone());
+        (0..STEPS).for_each(|_| simulation.step());
+    }
+}
+
+/// The declared rule, a step of a second.
+fn scenario(birds: u32) -> Scenario {
+    let side_m = SIDE_M * (f64::from(birds) / BIRDS).sqrt();
+    let swarm = serde_json::json!({
+        "kind": "swarm", "separation_m": 1.0,
+        "separation": 0.015, "alignment": 0.05, "cohesion": 0.03,
+    });
+    let bird = serde_json::json!({
+        "count": birds,
+        "radius_m": 0.0,
+        "drive": {"max_speed_m_s": 1.0},
+        "sensors": {"eyes": {"kind": "robots", "range_m": 15.0, "course_noise_deg": 0.0}},
+        "brain": {"behaviours": [swarm]},
+    });
+    let spec = serde_json::json!({
+        "clock": {"step_s": 1.0, "cap_s": 1e6},
+        "world": {"size_m": [side_m, side_m], "wraps": true},
+        "robots": {"bird": bird},
+    });
+    let spec: ScenarioSpec = serde_json::from_value(spec).expect("it is as it should be");
+    Scenario::new(&spec, Vec::new(), Vec::new())
+}
+
+/// Of the flocks: as asked for, or the usual ones.
+fn sizes() -> Vec<u32> {
+    let asked = std::env::args().nth(2).and_then(|birds| birds.parse().ok());
+    asked.map_or(SIZES.to_vec(), |birds| vec![birds])
+}

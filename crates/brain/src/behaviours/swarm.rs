@@ -1,0 +1,232 @@
+//! Going with the others.
+
+use super::ahead;
+use crate::body::Body;
+use crate::command::Motion;
+use crate::dice::Dice;
+use crate::percept::Neighbour;
+use crate::sector::direction;
+use crate::senses::Senses;
+use crate::subsumption::Behaviour;
+use crate::wish::Wish;
+use base::geometry::Point;
+use base::trig::wrapped;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Who was seen longer ago than this may be anywhere.
+const OLDEST_S: f64 = 1.0;
+
+/// Ranges and angles beyond these are broken.
+const MOST_RANGE_M: f64 = 1e6;
+const MOST_ANGLE_RAD: f64 = 1e4;
+
+/// Goes with the others that its sensors recognise: keeps apart from those too near, takes their
+/// course, and stays with them. What each of the three asks for is added to its own course, of length
+/// 1, separation first, until they together have come to the limit of steering (C. Reynolds, *Flocks,
+/// herds, and schools: a distributed behavioral model*, 1987). It turns to the course that comes out,
+/// and to a random one beside it.
+///
+/// Courses need a sensor that tells them. Who is seen twice counts twice.
+///
+/// With `averages = false`, `alignment = 1`, a `steering_limit` that is never reached and the others
+/// 0, each takes the mean course of all in range, itself among them (T. Vicsek et al., *Novel type of
+/// phase transition in a system of self-driven particles*, 1995).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+#[schemars(inline)]
+pub struct Swarm {
+    /// Who is nearer than this, from centre to centre, is too near, in metres.
+    #[schemars(range(min = 0.0, max = 10_000.0))]
+    pub separation_m: f64,
+    /// Weight of the way away from those too near, for each metre.
+    #[schemars(range(min = 0.0, max = 1000.0))]
+    pub separation: f64,
+    /// Weight of the others' courses, each of length 1.
+    #[schemars(range(min = 0.0, max = 1000.0))]
+    pub alignment: f64,
+    /// Weight of the way to the others, for each metre.
+    #[schemars(range(min = 0.0, max = 1000.0))]
+    pub cohesion: f64,
+    /// Whether each of these is of the mean over all others in range; else of their sum, so that each
+    /// of them counts as much as the robot itself.
+    pub averages: bool,
+    /// What the three ask for together is no longer than this.
+    #[schemars(range(min = 0.0, max = 1e9))]
+    pub steering_limit: f64,
+    /// Width of the range of angles, about the course that comes out, of which it draws one in each of
+    /// its steps, in degrees.
+    #[schemars(range(min = 0.0, max = 360.0))]
+    pub noise_deg: f64,
+    /// Its speed, in m/s; left out, the most that the body can.
+    #[schemars(range(min = 0.0, max = 100.0))]
+    pub speed_m_s: Option<f64>,
+}
+
+impl Default for Swarm {
+    fn default() -> Self {
+        Self {
+            separation_m: 1.0,
+            separation: 1.0,
+            alignment: 0.1,
+            cohesion: 0.03,
+            averages: true,
+            steering_limit: 1.0,
+            noise_deg: 0.0,
+            speed_m_s: None,
+        }
+    }
+}
+
+/// The others in range, added up: any direction can be along x, for all alike.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Sums {
+    /// How many they are.
+    pub count: f64,
+    /// The ways to them, in metres.
+    pub way: Point,
+    /// Their courses, each of length 1.
+    pub course: Point,
+    /// The ways to those too near, in metres.
+    pub way_to_near: Point,
+}
+
+/// [`Swarm`] in a body.
+#[derive(Debug, Clone)]
+pub struct Ready {
+    separation_m: f64,
+    separation: f64,
+    alignment: f64,
+    cohesion: f64,
+    averages: bool,
+    steering_limit: f64,
+    noise_rad: f64,
+    speed_m_s: f64,
+    period_s: f64,
+    most_turn_rad_s: f64,
+}
+
+impl Ready {
+    pub(super) fn new(spec: &Swarm, body: &Body) -> Self {
+        Self {
+            separation_m: spec.separation_m,
+            separation: spec.separation,
+            alignment: spec.alignment,
+            cohesion: spec.cohesion,
+            averages: spec.averages,
+            steering_limit: spec.steering_limit,
+            noise_rad: spec.noise_deg.to_radians(),
+            speed_m_s: ahead(spec.speed_m_s, body)
+                .speed_m_s
+                .min(body.max_speed_m_s),
+            period_s: body.period_s,
+            most_turn_rad_s: body.max_turn_rate_rad_s,
+        }
+    }
+
+    /// Who is nearer than this, in metres, is too near.
+    #[must_use]
+    pub fn separation_m(&self) -> f64 {
+        self.separation_m
+    }
+
+    /// How fast it goes, always.
+    #[must_use]
+    pub fn speed_m_s(&self) -> f64 {
+        self.speed_m_s
+    }
+
+    /// How fast a robot turns whose course is `front`, of length 1, given those near it, in rad/s;
+    /// `dice` gives it its chance, if it takes any.
+    #[inline]
+    pub fn turn_rate_rad_s(&self, front: Point, sums: &Sums, dice: impl FnOnce() -> Dice) -> f64 {
+        let course = front.plus(self.steering(sums));
+        let turn_rad = libm::atan2(front.cross(course), front.dot(course));
+        let turn_rad = if self.noise_rad > 0.0 {
+            wrapped(turn_rad + self.noise_rad * dice().between(-0.5, 0.5))
+        } else {
+            turn_rad
+        };
+        let most = self.most_turn_rad_s;
+        (turn_rad / self.period_s).max(-most).min(most)
+    }
+
+    /// What the three ask for, as far as the limit grants it.
+    #[inline]
+    fn steering(&self, sums: &Sums) -> Point {
+        let share = if self.averages {
+            1.0 / sums.count.max(1.0)
+        } else {
+            1.0
+        };
+        let wishes = [
+            sums.way_to_near.times(-self.separation * share),
+            sums.course.times(self.alignment * share),
+            sums.way.times(self.cohesion * share),
+        ];
+        let (mut steering, mut left) = (Point::default(), self.steering_limit);
+        for wish in wishes {
+            let length = wish.length();
+            let granted = if length <= left { 1.0 } else { left / length };
+            steering = steering.plus(wish.times(granted));
+            left = (left - length).max(0.0);
+        }
+        steering
+    }
+
+    /// What a percept says of the others, from the robot's front.
+    fn sums(&self, neighbours: &[Neighbour]) -> Sums {
+        let mut sums = Sums::default();
+        for neighbour in neighbours.iter().filter(|each| is_sensible(each)) {
+            let way = direction(neighbour.bearing_rad).times(neighbour.range_m);
+            sums.count += 1.0;
+            sums.way = sums.way.plus(way);
+            if neighbour.range_m < self.separation_m {
+                sums.way_to_near = sums.way_to_near.plus(way);
+            }
+            let course_rad = neighbour
+                .course_rad
+                .filter(|course_rad| is_angle(*course_rad));
+            if let Some(course_rad) = course_rad {
+                sums.course = sums.course.plus(direction(course_rad));
+            }
+        }
+        sums
+    }
+}
+
+fn is_sensible(neighbour: &Neighbour) -> bool {
+    (0.0..=MOST_RANGE_M).contains(&neighbour.range_m)
+        && is_angle(neighbour.bearing_rad)
+        && (0.0..=OLDEST_S).contains(&neighbour.age_s)
+}
+
+fn is_angle(angle_rad: f64) -> bool {
+    angle_rad.abs() <= MOST_ANGLE_RAD
+}
+
+impl Behaviour for Ready {
+    type Memory = ();
+
+    fn memory(&self) {}
+
+    fn triggered(&self, (): &mut (), senses: &Senses) -> Option<Wish> {
+        let sums = self.sums(&senses.percept.neighbours);
+        let front = Point { x: 1.0, y: 0.0 };
+        let motion = Motion {
+            speed_m_s: self.speed_m_s,
+            turn_rate_rad_s: self.turn_rate_rad_s(front, &sums, || senses.dice()),
+        };
+        Some(motion.into())
+    }
+
+    fn held(&self) -> Motion {
+        Motion {
+            speed_m_s: self.speed_m_s,
+            turn_rate_rad_s: 0.0,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

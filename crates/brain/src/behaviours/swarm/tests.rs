@@ -1,0 +1,254 @@
+use super::*;
+use crate::behaviours::BehaviourSpec;
+use crate::{Brain, BrainSpec, Percept, RobotId};
+use proptest::prelude::*;
+use std::sync::Arc;
+
+/// It turns to any course in one step of 1 s.
+fn body() -> Body {
+    Body {
+        max_speed_m_s: 2.0,
+        max_turn_rate_rad_s: 4.0,
+        period_s: 1.0,
+        ..Body::default()
+    }
+}
+
+fn brain(swarm: Swarm) -> Brain {
+    let spec = BrainSpec {
+        behaviours: vec![BehaviourSpec::Swarm(swarm)],
+        ..BrainSpec::default()
+    };
+    Brain::new(Arc::new(spec), Arc::new(body()))
+}
+
+fn at(x: f64, y: f64, course_rad: f64) -> Neighbour {
+    Neighbour {
+        range_m: x.hypot(y),
+        bearing_rad: y.atan2(x),
+        course_rad: Some(course_rad),
+        age_s: 0.0,
+        id: RobotId::default(),
+    }
+}
+
+/// By how much it turns.
+fn turn_rad(swarm: Swarm, neighbours: Vec<Neighbour>) -> f64 {
+    let percept = Percept {
+        neighbours,
+        ..Percept::default()
+    };
+    brain(swarm).step(&percept).motion.turn_rate_rad_s
+}
+
+const NOTHING: Swarm = Swarm {
+    separation_m: 2.0,
+    separation: 0.0,
+    alignment: 0.0,
+    cohesion: 0.0,
+    averages: true,
+    steering_limit: 1e9,
+    noise_deg: 0.0,
+    speed_m_s: None,
+};
+
+fn assert_turns(swarm: Swarm, neighbours: Vec<Neighbour>, expected_rad: f64) {
+    let turned_rad = turn_rad(swarm, neighbours);
+    assert!(
+        (turned_rad - expected_rad).abs() < 1e-12,
+        "{turned_rad} for {expected_rad}"
+    );
+}
+
+#[test]
+fn alone_it_goes_straight_on() {
+    assert_turns(Swarm::default(), vec![], 0.0);
+    let motion = brain(Swarm::default()).step(&Percept::default()).motion;
+    assert!((motion.speed_m_s - 2.0).abs() < 1e-12);
+}
+
+#[test]
+fn it_turns_to_the_others_away_from_those_too_near_and_to_their_course() {
+    let swarm = Swarm {
+        cohesion: 0.5,
+        ..NOTHING
+    };
+    // Half of the mean way to (1, 3) and (1, 5) beside its own course: (1.5, 2).
+    assert_turns(
+        swarm,
+        vec![at(1.0, 3.0, 0.0), at(1.0, 5.0, 0.0)],
+        2_f64.atan2(1.5),
+    );
+    let swarm = Swarm {
+        separation: 1.0,
+        ..NOTHING
+    };
+    // Of the two only one is too near, and the mean is over both.
+    assert_turns(
+        swarm,
+        vec![at(0.0, 1.0, 0.0), at(0.0, 5.0, 0.0)],
+        (-0.5_f64).atan2(1.0),
+    );
+    let swarm = Swarm {
+        alignment: 1.0,
+        ..NOTHING
+    };
+    assert_turns(swarm, vec![at(4.0, 1.0, 2.0)], 1.0);
+}
+
+#[test]
+fn the_declared_flock_of_the_comparison_of_frameworks_is_one_of_its_settings() {
+    let swarm = Swarm {
+        separation_m: 4.0,
+        separation: 0.015,
+        alignment: 0.05,
+        cohesion: 0.03,
+        ..Swarm::default()
+    };
+    let others = [(3.0, 1.0, 0.5), (-9.0, 7.0, -2.0), (-0.5, -1.0, 3.0)];
+    // As they write it, in the order of their lines.
+    let (mut cohere, mut separate, mut matched) = ([0.0; 2], [0.0; 2], [0.0; 2]);
+    for (x, y, course) in others {
+        let far = f64::hypot(x, y);
+        for (axis, way) in [x, y].into_iter().enumerate() {
+            cohere[axis] += way;
+            separate[axis] -= if far < 4.0 { way } else { 0.0 };
+        }
+        matched[0] += f64::cos(course);
+        matched[1] += f64::sin(course);
+    }
+    let sum = |axis: usize| {
+        cohere[axis] / 3.0 * 0.03 + separate[axis] / 3.0 * 0.015 + matched[axis] / 3.0 * 0.05
+    };
+    let expected_rad = sum(1).atan2(1.0 + sum(0));
+    let others = others.map(|(x, y, course)| at(x, y, course));
+    assert_turns(swarm, others.to_vec(), expected_rad);
+}
+
+#[test]
+fn by_sums_its_own_course_is_one_of_those_of_which_it_takes_the_mean() {
+    let vicsek = Swarm {
+        alignment: 1.0,
+        averages: false,
+        ..NOTHING
+    };
+    let courses = [0.4, 1.1, -2.5];
+    let (y, x) = courses.iter().fold((0.0, 1.0), |(y, x), course: &f64| {
+        (y + course.sin(), x + course.cos())
+    });
+    let others = courses.map(|course| at(1.0, 1.0, course));
+    assert_turns(vicsek, others.to_vec(), f64::atan2(y, x));
+}
+
+#[test]
+fn separation_is_granted_first_then_alignment_then_cohesion() {
+    let swarm = |steering_limit: f64| Swarm {
+        separation: 1.0,
+        alignment: 1.0,
+        cohesion: 1.0,
+        steering_limit,
+        ..NOTHING
+    };
+    // It asks for (0, -1) to keep apart, (0, 1) of alignment and (0, 1) of cohesion.
+    let other = at(0.0, 1.0, std::f64::consts::FRAC_PI_2);
+    let y = |limit: f64| turn_rad(swarm(limit), vec![other]).tan();
+    for (limit, expected) in [
+        (0.0, 0.0),
+        (0.5, -0.5),
+        (1.0, -1.0),
+        (1.5, -0.5),
+        (2.5, 0.5),
+        (9.0, 1.0),
+    ] {
+        assert!((y(limit) - expected).abs() < 1e-12, "{limit}: {}", y(limit));
+    }
+}
+
+#[test]
+fn noise_is_uniform_over_its_width() {
+    let swarm = Swarm {
+        noise_deg: 90.0,
+        ..NOTHING
+    };
+    let mut brain = brain(swarm);
+    let mut turn_rad = |word: u32| {
+        let percept = Percept {
+            dice: [word; 4],
+            ..Percept::default()
+        };
+        brain.step(&percept).motion.turn_rate_rad_s
+    };
+    for (share, expected_deg) in [(0.0, -45.0), (0.25, -22.5), (0.5, 0.0), (0.75, 22.5)] {
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a share of all words"
+        )]
+        let word = (share * 4_294_967_296.0) as u32;
+        assert!(
+            (turn_rad(word).to_degrees() - expected_deg).abs() < 1e-9,
+            "{share}"
+        );
+    }
+}
+
+#[test]
+fn who_was_seen_long_ago_or_is_nonsense_pulls_on_nobody() {
+    let broken = [f64::NAN, f64::INFINITY, -f64::INFINITY, -1.0, 1e300];
+    let one = at(0.0, 3.0, 1.0);
+    let by_range = broken.map(|range_m| Neighbour { range_m, ..one });
+    let by_age = broken.map(|age_s| Neighbour { age_s, ..one });
+    for other in by_range.into_iter().chain(by_age) {
+        assert_turns(Swarm::default(), vec![other], 0.0);
+    }
+    for bearing_rad in [f64::NAN, f64::INFINITY, 1e300] {
+        assert_turns(
+            Swarm::default(),
+            vec![Neighbour { bearing_rad, ..one }],
+            0.0,
+        );
+    }
+    let uncoursed = [None, Some(f64::NAN), Some(f64::INFINITY), Some(1e300)];
+    for course_rad in uncoursed {
+        let swarm = Swarm {
+            cohesion: 0.0,
+            ..Swarm::default()
+        };
+        assert_turns(swarm, vec![Neighbour { course_rad, ..one }], 0.0);
+    }
+}
+
+fn any_number() -> impl Strategy<Value = f64> {
+    prop_oneof![
+        -20.0..20.0,
+        any::<f64>(),
+        Just(f64::NAN),
+        Just(f64::INFINITY)
+    ]
+}
+
+prop_compose! {
+    fn any_neighbour()(
+        range_m in any_number(), bearing_rad in any_number(), age_s in any_number(),
+        course_rad in prop::option::of(any_number()), index: u32,
+    ) -> Neighbour {
+        Neighbour { range_m, bearing_rad, course_rad, age_s, id: RobotId { kind: 0, index } }
+    }
+}
+
+proptest! {
+    #[test]
+    fn whatever_it_is_told_it_wants_what_its_body_can(
+        neighbours in prop::collection::vec(any_neighbour(), 0..30),
+        (separation, alignment, cohesion) in (0.0..=1000.0, 0.0..=1000.0, 0.0..=1000.0),
+        (steering_limit, noise_deg) in (0.0..=1e9, 0.0..=360.0), averages: bool, dice: [u32; 4],
+    ) {
+        let swarm = Swarm {
+            separation, alignment, cohesion, averages, steering_limit, noise_deg, ..NOTHING
+        };
+        let percept = Percept { dice, neighbours, ..Percept::default() };
+        let motion = brain(swarm).step(&percept).motion;
+        prop_assert!((motion.speed_m_s - 2.0).abs() < 1e-12);
+        prop_assert!(motion.turn_rate_rad_s.abs() <= 4.0);
+    }
+}

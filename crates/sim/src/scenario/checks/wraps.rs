@@ -1,0 +1,50 @@
+//! A world that wraps is large enough for what robots see and touch.
+
+use super::Checked;
+use crate::sensing::Measures;
+use base::document::Place;
+use base::fault::Fault;
+
+/// Of all images of a thing only the nearest is ever in reach. A radio may reach farther: who hears is
+/// told by the nearest image alone.
+pub(super) fn faults(checked: &Checked, at: &Place) -> Vec<Fault> {
+    let (spec, scenario) = (&checked.spec, &checked.scenario);
+    let Some(torus) = scenario.torus else {
+        return Vec::new();
+    };
+    let half_m = torus.size_m.x.min(torus.size_m.y) / 2.0;
+    let most_m = half_m - scenario.skin_m - scenario.biggest_radius_m();
+    let mut faults = Vec::new();
+    let least_m = 2.0 * (scenario.contact_m + scenario.skin_m);
+    if 2.0 * half_m < least_m {
+        let allowed = format!("at least {least_m:.3} each way for these robots, as it wraps");
+        faults.push(at.key("world").key("size_m").fault(allowed));
+    }
+    for (name, robot) in &spec.robots {
+        let at = at.key("robots").key(name);
+        let sensors = robot.sensors.iter().filter_map(|(name, sensor)| {
+            let at = at.key("sensors").key(name).key("range_m");
+            Some((range_m(&sensor.measures)?, at))
+        });
+        let too_far = sensors.filter(|(range_m, _)| *range_m > most_m);
+        faults.extend(too_far.map(|(_, at)| at.fault(allowed(most_m))));
+    }
+    faults
+}
+
+fn allowed(most_m: f64) -> String {
+    if most_m > 0.0 {
+        format!("at most {most_m:.3}, somewhat less than half of a world that wraps")
+    } else {
+        "none: the world wraps and is too small".to_owned()
+    }
+}
+
+fn range_m(measures: &Measures) -> Option<f64> {
+    match measures {
+        Measures::Range(range) => Some(range.range_m),
+        Measures::Items(items) => Some(items.sector.range_m),
+        Measures::Robots(robots) => Some(robots.sector.range_m),
+        Measures::Position(_) | Measures::Heading(_) => None,
+    }
+}

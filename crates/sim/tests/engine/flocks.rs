@@ -1,0 +1,162 @@
+//! Robots that do nothing but go with the others are asked all at once, and do what they would do
+//! each by itself.
+
+use crate::common::{go, id, robots, scenario, start, told};
+use brain::{Command, RobotId, SensorRequest};
+use rayon::ThreadPoolBuilder;
+use sim::engine::Simulation;
+use std::collections::BTreeMap;
+
+/// Birds by the declared rule of `ABMFrameworksComparison`, in steps of a second.
+fn birds(count: u32, side_m: f64, more: &str) -> String {
+    format!(
+        "[clock]\nstep_s = 1\ncap_s = 1000\n[world]\nsize_m = [{side_m}, {side_m}]\nwraps = true\n\
+         [robots.bird]\ncount = {count}\nradius_m = 0\ndrive = {{ max_speed_m_s = 1 }}\n\
+         sensors.eyes = {{ kind = \"robots\", range_m = 15, course_noise_deg = 0 }}\n\
+         [[robots.bird.brain.behaviours]]\nkind = \"swarm\"\nseparation_m = 4\n\
+         separation = 0.015\nalignment = 0.05\ncohesion = 0.03\n{more}\n"
+    )
+}
+
+/// What the brain of each robot wants of what it perceives.
+fn wanted_by_percepts(simulation: &mut Simulation) -> Vec<(RobotId, f64)> {
+    let ids: Vec<RobotId> = robots(simulation).iter().map(|robot| robot.id).collect();
+    let wants = |id: &RobotId| {
+        let percept = simulation.percept(*id).unwrap().unwrap();
+        let mut brain = simulation.scenario().brain(id.kind).unwrap().clone();
+        (*id, brain.step(&percept).motion.turn_rate_rad_s)
+    };
+    ids.iter().map(wants).collect()
+}
+
+fn assert_same_as_by_percepts(text: &str, steps: u32) {
+    let mut simulation = start(text);
+    let mut turned = 0.0_f64;
+    for _ in 0..steps {
+        let expected = wanted_by_percepts(&mut simulation);
+        simulation.step();
+        for (robot, (id, turn_rate)) in robots(&simulation).iter().zip(expected) {
+            let off = (robot.wanted.turn_rate_rad_s - turn_rate).abs();
+            assert!(off < 1e-11, "{id:?}: {:?} for {turn_rate}", robot.wanted);
+            turned = turned.max(turn_rate.abs());
+        }
+    }
+    assert!(turned > 0.01, "{turned}");
+}
+
+#[test]
+fn a_flock_does_what_each_of_it_would_do_by_its_percepts() {
+    assert_same_as_by_percepts(&birds(300, 120.0, ""), 40);
+    assert_same_as_by_percepts(&birds(150, 40.0, "noise_deg = 40\naverages = false"), 20);
+}
+
+#[test]
+fn so_does_a_flock_of_discs_among_others() {
+    let others = "[robots.a_rover]\ncount = 30\nradius_m = 0.4\n\
+                  drive = { max_speed_m_s = 2, max_turn_rate_deg_s = 60 }\n\
+                  sensors.sonar = { kind = \"range\", rays = 6, range_m = 3 }\n\
+                  [robots.duck]\ncount = 40\nradius_m = 0.5\n\
+                  drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 45 }\n\
+                  sensors.eyes = { kind = \"robots\", range_m = 9 }\n\
+                  brain.behaviours = [{ kind = \"swarm\", separation_m = 3 }]";
+    let text = birds(60, 60.0, others);
+    let mut simulation = start(&text);
+    for _ in 0..40 {
+        let expected = wanted_by_percepts(&mut simulation);
+        simulation.step();
+        let flocks = robots(&simulation);
+        let flocks = flocks
+            .iter()
+            .zip(expected)
+            .filter(|(robot, _)| robot.id.kind > 0);
+        for (robot, (id, turn_rate)) in flocks {
+            let off = (robot.wanted.turn_rate_rad_s - turn_rate).abs();
+            assert!(off < 1e-11, "{id:?}: {:?} for {turn_rate}", robot.wanted);
+        }
+    }
+    assert!(simulation.outcome().collisions > 0);
+}
+
+#[test]
+fn a_flock_is_the_same_bytes_on_any_number_of_threads_and_from_any_copy() {
+    let scenario = scenario(&birds(5000, 530.0, "noise_deg = 5"));
+    let hashes = |threads: usize| {
+        let pool = ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
+        let mut simulation = Simulation::new(scenario.clone(), 1, 0).unwrap();
+        pool.install(|| {
+            let steps = (0..30).map(|_| {
+                simulation.step();
+                let copy = simulation.state().clone();
+                simulation.restore(copy);
+                simulation.state().hash()
+            });
+            steps.collect::<Vec<u64>>()
+        })
+    };
+    let one = hashes(1);
+    assert_eq!(one, hashes(2));
+    assert_eq!(one, hashes(3));
+    assert!(one.windows(2).all(|pair| pair[0] != pair[1]));
+}
+
+#[test]
+fn a_step_with_something_from_outside_is_otherwise_as_any() {
+    let text = birds(200, 100.0, "noise_deg = 5");
+    let (mut plain, mut told_one) = (start(&text), start(&text));
+    for _ in 0..30 {
+        plain.step();
+        let wanted = robots(&plain)[7].wanted;
+        let command = go(wanted.speed_m_s, wanted.turn_rate_rad_s);
+        told(&mut told_one, [(id(0, 7), command)]);
+        assert_eq!(plain.state().hash(), told_one.state().hash());
+    }
+}
+
+#[test]
+fn who_has_switched_its_sensor_off_goes_straight_on() {
+    let mut simulation = start(&birds(100, 60.0, ""));
+    let off = Command {
+        requests: vec![SensorRequest {
+            sensor: 0,
+            on: false,
+        }],
+        ..go(1.0, 0.0)
+    };
+    told(&mut simulation, [(id(0, 3), off)]);
+    for _ in 0..10 {
+        simulation.step();
+        let turns: Vec<f64> = robots(&simulation)
+            .iter()
+            .map(|robot| robot.wanted.turn_rate_rad_s.abs())
+            .collect();
+        assert!(turns[3] == 0.0 && turns.iter().sum::<f64>() > 0.1);
+    }
+    simulation
+        .step_with(BTreeMap::new(), BTreeMap::new())
+        .unwrap();
+}
+
+#[test]
+fn a_flock_that_may_be_delayed_or_stopped_goes_by_percepts() {
+    let text = birds(60, 60.0, "");
+    let late = text.replace("range_m = 15", "range_m = 15, latency_s = 2");
+    let mut simulation = start(&late);
+    simulation.step();
+    assert!(
+        robots(&simulation)
+            .iter()
+            .all(|robot| robot.wanted.turn_rate_rad_s == 0.0)
+    );
+    let battery = "[robots.bird.battery]\ncapacity_j = 10\nidle_w = 1\n";
+    let mut simulation = start(&format!("{text}\n{battery}"));
+    (0..12).for_each(|_| simulation.step());
+    assert!(
+        robots(&simulation)
+            .iter()
+            .all(|robot| robot.distance_m <= 10.0)
+    );
+    assert!(simulation.state().is_over(simulation.scenario()));
+}
