@@ -193,8 +193,14 @@ fn chosen(
     }
     // The highest comes first: a motion there is a reflex, and one further down what is left to do.
     let motion = match all.first() {
-        None => Motion::default(),
-        Some((_, Wish::Motion(motion))) => *motion,
+        None => {
+            wants.keep_below(0);
+            Motion::default()
+        }
+        Some((behaviour, Wish::Motion(motion))) => {
+            wants.keep_below(*behaviour);
+            *motion
+        }
         Some((_, Wish::Aim(_))) => wants.serve(&all, behaviours, layers, senses),
     };
     wants.wishes = all;

@@ -50,6 +50,14 @@ impl Mind {
 }
 
 impl Wants {
+    /// Keeps the goals of behaviours below one, which were not asked; those above want nothing.
+    pub(crate) fn keep_below(&mut self, behaviour: usize) {
+        let goals = &mut self.goals.goals;
+        goals.retain(|goal| goal.behaviour < behaviour);
+        let is_kept = |aim: &Aim| goals.iter().any(|goal| goal.aim.to == aim.to);
+        self.going = self.going.filter(is_kept);
+    }
+
     /// The motion that serves wishes best: those of behaviours by their places, none of them beside a
     /// motion unless it is the lowest.
     pub(crate) fn serve(

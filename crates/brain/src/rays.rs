@@ -28,6 +28,7 @@ pub(crate) struct Ring {
     latency_s: f64,
     fresh_s: f64,
     bearings_rad: Vec<f64>,
+    directions: Vec<Point>,
     /// Between the two nearest rays.
     gap_rad: f64,
     chords: Vec<Chord>,
@@ -56,6 +57,34 @@ struct Chord {
     gap_rad: f64,
 }
 
+/// One ray of a ring.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Ray {
+    /// From the robot's front.
+    pub(crate) bearing_rad: f64,
+    /// The same, of length 1.
+    pub(crate) direction: Point,
+    /// Where it ends.
+    pub(crate) range_m: f64,
+}
+
+impl Ray {
+    #[cfg(test)]
+    pub(crate) fn new(bearing_rad: f64, range_m: f64) -> Self {
+        Self {
+            bearing_rad,
+            direction: direction(bearing_rad),
+            range_m,
+        }
+    }
+
+    /// Where it ends, from the robot's front.
+    #[inline]
+    pub(crate) fn end(&self) -> Point {
+        self.direction.times(self.range_m)
+    }
+}
+
 impl Ring {
     /// On a body of this half width, with a brain of this period.
     pub(crate) fn new(ring: &RangeRing, half_width_m: f64, period_s: f64) -> Self {
@@ -75,6 +104,7 @@ impl Ring {
             latency_s: ring.latency_s.max(0.0),
             fresh_s: ring.latency_s + FRESH_SCANS * ring.period_s + period_s,
             bearings_rad: ring.bearings_rad.clone(),
+            directions: ring.bearings_rad.iter().copied().map(direction).collect(),
             gap_rad: chords
                 .iter()
                 .map(|chord| chord.gap_rad)
@@ -101,12 +131,15 @@ impl Ring {
         (is_whole && age_s <= self.fresh_s).then_some((age_s, &scan.ranges_m))
     }
 
-    /// Bearings and ranges of all rays, at most what the sensor sees.
+    /// All rays, at most as long as the sensor sees.
     #[inline]
-    pub(crate) fn rays(&self, ranges_m: &[f64]) -> impl Iterator<Item = (f64, f64)> {
-        let rays = self.bearings_rad.iter().zip(ranges_m);
-        rays.map(|(bearing_rad, range_m)| {
-            (*bearing_rad, lesser(sensible_m(*range_m), self.range_m))
+    pub(crate) fn rays(&self, ranges_m: &[f64]) -> impl Iterator<Item = Ray> {
+        let bearings = self.bearings_rad.iter().zip(&self.directions);
+        let rays = bearings.zip(ranges_m);
+        rays.map(|((bearing_rad, direction), range_m)| Ray {
+            bearing_rad: *bearing_rad,
+            direction: *direction,
+            range_m: lesser(sensible_m(*range_m), self.range_m),
         })
     }
 

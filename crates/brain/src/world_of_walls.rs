@@ -1,9 +1,9 @@
 //! For tests: a disc that obeys its commands exactly, among walls that its rays measure exactly.
 
-use crate::body::{Body, RangeRing};
+use crate::body::{Body, RangeRing, RobotId};
 use crate::brain::Brain;
 use crate::command::{Command, Motion};
-use crate::percept::{Percept, Reading, Scan};
+use crate::percept::{Look, Neighbour, Percept, Reading, Scan};
 use base::geometry::{Point, Segment};
 use base::random::{Entity, Purpose, Stream, stream};
 use base::trig::{sin_cos, wrapped};
@@ -77,6 +77,10 @@ pub(crate) struct Wiring {
     pub(crate) latency: usize,
     pub(crate) touch: bool,
     pub(crate) compass: bool,
+    /// Where it is, and a look of its first detector at each step that recognises nothing.
+    pub(crate) position: bool,
+    /// Share of the battery that a second takes; 0 without a gauge.
+    pub(crate) drain: f64,
 }
 
 /// A robot in its world.
@@ -87,6 +91,10 @@ pub(crate) struct Walk {
     pub(crate) at: Point,
     pub(crate) heading_rad: f64,
     pub(crate) speed_m_s: f64,
+    /// Which robot it is, of how many.
+    pub(crate) id: (RobotId, u32),
+    /// Others that it sees, wherever they are.
+    pub(crate) others: Vec<(RobotId, Point)>,
     /// From its hull to the nearest wall, the least so far.
     pub(crate) least_gap_m: f64,
     pub(crate) is_touching: bool,
@@ -106,6 +114,8 @@ impl Walk {
             at: at.into(),
             heading_rad,
             speed_m_s: 0.0,
+            id: (RobotId::default(), 1),
+            others: Vec::new(),
             least_gap_m: f64::INFINITY,
             is_touching: false,
             steps: 0,
@@ -137,13 +147,37 @@ impl Walk {
             age_s: Some((self.steps - step) as f64 * self.body.period_s),
             ranges_m: ranges.clone(),
         });
+        let time_s = self.steps as f64 * self.body.period_s;
+        let look = Look {
+            sensor: 0,
+            age_s: 0.0,
+        };
+        let has_gauge = self.wiring.drain > 0.0;
+        let left = (1.0 - self.wiring.drain * time_s).max(0.0);
         Percept {
-            time_s: self.steps as f64 * self.body.period_s,
+            time_s,
+            id: self.id.0,
+            of_kind: self.id.1,
+            position: self.wiring.position.then_some(now(self.at)),
+            battery: has_gauge.then_some(now(left)),
+            looks: self.wiring.position.then_some(look).into_iter().collect(),
+            neighbours: self.others.iter().map(|other| self.seen(other)).collect(),
             dice: std::array::from_fn(|_| self.dice.next_u32()),
             touch: self.wiring.touch.then_some(now(self.is_touching)),
             heading_rad: self.wiring.compass.then_some(now(self.heading_rad)),
             scans: vec![scan.unwrap_or_default(); self.body.rings.len()],
             ..Percept::default()
+        }
+    }
+
+    fn seen(&self, (id, at): &(RobotId, Point)) -> Neighbour {
+        let way = self.at.to(*at);
+        Neighbour {
+            range_m: way.length(),
+            bearing_rad: wrapped(way.y.atan2(way.x) - self.heading_rad),
+            course_rad: None,
+            age_s: 0.0,
+            id: *id,
         }
     }
 

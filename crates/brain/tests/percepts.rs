@@ -1,10 +1,14 @@
 //! Any percepts that can be: what brains make of them, and their way through JSON.
 
-use base::geometry::Point;
-use brain::behaviours::{Avoid, BehaviourSpec, Bounce, Cruise};
+use base::geometry::{Point, Rectangle};
+use brain::behaviours::{
+    Avoid, BehaviourSpec, Bounce, Cruise, Follow, Frontier, Hold, Home, Lanes, Navigate, Seek,
+    Spiral,
+};
 use brain::{
-    About, Arbitration, Body, Brain, BrainSpec, Command, Contact, Heard, Look, Message, Motion,
-    Neighbour, Percept, RangeRing, Reading, RobotId, Scan, Seen, SensorRequest, Stand,
+    About, Arbitration, BeliefsSpec, Body, Brain, BrainSpec, Command, Contact, Detector, Heard,
+    Look, Message, Motion, Neighbour, Other, Percept, RangeRing, Reading, RobotId, Scan, Seen,
+    SensorRequest, Stand,
 };
 use proptest::prelude::*;
 use std::sync::Arc;
@@ -30,6 +34,71 @@ fn rover() -> Body {
 
 fn brain(body: &Body) -> Brain {
     Brain::new(Arc::new(BrainSpec::default()), Arc::new(body.clone()))
+}
+
+/// A rover that knows of a mission, recognises two kinds of items, and meets robots of two kinds.
+fn explorer() -> Body {
+    let eye = |sensor| Detector {
+        sensor,
+        range_m: 4.0,
+        width_rad: 3.0,
+        detects: vec![vec![[0.0, 0.9], [4.0, 0.5]], vec![]],
+        false_alarms_per_m2: vec![0.01],
+        noise_m: 0.1,
+        needs_line_of_sight: true,
+        ..Detector::default()
+    };
+    let other = |acceleration| Other {
+        radius_m: 0.3,
+        max_acceleration_m_s2: acceleration,
+        is_in_the_way: true,
+        detectors: vec![eye(0)],
+    };
+    let corner = |m| Point { x: m, y: m };
+    Body {
+        detectors: vec![eye(0), eye(1)],
+        item_kinds: vec!["mine".into(), "clutter".into()],
+        others: vec![other(1.0), other(f64::INFINITY)],
+        field: Some(Rectangle::spanned(corner(-20.0), corner(20.0))),
+        ..rover()
+    }
+}
+
+/// All behaviours in one mind, each in its turn the highest.
+fn mind(arbitration: Arbitration, turn: usize, body: &Body) -> Brain {
+    let places_m = vec![Point { x: 5.0, y: 5.0 }, Point { x: -5.0, y: 0.0 }];
+    let mut behaviours = vec![
+        BehaviourSpec::Cruise(Cruise::default()),
+        BehaviourSpec::Bounce(Bounce::default()),
+        BehaviourSpec::Hold(Hold::default()),
+        BehaviourSpec::Lanes(Lanes::default()),
+        BehaviourSpec::Spiral(Spiral::default()),
+        BehaviourSpec::Frontier(Frontier::default()),
+        BehaviourSpec::Seek(Seek::default()),
+        BehaviourSpec::Follow(Follow::default()),
+        BehaviourSpec::Home(Home::default()),
+        BehaviourSpec::Navigate(Navigate {
+            places_m,
+            ..Navigate::default()
+        }),
+        BehaviourSpec::Avoid(Avoid::default()),
+    ];
+    let count = behaviours.len();
+    behaviours.rotate_left(turn % count);
+    let spec = BrainSpec {
+        arbitration,
+        behaviours,
+        beliefs: Some(BeliefsSpec {
+            cells: 300,
+            ..BeliefsSpec::default()
+        }),
+        ..BrainSpec::default()
+    };
+    Brain::new(Arc::new(spec), Arc::new(body.clone()))
+}
+
+fn arbitration() -> impl Strategy<Value = Arbitration> {
+    prop_oneof![Just(Arbitration::Subsumption), Just(Arbitration::Goals)]
 }
 
 /// Mostly a sensible number, and at times anything that fits into 64 bits.
@@ -81,7 +150,7 @@ fn robot() -> impl Strategy<Value = RobotId> {
 }
 
 fn message(number: Numbers) -> impl Strategy<Value = Message> {
-    let seen = (robot(), any::<u32>(), any::<u32>());
+    let seen = (known_robot(), any::<u32>(), any::<u32>());
     let seen = seen.prop_map(|(by, mark, looks)| Seen { by, mark, looks });
     let item = (any::<u16>(), point(number), seen).prop_map(|(kind, at, seen)| About::Item {
         kind,
@@ -105,6 +174,12 @@ fn message(number: Numbers) -> impl Strategy<Value = Message> {
         .prop_map(|(about, confidence)| Message { about, confidence })
 }
 
+/// Robots that are there, or of which nobody has ever heard.
+fn known_robot() -> impl Strategy<Value = RobotId> {
+    let few = (0_u8..2, 0_u32..3).prop_map(|(kind, index)| RobotId { kind, index });
+    prop_oneof![4 => few, 1 => robot()]
+}
+
 /// What is about others: items, robots, messages.
 fn others(number: Numbers) -> impl Strategy<Value = (Vec<Contact>, Vec<Neighbour>, Vec<Heard>)> {
     let seen = move || (number(0.0, 9.0), number(-3.0, 3.0), number(0.0, 1.0));
@@ -117,21 +192,22 @@ fn others(number: Numbers) -> impl Strategy<Value = (Vec<Contact>, Vec<Neighbour
             age_s,
         });
     let course = proptest::option::of(number(-3.0, 3.0));
-    let neighbour =
-        (robot(), seen(), course).prop_map(|(id, (range_m, bearing_rad, age_s), course_rad)| {
-            Neighbour {
-                range_m,
-                bearing_rad,
-                course_rad,
-                age_s,
-                id,
-            }
-        });
-    let heard =
-        (robot(), number(0.0, 1.0), message(number)).prop_map(|(from, age_s, message)| Heard {
-            from,
+    let neighbour = (known_robot(), seen(), course).prop_map(
+        |(id, (range_m, bearing_rad, age_s), course_rad)| Neighbour {
+            range_m,
+            bearing_rad,
+            course_rad,
             age_s,
-            message,
+            id,
+        },
+    );
+    let heard =
+        (known_robot(), number(0.0, 1.0), message(number)).prop_map(|(from, age_s, message)| {
+            Heard {
+                from,
+                age_s,
+                message,
+            }
         });
     let some = 0..3;
     (
@@ -151,7 +227,11 @@ fn percept(number: Numbers) -> impl Strategy<Value = Percept> {
     );
     let clock = (number(0.0, 1e4), any::<[u32; 4]>());
     let look = (0_u16..3, number(0.0, 1.0)).prop_map(|(sensor, age_s)| Look { sensor, age_s });
-    let told = (robot(), 0_u32..4, proptest::collection::vec(look, 0..3));
+    let told = (
+        known_robot(),
+        0_u32..4,
+        proptest::collection::vec(look, 0..3),
+    );
     (clock, readings, scans(number, 2), others(number), told).prop_map(
         |((time_s, dice), readings, scans, (contacts, neighbours, inbox), (id, of_kind, looks))| {
             Percept {
@@ -186,6 +266,47 @@ fn command() -> impl Strategy<Value = Command> {
             requests,
             outbox,
         })
+}
+
+fn check_outbox(outbox: &[Message]) -> Result<(), TestCaseError> {
+    prop_assert!(outbox.len() <= 5, "{outbox:?}");
+    for message in outbox {
+        prop_assert!((0.0..=1.0).contains(&message.confidence), "{message:?}");
+        let (About::Item { at, .. } | About::Goal { at, .. } | About::Sender { at, .. }) =
+            message.about;
+        prop_assert!(at.x.is_finite() && at.y.is_finite(), "{message:?}");
+    }
+    Ok(())
+}
+
+fn check_thoughts(brain: &Brain) -> Result<(), TestCaseError> {
+    let thoughts = brain.thoughts().unwrap_or_default();
+    let sizes = [
+        thoughts.items.len(),
+        thoughts.robots.len(),
+        thoughts.goals.len(),
+    ];
+    prop_assert!(
+        sizes[0] <= 64 && sizes[1] <= 16 && sizes[2] <= 11,
+        "{sizes:?}"
+    );
+    for item in &thoughts.items {
+        prop_assert!((0.0..=1.0).contains(&item.confidence), "{item:?}");
+        prop_assert!(
+            item.deviation_m.is_finite() && item.at.x.is_finite(),
+            "{item:?}"
+        );
+    }
+    for robot in &thoughts.robots {
+        let numbers = [
+            robot.at.x,
+            robot.at.y,
+            robot.velocity_m_s.x,
+            robot.velocity_m_s.y,
+        ];
+        prop_assert!(numbers.iter().all(|number| number.is_finite()), "{robot:?}");
+    }
+    Ok(())
 }
 
 fn motions(brain: &mut Brain, percepts: &[Percept]) -> Vec<Motion> {
@@ -253,6 +374,90 @@ proptest! {
         prop_assert_eq!(&motions(&mut clone, after), &future);
         all.extend(future);
         prop_assert_eq!(motions(&mut brain(&body), &percepts), all);
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(100))]
+
+    #[test]
+    fn whatever_a_mind_perceives_it_stays_sane(
+        percepts in proptest::collection::vec(percept(absurd), 1..50),
+        arbitration in arbitration(), turn in 0_usize..11,
+    ) {
+        let mut brain = mind(arbitration, turn, &explorer());
+        for percept in &percepts {
+            let Command { motion, outbox, .. } = brain.step(percept);
+            prop_assert!((-0.5..=1.0).contains(&motion.speed_m_s), "{motion:?}");
+            prop_assert!((-1.5..=1.5).contains(&motion.turn_rate_rad_s), "{motion:?}");
+            check_outbox(&outbox)?;
+        }
+        check_thoughts(&brain)?;
+    }
+
+    #[test]
+    fn the_same_percepts_give_minds_the_same_thoughts_and_commands(
+        percepts in proptest::collection::vec(percept(absurd), 2..40),
+        arbitration in arbitration(), turn in 0_usize..11, at in 0_usize..40,
+    ) {
+        let body = explorer();
+        let mut first = mind(arbitration.clone(), turn, &body);
+        let mut again = mind(arbitration, turn, &body);
+        let (before, after) = percepts.split_at(at % percepts.len());
+        let step = |brain: &mut Brain, percept| format!("{:?}", brain.step(percept));
+        for percept in before {
+            prop_assert_eq!(step(&mut first, percept), step(&mut again, percept));
+        }
+        let mut clone = first.clone();
+        for percept in after {
+            let command = step(&mut first, percept);
+            prop_assert_eq!(&step(&mut again, percept), &command);
+            prop_assert_eq!(&step(&mut clone, percept), &command);
+        }
+        let thoughts = format!("{:?}", first.thoughts());
+        prop_assert_eq!(format!("{:?}", clone.thoughts()), thoughts);
+    }
+
+    #[test]
+    fn robots_that_change_their_numbers_are_still_sane(
+        percepts in proptest::collection::vec(percept(absurd), 1..30), gone in 0_u32..3,
+    ) {
+        let mut brain = mind(Arbitration::Goals, 5, &explorer());
+        for percept in &percepts {
+            check_outbox(&brain.step(percept).outbox)?;
+            brain.renumber(|id| {
+                let index = if id.index > gone { id.index - 1 } else { id.index };
+                (id.index != gone).then_some(RobotId { index, ..id })
+            });
+        }
+        check_thoughts(&brain)?;
+    }
+
+    #[test]
+    fn whatever_body_a_mind_is_in_its_command_is_finite(
+        numbers in proptest::array::uniform8(number(0.0, 3.0)),
+        percepts in proptest::collection::vec(percept(absurd), 1..20),
+    ) {
+        let [radius_m, speed, back, acceleration, turn, period_s, range_m, noise_m] = numbers;
+        let mut body = explorer();
+        body.detectors[0].range_m = range_m.min(1e4);
+        body.detectors[0].noise_m = noise_m;
+        let body = Body {
+            radius_m: radius_m.min(1e4),
+            max_speed_m_s: speed,
+            max_reverse_speed_m_s: back,
+            max_acceleration_m_s2: acceleration,
+            max_turn_rate_rad_s: turn,
+            period_s,
+            neighbour_noise_m: noise_m,
+            position_noise_m: noise_m,
+            ..body
+        };
+        let mut brain = mind(Arbitration::Goals, 5, &body);
+        for motion in motions(&mut brain, &percepts) {
+            prop_assert!(motion.speed_m_s.is_finite(), "{motion:?}");
+            prop_assert!(motion.turn_rate_rad_s.is_finite(), "{motion:?}");
+        }
     }
 }
 

@@ -16,9 +16,6 @@ use serde::{Deserialize, Serialize};
 /// A cell in which an item would have been missed with more than this has not been looked at.
 const UNSEEN: f64 = 0.5;
 
-/// A cell that the body does not fit into counts as so much farther, in metres.
-const SHUT_M: f64 = 1000.0;
-
 /// Searches by going to the nearest place that nobody has looked at: along the frontier between what was
 /// looked at and what was not (Yamauchi, *A frontier-based approach for autonomous exploration*, 1997).
 /// When all has been looked at, it has nothing to do.
@@ -58,29 +55,17 @@ impl Ready {
 }
 
 /// The nearest place that has not been looked at; what others go for counts as ten times as far.
-fn nearest(survey: &Survey, beliefs: &Beliefs, map: &Map, at: Point) -> Option<Point> {
-    let mut best = (f64::INFINITY, None);
-    let near_m = 4.0 * map.field.cell_m;
-    for cell in (0..map.field.cells()).filter(|cell| map.unseen.of(*cell) > UNSEEN) {
-        let Some(way_m) = survey.wave.cell_distance_m(&map.field, cell) else {
-            continue;
-        };
-        // What can only be looked at from outside comes last.
-        let last_m = if survey.wave.is_shut(cell) {
-            SHUT_M
+fn nearest(survey: &mut Survey, senses: &Senses, beliefs: &Beliefs, map: &Map) -> Option<Point> {
+    let (at, near_m) = (beliefs.pose()?.at, 4.0 * map.field.cell_m);
+    let nearness = |way_m: f64| 1.0 / way_m.max(map.field.cell_m);
+    let worth = |cell, way_m| {
+        if map.unseen.of(cell) > UNSEEN {
+            nearness(way_m) * share(beliefs, at, map.field.centre(cell), near_m)
         } else {
             0.0
-        };
-        if way_m + last_m >= best.0 {
-            continue;
         }
-        let place = map.field.centre(cell);
-        let far_m = last_m + way_m / share(beliefs, at, place, near_m);
-        if far_m < best.0 && !survey.is_given_up(place, map.field.cell_m) {
-            best = (far_m, Some(place));
-        }
-    }
-    best.1
+    };
+    survey.best((map, senses.body), at, worth, nearness)
 }
 
 fn is_unseen(map: &Map, place: Point) -> bool {
@@ -99,15 +84,14 @@ impl Behaviour for Ready {
 
     fn triggered(&self, memory: &mut Self::Memory, senses: &Senses) -> Option<Wish> {
         let beliefs = senses.beliefs?;
-        let (at, map) = (beliefs.pose()?.at, beliefs.map.as_ref()?);
+        let map = beliefs.map.as_ref()?;
         let survey = memory.get_or_insert_default();
         let going = survey.still_going(senses.body.period_s);
         let going = going.filter(|to| is_unseen(map, *to));
         let to = if let Some(to) = going {
             to
         } else {
-            survey.look(map, at, senses.body);
-            let to = nearest(survey, beliefs, map, at)?;
+            let to = nearest(survey, senses, beliefs, map)?;
             survey.going = Some((to, 0.0));
             to
         };

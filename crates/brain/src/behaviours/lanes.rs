@@ -260,3 +260,6 @@ impl Behaviour for Ready {
         Motion::default()
     }
 }
+
+#[cfg(test)]
+mod tests;

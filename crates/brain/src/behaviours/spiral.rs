@@ -94,8 +94,10 @@ impl Ready {
                 *along_m = 0.0;
                 return None;
             }
-            if field.holds(place) && at.to(place).length() > self.aim.within_m {
-                return Some(place);
+            let inside = field.nearest(place);
+            let is_near = inside.to(place).length() <= self.width_m / 2.0;
+            if is_near && at.to(inside).length() > self.aim.within_m {
+                return Some(inside);
             }
             *along_m += self.width_m / 2.0;
         }

@@ -17,10 +17,13 @@ const AGAIN_S: f64 = 2.0;
 /// A place where somebody else is going counts as much less.
 const CLAIMED: f64 = 0.1;
 
+/// So many places are given up at most: the first is then tried again.
+const MOST_GIVEN_UP: usize = 16;
+
 /// What one robot remembers of its search.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Survey {
-    pub(crate) wave: Wave,
+    wave: Wave,
     /// Where it is going, and for how long it has been.
     pub(crate) going: Option<(Point, f64)>,
     /// Places that it could not get to.
@@ -28,10 +31,49 @@ pub(crate) struct Survey {
 }
 
 impl Survey {
-    /// Lets the wave run from where the robot is.
-    pub(crate) fn look(&mut self, map: &Map, at: Point, body: &Body) {
+    /// The place that is worth most, by its cell and the way there; `None` if none is worth anything.
+    ///
+    /// Nothing so far off is worth more than `at_most` of the way. Where the body does not fit, so that it
+    /// can only be looked at from outside, comes last.
+    pub(crate) fn best(
+        &mut self,
+        (map, body): (&Map, &Body),
+        at: Point,
+        worth: impl Fn(usize, f64) -> f64,
+        at_most: impl Fn(f64) -> f64,
+    ) -> Option<Point> {
         let room_m = body.radius_m + CELL_ROOM * map.field.cell_m;
-        self.wave.run(&map.field, &map.filled, at, room_m);
+        let (known, given_up) = ((&map.field, &map.filled), &self.given_up);
+        let mut best = Best::default();
+        let mut offer = |cell, way_m| {
+            let worth = worth(cell, way_m);
+            if worth > best.worth {
+                best.offer(map.field.centre(cell), worth, given_up, map.field.cell_m);
+            }
+            best
+        };
+        self.wave.run(known, at, room_m, |cell, way_m| {
+            at_most(way_m) > offer(cell, way_m).worth
+        });
+        if best.place.is_none() {
+            self.beside(map, &worth, &mut best);
+        }
+        best.place
+    }
+
+    /// The same among cells that the body does not fit into.
+    fn beside(&self, map: &Map, worth: impl Fn(usize, f64) -> f64, best: &mut Best) {
+        let (field, cells) = (&map.field, 0..map.field.cells());
+        for cell in cells.filter(|cell| self.wave.is_shut(field, *cell)) {
+            let place = field.centre(cell);
+            let is_worth_it = worth(cell, 0.0) > best.worth;
+            if let Some((_, way_m)) = is_worth_it
+                .then(|| self.wave.out_of(field, &map.filled, place))
+                .flatten()
+            {
+                best.offer(place, worth(cell, way_m), &self.given_up, field.cell_m);
+            }
+        }
     }
 
     /// Where it is going, unless it is time to think again.
@@ -41,17 +83,31 @@ impl Survey {
         (*since_s < AGAIN_S).then_some(*to)
     }
 
-    /// Never there again.
+    /// Not there again.
     pub(crate) fn give_up(&mut self) {
         if let Some((to, _)) = self.going.take() {
+            if self.given_up.len() == MOST_GIVEN_UP {
+                self.given_up.remove(0);
+            }
             self.given_up.push(to);
         }
     }
+}
 
-    /// Whether it tried to get near to a place in vain.
-    pub(crate) fn is_given_up(&self, place: Point, near_m: f64) -> bool {
-        let mut given_up = self.given_up.iter();
-        given_up.any(|other| other.to(place).length_squared() < near_m * near_m)
+/// The best place so far.
+#[derive(Debug, Clone, Copy, Default)]
+struct Best {
+    worth: f64,
+    place: Option<Point>,
+}
+
+impl Best {
+    /// Takes a place that is worth more, unless it was given up, or one near it.
+    fn offer(&mut self, place: Point, worth: f64, given_up: &[Point], near_m: f64) {
+        let is_near = |other: &Point| other.to(place).length_squared() < near_m * near_m;
+        if worth > self.worth && !given_up.iter().any(is_near) {
+            (self.worth, self.place) = (worth, Some(place));
+        }
     }
 }
 

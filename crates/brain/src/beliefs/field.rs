@@ -1,6 +1,10 @@
 //! The mission's field in cells.
 
 use base::geometry::{Point, Rectangle};
+use core::ops::Range;
+
+/// Places between cells are told in so many binary digits.
+const FIXED: u32 = 20;
 
 /// A rectangle of square cells, row by row from the least corner.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -111,25 +115,106 @@ impl Field {
         })
     }
 
-    /// Whether it holds a place.
-    pub(crate) fn holds(&self, place: Point) -> bool {
-        self.area.contains(place)
+    /// The place in it that is nearest to one.
+    pub(crate) fn nearest(&self, place: Point) -> Point {
+        let (least, most) = (self.area.min(), self.area.max());
+        Point {
+            x: place.x.max(least.x).min(most.x),
+            y: place.y.max(least.y).min(most.y),
+        }
     }
 
-    /// Cells whose columns and rows come near a place.
-    pub(crate) fn about(&self, place: Point, radius_m: f64) -> impl Iterator<Item = usize> + use<> {
-        let corner = Point {
-            x: radius_m,
-            y: radius_m,
+    /// Cells of it that a straight way crosses, but for the one where it begins: one in each column that it
+    /// passes, or in each row if those are more.
+    #[inline]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_possible_wrap,
+        clippy::cast_precision_loss,
+        clippy::cast_sign_loss,
+        reason = "at most some thousands"
+    )]
+    pub(crate) fn crossed(&self, from: Point, to: Point) -> impl Iterator<Item = usize> + use<> {
+        let ([right, up], [to_right, to_up]) = (self.in_cells(from), self.in_cells(to));
+        let way = [to_right - right, to_up - up];
+        let steps = way[0].abs().max(way[1].abs());
+        let stride = way.map(|way| way / steps.max(f64::MIN_POSITIVE));
+        // Of a way that leads outside, so many steps are within.
+        let within = |at: f64, stride: f64, count: usize| {
+            let left = if stride > 0.0 { count as f64 - at } else { at };
+            left / stride.abs().max(f64::MIN_POSITIVE)
         };
-        let [left, low] = self.column_and_row(corner.to(place));
-        let [right, high] = self.column_and_row(place.plus(corner));
+        let within = within(right, stride[0], self.columns).min(within(up, stride[1], self.rows));
+        let count = steps.min(within);
+        let is_within = self.cell(from).is_some() && count.is_finite();
+        let count = if is_within { count as u32 } else { 0 };
+        // In whole numbers of 2^-20 of a cell, of which no sum errs.
+        let fixed = |cells: f64| (cells * f64::from(1 << FIXED)) as i64;
+        let (mut at, stride) = ([fixed(right), fixed(up)], stride.map(fixed));
+        let (columns, cells) = (self.columns as i64, self.cells());
+        (0..count).map(move |_| {
+            at = [at[0] + stride[0], at[1] + stride[1]];
+            let cell = (at[1] >> FIXED) * columns + (at[0] >> FIXED);
+            usize::try_from(cell).unwrap_or(cells)
+        })
+    }
+
+    /// Cells at most so many columns and rows from one, and that itself.
+    pub(crate) fn around(&self, cell: usize, reach: i32) -> impl Iterator<Item = usize> + use<> {
+        let [column, row] = self.column_and_row_of(cell);
         let field = *self;
-        let most = |count: usize| i32::try_from(count).unwrap_or(i32::MAX) - 1;
-        let columns = left.max(0)..=right.min(most(self.columns));
-        (low.max(0)..=high.min(most(self.rows)))
-            .flat_map(move |row| columns.clone().map(move |column| (column, row)))
-            .filter_map(move |(column, row)| field.number(column, row))
+        let rows = row - reach..=row + reach;
+        rows.flat_map(move |row| {
+            let columns = column - reach..=column + reach;
+            columns.filter_map(move |column| field.number(column, row))
+        })
+    }
+
+    /// Cells of it on a way, from half a cell along it: `way` is of length 1. Some come twice.
+    #[inline]
+    pub(crate) fn along(
+        &self,
+        from: Point,
+        way: Point,
+        length_m: f64,
+    ) -> impl Iterator<Item = usize> + use<> {
+        let [mut right, mut up] = self.in_cells(from);
+        let (columns, rows) = (self.columns, self.rows);
+        let count = 2.0 * length_m / self.cell_m;
+        // Nobody sees farther than all cells.
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a cast saturates"
+        )]
+        let count = (count as usize).min(4 * (columns + rows));
+        (0..count).filter_map(move |_| {
+            right += way.x / 2.0;
+            up += way.y / 2.0;
+            if right < 0.0 || up < 0.0 {
+                return None;
+            }
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "a cast saturates"
+            )]
+            let (column, row) = (right as usize, up as usize);
+            (column < columns && row < rows).then_some(row * columns + column)
+        })
+    }
+
+    /// Columns and rows that come into a box between two corners.
+    pub(crate) fn columns_and_rows(&self, low: Point, high: Point) -> [Range<usize>; 2] {
+        let ([left, bottom], [right, top]) = (self.column_and_row(low), self.column_and_row(high));
+        let span = |first: i32, last: i32, count: usize| {
+            let number = |number: i32| usize::try_from(number).unwrap_or(0).min(count);
+            number(first)..number(last.saturating_add(1))
+        };
+        [
+            span(left, right, self.columns),
+            span(bottom, top, self.rows),
+        ]
     }
 }
 
@@ -163,10 +248,13 @@ mod tests {
     }
 
     #[test]
-    fn cells_about_a_place_are_those_that_come_near_it() {
+    fn columns_and_rows_of_a_box_are_those_that_it_touches() {
         let corner = Point { x: 5.0, y: 5.0 };
         let field = Field::new(&Rectangle::spanned(Point::default(), corner), 1.0, 1000);
-        let about: Vec<usize> = field.about(Point { x: 0.5, y: 4.6 }, 0.6).collect();
-        assert_eq!(about, [15, 16, 20, 21]);
+        let (low, high) = (Point { x: -0.1, y: 4.0 }, Point { x: 1.1, y: 9.0 });
+        assert_eq!(field.columns_and_rows(low, high), [0..2, 4..5]);
+        let beyond = Point { x: 6.0, y: 6.0 };
+        let [columns, rows] = field.columns_and_rows(beyond, high);
+        assert!(columns.is_empty() && rows.is_empty());
     }
 }

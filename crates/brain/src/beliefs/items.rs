@@ -5,11 +5,14 @@
 //! any number of others, and each look counts once: of one source the report with the most looks holds.
 //!
 //! ```text
-//! log odds = log odds before any look + sum over sources of their log likelihood ratios
+//! log odds = log odds before its looks + sum over sources of their log likelihood ratios
 //! a contact adds    ln(p N(d; S) / f)    p: probability of detection at that distance,
 //! a miss adds       ln(1 - p)            N: normal density of its being d off, f: false contacts a m2
-//! a report counts   as trust x its confidence + (1 - trust) x the confidence before any look
+//! a report counts   as trust x its confidence + (1 - trust) x the confidence before
 //! ```
+//!
+//! Before an item's looks it is as likely as items are dense, and as looks that saw nothing there would
+//! have missed it.
 
 use super::Map;
 use super::pose::Pose;
@@ -35,9 +38,14 @@ const GATE: f64 = 3.0;
 /// No position is better than this, in metres.
 const LEAST_DEVIATION_M: f64 = 0.05;
 
-/// One look says no more than this, and nobody is surer than that: natural logarithms of odds.
+/// One look says no more than this against an item, and nobody is surer than that: natural logarithms of
+/// odds.
 const MOST_A_LOOK: f64 = 8.0;
 const MOST_AT_ALL: f64 = 15.0;
+
+/// However often nobody saw anything somewhere, an item there is no less likely than by this factor: what is
+/// said of detectors errs.
+const LEAST_UNSEEN: f64 = 0.01;
 
 /// Own looks that say 90% confirm or refute a report.
 const SURE: f64 = 2.0 * LN_10 * 0.477;
@@ -77,6 +85,8 @@ struct Source {
 pub(crate) struct Items {
     pub(crate) tracks: Vec<Track>,
     marks: u32,
+    /// Place of the item that others are told of again next.
+    again: usize,
 }
 
 /// One look of an own detector.
@@ -101,7 +111,7 @@ impl Items {
         // A bit for each item that it recognised.
         let mut recognised = 0_u64;
         for contact in contacts {
-            recognised |= self.recognise(look, contact, recognised);
+            recognised |= self.recognise(look, contact, recognised, map);
         }
         let view = View::new(look.detector, look.pose.heading_rad);
         for (number, track) in self.tracks.iter_mut().enumerate() {
@@ -114,7 +124,13 @@ impl Items {
     }
 
     /// Takes in a contact; returns the bit of its item.
-    fn recognise(&mut self, look: &OwnLook, contact: &Contact, taken: u64) -> u64 {
+    fn recognise(
+        &mut self,
+        look: &OwnLook,
+        contact: &Contact,
+        taken: u64,
+        map: Option<&Map>,
+    ) -> u64 {
         let is_sensible =
             (0.0..=1e6).contains(&contact.range_m) && contact.bearing_rad.abs() <= 10.0;
         if !is_sensible {
@@ -125,7 +141,12 @@ impl Items {
         let variance_m2 = look.variance_m2(contact.range_m);
         let place = match self.nearest(contact.kind, at, variance_m2, taken) {
             Some(place) => place,
-            None => self.begin(contact.kind, at, variance_m2, look.per_m2),
+            None => self.begin(
+                contact.kind,
+                at,
+                variance_m2,
+                look.left_m2(contact.kind, at, map),
+            ),
         };
         let track = &mut self.tracks[place];
         let odds = track.likelihood(look, at, variance_m2, contact.range_m);
@@ -149,8 +170,7 @@ impl Items {
     }
 
     /// A new item at a place; returns its number.
-    fn begin(&mut self, kind: u16, at: Point, variance_m2: f64, per_m2: &[f64]) -> usize {
-        let per_m2 = per_m2.get(usize::from(kind)).copied().unwrap_or_default();
+    fn begin(&mut self, kind: u16, at: Point, variance_m2: f64, per_m2: f64) -> usize {
         let before = (2.0 * PI * variance_m2 * per_m2).clamp(1e-9, 0.1);
         let track = Track {
             kind,
@@ -182,11 +202,11 @@ impl Items {
         let near = || self.nearest(report.kind, report.at, variance_m2, 0);
         let place = match known.or_else(near) {
             Some(place) => place,
-            None => self.begin(report.kind, report.at, variance_m2, per_m2),
+            None => self.begin(report.kind, report.at, variance_m2, of(per_m2, report.kind)),
         };
         let track = &mut self.tracks[place];
         let odds = log_odds(report.confidence.clamp(1e-6, 1.0 - 1e-6)) - track.before;
-        if track.replace(report.seen, odds) && !track.has_looked(own) {
+        if track.replace(own, report.seen, odds) && !track.has_looked(own) {
             track.correct(report.at, variance_m2);
         }
     }
@@ -220,6 +240,17 @@ impl Items {
                     source.is_judged = true;
                     trust.learn(source.seen.by, verdict, spec);
                 }
+            }
+        }
+    }
+
+    /// Lets others be told again of one item, each in its turn: messages are lost, and who was out of reach
+    /// may no longer be.
+    pub(crate) fn tell_again(&mut self) {
+        self.again = (self.again + 1).checked_rem(self.tracks.len()).unwrap_or(0);
+        if let Some(track) = self.tracks.get_mut(self.again) {
+            for source in &mut track.sources {
+                source.told = f64::NEG_INFINITY;
             }
         }
     }
@@ -258,7 +289,18 @@ pub(crate) struct Report {
     pub(crate) confidence: f64,
 }
 
+/// What there is of a kind.
+fn of(per_m2: &[f64], kind: u16) -> f64 {
+    per_m2.get(usize::from(kind)).copied().unwrap_or_default()
+}
+
 impl OwnLook<'_> {
+    /// Items of a kind in a square metre at a place that nobody has seen yet.
+    fn left_m2(&self, kind: u16, at: Point, map: Option<&Map>) -> f64 {
+        let unseen = map.map_or(1.0, |map| map.unseen.of(map.field.nearest_cell(at)));
+        of(self.per_m2, kind) * unseen.max(LEAST_UNSEEN)
+    }
+
     /// Of a contact at a distance, along each axis.
     fn variance_m2(&self, range_m: f64) -> f64 {
         let aside_m = range_m * self.pose.deviation_rad;
@@ -303,7 +345,7 @@ impl Track {
         let false_per_m2 = look.detector.false_alarms_per_m2.get(kind);
         let false_per_m2 = false_per_m2.copied().unwrap_or_default().max(1e-12);
         let odds = libm::log(seen / (2.0 * PI * all_m2 * false_per_m2)) - off;
-        odds.clamp(-MOST_A_LOOK, MOST_AT_ALL)
+        odds.max(-MOST_A_LOOK).min(MOST_AT_ALL - self.before)
     }
 
     /// Adds to what own looks say.
@@ -318,29 +360,33 @@ impl Track {
                 mark: *marks,
                 looks: 0,
             };
-            self.push(seen)
+            self.room(by, f64::INFINITY).map_or(0, |place| {
+                self.sources[place].seen = seen;
+                place
+            })
         });
         let source = &mut self.sources[place];
-        source.odds = (source.odds + odds).clamp(-MOST_AT_ALL, MOST_AT_ALL);
+        source.odds = (source.odds + odds)
+            .max(-MOST_AT_ALL)
+            .min(MOST_AT_ALL - self.before);
         source.seen.looks = source.seen.looks.saturating_add(1);
     }
 
-    /// A new source, in place of the least telling one if there is no room.
-    fn push(&mut self, seen: Seen) -> usize {
+    /// The place of a new source that says so much, in place of the least telling one if there is no room;
+    /// `None` if all others say more. Own looks are never forgotten.
+    fn room(&mut self, own: RobotId, odds: f64) -> Option<usize> {
         let place = if self.count < SOURCES {
             self.count += 1;
             self.count - 1
         } else {
-            let numbered = self.sources.iter().enumerate();
-            let least =
-                numbered.min_by(|one, other| one.1.odds.abs().total_cmp(&other.1.odds.abs()));
-            least.map_or(0, |(number, _)| number)
+            let others = self.sources.iter().enumerate();
+            let others = others.filter(|(_, source)| source.seen.by != own);
+            let strengths = others.map(|(number, source)| (source.odds.abs(), number));
+            let least = strengths.min_by(|one, other| one.0.total_cmp(&other.0));
+            least.filter(|(least, _)| *least < odds.abs())?.1
         };
-        self.sources[place] = Source {
-            seen,
-            ..Source::default()
-        };
-        place
+        self.sources[place] = Source::default();
+        Some(place)
     }
 
     fn place_of(&self, seen: Seen) -> Option<usize> {
@@ -350,15 +396,17 @@ impl Track {
     }
 
     /// Takes in what looks of a source say, if it says more than before.
-    fn replace(&mut self, seen: Seen, odds: f64) -> bool {
+    fn replace(&mut self, own: RobotId, seen: Seen, odds: f64) -> bool {
         let known = self.place_of(seen);
         let is_old = known.is_some_and(|place| self.sources[place].seen.looks >= seen.looks);
         if is_old {
             return false;
         }
-        let place = known.unwrap_or_else(|| self.push(seen));
+        let Some(place) = known.or_else(|| self.room(own, odds)) else {
+            return false;
+        };
         self.sources[place].seen = seen;
-        self.sources[place].odds = odds.clamp(-MOST_AT_ALL, MOST_AT_ALL);
+        self.sources[place].odds = odds.max(-MOST_AT_ALL).min(MOST_AT_ALL - self.before);
         true
     }
 
@@ -418,3 +466,6 @@ fn log_odds(probability: f64) -> f64 {
 fn probability(log_odds: f64) -> f64 {
     1.0 / (1.0 + libm::exp(-log_odds))
 }
+
+#[cfg(test)]
+mod tests;

@@ -26,7 +26,7 @@ use alloc::collections::BTreeMap;
 use alloc::string::String;
 use alloc::sync::Arc;
 use alloc::vec::Vec;
-use base::geometry::{Point, Rectangle};
+use base::geometry::{Point, Rectangle, Segment};
 use base::trig::wrapped;
 use drain::Drain;
 use field::Field;
@@ -34,7 +34,7 @@ use items::{Items, OwnLook};
 use occupancy::{Occupancy, Ray};
 use others::Others;
 use peers::Peers;
-use pose::{Localisation, Pose};
+use pose::{Localisation, Pose, turned};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use telling::Told;
@@ -202,7 +202,7 @@ impl Beliefs {
         [now_m_s, turned_rad]: [f64; 2],
     ) {
         self.id = percept.id;
-        let way_m = f64::midpoint(self.speed_m_s, now_m_s) * body.period_s;
+        let way_m = way_m([self.speed_m_s, now_m_s], body);
         self.speed_m_s = now_m_s;
         self.here.take_in(percept, body, way_m, turned_rad);
         let way = direction(turned_rad / 2.0).times(way_m);
@@ -229,6 +229,7 @@ impl Beliefs {
         let Some(map) = &mut self.map else {
             return;
         };
+        let front = direction(pose.heading_rad);
         for (ring, scan) in rings.iter().zip(&percept.scans) {
             let fresh = ring.fresh(Some(scan));
             // An older scan was taken in before.
@@ -236,14 +237,16 @@ impl Beliefs {
             let Some((_, ranges_m)) = new else {
                 continue;
             };
-            for (bearing_rad, free_m) in ring.rays(ranges_m) {
-                let at = direction(bearing_rad).times(free_m);
+            for ray in ring.rays(ranges_m) {
+                let end = ray.end();
                 let ray = Ray {
-                    bearing_rad,
-                    free_m,
-                    is_hit: free_m < ring.range_m() && !self.others.is_on_one(at),
+                    way: Segment {
+                        from: pose.at,
+                        to: pose.at.plus(turned(end, front)),
+                    },
+                    is_hit: ray.range_m < ring.range_m() && !self.others.is_on_one(end),
                 };
-                map.filled.take_in(&map.field, pose, ray);
+                map.filled.take_in(&map.field, &ray);
             }
         }
     }
@@ -294,6 +297,14 @@ impl Beliefs {
     }
 }
 
+/// The way of a step at the end of which it is so fast: at once to the new speed, as far as that goes, and
+/// then on with it.
+fn way_m([before_m_s, now_m_s]: [f64; 2], body: &Body) -> f64 {
+    let change_m_s = now_m_s - before_m_s;
+    let change_s = change_m_s.abs() / body.max_acceleration_m_s2.max(f64::MIN_POSITIVE);
+    now_m_s * body.period_s - change_m_s * change_s.min(body.period_s) / 2.0
+}
+
 /// Where it was some time ago, at a speed and a rate of turn.
 fn earlier(pose: &Pose, [speed_m_s, rate_rad_s]: [f64; 2], age_s: f64) -> Pose {
     // What is no age is none.
@@ -326,21 +337,16 @@ pub(crate) fn standing(
     beliefs: &Beliefs,
     rings: &[Ring],
     percept: &Percept,
-    into: &mut Vec<crate::way::Hit>,
+    into: &mut Vec<crate::rays::Ray>,
 ) {
     into.clear();
     for (ring, scan) in rings.iter().zip(&percept.scans) {
         let Some((_, ranges_m)) = ring.fresh(Some(scan)) else {
             continue;
         };
-        for (bearing_rad, range_m) in ring.rays(ranges_m) {
-            let at = direction(bearing_rad).times(range_m);
-            if range_m < ring.range_m() && !beliefs.others.is_on_one(at) {
-                into.push(crate::way::Hit {
-                    bearing_rad,
-                    range_m,
-                });
-            }
-        }
+        let still = |ray: &crate::rays::Ray| {
+            ray.range_m < ring.range_m() && !beliefs.others.is_on_one(ray.end())
+        };
+        into.extend(ring.rays(ranges_m).filter(still));
     }
 }

@@ -1,11 +1,10 @@
 //! What is filled, as far as ranges tell.
 
 use super::field::Field;
-use super::pose::Pose;
-use crate::sector::direction;
 use alloc::vec;
 use alloc::vec::Vec;
-use base::geometry::Point;
+use base::geometry::{Point, Segment};
+use core::ops::Range;
 
 /// What a ray that ends in a cell says for its being filled, and one that passes, against it: steps
 /// of a quarter of the natural logarithm of the odds.
@@ -32,10 +31,8 @@ pub(crate) struct Occupancy {
 /// A ray as it was measured.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Ray {
-    /// From the robot's front.
-    pub(crate) bearing_rad: f64,
-    /// As far as it is free.
-    pub(crate) free_m: f64,
+    /// From where it begins to where it ends, or is no longer free.
+    pub(crate) way: Segment,
     /// Whether something stands there.
     pub(crate) is_hit: bool,
 }
@@ -56,18 +53,38 @@ impl Occupancy {
             .is_some_and(|odds| *odds >= FILLED)
     }
 
-    /// Takes in a ray that was measured at a pose.
-    pub(crate) fn take_in(&mut self, field: &Field, pose: &Pose, ray: Ray) {
-        let way = direction(pose.heading_rad + ray.bearing_rad);
-        let end = field.cell(pose.at.plus(way.times(ray.free_m)));
-        let hit = end.filter(|_| ray.is_hit);
-        // Half a cell apart, no cell that matters is left out, and none counts twice in a row.
-        let mut last = hit;
-        for cell in passed(field, pose.at, way, ray.free_m) {
-            if Some(cell) != last && Some(cell) != hit {
+    /// Whether any cell of some columns and rows counts as filled.
+    pub(crate) fn is_any_in(
+        &self,
+        field: &Field,
+        columns: &Range<usize>,
+        rows: &Range<usize>,
+    ) -> bool {
+        rows.clone().any(|row| {
+            let first = row * field.columns;
+            let cells = self
+                .quarter_nats
+                .get(first + columns.start..first + columns.end);
+            cells.is_some_and(|cells| cells.iter().any(|odds| *odds >= FILLED))
+        })
+    }
+
+    /// All cells that count as filled.
+    pub(crate) fn filled(&self) -> impl Iterator<Item = usize> {
+        let cells = self.quarter_nats.iter().enumerate();
+        cells
+            .filter(|(_, odds)| **odds >= FILLED)
+            .map(|(cell, _)| cell)
+    }
+
+    /// Takes in a ray.
+    #[inline]
+    pub(crate) fn take_in(&mut self, field: &Field, ray: &Ray) {
+        let hit = field.cell(ray.way.to).filter(|_| ray.is_hit);
+        for cell in field.crossed(ray.way.from, ray.way.to) {
+            if Some(cell) != hit {
                 self.add(cell, PASS);
             }
-            last = Some(cell);
         }
         if let Some(cell) = hit {
             self.add(cell, HIT);
@@ -78,10 +95,9 @@ impl Occupancy {
     fn add(&mut self, cell: usize, change: i8) {
         if let Some(odds) = self.quarter_nats.get_mut(cell) {
             let was_filled = *odds >= FILLED;
-            *odds = odds.saturating_add(change).clamp(-MOST, MOST);
-            self.changes = self
-                .changes
-                .wrapping_add(u32::from(was_filled != (*odds >= FILLED)));
+            *odds = (*odds + change).clamp(-MOST, MOST);
+            let is_changed = was_filled != (*odds >= FILLED);
+            self.changes = self.changes.wrapping_add(u32::from(is_changed));
         }
     }
 
@@ -97,43 +113,32 @@ impl Occupancy {
         }
     }
 
-    /// Whether the straight way between two places is free as far as is known.
+    /// Whether the straight way between two places is free as far as is known: it passes no filled cell,
+    /// nor between two that touch at a corner.
     pub(crate) fn is_free_between(&self, field: &Field, from: Point, to: Point) -> bool {
         let way = from.to(to);
         let length_m = way.length();
         let direction = way.times(1.0 / length_m.max(f64::MIN_POSITIVE));
-        !passed(field, from, direction, length_m).any(|cell| self.is_filled(cell))
+        let mut last = field.cell(from);
+        field.along(from, direction, length_m).all(|cell| {
+            let before = last.replace(cell).unwrap_or(cell);
+            !self.is_filled(cell) && !self.is_crack(field, before, cell)
+        })
     }
-}
 
-/// Cells on the way from a place along a direction of length 1, half a cell apart; those outside are
-/// left out.
-#[inline]
-fn passed(field: &Field, from: Point, way: Point, length_m: f64) -> impl Iterator<Item = usize> {
-    let [mut right, mut up] = field.in_cells(from);
-    let (columns, rows) = (field.columns, field.rows);
-    let count = 2.0 * length_m / field.cell_m;
-    // Nobody sees farther than all cells.
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a cast saturates"
-    )]
-    let count = (count as usize).min(4 * (columns + rows));
-    (0..count).filter_map(move |_| {
-        right += way.x / 2.0;
-        up += way.y / 2.0;
-        if right < 0.0 || up < 0.0 {
-            return None;
+    /// Whether two cells touch at a corner only, and both that lie beside it are filled.
+    fn is_crack(&self, field: &Field, one: usize, other: usize) -> bool {
+        let across = one.abs_diff(other).abs_diff(field.columns);
+        across == 1 && {
+            let [[left, low], [right, high]] =
+                [one, other].map(|cell| field.column_and_row_of(cell));
+            let is_filled = |column, row| {
+                let cell = field.number(column, row);
+                cell.is_some_and(|cell| self.is_filled(cell))
+            };
+            is_filled(left, high) && is_filled(right, low)
         }
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "a cast saturates"
-        )]
-        let (column, row) = (right as usize, up as usize);
-        (column < columns && row < rows).then_some(row * columns + column)
-    })
+    }
 }
 
 #[cfg(test)]
@@ -146,23 +151,15 @@ mod tests {
         Field::new(&Rectangle::spanned(Point::default(), corner), 0.5, 10_000)
     }
 
-    fn pose(x: f64, y: f64) -> Pose {
-        Pose {
-            at: Point { x, y },
-            heading_rad: 0.0,
-            deviation_m: 0.0,
-            deviation_rad: 0.0,
-            age_s: 0.0,
-        }
-    }
-
     fn look(map: &mut Occupancy, free_m: f64, is_hit: bool) {
-        let ray = Ray {
-            bearing_rad: 0.0,
-            free_m,
-            is_hit,
+        let way = Segment {
+            from: Point { x: 1.0, y: 5.25 },
+            to: Point {
+                x: 1.0 + free_m,
+                y: 5.25,
+            },
         };
-        map.take_in(&field(), &pose(1.0, 5.25), ray);
+        map.take_in(&field(), &Ray { way, is_hit });
     }
 
     fn is_filled(map: &Occupancy, x: f64) -> bool {
@@ -175,7 +172,7 @@ mod tests {
         look(&mut map, 4.1, true);
         assert!(is_filled(&map, 5.1) && map.changes == 1);
         assert!((2..10).all(|half| !is_filled(&map, 0.1 + 0.5 * f64::from(half))));
-        let (near, far) = (pose(1.0, 5.25).at, Point { x: 9.0, y: 5.25 });
+        let (near, far) = (Point { x: 1.0, y: 5.25 }, Point { x: 9.0, y: 5.25 });
         assert!(!map.is_free_between(&field(), near, far));
         assert!(map.is_free_between(&field(), near, Point { x: 4.9, y: 5.25 }));
     }

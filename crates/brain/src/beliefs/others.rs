@@ -5,9 +5,9 @@ use crate::body::{Body, RobotId};
 use crate::percept::{Neighbour, Percept};
 use crate::sector::direction;
 use alloc::vec::Vec;
-use base::geometry::Point;
+use base::geometry::{Point, Segment};
 
-/// So many of the nearest are kept in mind.
+/// So many are kept in mind.
 const MOST: usize = 16;
 
 /// Who has not been seen for so long is forgotten, in seconds.
@@ -44,7 +44,8 @@ pub(crate) struct Mover {
     pub(crate) looks: u32,
 }
 
-/// All of them, the nearest at most [`MOST`], in the order in which they were first seen.
+/// All of them, in the order in which they were first seen; of more than [`MOST`], those that it could
+/// soonest run into.
 ///
 /// They are kept in the robot's own frame and carried along by what it moves, so that nobody needs to
 /// know where in the world he is to keep out of others' way.
@@ -61,7 +62,12 @@ impl Others {
             self.see(neighbour, body, turned_rad);
         }
         self.movers.retain(|mover| mover.age_s <= FORGOTTEN_S);
-        self.keep_nearest();
+        let speed_m_s = way.length() / body.period_s.max(f64::MIN_POSITIVE);
+        let stopping_m = speed_m_s * speed_m_s / (2.0 * body.max_acceleration_m_s2);
+        self.keep_nearest(&Segment {
+            from: Point::default(),
+            to: direction(0.0).times(stopping_m.copysign(way.x)),
+        });
     }
 
     fn carry_on(&mut self, period_s: f64, way: Point, turned_rad: f64) {
@@ -109,11 +115,12 @@ impl Others {
         }
     }
 
-    fn keep_nearest(&mut self) {
+    /// Keeps those whose stopping ways come nearest to its own.
+    fn keep_nearest(&mut self, stopping: &Segment) {
         if self.movers.len() > MOST {
-            let distance = |mover: &Mover| mover.at.length_squared();
+            let away_m = |mover: &Mover| stopping.distance_m(mover.at) - mover.stopping_m();
             self.movers
-                .sort_by(|one, other| distance(one).total_cmp(&distance(other)));
+                .sort_by(|one, other| away_m(one).total_cmp(&away_m(other)));
             self.movers.truncate(MOST);
         }
     }
@@ -144,6 +151,11 @@ impl Mover {
         self.looks = self.looks.saturating_add(1);
     }
 
+    /// So far it still goes if it brakes now.
+    fn stopping_m(&self) -> f64 {
+        self.velocity_m_s.length_squared() / (2.0 * self.braking_m_s2)
+    }
+
     /// How fast it goes.
     #[must_use]
     pub(crate) fn speed_m_s(&self) -> f64 {
@@ -156,3 +168,6 @@ fn is_sensible(neighbour: &Neighbour) -> bool {
     let is_angle = neighbour.bearing_rad.abs() <= 10.0;
     is_near && is_angle && (0.0..=FORGOTTEN_S).contains(&neighbour.age_s)
 }
+
+#[cfg(test)]
+mod tests;

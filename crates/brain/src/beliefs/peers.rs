@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 use base::geometry::Point;
 
 /// So many are remembered; who was heard of longest ago is forgotten first.
-const MOST: usize = 32;
+pub(crate) const MOST: usize = 32;
 
 /// What was heard so long ago holds no more, in seconds.
 const FORGOTTEN_S: f64 = 10.0;

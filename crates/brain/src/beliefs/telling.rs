@@ -112,6 +112,7 @@ impl Beliefs {
                 heading_rad: pose.heading_rad,
                 looks: self.looks,
             }));
+            self.items.tell_again();
         }
         self.items.tell(outbox, ITEMS_A_STEP);
     }
@@ -147,3 +148,6 @@ fn report_variance_m2(body: &Body, pose: &Pose) -> f64 {
 fn is_place(at: Point) -> bool {
     at.x.abs() <= FARTHEST_M && at.y.abs() <= FARTHEST_M
 }
+
+#[cfg(test)]
+mod tests;

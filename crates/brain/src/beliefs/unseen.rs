@@ -7,7 +7,7 @@ use crate::sector::direction;
 use alloc::vec;
 use alloc::vec::Vec;
 use base::geometry::Point;
-use core::f64::consts::TAU;
+use core::f64::consts::{PI, TAU};
 
 /// For each cell, the probability that all looks so far would have missed an item there.
 ///
@@ -33,6 +33,10 @@ impl Unseen {
     }
 }
 
+/// A cell is looked at if its centre is so far within what is seen, as a share of its width: most of it is
+/// seen then.
+const MARGIN: f64 = 0.35;
+
 /// A look for items, by whomever.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Glance<'g> {
@@ -56,55 +60,111 @@ impl Unseen {
             looks,
         } = *glance;
         let view = View::new(detector, heading_rad);
-        for cell in field.about(at, detector.range_m) {
-            let place = field.centre(cell);
-            let way = at.to(place);
-            if !view.holds(way) || self.missed[cell] == 0.0 {
-                continue;
-            }
-            let hidden = detector.needs_line_of_sight && !filled.sees(field, at, place);
-            if !hidden {
-                let seen = trust * detector.least_probability(way.length());
-                let left = (1.0 - seen).max(0.0);
-                #[expect(clippy::cast_possible_truncation, reason = "kept short")]
-                let left = if looks <= 1.0 {
-                    left
-                } else {
-                    libm::pow(left, looks)
-                } as f32;
-                self.missed[cell] *= left;
+        let (low, high) = view.box_about(at);
+        let margin_m = MARGIN * field.cell_m;
+        let [columns, rows] = field.columns_and_rows(low, high);
+        let may_hide = detector.needs_line_of_sight && filled.is_any_in(field, &columns, &rows);
+        for row in rows {
+            for cell in row * field.columns + columns.start..row * field.columns + columns.end {
+                if self.missed[cell] == 0.0 {
+                    continue;
+                }
+                let place = field.centre(cell);
+                let way = at.to(place);
+                let is_in_view = view.holds_within(way, margin_m);
+                if is_in_view && (!may_hide || filled.sees(field, at, place)) {
+                    let seen = trust * detector.least_probability(way.length());
+                    self.missed[cell] *= missed(seen, looks);
+                }
             }
         }
+    }
+}
+
+/// Probability that so many looks miss what each sees with a probability.
+#[expect(clippy::cast_possible_truncation, reason = "kept short")]
+fn missed(seen: f64, looks: f64) -> f32 {
+    let left = (1.0 - seen).max(0.0);
+    if looks <= 1.0 {
+        left as f32
+    } else {
+        libm::pow(left, looks) as f32
     }
 }
 
 /// What a detector looks at, in the world.
 pub(crate) struct View {
     range_m: f64,
-    facing: Point,
-    /// Cosine of half its width; below -1 if it looks all around.
-    edge: f64,
+    /// The directions of its right and its left edge.
+    edges: [Point; 2],
+    width: Width,
+}
+
+enum Width {
+    /// At most half of all directions.
+    Narrow,
+    Wide,
+    Round,
 }
 
 impl View {
     pub(crate) fn new(detector: &Detector, heading_rad: f64) -> Self {
-        let is_round = detector.width_rad >= TAU;
+        let facing_rad = heading_rad + detector.facing_rad;
+        let half_rad = detector.width_rad / 2.0;
         Self {
             range_m: detector.range_m,
-            facing: direction(heading_rad + detector.facing_rad),
-            edge: if is_round {
-                -2.0
-            } else {
-                direction(detector.width_rad / 2.0).x
+            edges: [facing_rad - half_rad, facing_rad + half_rad].map(direction),
+            width: match detector.width_rad {
+                width_rad if width_rad >= TAU => Width::Round,
+                width_rad if width_rad > PI => Width::Wide,
+                _ => Width::Narrow,
             },
         }
     }
 
+    /// The corners of a box that holds all that it sees from a place.
+    fn box_about(&self, at: Point) -> (Point, Point) {
+        let ends = self.edges.map(|edge| edge.times(self.range_m));
+        let is_narrow = matches!(self.width, Width::Narrow);
+        let reach_m = |x: f64, y: f64, of: fn(Point) -> f64| {
+            let axis = Point { x, y }.times(self.range_m);
+            if !is_narrow || self.holds(axis) {
+                self.range_m
+            } else {
+                let [one, other] = ends.map(|end| of(end) * (x + y));
+                one.max(other).max(0.0)
+            }
+        };
+        let low = Point {
+            x: reach_m(-1.0, 0.0, |end| end.x),
+            y: reach_m(0.0, -1.0, |end| end.y),
+        };
+        let high = Point {
+            x: reach_m(1.0, 0.0, |end| end.x),
+            y: reach_m(0.0, 1.0, |end| end.y),
+        };
+        (low.to(at), at.plus(high))
+    }
+
+    /// Whether it sees the end of a way.
     #[inline]
     pub(crate) fn holds(&self, way: Point) -> bool {
-        let square = way.length_squared();
-        square <= self.range_m * self.range_m
-            && self.facing.dot(way) >= self.edge * libm::sqrt(square)
+        self.holds_within(way, 0.0)
+    }
+
+    /// The same so far within its edges.
+    #[inline]
+    fn holds_within(&self, way: Point, margin_m: f64) -> bool {
+        let most_m = self.range_m - margin_m;
+        let [right, left] = self.edges;
+        let is_left = right.cross(way) >= margin_m;
+        let is_right = way.cross(left) >= margin_m;
+        let is_between = match self.width {
+            Width::Narrow => is_left && is_right,
+            Width::Wide => is_left || is_right,
+            Width::Round => true,
+        };
+        is_between && most_m > 0.0 && way.length_squared() <= most_m * most_m
     }
 }
 
@@ -136,6 +196,7 @@ pub(crate) mod tests {
     use super::*;
     use crate::beliefs::{BeliefsSpec, Map};
     use base::geometry::Rectangle;
+    use proptest::prelude::*;
 
     /// A detector with a probability, all around or ahead.
     pub(crate) fn detector(range_m: f64, width_rad: f64, probability: f64) -> Detector {
@@ -167,6 +228,20 @@ pub(crate) mod tests {
             looks: 1.0,
         };
         unseen.take_in(&map.field, &map.filled, &glance);
+    }
+
+    proptest! {
+        #[test]
+        fn all_that_a_view_holds_is_in_its_box(
+            width_rad in 0.1_f64..7.0, heading_rad in -4.0_f64..4.0,
+            way in (-3.0_f64..3.0, -3.0_f64..3.0), at in (-9.0_f64..9.0, -9.0_f64..9.0),
+        ) {
+            let view = View::new(&detector(3.0, width_rad, 1.0), heading_rad);
+            let (way, at) = (Point::from([way.0, way.1]), Point::from([at.0, at.1]));
+            let ((low, high), place) = (view.box_about(at), at.plus(way));
+            let is_in = low.x <= place.x && place.x <= high.x && low.y <= place.y && place.y <= high.y;
+            prop_assert!(is_in || !view.holds(way));
+        }
     }
 
     #[test]

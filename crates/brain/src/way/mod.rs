@@ -9,11 +9,10 @@ pub(crate) mod reachable;
 pub(crate) mod shunting;
 pub(crate) mod traffic;
 
-pub(crate) use reachable::Hit;
-
 use crate::beliefs::pose::Pose;
 use crate::beliefs::{Beliefs, Map, standing};
 use crate::command::Motion;
+use crate::rays::Ray;
 use crate::senses::Senses;
 use crate::wish::Aim;
 use alloc::vec::Vec;
@@ -36,7 +35,7 @@ pub(crate) struct Way {
     pub(crate) reachable: Reachable,
     pub(crate) traffic: Traffic,
     shunting: Shunting,
-    hits: Vec<Hit>,
+    hits: Vec<Ray>,
     wave: Wave,
     plan: Option<Plan>,
 }
@@ -126,13 +125,16 @@ impl Way {
             Some(to)
         } else {
             let is_known = plan.is_some_and(|plan| {
-                plan.changes == map.filled.changes && plan.next != Some(to) && !self.wave.is_new()
+                let is_the_same = plan.changes == map.filled.changes && plan.next != Some(to);
+                is_the_same && self.wave.knows(&map.field, pose.at)
             });
             if !is_known {
                 let room_m = senses.body.radius_m + CELL_ROOM * map.field.cell_m;
-                self.wave.run(&map.field, &map.filled, to, room_m);
+                let here = map.field.nearest_cell(pose.at);
+                let known = (&map.field, &map.filled);
+                self.wave.run(known, to, room_m, |cell, _| cell != here);
             }
-            self.wave.ahead(&map.field, pose.at)
+            self.wave.ahead(&map.field, &map.filled, pose.at)
         };
         self.plan = Some(Plan {
             to,
@@ -148,11 +150,8 @@ impl Way {
         let body = senses.body;
         let speed_m_s = body.max_speed_m_s.min(most_m_s.max(0.1));
         let movers = &beliefs.others.movers;
-        self.reachable.look(
-            self.hits.iter().copied(),
-            movers,
-            (body.radius_m, speed_m_s),
-        );
+        self.reachable
+            .look(&self.hits, movers, (body.radius_m, speed_m_s));
         let aim_rad = libm::atan2(way.y, way.x);
         let choice = self.reachable.best(aim_rad, way.length(), 0.0);
         let turn_rad = choice.bearing_rad;

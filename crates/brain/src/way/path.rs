@@ -1,11 +1,11 @@
 //! The shortest way around what is known to be filled.
 //!
-//! A wave runs from the aim over all cells that the body fits into (Dijkstra, *A note on two problems
-//! in connexion with graphs*, 1959, with whole numbers: 5 a step, 7 a step aslant); the robot goes down
-//! it as far as it sees a straight way. What is unknown counts as free.
+//! A wave runs from a place over all cells that the body fits into (Dijkstra, *A note on two problems in
+//! connexion with graphs*, 1959, with whole numbers: 5 a step, 7 a step aslant); a robot goes down it as
+//! far as it sees a straight way. What is unknown counts as free.
 //!
-//! What the body does not fit into is as far as it is to stand before it: a wave runs into it but not
-//! out again on the other side, and out of it where it begins there.
+//! Who stands, or wants to be, where the body does not fit, as next to a wall, goes straight between there
+//! and the nearest cells where it does, if nothing filled lies between.
 
 use crate::beliefs::field::Field;
 use crate::beliefs::occupancy::Occupancy;
@@ -16,191 +16,281 @@ use base::geometry::Point;
 const STRAIGHT: u16 = 5;
 const ASLANT: u16 = 7;
 
-/// There is no way.
+/// The body does not fit into a cell: no wave ever runs over what is nearer.
+const SHUT: u16 = 0;
+
+/// Where a wave begins.
+const BEGIN: u16 = 1;
+
+/// No wave has come to a cell.
 const NEVER: u16 = u16::MAX;
 
 /// Waves end here: no way on a field of some thousand cells is longer, but for mazes.
 const FARTHEST: u16 = NEVER - ASLANT;
 
-/// Steps to neighbours: columns, rows, cost.
-const STEPS: [(i32, i32, u16); 8] = [
-    (1, 0, STRAIGHT),
-    (0, 1, STRAIGHT),
-    (-1, 0, STRAIGHT),
-    (0, -1, STRAIGHT),
-    (1, 1, ASLANT),
-    (-1, 1, ASLANT),
-    (-1, -1, ASLANT),
-    (1, -1, ASLANT),
-];
-
-/// What a cell is to a body.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-enum Ground {
-    #[default]
-    Open,
-    /// Too near to something filled, and so far not come to from what is open.
-    Tight,
-    /// The same, come to from what is open.
-    Shore,
-    Filled,
-}
-
-/// How far every cell is from one place. Two bytes a cell and two for the wave.
+/// How far every cell is from one place. Two bytes a cell and four for the wave.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Wave {
+    from: Point,
+    /// Row by row, with a shut cell before each row and a shut row before and after all.
     fifths: Vec<u16>,
-    grounds: Vec<Ground>,
+    /// From a cell to the one above it.
+    stride: usize,
+    /// In cells: so far off there is room beside what is filled.
+    reach: i32,
     /// Cells to go on from, by what is left of their cost modulo 8.
-    fronts: [Vec<u16>; 8],
+    fronts: [Vec<u32>; 8],
+    is_whole: bool,
 }
 
 impl Wave {
-    /// Lets a wave run from `from`; a body of this radius must fit.
-    pub(crate) fn run(&mut self, field: &Field, map: &Occupancy, from: Point, radius_m: f64) {
-        self.close(field, map, radius_m);
+    /// Lets a wave run from `from`; a body that needs so much room to all sides must fit.
+    ///
+    /// `goes_on` is asked for each cell that the wave comes to, with how far that is, the nearest first.
+    pub(crate) fn run(
+        &mut self,
+        (field, map): (&Field, &Occupancy),
+        from: Point,
+        room_m: f64,
+        goes_on: impl FnMut(usize, f64) -> bool,
+    ) {
+        self.from = from;
+        self.stride = field.columns + 1;
+        self.open(field);
+        self.shut(field, map, room_m);
+        self.begin(field, map);
+        self.is_whole = self.spread(field, goes_on);
+    }
+
+    /// Opens all cells but those around the field.
+    fn open(&mut self, field: &Field) {
         self.fifths.clear();
-        self.fifths.resize(field.cells(), NEVER);
+        self.fifths.resize(self.stride, SHUT);
+        for _ in 0..field.rows {
+            self.fifths.push(SHUT);
+            let row = self.fifths.len() + field.columns;
+            self.fifths.resize(row, NEVER);
+        }
+        self.fifths.resize((field.rows + 2) * self.stride + 1, SHUT);
+    }
+
+    /// Shuts the cells that a body does not fit into.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_precision_loss,
+        reason = "at most some thousands"
+    )]
+    fn shut(&mut self, field: &Field, map: &Occupancy, room_m: f64) {
+        let most = field.columns.max(field.rows) as f64;
+        let room = (room_m / field.cell_m).max(0.0).min(most);
+        self.reach = room as i32 + 1;
+        for filled in map.filled() {
+            let [column, row] = field.column_and_row_of(filled);
+            for up in 1 - self.reach..self.reach {
+                for right in 1 - self.reach..self.reach {
+                    let is_near = f64::from(right * right + up * up) <= room * room;
+                    if let Some(cell) = field.number(column + right, row + up)
+                        && is_near
+                    {
+                        let place = self.place(field, cell);
+                        self.fifths[place] = SHUT;
+                    }
+                }
+            }
+        }
+    }
+
+    fn begin(&mut self, field: &Field, map: &Occupancy) {
         self.fronts.iter_mut().for_each(Vec::clear);
-        self.reach(field.nearest_cell(from), 0);
-        let mut cost = 0;
-        let mut empty = 0;
+        let first = field.nearest_cell(self.from);
+        if !self.is_shut(field, first) {
+            let place = self.place(field, first);
+            self.reach_at(place, BEGIN);
+            return;
+        }
+        let from = self.from;
+        for cell in field.around(first, self.reach + 1) {
+            let is_open = !self.is_shut(field, cell);
+            if is_open && leads(field, map, field.centre(cell), from) {
+                let place = self.place(field, cell);
+                self.reach_at(place, BEGIN);
+            }
+        }
+    }
+
+    /// Whether it comes to all that it can.
+    fn spread(&mut self, field: &Field, mut goes_on: impl FnMut(usize, f64) -> bool) -> bool {
+        let (mut cost, mut empty) = (BEGIN, 0);
         while empty < 8 && cost < FARTHEST {
-            let front = core::mem::take(&mut self.fronts[usize::from(cost % 8)]);
+            let mut front = core::mem::take(&mut self.fronts[usize::from(cost % 8)]);
             empty = if front.is_empty() { empty + 1 } else { 0 };
-            for cell in &front {
-                if self.fifths[usize::from(*cell)] == cost {
-                    self.go_on(field, usize::from(*cell), cost);
+            let way_m = way_m(field, cost);
+            for place in front.iter().map(|place| *place as usize) {
+                if self.fifths[place] == cost {
+                    self.go_on(place, cost);
+                    let (row, column) = (place / self.stride - 1, place % self.stride - 1);
+                    if !goes_on(row * field.columns + column, way_m) {
+                        return false;
+                    }
                 }
             }
             // Its room is used again.
-            let mut room = front;
-            room.clear();
-            self.fronts[usize::from(cost % 8)] = room;
+            front.clear();
+            self.fronts[usize::from(cost % 8)] = front;
             cost += 1;
         }
+        true
     }
 
-    /// Closes the cells that a body does not fit into.
-    fn close(&mut self, field: &Field, map: &Occupancy, radius_m: f64) {
-        self.grounds.clear();
-        self.grounds.resize(field.cells(), Ground::Open);
-        for filled in (0..field.cells()).filter(|cell| map.is_filled(*cell)) {
-            let centre = field.centre(filled);
-            for cell in field.about(centre, radius_m) {
-                let is_near = field.centre(cell).to(centre).length() <= radius_m;
-                if is_near && self.grounds[cell] == Ground::Open {
-                    self.grounds[cell] = Ground::Tight;
-                }
-            }
-            self.grounds[filled] = Ground::Filled;
-        }
-    }
-
-    fn go_on(&mut self, field: &Field, cell: usize, cost: u16) {
-        let ground = self.grounds[cell];
-        let [column, row] = field.column_and_row_of(cell);
-        for (right, up, step) in STEPS {
-            let next = field.number(column + right, row + up);
-            let Some(next) = next.filter(|next| self.fifths[*next] > cost + step) else {
-                continue;
-            };
-            if cost > 0 && !self.goes_on(cell, next) {
-                continue;
-            }
-            let is_from_open = ground != Ground::Tight && cost > 0;
-            if is_from_open && self.grounds[next] == Ground::Tight {
-                self.grounds[next] = Ground::Shore;
-            }
-            self.reach(next, cost + step);
-        }
-    }
-
-    /// Whether a wave goes from one cell on to the next.
     #[inline]
-    fn goes_on(&self, from: usize, to: usize) -> bool {
-        match self.grounds[from] {
-            Ground::Open | Ground::Tight => true,
-            Ground::Shore => self.grounds[to] != Ground::Open,
-            Ground::Filled => false,
+    fn go_on(&mut self, place: usize, cost: u16) {
+        let (up, down) = (place + self.stride, place - self.stride);
+        for next in [place + 1, place - 1, up, down] {
+            if self.fifths[next] > cost + STRAIGHT {
+                self.reach_at(next, cost + STRAIGHT);
+            }
+        }
+        for (row, side) in [(up, 1), (up, -1), (down, 1), (down, -1)] {
+            let next = row.wrapping_add_signed(side);
+            if self.fifths[next] > cost + ASLANT && !self.is_crack(row, place, side) {
+                self.reach_at(next, cost + ASLANT);
+            }
         }
     }
 
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "at most some thousand cells"
-    )]
-    fn reach(&mut self, cell: usize, cost: u16) {
-        self.fifths[cell] = cost;
-        self.fronts[usize::from(cost % 8)].push(cell as u16);
-    }
-
-    /// Whether none has run yet.
-    pub(crate) fn is_new(&self) -> bool {
-        self.fifths.is_empty()
-    }
-
-    /// How far a cell is by the way; `None` if there is none.
+    /// Whether a step aslant, by way of a row and to a side, would pass between two shut cells.
     #[inline]
-    pub(crate) fn cell_distance_m(&self, field: &Field, cell: usize) -> Option<f64> {
-        let fifths = self
-            .fifths
-            .get(cell)
-            .copied()
-            .filter(|fifths| *fifths < NEVER)?;
-        Some(f64::from(fifths) / f64::from(STRAIGHT) * field.cell_m)
+    fn is_crack(&self, row: usize, place: usize, side: isize) -> bool {
+        self.fifths[row] == SHUT && self.fifths[place.wrapping_add_signed(side)] == SHUT
     }
 
-    /// The next cell on the way from one to where the wave began; `None` there, or if there is no way.
-    fn next(&self, field: &Field, cell: usize) -> Option<usize> {
-        let [column, row] = field.column_and_row_of(cell);
-        let next = STEPS.iter().filter_map(|(right, up, step)| {
-            let next = field.number(column + right, row + up)?;
-            let fifths = self.fifths[next];
-            let is_open = fifths < NEVER && (fifths == 0 || self.goes_on(next, cell));
-            is_open.then(|| (fifths.saturating_add(*step), fifths, next))
-        });
-        // What is closed itself, as where a robot grazes a wall, leads out by any way.
-        let (_, fifths, next) = next.min()?;
-        (fifths < self.fifths[cell]).then_some(next)
+    #[inline]
+    #[expect(clippy::cast_possible_truncation, reason = "at most 65,000 cells")]
+    fn reach_at(&mut self, place: usize, cost: u16) {
+        self.fifths[place] = cost;
+        self.fronts[usize::from(cost % 8)].push(place as u32);
+    }
+
+    /// Where a cell of the field is among all.
+    #[inline]
+    fn place(&self, field: &Field, cell: usize) -> usize {
+        let (column, row) = (cell % field.columns, cell / field.columns);
+        (row + 1) * self.stride + column + 1
+    }
+
+    /// Whether it has come to a place, or is known never to.
+    pub(crate) fn knows(&self, field: &Field, place: Point) -> bool {
+        let cell = field.nearest_cell(place);
+        self.is_whole || (!self.fifths.is_empty() && self.cell_distance_m(field, cell).is_some())
     }
 
     /// Whether a body does not fit into a cell.
     #[inline]
-    pub(crate) fn is_shut(&self, cell: usize) -> bool {
-        self.grounds[cell] != Ground::Open
+    pub(crate) fn is_shut(&self, field: &Field, cell: usize) -> bool {
+        self.fifths[self.place(field, cell)] == SHUT
     }
 
-    /// The farthest place on the way from `from` that lies straight ahead.
-    pub(crate) fn ahead(&self, field: &Field, from: Point) -> Option<Point> {
+    /// How far a cell is by the way; `None` if there is none, or the body does not fit into it.
+    #[inline]
+    pub(crate) fn cell_distance_m(&self, field: &Field, cell: usize) -> Option<f64> {
+        let fifths = self.fifths[self.place(field, cell)];
+        let is_way = fifths != SHUT && fifths != NEVER;
+        is_way.then(|| way_m(field, fifths))
+    }
+
+    /// The nearest cell of all to which a straight way leads from a place that the body does not fit into,
+    /// and how far that place is by way of it.
+    pub(crate) fn out_of(
+        &self,
+        field: &Field,
+        map: &Occupancy,
+        place: Point,
+    ) -> Option<(usize, f64)> {
+        let cells = field.around(field.nearest_cell(place), self.reach + 1);
+        let distances = cells.filter_map(|cell| {
+            let centre = field.centre(cell);
+            let way_m = self.cell_distance_m(field, cell)? + centre.to(place).length();
+            leads(field, map, centre, place).then_some((cell, way_m))
+        });
+        distances.min_by(|one, other| one.1.total_cmp(&other.1))
+    }
+
+    /// The next cell on the way from one to where the wave began; `None` there.
+    fn next(&self, field: &Field, cell: usize) -> Option<usize> {
+        let place = self.place(field, cell);
+        let [column, row] = field.column_and_row_of(cell);
+        let (up, down) = (place + self.stride, place - self.stride);
+        let straight = [
+            (1, 0, place + 1),
+            (-1, 0, place - 1),
+            (0, 1, up),
+            (0, -1, down),
+        ];
+        let aslant = [(1, 1, up), (-1, 1, up), (1, -1, down), (-1, -1, down)];
+        let aslant = aslant
+            .into_iter()
+            .filter(|(side, _, row)| !self.is_crack(*row, place, *side as isize))
+            .map(|(side, level, row)| {
+                (side, level, row.wrapping_add_signed(side as isize), ASLANT)
+            });
+        let straight = straight
+            .into_iter()
+            .map(|(side, level, next)| (side, level, next, STRAIGHT));
+        let all = straight
+            .chain(aslant)
+            .filter_map(|(side, level, next, step)| {
+                let fifths = self.fifths[next];
+                let cell = field.number(column + side, row + level)?;
+                (fifths != SHUT).then(|| (fifths.saturating_add(step), cell, fifths))
+            });
+        let (_, next, fifths) = all.min()?;
+        (fifths < self.fifths[place]).then_some(next)
+    }
+
+    /// The farthest place on the way from `from` that lies straight ahead; `None` if there is no way.
+    pub(crate) fn ahead(&self, field: &Field, map: &Occupancy, from: Point) -> Option<Point> {
         let mut cell = field.nearest_cell(from);
+        let Some(_) = self.cell_distance_m(field, cell) else {
+            let (out, _) = self.out_of(field, map, from)?;
+            return Some(field.centre(out));
+        };
         let mut seen = None;
-        for _ in 0..field.cells() {
-            let Some(next) = self.next(field, cell) else {
-                break;
-            };
+        while let Some(next) = self.next(field, cell) {
             let place = field.centre(next);
             if seen.is_some() && !self.is_open_between(field, from, place) {
                 break;
             }
             (seen, cell) = (Some(place), next);
         }
-        seen
+        // From where the wave began, the rest is straight.
+        Some(seen.unwrap_or(self.from))
     }
 
     /// Whether the body fits through on the straight way between two places.
     pub(crate) fn is_open_between(&self, field: &Field, from: Point, to: Point) -> bool {
         let way = from.to(to);
         let length_m = way.length();
-        let stride_m = field.cell_m / 2.0;
-        let mut along_m = stride_m;
-        while along_m < length_m {
-            let place = from.plus(way.times(along_m / length_m));
-            if field.cell(place).is_some_and(|cell| self.is_shut(cell)) {
-                return false;
-            }
-            along_m += stride_m;
-        }
-        true
+        let direction = way.times(1.0 / length_m.max(f64::MIN_POSITIVE));
+        !field
+            .along(from, direction, length_m)
+            .any(|cell| self.is_shut(field, cell))
     }
 }
+
+/// The way that costs so much.
+#[inline]
+fn way_m(field: &Field, fifths: u16) -> f64 {
+    f64::from(fifths - BEGIN) / f64::from(STRAIGHT) * field.cell_m
+}
+
+/// Whether nothing lies between an open cell and a place near it, which may be filled itself.
+fn leads(field: &Field, map: &Occupancy, open: Point, place: Point) -> bool {
+    if map.is_filled(field.nearest_cell(place)) {
+        map.sees(field, open, place)
+    } else {
+        map.is_free_between(field, open, place)
+    }
+}
+
+#[cfg(test)]
+mod tests;

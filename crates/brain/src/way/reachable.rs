@@ -16,6 +16,7 @@
 //! the aim and the place reached.
 
 use crate::beliefs::others::Mover;
+use crate::rays::Ray;
 use crate::sector::direction;
 use alloc::vec::Vec;
 use base::geometry::Point;
@@ -39,13 +40,6 @@ const GRAZING_M: f64 = 0.03;
 
 /// A radian of turning costs as much as so many metres.
 const TURN_M: f64 = 0.02;
-
-/// What stands somewhere: the end of a ray, from the robot's front.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Hit {
-    pub(crate) bearing_rad: f64,
-    pub(crate) range_m: f64,
-}
 
 /// The courses, each with how far it is free and what the place reached there is worth.
 #[derive(Debug, Clone)]
@@ -87,7 +81,7 @@ impl Reachable {
     /// How far each course is free, for a body of this radius that goes at a speed.
     pub(crate) fn look(
         &mut self,
-        hits: impl Iterator<Item = Hit>,
+        hits: &[Ray],
         movers: &[Mover],
         (radius_m, speed_m_s): (f64, f64),
     ) {
@@ -108,7 +102,7 @@ impl Reachable {
         clippy::cast_sign_loss,
         reason = "few"
     )]
-    fn block(&mut self, hit: Hit, radius_m: f64) {
+    fn block(&mut self, hit: &Ray, radius_m: f64) {
         if hit.range_m >= HORIZON_M + radius_m {
             return;
         }
@@ -121,7 +115,7 @@ impl Reachable {
             libm::ceil((hit.bearing_rad - most_rad) / apart_rad),
             libm::floor((hit.bearing_rad + most_rad) / apart_rad),
         );
-        let at = direction(hit.bearing_rad).times(hit.range_m);
+        let at = hit.end();
         let mut course = first.max(-2.0 * courses);
         while course <= last.min(2.0 * courses) {
             let place = (course + 2.0 * courses) as usize % COURSES;
@@ -202,3 +196,6 @@ fn until_touch_m(direction: Point, at: Point, radius_m: f64) -> f64 {
     }
     (along_m - libm::sqrt(square)).max(0.0)
 }
+
+#[cfg(test)]
+mod tests;

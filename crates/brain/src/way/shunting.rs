@@ -7,9 +7,9 @@
 //! robots*, IROS 1992, call the going back "shunting"; the growing times are those of Metcalfe and
 //! Boggs, *Ethernet*, 1976).
 
-use super::Hit;
 use crate::beliefs::others::Mover;
 use crate::dice::Dice;
+use crate::rays::Ray;
 use crate::sector::direction;
 use base::geometry::Point;
 use base::trig::wrapped;
@@ -80,7 +80,7 @@ pub(crate) struct Step<'s> {
     pub(crate) turned_rad: f64,
     pub(crate) period_s: f64,
     pub(crate) max_speed_m_s: f64,
-    pub(crate) hits: &'s [Hit],
+    pub(crate) hits: &'s [Ray],
     pub(crate) movers: &'s [Mover],
 }
 
@@ -156,7 +156,7 @@ enum Side {
 fn side(step: &Step) -> Side {
     let aim_rad = libm::atan2(step.way.y, step.way.x);
     let [left_m, right_m] = [FRAC_PI_2, -FRAC_PI_2].map(|side_rad| {
-        let within = |hit: &&Hit| wrapped(hit.bearing_rad - aim_rad - side_rad).abs() < FRAC_PI_4;
+        let within = |hit: &&Ray| wrapped(hit.bearing_rad - aim_rad - side_rad).abs() < FRAC_PI_4;
         let ranges_m = step.hits.iter().filter(within).map(|hit| hit.range_m);
         ranges_m.fold(NEAR_M, f64::min)
     });
@@ -202,3 +202,6 @@ fn keeping_right(step: &Step) -> Point {
         step.way
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -13,6 +13,9 @@
 //!   <- stopping | stopping <---- other
 //! ```
 //!
+//! Others see where one went in the last step, not where he points at its end: what they are off is
+//! within the room that is left. What crosses cannot be kept apart: then both brake.
+//!
 //! The idea is that of buffered Voronoi cells (Zhou, Wang, Bandyopadhyay and Schwager, *Fast, on-line
 //! collision avoidance for dynamic vehicles using buffered Voronoi cells*, 2017), which are between
 //! points and hold for bodies that stop at once; here they are between stopping ways.
@@ -133,19 +136,26 @@ fn line(own: &Segment, mover: &Mover, body: &Body) -> Option<Line> {
     let between = here.to(there);
     let gap_m = between.length();
     if gap_m <= 0.0 {
-        return None;
+        // They cross: all that is left is to brake.
+        let is_anybody_moving = own.length_m() + other.length_m() > 0.0;
+        return is_anybody_moving.then_some(Line {
+            normal: Point::default(),
+            most: f64::NEG_INFINITY,
+        });
     }
     let normal = between.times(1.0 / gap_m);
     let error_m = DEVIATIONS * body.neighbour_noise_m;
     let half_m = (body.radius_m + mover.radius_m + ROOM_M + error_m) / 2.0;
-    let middle = normal.dot(here) + gap_m / 2.0;
-    // Who is too near already must not come nearer.
-    let most = if gap_m < 2.0 * half_m {
-        normal.dot(here)
+    // Who is too near already must not come nearer, nor to one of whom nobody knows how fast he goes.
+    let left_m = if mover.looks > 1 {
+        (gap_m / 2.0 - half_m).max(0.0)
     } else {
-        middle - half_m
+        0.0
     };
-    Some(Line { normal, most })
+    Some(Line {
+        normal,
+        most: normal.dot(here) + left_m,
+    })
 }
 
 /// The nearest points of two segments.
@@ -166,3 +176,6 @@ fn nearest(one: &Segment, other: &Segment) -> (Point, Point) {
     };
     ends.into_iter().fold(ends[0], nearer)
 }
+
+#[cfg(test)]
+mod tests;

@@ -12,7 +12,7 @@ const SEARCH: &str = include_str!("../../../../scenarios/search.toml");
 /// A search that takes longer has taken so long.
 const CAP_S: f64 = 600.0;
 
-const RUNS: u64 = 60;
+const RUNS: u64 = 120;
 
 fn scenario(behaviours: &str, more: &str) -> Scenario {
     let of_brain = "[robots.rover.brain]\n";

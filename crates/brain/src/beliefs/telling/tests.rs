@@ -1,0 +1,229 @@
+use super::*;
+use crate::beliefs::unseen::tests::detector;
+use crate::beliefs::{BeliefsSpec, TrustSpec};
+use crate::body::{Detector, RobotId};
+use crate::command::Seen;
+use crate::percept::{Look, Percept};
+use crate::world_of_walls::{now, rover};
+use base::geometry::Rectangle;
+
+const ME: RobotId = RobotId { kind: 0, index: 0 };
+const MATE: RobotId = RobotId { kind: 0, index: 1 };
+
+/// A robot that recognises items all around as far as 2 m, on a field of 20 m by 20 m.
+fn body(probability: f64) -> Body {
+    let corner = Point { x: 20.0, y: 20.0 };
+    Body {
+        detectors: vec![Detector {
+            false_alarms_per_m2: vec![0.01],
+            ..detector(2.0, 7.0, probability)
+        }],
+        item_kinds: vec!["mine".into()],
+        field: Some(Rectangle::spanned(Point::default(), corner)),
+        ..rover()
+    }
+}
+
+struct Robot {
+    beliefs: Beliefs,
+    body: Body,
+}
+
+impl Robot {
+    fn new(probability: f64, trust: f64) -> Self {
+        let body = body(probability);
+        let spec = BeliefsSpec {
+            trust: TrustSpec {
+                initial: trust,
+                ..TrustSpec::default()
+            },
+            ..BeliefsSpec::default()
+        };
+        Self {
+            beliefs: Beliefs::new(&spec, &body),
+            body,
+        }
+    }
+
+    /// Stands at (8, 10), and perhaps looks.
+    fn step(&mut self, looks: bool, inbox: Vec<Heard>) {
+        let look = Look {
+            sensor: 0,
+            age_s: 0.0,
+        };
+        let percept = Percept {
+            id: ME,
+            position: Some(now(Point { x: 8.0, y: 10.0 })),
+            heading_rad: Some(now(0.0)),
+            looks: if looks { vec![look] } else { Vec::new() },
+            inbox,
+            ..Percept::default()
+        };
+        self.beliefs.take_in(&percept, &self.body, &[], [0.0, 0.0]);
+    }
+
+    /// How surely an item at a place would have been seen.
+    fn seen(&self, x: f64, y: f64) -> f64 {
+        let map = self.beliefs.map.as_ref().unwrap();
+        1.0 - map.unseen.of(map.field.cell(Point { x, y }).unwrap())
+    }
+}
+
+fn heard(about: About, confidence: f64) -> Heard {
+    Heard {
+        from: MATE,
+        age_s: 0.0,
+        message: Message { about, confidence },
+    }
+}
+
+/// A mate tells where it is, and how often it has looked.
+fn mate(x: f64, y: f64, looks: u32, confidence: f64) -> Heard {
+    let at = Point { x, y };
+    let heading_rad = 0.0;
+    heard(
+        About::Sender {
+            at,
+            heading_rad,
+            looks,
+        },
+        confidence,
+    )
+}
+
+fn item(x: f64, y: f64, mark: u32) -> Heard {
+    let seen = Seen {
+        by: MATE,
+        mark,
+        looks: 1,
+    };
+    let at = Point { x, y };
+    heard(About::Item { kind: 0, at, seen }, 0.95)
+}
+
+/// The thesis's example: a range of 2, and a sender 5 away with a range of 2 that is quite sure.
+#[test]
+fn a_report_extends_the_picture_towards_its_sender_but_not_to_a_full_disc() {
+    let mut robot = Robot::new(1.0, 1.0);
+    robot.step(true, vec![mate(13.0, 10.0, 1, 1.0)]);
+    for x in [6.2, 8.0, 9.8, 11.2, 13.0, 14.8] {
+        assert!(robot.seen(x, 10.0) > 0.99, "{x}");
+    }
+    for (x, y) in [
+        (8.0, 13.0),
+        (8.0, 7.0),
+        (4.0, 10.0),
+        (10.5, 11.0),
+        (12.0, 13.0),
+    ] {
+        assert!(robot.seen(x, y) < 0.01, "{x} {y}");
+    }
+}
+
+#[test]
+fn a_report_counts_as_its_confidence_times_the_trust_in_its_sender() {
+    let mut robot = Robot::new(1.0, 0.8);
+    robot.step(false, vec![mate(13.0, 10.0, 1, 0.5)]);
+    assert!((robot.seen(13.0, 10.5) - 0.4).abs() < 1e-6);
+}
+
+#[test]
+fn looks_of_a_lost_message_are_made_up_for_by_the_next() {
+    let (mut all, mut last) = (Robot::new(0.3, 0.9), Robot::new(0.3, 0.9));
+    for looks in [1, 4, 6] {
+        all.step(false, vec![mate(13.0, 10.0, looks, 1.0)]);
+        let is_lost = looks == 4;
+        last.step(
+            false,
+            if is_lost {
+                Vec::new()
+            } else {
+                vec![mate(13.0, 10.0, looks, 1.0)]
+            },
+        );
+    }
+    let expected = 1.0 - libm::pow(1.0 - 0.27, 6.0);
+    for robot in [&all, &last] {
+        assert!((robot.seen(13.0, 10.5) - expected).abs() < 1e-6);
+    }
+}
+
+#[test]
+fn what_a_mate_saw_on_its_way_was_seen_too() {
+    let mut robot = Robot::new(1.0, 1.0);
+    robot.step(false, vec![mate(4.0, 4.0, 1, 1.0)]);
+    robot.step(false, vec![mate(14.0, 4.0, 40, 1.0)]);
+    for x in [3.0, 6.0, 9.0, 12.0, 15.0] {
+        assert!(robot.seen(x, 4.0) > 0.99, "{x}");
+    }
+    assert!(robot.seen(9.0, 7.0) < 0.01);
+}
+
+#[test]
+fn who_tells_of_what_is_not_there_is_trusted_less_and_less() {
+    let mut robot = Robot::new(0.8, 0.9);
+    let spec = robot.beliefs.prior.trust.clone();
+    let mut before = 0.9;
+    for mark in 1..5 {
+        // In view, each time elsewhere.
+        robot.step(false, vec![item(7.0 + 0.5 * f64::from(mark), 9.5, mark)]);
+        let told = robot.beliefs.believed_items().last().unwrap().confidence;
+        (0..8).for_each(|_| robot.step(true, Vec::new()));
+        let trust = robot.beliefs.trust.of(MATE, &spec);
+        assert!(trust < before, "{trust}");
+        before = trust;
+        let refuted = robot.beliefs.believed_items().last().unwrap().confidence;
+        assert!(refuted < 0.1 * told, "{told} {refuted}");
+    }
+    assert!((before - 4.0 * 0.9 / 8.0).abs() < 1e-6, "{before}");
+}
+
+#[test]
+fn who_does_not_know_where_he_is_tells_nothing_and_who_does_tells_it_once_a_second() {
+    let mut robot = Robot::new(1.0, 1.0);
+    let mut outbox = Vec::new();
+    robot.beliefs.tell(None, 0.1, &mut outbox);
+    assert!(outbox.is_empty());
+    robot.step(true, Vec::new());
+    for _ in 0..30 {
+        robot.beliefs.tell(None, 0.1, &mut outbox);
+    }
+    let senders = outbox
+        .iter()
+        .filter(|m| matches!(m.about, About::Sender { looks: 1, .. }));
+    assert!((2..=3).contains(&senders.count()), "{outbox:?}");
+}
+
+#[test]
+fn where_one_goes_is_told_at_once_and_when_that_is_done() {
+    let mut robot = Robot::new(1.0, 1.0);
+    robot.step(true, Vec::new());
+    let goals = |robot: &mut Robot, goal: Option<Point>| {
+        let mut outbox = Vec::new();
+        robot.beliefs.tell(goal, 0.01, &mut outbox);
+        outbox.iter().filter_map(stand).collect::<Vec<_>>()
+    };
+    let there = Point { x: 1.0, y: 2.0 };
+    assert_eq!(goals(&mut robot, Some(there)), [(there, Stand::Going)]);
+    assert_eq!(goals(&mut robot, Some(there)), []);
+    assert_eq!(goals(&mut robot, None), [(there, Stand::Done)]);
+}
+
+fn stand(message: &Message) -> Option<(Point, Stand)> {
+    match message.about {
+        About::Goal { at, stand } => Some((at, stand)),
+        _ => None,
+    }
+}
+
+#[test]
+fn nonsense_is_not_believed() {
+    let mut robot = Robot::new(1.0, 1.0);
+    for bad in [f64::NAN, f64::INFINITY, -1.0, 1.5] {
+        robot.step(
+            false,
+            vec![mate(13.0, 10.0, 1, bad), mate(13.0, bad * 1e8, 2, 1.0)],
+        );
+    }
+    assert!(robot.seen(13.0, 10.5) < 1e-9);
+}
