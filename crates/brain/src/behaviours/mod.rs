@@ -3,6 +3,7 @@
 
 mod avoid;
 mod bounce;
+mod correct;
 mod cruise;
 mod follow;
 mod frontier;
@@ -13,9 +14,11 @@ mod navigate;
 mod seek;
 mod spiral;
 mod survey;
+mod turn;
 
 pub use avoid::Avoid;
 pub use bounce::Bounce;
+pub use correct::Correct;
 pub use cruise::Cruise;
 pub use follow::Follow;
 pub use frontier::Frontier;
@@ -55,11 +58,19 @@ macro_rules! behaviours {
                 }
             }
 
-            /// Whether it is of use only to a robot that knows where it is.
+            /// Whether it is of use only to a robot with a mind.
             #[must_use]
             pub fn needs_beliefs(&self) -> bool {
                 match self {
                     $(Self::$kind(_) => $file::Ready::NEEDS_BELIEFS,)+
+                }
+            }
+
+            /// Whether it is of use only to a robot that has a position sensor and a compass.
+            #[must_use]
+            pub fn needs_pose(&self) -> bool {
+                match self {
+                    $(Self::$kind(_) => $file::Ready::NEEDS_POSE,)+
                 }
             }
 
@@ -147,6 +158,8 @@ macro_rules! behaviours {
 behaviours! {
     /// Goes ahead, always.
     Cruise in cruise;
+    /// Turns to the course to the next of some places, when it is off it.
+    Correct in correct;
     /// Searches by random bounces: straight on, and at an obstacle to a random free course.
     Bounce in bounce;
     /// Searches lane by lane, which the team shares.

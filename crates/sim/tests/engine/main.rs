@@ -20,6 +20,7 @@ mod change;
 mod collisions;
 mod common;
 mod contact;
+mod correct;
 mod determinism;
 mod golden;
 mod judge;

@@ -6,6 +6,7 @@ use crate::sensing::Measures;
 use base::document::Place;
 use base::fault::Fault;
 use base::geometry::{Point, Rectangle};
+use brain::behaviours::BehaviourSpec;
 
 /// Most items of a kind that a mind may expect.
 const MOST_EXPECTED: f64 = 1e6;
@@ -33,20 +34,36 @@ fn of_behaviours(robot: &RobotSpec, at: &Place) -> Vec<Fault> {
     let has_detector = has(|measures| matches!(measures, Measures::Items(_)));
     let mut faults = Vec::new();
     for (number, behaviour) in robot.brain.behaviours.iter().enumerate() {
-        let at = at.key("brain").key("behaviours").item(number).key("kind");
+        let at = at.key("brain").key("behaviours").item(number);
         let name = behaviour.name();
         let mut needs = |is_needed: bool, has: bool, what: &str| {
             if is_needed && !has {
-                faults.push(at.fault(format!(
-                    "for {name} the robot needs a sensor of the kind {what}"
+                faults.push(at.key("kind").fault(format!(
+                    "of a robot with a sensor that {name} needs, such as {what} under its sensors"
                 )));
             }
         };
-        needs(behaviour.needs_beliefs(), has_position, "position");
-        needs(behaviour.needs_beliefs(), has_heading, "heading");
-        needs(behaviour.needs_detector(), has_detector, "items");
+        let needs_pose = behaviour.needs_pose();
+        needs(needs_pose, has_position, "gps = { kind = \"position\" }");
+        needs(needs_pose, has_heading, "compass = { kind = \"heading\" }");
+        let eye = "eye = { kind = \"items\", range_m = 3 }";
+        needs(behaviour.needs_detector(), has_detector, eye);
+        faults.extend(of_places(behaviour, &at));
     }
     faults
+}
+
+/// A way to nowhere.
+fn of_places(behaviour: &BehaviourSpec, at: &Place) -> Option<Fault> {
+    let places_m = match behaviour {
+        BehaviourSpec::Correct(correct) => &correct.places_m,
+        BehaviourSpec::Navigate(navigate) => &navigate.places_m,
+        _ => return None,
+    };
+    let allowed = "the places to visit, at least one, as in [[5, 5], [9, 2.5]]";
+    places_m
+        .is_empty()
+        .then(|| at.key("places_m").fault(allowed))
 }
 
 /// Beliefs about what there is not.

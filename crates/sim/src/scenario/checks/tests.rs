@@ -530,3 +530,29 @@ fn looking_for_a_place_in_reach_is_done_within_seconds() {
     assert_eq!(read(&fine).unwrap_err().0.len(), 1);
     assert!(begin.elapsed() < std::time::Duration::from_secs(10));
 }
+
+/// The faults of the good scenario whose bird, which has no sensors, has this brain.
+fn faults_of_brain(brain: &str) -> Vec<String> {
+    let drive = "drive = { max_speed_m_s = 5, max_turn_rate_deg_s = 90 }";
+    faults(drive, &format!("{drive}\nbrain = {{ {brain} }}"))
+}
+
+#[test]
+fn behaviours_need_sensors_and_places() {
+    let told = faults_of_brain("behaviours = [{ kind = \"correct\" }]");
+    let at = "robots.bird.brain.behaviours[0]";
+    let needs = |what: &str| {
+        format!(
+            "{at}.kind = \"correct\": must be of a robot with a sensor that correct needs, such as \
+             {what} under its sensors"
+        )
+    };
+    let expected = [
+        needs("gps = { kind = \"position\" }"),
+        needs("compass = { kind = \"heading\" }"),
+        format!(
+            "{at}.places_m is missing: must be the places to visit, at least one, as in [[5, 5], [9, 2.5]]"
+        ),
+    ];
+    assert_eq!(told, expected);
+}
