@@ -30,6 +30,7 @@ mod outside;
 mod radio;
 mod random;
 mod robust;
+mod schemas;
 mod sensors;
 mod streams;
 mod waiting;

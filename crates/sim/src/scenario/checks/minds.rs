@@ -7,9 +7,13 @@ use base::document::Place;
 use base::fault::Fault;
 use base::geometry::{Point, Rectangle};
 use brain::behaviours::BehaviourSpec;
+use brain::{Arbitration, BrainSpec};
 
 /// Most items of a kind that a mind may expect.
 const MOST_EXPECTED: f64 = 1e6;
+
+/// Most that a behaviour can count beside others, as a `value`.
+const MOST_GAIN: f64 = 1e6;
 
 pub(super) fn faults(spec: &ScenarioSpec, at: &Place) -> Vec<Fault> {
     let robots = spec.robots.iter();
@@ -17,6 +21,7 @@ pub(super) fn faults(spec: &ScenarioSpec, at: &Place) -> Vec<Fault> {
         .flat_map(|(name, robot)| {
             let at = at.key("robots").key(name);
             let mut faults = of_behaviours(robot, &at);
+            faults.extend(of_gains(&robot.brain, &at.key("brain").key("arbitration")));
             faults.extend(of_beliefs(robot, spec, &at.key("brain").key("beliefs")));
             faults
         })
@@ -64,6 +69,24 @@ fn of_places(behaviour: &BehaviourSpec, at: &Place) -> Option<Fault> {
     places_m
         .is_empty()
         .then(|| at.key("places_m").fault(allowed))
+}
+
+/// Gains of behaviours that it has not, or that are none.
+fn of_gains(brain: &BrainSpec, at: &Place) -> Vec<Fault> {
+    let Arbitration::Schemas(schemas) = &brain.arbitration else {
+        return Vec::new();
+    };
+    let kinds: Vec<&str> = brain.behaviours.iter().map(BehaviourSpec::name).collect();
+    let mut faults = Vec::new();
+    for (kind, gain) in &schemas.gains {
+        let at = at.key("gains").key(kind);
+        if !kinds.contains(&kind.as_str()) {
+            faults.push(at.names_none_of(kind, kinds.iter().copied()));
+        } else if !(0.0..=MOST_GAIN).contains(gain) {
+            faults.push(at.fault(format!("a number from 0 to {MOST_GAIN}")));
+        }
+    }
+    faults
 }
 
 /// Beliefs about what there is not.

@@ -556,3 +556,27 @@ fn behaviours_need_sensors_and_places() {
     ];
     assert_eq!(told, expected);
 }
+
+#[test]
+fn gains_are_those_of_its_behaviours() {
+    let brain = |gains: &str| {
+        format!(
+            "arbitration = {{ kind = \"schemas\", gains = {{ {gains} }} }}, \
+             behaviours = [{{ kind = \"cruise\" }}, {{ kind = \"avoid\" }}]"
+        )
+    };
+    let at = "robots.bird.brain.arbitration.gains";
+    assert_eq!(
+        faults_of_brain(&brain("cruse = 2, avoid = -1")),
+        [
+            format!("{at}.avoid = -1: must be a number from 0 to 1000000"),
+            format!("{at}.cruse = 2: must be under one of cruise, avoid; did you mean cruise?"),
+        ]
+    );
+    let slip = brain("").replace("gains", "gain");
+    let told = faults_of_brain(&slip).concat();
+    assert!(
+        told.contains("must be one of the known keys here: kind, gains, influence_m"),
+        "{told}"
+    );
+}
