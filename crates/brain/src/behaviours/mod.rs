@@ -196,3 +196,6 @@ fn half_sight_m(body: &Body) -> f64 {
     let least_m = ranges_m.fold(f64::INFINITY, f64::min);
     (least_m - body.radius_m).max(0.0) / 2.0
 }
+
+#[cfg(test)]
+mod example;
