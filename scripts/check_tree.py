@@ -40,7 +40,7 @@ CODE = {
     "benchmarks/peers": ["*.py", "*.rs"],
     "benchmarks/src": ["*.rs"],
     "crates": ["*.rs"],
-    "examples": ["*.py"],
+    "examples": ["*.py", "*.rs"],
     "python": ["*.py", "*.pyi"],
     "scripts": ["*.py"],
 }

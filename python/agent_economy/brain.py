@@ -357,8 +357,9 @@ class Brain:
 
 
 def schemas() -> dict[str, dict[str, Any]]:
-    """Return the JSON Schemas of all that enters and leaves a brain, for other languages.
+    """Return the JSON Schemas of brains, for other languages.
 
-    They are those of BrainSpec, Body, Percept and Command.
+    They are those of all that enters and leaves one, BrainSpec, Body, Percept and Command, and of
+    Thoughts.
     """
     return _core.Brain.schemas()

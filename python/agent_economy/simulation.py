@@ -16,6 +16,7 @@ from agent_economy.brain import Command, Percept
 from agent_economy.minds import Brains, changed_minds, minds
 from agent_economy.outcome import Outcome, table
 from agent_economy.scenario import Given, Override, Scenario, loaded
+from agent_economy.thoughts import Thoughts
 
 Floats = NDArray[np.float64]
 
@@ -173,6 +174,22 @@ class Simulation:
             InputError: If there is no such robot.
         """
         return cast("Percept | None", self._run.percept(robot))
+
+    def thoughts(self, robot: str) -> Thoughts | None:
+        """Return what a robot believes and wants, as of its brain's last step.
+
+        Args:
+            robot: Its name.
+
+        Returns:
+            None if it has no mind, or one in Python.
+
+        Raises:
+            InputError: If there is no such robot.
+        """
+        thoughts = self._run.thoughts(robot)
+        is_in_python = any(robot.startswith(f"{mind.kind}/") for mind in self._minds)
+        return None if is_in_python else cast("Thoughts | None", thoughts)
 
     def finish(self) -> Outcome:
         """Take steps until the run is over; Ctrl-C stops between two."""

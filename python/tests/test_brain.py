@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import agent_economy as ae
-from agent_economy import brain
+from agent_economy import brain, thoughts
 from agent_economy.brain import Body, Percept
 
 ROVER: Body = {
@@ -148,14 +148,15 @@ def names(schema: dict[str, Any]) -> set[str]:
     return set(schema.get("properties", {}))
 
 
-@pytest.mark.parametrize("name", ["Body", "Percept", "Command"])
+@pytest.mark.parametrize("name", ["Body", "Percept", "Command", "Thoughts"])
 def test_the_types_have_the_names_of_the_rust_types(name: str) -> None:
     schema = brain.schemas()[name]
     for each, here in [(name, schema), *schema.get("$defs", {}).items()]:
         if "properties" not in here:
             continue
         python_name = "Reading" if each.startswith("Reading") else each
-        assert names(here) == set(getattr(brain, python_name).__annotations__), each
+        python_type = getattr(brain, python_name, None) or getattr(thoughts, python_name)
+        assert names(here) == set(python_type.__annotations__), each
 
 
 def test_what_must_be_in_a_body_is_what_rust_needs() -> None:

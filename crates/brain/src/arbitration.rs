@@ -1,5 +1,6 @@
 //! How one motion is made of what all behaviours want.
 
+use crate::schemas::Schemas;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -13,4 +14,7 @@ pub enum Arbitration {
     /// Behaviours that want to be somewhere have goals, which are served by their precedence, together
     /// where they do not conflict; behaviours that want a motion keep their places among them.
     Goals,
+    /// What all behaviours want is summed as vectors, with what obstacles repel and some noise (motor
+    /// schemas: Arkin, *Motor schema-based mobile robot navigation*, 1989). None waits for another.
+    Schemas(Schemas),
 }

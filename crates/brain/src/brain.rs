@@ -7,6 +7,7 @@ use crate::command::{Command, Motion};
 use crate::mind::{Mind, Wants};
 use crate::percept::Percept;
 use crate::reckoning::Reckoning;
+use crate::schemas::{Noise, Sum};
 use crate::senses::Senses;
 use crate::sight::Sight;
 use crate::spec::BrainSpec;
@@ -28,6 +29,8 @@ pub struct Brain {
     moved: Reckoning,
     layers: Box<[Layer<Memory>]>,
     mind: Option<Box<Mind>>,
+    /// If what behaviours want is summed.
+    noise: Option<Box<Noise>>,
 }
 
 /// What is the same for all robots of a kind.
@@ -37,6 +40,8 @@ struct Kind {
     body: Arc<Body>,
     sight: Sight,
     behaviours: Vec<Ready>,
+    /// If what behaviours want is summed.
+    sum: Option<Sum>,
 }
 
 impl Brain {
@@ -45,15 +50,18 @@ impl Brain {
     pub fn new(spec: Arc<BrainSpec>, body: Arc<Body>) -> Self {
         let ready = spec.behaviours.iter().map(|each| each.ready(&body));
         let behaviours: Vec<Ready> = ready.collect();
+        let sum = sum(&spec);
         Self {
             moved: Reckoning::default(),
             layers: layers(&behaviours),
             mind: mind(&spec, &body),
+            noise: sum.is_some().then(Box::default),
             kind: Arc::new(Kind {
                 sight: Sight::new(&body),
                 spec,
                 body,
                 behaviours,
+                sum,
             }),
         }
     }
@@ -131,6 +139,7 @@ impl Brain {
             body,
             sight,
             behaviours,
+            sum,
         } = &*self.kind;
         let turned_rad = self.moved.take_in(percept, body);
         let now_m_s = self.moved.now_m_s(percept, body);
@@ -151,9 +160,10 @@ impl Brain {
             turned_rad,
             now_m_s,
         };
-        let wanted = match &mut wants {
-            None => moved(arbitrate(behaviours, &mut self.layers, &senses)),
-            Some(wants) => chosen(spec, behaviours, (&mut self.layers, wants), &senses),
+        let wanted = match (sum.as_ref().zip(self.noise.as_deref_mut()), &mut wants) {
+            (Some((sum, noise)), _) => sum.motion(behaviours, &mut self.layers, noise, &senses),
+            (None, None) => moved(arbitrate(behaviours, &mut self.layers, &senses)),
+            (None, Some(wants)) => chosen(spec, behaviours, (&mut self.layers, wants), &senses),
         };
         let mut motion = possible(wanted, body);
         if spec.speed_limited_by_sight {
@@ -161,7 +171,7 @@ impl Brain {
         }
         if let (Some(beliefs), Some(wants)) = (beliefs, wants) {
             let traffic = &mut wants.way.traffic;
-            traffic.look(&beliefs.others.movers, body, now_m_s);
+            traffic.look(&beliefs.others.movers, body, [now_m_s, turned_rad]);
             motion = traffic.limited(motion, body, now_m_s);
         }
         possible(motion, body)
@@ -186,7 +196,7 @@ fn chosen(
     let mut all = core::mem::take(&mut wants.wishes);
     match spec.arbitration {
         Arbitration::Goals => wishes(behaviours, layers, senses, &mut all),
-        Arbitration::Subsumption => {
+        Arbitration::Subsumption | Arbitration::Schemas(_) => {
             all.clear();
             all.extend(arbitrate(behaviours, layers, senses));
         }
@@ -205,6 +215,15 @@ fn chosen(
     };
     wants.wishes = all;
     motion
+}
+
+/// The sum of what behaviours want, if the scenario asks for one.
+fn sum(spec: &BrainSpec) -> Option<Sum> {
+    let Arbitration::Schemas(schemas) = &spec.arbitration else {
+        return None;
+    };
+    let names = spec.behaviours.iter().map(BehaviourSpec::name);
+    Some(Sum::new(schemas, names))
 }
 
 /// A mind, if the scenario asks for one or a behaviour needs it.
@@ -238,6 +257,6 @@ mod tests {
     fn a_brain_of_three_behaviours_takes_some_hundred_bytes() {
         let layer = size_of::<Layer<Memory>>();
         let all = size_of::<Brain>() + 3 * layer;
-        assert!(all <= 128, "{all} bytes, {layer} a layer");
+        assert!(all <= 136, "{all} bytes, {layer} a layer");
     }
 }

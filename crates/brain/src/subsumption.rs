@@ -17,8 +17,11 @@ pub(crate) trait Behaviour {
     /// What a robot remembers for it.
     type Memory: Clone;
 
-    /// Whether it is of use only to a robot that knows where it is.
+    /// Whether it is of use only to a robot with a mind.
     const NEEDS_BELIEFS: bool = false;
+
+    /// Whether it is of use only to a robot that has a position sensor and a compass, as a mind needs.
+    const NEEDS_POSE: bool = Self::NEEDS_BELIEFS;
 
     /// Whether it is of use only to a robot that recognises items.
     const NEEDS_DETECTOR: bool = false;

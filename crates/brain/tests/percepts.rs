@@ -32,8 +32,25 @@ fn rover() -> Body {
     }
 }
 
-fn brain(body: &Body) -> Brain {
-    Brain::new(Arc::new(BrainSpec::default()), Arc::new(body.clone()))
+/// Brains that make motions in different ways, with a mind and without.
+#[expect(clippy::unwrap_used, reason = "written here")]
+fn brains(body: &Body) -> Vec<Brain> {
+    let correct = r#"[{"kind": "cruise"}, {"kind": "correct", "places_m": [[5, 0], [0, 5]]}, {"kind": "avoid"}]"#;
+    let navigate =
+        r#"[{"kind": "cruise"}, {"kind": "navigate", "places_m": [[5, 0]]}, {"kind": "hold"}]"#;
+    let specs = [
+        "{}".to_owned(),
+        format!(r#"{{"behaviours": {correct}}}"#),
+        format!(r#"{{"arbitration": {{"kind": "schemas"}}, "behaviours": {correct}}}"#),
+        format!(
+            r#"{{"arbitration": {{"kind": "schemas", "noise": 2}}, "behaviours": {navigate}}}"#
+        ),
+    ];
+    let brain = |spec: &String| {
+        let spec: BrainSpec = serde_json::from_str(spec).unwrap();
+        Brain::new(Arc::new(spec), Arc::new(body.clone()))
+    };
+    specs.iter().map(brain).collect()
 }
 
 /// A rover that knows of a mission, recognises two kinds of items, and meets robots of two kinds.
@@ -331,8 +348,8 @@ proptest! {
     fn whatever_a_percept_holds_the_command_is_finite_and_within_the_bodys_limits(
         percepts in proptest::collection::vec(percept(absurd), 1..60),
     ) {
-        let body = rover();
-        for motion in motions(&mut brain(&body), &percepts) {
+        let mut all = brains(&rover());
+        for motion in all.iter_mut().flat_map(|brain| motions(brain, &percepts)) {
             prop_assert!((-0.5..=1.0).contains(&motion.speed_m_s), "{motion:?}");
             prop_assert!((-1.5..=1.5).contains(&motion.turn_rate_rad_s), "{motion:?}");
         }
@@ -355,7 +372,8 @@ proptest! {
             rings: vec![RangeRing { bearings_rad: bearings, range_m, period_s, latency_s }],
             ..Body::default()
         };
-        for motion in motions(&mut brain(&body), &percepts) {
+        let mut all = brains(&body);
+        for motion in all.iter_mut().flat_map(|brain| motions(brain, &percepts)) {
             prop_assert!(motion.speed_m_s.is_finite(), "{motion:?}");
             prop_assert!(motion.turn_rate_rad_s.is_finite(), "{motion:?}");
         }
@@ -365,15 +383,15 @@ proptest! {
     fn the_same_percepts_give_the_same_commands_and_a_clone_has_the_same_future(
         percepts in proptest::collection::vec(percept(absurd), 2..60), at in 0_usize..60,
     ) {
-        let body = rover();
-        let mut first = brain(&body);
         let (before, after) = percepts.split_at(at % percepts.len());
-        let mut all = motions(&mut first, before);
-        let mut clone = first.clone();
-        let future = motions(&mut first, after);
-        prop_assert_eq!(&motions(&mut clone, after), &future);
-        all.extend(future);
-        prop_assert_eq!(motions(&mut brain(&body), &percepts), all);
+        for (mut first, mut again) in brains(&rover()).into_iter().zip(brains(&rover())) {
+            let mut all = motions(&mut first, before);
+            let mut clone = first.clone();
+            let future = motions(&mut first, after);
+            prop_assert_eq!(&motions(&mut clone, after), &future);
+            all.extend(future);
+            prop_assert_eq!(motions(&mut again, &percepts), all);
+        }
     }
 }
 

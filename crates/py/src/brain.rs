@@ -10,7 +10,7 @@ use crate::simulation::MetricScenario;
 use base::document::Document;
 use base::document::schema::Schema;
 use base::fault::{Fault, Faults};
-use brain::{Body, BrainSpec, Command, Percept};
+use brain::{Body, BrainSpec, Command, Percept, Thoughts};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use schemars::{JsonSchema, schema_for};
@@ -62,7 +62,7 @@ impl Brain {
         Self(Mutex::new(self.with(|brain| brain.clone())))
     }
 
-    /// The JSON Schemas of all that enters and leaves a brain, by name.
+    /// The JSON Schemas of all that enters and leaves a brain, and of what it thinks, by name.
     #[staticmethod]
     fn schemas(py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
         let schemas = [
@@ -70,6 +70,7 @@ impl Brain {
             ("Body", schema_for!(Body)),
             ("Percept", schema_for!(Percept)),
             ("Command", schema_for!(Command)),
+            ("Thoughts", schema_for!(Thoughts)),
         ];
         exchange::write(py, &schemas.into_iter().collect::<BTreeMap<_, _>>())
     }

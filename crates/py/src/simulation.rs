@@ -10,6 +10,7 @@ use crate::outside;
 use crate::scenario::Source;
 use base::fault::{Fault, Faults};
 use base::runner::Runner;
+use brain::RobotId;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
@@ -150,13 +151,25 @@ impl Simulation {
         robot: &Bound<'py, PyAny>,
     ) -> PyResult<Option<Bound<'py, PyAny>>> {
         let mut run = self.locked(py)?;
-        let id = outside::robot_of(run.scenario(), "robot", &exchange::text(robot));
-        let id = id.map_err(|fault| input_error(&Faults(vec![fault]), ""))?;
+        let id = id_of(run.scenario(), robot)?;
         let work = robots(&run);
         let percept = self.take(py, &mut run, work, |run, _| run.percept(id))?;
         let percept = percept.map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
         percept
             .map(|percept| exchange::write(py, &percept))
+            .transpose()
+    }
+
+    /// What a robot believes and wants; None if it has no mind.
+    fn thoughts<'py>(
+        &self,
+        py: Python<'py>,
+        robot: &Bound<'py, PyAny>,
+    ) -> PyResult<Option<Bound<'py, PyAny>>> {
+        let run = self.locked(py)?;
+        let thoughts = run.state().thoughts(id_of(run.scenario(), robot)?);
+        thoughts
+            .map(|thoughts| exchange::write(py, &thoughts))
             .transpose()
     }
 
@@ -352,6 +365,11 @@ impl Simulation {
         let robots = run.state().each_robot(run.scenario());
         Ok(robots.map(|robot| of(&robot)).collect())
     }
+}
+
+fn id_of(scenario: &Scenario, robot: &Bound<PyAny>) -> PyResult<RobotId> {
+    let id = outside::robot_of(scenario, "robot", &exchange::text(robot));
+    id.map_err(|fault| input_error(&Faults(vec![fault]), ""))
 }
 
 fn robots(run: &engine::Simulation) -> u64 {

@@ -1,5 +1,6 @@
 //! Searching by random bounces.
 
+use super::turn::Turn;
 use super::{ahead, half_sight_m};
 use crate::body::Body;
 use crate::command::Motion;
@@ -11,12 +12,6 @@ use base::trig::wrapped;
 use core::f64::consts::{FRAC_PI_4, TAU};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-
-/// A turn that is done but for this is done.
-const DONE_RAD: f32 = 0.02;
-
-/// For one who cannot turn.
-const MOST_PATIENCE_S: f64 = 60.0;
 
 /// Who sees nothing turns by at least this.
 const LEAST_BLIND_RAD: f64 = FRAC_PI_4;
@@ -66,9 +61,10 @@ pub(crate) struct Ready {
 #[derive(Debug, Clone)]
 pub(crate) enum Memory {
     /// It has gone on for so long.
-    Going { since_s: f32 },
-    /// It has so far to turn, anticlockwise, and loses patience after a time.
-    Turning { left_rad: f32, patience_s: f32 },
+    Going {
+        since_s: f32,
+    },
+    Turning(Turn),
 }
 
 /// It begins to go.
@@ -124,20 +120,20 @@ impl Ready {
                     senses.stands_ahead(near_m, straight_s) || senses.touches(straight_s);
                 is_stopped.then(|| self.turn(memory, senses))
             }
-            Memory::Turning { .. } => go_on_turning(memory, senses),
+            Memory::Turning(turn) => {
+                let motion = turn.go_on(senses);
+                if motion.is_none() {
+                    *memory = GOING;
+                }
+                motion
+            }
         }
     }
 
-    #[expect(clippy::cast_possible_truncation, reason = "kept short")]
     fn turn(&self, memory: &mut Memory, senses: &Senses) -> Motion {
-        let left_rad = self.new_course_rad(senses);
-        // Twice the time that it takes, and a second, in case that it is stuck.
-        let patience_s = 1.0 + 2.0 * left_rad.abs() / senses.body.max_turn_rate_rad_s;
-        *memory = Memory::Turning {
-            left_rad: left_rad as f32,
-            patience_s: patience_s.min(MOST_PATIENCE_S) as f32,
-        };
-        on_the_spot(left_rad, senses)
+        let (turn, motion) = Turn::by(self.new_course_rad(senses), senses.body);
+        *memory = Memory::Turning(turn);
+        motion
     }
 
     /// The angle to a new course, from -pi to pi: that of a ray that is free for longer than it
@@ -154,34 +150,6 @@ impl Ready {
             None => dice.between(LEAST_BLIND_RAD, TAU - LEAST_BLIND_RAD),
         };
         wrapped(angle_rad)
-    }
-}
-
-#[expect(clippy::cast_possible_truncation, reason = "kept short")]
-fn go_on_turning(memory: &mut Memory, senses: &Senses) -> Option<Motion> {
-    let Memory::Turning {
-        left_rad,
-        patience_s,
-    } = memory
-    else {
-        return None;
-    };
-    *left_rad -= senses.turned_rad as f32;
-    if !senses.is_held() {
-        *patience_s -= senses.period_s();
-    }
-    if left_rad.abs() <= DONE_RAD || *patience_s <= 0.0 {
-        *memory = GOING;
-        return None;
-    }
-    Some(on_the_spot(f64::from(*left_rad), senses))
-}
-
-/// As fast as it can without going too far before the next step.
-fn on_the_spot(left_rad: f64, senses: &Senses) -> Motion {
-    Motion {
-        speed_m_s: 0.0,
-        turn_rate_rad_s: left_rad / senses.body.period_s,
     }
 }
 

@@ -3,6 +3,7 @@
 
 mod avoid;
 mod bounce;
+mod correct;
 mod cruise;
 mod follow;
 mod frontier;
@@ -15,9 +16,11 @@ mod seek;
 mod spiral;
 mod survey;
 pub mod swarm;
+mod turn;
 
 pub use avoid::Avoid;
 pub use bounce::Bounce;
+pub use correct::Correct;
 pub use cruise::Cruise;
 pub use follow::Follow;
 pub use frontier::Frontier;
@@ -58,11 +61,19 @@ macro_rules! behaviours {
                 }
             }
 
-            /// Whether it is of use only to a robot that knows where it is.
+            /// Whether it is of use only to a robot with a mind.
             #[must_use]
             pub fn needs_beliefs(&self) -> bool {
                 match self {
                     $(Self::$kind(_) => $file::Ready::NEEDS_BELIEFS,)+
+                }
+            }
+
+            /// Whether it is of use only to a robot that has a position sensor and a compass.
+            #[must_use]
+            pub fn needs_pose(&self) -> bool {
+                match self {
+                    $(Self::$kind(_) => $file::Ready::NEEDS_POSE,)+
                 }
             }
 
@@ -150,6 +161,8 @@ macro_rules! behaviours {
 behaviours! {
     /// Goes ahead, always.
     Cruise in cruise;
+    /// Turns to the course to the next of some places, when it is off it.
+    Correct in correct;
     /// Searches by random bounces: straight on, and at an obstacle to a random free course.
     Bounce in bounce;
     /// Searches lane by lane, which the team shares.
@@ -189,5 +202,7 @@ fn half_sight_m(body: &Body) -> f64 {
     (least_m - body.radius_m).max(0.0) / 2.0
 }
 
+#[cfg(test)]
+mod example;
 #[cfg(test)]
 mod tests;

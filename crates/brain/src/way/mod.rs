@@ -165,7 +165,7 @@ impl Way {
 }
 
 /// The greatest speed from which it stops within a distance.
-fn stopping_m_s(left_m: f64, senses: &Senses) -> f64 {
+pub(crate) fn stopping_m_s(left_m: f64, senses: &Senses) -> f64 {
     let braking = 0.9 * senses.body.max_acceleration_m_s2;
     if braking.is_finite() {
         libm::sqrt(2.0 * braking * left_m.max(0.0))

@@ -13,8 +13,9 @@
 //!   <- stopping | stopping <---- other
 //! ```
 //!
-//! Others see where one went in the last step, not where he points at its end: what they are off is
-//! within the room that is left. What crosses cannot be kept apart: then both brake.
+//! Others see where one went in the last step, not where he points at its end. Who turns while he goes
+//! therefore leaves as much more room as the end of his stopping way is aside of where others see it.
+//! What crosses cannot be kept apart: then both brake.
 //!
 //! The idea is that of buffered Voronoi cells (Zhou, Wang, Bandyopadhyay and Schwager, *Fast, on-line
 //! collision avoidance for dynamic vehicles using buffered Voronoi cells*, 2017), which are between
@@ -50,12 +51,13 @@ pub(crate) struct Traffic {
 }
 
 impl Traffic {
-    /// Draws the lines anew, for a robot that goes at a speed.
-    pub(crate) fn look(&mut self, movers: &[Mover], body: &Body, now_m_s: f64) {
+    /// Draws the lines anew, for a robot that goes at a speed and has turned in its last step.
+    pub(crate) fn look(&mut self, movers: &[Mover], body: &Body, [now_m_s, turned_rad]: [f64; 2]) {
         self.lines.clear();
         let own = stopping_way(body, Point::default(), now_m_s, 0.0);
+        let lag_m = lag_m(&own, turned_rad);
         for mover in movers {
-            self.lines.extend(line(&own, mover, body));
+            self.lines.extend(line(&own, lag_m, mover, body));
         }
     }
 
@@ -98,11 +100,19 @@ impl Traffic {
         let way_m = then_m_s * period_s - change_m_s * change_s / 2.0;
         let there = direction(turned_rad / 2.0).times(way_m);
         let stopping = stopping_way(body, there, then_m_s, turned_rad);
+        let bulge_m = (way_m * turned_rad / 8.0).abs();
+        let lag_m = lag_m(&stopping, turned_rad) + bulge_m;
         [stopping.from, stopping.to].iter().all(|place| {
             let mut lines = self.lines.iter();
-            lines.all(|line| line.normal.dot(*place) <= line.most)
+            lines.all(|line| line.normal.dot(*place) <= line.most - lag_m)
         })
     }
+}
+
+/// So far aside others see the end of a stopping way after a turn: they know where one went in the step,
+/// not where he points at its end.
+fn lag_m(stopping: &Segment, turned_rad: f64) -> f64 {
+    stopping.length_m() * turned_rad.abs() / 2.0
 }
 
 /// From a place to where it stands if it brakes there.
@@ -118,7 +128,7 @@ fn stopping_way(body: &Body, from: Point, speed_m_s: f64, heading_rad: f64) -> S
 /// The line between this robot's stopping way and that of another.
 ///
 /// The other's speed was measured over its last step: it may have grown in it by half of what it can.
-fn line(own: &Segment, mover: &Mover, body: &Body) -> Option<Line> {
+fn line(own: &Segment, lag_m: f64, mover: &Mover, body: &Body) -> Option<Line> {
     let braking = BRAKING * mover.braking_m_s2;
     let speed_m_s = mover.speed_m_s();
     let now_m_s = if speed_m_s > 0.0 && braking.is_finite() {
@@ -148,7 +158,7 @@ fn line(own: &Segment, mover: &Mover, body: &Body) -> Option<Line> {
     let half_m = (body.radius_m + mover.radius_m + ROOM_M + error_m) / 2.0;
     // Who is too near already must not come nearer, nor to one of whom nobody knows how fast he goes.
     let left_m = if mover.looks > 1 {
-        (gap_m / 2.0 - half_m).max(0.0)
+        (gap_m / 2.0 - half_m - lag_m).max(0.0)
     } else {
         0.0
     };

@@ -95,7 +95,8 @@ impl Follower {
         let (body, turned_rad) = (&self.body, self.turned_rad);
         self.others.take_in(percept, body, way, turned_rad);
         let now_m_s = self.speed_m_s;
-        self.traffic.look(&self.others.movers, body, now_m_s);
+        self.traffic
+            .look(&self.others.movers, body, [now_m_s, turned_rad]);
         self.traffic.limited(wanted, body, now_m_s)
     }
 
@@ -264,7 +265,7 @@ fn mover(at: [f64; 2], velocity_m_s: [f64; 2]) -> Mover {
 
 fn limited(movers: &[Mover], wanted: [f64; 2], now_m_s: f64) -> [f64; 2] {
     let mut traffic = Traffic::default();
-    traffic.look(movers, &rover(), now_m_s);
+    traffic.look(movers, &rover(), [now_m_s, 0.0]);
     let wanted = Motion {
         speed_m_s: wanted[0],
         turn_rate_rad_s: wanted[1],

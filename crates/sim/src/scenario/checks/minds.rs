@@ -6,9 +6,14 @@ use crate::sensing::Measures;
 use base::document::Place;
 use base::fault::Fault;
 use base::geometry::{Point, Rectangle};
+use brain::behaviours::BehaviourSpec;
+use brain::{Arbitration, BrainSpec};
 
 /// Most items of a kind that a mind may expect.
 const MOST_EXPECTED: f64 = 1e6;
+
+/// Most that a behaviour can count beside others, as a `value`.
+const MOST_GAIN: f64 = 1e6;
 
 pub(super) fn faults(spec: &ScenarioSpec, at: &Place) -> Vec<Fault> {
     let robots = spec.robots.iter();
@@ -17,6 +22,7 @@ pub(super) fn faults(spec: &ScenarioSpec, at: &Place) -> Vec<Fault> {
             let at = at.key("robots").key(name);
             let mut faults = of_behaviours(robot, &at);
             faults.extend(of_wrapping(robot, spec, &at.key("brain")));
+            faults.extend(of_gains(&robot.brain, &at.key("brain").key("arbitration")));
             faults.extend(of_beliefs(robot, spec, &at.key("brain").key("beliefs")));
             faults
         })
@@ -34,18 +40,52 @@ fn of_behaviours(robot: &RobotSpec, at: &Place) -> Vec<Fault> {
     let has_detector = has(|measures| matches!(measures, Measures::Items(_)));
     let mut faults = Vec::new();
     for (number, behaviour) in robot.brain.behaviours.iter().enumerate() {
-        let at = at.key("brain").key("behaviours").item(number).key("kind");
+        let at = at.key("brain").key("behaviours").item(number);
         let name = behaviour.name();
         let mut needs = |is_needed: bool, has: bool, what: &str| {
             if is_needed && !has {
-                faults.push(at.fault(format!(
-                    "one that the robot has the sensors for: {name} needs one of the kind {what}"
+                faults.push(at.key("kind").fault(format!(
+                    "of a robot with a sensor that {name} needs, such as {what} under its sensors"
                 )));
             }
         };
-        needs(behaviour.needs_beliefs(), has_position, "position");
-        needs(behaviour.needs_beliefs(), has_heading, "heading");
-        needs(behaviour.needs_detector(), has_detector, "items");
+        let needs_pose = behaviour.needs_pose();
+        needs(needs_pose, has_position, "gps = { kind = \"position\" }");
+        needs(needs_pose, has_heading, "compass = { kind = \"heading\" }");
+        let eye = "eye = { kind = \"items\", range_m = 3 }";
+        needs(behaviour.needs_detector(), has_detector, eye);
+        faults.extend(of_places(behaviour, &at));
+    }
+    faults
+}
+
+/// A way to nowhere.
+fn of_places(behaviour: &BehaviourSpec, at: &Place) -> Option<Fault> {
+    let places_m = match behaviour {
+        BehaviourSpec::Correct(correct) => &correct.places_m,
+        BehaviourSpec::Navigate(navigate) => &navigate.places_m,
+        _ => return None,
+    };
+    let allowed = "the places to visit, at least one, as in [[5, 5], [9, 2.5]]";
+    places_m
+        .is_empty()
+        .then(|| at.key("places_m").fault(allowed))
+}
+
+/// Gains of behaviours that it has not, or that are none.
+fn of_gains(brain: &BrainSpec, at: &Place) -> Vec<Fault> {
+    let Arbitration::Schemas(schemas) = &brain.arbitration else {
+        return Vec::new();
+    };
+    let kinds: Vec<&str> = brain.behaviours.iter().map(BehaviourSpec::name).collect();
+    let mut faults = Vec::new();
+    for (kind, gain) in &schemas.gains {
+        let at = at.key("gains").key(kind);
+        if !kinds.contains(&kind.as_str()) {
+            faults.push(at.names_none_of(kind, kinds.iter().copied()));
+        } else if !(0.0..=MOST_GAIN).contains(gain) {
+            faults.push(at.fault(format!("a number from 0 to {MOST_GAIN}")));
+        }
     }
     faults
 }

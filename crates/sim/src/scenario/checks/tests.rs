@@ -2,6 +2,8 @@ use super::super::{Checked, ScenarioSpec};
 use base::document::Document;
 use base::fault::Faults;
 
+mod minds;
+
 const GOOD: &str = r#"
 [clock]
 step_s = 0.1
@@ -562,30 +564,4 @@ fn a_world_that_wraps_is_large_enough_and_holds_its_obstacles_wholly() {
         .replace("[[6, 6], [7, 6]]", "[[0.1, 6], [19.9, 6]]");
     let told = read(&beside).unwrap_err().to_string();
     assert!(told.contains("robots.rover.start.at_m["), "{told}");
-}
-
-#[test]
-fn minds_have_the_sensors_that_they_need_and_a_world_that_ends() {
-    let drive = "drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }\n";
-    let with = |brain: &str| format!("{drive}brain = {{ {brain} }}\n");
-    let hold = with("behaviours = [{ kind = \"cruise\" }, { kind = \"hold\" }]");
-    assert_eq!(
-        faults(drive, &hold),
-        [
-            "robots.rover.brain.behaviours[1].kind = \"hold\": must be one that the robot has \
-             the sensors for: hold needs one of the kind position",
-            "robots.rover.brain.behaviours[1].kind = \"hold\": must be one that the robot has \
-             the sensors for: hold needs one of the kind heading",
-        ]
-    );
-    let world = "size_m = [20, 10]\n";
-    let wraps = format!("{world}wraps = true\n");
-    let text = GOOD
-        .replace(drive, &with("beliefs = {}"))
-        .replace(world, &wraps);
-    let told = read(&text).unwrap_err().to_string();
-    assert!(
-        told.contains("robots.rover.brain.beliefs = ") && told.contains("need wraps = false"),
-        "{told}"
-    );
 }

@@ -1,0 +1,283 @@
+//! Turning to the course to a place.
+
+use super::turn::Turn;
+use crate::body::Body;
+use crate::command::Motion;
+use crate::percept::{Percept, Reading};
+use crate::senses::Senses;
+use crate::subsumption::Behaviour;
+use crate::wish::Wish;
+use alloc::boxed::Box;
+use alloc::vec::Vec;
+use base::geometry::Point;
+use base::trig::wrapped;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Positions older than this are not of here.
+const OLDEST_S: f64 = 5.0;
+
+/// What is farther away than this, or more than this many radians, is nonsense.
+const FARTHEST_M: f64 = 1e7;
+const MOST_RAD: f64 = 1e4;
+
+/// Turns on the spot to the course to a place when it is off that course, one place after the other;
+/// then it has nothing more to do. Between *cruise*, which goes there, and *avoid* it is the middle
+/// layer of Bender (Williams 2003). It needs to know where it is and where it points, and no mind.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+#[schemars(inline)]
+pub struct Correct {
+    /// The places, in metres.
+    #[schemars(length(max = 10_000))]
+    pub places_m: Vec<Point>,
+    /// It is at a place that is no farther, in metres.
+    #[schemars(range(min = 0.01, max = 1000.0))]
+    pub within_m: f64,
+    /// It turns when its course is off by more, in degrees.
+    #[schemars(range(min = 0.1, max = 180.0))]
+    pub course_error_deg: f64,
+    /// Time that it waits after a behaviour above it has had its way, in seconds. Without it a robot
+    /// locks in front of a large obstacle: it turns away, and at once back; with it, it gets around
+    /// what it can pass in this time.
+    #[schemars(range(min = 0.0, max = 3600.0))]
+    pub wait_s: f64,
+}
+
+impl Default for Correct {
+    fn default() -> Self {
+        Self {
+            places_m: Vec::new(),
+            within_m: 0.5,
+            course_error_deg: 6.3,
+            wait_s: 5.0,
+        }
+    }
+}
+
+/// [`Correct`] in a body.
+#[derive(Debug, Clone)]
+pub(crate) struct Ready {
+    spec: Correct,
+    most_off_rad: f64,
+}
+
+/// What it is doing; `None` before it begins.
+pub(crate) type Memory = Option<Box<Progress>>;
+
+/// How far a robot has come.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Progress {
+    /// Places that it has visited.
+    visited: usize,
+    /// It does nothing for so long.
+    wait_s: f32,
+    /// Time since it last turned; what the compass said before that is not its course.
+    straight_s: f32,
+    turn: Option<Turn>,
+}
+
+impl Ready {
+    pub(super) fn new(spec: &Correct, _body: &Body) -> Self {
+        Self {
+            spec: spec.clone(),
+            most_off_rad: spec.course_error_deg.to_radians(),
+        }
+    }
+
+    /// The next place, seen from where it is.
+    fn next(&self, progress: &mut Progress, at: Point) -> Option<Point> {
+        loop {
+            let place = self.spec.places_m.get(progress.visited)?;
+            if at.to(*place).length() > self.spec.within_m {
+                return Some(*place);
+            }
+            progress.visited += 1;
+        }
+    }
+
+    fn look(&self, progress: &mut Progress, senses: &Senses) -> Option<Motion> {
+        // Half a step, so that rounding adds none.
+        if progress.wait_s > senses.period_s() / 2.0 {
+            progress.wait_s -= senses.period_s();
+            return None;
+        }
+        let at = position(senses.percept)?;
+        let to = self.next(progress, at)?;
+        let heading_rad = heading_rad(senses.percept, f64::from(progress.straight_s))?;
+        let way = at.to(to);
+        let off_rad = wrapped(libm::atan2(way.y, way.x) - heading_rad);
+        (off_rad.abs() > self.most_off_rad).then(|| {
+            let (turn, motion) = Turn::by(off_rad, senses.body);
+            progress.turn = Some(turn);
+            motion
+        })
+    }
+}
+
+fn position(percept: &Percept) -> Option<Point> {
+    let is_sensible = |Reading { value, age_s }: &Reading<Point>| {
+        let is_near = value.x.abs() <= FARTHEST_M && value.y.abs() <= FARTHEST_M;
+        is_near && (0.0..=OLDEST_S).contains(age_s)
+    };
+    let reading = percept.position.filter(is_sensible)?;
+    Some(reading.value)
+}
+
+/// The course of one who has gone straight for a time.
+fn heading_rad(percept: &Percept, straight_s: f64) -> Option<f64> {
+    let is_sensible = |Reading { value, age_s }: &Reading<f64>| {
+        (0.0..=straight_s).contains(age_s) && value.abs() <= MOST_RAD
+    };
+    let reading = percept.heading_rad.filter(is_sensible)?;
+    Some(reading.value)
+}
+
+impl Behaviour for Ready {
+    type Memory = Memory;
+
+    const NEEDS_POSE: bool = true;
+
+    fn memory(&self) -> Memory {
+        None
+    }
+
+    fn triggered(&self, memory: &mut Memory, senses: &Senses) -> Option<Wish> {
+        let progress = &mut **memory.get_or_insert_default();
+        if let Some(turn) = &mut progress.turn {
+            let motion = turn.go_on(senses);
+            if motion.is_some() {
+                return motion.map(Wish::Motion);
+            }
+            (progress.turn, progress.straight_s) = (None, 0.0);
+        }
+        let motion = self.look(progress, senses);
+        progress.straight_s += senses.period_s();
+        motion.map(Wish::Motion)
+    }
+
+    fn held(&self) -> Motion {
+        Motion::default()
+    }
+
+    #[expect(clippy::cast_possible_truncation, reason = "kept short")]
+    fn suppressed(&self, memory: &mut Memory) {
+        let progress = memory.get_or_insert_default();
+        progress.wait_s = self.spec.wait_s as f32;
+        (progress.turn, progress.straight_s) = (None, 0.0);
+    }
+}
+
+#[cfg(test)]
+#[expect(clippy::float_cmp, reason = "exact by construction")]
+mod tests {
+    use super::*;
+    use crate::behaviours::{BehaviourSpec, Cruise};
+    use crate::world_of_walls::{now, rover};
+    use crate::{Brain, BrainSpec};
+    use std::sync::Arc;
+
+    /// Cruise, and above it correct.
+    fn brain(correct: Correct) -> Brain {
+        let behaviours = vec![
+            BehaviourSpec::Cruise(Cruise::default()),
+            BehaviourSpec::Correct(correct),
+        ];
+        let spec = BrainSpec {
+            behaviours,
+            speed_limited_by_sight: false,
+            ..BrainSpec::default()
+        };
+        Brain::new(Arc::new(spec), Arc::new(rover()))
+    }
+
+    fn to(x: f64, y: f64) -> Correct {
+        Correct {
+            places_m: vec![Point { x, y }],
+            ..Correct::default()
+        }
+    }
+
+    /// At the origin, with this course.
+    fn percept(heading_deg: f64) -> Percept {
+        Percept {
+            position: Some(now(Point::default())),
+            heading_rad: Some(now(heading_deg.to_radians())),
+            ..Percept::default()
+        }
+    }
+
+    fn turn_rate(correct: Correct, percept: &Percept) -> f64 {
+        brain(correct).step(percept).motion.turn_rate_rad_s
+    }
+
+    #[test]
+    fn it_turns_the_shorter_way_once_the_error_passes_the_threshold() {
+        for (heading_deg, sign) in [(-6.2, 0.0), (6.2, 0.0), (-6.4, 1.0), (6.4, -1.0)] {
+            let rate = turn_rate(to(9.0, 0.0), &percept(heading_deg));
+            assert_eq!(rate * sign > 0.0, sign != 0.0, "{heading_deg}");
+            assert_eq!(rate != 0.0, sign != 0.0, "{heading_deg}");
+        }
+        // Over the seam of the angles, where Bender's own program went wrong.
+        let back = to(-9.0, 0.0);
+        assert_eq!(turn_rate(back.clone(), &percept(-177.0)), 0.0);
+        assert!(turn_rate(back.clone(), &percept(-170.0)) < 0.0);
+        assert!(turn_rate(back, &percept(170.0)) > 0.0);
+    }
+
+    #[test]
+    fn in_all_quadrants_it_ends_on_its_course() {
+        for course_deg in [30.0_f64, 120.0, 225.0, 300.0] {
+            let (y, x) = base::trig::sin_cos(course_deg.to_radians());
+            let mut brain = brain(to(9.0 * x, 9.0 * y));
+            let mut heading_rad: f64 = 0.0;
+            for _ in 0..40 {
+                let motion = brain.step(&percept(heading_rad.to_degrees())).motion;
+                heading_rad = wrapped(heading_rad + 0.1 * motion.turn_rate_rad_s);
+            }
+            let off_rad = wrapped(heading_rad - course_deg.to_radians());
+            assert!(off_rad.abs() < 0.03, "{course_deg} {off_rad}");
+        }
+    }
+
+    #[test]
+    fn without_a_position_or_a_course_it_has_nothing_to_do() {
+        let mut lost = percept(90.0);
+        lost.position = None;
+        let mut dizzy = percept(90.0);
+        dizzy.heading_rad = None;
+        let mut nowhere = percept(90.0);
+        nowhere.position = Some(now(Point {
+            x: f64::NAN,
+            y: 0.0,
+        }));
+        for percept in [lost, dizzy, nowhere, Percept::default()] {
+            let motion = brain(to(9.0, 0.0)).step(&percept).motion;
+            assert_eq!((motion.speed_m_s, motion.turn_rate_rad_s), (1.0, 0.0));
+        }
+    }
+
+    #[test]
+    fn at_a_place_it_goes_on_to_the_next() {
+        let mut two = to(0.3, 0.0);
+        two.places_m.push(Point { x: 0.0, y: 9.0 });
+        assert!(turn_rate(two, &percept(0.0)) > 0.0);
+    }
+
+    #[test]
+    fn one_look_at_a_slow_compass_makes_one_turn() {
+        let mut brain = brain(to(0.0, 9.0));
+        let mut percept = percept(0.0);
+        let (mut turned_rad, mut motion) = (0.0, Motion::default());
+        for step in 0..30_u32 {
+            percept.heading_rad = Some(Reading {
+                value: 0.0,
+                age_s: 0.1 * f64::from(step),
+            });
+            percept.motion = Some(now(motion));
+            motion = brain.step(&percept).motion;
+            turned_rad += 0.1 * motion.turn_rate_rad_s;
+        }
+        assert!((turned_rad - 1.57).abs() < 0.2, "{turned_rad}");
+    }
+}

@@ -1,0 +1,101 @@
+//! The example of a behaviour of one's own, added as `docs/brains.md` says: a file, and two lines.
+
+#![expect(
+    unreachable_pub,
+    reason = "what behaviours tell others stays within tests"
+)]
+
+use super::*;
+
+#[path = "../../../../examples/zigzag.rs"]
+mod zigzag;
+
+pub use zigzag::Zigzag;
+
+behaviours! {
+    /// Goes in a zigzag.
+    Zigzag in zigzag;
+    /// Gets out of the way of what is too near.
+    Avoid in avoid;
+}
+
+mod tests {
+    use super::*;
+    use crate::reckoning::Reckoning;
+    use crate::sight::Sight;
+    use crate::subsumption::{arbitrate, layers};
+    use crate::world_of_walls::{Walk, room, rover};
+    use base::geometry::Point;
+    use core::f64::consts::FRAC_PI_2;
+
+    fn zigzag() -> BehaviourSpec {
+        serde_json::from_str(r#"{"kind": "zigzag", "straight_s": 2}"#).unwrap()
+    }
+
+    /// Where a robot has been after each step that goes in a zigzag, and avoids.
+    fn path(size_m: f64, steps: usize) -> Vec<(Point, f64)> {
+        let body = rover();
+        let behaviours = [zigzag(), BehaviourSpec::Avoid(Avoid::default())];
+        let behaviours = behaviours.map(|each| each.ready(&body));
+        let (mut layers, mut moved) = (layers(&behaviours), Reckoning::default());
+        let sight = Sight::new(&body);
+        let mut walk = Walk::new(body.clone(), room(size_m, size_m), [2.0, 2.0], 0.0);
+        let step = |_| {
+            let percept = walk.percept();
+            let turned_rad = moved.take_in(&percept, &body);
+            let now_m_s = moved.now_m_s(&percept, &body);
+            let senses = Senses {
+                percept: &percept,
+                body: &body,
+                beliefs: None,
+                rings: &sight.rings,
+                ahead: sight.ahead(&percept, &body, now_m_s),
+                turned_rad,
+                now_m_s,
+            };
+            let mut motion = match arbitrate(&behaviours, &mut layers, &senses) {
+                Some((_, Wish::Motion(motion))) => motion,
+                _ => Motion::default(),
+            };
+            let most = body.max_turn_rate_rad_s;
+            motion.turn_rate_rad_s = motion.turn_rate_rad_s.clamp(-most, most);
+            moved.told(motion, &body);
+            walk.step(motion);
+            (walk.at, walk.heading_rad)
+        };
+        (0..steps).map(step).collect()
+    }
+
+    #[test]
+    fn an_added_behaviour_is_known_by_its_name_and_needs_what_it_says() {
+        let zigzag = zigzag();
+        assert_eq!(zigzag.name(), "zigzag");
+        assert_eq!(zigzag, BehaviourSpec::Zigzag(Zigzag { straight_s: 2.0 }));
+        assert!(!zigzag.needs_beliefs() && !zigzag.needs_pose() && !zigzag.needs_detector());
+        let slip = r#"{"kind": "zigzag", "strait_s": 2}"#;
+        assert!(serde_json::from_str::<BehaviourSpec>(slip).is_err());
+    }
+
+    #[test]
+    fn an_added_behaviour_moves_a_robot() {
+        let path = path(50.0, 300);
+        let (at, _) = path[path.len() - 1];
+        assert!(at.x > 8.0 && at.y > 8.0, "{at:?}");
+        // Along x or along y, but while it turns.
+        let along = |rad: f64| {
+            path.iter()
+                .filter(move |(_, heading_rad)| (heading_rad - rad).abs() < 0.03)
+                .count()
+        };
+        assert!(along(0.0) > 100 && along(FRAC_PI_2) > 100);
+    }
+
+    #[test]
+    fn an_added_behaviour_is_suppressed_by_those_above() {
+        let path = path(8.0, 600);
+        assert!(
+            path.iter()
+                .all(|(at, _)| at.x.min(at.y) > 0.25 && at.x.max(at.y) < 7.75)
+        );
+    }
+}

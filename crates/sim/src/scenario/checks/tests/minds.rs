@@ -1,0 +1,65 @@
+use super::*;
+
+#[test]
+fn a_mind_has_a_world_that_ends() {
+    let drive = "drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }\n";
+    let world = "size_m = [20, 10]\n";
+    let text = GOOD
+        .replace(drive, &format!("{drive}brain = {{ beliefs = {{}} }}\n"))
+        .replace(world, &format!("{world}wraps = true\n"));
+    let told = read(&text).unwrap_err().to_string();
+    assert!(
+        told.contains("robots.rover.brain.beliefs = ") && told.contains("need wraps = false"),
+        "{told}"
+    );
+}
+
+/// The faults of the good scenario whose bird, which has no sensors, has this brain.
+fn faults_of_brain(brain: &str) -> Vec<String> {
+    let drive = "drive = { max_speed_m_s = 5, max_turn_rate_deg_s = 90 }";
+    faults(drive, &format!("{drive}\nbrain = {{ {brain} }}"))
+}
+
+#[test]
+fn behaviours_need_sensors_and_places() {
+    let told = faults_of_brain("behaviours = [{ kind = \"correct\" }]");
+    let at = "robots.bird.brain.behaviours[0]";
+    let needs = |what: &str| {
+        format!(
+            "{at}.kind = \"correct\": must be of a robot with a sensor that correct needs, such as \
+             {what} under its sensors"
+        )
+    };
+    let expected = [
+        needs("gps = { kind = \"position\" }"),
+        needs("compass = { kind = \"heading\" }"),
+        format!(
+            "{at}.places_m is missing: must be the places to visit, at least one, as in [[5, 5], [9, 2.5]]"
+        ),
+    ];
+    assert_eq!(told, expected);
+}
+
+#[test]
+fn gains_are_those_of_its_behaviours() {
+    let brain = |gains: &str| {
+        format!(
+            "arbitration = {{ kind = \"schemas\", gains = {{ {gains} }} }}, \
+             behaviours = [{{ kind = \"cruise\" }}, {{ kind = \"avoid\" }}]"
+        )
+    };
+    let at = "robots.bird.brain.arbitration.gains";
+    assert_eq!(
+        faults_of_brain(&brain("cruse = 2, avoid = -1")),
+        [
+            format!("{at}.avoid = -1: must be a number from 0 to 1000000"),
+            format!("{at}.cruse = 2: must be under one of cruise, avoid; did you mean cruise?"),
+        ]
+    );
+    let slip = brain("").replace("gains", "gain");
+    let told = faults_of_brain(&slip).concat();
+    assert!(
+        told.contains("must be one of the known keys here: kind, gains, influence_m"),
+        "{told}"
+    );
+}
