@@ -200,7 +200,7 @@ impl Field {
                 reason = "a cast saturates"
             )]
             let (column, row) = (right as usize, up as usize);
-            (column < columns && row < rows).then_some(row * columns + column)
+            (column < columns && row < rows).then(|| row * columns + column)
         })
     }
 
