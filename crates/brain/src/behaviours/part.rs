@@ -20,7 +20,7 @@ const ROUNDS: usize = 4;
 const OTHERS: f64 = 0.1;
 
 /// Below this a block has nothing left, in cells.
-const LEAST: f64 = 0.05;
+const LEAST: f32 = 0.05;
 
 /// A robot's part: blocks of the field.
 #[derive(Debug, Clone, Default)]
@@ -29,7 +29,7 @@ pub(crate) struct Part {
     own: u64,
     /// Kept so that nothing is allocated: what is left in each block, and the middle of each part, the
     /// robot's own first.
-    left: Vec<f64>,
+    left: Vec<f32>,
     middles: Vec<Point>,
 }
 
@@ -68,10 +68,19 @@ impl Part {
     }
 
     fn sum_up(&mut self, map: &Map) {
+        let Map { field, unseen, .. } = map;
         self.left.clear();
         self.left.resize(BLOCKS * BLOCKS, 0.0);
-        for cell in 0..map.field.cells() {
-            self.left[block_of(&map.field, cell)] += map.unseen.of(cell);
+        for row in 0..field.rows {
+            let blocks = row * BLOCKS / field.rows * BLOCKS..;
+            let cells = unseen.row(field, row);
+            let mut first = 0;
+            for (number, left) in self.left[blocks].iter_mut().take(BLOCKS).enumerate() {
+                // The first column of the next block.
+                let end = ((number + 1) * field.columns).div_ceil(BLOCKS);
+                *left += cells[first..end].iter().sum::<f32>();
+                first = end;
+            }
         }
     }
 
@@ -80,9 +89,9 @@ impl Part {
         let mut sums = [(Point::default(), 0.0); MOST];
         for (block, left) in self.left.iter().enumerate() {
             if *left > LEAST {
-                let place = centre(field, block);
+                let (place, left) = (centre(field, block), f64::from(*left));
                 let (sum, all) = &mut sums[self.nearest(place)];
-                (*sum, *all) = (sum.plus(place.times(*left)), *all + left);
+                (*sum, *all) = (sum.plus(place.times(left)), *all + left);
             }
         }
         for (middle, (sum, all)) in self.middles.iter_mut().zip(sums) {

@@ -138,16 +138,14 @@ impl Field {
         let ([right, up], [to_right, to_up]) = (self.in_cells(from), self.in_cells(to));
         let way = [to_right - right, to_up - up];
         let steps = way[0].abs().max(way[1].abs());
-        let stride = way.map(|way| way / steps.max(f64::MIN_POSITIVE));
-        // Of a way that leads outside, so many steps are within.
-        let within = |at: f64, stride: f64, count: usize| {
-            let left = if stride > 0.0 { count as f64 - at } else { at };
-            left / stride.abs().max(f64::MIN_POSITIVE)
+        let a_step = 1.0 / steps.max(f64::MIN_POSITIVE);
+        let stride = way.map(|way| way * a_step);
+        let count = match (self.cell(from), self.cell(to)) {
+            (Some(_), Some(_)) => steps,
+            (Some(_), None) => steps.min(self.steps_within([right, up], stride)),
+            (None, _) => 0.0,
         };
-        let within = within(right, stride[0], self.columns).min(within(up, stride[1], self.rows));
-        let count = steps.min(within);
-        let is_within = self.cell(from).is_some() && count.is_finite();
-        let count = if is_within { count as u32 } else { 0 };
+        let count = if count.is_finite() { count as u32 } else { 0 };
         // In whole numbers of 2^-20 of a cell, of which no sum errs.
         let fixed = |cells: f64| (cells * f64::from(1 << FIXED)) as i64;
         let (mut at, stride) = ([fixed(right), fixed(up)], stride.map(fixed));
@@ -157,6 +155,16 @@ impl Field {
             let cell = (at[1] >> FIXED) * columns + (at[0] >> FIXED);
             usize::try_from(cell).unwrap_or(cells)
         })
+    }
+
+    /// So many strides from a place within, it is outside.
+    #[expect(clippy::cast_precision_loss, reason = "at most some thousands")]
+    fn steps_within(&self, [right, up]: [f64; 2], stride: [f64; 2]) -> f64 {
+        let within = |at: f64, stride: f64, count: usize| {
+            let left = if stride > 0.0 { count as f64 - at } else { at };
+            left / stride.abs().max(f64::MIN_POSITIVE)
+        };
+        within(right, stride[0], self.columns).min(within(up, stride[1], self.rows))
     }
 
     /// Cells at most so many columns and rows from one, and that itself.

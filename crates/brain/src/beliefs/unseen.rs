@@ -33,6 +33,14 @@ impl Unseen {
     }
 }
 
+impl Unseen {
+    /// The same of all cells in a row of the field.
+    #[inline]
+    pub(crate) fn row(&self, field: &Field, row: usize) -> &[f32] {
+        &self.missed[row * field.columns..(row + 1) * field.columns]
+    }
+}
+
 /// A cell is looked at if its centre is so far within what is seen, as a share of its width: most of it is
 /// seen then.
 const MARGIN: f64 = 0.35;
