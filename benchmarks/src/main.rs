@@ -1,6 +1,6 @@
 //! How fast the metric simulator is, beside a bare program of the same work, in one run.
 //!
-//! `make bench`, or `cargo run --release -p agent-economy-benchmarks -- [team | search | flock | world]`.
+//! `make bench`, or `cargo run --release -p agent-economy-benchmarks -- [team | search | flock | minds | world]`.
 //! `-- field` prints the team's field in JSON instead.
 //! Times are those for which threads had a processor; each figure is the median of many short
 //! pieces of work, those that are compared taken in turns. docs/speed.md says what came of it.
@@ -13,6 +13,7 @@
 mod clock;
 mod field;
 mod flock;
+mod minds;
 mod peers;
 mod search;
 mod speed_of_light;
@@ -31,6 +32,7 @@ fn main() {
         ("team", team::report as fn()),
         ("search", search::report),
         ("flock", flock::report),
+        ("minds", minds::report),
         ("world", world::report),
     ];
     for (name, report) in reports.iter().filter(|(name, _)| is_wanted(name)) {

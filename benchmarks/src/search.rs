@@ -1,4 +1,5 @@
-//! Runs of `scenarios/search.toml` a second: four robots with scanners of 55 rays search for items.
+//! Runs a second of `scenarios/search.toml`, four robots with scanners of 55 rays that search for items,
+//! and of `scenarios/search-mind.toml`, the same with minds.
 
 use crate::clock::{median, took_by_both};
 use base::document::Document;
@@ -20,7 +21,16 @@ const PIECES: u64 = 15;
 
 /// Prints the table.
 pub(crate) fn report() {
-    let scenario = Arc::new(scenario());
+    println!("| scenario | robot-updates a run | threads | runs/s | by the clock on the wall |");
+    println!("|---|---|---|---|---|");
+    for name in ["search.toml", "search-mind.toml"] {
+        compare(name);
+    }
+}
+
+/// One thread and two, by turns.
+fn compare(name: &str) {
+    let scenario = Arc::new(scenario(name));
     let updates = updates_per_run(&scenario);
     let runs = Runs(Arc::clone(&scenario));
     let pools = [1, 2].map(|threads| {
@@ -36,17 +46,15 @@ pub(crate) fn report() {
             rates[2 + number].push(RUNS / wall_s);
         }
     }
-    println!("| robot-updates a run | threads | runs/s | runs/s by the clock on the wall |");
-    println!("|---|---|---|---|");
     let [one, two, one_by_wall, two_by_wall] = rates.map(median);
-    println!("| {updates:.0} | 1 | {one:.0} | {one_by_wall:.0} |");
-    println!("| {updates:.0} | 2 | {two:.0} | {two_by_wall:.0} |");
+    println!("| {name} | {updates:.0} | 1 | {one:.0} | {one_by_wall:.0} |");
+    println!("| {name} | {updates:.0} | 2 | {two:.0} | {two_by_wall:.0} |");
 }
 
-fn scenario() -> Scenario {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenarios/search.toml");
-    let text = std::fs::read_to_string(file).expect("the scenario ships");
-    let document = Document::parse("search.toml", &text).expect("it is TOML");
+fn scenario(name: &str) -> Scenario {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenarios");
+    let text = std::fs::read_to_string(folder.join(name)).expect("the scenario ships");
+    let document = Document::parse(name, &text).expect("it is TOML");
     let checked = ScenarioSpec::read(&document).map_err(|faults| faults.to_string());
     checked.expect("it has no faults").scenario
 }

@@ -88,6 +88,12 @@ impl Brain {
         &self.kind.body
     }
 
+    /// Whether it believes and wants anything.
+    #[must_use]
+    pub fn has_mind(&self) -> bool {
+        self.mind.is_some()
+    }
+
     /// What it believes and wants; `None` if it has no mind.
     #[must_use]
     pub fn thoughts(&self) -> Option<Thoughts> {

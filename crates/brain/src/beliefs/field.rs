@@ -130,7 +130,6 @@ impl Field {
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_possible_wrap,
-        clippy::cast_precision_loss,
         clippy::cast_sign_loss,
         reason = "at most some thousands"
     )]

@@ -10,6 +10,9 @@ use base::geometry::{Point, Segment};
 /// So many are kept in mind.
 const MOST: usize = 16;
 
+/// Of a throng so many are looked at.
+const MOST_AT_ONCE: usize = 24;
+
 /// Who has not been seen for so long is forgotten, in seconds.
 const FORGOTTEN_S: f64 = 1.0;
 
@@ -52,13 +55,17 @@ pub(crate) struct Mover {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Others {
     pub(crate) movers: Vec<Mover>,
+    /// Kept so that nothing is allocated.
+    ranges_m: Vec<f64>,
 }
 
 impl Others {
     /// Takes in a step in which the robot went `way` (from its front as it was) and turned.
     pub(crate) fn take_in(&mut self, percept: &Percept, body: &Body, way: Point, turned_rad: f64) {
         self.carry_on(body.period_s, way, turned_rad);
-        for neighbour in &percept.neighbours {
+        let near_m = self.near_m(&percept.neighbours);
+        let near = percept.neighbours.iter();
+        for neighbour in near.filter(|neighbour| neighbour.range_m <= near_m) {
             self.see(neighbour, body, turned_rad);
         }
         self.movers.retain(|mover| mover.age_s <= FORGOTTEN_S);
@@ -68,6 +75,20 @@ impl Others {
             from: Point::default(),
             to: direction(0.0).times(stopping_m.copysign(way.x)),
         });
+    }
+
+    /// Of a throng only the nearest are looked at.
+    fn near_m(&mut self, neighbours: &[Neighbour]) -> f64 {
+        if neighbours.len() <= MOST_AT_ONCE {
+            return f64::INFINITY;
+        }
+        self.ranges_m.clear();
+        let ranges_m = neighbours.iter().map(|neighbour| neighbour.range_m);
+        self.ranges_m.extend(ranges_m);
+        let (_, near_m, _) = self
+            .ranges_m
+            .select_nth_unstable_by(MOST_AT_ONCE, f64::total_cmp);
+        *near_m
     }
 
     fn carry_on(&mut self, period_s: f64, way: Point, turned_rad: f64) {

@@ -26,6 +26,7 @@ pub(crate) struct Workshop {
     moves: Moves,
     /// Whether threads may share the work of one step.
     may_share: bool,
+    has_minds: bool,
 }
 
 /// The part of one thread: its desk, and its robots' minds and plans.
@@ -40,6 +41,7 @@ impl Workshop {
             asking: Asking::default(),
             moves: Moves::default(),
             may_share,
+            has_minds: scenario.kinds.iter().any(|kind| kind.brain.has_mind()),
         }
     }
 
@@ -69,7 +71,7 @@ impl Workshop {
     }
 
     fn is_shared(&self, state: &State) -> bool {
-        self.may_share && is_worth_sharing(state.robots())
+        self.may_share && is_worth_sharing(state.robots(), self.has_minds)
     }
 
     /// Sees to it that neighbours are known.

@@ -1,0 +1,117 @@
+//! A hundred robots with full minds: beliefs, goals, trust, navigation around each other, a reflex.
+//!
+//! They stand along the walls of a hall of 70 m with pillars, each wants to the point opposite, and on the
+//! way they look for items and tell each other.
+
+use crate::clock::{median, took_by_both};
+use base::document::Document;
+use sim::engine::Simulation;
+use sim::scenario::{Scenario, ScenarioSpec};
+use std::sync::Arc;
+
+const ROBOTS: u32 = 100;
+
+/// Steps of a run: by then most are in the middle.
+const STEPS: u32 = 400;
+
+/// Pieces of work of each program.
+const PIECES: usize = 9;
+
+/// All but how many there are, where they start and where they want to be.
+const TEXT: &str = r#"
+[clock]
+cap_s = 10000
+
+[world]
+size_m = [70, 70]
+obstacles = [
+    { circle = { at_m = [20, 20], radius_m = 1 } },
+    { circle = { at_m = [50, 20], radius_m = 1 } },
+    { circle = { at_m = [50, 50], radius_m = 1 } },
+    { circle = { at_m = [20, 50], radius_m = 1 } },
+]
+
+[items.mine]
+count = 20
+
+[robots.rover]
+radius_m = 0.25
+drive = { max_speed_m_s = 1, max_acceleration_m_s2 = 1, max_turn_rate_deg_s = 120 }
+radio = { range_m = 10 }
+
+[robots.rover.sensors]
+sonar = { kind = "range", rays = 24, range_m = 4 }
+gps = { kind = "position", noise_m = 0.1 }
+compass = { kind = "heading", noise_deg = 1 }
+eye = { kind = "robots", range_m = 6 }
+
+[robots.rover.sensors.camera]
+kind = "items"
+range_m = 3
+fov_deg = 70
+detects = { mine = 0.7 }
+false_alarms_per_m2_s = { mine = 0.001 }
+rate_hz = 5
+"#;
+
+/// Prints the table.
+pub(crate) fn report() {
+    println!("| robots | threads | thousands of updates/s | by the clock on the wall | hash |");
+    println!("|---|---|---|---|---|");
+    let mut simulation = Simulation::new(Arc::new(scenario()), 1, 0).expect("there is room");
+    let start = simulation.state().clone();
+    let pools = [1, 2].map(|threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+        pool.build().expect("threads can be made")
+    });
+    let updates = f64::from(ROBOTS) * f64::from(STEPS);
+    let mut rates = [const { Vec::new() }; 4];
+    let mut hashes = [0; 2];
+    for _ in 0..PIECES {
+        for (number, threads) in [(0, 1.0), (1, 2.0)] {
+            simulation.restore(start.clone());
+            let work = || pools[number].install(|| (0..STEPS).for_each(|_| simulation.step()));
+            let [processors_s, wall_s] = took_by_both(work);
+            rates[number].push(threads * updates / processors_s / 1e3);
+            rates[2 + number].push(updates / wall_s / 1e3);
+            hashes[number] = simulation.state().hash();
+        }
+    }
+    let [one, two, one_by_wall, two_by_wall] = rates.map(median);
+    let rows = [(1, one, one_by_wall), (2, two, two_by_wall)];
+    for ((threads, rate, by_wall), hash) in rows.into_iter().zip(hashes) {
+        println!("| {ROBOTS} | {threads} | {rate:.0} | {by_wall:.0} | {hash:016x} |");
+    }
+}
+
+fn scenario() -> Scenario {
+    let [from, to] = [0, ROBOTS / 2].map(|shift| {
+        let places = (0..ROBOTS).map(|number| place((number + shift) % ROBOTS));
+        places.collect::<Vec<_>>().join(", ")
+    });
+    let text = format!(
+        "{TEXT}\n[robots.rover.start]\nkind = \"fixed\"\nat_m = [{from}]\n\n\
+         [robots.rover.brain]\narbitration = {{ kind = \"goals\" }}\nbehaviours = [\
+         {{ kind = \"navigate\", share = \"each\", places_m = [{to}] }}, {{ kind = \"avoid\" }}]\n"
+    );
+    let text = text.replacen(
+        "[robots.rover]\n",
+        &format!("[robots.rover]\ncount = {ROBOTS}\n"),
+        1,
+    );
+    let document = Document::parse("minds.toml", &text).expect("it is TOML");
+    let checked = ScenarioSpec::read(&document).map_err(|faults| faults.to_string());
+    checked.expect("it has no faults").scenario
+}
+
+/// Along the walls, a quarter of the robots each.
+fn place(number: u32) -> String {
+    let (side, along) = (number / 25, 1.0 + 2.75 * f64::from(number % 25));
+    let [x, y] = match side {
+        0 => [along, 1.0],
+        1 => [69.0, along],
+        2 => [70.0 - along, 69.0],
+        _ => [1.0, 70.0 - along],
+    };
+    format!("[{x}, {y}]")
+}
