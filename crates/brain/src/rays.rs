@@ -143,6 +143,12 @@ impl Ring {
         })
     }
 
+    /// Whether the first ray is the neighbour of the last.
+    pub(crate) fn is_round(&self) -> bool {
+        let ends = self.bearings_rad.first().zip(self.bearings_rad.last());
+        ends.is_some_and(|(first, last)| wrapped(first - last).abs() <= 1.5 * self.gap_rad)
+    }
+
     /// Time from a scan until the brain has it.
     pub(crate) fn latency_s(&self) -> f64 {
         self.latency_s

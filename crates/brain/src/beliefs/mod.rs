@@ -7,6 +7,7 @@
 mod drain;
 pub(crate) mod field;
 pub(crate) mod items;
+mod moving;
 pub(crate) mod occupancy;
 pub(crate) mod others;
 pub(crate) mod peers;
@@ -41,9 +42,6 @@ use telling::Told;
 use trust::Trust;
 use unseen::{Glance, Unseen};
 
-/// Something is on a robot that is known if it is no farther from it than this, besides its radius.
-const ON_IT_M: f64 = 0.15;
-
 /// Contacts of a look have its age, but for rounding.
 const SAME_S: f64 = 1e-6;
 
@@ -56,7 +54,7 @@ pub struct BeliefsSpec {
     /// Its maps have cells at least so wide, in metres.
     #[schemars(range(min = 0.05, max = 1000.0))]
     pub cell_m: f64,
-    /// Its maps have at most so many cells; each takes a robot some ten bytes.
+    /// Its maps have at most so many cells; each takes a robot some twenty bytes.
     #[schemars(range(min = 16, max = 65_000))]
     pub cells: u32,
     /// How many items of each kind it expects before it has looked; left out, one of each kind.
@@ -207,6 +205,9 @@ impl Beliefs {
         self.here.take_in(percept, body, way_m, turned_rad);
         let way = direction(turned_rad / 2.0).times(way_m);
         self.others.take_in(percept, body, way, turned_rad);
+        for (ring, ranges_m) in new_scans(percept, rings, body.period_s) {
+            self.others.scan(ring, ranges_m);
+        }
         self.peers.pass(body.period_s);
         self.drain.take_in(percept, body.period_s);
         let Some(pose) = self.here.pose() else {
@@ -230,13 +231,7 @@ impl Beliefs {
             return;
         };
         let front = direction(pose.heading_rad);
-        for (ring, scan) in rings.iter().zip(&percept.scans) {
-            let fresh = ring.fresh(Some(scan));
-            // An older scan was taken in before.
-            let new = fresh.filter(|(age_s, _)| *age_s < ring.latency_s() + period_s);
-            let Some((_, ranges_m)) = new else {
-                continue;
-            };
+        for (ring, ranges_m) in new_scans(percept, rings, period_s) {
             for ray in ring.rays(ranges_m) {
                 let end = ray.end();
                 let ray = Ray {
@@ -322,14 +317,17 @@ fn earlier(pose: &Pose, [speed_m_s, rate_rad_s]: [f64; 2], age_s: f64) -> Pose {
     }
 }
 
-impl Others {
-    /// Whether what is seen at a place, from this robot's front, is one of them.
-    pub(crate) fn is_on_one(&self, at: Point) -> bool {
-        self.movers.iter().any(|mover| {
-            let near_m = mover.radius_m + ON_IT_M;
-            mover.at.to(at).length_squared() <= near_m * near_m
-        })
-    }
+/// Scans that have not been taken in before.
+fn new_scans<'p>(
+    percept: &'p Percept,
+    rings: &'p [Ring],
+    period_s: f64,
+) -> impl Iterator<Item = (&'p Ring, &'p [f64])> {
+    let scans = rings.iter().zip(&percept.scans);
+    scans.filter_map(move |(ring, scan)| {
+        let (age_s, ranges_m) = ring.fresh(Some(scan))?;
+        (age_s < ring.latency_s() + period_s).then_some((ring, ranges_m))
+    })
 }
 
 /// Things that stand, as rays see them now: their bearings and how far they are from the centre.

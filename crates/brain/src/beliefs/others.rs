@@ -1,8 +1,10 @@
 //! Robots nearby, and what else moves.
 
+use super::moving::Things;
 use super::pose::turned;
 use crate::body::{Body, RobotId};
 use crate::percept::{Neighbour, Percept};
+use crate::rays::Ring;
 use crate::sector::direction;
 use alloc::vec::Vec;
 use base::geometry::{Point, Segment};
@@ -15,6 +17,9 @@ const MOST_AT_ONCE: usize = 24;
 
 /// Who has not been seen for so long is forgotten, in seconds.
 const FORGOTTEN_S: f64 = 1.0;
+
+/// Something is on a robot that is known if it is no farther from it than this, besides its radius.
+const ON_IT_M: f64 = 0.15;
 
 /// Of an exact sensor, a new velocity counts so much; of one that errs, less.
 const EXACT: f64 = 1.0;
@@ -55,6 +60,7 @@ pub(crate) struct Mover {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Others {
     pub(crate) movers: Vec<Mover>,
+    things: Things,
     /// Kept so that nothing is allocated.
     ranges_m: Vec<f64>,
 }
@@ -62,7 +68,9 @@ pub(crate) struct Others {
 impl Others {
     /// Takes in a step in which the robot went `way` (from its front as it was) and turned.
     pub(crate) fn take_in(&mut self, percept: &Percept, body: &Body, way: Point, turned_rad: f64) {
+        self.movers.retain(|mover| mover.id.is_some());
         self.carry_on(body.period_s, way, turned_rad);
+        self.things.pass(way, turned_rad, body.period_s);
         let near_m = self.near_m(&percept.neighbours);
         let near = percept.neighbours.iter();
         for neighbour in near.filter(|neighbour| neighbour.range_m <= near_m) {
@@ -75,6 +83,14 @@ impl Others {
             from: Point::default(),
             to: direction(0.0).times(stopping_m.copysign(way.x)),
         });
+    }
+
+    /// Takes in a scan, of what moves and no sensor knows for a robot.
+    pub(crate) fn scan(&mut self, ring: &Ring, ranges_m: &[f64]) {
+        let (movers, things) = (&self.movers, &mut self.things);
+        things.see(ring, ranges_m, |at| is_on_one_of(movers, at));
+        let room = MOST.saturating_sub(self.movers.len());
+        self.movers.extend(self.things.moving().take(room));
     }
 
     /// Of a throng only the nearest are looked at.
@@ -147,6 +163,13 @@ impl Others {
     }
 }
 
+impl Others {
+    /// Whether what is seen at a place, from this robot's front, is one of them.
+    pub(crate) fn is_on_one(&self, at: Point) -> bool {
+        is_on_one_of(&self.movers, at)
+    }
+}
+
 impl Mover {
     /// Takes in where it was seen; its velocity is corrected by what the guess was off.
     fn correct(&mut self, at: Point, age_s: f64, share: f64) {
@@ -182,6 +205,14 @@ impl Mover {
     pub(crate) fn speed_m_s(&self) -> f64 {
         self.velocity_m_s.length()
     }
+}
+
+/// Whether what is seen at a place, from this robot's front, is one of them.
+fn is_on_one_of(movers: &[Mover], at: Point) -> bool {
+    movers.iter().any(|mover| {
+        let near_m = mover.radius_m + ON_IT_M;
+        mover.at.to(at).length_squared() <= near_m * near_m
+    })
 }
 
 fn is_sensible(neighbour: &Neighbour) -> bool {

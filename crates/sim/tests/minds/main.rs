@@ -7,4 +7,5 @@
 )]
 
 mod crossing;
+mod moving;
 mod searching;

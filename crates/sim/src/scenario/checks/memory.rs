@@ -24,7 +24,7 @@ const ROBOT_BYTES: f64 = 2_000.0;
 
 /// What a mind takes besides its maps, about, and a cell of those.
 const MIND_BYTES: f64 = 30_000.0;
-const CELL_BYTES: f64 = 16.0;
+const CELL_BYTES: f64 = 20.0;
 
 /// A number that was measured.
 const VALUE_BYTES: f64 = 8.0;

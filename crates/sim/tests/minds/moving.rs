@@ -1,0 +1,94 @@
+//! What moves, and no sensor knows for a robot, is told from what stands by how its distance falls.
+
+use base::document::Document;
+use brain::{BelievedRobot, RobotId};
+use sim::engine::Simulation;
+use sim::scenario::ScenarioSpec;
+use std::sync::Arc;
+
+const WATCHER: RobotId = RobotId { kind: 0, index: 0 };
+
+/// A robot with a mind among pillars, and somebody who comes.
+const HALL: &str = "
+[clock]
+cap_s = 1000
+[world]
+size_m = [24, 12]
+obstacles = [
+    { circle = { at_m = [6, 3], radius_m = 0.2 } },
+    { circle = { at_m = [9, 8], radius_m = 0.3 } },
+    { circle = { at_m = [12, 4.5], radius_m = 0.15 } },
+    { polygon_m = [[15, 7], [15.4, 7], [15.4, 7.4], [15, 7.4]] },
+    { circle = { at_m = [18, 3.5], radius_m = 0.4 } },
+]
+[robots.a]
+count = 1
+radius_m = 0.25
+drive = { max_speed_m_s = 1, max_acceleration_m_s2 = 1, max_turn_rate_deg_s = 120 }
+[robots.a.sensors]
+lidar = { kind = \"range\", rays = 72, range_m = 6, noise_m = 0.02 }
+gps = { kind = \"position\" }
+compass = { kind = \"heading\" }
+";
+
+fn simulation(rest: &str, run: u64) -> Simulation {
+    let document = Document::parse("hall.toml", &format!("{HALL}{rest}")).unwrap();
+    let checked = ScenarioSpec::read(&document).unwrap_or_else(|faults| panic!("{faults}"));
+    Simulation::new(Arc::new(checked.scenario), 1, run).unwrap()
+}
+
+/// What the watcher believes to move after a step.
+fn step(simulation: &mut Simulation) -> Vec<BelievedRobot> {
+    simulation.step();
+    let thoughts = simulation.state().thoughts(WATCHER).unwrap();
+    thoughts.robots
+}
+
+#[test]
+fn what_comes_nearer_is_believed_to_move_and_how_fast() {
+    let mut simulation = simulation(
+        "[robots.a.start]
+kind = \"fixed\"
+at_m = [[2, 6]]
+heading_deg = [0]
+[robots.a.brain]
+behaviours = [{ kind = \"hold\" }]
+[robots.b]
+count = 1
+radius_m = 0.3
+drive = { max_speed_m_s = 0.6, max_turn_rate_deg_s = 90 }
+start = { kind = \"fixed\", at_m = [[7, 6]], heading_deg = [180] }
+[robots.b.brain]
+speed_limited_by_sight = false
+behaviours = [{ kind = \"cruise\" }]
+",
+        0,
+    );
+    let moving = (0..50).map(|_| step(&mut simulation)).last().unwrap();
+    let [walker] = moving.as_slice() else {
+        panic!("{moving:?}");
+    };
+    assert_eq!(walker.id, None);
+    assert!((-0.8..-0.4).contains(&walker.velocity_m_s.x), "{walker:?}");
+    assert!(walker.at.x > 1.0 && walker.at.y.abs() < 0.4, "{walker:?}");
+}
+
+#[test]
+fn what_stands_is_hardly_ever_believed_to_move_by_one_who_passes() {
+    let wrong = (0..10).map(|run| {
+        let mut simulation = simulation(PASSES, run);
+        (0..1200)
+            .filter(|_| !step(&mut simulation).is_empty())
+            .count()
+    });
+    // Ten times 120 s, in which it passes all of them more than once.
+    let wrong: usize = wrong.sum();
+    assert!(wrong < 120, "{wrong} of 12000 steps");
+}
+
+const PASSES: &str = "[robots.a.start]
+kind = \"fixed\"
+at_m = [[2, 6]]
+[robots.a.brain]
+behaviours = [{ kind = \"navigate\", places_m = [[22, 6], [22, 2], [2, 2], [2, 10], [22, 10], [11, 6]] }]
+";
