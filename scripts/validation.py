@@ -225,6 +225,7 @@ def overview() -> str:
         ["collisions: a gas of discs in the plane", *nearness("collisions")],
         ["swarms: order falls with noise (Vicsek 1995)", *nearness("vicsek")],
         ["places: uniform where it is free", *nearness("placement")],
+        ["beliefs: of those held with c, a share of c is true", *nearness("calibration")],
     ]
     return table(["claim", "simulated", "farthest off"], lines)
 
@@ -282,6 +283,7 @@ def specifications() -> dict[str, Spec]:
         "vicsek": simple("vicsek", "width of noise, rad", "order: length of the mean course"),
         "placement": placement(),
         "sense": sense(),
+        "calibration": calibration(),
     }
 
 
@@ -405,6 +407,25 @@ def placement() -> Spec:
     return page_of(
         panel([one, *points(made)], "x, m", "share of all / share of the area", axes=axes)
     )
+
+
+def calibration() -> Spec:
+    """Return the share of beliefs that is true by their confidence: alone, and with radio."""
+    panels = []
+    for title, radio in (("alone", "alone"), ("with radio", "radio")):
+        some = [row for row in rows("calibration") if radio in row.series]
+        right = [{"x": 0, "y": 0}, {"x": 1, "y": 1}]
+        diagonal = {
+            "data": {"values": right},
+            "mark": {"type": "line", "color": INK, "strokeWidth": 1},
+            "encoding": plain(),
+        }
+        axes = Axes(x_ticks=(0, 0.2, 0.4, 0.6, 0.8, 1), y_domain=(0, 1))
+        x = f"believed with, {title}"
+        panels.append(
+            panel([diagonal, *points(some)], x, "share true", width=WIDTH // 2, axes=axes)
+        )
+    return page_of(side_by_side(*panels))
 
 
 def together(series: str, column: int, some: list[Row]) -> Row:

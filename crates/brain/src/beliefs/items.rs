@@ -66,12 +66,16 @@ pub(crate) struct Track {
     before: f64,
     sources: [Source; SOURCES],
     count: usize,
+    /// Logarithm of the probability that all looks at the edge of what was seen missed it.
+    edge: f64,
 }
 
 /// What the looks of one robot say.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 struct Source {
     seen: Seen,
+    /// Log odds before its looks, beside what others say of the same item.
+    before: f64,
     /// Log likelihood ratio of all its looks.
     odds: f64,
     /// What others were told last; 0 if nothing.
@@ -115,10 +119,12 @@ impl Items {
         }
         let view = View::new(look.detector, look.pose.heading_rad);
         for (number, track) in self.tracks.iter_mut().enumerate() {
-            if recognised & (1 << number) == 0 && track.is_in(&view, look, map) {
-                let distance_m = look.pose.at.to(track.at).length();
-                let seen = look.detector.probability(track.kind.into(), distance_m);
-                track.add(look.by, &mut self.marks, libm::log1p(-seen.min(0.999)));
+            if recognised & (1 << number) == 0 {
+                let in_view = track.in_view(&view, look, map);
+                if in_view > 0.0 {
+                    let odds = track.miss(look, in_view);
+                    track.add((look.by, track.before), &mut self.marks, odds);
+                }
             }
         }
     }
@@ -145,12 +151,13 @@ impl Items {
                 contact.kind,
                 at,
                 variance_m2,
-                look.left_m2(contact.kind, at, map),
+                look.left_m2(contact.kind, at, variance_m2, map),
             ),
         };
         let track = &mut self.tracks[place];
         let odds = track.likelihood(look, at, variance_m2, contact.range_m);
-        track.add(look.by, &mut self.marks, odds);
+        let before = track.before_another(at, variance_m2, of(look.per_m2, contact.kind));
+        track.add((look.by, before), &mut self.marks, odds);
         track.correct(at, variance_m2);
         1 << place
     }
@@ -171,14 +178,14 @@ impl Items {
 
     /// A new item at a place; returns its number.
     fn begin(&mut self, kind: u16, at: Point, variance_m2: f64, per_m2: f64) -> usize {
-        let before = (2.0 * PI * variance_m2 * per_m2).clamp(1e-9, 0.1);
         let track = Track {
             kind,
             at,
             variance_m2,
-            before: log_odds(before),
+            before: log_before(variance_m2, per_m2),
             sources: [Source::default(); SOURCES],
             count: 0,
+            edge: 0.0,
         };
         if self.tracks.len() < MOST {
             self.tracks.push(track);
@@ -205,9 +212,10 @@ impl Items {
             None => self.begin(report.kind, report.at, variance_m2, of(per_m2, report.kind)),
         };
         let track = &mut self.tracks[place];
-        let odds = log_odds(report.confidence.clamp(1e-6, 1.0 - 1e-6)) - track.before;
-        if track.replace(own, report.seen, odds) && !track.has_looked(own) {
-            track.correct(report.at, variance_m2);
+        let before = track.before_another(report.at, variance_m2, of(per_m2, report.kind));
+        let is_new = track.place_of(report.seen).is_none();
+        if track.replace(own, report, before) && !track.has_looked(own) {
+            track.place_by_report(report.at, variance_m2, is_new);
         }
     }
 
@@ -233,9 +241,8 @@ impl Items {
             let Some(verdict) = track.own_verdict(own) else {
                 continue;
             };
-            let before = track.before;
             for source in &mut track.sources[..track.count] {
-                let is_report = source.seen.by != own && before + source.odds > 0.0;
+                let is_report = source.seen.by != own && source.says() > 0.0;
                 if is_report && !source.is_judged {
                     source.is_judged = true;
                     trust.learn(source.seen.by, verdict, spec);
@@ -259,9 +266,9 @@ impl Items {
     pub(crate) fn tell(&mut self, outbox: &mut Vec<Message>, most: usize) {
         let mut left = most;
         for track in &mut self.tracks {
-            let (before, kind, at) = (track.before, track.kind, track.at);
+            let (kind, at) = (track.kind, track.at);
             for source in &mut track.sources[..track.count] {
-                let confidence = probability(before + source.odds);
+                let confidence = probability(source.says());
                 if left == 0 || (confidence - source.told).abs() < TOLD_AGAIN {
                     continue;
                 }
@@ -296,8 +303,20 @@ fn of(per_m2: &[f64], kind: u16) -> f64 {
 
 impl OwnLook<'_> {
     /// Items of a kind in a square metre at a place that nobody has seen yet.
-    fn left_m2(&self, kind: u16, at: Point, map: Option<&Map>) -> f64 {
-        let unseen = map.map_or(1.0, |map| map.unseen.of(map.field.nearest_cell(at)));
+    ///
+    /// A cell at the edge of what a look sees is not noted as seen, though a contact may be in it; and one
+    /// that errs by more than half a cell may be in any of those about it. Then the most seen of them holds.
+    fn left_m2(&self, kind: u16, at: Point, variance_m2: f64, map: Option<&Map>) -> f64 {
+        let unseen = map.map_or(1.0, |map| {
+            let cell = map.field.nearest_cell(at);
+            let view = View::new(self.detector, self.pose.heading_rad);
+            let way = self.pose.at.to(map.field.centre(cell));
+            let half_m = map.field.cell_m / 2.0;
+            let is_clear = view.holds_cell(&map.field, way) && variance_m2 < half_m * half_m;
+            let reach = i32::from(!is_clear);
+            let about = map.field.around(cell, reach);
+            about.map(|cell| map.unseen.of(cell)).fold(1.0, f64::min)
+        });
         of(self.per_m2, kind) * unseen.max(LEAST_UNSEEN)
     }
 
@@ -310,17 +329,27 @@ impl OwnLook<'_> {
 }
 
 impl Track {
-    /// How surely it is there, 0 to 1.
+    /// How surely it is there, 0 to 1. All that one robot says counts together, so that nobody is believed
+    /// more than he is trusted, however often he says it.
     pub(crate) fn confidence(&self, own: RobotId, trust: &Trust, spec: &TrustSpec) -> f64 {
-        let sources = self.sources[..self.count].iter();
-        let before = probability(self.before);
-        let all = sources.map(|source| {
-            if source.seen.by == own {
-                return source.odds;
+        let sources = &self.sources[..self.count];
+        let is_first = |number: usize, by: RobotId| {
+            let mut before = sources[..number].iter();
+            before.all(|other| other.seen.by != by)
+        };
+        let numbered = sources.iter().enumerate();
+        let firsts = numbered.filter(|(number, source)| is_first(*number, source.seen.by));
+        let all = firsts.map(|(number, Source { seen, before, .. })| {
+            let same = sources[number..]
+                .iter()
+                .filter(|other| other.seen.by == seen.by);
+            let odds = same.map(|source| source.odds).sum::<f64>();
+            if seen.by == own {
+                return odds;
             }
-            let trust = trust.of(source.seen.by, spec);
-            let told = probability(self.before + source.odds);
-            log_odds(trust * told + (1.0 - trust) * before) - self.before
+            let trust = trust.of(seen.by, spec);
+            let told = probability(before + odds);
+            log_odds(trust * told + (1.0 - trust) * probability(*before)) - before
         });
         probability(self.before + all.sum::<f64>())
     }
@@ -348,8 +377,25 @@ impl Track {
         odds.max(-MOST_A_LOOK).min(MOST_AT_ALL - self.before)
     }
 
-    /// Adds to what own looks say.
-    fn add(&mut self, by: RobotId, marks: &mut u32, odds: f64) {
+    /// Log odds before the looks of one more robot that says that it is at a place.
+    ///
+    /// ```text
+    /// odds = odds of the one x odds of the other x N(d; S) / density of items
+    /// ```
+    ///
+    /// Two that saw an item each may have seen two: that they are d apart, with variances that sum to S,
+    /// speaks for one.
+    fn before_another(&self, at: Point, variance_m2: f64, per_m2: f64) -> f64 {
+        if self.count == 0 {
+            return self.before;
+        }
+        let all_m2 = self.variance_m2 + variance_m2;
+        let off = self.at.to(at).length_squared() / (2.0 * all_m2);
+        log_before(all_m2, per_m2) + off
+    }
+
+    /// Adds to what own looks say; `before` holds if these are the first.
+    fn add(&mut self, (by, before): (RobotId, f64), marks: &mut u32, odds: f64) {
         let own = self.sources[..self.count]
             .iter()
             .position(|source| source.seen.by == by);
@@ -362,6 +408,7 @@ impl Track {
             };
             self.room(by, f64::INFINITY).map_or(0, |place| {
                 self.sources[place].seen = seen;
+                self.sources[place].before = before;
                 place
             })
         });
@@ -395,18 +442,22 @@ impl Track {
         sources.into_iter().position(is_same)
     }
 
-    /// Takes in what looks of a source say, if it says more than before.
-    fn replace(&mut self, own: RobotId, seen: Seen, odds: f64) -> bool {
+    /// Takes in what looks of a source say, if it says more than before; `before` holds if it is new.
+    fn replace(&mut self, own: RobotId, report: &Report, before: f64) -> bool {
+        let seen = report.seen;
         let known = self.place_of(seen);
         let is_old = known.is_some_and(|place| self.sources[place].seen.looks >= seen.looks);
         if is_old {
             return false;
         }
+        let before = known.map_or(before, |place| self.sources[place].before);
+        let odds = log_odds(report.confidence.clamp(1e-6, 1.0 - 1e-6)) - before;
         let Some(place) = known.or_else(|| self.room(own, odds)) else {
             return false;
         };
-        self.sources[place].seen = seen;
-        self.sources[place].odds = odds.max(-MOST_AT_ALL).min(MOST_AT_ALL - self.before);
+        let source = &mut self.sources[place];
+        (source.seen, source.before) = (seen, before);
+        source.odds = odds.max(-MOST_AT_ALL).min(MOST_AT_ALL - before);
         true
     }
 
@@ -418,13 +469,22 @@ impl Track {
     /// Whether own looks say that it is there, if they say something for sure.
     fn own_verdict(&self, own: RobotId) -> Option<bool> {
         let mut sources = self.sources[..self.count].iter();
-        let odds = sources.find(|source| source.seen.by == own)?.odds;
-        if self.before + odds > SURE {
+        let source = sources.find(|source| source.seen.by == own)?;
+        if source.says() > SURE {
             Some(true)
-        } else if odds < -SURE {
+        } else if source.odds < -SURE {
             Some(false)
         } else {
             None
+        }
+    }
+
+    /// Takes in where others say that it is: who says it again has not measured all of it anew.
+    fn place_by_report(&mut self, at: Point, variance_m2: f64, is_new: bool) {
+        if self.count == 1 {
+            (self.at, self.variance_m2) = (at, variance_m2);
+        } else if is_new {
+            self.correct(at, variance_m2);
         }
     }
 
@@ -440,8 +500,27 @@ impl Track {
         self.variance_m2 = (self.variance_m2 * (1.0 - gain)).max(least_m2);
     }
 
-    /// Whether a look must have had it in view.
-    fn is_in(&self, view: &View, look: &OwnLook, map: Option<&Map>) -> bool {
+    /// The logarithm of how much likelier it is not to be recognised if the item is there and has been in
+    /// view with a probability.
+    ///
+    /// Looks at the edge of what a robot sees pass an item by for one reason: it is not where it is believed
+    /// to be. So together they say no more than that: k of them are as likely as `in_view (1 - p)^k + 1 - in_view`.
+    fn miss(&mut self, look: &OwnLook, in_view: f64) -> f64 {
+        let distance_m = look.pose.at.to(self.at).length();
+        let seen = look.detector.probability(self.kind.into(), distance_m);
+        let missed = libm::log1p(-seen.min(0.999));
+        if in_view >= 1.0 {
+            return missed;
+        }
+        let likely = |edge: f64| in_view * libm::exp(edge) + 1.0 - in_view;
+        let before = likely(self.edge);
+        self.edge = (self.edge + missed).max(-MOST_AT_ALL);
+        libm::log(likely(self.edge) / before)
+    }
+
+    /// How likely a look had it in view: five places stand for the normal distribution of where it is, with
+    /// the same mean and variance.
+    fn in_view(&self, view: &View, look: &OwnLook, map: Option<&Map>) -> f64 {
         let way = look.pose.at.to(self.at);
         let error_m = 2.0 * libm::sqrt(self.variance_m2 + look.variance_m2(way.length()));
         let length_m = way.length().max(1e-9);
@@ -450,13 +529,27 @@ impl Track {
             x: -out.y,
             y: out.x,
         };
-        let corners = [way.plus(out), way.plus(aside), aside.to(way)];
+        let share = |place: Point, of: f64| if view.holds(place) { of } else { 0.0 };
+        let about = [way.plus(out), out.to(way), way.plus(aside), aside.to(way)];
+        let all = share(way, 0.5) + about.map(|place| share(place, 0.125)).iter().sum::<f64>();
         let is_hidden = || {
             look.detector.needs_line_of_sight
                 && map.is_some_and(|map| !map.filled.sees(&map.field, look.pose.at, self.at))
         };
-        corners.iter().all(|corner| view.holds(*corner)) && !is_hidden()
+        if all > 0.0 && is_hidden() { 0.0 } else { all }
     }
+}
+
+impl Source {
+    /// Log odds by its looks alone.
+    fn says(&self) -> f64 {
+        self.before + self.odds
+    }
+}
+
+/// Log odds that one of so many items in a square metre is at a place with a variance.
+fn log_before(variance_m2: f64, per_m2: f64) -> f64 {
+    log_odds((2.0 * PI * variance_m2 * per_m2).clamp(1e-9, 0.1))
 }
 
 fn log_odds(probability: f64) -> f64 {

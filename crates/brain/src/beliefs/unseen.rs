@@ -160,6 +160,11 @@ impl View {
         self.holds_within(way, 0.0)
     }
 
+    /// Whether most of the cell at the end of a way is seen.
+    pub(crate) fn holds_cell(&self, field: &Field, way: Point) -> bool {
+        self.holds_within(way, MARGIN * field.cell_m)
+    }
+
     /// The same so far within its edges.
     #[inline]
     fn holds_within(&self, way: Point, margin_m: f64) -> bool {

@@ -7,6 +7,7 @@
 
 mod arcs;
 mod battery;
+mod calibration;
 mod collisions;
 mod false_alarms;
 mod lanes;

@@ -329,11 +329,11 @@ proptest! {
             }
             prop_assert_eq!(items.tracks.len(), 1);
             let track = &items.tracks[0];
-            let before = probability(track.before);
             let looks = &track.sources[track.place_by(own)];
             let reports = last.iter().filter(|report| report.seen.by != own);
             let said = reports.map(|report| {
-                log_odds(0.9 * report.confidence + 0.1 * before) - track.before
+                let before = track.sources[track.place_by(report.seen.by)].before;
+                log_odds(0.9 * report.confidence + 0.1 * probability(before)) - before
             });
             let expected = probability(track.before + looks.odds + said.sum::<f64>());
             prop_assert!((confidence(items, own) - expected).abs() < 1e-6, "{}", expected);

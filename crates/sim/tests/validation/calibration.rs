@@ -1,0 +1,166 @@
+//! Beliefs are calibrated: of what robots with minds believe with 0.8, 80% is there.
+
+use crate::rows::{Row, assert_published, assert_right, assert_wrong};
+use crate::setup::{robots, run, scenario, time_s};
+use base::document::Value;
+use base::geometry::Point;
+use rayon::prelude::*;
+use sim::engine::Simulation;
+
+const TEXT: &str = include_str!("../../../../docs/validation/calibration.toml");
+
+const RUNS: u64 = 64;
+
+/// When robots are asked, in seconds.
+const ASKED_S: [f64; 4] = [10.0, 20.0, 40.0, 80.0];
+
+/// An item is where it is believed to be if it is no farther than three standard deviations and this.
+const NEAR_M: f64 = 0.1;
+
+/// Beliefs are taken together by tenths of confidence.
+const BINS: u8 = 10;
+
+/// Of beliefs that come up in fewer runs nothing is said.
+const LEAST_RUNS: usize = 20;
+
+/// What is believed, and whether it is so.
+#[derive(Debug, Clone, Copy)]
+struct Belief {
+    confidence: f64,
+    is_true: bool,
+}
+
+/// What is varied.
+type Changes = Vec<(&'static str, Value)>;
+
+fn camera() -> [(&'static str, Changes); 3] {
+    let set = |path, value| vec![(path, Value::Float(value))];
+    [
+        ("sharp", vec![]),
+        ("coarse", set("robots.rover.sensors.camera.noise_m", 0.4)),
+        (
+            "faint",
+            set("robots.rover.sensors.camera.detects.mine", 0.15),
+        ),
+    ]
+}
+
+fn radio(range_m: f64) -> (&'static str, Value) {
+    ("robots.rover.radio.range_m", Value::Float(range_m))
+}
+
+/// What all robots believe now.
+fn asked(simulation: &Simulation) -> Vec<Belief> {
+    let each = simulation.state().each_item(simulation.scenario());
+    let items: Vec<(u16, Point)> = each.map(|item| (item.kind, item.at)).collect();
+    let ids = robots(simulation).into_iter().map(|robot| robot.id);
+    let thoughts = ids.filter_map(|id| simulation.state().thoughts(id));
+    let believed = thoughts.flat_map(|thoughts| thoughts.items);
+    let belief = |item: brain::BelievedItem| {
+        let near_m = 3.0 * item.deviation_m + NEAR_M;
+        let is_it =
+            |(kind, at): &(u16, Point)| *kind == item.kind && at.to(item.at).length() <= near_m;
+        Belief {
+            confidence: item.confidence,
+            is_true: items.iter().any(is_it),
+        }
+    };
+    believed.map(belief).collect()
+}
+
+/// What was believed in each run.
+fn believed(changes: &[(&str, Value)]) -> Vec<Vec<Belief>> {
+    let scenario = scenario(TEXT, changes);
+    let of_run = |number| {
+        let mut simulation = run(&scenario, 1, number);
+        let mut all = Vec::new();
+        for at_s in ASKED_S {
+            while time_s(&simulation) < at_s - 1e-6 {
+                simulation.step();
+            }
+            all.extend(asked(&simulation));
+        }
+        all
+    };
+    (0..RUNS).into_par_iter().map(of_run).collect()
+}
+
+/// Of a run's beliefs in a bin: how many, how many true, and the sum of their confidences.
+fn sums(beliefs: &[Belief], bin: u8) -> [f64; 3] {
+    let [low, high] = [bin, bin + 1].map(|edge| f64::from(edge) / f64::from(BINS));
+    let is_last = bin + 1 == BINS;
+    let is_in =
+        |belief: &&Belief| belief.confidence >= low && (belief.confidence < high || is_last);
+    let in_bin = beliefs.iter().filter(is_in);
+    in_bin.fold([0.0; 3], |[count, right, sum], belief| {
+        let right = right + f64::from(u8::from(belief.is_true));
+        [count + 1.0, right, sum + belief.confidence]
+    })
+}
+
+/// The share of a bin's beliefs that is true, beside their mean confidence.
+///
+/// Beliefs of one run are of the same items, so runs are clusters: the standard error is that of a ratio
+/// of sums over runs, and at least that of as many independent beliefs as runs.
+fn share(series: &str, runs: &[Vec<Belief>], bin: u8) -> Option<Row> {
+    let each = runs.iter().map(|beliefs| sums(beliefs, bin));
+    let each: Vec<[f64; 3]> = each.filter(|[count, ..]| *count > 0.0).collect();
+    if each.len() < LEAST_RUNS {
+        return None;
+    }
+    let [count, right, sum] =
+        [0, 1, 2].map(|place| each.iter().map(|sums| sums[place]).sum::<f64>());
+    let clusters = f64::from(u32::try_from(each.len()).unwrap());
+    let (believed, off) = (sum / count, (right - sum) / count);
+    let residuals = each
+        .iter()
+        .map(|[count, right, sum]| right - sum - off * count);
+    let squares: f64 = residuals.map(|residual| residual * residual).sum();
+    let error = (squares * clusters / (clusters - 1.0)).sqrt() / count;
+    let least = (believed * (1.0 - believed) / clusters).sqrt();
+    Some(Row {
+        series: series.to_owned(),
+        x: believed,
+        measured: right / count,
+        error: error.max(least),
+        expected: Some(believed),
+    })
+}
+
+fn rows(series: &str, changes: &[(&str, Value)]) -> Vec<Row> {
+    let runs = believed(changes);
+    (0..BINS)
+        .filter_map(|bin| share(series, &runs, bin))
+        .collect()
+}
+
+#[test]
+fn of_what_is_believed_with_some_confidence_so_much_is_true() {
+    let mut all = Vec::new();
+    for (name, mut changes) in camera() {
+        changes.push(radio(0.0));
+        all.extend(rows(&format!("{name} alone"), &changes));
+        changes.push(radio(100.0));
+        all.extend(rows(&format!("{name} with radio"), &changes));
+    }
+    let distrust = [(
+        "robots.rover.brain.beliefs.trust.initial",
+        Value::Float(0.9),
+    )];
+    let wary = rows("sharp with radio and trust 0.9", &distrust);
+    all.extend(wary.into_iter().map(|row| Row {
+        expected: None,
+        ..row
+    }));
+    assert_published("calibration.csv", &all);
+    assert_right(&all);
+}
+
+#[test]
+fn minds_that_expect_ten_times_as_many_items_are_noticed() {
+    let many = (
+        "robots.rover.brain.beliefs.expected.mine",
+        Value::Float(80.0),
+    );
+    assert_wrong(&rows("", &[many]));
+}
