@@ -21,6 +21,7 @@ from pathlib import Path
 from typing import Any
 
 import vl_convert
+from paired import HEADER, compared
 
 ROOT = Path(__file__).resolve().parent.parent
 PAGE = ROOT / "docs" / "validation.md"
@@ -139,7 +140,8 @@ def picture(spec: Spec) -> str:
 def block(found: re.Match[str]) -> str:
     """Return a block of the page with its table computed."""
     name = found[1]
-    made = overview() if name == "overview" else table_of(name.replace("_", "-"))
+    own = {"overview": overview, "search_minds": search_minds}
+    made = own[name]() if name in own else table_of(name.replace("_", "-"))
     return f"<!-- {name} -->\n{made}\n<!-- end -->"
 
 
@@ -228,6 +230,11 @@ def overview() -> str:
         ["beliefs: of those held with c, a share of c is true", *nearness("calibration")],
     ]
     return table(["claim", "simulated", "farthest off"], lines)
+
+
+def search_minds() -> str:
+    """Return how long searching by belief takes beside lanes, over all worlds."""
+    return table(HEADER, compared(FOLDER / "search-minds.csv"))
 
 
 def nearness(name: str) -> tuple[str, str]:

@@ -16,6 +16,7 @@ mod placement;
 mod radio;
 mod random_search;
 mod rows;
+mod search_minds;
 mod sense;
 mod setup;
 mod stopping;

@@ -93,17 +93,22 @@ pub(crate) fn assert_wrong(rows: &[Row]) {
 
 /// The file behind the page says the same; with `RENEW_VALIDATION=1` it is written.
 pub(crate) fn assert_published(name: &str, rows: &[Row]) {
-    let folder = [env!("CARGO_MANIFEST_DIR"), "../../docs/validation"];
-    let file = folder.iter().collect::<PathBuf>().join(name);
     let text = written(rows);
-    if std::env::var_os("RENEW_VALIDATION").is_some() {
-        std::fs::write(&file, &text).unwrap();
-    }
-    let published = std::fs::read_to_string(&file).unwrap_or_default();
+    let published = written_anew(name, || text.clone());
     assert!(
         published == text,
         "docs/validation/{name} is not what the simulator gives: `make validation` renews it"
     );
+}
+
+/// What a file behind the page says; with `RENEW_VALIDATION=1` it is made and written first.
+pub(crate) fn written_anew(name: &str, make: impl FnOnce() -> String) -> String {
+    let folder = [env!("CARGO_MANIFEST_DIR"), "../../docs/validation"];
+    let file = folder.iter().collect::<PathBuf>().join(name);
+    if std::env::var_os("RENEW_VALIDATION").is_some() {
+        std::fs::write(&file, make()).unwrap();
+    }
+    std::fs::read_to_string(&file).unwrap_or_default()
 }
 
 fn written(rows: &[Row]) -> String {

@@ -1,0 +1,109 @@
+//! Searching by belief beside lanes, where nothing is missed and where looks miss.
+//!
+//! The times of 1,000 worlds are kept in a file. A test takes some of them again, and the claims are of all.
+
+use crate::rows::written_anew;
+use crate::setup::{list, run, scenario};
+use base::document::{Node, Table, Value};
+use rayon::prelude::*;
+use std::fmt::Write;
+
+const TEXT: &str = include_str!("../../../../scenarios/search-mind.toml");
+const FILE: &str = "search-minds.csv";
+
+const WORLDS: u64 = 1000;
+
+/// So many of them are searched again in each test.
+const AGAIN: u64 = 30;
+
+/// Half a 99% interval, in standard errors.
+const Z99: f64 = 2.576;
+
+/// A camera, and what robots search by.
+const SEARCHES: [(&str, &str); 4] = [
+    ("perfect", "lanes"),
+    ("perfect", "seek"),
+    ("misses", "lanes"),
+    ("misses", "seek"),
+];
+
+/// The searches of each world, in the order of [`SEARCHES`], in seconds.
+type Times = [f64; 4];
+
+fn behaviour(kind: &str) -> Value {
+    let node = Node {
+        value: Value::Text(kind.to_owned()),
+        origin: "the check".to_owned(),
+    };
+    Value::Table(Table::from([("kind".to_owned(), node)]))
+}
+
+/// Times of the first so many worlds.
+fn times_s(worlds: u64, (camera, search): (&str, &str)) -> Vec<f64> {
+    let sensor = |path, value| (path, Value::Float(value));
+    let share = if camera == "misses" { 0.3 } else { 1.0 };
+    let changes = [
+        sensor("clock.cap_s", 600.0),
+        sensor("robots.rover.sensors.camera.dropout", 0.0),
+        sensor("robots.rover.sensors.camera.noise_m", 0.0),
+        sensor("robots.rover.sensors.camera.detects.mine", share),
+        sensor("robots.rover.sensors.gps.noise_m", 0.0),
+        sensor("robots.rover.sensors.compass.noise_deg", 0.0),
+        (
+            "robots.rover.brain.behaviours",
+            list([search, "home", "avoid"].map(behaviour)),
+        ),
+    ];
+    let scenario = scenario(TEXT, &changes);
+    let time_s = |number| run(&scenario, 1, number).finish().time_s;
+    (0..worlds).into_par_iter().map(time_s).collect()
+}
+
+fn measured(worlds: u64) -> Vec<Times> {
+    let each = SEARCHES.map(|search| times_s(worlds, search));
+    let of_world = |world| [0, 1, 2, 3].map(|search: usize| each[search][world]);
+    (0..each[0].len()).map(of_world).collect()
+}
+
+fn written(times: &[Times]) -> String {
+    let mut text = "world,perfect_lanes_s,perfect_seek_s,misses_lanes_s,misses_seek_s\n".to_owned();
+    for (world, [a, b, c, d]) in times.iter().enumerate() {
+        writeln!(text, "{world},{a:.1},{b:.1},{c:.1},{d:.1}").unwrap();
+    }
+    text
+}
+
+fn read(text: &str) -> Vec<Times> {
+    let times = |line: &str| {
+        let mut cells = line.split(',').skip(1).map(|cell| cell.parse().unwrap());
+        [(); 4].map(|()| cells.next().unwrap())
+    };
+    text.lines().skip(1).map(times).collect()
+}
+
+/// The ratio of the mean times of two searches of the same worlds, between the ends of its 99% interval.
+fn ratio(times: &[Times], [slow, fast]: [usize; 2]) -> [f64; 3] {
+    let count = f64::from(u32::try_from(times.len()).unwrap());
+    let sum = |search: usize| times.iter().map(|times| times[search]).sum::<f64>();
+    let ratio = sum(fast) / sum(slow);
+    let off = times.iter().map(|times| times[fast] - ratio * times[slow]);
+    let squares: f64 = off.map(|off| off * off).sum();
+    let error = (squares * count / (count - 1.0)).sqrt() / sum(slow);
+    [ratio - Z99 * error, ratio, ratio + Z99 * error]
+}
+
+#[test]
+fn search_by_belief_is_sooner_than_lanes_and_where_looks_miss_it_is_at_most_10_percent_later() {
+    let all = written_anew(FILE, || written(&measured(WORLDS)));
+    let again = written(&measured(AGAIN));
+    assert!(
+        all.starts_with(&again),
+        "docs/validation/{FILE} is not what the simulator gives: `make validation` renews it"
+    );
+    let times = read(&all);
+    assert_eq!(times.len(), 1000);
+    let [.., high] = ratio(&times, [0, 1]);
+    assert!(high < 1.0, "perfect: at most {high}");
+    let [.., high] = ratio(&times, [2, 3]);
+    assert!(high < 1.1, "misses: at most {high}");
+}

@@ -1,0 +1,51 @@
+"""Two ways to search compared in the same worlds, for docs/validation.md."""
+
+import csv
+import math
+from pathlib import Path
+
+Z99 = 2.576
+"""Standard errors on either side of a 99% interval."""
+
+CAP_S = 600.0
+"""When a search is given up."""
+
+CAMERAS = {"perfect": "sees all in view", "misses": "sees 30% in a look"}
+
+HEADER = [
+    "camera",
+    "lanes, mean s",
+    "seek, mean s",
+    "seek / lanes, 99% interval",
+    "not all found by 600 s",
+]
+
+
+def compared(file: Path) -> list[list[str]]:
+    """Return a line for each camera, of the times of all worlds."""
+    return [line(file, camera) for camera in CAMERAS]
+
+
+def line(file: Path, camera: str) -> list[str]:
+    """Return how long searching by belief takes beside lanes."""
+    both = [times(file, f"{camera}_{search}_s") for search in ("lanes", "seek")]
+    low, ratio, high = interval(*both)
+    means = [f"{sum(each) / len(each):.1f}" for each in both]
+    capped = [str(sum(time >= CAP_S for time in each)) for each in both]
+    said = f"{ratio:.3f} ({low:.3f} to {high:.3f})"
+    return [CAMERAS[camera], *means, said, " and ".join(capped)]
+
+
+def times(file: Path, column: str) -> list[float]:
+    """Return the times of all worlds of one search."""
+    with file.open(encoding="utf-8", newline="") as rows:
+        return [float(row[column]) for row in csv.DictReader(rows)]
+
+
+def interval(slow: list[float], fast: list[float]) -> tuple[float, float, float]:
+    """Return the ratio of the means of paired numbers, between the ends of its 99% interval."""
+    ratio = sum(fast) / sum(slow)
+    off = [after - ratio * before for before, after in zip(slow, fast, strict=True)]
+    count = len(off)
+    error = math.sqrt(sum(each * each for each in off) * count / (count - 1)) / sum(slow)
+    return ratio - Z99 * error, ratio, ratio + Z99 * error
