@@ -8,7 +8,7 @@ RUST := $(shell find crates/*/src crates/*/Cargo.toml) Cargo.toml Cargo.lock
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 
 .PHONY: help study test bench bench-brains bench-peers bench-store verify-selection fuzz golden schemas \
-	picture examples replication validation lint wasm rust-test python-test clean
+	picture examples replication validation minds lint wasm rust-test python-test clean
 
 help: ## Say what can be made
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "%-17s %s\n", $$1, $$2 }' Makefile
@@ -64,6 +64,9 @@ verify-selection: ## Does the race keep its guarantee? 20,000 macro-replications
 validation: .venv/installed ## Measure and draw docs/validation.md anew
 	RENEW_VALIDATION=1 cargo test --locked -p agent-economy-sim --test validation
 	$(BIN)/python scripts/validation.py
+
+minds: .venv/installed ## Measure and draw docs/minds.md anew (some minutes)
+	$(BIN)/python scripts/minds.py
 
 golden: ## Runs of the metric engine are the same bytes from a debug and from a release build
 	cargo test --locked --profile dev -p agent-economy-sim --test engine golden

@@ -26,6 +26,12 @@ def test_the_validation_page_and_its_pictures_are_drawn_from_what_was_measured()
     assert given.returncode == 0, given.stderr
 
 
+def test_the_page_of_minds_and_its_pictures_are_drawn_from_what_was_measured() -> None:
+    command = [sys.executable, str(ROOT / "scripts/minds.py"), "--check"]
+    given = subprocess.run(command, capture_output=True, text=True, check=False, timeout=300)
+    assert given.returncode == 0, given.stderr
+
+
 def test_the_readme_quotes_the_answer_that_make_study_gives() -> None:
     answer = study.run(Scenario.load(ROOT / "scenarios/classic.toml"))
     quoted = " ".join((ROOT / "README.md").read_text().replace("\n> ", " ").split())

@@ -1,0 +1,385 @@
+"""Measure and draw docs/minds.md: how five minds search, with and without radio, in teams.
+
+What was measured stands in docs/minds/*.csv; tables stand in the page between `<!-- NAME -->` and
+`<!-- end -->`. Examples:
+
+    python scripts/minds.py            run everything anew, write CSVs, pictures and page
+    python scripts/minds.py --draw     only pictures and page, from the CSVs
+    python scripts/minds.py --check    exit with 1 if they are not what would be drawn from the CSVs
+"""
+
+import csv
+import math
+import re
+import sys
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import asdict, dataclass, fields
+from functools import cache
+from pathlib import Path
+from typing import Any, TypeVar, get_type_hints
+
+import numpy as np
+from numpy.typing import NDArray
+from validation import (
+    Z95,
+    Axes,
+    Row,
+    Spec,
+    is_stale,
+    line,
+    page_of,
+    panel,
+    picture,
+    points,
+    side_by_side,
+    table,
+    values,
+)
+
+import agent_economy as ae
+
+ROOT = Path(__file__).resolve().parent.parent
+PAGE = ROOT / "docs" / "minds.md"
+FOLDER = ROOT / "docs" / "minds"
+
+TEAMS = (1, 2, 3, 4, 6, 8, 12, 16, 20)
+RUNS = 400
+"""Of each mind with each team; all in the same worlds."""
+
+SEED = 0
+
+COUNT = "robots.rover.count"
+BEHAVIOURS = "robots.rover.brain.behaviours"
+RADIO = "robots.rover.radio.range_m"
+
+WANDERERS = [{"kind": "cruise"}, {"kind": "avoid"}]
+PLANS = ("lanes", "frontier", "seek")
+"""What minds search by; the first behaviour of scenarios/search-mind.toml."""
+
+Kind = TypeVar("Kind")
+
+Column = NDArray[np.float64]
+Runs = dict[str, Column]
+"""What each run of a team gave, by column."""
+
+
+@dataclass(frozen=True)
+class Mind:
+    """A kind of mind, alone or with radio."""
+
+    name: str
+    radio: str
+
+    @property
+    def scenario(self) -> ae.Scenario:
+        """Return the search by robots with this mind."""
+        if self.name in PLANS:
+            scenario = ae.Scenario.load(ROOT / "scenarios" / "search-mind.toml")
+            plan = [{"kind": self.name}, {"kind": "home"}, {"kind": "avoid"}]
+            scenario = scenario.replace(BEHAVIOURS, plan)
+        else:
+            scenario = ae.Scenario.load(ROOT / "scenarios" / "search.toml")
+        if self.name == "wanderers":
+            scenario = scenario.replace(BEHAVIOURS, WANDERERS)
+        return scenario if self.radio == "radio" else scenario.replace(RADIO, 0)
+
+
+ALONE = [Mind(name, "alone") for name in ("wanderers", "bounce", *PLANS)]
+TOLD = [Mind(name, "radio") for name in PLANS]
+MINDS = [*ALONE, *TOLD]
+"""Wanderers and bouncing robots tell nothing, so a radio changes nothing for them."""
+
+STEPS = {
+    "bouncing, not wandering": (Mind("wanderers", "alone"), Mind("bounce", "alone")),
+    "memory: frontier, not bouncing": (Mind("bounce", "alone"), Mind("frontier", "alone")),
+    "telling: frontier with radio": (Mind("frontier", "alone"), Mind("frontier", "radio")),
+    "telling: seek with radio": (Mind("seek", "alone"), Mind("seek", "radio")),
+    "rate: seek, not frontier": (Mind("frontier", "radio"), Mind("seek", "radio")),
+    "beliefs: seek, not lanes": (Mind("lanes", "radio"), Mind("seek", "radio")),
+}
+"""What each part buys: from which mind to which."""
+
+
+@dataclass(frozen=True)
+class Team:
+    """What a team gave: means, each with its standard error."""
+
+    mind: str
+    radio: str
+    robots: int
+    runs: int
+    time_s: float
+    time_error_s: float
+    failed: float
+    failed_error: float
+    collisions: float
+    collisions_error: float
+    energy_kj: float
+    energy_error_kj: float
+
+
+@dataclass(frozen=True)
+class Step:
+    """By how much one mind is sooner than another in the same worlds."""
+
+    step: str
+    robots: int
+    sooner_s: float
+    error_s: float
+
+
+@dataclass(frozen=True)
+class Answered:
+    """What a study of a mind's team size says."""
+
+    mind: str
+    radio: str
+    best: str
+    time_s: float
+    failed: float
+    merit: float
+    merit_low: float
+    merit_high: float
+    runs: int
+    delta: float
+    confidence: float
+    guarantee: str
+
+
+def main() -> None:
+    """Measure, draw or check."""
+    options = sys.argv[1:]
+    if not {"--check", "--draw"} & set(options):
+        measure()
+    made = {FOLDER / f"{name}.svg": picture(spec) for name, spec in specifications().items()}
+    old = PAGE.read_text(encoding="utf-8")
+    made[PAGE] = re.sub(r"<!-- (\w+) -->\n.*?<!-- end -->", block, old, flags=re.DOTALL)
+    stale = [file for file, text in made.items() if is_stale(file, text)]
+    if "--check" in options:
+        if stale:
+            names = ", ".join(str(file.relative_to(ROOT)) for file in stale)
+            sys.exit(f"not what `make minds` writes: {names}")
+        return
+    for file in stale:
+        file.write_text(made[file], encoding="utf-8")
+        print(file.relative_to(ROOT))
+
+
+# Measured.
+
+
+def measure() -> None:
+    """Run everything, and write what it gave."""
+    FOLDER.mkdir(exist_ok=True)
+    given = {mind: {robots: runs(mind, robots) for robots in TEAMS} for mind in MINDS}
+    write("teams", Team, [team(mind, robots, given[mind][robots]) for mind, robots in each_team()])
+    write("steps", Step, [step(name, n, given) for name in STEPS for n in TEAMS])
+    write("studies", Answered, map(answered, MINDS))
+
+
+def each_team() -> Iterator[tuple[Mind, int]]:
+    """Yield each mind with each team."""
+    return ((mind, robots) for mind in MINDS for robots in TEAMS)
+
+
+def runs(mind: Mind, robots: int) -> Runs:
+    """Return what each run of a team gave."""
+    print(f"{mind.name} {mind.radio}: {robots}", flush=True)
+    given = ae.replicate(mind.scenario.replace(COUNT, robots), RUNS, SEED)
+    return {
+        "time_s": given["time_s"].to_numpy().astype(np.float64),
+        "failed": 1.0 - given["complete"].to_numpy().astype(np.float64),
+        "collisions": given["collisions"].to_numpy().astype(np.float64),
+        "energy_kj": given["energy_j"].to_numpy() / 1000,
+    }
+
+
+def team(mind: Mind, robots: int, given: Runs) -> Team:
+    """Return the means of a team's runs."""
+    numbers = (part for column in given.values() for part in (mean(column), error(column)))
+    return Team(mind.name, mind.radio, robots, RUNS, *numbers)
+
+
+def step(name: str, robots: int, given: dict[Mind, dict[int, Runs]]) -> Step:
+    """Return by how much one mind is sooner than another, world by world."""
+    before, after = STEPS[name]
+    sooner = given[before][robots]["time_s"] - given[after][robots]["time_s"]
+    return Step(name, robots, mean(sooner), error(sooner))
+
+
+def answered(mind: Mind) -> Answered:
+    """Return how many robots with a mind to send."""
+    print(f"{mind.name} {mind.radio}: study", flush=True)
+    answer = ae.study.run(mind.scenario, seed=SEED)
+    best = answer.results[answer.best]
+    return Answered(
+        mind=mind.name,
+        radio=mind.radio,
+        best=str(best.values[COUNT]),
+        time_s=short(best.time_s.value),
+        failed=short(best.failed.value),
+        merit=short(best.merit.value),
+        merit_low=short(best.merit.low),
+        merit_high=short(best.merit.high),
+        runs=answer.runs,
+        delta=answer.delta,
+        confidence=answer.confidence,
+        guarantee=answer.guarantee,
+    )
+
+
+def mean(column: Column) -> float:
+    """Return a mean, with six digits."""
+    return short(math.fsum(column) / len(column))
+
+
+def error(column: Column) -> float:
+    """Return the standard error of a mean, with six digits."""
+    middle = math.fsum(column) / len(column)
+    squares = math.fsum((column - middle) ** 2)
+    return short(math.sqrt(squares / (len(column) - 1) / len(column)))
+
+
+def short(value: float) -> float:
+    """Return a number with six digits."""
+    return float(f"{value:.6g}")
+
+
+def write(name: str, kind: type, rows: Iterable[Any]) -> None:
+    """Write rows of a kind as CSV."""
+    with (FOLDER / f"{name}.csv").open("w", encoding="utf-8", newline="") as file:
+        names = [field.name for field in fields(kind)]
+        writer = csv.DictWriter(file, names, lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(asdict(row) for row in rows)
+
+
+def read(name: str, kind: Callable[..., Kind]) -> tuple[Kind, ...]:
+    """Return the rows of a CSV."""
+    types = get_type_hints(kind)
+    with (FOLDER / f"{name}.csv").open(encoding="utf-8", newline="") as file:
+        return tuple(
+            kind(**{key: types[key](value) for key, value in line.items()})
+            for line in csv.DictReader(file)
+        )
+
+
+# Tables.
+
+
+@cache
+def teams() -> tuple[Team, ...]:
+    """Return what teams gave."""
+    return read("teams", Team)
+
+
+def block(found: re.Match[str]) -> str:
+    """Return a block of the page with its table computed."""
+    name = found[1]
+    return f"<!-- {name} -->\n{TABLES[name]()}\n<!-- end -->"
+
+
+def of_teams(cell: Callable[[Team], str]) -> str:
+    """Return a table with a line for each mind and a column for each team."""
+    lines = []
+    for mind in MINDS:
+        own = [each for each in teams() if (each.mind, each.radio) == (mind.name, mind.radio)]
+        lines.append([label(mind), *map(cell, own)])
+    return table(["robots", *map(str, TEAMS)], lines)
+
+
+def label(mind: Mind) -> str:
+    """Return what the page calls a mind."""
+    return f"{mind.name}, radio" if mind.radio == "radio" else mind.name
+
+
+def interval(value: float, error: float, digits: int = 1) -> str:
+    """Return a number with its 95% interval."""
+    return f"{value:.{digits}f} ± {Z95 * error:.{digits}f}"
+
+
+def failures(each: Team) -> str:
+    """Return the share of failures with its 95% interval (Wilson's, which suits shares near 0)."""
+    square = Z95**2 / each.runs
+    middle = (each.failed + square / 2) / (1 + square)
+    spread = each.failed * (1 - each.failed) + square / 4
+    half = Z95 * math.sqrt(spread / each.runs) / (1 + square)
+    low, high = max(0.0, middle - half), min(1.0, middle + half)
+    return f"{each.failed:.0%} ({low:.0%} to {high:.0%})"
+
+
+def steps() -> str:
+    """Return what each part buys, in seconds."""
+    lines = []
+    for name in STEPS:
+        own = [each for each in read("steps", Step) if each.step == name]
+        lines.append([name, *(interval(each.sooner_s, each.error_s) for each in own)])
+    return table(["seconds sooner, by robots", *map(str, TEAMS)], lines)
+
+
+def studies() -> str:
+    """Return the best team of each mind."""
+    header = ["", "send", "time, s", "failed", "merit, with all intervals at once at 95%"]
+    header += ["runs"]
+    lines = []
+    for each in read("studies", Answered):
+        merit = f"{each.merit:.2f} ({each.merit_low:.2f} to {each.merit_high:.2f})"
+        mind = label(Mind(each.mind, each.radio))
+        numbers = [each.best, f"{each.time_s:.1f}", f"{each.failed:.1%}", merit]
+        lines.append([mind, *numbers, f"{each.runs:,}"])
+    return table(header, lines)
+
+
+def guarantees() -> str:
+    """Return what is guaranteed of the best teams."""
+    said = dict.fromkeys(each.guarantee for each in read("studies", Answered))
+    return "\n\n".join(f"> {guarantee}" for guarantee in said)
+
+
+TABLES: dict[str, Callable[[], str]] = {
+    "times": lambda: of_teams(lambda each: interval(each.time_s, each.time_error_s)),
+    "failures": lambda: of_teams(failures),
+    "collisions": lambda: of_teams(
+        lambda each: interval(each.collisions, each.collisions_error, 2)
+    ),
+    "energy": lambda: of_teams(lambda each: interval(each.energy_kj, each.energy_error_kj)),
+    "steps": steps,
+    "studies": studies,
+    "guarantees": guarantees,
+}
+
+
+# Pictures.
+
+
+def specifications() -> dict[str, Spec]:
+    """Return each picture's specification by its name."""
+    seconds = "mean time until all is found, s"
+    return {
+        "times": by_radio(seconds, lambda each: (each.time_s, each.time_error_s), (0.0, 120.0)),
+        "collisions": by_radio(
+            "collisions of a run", lambda each: (each.collisions, each.collisions_error), (0.0, 4.0)
+        ),
+    }
+
+
+def by_radio(
+    title: str, number: Callable[[Team], tuple[float, float]], domain: tuple[float, float]
+) -> Spec:
+    """Return a number by the team's size: alone on the left, with radio on the right."""
+    panels = []
+    for words, radio in (("alone", "alone"), ("with radio", "radio")):
+        # In this order a mind has the same colour on both sides.
+        names = (*PLANS, "wanderers", "bounce")
+        own = [
+            each for name in names for each in teams() if (each.mind, each.radio) == (name, radio)
+        ]
+        some = [Row(each.mind, each.robots, *number(each), None) for each in own]
+        layers = [{**line(), "data": {"values": [values(row) for row in some]}}, *points(some)]
+        axes = Axes("log", x_ticks=TEAMS, y_domain=domain, y_format="~r")
+        panels.append(panel(layers, f"robots, {words}", title, width=300, axes=axes))
+    return page_of(side_by_side(*panels))
+
+
+if __name__ == "__main__":
+    main()
