@@ -25,6 +25,7 @@ use crate::sector::direction;
 use alloc::vec::Vec;
 use base::geometry::Point;
 use core::f64::consts::{LN_10, PI};
+use core::mem;
 
 /// So many items are kept in mind; the least believed is forgotten first.
 const MOST: usize = 64;
@@ -91,6 +92,9 @@ pub(crate) struct Items {
     marks: u32,
     /// Place of the item that others are told of again next.
     again: usize,
+    /// A bit for each item of which others may not know yet, and for each whose reports may be judged.
+    news: u64,
+    unjudged: u64,
 }
 
 /// One look of an own detector.
@@ -118,15 +122,24 @@ impl Items {
             recognised |= self.recognise(look, contact, recognised, map);
         }
         let view = View::new(look.detector, look.pose.heading_rad);
+        let mut told = recognised;
         for (number, track) in self.tracks.iter_mut().enumerate() {
             if recognised & (1 << number) == 0 {
                 let in_view = track.in_view(&view, look, map);
                 if in_view > 0.0 {
                     let odds = track.miss(look, in_view);
                     track.add((look.by, track.before), &mut self.marks, odds);
+                    told |= 1 << number;
                 }
             }
         }
+        self.note(told);
+    }
+
+    /// Notes that something was said of items.
+    fn note(&mut self, told: u64) {
+        self.news |= told;
+        self.unjudged |= told;
     }
 
     /// Takes in a contact; returns the bit of its item.
@@ -214,8 +227,11 @@ impl Items {
         let track = &mut self.tracks[place];
         let before = track.before_another(report.at, variance_m2, of(per_m2, report.kind));
         let is_new = track.place_of(report.seen).is_none();
-        if track.replace(own, report, before) && !track.has_looked(own) {
-            track.place_by_report(report.at, variance_m2, is_new);
+        if track.replace(own, report, before) {
+            if !track.has_looked(own) {
+                track.place_by_report(report.at, variance_m2, is_new);
+            }
+            self.note(1 << place);
         }
     }
 
@@ -233,11 +249,15 @@ impl Items {
             track.count = kept;
         }
         self.tracks.retain(|track| track.count > 0);
+        self.note(u64::MAX);
     }
 
     /// Learns from own looks whose reports were right.
     pub(crate) fn learn(&mut self, own: RobotId, trust: &mut Trust, spec: &TrustSpec) {
-        for track in &mut self.tracks {
+        for number in bits(mem::take(&mut self.unjudged)) {
+            let Some(track) = self.tracks.get_mut(number) else {
+                break;
+            };
             let Some(verdict) = track.own_verdict(own) else {
                 continue;
             };
@@ -259,13 +279,17 @@ impl Items {
             for source in &mut track.sources {
                 source.told = f64::NEG_INFINITY;
             }
+            self.news |= 1 << self.again;
         }
     }
 
     /// What others are to be told, at most so many messages: own looks and relayed ones.
     pub(crate) fn tell(&mut self, outbox: &mut Vec<Message>, most: usize) {
         let mut left = most;
-        for track in &mut self.tracks {
+        for number in bits(self.news) {
+            let Some(track) = self.tracks.get_mut(number).filter(|_| left > 0) else {
+                break;
+            };
             let (kind, at) = (track.kind, track.at);
             for source in &mut track.sources[..track.count] {
                 let confidence = probability(source.says());
@@ -283,8 +307,20 @@ impl Items {
                     confidence,
                 });
             }
+            if left > 0 {
+                self.news &= !(1 << number);
+            }
         }
     }
+}
+
+/// The places of the bits that are set, the least first.
+fn bits(mut set: u64) -> impl Iterator<Item = usize> {
+    core::iter::from_fn(move || {
+        let least = set.trailing_zeros();
+        set &= set.wrapping_sub(1);
+        (least < u64::BITS).then_some(least as usize)
+    })
 }
 
 /// What another robot tells of an item.
@@ -522,8 +558,11 @@ impl Track {
     /// the same mean and variance.
     fn in_view(&self, view: &View, look: &OwnLook, map: Option<&Map>) -> f64 {
         let way = look.pose.at.to(self.at);
-        let error_m = 2.0 * libm::sqrt(self.variance_m2 + look.variance_m2(way.length()));
         let length_m = way.length().max(1e-9);
+        let error_m = 2.0 * libm::sqrt(self.variance_m2 + look.variance_m2(length_m));
+        if length_m > look.detector.range_m + error_m {
+            return 0.0;
+        }
         let out = way.times(error_m / length_m);
         let aside = Point {
             x: -out.y,

@@ -45,6 +45,12 @@ use unseen::{Glance, Unseen};
 /// Contacts of a look have its age, but for rounding.
 const SAME_S: f64 = 1e-6;
 
+/// Scans are drawn into the map when the robot has moved by this share of a cell, has turned so far, or
+/// after so long.
+const DRAWN_CELLS: f64 = 0.25;
+const DRAWN_RAD: f64 = 0.1;
+const DRAWN_S: f64 = 0.5;
+
 /// What a mind believes, and how finely.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
@@ -108,6 +114,8 @@ pub(crate) struct Map {
     pub(crate) field: Field,
     pub(crate) filled: Occupancy,
     pub(crate) unseen: Unseen,
+    /// From where scans were drawn last, and how long ago.
+    drawn: Option<(Pose, f64)>,
 }
 
 impl Map {
@@ -116,8 +124,26 @@ impl Map {
         Self {
             filled: Occupancy::new(&field),
             unseen: Unseen::new(field.cells()),
+            drawn: None,
             field,
         }
+    }
+}
+
+impl Map {
+    /// Whether scans tell something new: from where the last were taken, they err as those did.
+    fn is_worth_drawing(&mut self, pose: &Pose, period_s: f64) -> bool {
+        if let Some((last, age_s)) = &mut self.drawn {
+            *age_s += period_s;
+            let moved_m2 = last.at.to(pose.at).length_squared();
+            let turned_rad = wrapped(pose.heading_rad - last.heading_rad).abs();
+            let apart_m = DRAWN_CELLS * self.field.cell_m;
+            if *age_s < DRAWN_S && moved_m2 < apart_m * apart_m && turned_rad < DRAWN_RAD {
+                return false;
+            }
+        }
+        self.drawn = Some((*pose, 0.0));
+        true
     }
 }
 
@@ -230,6 +256,9 @@ impl Beliefs {
         let Some(map) = &mut self.map else {
             return;
         };
+        if !map.is_worth_drawing(pose, period_s) {
+            return;
+        }
         let front = direction(pose.heading_rad);
         for (ring, ranges_m) in new_scans(percept, rings, period_s) {
             for ray in ring.rays(ranges_m) {
@@ -278,6 +307,7 @@ impl Beliefs {
             field,
             filled,
             unseen,
+            ..
         }) = &mut self.map
         {
             let glance = Glance {

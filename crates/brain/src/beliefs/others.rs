@@ -62,7 +62,7 @@ pub(crate) struct Others {
     pub(crate) movers: Vec<Mover>,
     things: Things,
     /// Kept so that nothing is allocated.
-    ranges_m: Vec<f64>,
+    away_m: Vec<f64>,
 }
 
 impl Others {
@@ -98,11 +98,11 @@ impl Others {
         if neighbours.len() <= MOST_AT_ONCE {
             return f64::INFINITY;
         }
-        self.ranges_m.clear();
+        self.away_m.clear();
         let ranges_m = neighbours.iter().map(|neighbour| neighbour.range_m);
-        self.ranges_m.extend(ranges_m);
+        self.away_m.extend(ranges_m);
         let (_, near_m, _) = self
-            .ranges_m
+            .away_m
             .select_nth_unstable_by(MOST_AT_ONCE, f64::total_cmp);
         *near_m
     }
@@ -156,8 +156,11 @@ impl Others {
     fn keep_nearest(&mut self, stopping: &Segment) {
         if self.movers.len() > MOST {
             let away_m = |mover: &Mover| stopping.distance_m(mover.at) - mover.stopping_m();
-            self.movers
-                .sort_by(|one, other| away_m(one).total_cmp(&away_m(other)));
+            self.away_m.clear();
+            self.away_m.extend(self.movers.iter().map(away_m));
+            let (_, most_m, _) = self.away_m.select_nth_unstable_by(MOST - 1, f64::total_cmp);
+            let most_m = *most_m;
+            self.movers.retain(|mover| away_m(mover) <= most_m);
             self.movers.truncate(MOST);
         }
     }

@@ -153,7 +153,7 @@ impl Way {
         self.reachable
             .look(&self.hits, movers, (body.radius_m, speed_m_s));
         let aim_rad = libm::atan2(way.y, way.x);
-        let choice = self.reachable.best(aim_rad, way.length(), 0.0);
+        let choice = self.reachable.best(aim_rad, way.length());
         let turn_rad = choice.bearing_rad;
         let aligned = (1.0 - turn_rad.abs() / FRAC_PI_3).max(0.0);
         let free_m = choice.free_m.min(self.reachable.ahead_m());

@@ -18,9 +18,9 @@
 use crate::beliefs::others::Mover;
 use crate::rays::Ray;
 use crate::sector::direction;
-use alloc::vec::Vec;
 use base::geometry::Point;
 use base::trig::wrapped;
+use core::array;
 use core::f64::consts::{PI, TAU};
 
 /// Courses that are looked along.
@@ -45,10 +45,12 @@ const TURN_M: f64 = 0.02;
 #[derive(Debug, Clone)]
 pub(crate) struct Reachable {
     /// From the robot's front, the first ahead, anticlockwise.
-    pub(crate) free_m: Vec<f64>,
+    pub(crate) free_m: [f64; COURSES],
     /// Minus the metres that are left from there.
-    pub(crate) utility: Vec<f64>,
-    directions: Vec<Point>,
+    pub(crate) utility: [f64; COURSES],
+    directions: [Point; COURSES],
+    /// The same, all that is ahead and then all that is aside.
+    ahead_and_aside: [[f64; COURSES]; 2],
 }
 
 /// The best of the courses.
@@ -61,20 +63,22 @@ pub(crate) struct Choice {
 
 impl Default for Reachable {
     fn default() -> Self {
+        let directions = array::from_fn(|course| direction(bearing_rad(course)));
         Self {
-            free_m: Vec::new(),
-            utility: Vec::new(),
-            directions: (0..COURSES)
-                .map(|course| direction(bearing_rad(course)))
-                .collect(),
+            free_m: [0.0; COURSES],
+            utility: [0.0; COURSES],
+            directions,
+            ahead_and_aside: [directions.map(|way| way.x), directions.map(|way| way.y)],
         }
     }
 }
 
 /// The direction of a course, from -pi to pi.
+#[inline]
 #[expect(clippy::cast_precision_loss, reason = "few")]
 pub(crate) fn bearing_rad(course: usize) -> f64 {
-    wrapped(TAU * course as f64 / COURSES as f64)
+    let turns = course as f64 / COURSES as f64;
+    TAU * if turns > 0.5 { turns - 1.0 } else { turns }
 }
 
 impl Reachable {
@@ -85,8 +89,7 @@ impl Reachable {
         movers: &[Mover],
         (radius_m, speed_m_s): (f64, f64),
     ) {
-        self.free_m.clear();
-        self.free_m.resize(COURSES, HORIZON_M);
+        self.free_m = [HORIZON_M; COURSES];
         for hit in hits {
             self.block(hit, radius_m + GRAZING_M);
         }
@@ -128,36 +131,39 @@ impl Reachable {
     /// Where it would meet one who goes on as it does.
     fn meet(&mut self, mover: &Mover, reach_m: f64, speed_m_s: f64) {
         let apart_m2 = mover.at.length_squared() - reach_m * reach_m;
-        for (direction, free_m) in self.directions.iter().zip(&mut self.free_m) {
-            let nears = direction.times(speed_m_s).to(mover.velocity_m_s);
-            let closing = mover.at.dot(nears);
-            if apart_m2 <= 0.0 {
-                if mover.at.dot(*direction) > 0.0 {
-                    *free_m = 0.0;
-                }
-            } else if closing < 0.0 {
-                let square = nears.length_squared();
-                let root = closing * closing - square * apart_m2;
-                if root > 0.0 {
-                    let time_s = apart_m2 / (libm::sqrt(root) - closing);
-                    *free_m = free_m.min(time_s * speed_m_s);
-                }
+        if apart_m2 <= 0.0 {
+            let courses = self.directions.iter().zip(&mut self.free_m);
+            let towards = courses.filter(|(direction, _)| mover.at.dot(**direction) > 0.0);
+            towards.for_each(|(_, free_m)| *free_m = 0.0);
+            return;
+        }
+        let (at, velocity) = (mover.at, mover.velocity_m_s);
+        // Without a branch first, so that it is computed for several courses at once.
+        let (mut closing, mut root) = ([0.0; COURSES], [0.0; COURSES]);
+        let [ahead, aside] = &self.ahead_and_aside;
+        for course in 0..COURSES {
+            let x = velocity.x - ahead[course] * speed_m_s;
+            let y = velocity.y - aside[course] * speed_m_s;
+            closing[course] = at.x * x + at.y * y;
+            root[course] = closing[course] * closing[course] - (x * x + y * y) * apart_m2;
+        }
+        for course in 0..COURSES {
+            if closing[course] < 0.0 && root[course] > 0.0 {
+                let time_s = apart_m2 / (libm::sqrt(root[course]) - closing[course]);
+                self.free_m[course] = self.free_m[course].min(time_s * speed_m_s);
             }
         }
     }
 
-    /// The best way to an aim at `bearing_rad` and `away_m`; a course to the left of it counts as if
-    /// it were by `keep_right_m` a radian worse.
-    pub(crate) fn best(&mut self, aim_rad: f64, away_m: f64, keep_right_m: f64) -> Choice {
+    /// The best way to an aim at `bearing_rad` and `away_m`.
+    pub(crate) fn best(&mut self, aim_rad: f64, away_m: f64) -> Choice {
         let aim = direction(aim_rad).times(away_m);
         let mut best = (f64::NEG_INFINITY, 0);
-        self.utility.clear();
         for (course, (direction, free_m)) in self.directions.iter().zip(&self.free_m).enumerate() {
             let reached = direction.times(free_m.min(away_m));
-            let off_rad = wrapped(bearing_rad(course) - aim_rad);
-            let cost_m = TURN_M * bearing_rad(course).abs() + keep_right_m * off_rad.max(0.0);
+            let cost_m = TURN_M * bearing_rad(course).abs();
             let utility = -reached.to(aim).length() - cost_m;
-            self.utility.push(utility);
+            self.utility[course] = utility;
             if utility > best.0 {
                 best = (utility, course);
             }
@@ -172,13 +178,13 @@ impl Reachable {
         let is_next = wrapped(chosen_rad - aim_rad).abs() <= PI / COURSES as f64;
         Choice {
             bearing_rad: if is_next { aim_rad } else { chosen_rad },
-            free_m: self.free_m.get(course).copied().unwrap_or_default(),
+            free_m: self.free_m[course],
         }
     }
 
     /// How far it is free straight ahead.
     pub(crate) fn ahead_m(&self) -> f64 {
-        self.free_m.first().copied().unwrap_or_default()
+        self.free_m[0]
     }
 }
 

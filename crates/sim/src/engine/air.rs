@@ -14,6 +14,8 @@ pub(crate) struct Air {
     due: VecDeque<Vec<Sent>>,
     /// Emptied lists, to be used again.
     spare: Vec<Vec<Sent>>,
+    /// Who hears a message; kept so that nothing is allocated.
+    hearers: Vec<u32>,
 }
 
 /// A message on its way to one robot.
@@ -61,23 +63,24 @@ impl Air {
         while self.due.len() <= steps {
             self.due.push_back(self.spare.pop().unwrap_or_default());
         }
-        let list = &mut self.due[steps];
-        let first = list.len();
-        for to in view.neighbours.about(place, radio.range_m) {
-            if to as usize != from && view.hears(&outgoing, to as usize, radio) {
-                let heard = Heard {
-                    from: view.ids[from],
-                    age_s: 0.0,
-                    message: outgoing.message,
-                };
-                list.push(Sent {
-                    to,
-                    at: view.tick,
-                    heard,
-                });
-            }
-        }
-        list[first..].sort_unstable_by_key(|sent| sent.to);
+        let is_reached = |to: &u32| {
+            let to = *to as usize;
+            to != from && view.hears(&outgoing, to, radio)
+        };
+        let about = view.neighbours.about(place, radio.range_m);
+        self.hearers.clear();
+        self.hearers.extend(about.filter(is_reached));
+        self.hearers.sort_unstable();
+        let heard = Heard {
+            from: view.ids[from],
+            age_s: 0.0,
+            message: outgoing.message,
+        };
+        self.due[steps].extend(self.hearers.iter().map(|to| Sent {
+            to: *to,
+            at: view.tick,
+            heard,
+        }));
     }
 }
 
@@ -90,14 +93,18 @@ impl View<'_> {
         {
             return false;
         }
+        let layers = [from, to].map(|robot| self.kind(robot).layer);
+        if radio.needs_line_of_sight && !self.scenario.hiding(layers).is_open(here, there) {
+            return false;
+        }
+        if radio.loss <= 0.0 {
+            return true;
+        }
         let sender = self.scenario.entity(self.ids[from]);
         let used = Use::Radio as u32 | outgoing.number << 16;
         // Steps are at most 1e8: the sender's kind is in the half of their number that is free.
         let time = u64::from(sender.kind) << 32 | self.tick;
         let words = self.noises[to].words(used, time, sender.index);
-        let is_lost = share(words[0]) < radio.loss;
-        let layers = [from, to].map(|robot| self.kind(robot).layer);
-        let is_open = || self.scenario.hiding(layers).is_open(here, there);
-        !is_lost && (!radio.needs_line_of_sight || is_open())
+        share(words[0]) >= radio.loss
     }
 }

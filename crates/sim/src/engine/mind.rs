@@ -123,12 +123,6 @@ impl Mind {
         }
     }
 
-    /// Robots that were recognised and that the brain has not been told of.
-    pub(crate) fn neighbours(&mut self) -> &mut [Late<Neighbour>] {
-        let backlog = self.backlog.as_deref_mut();
-        backlog.map_or(&mut [], |backlog| &mut backlog.neighbours.lates)
-    }
-
     pub(crate) fn is_on(&self, sensor: usize) -> bool {
         self.sensors_off & (1 << sensor) == 0
     }

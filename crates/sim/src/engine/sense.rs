@@ -25,6 +25,8 @@ pub(crate) struct Senses {
     room: Room,
     is_near_known: bool,
     values: Vec<f64>,
+    /// Robots that one may see.
+    others: Vec<u32>,
     /// Items that robots were told of, in the order of the robots.
     pub(crate) sightings: Vec<u32>,
     /// Contacts that robots were told of and that are of nothing.
@@ -150,7 +152,9 @@ impl Look<'_> {
         match &sensor.measure {
             Measure::Items(_) | Measure::Robots(_) if is_lost => {}
             Measure::Items(detector) => self.find_items(detector, mind, senses, percept),
-            Measure::Robots(detector) => self.find_robots(detector, mind, percept),
+            Measure::Robots(detector) => {
+                self.find_robots(detector, mind, &mut senses.others, percept);
+            }
             value => {
                 self.measure(value, senses);
                 self.tell_value(is_lost, mind, senses, percept);
@@ -258,23 +262,24 @@ impl Look<'_> {
         &self,
         detector: &RobotDetector,
         mind: &mut Mind,
+        others: &mut Vec<u32>,
         percept: Option<&mut Percept>,
     ) {
         let view = self.view;
         let is_told_now = self.sensor.latency_steps == 0;
         let mut percept = percept.filter(|_| is_told_now);
-        let told = percept
-            .as_deref()
-            .map_or(0, |percept| percept.neighbours.len());
-        let waiting = mind.neighbours().len();
-        for other in view.neighbours.about(self.eye.at, detector.sector.range_m) {
-            let other = other as usize;
-            if other == self.robot {
-                continue;
-            }
+        let about = view.neighbours.about(self.eye.at, detector.sector.range_m);
+        others.clear();
+        others.extend(about.filter(|other| *other as usize != self.robot));
+        // Lists of near robots have no order of their own.
+        others.sort_unstable();
+        let is_clear = self.is_clear(detector, others);
+        for other in others.iter() {
+            let other = *other as usize;
             let layers = [self.robot, other].map(|robot| view.kind(robot).layer);
             let eye = Eye {
                 stands: view.scenario.hiding(layers),
+                is_clear,
                 ..self.eye
             };
             let (place, entity) = (
@@ -299,11 +304,17 @@ impl Look<'_> {
                 None => mind.wait_neighbour(self.late(neighbour)),
             }
         }
-        // Lists of near robots have no order of their own.
-        match percept {
-            Some(percept) => percept.neighbours[told..].sort_unstable_by_key(|each| each.id),
-            None => mind.neighbours()[waiting..].sort_unstable_by_key(|late| late.what.id),
-        }
+    }
+
+    /// Whether nothing that stands hides any of the others.
+    fn is_clear(&self, detector: &RobotDetector, others: &[u32]) -> bool {
+        let scenario = self.view.scenario;
+        let Some(first) = others.first().filter(|_| scenario.is_one_layer()) else {
+            return false;
+        };
+        let layers = [self.robot, *first as usize].map(|robot| self.view.kind(robot).layer);
+        let stands = scenario.hiding(layers);
+        stands.is_clear(self.eye.at, detector.sector.range_m)
     }
 
     /// Place of the sensor, as brains count it.

@@ -52,6 +52,7 @@ impl<'a> View<'a> {
             stands: self
                 .scenario
                 .hiding([self.kind(robot).layer, Layer::Ground]),
+            is_clear: false,
         }
     }
 

@@ -54,6 +54,8 @@ pub(crate) struct Eye<'a> {
     pub(crate) look: u64,
     /// What can be in the way.
     pub(crate) stands: &'a Stands,
+    /// Whether it is known to be in no way.
+    pub(crate) is_clear: bool,
 }
 
 impl Eye<'_> {
@@ -103,7 +105,7 @@ impl Eye<'_> {
 
     /// Whether nothing that stands still hides a place.
     pub(crate) fn sees(&self, place: Point) -> bool {
-        self.stands.is_open(self.at, place)
+        self.is_clear || self.stands.is_open(self.at, place)
     }
 }
 

@@ -39,13 +39,17 @@ pub(crate) struct RobotDetector {
     pub(crate) noise_m: f64,
     course_noise_rad: Option<f64>,
     needs_line_of_sight: bool,
+    /// Whether what it can see it sees, and where that is: then nothing is left to chance.
+    is_sure: bool,
 }
 
 impl RobotDetector {
     pub(crate) fn new(spec: &RobotsSpec) -> Self {
+        let detects = spec.detects.clone().unwrap_or(Detection::Constant(1.0));
         Self {
             sector: Sector::new(&spec.sector),
-            detects: spec.detects.clone().unwrap_or(Detection::Constant(1.0)),
+            is_sure: detects == Detection::Constant(1.0) && spec.noise_m == 0.0,
+            detects,
             noise_m: spec.noise_m,
             course_noise_rad: spec.course_noise_deg.map(f64::to_radians),
             needs_line_of_sight: spec.needs_line_of_sight,
@@ -55,8 +59,7 @@ impl RobotDetector {
     /// Whether it recognises all robots in range, exactly where they are, unless something hides them.
     pub(crate) fn is_exact(&self) -> bool {
         self.sector.width_rad >= std::f64::consts::TAU
-            && self.detects == Detection::Constant(1.0)
-            && self.noise_m == 0.0
+            && self.is_sure
             && self.course_noise_rad.unwrap_or(0.0) == 0.0
     }
 
@@ -69,6 +72,9 @@ impl RobotDetector {
         let way = eye.own(place);
         if !self.sector.holds(way) || (self.needs_line_of_sight && !eye.sees(place)) {
             return None;
+        }
+        if self.is_sure {
+            return Some(way);
         }
         let words = eye.words_of(Use::Thing, robot);
         let is_seen = share(words[0]) < self.detects.probability(way.length());

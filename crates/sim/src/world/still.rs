@@ -197,6 +197,14 @@ impl Stands {
         self.is_open_here(from, to) && { images }.all(|[from, to]| self.is_open_here(from, to))
     }
 
+    /// Whether nothing hides any place within `reach_m` of one, as far as that is told soon.
+    pub(crate) fn is_clear(&self, place: Point, reach_m: f64) -> bool {
+        self.torus.is_none()
+            && self.walls.len() + self.discs.len() <= FEW
+            && self.discs.iter().all(|disc| disc.distance(place) > reach_m)
+            && self.walls.iter().all(|wall| wall.distance(place) > reach_m)
+    }
+
     fn is_open_here(&self, from: Point, to: Point) -> bool {
         let way = from.to(to);
         if self.walls.len() + self.discs.len() <= FEW {
@@ -294,12 +302,17 @@ fn overlaps(discs: &[Disc]) -> Vec<bool> {
 }
 
 fn crosses(disc: &Disc, from: Point, way: Point) -> bool {
-    Segment {
-        from,
-        to: from.plus(way),
+    let to_centre = from.to(disc.centre);
+    let (along, all) = (way.dot(to_centre), way.length_squared());
+    let square_m2 = disc.radius_m * disc.radius_m;
+    if along <= 0.0 {
+        to_centre.length_squared() < square_m2
+    } else if along >= all {
+        way.to(to_centre).length_squared() < square_m2
+    } else {
+        let across = way.cross(to_centre);
+        across * across < square_m2 * all
     }
-    .distance_m(disc.centre)
-        < disc.radius_m
 }
 
 #[cfg(test)]

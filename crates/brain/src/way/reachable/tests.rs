@@ -107,7 +107,7 @@ proptest! {
 
     #[test]
     fn in_the_open_the_best_way_is_straight_to_the_aim(aim_rad in -PI..PI, away_m in 1.0_f64..20.0) {
-        let choice = looked(&[], &[], 1.0).best(aim_rad, away_m, 0.0);
+        let choice = looked(&[], &[], 1.0).best(aim_rad, away_m);
         // Turning costs a little, so of two courses beside it the one ahead may win.
         prop_assert!(wrapped(choice.bearing_rad - aim_rad).abs() <= 1.3 * PI / 40.0, "{choice:?}");
         let nearest = (0..COURSES).map(|course| wrapped(bearing_rad(course) - aim_rad).abs());
@@ -131,7 +131,7 @@ proptest! {
 #[test]
 fn a_blocked_aim_is_passed_on_the_side_that_is_nearer_to_it() {
     let wall = [-0.3, -0.2, -0.1, 0.0, 0.1_f64].map(|bearing_rad| Ray::new(bearing_rad, 1.5));
-    let choice = looked(&wall, &[], 1.0).best(0.0, 4.0, 0.0);
+    let choice = looked(&wall, &[], 1.0).best(0.0, 4.0);
     assert!((0.1..0.8).contains(&choice.bearing_rad), "{choice:?}");
     assert!(choice.free_m > 4.0, "{choice:?}");
 }

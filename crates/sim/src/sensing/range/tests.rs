@@ -47,6 +47,7 @@ fn looks(spec: &RangeSpec, wall_m: f64, count: u64) -> Vec<f64> {
             sensor: 2,
             look,
             stands: &stands,
+            is_clear: false,
         };
         ring.look(&eye, &mut room, &mut ranges_m);
         ranges_m.clone()
@@ -223,6 +224,7 @@ fn rays_of_a_turned_robot_are_turned_with_it() {
             sensor: 0,
             look: 0,
             stands: &stands,
+            is_clear: false,
         };
         let mut ranges_m = Vec::new();
         ring.look(&eye, &mut room, &mut ranges_m);
@@ -268,6 +270,7 @@ fn a_look_gives_the_same_bits_in_every_instruction_set() {
             sensor: 2,
             look,
             stands: &stands,
+            is_clear: false,
         };
         let in_set = |arch: Arch| -> Vec<u64> {
             let (mut room, mut ranges_m) = (Room::default(), Vec::new());

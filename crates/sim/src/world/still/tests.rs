@@ -195,3 +195,31 @@ fn discs_that_overlap_others_are_told_apart() {
     assert_eq!(found(Point { x: 3.0, y: 2.0 }), [vec![], vec![2.0, 3.5]]);
     assert_eq!(found(Point { x: 2.0, y: 7.0 }), [vec![], vec![2.0, 2.1]]);
 }
+
+#[test]
+fn who_sees_all_around_him_sees_every_place_there() {
+    let mut clear = 0;
+    for number in 0..2000 {
+        let mut random = random(number);
+        let scene = Scene::new(&mut random);
+        let scene = Scene {
+            walls: scene.walls[..7].to_vec(),
+            ..scene
+        };
+        let stands = scene.stands(0.0);
+        let mut share = || unit(&mut random);
+        let from = Point {
+            x: scene.size.x * share(),
+            y: scene.size.y * share(),
+        };
+        let reach_m = 0.2 * scene.size.x * share();
+        let bearing_rad = std::f64::consts::TAU * share();
+        let (y, x) = bearing_rad.sin_cos();
+        let to = from.plus(Point { x, y }.times(0.999 * reach_m));
+        if stands.is_clear(from, reach_m) {
+            clear += 1;
+            assert!(stands.is_open(from, to), "{number}");
+        }
+    }
+    assert!((200..1900).contains(&clear), "{clear}");
+}
