@@ -94,7 +94,8 @@ class Inbox(TypedDict):
         by_kind: Kind of the robot that looked.
         by_index: Place of that robot in its kind.
         mark: That robot's own number for the item.
-        is_done: Whether the sender has been at the place where it wanted to be.
+        stand: What has become of the place where the sender wanted to be: 0 if it is going there,
+            1 if it has been there, 2 if it no longer goes.
     """
 
     row: Whole
@@ -109,7 +110,7 @@ class Inbox(TypedDict):
     by_kind: Whole
     by_index: Whole
     mark: Whole
-    is_done: Truths
+    stand: Whole
 
 
 class Percepts(TypedDict):
@@ -174,7 +175,7 @@ class Outbox(TypedDict):
     at: ArrayLike
     heading_rad: NotRequired[ArrayLike]
     looks: NotRequired[ArrayLike]
-    is_done: NotRequired[ArrayLike]
+    stand: NotRequired[ArrayLike]
 
 
 class Commands(TypedDict):

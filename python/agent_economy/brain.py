@@ -168,7 +168,7 @@ class AboutGoal(TypedDict):
     """A place where the sender wants to be, and what has become of that."""
 
     at: Point
-    stand: Literal["going", "done"]
+    stand: Literal["going", "done", "left"]
 
 
 class About(TypedDict, total=False):

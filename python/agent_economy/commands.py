@@ -22,6 +22,9 @@ SENDER = -1
 GOAL = -2
 """In place of an item's kind where a message is about a place where its sender wants to be."""
 
+GOING, LEFT = 0, 2
+"""The least and the greatest of what can have become of such a place."""
+
 MOST_LOOKS = 2**32 - 1
 
 
@@ -44,7 +47,7 @@ class Outbox:
     at: Floats
     heading_rad: Floats
     looks: NDArray[np.uint32]
-    is_done: Truths
+    stand: NDArray[np.uint8]
 
 
 @dataclass(frozen=True)
@@ -156,10 +159,10 @@ def outbox(commands: Table, robots: int) -> Outbox:
     looks = np.zeros(row.shape, np.uint32)
     if "looks" in table:
         looks = table.whole("looks", row.shape, (0, MOST_LOOKS)).astype(np.uint32)
-    is_done = np.zeros(row.shape, np.bool_)
-    if "is_done" in table:
-        is_done = table.array("is_done", row.shape, np.dtype(np.bool_))
-    return Outbox(row, confidence, item_kind, at, heading_rad, looks, is_done)
+    stand = np.zeros(row.shape, np.uint8)
+    if "stand" in table:
+        stand = table.whole("stand", row.shape, (GOING, LEFT)).astype(np.uint8)
+    return Outbox(row, confidence, item_kind, at, heading_rad, looks, stand)
 
 
 NOTHING = Table("commands", {}, batch.Commands.__annotations__)

@@ -101,6 +101,8 @@ pub struct Seen {
 pub enum Stand {
     /// The sender is on its way: nobody else needs to go.
     Going,
-    /// The sender has been there.
+    /// The sender has been there: nobody else needs to go.
     Done,
+    /// The sender no longer goes, and has not been there: others may.
+    Left,
 }

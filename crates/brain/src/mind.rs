@@ -44,8 +44,7 @@ impl Mind {
 
     /// Tells others what they need to know.
     pub(crate) fn tell(&mut self, period_s: f64, outbox: &mut Vec<Message>) {
-        let going = self.wants.going.map(|aim| aim.to);
-        self.beliefs.tell(going, period_s, outbox);
+        self.beliefs.tell(self.wants.going, period_s, outbox);
     }
 }
 
@@ -83,7 +82,7 @@ impl Wants {
             period_s: senses.body.period_s,
             closed: self.way.closed(),
             battery_s: beliefs.battery_s(),
-            going,
+            going: going.map(|to| (to, self.way.left_m(pose.at, to))),
         };
         self.goals.renew(aims, &step);
         for goal in self.goals.in_trouble() {

@@ -182,7 +182,7 @@ fn message(number: Numbers) -> impl Strategy<Value = Message> {
                 looks,
             }
         });
-    let stands = [Stand::Going, Stand::Done];
+    let stands = [Stand::Going, Stand::Done, Stand::Left];
     let goal = (point(number), 0_usize..2).prop_map(move |(at, stand)| About::Goal {
         at,
         stand: stands[stand],

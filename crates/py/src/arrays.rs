@@ -11,6 +11,9 @@ use sim::engine::Asked;
 pub(crate) const SENDER: i64 = -1;
 pub(crate) const GOAL: i64 = -2;
 
+/// What has become of a goal, by its number.
+pub(crate) const STANDS: [Stand; 3] = [Stand::Going, Stand::Done, Stand::Left];
+
 /// Whose looks messages tell of; what is about no item is by its sender.
 fn seen(entries: &Entries<Heard>) -> PyResult<()> {
     let of = |heard: &Heard| match heard.message.about {
@@ -233,11 +236,11 @@ fn inbox<'py>(py: Python<'py>, asked: &[Asked]) -> PyResult<Bound<'py, PyDict>> 
         About::Goal { .. } => 0_i64,
     })?;
     seen(&entries)?;
-    entries.put("is_done", |heard| {
+    entries.put("stand", |heard| {
         let About::Goal { stand, .. } = heard.message.about else {
-            return false;
+            return 0_i64;
         };
-        stand == Stand::Done
+        stand as i64
     })?;
     let places = entries
         .all

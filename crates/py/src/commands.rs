@@ -1,8 +1,8 @@
 //! What the robots of a kind are to do, from arrays.
 
-use crate::arrays::GOAL;
+use crate::arrays::{GOAL, STANDS};
 use base::geometry::Point;
-use brain::{About, Message, Motion, Seen, SensorRequest, Stand};
+use brain::{About, Message, Motion, Seen, SensorRequest};
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use sim::engine::Asked;
@@ -31,7 +31,7 @@ struct Outbox<'py> {
     at: PyReadonlyArray2<'py, f64>,
     heading_rad: PyReadonlyArray1<'py, f64>,
     looks: PyReadonlyArray1<'py, u32>,
-    is_done: PyReadonlyArray1<'py, bool>,
+    stand: PyReadonlyArray1<'py, u8>,
 }
 
 impl Commands<'_> {
@@ -74,13 +74,9 @@ impl Outbox<'_> {
             .map(|at| Point { x: at[0], y: at[1] });
         let kinds = self.item_kind.as_array();
         let abouts = places.zip(kinds.iter().zip(self.heading_rad.as_array()));
-        let more = self
-            .looks
-            .as_array()
-            .into_iter()
-            .zip(self.is_done.as_array());
+        let more = self.looks.as_array().into_iter().zip(self.stand.as_array());
         let abouts = abouts.zip(more).map(|((at, (kind, heading_rad)), more)| {
-            let (looks, is_done) = (*more.0, *more.1);
+            let (looks, stand) = (*more.0, *more.1);
             match u16::try_from(*kind) {
                 // By its sender: who hears it counts it so.
                 Ok(kind) => About::Item {
@@ -90,7 +86,7 @@ impl Outbox<'_> {
                 },
                 Err(_) if *kind == GOAL => About::Goal {
                     at,
-                    stand: if is_done { Stand::Done } else { Stand::Going },
+                    stand: STANDS[usize::from(stand) % STANDS.len()],
                 },
                 Err(_) => About::Sender {
                     at,

@@ -5,6 +5,7 @@ mod avoid;
 mod bounce;
 mod correct;
 mod cruise;
+mod errands;
 mod follow;
 mod frontier;
 mod hold;

@@ -1,5 +1,6 @@
 //! Visiting places.
 
+use super::errands::Errands;
 use crate::body::Body;
 use crate::command::Motion;
 use crate::goals::Verdict;
@@ -44,6 +45,9 @@ pub enum Share {
     /// Each robot one: the first of its kind the first, and so on, from the beginning again if there are
     /// fewer places than robots.
     Each,
+    /// The team all of them, each by whoever comes first: by radio they tell where they go and have been, and
+    /// what one cannot get to others visit.
+    Team,
 }
 
 impl Default for Navigate {
@@ -65,8 +69,8 @@ pub(crate) struct Ready {
     speed_m_s: f64,
 }
 
-/// Numbers of the places that are left, the next one last; `None` before it begins.
-pub(crate) type Memory = Option<Box<Vec<u32>>>;
+/// The places that are left; `None` before it begins.
+pub(crate) type Memory = Option<Box<Errands>>;
 
 impl Ready {
     pub(super) fn new(spec: &Navigate, body: &Body) -> Self {
@@ -78,20 +82,26 @@ impl Ready {
 
     /// All places of a robot, the next one last.
     #[expect(clippy::cast_possible_truncation, reason = "ten thousand at most")]
-    fn places(&self, senses: &Senses) -> Vec<u32> {
+    fn errands(&self, senses: &Senses) -> Errands {
         let count = self.spec.places_m.len() as u32;
-        match self.spec.share {
-            Share::All => (0..count).rev().collect(),
+        Errands::new(match self.spec.share {
+            Share::All | Share::Team => (0..count).rev().collect(),
             Share::Each => {
                 let own = senses.percept.id.index.checked_rem(count);
                 own.into_iter().collect()
             }
-        }
+        })
     }
 
-    fn next(&self, left: &[u32]) -> Option<Point> {
-        let place = *left.last()? as usize;
-        self.spec.places_m.get(place).copied()
+    fn next(&self, errands: &mut Errands, at: Point, senses: &Senses) -> Option<Point> {
+        let places = &self.spec.places_m;
+        match self.spec.share {
+            Share::All | Share::Each => errands.next(places),
+            Share::Team => {
+                let mates = &senses.beliefs?.peers;
+                errands.next_of_team(places, (senses.percept.id, at), mates)
+            }
+        }
     }
 }
 
@@ -105,12 +115,12 @@ impl Behaviour for Ready {
     }
 
     fn triggered(&self, memory: &mut Memory, senses: &Senses) -> Option<Wish> {
-        let pose = senses.beliefs?.pose()?;
-        let left = memory.get_or_insert_with(|| Box::new(self.places(senses)));
-        let mut to = self.next(left)?;
-        if pose.at.to(to).length() <= self.spec.within_m {
-            left.pop();
-            to = self.next(left)?;
+        let at = senses.beliefs?.pose()?.at;
+        let errands = memory.get_or_insert_with(|| Box::new(self.errands(senses)));
+        let mut to = self.next(errands, at, senses)?;
+        if at.to(to).length() <= self.spec.within_m {
+            errands.pop();
+            to = self.next(errands, at, senses)?;
         }
         Some(Wish::Aim(Aim {
             to,
@@ -120,10 +130,10 @@ impl Behaviour for Ready {
         }))
     }
 
-    /// What it cannot get to now, it tries again when it has visited all others.
+    /// What it cannot get to now, it tries again when it has tried all others.
     fn judged(&self, memory: &mut Memory, verdict: Verdict) {
-        if let Some(left) = memory.as_mut().filter(|_| verdict == Verdict::Impossible) {
-            left.rotate_right(1);
+        if let Some(errands) = memory.as_mut().filter(|_| verdict == Verdict::Impossible) {
+            errands.decline();
         }
     }
 

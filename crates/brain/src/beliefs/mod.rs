@@ -1,7 +1,7 @@
 //! What a robot believes, made of percepts: the *identifier* of a mind (after Rodin and Amin, who
 //! layer one into an identifier, a [goal selector](crate::goals) and an [adapter](crate::way)).
 //!
-//! Bounded: a robot's beliefs take at most 20 kB, and five bytes a cell of at most
+//! Bounded: a robot's beliefs take at most 40 kB, and five bytes a cell of at most
 //! [`BeliefsSpec::cells`].
 
 mod drain;
@@ -190,7 +190,7 @@ impl Beliefs {
         self.others
             .movers
             .retain_mut(|mover| mover.id.as_mut().is_none_or(keep));
-        self.peers.peers.retain_mut(|peer| keep(&mut peer.id));
+        self.peers.mates.retain_mut(|peer| keep(&mut peer.id));
         self.trust.renumber(keep);
         self.items.renumber(keep);
     }
@@ -376,5 +376,24 @@ pub(crate) fn standing(
             ray.range_m < ring.range_m() && !beliefs.others.is_on_one(ray.end())
         };
         into.extend(ring.rays(ranges_m).filter(still));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::way::Way;
+
+    #[test]
+    fn what_a_robot_believes_takes_no_more_than_is_said() {
+        let crowd = others::MOST + others::MOST_AT_ONCE;
+        let lists = items::MOST * size_of::<items::Track>()
+            + trust::MOST * size_of::<trust::Record>()
+            + peers::MOST * size_of::<peers::Peer>()
+            + peers::MOST_VISITS * size_of::<Point>()
+            + crowd * (size_of::<others::Mover>() + size_of::<f64>())
+            + moving::MOST * size_of::<moving::Thing>();
+        let all = size_of::<Beliefs>() + lists + size_of::<Way>();
+        assert!(all <= 40_000, "{all}");
     }
 }

@@ -34,11 +34,11 @@ const MOVES_M_S: f64 = 0.3;
 const FORGOTTEN_S: f64 = 0.5;
 
 /// So many things are kept in mind.
-const MOST: usize = 16;
+pub(super) const MOST: usize = 16;
 
 /// Something that stands or moves.
 #[derive(Debug, Clone, Copy)]
-struct Thing {
+pub(super) struct Thing {
     /// From this robot's front, if it stands.
     at: Point,
     radius_m: f64,

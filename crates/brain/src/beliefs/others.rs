@@ -10,10 +10,10 @@ use alloc::vec::Vec;
 use base::geometry::{Point, Segment};
 
 /// So many are kept in mind.
-const MOST: usize = 16;
+pub(super) const MOST: usize = 16;
 
 /// Of a throng so many are looked at.
-const MOST_AT_ONCE: usize = 24;
+pub(super) const MOST_AT_ONCE: usize = 24;
 
 /// Who has not been seen for so long is forgotten, in seconds.
 const FORGOTTEN_S: f64 = 1.0;

@@ -8,6 +8,9 @@ use base::geometry::Point;
 /// So many are remembered; who was heard of longest ago is forgotten first.
 pub(crate) const MOST: usize = 32;
 
+/// So many places where others have been are remembered, the newest.
+pub(super) const MOST_VISITS: usize = 64;
+
 /// What was heard so long ago holds no more, in seconds.
 const FORGOTTEN_S: f64 = 10.0;
 
@@ -25,19 +28,22 @@ pub(crate) struct Peer {
 /// All of whom something was heard.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Peers {
-    pub(crate) peers: Vec<Peer>,
+    pub(crate) mates: Vec<Peer>,
+    visits: Vec<Point>,
+    /// How many there have been.
+    visited: u32,
 }
 
 impl Peers {
     pub(crate) fn pass(&mut self, period_s: f64) {
-        for peer in &mut self.peers {
+        for peer in &mut self.mates {
             peer.age_s += period_s;
         }
     }
 
     /// Those of whom something was heard of late.
     pub(crate) fn fresh(&self) -> impl Iterator<Item = &Peer> {
-        self.peers.iter().filter(|peer| peer.age_s <= FORGOTTEN_S)
+        self.mates.iter().filter(|peer| peer.age_s <= FORGOTTEN_S)
     }
 
     /// Notes where one is; returns where it was before, and how often it has looked since.
@@ -66,26 +72,47 @@ impl Peers {
         } else if peer.aim == Some(at) {
             peer.aim = None;
         }
+        if stand == Stand::Done {
+            if self.visits.len() == MOST_VISITS {
+                self.visits.remove(0);
+            }
+            self.visits.push(at);
+            self.visited = self.visited.wrapping_add(1);
+        }
+    }
+
+    /// Where others have been since so many visits, as far as they are remembered; `since` is then how many
+    /// there have been by now.
+    pub(crate) fn visits_since(&self, since: &mut u32) -> &[Point] {
+        let new = self.visited.wrapping_sub(*since) as usize;
+        *since = self.visited;
+        &self.visits[self.visits.len().saturating_sub(new)..]
+    }
+
+    /// Whether somebody is going to a place for whom `counts` holds.
+    pub(crate) fn anybody_goes(&self, to: Point, counts: impl Fn(RobotId) -> bool) -> bool {
+        self.fresh()
+            .any(|peer| peer.aim == Some(to) && counts(peer.id))
     }
 
     fn peer(&mut self, id: RobotId) -> &mut Peer {
-        let known = self.peers.iter().position(|peer| peer.id == id);
+        let known = self.mates.iter().position(|peer| peer.id == id);
         let place = known.unwrap_or_else(|| {
-            if self.peers.len() == MOST {
-                let numbered = self.peers.iter().enumerate();
+            if self.mates.len() == MOST {
+                let numbered = self.mates.iter().enumerate();
                 let oldest = numbered.max_by(|one, other| one.1.age_s.total_cmp(&other.1.age_s));
                 let oldest = oldest.map_or(0, |(number, _)| number);
-                self.peers.remove(oldest);
+                self.mates.remove(oldest);
             }
-            self.peers.push(Peer {
+            self.mates.push(Peer {
                 id,
                 at: None,
                 aim: None,
                 age_s: 0.0,
             });
-            self.peers.len() - 1
+            self.mates.len() - 1
         });
-        &mut self.peers[place]
+        &mut self.mates[place]
     }
 }
 
@@ -109,11 +136,33 @@ mod tests {
         let mut peers = Peers::default();
         let place = Point { x: 3.0, y: 1.0 };
         peers.goes(MATE, place, Stand::Going);
-        assert_eq!(peers.fresh().next().unwrap().aim, Some(place));
-        peers.goes(MATE, place, Stand::Done);
-        assert_eq!(peers.fresh().next().unwrap().aim, None);
+        assert!(peers.anybody_goes(place, |_| true) && !peers.anybody_goes(place, |id| id != MATE));
+        for stand in [Stand::Done, Stand::Left] {
+            peers.goes(MATE, place, Stand::Going);
+            peers.goes(MATE, place, stand);
+            assert!(!peers.anybody_goes(place, |_| true));
+        }
         peers.pass(11.0);
         assert_eq!(peers.fresh().count(), 0);
+    }
+
+    #[test]
+    fn where_others_have_been_is_told_once() {
+        let (mut peers, mut since) = (Peers::default(), 0);
+        for x in 0..100 {
+            let at = Point {
+                x: f64::from(x),
+                y: 0.0,
+            };
+            peers.goes(MATE, at, Stand::Done);
+            peers.goes(MATE, at, Stand::Left);
+            if x < 50 {
+                assert_eq!(peers.visits_since(&mut since), [at]);
+                assert_eq!(peers.visits_since(&mut since), []);
+            }
+        }
+        assert_eq!(peers.visits_since(&mut since).len(), 50);
+        assert_eq!(peers.visits.len(), MOST_VISITS);
     }
 
     #[test]
@@ -122,6 +171,6 @@ mod tests {
         for index in 0..1000 {
             peers.goes(RobotId { kind: 0, index }, Point::default(), Stand::Going);
         }
-        assert_eq!(peers.peers.len(), MOST);
+        assert_eq!(peers.mates.len(), MOST);
     }
 }

@@ -5,6 +5,7 @@ use super::pose::Pose;
 use super::{Beliefs, Body};
 use crate::command::{About, Message, Seen, Stand};
 use crate::percept::Heard;
+use crate::wish::Aim;
 use alloc::vec::Vec;
 use base::geometry::Point;
 
@@ -24,7 +25,7 @@ const FARTHEST_M: f64 = 1e7;
 /// What was told, and how long ago.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Told {
-    goal: Option<Point>,
+    goal: Option<Aim>,
     age_s: f64,
 }
 
@@ -87,7 +88,7 @@ impl Beliefs {
     }
 
     /// Tells others what they need to know; `goal` is where it is going.
-    pub(crate) fn tell(&mut self, goal: Option<Point>, period_s: f64, outbox: &mut Vec<Message>) {
+    pub(crate) fn tell(&mut self, goal: Option<Aim>, period_s: f64, outbox: &mut Vec<Message>) {
         let Some(pose) = self.here.pose() else {
             return;
         };
@@ -98,11 +99,18 @@ impl Beliefs {
         self.told.age_s += period_s;
         let is_time = self.told.age_s >= AGAIN_S;
         let before = self.told.goal;
-        if goal != before || is_time {
-            let left = before.filter(|_| goal.is_none());
-            let stand = |stand| move |at| say(About::Goal { at, stand });
-            outbox.extend(left.map(stand(Stand::Done)));
-            outbox.extend(goal.map(stand(Stand::Going)));
+        let is_new = goal.map(|aim| aim.to) != before.map(|aim| aim.to);
+        if is_new || is_time {
+            let say_of = |aim: Aim, stand| say(About::Goal { at: aim.to, stand });
+            let ended = before.filter(|_| is_new);
+            outbox.extend(ended.and_then(|aim| {
+                let is_there = pose.at.to(aim.to).length() <= aim.within_m;
+                // Who goes elsewhere has left.
+                let is_left = goal.is_none();
+                let stand = if is_there { Stand::Done } else { Stand::Left };
+                (is_there || is_left).then(|| say_of(aim, stand))
+            }));
+            outbox.extend(goal.map(|aim| say_of(aim, Stand::Going)));
             self.told.goal = goal;
         }
         if is_time {

@@ -50,7 +50,7 @@ impl Goals {
             let same = same.filter(|goal| goal.verdict != Verdict::Impossible);
             let mut fitness = same.map_or_else(Fitness::default, |goal| goal.fitness);
             let way_m = step.at.to(aim.to).length();
-            let verdict = fitness.judge(way_m, &aim, step);
+            let verdict = fitness.judge(&aim, step);
             Goal {
                 behaviour,
                 aim,

@@ -46,6 +46,8 @@ struct Plan {
     to: Point,
     /// The next place on it; `None` if there is no way.
     next: Option<Point>,
+    /// The way from there on.
+    beyond_m: f64,
     age_s: f64,
     /// Of the map, when it was found.
     changes: u32,
@@ -68,7 +70,7 @@ impl Way {
         let step = Step {
             aim: aim.to,
             way: pose.own(next),
-            away_m: pose.at.to(aim.to).length(),
+            left_m: self.left_m(pose.at, aim.to),
             turned_rad: senses.turned_rad,
             period_s: senses.body.period_s,
             max_speed_m_s: senses.body.max_speed_m_s,
@@ -76,7 +78,7 @@ impl Way {
             movers: &beliefs.others.movers,
         };
         let way = self.shunting.instead(&step, senses.dice());
-        let left_m = step.away_m - aim.within_m / 2.0;
+        let left_m = step.left_m - aim.within_m / 2.0;
         let most_m_s = if self.shunting.gives_way() {
             aim.speed_m_s
         } else {
@@ -89,6 +91,14 @@ impl Way {
     pub(crate) fn closed(&self) -> Option<Point> {
         let plan = self.plan.filter(|plan| plan.next.is_none())?;
         Some(plan.to)
+    }
+
+    /// The way left from a place to an aim, as far as it knows.
+    pub(crate) fn left_m(&self, at: Point, aim: Point) -> f64 {
+        let plan = self.plan.filter(|plan| plan.to == aim);
+        let known = plan.and_then(|plan| Some((plan.next?, plan.beyond_m)));
+        let (next, beyond_m) = known.unwrap_or((aim, 0.0));
+        at.to(next).length() + beyond_m
     }
 
     /// Forgets the way.
@@ -136,9 +146,16 @@ impl Way {
             }
             self.wave.ahead(&map.field, &map.filled, pose.at)
         };
+        let beyond_m = next.filter(|next| *next != to).map(|next| {
+            let cell = map.field.nearest_cell(next);
+            let by_cells_m = self.wave.cell_distance_m(&map.field, cell);
+            // A wave to where the body does not fit begins beside it.
+            by_cells_m.unwrap_or_default().max(next.to(to).length())
+        });
         self.plan = Some(Plan {
             to,
             next,
+            beyond_m: beyond_m.unwrap_or_default(),
             age_s: 0.0,
             changes: map.filled.changes,
         });

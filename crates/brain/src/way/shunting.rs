@@ -45,9 +45,9 @@ const SAME_M: f64 = 0.1;
 /// What one robot remembers of getting nowhere.
 #[derive(Debug, Clone)]
 pub(crate) struct Shunting {
-    /// Where it wanted to be, and how far it was.
+    /// Where it wanted to be, and how far that was.
     aim: Point,
-    away_m: f64,
+    left_m: f64,
     nowhere_s: f64,
     /// Its random share of patience, 0.5 to 1.5.
     share: f64,
@@ -61,7 +61,7 @@ impl Default for Shunting {
     fn default() -> Self {
         Self {
             aim: Point::default(),
-            away_m: f64::INFINITY,
+            left_m: f64::INFINITY,
             nowhere_s: 0.0,
             share: 1.0,
             left_s: 0.0,
@@ -76,7 +76,8 @@ pub(crate) struct Step<'s> {
     /// In the world: where it wants to be; and from its front: the next place on the way there.
     pub(crate) aim: Point,
     pub(crate) way: Point,
-    pub(crate) away_m: f64,
+    /// The way left to the aim.
+    pub(crate) left_m: f64,
     pub(crate) turned_rad: f64,
     pub(crate) period_s: f64,
     pub(crate) max_speed_m_s: f64,
@@ -88,7 +89,7 @@ impl Shunting {
     /// The way to take instead of the one that it wants, from its front.
     pub(crate) fn instead(&mut self, step: &Step, mut dice: Dice) -> Point {
         self.course_rad = wrapped(self.course_rad - step.turned_rad);
-        let progress_m = self.away_m - step.away_m;
+        let progress_m = self.left_m - step.left_m;
         let is_other = self.aim.to(step.aim).length() > SAME_AIM_M;
         self.aim = step.aim;
         if is_other {
@@ -98,7 +99,7 @@ impl Shunting {
         } else {
             self.count(progress_m, step);
         }
-        self.away_m = step.away_m;
+        self.left_m = step.left_m;
         if self.left_s <= 0.0 && self.is_at_an_end(step) {
             self.give_way(step, &mut dice);
         }

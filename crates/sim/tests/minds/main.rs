@@ -7,5 +7,6 @@
 )]
 
 mod crossing;
+mod errands;
 mod moving;
 mod searching;

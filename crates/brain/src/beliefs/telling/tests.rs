@@ -195,18 +195,27 @@ fn who_does_not_know_where_he_is_tells_nothing_and_who_does_tells_it_once_a_seco
 }
 
 #[test]
-fn where_one_goes_is_told_at_once_and_when_that_is_done() {
+fn where_one_goes_is_told_at_once_and_whether_it_has_been_there() {
     let mut robot = Robot::new(1.0, 1.0);
     robot.step(true, Vec::new());
     let goals = |robot: &mut Robot, goal: Option<Point>| {
         let mut outbox = Vec::new();
-        robot.beliefs.tell(goal, 0.01, &mut outbox);
+        let aim = goal.map(|to| Aim {
+            to,
+            within_m: 0.5,
+            speed_m_s: 1.0,
+            value: 1.0,
+        });
+        robot.beliefs.tell(aim, 0.01, &mut outbox);
         outbox.iter().filter_map(stand).collect::<Vec<_>>()
     };
-    let there = Point { x: 1.0, y: 2.0 };
-    assert_eq!(goals(&mut robot, Some(there)), [(there, Stand::Going)]);
-    assert_eq!(goals(&mut robot, Some(there)), []);
-    assert_eq!(goals(&mut robot, None), [(there, Stand::Done)]);
+    let (far, here) = (Point { x: 1.0, y: 2.0 }, Point { x: 8.3, y: 10.0 });
+    assert_eq!(goals(&mut robot, Some(far)), [(far, Stand::Going)]);
+    assert_eq!(goals(&mut robot, Some(far)), []);
+    assert_eq!(goals(&mut robot, Some(here)), [(here, Stand::Going)]);
+    let ended = [(here, Stand::Done), (far, Stand::Going)];
+    assert_eq!(goals(&mut robot, Some(far)), ended);
+    assert_eq!(goals(&mut robot, None), [(far, Stand::Left)]);
 }
 
 fn stand(message: &Message) -> Option<(Point, Stand)> {

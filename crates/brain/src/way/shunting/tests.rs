@@ -7,7 +7,7 @@ fn step<'s>(away_m: f64, hits: &'s [Ray], movers: &'s [Mover]) -> Step<'s> {
     Step {
         aim: AIM,
         way: Point { x: 2.0, y: 0.0 },
-        away_m,
+        left_m: away_m,
         turned_rad: 0.0,
         period_s: 0.1,
         max_speed_m_s: 1.0,
