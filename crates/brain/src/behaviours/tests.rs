@@ -130,6 +130,27 @@ fn a_robot_goes_around_a_wall_to_its_place() {
 }
 
 #[test]
+fn a_robot_comes_out_of_a_deep_dead_end_without_going_astray() {
+    let place = at(20.0, 12.0);
+    // Three walls about where it stands, 12 m deep; the way out leads away from the place.
+    let walls = [
+        [4.0, 6.0, 16.4, 6.4],
+        [4.0, 17.6, 16.4, 18.0],
+        [16.0, 6.4, 16.4, 17.6],
+    ];
+    let mut robot = Errand::new(
+        navigate(&[place], Share::All),
+        [24.0, 24.0],
+        &walls,
+        at(15.0, 12.0),
+    );
+    // The way is some 42 m long.
+    robot.go(90);
+    assert!(robot.visit(place).is_some(), "{:?}", robot.walk.at);
+    assert!(robot.walk.least_gap_m > 0.0, "{}", robot.walk.least_gap_m);
+}
+
+#[test]
 fn places_are_visited_in_their_order() {
     let places = [at(2.0, 9.0), at(9.0, 9.0), at(9.0, 2.0), at(2.0, 2.0)];
     let errand = navigate(&places, Share::All);

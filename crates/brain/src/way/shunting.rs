@@ -15,7 +15,9 @@ use base::geometry::Point;
 use base::trig::wrapped;
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
-/// Who comes nearer to the aim by less than this share of its greatest speed gets nowhere.
+/// Whose way to the aim becomes shorter by less than this share of its greatest speed gets nowhere.
+///
+/// The way, not the distance: that around a wall leads away from the aim.
 const NOWHERE: f64 = 0.2;
 
 /// It gives way after so long, half as soon on the left-hand side and three times as late on the
