@@ -147,9 +147,11 @@ impl Brain {
             behaviours,
             sum,
         } = &*self.kind;
-        let turned_rad = self.moved.take_in(percept, body);
+        let mut turned_rad = self.moved.take_in(percept, body);
         let now_m_s = self.moved.now_m_s(percept, body);
         if let Some(mind) = &mut self.mind {
+            let moved = &self.moved;
+            turned_rad = moved.turned_beside_compass_rad(turned_rad, percept, body);
             let moved = [now_m_s, turned_rad];
             mind.beliefs.take_in(percept, body, &sight.rings, moved);
         }

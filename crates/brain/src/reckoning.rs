@@ -71,6 +71,22 @@ impl Reckoning {
         }
     }
 
+    /// As [`Reckoning::take_in`] said, but from the wheels if the compass errs: whoever corrects the course
+    /// by the compass must not have carried it on by the same compass.
+    pub(crate) fn turned_beside_compass_rad(
+        &self,
+        turned_rad: f64,
+        percept: &Percept,
+        body: &Body,
+    ) -> f64 {
+        let has_wheels = percept.motion.as_ref().is_some_and(is_of_now);
+        if has_wheels && body.heading_noise_rad > 0.0 {
+            self.turn_rate_rad_s(percept, body) * body.period_s
+        } else {
+            turned_rad
+        }
+    }
+
     fn turn_rate_rad_s(&self, percept: &Percept, body: &Body) -> f64 {
         let told = if self.straight_s > 0.0 {
             0.0
@@ -107,7 +123,10 @@ fn is_of_now<T>(reading: &Reading<T>) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::world_of_walls::rover;
+    use crate::world_of_walls::{now, rover};
+    use crate::{BeliefsSpec, Brain, BrainSpec};
+    use base::geometry::Point;
+    use std::sync::Arc;
 
     const TURN: Motion = Motion {
         speed_m_s: 0.0,
@@ -150,6 +169,29 @@ mod tests {
             .collect();
         // At its first look it has nothing to compare with.
         assert!((turned_rad(&with_compass) - 0.25).abs() < 1e-6);
+    }
+
+    #[test]
+    fn a_compass_that_errs_says_where_it_points_and_wheels_how_far_it_has_turned() {
+        let mut body = rover();
+        body.heading_noise_rad = 0.1;
+        let spec = BrainSpec {
+            beliefs: Some(BeliefsSpec::default()),
+            ..BrainSpec::default()
+        };
+        let mut brain = Brain::new(Arc::new(spec), Arc::new(body));
+        for step in 0..400 {
+            let off_rad = if step % 2 == 0 { 0.1 } else { -0.1 };
+            brain.step(&Percept {
+                position: Some(now(Point::default())),
+                heading_rad: Some(now(off_rad)),
+                motion: Some(now(Motion::default())),
+                ..Percept::default()
+            });
+        }
+        let pose = brain.thoughts().and_then(|thoughts| thoughts.pose).unwrap();
+        assert!(pose.heading_rad.abs() < 0.01, "{pose:?}");
+        assert!((pose.deviation_rad - 0.005).abs() < 0.001, "{pose:?}");
     }
 
     #[test]
