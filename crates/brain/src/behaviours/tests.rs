@@ -161,6 +161,22 @@ fn places_are_visited_in_their_order() {
 }
 
 #[test]
+fn a_robot_fits_through_a_door_twice_as_wide_as_itself_wherever_its_cells_lie() {
+    // A map of 4096 cells has cells of 0.4 m here: those of the door posts leave too little between them.
+    for off_m in [0.0, 0.1, 0.2, 0.3] {
+        let walls = [
+            [12.0, 0.0, 12.3, 11.5 + off_m],
+            [12.0, 12.5 + off_m, 12.3, 24.0],
+        ];
+        let place = at(20.0, 5.0);
+        let errand = navigate(&[place], Share::All);
+        let mut robot = Errand::new(errand, [24.0, 24.0], &walls, at(6.0, 6.0));
+        robot.go(150);
+        assert!(robot.visit(place).is_some(), "{off_m}: {:?}", robot.walk.at);
+    }
+}
+
+#[test]
 fn a_place_that_is_closed_in_is_left_out() {
     let (closed, open) = (at(8.0, 6.0), at(13.0, 9.0));
     let errand = navigate(&[closed, open], Share::All);

@@ -29,6 +29,10 @@ const LOOKED_OVER_S: f64 = 1.0;
 /// Room beside what is filled, as a share of a cell's width.
 const CELL_ROOM: f64 = 0.35;
 
+/// Where there is no other way, what fills a cell may be so much farther off than its middle, as a share of
+/// a cell's width.
+const TIGHT_ROOM: f64 = 0.5;
+
 /// What one robot remembers of its way.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Way {
@@ -138,13 +142,11 @@ impl Way {
                 let is_the_same = plan.changes == map.filled.changes && plan.next != Some(to);
                 is_the_same && self.wave.knows(&map.field, pose.at)
             });
-            if !is_known {
-                let room_m = senses.body.radius_m + CELL_ROOM * map.field.cell_m;
-                let here = map.field.nearest_cell(pose.at);
-                let known = (&map.field, &map.filled);
-                self.wave.run(known, to, room_m, |cell, _| cell != here);
+            if is_known {
+                self.wave.ahead(&map.field, &map.filled, pose.at)
+            } else {
+                self.found(to, pose, map, senses.body.radius_m)
             }
-            self.wave.ahead(&map.field, &map.filled, pose.at)
         };
         let beyond_m = next.filter(|next| *next != to).map(|next| {
             let cell = map.field.nearest_cell(next);
@@ -160,6 +162,22 @@ impl Way {
             changes: map.filled.changes,
         });
         next
+    }
+
+    /// The next place on the way that is found anew: one with room on both sides, or else one where it may
+    /// just fit, since what fills a cell need not fill all of it.
+    fn found(&mut self, to: Point, pose: &Pose, map: &Map, radius_m: f64) -> Option<Point> {
+        let cell_m = map.field.cell_m;
+        let here = map.field.nearest_cell(pose.at);
+        let rooms_m = [
+            radius_m + CELL_ROOM * cell_m,
+            (radius_m - TIGHT_ROOM * cell_m).max(0.0),
+        ];
+        rooms_m.into_iter().find_map(|room_m| {
+            let known = (&map.field, &map.filled);
+            self.wave.run(known, to, room_m, |cell, _| cell != here);
+            self.wave.ahead(&map.field, &map.filled, pose.at)
+        })
     }
 
     /// Goes a way from its front, as well as that can be done.
