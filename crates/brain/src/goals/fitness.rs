@@ -12,6 +12,9 @@ const NEARER_M: f64 = 0.1;
 const RECEDING_S: f64 = 4.0;
 const IMPOSSIBLE_S: f64 = 30.0;
 
+/// What is impossible is not tried again for so long, in seconds: others have their turn meanwhile.
+const RESTS_S: f64 = 10.0;
+
 /// What is being made of a goal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -53,6 +56,8 @@ pub(crate) struct Fitness {
     best_m: f64,
     last_m: f64,
     since_s: f64,
+    /// It still is impossible for so long.
+    rests_s: f64,
 }
 
 impl Default for Fitness {
@@ -61,21 +66,54 @@ impl Default for Fitness {
             best_m: f64::INFINITY,
             last_m: f64::INFINITY,
             since_s: 0.0,
+            rests_s: 0.0,
         }
     }
 }
 
 impl Fitness {
+    /// Whether it is known to be impossible for now.
+    pub(crate) fn rests(&self) -> bool {
+        self.rests_s > 0.0
+    }
+
+    /// Lets it be impossible for some time.
+    pub(crate) fn rest(&mut self) {
+        self.rests_s = RESTS_S;
+    }
+
     /// The verdict on a goal:
     ///
     /// ```text
     /// complete      distance <= within
-    /// impossible    no way known, or battery time < way / speed, or not nearer for 30 s
+    /// impossible    no way known, or battery time < way / speed, or not nearer for 30 s, and 10 s from then
     /// receding      not nearer for 4 s
     /// approaching   else
     /// ```
     pub(crate) fn judge(&mut self, aim: &Aim, step: &Step) -> Verdict {
+        if self.rests() {
+            self.rests_s -= step.period_s;
+            if !self.rests() {
+                *self = Self::default();
+            }
+        }
         let left_m = step.left_m(aim.to);
+        self.note(left_m, aim, step);
+        let is_far = super::time_s(left_m, aim) > step.battery_s;
+        let is_closed = step.closed == Some(aim.to);
+        if step.at.to(aim.to).length() <= aim.within_m {
+            Verdict::Complete
+        } else if self.rests() || is_closed || is_far || self.since_s > IMPOSSIBLE_S {
+            Verdict::Impossible
+        } else if self.since_s > RECEDING_S {
+            Verdict::Receding
+        } else {
+            Verdict::Approaching
+        }
+    }
+
+    /// Notes the way left.
+    fn note(&mut self, left_m: f64, aim: &Aim, step: &Step) {
         // Nobody goes so far in a step: the way that it knew is closed, or a shorter one was found.
         let most_m = aim.speed_m_s * step.period_s + NEARER_M;
         let is_another_way = (left_m - self.last_m).abs() > most_m;
@@ -86,17 +124,6 @@ impl Fitness {
             (self.best_m, self.since_s) = (left_m, 0.0);
         } else if step.going.is_some_and(|(to, _)| to == aim.to) {
             self.since_s += step.period_s;
-        }
-        let needed_s = super::time_s(left_m, aim);
-        let is_closed = step.closed == Some(aim.to);
-        if step.at.to(aim.to).length() <= aim.within_m {
-            Verdict::Complete
-        } else if is_closed || needed_s > step.battery_s || self.since_s > IMPOSSIBLE_S {
-            Verdict::Impossible
-        } else if self.since_s > RECEDING_S {
-            Verdict::Receding
-        } else {
-            Verdict::Approaching
         }
     }
 }

@@ -5,9 +5,11 @@
 //! others in order of precedence. What a verdict means:
 //!
 //! * *complete*: the behaviour goes on to its next place;
-//! * *impossible*: it is given up for now, for the next place of the behaviour;
+//! * *impossible*: the behaviour is told, and goes on to another place; if it still wants the same, that has
+//!   to wait for [ten seconds](fitness), in which other goals have their turn;
 //! * *approaching*: nothing is to be done;
-//! * *receding*: the way there is found anew.
+//! * *receding*: the behaviour is told; searches choose another place. What fills the way is looked over in
+//!   [each second](crate::way) anyhow.
 
 pub(crate) mod fitness;
 pub(crate) mod precedence;
@@ -31,6 +33,8 @@ pub(crate) struct Goal {
     pub(crate) precedence: f64,
     pub(crate) verdict: Verdict,
     fitness: Fitness,
+    /// Whether its behaviour has been told before that it is impossible.
+    is_told: bool,
 }
 
 /// All that a robot wants, by precedence: at most one goal a behaviour.
@@ -46,16 +50,23 @@ impl Goals {
         self.goals.extend(aims.map(|(behaviour, aim)| {
             let mut known = before.iter();
             let same = known.find(|goal| goal.behaviour == behaviour && goal.aim.to == aim.to);
-            // What was given up and is wanted again begins anew.
-            let same = same.filter(|goal| goal.verdict != Verdict::Impossible);
+            let is_told = same.is_some_and(|goal| goal.fitness.rests());
+            // What was given up and is wanted again begins anew, unless it rests.
+            let same = same.filter(|goal| goal.verdict != Verdict::Impossible || is_told);
             let mut fitness = same.map_or_else(Fitness::default, |goal| goal.fitness);
             let way_m = step.at.to(aim.to).length();
             let verdict = fitness.judge(&aim, step);
+            // Who wants nothing else may as well go on trying, where there is a way.
+            let is_worth_a_rest = before.len() > 1 || step.closed == Some(aim.to);
+            if verdict == Verdict::Impossible && is_worth_a_rest && !fitness.rests() {
+                fitness.rest();
+            }
             Goal {
                 behaviour,
                 aim,
                 precedence: precedence(&aim, time_s(way_m, &aim), step.battery_s),
                 verdict,
+                is_told: is_told && fitness.rests(),
                 fitness,
             }
         }));
@@ -84,12 +95,14 @@ impl Goals {
         Some(nearest.unwrap_or(first))
     }
 
-    /// Those that are not being reached.
+    /// Those that are not being reached, and whose behaviours have not been told yet.
     pub(crate) fn in_trouble(&self) -> impl Iterator<Item = &Goal> {
-        let mut goals = self.goals.iter();
-        let is_in_trouble =
-            |goal: &&Goal| matches!(goal.verdict, Verdict::Impossible | Verdict::Receding);
-        core::iter::from_fn(move || goals.find(is_in_trouble))
+        let is_in_trouble = |goal: &&Goal| match goal.verdict {
+            Verdict::Impossible => !goal.is_told,
+            Verdict::Receding => true,
+            Verdict::Complete | Verdict::Approaching => false,
+        };
+        self.goals.iter().filter(is_in_trouble)
     }
 }
 
@@ -159,5 +172,24 @@ mod tests {
         goals.renew(aims.iter().copied().enumerate(), &closed);
         assert_eq!(goals.next(HERE).unwrap().behaviour, 1);
         assert_eq!(goals.in_trouble().next().unwrap().behaviour, 0);
+    }
+
+    #[test]
+    fn what_is_impossible_leaves_ten_seconds_to_others_and_is_told_once() {
+        let aims = [aim(10.0, 0.0, 5.0), aim(0.0, 5.0, 0.1)];
+        let mut goals = Goals::default();
+        let closed = Step {
+            closed: Some(aims[0].to),
+            ..step(HERE)
+        };
+        goals.renew(aims.iter().copied().enumerate(), &closed);
+        assert_eq!(goals.in_trouble().count(), 1);
+        let mut renewed = || {
+            goals.renew(aims.iter().copied().enumerate(), &step(HERE));
+            let told = goals.in_trouble().count();
+            (goals.next(HERE).unwrap().behaviour, told)
+        };
+        let others = core::iter::from_fn(|| Some(renewed())).take_while(|next| *next == (1, 0));
+        assert!((95..=101).contains(&others.count()));
     }
 }
