@@ -58,7 +58,7 @@ impl Ready {
 fn nearest(survey: &mut Survey, senses: &Senses, beliefs: &Beliefs, map: &Map) -> Option<Point> {
     let (at, near_m) = (beliefs.pose()?.at, 4.0 * map.field.cell_m);
     let nearness = |way_m: f64| 1.0 / way_m.max(map.field.cell_m);
-    let worth = |cell, way_m| {
+    let worth = |cell, way_m, _| {
         if map.unseen.of(cell) > UNSEEN {
             nearness(way_m) * share(beliefs, at, map.field.centre(cell), near_m)
         } else {

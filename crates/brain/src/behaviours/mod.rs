@@ -12,6 +12,7 @@ mod hold;
 mod home;
 mod lanes;
 mod navigate;
+mod outlook;
 mod part;
 mod seek;
 mod spiral;

@@ -19,9 +19,6 @@ const ROUNDS: usize = 4;
 /// What is in another's part counts as much less.
 const OTHERS: f64 = 0.1;
 
-/// Below this a block has nothing left, in cells.
-const LEAST: f32 = 0.05;
-
 /// A robot's part: blocks of the field.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Part {
@@ -88,7 +85,7 @@ impl Part {
     fn move_middles(&mut self, field: &Field) {
         let mut sums = [(Point::default(), 0.0); MOST];
         for (block, left) in self.left.iter().enumerate() {
-            if *left > LEAST {
+            if *left > 0.0 {
                 let (place, left) = (centre(field, block), f64::from(*left));
                 let (sum, all) = &mut sums[self.nearest(place)];
                 (*sum, *all) = (sum.plus(place.times(left)), *all + left);

@@ -1,7 +1,9 @@
 //! Searching where beliefs say most is to be found.
 
+use super::outlook::Outlook;
 use super::part::Part;
 use super::survey::{Survey, aim};
+use crate::beliefs::pose::Pose;
 use crate::beliefs::{Beliefs, Map};
 use crate::body::Body;
 use crate::command::Motion;
@@ -14,26 +16,28 @@ use base::geometry::Point;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What is left about a place is summed over so many cells to each side.
-const ABOUT: i32 = 1;
-
-/// Time that is lost at a place besides the way there, in seconds.
-const STOP_S: f64 = 1.0;
+/// Time that is lost at a place besides looking there and the way, in seconds.
+const STOP_S: f64 = 0.5;
 
 /// A radian of turning costs so much time, in seconds.
 const TURN_S_RAD: f64 = 0.5;
 
-/// Where less than this share of an item in each cell is left, nothing is.
-const LEAST: f64 = 0.02;
+/// It looks at a place until all but e^-2 of what is there would have been seen: 14%.
+const LOOKED: f64 = 2.0;
 
-/// A place with less than this share of what it had is done.
+/// A place that promises less than this share of what it did is done.
 const DONE: f64 = 0.5;
 
-/// Searches by going where the probability of an item that nobody has seen is highest per second of the
-/// way: what it passes on the way counts, what others go for hardly does. When next to nothing is left,
-/// it has nothing to do.
+/// Places to go to are so many to the range of its detectors: nearer ones promise the same.
+const PLACES: f64 = 3.0;
+
+/// Searches by going where a look promises most per second: the items that it would see there, if one were in
+/// each cell as likely as nobody has seen it, by the time for the way, for turning and for looking. What is in
+/// others' parts hardly counts. It never ends: who has looked at all looks again.
 ///
-/// Greedy in the sense of Stone, *Theory of optimal search*, 1975: the rate of detection is maximised.
+/// Greedy in the sense of Stone, *Theory of optimal search*, 1975: the rate of detection is maximised. To value
+/// places by what is seen from them, after Gonzalez-Banos and Latombe, *Navigation strategies for exploring
+/// indoor environments*, 2002: what cannot be seen from anywhere, as the inside of obstacles, draws nobody.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 #[schemars(inline)]
@@ -62,12 +66,24 @@ pub(crate) struct Ready {
 }
 
 /// What a robot remembers for it.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub(crate) struct Search {
+    outlook: Outlook,
     survey: Survey,
     part: Part,
-    /// What was left where it goes.
+    /// What was promised where it goes.
     was: f64,
+}
+
+impl Search {
+    fn new(body: &Body, map: &Map) -> Self {
+        Self {
+            outlook: Outlook::new(&body.detectors, map),
+            survey: Survey::default(),
+            part: Part::default(),
+            was: 0.0,
+        }
+    }
 }
 
 impl Ready {
@@ -77,37 +93,79 @@ impl Ready {
         }
     }
 
-    /// The place with most to be found a second of the way.
-    fn best(
-        &self,
-        search: &mut Search,
-        senses: &Senses,
-        beliefs: &Beliefs,
-        map: &Map,
-    ) -> Option<Point> {
-        let pose = beliefs.pose()?;
-        let Search { survey, part, .. } = search;
+    /// The place that promises most a second.
+    fn best(&self, search: &mut Search, senses: &Senses, known: &Known) -> Option<Point> {
+        let Known { map, pose, beliefs } = known;
+        let Search {
+            survey,
+            part,
+            outlook,
+            ..
+        } = search;
         part.renew(beliefs, map);
-        let (field, full) = (&map.field, f64::from((2 * ABOUT + 1) * (2 * ABOUT + 1)));
-        let time_s = |way_m: f64| STOP_S + way_m / self.aim.speed_m_s.max(1e-6);
-        let worth = |cell, way_m| {
-            if map.unseen.of(cell) < LEAST {
+        let stop_s = STOP_S + outlook.looks(LOOKED) * beliefs.look_s();
+        let time_s = |way_m: f64| stop_s + way_m / self.aim.speed_m_s.max(1e-6);
+        let apart = apart(senses.body, map);
+        let worth = |cell: usize, way_m: f64, least: f64| {
+            let [column, row] = map.field.column_and_row_of(cell);
+            let share = part.share(&map.field, cell);
+            let place = map.field.centre(cell);
+            let fits = map.field.edge_m(place) >= senses.body.radius_m;
+            let is_place = fits && (column + row) % apart == 0;
+            if !is_place || share * outlook.most <= least * time_s(way_m) {
                 return 0.0;
             }
-            let way = pose.own(field.centre(cell));
-            let turn_s = TURN_S_RAD * libm::atan2(way.y, way.x).abs();
-            about(map, cell) * part.share(field, cell) / (time_s(way_m) + turn_s)
+            let rate = share / (time_s(way_m) + turn_s(pose, place));
+            let way = pose.at.to(place);
+            // What hides things is looked for only if it matters.
+            if rate * outlook.at_best(map, cell, way) <= least {
+                return 0.0;
+            }
+            rate * outlook.promises(map, cell, way, pose.blur_m())
         };
         survey.best((map, senses.body), pose.at, worth, |way_m| {
-            full / time_s(way_m)
+            outlook.most / time_s(way_m)
         })
     }
 }
 
-/// What is left in the cells about one.
-fn about(map: &Map, cell: usize) -> f64 {
-    let cells = map.field.around(cell, ABOUT);
-    cells.map(|cell| map.unseen.of(cell)).sum()
+/// How long it turns until it faces a place.
+fn turn_s(pose: &Pose, place: Point) -> f64 {
+    let way = pose.own(place);
+    TURN_S_RAD * libm::atan2(way.y, way.x).abs()
+}
+
+/// One of so many cells along each row and column is a place to go to.
+#[expect(clippy::cast_possible_truncation, reason = "a cast saturates")]
+fn apart(body: &Body, map: &Map) -> i32 {
+    let ranges = body.detectors.iter().map(|detector| detector.range_m);
+    let range_m = ranges.fold(0.0, f64::max);
+    ((range_m / (PLACES * map.field.cell_m)) as i32).max(1)
+}
+
+/// What a robot knows when it thinks.
+struct Known<'k> {
+    beliefs: &'k Beliefs,
+    map: &'k Map,
+    pose: Pose,
+}
+
+impl<'k> Known<'k> {
+    fn new(senses: &Senses<'k>) -> Option<Self> {
+        let beliefs = senses.beliefs?;
+        Some(Self {
+            beliefs,
+            map: beliefs.map.as_ref()?,
+            pose: beliefs.pose()?,
+        })
+    }
+
+    /// What a look promises at the end of the straight way to a place.
+    fn promises(&self, outlook: &Outlook, to: Point) -> f64 {
+        let Self { map, pose, .. } = self;
+        let cell = map.field.nearest_cell(to);
+        outlook.promises(map, cell, pose.at.to(to), pose.blur_m())
+    }
 }
 
 impl Behaviour for Ready {
@@ -121,16 +179,22 @@ impl Behaviour for Ready {
     }
 
     fn triggered(&self, memory: &mut Self::Memory, senses: &Senses) -> Option<Wish> {
-        let beliefs = senses.beliefs?;
-        let map = beliefs.map.as_ref()?;
-        let search = memory.get_or_insert_default();
-        let left = |to: &Point| map.unseen.of(map.field.nearest_cell(*to));
+        let known = Known::new(senses)?;
+        let make = || Box::new(Search::new(senses.body, known.map));
+        let search = memory.get_or_insert_with(make);
         let going = search.survey.still_going(senses.body.period_s);
-        let to = if let Some(to) = going.filter(|to| left(to) > DONE * search.was) {
+        let is_there = |to: Point| known.pose.at.to(to).length() <= self.aim.within_m;
+        if going.is_some_and(is_there) {
+            // What it promised and has not been seen on the way cannot be seen from there.
+            search.survey.give_up();
+        }
+        let promised = DONE * search.was;
+        let is_on = |to: &Point| known.promises(&search.outlook, *to) > promised;
+        let to = if let Some(to) = going.filter(|to| !is_there(*to) && is_on(to)) {
             to
         } else {
-            let to = self.best(search, senses, beliefs, map)?;
-            search.was = left(&to);
+            let to = self.best(search, senses, &known)?;
+            search.was = known.promises(&search.outlook, to);
             search.survey.going = Some((to, 0.0));
             to
         };

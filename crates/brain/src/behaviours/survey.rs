@@ -17,7 +17,7 @@ const AGAIN_S: f64 = 2.0;
 /// A place where somebody else is going counts as much less.
 const CLAIMED: f64 = 0.1;
 
-/// So many places are given up at most: the first is then tried again.
+/// So many places are given up at most: the first may then be tried again.
 const MOST_GIVEN_UP: usize = 16;
 
 /// What one robot remembers of its search.
@@ -26,12 +26,13 @@ pub(crate) struct Survey {
     wave: Wave,
     /// Where it is going, and for how long it has been.
     pub(crate) going: Option<(Point, f64)>,
-    /// Places that it could not get to.
+    /// Places that it could not get to, or need not again so soon.
     given_up: Vec<Point>,
 }
 
 impl Survey {
     /// The place that is worth most, by its cell and the way there; `None` if none is worth anything.
+    /// `worth` is also told what the best so far is worth: of less it need not say how much.
     ///
     /// Nothing so far off is worth more than `at_most` of the way. Where the body does not fit, so that it
     /// can only be looked at from outside, comes last.
@@ -39,14 +40,14 @@ impl Survey {
         &mut self,
         (map, body): (&Map, &Body),
         at: Point,
-        worth: impl Fn(usize, f64) -> f64,
+        worth: impl Fn(usize, f64, f64) -> f64,
         at_most: impl Fn(f64) -> f64,
     ) -> Option<Point> {
         let room_m = body.radius_m + CELL_ROOM * map.field.cell_m;
         let (known, given_up) = ((&map.field, &map.filled), &self.given_up);
         let mut best = Best::default();
         let mut offer = |cell, way_m| {
-            let worth = worth(cell, way_m);
+            let worth = worth(cell, way_m, best.worth);
             if worth > best.worth {
                 best.offer(map.field.centre(cell), worth, given_up, map.field.cell_m);
             }
@@ -62,16 +63,21 @@ impl Survey {
     }
 
     /// The same among cells that the body does not fit into.
-    fn beside(&self, map: &Map, worth: impl Fn(usize, f64) -> f64, best: &mut Best) {
+    fn beside(&self, map: &Map, worth: impl Fn(usize, f64, f64) -> f64, best: &mut Best) {
         let (field, cells) = (&map.field, 0..map.field.cells());
         for cell in cells.filter(|cell| self.wave.is_shut(field, *cell)) {
             let place = field.centre(cell);
-            let is_worth_it = worth(cell, 0.0) > best.worth;
+            let is_worth_it = worth(cell, 0.0, best.worth) > best.worth;
             if let Some((_, way_m)) = is_worth_it
                 .then(|| self.wave.out_of(field, &map.filled, place))
                 .flatten()
             {
-                best.offer(place, worth(cell, way_m), &self.given_up, field.cell_m);
+                best.offer(
+                    place,
+                    worth(cell, way_m, best.worth),
+                    &self.given_up,
+                    field.cell_m,
+                );
             }
         }
     }
@@ -121,7 +127,7 @@ pub(crate) fn share(beliefs: &Beliefs, at: Point, place: Point, near_m: f64) -> 
             .is_some_and(|aim| aim.to(place).length_squared() < near_m * near_m);
         let is_nearer = peer
             .at
-            .is_some_and(|(there, _)| there.to(place).length_squared() < away);
+            .is_some_and(|(there, ..)| there.to(place).length_squared() < away);
         goes || is_nearer
     };
     if beliefs.peers.fresh().any(takes) {

@@ -246,22 +246,37 @@ fn a_spiral_covers_a_room() {
     assert!(near.fold(0.0, f64::max) < 3.0);
 }
 
+/// Goes for so long in a room with a wall, and must then have looked at all of it.
+fn looks_at_all_of_a_room_with_a_wall(errand: BehaviourSpec, seconds: u32) -> Errand {
+    let wall = [5.0, 0.0, 5.3, 5.5];
+    let mut robot = Errand::new(errand, [10.0, 8.0], &[wall], at(2.0, 2.0));
+    robot.go(seconds);
+    assert!(robot.covered() > 0.97, "{}", robot.covered());
+    robot
+}
+
 #[test]
-fn searches_that_follow_beliefs_look_at_all_of_a_room_with_a_wall() {
-    let errands = [
-        BehaviourSpec::Frontier(Frontier::default()),
-        BehaviourSpec::Seek(Seek::default()),
-    ];
-    for errand in errands {
-        let name = format!("{errand:?}");
-        let wall = [5.0, 0.0, 5.3, 5.5];
-        let mut robot = Errand::new(errand, [10.0, 8.0], &[wall], at(2.0, 2.0));
-        robot.go(280);
-        assert!(robot.covered() > 0.97, "{name} {}", robot.covered());
-        // Then it has nothing more to do, and wants nothing.
-        assert!(robot.walk.speed_m_s.abs() < 1e-6, "{name} goes on");
-        let goals = robot.brain.thoughts().unwrap().goals;
-        assert!(goals.is_empty(), "{name} {goals:?}");
+fn along_frontiers_one_looks_at_all_of_a_room_and_has_nothing_more_to_do() {
+    let errand = BehaviourSpec::Frontier(Frontier::default());
+    let robot = looks_at_all_of_a_room_with_a_wall(errand, 280);
+    assert!(robot.walk.speed_m_s.abs() < 1e-6);
+    let goals = robot.brain.thoughts().unwrap().goals;
+    assert!(goals.is_empty(), "{goals:?}");
+}
+
+#[test]
+fn who_seeks_looks_at_all_of_a_room_and_then_again_as_something_may_have_been_missed() {
+    let errand = BehaviourSpec::Seek(Seek::default());
+    let mut robot = looks_at_all_of_a_room_with_a_wall(errand, 120);
+    for _ in 0..2 {
+        robot.track.clear();
+        robot.go(120);
+        assert!(robot.covered() > 0.5, "{}", robot.covered());
+        let stands = robot
+            .track
+            .windows(40)
+            .any(|way| way[0].to(way[39]).length() < 0.05);
+        assert!(!stands);
     }
 }
 

@@ -115,6 +115,13 @@ impl Field {
         })
     }
 
+    /// How far a place within is from the edge.
+    #[inline]
+    pub(crate) fn edge_m(&self, place: Point) -> f64 {
+        let (low, high) = (self.area.min().to(place), place.to(self.area.max()));
+        low.x.min(low.y).min(high.x).min(high.y)
+    }
+
     /// The place in it that is nearest to one.
     pub(crate) fn nearest(&self, place: Point) -> Point {
         let (least, most) = (self.area.min(), self.area.max());

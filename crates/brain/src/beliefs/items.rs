@@ -573,7 +573,7 @@ impl Track {
         let all = share(way, 0.5) + about.map(|place| share(place, 0.125)).iter().sum::<f64>();
         let is_hidden = || {
             look.detector.needs_line_of_sight
-                && map.is_some_and(|map| !map.filled.sees(&map.field, look.pose.at, self.at))
+                && map.is_some_and(|map| !map.filled.sees(&map.field, look.pose.at, self.at, 0.0))
         };
         if all > 0.0 && is_hidden() { 0.0 } else { all }
     }

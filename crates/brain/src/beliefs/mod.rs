@@ -103,8 +103,9 @@ pub(crate) struct Beliefs {
     /// If it knows where its mission is.
     pub(crate) map: Option<Map>,
     speed_m_s: f64,
-    /// How often it has looked for items.
+    /// How often it has looked for items, and for how long it has been on.
     looks: u32,
+    on_s: f64,
     told: Told,
 }
 
@@ -119,7 +120,7 @@ pub(crate) struct Map {
 }
 
 impl Map {
-    fn new(spec: &BeliefsSpec, area: &Rectangle) -> Self {
+    pub(crate) fn new(spec: &BeliefsSpec, area: &Rectangle) -> Self {
         let field = Field::new(area, spec.cell_m, spec.cells as usize);
         Self {
             filled: Occupancy::new(&field),
@@ -170,6 +171,7 @@ impl Beliefs {
             map: area.map(|area| Map::new(spec, &area)),
             speed_m_s: 0.0,
             looks: 0,
+            on_s: 0.0,
             told: Told::default(),
         }
     }
@@ -182,6 +184,11 @@ impl Beliefs {
     /// So long the battery lasts, in seconds; infinite if nobody knows.
     pub(crate) fn battery_s(&self) -> f64 {
         self.drain.lasts_s()
+    }
+
+    /// Time from one look for items to the next.
+    pub(crate) fn look_s(&self) -> f64 {
+        self.on_s / f64::from(self.looks.max(1))
     }
 
     /// Robots have other numbers from now on; what is known of one that is gone is forgotten.
@@ -212,7 +219,7 @@ impl Beliefs {
         let seen = seen.find(|mover| mover.id == Some(id));
         let told = || {
             let peer = self.peers.fresh().find(|peer| peer.id == id)?;
-            peer.at.map(|(at, _)| at)
+            peer.at.map(|(at, ..)| at)
         };
         seen.map(|mover| pose.world_of(mover.at)).or_else(told)
     }
@@ -226,6 +233,7 @@ impl Beliefs {
         [now_m_s, turned_rad]: [f64; 2],
     ) {
         self.id = percept.id;
+        self.on_s += body.period_s;
         let way_m = way_m([self.speed_m_s, now_m_s], body);
         self.speed_m_s = now_m_s;
         self.here.take_in(percept, body, way_m, turned_rad);
@@ -310,7 +318,9 @@ impl Beliefs {
             ..
         }) = &mut self.map
         {
+            let blur_m = self.here.pose().map_or(0.0, |pose| pose.blur_m());
             let glance = Glance {
+                blur_m,
                 detector,
                 at,
                 heading_rad,

@@ -101,12 +101,12 @@ impl Occupancy {
         }
     }
 
-    /// Whether nothing hides a place from another, as far as is known: what fills the place itself
-    /// does not.
-    pub(crate) fn sees(&self, field: &Field, from: Point, to: Point) -> bool {
+    /// Whether nothing hides a place from another, as far as is known: what fills the place itself, or stands
+    /// so little before it, does not.
+    pub(crate) fn sees(&self, field: &Field, from: Point, to: Point, blur_m: f64) -> bool {
         let way = from.to(to);
         let length_m = way.length();
-        let most_m = length_m - field.cell_m;
+        let most_m = length_m - field.cell_m - blur_m;
         most_m <= 0.0 || {
             let before = from.plus(way.times(most_m / length_m));
             self.is_free_between(field, from, before)

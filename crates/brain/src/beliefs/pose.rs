@@ -147,6 +147,12 @@ fn own_after(own: f64, sensor: f64) -> f64 {
 }
 
 impl Pose {
+    /// So far behind what seems to stand before it a place may still be in view: where it stands, and so
+    /// where it has put things on its map, errs by more than two deviations only once in twenty times.
+    pub(crate) fn blur_m(&self) -> f64 {
+        2.0 * self.deviation_m
+    }
+
     /// Where in the world what lies at `way` from the robot's front is.
     #[inline]
     pub(crate) fn world_of(&self, way: Point) -> Point {

@@ -8,10 +8,15 @@ use crate::percept::Heard;
 use crate::wish::Aim;
 use alloc::vec::Vec;
 use base::geometry::Point;
+use base::trig::wrapped;
 
 /// Others are told where it is once in so long, and where it goes whenever that changes, or after as
 /// long; in seconds.
 const AGAIN_S: f64 = 1.0;
+
+/// Who has turned by this tells at once where it is: others take it to have looked the way that it told
+/// last, and a narrow view that turns leaves that way within this.
+const TURNED_RAD: f64 = 0.3;
 
 /// So many messages about items are told in a step.
 const ITEMS_A_STEP: usize = 2;
@@ -26,6 +31,8 @@ const FARTHEST_M: f64 = 1e7;
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Told {
     goal: Option<Aim>,
+    heading_rad: f64,
+    looks: u32,
     age_s: f64,
 }
 
@@ -92,37 +99,59 @@ impl Beliefs {
         let Some(pose) = self.here.pose() else {
             return;
         };
-        let say = |about| Message {
-            about,
-            confidence: 1.0,
-        };
         self.told.age_s += period_s;
         let is_time = self.told.age_s >= AGAIN_S;
-        let before = self.told.goal;
-        let is_new = goal.map(|aim| aim.to) != before.map(|aim| aim.to);
-        if is_new || is_time {
-            let say_of = |aim: Aim, stand| say(About::Goal { at: aim.to, stand });
-            let ended = before.filter(|_| is_new);
-            outbox.extend(ended.and_then(|aim| {
-                let is_there = pose.at.to(aim.to).length() <= aim.within_m;
-                // Who goes elsewhere has left.
-                let is_left = goal.is_none();
-                let stand = if is_there { Stand::Done } else { Stand::Left };
-                (is_there || is_left).then(|| say_of(aim, stand))
-            }));
-            outbox.extend(goal.map(|aim| say_of(aim, Stand::Going)));
-            self.told.goal = goal;
-        }
-        if is_time {
-            self.told.age_s = 0.0;
-            outbox.push(say(About::Sender {
+        self.told.tell_goal(goal, pose.at, is_time, outbox);
+        let turned_rad = wrapped(pose.heading_rad - self.told.heading_rad).abs();
+        let looks_elsewhere = turned_rad >= TURNED_RAD && self.looks != self.told.looks;
+        if is_time || looks_elsewhere {
+            (self.told.heading_rad, self.told.looks) = (pose.heading_rad, self.looks);
+            outbox.push(sure(About::Sender {
                 at: pose.at,
                 heading_rad: pose.heading_rad,
                 looks: self.looks,
             }));
+        }
+        if is_time {
+            self.told.age_s = 0.0;
             self.items.tell_again();
         }
         self.items.tell(outbox, ITEMS_A_STEP);
+    }
+}
+
+impl Told {
+    /// Tells where it is going, and what has become of where it went before.
+    fn tell_goal(
+        &mut self,
+        goal: Option<Aim>,
+        at: Point,
+        is_time: bool,
+        outbox: &mut Vec<Message>,
+    ) {
+        let before = self.goal;
+        let is_new = goal.map(|aim| aim.to) != before.map(|aim| aim.to);
+        if !is_new && !is_time {
+            return;
+        }
+        let say = |aim: Aim, stand| sure(About::Goal { at: aim.to, stand });
+        if let Some(ended) = before.filter(|_| is_new) {
+            if at.to(ended.to).length() <= ended.within_m {
+                outbox.push(say(ended, Stand::Done));
+            } else if goal.is_none() {
+                // Who goes elsewhere has left too.
+                outbox.push(say(ended, Stand::Left));
+            }
+        }
+        outbox.extend(goal.map(|aim| say(aim, Stand::Going)));
+        self.goal = goal;
+    }
+}
+
+fn sure(about: About) -> Message {
+    Message {
+        about,
+        confidence: 1.0,
     }
 }
 

@@ -286,7 +286,7 @@ fn way_m(field: &Field, fifths: u16) -> f64 {
 /// Whether nothing lies between an open cell and a place near it, which may be filled itself.
 fn leads(field: &Field, map: &Occupancy, open: Point, place: Point) -> bool {
     if map.is_filled(field.nearest_cell(place)) {
-        map.sees(field, open, place)
+        map.sees(field, open, place, 0.0)
     } else {
         map.is_free_between(field, open, place)
     }

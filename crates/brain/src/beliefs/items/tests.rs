@@ -378,6 +378,7 @@ fn honest_look(
         heading_rad: 0.0,
         trust: 1.0,
         looks: 1.0,
+        blur_m: 0.0,
     };
     map.unseen.take_in(&map.field, &map.filled, &glance);
 }

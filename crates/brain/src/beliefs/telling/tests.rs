@@ -1,4 +1,5 @@
 use super::*;
+use crate::beliefs::unseen::SUREST;
 use crate::beliefs::unseen::tests::detector;
 use crate::beliefs::{BeliefsSpec, TrustSpec};
 use crate::body::{Detector, RobotId};
@@ -107,7 +108,7 @@ fn a_report_extends_the_picture_towards_its_sender_but_not_to_a_full_disc() {
     let mut robot = Robot::new(1.0, 1.0);
     robot.step(true, vec![mate(13.0, 10.0, 1, 1.0)]);
     for x in [6.2, 8.0, 9.8, 11.2, 13.0, 14.8] {
-        assert!(robot.seen(x, 10.0) > 0.99, "{x}");
+        assert!(robot.seen(x, 10.0) > SUREST - 1e-6, "{x}");
     }
     for (x, y) in [
         (8.0, 13.0),
@@ -154,7 +155,7 @@ fn what_a_mate_saw_on_its_way_was_seen_too() {
     robot.step(false, vec![mate(4.0, 4.0, 1, 1.0)]);
     robot.step(false, vec![mate(14.0, 4.0, 40, 1.0)]);
     for x in [3.0, 6.0, 9.0, 12.0, 15.0] {
-        assert!(robot.seen(x, 4.0) > 0.99, "{x}");
+        assert!(robot.seen(x, 4.0) > SUREST - 1e-6, "{x}");
     }
     assert!(robot.seen(9.0, 7.0) < 0.01);
 }
@@ -192,6 +193,31 @@ fn who_does_not_know_where_he_is_tells_nothing_and_who_does_tells_it_once_a_seco
         .iter()
         .filter(|m| matches!(m.about, About::Sender { looks: 1, .. }));
     assert!((2..=3).contains(&senders.count()), "{outbox:?}");
+}
+
+#[test]
+fn who_turns_tells_at_once_as_others_take_it_to_look_the_way_that_it_told_last() {
+    let mut robot = Robot::new(1.0, 1.0);
+    let turned = |heading_rad: f64| {
+        let percept = Percept {
+            id: ME,
+            position: Some(now(Point { x: 8.0, y: 10.0 })),
+            heading_rad: Some(now(heading_rad)),
+            looks: vec![Look {
+                sensor: 0,
+                age_s: 0.0,
+            }],
+            ..Percept::default()
+        };
+        let body = robot.body.clone();
+        robot.beliefs.take_in(&percept, &body, &[], [0.0, 0.0]);
+        let mut outbox = Vec::new();
+        robot.beliefs.tell(None, 0.1, &mut outbox);
+        let is_sender = |message: &Message| matches!(message.about, About::Sender { .. });
+        outbox.iter().any(is_sender)
+    };
+    let told = [0.0, 0.1, 0.5, 0.6, 0.1].map(turned);
+    assert_eq!(told, [false, false, true, false, true]);
 }
 
 #[test]

@@ -135,7 +135,7 @@ proptest! {
             prop_assert!(way.iter().all(|cell| opens[*cell]));
             let last = field.centre(*way.last().unwrap());
             prop_assert!(!opens[from] || last == field.centre(from));
-            prop_assert!(map.sees(&field, last, field.centre(from)));
+            prop_assert!(map.sees(&field, last, field.centre(from), 0.0));
             prop_assert_eq!(wave.ahead(&field, &map, last), Some(field.centre(from)));
         }
     }
@@ -150,7 +150,7 @@ proptest! {
         prop_assume!(wave.is_shut(&field, at));
         let place = field.centre(at);
         if let Some((out, way_m)) = wave.out_of(&field, &map, place) {
-            prop_assert!(map.sees(&field, field.centre(out), place));
+            prop_assert!(map.sees(&field, field.centre(out), place, 0.0));
             prop_assert!(way_m > wave.cell_distance_m(&field, out).unwrap());
             prop_assert_eq!(wave.ahead(&field, &map, place), Some(field.centre(out)));
         }
