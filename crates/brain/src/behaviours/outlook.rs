@@ -50,7 +50,11 @@ impl Outlook {
     }
 
     /// Adds what a detector sees on a course.
-    #[expect(clippy::cast_possible_truncation, reason = "a cast saturates")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_possible_wrap,
+        reason = "at most some thousands"
+    )]
     fn add(&mut self, detector: &Detector, course_rad: f64, map: &Map) {
         let field = &map.field;
         let view = View::new(detector, course_rad);

@@ -271,12 +271,10 @@ fn who_seeks_looks_at_all_of_a_room_and_then_again_as_something_may_have_been_mi
     for _ in 0..2 {
         robot.track.clear();
         robot.go(120);
-        assert!(robot.covered() > 0.5, "{}", robot.covered());
-        let stands = robot
-            .track
-            .windows(40)
-            .any(|way| way[0].to(way[39]).length() < 0.05);
-        assert!(!stands);
+        assert!(robot.covered() > 0.9, "{}", robot.covered());
+        // In a corner it takes some seconds until it gives up a place that it cannot get to.
+        let mut ways = robot.track.windows(120);
+        assert!(ways.all(|way| way[0].to(way[119]).length() > 0.05));
     }
 }
 

@@ -320,12 +320,12 @@ impl Beliefs {
         {
             let blur_m = self.here.pose().map_or(0.0, |pose| pose.blur_m());
             let glance = Glance {
-                blur_m,
                 detector,
                 at,
                 heading_rad,
                 trust,
                 looks,
+                blur_m,
             };
             unseen.take_in(field, filled, &glance);
         }
