@@ -28,7 +28,7 @@ use core::f64::consts::{LN_10, PI};
 use core::mem;
 
 /// So many items are kept in mind; the least believed is forgotten first.
-pub(super) const MOST: usize = 64;
+const MOST: usize = 64;
 
 /// So many robots' looks are kept apart for each item.
 const SOURCES: usize = 6;

@@ -1,8 +1,8 @@
 //! What a robot believes, made of percepts: the *identifier* of a mind (after Rodin and Amin, who
 //! layer one into an identifier, a [goal selector](crate::goals) and an [adapter](crate::way)).
 //!
-//! Bounded: a robot's beliefs take at most 40 kB, and five bytes a cell of at most
-//! [`BeliefsSpec::cells`].
+//! Bounded: with its goals and ways a mind takes at most 40 kB, twenty bytes a cell of at most
+//! [`BeliefsSpec::cells`], and forty a ray. A test counts them.
 
 mod drain;
 pub(crate) mod field;
@@ -386,24 +386,5 @@ pub(crate) fn standing(
             ray.range_m < ring.range_m() && !beliefs.others.is_on_one(ray.end())
         };
         into.extend(ring.rays(ranges_m).filter(still));
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::way::Way;
-
-    #[test]
-    fn what_a_robot_believes_takes_no_more_than_is_said() {
-        let crowd = others::MOST + others::MOST_AT_ONCE;
-        let lists = items::MOST * size_of::<items::Track>()
-            + trust::MOST * size_of::<trust::Record>()
-            + peers::MOST * size_of::<peers::Peer>()
-            + peers::MOST_VISITS * size_of::<Point>()
-            + crowd * (size_of::<others::Mover>() + size_of::<f64>())
-            + moving::MOST * size_of::<moving::Thing>();
-        let all = size_of::<Beliefs>() + lists + size_of::<Way>();
-        assert!(all <= 40_000, "{all}");
     }
 }

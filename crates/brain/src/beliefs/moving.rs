@@ -34,11 +34,11 @@ const MOVES_M_S: f64 = 0.3;
 const FORGOTTEN_S: f64 = 0.5;
 
 /// So many things are kept in mind.
-pub(super) const MOST: usize = 16;
+const MOST: usize = 16;
 
 /// Something that stands or moves.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Thing {
+struct Thing {
     /// From this robot's front, if it stands.
     at: Point,
     radius_m: f64,

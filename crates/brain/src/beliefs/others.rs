@@ -10,10 +10,10 @@ use alloc::vec::Vec;
 use base::geometry::{Point, Segment};
 
 /// So many are kept in mind.
-pub(super) const MOST: usize = 16;
+const MOST: usize = 16;
 
 /// Of a throng so many are looked at.
-pub(super) const MOST_AT_ONCE: usize = 24;
+const MOST_AT_ONCE: usize = 24;
 
 /// Who has not been seen for so long is forgotten, in seconds.
 const FORGOTTEN_S: f64 = 1.0;

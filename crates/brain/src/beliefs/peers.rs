@@ -9,7 +9,7 @@ use base::geometry::Point;
 pub(crate) const MOST: usize = 32;
 
 /// So many places where others have been are remembered, the newest.
-pub(super) const MOST_VISITS: usize = 64;
+const MOST_VISITS: usize = 64;
 
 /// What was heard so long ago holds no more, in seconds.
 const FORGOTTEN_S: f64 = 10.0;

@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// So many others are remembered; who was heard of first is forgotten first.
-pub(super) const MOST: usize = 64;
+const MOST: usize = 64;
 
 /// A report that is confirmed or refuted counts as much as one in so many that came before.
 const BEFORE: f32 = 4.0;
@@ -44,7 +44,7 @@ pub(crate) struct Trust {
 }
 
 #[derive(Debug, Clone)]
-pub(super) struct Record {
+struct Record {
     of: RobotId,
     confirmed: f32,
     refuted: f32,

@@ -9,7 +9,10 @@
 use allocation_counter::measure;
 use base::document::Document;
 use base::geometry::Point;
-use brain::{About, Command, Message, RobotId, Seen};
+use brain::{
+    About, Body, Brain, BrainSpec, Command, Contact, Detector, Heard, Look, Message, Neighbour,
+    Percept, RangeRing, Reading, RobotId, Scan, Seen,
+};
 use sim::engine::Simulation;
 use sim::scenario::ScenarioSpec;
 use std::collections::BTreeMap;
@@ -83,4 +86,151 @@ fn messages_are_sent_and_heard_without_allocating() {
     let silent = count(0);
     let others = (0..1000).filter(|_| count(6) != silent).count();
     assert!(others <= NEW_MOSTS, "{others} {silent} {}", count(6));
+}
+
+/// What a mind is said to keep at most, in bytes: in all, for each cell, and for each ray.
+const MIND: [usize; 3] = [40_000, 20, 40];
+
+/// An explorer in a field of so many cells.
+fn mind(cells: usize, rays: u32) -> Brain {
+    let spec = format!(
+        r#"{{
+            "arbitration": {{"kind": "goals"}},
+            "beliefs": {{"cells": {cells}, "cell_m": 0.05}},
+            "behaviours": [{{"kind": "hold"}}, {{"kind": "seek"}}, {{"kind": "home", "below": 0.5}}]
+        }}"#
+    );
+    let spec: BrainSpec = serde_json::from_str(&spec).unwrap();
+    let ring = RangeRing {
+        bearings_rad: (0..rays)
+            .map(|ray| std::f64::consts::TAU * f64::from(ray) / f64::from(rays) - 3.1)
+            .collect(),
+        range_m: 5.0,
+        period_s: 0.1,
+        latency_s: 0.0,
+    };
+    let eye = Detector {
+        range_m: 4.0,
+        width_rad: 7.0,
+        detects: vec![vec![[0.0, 0.9], [4.0, 0.5]]],
+        false_alarms_per_m2: vec![0.01],
+        noise_m: 0.1,
+        ..Detector::default()
+    };
+    let body = Body {
+        radius_m: 0.25,
+        max_speed_m_s: 1.0,
+        max_acceleration_m_s2: 1.0,
+        max_turn_rate_rad_s: 1.5,
+        period_s: 0.1,
+        rings: vec![ring],
+        detectors: vec![eye],
+        item_kinds: vec!["mine".into()],
+        field: Some(base::geometry::Rectangle::spanned(
+            Point { x: -20.0, y: -20.0 },
+            Point { x: 20.0, y: 20.0 },
+        )),
+        ..Body::default()
+    };
+    Brain::new(Arc::new(spec), Arc::new(body))
+}
+
+/// A percept with more of everything than a mind keeps: items, robots that are near, and senders.
+fn throng(step: u32, rays: u32) -> Percept {
+    let spread = |number: u32| f64::from((number * 7919 + step * 104_729) % 1000) / 1000.0;
+    let id = |number: u32| RobotId {
+        kind: 0,
+        index: 1 + (number * 31 + step * 17) % 200,
+    };
+    let place = |number: u32| Point {
+        x: 40.0 * spread(number) - 20.0,
+        y: 40.0 * spread(number + 500) - 20.0,
+    };
+    let message = |number: u32| Heard {
+        from: id(number),
+        age_s: 0.0,
+        message: Message {
+            about: if number.is_multiple_of(2) {
+                About::Sender {
+                    at: place(number),
+                    heading_rad: 0.0,
+                    looks: step,
+                }
+            } else {
+                About::Item {
+                    kind: 0,
+                    at: place(number),
+                    seen: Seen {
+                        by: id(number),
+                        mark: number,
+                        looks: step + 1,
+                    },
+                }
+            },
+            confidence: 0.9,
+        },
+    };
+    Percept {
+        position: Some(Reading {
+            value: place(3),
+            age_s: 0.0,
+        }),
+        heading_rad: Some(Reading {
+            value: 6.0 * spread(9) - 3.0,
+            age_s: 0.0,
+        }),
+        scans: vec![Scan {
+            age_s: Some(0.0),
+            ranges_m: (0..rays).map(|ray| 0.3 + 4.0 * spread(ray)).collect(),
+        }],
+        looks: vec![Look {
+            sensor: 0,
+            age_s: 0.0,
+        }],
+        contacts: (0..40)
+            .map(|number| Contact {
+                kind: 0,
+                sensor: 0,
+                range_m: 4.0 * spread(number),
+                bearing_rad: 6.0 * spread(number + 77) - 3.0,
+                age_s: 0.0,
+            })
+            .collect(),
+        neighbours: (0..60)
+            .map(|number| Neighbour {
+                range_m: 0.6 + 5.0 * spread(number),
+                bearing_rad: 6.0 * spread(number + 300) - 3.0,
+                course_rad: None,
+                age_s: 0.0,
+                id: id(number),
+            })
+            .collect(),
+        inbox: (0..60).map(message).collect(),
+        ..Percept::default()
+    }
+}
+
+#[test]
+fn a_mind_keeps_no_more_than_is_said_whatever_it_perceives() {
+    for (cells, rays) in [(16, 16), (4096, 360), (30_000, 16)] {
+        let percepts: Vec<Percept> = (0..400).map(|step| throng(step, rays)).collect();
+        let begin = mind(cells, rays);
+        let mut kept = None;
+        let bytes = measure(|| {
+            let mut brain = begin.clone();
+            let mut command = Command::default();
+            for percept in &percepts {
+                brain.step_into(percept, &mut command);
+            }
+            kept = Some(brain);
+        });
+        let most = MIND[0] + MIND[1] * cells + MIND[2] * rays as usize;
+        let bytes = usize::try_from(bytes.bytes_current).unwrap();
+        assert!(
+            bytes <= most,
+            "{cells} cells, {rays} rays: {bytes} of {most}"
+        );
+        let thoughts = kept.unwrap().thoughts().unwrap();
+        assert_eq!((thoughts.items.len(), thoughts.robots.len()), (64, 16));
+    }
 }
