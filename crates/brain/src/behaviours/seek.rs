@@ -63,45 +63,30 @@ impl Default for Seek {
 #[derive(Debug, Clone)]
 pub(crate) struct Ready {
     aim: Aim,
+    outlook: Outlook,
 }
 
 /// What a robot remembers for it.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct Search {
-    outlook: Outlook,
     survey: Survey,
     part: Part,
     /// What was promised where it goes.
     was: f64,
 }
 
-impl Search {
-    fn new(body: &Body, map: &Map) -> Self {
-        Self {
-            outlook: Outlook::new(&body.detectors, map),
-            survey: Survey::default(),
-            part: Part::default(),
-            was: 0.0,
-        }
-    }
-}
-
 impl Ready {
     pub(super) fn new(spec: &Seek, body: &Body) -> Self {
         Self {
             aim: aim(spec.speed_m_s, spec.value, body),
+            outlook: Outlook::new(&body.detectors),
         }
     }
 
     /// The place that promises most a second.
     fn best(&self, search: &mut Search, senses: &Senses, known: &Known) -> Option<Point> {
         let Known { map, pose, beliefs } = known;
-        let Search {
-            survey,
-            part,
-            outlook,
-            ..
-        } = search;
+        let (Search { survey, part, .. }, outlook) = (search, &self.outlook);
         part.renew(beliefs, map);
         let stop_s = STOP_S + outlook.looks(LOOKED) * beliefs.look_s();
         let time_s = |way_m: f64| stop_s + way_m / self.aim.speed_m_s.max(1e-6);
@@ -118,10 +103,10 @@ impl Ready {
             let rate = share / (time_s(way_m) + turn_s(pose, place));
             let way = pose.at.to(place);
             // What hides things is looked for only if it matters.
-            if rate * outlook.at_best(map, cell, way) <= least {
+            if rate * outlook.at_best(map, place, way) <= least {
                 return 0.0;
             }
-            rate * outlook.promises(map, cell, way, pose.blur_m())
+            rate * outlook.promises(map, place, way, pose.blur_m())
         };
         survey.best((map, senses.body), pose.at, worth, |way_m| {
             outlook.most / time_s(way_m)
@@ -163,8 +148,7 @@ impl<'k> Known<'k> {
     /// What a look promises at the end of the straight way to a place.
     fn promises(&self, outlook: &Outlook, to: Point) -> f64 {
         let Self { map, pose, .. } = self;
-        let cell = map.field.nearest_cell(to);
-        outlook.promises(map, cell, pose.at.to(to), pose.blur_m())
+        outlook.promises(map, to, pose.at.to(to), pose.blur_m())
     }
 }
 
@@ -180,8 +164,7 @@ impl Behaviour for Ready {
 
     fn triggered(&self, memory: &mut Self::Memory, senses: &Senses) -> Option<Wish> {
         let known = Known::new(senses)?;
-        let make = || Box::new(Search::new(senses.body, known.map));
-        let search = memory.get_or_insert_with(make);
+        let search = memory.get_or_insert_default();
         let going = search.survey.still_going(senses.body.period_s);
         let is_there = |to: Point| known.pose.at.to(to).length() <= self.aim.within_m;
         if going.is_some_and(is_there) {
@@ -189,12 +172,12 @@ impl Behaviour for Ready {
             search.survey.give_up();
         }
         let promised = DONE * search.was;
-        let is_on = |to: &Point| known.promises(&search.outlook, *to) > promised;
+        let is_on = |to: &Point| known.promises(&self.outlook, *to) > promised;
         let to = if let Some(to) = going.filter(|to| !is_there(*to) && is_on(to)) {
             to
         } else {
             let to = self.best(search, senses, &known)?;
-            search.was = known.promises(&search.outlook, to);
+            search.was = known.promises(&self.outlook, to);
             search.survey.going = Some((to, 0.0));
             to
         };

@@ -150,9 +150,7 @@ impl Items {
         taken: u64,
         map: Option<&Map>,
     ) -> u64 {
-        let is_sensible =
-            (0.0..=1e6).contains(&contact.range_m) && contact.bearing_rad.abs() <= 10.0;
-        if !is_sensible {
+        if !(0.0..=1e6).contains(&contact.range_m) || contact.bearing_rad.abs() > 10.0 {
             return 0;
         }
         let way = direction(contact.bearing_rad).times(contact.range_m);
@@ -315,12 +313,8 @@ impl Items {
 }
 
 /// The places of the bits that are set, the least first.
-fn bits(mut set: u64) -> impl Iterator<Item = usize> {
-    core::iter::from_fn(move || {
-        let least = set.trailing_zeros();
-        set &= set.wrapping_sub(1);
-        (least < u64::BITS).then_some(least as usize)
-    })
+fn bits(set: u64) -> impl Iterator<Item = usize> {
+    (0..MOST).filter(move |bit| set >> bit & 1 == 1)
 }
 
 /// What another robot tells of an item.

@@ -20,7 +20,7 @@ pub(super) fn faults(spec: &ScenarioSpec, at: &Place) -> Vec<Fault> {
     robots
         .flat_map(|(name, robot)| {
             let at = at.key("robots").key(name);
-            let mut faults = of_behaviours(robot, &at);
+            let mut faults = of_behaviours(robot, spec, &at);
             faults.extend(of_wrapping(robot, spec, &at.key("brain")));
             faults.extend(of_gains(&robot.brain, &at.key("brain").key("arbitration")));
             faults.extend(of_beliefs(robot, spec, &at.key("brain").key("beliefs")));
@@ -30,7 +30,7 @@ pub(super) fn faults(spec: &ScenarioSpec, at: &Place) -> Vec<Fault> {
 }
 
 /// Behaviours that the robot's sensors are not enough for.
-fn of_behaviours(robot: &RobotSpec, at: &Place) -> Vec<Fault> {
+fn of_behaviours(robot: &RobotSpec, spec: &ScenarioSpec, at: &Place) -> Vec<Fault> {
     let has = |is_it: fn(&Measures) -> bool| {
         let mut sensors = robot.sensors.values();
         sensors.any(|sensor| is_it(&sensor.measures))
@@ -54,22 +54,52 @@ fn of_behaviours(robot: &RobotSpec, at: &Place) -> Vec<Fault> {
         needs(needs_pose, has_heading, "compass = { kind = \"heading\" }");
         let eye = "eye = { kind = \"items\", range_m = 3 }";
         needs(behaviour.needs_detector(), has_detector, eye);
-        faults.extend(of_places(behaviour, &at));
+        faults.extend(of_places(behaviour, spec, &at));
     }
     faults
 }
 
-/// A way to nowhere.
-fn of_places(behaviour: &BehaviourSpec, at: &Place) -> Option<Fault> {
-    let places_m = match behaviour {
-        BehaviourSpec::Correct(correct) => &correct.places_m,
-        BehaviourSpec::Navigate(navigate) => &navigate.places_m,
-        _ => return None,
+/// A way to nowhere, or out of the world.
+fn of_places(behaviour: &BehaviourSpec, spec: &ScenarioSpec, at: &Place) -> Vec<Fault> {
+    let (key, places_m) = match behaviour {
+        BehaviourSpec::Correct(correct) => ("places_m", correct.places_m.as_slice()),
+        BehaviourSpec::Navigate(navigate) => ("places_m", navigate.places_m.as_slice()),
+        BehaviourSpec::Hold(hold) => ("at_m", hold.at_m.as_slice()),
+        BehaviourSpec::Home(home) => ("at_m", home.at_m.as_slice()),
+        _ => return Vec::new(),
     };
-    let allowed = "the places to visit, at least one, as in [[5, 5], [9, 2.5]]";
-    places_m
-        .is_empty()
-        .then(|| at.key("places_m").fault(allowed))
+    let at = at.key(key);
+    if places_m.is_empty() && key == "places_m" {
+        let allowed = "the places to visit, at least one, as in [[5, 5], [9, 2.5]]";
+        return vec![at.fault(allowed)];
+    }
+    let world = world(spec);
+    let numbered = places_m.iter().enumerate();
+    let outside = numbered.filter(|(_, place)| !world.contains(**place));
+    let [width, height] = spec.world.size_m;
+    let allowed = format!(
+        "within the world: from [0, 0] to [{}, {}]",
+        width.0, height.0
+    );
+    let of_one = |number: usize| {
+        if key == "places_m" {
+            at.item(number)
+        } else {
+            at.clone()
+        }
+    };
+    outside
+        .map(|(number, _)| of_one(number).fault(&allowed))
+        .collect()
+}
+
+fn world(spec: &ScenarioSpec) -> Rectangle {
+    let [width, height] = spec.world.size_m;
+    let corner = Point {
+        x: width.0,
+        y: height.0,
+    };
+    Rectangle::spanned(Point::default(), corner)
 }
 
 /// Gains of behaviours that it has not, or that are none.
@@ -126,12 +156,7 @@ fn of_beliefs(robot: &RobotSpec, spec: &ScenarioSpec, at: &Place) -> Vec<Fault> 
             faults.push(at.fault(format!("a number from 0 to {MOST_EXPECTED}")));
         }
     }
-    let [width, height] = spec.world.size_m;
-    let corner = Point {
-        x: width.0,
-        y: height.0,
-    };
-    let world = Rectangle::spanned(Point::default(), corner);
+    let ([width, height], world) = (spec.world.size_m, world(spec));
     let is_in_it = |area: &Rectangle| {
         world.contains(area.min()) && world.contains(area.max()) && area.area_m2() > 0.0
     };

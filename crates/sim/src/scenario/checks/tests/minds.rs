@@ -41,6 +41,23 @@ fn behaviours_need_sensors_and_places() {
 }
 
 #[test]
+fn places_lie_in_the_world() {
+    let told = faults_of_brain(
+        "behaviours = [{ kind = \"navigate\", places_m = [[2, 2], [21, 2]] }, { kind = \"home\", at_m = [-1, 2] }]",
+    );
+    let outside: Vec<&String> = told
+        .iter()
+        .filter(|fault| fault.contains("within"))
+        .collect();
+    let at = "robots.bird.brain.behaviours";
+    let expected = [
+        format!("{at}[0].places_m[1] = [21, 2]: must be within the world: from [0, 0] to [20, 10]"),
+        format!("{at}[1].at_m = [-1, 2]: must be within the world: from [0, 0] to [20, 10]"),
+    ];
+    assert_eq!(outside, expected.iter().collect::<Vec<_>>(), "{told:?}");
+}
+
+#[test]
 fn gains_are_those_of_its_behaviours() {
     let brain = |gains: &str| {
         format!(
