@@ -5,6 +5,7 @@ use crate::command::Motion;
 use crate::senses::Senses;
 use crate::subsumption::Behaviour;
 use crate::wish::{Aim, Wish};
+use alloc::boxed::Box;
 use base::geometry::Point;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -36,6 +37,10 @@ impl Default for Follow {
     }
 }
 
+/// Where the leader has moved by less the aim stays, in metres: a goal that changes in each step is told to all
+/// in each step, and its way is found anew.
+const SAME_M: f64 = 0.3;
+
 /// [`Follow`] in a body.
 #[derive(Debug, Clone)]
 pub(crate) struct Ready {
@@ -63,13 +68,16 @@ impl Ready {
 }
 
 impl Behaviour for Ready {
-    type Memory = ();
+    /// Where it wants to be.
+    type Memory = Option<Box<Point>>;
 
     const NEEDS_BELIEFS: bool = true;
 
-    fn memory(&self) {}
+    fn memory(&self) -> Self::Memory {
+        None
+    }
 
-    fn triggered(&self, (): &mut (), senses: &Senses) -> Option<Wish> {
+    fn triggered(&self, memory: &mut Self::Memory, senses: &Senses) -> Option<Wish> {
         let beliefs = senses.beliefs?;
         let pose = beliefs.pose()?;
         let leader = self.leader(senses.percept.id)?;
@@ -79,8 +87,13 @@ impl Behaviour for Ready {
         if away_m <= self.apart_m {
             return Some(Motion::default().into());
         }
+        let beside = at.plus(way.times(self.apart_m / away_m));
+        let to = memory.get_or_insert_with(|| Box::new(beside));
+        if to.to(beside).length() >= SAME_M {
+            **to = beside;
+        }
         Some(Wish::Aim(Aim {
-            to: at.plus(way.times(self.apart_m / away_m)),
+            to: **to,
             within_m: 0.1,
             speed_m_s: self.speed_m_s,
             value: self.spec.value,
