@@ -1,4 +1,4 @@
-//! The example of a behaviour of one's own, added as `docs/brains.md` says: a file, and two lines.
+//! The example of a behaviour of one's own, added as `docs/brains.md` says: a file, and three lines.
 
 #![expect(
     unreachable_pub,
