@@ -7,6 +7,9 @@ from pathlib import Path
 Z99 = 2.576
 """Standard errors on either side of a 99% interval."""
 
+ALL = 100
+"""Percent."""
+
 CAMERAS = [(100, 600), (30, 600), (10, 2400)]
 """What a camera sees in a look, in percent, and when a search is given up, in seconds."""
 
@@ -31,7 +34,7 @@ def line(file: Path, percent: int, cap_s: float) -> list[str]:
     means = [f"{sum(each) / len(each):.1f}" for each in both]
     capped = [str(sum(time >= cap_s for time in each)) for each in both]
     said = f"{ratio:.3f} ({low:.3f} to {high:.3f})"
-    camera = "sees all in view" if percent == 100 else f"sees {percent}% in a look"
+    camera = "sees all in view" if percent == ALL else f"sees {percent}% in a look"
     return [camera, *means, said, f"{' and '.join(capped)} by {cap_s:,} s"]
 
 
