@@ -61,36 +61,36 @@ fn of_behaviours(robot: &RobotSpec, spec: &ScenarioSpec, at: &Place) -> Vec<Faul
 
 /// A way to nowhere, or out of the world.
 fn of_places(behaviour: &BehaviourSpec, spec: &ScenarioSpec, at: &Place) -> Vec<Fault> {
-    let (key, places_m) = match behaviour {
-        BehaviourSpec::Correct(correct) => ("places_m", correct.places_m.as_slice()),
-        BehaviourSpec::Navigate(navigate) => ("places_m", navigate.places_m.as_slice()),
-        BehaviourSpec::Hold(hold) => ("at_m", hold.at_m.as_slice()),
-        BehaviourSpec::Home(home) => ("at_m", home.at_m.as_slice()),
+    let way = |places_m: &[Point]| {
+        let numbered = places_m.iter().enumerate();
+        let listed = numbered.map(|(number, place)| (at.key("places_m").item(number), *place));
+        listed.collect()
+    };
+    let place = |at_m: &Option<Point>| at_m.iter().map(|to| (at.key("at_m"), *to)).collect();
+    let places: Vec<(Place, Point)> = match behaviour {
+        BehaviourSpec::Correct(correct) => way(&correct.places_m),
+        BehaviourSpec::Navigate(navigate) => way(&navigate.places_m),
+        BehaviourSpec::Hold(hold) => place(&hold.at_m),
+        BehaviourSpec::Home(home) => place(&home.at_m),
         _ => return Vec::new(),
     };
-    let at = at.key(key);
-    if places_m.is_empty() && key == "places_m" {
+    let goes = matches!(
+        behaviour,
+        BehaviourSpec::Correct(_) | BehaviourSpec::Navigate(_)
+    );
+    if goes && places.is_empty() {
         let allowed = "the places to visit, at least one, as in [[5, 5], [9, 2.5]]";
-        return vec![at.fault(allowed)];
+        return vec![at.key("places_m").fault(allowed)];
     }
-    let world = world(spec);
-    let numbered = places_m.iter().enumerate();
-    let outside = numbered.filter(|(_, place)| !world.contains(**place));
-    let [width, height] = spec.world.size_m;
+    let (world, [width, height]) = (world(spec), spec.world.size_m);
     let allowed = format!(
         "within the world: from [0, 0] to [{}, {}]",
         width.0, height.0
     );
-    let of_one = |number: usize| {
-        if key == "places_m" {
-            at.item(number)
-        } else {
-            at.clone()
-        }
-    };
-    outside
-        .map(|(number, _)| of_one(number).fault(&allowed))
-        .collect()
+    let outside = places
+        .into_iter()
+        .filter(|(_, place)| !world.contains(*place));
+    outside.map(|(at, _)| at.fault(&allowed)).collect()
 }
 
 fn world(spec: &ScenarioSpec) -> Rectangle {
