@@ -10,37 +10,20 @@ What was measured stands in docs/minds/*.csv; tables stand in the page between `
 
 import csv
 import math
-import re
 import sys
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import asdict, dataclass, fields
 from functools import cache
-from pathlib import Path
 from typing import Any, TypeVar, get_type_hints
 
 import numpy as np
 from numpy.typing import NDArray
-from validation import (
-    Z95,
-    Axes,
-    Row,
-    Spec,
-    is_stale,
-    line,
-    page_of,
-    panel,
-    picture,
-    points,
-    side_by_side,
-    table,
-    values,
-)
+from page import ROOT, Page, table
+from plots import Z95, Axes, Row, Spec, line, page_of, panel, points, side_by_side, values
 
 import agent_economy as ae
 
-ROOT = Path(__file__).resolve().parent.parent
-PAGE = ROOT / "docs" / "minds.md"
-FOLDER = ROOT / "docs" / "minds"
+PAGE = Page("minds")
 
 TEAMS = (1, 2, 3, 4, 6, 8, 12, 16, 20)
 RUNS = 400
@@ -148,21 +131,9 @@ class Answered:
 
 def main() -> None:
     """Measure, draw or check."""
-    options = sys.argv[1:]
-    if not {"--check", "--draw"} & set(options):
+    if not {"--check", "--draw"} & set(sys.argv[1:]):
         measure()
-    made = {FOLDER / f"{name}.svg": picture(spec) for name, spec in specifications().items()}
-    old = PAGE.read_text(encoding="utf-8")
-    made[PAGE] = re.sub(r"<!-- (\w+) -->\n.*?<!-- end -->", block, old, flags=re.DOTALL)
-    stale = [file for file, text in made.items() if is_stale(file, text)]
-    if "--check" in options:
-        if stale:
-            names = ", ".join(str(file.relative_to(ROOT)) for file in stale)
-            sys.exit(f"not what `make minds` writes: {names}")
-        return
-    for file in stale:
-        file.write_text(made[file], encoding="utf-8")
-        print(file.relative_to(ROOT))
+    PAGE.draw(lambda name: TABLES[name](), specifications())
 
 
 # Measured.
@@ -170,7 +141,7 @@ def main() -> None:
 
 def measure() -> None:
     """Run everything, and write what it gave."""
-    FOLDER.mkdir(exist_ok=True)
+    PAGE.folder.mkdir(exist_ok=True)
     given = {mind: {robots: runs(mind, robots) for robots in TEAMS} for mind in MINDS}
     write("teams", Team, [team(mind, robots, given[mind][robots]) for mind, robots in each_team()])
     write("steps", Step, [step(name, n, given) for name in STEPS for n in TEAMS])
@@ -247,7 +218,7 @@ def short(value: float) -> float:
 
 def write(name: str, kind: type, rows: Iterable[Any]) -> None:
     """Write rows of a kind as CSV."""
-    with (FOLDER / f"{name}.csv").open("w", encoding="utf-8", newline="") as file:
+    with (PAGE.folder / f"{name}.csv").open("w", encoding="utf-8", newline="") as file:
         names = [field.name for field in fields(kind)]
         writer = csv.DictWriter(file, names, lineterminator="\n")
         writer.writeheader()
@@ -257,7 +228,7 @@ def write(name: str, kind: type, rows: Iterable[Any]) -> None:
 def read(name: str, kind: Callable[..., Kind]) -> tuple[Kind, ...]:
     """Return the rows of a CSV."""
     types = get_type_hints(kind)
-    with (FOLDER / f"{name}.csv").open(encoding="utf-8", newline="") as file:
+    with (PAGE.folder / f"{name}.csv").open(encoding="utf-8", newline="") as file:
         return tuple(
             kind(**{key: types[key](value) for key, value in line.items()})
             for line in csv.DictReader(file)
@@ -271,12 +242,6 @@ def read(name: str, kind: Callable[..., Kind]) -> tuple[Kind, ...]:
 def teams() -> tuple[Team, ...]:
     """Return what teams gave."""
     return read("teams", Team)
-
-
-def block(found: re.Match[str]) -> str:
-    """Return a block of the page with its table computed."""
-    name = found[1]
-    return f"<!-- {name} -->\n{TABLES[name]()}\n<!-- end -->"
 
 
 def of_teams(cell: Callable[[Team], str]) -> str:

@@ -6,16 +6,15 @@ Tables stand between `<!-- NAME -->` and `<!-- end -->`. Examples:
     python scripts/replication.py --check    exit with 1 if the page is not what would be written
 """
 
-import re
-import sys
 import tempfile
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from functools import cache
 from itertools import groupby
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
+from page import ROOT, Page, table
 from scipy import stats
 
 import agent_economy as ae
@@ -24,8 +23,6 @@ from agent_economy.study.answer import published as theirs
 from agent_economy.study.answer.evidence import Evidence
 from agent_economy.study.race import hold
 
-ROOT = Path(__file__).resolve().parent.parent
-PAGE = ROOT / "docs" / "replication.md"
 SCENARIO = ae.Scenario.load(ROOT / "scenarios" / "classic.toml")
 
 Counted = tuple[NDArray[np.float64], NDArray[np.intp]]
@@ -50,20 +47,7 @@ SHEET_MEANS = (-21.9, -28.76, -11.73, -12.02, -24.7, -42.2, -42.3, -43.6)
 
 def main() -> None:
     """Write the page, or check it."""
-    old = PAGE.read_text(encoding="utf-8")
-    new = re.sub(r"<!-- (\w+) -->\n.*?<!-- end -->", block, old, flags=re.DOTALL)
-    if "--check" in sys.argv[1:]:
-        if new != old:
-            sys.exit(f"{PAGE} is not what `make replication` writes")
-        return
-    PAGE.write_text(new, encoding="utf-8")
-    print(new)
-
-
-def block(found: re.Match[str]) -> str:
-    """Return a block of the page with its table computed."""
-    name = found[1]
-    return f"<!-- {name} -->\n{TABLES[name]()}\n<!-- end -->"
+    Page("replication").draw(lambda name: TABLES[name](), {})
 
 
 def never() -> str:
@@ -304,12 +288,6 @@ def paints_of(contact: str, robots: int, runs: int) -> NDArray[np.float64]:
     paints: NDArray[np.float64] = column.fill_null(0).to_numpy().astype(float)
     paints[never_done] = np.inf
     return paints
-
-
-def table(header: list[str], rows: Iterable[list[str]]) -> str:
-    """Return a Markdown table."""
-    lines = [header, ["---"] * len(header), *rows]
-    return "\n".join(f"| {' | '.join(line)} |" for line in lines)
 
 
 TABLES: dict[str, Callable[[], str]] = {

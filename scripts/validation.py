@@ -8,147 +8,49 @@ What was measured stands in docs/validation/*.csv, which the simulator's tests w
 """
 
 import csv
-import hashlib
-import json
 import math
-import re
-import sys
-from collections.abc import Iterable
-from dataclasses import dataclass
 from functools import cache
 from itertools import groupby
-from pathlib import Path
-from typing import Any
 
-import vl_convert
+from page import Page, table
 from paired import HEADER, compared
+from plots import (
+    GREY,
+    INK,
+    LINEAR,
+    WIDTH,
+    Z95,
+    Axes,
+    Row,
+    Spec,
+    curves,
+    line,
+    page_of,
+    panel,
+    plain,
+    points,
+    side_by_side,
+    values,
+)
 
-ROOT = Path(__file__).resolve().parent.parent
-PAGE = ROOT / "docs" / "validation.md"
-FOLDER = ROOT / "docs" / "validation"
-
-Spec = dict[str, Any]
-"""A Vega-Lite specification, or a part of one."""
-
-Z95 = 1.96
-"""Standard errors on either side of a 95% interval."""
-
-INK, GREY = "#1f2937", "#9ca3af"
-COLOURS = ["#2563eb", "#ea580c", "#0d9488", "#9333ea", "#b45309", "#475569"]
-SHAPES = ["circle", "square", "triangle-up", "diamond", "cross", "triangle-down"]
-WIDTH, HEIGHT = 480, 280
-
-
-@dataclass(frozen=True)
-class Row:
-    """One number that was measured."""
-
-    series: str
-    x: float
-    measured: float
-    standard_error: float
-    expected: float | None
-
-    @property
-    def sigmas(self) -> float:
-        """Return standard errors from the closed form."""
-        if self.expected is None or self.measured == self.expected:
-            return 0.0
-        return (self.measured - self.expected) / self.standard_error
-
-    @property
-    def precision(self) -> float:
-        """Return the standard error as a share of the closed form."""
-        return self.standard_error / self.expected if self.expected else math.inf
-
-
-@dataclass(frozen=True)
-class Axes:
-    """What two axes are like."""
-
-    x: str = "linear"
-    y: str = "linear"
-    x_ticks: tuple[float, ...] = ()
-    y_ticks: tuple[float, ...] = ()
-    y_format: str = "~g"
-    y_domain: tuple[float, float] | None = None
-    whole: bool = False
-    """Whether x counts something."""
-
-    def horizontal(self, title: str) -> Spec:
-        """Return the x axis and its scale."""
-        axis: Spec = {"title": title}
-        if self.x == "log":
-            axis["format"] = "~g"
-        if self.x_ticks:
-            axis["values"] = list(self.x_ticks)
-        if self.whole:
-            axis["tickMinStep"] = 1
-        is_linear = self.x == "linear"
-        return {"axis": axis, "scale": {"type": self.x, "nice": is_linear, "zero": is_linear}}
-
-    def vertical(self, title: str) -> Spec:
-        """Return the y axis and its scale."""
-        axis: Spec = {"title": title, "format": self.y_format}
-        if self.y_ticks:
-            axis["values"] = list(self.y_ticks)
-        scale: Spec = {"type": self.y}
-        if self.y_domain:
-            scale["domain"] = list(self.y_domain)
-        return {"axis": axis, "scale": scale}
-
-
-LINEAR = Axes()
+PAGE = Page("validation")
 
 
 def main() -> None:
     """Write pictures and page, or check them."""
-    made = {FOLDER / f"{name}.svg": picture(spec) for name, spec in specifications().items()}
-    old = PAGE.read_text(encoding="utf-8")
-    made[PAGE] = re.sub(r"<!-- (\w+) -->\n.*?<!-- end -->", block, old, flags=re.DOTALL)
-    stale = [file for file, text in made.items() if is_stale(file, text)]
-    if "--check" in sys.argv[1:]:
-        if stale:
-            names = ", ".join(str(file.relative_to(ROOT)) for file in stale)
-            sys.exit(f"not what `make validation` writes: {names}")
-        return
-    for file in stale:
-        file.write_text(made[file], encoding="utf-8")
-        print(file.relative_to(ROOT))
+    PAGE.draw(made, specifications())
 
 
-def is_stale(file: Path, text: str) -> bool:
-    """Return whether a file says another thing; pictures are compared by what they were drawn from.
-
-    How wide letters are, and so where a picture has its parts, can differ from machine to machine.
-    """
-    if not file.exists():
-        return True
-    old = file.read_text(encoding="utf-8")
-    if file.suffix == ".svg":
-        return old.splitlines()[-1] != text.splitlines()[-1]
-    return old != text
-
-
-def picture(spec: Spec) -> str:
-    """Return a picture as SVG that ends with a hash of its specification."""
-    drawn = json.dumps(spec, sort_keys=True).encode()
-    svg: str = vl_convert.vegalite_to_svg(spec)
-    return f"{svg}\n<!-- {hashlib.sha256(drawn).hexdigest()} -->\n"
-
-
-def block(found: re.Match[str]) -> str:
-    """Return a block of the page with its table computed."""
-    name = found[1]
+def made(name: str) -> str:
+    """Return a table of the page."""
     own = {"overview": overview, "search_minds": search_minds}
-    made = own[name]() if name in own else table_of(name.replace("_", "-"))
-    return f"<!-- {name} -->\n{made}\n<!-- end -->"
+    return own[name]() if name in own else table_of(name.replace("_", "-"))
 
 
 @cache
 def rows(name: str) -> tuple[Row, ...]:
     """Return what a check measured."""
-    with (FOLDER / f"{name}.csv").open(encoding="utf-8", newline="") as file:
+    with (PAGE.folder / f"{name}.csv").open(encoding="utf-8", newline="") as file:
         return tuple(
             Row(
                 series=line["series"],
@@ -234,7 +136,7 @@ def overview() -> str:
 
 def search_minds() -> str:
     """Return how long searching by belief takes beside lanes, over all worlds."""
-    return table(HEADER, compared(FOLDER / "search-minds.csv"))
+    return table(HEADER, compared(PAGE.folder / "search-minds.csv"))
 
 
 def nearness(name: str) -> tuple[str, str]:
@@ -262,12 +164,6 @@ def relative(name: str) -> float:
 def latest(name: str) -> float:
     """Return by how much a number is above the closed form at most."""
     return max(row.measured - row.expected for row in rows(name) if row.expected is not None)
-
-
-def table(header: list[str], lines: Iterable[list[str]]) -> str:
-    """Return a Markdown table."""
-    lines = [header, ["---"] * len(header), *lines]
-    return "\n".join(f"| {' | '.join(line)} |" for line in lines)
 
 
 # Pictures.
@@ -462,121 +358,6 @@ def sense() -> Spec:
         axes = Axes("log", "log", x_ticks=ticks, y_ticks=(50, 100, 200, 500, 1000), y_domain=times)
         panels.append(panel(layers, x, y, width=WIDTH // 2, axes=axes))
     return page_of({"hconcat": panels})
-
-
-def points(some: Iterable[Row], *, legend: bool = True) -> list[Spec]:
-    """Return points with their 95% intervals, by series."""
-    some = list(some)
-    data = {"values": [values(row) for row in some]}
-    whiskers = {
-        "data": data,
-        "mark": {"type": "rule"},
-        "encoding": {
-            "x": field("x"),
-            "y": field("low"),
-            "y2": {"field": "high"},
-            "color": colour(some, legend=legend),
-        },
-    }
-    dots = {
-        "data": data,
-        "mark": {"type": "point", "filled": True, "size": 45, "opacity": 1},
-        "encoding": {
-            **plain(),
-            "color": colour(some, legend=legend),
-            "shape": {**colour(some, legend=legend), "scale": scale(some, SHAPES)},
-        },
-    }
-    return [whiskers, dots] if any(row.standard_error > 0 for row in some) else [dots]
-
-
-def curves(some: Iterable[Row], interpolate: str = "linear") -> list[Spec]:
-    """Return the closed forms of series as lines from number to number."""
-    forms = [{**values(row), "y": row.expected} for row in some if row.expected is not None]
-    curve = line()
-    curve["mark"]["interpolate"] = interpolate
-    return [{**curve, "data": {"values": forms}}]
-
-
-def line() -> Spec:
-    """Return a thin line for each series, without its data."""
-    return {
-        "mark": {"type": "line", "color": INK, "strokeWidth": 1},
-        "encoding": {**plain(), "detail": {"field": "series", "type": "nominal"}},
-    }
-
-
-def values(row: Row) -> dict[str, float | str]:
-    """Return what a picture needs of a row."""
-    half = Z95 * row.standard_error
-    low, high = row.measured - half, row.measured + half
-    return {"series": row.series, "x": row.x, "y": row.measured, "low": low, "high": high}
-
-
-def colour(some: list[Row], *, legend: bool) -> Spec:
-    """Return the channel of the series."""
-    shown = {"title": None, "orient": "top", "columns": 2, "labelLimit": 400} if legend else None
-    return {
-        "field": "series",
-        "type": "nominal",
-        "scale": scale(some, COLOURS),
-        "legend": shown,
-    }
-
-
-def scale(some: list[Row], looks: list[str]) -> Spec:
-    """Return looks for series, in the order in which they come."""
-    series = list(dict.fromkeys(row.series for row in some))
-    return {"domain": series, "range": looks[: len(series)]}
-
-
-def plain() -> Spec:
-    """Return the channels of places."""
-    return {"x": field("x"), "y": field("y")}
-
-
-def field(name: str) -> Spec:
-    """Return the channel of a number."""
-    return {"field": name, "type": "quantitative"}
-
-
-def panel(
-    layers: list[Spec],
-    x: str,
-    y: str,
-    *,
-    width: int = WIDTH,
-    axes: Axes = LINEAR,
-) -> Spec:
-    """Return layers over common axes with titles."""
-    places = {"x": axes.horizontal(x), "y": axes.vertical(y)}
-    for layer in layers:
-        encoding = layer["encoding"]
-        for channel in encoding.keys() & places.keys():
-            encoding[channel] = {**encoding[channel], **places[channel]}
-    return {"layer": layers, "width": width, "height": HEIGHT}
-
-
-def side_by_side(*panels: Spec) -> Spec:
-    """Return panels in a row, each with its own series."""
-    own = {"color": "independent", "shape": "independent"}
-    return {"hconcat": list(panels), "resolve": {"scale": own}}
-
-
-def page_of(body: Spec) -> Spec:
-    """Return a whole specification on light ground."""
-    return {
-        "$schema": "https://vega.github.io/schema/vega-lite/v6.json",
-        "background": "white",
-        "padding": 12,
-        "config": {
-            "axis": {"labelFontSize": 12, "titleFontSize": 13, "gridColor": "#e5e7eb"},
-            "legend": {"labelFontSize": 12, "symbolSize": 70},
-            "text": {"fontSize": 13},
-            "view": {"stroke": "#d1d5db"},
-        },
-        **body,
-    }
 
 
 if __name__ == "__main__":
