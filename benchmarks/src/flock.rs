@@ -1,8 +1,8 @@
 //! The flock of JuliaDynamics/ABMFrameworksComparison, by its declaration: 400 birds on each torus of
 //! 150 by 150, who see 15 far, for 100 steps from a random start.
 
-use crate::clock::{median, took_by_both};
-use sim::engine::Simulation;
+use crate::threads::by_turns;
+use sim::engine::{Simulation, State};
 use sim::scenario::{Scenario, ScenarioSpec};
 use std::sync::Arc;
 
@@ -18,8 +18,8 @@ const SHARED: u32 = 2_048;
 const STEPS: u32 = 100;
 const UPDATES: u32 = 1_000_000;
 
-/// Pieces of work of each program.
-const PIECES: usize = 9;
+/// Pieces of work of each number of threads.
+const PIECES: u32 = 9;
 
 /// Prints the table.
 pub(crate) fn report() {
@@ -35,36 +35,24 @@ pub(crate) fn report() {
 /// One thread and two, by turns.
 fn compare(birds: u32, mut simulation: Simulation) {
     let start = simulation.state().clone();
-    let pools = [1, 2].map(|threads| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
-        pool.build().expect("threads can be made")
-    });
     let runs = (UPDATES / (birds * STEPS)).max(1);
     let updates = f64::from(runs) * f64::from(birds) * f64::from(STEPS);
-    let mut rates = [const { Vec::new() }; 4];
-    let mut hashes = [0; 2];
-    for _ in 0..PIECES {
-        for (number, threads) in [(0, 1.0), (1, 2.0)] {
-            let work = || pools[number].install(|| fly(&mut simulation, &start, runs));
-            let [processors_s, wall_s] = took_by_both(work);
-            rates[number].push(threads * updates / processors_s / 1e6);
-            rates[2 + number].push(updates / wall_s / 1e6);
-            hashes[number] = simulation.state().hash();
-        }
-    }
-    let [one, two, one_by_wall, two_by_wall] = rates.map(median);
-    let rows = [(1, one, one_by_wall), (2, two, two_by_wall)];
-    let rows = rows.into_iter().zip(hashes);
-    for ((threads, rate, by_wall), hash) in rows.take(if birds < SHARED { 1 } else { 2 }) {
+    let (rates, hash) = by_turns(PIECES, updates / 1e6, |_| {
+        fly(&mut simulation, &start, runs)
+    });
+    for each in rates.iter().take(if birds < SHARED { 1 } else { 2 }) {
+        let (threads, rate, by_wall) = (each.threads, each.a_second, each.by_wall);
         println!("| {birds} | {threads} | {rate:.2} | {by_wall:.2} | {hash:016x} |");
     }
 }
 
-fn fly(simulation: &mut Simulation, start: &sim::engine::State, runs: u32) {
+/// Some runs, and the hash of where the last ended.
+fn fly(simulation: &mut Simulation, start: &State, runs: u32) -> u64 {
     for _ in 0..runs {
         simulation.restore(start.clone());
         (0..STEPS).for_each(|_| simulation.step());
     }
+    simulation.state().hash()
 }
 
 /// The declared rule, a step of a second.

@@ -15,9 +15,11 @@ mod field;
 mod flock;
 mod minds;
 mod peers;
+mod scenarios;
 mod search;
 mod speed_of_light;
 mod team;
+mod threads;
 mod world;
 
 fn main() {

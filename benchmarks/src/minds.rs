@@ -3,10 +3,10 @@
 //! They stand along the walls of a hall of 70 m with pillars, each wants to the point opposite, and on the
 //! way they look for items and tell each other.
 
-use crate::clock::{median, took_by_both};
-use base::document::Document;
+use crate::scenarios::read;
+use crate::threads::by_turns;
 use sim::engine::Simulation;
-use sim::scenario::{Scenario, ScenarioSpec};
+use sim::scenario::Scenario;
 use std::sync::Arc;
 
 const ROBOTS: u32 = 100;
@@ -14,8 +14,8 @@ const ROBOTS: u32 = 100;
 /// Steps of a run: by then most are in the middle.
 const STEPS: u32 = 400;
 
-/// Pieces of work of each program.
-const PIECES: usize = 9;
+/// Pieces of work of each number of threads.
+const PIECES: u32 = 9;
 
 /// All but how many there are, where they start and where they want to be.
 const TEXT: &str = r#"
@@ -60,26 +60,14 @@ pub(crate) fn report() {
     println!("|---|---|---|---|---|");
     let mut simulation = Simulation::new(Arc::new(scenario()), 1, 0).expect("there is room");
     let start = simulation.state().clone();
-    let pools = [1, 2].map(|threads| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
-        pool.build().expect("threads can be made")
-    });
     let updates = f64::from(ROBOTS) * f64::from(STEPS);
-    let mut rates = [const { Vec::new() }; 4];
-    let mut hashes = [0; 2];
-    for _ in 0..PIECES {
-        for (number, threads) in [(0, 1.0), (1, 2.0)] {
-            simulation.restore(start.clone());
-            let work = || pools[number].install(|| (0..STEPS).for_each(|_| simulation.step()));
-            let [processors_s, wall_s] = took_by_both(work);
-            rates[number].push(threads * updates / processors_s / 1e3);
-            rates[2 + number].push(updates / wall_s / 1e3);
-            hashes[number] = simulation.state().hash();
-        }
-    }
-    let [one, two, one_by_wall, two_by_wall] = rates.map(median);
-    let rows = [(1, one, one_by_wall), (2, two, two_by_wall)];
-    for ((threads, rate, by_wall), hash) in rows.into_iter().zip(hashes) {
+    let (rates, hash) = by_turns(PIECES, updates / 1e3, |_| {
+        simulation.restore(start.clone());
+        (0..STEPS).for_each(|_| simulation.step());
+        simulation.state().hash()
+    });
+    for each in &rates {
+        let (threads, rate, by_wall) = (each.threads, each.a_second, each.by_wall);
         println!("| {ROBOTS} | {threads} | {rate:.0} | {by_wall:.0} | {hash:016x} |");
     }
 }
@@ -99,9 +87,7 @@ fn scenario() -> Scenario {
         &format!("[robots.rover]\ncount = {ROBOTS}\n"),
         1,
     );
-    let document = Document::parse("minds.toml", &text).expect("it is TOML");
-    let checked = ScenarioSpec::read(&document).map_err(|faults| faults.to_string());
-    checked.expect("it has no faults").scenario
+    read("minds.toml", &text)
 }
 
 /// Along the walls, a quarter of the robots each.

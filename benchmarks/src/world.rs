@@ -2,14 +2,15 @@
 
 use crate::clock::took_by_both;
 use crate::field::Field;
+use crate::threads::pool;
 use sim::engine::Simulation;
 use std::sync::Arc;
 
 const ROBOTS: u32 = 1_000_000;
 
 /// Steps after which nothing grows any more, and steps that are timed.
-const WARM_UP: usize = 8;
-const STEPS: usize = 12;
+const WARM_UP: u32 = 8;
+const STEPS: u32 = 12;
 
 /// Prints the table.
 pub(crate) fn report() {
@@ -20,18 +21,13 @@ pub(crate) fn report() {
     let simulation = Simulation::new(scenario, 1, 0);
     let mut simulation = simulation.expect("there is room");
     for threads in [1, 2] {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
-        let pool = pool.build().expect("threads can be made");
+        let pool = pool(threads);
         pool.install(|| (0..WARM_UP).for_each(|_| simulation.step()));
         // Lists of what is near are made anew in some steps only: their mean counts.
         let steps = || pool.install(|| (0..STEPS).for_each(|_| simulation.step()));
         let [processors_s, wall_s] = took_by_both(steps);
-        #[expect(clippy::cast_precision_loss, reason = "a dozen")]
-        let rates = [
-            (STEPS * threads) as f64 / processors_s,
-            STEPS as f64 / wall_s,
-        ];
-        let [rate, rate_by_wall] = rates;
+        let rate = f64::from(STEPS * threads) / processors_s;
+        let rate_by_wall = f64::from(STEPS) / wall_s;
         println!(
             "| {threads} | {:.0} | {rate:.2} | {rate_by_wall:.2} |",
             memory_mb()
