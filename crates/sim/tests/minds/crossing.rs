@@ -1,13 +1,11 @@
 //! Robots in each other's way: who wants to be where, and whether all get there without a collision.
 
-use base::document::Document;
+use crate::{listed, scenario};
 use base::geometry::Point;
 use base::random::{Entity, Purpose, Stream, stream, unit};
 use rayon::prelude::*;
 use sim::engine::Simulation;
-use sim::scenario::ScenarioSpec;
 use std::fmt::Write as _;
-use std::sync::Arc;
 
 /// What robots are; their places follow.
 const ROVER: &str = "
@@ -39,8 +37,7 @@ struct Crossed {
 
 impl Crossing {
     fn run(&self) -> Crossed {
-        let scenario = Arc::new(self.scenario());
-        let mut simulation = Simulation::new(scenario, 1, 0).unwrap();
+        let mut simulation = Simulation::new(scenario(&self.text()), 1, 0).unwrap();
         for _ in 0..self.cap_s * STEPS_A_SECOND {
             simulation.step();
             if self.have_all_arrived(&simulation) {
@@ -59,7 +56,7 @@ impl Crossing {
         places.all(|(robot, to)| robot.at.to(*to).length() < 0.5)
     }
 
-    fn scenario(&self) -> sim::scenario::Scenario {
+    fn text(&self) -> String {
         let [width, height] = self.size_m;
         let mut text = format!(
             "[clock]\ncap_s = 10000\n[world]\nsize_m = [{width}, {height}]\nobstacles = [{}]\n\
@@ -75,19 +72,8 @@ impl Crossing {
             listed(&self.to)
         )
         .unwrap();
-        let document = Document::parse("crossing.toml", &text).unwrap();
-        match ScenarioSpec::read(&document) {
-            Ok(checked) => checked.scenario,
-            Err(faults) => panic!("{faults}\n{text}"),
-        }
+        text
     }
-}
-
-fn listed(places: &[Point]) -> String {
-    let each = places
-        .iter()
-        .map(|place| format!("[{}, {}]", place.x, place.y));
-    format!("[{}]", each.collect::<Vec<_>>().join(", "))
 }
 
 fn dice(seed: u64) -> Stream {

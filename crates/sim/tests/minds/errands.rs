@@ -1,10 +1,8 @@
 //! Places that a team shares.
 
-use base::document::Document;
+use crate::{listed, scenario};
 use base::geometry::Point;
 use sim::engine::Simulation;
-use sim::scenario::ScenarioSpec;
-use std::sync::Arc;
 
 const WITHIN_M: f64 = 0.3;
 
@@ -19,11 +17,7 @@ obstacles = [{ polygon_m = [[14, 8], [14.5, 8], [14.5, 30], [14, 30]] }]
 
 /// Robots of a kind that begin in a corner, and how they share the places.
 fn robots(kind: &str, at_m: &str, share: &str, more: &str) -> String {
-    let places = places();
-    let listed: Vec<String> = places
-        .iter()
-        .map(|place| format!("[{}, {}]", place.x, place.y))
-        .collect();
+    let places_m = listed(&places());
     let count = at_m.matches('[').count() - 1;
     format!(
         "
@@ -40,9 +34,8 @@ gps = {{ kind = \"position\" }}
 compass = {{ kind = \"heading\" }}
 eye = {{ kind = \"robots\", range_m = 6 }}
 [robots.{kind}.brain]
-behaviours = [{{ kind = \"navigate\", share = \"{share}\", within_m = {WITHIN_M}, places_m = [{}] }}]
-",
-        listed.join(", ")
+behaviours = [{{ kind = \"navigate\", share = \"{share}\", within_m = {WITHIN_M}, places_m = {places_m} }}]
+"
     )
 }
 
@@ -56,10 +49,7 @@ fn places() -> Vec<Point> {
 }
 
 fn yard(robots: &str) -> Simulation {
-    let text = format!("{YARD}{robots}");
-    let document = Document::parse("yard.toml", &text).unwrap();
-    let checked = ScenarioSpec::read(&document).unwrap_or_else(|faults| panic!("{faults}\n{text}"));
-    Simulation::new(Arc::new(checked.scenario), 1, 0).unwrap()
+    Simulation::new(scenario(&format!("{YARD}{robots}")), 1, 0).unwrap()
 }
 
 /// Which robots have been at each place, and when all had been visited, if they were.

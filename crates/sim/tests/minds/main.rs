@@ -10,3 +10,25 @@ mod crossing;
 mod errands;
 mod moving;
 mod searching;
+
+use base::document::Document;
+use base::geometry::Point;
+use sim::scenario::{Scenario, ScenarioSpec};
+use std::sync::Arc;
+
+/// A scenario without faults.
+fn scenario(text: &str) -> Arc<Scenario> {
+    let document = Document::parse("test.toml", text).unwrap();
+    match ScenarioSpec::read(&document) {
+        Ok(checked) => Arc::new(checked.scenario),
+        Err(faults) => panic!("{faults}\n{text}"),
+    }
+}
+
+/// Places as a scenario has them.
+fn listed(places: &[Point]) -> String {
+    let each = places
+        .iter()
+        .map(|place| format!("[{}, {}]", place.x, place.y));
+    format!("[{}]", each.collect::<Vec<_>>().join(", "))
+}

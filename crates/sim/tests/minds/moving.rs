@@ -1,10 +1,8 @@
 //! What moves, and no sensor knows for a robot, is told from what stands by how its distance falls.
 
-use base::document::Document;
+use crate::scenario;
 use brain::{BelievedRobot, RobotId};
 use sim::engine::Simulation;
-use sim::scenario::ScenarioSpec;
-use std::sync::Arc;
 
 const WATCHER: RobotId = RobotId { kind: 0, index: 0 };
 
@@ -32,9 +30,7 @@ compass = { kind = \"heading\" }
 ";
 
 fn simulation(rest: &str, run: u64) -> Simulation {
-    let document = Document::parse("hall.toml", &format!("{HALL}{rest}")).unwrap();
-    let checked = ScenarioSpec::read(&document).unwrap_or_else(|faults| panic!("{faults}"));
-    Simulation::new(Arc::new(checked.scenario), 1, run).unwrap()
+    Simulation::new(scenario(&format!("{HALL}{rest}")), 1, run).unwrap()
 }
 
 /// What the watcher believes to move after a step.

@@ -1,9 +1,8 @@
 //! What it buys to know where one has looked, and to tell.
 
-use base::document::Document;
+use crate::scenario;
 use rayon::prelude::*;
 use sim::engine::Simulation;
-use sim::scenario::{Scenario, ScenarioSpec};
 use std::sync::Arc;
 
 /// The shipped scenario.
@@ -17,23 +16,20 @@ const RUNS: u64 = 120;
 /// With radio some searches of `frontier` end long after all others, so that it takes more to tell.
 const FRONTIER_RUNS: u64 = 400;
 
-fn scenario(behaviours: &str, more: &str) -> Scenario {
+fn text(behaviours: &str, more: &str) -> String {
     let of_brain = "[robots.rover.brain]\n";
     assert!(SEARCH.contains(of_brain) && SEARCH.contains("cap_s = 120"));
-    let text = SEARCH
+    SEARCH
         .replace("cap_s = 120", &format!("cap_s = {CAP_S}"))
         .replace(
             of_brain,
             &format!("{more}\n{of_brain}behaviours = [{behaviours}]\n"),
-        );
-    let document = Document::parse("search.toml", &text).unwrap();
-    let checked = ScenarioSpec::read(&document);
-    checked.unwrap_or_else(|faults| panic!("{faults}")).scenario
+        )
 }
 
 /// When each of the same worlds was searched, in seconds.
 fn times_s(behaviours: &str, more: &str, runs: u64) -> Vec<f64> {
-    let scenario = Arc::new(scenario(behaviours, more));
+    let scenario = scenario(&text(behaviours, more));
     let time_s = |run| {
         let mut simulation = Simulation::new(Arc::clone(&scenario), 1, run).unwrap();
         simulation.finish();
