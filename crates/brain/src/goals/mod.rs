@@ -161,28 +161,28 @@ mod tests {
         assert_eq!(order, [0, 1]);
     }
 
-    #[test]
-    fn what_is_impossible_is_not_gone_for() {
+    /// Two that conflict, and the way to the first is closed.
+    fn closed() -> ([Aim; 2], Goals) {
         let aims = [aim(10.0, 0.0, 5.0), aim(0.0, 5.0, 0.1)];
-        let mut goals = Goals::default();
         let closed = Step {
             closed: Some(aims[0].to),
             ..step(HERE)
         };
+        let mut goals = Goals::default();
         goals.renew(aims.iter().copied().enumerate(), &closed);
+        (aims, goals)
+    }
+
+    #[test]
+    fn what_is_impossible_is_not_gone_for() {
+        let (_, goals) = closed();
         assert_eq!(goals.next(HERE).unwrap().behaviour, 1);
         assert_eq!(goals.in_trouble().next().unwrap().behaviour, 0);
     }
 
     #[test]
     fn what_is_impossible_leaves_ten_seconds_to_others_and_is_told_once() {
-        let aims = [aim(10.0, 0.0, 5.0), aim(0.0, 5.0, 0.1)];
-        let mut goals = Goals::default();
-        let closed = Step {
-            closed: Some(aims[0].to),
-            ..step(HERE)
-        };
-        goals.renew(aims.iter().copied().enumerate(), &closed);
+        let (aims, mut goals) = closed();
         assert_eq!(goals.in_trouble().count(), 1);
         let mut renewed = || {
             goals.renew(aims.iter().copied().enumerate(), &step(HERE));

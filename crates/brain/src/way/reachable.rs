@@ -41,16 +41,14 @@ const GRAZING_M: f64 = 0.03;
 /// A radian of turning costs as much as so many metres.
 const TURN_M: f64 = 0.02;
 
-/// The courses, each with how far it is free and what the place reached there is worth.
+/// The courses, each with how far it is free.
 #[derive(Debug, Clone)]
 pub(crate) struct Reachable {
     /// From the robot's front, the first ahead, anticlockwise.
     pub(crate) free_m: [f64; COURSES],
-    /// Minus the metres that are left from there.
-    pub(crate) utility: [f64; COURSES],
-    directions: [Point; COURSES],
-    /// The same, all that is ahead and then all that is aside.
-    ahead_and_aside: [[f64; COURSES]; 2],
+    /// Where courses lead: all that is ahead and then all that is aside, to be computed with in a row.
+    ahead: [f64; COURSES],
+    aside: [f64; COURSES],
 }
 
 /// The best of the courses.
@@ -66,9 +64,8 @@ impl Default for Reachable {
         let directions = array::from_fn(|course| direction(bearing_rad(course)));
         Self {
             free_m: [0.0; COURSES],
-            utility: [0.0; COURSES],
-            directions,
-            ahead_and_aside: [directions.map(|way| way.x), directions.map(|way| way.y)],
+            ahead: directions.map(|way| way.x),
+            aside: directions.map(|way| way.y),
         }
     }
 }
@@ -122,7 +119,7 @@ impl Reachable {
         let mut course = first.max(-2.0 * courses);
         while course <= last.min(2.0 * courses) {
             let place = (course + 2.0 * courses) as usize % COURSES;
-            let free_m = until_touch_m(self.directions[place], at, radius_m);
+            let free_m = until_touch_m(self.direction(place), at, radius_m);
             self.free_m[place] = self.free_m[place].min(free_m);
             course += 1.0;
         }
@@ -132,18 +129,19 @@ impl Reachable {
     fn meet(&mut self, mover: &Mover, reach_m: f64, speed_m_s: f64) {
         let apart_m2 = mover.at.length_squared() - reach_m * reach_m;
         if apart_m2 <= 0.0 {
-            let courses = self.directions.iter().zip(&mut self.free_m);
-            let towards = courses.filter(|(direction, _)| mover.at.dot(**direction) > 0.0);
-            towards.for_each(|(_, free_m)| *free_m = 0.0);
+            for course in 0..COURSES {
+                if mover.at.dot(self.direction(course)) > 0.0 {
+                    self.free_m[course] = 0.0;
+                }
+            }
             return;
         }
         let (at, velocity) = (mover.at, mover.velocity_m_s);
         // Without a branch first, so that it is computed for several courses at once.
         let (mut closing, mut root) = ([0.0; COURSES], [0.0; COURSES]);
-        let [ahead, aside] = &self.ahead_and_aside;
         for course in 0..COURSES {
-            let x = velocity.x - ahead[course] * speed_m_s;
-            let y = velocity.y - aside[course] * speed_m_s;
+            let x = velocity.x - self.ahead[course] * speed_m_s;
+            let y = velocity.y - self.aside[course] * speed_m_s;
             closing[course] = at.x * x + at.y * y;
             root[course] = closing[course] * closing[course] - (x * x + y * y) * apart_m2;
         }
@@ -156,14 +154,13 @@ impl Reachable {
     }
 
     /// The best way to an aim at `bearing_rad` and `away_m`.
-    pub(crate) fn best(&mut self, aim_rad: f64, away_m: f64) -> Choice {
+    pub(crate) fn best(&self, aim_rad: f64, away_m: f64) -> Choice {
         let aim = direction(aim_rad).times(away_m);
         let mut best = (f64::NEG_INFINITY, 0);
-        for (course, (direction, free_m)) in self.directions.iter().zip(&self.free_m).enumerate() {
-            let reached = direction.times(free_m.min(away_m));
+        for (course, free_m) in self.free_m.iter().enumerate() {
+            let reached = self.direction(course).times(free_m.min(away_m));
             let cost_m = TURN_M * bearing_rad(course).abs();
             let utility = -reached.to(aim).length() - cost_m;
-            self.utility[course] = utility;
             if utility > best.0 {
                 best = (utility, course);
             }
@@ -179,6 +176,13 @@ impl Reachable {
         Choice {
             bearing_rad: if is_next { aim_rad } else { chosen_rad },
             free_m: self.free_m[course],
+        }
+    }
+
+    fn direction(&self, course: usize) -> Point {
+        Point {
+            x: self.ahead[course],
+            y: self.aside[course],
         }
     }
 

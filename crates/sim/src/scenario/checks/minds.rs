@@ -1,6 +1,7 @@
 //! Minds that can do what they are to do.
 
 use super::ScenarioSpec;
+use super::ground::rectangle;
 use crate::body::RobotSpec;
 use crate::sensing::Measures;
 use base::document::Place;
@@ -82,7 +83,7 @@ fn of_places(behaviour: &BehaviourSpec, spec: &ScenarioSpec, at: &Place) -> Vec<
         let allowed = "the places to visit, at least one, as in [[5, 5], [9, 2.5]]";
         return vec![at.key("places_m").fault(allowed)];
     }
-    let (world, [width, height]) = (world(spec), spec.world.size_m);
+    let (world, [width, height]) = (rectangle(&spec.world), spec.world.size_m);
     let allowed = format!(
         "within the world: from [0, 0] to [{}, {}]",
         width.0, height.0
@@ -91,15 +92,6 @@ fn of_places(behaviour: &BehaviourSpec, spec: &ScenarioSpec, at: &Place) -> Vec<
         .into_iter()
         .filter(|(_, place)| !world.contains(*place));
     outside.map(|(at, _)| at.fault(&allowed)).collect()
-}
-
-fn world(spec: &ScenarioSpec) -> Rectangle {
-    let [width, height] = spec.world.size_m;
-    let corner = Point {
-        x: width.0,
-        y: height.0,
-    };
-    Rectangle::spanned(Point::default(), corner)
 }
 
 /// Gains of behaviours that it has not, or that are none.
@@ -156,7 +148,7 @@ fn of_beliefs(robot: &RobotSpec, spec: &ScenarioSpec, at: &Place) -> Vec<Fault> 
             faults.push(at.fault(format!("a number from 0 to {MOST_EXPECTED}")));
         }
     }
-    let ([width, height], world) = (spec.world.size_m, world(spec));
+    let ([width, height], world) = (spec.world.size_m, rectangle(&spec.world));
     let is_in_it = |area: &Rectangle| {
         world.contains(area.min()) && world.contains(area.max()) && area.area_m2() > 0.0
     };
