@@ -1,7 +1,7 @@
 //! A hundred robots with full minds: beliefs, goals, trust, navigation around each other, a reflex.
 //!
-//! They stand along the walls of a hall of 70 m with pillars, each wants to the point opposite, and on the
-//! way they look for items and tell each other.
+//! They stand along the walls of a hall of 70 m with pillars, each wants to a place further round, and on
+//! the way they look for items and tell each other.
 
 use crate::scenarios::read;
 use crate::threads::by_turns;
@@ -11,7 +11,11 @@ use std::sync::Arc;
 
 const ROBOTS: u32 = 100;
 
-/// Steps of a run: by then most are in the middle.
+/// Where each wants to be: by so many places further round, which is opposite, with all of them in each
+/// other's way in the middle, or across a corner.
+const CROSSINGS: [(&str, u32); 2] = [("opposite", 50), ("round a corner", 20)];
+
+/// Steps of a run: by then most are half way.
 const STEPS: u32 = 400;
 
 /// Pieces of work of each number of threads.
@@ -56,9 +60,17 @@ rate_hz = 5
 
 /// Prints the table.
 pub(crate) fn report() {
-    println!("| robots | threads | thousands of updates/s | by the clock on the wall | hash |");
+    println!("| each wants | threads | thousands of updates/s | by the clock on the wall | hash |");
     println!("|---|---|---|---|---|");
-    let mut simulation = Simulation::new(Arc::new(scenario()), 1, 0).expect("there is room");
+    for (name, further) in CROSSINGS {
+        compare(name, further);
+    }
+}
+
+/// One thread and two, by turns.
+fn compare(name: &str, further: u32) {
+    let simulation = Simulation::new(Arc::new(scenario(further)), 1, 0);
+    let mut simulation = simulation.expect("there is room");
     let start = simulation.state().clone();
     let updates = f64::from(ROBOTS) * f64::from(STEPS);
     let (rates, hash) = by_turns(PIECES, updates / 1e3, |_| {
@@ -68,12 +80,12 @@ pub(crate) fn report() {
     });
     for each in &rates {
         let (threads, rate, by_wall) = (each.threads, each.a_second, each.by_wall);
-        println!("| {ROBOTS} | {threads} | {rate:.0} | {by_wall:.0} | {hash:016x} |");
+        println!("| {name} | {threads} | {rate:.0} | {by_wall:.0} | {hash:016x} |");
     }
 }
 
-fn scenario() -> Scenario {
-    let [from, to] = [0, ROBOTS / 2].map(|shift| {
+fn scenario(further: u32) -> Scenario {
+    let [from, to] = [0, further].map(|shift| {
         let places = (0..ROBOTS).map(|number| place((number + shift) % ROBOTS));
         places.collect::<Vec<_>>().join(", ")
     });

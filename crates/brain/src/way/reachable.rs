@@ -142,11 +142,13 @@ impl Reachable {
         for course in 0..COURSES {
             let x = velocity.x - self.ahead[course] * speed_m_s;
             let y = velocity.y - self.aside[course] * speed_m_s;
-            closing[course] = at.x * x + at.y * y;
-            root[course] = closing[course] * closing[course] - (x * x + y * y) * apart_m2;
+            let nearer = at.x * x + at.y * y;
+            let square = nearer * nearer - (x * x + y * y) * apart_m2;
+            closing[course] = nearer;
+            root[course] = if nearer < 0.0 { square } else { -1.0 };
         }
         for course in 0..COURSES {
-            if closing[course] < 0.0 && root[course] > 0.0 {
+            if root[course] > 0.0 {
                 let time_s = apart_m2 / (libm::sqrt(root[course]) - closing[course]);
                 self.free_m[course] = self.free_m[course].min(time_s * speed_m_s);
             }
@@ -159,10 +161,14 @@ impl Reachable {
         let mut best = (f64::NEG_INFINITY, 0);
         for (course, free_m) in self.free_m.iter().enumerate() {
             let reached = self.direction(course).times(free_m.min(away_m));
-            let cost_m = TURN_M * bearing_rad(course).abs();
-            let utility = -reached.to(aim).length() - cost_m;
-            if utility > best.0 {
-                best = (utility, course);
+            let left_m2 = reached.to(aim).length_squared();
+            // What is farther off than the best is worth, is worth less, whatever turning costs.
+            if left_m2 < best.0 * best.0 {
+                let cost_m = TURN_M * bearing_rad(course).abs();
+                let utility = -libm::sqrt(left_m2) - cost_m;
+                if utility > best.0 {
+                    best = (utility, course);
+                }
             }
         }
         self.choice(best.1, aim_rad)
