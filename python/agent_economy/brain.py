@@ -83,7 +83,7 @@ class Body(TypedDict):
         radius_m: Of the disc that it covers.
         max_speed_m_s: At most so fast ahead.
         max_turn_rate_rad_s: It turns at most so fast, either way.
-        period_s: Time between two steps of the brain.
+        period_s: Time between two steps of the brain, 1e-6 at least.
         max_reverse_speed_m_s: At most so fast backwards; left out, it cannot.
         max_acceleration_m_s2: It gains and loses speed at most so fast; left out, at once.
         sensors: Names of its sensors, in the order in which requests count them.

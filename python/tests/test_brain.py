@@ -60,14 +60,16 @@ def test_arrays_none_and_whole_numbers_are_read_as_lists_nothing_and_numbers() -
 def test_all_faults_of_spec_and_body_are_told_at_once_with_their_paths() -> None:
     spec = {"rate_hz": -1, "behaviours": [{"kind": "cruise"}, {"kind": "avoid", "neer_m": 0.2}]}
     body: Any = {name: value for name, value in ROVER.items() if name != "radius_m"}
+    body["period_s"] = 0
     with pytest.raises(ae.InputError) as caught:
         ae.Brain(spec, body)
     told = str(caught.value).splitlines()
-    assert len(told) == 3
+    assert len(told) == 4
     assert told[0].startswith("brain.behaviours[1].neer_m = 0.2: must be")
     assert told[0].endswith("did you mean near_m?")
     assert told[1].startswith("brain.rate_hz = -1: must be")
-    assert told[2].startswith("body.radius_m is missing")
+    assert told[2].startswith("body.period_s = 0: must be")
+    assert told[3].startswith("body.radius_m is missing")
 
 
 CONTACT = {"kind": 0, "range_m": 1.0, "bearing_rad": 0.0, "age_s": 0.0}

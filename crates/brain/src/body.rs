@@ -51,7 +51,7 @@ pub struct Body {
     #[schemars(range(min = 0.0))]
     pub max_turn_rate_rad_s: f64,
     /// Time between two steps of the brain.
-    #[schemars(range(min = 0.0))]
+    #[schemars(range(min = 1e-6))]
     pub period_s: f64,
     /// Names of its sensors, in the order in which requests count them.
     #[serde(default)]
