@@ -131,6 +131,18 @@ impl Ring {
         (is_whole && age_s <= self.fresh_s).then_some((age_s, &scan.ranges_m))
     }
 
+    /// How far each ray and its neighbours on both sides go.
+    ///
+    /// A ray that passes a wall at a small angle goes through cells that the wall fills in part, of which
+    /// the ray beside it says so.
+    pub(crate) fn frees_m(&self, ranges_m: &[f64]) -> impl Iterator<Item = f64> {
+        let at = |ray: usize| ranges_m.get(ray).copied().unwrap_or(f64::INFINITY);
+        (0..ranges_m.len()).map(move |ray| {
+            let before_m = ray.checked_sub(1).map_or(f64::INFINITY, at);
+            at(ray).min(before_m).min(at(ray + 1))
+        })
+    }
+
     /// All rays, at most as long as the sensor sees.
     #[inline]
     pub(crate) fn rays(&self, ranges_m: &[f64]) -> impl Iterator<Item = Ray> {

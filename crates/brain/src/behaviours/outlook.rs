@@ -160,7 +160,7 @@ mod tests {
             };
             let ray = Ray {
                 way: Segment { from: HERE, to },
-                is_hit: true,
+                hit: Some(to),
             };
             (0..5).for_each(|_| map.filled.take_in(&map.field, &ray));
         }

@@ -268,17 +268,25 @@ impl Beliefs {
             return;
         }
         let front = direction(pose.heading_rad);
+        let there = |end: Point| pose.at.plus(turned(end, front));
         for (ring, ranges_m) in new_scans(percept, rings, period_s) {
-            for ray in ring.rays(ranges_m) {
+            map.filled.begin_scan();
+            let frees_m = ring.frees_m(ranges_m);
+            for (ray, free_m) in ring.rays(ranges_m).zip(frees_m) {
                 let end = ray.end();
-                let ray = Ray {
-                    way: Segment {
-                        from: pose.at,
-                        to: pose.at.plus(turned(end, front)),
-                    },
-                    is_hit: ray.range_m < ring.range_m() && !self.others.is_on_one(end),
+                let is_hit = ray.range_m < ring.range_m() && !self.others.is_on_one(end);
+                let free = there(ray.direction.times(free_m.min(ray.range_m)));
+                let way = Segment {
+                    from: pose.at,
+                    to: free,
                 };
-                map.filled.take_in(&map.field, &ray);
+                map.filled.take_in(
+                    &map.field,
+                    &Ray {
+                        way,
+                        hit: is_hit.then(|| there(end)),
+                    },
+                );
             }
         }
     }

@@ -24,6 +24,8 @@ const FILLED: i8 = 4;
 #[derive(Debug, Clone)]
 pub(crate) struct Occupancy {
     quarter_nats: Vec<i8>,
+    /// Cells that the ray before has passed, by their places along it.
+    passed: Vec<usize>,
     /// Grows whenever a cell turns to be filled or free.
     pub(crate) changes: u32,
 }
@@ -31,16 +33,17 @@ pub(crate) struct Occupancy {
 /// A ray as it was measured.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Ray {
-    /// From where it begins to where it ends, or is no longer free.
+    /// From where it begins to where it, or one of its neighbours, ends.
     pub(crate) way: Segment,
-    /// Whether something stands there.
-    pub(crate) is_hit: bool,
+    /// Where something stands.
+    pub(crate) hit: Option<Point>,
 }
 
 impl Occupancy {
     pub(crate) fn new(field: &Field) -> Self {
         Self {
             quarter_nats: vec![0; field.cells()],
+            passed: Vec::with_capacity(field.columns.max(field.rows) + 1),
             changes: 0,
         }
     }
@@ -77,13 +80,23 @@ impl Occupancy {
             .map(|(cell, _)| cell)
     }
 
-    /// Takes in a ray.
+    /// Begins a scan, whose rays follow each other.
+    pub(crate) fn begin_scan(&mut self) {
+        self.passed.clear();
+    }
+
+    /// Takes in a ray of a scan.
     #[inline]
     pub(crate) fn take_in(&mut self, field: &Field, ray: &Ray) {
-        let hit = field.cell(ray.way.to).filter(|_| ray.is_hit);
-        for cell in field.crossed(ray.way.from, ray.way.to) {
-            if Some(cell) != hit {
+        let hit = ray.hit.and_then(|hit| field.cell(hit));
+        for (place, cell) in field.crossed(ray.way.from, ray.way.to).enumerate() {
+            let before = self.passed.get(place).copied();
+            if before != Some(cell) && hit != Some(cell) {
                 self.add(cell, PASS);
+            }
+            match self.passed.get_mut(place) {
+                Some(passed) => *passed = cell,
+                None => self.passed.push(cell),
             }
         }
         if let Some(cell) = hit {
@@ -159,7 +172,9 @@ mod tests {
                 y: 5.25,
             },
         };
-        map.take_in(&field(), &Ray { way, is_hit });
+        map.begin_scan();
+        let hit = is_hit.then_some(way.to);
+        map.take_in(&field(), &Ray { way, hit });
     }
 
     fn is_filled(map: &Occupancy, x: f64) -> bool {

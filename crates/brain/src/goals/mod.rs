@@ -21,8 +21,11 @@ pub use fitness::Verdict;
 use fitness::{Fitness, Step};
 use precedence::{precedence, time_s};
 
-/// Another goal is on the way if the detour is no longer than this share of the way.
+/// Another goal is on the way if all detours together are no longer than this share of the way.
 const DETOUR: f64 = 0.15;
+
+/// A goal that moves by less is the same, in metres.
+const SAME_M: f64 = 1.0;
 
 /// What one behaviour wants, and what has become of it.
 #[derive(Debug, Clone, Copy)]
@@ -41,6 +44,44 @@ pub(crate) struct Goal {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Goals {
     pub(crate) goals: Vec<Goal>,
+    lead: Option<Lead>,
+}
+
+/// The first goal, and what may still be gone out of the way to it.
+#[derive(Debug, Clone, Copy)]
+struct Lead {
+    behaviour: usize,
+    to: Point,
+    /// Where the robot was when that was reckoned.
+    at: Point,
+    spare_m: f64,
+}
+
+impl Lead {
+    fn new(goal: &Goal, at: Point) -> Self {
+        Self {
+            behaviour: goal.behaviour,
+            to: goal.aim.to,
+            at,
+            spare_m: DETOUR * at.to(goal.aim.to).length(),
+        }
+    }
+
+    fn is_of(&self, goal: &Goal) -> bool {
+        self.behaviour == goal.behaviour && self.to.to(goal.aim.to).length() < SAME_M
+    }
+
+    /// After it went on to a place: what did not bring it nearer was a detour.
+    fn moved(self, goal: &Goal, at: Point) -> Self {
+        let [before_m, after_m] = [self.at, at].map(|at| at.to(goal.aim.to).length());
+        let detour_m = self.at.to(at).length() - (before_m - after_m);
+        Self {
+            to: goal.aim.to,
+            at,
+            spare_m: self.spare_m - detour_m.max(0.0),
+            ..self
+        }
+    }
 }
 
 impl Goals {
@@ -73,21 +114,29 @@ impl Goals {
         // Equal ones stay in the order of their behaviours.
         self.goals
             .sort_by(|one, other| other.precedence.total_cmp(&one.precedence));
+        let lead = self.possible().next().map(|first| match self.lead {
+            Some(lead) if lead.is_of(first) => lead.moved(first, step.at),
+            _ => Lead::new(first, step.at),
+        });
+        self.lead = lead;
+    }
+
+    fn possible(&self) -> impl Iterator<Item = &Goal> {
+        let goals = self.goals.iter();
+        goals.filter(|goal| goal.verdict != Verdict::Impossible)
     }
 
     /// The goal to go for: the first, or one that lies on the way to it.
     pub(crate) fn next(&self, at: Point) -> Option<&Goal> {
-        let mut possible = self
-            .goals
-            .iter()
-            .filter(|goal| goal.verdict != Verdict::Impossible);
+        let mut possible = self.possible();
         let first = possible.next()?;
+        let spare_m = self.lead.map_or(0.0, |lead| lead.spare_m);
         let way_m = at.to(first.aim.to).length();
         let detour_m = |goal: &&Goal| {
             let (there, then) = (at.to(goal.aim.to), goal.aim.to.to(first.aim.to));
             there.length() + then.length() - way_m
         };
-        let on_the_way = possible.filter(|goal| detour_m(goal) <= DETOUR * way_m);
+        let on_the_way = possible.filter(|goal| detour_m(goal) <= spare_m);
         let nearest = on_the_way.min_by(|one, other| {
             let far = |goal: &Goal| at.to(goal.aim.to).length_squared();
             far(one).total_cmp(&far(other))

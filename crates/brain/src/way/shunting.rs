@@ -118,6 +118,9 @@ impl Shunting {
 
     fn count(&mut self, progress_m: f64, step: &Step) {
         let least_m = NOWHERE * step.max_speed_m_s * step.period_s;
+        if is_turning_there(step) {
+            return;
+        }
         if progress_m < least_m {
             self.nowhere_s += step.period_s;
         } else {
@@ -146,6 +149,12 @@ impl Shunting {
         self.nowhere_s = 0.0;
         self.share = dice.between(0.5, 1.5);
     }
+}
+
+/// Whether it still turns to its way: that takes its time, and nobody is in the way of it.
+fn is_turning_there(step: &Step) -> bool {
+    let aside_rad = libm::atan2(step.way.y, step.way.x);
+    aside_rad.abs() > FRAC_PI_4 && step.turned_rad * aside_rad > 0.0
 }
 
 /// On which side of an aisle a robot is.

@@ -6,6 +6,7 @@
     reason = "tests panic when what they ask for is wrong"
 )]
 
+mod canyon;
 mod crossing;
 mod errands;
 mod moving;

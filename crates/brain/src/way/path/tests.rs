@@ -23,7 +23,13 @@ fn map(is_filled: impl Fn(usize, usize) -> bool) -> Occupancy {
             from: centre,
             to: centre,
         };
-        map.take_in(&field, &Ray { way, is_hit: true });
+        map.take_in(
+            &field,
+            &Ray {
+                way,
+                hit: Some(way.to),
+            },
+        );
     }
     map
 }
