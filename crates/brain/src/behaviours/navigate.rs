@@ -50,6 +50,14 @@ pub enum Share {
     Team,
 }
 
+impl Navigate {
+    /// Whether robots share the places by what they tell each other.
+    #[must_use]
+    pub fn is_shared_by_team(&self) -> bool {
+        self.share == Share::Team
+    }
+}
+
 impl Default for Navigate {
     fn default() -> Self {
         Self {

@@ -202,6 +202,29 @@ mod tests {
     }
 
     #[test]
+    fn detours_on_one_way_are_counted_together() {
+        let first = aim(40.0, 0.0, 5.0);
+        let mut goals = Goals::default();
+        let mut at = HERE;
+        let mut detours_m = 0.0;
+        // Always another that lies a little aside.
+        let served = (0..200).filter(|_| {
+            let beside = at.plus(Point { x: 1.0, y: 1.5 });
+            let beside = aim(beside.x, beside.y, 0.1);
+            goals.renew([first, beside].into_iter().enumerate(), &step(at));
+            let next = goals.next(at).unwrap();
+            let way = at.to(next.aim.to);
+            let stride = way.times(0.5 / way.length().max(0.5));
+            let nearer_m = at.to(first.to).length() - at.plus(stride).to(first.to).length();
+            detours_m += stride.length() - nearer_m;
+            at = at.plus(stride);
+            next.behaviour == 1
+        });
+        assert!(served.count() > 5);
+        assert!(detours_m <= DETOUR * 40.0 + 0.5, "{detours_m}");
+    }
+
+    #[test]
     fn goals_that_conflict_are_served_in_order() {
         let aims = [aim(10.0, 0.0, 5.0), aim(0.0, 5.0, 0.1)];
         let goals = goals(&aims, HERE);

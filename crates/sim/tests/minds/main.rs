@@ -9,6 +9,7 @@
 mod canyon;
 mod crossing;
 mod errands;
+mod home;
 mod moving;
 mod searching;
 

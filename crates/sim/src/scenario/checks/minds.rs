@@ -38,6 +38,7 @@ fn of_behaviours(robot: &RobotSpec, spec: &ScenarioSpec, at: &Place) -> Vec<Faul
     };
     let has_position = has(|measures| matches!(measures, Measures::Position(_)));
     let has_heading = has(|measures| matches!(measures, Measures::Heading(_)));
+    let has_robots = has(|measures| matches!(measures, Measures::Robots(_)));
     let has_detector = has(|measures| matches!(measures, Measures::Items(_)));
     let mut faults = Vec::new();
     for (number, behaviour) in robot.brain.behaviours.iter().enumerate() {
@@ -50,11 +51,34 @@ fn of_behaviours(robot: &RobotSpec, spec: &ScenarioSpec, at: &Place) -> Vec<Faul
                 )));
             }
         };
+        let needs_robots = match behaviour {
+            BehaviourSpec::Swarm(_) => true,
+            BehaviourSpec::Follow(_) => robot.radio.is_none(),
+            _ => false,
+        };
+        needs(
+            needs_robots,
+            has_robots,
+            "eye = { kind = \"robots\", range_m = 10 }",
+        );
         let needs_pose = behaviour.needs_pose();
         needs(needs_pose, has_position, "gps = { kind = \"position\" }");
         needs(needs_pose, has_heading, "compass = { kind = \"heading\" }");
         let eye = "eye = { kind = \"items\", range_m = 3 }";
-        needs(behaviour.needs_detector(), has_detector, eye);
+        let needs_width = match behaviour {
+            BehaviourSpec::Lanes(lanes) => lanes.width_m.is_none(),
+            BehaviourSpec::Spiral(spiral) => spiral.width_m.is_none(),
+            _ => false,
+        };
+        needs(behaviour.needs_detector() || needs_width, has_detector, eye);
+        if let BehaviourSpec::Navigate(navigate) = behaviour
+            && navigate.is_shared_by_team()
+            && robot.radio.is_none()
+        {
+            let allowed =
+                "\"all\" or \"each\", or a robot with a radio, such as radio = { range_m = 100 }";
+            faults.push(at.key("share").fault(allowed));
+        }
         faults.extend(of_places(behaviour, spec, &at));
     }
     faults
@@ -68,11 +92,13 @@ fn of_places(behaviour: &BehaviourSpec, spec: &ScenarioSpec, at: &Place) -> Vec<
         listed.collect()
     };
     let place = |at_m: &Option<Point>| at_m.iter().map(|to| (at.key("at_m"), *to)).collect();
+    let around = |at_m: &Option<Point>| at_m.iter().map(|to| (at.key("around_m"), *to)).collect();
     let places: Vec<(Place, Point)> = match behaviour {
         BehaviourSpec::Correct(correct) => way(&correct.places_m),
         BehaviourSpec::Navigate(navigate) => way(&navigate.places_m),
         BehaviourSpec::Hold(hold) => place(&hold.at_m),
         BehaviourSpec::Home(home) => place(&home.at_m),
+        BehaviourSpec::Spiral(spiral) => around(&spiral.around_m),
         _ => return Vec::new(),
     };
     let goes = matches!(

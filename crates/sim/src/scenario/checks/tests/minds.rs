@@ -41,9 +41,40 @@ fn behaviours_need_sensors_and_places() {
 }
 
 #[test]
+fn behaviours_with_others_need_to_know_of_them_and_sweeps_how_wide_they_see() {
+    let told = faults_of_brain(
+        "behaviours = [{ kind = \"follow\" }, { kind = \"swarm\" }, { kind = \"lanes\" }, \
+         { kind = \"spiral\" }, { kind = \"navigate\", share = \"team\", places_m = [[1, 1]] }]",
+    );
+    let behaviour = |number: u32| format!("robots.bird.brain.behaviours[{number}]");
+    let lacks = |number, key: &str, what: &str| {
+        let path = format!("{}.{key} = ", behaviour(number));
+        told.iter()
+            .any(|fault| fault.starts_with(&path) && fault.contains(what))
+    };
+    for (number, key, what) in [
+        (0, "kind", "kind = \"robots\""),
+        (1, "kind", "kind = \"robots\""),
+        (2, "kind", "kind = \"items\""),
+        (3, "kind", "kind = \"items\""),
+        (4, "share", "a robot with a radio"),
+    ] {
+        assert!(lacks(number, key, what), "{number}: {told:?}");
+    }
+    let told = faults_of_brain(
+        "behaviours = [{ kind = \"lanes\", width_m = 2 }, { kind = \"spiral\", width_m = 2 }]",
+    );
+    assert!(
+        !told.iter().any(|fault| fault.contains("items")),
+        "{told:?}"
+    );
+}
+
+#[test]
 fn places_lie_in_the_world() {
     let told = faults_of_brain(
-        "behaviours = [{ kind = \"navigate\", places_m = [[2, 2], [21, 2]] }, { kind = \"home\", at_m = [-1, 2] }]",
+        "behaviours = [{ kind = \"navigate\", places_m = [[2, 2], [21, 2]] }, \
+         { kind = \"home\", at_m = [-1, 2] }, { kind = \"spiral\", around_m = [3, 11], width_m = 1 }]",
     );
     let outside: Vec<&String> = told
         .iter()
@@ -53,6 +84,7 @@ fn places_lie_in_the_world() {
     let expected = [
         format!("{at}[0].places_m[1] = [21, 2]: must be within the world: from [0, 0] to [20, 10]"),
         format!("{at}[1].at_m = [-1, 2]: must be within the world: from [0, 0] to [20, 10]"),
+        format!("{at}[2].around_m = [3, 11]: must be within the world: from [0, 0] to [20, 10]"),
     ];
     assert_eq!(outside, expected.iter().collect::<Vec<_>>(), "{told:?}");
 }
