@@ -152,7 +152,7 @@ impl Brain {
         if let Some(mind) = &mut self.mind {
             let moved = &self.moved;
             turned_rad = moved.turned_beside_compass_rad(turned_rad, percept, body);
-            let moved = [now_m_s, turned_rad];
+            let moved = [moved.gone_m_s(percept, body), turned_rad];
             mind.beliefs.take_in(percept, body, &sight.rings, moved);
         }
         let (beliefs, mut wants) = match self.mind.as_deref_mut() {

@@ -8,6 +8,10 @@ use base::trig::wrapped;
 /// Readings older than this say nothing of now.
 const OLDEST_S: f64 = 1.0;
 
+/// Wheels that say more than so many times what the body can do are broken; the fastest ground there is
+/// makes it ten times as fast.
+const MOST_TIMES: f64 = 10.0;
+
 /// A compass that says more than this many radians is broken.
 const MAX_HEADING_RAD: f64 = 1e4;
 
@@ -28,18 +32,23 @@ pub(crate) struct Reckoning {
 
 impl Reckoning {
     /// At most so fast it now goes, in m/s; negative if backwards. What it was told, or what the
-    /// wheels say if that is more.
+    /// wheels say if that is more: who brakes too early is safe. To reckon where it is, see
+    /// [`Reckoning::gone_m_s`].
     #[inline]
     pub(crate) fn now_m_s(&self, percept: &Percept, body: &Body) -> f64 {
         let told = f64::from(self.speed_m_s);
         let most = body.max_speed_m_s;
-        match percept.motion {
-            // Nonsense is not more.
-            Some(wheels) if wheels.value.speed_m_s.abs() > told.abs() => {
-                wheels.value.speed_m_s.max(-most).min(most)
-            }
+        match wheels_m_s(percept, body) {
+            Some(wheels) if wheels.abs() > told.abs() => wheels.max(-most).min(most),
             _ => told,
         }
+    }
+
+    /// So fast it goes in all likelihood, in m/s; negative if backwards. What the wheels say, if they
+    /// do: sand slows who is told to go fast. Else what it was told.
+    #[inline]
+    pub(crate) fn gone_m_s(&self, percept: &Percept, body: &Body) -> f64 {
+        wheels_m_s(percept, body).unwrap_or(f64::from(self.speed_m_s))
     }
 
     /// Angle by which it has turned within the last `age_s`.
@@ -71,16 +80,15 @@ impl Reckoning {
         }
     }
 
-    /// As [`Reckoning::take_in`] said, but from the wheels if the compass errs: whoever corrects the course
-    /// by the compass must not have carried it on by the same compass.
+    /// As [`Reckoning::take_in`] said, but from the wheels or as it was told if the compass errs: whoever
+    /// corrects the course by the compass must not have carried it on by the same compass.
     pub(crate) fn turned_beside_compass_rad(
         &self,
         turned_rad: f64,
         percept: &Percept,
         body: &Body,
     ) -> f64 {
-        let has_wheels = percept.motion.as_ref().is_some_and(is_of_now);
-        if has_wheels && body.heading_noise_rad > 0.0 {
+        if body.heading_noise_rad > 0.0 {
             self.turn_rate_rad_s(percept, body) * body.period_s
         } else {
             turned_rad
@@ -95,9 +103,8 @@ impl Reckoning {
         };
         let wheels = percept.motion.filter(is_of_now);
         let wheels = wheels.map(|motion| motion.value.turn_rate_rad_s);
-        let most = body.max_turn_rate_rad_s;
-        let wheels = wheels.filter(|rate| rate.is_finite());
-        wheels.unwrap_or(told).max(-most).min(most)
+        let wheels = wheels.filter(|rate| can_be(*rate, body.max_turn_rate_rad_s));
+        wheels.unwrap_or(told)
     }
 
     /// Notes what the body was told to do until the next step.
@@ -114,6 +121,18 @@ impl Reckoning {
             self.straight_s = 0.0;
         }
     }
+}
+
+/// What wheels say, if they say it of now and can be right.
+#[inline]
+fn wheels_m_s(percept: &Percept, body: &Body) -> Option<f64> {
+    let wheels = percept.motion.filter(is_of_now)?.value.speed_m_s;
+    let most = body.max_speed_m_s.max(body.max_reverse_speed_m_s);
+    can_be(wheels, most).then_some(wheels)
+}
+
+fn can_be(wheels: f64, most: f64) -> bool {
+    wheels.is_finite() && wheels.abs() <= MOST_TIMES * most
 }
 
 fn is_of_now<T>(reading: &Reading<T>) -> bool {

@@ -4,6 +4,7 @@
 //! Bounded: with its goals and ways a mind takes at most 40 kB, twenty bytes a cell of at most
 //! [`BeliefsSpec::cells`], and forty a ray. A test counts them.
 
+mod doubt;
 mod drain;
 pub(crate) mod field;
 pub(crate) mod items;
@@ -224,7 +225,7 @@ impl Beliefs {
         seen.map(|mover| pose.world_of(mover.at)).or_else(told)
     }
 
-    /// Takes in a step: `now_m_s` is its speed, and `turned_rad` what it turned since the last.
+    /// Takes in a step: `now_m_s` is its likely speed, and `turned_rad` what it turned since the last.
     pub(crate) fn take_in(
         &mut self,
         percept: &Percept,

@@ -1,5 +1,6 @@
 //! Where the robot believes itself to be.
 
+use super::doubt::{Doubted, Off, Verdict};
 use crate::body::Body;
 use crate::percept::{Percept, Reading};
 use crate::sector::direction;
@@ -11,6 +12,12 @@ use serde::{Deserialize, Serialize};
 /// Wheels err by this share of the way, and of the turn.
 const DRIFT: f64 = 0.02;
 
+/// Also one that stands may be pushed, by some millimetre and some hundredth of a degree in a second: the
+/// variances grow by at least so much a second, in m^2 and rad^2. So a robot that has stood for long still
+/// follows its sensors.
+const PUSHED_M2_S: f64 = 1e-6;
+const PUSHED_RAD2_S: f64 = 1e-8;
+
 /// Readings older than this are not of now.
 const OLDEST_S: f64 = 5.0;
 
@@ -21,7 +28,8 @@ const FARTHEST_M: f64 = 1e7;
 ///
 /// Both are carried on by what the wheels say, and corrected by each new reading in proportion to
 /// the variances (Kalman, *A new approach to linear filtering and prediction problems*, 1960, in one
-/// dimension): gain = own variance / (own variance + the sensor's).
+/// dimension): gain = own variance / (own variance + the sensor's). A reading that is five deviations off
+/// is left out, unless three in a row agree: then the robot begins anew with the last.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Pose {
     /// In the world.
@@ -41,6 +49,10 @@ pub struct Pose {
 pub(crate) struct Localisation {
     at: Option<(Point, f64)>,
     heading: Option<(f64, f64)>,
+    /// Covariance of position and course: who goes on in a wrong course is off to the side.
+    aside: Point,
+    other_at: Doubted<Point>,
+    other_heading: Doubted<f64>,
     /// Ages of the last readings.
     position_s: Option<f64>,
     heading_s: Option<f64>,
@@ -62,62 +74,130 @@ impl Localisation {
 
     /// Takes in a step in which the body went `way_m` and turned.
     pub(crate) fn take_in(&mut self, percept: &Percept, body: &Body, way_m: f64, turned_rad: f64) {
-        self.carry_on(way_m, turned_rad);
+        self.carry_on(way_m, turned_rad, body.period_s);
         self.age_s += body.period_s;
-        let rate = turned_rad / body.period_s.max(f64::MIN_POSITIVE);
-        if let Some(heading) = new(percept.heading_rad, &mut self.heading_s, body.period_s) {
-            let now_rad = heading.value + rate * heading.age_s;
-            self.correct_heading(now_rad, body.heading_noise_rad);
+        if let Some(heading) = fresh(percept.heading_rad, &mut self.heading_s, body.period_s) {
+            self.take_heading(
+                &heading,
+                body,
+                turned_rad / body.period_s.max(f64::MIN_POSITIVE),
+            );
         }
-        if let Some(position) = new(percept.position, &mut self.position_s, body.period_s) {
-            let speed_m_s = way_m / body.period_s.max(f64::MIN_POSITIVE);
-            let heading_rad = self.heading.map_or(0.0, |(heading_rad, _)| heading_rad);
-            let since = direction(heading_rad).times(speed_m_s * position.age_s);
-            self.correct_position(position.value.plus(since), body.position_noise_m);
+        if let Some(position) = fresh(percept.position, &mut self.position_s, body.period_s) {
+            self.take_position(
+                &position,
+                body,
+                way_m / body.period_s.max(f64::MIN_POSITIVE),
+            );
+        }
+    }
+
+    /// Takes a course that was read while the body turned at `rate_rad_s`.
+    fn take_heading(&mut self, heading: &Reading<f64>, body: &Body, rate_rad_s: f64) {
+        let since_rad = rate_rad_s * heading.age_s;
+        // It may have turned the other way.
+        let room_rad = since_rad.abs() + body.max_turn_rate_rad_s * heading.age_s;
+        self.correct_heading(heading.value + since_rad, body.heading_noise_rad, room_rad);
+    }
+
+    /// Takes a position that was read while the body went at `speed_m_s`.
+    fn take_position(&mut self, position: &Reading<Point>, body: &Body, speed_m_s: f64) {
+        let since_m = speed_m_s * position.age_s;
+        let heading_rad = self.heading.map_or(0.0, |(heading_rad, _)| heading_rad);
+        let read = position.value.plus(direction(heading_rad).times(since_m));
+        // It may have gone the other way.
+        let room_m = since_m.abs() + body.max_speed_m_s * position.age_s;
+        if self.correct_position(read, body.position_noise_m, room_m) {
             self.age_s = position.age_s;
         }
     }
 
-    fn carry_on(&mut self, way_m: f64, turned_rad: f64) {
-        if let (Some((at, variance)), Some((heading_rad, _))) = (&mut self.at, &self.heading) {
+    fn carry_on(&mut self, way_m: f64, turned_rad: f64, period_s: f64) {
+        if let (Some((at, variance)), Some((heading_rad, of_heading))) =
+            (&mut self.at, self.heading)
+        {
             // Along the chord of its arc.
             let way = direction(heading_rad + turned_rad / 2.0).times(way_m);
             *at = at.plus(way);
-            *variance += (DRIFT * way_m) * (DRIFT * way_m);
+            *variance += (DRIFT * way_m) * (DRIFT * way_m) + PUSHED_M2_S * period_s;
+            // P' = F P F^T with d(at)/d(course) = the way turned to the left, the mean of both axes.
+            *variance += way.cross(self.aside) + way_m * way_m * of_heading / 2.0;
+            *variance = variance.max(0.0);
+            let left = Point {
+                x: -way.y,
+                y: way.x,
+            };
+            self.aside = self.aside.plus(left.times(of_heading));
+            self.other_at.carry_on(|at| at.plus(way));
         }
         if let Some((heading_rad, variance)) = &mut self.heading {
             *heading_rad = wrapped(*heading_rad + turned_rad);
-            *variance += (DRIFT * turned_rad) * (DRIFT * turned_rad);
+            *variance += (DRIFT * turned_rad) * (DRIFT * turned_rad) + PUSHED_RAD2_S * period_s;
+            self.other_heading.carry_on(|heading| heading + turned_rad);
         }
     }
 
-    fn correct_heading(&mut self, read_rad: f64, noise_rad: f64) {
+    fn correct_heading(&mut self, read_rad: f64, noise_rad: f64, room_rad: f64) {
         if !read_rad.is_finite() || read_rad.abs() > 1e4 {
             return;
         }
         let sensor = noise_rad * noise_rad;
         let (before_rad, own) = self.heading.unwrap_or((read_rad, f64::INFINITY));
-        let gain = gain(own, sensor);
         let off_rad = wrapped(read_rad - before_rad);
-        let after = own_after(own, sensor);
-        self.heading = Some((wrapped(before_rad + gain * off_rad), after));
+        let off = Off {
+            by: off_rad.abs(),
+            variances: [own, sensor],
+            room: room_rad,
+        };
+        let apart_rad = |last: &f64| wrapped(read_rad - last).abs();
+        let verdict = self.other_heading.judge(read_rad, &off, apart_rad);
+        if let Some(own) = variance_then(verdict, own) {
+            let gain = gain(own, sensor);
+            let heading_rad = wrapped(before_rad + gain * off_rad);
+            self.heading = Some((heading_rad, own_after(own, sensor)));
+            self.aside = self.aside.times(1.0 - gain);
+        }
     }
 
-    fn correct_position(&mut self, read: Point, noise_m: f64) {
+    /// Whether it was taken.
+    fn correct_position(&mut self, read: Point, noise_m: f64, room_m: f64) -> bool {
         // Whatever is not a number is not near.
         let is_sensible = read.x.abs() <= FARTHEST_M && read.y.abs() <= FARTHEST_M;
         if !is_sensible {
-            return;
+            return false;
         }
         let sensor = noise_m * noise_m;
-        let (before, own) = self.at.unwrap_or((read, f64::INFINITY));
-        let at = before.plus(before.to(read).times(gain(own, sensor)));
-        self.at = Some((at, own_after(own, sensor)));
+        // Without a course nothing has carried it on.
+        let carried = self.at.filter(|_| self.heading.is_some());
+        let (before, own) = carried.unwrap_or((read, f64::INFINITY));
+        let off = Off {
+            by: before.to(read).length(),
+            variances: [own, sensor],
+            room: room_m,
+        };
+        let apart_m = |last: &Point| last.to(read).length();
+        let verdict = self.other_at.judge(read, &off, apart_m);
+        if let Some(own) = variance_then(verdict, own) {
+            let gain = gain(own, sensor);
+            let at = before.plus(before.to(read).times(gain));
+            self.at = Some((at, own_after(own, sensor)));
+            self.aside = self.aside.times(1.0 - gain);
+        }
+        verdict != Verdict::Far
+    }
+}
+
+/// How sure one then is of what is believed before the reading; `None` if that is left out.
+fn variance_then(verdict: Verdict, own: f64) -> Option<f64> {
+    match verdict {
+        Verdict::Near => Some(own),
+        Verdict::Instead => Some(f64::INFINITY),
+        Verdict::Far => None,
     }
 }
 
 /// A reading that was not taken in before: one that was told of before is older by a period.
-fn new<T: Copy>(
+pub(crate) fn fresh<T: Copy>(
     reading: Option<Reading<T>>,
     last_age_s: &mut Option<f64>,
     period_s: f64,
@@ -248,7 +328,7 @@ mod tests {
             });
             here.take_in(&told, &body, 0.0, 0.0);
         }
-        assert!((here.pose().unwrap().deviation_m - 2.0).abs() < 1e-9);
+        assert!((here.pose().unwrap().deviation_m - 2.0).abs() < 1e-4);
     }
 
     #[test]

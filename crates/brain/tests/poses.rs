@@ -1,0 +1,282 @@
+//! Where a brain alone believes itself to be, whatever its wheels, its compass and its position sensor say.
+
+use base::geometry::Point;
+use base::random::{Entity, Purpose, Stream, stream, unit};
+use base::trig::wrapped;
+use brain::behaviours::{BehaviourSpec, Cruise, Hold};
+use brain::{BeliefsSpec, Body, Brain, BrainSpec, Motion, Percept, Pose, Reading};
+use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
+
+const STANDING: Motion = Motion {
+    speed_m_s: 0.0,
+    turn_rate_rad_s: 0.0,
+};
+
+fn body() -> Body {
+    Body {
+        radius_m: 0.25,
+        max_speed_m_s: 1.0,
+        max_acceleration_m_s2: 1.0,
+        max_turn_rate_rad_s: 1.5,
+        period_s: 0.1,
+        position_noise_m: 0.1,
+        heading_noise_rad: 0.02,
+        ..Body::default()
+    }
+}
+
+fn brain_in(body: Body, behaviour: BehaviourSpec) -> Brain {
+    let spec = BrainSpec {
+        behaviours: vec![behaviour],
+        beliefs: Some(BeliefsSpec::default()),
+        speed_limited_by_sight: false,
+        ..BrainSpec::default()
+    };
+    Brain::new(Arc::new(spec), Arc::new(body))
+}
+
+/// A brain whose commands are to stand.
+fn still(body: Body) -> Brain {
+    brain_in(body, BehaviourSpec::Hold(Hold::default()))
+}
+
+/// A brain whose commands are to go at 1 m/s.
+fn going() -> Brain {
+    brain_in(body(), BehaviourSpec::Cruise(Cruise::default()))
+}
+
+fn now<T>(value: T) -> Reading<T> {
+    Reading { value, age_s: 0.0 }
+}
+
+fn at(x: f64, heading_rad: f64) -> Percept {
+    Percept {
+        position: Some(now(Point { x, y: x })),
+        heading_rad: Some(now(heading_rad)),
+        motion: Some(now(STANDING)),
+        ..Percept::default()
+    }
+}
+
+fn wheels(speed_m_s: f64, turn_rate_rad_s: f64, age_s: f64) -> Percept {
+    let value = Motion {
+        speed_m_s,
+        turn_rate_rad_s,
+    };
+    Percept {
+        motion: Some(Reading { value, age_s }),
+        ..Percept::default()
+    }
+}
+
+#[expect(clippy::unwrap_used, reason = "tests panic when there is none")]
+fn pose(brain: &Brain) -> Pose {
+    brain.thoughts().and_then(|thoughts| thoughts.pose).unwrap()
+}
+
+/// What it believes after so many of the same percept.
+fn after(brain: &mut Brain, steps: usize, percept: &Percept) -> Pose {
+    for _ in 0..steps {
+        brain.step(percept);
+    }
+    pose(brain)
+}
+
+/// How far it believes to be from (x, x).
+fn off_m(pose: &Pose, x: f64) -> f64 {
+    pose.at.to(Point { x, y: x }).length()
+}
+
+/// How far it believes to have gone in 20 s in which it was told to go at 1 m/s.
+fn gone_m(percept: &Percept) -> f64 {
+    let mut brain = going();
+    after(&mut brain, 1, &at(0.0, 0.0));
+    after(&mut brain, 200, percept).at.x
+}
+
+#[test]
+fn on_sand_it_has_gone_as_far_as_its_wheels_say_though_it_was_told_to_go_faster() {
+    let gone_m = gone_m(&wheels(0.5, 0.0, 0.0));
+    assert!((gone_m - 10.0).abs() < 0.2, "{gone_m}");
+}
+
+#[test]
+fn without_wheels_it_has_gone_as_far_as_it_was_told() {
+    let gone_m = gone_m(&Percept::default());
+    assert!((gone_m - 19.5).abs() < 0.2, "{gone_m}");
+}
+
+#[test]
+fn wheels_of_long_ago_or_beyond_all_bounds_count_as_none() {
+    for speed_m_s in [1e9, -1e9, f64::NAN, f64::INFINITY] {
+        let gone_m = gone_m(&wheels(speed_m_s, 0.0, 0.0));
+        assert!((gone_m - 19.5).abs() < 0.2, "{speed_m_s}: {gone_m}");
+    }
+    for (speed_m_s, age_s) in [(1.0, 1000.0), (1.0, -1.0), (1e9, 0.0), (f64::NAN, 0.0)] {
+        let mut brain = still(body());
+        after(&mut brain, 1, &at(3.0, 0.0));
+        let pose = after(&mut brain, 300, &wheels(speed_m_s, speed_m_s, age_s));
+        assert!(off_m(&pose, 3.0) < 1e-9, "{speed_m_s} {age_s}: {pose:?}");
+        assert!(
+            pose.heading_rad.abs() < 1e-9,
+            "{speed_m_s} {age_s}: {pose:?}"
+        );
+    }
+}
+
+#[test]
+fn one_absurd_position_moves_nobody() {
+    for absurd_m in [1e6, 500.0, 11.0] {
+        let mut brain = still(body());
+        after(&mut brain, 100, &at(10.0, 0.0));
+        let pose = after(&mut brain, 1, &at(absurd_m, 0.0));
+        assert!(off_m(&pose, 10.0) < 1e-9, "{absurd_m}: {pose:?}");
+        let pose = after(&mut brain, 1, &at(10.0, 0.0));
+        assert!(off_m(&pose, 10.0) < 1e-9, "{absurd_m}: {pose:?}");
+    }
+}
+
+#[test]
+fn an_absurd_first_position_is_forgotten_at_the_third_good_one() {
+    let mut brain = still(body());
+    after(&mut brain, 1, &at(1e6, 0.0));
+    assert!(off_m(&after(&mut brain, 2, &at(10.0, 0.0)), 10.0) > 1e5);
+    let pose = after(&mut brain, 1, &at(10.0, 0.0));
+    assert!(off_m(&pose, 10.0) < 1e-9, "{pose:?}");
+    assert!((pose.deviation_m - 0.1).abs() < 1e-9, "{pose:?}");
+}
+
+#[test]
+fn who_has_stood_for_long_and_is_carried_off_knows_it_after_three_readings() {
+    let mut brain = still(body());
+    after(&mut brain, 6000, &at(10.0, 0.0));
+    let pose = after(&mut brain, 3, &at(15.0, 0.0));
+    assert!(off_m(&pose, 15.0) < 1e-9, "{pose:?}");
+}
+
+#[test]
+fn who_is_carried_less_than_five_deviations_after_long_standing_knows_it_within_a_minute() {
+    let mut brain = still(body());
+    after(&mut brain, 6000, &at(10.0, 0.0));
+    let pose = after(&mut brain, 600, &at(10.3, 0.0));
+    assert!(off_m(&pose, 10.3) < 0.1, "{pose:?}");
+}
+
+#[test]
+fn one_absurd_course_turns_nobody_and_three_that_agree_do_also_across_the_wrap() {
+    let (west, east) = (PI - 0.01, 0.0);
+    let mut brain = still(body());
+    after(&mut brain, 100, &at(0.0, west));
+    // It is as near from the other side.
+    after(&mut brain, 100, &at(0.0, west - TAU));
+    let pose = after(&mut brain, 2, &at(0.0, east));
+    assert!(wrapped(pose.heading_rad - west).abs() < 1e-6, "{pose:?}");
+    after(&mut brain, 1, &at(0.0, west));
+    let pose = after(&mut brain, 2, &at(0.0, east));
+    assert!(wrapped(pose.heading_rad - west).abs() < 1e-6, "{pose:?}");
+    let pose = after(&mut brain, 1, &at(0.0, east));
+    assert!((pose.heading_rad - east).abs() < 1e-9, "{pose:?}");
+    assert!((pose.deviation_rad - 0.02).abs() < 1e-9, "{pose:?}");
+}
+
+#[test]
+fn exact_sensors_are_believed_at_once_also_by_who_is_carried_off() {
+    let exact = Body {
+        position_noise_m: 0.0,
+        heading_noise_rad: 0.0,
+        ..body()
+    };
+    let mut brain = still(exact);
+    for (x, heading_rad) in [(10.0, 0.0), (15.0, 3.0), (-5.0, -3.0)] {
+        let pose = after(&mut brain, 1, &at(x, heading_rad));
+        assert!(off_m(&pose, x) < 1e-9 && (pose.heading_rad - heading_rad).abs() < 1e-9);
+        assert!(pose.deviation_m < 1e-9 && pose.deviation_rad < 1e-9);
+    }
+}
+
+/// A number of the normal distribution (Box and Muller, *A note on the generation of random normal
+/// deviates*, 1958).
+fn normal(dice: &mut Stream) -> f64 {
+    let (one, other) = (1.0 - unit(dice), unit(dice));
+    (-2.0 * one.ln()).sqrt() * (TAU * other).cos()
+}
+
+/// One that goes in curves, or stands; its wheels err by the share that a brain reckons with.
+struct Truth {
+    at: Point,
+    heading_rad: f64,
+    dice: Stream,
+}
+
+impl Truth {
+    fn new(run: u64) -> Self {
+        let robot = Entity { kind: 0, index: 0 };
+        Self {
+            at: Point::default(),
+            heading_rad: 0.0,
+            dice: stream(7, run, robot, Purpose::Start),
+        }
+    }
+
+    /// Goes for a step as its wheels say, or nearly so.
+    fn go(&mut self, said: Motion) {
+        let mut done = |rate: f64| 0.1 * rate * (1.0 + 0.02 * normal(&mut self.dice));
+        let [way_m, turn_rad] = [said.speed_m_s, said.turn_rate_rad_s].map(&mut done);
+        let (y, x) = (self.heading_rad + turn_rad / 2.0).sin_cos();
+        self.at = self.at.plus(Point { x, y }.times(way_m));
+        self.heading_rad = wrapped(self.heading_rad + turn_rad);
+    }
+
+    /// Readings of the stated noise.
+    fn read_into(&mut self, percept: &mut Percept) {
+        let [x, y, turn] = std::array::from_fn(|_| normal(&mut self.dice));
+        let position = self.at.plus(Point { x, y }.times(0.1));
+        percept.position = Some(now(position));
+        percept.heading_rad = Some(now(self.heading_rad + 0.02 * turn));
+    }
+
+    /// Squares of what the pose errs, in its deviations, of position along an axis and of course.
+    fn squares(&self, pose: &Pose) -> [f64; 2] {
+        let off_m2 = pose.at.to(self.at).length_squared() / 2.0;
+        let off_rad = wrapped(pose.heading_rad - self.heading_rad);
+        [
+            off_m2 / (pose.deviation_m * pose.deviation_m),
+            off_rad * off_rad / (pose.deviation_rad * pose.deviation_rad),
+        ]
+    }
+}
+
+/// Their root mean squares in some minutes at a speed, with readings at each `apart`-th step.
+fn rms_z(speed_m_s: f64, apart: u32) -> [f64; 2] {
+    let (runs, steps) = (20_u32, 600_u32);
+    let mut sums = [0.0; 2];
+    for run in 0..runs {
+        let (mut truth, mut brain) = (Truth::new(run.into()), still(body()));
+        for step in 0..steps {
+            let turn_rate_rad_s = speed_m_s * (0.02 * f64::from(step)).sin();
+            let said = Motion {
+                speed_m_s: speed_m_s.min(f64::from(step)),
+                turn_rate_rad_s,
+            };
+            truth.go(said);
+            let mut percept = wheels(said.speed_m_s, said.turn_rate_rad_s, 0.0);
+            if step.is_multiple_of(apart) {
+                truth.read_into(&mut percept);
+            }
+            brain.step(&percept);
+            let squares = truth.squares(&pose(&brain));
+            sums = [sums[0] + squares[0], sums[1] + squares[1]];
+        }
+    }
+    sums.map(|sum| (sum / f64::from(runs * steps)).sqrt())
+}
+
+#[test]
+fn honest_readings_leave_errors_as_large_as_stated() {
+    for (speed_m_s, apart) in [(1.0, 1), (1.0, 10), (0.0, 1), (0.0, 10)] {
+        let z = rms_z(speed_m_s, apart);
+        let is_as_stated = z.iter().all(|z| (0.8..1.1).contains(z));
+        assert!(is_as_stated, "{speed_m_s} m/s, {apart} apart: {z:?}");
+    }
+}
