@@ -11,8 +11,8 @@ use base::geometry::Point;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Goes back to base when the battery is low, and stays there: low is what is written here, or less than
-/// the way home may take, whichever comes first.
+/// Goes back to base when the battery is low, and stays there until it is charged: low is what is written
+/// here, or less than the way home may take, whichever comes first.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 #[schemars(inline)]
@@ -45,6 +45,10 @@ impl Default for Home {
     }
 }
 
+/// A battery that has gained so much since it was low has been charged, or was misread; and so has one that is full.
+const GAINED: f64 = 0.2;
+const FULL: f64 = 0.95;
+
 /// [`Home`] in a body.
 #[derive(Debug, Clone)]
 pub(crate) struct Ready {
@@ -52,8 +56,8 @@ pub(crate) struct Ready {
     aim: Aim,
 }
 
-/// Where home is, once it knows, and whether it is on its way there.
-pub(crate) type Memory = Option<Box<(Point, bool)>>;
+/// Where home is, once it knows, and if it is on its way there, the least that was left since.
+pub(crate) type Memory = Option<Box<(Point, Option<f64>)>>;
 
 impl Ready {
     pub(super) fn new(spec: &Home, body: &Body) -> Self {
@@ -68,12 +72,16 @@ impl Ready {
         }
     }
 
-    fn is_low(&self, way_m: f64, senses: &Senses) -> bool {
-        let battery = senses.percept.battery;
-        let left = battery.map_or(1.0, |battery| battery.value);
+    /// The least that was left since it went home, if it is still to go there.
+    fn low_since(&self, low: Option<f64>, way_m: f64, beliefs: &Beliefs) -> Option<f64> {
+        let left = beliefs.battery_left()?;
         let way_s = way_m / self.aim.speed_m_s.max(1e-6);
-        let lasts_s = senses.beliefs.map_or(f64::INFINITY, Beliefs::battery_s);
-        left <= self.spec.below || lasts_s < self.spec.margin * way_s
+        let is_low = left <= self.spec.below || beliefs.battery_s() < self.spec.margin * way_s;
+        let low = low.filter(|low| left < (low + GAINED).min(FULL));
+        match low {
+            Some(low) => Some(low.min(left)),
+            None => is_low.then_some(left),
+        }
     }
 }
 
@@ -87,12 +95,13 @@ impl Behaviour for Ready {
     }
 
     fn triggered(&self, memory: &mut Memory, senses: &Senses) -> Option<Wish> {
-        let at = senses.beliefs?.pose()?.at;
-        let begin = || Box::new((self.spec.at_m.unwrap_or(at), false));
-        let (to, is_going) = &mut **memory.get_or_insert_with(begin);
+        let beliefs = senses.beliefs?;
+        let at = beliefs.pose()?.at;
+        let begin = || Box::new((self.spec.at_m.unwrap_or(at), None));
+        let (to, low) = &mut **memory.get_or_insert_with(begin);
         let way_m = at.to(*to).length();
-        *is_going |= self.is_low(way_m, senses);
-        is_going.then(|| {
+        *low = self.low_since(*low, way_m, beliefs);
+        low.map(|_| {
             if way_m <= self.spec.within_m {
                 Motion::default().into()
             } else {

@@ -187,6 +187,11 @@ impl Beliefs {
         self.drain.lasts_s()
     }
 
+    /// Share of the battery that is left, if it is known; one misreading says nothing.
+    pub(crate) fn battery_left(&self) -> Option<f64> {
+        self.drain.left()
+    }
+
     /// Time from one look for items to the next.
     pub(crate) fn look_s(&self) -> f64 {
         self.on_s / f64::from(self.looks.max(1))

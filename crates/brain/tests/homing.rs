@@ -1,0 +1,120 @@
+//! When a brain alone goes home, whatever its battery's gauge says.
+
+use base::geometry::Point;
+use brain::behaviours::{BehaviourSpec, Home, Navigate};
+use brain::{Arbitration, Body, Brain, BrainSpec, Percept, Reading};
+use std::sync::Arc;
+
+/// Its errand is to the east, and home in the west.
+fn brain() -> Brain {
+    let body = Body {
+        radius_m: 0.25,
+        max_speed_m_s: 1.0,
+        max_acceleration_m_s2: 1.0,
+        max_turn_rate_rad_s: 1.5,
+        period_s: 0.1,
+        ..Body::default()
+    };
+    let navigate = Navigate {
+        places_m: vec![Point { x: 45.0, y: 0.0 }],
+        ..Navigate::default()
+    };
+    let home = Home {
+        at_m: Some(Point { x: -9.0, y: 0.0 }),
+        ..Home::default()
+    };
+    let spec = BrainSpec {
+        arbitration: Arbitration::Goals,
+        behaviours: vec![BehaviourSpec::Navigate(navigate), BehaviourSpec::Home(home)],
+        speed_limited_by_sight: false,
+        ..BrainSpec::default()
+    };
+    Brain::new(Arc::new(spec), Arc::new(body))
+}
+
+/// Whether it wants to go home after one more reading.
+fn goes_home(brain: &mut Brain, left: f64, age_s: f64) -> bool {
+    let reading = |value| Some(Reading { value, age_s: 0.0 });
+    let percept = Percept {
+        position: Some(Reading {
+            value: Point::default(),
+            age_s: 0.0,
+        }),
+        heading_rad: reading(0.0),
+        battery: Some(Reading { value: left, age_s }),
+        ..Percept::default()
+    };
+    brain.step(&percept);
+    let thoughts = brain.thoughts();
+    thoughts.is_some_and(|thoughts| thoughts.goals.iter().any(|goal| goal.behaviour == 1))
+}
+
+/// The same after so many readings of the same.
+fn goes_home_after(brain: &mut Brain, readings: u32, left: f64) -> bool {
+    (0..readings).fold(false, |_, _| goes_home(brain, left, 0.0))
+}
+
+#[test]
+fn one_bad_reading_sends_nobody_home_also_at_the_first_look() {
+    let bad = [
+        (-5.0, 0.0),
+        (f64::NAN, 0.0),
+        (0.0, 1e6),
+        (0.0, -1.0),
+        (0.0, 0.0),
+    ];
+    for (left, age_s) in bad {
+        for good in [0, 50] {
+            let mut brain = brain();
+            goes_home_after(&mut brain, good, 0.9);
+            assert!(!goes_home(&mut brain, left, age_s), "{left} {age_s}");
+            for _ in 0..50 {
+                assert!(!goes_home(&mut brain, 0.9, 0.0), "{left} {age_s}");
+            }
+        }
+    }
+}
+
+#[test]
+fn readings_that_are_nonsense_send_nobody_home_however_many() {
+    for (left, age_s) in [(-5.0, 0.0), (2.0, 0.0), (0.0, 1e6), (f64::NAN, 0.0)] {
+        let mut brain = brain();
+        goes_home_after(&mut brain, 50, 0.9);
+        let goes = (0..50).any(|_| goes_home(&mut brain, left, age_s));
+        assert!(!goes, "{left} {age_s}");
+    }
+}
+
+#[test]
+fn two_low_readings_send_it_home_and_it_stays_there_until_it_is_charged() {
+    let mut brain = brain();
+    assert!(!goes_home_after(&mut brain, 50, 0.9));
+    assert!(!goes_home(&mut brain, 0.09, 0.0));
+    assert!(goes_home(&mut brain, 0.09, 0.0));
+    // A gauge that wavers, or the beginning of a charge.
+    assert!(goes_home_after(&mut brain, 50, 0.15));
+    assert!(!goes_home_after(&mut brain, 2, 0.9));
+    assert!(!goes_home_after(&mut brain, 100, 0.9));
+}
+
+#[test]
+fn a_gauge_that_stuck_at_nothing_for_a_while_is_forgotten_when_it_reads_well() {
+    let mut brain = brain();
+    goes_home_after(&mut brain, 50, 0.9);
+    assert!(goes_home_after(&mut brain, 5, 0.0));
+    assert!(!goes_home_after(&mut brain, 2, 0.9));
+    assert!(!goes_home_after(&mut brain, 100, 0.89));
+}
+
+#[test]
+fn it_goes_home_while_the_battery_lasts_for_twice_the_way() {
+    let mut brain = brain();
+    // 0.02 a second: 18 s, twice the way of 9 m, are left at 0.36.
+    let left = |step: u32| 1.0 - 0.002 * f64::from(step);
+    let went = (0..500).find(|step| goes_home(&mut brain, left(*step), 0.0));
+    let left = went.map(left);
+    assert!(
+        left.is_some_and(|left| (left - 0.36).abs() < 0.01),
+        "{left:?}"
+    );
+}
