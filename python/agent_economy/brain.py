@@ -8,10 +8,23 @@ unless said otherwise.
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, Generic, Literal, NotRequired, TypeAlias, TypedDict, TypeVar, cast
+from typing import (
+    TYPE_CHECKING,
+    Any,
+    Generic,
+    Literal,
+    NotRequired,
+    TypeAlias,
+    TypedDict,
+    TypeVar,
+    cast,
+)
 
 from agent_economy import _core, given
 from agent_economy.scenario import Scenario, loaded
+
+if TYPE_CHECKING:
+    from agent_economy.thoughts import Thoughts
 
 T = TypeVar("T")
 
@@ -308,7 +321,7 @@ class Brain:
     Args:
         spec: What a scenario says under `[robots.KIND.brain]`; None for the default brain, which
             searches: ahead, at obstacles a random turn, and out of the way of what is too near.
-        body: What it knows of its body.
+        body: What it knows of its body. None in either is as if it were left out.
 
     Raises:
         InputError: If anything in either is wrong; all faults at once.
@@ -348,6 +361,14 @@ class Brain:
             InputError: If the percept has a wrong name, or something of a wrong kind.
         """
         return cast("Command", self._mind.step(percept))
+
+    def thoughts(self) -> "Thoughts | None":
+        """Return what it believes and wants, as of its last step.
+
+        Returns:
+            None if it has no mind: neither beliefs, nor a behaviour that needs them.
+        """
+        return cast("Thoughts | None", self._mind.thoughts())
 
     def copy(self) -> "Brain":
         """Return a brain with the same memories, which then goes its own way."""

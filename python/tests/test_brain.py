@@ -27,6 +27,7 @@ ROVER: Body = {
     ],
 }
 OPEN: Percept = {"scans": [{"age_s": 0.0, "ranges_m": [math.inf] * 16}]}
+NAVIGATE = {"kind": "navigate", "places_m": [[9, 2]]}
 WALLED: Percept = {"dice": [7, 7, 7, 7], "scans": [{"age_s": 0.0, "ranges_m": [0.5] * 16}]}
 
 
@@ -70,6 +71,42 @@ def test_all_faults_of_spec_and_body_are_told_at_once_with_their_paths() -> None
     assert told[1].startswith("brain.rate_hz = -1: must be")
     assert told[2].startswith("body.period_s = 0: must be")
     assert told[3].startswith("body.radius_m is missing")
+
+
+def test_thoughts_are_what_a_mind_believes_and_wants_and_none_without_one() -> None:
+    spec = {"arbitration": {"kind": "goals"}, "behaviours": [NAVIGATE]}
+    rover = ae.Brain(spec, ROVER)
+    before = rover.thoughts()
+    assert before is not None
+    assert before["pose"] is None
+    here: Percept = {
+        "position": {"value": [1.0, 2.0], "age_s": 0.0},
+        "heading_rad": {"value": 0.5, "age_s": 0.0},
+    }
+    rover.step(OPEN | here)
+    told = rover.thoughts()
+    assert told is not None
+    assert told["pose"] is not None
+    assert (told["pose"]["at"], told["pose"]["heading_rad"]) == ([1.0, 2.0], 0.5)
+    assert [goal["to"] for goal in told["goals"]] == [[9.0, 2.0]]
+    assert rover.copy().thoughts() == told
+    assert ae.Brain(None, ROVER).thoughts() is None
+
+
+def test_none_in_body_and_spec_is_as_if_it_were_left_out() -> None:
+    other = {"radius_m": 0.2, "is_in_the_way": True, "max_acceleration_m_s2": None}
+    body: Any = ROVER | {"field": None, "others": [other]}
+    spec = {"beliefs": {"area_m": None}, "behaviours": [{"kind": "cruise", "speed_m_s": None}]}
+    assert ae.Brain(spec, body).step(OPEN)["motion"]["speed_m_s"] == 1.0
+    none: Any = None
+    nameless: Any = ROVER | {"radius_m": none}
+    with pytest.raises(ae.InputError, match=r"body\.radius_m is missing"):
+        ae.Brain(None, nameless)
+    listed: Any = ROVER | {"others": [none]}
+    with pytest.raises(ae.InputError, match=r"body\.others"):
+        ae.Brain(None, listed)
+    with pytest.raises(ae.InputError, match="None"):
+        ae.Scenario.load("search").replace("clock.cap_s", none)
 
 
 CONTACT = {"kind": 0, "range_m": 1.0, "bearing_rad": 0.0, "age_s": 0.0}

@@ -5,7 +5,7 @@ use crate::error::input_error;
 use crate::exchange::{self, below};
 use crate::fit::fitting;
 use crate::refused::as_in_python;
-use crate::scenario::value;
+use crate::scenario::value_without_none;
 use crate::simulation::MetricScenario;
 use base::document::Document;
 use base::document::schema::Schema;
@@ -57,6 +57,14 @@ impl Brain {
         exchange::write(percept.py(), &command)
     }
 
+    /// What it believes and wants; None if it has no mind.
+    fn thoughts<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
+        let thoughts = self.with(|brain| brain.thoughts());
+        thoughts
+            .map(|thoughts| exchange::write(py, &thoughts))
+            .transpose()
+    }
+
     /// A brain with the same memories, which then goes its own way.
     fn copy(&self) -> Self {
         Self(Mutex::new(self.with(|brain| brain.clone())))
@@ -82,14 +90,19 @@ impl Brain {
     }
 }
 
-/// What a dict says that is checked as a document is; `name` is how faults name it.
+/// What a dict says that is checked as a document is, and whose None is left out; `name` is how faults
+/// name it.
 fn read<T: DeserializeOwned + JsonSchema>(
     name: &str,
     given: &Bound<PyAny>,
     faults: &mut Vec<Fault>,
 ) -> PyResult<Option<T>> {
     let mut document = Document::default();
-    document.set(&[], value(&[name.to_owned()], given, name)?, "");
+    document.set(
+        &[],
+        value_without_none(&[name.to_owned()], given, name)?,
+        "",
+    );
     let read = document.typed(&Schema::of::<T>());
     let wrong = read.as_ref().err().into_iter().flat_map(|faults| &faults.0);
     faults.extend(wrong.map(|fault| Fault {

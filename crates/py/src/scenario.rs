@@ -86,7 +86,26 @@ impl Source<'_> {
 
 /// A Python value at `path` as documents have it.
 pub(crate) fn value(path: &[String], given: &Bound<PyAny>, origin: &str) -> PyResult<Value> {
-    nested((path, origin), given, MAX_DEPTH)
+    let at = At {
+        path,
+        origin,
+        skips_none: false,
+    };
+    nested(at, given, MAX_DEPTH)
+}
+
+/// The same, but what is None in a dict is left out.
+pub(crate) fn value_without_none(
+    path: &[String],
+    given: &Bound<PyAny>,
+    origin: &str,
+) -> PyResult<Value> {
+    let at = At {
+        path,
+        origin,
+        skips_none: true,
+    };
+    nested(at, given, MAX_DEPTH)
 }
 
 /// A value that is at most so `deep`.
@@ -100,7 +119,7 @@ fn nested(at: At, given: &Bound<PyAny>, deep: usize) -> PyResult<Value> {
     if let Ok(number) = given.extract::<i64>() {
         return Ok(Value::Integer(number));
     }
-    let too_deep = || refusal(at.1, too_deep(at.0.join(".")));
+    let too_deep = || refusal(at.origin, too_deep(at.path.join(".")));
     if let Ok(dict) = given.cast::<PyDict>() {
         return table(at, dict, deep.checked_sub(1).ok_or_else(too_deep)?);
     }
@@ -112,12 +131,17 @@ fn nested(at: At, given: &Bound<PyAny>, deep: usize) -> PyResult<Value> {
     given.extract::<f64>().map(Value::Float).map_err(|_| {
         let allowed = "a text, a number, true, false, or a list or dict of these".to_owned();
         let given = Some(given.to_string());
-        refusal(at.1, Fault::new(at.0.join("."), given, allowed))
+        refusal(at.origin, Fault::new(at.path.join("."), given, allowed))
     })
 }
 
-/// The path of a value, and its origin.
-type At<'a> = (&'a [String], &'a str);
+/// The path of a value, its origin, and whether None in a dict is as if it were not there.
+#[derive(Clone, Copy)]
+struct At<'a> {
+    path: &'a [String],
+    origin: &'a str,
+    skips_none: bool,
+}
 
 fn refusal(origin: &str, fault: Fault) -> PyErr {
     let origin = Some(origin.to_owned());
@@ -127,16 +151,19 @@ fn refusal(origin: &str, fault: Fault) -> PyErr {
 fn node(at: At, given: &Bound<PyAny>, deep: usize) -> PyResult<Node> {
     Ok(Node {
         value: nested(at, given, deep)?,
-        origin: at.1.to_owned(),
+        origin: at.origin.to_owned(),
     })
 }
 
-fn table((path, origin): At, dict: &Bound<PyDict>, deep: usize) -> PyResult<Value> {
+fn table(at: At, dict: &Bound<PyDict>, deep: usize) -> PyResult<Value> {
     let mut table = Table::new();
     for (key, given) in dict {
+        if at.skips_none && given.is_none() {
+            continue;
+        }
         let key = key.str()?.to_string();
-        let inner: Vec<String> = path.iter().chain([&key]).cloned().collect();
-        table.insert(key, node((&inner, origin), &given, deep)?);
+        let path: Vec<String> = at.path.iter().chain([&key]).cloned().collect();
+        table.insert(key, node(At { path: &path, ..at }, &given, deep)?);
     }
     Ok(Value::Table(table))
 }
