@@ -6,6 +6,7 @@
 //! 2004).
 
 use crate::beliefs::field::Field;
+use crate::beliefs::peers::Peer;
 use crate::beliefs::{Beliefs, Map};
 use alloc::vec::Vec;
 use base::geometry::Point;
@@ -38,9 +39,8 @@ impl Part {
         };
         self.middles.clear();
         self.middles.push(pose.at);
-        let mates = beliefs.peers.fresh();
-        let places = mates.filter_map(|peer| peer.at.map(|(at, _)| at));
-        self.middles.extend(places);
+        let mates = beliefs.peers.mates.iter();
+        self.middles.extend(mates.filter_map(Peer::at));
         if self.middles.len() == 1 {
             self.own = u64::MAX;
             return;

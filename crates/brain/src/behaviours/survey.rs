@@ -123,14 +123,14 @@ pub(crate) fn share(beliefs: &Beliefs, at: Point, place: Point, near_m: f64) -> 
     let away = at.to(place).length_squared();
     let takes = |peer: &Peer| {
         let goes = peer
-            .aim
+            .aim()
             .is_some_and(|aim| aim.to(place).length_squared() < near_m * near_m);
         let is_nearer = peer
-            .at
-            .is_some_and(|(there, ..)| there.to(place).length_squared() < away);
+            .at()
+            .is_some_and(|there| there.to(place).length_squared() < away);
         goes || is_nearer
     };
-    if beliefs.peers.fresh().any(takes) {
+    if beliefs.peers.mates.iter().any(takes) {
         CLAIMED
     } else {
         1.0

@@ -8,7 +8,8 @@
 //! log odds = log odds before its looks + sum over sources of their log likelihood ratios
 //! a contact adds    ln(p N(d; S) / f)    p: probability of detection at that distance,
 //! a miss adds       ln(1 - p)            N: normal density of its being d off, f: false contacts a m2
-//! a report counts   as trust x its confidence + (1 - trust) x the confidence before
+//! a report counts   as t x its confidence + (1 - t) x the confidence before
+//!                   t: trust in who tells it, times that in who looked if it was another
 //! ```
 //!
 //! Before an item's looks it is as likely as items are dense, and as looks that saw nothing there would
@@ -16,16 +17,18 @@
 
 use super::Map;
 use super::pose::Pose;
-use super::trust::{Trust, TrustSpec};
 use super::unseen::View;
 use crate::body::{Detector, RobotId};
-use crate::command::{About, Message, Seen};
+use crate::command::Seen;
 use crate::percept::Contact;
 use crate::sector::direction;
 use alloc::vec::Vec;
 use base::geometry::Point;
-use core::f64::consts::{LN_10, PI};
-use core::mem;
+use core::f64::consts::PI;
+
+mod reports;
+
+pub(crate) use reports::{Ears, Report};
 
 /// So many items are kept in mind; the least believed is forgotten first.
 const MOST: usize = 64;
@@ -48,12 +51,6 @@ const MOST_AT_ALL: f64 = 15.0;
 /// said of detectors errs.
 const LEAST_UNSEEN: f64 = 0.01;
 
-/// Own looks that say 90% confirm or refute a report.
-const SURE: f64 = 2.0 * LN_10 * 0.477;
-
-/// Others are told again when what they were told is off by this.
-const TOLD_AGAIN: f64 = 0.05;
-
 /// An item, or what was taken for one.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Track {
@@ -75,13 +72,15 @@ pub(crate) struct Track {
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 struct Source {
     seen: Seen,
+    /// Who told of them; of own ones, the robot itself.
+    from: RobotId,
     /// Log odds before its looks, beside what others say of the same item.
     before: f64,
     /// Log likelihood ratio of all its looks.
     odds: f64,
     /// What others were told last; 0 if nothing.
     told: f64,
-    /// Whether own looks have confirmed or refuted it.
+    /// Whether own looks have confirmed or refuted it: each counts once, whoever told it later.
     is_judged: bool,
 }
 
@@ -210,36 +209,13 @@ impl Items {
         place
     }
 
-    /// Takes in a report, unless it is of own looks; its place errs by a variance.
-    pub(crate) fn hear(&mut self, own: RobotId, report: &Report, variance_m2: f64, per_m2: &[f64]) {
-        if report.seen.by == own {
-            return;
-        }
-        let of_source = |track: &Track| track.place_of(report.seen).is_some();
-        let known = self.tracks.iter().position(of_source);
-        let near = || self.nearest(report.kind, report.at, variance_m2, 0);
-        let place = match known.or_else(near) {
-            Some(place) => place,
-            None => self.begin(report.kind, report.at, variance_m2, of(per_m2, report.kind)),
-        };
-        let track = &mut self.tracks[place];
-        let before = track.before_another(report.at, variance_m2, of(per_m2, report.kind));
-        let is_new = track.place_of(report.seen).is_none();
-        if track.replace(own, report, before) {
-            if !track.has_looked(own) {
-                track.place_by_report(report.at, variance_m2, is_new);
-            }
-            self.note(1 << place);
-        }
-    }
-
     /// Keeps what those looked at that `keep` has a number for.
     pub(crate) fn renumber(&mut self, keep: impl Fn(&mut RobotId) -> bool) {
         for track in &mut self.tracks {
             let mut kept = 0;
             for place in 0..track.count {
                 let mut source = track.sources[place];
-                if keep(&mut source.seen.by) {
+                if keep(&mut source.seen.by) && keep(&mut source.from) {
                     track.sources[kept] = source;
                     kept += 1;
                 }
@@ -248,25 +224,6 @@ impl Items {
         }
         self.tracks.retain(|track| track.count > 0);
         self.note(u64::MAX);
-    }
-
-    /// Learns from own looks whose reports were right.
-    pub(crate) fn learn(&mut self, own: RobotId, trust: &mut Trust, spec: &TrustSpec) {
-        for number in bits(mem::take(&mut self.unjudged)) {
-            let Some(track) = self.tracks.get_mut(number) else {
-                break;
-            };
-            let Some(verdict) = track.own_verdict(own) else {
-                continue;
-            };
-            for source in &mut track.sources[..track.count] {
-                let is_report = source.seen.by != own && source.says() > 0.0;
-                if is_report && !source.is_judged {
-                    source.is_judged = true;
-                    trust.learn(source.seen.by, verdict, spec);
-                }
-            }
-        }
     }
 
     /// Lets others be told again of one item, each in its turn: messages are lost, and who was out of reach
@@ -280,50 +237,11 @@ impl Items {
             self.news |= 1 << self.again;
         }
     }
-
-    /// What others are to be told, at most so many messages: own looks and relayed ones.
-    pub(crate) fn tell(&mut self, outbox: &mut Vec<Message>, most: usize) {
-        let mut left = most;
-        for number in bits(self.news) {
-            let Some(track) = self.tracks.get_mut(number).filter(|_| left > 0) else {
-                break;
-            };
-            let (kind, at) = (track.kind, track.at);
-            for source in &mut track.sources[..track.count] {
-                let confidence = probability(source.says());
-                if left == 0 || (confidence - source.told).abs() < TOLD_AGAIN {
-                    continue;
-                }
-                source.told = confidence;
-                left -= 1;
-                outbox.push(Message {
-                    about: About::Item {
-                        kind,
-                        at,
-                        seen: source.seen,
-                    },
-                    confidence,
-                });
-            }
-            if left > 0 {
-                self.news &= !(1 << number);
-            }
-        }
-    }
 }
 
 /// The places of the bits that are set, the least first.
 fn bits(set: u64) -> impl Iterator<Item = usize> {
     (0..MOST).filter(move |bit| set >> bit & 1 == 1)
-}
-
-/// What another robot tells of an item.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Report {
-    pub(crate) kind: u16,
-    pub(crate) at: Point,
-    pub(crate) seen: Seen,
-    pub(crate) confidence: f64,
 }
 
 /// What there is of a kind.
@@ -359,31 +277,6 @@ impl OwnLook<'_> {
 }
 
 impl Track {
-    /// How surely it is there, 0 to 1. All that one robot says counts together, so that nobody is believed
-    /// more than he is trusted, however often he says it.
-    pub(crate) fn confidence(&self, own: RobotId, trust: &Trust, spec: &TrustSpec) -> f64 {
-        let sources = &self.sources[..self.count];
-        let is_first = |number: usize, by: RobotId| {
-            let mut before = sources[..number].iter();
-            before.all(|other| other.seen.by != by)
-        };
-        let numbered = sources.iter().enumerate();
-        let firsts = numbered.filter(|(number, source)| is_first(*number, source.seen.by));
-        let all = firsts.map(|(number, Source { seen, before, .. })| {
-            let same = sources[number..]
-                .iter()
-                .filter(|other| other.seen.by == seen.by);
-            let odds = same.map(|source| source.odds).sum::<f64>();
-            if seen.by == own {
-                return odds;
-            }
-            let trust = trust.of(seen.by, spec);
-            let told = probability(before + odds);
-            log_odds(trust * told + (1.0 - trust) * probability(*before)) - before
-        });
-        probability(self.before + all.sum::<f64>())
-    }
-
     /// Log odds with full trust in everybody.
     fn sum(&self) -> f64 {
         let sources = self.sources[..self.count].iter();
@@ -437,7 +330,7 @@ impl Track {
                 looks: 0,
             };
             self.room(by, f64::INFINITY).map_or(0, |place| {
-                self.sources[place].seen = seen;
+                (self.sources[place].seen, self.sources[place].from) = (seen, by);
                 self.sources[place].before = before;
                 place
             })
@@ -472,50 +365,9 @@ impl Track {
         sources.into_iter().position(is_same)
     }
 
-    /// Takes in what looks of a source say, if it says more than before; `before` holds if it is new.
-    fn replace(&mut self, own: RobotId, report: &Report, before: f64) -> bool {
-        let seen = report.seen;
-        let known = self.place_of(seen);
-        let is_old = known.is_some_and(|place| self.sources[place].seen.looks >= seen.looks);
-        if is_old {
-            return false;
-        }
-        let before = known.map_or(before, |place| self.sources[place].before);
-        let odds = log_odds(report.confidence.clamp(1e-6, 1.0 - 1e-6)) - before;
-        let Some(place) = known.or_else(|| self.room(own, odds)) else {
-            return false;
-        };
-        let source = &mut self.sources[place];
-        (source.seen, source.before) = (seen, before);
-        source.odds = odds.max(-MOST_AT_ALL).min(MOST_AT_ALL - before);
-        true
-    }
-
     fn has_looked(&self, own: RobotId) -> bool {
         let mut sources = self.sources[..self.count].iter();
         sources.any(|source| source.seen.by == own)
-    }
-
-    /// Whether own looks say that it is there, if they say something for sure.
-    fn own_verdict(&self, own: RobotId) -> Option<bool> {
-        let mut sources = self.sources[..self.count].iter();
-        let source = sources.find(|source| source.seen.by == own)?;
-        if source.says() > SURE {
-            Some(true)
-        } else if source.odds < -SURE {
-            Some(false)
-        } else {
-            None
-        }
-    }
-
-    /// Takes in where others say that it is: who says it again has not measured all of it anew.
-    fn place_by_report(&mut self, at: Point, variance_m2: f64, is_new: bool) {
-        if self.count == 1 {
-            (self.at, self.variance_m2) = (at, variance_m2);
-        } else if is_new {
-            self.correct(at, variance_m2);
-        }
     }
 
     /// Corrects where it is.

@@ -210,11 +210,12 @@ impl Beliefs {
 
     /// Items, by how surely they are there.
     pub(crate) fn believed_items(&self) -> impl Iterator<Item = BelievedItem> {
-        self.items.tracks.iter().map(|track| BelievedItem {
+        let ears = telling::ears(self.id, &self.trust, &self.prior);
+        self.items.tracks.iter().map(move |track| BelievedItem {
             kind: track.kind,
             at: track.at,
             deviation_m: libm::sqrt(track.variance_m2),
-            confidence: track.confidence(self.id, &self.trust, &self.prior.trust),
+            confidence: track.confidence(&ears),
         })
     }
 
@@ -224,8 +225,8 @@ impl Beliefs {
         let mut seen = self.others.movers.iter();
         let seen = seen.find(|mover| mover.id == Some(id));
         let told = || {
-            let peer = self.peers.fresh().find(|peer| peer.id == id)?;
-            peer.at.map(|(at, ..)| at)
+            let mut mates = self.peers.mates.iter();
+            mates.find(|peer| peer.id == id)?.at()
         };
         seen.map(|mover| pose.world_of(mover.at)).or_else(told)
     }

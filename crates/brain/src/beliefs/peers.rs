@@ -1,7 +1,10 @@
 //! Team mates: where they are, what they have looked at, and where they are going.
+//!
+//! Each of these has its own age, which begins at the age of the message that told of it.
 
 use crate::body::RobotId;
 use crate::command::Stand;
+use crate::percept::Reading;
 use alloc::vec::Vec;
 use base::geometry::Point;
 
@@ -11,18 +14,22 @@ pub(crate) const MOST: usize = 32;
 /// So many places where others have been are remembered, the newest.
 const MOST_VISITS: usize = 64;
 
-/// What was heard so long ago holds no more, in seconds.
+/// What was so long ago holds no more, in seconds.
 const FORGOTTEN_S: f64 = 10.0;
+
+/// Ages are of one moment if they differ by no more, but for rounding; in seconds.
+const SAME_S: f64 = 1e-6;
 
 /// A team mate, as its messages tell.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Peer {
     pub(crate) id: RobotId,
-    /// Where it was, and how often it had looked for items by then.
-    pub(crate) at: Option<(Point, u32)>,
-    /// Where it is going.
-    pub(crate) aim: Option<Point>,
-    pub(crate) age_s: f64,
+    /// Where it said that it was, and how often it had looked for items by then: believed or not.
+    looked: Option<Reading<(Point, u32)>>,
+    /// Where it was, by what is believed.
+    at: Option<Reading<Point>>,
+    /// Where it is going, or that it goes nowhere.
+    aim: Option<Reading<Option<Point>>>,
 }
 
 /// All of whom something was heard.
@@ -37,48 +44,67 @@ pub(crate) struct Peers {
 impl Peers {
     pub(crate) fn pass(&mut self, period_s: f64) {
         for peer in &mut self.mates {
-            peer.age_s += period_s;
+            pass(&mut peer.looked, period_s);
+            pass(&mut peer.at, period_s);
+            pass(&mut peer.aim, period_s);
         }
     }
 
-    /// Those of whom something was heard of late.
-    pub(crate) fn fresh(&self) -> impl Iterator<Item = &Peer> {
-        self.mates.iter().filter(|peer| peer.age_s <= FORGOTTEN_S)
-    }
-
-    /// Notes where one is; returns where it was before, and how often it has looked since.
-    pub(crate) fn stands(&mut self, id: RobotId, at: Point, looks: u32) -> (Point, u32) {
+    /// Notes that one looked as often on its way to a place; returns where it was before, how often it says
+    /// that it has looked since, and in what time, in seconds.
+    pub(crate) fn looked(
+        &mut self,
+        id: RobotId,
+        Reading { value, age_s }: Reading<(Point, u32)>,
+    ) -> (Point, u32, f64) {
+        let (at, looks) = value;
         let peer = self.peer(id);
-        let before = peer.at.replace((at, looks));
-        peer.age_s = 0.0;
-        let (from, had) = before.unwrap_or((at, 0));
+        let Some(before) = peer.looked else {
+            peer.looked = Some(Reading { value, age_s });
+            return (at, looks.min(1), f64::INFINITY);
+        };
+        if is_outdated(peer.looked, age_s) {
+            return (at, 0, 0.0);
+        }
+        peer.looked = Some(Reading { value, age_s });
+        let (from, had) = before.value;
         // Who has been switched off and on begins anew.
-        (
-            from,
-            if before.is_some() {
-                looks.saturating_sub(had)
-            } else {
-                looks.min(1)
-            },
-        )
+        let since = looks.saturating_sub(had);
+        (from, since, (before.age_s - age_s).max(0.0))
     }
 
-    /// Notes where one is going, or no longer.
-    pub(crate) fn goes(&mut self, id: RobotId, at: Point, stand: Stand) {
+    /// Notes where one was, an age ago in seconds.
+    pub(crate) fn stands(&mut self, id: RobotId, at: Point, age_s: f64) {
+        if age_s > FORGOTTEN_S {
+            return;
+        }
         let peer = self.peer(id);
-        peer.age_s = 0.0;
-        if stand == Stand::Going {
-            peer.aim = Some(at);
-        } else if peer.aim == Some(at) {
-            peer.aim = None;
+        if !is_outdated(peer.at, age_s) {
+            peer.at = Some(Reading { value: at, age_s });
         }
+    }
+
+    /// Notes where one was going, or no longer, an age ago in seconds. Where it has been it has been for ever.
+    pub(crate) fn goes(&mut self, id: RobotId, at: Point, stand: Stand, age_s: f64) {
         if stand == Stand::Done {
-            if self.visits.len() == MOST_VISITS {
-                self.visits.remove(0);
-            }
-            self.visits.push(at);
-            self.visited = self.visited.wrapping_add(1);
+            self.visit(at);
         }
+        if age_s > FORGOTTEN_S {
+            return;
+        }
+        let peer = self.peer(id);
+        let value = (stand == Stand::Going).then_some(at);
+        if !is_outdated(peer.aim, age_s) && (value.is_some() || peer.is_going_to(at)) {
+            peer.aim = Some(Reading { value, age_s });
+        }
+    }
+
+    fn visit(&mut self, at: Point) {
+        if self.visits.len() == MOST_VISITS {
+            self.visits.remove(0);
+        }
+        self.visits.push(at);
+        self.visited = self.visited.wrapping_add(1);
     }
 
     /// Where others have been since so many visits, as far as they are remembered; `since` is then how many
@@ -91,8 +117,8 @@ impl Peers {
 
     /// Whether somebody is going to a place for whom `counts` holds.
     pub(crate) fn anybody_goes(&self, to: Point, counts: impl Fn(RobotId) -> bool) -> bool {
-        self.fresh()
-            .any(|peer| peer.aim == Some(to) && counts(peer.id))
+        let mut mates = self.mates.iter();
+        mates.any(|peer| peer.is_going_to(to) && counts(peer.id))
     }
 
     fn peer(&mut self, id: RobotId) -> &mut Peer {
@@ -100,15 +126,15 @@ impl Peers {
         let place = known.unwrap_or_else(|| {
             if self.mates.len() == MOST {
                 let numbered = self.mates.iter().enumerate();
-                let oldest = numbered.max_by(|one, other| one.1.age_s.total_cmp(&other.1.age_s));
-                let oldest = oldest.map_or(0, |(number, _)| number);
-                self.mates.remove(oldest);
+                let ages = numbered.map(|(number, peer)| (peer.age_s(), number));
+                let oldest = ages.max_by(|one, other| one.0.total_cmp(&other.0));
+                self.mates.remove(oldest.map_or(0, |(_, number)| number));
             }
             self.mates.push(Peer {
                 id,
+                looked: None,
                 at: None,
                 aim: None,
-                age_s: 0.0,
             });
             self.mates.len() - 1
         });
@@ -116,61 +142,47 @@ impl Peers {
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    const MATE: RobotId = RobotId { kind: 0, index: 1 };
-
-    #[test]
-    fn looks_between_two_messages_are_those_that_came_between() {
-        let mut peers = Peers::default();
-        let (here, there) = (Point { x: 1.0, y: 1.0 }, Point { x: 3.0, y: 1.0 });
-        assert_eq!(peers.stands(MATE, here, 7), (here, 1));
-        assert_eq!(peers.stands(MATE, there, 12), (here, 5));
-        assert_eq!(peers.stands(MATE, there, 12), (there, 0));
+impl Peer {
+    /// Where it was of late.
+    pub(crate) fn at(&self) -> Option<Point> {
+        fresh(self.at)
     }
 
-    #[test]
-    fn where_one_goes_is_known_until_it_is_there_or_not_heard_of() {
-        let mut peers = Peers::default();
-        let place = Point { x: 3.0, y: 1.0 };
-        peers.goes(MATE, place, Stand::Going);
-        assert!(peers.anybody_goes(place, |_| true) && !peers.anybody_goes(place, |id| id != MATE));
-        for stand in [Stand::Done, Stand::Left] {
-            peers.goes(MATE, place, Stand::Going);
-            peers.goes(MATE, place, stand);
-            assert!(!peers.anybody_goes(place, |_| true));
-        }
-        peers.pass(11.0);
-        assert_eq!(peers.fresh().count(), 0);
+    /// Where it is going, as it said of late.
+    pub(crate) fn aim(&self) -> Option<Point> {
+        fresh(self.aim).flatten()
     }
 
-    #[test]
-    fn where_others_have_been_is_told_once() {
-        let (mut peers, mut since) = (Peers::default(), 0);
-        for x in 0..100 {
-            let at = Point {
-                x: f64::from(x),
-                y: 0.0,
-            };
-            peers.goes(MATE, at, Stand::Done);
-            peers.goes(MATE, at, Stand::Left);
-            if x < 50 {
-                assert_eq!(peers.visits_since(&mut since), [at]);
-                assert_eq!(peers.visits_since(&mut since), []);
-            }
-        }
-        assert_eq!(peers.visits_since(&mut since).len(), 50);
-        assert_eq!(peers.visits.len(), MOST_VISITS);
+    fn is_going_to(&self, to: Point) -> bool {
+        self.aim() == Some(to)
     }
 
-    #[test]
-    fn a_crowd_takes_bounded_memory() {
-        let mut peers = Peers::default();
-        for index in 0..1000 {
-            peers.goes(RobotId { kind: 0, index }, Point::default(), Stand::Going);
-        }
-        assert_eq!(peers.mates.len(), MOST);
+    /// Time since it sent the newest of what is remembered of it, in seconds.
+    fn age_s(&self) -> f64 {
+        let ages = [age_s(self.looked), age_s(self.at), age_s(self.aim)];
+        ages.into_iter().fold(f64::INFINITY, f64::min)
     }
 }
+
+fn pass<T>(reading: &mut Option<Reading<T>>, period_s: f64) {
+    if let Some(reading) = reading {
+        reading.age_s += period_s;
+    }
+}
+
+fn age_s<T>(reading: Option<Reading<T>>) -> f64 {
+    reading.map_or(f64::INFINITY, |reading| reading.age_s)
+}
+
+fn fresh<T>(reading: Option<Reading<T>>) -> Option<T> {
+    let reading = reading.filter(|reading| reading.age_s <= FORGOTTEN_S);
+    reading.map(|reading| reading.value)
+}
+
+/// Whether something newer is known than what is so old: messages may overtake each other.
+fn is_outdated<T>(known: Option<Reading<T>>, of_s: f64) -> bool {
+    age_s(known) + SAME_S < of_s
+}
+
+#[cfg(test)]
+mod tests;

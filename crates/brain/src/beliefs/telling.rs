@@ -1,17 +1,19 @@
 //! What is told to others, and what others tell.
 
-use super::items::Report;
+use super::items::{Ears, Report};
 use super::pose::Pose;
-use super::{Beliefs, Body};
+use super::trust::ENOUGH;
+use super::{Beliefs, Body, Prior, Trust};
+use crate::body::RobotId;
 use crate::command::{About, Message, Seen, Stand};
-use crate::percept::Heard;
+use crate::percept::{Heard, Reading};
 use crate::wish::Aim;
 use alloc::vec::Vec;
 use base::geometry::Point;
 use base::trig::wrapped;
 
 /// Others are told where it is once in so long, and where it goes whenever that changes, or after as
-/// long; in seconds.
+/// long; in seconds. Each robot has its own moment within that: a radio hears only so much at once.
 const AGAIN_S: f64 = 1.0;
 
 /// Who has turned by this tells at once where it is: others take it to have looked the way that it told
@@ -24,6 +26,12 @@ const ITEMS_A_STEP: usize = 2;
 /// A team mate's way since its last message is looked at from at most so many places.
 const MOST_PLACES: f64 = 16.0;
 
+/// Nobody looks oftener with one detector, in looks a second: cameras see, and robots tell of it, more slowly.
+const MOST_LOOKS_S: f64 = 50.0;
+
+/// Kinds of robots begin so far apart, as a share of [`AGAIN_S`]: multiples of the golden ratio fall evenly.
+const KINDS_APART: f64 = 0.618_033_988_749_894_9;
+
 /// What is farther away than this is nonsense, in metres.
 const FARTHEST_M: f64 = 1e7;
 
@@ -33,16 +41,18 @@ pub(crate) struct Told {
     goal: Option<Aim>,
     heading_rad: f64,
     looks: u32,
-    age_s: f64,
+    /// `None` before the first time.
+    age_s: Option<f64>,
 }
 
 impl Beliefs {
     /// Takes in a message.
     pub(super) fn hear(&mut self, heard: &Heard, body: &Body, pose: &Pose) {
         let confidence = heard.message.confidence;
-        if !(0.0..=1.0).contains(&confidence) {
+        if !(0.0..=1.0).contains(&confidence) || !is_age(heard.age_s) {
             return;
         }
+        let counts = self.trust.of(heard.from, &self.prior.trust) * confidence;
         match heard.message.about {
             About::Item { kind, at, seen } if is_place(at) => {
                 let report = Report {
@@ -50,46 +60,59 @@ impl Beliefs {
                     at,
                     seen: own_look(heard, seen, at),
                     confidence,
+                    from: heard.from,
                 };
                 let variance_m2 = report_variance_m2(body, pose);
+                let ears = ears(self.id, &self.trust, &self.prior);
                 self.items
-                    .hear(self.id, &report, variance_m2, &self.prior.per_m2);
+                    .hear(&ears, &report, variance_m2, &self.prior.per_m2);
             }
             About::Sender {
                 at,
                 heading_rad,
                 looks,
             } if is_place(at) && heading_rad.abs() < 1e4 => {
-                self.hear_sender(heard, body, (at, heading_rad), looks);
+                if counts >= ENOUGH {
+                    self.peers.stands(heard.from, at, heard.age_s);
+                }
+                let glance = (at, heading_rad);
+                self.hear_looks((heard, counts), body, glance, looks);
             }
-            About::Goal { at, stand } if is_place(at) => self.peers.goes(heard.from, at, stand),
+            About::Goal { at, stand } if is_place(at) && counts >= ENOUGH => {
+                self.peers.goes(heard.from, at, stand, heard.age_s);
+            }
             _ => {}
         }
     }
 
-    /// A team mate has looked around on its way: that extends the own picture, towards it only.
-    fn hear_sender(
+    /// A team mate has looked around on its way: that extends the own picture, towards it only. However long
+    /// ago that was, it has looked; but no oftener than can be.
+    fn hear_looks(
         &mut self,
-        heard: &Heard,
+        (heard, counts): (&Heard, f64),
         body: &Body,
         (at, heading_rad): (Point, f64),
         looks: u32,
     ) {
-        let (from, since) = self.peers.stands(heard.from, at, looks);
+        let told = Reading {
+            value: (at, looks),
+            age_s: heard.age_s,
+        };
+        let (from, since, in_s) = self.peers.looked(heard.from, told);
         let other = body.others.get(usize::from(heard.from.kind));
         let detectors = other.map_or(&body.detectors, |other| &other.detectors);
-        let Some(detector) = detectors.first().filter(|_| since > 0) else {
+        let looks = believable(since, in_s, detectors.len());
+        let Some(detector) = detectors.first().filter(|_| looks >= 1.0) else {
             return;
         };
-        let trust = self.trust.of(heard.from, &self.prior.trust) * heard.message.confidence;
         let way = from.to(at);
         let apart_m = (detector.range_m / 2.0).max(1e-3);
-        let places = libm::ceil(way.length() / apart_m).clamp(1.0, MOST_PLACES.min(since.into()));
-        let each = f64::from(since) / places;
+        let places = libm::ceil(way.length() / apart_m).clamp(1.0, MOST_PLACES.min(looks));
+        let each = looks / places;
         let mut place = 1.0;
         while place <= places {
             let there = from.plus(way.times(place / places));
-            self.look_at_cells(detector, (there, heading_rad), [trust, each]);
+            self.look_at_cells(detector, (there, heading_rad), [counts, each]);
             place += 1.0;
         }
     }
@@ -99,8 +122,7 @@ impl Beliefs {
         let Some(pose) = self.here.pose() else {
             return;
         };
-        self.told.age_s += period_s;
-        let is_time = self.told.age_s >= AGAIN_S;
+        let is_time = self.told.is_time(self.id, period_s);
         self.told.tell_goal(goal, pose.at, is_time, outbox);
         let turned_rad = wrapped(pose.heading_rad - self.told.heading_rad).abs();
         let looks_elsewhere = turned_rad >= TURNED_RAD && self.looks != self.told.looks;
@@ -113,14 +135,25 @@ impl Beliefs {
             }));
         }
         if is_time {
-            self.told.age_s = 0.0;
             self.items.tell_again();
         }
-        self.items.tell(outbox, ITEMS_A_STEP);
+        let ears = ears(self.id, &self.trust, &self.prior);
+        self.items.tell(&ears, outbox, ITEMS_A_STEP);
     }
 }
 
 impl Told {
+    /// Whether it is time to tell again, after one more period: the sum may be half of one off, and what is
+    /// left over counts for the next time, so that it is once in [`AGAIN_S`] whatever the period.
+    fn is_time(&mut self, own: RobotId, period_s: f64) -> bool {
+        let begun_s = || AGAIN_S * phase(own, period_s);
+        let age_s = self.age_s.unwrap_or_else(begun_s) + period_s;
+        let is_time = age_s >= AGAIN_S - period_s / 2.0;
+        let left_s = (age_s - AGAIN_S).min(period_s / 2.0);
+        self.age_s = Some(if is_time { left_s } else { age_s });
+        is_time
+    }
+
     /// Tells where it is going, and what has become of where it went before.
     fn tell_goal(
         &mut self,
@@ -146,6 +179,28 @@ impl Told {
         outbox.extend(goal.map(|aim| say(aim, Stand::Going)));
         self.goal = goal;
     }
+}
+
+/// How much of [`AGAIN_S`] is over for a robot when it begins, 0 to 1: there are as many moments as periods,
+/// and of one kind as many robots in each, but for one.
+fn phase(own: RobotId, period_s: f64) -> f64 {
+    let moments = libm::round(AGAIN_S / period_s).clamp(1.0, 1e9);
+    let place = f64::from(own.index) / moments + KINDS_APART * f64::from(own.kind);
+    place - libm::floor(place)
+}
+
+/// So many of the looks that a team mate says that it took in a time, in seconds, with so many detectors can
+/// have been taken.
+fn believable(looks: u32, in_s: f64, detectors: usize) -> f64 {
+    let detectors = u32::try_from(detectors).unwrap_or(u32::MAX);
+    // Ages are sums of periods.
+    let most = libm::floor(in_s * MOST_LOOKS_S * f64::from(detectors) + 1e-3);
+    f64::from(looks).min(most)
+}
+
+pub(super) fn ears<'t>(own: RobotId, trust: &'t Trust, prior: &'t Prior) -> Ears<'t> {
+    let spec = &prior.trust;
+    Ears { own, trust, spec }
 }
 
 fn sure(about: About) -> Message {
@@ -180,6 +235,10 @@ fn report_variance_m2(body: &Body, pose: &Pose) -> f64 {
         .map(|detector| detector.noise_m)
         .fold(0.05, f64::max);
     2.0 * pose.deviation_m * pose.deviation_m + noise_m * noise_m
+}
+
+fn is_age(age_s: f64) -> bool {
+    age_s >= 0.0 && age_s.is_finite()
 }
 
 fn is_place(at: Point) -> bool {

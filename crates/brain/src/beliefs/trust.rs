@@ -11,6 +11,9 @@ const MOST: usize = 64;
 /// A report that is confirmed or refuted counts as much as one in so many that came before.
 const BEFORE: f32 = 4.0;
 
+/// Nobody acts on what he is told, or passes it on, if he trusts it less: it is more likely wrong than right.
+pub(crate) const ENOUGH: f64 = 0.5;
+
 /// How far a mind trusts what others tell.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
@@ -38,6 +41,17 @@ impl Default for TrustSpec {
 /// ```
 ///
 /// (Jøsang and Ismail, *The beta reputation system*, 2002).
+///
+/// Experience is with whoever told, his own looks or those of others: who passes something on answers for it,
+/// and nobody's trust falls for what another says of him. Looks that are passed on count as
+///
+/// ```text
+/// trust in the one who tells of them x trust in the one who took them
+/// ```
+///
+/// So what is wrong by mistake counts against both its looker, where he tells it, and who passes it on, and
+/// what is right counts for them alike: for each of them trust is the share of what he told that was right.
+/// What counts no more than [`ENOUGH`] is acted on by nobody, as far as places to go to are concerned.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Trust {
     records: Vec<Record>,

@@ -14,6 +14,15 @@ use core::f64::consts::{PI, TAU};
 /// Each look at a cell multiplies it by 1 - p, with the detector's own p at that distance (Koopman,
 /// *Search and screening*, 1946). If items are anywhere with the same density, an unseen one is in a
 /// cell with a probability in proportion to this. Four bytes a cell.
+///
+/// Looks that others tell of were taken with the probability that they are trusted, else they tell nothing:
+///
+/// ```text
+/// missed = 1 - trust (1 - (1 - p)^looks)
+/// ```
+///
+/// over all messages together: each takes away of what is left above 1 - trust, and what is below it stays.
+/// So nobody is believed more than he is trusted, however often he says it.
 #[derive(Debug, Clone)]
 pub(crate) struct Unseen {
     missed: Vec<f32>,
@@ -88,21 +97,30 @@ impl Unseen {
         let margin_m = margin_m(field, detector.range_m);
         let [columns, rows] = field.columns_and_rows(low, high);
         let may_hide = detector.needs_line_of_sight && filled.is_any_in(field, &columns, &rows);
+        let floor = untold(trust);
+        let least = floor.max(LEAST);
         for row in rows {
             for cell in row * field.columns + columns.start..row * field.columns + columns.end {
-                if self.missed[cell] <= LEAST {
+                if self.missed[cell] <= least {
                     continue;
                 }
                 let place = field.centre(cell);
                 let way = at.to(place);
                 let is_in_view = view.holds_within(way, margin_m);
                 if is_in_view && (!may_hide || filled.sees(field, at, place, blur_m)) {
-                    let seen = trust * detector.least_probability(way.length());
-                    self.missed[cell] *= missed(seen, looks);
+                    let seen = detector.least_probability(way.length());
+                    let above = self.missed[cell] - floor;
+                    self.missed[cell] = floor + above * missed(seen, looks);
                 }
             }
         }
     }
+}
+
+/// Probability that looks were not taken that are trusted so much.
+#[expect(clippy::cast_possible_truncation, reason = "kept short")]
+fn untold(trust: f64) -> f32 {
+    (1.0 - trust).clamp(0.0, 1.0) as f32
 }
 
 /// Probability that so many looks miss what each sees with a probability.
@@ -327,7 +345,30 @@ pub(crate) mod tests {
         let (map, eye) = (map(), detector(2.0, 7.0, 1.0));
         let mut unseen = Unseen::new(map.field.cells());
         look(&mut unseen, &map, &eye, 13.0, 0.4);
-        assert!((seen(&map, &unseen, 13.0, 11.0) - 0.4).abs() < 1e-6);
+        assert!((seen(&map, &unseen, 13.0, 11.0) - 0.4 * SUREST).abs() < 1e-6);
+    }
+
+    #[test]
+    fn however_often_looks_are_told_of_they_count_no_more_than_they_are_trusted() {
+        let (map, eye) = (map(), detector(2.0, 7.0, 0.5));
+        for trust in [0.05, 0.5, 0.9] {
+            let mut unseen = Unseen::new(map.field.cells());
+            for looks in 1..100 {
+                look(&mut unseen, &map, &eye, 13.0, trust);
+                let expected = trust * (1.0 - libm::pow(0.5, f64::from(looks)));
+                assert!((seen(&map, &unseen, 13.0, 11.0) - expected).abs() < 1e-5);
+            }
+        }
+    }
+
+    #[test]
+    fn what_others_tell_takes_nothing_back_of_what_own_looks_say() {
+        let (map, eye) = (map(), detector(2.0, 7.0, 0.8));
+        let mut unseen = Unseen::new(map.field.cells());
+        (0..3).for_each(|_| look(&mut unseen, &map, &eye, 13.0, 1.0));
+        let before = seen(&map, &unseen, 13.0, 11.0);
+        look(&mut unseen, &map, &eye, 13.0, 0.5);
+        assert!((seen(&map, &unseen, 13.0, 11.0) - before).abs() < 1e-9);
     }
 
     #[test]
