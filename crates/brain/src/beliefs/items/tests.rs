@@ -1,7 +1,9 @@
 use super::*;
 use crate::beliefs::BeliefsSpec;
+use crate::beliefs::trust::{Trust, TrustSpec};
 use crate::beliefs::unseen::Glance;
 use crate::beliefs::unseen::tests::detector;
+use crate::command::{About, Message};
 use base::geometry::Rectangle;
 use base::noise::normal_pair;
 use base::random::{Entity, Purpose, Stream, stream, unit};
@@ -78,26 +80,33 @@ fn miss(items: &mut Items, by: RobotId) {
 }
 
 fn confidence(items: &Items, own: RobotId) -> f64 {
-    items.tracks[0].confidence(own, &Trust::default(), &TrustSpec::default())
+    confidence_of(&items.tracks[0], own)
 }
 
 fn told(items: &mut Items) -> Vec<Report> {
     let mut outbox = Vec::new();
-    items.tell(&mut outbox, 100);
+    trusting(ME, |ears| items.tell(ears, &mut outbox, 100));
     let report = |message: Message| match message.about {
         About::Item { kind, at, seen } => Some(Report {
             kind,
             at,
             seen,
             confidence: message.confidence,
+            from: seen.by,
         }),
         _ => None,
     };
     outbox.into_iter().filter_map(report).collect()
 }
 
+/// Who trusts everybody as one does at first.
+fn trusting<T>(own: RobotId, then: impl FnOnce(&Ears) -> T) -> T {
+    let (trust, spec) = (&Trust::default(), &TrustSpec::default());
+    then(&Ears { own, trust, spec })
+}
+
 fn hear(items: &mut Items, own: RobotId, report: &Report) {
-    items.hear(own, report, 0.01, &[PER_M2]);
+    trusting(own, |ears| items.hear(ears, report, 0.01, &[PER_M2]));
 }
 
 fn robot(index: u32) -> RobotId {
@@ -114,6 +123,7 @@ fn report(by: u32, confidence: f64) -> Report {
             looks: 1,
         },
         confidence,
+        from: robot(by),
     }
 }
 
@@ -187,6 +197,99 @@ fn a_report_counts_as_much_as_its_sender_is_trusted() {
     hear(&mut items, ME, &report(1, 0.8));
     let before = TAU * 0.01 * PER_M2;
     assert!((confidence(&items, ME) - (0.9 * 0.8 + 0.1 * before)).abs() < 1e-9);
+}
+
+#[test]
+fn a_report_of_anothers_looks_counts_as_both_are_trusted() {
+    let mut items = Items::default();
+    let relayed = Report {
+        from: robot(2),
+        ..report(1, 0.8)
+    };
+    hear(&mut items, ME, &relayed);
+    let before = TAU * 0.01 * PER_M2;
+    assert!((confidence(&items, ME) - (0.81 * 0.8 + 0.19 * before)).abs() < 1e-9);
+    hear(&mut items, ME, &report(1, 0.8));
+    assert!((confidence(&items, ME) - (0.9 * 0.8 + 0.1 * before)).abs() < 1e-9);
+}
+
+#[test]
+fn whomever_one_names_he_is_believed_no_more_than_he_is_trusted() {
+    let mut items = Items::default();
+    for by in 1..6 {
+        let from = robot(7);
+        hear(
+            &mut items,
+            ME,
+            &Report {
+                from,
+                ..report(by, 0.99)
+            },
+        );
+    }
+    assert!(items.tracks[0].count == 5 && confidence(&items, ME) < 0.901);
+}
+
+#[test]
+fn what_one_says_himself_holds_against_what_others_say_of_him() {
+    let mut items = Items::default();
+    let more = |from: u32| Report {
+        from: robot(from),
+        seen: Seen {
+            looks: 9,
+            ..report(1, 0.5).seen
+        },
+        ..report(1, 1e-3)
+    };
+    let (mut trust, spec) = (Trust::default(), TrustSpec::default());
+    (0..9).for_each(|_| trust.learn(robot(7), false, &spec));
+    let ears = Ears {
+        own: ME,
+        trust: &trust,
+        spec: &spec,
+    };
+    let mut hear = |report: &Report| {
+        items.hear(&ears, report, 0.01, &[PER_M2]);
+        items.tracks[0].confidence(&ears)
+    };
+    let told = hear(&report(1, 0.9));
+    assert!((hear(&more(7)) - told).abs() < 1e-12, "a liar is not heard");
+    assert!(hear(&more(2)) < 0.1, "one who is trusted knows more");
+    assert!(
+        (hear(&report(1, 0.9)) - told).abs() < 1e-12,
+        "it says so again"
+    );
+}
+
+#[test]
+fn who_is_not_trusted_is_not_passed_on() {
+    let mut items = Items::default();
+    let (mut trust, spec) = (Trust::default(), TrustSpec::default());
+    (0..9).for_each(|_| trust.learn(robot(7), false, &spec));
+    let ears = Ears {
+        own: ME,
+        trust: &trust,
+        spec: &spec,
+    };
+    for (mark, from, by) in [(1, 7, 1), (2, 1, 7), (3, 1, 2)] {
+        let seen = Seen {
+            mark,
+            ..report(by, 0.9).seen
+        };
+        let told = Report {
+            from: robot(from),
+            seen,
+            ..report(by, 0.9)
+        };
+        items.hear(&ears, &told, 0.01, &[PER_M2]);
+    }
+    let mut outbox = Vec::new();
+    items.tell(&ears, &mut outbox, 100);
+    let is_of_2 = |message: &Message| matches!(message.about, About::Item { seen, .. } if seen.by == robot(2));
+    assert!(
+        outbox.len() == 1 && outbox.iter().all(is_of_2),
+        "{outbox:?}"
+    );
 }
 
 #[test]
@@ -283,7 +386,7 @@ fn a_thousand_contacts_take_bounded_memory() {
     }
     assert_eq!(items.tracks.len(), MOST);
     let mut outbox = Vec::new();
-    items.tell(&mut outbox, 2);
+    trusting(ME, |ears| items.tell(ears, &mut outbox, 2));
     assert_eq!(outbox.len(), 2);
 }
 
@@ -302,7 +405,11 @@ fn gossip(seed: u64, steps: u32) -> (Vec<Items>, Vec<Report>) {
         match random.bounded(6) {
             0 => hit(items, robot(by)),
             1 => miss(items, robot(by)),
-            2 => air.extend(told(items)),
+            2 => {
+                let from = robot(by);
+                let told = told(items).into_iter();
+                air.extend(told.map(|report| Report { from, ..report }));
+            }
             _ if air.is_empty() => {}
             _ => {
                 let any = random.bounded(u32::try_from(air.len()).unwrap()) as usize;
@@ -311,7 +418,8 @@ fn gossip(seed: u64, steps: u32) -> (Vec<Items>, Vec<Report>) {
         }
     }
     let last = |by: u32| {
-        let own = air.iter().filter(|report| report.seen.by == robot(by));
+        let is_own = |report: &&Report| [report.seen.by, report.from] == [robot(by); 2];
+        let own = air.iter().filter(is_own);
         own.max_by_key(|report| report.seen.looks).copied()
     };
     (team, (0..3).filter_map(last).collect())
@@ -411,14 +519,14 @@ fn believed(worlds: u64) -> Vec<(f64, bool)> {
         }
         all.extend(items.tracks.iter().map(|track| {
             let is_there = world.iter().any(|at| at.to(track.at).length() < 0.35);
-            (confidence_of(track), is_there)
+            (confidence_of(track, ME), is_there)
         }));
     }
     all
 }
 
-fn confidence_of(track: &Track) -> f64 {
-    track.confidence(ME, &Trust::default(), &TrustSpec::default())
+fn confidence_of(track: &Track, own: RobotId) -> f64 {
+    trusting(own, |ears| track.confidence(ears))
 }
 
 #[test]

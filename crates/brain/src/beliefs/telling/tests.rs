@@ -63,6 +63,15 @@ impl Robot {
         self.beliefs.take_in(&percept, &self.body, &[], [0.0, 0.0]);
     }
 
+    /// Stands and hears nothing for so long, in seconds.
+    fn wait(&mut self, for_s: f64) {
+        let mut left_s = for_s - self.body.period_s / 2.0;
+        while left_s > 0.0 {
+            self.step(false, Vec::new());
+            left_s -= self.body.period_s;
+        }
+    }
+
     /// How surely an item at a place would have been seen.
     fn seen(&self, x: f64, y: f64) -> f64 {
         let map = self.beliefs.map.as_ref().unwrap();
@@ -125,7 +134,7 @@ fn a_report_extends_the_picture_towards_its_sender_but_not_to_a_full_disc() {
 fn a_report_counts_as_its_confidence_times_the_trust_in_its_sender() {
     let mut robot = Robot::new(1.0, 0.8);
     robot.step(false, vec![mate(13.0, 10.0, 1, 0.5)]);
-    assert!((robot.seen(13.0, 10.5) - 0.4).abs() < 1e-6);
+    assert!((robot.seen(13.0, 10.5) - 0.4 * SUREST).abs() < 1e-6);
 }
 
 #[test]
@@ -143,7 +152,7 @@ fn looks_of_a_lost_message_are_made_up_for_by_the_next() {
             },
         );
     }
-    let expected = 1.0 - libm::pow(1.0 - 0.27, 6.0);
+    let expected = 0.9 * (1.0 - libm::pow(0.7, 6.0));
     for robot in [&all, &last] {
         assert!((robot.seen(13.0, 10.5) - expected).abs() < 1e-6);
     }
@@ -153,6 +162,7 @@ fn looks_of_a_lost_message_are_made_up_for_by_the_next() {
 fn what_a_mate_saw_on_its_way_was_seen_too() {
     let mut robot = Robot::new(1.0, 1.0);
     robot.step(false, vec![mate(4.0, 4.0, 1, 1.0)]);
+    robot.wait(10.0);
     robot.step(false, vec![mate(14.0, 4.0, 40, 1.0)]);
     for x in [3.0, 6.0, 9.0, 12.0, 15.0] {
         assert!(robot.seen(x, 4.0) > SUREST - 1e-6, "{x}");
@@ -192,7 +202,7 @@ fn who_does_not_know_where_he_is_tells_nothing_and_who_does_tells_it_once_a_seco
     let senders = outbox
         .iter()
         .filter(|m| matches!(m.about, About::Sender { looks: 1, .. }));
-    assert!((2..=3).contains(&senders.count()), "{outbox:?}");
+    assert_eq!(senders.count(), 3, "{outbox:?}");
 }
 
 #[test]
@@ -261,4 +271,147 @@ fn nonsense_is_not_believed() {
         );
     }
     assert!(robot.seen(13.0, 10.5) < 1e-9);
+}
+
+/// A step, from when robots are on, and who tells in it, in which order.
+type Tellers = (u32, Vec<RobotId>);
+
+/// Who tells in each step of a time, in seconds, of robots that all stand and go somewhere.
+fn tellers(own: &[RobotId], period_s: f64, for_s: f64) -> Vec<Tellers> {
+    let mut told = vec![Told::default(); own.len()];
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "few"
+    )]
+    let steps = libm::round(for_s / period_s) as u32;
+    let in_step = |step| {
+        let each = own.iter().zip(&mut told);
+        let telling = each.filter_map(|(id, told)| told.is_time(*id, period_s).then_some(*id));
+        (step, telling.collect())
+    };
+    (1..=steps).map(in_step).collect()
+}
+
+fn robots(kind: u8, count: u32) -> Vec<RobotId> {
+    (0..count).map(|index| RobotId { kind, index }).collect()
+}
+
+#[test]
+fn whatever_the_period_each_tells_once_a_second() {
+    for (period_s, apart) in [(0.1, 10..=10), (0.05, 20..=20), (0.3, 3..=4), (1.0, 1..=1)] {
+        let mates = robots(0, 3);
+        let steps = tellers(&mates, period_s, 60.0);
+        for mate in &mates {
+            let own = steps.iter().filter(|(_, all)| all.contains(mate));
+            let own: Vec<u32> = own.map(|(step, _)| *step).collect();
+            assert!((59..=61).contains(&own.len()), "{period_s}: {own:?}");
+            assert!(
+                own.windows(2).all(|two| apart.contains(&(two[1] - two[0]))),
+                "{own:?}"
+            );
+        }
+    }
+}
+
+/// Each says where it is and where it goes; of what is said in a step, four messages are heard.
+#[test]
+fn of_many_robots_each_is_heard_equally_often_by_one_that_hears_four_messages_a_step() {
+    let mates = robots(0, 16);
+    let steps = tellers(&mates, 0.1, 60.0);
+    let heard = |mate: &RobotId| {
+        let hears = |all: &[RobotId]| all.iter().take(2).any(|one| one == mate);
+        steps.iter().filter(|(_, all)| hears(all)).count()
+    };
+    let counts: Vec<usize> = mates.iter().map(heard).collect();
+    assert!(
+        counts.iter().all(|count| (59..=60).contains(count)),
+        "{counts:?}"
+    );
+}
+
+#[test]
+fn robots_of_several_kinds_tell_at_moments_of_their_own_too() {
+    let mates = [robots(0, 5), robots(1, 5), robots(2, 5)].concat();
+    let most = tellers(&mates, 0.1, 60.0)
+        .into_iter()
+        .map(|(_, all)| all.len())
+        .max();
+    assert!(most <= Some(3), "{most:?}");
+}
+
+/// A mate tells of looks of another at a place, or of his own.
+fn relayed(from: RobotId, by: RobotId, x: f64, mark: u32) -> Heard {
+    let (at, looks) = (Point { x, y: 9.5 }, 1);
+    let seen = Seen { by, mark, looks };
+    Heard {
+        from,
+        ..heard(About::Item { kind: 0, at, seen }, 0.95)
+    }
+}
+
+#[test]
+fn who_names_another_for_what_is_not_there_is_trusted_less_himself() {
+    let (mut robot, innocent) = (Robot::new(0.8, 0.9), RobotId { kind: 0, index: 3 });
+    let spec = robot.beliefs.prior.trust.clone();
+    for mark in 1..5 {
+        robot.step(
+            false,
+            vec![relayed(MATE, innocent, 7.0 + 0.5 * f64::from(mark), mark)],
+        );
+        (0..8).for_each(|_| robot.step(true, Vec::new()));
+    }
+    assert!((robot.beliefs.trust.of(innocent, &spec) - 0.9).abs() < 1e-6);
+    assert!((robot.beliefs.trust.of(MATE, &spec) - 4.0 * 0.9 / 8.0).abs() < 1e-6);
+}
+
+#[test]
+fn what_is_passed_on_after_it_was_heard_counts_for_the_first() {
+    let (mut robot, other) = (Robot::new(0.8, 0.9), RobotId { kind: 0, index: 3 });
+    let spec = robot.beliefs.prior.trust.clone();
+    robot.step(
+        false,
+        vec![relayed(MATE, MATE, 8.0, 1), relayed(other, MATE, 8.0, 1)],
+    );
+    (0..8).for_each(|_| robot.step(true, Vec::new()));
+    assert!((robot.beliefs.trust.of(other, &spec) - 0.9).abs() < 1e-6);
+    assert!(robot.beliefs.trust.of(MATE, &spec) < 0.8);
+}
+
+#[test]
+fn nobody_looks_oftener_than_can_be() {
+    let mut robot = Robot::new(0.01, 1.0);
+    robot.step(false, vec![mate(13.0, 10.0, 1, 1.0)]);
+    robot.wait(0.9);
+    robot.step(
+        false,
+        vec![
+            mate(13.0, 10.0, 100_000, 1.0),
+            mate(13.0, 10.0, 900_000, 1.0),
+        ],
+    );
+    let most = 1.0 - libm::pow(0.99, 1.0 + MOST_LOOKS_S);
+    let seen = robot.seen(13.0, 10.5);
+    assert!((seen - most).abs() < 1e-5, "{seen} {most}");
+}
+
+#[test]
+fn what_has_no_age_is_not_believed_and_looks_count_however_long_ago() {
+    for (age_s, is_believed) in [
+        (0.0, true),
+        (500.0, true),
+        (-3.0, false),
+        (f64::NAN, false),
+        (f64::INFINITY, false),
+    ] {
+        let mut robot = Robot::new(1.0, 1.0);
+        robot.step(
+            false,
+            vec![Heard {
+                age_s,
+                ..mate(13.0, 10.0, 1, 1.0)
+            }],
+        );
+        assert_eq!(robot.seen(13.0, 10.5) > 0.5, is_believed, "{age_s}");
+    }
 }
