@@ -1,0 +1,261 @@
+//! How far minds act on what others tell: brains alone, stepped with percepts.
+
+use base::geometry::{Point, Rectangle};
+use brain::{
+    About, Body, Brain, BrainSpec, Detector, Heard, Look, Message, Motion, Other, Percept, Reading,
+    RobotId, Seen, Stand,
+};
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+const ME: RobotId = robot(1);
+const LEADER: RobotId = robot(0);
+const LIAR: RobotId = robot(7);
+
+const fn robot(index: u32) -> RobotId {
+    RobotId { kind: 0, index }
+}
+
+/// Looks 3 m far all around, on a field of 20 m by 20 m.
+fn body() -> Body {
+    let eye = Detector {
+        range_m: 3.0,
+        width_rad: TAU,
+        detects: vec![vec![[0.0, 0.8], [3.0, 0.8]]],
+        false_alarms_per_m2: vec![0.0],
+        noise_m: 0.1,
+        ..Detector::default()
+    };
+    let corner = Point { x: 20.0, y: 20.0 };
+    Body {
+        radius_m: 0.25,
+        max_speed_m_s: 1.0,
+        max_acceleration_m_s2: 1.0,
+        max_turn_rate_rad_s: 1.5,
+        period_s: 0.1,
+        item_kinds: vec!["mine".into()],
+        detectors: vec![eye.clone()],
+        others: vec![Other {
+            detectors: vec![eye],
+            max_acceleration_m_s2: 1.0,
+            radius_m: 0.25,
+            is_in_the_way: true,
+        }],
+        field: Some(Rectangle::spanned(Point::default(), corner)),
+        ..Body::default()
+    }
+}
+
+/// A brain with one behaviour, in JSON; trust as given, which does not change.
+#[expect(clippy::unwrap_used, reason = "written here")]
+fn brain(behaviour: &str, trust: &str) -> Brain {
+    let spec = format!(
+        r#"{{"arbitration": {{"kind": "goals"}}, "speed_limited_by_sight": false,
+            "beliefs": {{"trust": {{{trust}}}}}, "behaviours": [{behaviour}]}}"#
+    );
+    let spec: BrainSpec = serde_json::from_str(&spec).unwrap();
+    Brain::new(Arc::new(spec), Arc::new(body()))
+}
+
+const fn now<T>(value: T) -> Reading<T> {
+    Reading { value, age_s: 0.0 }
+}
+
+/// A step at (10, 10); returns what is told of goals.
+fn step(brain: &mut Brain, inbox: Vec<Heard>) -> Vec<(Point, Stand)> {
+    let percept = Percept {
+        id: ME,
+        of_kind: 8,
+        position: Some(now(Point { x: 10.0, y: 10.0 })),
+        heading_rad: Some(now(0.0)),
+        motion: Some(now(Motion::default())),
+        looks: vec![Look {
+            sensor: 0,
+            age_s: 0.0,
+        }],
+        inbox,
+        ..Percept::default()
+    };
+    let goals = brain.step(&percept).outbox.into_iter();
+    let goal = |message: Message| match message.about {
+        About::Goal { at, stand } => Some((at, stand)),
+        _ => None,
+    };
+    goals.filter_map(goal).collect()
+}
+
+/// Whether it says within some seconds that it goes to a place.
+fn goes_to(brain: &mut Brain, to: Point, within_s: u32) -> bool {
+    let mut steps = 0..10 * within_s;
+    steps.any(|_| step(brain, Vec::new()).contains(&(to, Stand::Going)))
+}
+
+/// Whether it goes anywhere in two seconds.
+fn goes_anywhere(brain: &mut Brain) -> bool {
+    let mut steps = 0..20;
+    steps.any(|_| {
+        let goals = step(brain, Vec::new());
+        goals.iter().any(|(_, stand)| *stand == Stand::Going)
+    })
+}
+
+fn heard(from: RobotId, about: About, [age_s, confidence]: [f64; 2]) -> Heard {
+    let message = Message { about, confidence };
+    Heard {
+        from,
+        age_s,
+        message,
+    }
+}
+
+fn sender(at: Point, looks: u32) -> About {
+    About::Sender {
+        at,
+        heading_rad: 0.0,
+        looks,
+    }
+}
+
+/// Places all over the field, two metres from each other.
+fn all_over() -> impl Iterator<Item = Point> {
+    let odd = |number: i32| f64::from(2 * number + 1);
+    (0..100).map(move |number| Point {
+        x: odd(number % 10),
+        y: odd(number / 10),
+    })
+}
+
+const PLACE: Point = Point { x: 15.0, y: 10.0 };
+const ERRAND: &str = r#"{"kind": "navigate", "share": "team", "places_m": [[15, 10]]}"#;
+
+fn done(confidence: f64) -> Heard {
+    let (at, stand) = (PLACE, Stand::Done);
+    heard(LEADER, About::Goal { at, stand }, [0.0, confidence])
+}
+
+#[test]
+fn who_is_not_trusted_or_not_sure_has_done_no_errand() {
+    for (initial, confidence, is_believed) in [
+        (0.9, 1.0, true),
+        (0.0, 1.0, false),
+        (0.0, 0.0, false),
+        (0.9, 0.0, false),
+        (0.7, 0.7, false),
+    ] {
+        let trust = format!(r#""initial": {initial}, "learns": false"#);
+        let mut brain = brain(ERRAND, &trust);
+        step(&mut brain, vec![done(confidence)]);
+        let goes = goes_to(&mut brain, PLACE, 3);
+        assert_eq!(goes, !is_believed, "{initial} {confidence}");
+    }
+}
+
+#[test]
+fn who_said_once_where_it_goes_and_tells_only_where_it_is_holds_no_place() {
+    let mut brain = brain(ERRAND, "");
+    let about = About::Goal {
+        at: PLACE,
+        stand: Stand::Going,
+    };
+    let here = Point { x: 3.0, y: 3.0 };
+    let told = vec![heard(LEADER, about, [0.0, 1.0])];
+    assert!(step(&mut brain, told).is_empty());
+    let mut waits = |steps| {
+        let mut steps = 0..steps;
+        steps.all(|_| {
+            let where_it_is = heard(LEADER, sender(here, 1), [0.0, 1.0]);
+            !step(&mut brain, vec![where_it_is]).contains(&(PLACE, Stand::Going))
+        })
+    };
+    assert!(waits(95), "it is still on its way");
+    assert!(!waits(20), "nobody has heard of it for ten seconds");
+}
+
+#[test]
+fn what_was_said_long_ago_or_has_no_age_holds_no_place() {
+    for (age_s, is_held) in [
+        (0.0, true),
+        (5.0, true),
+        (500.0, false),
+        (-3.0, false),
+        (f64::NAN, false),
+    ] {
+        let mut brain = brain(ERRAND, "");
+        let about = About::Goal {
+            at: PLACE,
+            stand: Stand::Going,
+        };
+        step(&mut brain, vec![heard(LEADER, about, [age_s, 1.0])]);
+        assert_eq!(!goes_to(&mut brain, PLACE, 3), is_held, "{age_s}");
+    }
+}
+
+#[test]
+fn nobody_follows_where_its_leader_was_long_ago() {
+    let there = Point { x: 18.0, y: 10.0 };
+    for (age_s, for_steps) in [
+        (0.0, 99..=101),
+        (9.0, 9..=11),
+        (500.0, 0..=0),
+        (-3.0, 0..=0),
+    ] {
+        let mut brain = brain(r#"{"kind": "follow"}"#, "");
+        let told = heard(LEADER, sender(there, 1), [age_s, 1.0]);
+        step(&mut brain, vec![told]);
+        let mut steps = 1..200;
+        let wants = |brain: &mut Brain| {
+            step(brain, Vec::new());
+            let thoughts = brain.thoughts().unwrap_or_default();
+            !thoughts.goals.is_empty()
+        };
+        let ends = steps.find(|_| !wants(&mut brain)).unwrap_or(200) - 1;
+        assert!(for_steps.contains(&ends), "{age_s}: {ends}");
+    }
+}
+
+#[test]
+fn however_many_looks_one_claims_who_is_not_trusted_ends_no_search() {
+    for (initial, confidence, ends) in [(0.9, 1.0, true), (0.05, 1.0, false), (0.9, 0.05, false)] {
+        let trust = format!(r#""initial": {initial}, "learns": false"#);
+        let mut brain = brain(r#"{"kind": "frontier"}"#, &trust);
+        let mut looks = 0;
+        // Three times, as saying it again must not help.
+        for at in all_over().chain(all_over()).chain(all_over()) {
+            looks += 100_000;
+            step(
+                &mut brain,
+                vec![heard(LIAR, sender(at, looks), [0.0, confidence])],
+            );
+        }
+        assert_eq!(!goes_anywhere(&mut brain), ends, "{initial} {confidence}");
+    }
+}
+
+/// Lies about items in view, as looks of `by`; then robot 3 says truly that it has looked everywhere.
+fn believes_3_after_lies_of_7(by: RobotId) -> bool {
+    let mut brain = brain(r#"{"kind": "frontier"}"#, "");
+    for mark in 0..12 {
+        let away = base::trig::sin_cos(TAU * f64::from(mark) / 12.0);
+        let at = Point {
+            x: 10.0 + 2.0 * away.1,
+            y: 10.0 + 2.0 * away.0,
+        };
+        let seen = Seen { by, mark, looks: 5 };
+        let lie = About::Item { kind: 0, at, seen };
+        step(&mut brain, vec![heard(LIAR, lie, [0.0, 1.0])]);
+        (0..9).for_each(|_| drop(step(&mut brain, Vec::new())));
+    }
+    for (at, looks) in all_over().zip((1..).map(|number| 5 * number)) {
+        step(
+            &mut brain,
+            vec![heard(robot(3), sender(at, looks), [0.0, 1.0])],
+        );
+    }
+    !goes_anywhere(&mut brain)
+}
+
+#[test]
+fn nobody_loses_trust_by_what_a_liar_says_of_him() {
+    assert!(believes_3_after_lies_of_7(LIAR));
+    assert!(believes_3_after_lies_of_7(robot(3)));
+}
