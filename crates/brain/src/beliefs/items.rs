@@ -78,8 +78,8 @@ struct Source {
     before: f64,
     /// Log likelihood ratio of all its looks.
     odds: f64,
-    /// What others were told last; 0 if nothing.
-    told: f64,
+    /// What others were told last; 0 if nothing. Kept short: there are hundreds of these.
+    told: f32,
     /// Whether own looks have confirmed or refuted it: each counts once, whoever told it later.
     is_judged: bool,
 }
@@ -232,7 +232,7 @@ impl Items {
         self.again = (self.again + 1).checked_rem(self.tracks.len()).unwrap_or(0);
         if let Some(track) = self.tracks.get_mut(self.again) {
             for source in &mut track.sources {
-                source.told = f64::NEG_INFINITY;
+                source.told = f32::NEG_INFINITY;
             }
             self.news |= 1 << self.again;
         }

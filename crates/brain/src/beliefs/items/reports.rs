@@ -102,11 +102,10 @@ impl Items {
             let (kind, at) = (track.kind, track.at);
             for source in &mut track.sources[..track.count] {
                 let confidence = probability(source.says());
-                let is_known = (confidence - source.told).abs() < TOLD_AGAIN;
-                if left == 0 || is_known || !source.is_trusted(ears) {
+                if left == 0 || source.is_known(confidence) || !source.is_trusted(ears) {
                     continue;
                 }
-                source.told = confidence;
+                source.note_told(confidence);
                 left -= 1;
                 let seen = source.seen;
                 outbox.push(Message {
@@ -219,6 +218,16 @@ impl Source {
         }
         let may = report.from == self.from || ears.trusts(report.from);
         may && report.seen.looks > self.seen.looks
+    }
+
+    /// Whether others know that it is so likely, as far as they need to.
+    fn is_known(&self, confidence: f64) -> bool {
+        (confidence - f64::from(self.told)).abs() < TOLD_AGAIN
+    }
+
+    #[expect(clippy::cast_possible_truncation, reason = "kept short")]
+    fn note_told(&mut self, confidence: f64) {
+        self.told = confidence as f32;
     }
 
     /// Whether it is passed on.
