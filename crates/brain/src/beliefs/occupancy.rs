@@ -21,6 +21,9 @@ const FILLED: i8 = 4;
 ///
 /// After Moravec and Elfes, *High resolution maps from wide angle sonar*, ICRA 1985, with log odds:
 /// each ray adds [`HIT`] to where it ends and [`PASS`] to where it passes. A byte a cell.
+///
+/// A wall seen at a small angle ends few rays, while many pass through cells that it fills in part. So a
+/// ray passes only as far as its neighbours go too, and, as near as is told soon, no cell twice in a scan.
 #[derive(Debug, Clone)]
 pub(crate) struct Occupancy {
     quarter_nats: Vec<i8>,
