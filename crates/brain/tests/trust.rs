@@ -90,9 +90,9 @@ fn goes_to(brain: &mut Brain, to: Point, within_s: u32) -> bool {
     steps.any(|_| step(brain, Vec::new()).contains(&(to, Stand::Going)))
 }
 
-/// Whether it goes anywhere in two seconds.
+/// Whether it goes anywhere in four seconds.
 fn goes_anywhere(brain: &mut Brain) -> bool {
-    let mut steps = 0..20;
+    let mut steps = 0..40;
     steps.any(|_| {
         let goals = step(brain, Vec::new());
         goals.iter().any(|(_, stand)| *stand == Stand::Going)

@@ -12,9 +12,13 @@ use alloc::vec::Vec;
 use base::geometry::Point;
 use base::trig::wrapped;
 
-/// Others are told where it is once in so long, and where it goes whenever that changes, or after as
-/// long; in seconds. Each robot has its own moment within that: a radio hears only so much at once.
+/// Others are told where it is once in so long, in seconds. Each robot has its own moment within that: a
+/// radio hears only so much at once.
 const AGAIN_S: f64 = 1.0;
+
+/// Every so many times it also tells again where it goes, which it tells at once when that changes, and
+/// which items it believes in: others keep that for ten seconds or for good.
+const SELDOM: u8 = 3;
 
 /// Who has turned by this tells at once where it is: others take it to have looked the way that it told
 /// last, and a narrow view that turns leaves that way within this.
@@ -43,6 +47,7 @@ pub(crate) struct Told {
     looks: u32,
     /// `None` before the first time.
     age_s: Option<f64>,
+    times: u8,
 }
 
 impl Beliefs {
@@ -123,7 +128,8 @@ impl Beliefs {
             return;
         };
         let is_time = self.told.is_time(self.id, period_s);
-        self.told.tell_goal(goal, pose.at, is_time, outbox);
+        let is_time_for_all = is_time && self.told.times == 0;
+        self.told.tell_goal(goal, pose.at, is_time_for_all, outbox);
         let turned_rad = wrapped(pose.heading_rad - self.told.heading_rad).abs();
         let looks_elsewhere = turned_rad >= TURNED_RAD && self.looks != self.told.looks;
         if is_time || looks_elsewhere {
@@ -134,7 +140,7 @@ impl Beliefs {
                 looks: self.looks,
             }));
         }
-        if is_time {
+        if is_time_for_all {
             self.items.tell_again();
         }
         let ears = ears(self.id, &self.trust, &self.prior);
@@ -151,6 +157,9 @@ impl Told {
         let is_time = age_s >= AGAIN_S - period_s / 2.0;
         let left_s = (age_s - AGAIN_S).min(period_s / 2.0);
         self.age_s = Some(if is_time { left_s } else { age_s });
+        if is_time {
+            self.times = (self.times + 1) % SELDOM;
+        }
         is_time
     }
 
