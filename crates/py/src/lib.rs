@@ -13,6 +13,7 @@ mod engines;
 mod error;
 mod exchange;
 mod fit;
+mod frame;
 mod long_work;
 mod outside;
 mod recording;
@@ -39,6 +40,8 @@ mod _core {
     use crate::elsewhere::body;
     #[pymodule_export]
     use crate::error::{InputError, NoRoomError};
+    #[pymodule_export]
+    use crate::frame::frame;
     #[pymodule_export]
     use crate::recording::{recorded_moment, recorded_setting};
     #[pymodule_export]

@@ -4,6 +4,7 @@ mod act;
 mod air;
 mod asked;
 mod change;
+mod danger;
 mod decide;
 mod flocks;
 mod glide;

@@ -1,6 +1,7 @@
 //! One run, stepped by hand.
 
 use super::asked::Asked;
+use super::neighbours::Neighbours;
 use super::outcome::Outcome;
 use super::outside::Outside;
 use super::state::{NoRoom, State};
@@ -146,6 +147,15 @@ impl Simulation {
     #[must_use]
     pub fn state(&self) -> &State {
         &self.state
+    }
+
+    /// Sees to it that neighbours are known.
+    pub(super) fn refresh(&mut self) {
+        self.workshop.refresh(&self.scenario, &self.state);
+    }
+
+    pub(super) fn neighbours(&self) -> &Neighbours {
+        &self.workshop.neighbours
     }
 
     /// Puts the run where it was when `state` was copied from it.

@@ -21,6 +21,7 @@ mod collisions;
 mod common;
 mod contact;
 mod correct;
+mod danger;
 mod determinism;
 mod flocks;
 mod golden;

@@ -1,0 +1,54 @@
+//! What a page draws of a run.
+
+use crate::simulation::Simulation;
+use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+use sim::engine::{self, Robot, Status};
+
+/// One moment of a run, to be drawn, in little endian: of each robot four 32-bit floats, then of each
+/// item a byte.
+///
+/// A robot's floats are x and y in metres, its heading in radians, and its look: 0 clear, 1 about to
+/// run into something, 2 stopped by something, 3 its battery is empty, 4 broken. An item's byte is 0
+/// not found, 1 found, 2 missed: the run is over.
+#[pyfunction]
+pub(crate) fn frame<'py>(
+    py: Python<'py>,
+    simulation: &Bound<'py, Simulation>,
+) -> PyResult<Bound<'py, PyBytes>> {
+    let mut locked = simulation.get().locked(py)?;
+    let run: &mut engine::Simulation = &mut locked;
+    let bytes = py.detach(|| drawn(run));
+    Ok(PyBytes::new(py, &bytes))
+}
+
+fn drawn(run: &mut engine::Simulation) -> Vec<u8> {
+    let in_danger = run.in_danger();
+    let (state, scenario) = (run.state(), run.scenario());
+    let robots = state.each_robot(scenario).zip(in_danger);
+    let mut bytes = Vec::with_capacity(16 * state.robots());
+    for (robot, is_in_danger) in robots {
+        #[expect(clippy::cast_possible_truncation, reason = "to be drawn")]
+        let [x, y, heading] = [robot.at.x, robot.at.y, robot.heading_rad].map(|it| it as f32);
+        for number in [x, y, heading, look(&robot, is_in_danger)] {
+            bytes.extend(number.to_le_bytes());
+        }
+    }
+    let is_over = state.is_over(scenario);
+    bytes.extend(state.each_item(scenario).map(|item| match item.found_s {
+        Some(_) => 1,
+        None if is_over => 2,
+        None => 0,
+    }));
+    bytes
+}
+
+fn look(robot: &Robot, is_in_danger: bool) -> f32 {
+    match robot.status {
+        Status::Broken => 4.0,
+        Status::Empty => 3.0,
+        Status::Active if robot.is_touching => 2.0,
+        Status::Active if is_in_danger => 1.0,
+        Status::Active => 0.0,
+    }
+}

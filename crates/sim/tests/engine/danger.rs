@@ -1,0 +1,57 @@
+//! Who is about to run into something.
+
+use crate::common::{go, id, start};
+use sim::engine::Simulation;
+use std::collections::BTreeMap;
+
+/// Robots of half a metre across that start at places, each with its course.
+fn team(places: &str, headings_deg: &str) -> Simulation {
+    let count = places.matches('[').count() - 1;
+    start(&format!(
+        "[clock]\ncap_s = 100\n[world]\nsize_m = [20, 20]\n\
+         obstacles = [{{ circle = {{ at_m = [10, 15], radius_m = 1 }} }}]\n\
+         [robots.rover]\ncount = {count}\nradius_m = 0.25\n\
+         drive = {{ max_speed_m_s = 1, max_reverse_speed_m_s = 1, max_turn_rate_deg_s = 90 }}\n\
+         start = {{ kind = \"fixed\", at_m = {places}, heading_deg = {headings_deg} }}\n"
+    ))
+}
+
+/// After a step in which they went at these speeds.
+fn in_danger(simulation: &mut Simulation, speeds_m_s: &[f64]) -> Vec<bool> {
+    let commands = (0..).zip(speeds_m_s);
+    let commands = commands.map(|(robot, speed_m_s)| (id(0, robot), go(*speed_m_s, 0.0)));
+    let commands: BTreeMap<_, _> = commands.collect();
+    simulation.step_with(BTreeMap::new(), commands).unwrap();
+    simulation.in_danger()
+}
+
+#[test]
+fn who_goes_at_a_wall_is_in_danger_within_a_second_of_it() {
+    // After a step of 0.1 m, the hull is 0.85, 1.15 and 0.85 m from the wall.
+    let mut team = team("[[18.8, 5], [18.5, 8], [18.8, 11]]", "[0, 0, 180]");
+    assert_eq!(in_danger(&mut team, &[1.0, 1.0, 1.0]), [true, false, false]);
+}
+
+#[test]
+fn who_backs_at_a_wall_is_in_danger_and_who_stands_before_it_is_not() {
+    let mut team = team("[[18.8, 5], [19.7, 8]]", "[180, 0]");
+    assert_eq!(in_danger(&mut team, &[-1.0, 0.0]), [true, false]);
+}
+
+#[test]
+fn what_only_a_side_of_its_hull_would_touch_is_a_danger_too() {
+    let mut grazing = team("[[9, 13.8]]", "[0]");
+    assert_eq!(in_danger(&mut grazing, &[1.0]), [true]);
+    let mut passing = team("[[9, 13.7]]", "[0]");
+    assert_eq!(in_danger(&mut passing, &[1.0]), [false]);
+}
+
+#[test]
+fn robots_that_will_meet_are_in_danger_and_those_that_pass_are_not() {
+    let mut meeting = team("[[5, 5], [7, 5]]", "[0, 180]");
+    assert_eq!(in_danger(&mut meeting, &[1.0, 1.0]), [true, true]);
+    let mut following = team("[[5, 5], [5.9, 5]]", "[0, 0]");
+    assert_eq!(in_danger(&mut following, &[1.0, 1.0]), [false, false]);
+    let mut passing = team("[[5, 5], [7, 5.6]]", "[0, 180]");
+    assert_eq!(in_danger(&mut passing, &[1.0, 1.0]), [false, false]);
+}
