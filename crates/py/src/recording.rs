@@ -6,7 +6,7 @@ use base::map::OccupancyMap;
 use base::trig::sin_cos;
 use numpy::{IntoPyArray, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{IntoPyDict, PyDict};
 use sim::body::Layer;
 use sim::engine::Robot;
 use sim::scenario::Scenario;
@@ -75,9 +75,9 @@ fn rows<'py, const N: usize>(
 }
 
 /// What changes only when the scenario does: of each robot `radius_m` and `is_flying`; `bodies`, what
-/// brains know of them, by kind; and `maps`, the obstacles that are maps, in their order: `corners_m`
-/// anticlockwise from the origin, `resolution_m`, and `occupancy`, shape (rows, columns), the lowest
-/// row first.
+/// brains know of them, and `radio_m`, how far their radios reach, by kind; and `maps`, the obstacles
+/// that are maps, in their order: `corners_m` anticlockwise from the origin, `resolution_m`, and
+/// `occupancy`, shape (rows, columns), the lowest row first.
 #[pyfunction]
 pub(crate) fn recorded_setting<'py>(
     py: Python<'py>,
@@ -100,6 +100,9 @@ pub(crate) fn recorded_setting<'py>(
         each(py, &robots, |robot| robot.layer == Layer::Air),
     )?;
     dict.set_item("bodies", bodies(py, run.scenario())?)?;
+    let radios = (0..).zip(run.scenario().robot_kinds());
+    let radios = radios.map(|(number, kind)| (kind, run.scenario().radio_m(number)));
+    dict.set_item("radio_m", radios.into_py_dict(py)?)?;
     dict.set_item("maps", maps.collect::<PyResult<Vec<_>>>()?)?;
     Ok(dict)
 }

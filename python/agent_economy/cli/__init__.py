@@ -16,6 +16,7 @@ from agent_economy.cli.rerun import rerun
 from agent_economy.cli.run import run
 from agent_economy.cli.scenarios import scenarios
 from agent_economy.cli.study import study
+from agent_economy.cli.ui import ui
 from agent_economy.cli.watch import watch
 
 __all__ = ["app"]
@@ -55,4 +56,5 @@ app.command()(run)
 app.command()(replicate)
 app.command()(rerun)
 app.command()(check)
+app.command()(ui)
 app.command()(scenarios)

@@ -196,6 +196,13 @@ impl Scenario {
         self.kinds.get(usize::from(kind)).map(|kind| &kind.brain)
     }
 
+    /// How far the radio of a kind's robots reaches, if they have one.
+    #[must_use]
+    pub fn radio_m(&self, kind: u8) -> Option<f64> {
+        let kind = self.kinds.get(usize::from(kind))?;
+        kind.radio.map(|radio| radio.range_m)
+    }
+
     /// Whose random numbers a robot has.
     pub(crate) fn entity(&self, id: RobotId) -> Entity {
         Entity {

@@ -1,0 +1,182 @@
+"""What can be asked of the server, by address."""
+
+import asyncio
+import contextlib
+import json
+from collections.abc import AsyncIterator
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+from starlette.applications import Starlette
+from starlette.requests import Request
+from starlette.responses import FileResponse, HTMLResponse, JSONResponse, Response
+from starlette.routing import Mount, Route, WebSocketRoute
+from starlette.staticfiles import StaticFiles
+from starlette.types import ASGIApp
+from starlette.websockets import WebSocket, WebSocketDisconnect
+
+from agent_economy._core import InputError
+from agent_economy.server.guard import Guard
+from agent_economy.server.messages import faults_of
+from agent_economy.server.pictures import picture
+from agent_economy.server.places import Places
+from agent_economy.server.session import GoneError, Session
+
+MOST_BYTES = 1_000_000
+"""What a page sends has no more."""
+
+MOST_SESSIONS = 16
+"""Runs at a time; each has a thread of its own, so that none waits for another's."""
+
+NOT_BUILT = """<!doctype html><meta charset="utf-8"><title>Agent Economy</title>
+<p>The page has not been built. In a clone: <code>make web</code>, then reload this page.</p>"""
+
+
+def app(places: Places, host: str, token: str | None = None) -> ASGIApp:
+    """Return the application.
+
+    Args:
+        places: Where scenarios are.
+        host: The name or address that is bound.
+        token: What pages on other machines must show; None if only this machine can reach it.
+    """
+    return Guard(Server(places, Path(str(files("agent_economy") / "web"))).routed(), host, token)
+
+
+@dataclass
+class Server:
+    """What all requests have in common."""
+
+    places: Places
+    web: Path
+    sessions: int = 0
+
+    def routed(self) -> Starlette:
+        """Return the application without its guard."""
+        routes = [
+            Route("/", self.page),
+            Route("/api/scenarios", self.scenarios),
+            Route("/api/pictures", self.pictures),
+            Route("/api/schema", self.schema),
+            Route("/api/check", self.check, methods=["POST"]),
+            WebSocketRoute("/ws", self.speak),
+        ]
+        if self.web.is_dir():
+            routes.append(Mount("/", StaticFiles(directory=self.web)))
+        return Starlette(routes=routes, lifespan=self.lifespan)
+
+    @contextlib.asynccontextmanager
+    async def lifespan(self, _: Starlette) -> AsyncIterator[None]:
+        """Have threads for as many runs as there may be."""
+        with ThreadPoolExecutor(MOST_SESSIONS, "run") as self.threads:
+            yield
+
+    async def page(self, _: Request) -> Response:
+        """Return the page."""
+        index = self.web / "index.html"
+        if not index.is_file():
+            return HTMLResponse(NOT_BUILT, 503)
+        return FileResponse(index, headers={"cache-control": "no-cache"})
+
+    async def scenarios(self, _: Request) -> Response:
+        """Return the gallery."""
+        return JSONResponse(await asyncio.to_thread(self.places.listed))
+
+    async def pictures(self, request: Request) -> Response:
+        """Return the picture of a scenario, as SVG."""
+        name = request.query_params.get("scenario", "")
+        try:
+            svg = await asyncio.to_thread(lambda: picture(self.places.load(name)))
+        except InputError as error:
+            return JSONResponse({"faults": faults_of(error)}, 404)
+        return Response(svg, media_type="image/svg+xml")
+
+    async def schema(self, _: Request) -> Response:
+        """Return the schema of metric scenarios."""
+        file = files("agent_economy") / "schemas" / "metric.schema.json"
+        return Response(file.read_bytes(), media_type="application/schema+json")
+
+    async def check(self, request: Request) -> Response:
+        """Say what is wrong with a scenario."""
+        data = bytearray()
+        async for part in request.stream():
+            data += part
+            if len(data) > MOST_BYTES:
+                return JSONResponse({"faults": [too_big()]}, 413)
+        try:
+            scenario = await asyncio.to_thread(lambda: self.places.read(data.decode()))
+        except UnicodeDecodeError:
+            return JSONResponse({"faults": [no_text()]}, 422)
+        except InputError as error:
+            return JSONResponse({"faults": faults_of(error)}, 422)
+        about = {"name": scenario.name, "engine": scenario.engine, "summary": scenario.summary}
+        return JSONResponse(about)
+
+    async def speak(self, socket: WebSocket) -> None:
+        """Serve a page."""
+        await socket.accept()
+        page = Socket(socket)
+        if self.sessions >= MOST_SESSIONS:
+            message = f"This server has {MOST_SESSIONS} runs open, which is all it may. Close one."
+            with contextlib.suppress(GoneError):
+                await page.tell({"type": "ended", "why": "full", "message": message})
+                await socket.close(1013)
+            return
+        self.sessions += 1
+        try:
+            await Session(page, self.places, self.threads).run()
+        finally:
+            self.sessions -= 1
+        with contextlib.suppress(RuntimeError):
+            await socket.close()
+
+
+@dataclass(frozen=True)
+class Socket:
+    """A page at the other end of a WebSocket."""
+
+    socket: WebSocket
+
+    async def receive(self) -> str:
+        """Return what the page says next."""
+        try:
+            return await self.socket.receive_text()
+        except (WebSocketDisconnect, RuntimeError, KeyError):
+            raise GoneError from None
+
+    async def tell(self, said: dict[str, Any]) -> None:
+        """Tell the page something."""
+        with ended_if_gone():
+            await self.socket.send_text(json.dumps(said, allow_nan=False))
+
+    async def show(self, frame: bytes) -> None:
+        """Send a frame."""
+        with ended_if_gone():
+            await self.socket.send_bytes(frame)
+
+
+@contextlib.contextmanager
+def ended_if_gone() -> Any:
+    """Say so if the page has gone."""
+    try:
+        yield
+    except (WebSocketDisconnect, RuntimeError):
+        raise GoneError from None
+
+
+def too_big() -> dict[str, Any]:
+    """Return what is wrong with a text that is too long."""
+    return fault(f"The file has more than {MOST_BYTES:,} bytes.")
+
+
+def no_text() -> dict[str, Any]:
+    """Return what is wrong with bytes that are no text."""
+    return fault("The file is not UTF-8 text.")
+
+
+def fault(message: str) -> dict[str, Any]:
+    """Return what is wrong with a file as a whole."""
+    return faults_of(InputError(message))[0]

@@ -1,0 +1,117 @@
+"""Who may speak to the server: pages that it has served itself, from where it may be reached.
+
+A page of another site could ask a server on this machine for anything. Browsers say where a request
+comes from (`Origin`) and to whom it goes (`Host`, which gives away a name that was bound anew to
+this machine), so both are looked at. From other machines a token is needed besides.
+"""
+
+import hmac
+from dataclasses import dataclass
+from http.cookies import CookieError, SimpleCookie
+from ipaddress import ip_address
+from urllib.parse import parse_qs, urlsplit
+
+from starlette.datastructures import Headers, MutableHeaders
+from starlette.responses import PlainTextResponse
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+COOKIE = "agent-economy-token"
+
+HEADERS = {
+    "content-security-policy": "default-src 'self'; img-src 'self' data: blob:; "
+    "base-uri 'none'; form-action 'none'; frame-ancestors 'none'",
+    "cross-origin-opener-policy": "same-origin",
+    "cross-origin-resource-policy": "same-origin",
+    "referrer-policy": "no-referrer",
+    "x-content-type-options": "nosniff",
+}
+
+
+@dataclass(frozen=True)
+class Guard:
+    """An application that only those reach who may.
+
+    Attributes:
+        app: What is guarded.
+        host: The name or address that was bound.
+        token: What others must show; None if only this machine can reach it.
+    """
+
+    app: ASGIApp
+    host: str
+    token: str | None
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Let a request in, or say why not."""
+        if scope["type"] not in ("http", "websocket"):
+            await self.app(scope, receive, send)
+            return
+        why = self.refusal(scope)
+        if why is None:
+            await self.app(scope, receive, self._with_headers(scope, send))
+        elif scope["type"] == "websocket":
+            await send({"type": "websocket.close", "code": 1008, "reason": why})
+        else:
+            await PlainTextResponse(why, 403)(scope, receive, send)
+
+    def refusal(self, scope: Scope) -> str | None:
+        """Return why a request may not come in, if so."""
+        headers = Headers(scope=scope)
+        host = headers.get("host", "")
+        if not self._is_own(host):
+            return f"This server does not go by the name {host!r}."
+        origin = headers.get("origin")
+        if origin is not None and urlsplit(origin).netloc != host:
+            return f"Pages of {origin} may not speak to this server."
+        if (
+            scope["type"] == "websocket"
+            and origin is None
+            and headers.get("user-agent", "").startswith("Mozilla")
+        ):
+            return "A browser says where it comes from."
+        if self.token is not None and not self._shows_token(scope, headers):
+            return "Open the link with the token that was printed when the server was started."
+        return None
+
+    def _is_own(self, host: str) -> bool:
+        try:
+            name = urlsplit(f"//{host}").hostname or ""
+        except ValueError:
+            return False
+        if name == "localhost" or name == self.host.lower():
+            return True
+        try:
+            address = ip_address(name)
+        except ValueError:
+            return False
+        # A name can be bound to any address; an address stands for itself.
+        return address.is_loopback or self.token is not None
+
+    def _shows_token(self, scope: Scope, headers: Headers) -> bool:
+        query = parse_qs(scope.get("query_string", b"").decode("latin-1"))
+        shown = [*query.get("token", []), cookie(headers)]
+        wanted = (self.token or "").encode()
+        return any(hmac.compare_digest(each.encode(), wanted) for each in shown)
+
+    def _with_headers(self, scope: Scope, send: Send) -> Send:
+        query = parse_qs(scope.get("query_string", b"").decode("latin-1"))
+
+        async def sent(message: Message) -> None:
+            if message["type"] == "http.response.start":
+                headers = MutableHeaders(scope=message)
+                headers.update(HEADERS)
+                if self.token is not None and "token" in query:
+                    kept = f"{COOKIE}={self.token}; HttpOnly; SameSite=Strict; Path=/"
+                    headers.append("set-cookie", kept)
+            await send(message)
+
+        return sent
+
+
+def cookie(headers: Headers) -> str:
+    """Return the token that a browser has kept, or nothing."""
+    try:
+        kept = SimpleCookie(headers.get("cookie", ""))
+    except CookieError:
+        return ""
+    return kept[COOKIE].value if COOKIE in kept else ""

@@ -1,0 +1,230 @@
+"""What a page says to the server, and what the server says to it.
+
+Over `/ws` go texts in JSON, each with a `type`, and frames in bytes. Numbers of runs can have 64
+bits, which JavaScript's cannot: seeds and runs go as texts.
+
+From the page:
+
+* `open`: `scenario` (an id of the gallery) or `text` (TOML), `seed`, `run`, `changes` (a list of
+  tick, path, value), `tick`. Begins a run, at that tick, standing.
+* `play`: `speed`, times real time, or null for as fast as it can. `pause`.
+* `step`: `steps`, also less than 0. `go`: `tick`. Both stand then.
+* `change`: `path`, `value`. `undo`.
+* `select`: `robot`, whose mind is told of, or null.
+* `got`: `frame`, the number of one that has been drawn. No more than three are on their way.
+
+From the server: `opened`, `setting` (all that stays until something is changed), `state` (at most
+ten times a second), `refused` (with `faults`; nothing has changed) and `ended`. A frame in little
+endian is eight numbers, `u32` but for the time: 1, generation, tick, robots, time in s (`f64`),
+items, the frame's number; then what `_core.frame` says. It is drawn in the setting of its
+generation.
+"""
+
+import json
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from agent_economy import given
+from agent_economy._core import InputError
+from agent_economy.scenario import Given
+from agent_economy.simulation import Change
+
+MAX_TICK = 2**53
+MOST_STEPS = 1_000_000
+SPEEDS = (0.01, 100_000.0)
+
+FAULT = ("file", "line", "path", "given", "allowed", "suggestion", "message")
+
+
+@dataclass(frozen=True)
+class Open:
+    """Begin a run."""
+
+    scenario: str | None
+    text: str | None
+    seed: int
+    run: int
+    changes: tuple[Change, ...]
+    tick: int
+
+
+@dataclass(frozen=True)
+class Play:
+    """Go on; `speed` is times real time, None as fast as it can."""
+
+    speed: float | None
+
+
+@dataclass(frozen=True)
+class Pause:
+    """Stand."""
+
+
+@dataclass(frozen=True)
+class Step:
+    """Take steps, back if less than 0, and stand."""
+
+    steps: int
+
+
+@dataclass(frozen=True)
+class Go:
+    """Go to a tick, and stand."""
+
+    tick: int
+
+
+@dataclass(frozen=True)
+class Put:
+    """Put a value into the scenario."""
+
+    path: str
+    value: Given
+
+
+@dataclass(frozen=True)
+class Undo:
+    """Put back what was there before the last change."""
+
+
+@dataclass(frozen=True)
+class Select:
+    """Tell of a robot's mind."""
+
+    robot: str | None
+
+
+@dataclass(frozen=True)
+class Got:
+    """A frame has been drawn."""
+
+    frame: int
+
+
+Message = Open | Play | Pause | Step | Go | Put | Undo | Select | Got
+
+
+def read(text: str) -> Message:
+    """Return what a page said.
+
+    Raises:
+        InputError: If it is not what a page may say.
+    """
+    try:
+        said = json.loads(text)
+    except (ValueError, RecursionError):
+        said = text[:80]
+    given.of_kind("message", said, dict, "an object with a type, in JSON")
+    kind = said.get("type")
+    given.check(kind in READERS, "message.type", kind, f"one of {', '.join(READERS)}")
+    return READERS[kind](said)
+
+
+def faults_of(error: InputError) -> list[dict[str, Any]]:
+    """Return what is wrong, as a page takes it."""
+    if not error.faults:
+        return [dict.fromkeys(FAULT) | {"message": str(error), "path": "", "allowed": ""}]
+    return [{key: value for key, value in fault.items() if key in FAULT} for fault in error.faults]
+
+
+def opened(said: Mapping[str, Any]) -> Open:
+    """Return an `open`."""
+    scenario, text = said.get("scenario"), said.get("text")
+    is_one = (scenario is None) != (text is None)
+    given.check(is_one, "open", [scenario, text], "with either a scenario or a text")
+    each = scenario if text is None else text
+    given.check(given.is_text(each), "open", each, "a text")
+    changes = said.get("changes", [])
+    given.of_kind("open.changes", changes, list, "a list of [tick, path, value]")
+    return Open(
+        scenario,
+        text,
+        number("open.seed", said.get("seed", "0")),
+        number("open.run", said.get("run", "0")),
+        tuple(map(change, changes)),
+        whole("open.tick", said.get("tick", 0), MAX_TICK),
+    )
+
+
+def change(said: object) -> Change:
+    """Return a change of a log."""
+    allowed = "[tick, path, value]"
+    is_change = isinstance(said, list) and len(said) == len(Change._fields)
+    given.check(is_change, "open.changes", said, allowed)
+    assert isinstance(said, list)  # noqa: S101  (checked above)
+    tick, path, value = said
+    given.check(given.is_text(path), "open.changes", path, "a path, as a text")
+    return Change(whole("open.changes", tick, MAX_TICK), path, finite("open.changes", value))
+
+
+def play(said: Mapping[str, Any]) -> Play:
+    """Return a `play`."""
+    speed = said.get("speed")
+    least, most = SPEEDS
+    is_number = isinstance(speed, int | float) and not isinstance(speed, bool)
+    is_allowed = speed is None or (is_number and least <= speed <= most)
+    given.check(is_allowed, "play.speed", speed, f"from {least} to {most}, or null")
+    return Play(speed)
+
+
+def step(said: Mapping[str, Any]) -> Step:
+    """Return a `step`."""
+    steps = said.get("steps", 1)
+    is_allowed = given.is_whole(steps, -MAX_TICK, MOST_STEPS)
+    given.check(is_allowed, "step.steps", steps, f"a whole number, {MOST_STEPS:,} at most")
+    return Step(steps)
+
+
+def put(said: Mapping[str, Any]) -> Put:
+    """Return a `change`."""
+    path = said.get("path")
+    given.check(given.is_text(path), "change.path", path, "a path, as clock.cap_s")
+    given.check("value" in said, "change.value", None, "given")
+    return Put(str(path), finite("change.value", said["value"]))
+
+
+def select(said: Mapping[str, Any]) -> Select:
+    """Return a `select`."""
+    robot = said.get("robot")
+    given.check(robot is None or given.is_text(robot), "select.robot", robot, "a name, or null")
+    return Select(robot)
+
+
+def number(name: str, said: object) -> int:
+    """Return a whole number that comes as a text; who uses it says how great it may be."""
+    is_number = isinstance(said, str) and said.isascii() and said.isdigit() and len(said) <= 20  # noqa: PLR2004
+    given.check(is_number, name, said, 'a whole number as a text, as "7"')
+    return int(str(said))
+
+
+def whole(name: str, said: Any, most: int) -> int:
+    """Return a whole number from 0."""
+    given.check(given.is_whole(said, 0, most), name, said, f"a whole number from 0 to {most}")
+    return int(said)
+
+
+def finite(name: str, said: Any) -> Given:
+    """Return a value of a scenario; JSON's null, and numbers that are none, are no values."""
+    parts = (
+        list(said.values()) if isinstance(said, dict) else said if isinstance(said, list) else []
+    )
+    for part in parts:
+        finite(name, part)
+    is_number = not isinstance(said, float) or math.isfinite(said)
+    given.check(said is not None and is_number, name, said, "a value that a scenario can have")
+    return said  # type: ignore[no-any-return]
+
+
+READERS: dict[Any, Callable[[Mapping[str, Any]], Message]] = {
+    "open": opened,
+    "play": play,
+    "pause": lambda _: Pause(),
+    "step": step,
+    "go": lambda said: Go(whole("go.tick", said.get("tick"), MAX_TICK)),
+    "change": put,
+    "undo": lambda _: Undo(),
+    "select": select,
+    "got": lambda said: Got(whole("got.frame", said.get("frame"), MAX_TICK)),
+}

@@ -1,0 +1,100 @@
+"""Small pictures of scenarios, for the gallery."""
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+from agent_economy import classic
+from agent_economy.scenario import Scenario
+from agent_economy.simulation import Simulation
+
+STEPS = 100
+"""The picture shows the run after so many steps."""
+
+MOST_ROBOTS = 400
+"""Of more robots only so many are drawn."""
+
+CELLS, CELL_PX = 25, 20.0
+"""The grid of 2003."""
+
+FREE, WALL, GROUND, ROBOT, ITEM = "#f4f6fa", "#7b8494", "#e6d3b3", "#2563eb", "#dc2626"
+
+Place = Sequence[float]
+
+
+def picture(scenario: Scenario) -> str:
+    """Return a scenario's world with its robots and items as SVG, y upwards.
+
+    Raises:
+        InputError: If there is no room for them.
+    """
+    return metric(scenario) if scenario.engine == "metric" else grid(scenario)
+
+
+def metric(scenario: Scenario) -> str:
+    """Return the world of the metric engine."""
+    simulation = Simulation(scenario, threads=1)
+    simulation.step(STEPS)
+    document = scenario.to_dict()
+    width_m, height_m = document["world"]["size_m"]
+    size_m = max(width_m, height_m) / 60
+    items = simulation.items
+    places = zip(items["x_m"].to_pylist(), items["y_m"].to_pylist(), strict=True)
+    shapes = [
+        *(
+            polygon(area, GROUND)
+            for kind in document.get("terrain", {}).values()
+            for area in kind["areas_m"]
+        ),
+        *(obstacle(each) for each in document["world"].get("obstacles", [])),
+        *(circle(place, size_m / 1.5, ITEM) for place in places),
+        *(chevron(pose, size_m) for pose in simulation.poses[:MOST_ROBOTS].tolist()),
+    ]
+    return svg(width_m, height_m, shapes)
+
+
+def grid(scenario: Scenario) -> str:
+    """Return the grid of 2003, with robots where they start."""
+    team = classic.start(max(1, sum(scenario.robots.values())))
+    side = CELLS * CELL_PX
+    poses = [(each["x"], side - each["y"], math.radians(90 - each["heading"])) for each in team]
+    return svg(side, side, [chevron(pose, CELL_PX / 2) for pose in poses])
+
+
+def svg(width: float, height: float, shapes: Iterable[str]) -> str:
+    """Return shapes on light ground, y upwards."""
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:g} {height:g}">'
+        f'<rect width="{width:g}" height="{height:g}" fill="{FREE}"/>'
+        f'<g transform="matrix(1 0 0 -1 0 {height:g})">{"".join(shapes)}</g></svg>'
+    )
+
+
+def obstacle(given: Mapping[str, Any]) -> str:
+    """Return an obstacle; maps are left out."""
+    if "polygon_m" in given:
+        return polygon(given["polygon_m"], WALL)
+    if "circle" in given:
+        return circle(given["circle"]["at_m"], given["circle"]["radius_m"], WALL)
+    return ""
+
+
+def polygon(corners: Iterable[Place], colour: str) -> str:
+    """Return a polygon."""
+    points = " ".join(f"{x:g},{y:g}" for x, y in corners)
+    return f'<polygon points="{points}" fill="{colour}"/>'
+
+
+def circle(at: Place, radius: float, colour: str) -> str:
+    """Return a circle."""
+    x, y = at
+    return f'<circle cx="{x:.5g}" cy="{y:.5g}" r="{radius:.4g}" fill="{colour}"/>'
+
+
+def chevron(pose: Place, size: float) -> str:
+    """Return a robot."""
+    x, y, heading_rad = pose
+    ahead, aside = math.cos(heading_rad) * size, math.sin(heading_rad) * size
+    corners = [(1.0, 0.0), (-0.8, 0.7), (-0.4, 0.0), (-0.8, -0.7)]
+    turned = [(x + a * ahead - b * aside, y + a * aside + b * ahead) for a, b in corners]
+    return polygon([(round(a, 3), round(b, 3)) for a, b in turned], ROBOT)

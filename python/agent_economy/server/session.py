@@ -1,0 +1,288 @@
+"""One page's run: what the page says is done, and what the run comes to is sent.
+
+One task listens and one plays. The one that plays owns the run: it takes what was heard, lets the
+run go on in a thread for a short while, and sends a frame if one is due and the page has drawn
+those before. So a slow page gets fewer frames and costs no memory, and no run holds up another's.
+"""
+
+import asyncio
+import contextlib
+import time
+from collections import deque
+from collections.abc import Callable
+from concurrent.futures import Executor
+from typing import Any, Protocol, TypeVar
+
+from agent_economy import given
+from agent_economy._core import InputError
+from agent_economy.scenario import Scenario
+from agent_economy.server import messages
+from agent_economy.server.frames import frame, setting
+from agent_economy.server.messages import Message
+from agent_economy.server.pace import Pace
+from agent_economy.server.places import Places
+from agent_economy.server.timeline import Timeline
+
+FRAME_S, STATE_S = 1 / 30, 0.1
+"""Between two frames, and between two states, at least."""
+
+SLICE_S = 0.025
+"""A run goes on for so long before the page is looked after again."""
+
+ON_THE_WAY = 3
+"""Frames that a page has not said it has drawn, at most."""
+
+MOST_HEARD = 256
+"""Messages that wait to be done, at most: a page that says more waits."""
+
+IDLE_S = 1800.0
+"""A page that stands, and says nothing for so long, is let go."""
+
+
+T = TypeVar("T")
+
+
+class GoneError(Exception):
+    """The page has gone, or is let go."""
+
+
+class Page(Protocol):
+    """What is at the other end."""
+
+    async def receive(self) -> str:
+        """Return what the page says next; raise `GoneError` if it has gone."""
+
+    async def tell(self, said: dict[str, Any]) -> None:
+        """Tell the page something; raise `GoneError` if it has gone."""
+
+    async def show(self, frame: bytes) -> None:
+        """Send a frame; raise `GoneError` if it has gone."""
+
+
+class Session:
+    """What goes on between one page and its run."""
+
+    def __init__(self, page: Page, places: Places, threads: Executor) -> None:
+        """Begin without a run."""
+        self._page, self._places, self._threads = page, places, threads
+        self._timeline: Timeline | None = None
+        self._pace = Pace(0.1)
+        self._heard: asyncio.Queue[Message | InputError] = asyncio.Queue(MOST_HEARD)
+        self._aim: int | None = None
+        self._selected: str | None = None
+        self._generation = 0
+        self._changes_told = -1
+        self._number = 0
+        self._on_the_way: deque[int] = deque()
+        self._is_new = False
+        self._frame_at_s = self._state_at_s = 0.0
+        self._busy_at_s = time.monotonic()
+
+    async def run(self) -> None:
+        """Serve the page until it has gone."""
+        listening = asyncio.create_task(self._listen())
+        playing = asyncio.create_task(self._play())
+        try:
+            done, _ = await asyncio.wait({listening, playing}, return_when=asyncio.FIRST_COMPLETED)
+            for task in done:
+                with contextlib.suppress(GoneError):
+                    task.result()
+        finally:
+            for task in (listening, playing):
+                task.cancel()
+            await asyncio.gather(listening, playing, return_exceptions=True)
+
+    async def _listen(self) -> None:
+        while True:
+            text = await self._page.receive()
+            try:
+                said: Message | InputError = messages.read(text)
+            except InputError as error:
+                said = error
+            await self._heard.put(said)
+
+    async def _play(self) -> None:
+        while True:
+            await self._hear()
+            await self._go_on()
+            await self._show()
+
+    async def _hear(self) -> None:
+        """Do what was said; if there is nothing else to do, wait for it."""
+        if self._heard.empty():
+            wait_s = self._wait_s()
+            if wait_s > 0:
+                try:
+                    said = await asyncio.wait_for(self._heard.get(), wait_s)
+                except TimeoutError:
+                    await self._let_go()
+                    return
+                await self._do(said)
+        while not self._heard.empty():
+            await self._do(self._heard.get_nowait())
+
+    def _wait_s(self) -> float:
+        """Return for how long there is nothing to do."""
+        now_s = time.monotonic()
+        if self._timeline is None or not self._is_busy():
+            wants_frame = self._is_new and len(self._on_the_way) < ON_THE_WAY
+            return 0.0 if wants_frame else IDLE_S
+        if self._aim is not None:
+            return 0.0
+        return self._pace.wait_s(now_s, self._timeline.tick)
+
+    def _is_busy(self) -> bool:
+        return self._pace.is_playing or self._aim is not None
+
+    async def _let_go(self) -> None:
+        if not self._is_busy() and time.monotonic() - self._busy_at_s >= IDLE_S:
+            message = "Nothing was done for half an hour. Reload the page to go on."
+            await self._page.tell({"type": "ended", "why": "idle", "message": message})
+            raise GoneError
+
+    async def _do(self, said: Message | InputError) -> None:
+        self._busy_at_s = time.monotonic()
+        if isinstance(said, InputError):
+            await self._refuse("message", said)
+            return
+        if isinstance(said, messages.Got):
+            while self._on_the_way and self._on_the_way[0] <= said.frame:
+                self._on_the_way.popleft()
+            return
+        about = "change" if isinstance(said, messages.Put) else type(said).__name__.lower()
+        try:
+            await self._obey(said)
+        except InputError as error:
+            await self._refuse(about, error)
+
+    async def _obey(self, said: Message) -> None:
+        match said:
+            case messages.Open():
+                await self._open(said)
+            case messages.Play(speed=speed):
+                self._aim = None
+                self._pace.play(speed, time.monotonic(), self._run.tick)
+            case messages.Pause():
+                self._stand()
+            case messages.Step(steps=steps):
+                self._stand()
+                self._aim = max(0, self._run.tick + steps)
+            case messages.Go(tick=tick):
+                self._stand()
+                self._aim = min(tick, self._run.edge)
+            case messages.Put(path=path, value=value):
+                await self._in_thread(lambda: self._run.change(path, value))
+            case messages.Undo():
+                await self._in_thread(self._run.undo)
+            case messages.Select(robot=robot):
+                self._selected = robot
+        self._is_new = True
+
+    @property
+    def _run(self) -> Timeline:
+        given.check(self._timeline is not None, "message", None, "after an open")
+        assert self._timeline is not None  # noqa: S101  (checked above)
+        return self._timeline
+
+    async def _open(self, said: messages.Open) -> None:
+        def begun() -> tuple[Scenario, Timeline]:
+            scenario = (
+                self._places.load(said.scenario)
+                if said.scenario is not None
+                else self._places.read(said.text or "")
+            )
+            return scenario, Timeline(scenario, said.seed, said.run, said.changes)
+
+        scenario, self._timeline = await self._in_thread(begun)
+        self._stand()
+        clock = scenario.to_dict()["clock"]
+        self._pace = Pace(clock.get("step_s", 0.1))
+        self._aim, self._changes_told, self._selected = said.tick, -1, None
+        described: dict[str, Any] = {
+            "id": said.scenario,
+            "name": scenario.name,
+            "engine": scenario.engine,
+        }
+        described |= {"summary": scenario.summary, "cap_s": scenario.cap_s}
+        described |= {"step_s": self._pace.step_s}
+        names = {"seed": str(said.seed), "run": str(said.run)}
+        await self._page.tell({"type": "opened", "scenario": described, **names})
+
+    def _stand(self) -> None:
+        self._aim = None
+        self._pace.pause()
+
+    async def _go_on(self) -> None:
+        """Let the run go on for a short while."""
+        timeline, now_s = self._timeline, time.monotonic()
+        if timeline is None or not self._is_busy():
+            return
+        before = timeline.tick
+        aim = self._aim if self._aim is not None else self._pace.target(now_s, before)
+        try:
+            is_there = await self._in_thread(
+                lambda: timeline.toward(messages.MAX_TICK if aim is None else aim, SLICE_S)
+            )
+        except InputError as error:
+            self._stand()
+            await self._refuse("go", error)
+            return
+        self._is_new = self._is_new or timeline.tick != before or self._aim is not None
+        self._busy_at_s = time.monotonic()
+        if self._aim is not None and is_there:
+            self._aim = None
+        if self._pace.is_playing:
+            self._pace.note(time.monotonic(), timeline.tick)
+            if timeline.simulation.is_over and timeline.tick >= timeline.edge:
+                self._pace.pause()
+
+    async def _show(self) -> None:
+        """Send what is due."""
+        timeline, now_s = self._timeline, time.monotonic()
+        if timeline is None or not self._is_new or len(self._on_the_way) >= ON_THE_WAY:
+            return
+        is_at_rest = not self._is_busy()
+        if not is_at_rest and now_s - self._frame_at_s < FRAME_S:
+            return
+        if len(timeline.simulation.changes) != self._changes_told:
+            self._generation += 1
+            self._changes_told = len(timeline.simulation.changes)
+            await self._page.tell(setting(timeline.simulation, self._generation))
+        self._number += 1
+        self._on_the_way.append(self._number)
+        self._frame_at_s = now_s
+        self._is_new = False
+        await self._page.show(frame(timeline.simulation, self._generation, self._number))
+        if is_at_rest or now_s - self._state_at_s >= STATE_S:
+            self._state_at_s = now_s
+            await self._page.tell(self._state(timeline))
+
+    def _state(self, timeline: Timeline) -> dict[str, Any]:
+        simulation = timeline.simulation
+        return {
+            "type": "state",
+            "tick": simulation.tick,
+            "edge": timeline.edge,
+            "time_s": simulation.time_s,
+            "hash": f"{simulation.hash:016x}",
+            "playing": self._pace.is_playing,
+            "speed": self._pace.speed,
+            "real": self._pace.reached,
+            "over": simulation.is_over,
+            "outcome": simulation.outcome().row,
+            "mind": self._mind(timeline),
+        }
+
+    def _mind(self, timeline: Timeline) -> dict[str, Any] | None:
+        robot = self._selected
+        if robot is None or robot not in timeline.simulation.robots:
+            return None
+        thoughts = timeline.simulation.thoughts(robot)
+        return {"robot": robot, **thoughts} if thoughts else None
+
+    async def _refuse(self, about: str, error: InputError) -> None:
+        faults = messages.faults_of(error)
+        await self._page.tell({"type": "refused", "about": about, "faults": faults})
+
+    async def _in_thread(self, work: Callable[[], T]) -> T:
+        return await asyncio.get_running_loop().run_in_executor(self._threads, work)

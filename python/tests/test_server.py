@@ -1,0 +1,317 @@
+"""What the page's server answers, and whom."""
+
+import json
+import struct
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from starlette.testclient import TestClient, WebSocketTestSession
+from starlette.websockets import WebSocketDisconnect
+
+import agent_economy as ae
+from agent_economy.server import Places, app
+from agent_economy.server.app import MOST_BYTES, MOST_SESSIONS
+from agent_economy.server.session import ON_THE_WAY
+
+HEADER = struct.Struct("<4Id2I")
+
+OWN, WS = "http://127.0.0.1:8765", "ws://127.0.0.1:8765/ws"
+
+
+@pytest.fixture
+def client(tmp_path: Path) -> Iterator[TestClient]:
+    with TestClient(app(Places(tmp_path), "127.0.0.1"), OWN) as client:
+        yield client
+
+
+class Page:
+    """A page that reads all that it is sent, and says that it has drawn each frame."""
+
+    def __init__(self, socket: WebSocketTestSession, *, draws: bool = True) -> None:
+        """Begin with nothing heard."""
+        self.socket, self.draws = socket, draws
+        self.frames: list[bytes] = []
+        self.said: list[dict[str, Any]] = []
+
+    def say(self, kind: str, **rest: Any) -> None:
+        """Say something."""
+        self.socket.send_text(json.dumps({"type": kind, **rest}))
+
+    def next(self) -> dict[str, Any]:
+        """Return what is told next; frames are drawn on the way."""
+        while True:
+            message = self.socket.receive()
+            if message["type"] == "websocket.close":
+                raise WebSocketDisconnect(message["code"])
+            if message.get("bytes") is not None:
+                self.frames.append(message["bytes"])
+                if self.draws:
+                    self.say("got", frame=HEADER.unpack_from(message["bytes"])[6])
+                continue
+            self.said.append(json.loads(message["text"]))
+            return self.said[-1]
+
+    def until(self, kind: str, **rest: Any) -> dict[str, Any]:
+        """Wait until something is told, with these values in it."""
+        while True:
+            told = self.next()
+            if told["type"] == kind and all(told[key] == value for key, value in rest.items()):
+                return told
+
+    def open(self, **rest: Any) -> dict[str, Any]:
+        """Open a run, and wait until it has come to its tick."""
+        self.say("open", **{"scenario": "search-mind", "seed": "7", "run": "0"} | rest)
+        self.until("opened")
+        return self.until("state", tick=rest.get("tick", 0))
+
+
+@pytest.fixture
+def page(client: TestClient) -> Iterator[Page]:
+    with client.websocket_connect(WS) as socket:
+        yield Page(socket)
+
+
+def test_the_gallery_has_what_ships_and_what_is_in_the_folder(
+    client: TestClient, tmp_path: Path
+) -> None:
+    text = ae.Scenario.load("search").source.text
+    (tmp_path / "mine").mkdir()
+    (tmp_path / "mine" / "field.toml").write_text(text)
+    (tmp_path / "other.toml").write_text("[tool]\n")
+    (tmp_path / ".hidden").mkdir()
+    (tmp_path / ".hidden" / "field.toml").write_text(text)
+    rows = {row["id"]: row for row in client.get("/api/scenarios").json()}
+    assert rows.keys() >= {"classic", "search", "search-mind", "open-field", "mine/field.toml"}
+    assert rows["mine/field.toml"]["where"] == "folder"
+    assert not {"other.toml", ".hidden/field.toml"} & rows.keys()
+
+
+@pytest.mark.parametrize("name", ["classic", "search", "open-field", "flock"])
+def test_each_scenario_has_a_picture(client: TestClient, name: str) -> None:
+    told = client.get("/api/pictures", params={"scenario": name})
+    assert told.status_code == 200
+    assert told.headers["content-type"] == "image/svg+xml"
+    assert told.text.startswith("<svg")
+    assert "polygon" in told.text
+
+
+@pytest.mark.parametrize("name", ["../secret.toml", "/etc/passwd", "link.toml", "nothing", "a\0b"])
+def test_nothing_outside_of_the_folder_is_opened(
+    client: TestClient, tmp_path: Path, name: str
+) -> None:
+    secret = tmp_path.parent / "secret.toml"
+    secret.write_text(ae.Scenario.load("search").source.text)
+    (tmp_path / "link.toml").symlink_to(secret)
+    told = client.get("/api/pictures", params={"scenario": name})
+    assert told.status_code == 404
+    assert "one of the gallery" in told.json()["faults"][0]["message"]
+
+
+def test_a_map_outside_of_the_folder_is_not_read(client: TestClient) -> None:
+    text = ae.Scenario.load("open-field").source.text
+    told = client.post("/api/check", content=text.replace('"open-field.yaml"', '"../map.yaml"'))
+    assert told.status_code == 422
+    assert "not below the folder" in told.text
+
+
+def test_faults_of_a_text_are_told_with_their_lines(client: TestClient) -> None:
+    text = ae.Scenario.load("search").source.text
+    assert client.post("/api/check", content=text).json()["engine"] == "metric"
+    wrong = text.replace("cap_s = 120", "cap_s = -1").replace("count = 4", "cuont = 4", 1)
+    faults = client.post("/api/check", content=wrong).json()["faults"]
+    told = {fault["path"].split(".")[-1]: fault for fault in faults}
+    line = 1 + wrong[: wrong.index("cap_s = -1")].count("\n")
+    assert told["cap_s"]["line"] == line
+    assert told["cuont"]["suggestion"] == "count"
+
+
+@pytest.mark.parametrize("content", [b"\xff\xfe", b"x" * (MOST_BYTES + 1), b"= 3", b""])
+def test_what_is_no_scenario_is_told(client: TestClient, content: bytes) -> None:
+    told = client.post("/api/check", content=content)
+    assert told.status_code in (413, 422)
+    assert told.json()["faults"][0]["message"]
+
+
+def test_a_run_is_opened_played_and_paused(page: Page) -> None:
+    page.open()
+    page.say("play", speed=None)
+    over = page.until("state", over=True, playing=False)
+    assert over["outcome"]["complete"]
+    expected = ae.run("search-mind", seed=7)
+    assert over["outcome"]["time_s"] == expected.time_s
+    page.say("go", tick=50)
+    simulation = ae.Simulation("search-mind", 7)
+    simulation.step(50)
+    told = page.until("state", tick=50)
+    assert told["hash"] == f"{simulation.hash:016x}"
+    assert told["edge"] == over["tick"]
+
+
+def test_a_frame_is_of_where_the_robots_are(page: Page) -> None:
+    page.open(tick=30)
+    simulation = ae.Simulation("search-mind", 7)
+    simulation.step(30)
+    kind, generation, tick, robots, time_s, items, _ = HEADER.unpack_from(page.frames[-1])
+    assert (kind, tick, robots, items) == (1, 30, 4, 4)
+    assert generation == [each for each in page.said if each["type"] == "setting"][-1]["generation"]
+    assert time_s == pytest.approx(3.0)
+    drawn = np.frombuffer(page.frames[-1], np.float32, 16, HEADER.size).reshape(4, 4)
+    assert drawn[:, :3] == pytest.approx(simulation.poses.astype(np.float32))
+    assert len(page.frames[-1]) == HEADER.size + 16 * robots + items
+
+
+def test_steps_go_forth_and_back(page: Page) -> None:
+    page.open()
+    page.say("step", steps=3)
+    page.until("state", tick=3)
+    page.say("step", steps=-2)
+    page.until("state", tick=1)
+    page.say("step", steps=-9)
+    page.until("state", tick=0)
+
+
+def test_a_change_in_the_run_is_seen_and_its_log_gives_the_run_again(page: Page) -> None:
+    page.open(tick=40)
+    page.say("change", path="robots.rover.count", value=7)
+    setting = page.until("setting")
+    assert setting["kinds"][0]["count"] == len(setting["robots"]) == 7
+    page.say("step", steps=20)
+    told = page.until("state", tick=60)
+    again = page.open(changes=setting["changes"], tick=60)
+    assert again["hash"] == told["hash"]
+    page.say("undo")
+    assert page.until(
+        "setting", changes=[[40, "robots.rover.count", 7], [60, "robots.rover.count", 4]]
+    )
+
+
+def test_the_mind_of_a_selected_robot_is_told(page: Page) -> None:
+    page.open(tick=30)
+    page.say("select", robot="rover/1")
+    mind = page.until("state")["mind"]
+    assert mind["robot"] == "rover/1"
+    assert mind["goals"]
+    assert mind["pose"]
+    page.say("select", robot="rover/99")
+    assert page.until("state")["mind"] is None
+
+
+@pytest.mark.parametrize(
+    ("said", "told"),
+    [
+        ('{"type": "bogus"}', "one of open, play"),
+        ("{", "in JSON"),
+        ("[" * 100_000, "in JSON"),
+        ('{"type": "play", "speed": "fast"}', "play.speed"),
+        ('{"type": "play", "speed": NaN}', "play.speed"),
+        ('{"type": "go", "tick": 1}', "after an open"),
+        ('{"type": "open"}', "either a scenario or a text"),
+        ('{"type": "open", "scenario": "search", "seed": 7}', "as a text"),
+        ('{"type": "open", "scenario": "search", "seed": "99999999999999999999"}', "seed"),
+        ('{"type": "open", "scenario": "nothing"}', "one of the gallery"),
+        ('{"type": "open", "scenario": "classic"}', "metric"),
+        ('{"type": "open", "scenario": "search", "changes": [[1, 2]]}', "[tick, path, value]"),
+    ],
+)
+def test_what_a_page_may_not_say_is_refused_in_words(page: Page, said: str, told: str) -> None:
+    page.socket.send_text(said)
+    refused = page.until("refused")
+    assert told in refused["faults"][0]["message"]
+    page.open()
+
+
+def test_a_change_that_is_not_allowed_changes_nothing(page: Page) -> None:
+    before = page.open(tick=10)
+    for path, value in [("robots.rover.count", -1), ("clock.step_s", 1), ("a", None)]:
+        page.say("change", path=path, value=value)
+        page.until("refused")
+    page.say("step", steps=0)
+    assert page.until("state")["hash"] == before["hash"]
+
+
+def test_a_page_that_draws_nothing_gets_three_frames_and_the_run_goes_on(
+    client: TestClient,
+) -> None:
+    with client.websocket_connect(WS) as socket:
+        page = Page(socket, draws=False)
+        page.open()
+        page.say("play", speed=0.5)
+        # Refusals are told in any case: so it is known when frames could have come.
+        waited = 0
+        while waited < 30:
+            time.sleep(0.02)
+            page.say("bogus")
+            page.until("refused")
+            waited += len(page.frames) >= ON_THE_WAY
+        assert len(page.frames) == ON_THE_WAY
+        page.draws = True
+        page.say("got", frame=ON_THE_WAY)
+        assert page.until("state")["tick"] > 0
+
+
+def test_no_more_than_so_many_runs_are_open(client: TestClient) -> None:
+    sockets = [client.websocket_connect(WS) for _ in range(MOST_SESSIONS)]
+    for socket in sockets:
+        socket.__enter__()
+    with client.websocket_connect(WS) as socket:
+        assert Page(socket).next()["why"] == "full"
+    sockets[0].__exit__(None, None, None)
+    with client.websocket_connect(WS) as socket:
+        Page(socket).open()
+    for socket in sockets[1:]:
+        socket.__exit__(None, None, None)
+
+
+@pytest.mark.parametrize(
+    ("headers", "is_let_in"),
+    [
+        ({}, True),
+        ({"origin": OWN}, True),
+        ({"origin": "http://127.0.0.1:9999"}, False),
+        ({"origin": "https://evil.example"}, False),
+        ({"origin": "null"}, False),
+        ({"host": "evil.example"}, False),
+        ({"host": "localhost:8765", "origin": "http://localhost:8765"}, True),
+        ({"host": "localhost:8765", "origin": OWN}, False),
+        ({"host": "192.168.0.7:8765"}, False),
+        ({"host": "[::1]:8765"}, True),
+        ({"host": "["}, False),
+    ],
+)
+def test_only_its_own_pages_on_this_machine_are_let_in(
+    client: TestClient, headers: dict[str, str], *, is_let_in: bool
+) -> None:
+    assert (client.get("/api/scenarios", headers=headers).status_code == 200) == is_let_in
+    if is_let_in:
+        with client.websocket_connect(WS, headers=headers):
+            return
+    with pytest.raises(WebSocketDisconnect), client.websocket_connect(WS, headers=headers):
+        pass
+
+
+def test_from_elsewhere_a_token_is_needed_and_kept(tmp_path: Path) -> None:
+    served = app(Places(tmp_path), "192.168.0.7", "secret")
+    with TestClient(served, "http://192.168.0.7:8765") as client:
+        assert client.get("/api/scenarios").status_code == 403
+        assert client.get("/api/scenarios", params={"token": "other"}).status_code == 403
+        assert client.get("/api/scenarios", params={"token": "secret"}).status_code == 200
+        assert client.get("/api/scenarios").status_code == 200
+        with client.websocket_connect("ws://192.168.0.7:8765/ws?token=secret"):
+            pass
+        with (
+            pytest.raises(WebSocketDisconnect),
+            client.websocket_connect(
+                "ws://192.168.0.7:8765/ws?token=other", headers={"cookie": ""}
+            ),
+        ):
+            pass
+
+
+def test_pages_may_load_nothing_from_elsewhere(client: TestClient) -> None:
+    headers = client.get("/api/scenarios").headers
+    assert "default-src 'self'" in headers["content-security-policy"]
+    assert headers["x-content-type-options"] == "nosniff"

@@ -1,0 +1,117 @@
+"""Going back and forth in a run."""
+
+import pytest
+
+import agent_economy as ae
+from agent_economy.server.timeline import FIRST_EVERY, MOST_KEPT, Timeline
+from agent_economy.simulation import Change
+
+FOREVER_S = 60.0
+
+
+def begun(log: tuple[Change, ...] = ()) -> Timeline:
+    return Timeline(ae.Scenario.load("search-mind"), 7, 0, log)
+
+
+def hashes(timeline: Timeline, ticks: range | list[int]) -> list[int]:
+    told = []
+    for tick in ticks:
+        assert timeline.toward(tick, FOREVER_S)
+        assert timeline.tick == tick
+        told.append(timeline.simulation.hash)
+    return told
+
+
+def test_back_and_forth_gives_the_same_run() -> None:
+    timeline = begun()
+    ticks = [0, 1, FIRST_EVERY - 1, FIRST_EVERY, FIRST_EVERY + 1, 120, 200]
+    once = hashes(timeline, ticks)
+    assert hashes(timeline, ticks[::-1]) == once[::-1]
+    assert timeline.edge == 200
+    simulation = ae.Simulation("search-mind", 7)
+    simulation.step(200)
+    assert simulation.hash == once[-1]
+
+
+def test_a_change_makes_void_what_came_after_it_and_its_log_gives_the_run_again() -> None:
+    timeline = begun()
+    hashes(timeline, [150, 60])
+    timeline.change("robots.rover.count", 6)
+    assert (timeline.edge, timeline.tick) == (60, 60)
+    changed = hashes(timeline, [60, 90, 105, 90, 60, 30])
+    assert changed[0] == changed[4]
+    again = begun(timeline.log)
+    assert hashes(again, [30, 60, 90, 105]) == [changed[-1], changed[0], *changed[1:3]]
+
+
+def test_before_a_change_the_scenario_is_the_old_one_and_after_it_the_new_one() -> None:
+    timeline = begun()
+    hashes(timeline, [60])
+    timeline.change("robots.rover.count", 6)
+    counts = []
+    for tick in (59, 60, 61, 0):
+        timeline.toward(tick, FOREVER_S)
+        counts.append(len(timeline.simulation.robots))
+    assert counts == [4, 6, 6, 4]
+
+
+def test_what_is_put_where_it_is_already_changes_nothing() -> None:
+    timeline = begun()
+    hashes(timeline, [30, 10])
+    timeline.change("robots.rover.count", 4)
+    assert (timeline.edge, timeline.log) == (30, ())
+
+
+def test_undo_puts_back_what_was_there_from_now_on() -> None:
+    timeline = begun()
+    obstacles = timeline.simulation.scenario.to_dict()["world"]["obstacles"]
+    timeline.change("world.obstacles", obstacles[1:])
+    hashes(timeline, [5])
+    timeline.undo()
+    assert timeline.simulation.scenario.to_dict()["world"]["obstacles"] == obstacles
+    assert [change.tick for change in timeline.log] == [0, 5]
+
+
+def test_undo_after_nothing_is_told() -> None:
+    with pytest.raises(ae.InputError, match="must be after a change"):
+        begun().undo()
+
+
+def test_undo_of_what_the_scenario_did_not_say_is_told() -> None:
+    timeline = begun()
+    timeline.change("robots.rover.radius_m", 0.3)
+    with pytest.raises(ae.InputError, match="did not say robots.rover.radius_m"):
+        timeline.undo()
+
+
+def test_a_run_that_is_over_goes_no_further() -> None:
+    timeline = begun()
+    assert timeline.toward(10_000, FOREVER_S)
+    assert timeline.simulation.is_over
+    assert timeline.edge == timeline.tick < 10_000
+
+
+def test_a_long_way_is_gone_in_pieces_of_the_time_that_there_is() -> None:
+    timeline = Timeline(ae.Scenario.load("search-mind").replace("clock.cap_s", 10_000), 1)
+    pieces = 0
+    while not timeline.toward(2_000, 0.0):
+        pieces += 1
+    assert pieces > 1
+
+
+def test_snapshots_are_thinned_out_and_all_moments_can_still_be_gone_to() -> None:
+    long = ae.Scenario.load("search").replace("clock.cap_s", 10_000).replace("items.mine.count", 0)
+    timeline = Timeline(long, 1)
+    end = FIRST_EVERY * (MOST_KEPT + 10)
+    last = hashes(timeline, [end])
+    assert len(timeline._kept) <= MOST_KEPT
+    assert hashes(timeline, [17, end])[1:] == last
+
+
+def test_a_change_that_has_no_room_is_told_when_its_tick_comes() -> None:
+    log = (Change(20, "robots.rover.count", 100_000),)
+    timeline = begun(log)
+    with pytest.raises(ae.InputError):
+        timeline.toward(30, FOREVER_S)
+    assert timeline.log == ()
+    assert timeline.toward(30, FOREVER_S)
