@@ -21,8 +21,8 @@ test: lint wasm rust-test python-test ## Run every check, as CI does
 lint: .venv/installed ## Formatters, linters, types, stubs, layers
 	cargo fmt --all --check
 	cargo clippy --workspace --all-targets --locked -- -D warnings
-	$(BIN)/ruff format --check python scripts examples benchmarks/peers
-	$(BIN)/ruff check python scripts examples benchmarks/peers
+	$(BIN)/ruff format --check python scripts packaging examples benchmarks/peers
+	$(BIN)/ruff check python scripts packaging examples benchmarks/peers
 	$(BIN)/mypy
 	$(BIN)/stubtest agent_economy._core
 	$(BIN)/lint-imports --no-cache

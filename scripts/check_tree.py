@@ -41,8 +41,10 @@ CODE = {
     "benchmarks/src": ["*.rs"],
     "crates": ["*.rs"],
     "examples": ["*.py", "*.rs"],
+    "packaging": ["*.py"],
     "python": ["*.py", "*.pyi"],
     "scripts": ["*.py"],
+    "web/src": ["*.svelte", "*.ts"],
 }
 MAX_LINES = 600
 
@@ -108,7 +110,7 @@ def length_faults() -> list[str]:
 def document_faults() -> list[str]:
     """Return paths of this tree that a document names or links and that do not exist."""
     named = re.compile(
-        r"`((?:benchmarks|crates|examples|python|scenarios|scripts|docs)/[^`\s*<>]*)`"
+        r"`((?:benchmarks|crates|examples|packaging|python|scenarios|scripts|docs|web)/[^`\s*<>]*)`"
     )
     linked = re.compile(r"\]\((?!https?:|#)([^)\s#]+)")
     faults = []
