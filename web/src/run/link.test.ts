@@ -1,0 +1,59 @@
+import { expect, test } from "vitest";
+import { emptyLink, type Link, readLink, shortened, writeLink } from "./link";
+
+const read = (hash: string) => readLink(new URLSearchParams(hash.slice(hash.indexOf("?") + 1)));
+
+const full: Link = {
+  scenario: "mine/room & hall.toml",
+  text: null,
+  seed: "18446744073709551615",
+  run: "3",
+  changes: [
+    [0, "robots.rover.count", 12],
+    [40, "world.obstacles", [{ circle: { at_m: [1.5, -2], radius_m: 0.5 } }]],
+    [41, "robots.rover.brain.behaviours", [{ kind: "seek" }]],
+  ],
+  tick: 512,
+  view: [12.5, 8, 31.25],
+  robot: "rover/3",
+};
+
+test.each([["full", full], ["empty", emptyLink], ["of a text", { ...emptyLink, text: "zAb-_9" }]])(
+  "a link that is %s comes back as it was",
+  (_, link) => expect(read(writeLink(link))).toEqual(link),
+);
+
+test("what an address says wrongly is left out", () => {
+  const hash = "#/live?scenario=a&seed=-1&run=x&tick=1.5&view=1,2&changes=[[1],[2,3,4],[-1,%22p%22,0],[5,%22p%22,0]]";
+  expect(read(hash)).toEqual({ ...emptyLink, scenario: "a", changes: [[5, "p", 0]] });
+  expect(read("#/live?changes={not json").changes).toEqual([]);
+});
+
+test("only the last change of a path at a tick is kept, and those of other ticks all", () => {
+  expect(
+    shortened([
+      [1, "a", 1],
+      [1, "a", 2],
+      [1, "a.b", 3],
+      [2, "a", 4],
+    ]),
+  ).toEqual([
+    [1, "a", 2],
+    [1, "a.b", 3],
+    [2, "a", 4],
+  ]);
+});
+
+test("a change of a part goes when the whole is replaced later at the same tick", () => {
+  expect(
+    shortened([
+      [1, "items.mine.count", 1],
+      [1, "items.mine", { count: 2 }],
+    ]),
+  ).toEqual([[1, "items.mine", { count: 2 }]]);
+});
+
+test("a hundred moves of a slider at one tick make a short address", () => {
+  const changes = Array.from({ length: 100 }, (_, i) => [7, "robots.rover.count", i] as Link["changes"][0]);
+  expect(writeLink({ ...full, changes }).length).toBeLessThan(300);
+});

@@ -1,0 +1,104 @@
+import type { Change, Json } from "../net/protocol";
+
+/** What an address says of a run, so that opening it gives the same run at the same tick. */
+export interface Link {
+  scenario: string | null;
+  /** Text of a scenario of one's own, packed (`packed.ts`). */
+  text: string | null;
+  seed: string;
+  run: string;
+  changes: Change[];
+  tick: number;
+  /** Centre in metres, and pixels a metre. */
+  view: [number, number, number] | null;
+  robot: string | null;
+}
+
+/** Longer addresses get lost in some programs. */
+export const longestLink = 8000;
+
+export const emptyLink: Link = {
+  scenario: null,
+  text: null,
+  seed: "0",
+  run: "0",
+  changes: [],
+  tick: 0,
+  view: null,
+  robot: null,
+};
+
+/** The hash of an address, such as `#/live?scenario=search&seed=7`. */
+export function writeLink(link: Link): string {
+  const query = new URLSearchParams();
+  if (link.scenario !== null) query.set("scenario", link.scenario);
+  if (link.text !== null) query.set("text", link.text);
+  query.set("seed", link.seed);
+  query.set("run", link.run);
+  if (link.changes.length > 0) query.set("changes", JSON.stringify(shortened(link.changes)));
+  if (link.tick > 0) query.set("tick", String(link.tick));
+  if (link.view) query.set("view", link.view.map((value) => Number(value.toPrecision(5))).join(","));
+  if (link.robot !== null) query.set("robot", link.robot);
+  return `#/live?${readable(query.toString())}`;
+}
+
+/** What the query of an address says; what it says wrongly is left out. */
+export function readLink(query: URLSearchParams): Link {
+  return {
+    scenario: query.get("scenario"),
+    text: query.get("text"),
+    seed: whole(query.get("seed")),
+    run: whole(query.get("run")),
+    changes: readChanges(query.get("changes")),
+    tick: Number(whole(query.get("tick"))),
+    view: readView(query.get("view")),
+    robot: query.get("robot"),
+  };
+}
+
+/** Of changes of one path at one tick only the last counts. */
+export function shortened(changes: Change[]): Change[] {
+  return changes.filter(
+    ([tick, path], i) => !changes.some(([t, p], j) => j > i && t === tick && overrides(p, path)),
+  );
+}
+
+/** Whether a value at `outer` replaces that at `inner`. */
+function overrides(outer: string, inner: string): boolean {
+  return inner === outer || inner.startsWith(`${outer}.`);
+}
+
+/** Signs that need no escape after a `#` and make up most of a list of changes. */
+function readable(query: string): string {
+  return query
+    .replaceAll("%2F", "/")
+    .replaceAll("%2C", ",")
+    .replaceAll("%3A", ":")
+    .replaceAll("%5B", "[")
+    .replaceAll("%5D", "]");
+}
+
+function whole(text: string | null): string {
+  return text !== null && /^\d{1,20}$/.test(text) ? text : "0";
+}
+
+function readView(text: string | null): Link["view"] {
+  const [x, y, scale, ...rest] = (text ?? "").split(",").map(Number);
+  if (x === undefined || y === undefined || scale === undefined || rest.length > 0) return null;
+  return [x, y, scale].every(Number.isFinite) && scale > 0 ? [x, y, scale] : null;
+}
+
+function readChanges(text: string | null): Change[] {
+  try {
+    const read: Json = JSON.parse(text ?? "[]");
+    return Array.isArray(read) ? read.filter(isChange) : [];
+  } catch {
+    return [];
+  }
+}
+
+function isChange(given: Json): given is Change {
+  if (!Array.isArray(given) || given.length !== 3) return false;
+  const [tick, path] = given;
+  return Number.isInteger(tick) && Number(tick) >= 0 && typeof path === "string";
+}

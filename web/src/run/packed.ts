@@ -1,0 +1,42 @@
+/** Texts in addresses: deflated, in base64 without the signs that addresses escape. */
+
+/** Packed texts up to this length go into the address; others are kept by the browser's tab. */
+const longest = 5000;
+
+export async function pack(text: string): Promise<string> {
+  const packed = `z${base64(await through(new CompressionStream("deflate-raw"), new TextEncoder().encode(text)))}`;
+  return packed.length <= longest ? packed : keep(text);
+}
+
+/** The text; null if it is not (or no longer) to be had. */
+export async function unpack(packed: string): Promise<string | null> {
+  if (packed.startsWith("k")) return sessionStorage.getItem(packed);
+  try {
+    const bytes = Uint8Array.from(atob(unescaped(packed.slice(1))), (sign) => sign.charCodeAt(0));
+    return new TextDecoder().decode(await through(new DecompressionStream("deflate-raw"), bytes));
+  } catch {
+    return null;
+  }
+}
+
+function keep(text: string): string {
+  const key = `k${Date.now().toString(36)}`;
+  sessionStorage.setItem(key, text);
+  return key;
+}
+
+async function through(stream: CompressionStream | DecompressionStream, bytes: Uint8Array<ArrayBuffer>) {
+  const piped = new Blob([bytes]).stream().pipeThrough(stream);
+  return new Uint8Array(await new Response(piped).arrayBuffer());
+}
+
+function base64(bytes: Uint8Array): string {
+  return btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join(""))
+    .replaceAll("+", "-")
+    .replaceAll("/", "_")
+    .replaceAll("=", "");
+}
+
+function unescaped(text: string): string {
+  return text.replaceAll("-", "+").replaceAll("_", "/");
+}

@@ -1,0 +1,41 @@
+import { expect, test } from "vitest";
+import { Throttle } from "./throttle";
+
+function throttled() {
+  const sent: [string, number][] = [];
+  const waits: (() => void)[] = [];
+  const throttle = new Throttle<number>(50, (key, value) => sent.push([key, value]), (_, action) => waits.push(action));
+  return { throttle, sent, tick: () => waits.shift()?.() };
+}
+
+test("the first value goes at once", () => {
+  const { throttle, sent } = throttled();
+  throttle.put("a", 1);
+  expect(sent).toEqual([["a", 1]]);
+});
+
+test("of what comes while waiting the latest goes, and nothing is lost at the end", () => {
+  const { throttle, sent, tick } = throttled();
+  for (const value of [1, 2, 3, 4]) throttle.put("a", value);
+  tick();
+  tick();
+  expect(sent).toEqual([
+    ["a", 1],
+    ["a", 4],
+  ]);
+});
+
+test("keys do not push each other out", () => {
+  const { throttle, sent, tick } = throttled();
+  throttle.put("a", 1);
+  throttle.put("b", 2);
+  throttle.put("c", 3);
+  throttle.put("b", 4);
+  tick();
+  tick();
+  expect(sent).toEqual([
+    ["a", 1],
+    ["c", 3],
+    ["b", 4],
+  ]);
+});
