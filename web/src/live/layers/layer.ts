@@ -1,0 +1,70 @@
+import type { Frame } from "../../net/frames";
+import type { Mind, Point, Setting } from "../../net/protocol";
+import type { World } from "../../run/world";
+import type { Camera } from "../../view/camera";
+import type { Colours } from "../../view/colours";
+import type { Trails } from "./trail_store";
+
+/** All that layers draw. */
+export interface Scene {
+  setting: Setting;
+  world: World;
+  frame: Frame | null;
+  mind: Mind | null;
+  /** Number of the selected robot; -1 for none. */
+  selected: number;
+  trails: Trails;
+  /** What is being put somewhere by hand, drawn above all. */
+  ghost: Path2D | null;
+}
+
+export interface Pen {
+  context: CanvasRenderingContext2D;
+  camera: Camera;
+  colours: Colours;
+}
+
+/**
+ * Something to draw. `still` layers are drawn anew only when view, setting or items change; those `under`
+ * and `over` the robots with each frame.
+ */
+export interface Layer {
+  id: string;
+  label: string;
+  /** Whether people can switch it, and how it begins. */
+  switchable: boolean;
+  on: boolean;
+  place: "still" | "under" | "over";
+  /** Whether there is anything to draw; a canvas with nothing on it costs nothing. */
+  active(scene: Scene): boolean;
+  draw(pen: Pen, scene: Scene): void;
+}
+
+/** Draws in metres, y up, in which a line of a pixel is `1 / camera.scale` wide. */
+export function inWorld({ context, camera }: Pen, draw: () => void): void {
+  const { x, y, scale, width, height } = camera;
+  context.save();
+  context.transform(scale, 0, 0, -scale, width / 2 - x * scale, height / 2 + y * scale);
+  draw();
+  context.restore();
+}
+
+export function outline(path: Path2D, points: Point[]): void {
+  points.forEach(([x, y], i) => {
+    if (i === 0) path.moveTo(x, y);
+    else path.lineTo(x, y);
+  });
+  path.closePath();
+}
+
+export function ring(path: Path2D, [x, y]: Point, radius: number): void {
+  path.moveTo(x + radius, y);
+  path.arc(x, y, radius, 0, 2 * Math.PI);
+}
+
+/** Where a robot is; null if there is no such robot. */
+export function poseOf({ frame }: Scene, robot: number): { at: Point; heading_rad: number } | null {
+  if (!frame || robot < 0 || robot >= frame.count) return null;
+  const [x = 0, y = 0, heading_rad = 0] = frame.robots.subarray(4 * robot, 4 * robot + 3);
+  return { at: [x, y], heading_rad };
+}

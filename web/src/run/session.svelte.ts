@@ -1,0 +1,169 @@
+import { Connection, type Listener } from "../net/connection";
+import type { Frame } from "../net/frames";
+import type {
+  Change, Command, Ended, Fault, Json, Message, Opened, Refused, Setting, Speed, State,
+} from "../net/protocol";
+import { Arrivals } from "./arrivals";
+import type { Link } from "./link";
+import { Series } from "./series";
+import { Throttle } from "./throttle";
+
+/** `opening` until the server has said what runs; `lost` while it is called again. */
+export type Phase = "opening" | "open" | "lost" | "refused" | "ended";
+
+/** What is to be run: of an address, with the text unpacked. */
+export type Source = Omit<Link, "text" | "view"> & { text: string | null };
+
+const changes_ms = 50;
+
+/** A run as the page knows it, and the commands to it. */
+export class Session implements Listener {
+  phase = $state<Phase>("opening");
+  opened = $state.raw<Opened | null>(null);
+  setting = $state.raw<Setting | null>(null);
+  state = $state.raw<State | null>(null);
+  /** Why the run could not be opened. */
+  faults = $state.raw<Fault[]>([]);
+  ended = $state.raw<Ended | null>(null);
+  /** What was refused last, under the path of the change (or what else it was about). */
+  refusals = $state.raw<Record<string, string>>({});
+  selected = $state.raw<string | null>(null);
+  /** Milliseconds until the line is tried again. */
+  again_ms = $state(0);
+  /** How often `series` has got something new. */
+  grown = $state(0);
+  series = new Series();
+
+  readonly arrivals = new Arrivals((frame) => this.send({ type: "got", frame }));
+  /** Called when there is something new to draw. */
+  onFrame = () => {};
+
+  private readonly connection = new Connection(this);
+  private readonly changes = new Throttle<Json>(changes_ms, (path, value) => this.sendChange(path, value));
+  private lastChange = "";
+  /** Speed to go on with once the run is opened again; undefined if it stood. */
+  private goOn: Speed | undefined;
+
+  constructor(private readonly source: Source) {
+    this.selected = source.robot;
+  }
+
+  start(): void {
+    this.connection.start();
+  }
+
+  close(): void {
+    this.connection.close();
+  }
+
+  // Commands.
+
+  play(speed: Speed): void {
+    this.send({ type: "play", speed });
+  }
+
+  pause(): void {
+    this.send({ type: "pause" });
+  }
+
+  step(steps: number): void {
+    this.send({ type: "step", steps });
+  }
+
+  go(tick: number): void {
+    this.send({ type: "go", tick });
+  }
+
+  change(path: string, value: Json): void {
+    this.changes.put(path, value);
+  }
+
+  undo(): void {
+    this.send({ type: "undo" });
+  }
+
+  select(robot: string | null): void {
+    this.selected = robot;
+    this.send({ type: "select", robot });
+  }
+
+  // What the line tells.
+
+  ready(): void {
+    this.arrivals.clear();
+    this.send(this.opening());
+  }
+
+  lost(again_ms: number): void {
+    if (this.phase === "ended" || this.phase === "refused") return this.connection.close();
+    if (this.phase === "open") this.goOn = this.state?.playing ? this.state.speed : undefined;
+    this.phase = "lost";
+    this.again_ms = again_ms;
+  }
+
+  frame(frame: Frame): void {
+    this.arrivals.put(frame);
+    this.onFrame();
+  }
+
+  message(message: Message): void {
+    if (message.type === "opened") this.begin(message);
+    else if (message.type === "setting") this.set(message);
+    else if (message.type === "state") this.told(message);
+    else if (message.type === "refused") this.refuse(message);
+    else this.end(message);
+  }
+
+  private begin(opened: Opened): void {
+    this.opened = opened;
+    this.phase = "open";
+    if (this.selected !== null) this.send({ type: "select", robot: this.selected });
+    if (this.goOn !== undefined) this.play(this.goOn);
+    this.goOn = undefined;
+  }
+
+  private set(setting: Setting): void {
+    this.setting = setting;
+    this.refusals = {};
+    this.onFrame();
+  }
+
+  private told(state: State): void {
+    this.state = state;
+    this.series.add(state);
+    this.grown += 1;
+  }
+
+  private refuse({ about, faults }: Refused): void {
+    if (about === "open") {
+      this.faults = faults;
+      this.phase = "refused";
+      this.connection.close();
+      return;
+    }
+    const words = faults.map((fault) => fault.message).join(" ");
+    this.refusals = { ...this.refusals, [about === "change" ? this.lastChange : about]: words };
+  }
+
+  private end(ended: Ended): void {
+    this.ended = ended;
+    this.phase = "ended";
+    this.connection.close();
+  }
+
+  /** The run as it stands, so that a line that was lost goes on where it was. */
+  private opening(): Command {
+    const { scenario, text, seed, run } = this.source;
+    const changes: Change[] = this.setting?.changes ?? this.source.changes;
+    return { type: "open", scenario, text, seed, run, changes, tick: this.state?.tick ?? this.source.tick };
+  }
+
+  private sendChange(path: string, value: Json): void {
+    this.lastChange = path;
+    this.send({ type: "change", path, value });
+  }
+
+  private send(command: Command): void {
+    this.connection.send(command);
+  }
+}

@@ -1,0 +1,34 @@
+/** Colours of the canvases, which are those of the style sheet (`styles/theme.css`). */
+const names = [
+  "ground", "outside", "border", "grid", "obstacle", "obstacle-edge", "unknown", "terrain", "terrain-text",
+  "robot-clear", "robot-danger", "robot-collided", "robot-empty", "robot-broken", "robot-mark",
+  "item-hidden", "item-found", "item-missed", "item-clutter", "text", "accent", "trail", "link",
+  "sense-items", "sense-other", "belief",
+] as const;
+
+export type ColourName = (typeof names)[number];
+export type Colours = Record<ColourName, string>;
+
+export const robotColours: ColourName[] = [
+  "robot-clear", "robot-danger", "robot-collided", "robot-empty", "robot-broken",
+];
+
+export function readColours(): Colours {
+  const style = getComputedStyle(document.documentElement);
+  return Object.fromEntries(
+    names.map((name) => [name, style.getPropertyValue(`--${name}`).trim()]),
+  ) as Colours;
+}
+
+/** Red, green and blue, 0 to 1, of a colour such as `#1c63d5`. */
+export function rgb(colour: string): [number, number, number] {
+  const value = Number.parseInt(colour.slice(1), 16) || 0;
+  return [(value >> 16) / 255, ((value >> 8) & 255) / 255, (value & 255) / 255];
+}
+
+/** Calls when the system goes from light to dark or back; gives what stops that. */
+export function onThemeChange(action: () => void): () => void {
+  const dark = matchMedia("(prefers-color-scheme: dark)");
+  dark.addEventListener("change", action);
+  return () => dark.removeEventListener("change", action);
+}

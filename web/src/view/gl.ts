@@ -1,0 +1,62 @@
+/** What all WebGL2 programs of the page need. */
+
+export class GlFault extends Error {}
+
+export function programOf(gl: WebGL2RenderingContext, vertex: string, fragment: string): WebGLProgram {
+  const program = gl.createProgram();
+  gl.attachShader(program, shader(gl, gl.VERTEX_SHADER, vertex));
+  gl.attachShader(program, shader(gl, gl.FRAGMENT_SHADER, fragment));
+  gl.linkProgram(program);
+  if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost()) {
+    throw new GlFault(gl.getProgramInfoLog(program) ?? "does not link");
+  }
+  return program;
+}
+
+function shader(gl: WebGL2RenderingContext, type: number, source: string): WebGLShader {
+  const made = gl.createShader(type);
+  if (!made) throw new GlFault("no shader");
+  gl.shaderSource(made, source);
+  gl.compileShader(made);
+  if (!gl.getShaderParameter(made, gl.COMPILE_STATUS) && !gl.isContextLost()) {
+    throw new GlFault(gl.getShaderInfoLog(made) ?? "does not compile");
+  }
+  return made;
+}
+
+export const rowTexels = 1024;
+
+/** A texture of a frame's floats as they are: a texel a robot, 1024 a row. */
+export class RobotTexture {
+  private readonly texture: WebGLTexture;
+  private rows = 0;
+
+  constructor(private readonly gl: WebGL2RenderingContext) {
+    this.texture = gl.createTexture();
+    gl.bindTexture(gl.TEXTURE_2D, this.texture);
+    for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) {
+      gl.texParameteri(gl.TEXTURE_2D, name, gl.NEAREST);
+    }
+  }
+
+  /** Whole rows, then what is left of one: so nothing need be copied to fill it up. */
+  put(robots: Float32Array, count: number): void {
+    this.grow(Math.ceil(count / rowTexels));
+    const whole = Math.floor(count / rowTexels);
+    if (whole > 0) this.part(robots, 0, whole, rowTexels);
+    if (count > whole * rowTexels) this.part(robots, whole, 1, count - whole * rowTexels);
+  }
+
+  private part(robots: Float32Array, row: number, rows: number, columns: number): void {
+    const { gl } = this;
+    const from = 4 * row * rowTexels;
+    gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, row, columns, rows, gl.RGBA, gl.FLOAT, robots, from);
+  }
+
+  private grow(rows: number): void {
+    const { gl } = this;
+    if (rows <= this.rows) return;
+    this.rows = rows;
+    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA32F, rowTexels, rows, 0, gl.RGBA, gl.FLOAT, null);
+  }
+}

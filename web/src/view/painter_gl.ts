@@ -1,0 +1,124 @@
+import type { Frame } from "../net/frames";
+import type { Range } from "../run/robots";
+import type { Camera } from "./camera";
+import { type Colours, rgb, robotColours } from "./colours";
+import { programOf, RobotTexture } from "./gl";
+import { type Painter, leastRadius_px } from "./painter";
+import { bodyVertex, flatFragment, markFragment, markVertex } from "./shaders";
+
+/** Where a program has what all of them are given. */
+interface Places {
+  program: WebGLProgram;
+  view: WebGLUniformLocation | null;
+  radius: WebGLUniformLocation | null;
+  palette: WebGLUniformLocation | null;
+}
+
+/**
+ * Robots by WebGL2: two triangles each whose corners are made up from their number, so that the frame's
+ * floats go to the processor of the picture as they came. Those that are not clear get a mark more.
+ */
+export class PainterGl implements Painter {
+  readonly name = "WebGL2";
+  private readonly body: Places;
+  private readonly marks: Places;
+  private readonly texture: RobotTexture;
+  private readonly marked: WebGLBuffer;
+  private numbers = new Uint32Array(0);
+  private markCount = 0;
+
+  constructor(private readonly gl: WebGL2RenderingContext) {
+    this.body = this.places(bodyVertex, flatFragment);
+    this.marks = this.places(markVertex, markFragment);
+    this.texture = new RobotTexture(gl);
+    this.marked = gl.createBuffer();
+    gl.bindBuffer(gl.ARRAY_BUFFER, this.marked);
+    gl.vertexAttribIPointer(0, 1, gl.UNSIGNED_INT, 0, 0);
+    gl.enable(gl.BLEND);
+    gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
+  }
+
+  setColours(colours: Colours): void {
+    const { gl } = this;
+    const palette = robotColours.flatMap((name) => rgb(colours[name]));
+    gl.useProgram(this.body.program);
+    gl.uniform3fv(this.body.palette, palette);
+    gl.useProgram(this.marks.program);
+    // The hollow of an empty robot is the ground seen through it; a broken one's frame must show on any.
+    const marks = [0, 1, 2].flatMap((i) => palette.slice(3 * i, 3 * i + 3));
+    gl.uniform3fv(this.marks.palette, [...marks, ...rgb(colours.ground), ...rgb(colours["robot-mark"])]);
+  }
+
+  paint(frame: Frame, ranges: Range[], camera: Camera, fresh: boolean): void {
+    if (fresh) this.take(frame);
+    this.clear();
+    this.paintBodies(frame, ranges, camera);
+    if (this.markCount > 0) this.paintMarks(ranges, camera);
+  }
+
+  clear(): void {
+    const { gl } = this;
+    gl.viewport(0, 0, gl.drawingBufferWidth, gl.drawingBufferHeight);
+    gl.clearColor(0, 0, 0, 0);
+    gl.clear(gl.COLOR_BUFFER_BIT);
+  }
+
+  private take(frame: Frame): void {
+    this.texture.put(frame.robots, frame.count);
+    if (this.numbers.length < 6 * frame.count) this.numbers = new Uint32Array(6 * frame.count);
+    this.markCount = markedOf(frame, this.numbers);
+    if (this.markCount === 0) return;
+    this.gl.bufferData(this.gl.ARRAY_BUFFER, this.numbers.subarray(0, 6 * this.markCount), this.gl.STREAM_DRAW);
+  }
+
+  private paintBodies(frame: Frame, ranges: Range[], camera: Camera): void {
+    const { gl, body } = this;
+    gl.useProgram(body.program);
+    gl.disableVertexAttribArray(0);
+    this.setView(body, camera);
+    for (const { kind, first, count } of ranges) {
+      gl.uniform1f(body.radius, drawnRadius(kind.radius_m, camera));
+      const drawn = Math.min(count, frame.count - first);
+      if (drawn > 0) gl.drawArrays(gl.TRIANGLES, 6 * first, 6 * drawn);
+    }
+  }
+
+  private paintMarks(ranges: Range[], camera: Camera): void {
+    const { gl, marks } = this;
+    gl.useProgram(marks.program);
+    gl.enableVertexAttribArray(0);
+    this.setView(marks, camera);
+    // Marked robots of all kinds in one go: as large as the largest kind's.
+    const radius_m = Math.max(0, ...ranges.filter((range) => range.count > 0).map(({ kind }) => kind.radius_m));
+    const radius = drawnRadius(radius_m, camera);
+    gl.uniform1f(marks.radius, radius);
+    gl.uniform1f(gl.getUniformLocation(marks.program, "pixel"), 1 / (radius * camera.scale));
+    gl.drawArrays(gl.TRIANGLES, 0, 6 * this.markCount);
+  }
+
+  private setView({ view }: Places, { x, y, scale, width, height }: Camera): void {
+    const [sx, sy] = [(2 * scale) / width, (2 * scale) / height];
+    this.gl.uniform4f(view, sx, sy, -x * sx, -y * sy);
+  }
+
+  private places(vertex: string, fragment: string): Places {
+    const program = programOf(this.gl, vertex, fragment);
+    const at = (name: string) => this.gl.getUniformLocation(program, name);
+    return { program, view: at("view"), radius: at("radius"), palette: at("palette") };
+  }
+}
+
+export function drawnRadius(radius_m: number, camera: Camera): number {
+  return Math.max(radius_m, leastRadius_px / camera.scale);
+}
+
+/** Puts the number of each robot that is not clear six times, once a corner; gives how many those are. */
+function markedOf({ robots, count }: Frame, numbers: Uint32Array): number {
+  let marked = 0;
+  for (let i = 0; i < count; i++) {
+    if (robots[4 * i + 3] === 0) continue;
+    numbers.fill(i, 6 * marked, 6 * marked + 6);
+    marked += 1;
+  }
+  return marked;
+}
