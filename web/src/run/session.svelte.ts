@@ -56,6 +56,17 @@ export class Session implements Listener {
     this.connection.close();
   }
 
+  /** Opens an ended run once more. */
+  again(): void {
+    this.phase = "opening";
+    this.start();
+  }
+
+  /** The text that is run, if it is not one of the server's scenarios. */
+  get text(): string | null {
+    return this.source.text;
+  }
+
   // Commands.
 
   play(speed: Speed): void {

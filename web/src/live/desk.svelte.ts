@@ -1,0 +1,53 @@
+import type { Link } from "../run/link";
+import { Session } from "../run/session.svelte";
+import type { Camera } from "../view/camera";
+import { layers } from "./layers";
+import type { Stage } from "./stage";
+import type { ToolId } from "./tools";
+
+export const speeds = [0.1, 0.5, 1, 2, 10, 100, null] as const;
+
+/** What lies on the desk of one who watches a run: the run itself, and how it is looked at. */
+export class Desk {
+  readonly session: Session;
+  on = $state<Record<string, boolean>>(Object.fromEntries(layers.map((layer) => [layer.id, layer.on])));
+  tool = $state<ToolId>("select");
+  /** The kind that the item tool places. */
+  itemKind = $state("");
+  /** Speed of the next play. */
+  speed = $state<number | null>(1);
+  camera = $state.raw<Camera | null>(null);
+  stage: Stage | null = null;
+
+  constructor(
+    readonly link: Link,
+    text: string | null,
+  ) {
+    this.session = new Session({ ...link, text });
+  }
+
+  toggle(): void {
+    const { session } = this;
+    if (session.state?.playing) session.pause();
+    else session.play(this.speed);
+  }
+
+  setSpeed(speed: number | null): void {
+    this.speed = speed;
+    if (this.session.state?.playing) this.session.play(speed);
+  }
+
+  /** The address of what is seen now. */
+  get now(): Link {
+    const { setting, state, selected } = this.session;
+    const { camera, link } = this;
+    const round = (value: number) => Number(value.toFixed(3));
+    return {
+      ...link,
+      changes: setting?.changes ?? link.changes,
+      tick: state?.tick ?? link.tick,
+      view: camera ? [round(camera.x), round(camera.y), round(camera.scale)] : link.view,
+      robot: selected,
+    };
+  }
+}
