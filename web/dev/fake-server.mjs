@@ -18,11 +18,15 @@ const policy = "default-src 'self'; img-src 'self' data:; style-src 'self'";
 /** Starts it; gives its address, how many frames were drawn, and what stops it. */
 export async function serve(port = 0) {
   const counter = { drawn: 0 };
-  const server = createServer((request, answer) => handle(request, answer).catch(() => send(answer, 404, "text/plain", "no such thing")));
+  const server = createServer((request, answer) =>
+    handle(request, answer).catch(() => send(answer, 404, "text/plain", "no such thing")),
+  );
   const sockets = new WebSocketServer({ server, path: "/ws", perMessageDeflate: false });
   sockets.on("connection", (socket) => new Talk(socket, counter));
   await new Promise((ready) => server.listen(port, "127.0.0.1", ready));
-  const drop = () => sockets.clients.forEach((socket) => socket.terminate());
+  const drop = () => {
+    for (const socket of sockets.clients) socket.terminate();
+  };
   const stop = () => {
     drop();
     server.close();
@@ -33,8 +37,10 @@ export async function serve(port = 0) {
 async function handle(request, answer) {
   const { pathname, searchParams } = new URL(request.url, "http://localhost");
   if (pathname === "/api/scenarios") return send(answer, 200, "application/json", JSON.stringify(entries));
-  if (pathname === "/api/pictures") return send(answer, 200, "image/svg+xml", pictureOf(documentOf(searchParams.get("scenario"))));
-  if (pathname === "/api/schema") return send(answer, 200, "application/json", await readFile(join(here, "../schemas/metric.schema.json")));
+  if (pathname === "/api/pictures")
+    return send(answer, 200, "image/svg+xml", pictureOf(documentOf(searchParams.get("scenario"))));
+  if (pathname === "/api/schema")
+    return send(answer, 200, "application/json", await readFile(join(here, "../schemas/metric.schema.json")));
   if (pathname === "/api/check") return check(request, answer);
   const file = normalize(pathname === "/" ? "/index.html" : pathname);
   send(answer, 200, kinds[extname(file)] ?? "text/plain", await readFile(join(here, "dist", file)));
@@ -46,13 +52,26 @@ async function check(request, answer) {
   const lines = Buffer.concat(parts).toString().split("\n");
   const faults = lines.flatMap((line, i) => (/raduis|-3/.test(line) ? [faultAt(i + 1, line)] : []));
   const good = { name: "my scenario", engine: "metric", summary: "A scenario." };
-  send(answer, faults.length > 0 ? 422 : 200, "application/json", JSON.stringify(faults.length > 0 ? { faults } : good));
+  send(
+    answer,
+    faults.length > 0 ? 422 : 200,
+    "application/json",
+    JSON.stringify(faults.length > 0 ? { faults } : good),
+  );
 }
 
 function faultAt(line, text) {
   const [path, given] = text.split("=").map((part) => part.trim());
   const message = `robots.rover.${path} = ${given}: must be one of the known keys here: like, count, layer, radius_m; did you mean radius_m?`;
-  return { file: null, line, path: `robots.rover.${path}`, given, allowed: "", suggestion: "radius_m", message };
+  return {
+    file: null,
+    line,
+    path: `robots.rover.${path}`,
+    given,
+    allowed: "",
+    suggestion: "radius_m",
+    message,
+  };
 }
 
 function send(answer, status, kind, body) {

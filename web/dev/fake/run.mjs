@@ -77,9 +77,15 @@ export class FakeRun {
     const sought = this.items.filter((item) => item.sought).length;
     const found = this.found.reduce((sum, state) => sum + (state === 1 ? 1 : 0), 0);
     return {
-      found, missed: sought - found, collisions: this.collisions, energy_j: 40 * this.tick * this.count * this.step_s,
-      time_s: this.tick * this.step_s, merit: -0.03 * this.tick * this.step_s - 0.2 * this.count,
-      distance_m: this.tick * this.count * this.step_s, false_alarms: 0, stopped: 0,
+      found,
+      missed: sought - found,
+      collisions: this.collisions,
+      energy_j: 40 * this.tick * this.count * this.step_s,
+      time_s: this.tick * this.step_s,
+      merit: -0.03 * this.tick * this.step_s - 0.2 * this.count,
+      distance_m: this.tick * this.count * this.step_s,
+      false_alarms: 0,
+      stopped: 0,
     };
   }
 
@@ -90,7 +96,8 @@ export class FakeRun {
 
   frame(generation, number) {
     const buffer = Buffer.alloc(32 + 16 * this.count + this.items.length);
-    [1, generation, this.tick, this.count].forEach((value, i) => buffer.writeUInt32LE(value, 4 * i));
+    for (const [i, value] of [1, generation, this.tick, this.count].entries())
+      buffer.writeUInt32LE(value, 4 * i);
     buffer.writeDoubleLE(this.tick * this.step_s, 16);
     buffer.writeUInt32LE(this.items.length, 24);
     buffer.writeUInt32LE(number, 28);
@@ -110,7 +117,10 @@ export class FakeRun {
       robot,
       pose: { at: [x + 0.2, y - 0.1], heading_rad, deviation_m: 0.3, deviation_rad: 0.05, age_s: 0.1 },
       items: this.items.slice(0, 2).map((item, k) => ({
-        kind: 0, at: [item.at_m[0] + 0.4, item.at_m[1] - 0.3], deviation_m: 0.5 + k / 3, confidence: 0.9 - 0.4 * k,
+        kind: 0,
+        at: [item.at_m[0] + 0.4, item.at_m[1] - 0.3],
+        deviation_m: 0.5 + k / 3,
+        confidence: 0.9 - 0.4 * k,
       })),
       robots: [],
       goals: [
@@ -132,10 +142,18 @@ function kindsOf(document) {
     radius_m: robot.radius_m ?? 0.27,
     flies: robot.like === "quadrotor",
     radio_range_m: 12,
-    sensors: robot.radius_m ? [] : [
-      { name: "camera", kind: "items", range_m: robot.sensors?.camera?.range_m ?? 3, width_rad: 1.2, facing_rad: 0 },
-      { name: "laser", kind: "range", range_m: 6, width_rad: tau, facing_rad: 0 },
-    ],
+    sensors: robot.radius_m
+      ? []
+      : [
+          {
+            name: "camera",
+            kind: "items",
+            range_m: robot.sensors?.camera?.range_m ?? 3,
+            width_rad: 1.2,
+            facing_rad: 0,
+          },
+          { name: "laser", kind: "range", range_m: 6, width_rad: tau, facing_rad: 0 },
+        ],
   }));
 }
 
@@ -155,11 +173,18 @@ function itemsOf(document, seed) {
 export function pictureOf(document) {
   const run = new FakeRun(document, 0);
   const [w, h] = run.size;
-  const shapes = (document.world.obstacles ?? []).map((one) => one.polygon_m
-    ? `<polygon points="${one.polygon_m.map(([x, y]) => `${x},${h - y}`).join(" ")}" fill="#9aa3ae"/>`
-    : one.circle ? `<circle cx="${one.circle.at_m[0]}" cy="${h - one.circle.at_m[1]}" r="${one.circle.radius_m}" fill="#9aa3ae"/>` : "");
-  const robots = Array.from({ length: Math.min(run.count, 500) }, (_, i) =>
-    `<circle cx="${run.robots[4 * i]}" cy="${h - run.robots[4 * i + 1]}" r="${w / 80}" fill="#1a5fd0"/>`);
+  const shapes = (document.world.obstacles ?? []).map((one) =>
+    one.polygon_m
+      ? `<polygon points="${one.polygon_m.map(([x, y]) => `${x},${h - y}`).join(" ")}" fill="#9aa3ae"/>`
+      : one.circle
+        ? `<circle cx="${one.circle.at_m[0]}" cy="${h - one.circle.at_m[1]}" r="${one.circle.radius_m}" fill="#9aa3ae"/>`
+        : "",
+  );
+  const robots = Array.from(
+    { length: Math.min(run.count, 500) },
+    (_, i) =>
+      `<circle cx="${run.robots[4 * i]}" cy="${h - run.robots[4 * i + 1]}" r="${w / 80}" fill="#1a5fd0"/>`,
+  );
   return `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${w} ${h}"><rect width="${w}" height="${h}" fill="#fff" stroke="#868f9b" stroke-width="${w / 200}"/>${shapes.join("")}${robots.join("")}</svg>`;
 }
 
@@ -174,6 +199,11 @@ export function mapsOf(document) {
       cells[row * columns + column] = wall ? 2 : row < 6 && column < 8 ? 1 : 0;
     }
   }
-  const corners_m = [[38, 22], [54, 22], [54, 34], [38, 34]];
+  const corners_m = [
+    [38, 22],
+    [54, 22],
+    [54, 34],
+    [38, 34],
+  ];
   return [{ corners_m, columns, rows, cells: cells.toString("base64") }];
 }

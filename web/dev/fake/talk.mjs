@@ -1,5 +1,5 @@
-import { documentOf, entryOf } from "./scenarios.mjs";
 import { FakeRun, mapsOf } from "./run.mjs";
+import { documentOf, entryOf } from "./scenarios.mjs";
 
 const mostUnseen = 3;
 
@@ -31,7 +31,21 @@ export class Talk {
   open({ scenario, text, seed, run, changes, tick }) {
     if (scenario === "broken") {
       const message = "robots.rover.count is missing: must be a whole number from 0 to 1000000";
-      return this.say({ type: "refused", about: "open", faults: [{ file: null, line: 7, path: "robots.rover.count", given: null, allowed: "", suggestion: null, message }] });
+      return this.say({
+        type: "refused",
+        about: "open",
+        faults: [
+          {
+            file: null,
+            line: 7,
+            path: "robots.rover.count",
+            given: null,
+            allowed: "",
+            suggestion: null,
+            message,
+          },
+        ],
+      });
     }
     if (scenario === "full") {
       this.say({ type: "ended", why: "full", message: "As many runs are open as this server takes." });
@@ -58,7 +72,16 @@ export class Talk {
     this.run.to(tick);
     const { kinds, items } = this.run;
     const { generation, changes } = this;
-    this.say({ type: "setting", generation, document, robots: this.run.nameOf(), kinds, items, maps: mapsOf(document), changes });
+    this.say({
+      type: "setting",
+      generation,
+      document,
+      robots: this.run.nameOf(),
+      kinds,
+      items,
+      maps: mapsOf(document),
+      changes,
+    });
   }
 
   hear_play({ speed }) {
@@ -92,7 +115,11 @@ export class Talk {
 
   refuse(path) {
     const message = `${path}: swarm needs a sensor of kind robots, and rover has none`;
-    this.say({ type: "refused", about: "change", faults: [{ file: null, line: null, path, given: null, allowed: "", suggestion: null, message }] });
+    this.say({
+      type: "refused",
+      about: "change",
+      faults: [{ file: null, line: null, path, given: null, allowed: "", suggestion: null, message }],
+    });
   }
 
   beat() {
@@ -113,7 +140,19 @@ export class Talk {
     const hash = ((run.tick * 2654435761) >>> 0).toString(16).padStart(16, "0");
     const mind = this.selected === null ? null : run.mind(this.selected);
     const time_s = run.tick * run.step_s;
-    this.say({ type: "state", tick: run.tick, edge, time_s, hash, playing, speed, real: playing ? (speed ?? 30) : 0, over: run.over(), outcome: run.outcome(), mind });
+    this.say({
+      type: "state",
+      tick: run.tick,
+      edge,
+      time_s,
+      hash,
+      playing,
+      speed,
+      real: playing ? (speed ?? 30) : 0,
+      over: run.over(),
+      outcome: run.outcome(),
+      mind,
+    });
   }
 
   show() {

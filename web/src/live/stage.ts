@@ -2,11 +2,11 @@ import type { Frame } from "../net/frames";
 import type { Point } from "../net/protocol";
 import { rangesOf, robotAt } from "../run/robots";
 import { type World, worldOf } from "../run/world";
-import { type Camera, fit, pan, resize, toWorld, zoomAt } from "../view/camera";
+import { type Camera, fitTo, pan, resize, toWorld, zoomAt } from "../view/camera";
 import { type Colours, onThemeChange, readColours } from "../view/colours";
 import { Gestures } from "../view/gestures";
 import { type Painter, painterFor } from "../view/painter";
-import { pixelRatio, sizeTo, Surface } from "../view/surface";
+import { pixelRatio, Surface, sizeTo } from "../view/surface";
 import type { Desk } from "./desk.svelte";
 import { layers } from "./layers";
 import type { Layer, Pen, Scene } from "./layers/layer";
@@ -73,7 +73,7 @@ export class Stage {
 
   fit(): void {
     const { setting } = this.desk.session;
-    if (setting) this.look(fit(worldOf(setting).size_m, this.camera.width, this.camera.height));
+    if (setting) this.look(fitTo(worldOf(setting).size_m, this.camera.width, this.camera.height));
   }
 
   zoom(factor: number, at: Point = [this.camera.width / 2, this.camera.height / 2]): void {
@@ -123,7 +123,9 @@ export class Stage {
     const drag = (at: Point) => hand.drag(at);
     const release = (at: Point) => hand.release(at);
     new Gestures(element, {
-      press, drag, release,
+      press,
+      drag,
+      release,
       tap: (at) => this.tap(at),
       pan: (dx, dy) => this.pan(dx, dy),
       zoom: (at, factor) => this.zoom(factor, at),
@@ -131,7 +133,10 @@ export class Stage {
     canvases.robots.addEventListener("webglcontextlost", (event) => event.preventDefault());
     canvases.robots.addEventListener("webglcontextrestored", () => this.repaint());
     this.desk.session.onFrame = () => this.redraw(false);
-    this.undo.push(() => observer.disconnect(), onThemeChange(() => this.recolour()));
+    this.undo.push(
+      () => observer.disconnect(),
+      onThemeChange(() => this.recolour()),
+    );
   }
 
   private repaint(): void {
@@ -173,7 +178,9 @@ export class Stage {
     this.drawPlace("under", scene);
     this.drawRobots(scene);
     this.drawPlace("over", scene);
-    if (fresh) arrivals.drawn(fresh);
+    if (!fresh) return;
+    arrivals.drawn(fresh);
+    this.desk.session.drew();
   }
 
   private drawRobots({ setting, frame }: Scene): void {
@@ -183,7 +190,9 @@ export class Stage {
   }
 
   private drawPlace(place: Layer["place"], scene: Scene): void {
-    const shown = layers.filter((layer) => layer.place === place && this.desk.on[layer.id] && layer.active(scene));
+    const shown = layers.filter(
+      (layer) => layer.place === place && this.desk.on[layer.id] && layer.active(scene),
+    );
     const surface = this.surfaces[place];
     surface.show(shown.length > 0);
     if (shown.length === 0) return;
@@ -218,7 +227,9 @@ export class Stage {
     this.fitted = true;
     const { width, height } = this.camera;
     const { view } = this.desk.link;
-    this.camera = view ? { x: view[0], y: view[1], scale: view[2], width, height } : fit(world.size_m, width, height);
+    this.camera = view
+      ? { x: view[0], y: view[1], scale: view[2], width, height }
+      : fitTo(world.size_m, width, height);
     this.desk.camera = this.camera;
   }
 

@@ -14,7 +14,15 @@ function frame(robots: number[][], items: number[]): ArrayBuffer {
 }
 
 test("a frame gives what was put in", () => {
-  const read = readFrame(frame([[1, 2, 0.5, 1], [3, 4, -0.5, 0]], [0, 1, 2]));
+  const read = readFrame(
+    frame(
+      [
+        [1, 2, 0.5, 1],
+        [3, 4, -0.5, 0],
+      ],
+      [0, 1, 2],
+    ),
+  );
   expect(read).toMatchObject({ generation: 3, tick: 120, time_s: 12.5, number: 17, count: 2 });
   expect([...read.robots]).toEqual([1, 2, 0.5, 1, 3, 4, -0.5, 0]);
   expect([...read.items]).toEqual([0, 1, 2]);
@@ -30,7 +38,13 @@ test("a frame of no robots and no items is one", () => {
 });
 
 test("a frame cut anywhere is refused", () => {
-  const whole = frame([[1, 2, 3, 0], [4, 5, 6, 1]], [1, 0]);
+  const whole = frame(
+    [
+      [1, 2, 3, 0],
+      [4, 5, 6, 1],
+    ],
+    [1, 0],
+  );
   for (let end = 0; end < whole.byteLength; end++) {
     expect(() => readFrame(whole.slice(0, end)), `${end} bytes`).toThrow(FrameFault);
   }

@@ -1,9 +1,17 @@
 import { expect, test } from "vitest";
-import { behavioursOf, isOn, type Switch, switched, switches, wantsGoals } from "./behaviours";
+import {
+  type Behaviour,
+  behavioursOf,
+  isOn,
+  type Switch,
+  switched,
+  switches,
+  wantsGoals,
+} from "./behaviours";
 
 const named = (name: string) => switches.find((one) => one.name === name) as Switch;
 const kinds = (list: { kind: string }[]) => list.map((one) => one.kind);
-const seekers = [{ kind: "seek", value: 2 }, { kind: "home" }, { kind: "avoid" }];
+const seekers: Behaviour[] = [{ kind: "seek", value: 2 }, { kind: "home" }, { kind: "avoid" }];
 
 test("a robot whose scenario does not say searches by bouncing", () => {
   const behaviours = behavioursOf({ robots: { rover: { count: 1 } } }, "rover");

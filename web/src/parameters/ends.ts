@@ -7,7 +7,11 @@ const mostUseful = 1000;
  * Where a parameter's slider ends: at its bound if that is near; else at some round number well above what
  * it is, as on one to 10,000 m nobody could set 3 m.
  */
-export function sliderEnd({ maximum, value, fallback }: Pick<Parameter, "maximum" | "value" | "fallback">): number {
+export function sliderEnd({
+  maximum,
+  value,
+  fallback,
+}: Pick<Parameter, "maximum" | "value" | "fallback">): number {
   const now = Math.abs(Number(value ?? fallback ?? 1)) || 1;
   const near = now * 4;
   if (maximum <= Math.max(1, near) || maximum <= mostUseful / 10) return maximum;

@@ -28,7 +28,9 @@ export function parametersOf(root: Schema, document: Table, kinds: KindView[] = 
 }
 
 export function pathOf(steps: Step[]): string {
-  return steps.map((step, i) => (typeof step === "number" ? `[${step}]` : i > 0 ? `.${step}` : step)).join("");
+  return steps
+    .map((step, i) => (typeof step === "number" ? `[${step}]` : i > 0 ? `.${step}` : step))
+    .join("");
 }
 
 /** The change that sets a parameter. Paths end at lists, so what is in one is set with the whole list. */
@@ -94,7 +96,12 @@ class Walk {
     return type === "object" ? this.table(schema, value, known, steps) : [];
   }
 
-  private table(schema: Schema, value: Json | undefined, known: Json | undefined, steps: Step[]): Parameter[] {
+  private table(
+    schema: Schema,
+    value: Json | undefined,
+    known: Json | undefined,
+    steps: Step[],
+  ): Parameter[] {
     const mine = isTable(value) ? value : {};
     const told = isTable(known) ? known : {};
     const names = Object.entries(schema.properties ?? {});

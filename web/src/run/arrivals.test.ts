@@ -4,8 +4,13 @@ import { Arrivals } from "./arrivals";
 
 function frame(number: number, generation = 1): Frame {
   return {
-    generation, number, tick: number, time_s: 0, count: 0,
-    robots: new Float32Array(), items: new Uint8Array(),
+    generation,
+    number,
+    tick: number,
+    time_s: 0,
+    count: 0,
+    robots: new Float32Array(),
+    items: new Uint8Array(),
   };
 }
 

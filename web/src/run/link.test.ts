@@ -18,13 +18,15 @@ const full: Link = {
   robot: "rover/3",
 };
 
-test.each([["full", full], ["empty", emptyLink], ["of a text", { ...emptyLink, text: "zAb-_9" }]])(
-  "a link that is %s comes back as it was",
-  (_, link) => expect(read(writeLink(link))).toEqual(link),
-);
+test.each([
+  ["full", full],
+  ["empty", emptyLink],
+  ["of a text", { ...emptyLink, text: "zAb-_9" }],
+])("a link that is %s comes back as it was", (_, link) => expect(read(writeLink(link))).toEqual(link));
 
 test("what an address says wrongly is left out", () => {
-  const hash = "#/live?scenario=a&seed=-1&run=x&tick=1.5&view=1,2&changes=[[1],[2,3,4],[-1,%22p%22,0],[5,%22p%22,0]]";
+  const hash =
+    "#/live?scenario=a&seed=-1&run=x&tick=1.5&view=1,2&changes=[[1],[2,3,4],[-1,%22p%22,0],[5,%22p%22,0]]";
   expect(read(hash)).toEqual({ ...emptyLink, scenario: "a", changes: [[5, "p", 0]] });
   expect(read("#/live?changes={not json").changes).toEqual([]);
 });

@@ -5,8 +5,17 @@ import { Series } from "./series";
 function state(tick: number, found: number, edge = tick): State {
   const outcome = { found, status: "running" };
   return {
-    type: "state", tick, edge, time_s: tick / 10, hash: "", playing: true, speed: 1, real: 1,
-    over: false, outcome, mind: null,
+    type: "state",
+    tick,
+    edge,
+    time_s: tick / 10,
+    hash: "",
+    playing: true,
+    speed: 1,
+    real: 1,
+    over: false,
+    outcome,
+    mind: null,
   };
 }
 

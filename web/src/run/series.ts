@@ -28,7 +28,11 @@ export class Series {
   /** Comma-separated, with a line of names. */
   csv(): string {
     const names = this.names().filter((name) => name !== "time_s");
-    const lines = this.rows.map((row) => [row.tick, row.time_s, ...names.map((name) => row.values[name] ?? "")]);
+    const lines = this.rows.map((row) => [
+      row.tick,
+      row.time_s,
+      ...names.map((name) => row.values[name] ?? ""),
+    ]);
     return [["tick", "time_s", ...names], ...lines].map((line) => `${line.join(",")}\n`).join("");
   }
 

@@ -1,7 +1,17 @@
 import { Connection, type Listener } from "../net/connection";
 import type { Frame } from "../net/frames";
 import type {
-  Change, Command, Ended, Fault, Json, Message, Opened, Refused, Setting, Speed, State,
+  Change,
+  Command,
+  Ended,
+  Fault,
+  Json,
+  Message,
+  Opened,
+  Refused,
+  Setting,
+  Speed,
+  State,
 } from "../net/protocol";
 import { Arrivals } from "./arrivals";
 import type { Link } from "./link";
@@ -15,6 +25,7 @@ export type Phase = "opening" | "open" | "lost" | "refused" | "ended";
 export type Source = Omit<Link, "text" | "view"> & { text: string | null };
 
 const changes_ms = 50;
+const words_ms = 100;
 
 /** A run as the page knows it, and the commands to it. */
 export class Session implements Listener {
@@ -32,6 +43,8 @@ export class Session implements Listener {
   again_ms = $state(0);
   /** How often `series` has got something new. */
   grown = $state(0);
+  /** How often there was something new in the picture to put into words: ten times a second at most. */
+  seen = $state(0);
   series = new Series();
 
   readonly arrivals = new Arrivals((frame) => this.send({ type: "got", frame }));
@@ -40,6 +53,7 @@ export class Session implements Listener {
 
   private readonly connection = new Connection(this);
   private readonly changes = new Throttle<Json>(changes_ms, (path, value) => this.sendChange(path, value));
+  private saw = 0;
   private lastChange = "";
   /** Speed to go on with once the run is opened again; undefined if it stood. */
   private goOn: Speed | undefined;
@@ -106,7 +120,10 @@ export class Session implements Listener {
   }
 
   lost(again_ms: number): void {
-    if (this.phase === "ended" || this.phase === "refused") return this.connection.close();
+    if (this.phase === "ended" || this.phase === "refused") {
+      this.connection.close();
+      return;
+    }
     if (this.phase === "open") this.goOn = this.state?.playing ? this.state.speed : undefined;
     this.phase = "lost";
     this.again_ms = again_ms;
@@ -123,6 +140,14 @@ export class Session implements Listener {
     else if (message.type === "state") this.told(message);
     else if (message.type === "refused") this.refuse(message);
     else this.end(message);
+  }
+
+  /** The latest frame is in the picture. */
+  drew(): void {
+    const now = performance.now();
+    if (this.state?.playing && now - this.saw < words_ms) return;
+    this.saw = now;
+    this.seen += 1;
   }
 
   private begin(opened: Opened): void {

@@ -4,7 +4,11 @@ import { Throttle } from "./throttle";
 function throttled() {
   const sent: [string, number][] = [];
   const waits: (() => void)[] = [];
-  const throttle = new Throttle<number>(50, (key, value) => sent.push([key, value]), (_, action) => waits.push(action));
+  const throttle = new Throttle<number>(
+    50,
+    (key, value) => sent.push([key, value]),
+    (_, action) => waits.push(action),
+  );
   return { throttle, sent, tick: () => waits.shift()?.() };
 }
 

@@ -6,7 +6,7 @@ export class Throttle<Value> {
   constructor(
     private readonly interval_ms: number,
     private readonly send: (key: string, value: Value) => void,
-    private readonly after: (ms: number, action: () => void) => void = setTimeout,
+    private readonly after: (ms: number, action: () => void) => void = later,
   ) {}
 
   put(key: string, value: Value): void {
@@ -25,4 +25,8 @@ export class Throttle<Value> {
     this.send(key, value);
     this.after(this.interval_ms, () => this.next());
   }
+}
+
+function later(ms: number, action: () => void): void {
+  setTimeout(action, ms);
 }

@@ -3,8 +3,17 @@ import type { State } from "../net/protocol";
 import { statusWords, times } from "./words";
 
 const state: State = {
-  type: "state", tick: 123, edge: 123, time_s: 12.34, hash: "", playing: true, speed: 3, real: 3.14,
-  over: false, outcome: { found: 2 }, mind: null,
+  type: "state",
+  tick: 123,
+  edge: 123,
+  time_s: 12.34,
+  hash: "",
+  playing: true,
+  speed: 3,
+  real: 3.14,
+  over: false,
+  outcome: { found: 2 },
+  mind: null,
 };
 
 test("the status says in words what the picture shows", () => {

@@ -1,6 +1,6 @@
 import type { State } from "../net/protocol";
-import type { Phase } from "./session.svelte";
 import { stateWords } from "./robots";
+import type { Phase } from "./session.svelte";
 
 /** What the picture says, in words. */
 export function statusWords(state: State | null, robots: number[], items: number, phase: Phase): string {

@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { type Camera, fit, pan, toScreen, toWorld, zoomAt } from "./camera";
+import { type Camera, fitTo, pan, toScreen, toWorld, zoomAt } from "./camera";
 
 const camera: Camera = { x: 12, y: 7, scale: 20, width: 640, height: 480 };
 
@@ -38,7 +38,7 @@ test.each([
   [[60, 40], 320, 500],
   [[1000, 1], 360, 360],
 ] as const)("fitting %s into %d by %d pixels shows all of it", (world, width, height) => {
-  const fitted = fit([world[0], world[1]], width, height);
+  const fitted = fitTo([world[0], world[1]], width, height);
   const [left, bottom] = toScreen(fitted, 0, 0);
   const [right, top] = toScreen(fitted, world[0], world[1]);
   expect(Math.min(left, top)).toBeGreaterThanOrEqual(0);

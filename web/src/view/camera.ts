@@ -32,7 +32,7 @@ export function toWorld(camera: Camera, px: number, py: number): Point {
 }
 
 /** The whole world, with a margin. */
-export function fit(world: Point, width: number, height: number): Camera {
+export function fitTo(world: Point, width: number, height: number): Camera {
   const scale = Math.min((width - 2 * marginPx) / world[0], (height - 2 * marginPx) / world[1]);
   return { x: world[0] / 2, y: world[1] / 2, scale: clampScale(scale), width, height };
 }

@@ -1,16 +1,42 @@
 /** Colours of the canvases, which are those of the style sheet (`styles/theme.css`). */
 const names = [
-  "ground", "outside", "border", "grid", "obstacle", "obstacle-edge", "unknown", "terrain", "terrain-text",
-  "robot-clear", "robot-danger", "robot-collided", "robot-empty", "robot-broken", "robot-mark",
-  "item-hidden", "item-found", "item-missed", "item-clutter", "text", "accent", "trail", "link",
-  "sense-items", "sense-other", "belief",
+  "ground",
+  "outside",
+  "border",
+  "grid",
+  "obstacle",
+  "obstacle-edge",
+  "unknown",
+  "terrain",
+  "terrain-text",
+  "robot-clear",
+  "robot-danger",
+  "robot-collided",
+  "robot-empty",
+  "robot-broken",
+  "robot-mark",
+  "item-hidden",
+  "item-found",
+  "item-missed",
+  "item-clutter",
+  "text",
+  "accent",
+  "trail",
+  "link",
+  "sense-items",
+  "sense-other",
+  "belief",
 ] as const;
 
 export type ColourName = (typeof names)[number];
 export type Colours = Record<ColourName, string>;
 
 export const robotColours: ColourName[] = [
-  "robot-clear", "robot-danger", "robot-collided", "robot-empty", "robot-broken",
+  "robot-clear",
+  "robot-danger",
+  "robot-collided",
+  "robot-empty",
+  "robot-broken",
 ];
 
 export function readColours(): Colours {

@@ -2,8 +2,8 @@ import type { Frame } from "../net/frames";
 import type { Range } from "../run/robots";
 import type { Camera } from "./camera";
 import type { Colours } from "./colours";
-import { PainterGl } from "./painter_gl";
 import { Painter2d } from "./painter_2d";
+import { PainterGl } from "./painter_gl";
 
 /** Draws all robots of a frame. */
 export interface Painter {
@@ -15,8 +15,10 @@ export interface Painter {
   clear(): void;
 }
 
-/** Robots are drawn at least this long, tip to tail half, in pixels. */
-export const leastRadius_px = 3;
+/** Half the length at least, in pixels, at which robots are drawn; a few can be larger than a crowd. */
+export function leastRadius_px(robots: number): number {
+  return robots <= 200 ? 5 : 3;
+}
 
 export function painterFor(canvas: HTMLCanvasElement): Painter {
   const gl = canvas.getContext("webgl2", { antialias: false, alpha: true, depth: false, stencil: false });

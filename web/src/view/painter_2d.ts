@@ -2,7 +2,7 @@ import type { Frame } from "../net/frames";
 import type { Range } from "../run/robots";
 import { type Camera, toScreen } from "./camera";
 import { type Colours, robotColours } from "./colours";
-import { type Painter, leastRadius_px } from "./painter";
+import { leastRadius_px, type Painter } from "./painter";
 
 /** Robots by Canvas2D, where there is no WebGL2: the same shapes, some thousands of them. */
 export class Painter2d implements Painter {
@@ -43,10 +43,15 @@ export class Painter2d implements Painter {
   }
 
   private gather(
-    { robots, count }: Frame, ranges: Range[], camera: Camera, state: number, body: Path2D, mark: Path2D,
+    { robots, count }: Frame,
+    ranges: Range[],
+    camera: Camera,
+    state: number,
+    body: Path2D,
+    mark: Path2D,
   ): void {
     for (const { kind, first, count: size } of ranges) {
-      const radius = Math.max(leastRadius_px, kind.radius_m * camera.scale);
+      const radius = Math.max(leastRadius_px(count), kind.radius_m * camera.scale);
       for (let i = first; i < Math.min(first + size, count); i++) {
         if (robots[4 * i + 3] !== state) continue;
         const [x, y] = toScreen(camera, robots[4 * i] ?? 0, robots[4 * i + 1] ?? 0);
@@ -58,10 +63,20 @@ export class Painter2d implements Painter {
 }
 
 /** On a screen, where y goes down. */
-export function chevron(path: Path2D | CanvasRenderingContext2D, x: number, y: number, heading: number, radius: number) {
+export function chevron(
+  path: Path2D | CanvasRenderingContext2D,
+  x: number,
+  y: number,
+  heading: number,
+  radius: number,
+) {
   const [c, s] = [radius * Math.cos(heading), radius * Math.sin(heading)];
   path.moveTo(x + c, y - s);
-  for (const [a, b] of [[-0.8, 0.7], [-0.4, 0], [-0.8, -0.7]] as const) {
+  for (const [a, b] of [
+    [-0.8, 0.7],
+    [-0.4, 0],
+    [-0.8, -0.7],
+  ] as const) {
     path.lineTo(x + a * c - b * s, y - (a * s + b * c));
   }
   path.closePath();

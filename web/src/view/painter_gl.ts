@@ -3,7 +3,7 @@ import type { Range } from "../run/robots";
 import type { Camera } from "./camera";
 import { type Colours, rgb, robotColours } from "./colours";
 import { programOf, RobotTexture } from "./gl";
-import { type Painter, leastRadius_px } from "./painter";
+import { leastRadius_px, type Painter } from "./painter";
 import { bodyVertex, flatFragment, markFragment, markVertex } from "./shaders";
 
 /** Where a program has what all of them are given. */
@@ -53,7 +53,7 @@ export class PainterGl implements Painter {
     if (fresh) this.take(frame);
     this.clear();
     this.paintBodies(frame, ranges, camera);
-    if (this.markCount > 0) this.paintMarks(ranges, camera);
+    if (this.markCount > 0) this.paintMarks(ranges, camera, frame.count);
   }
 
   clear(): void {
@@ -68,7 +68,11 @@ export class PainterGl implements Painter {
     if (this.numbers.length < 6 * frame.count) this.numbers = new Uint32Array(6 * frame.count);
     this.markCount = markedOf(frame, this.numbers);
     if (this.markCount === 0) return;
-    this.gl.bufferData(this.gl.ARRAY_BUFFER, this.numbers.subarray(0, 6 * this.markCount), this.gl.STREAM_DRAW);
+    this.gl.bufferData(
+      this.gl.ARRAY_BUFFER,
+      this.numbers.subarray(0, 6 * this.markCount),
+      this.gl.STREAM_DRAW,
+    );
   }
 
   private paintBodies(frame: Frame, ranges: Range[], camera: Camera): void {
@@ -77,20 +81,23 @@ export class PainterGl implements Painter {
     gl.disableVertexAttribArray(0);
     this.setView(body, camera);
     for (const { kind, first, count } of ranges) {
-      gl.uniform1f(body.radius, drawnRadius(kind.radius_m, camera));
+      gl.uniform1f(body.radius, drawnRadius(kind.radius_m, camera, frame.count));
       const drawn = Math.min(count, frame.count - first);
       if (drawn > 0) gl.drawArrays(gl.TRIANGLES, 6 * first, 6 * drawn);
     }
   }
 
-  private paintMarks(ranges: Range[], camera: Camera): void {
+  private paintMarks(ranges: Range[], camera: Camera, robots: number): void {
     const { gl, marks } = this;
     gl.useProgram(marks.program);
     gl.enableVertexAttribArray(0);
     this.setView(marks, camera);
     // Marked robots of all kinds in one go: as large as the largest kind's.
-    const radius_m = Math.max(0, ...ranges.filter((range) => range.count > 0).map(({ kind }) => kind.radius_m));
-    const radius = drawnRadius(radius_m, camera);
+    const radius_m = Math.max(
+      0,
+      ...ranges.filter((range) => range.count > 0).map(({ kind }) => kind.radius_m),
+    );
+    const radius = drawnRadius(radius_m, camera, robots);
     gl.uniform1f(marks.radius, radius);
     gl.uniform1f(gl.getUniformLocation(marks.program, "pixel"), 1 / (radius * camera.scale));
     gl.drawArrays(gl.TRIANGLES, 0, 6 * this.markCount);
@@ -108,8 +115,8 @@ export class PainterGl implements Painter {
   }
 }
 
-export function drawnRadius(radius_m: number, camera: Camera): number {
-  return Math.max(radius_m, leastRadius_px / camera.scale);
+export function drawnRadius(radius_m: number, camera: Camera, robots: number): number {
+  return Math.max(radius_m, leastRadius_px(robots) / camera.scale);
 }
 
 /** Puts the number of each robot that is not clear six times, once a corner; gives how many those are. */

@@ -14,7 +14,8 @@ export const footprints: Layer = {
   place: "under",
   active: ({ frame, selected, setting }) =>
     setting.kinds.some((kind) => kind.sensors.length > 0) &&
-    frame !== null && (frame.count <= most || selected >= 0),
+    frame !== null &&
+    (frame.count <= most || selected >= 0),
   draw(pen, scene) {
     const [filled, outlined] = [new Path2D(), new Path2D()];
     for (const { kind, first, count } of rangesOf(scene.setting)) {
@@ -47,7 +48,12 @@ function paint(pen: Pen, filled: Path2D, outlined: Path2D): void {
   });
 }
 
-function sector(path: Path2D, scene: Scene, robot: number, { range_m, width_rad, facing_rad }: SensorView): void {
+function sector(
+  path: Path2D,
+  scene: Scene,
+  robot: number,
+  { range_m, width_rad, facing_rad }: SensorView,
+): void {
   const pose = poseOf(scene, robot);
   if (!pose) return;
   const [x, y] = pose.at;

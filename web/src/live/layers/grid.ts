@@ -7,7 +7,7 @@ const least_px = 64;
 export function spacing(scale: number): number {
   const wanted = least_px / scale;
   const power = 10 ** Math.floor(Math.log10(wanted));
-  return (([1, 2, 5, 10].find((factor) => factor * power >= wanted) ?? 10) * power);
+  return ([1, 2, 5, 10].find((factor) => factor * power >= wanted) ?? 10) * power;
 }
 
 export const grid: Layer = {

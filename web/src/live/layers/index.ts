@@ -14,7 +14,17 @@ import { trails } from "./trails";
 
 /** From the lowest to the highest, within their places. */
 export const layers: Layer[] = [
-  ground, terrain, grid, maps, obstacles, border, items,
-  footprints, links, trails,
-  mind, selection, ghost,
+  ground,
+  terrain,
+  grid,
+  maps,
+  obstacles,
+  border,
+  items,
+  footprints,
+  links,
+  trails,
+  mind,
+  selection,
+  ghost,
 ];

@@ -31,26 +31,47 @@ function found({ context, colours }: Pen, x: number, y: number): void {
   context.beginPath();
   context.arc(x, y, half_px + 1, 0, 2 * Math.PI);
   context.fill();
-  stroke(context, colours.ground, 2, [[x - 3, y], [x - 0.8, y + 2.5], [x + 3.2, y - 2.8]]);
+  stroke(context, colours.ground, 2, [
+    [x - 3, y],
+    [x - 0.8, y + 2.5],
+    [x + 3.2, y - 2.8],
+  ]);
 }
 
 function diamond({ context, colours }: Pen, x: number, y: number, missed: boolean): void {
   const name: ColourName = missed ? "item-missed" : "item-hidden";
   const corners: [number, number][] = [
-    [x, y - half_px - 1], [x + half_px + 1, y], [x, y + half_px + 1], [x - half_px - 1, y],
+    [x, y - half_px - 1],
+    [x + half_px + 1, y],
+    [x, y + half_px + 1],
+    [x - half_px - 1, y],
   ];
   context.fillStyle = colours.ground;
   stroke(context, colours[name], 2, corners, true);
-  if (missed) stroke(context, colours[name], 2, [[x - half_px, y - half_px], [x + half_px, y + half_px]]);
+  if (missed)
+    stroke(context, colours[name], 2, [
+      [x - half_px, y - half_px],
+      [x + half_px, y + half_px],
+    ]);
 }
 
 function plus({ context, colours }: Pen, x: number, y: number): void {
-  stroke(context, colours["item-clutter"], 1.5, [[x - 4, y], [x + 4, y]]);
-  stroke(context, colours["item-clutter"], 1.5, [[x, y - 4], [x, y + 4]]);
+  stroke(context, colours["item-clutter"], 1.5, [
+    [x - 4, y],
+    [x + 4, y],
+  ]);
+  stroke(context, colours["item-clutter"], 1.5, [
+    [x, y - 4],
+    [x, y + 4],
+  ]);
 }
 
 function stroke(
-  context: CanvasRenderingContext2D, colour: string, width: number, points: [number, number][], closed = false,
+  context: CanvasRenderingContext2D,
+  colour: string,
+  width: number,
+  points: [number, number][],
+  closed = false,
 ): void {
   context.strokeStyle = colour;
   context.lineWidth = width;

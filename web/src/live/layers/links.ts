@@ -15,7 +15,8 @@ export const links: Layer = {
   place: "under",
   active: ({ setting, frame, selected }) =>
     setting.kinds.some((kind) => kind.radio_range_m !== null) &&
-    frame !== null && (frame.count <= most || selected >= 0),
+    frame !== null &&
+    (frame.count <= most || selected >= 0),
   draw(pen, scene) {
     const { context, colours, camera } = pen;
     const path = new Path2D();
@@ -48,7 +49,12 @@ function fromOne(path: Path2D, { setting, selected }: Scene, frame: Frame): void
 }
 
 function link(path: Path2D, { robots }: Frame, a: number, b: number, range_m: number): number {
-  const [ax, ay, bx, by] = [robots[4 * a] ?? 0, robots[4 * a + 1] ?? 0, robots[4 * b] ?? 0, robots[4 * b + 1] ?? 0];
+  const [ax, ay, bx, by] = [
+    robots[4 * a] ?? 0,
+    robots[4 * a + 1] ?? 0,
+    robots[4 * b] ?? 0,
+    robots[4 * b + 1] ?? 0,
+  ];
   if (Math.hypot(ax - bx, ay - by) > range_m) return 0;
   path.moveTo(ax, ay);
   path.lineTo(bx, by);

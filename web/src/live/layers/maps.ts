@@ -25,9 +25,12 @@ function drawMap(pen: Pen, map: MapView): void {
   inWorld(pen, () => {
     context.imageSmoothingEnabled = false;
     context.transform(
-      (across[0] - origin[0]) / columns, (across[1] - origin[1]) / columns,
-      (up[0] - origin[0]) / rows, (up[1] - origin[1]) / rows,
-      origin[0], origin[1],
+      (across[0] - origin[0]) / columns,
+      (across[1] - origin[1]) / columns,
+      (up[0] - origin[0]) / rows,
+      (up[1] - origin[1]) / rows,
+      origin[0],
+      origin[1],
     );
     context.drawImage(picture, 0, 0);
   });

@@ -62,7 +62,13 @@ function self({ context, camera }: Pen, pose: Pose): void {
 }
 
 /** Two standard deviations, the same along each axis. */
-function deviation(context: CanvasRenderingContext2D, { scale }: Camera, x: number, y: number, deviation_m: number) {
+function deviation(
+  context: CanvasRenderingContext2D,
+  { scale }: Camera,
+  x: number,
+  y: number,
+  deviation_m: number,
+) {
   context.setLineDash([3, 3]);
   context.beginPath();
   context.arc(x, y, Math.max(leastDeviation_px, 2 * deviation_m * scale), 0, 2 * Math.PI);

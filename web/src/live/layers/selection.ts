@@ -15,12 +15,17 @@ export const selection: Layer = {
     const pose = poseOf(scene, scene.selected);
     if (!pose) return;
     const radius_m = kindOf(scene.setting, scene.selected)?.radius_m ?? 0;
-    const half = drawnRadius(radius_m, camera) * camera.scale * 1.6 + 4;
+    const half = drawnRadius(radius_m, camera, scene.setting.robots.length) * camera.scale * 1.6 + 4;
     const [x, y] = toScreen(camera, ...pose.at);
     context.strokeStyle = colours.accent;
     context.lineWidth = 2;
     context.beginPath();
-    for (const [dx, dy] of [[-1, -1], [1, -1], [1, 1], [-1, 1]] as const) {
+    for (const [dx, dy] of [
+      [-1, -1],
+      [1, -1],
+      [1, 1],
+      [-1, 1],
+    ] as const) {
       context.moveTo(x + dx * half, y + dy * half * 0.5);
       context.lineTo(x + dx * half, y + dy * half);
       context.lineTo(x + dx * half * 0.5, y + dy * half);

@@ -17,6 +17,11 @@ export const terrain: Layer = {
       inWorld(pen, () => {
         context.fillStyle = colours.terrain;
         context.fill(path);
+        context.strokeStyle = colours["terrain-text"];
+        context.globalAlpha = 0.5;
+        context.lineWidth = 1 / camera.scale;
+        context.setLineDash([2 / camera.scale, 4 / camera.scale]);
+        context.stroke(path);
       });
       context.fillStyle = colours["terrain-text"];
       context.font = "12px system-ui, sans-serif";

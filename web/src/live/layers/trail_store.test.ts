@@ -12,7 +12,11 @@ const places = (trails: Trails) => trails.inOrder().map((sample) => [sample.time
 test("a trail goes from the oldest place to the newest", () => {
   const trails = new Trails();
   for (const time of [0, 1, 2]) trails.put(frame(time, [time * 10]), -1);
-  expect(places(trails)).toEqual([[0, 0], [1, 10], [2, 20]]);
+  expect(places(trails)).toEqual([
+    [0, 0],
+    [1, 10],
+    [2, 20],
+  ]);
 });
 
 test("places older than the span fade out of it, however long it runs", () => {
@@ -31,10 +35,17 @@ test("going back in time begins a new trail", () => {
 
 test("of a great many robots only the selected one has a trail", () => {
   const trails = new Trails();
-  const many = (time: number) => frame(time, Array.from({ length: 1000 }, (_, i) => i + time));
+  const many = (time: number) =>
+    frame(
+      time,
+      Array.from({ length: 1000 }, (_, i) => i + time),
+    );
   trails.put(many(0), -1);
   expect(trails.isEmpty).toBe(true);
   trails.put(many(1), 500);
   trails.put(many(2), 500);
-  expect(places(trails)).toEqual([[1, 501], [2, 502]]);
+  expect(places(trails)).toEqual([
+    [1, 501],
+    [2, 502],
+  ]);
 });

@@ -40,9 +40,17 @@ export class Chart {
   private build(): uPlot {
     const style = getComputedStyle(document.documentElement);
     const colour = (name: string) => style.getPropertyValue(`--${name}`).trim();
-    const axis = { stroke: colour("muted"), grid: { stroke: colour("line"), width: 1 }, ticks: { stroke: colour("line") } };
+    const axis = {
+      stroke: colour("muted"),
+      grid: { stroke: colour("line"), width: 1 },
+      ticks: { stroke: colour("line") },
+    };
     const line = (label: string, name: string, dash?: number[]): uPlot.Series => ({
-      label, stroke: colour(name), width: 2, paths: uPlot.paths.stepped?.({ align: 1 }), points: { show: false },
+      label,
+      stroke: colour(name),
+      width: 2,
+      paths: uPlot.paths.stepped?.({ align: 1 }),
+      points: { show: false },
       ...(dash ? { dash } : {}),
     });
     return new uPlot(

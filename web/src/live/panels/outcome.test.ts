@@ -2,7 +2,14 @@ import { expect, test } from "vitest";
 import { outcomeRows } from "./outcome";
 
 test("found is told of all, and what is weighed comes first, with units", () => {
-  const rows = outcomeRows({ time_s: 12.3456, energy_j: 48_512, found: 1, missed: 3, merit: -1.234, collisions: 0 });
+  const rows = outcomeRows({
+    time_s: 12.3456,
+    energy_j: 48_512,
+    found: 1,
+    missed: 3,
+    merit: -1.234,
+    collisions: 0,
+  });
   expect(rows.map(({ name, value, unit }) => `${name} ${value} ${unit}`.trim())).toEqual([
     "found 1 / 4",
     "merit -1.23",
@@ -13,5 +20,7 @@ test("found is told of all, and what is weighed comes first, with units", () => 
 });
 
 test("what is not known yet is left out, and words are shown as they are", () => {
-  expect(outcomeRows({ merit: null, status: "running" })).toEqual([{ name: "status", value: "running", unit: "" }]);
+  expect(outcomeRows({ merit: null, status: "running" })).toEqual([
+    { name: "status", value: "running", unit: "" },
+  ]);
 });

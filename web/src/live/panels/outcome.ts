@@ -23,7 +23,10 @@ export function outcomeRows(outcome: Outcome): OutcomeRow[] {
     const all = typeof missed === "number" ? ` / ${found + missed}` : "";
     rows.push({ name: "found", value: `${found}${all}`, unit: "" });
   }
-  const names = [...first.filter((name) => name in rest), ...Object.keys(rest).filter((name) => !first.includes(name))];
+  const names = [
+    ...first.filter((name) => name in rest),
+    ...Object.keys(rest).filter((name) => !first.includes(name)),
+  ];
   return [...rows, ...names.flatMap((name) => row(name, rest[name]))];
 }
 

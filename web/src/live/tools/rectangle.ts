@@ -6,7 +6,12 @@ import type { Tool } from "./tool";
 const least_m = 0.05;
 
 function corners([ax, ay]: Point, [bx, by]: Point): Point[] {
-  const all: Point[] = [[ax, ay], [bx, ay], [bx, by], [ax, by]];
+  const all: Point[] = [
+    [ax, ay],
+    [bx, ay],
+    [bx, by],
+    [ax, by],
+  ];
   return all.map(tidy);
 }
 

@@ -11,7 +11,15 @@ const setting: Setting = {
     world: {
       size_m: [20, 20],
       obstacles: [
-        { polygon_m: [[0, 0], [10, 0], [10, 10], [5, 2], [0, 10]] },
+        {
+          polygon_m: [
+            [0, 0],
+            [10, 0],
+            [10, 10],
+            [5, 2],
+            [0, 10],
+          ],
+        },
         { circle: { at_m: [15, 15], radius_m: 2 } },
       ],
     },
@@ -41,12 +49,42 @@ test("the notch of a polygon is not in it", () => {
 test("placing by hand fixes all items of the kind where they are, and keeps their other keys", () => {
   expect(itemsEdit(setting, "mine", [...placesOf(setting, "mine"), [3.00049, 4]])).toEqual({
     path: "items.mine",
-    value: { count: 2, sought: true, placement: { kind: "fixed", at_m: [[15, 15], [3, 4]] } },
+    value: {
+      count: 2,
+      sought: true,
+      placement: {
+        kind: "fixed",
+        at_m: [
+          [15, 15],
+          [3, 4],
+        ],
+      },
+    },
   });
 });
 
 test("moving moves all corners, and a map stays where it is", () => {
-  expect(moved({ polygon_m: [[0, 0], [1, 0], [0, 1]] }, 2, -1)).toEqual({ polygon_m: [[2, -1], [3, -1], [2, 0]] });
-  expect(moved({ circle: { at_m: [1, 1], radius_m: 2 } }, 1, 1)).toEqual({ circle: { at_m: [2, 2], radius_m: 2 } });
+  expect(
+    moved(
+      {
+        polygon_m: [
+          [0, 0],
+          [1, 0],
+          [0, 1],
+        ],
+      },
+      2,
+      -1,
+    ),
+  ).toEqual({
+    polygon_m: [
+      [2, -1],
+      [3, -1],
+      [2, 0],
+    ],
+  });
+  expect(moved({ circle: { at_m: [1, 1], radius_m: 2 } }, 1, 1)).toEqual({
+    circle: { at_m: [2, 2], radius_m: 2 },
+  });
   expect(moved({ map: "room.yaml" }, 1, 1)).toEqual({ map: "room.yaml" });
 });
