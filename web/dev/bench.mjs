@@ -9,7 +9,12 @@ import { serve } from "./fake-server.mjs";
 const warm_ms = 4000;
 const measured_ms = 8000;
 const tick_ms = 10; // of /proc/PID/stat
-const flags = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"];
+const flags = [
+  "--no-sandbox",
+  "--use-angle=swiftshader",
+  "--enable-unsafe-swiftshader",
+  "--ignore-gpu-blocklist",
+];
 
 function stat(pid) {
   try {
@@ -22,7 +27,11 @@ function stat(pid) {
 
 /** What all processes below this one have used: the browser's, as there are no others. */
 function used_ms() {
-  const all = new Map(readdirSync("/proc").filter((name) => /^\d+$/.test(name)).map((pid) => [Number(pid), stat(pid)]));
+  const all = new Map(
+    readdirSync("/proc")
+      .filter((name) => /^\d+$/.test(name))
+      .map((pid) => [Number(pid), stat(pid)]),
+  );
   const isBelow = (pid) => {
     const parent = all.get(pid)?.parent ?? 0;
     return parent === process.pid || (parent > 1 && isBelow(parent));
@@ -43,13 +52,21 @@ async function measure(browser, robots) {
   const drawn = server.counter.drawn - frames;
   const seconds = (performance.now() - began) / 1000;
   const taken = used_ms() - cpu;
-  console.log(`${robots} robots: ${(drawn / seconds).toFixed(1)} frames/s, ${(taken / drawn).toFixed(1)} ms CPU a frame`);
+  console.log(
+    `${robots} robots: ${(drawn / seconds).toFixed(1)} frames/s, ${(taken / drawn).toFixed(1)} ms CPU a frame`,
+  );
   await page.close();
   server.stop();
 }
 
-const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: flags });
-for (const robots of process.argv.slice(2).map(Number).concat(process.argv.length > 2 ? [] : [10_000, 50_000])) {
+const browser = await chromium.launch({
+  executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
+  args: flags,
+});
+for (const robots of process.argv
+  .slice(2)
+  .map(Number)
+  .concat(process.argv.length > 2 ? [] : [10_000, 50_000])) {
   await measure(browser, robots);
 }
 await browser.close();

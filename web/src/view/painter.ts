@@ -1,5 +1,6 @@
 import type { Frame } from "../net/frames";
 import type { Range } from "../run/robots";
+import type { Box } from "./backdrop";
 import type { Camera } from "./camera";
 import type { Colours } from "./colours";
 import { Painter2d } from "./painter_2d";
@@ -10,9 +11,10 @@ export interface Painter {
   /** How it draws: for people who ask why it is slow. */
   readonly name: string;
   setColours(colours: Colours): void;
-  /** `fresh`: the frame is another one than last time. */
-  paint(frame: Frame, ranges: Range[], camera: Camera, fresh: boolean): void;
-  clear(): void;
+  /** What is beneath the robots, and where in it the plain ground is. */
+  setStill(still: CanvasRenderingContext2D, ground: Box): void;
+  /** `fresh`: the frame is another one than last time; without one, only what stands still. */
+  paint(frame: Frame | null, ranges: Range[], camera: Camera, fresh: boolean): void;
 }
 
 /** Half the length at least, in pixels, at which robots are drawn; a few can be larger than a crowd. */
@@ -21,6 +23,6 @@ export function leastRadius_px(robots: number): number {
 }
 
 export function painterFor(canvas: HTMLCanvasElement): Painter {
-  const gl = canvas.getContext("webgl2", { antialias: false, alpha: true, depth: false, stencil: false });
+  const gl = canvas.getContext("webgl2", { antialias: false, alpha: false, depth: false, stencil: false });
   return gl ? new PainterGl(gl) : new Painter2d(canvas);
 }

@@ -9,6 +9,7 @@ export class Painter2d implements Painter {
   readonly name = "Canvas2D";
   private readonly context: CanvasRenderingContext2D | null;
   private colours: Colours | null = null;
+  private still: HTMLCanvasElement | null = null;
 
   constructor(private readonly canvas: HTMLCanvasElement) {
     this.context = canvas.getContext("2d");
@@ -18,14 +19,14 @@ export class Painter2d implements Painter {
     this.colours = colours;
   }
 
-  clear(): void {
-    this.context?.clearRect(0, 0, this.canvas.width, this.canvas.height);
+  setStill({ canvas }: CanvasRenderingContext2D): void {
+    this.still = canvas;
   }
 
-  paint(frame: Frame, ranges: Range[], camera: Camera): void {
+  paint(frame: Frame | null, ranges: Range[], camera: Camera): void {
     const { context, colours } = this;
-    this.clear();
-    if (!context || !colours) return;
+    if (this.still) context?.drawImage(this.still, 0, 0);
+    if (!frame || !context || !colours) return;
     const ratio = this.canvas.width / camera.width;
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     // A path a state: setting a colour for each robot would cost more than all the lines.

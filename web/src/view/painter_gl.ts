@@ -1,5 +1,6 @@
 import type { Frame } from "../net/frames";
 import type { Range } from "../run/robots";
+import { Backdrop, type Box } from "./backdrop";
 import type { Camera } from "./camera";
 import { type Colours, rgb, robotColours } from "./colours";
 import { programOf, RobotTexture } from "./gl";
@@ -24,6 +25,8 @@ export class PainterGl implements Painter {
   private readonly marks: Places;
   private readonly texture: RobotTexture;
   private readonly marked: WebGLBuffer;
+  private readonly backdrop: Backdrop;
+  private colours: Colours | null = null;
   private numbers = new Uint32Array(0);
   private markCount = 0;
 
@@ -31,15 +34,16 @@ export class PainterGl implements Painter {
     this.body = this.places(bodyVertex, flatFragment);
     this.marks = this.places(markVertex, markFragment);
     this.texture = new RobotTexture(gl);
+    this.backdrop = new Backdrop(gl);
     this.marked = gl.createBuffer();
     gl.bindBuffer(gl.ARRAY_BUFFER, this.marked);
     gl.vertexAttribIPointer(0, 1, gl.UNSIGNED_INT, 0, 0);
-    gl.enable(gl.BLEND);
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
   }
 
   setColours(colours: Colours): void {
     const { gl } = this;
+    this.colours = colours;
     const palette = robotColours.flatMap((name) => rgb(colours[name]));
     gl.useProgram(this.body.program);
     gl.uniform3fv(this.body.palette, palette);
@@ -49,18 +53,18 @@ export class PainterGl implements Painter {
     gl.uniform3fv(this.marks.palette, [...marks, ...rgb(colours.ground), ...rgb(colours["robot-mark"])]);
   }
 
-  paint(frame: Frame, ranges: Range[], camera: Camera, fresh: boolean): void {
-    if (fresh) this.take(frame);
-    this.clear();
-    this.paintBodies(frame, ranges, camera);
-    if (this.markCount > 0) this.paintMarks(ranges, camera, frame.count);
+  setStill(still: CanvasRenderingContext2D, ground: Box): void {
+    const { canvas } = still;
+    const picture = still.getImageData(0, 0, canvas.width, canvas.height);
+    if (this.colours) this.backdrop.set(picture, ground, rgb(this.colours.ground), rgb(this.colours.outside));
   }
 
-  clear(): void {
-    const { gl } = this;
-    gl.viewport(0, 0, gl.drawingBufferWidth, gl.drawingBufferHeight);
-    gl.clearColor(0, 0, 0, 0);
-    gl.clear(gl.COLOR_BUFFER_BIT);
+  paint(frame: Frame | null, ranges: Range[], camera: Camera, fresh: boolean): void {
+    this.backdrop.paint();
+    if (!frame) return;
+    if (fresh) this.take(frame);
+    this.paintBodies(frame, ranges, camera);
+    if (this.markCount > 0) this.paintMarks(ranges, camera, frame.count);
   }
 
   private take(frame: Frame): void {
@@ -68,6 +72,7 @@ export class PainterGl implements Painter {
     if (this.numbers.length < 6 * frame.count) this.numbers = new Uint32Array(6 * frame.count);
     this.markCount = markedOf(frame, this.numbers);
     if (this.markCount === 0) return;
+    this.gl.bindBuffer(this.gl.ARRAY_BUFFER, this.marked);
     this.gl.bufferData(
       this.gl.ARRAY_BUFFER,
       this.numbers.subarray(0, 6 * this.markCount),
@@ -91,6 +96,7 @@ export class PainterGl implements Painter {
     const { gl, marks } = this;
     gl.useProgram(marks.program);
     gl.enableVertexAttribArray(0);
+    gl.enable(gl.BLEND);
     this.setView(marks, camera);
     // Marked robots of all kinds in one go: as large as the largest kind's.
     const radius_m = Math.max(
@@ -101,6 +107,7 @@ export class PainterGl implements Painter {
     gl.uniform1f(marks.radius, radius);
     gl.uniform1f(gl.getUniformLocation(marks.program, "pixel"), 1 / (radius * camera.scale));
     gl.drawArrays(gl.TRIANGLES, 0, 6 * this.markCount);
+    gl.disable(gl.BLEND);
   }
 
   private setView({ view }: Places, { x, y, scale, width, height }: Camera): void {

@@ -2,8 +2,12 @@
 export class Surface {
   readonly context: CanvasRenderingContext2D;
 
-  constructor(readonly canvas: HTMLCanvasElement) {
-    const context = canvas.getContext("2d");
+  /** `isRead`: its pixels are asked for, so it need not be where the picture is put together. */
+  constructor(
+    readonly canvas: HTMLCanvasElement,
+    isRead = false,
+  ) {
+    const context = canvas.getContext("2d", { willReadFrequently: isRead });
     if (!context) throw new Error("This browser draws no pictures (no Canvas2D).");
     this.context = context;
   }

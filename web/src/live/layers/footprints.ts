@@ -11,7 +11,7 @@ export const footprints: Layer = {
   label: "Sensing",
   switchable: true,
   on: true,
-  place: "under",
+  place: "over",
   active: ({ frame, selected, setting }) =>
     setting.kinds.some((kind) => kind.sensors.length > 0) &&
     frame !== null &&

@@ -25,8 +25,8 @@ export interface Pen {
 }
 
 /**
- * Something to draw. `still` layers are drawn anew only when view, setting or items change; those `under`
- * and `over` the robots with each frame.
+ * Something to draw. `still` layers, beneath the robots, are drawn anew only when view, setting or items
+ * change; those `over` the robots with each frame.
  */
 export interface Layer {
   id: string;
@@ -34,7 +34,7 @@ export interface Layer {
   /** Whether people can switch it, and how it begins. */
   switchable: boolean;
   on: boolean;
-  place: "still" | "under" | "over";
+  place: "still" | "over";
   /** Whether there is anything to draw; a canvas with nothing on it costs nothing. */
   active(scene: Scene): boolean;
   draw(pen: Pen, scene: Scene): void;

@@ -12,7 +12,7 @@ export const links: Layer = {
   label: "Radio range",
   switchable: true,
   on: false,
-  place: "under",
+  place: "over",
   active: ({ setting, frame, selected }) =>
     setting.kinds.some((kind) => kind.radio_range_m !== null) &&
     frame !== null &&

@@ -8,7 +8,7 @@ export const trails: Layer = {
   label: "Trails",
   switchable: true,
   on: true,
-  place: "under",
+  place: "over",
   active: ({ trails: kept }) => !kept.isEmpty,
   draw(pen, { trails: kept, world }) {
     const { context, colours, camera } = pen;
