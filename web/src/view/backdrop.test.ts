@@ -18,31 +18,30 @@ test("a picture of nothing but plain colours needs no tile", () => {
   expect(stripsOf(picture(96, 64, []), ground, white, grey)).toEqual([]);
 });
 
-test("each pixel of another colour is in a tile, and neighbours make one strip", () => {
-  const strips = stripsOf(
-    picture(96, 64, [
-      [20, 20],
-      [40, 30],
-      [70, 63],
-    ]),
-    ground,
-    white,
-    grey,
-  );
-  expect(strips).toEqual([
-    [16, 16, 32, 16],
-    [64, 48, 16, 16],
+test("each pixel of another colour is in a tile, and neighbours make one box", () => {
+  const spots: [number, number][] = [
+    [20, 20],
+    [24, 21],
+    [20, 24],
+    [24, 27],
+    [70, 63],
+  ];
+  expect(stripsOf(picture(96, 64, spots), ground, white, grey)).toEqual([
+    [20, 20, 8, 8],
+    [68, 60, 4, 4],
   ]);
+});
+
+test("a line across the whole picture is one box, whichever way it goes", () => {
+  const line = Array.from({ length: 64 }, (_, y): [number, number] => [40, y]);
+  expect(stripsOf(picture(96, 64, line), ground, white, grey)).toEqual([[40, 0, 4, 64]]);
 });
 
 test("tiles that cross the ground's edge are drawn, as they have two colours", () => {
-  const crossing: Box = [8, 16, 72, 32];
-  expect(stripsOf(picture(96, 64, []), crossing, white, grey)).toEqual([
-    [0, 16, 16, 16],
-    [0, 32, 16, 16],
-  ]);
+  const crossing: Box = [14, 16, 66, 32];
+  expect(stripsOf(picture(96, 64, []), crossing, white, grey)).toEqual([[12, 16, 4, 32]]);
 });
 
 test("tiles at the edge are as small as what is left of the picture", () => {
-  expect(stripsOf(picture(90, 50, [[89, 49]]), ground, white, grey)).toEqual([[80, 48, 10, 2]]);
+  expect(stripsOf(picture(90, 50, [[89, 49]]), ground, white, grey)).toEqual([[88, 48, 2, 2]]);
 });

@@ -3,7 +3,7 @@ import { programOf } from "./gl";
 /** A rectangle in pixels of the canvas, y down: left, top, width, height. */
 export type Box = [number, number, number, number];
 
-const tile_px = 16;
+const tile_px = 4;
 
 const vertex = `#version 300 es
 precision highp float; layout(location = 1) in vec2 at; uniform vec2 size;
@@ -82,7 +82,7 @@ export class Backdrop {
   }
 }
 
-/** Runs of tiles, along rows, that show something else than the plain colour of where they are. */
+/** Boxes of tiles that show something else than the plain colour of where they are. */
 export function stripsOf(
   { width, height, data }: Pick<ImageData, "width" | "height" | "data">,
   ground: Box,
@@ -91,19 +91,45 @@ export function stripsOf(
 ): Box[] {
   const pixels = new Uint32Array(data.buffer, data.byteOffset, width * height);
   const strips: Box[] = [];
+  /** Where in `strips` those of the row above are, by their left side and width. */
+  let above = new Map<string, number>();
   for (let top = 0; top < height; top += tile_px) {
     const high = Math.min(tile_px, height - top);
-    let goesOn = false;
-    for (let left = 0; left < width; left += tile_px) {
-      const tile: Box = [left, top, Math.min(tile_px, width - left), high];
-      const last = strips.at(-1);
-      const isDrawn = !isAsWiped(pixels, width, tile, ground, groundColour, outsideColour);
-      if (isDrawn && goesOn && last) last[2] += tile[2];
-      else if (isDrawn) strips.push(tile);
-      goesOn = isDrawn;
+    const row = runsOf(pixels, width, [0, top, width, high], ground, groundColour, outsideColour);
+    const here = new Map<string, number>();
+    for (const run of row) {
+      const key = `${run[0]} ${run[2]}`;
+      const place = above.get(key) ?? strips.length;
+      const taller = strips[place];
+      if (taller) taller[3] += high;
+      else strips.push(run);
+      here.set(key, place);
     }
+    above = here;
   }
   return strips;
+}
+
+/** Of a row of tiles the runs of those that have to be drawn. */
+function runsOf(
+  pixels: Uint32Array,
+  width: number,
+  [, top, , high]: Box,
+  ground: Box,
+  groundColour: number,
+  outsideColour: number,
+): Box[] {
+  const runs: Box[] = [];
+  let goesOn = false;
+  for (let left = 0; left < width; left += tile_px) {
+    const tile: Box = [left, top, Math.min(tile_px, width - left), high];
+    const last = runs.at(-1);
+    const isDrawn = !isAsWiped(pixels, width, tile, ground, groundColour, outsideColour);
+    if (isDrawn && goesOn && last) last[2] += tile[2];
+    else if (isDrawn) runs.push(tile);
+    goesOn = isDrawn;
+  }
+  return runs;
 }
 
 /** Whether a tile shows nothing but the plain colour that is wiped in where it lies. */

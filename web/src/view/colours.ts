@@ -41,9 +41,19 @@ export const robotColours: ColourName[] = [
 
 export function readColours(): Colours {
   const style = getComputedStyle(document.documentElement);
-  return Object.fromEntries(
-    names.map((name) => [name, style.getPropertyValue(`--${name}`).trim()]),
-  ) as Colours;
+  const named = names.map((name) => [name, inFull(style.getPropertyValue(`--${name}`).trim())]);
+  return Object.fromEntries(named) as Colours;
+}
+
+/** What builds the page shortens colours, `#ffffff` to `#fff`. */
+export function inFull(colour: string): string {
+  const short = /^#([0-9a-f])([0-9a-f])([0-9a-f])$/i.exec(colour);
+  return short
+    ? `#${short
+        .slice(1)
+        .map((digit) => digit + digit)
+        .join("")}`
+    : colour;
 }
 
 /** Red, green and blue, 0 to 1, of a colour such as `#1c63d5`. */
