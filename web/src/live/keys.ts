@@ -34,11 +34,11 @@ const arrows: Record<string, [number, number]> = {
 
 export function handleKey(event: KeyboardEvent, desk: Desk): void {
   if (isWriting(event.target)) return;
-  if ((event.ctrlKey || event.metaKey) && event.key === "z") return done(event, () => desk.session.undo());
-  if (event.ctrlKey || event.metaKey || event.altKey) return;
-  if (event.key === " " && isPressed(event.target)) return;
-  const found = keys.find((key) => key.keys.includes(event.key));
-  if (found) done(event, () => found.act(desk));
+  const isHeld = event.ctrlKey || event.metaKey;
+  const isUndo = isHeld && event.key === "z";
+  const found = isHeld || event.altKey ? null : keys.find((key) => key.keys.includes(event.key));
+  if (isUndo) done(event, () => desk.session.undo());
+  else if (found && !(event.key === " " && isPressed(event.target))) done(event, () => found.act(desk));
 }
 
 /** Moves the picture; true if the key is one of those that do. */

@@ -25,7 +25,9 @@ export type Phase = "opening" | "open" | "lost" | "refused" | "ended";
 export type Source = Omit<Link, "text" | "view"> & { text: string | null };
 
 const changes_ms = 50;
-const words_ms = 100;
+/** Numbers that change more often are hard to read, and each time the page is put together anew. */
+const words_ms = 180;
+const states_ms = 180;
 
 /** A run as the page knows it, and the commands to it. */
 export class Session implements Listener {
@@ -43,7 +45,7 @@ export class Session implements Listener {
   again_ms = $state(0);
   /** How often `series` has got something new. */
   grown = $state(0);
-  /** How often there was something new in the picture to put into words: ten times a second at most. */
+  /** How often there was something new in the picture to put into words: five times a second at most. */
   seen = $state(0);
   series = new Series();
 
@@ -54,6 +56,7 @@ export class Session implements Listener {
   private readonly connection = new Connection(this);
   private readonly changes = new Throttle<Json>(changes_ms, (path, value) => this.sendChange(path, value));
   private saw = 0;
+  private toldAt = 0;
   private lastChange = "";
   /** Speed to go on with once the run is opened again; undefined if it stood. */
   private goOn: Speed | undefined;
@@ -165,8 +168,12 @@ export class Session implements Listener {
   }
 
   private told(state: State): void {
-    this.state = state;
     this.series.add(state);
+    const now = performance.now();
+    // The next one comes soon while it runs; what has just begun or stopped is shown at once.
+    if (state.playing && this.state?.playing && now - this.toldAt < states_ms) return;
+    this.toldAt = now;
+    this.state = state;
     this.grown += 1;
   }
 

@@ -30,7 +30,7 @@ const vec2 corner[6] = vec2[6](
 void main() {
   int robot = int(number);
   vec4 pose = texelFetch(robots, ivec2(robot & 1023, robot >> 10), 0);
-  at = corner[gl_VertexID % 6] * 1.8;
+  at = corner[gl_VertexID % 6] * 1.66;
   float c = cos(pose.z), s = sin(pose.z);
   gl_Position = vec4((pose.xy + mat2(c, s, -s, c) * at * radius) * view.xy + view.zw, 0, 1);
   state = int(pose.w);

@@ -20,7 +20,9 @@ export const links: Layer = {
   draw(pen, scene) {
     const { context, colours, camera } = pen;
     const path = new Path2D();
-    if (scene.frame) connect(path, scene, scene.frame);
+    const { frame } = scene;
+    if (frame && frame.count > most) fromOne(path, scene, frame);
+    else if (frame) connect(path, scene, frame);
     inWorld(pen, () => {
       context.strokeStyle = colours.link;
       context.lineWidth = 1 / camera.scale;
@@ -31,9 +33,8 @@ export const links: Layer = {
 
 function connect(path: Path2D, scene: Scene, frame: Frame): void {
   const ranges_m = rangesOf(scene.setting).flatMap(({ kind, count }) =>
-    frame.count <= most ? Array<number>(count).fill(kind.radio_range_m ?? -1) : [],
+    Array<number>(count).fill(kind.radio_range_m ?? -1),
   );
-  if (frame.count > most) return fromOne(path, scene, frame);
   let drawn = 0;
   for (let a = 0; a < frame.count; a++) {
     for (let b = a + 1; b < frame.count && drawn < mostLinks; b++) {
