@@ -1,0 +1,8 @@
+/** What checks in a browser use of the fake server. */
+export function serve(port?: number): Promise<{
+  url: string;
+  counter: { drawn: number };
+  /** Cuts all lines. */
+  drop(): void;
+  stop(): void;
+}>;

@@ -1,0 +1,50 @@
+import { expect, expectAccessible, live, test } from "./page";
+
+const faulty = 'engine = "metric"\n[robots.rover]\nraduis_m = 0.25\n';
+const file = (text: string) => ({ name: "my.toml", mimeType: "application/toml", buffer: Buffer.from(text) });
+
+test("the gallery shows each scenario with its picture, and opens it", async ({ page, fake }) => {
+  await page.goto(fake.url);
+  const card = page.getByRole("link", { name: /search-mind/ });
+  await expect(card).toContainText("map, share and plan");
+  await expect
+    .poll(() => card.locator("img").evaluate((img: HTMLImageElement) => img.naturalWidth))
+    .toBeGreaterThan(0);
+  await expectAccessible(page);
+  await card.click();
+  await expect(page.getByRole("heading", { name: "search-mind" })).toBeVisible();
+});
+
+test("the faults of a file are listed beside its text, with those lines marked", async ({ page, fake }) => {
+  await page.goto(fake.url);
+  await page.locator("input[type=file]").setInputFiles(file(faulty));
+  await expect(page.getByRole("heading", { name: "my.toml has 1 fault" })).toBeVisible();
+  await expect(page.getByRole("button", { name: "Line 3" })).toBeVisible();
+  await expect(page.locator(".marked")).toContainText("raduis_m = 0.25");
+  await expectAccessible(page);
+});
+
+test("a file without faults opens, and its address holds it", async ({ page, fake }) => {
+  await page.goto(fake.url);
+  await page.locator("input[type=file]").setInputFiles(file('engine = "metric"\n'));
+  await expect(page.getByRole("status", { name: "" }).filter({ hasText: "4 robots" })).toBeVisible();
+  await page.reload();
+  await expect(page.locator("#status")).toContainText("4 robots");
+});
+
+test("a dropped file is opened like a chosen one", async ({ page, fake }) => {
+  await page.goto(fake.url);
+  const transfer = await page.evaluateHandle((text) => {
+    const data = new DataTransfer();
+    data.items.add(new File([text], "my.toml"));
+    return data;
+  }, faulty);
+  await page.dispatchEvent("main", "drop", { dataTransfer: transfer });
+  await expect(page.getByRole("heading", { name: "my.toml has 1 fault" })).toBeVisible();
+});
+
+test("a scenario that cannot be opened says why", async ({ page, fake }) => {
+  await page.goto(live(fake, "scenario=broken"));
+  await expect(page.getByText("count is missing")).toBeVisible();
+  await expectAccessible(page);
+});

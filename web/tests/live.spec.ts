@@ -1,0 +1,179 @@
+import { expect, expectAccessible, live, test } from "./page";
+
+const scenario = "scenario=search-mind&seed=7&run=2";
+
+test("a run plays, pauses and steps, and says so in words", async ({ page, fake }) => {
+  await page.goto(live(fake, scenario));
+  const status = page.locator("#status");
+  await expect(status).toHaveText(/^0\.0 s, 4 robots: .*; 0 of 4 items found; paused\.$/);
+  await page.keyboard.press("Space");
+  await expect(status).toContainText("running at 1 times real time");
+  await page.keyboard.press("Space");
+  await expect(status).toContainText("paused");
+  const words = (await status.textContent()) ?? "";
+  await page.keyboard.press(".");
+  await expect(status).not.toHaveText(words);
+  await page.keyboard.press(",");
+  await expect(status).toHaveText(words);
+});
+
+test("the address opens the same run at the same tick with the same changes and view", async ({
+  page,
+  fake,
+  context,
+}) => {
+  await page.goto(live(fake, scenario));
+  await page.getByRole("tab", { name: "Parameters" }).click();
+  await page.getByRole("spinbutton", { name: "Count of rover" }).fill("9");
+  await page.keyboard.press("Enter");
+  await expect(page.locator("#status")).toContainText("9 robots");
+  await page.getByRole("application").focus();
+  for (const key of ["ArrowLeft", "+", ".", ".", "."]) await page.keyboard.press(key);
+  await expect.poll(() => page.url()).toContain("tick=3");
+  const other = await context.newPage();
+  await other.goto(page.url());
+  await expect(other.locator("#status")).toContainText("0.3 s, 9 robots");
+  await expect.poll(() => other.url()).toBe(page.url());
+});
+
+test("a refusal is told beside the switch, which stays as it was", async ({ page, fake }) => {
+  await page.goto(live(fake, scenario));
+  await page.getByRole("tab", { name: "Parameters" }).click();
+  const swarm = page.getByRole("checkbox", { name: "Swarm" });
+  await swarm.click();
+  await expect(page.getByText("swarm needs a sensor of kind robots").first()).toBeVisible();
+  await expect(swarm).not.toBeChecked();
+  await expect(swarm).toBeDisabled();
+  await page.getByRole("checkbox", { name: "Follow" }).click();
+  await expect(page.getByRole("checkbox", { name: "Follow" })).toBeChecked();
+  await expect(swarm).toBeEnabled();
+});
+
+test("each parameter of the schema can be found and changed, and undone", async ({ page, fake }) => {
+  await page.goto(live(fake, scenario));
+  await page.getByRole("tab", { name: "Parameters" }).click();
+  await page.getByRole("searchbox").fill("camera range_m");
+  const box = page.getByRole("spinbutton", { name: "robots.rover.sensors.camera.range_m" });
+  await box.fill("5");
+  await box.press("Enter");
+  await page.getByRole("tab", { name: "Changes" }).click();
+  await expect(page.getByRole("cell", { name: "robots.rover.sensors.camera.range_m" })).toBeVisible();
+  await page.keyboard.press("Control+z");
+  await expect(page.getByText("Nothing has been changed")).toBeVisible();
+});
+
+test("a robot is selected by pointer and by keyboard, and its mind is told", async ({ page, fake }) => {
+  await page.goto(live(fake, `${scenario}&robot=rover/1`));
+  await expect(page.getByRole("combobox", { name: "Robot", exact: true })).toHaveValue("rover/1");
+  await expect(page.getByRole("cell", { name: "seek" })).toBeVisible();
+  await page.getByRole("button", { name: "Next" }).click();
+  await expect.poll(() => page.url()).toContain("robot=rover/2");
+  await expectAccessible(page);
+});
+
+test("obstacles are added by hand, and taken out of the list", async ({ page, fake }) => {
+  await page.goto(live(fake, scenario));
+  await page.getByRole("tab", { name: "Edit" }).click();
+  await page.getByRole("button", { name: "Add circle" }).click();
+  await page.mouse.move(300, 200);
+  await page.mouse.down();
+  await page.mouse.move(340, 200, { steps: 3 });
+  await page.mouse.up();
+  const added = page.getByRole("button", { name: /^Remove circle/ });
+  await expect(added).toHaveCount(3);
+  await expectAccessible(page);
+  await added.last().click();
+  await expect(added).toHaveCount(2);
+});
+
+test("a lost line is told at once, and the run goes on where it was", async ({ page, fake }) => {
+  await page.goto(live(fake, `${scenario}&tick=50`));
+  await expect(page.locator("#status")).toContainText("5.0 s");
+  await page.keyboard.press("Space");
+  await expect(page.locator("#status")).toContainText("running");
+  fake.drop();
+  await expect(page.getByText("The connection is lost.").first()).toBeVisible();
+  await expectAccessible(page);
+  await expect(page.getByRole("alert")).toHaveCount(0);
+  await expect(page.locator("#status")).toContainText("running");
+  await expect(page.locator("#status")).toHaveText(/^([5-9]|\d\d)\.\d s/);
+});
+
+test("a full server says so, and offers another try", async ({ page, fake }) => {
+  await page.goto(live(fake, "scenario=full"));
+  await expect(page.getByRole("alert")).toContainText("As many runs are open");
+  await expectAccessible(page);
+});
+
+for (const tab of ["Results", "Robot", "Parameters", "Layers", "Edit", "Changes"]) {
+  test(`the panel ${tab} has no fault that axe finds`, async ({ page, fake }) => {
+    await page.goto(live(fake, `${scenario}&changes=[[0,%22robots.rover.count%22,6]]`));
+    await page.getByRole("tab", { name: tab }).click();
+    if (tab === "Parameters") await page.getByRole("searchbox").fill("rover");
+    if (tab === "Results") await page.getByRole("button", { name: "Table" }).click();
+    await expectAccessible(page);
+  });
+}
+
+test("the page is of use on a phone", async ({ page, fake }) => {
+  await page.setViewportSize({ width: 360, height: 740 });
+  await page.goto(live(fake, scenario));
+  await expect(page.locator("#status")).toContainText("4 robots");
+  expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBe(360);
+  await page.getByRole("button", { name: "Panels", exact: true }).click();
+  await expect(page.getByRole("tab", { name: "Results" })).toBeVisible();
+  await expectAccessible(page);
+  await page.keyboard.press("Escape");
+  await expect(page.getByRole("tab", { name: "Results" })).toBeHidden();
+});
+
+test("dialogs open by key and close by Escape", async ({ page, fake }) => {
+  await page.goto(live(fake, scenario));
+  await page.keyboard.press("?");
+  await expect(page.getByRole("dialog", { name: "Keys" })).toBeVisible();
+  await expectAccessible(page);
+  await page.keyboard.press("Escape");
+  await page.getByRole("button", { name: "New run" }).click();
+  await expectAccessible(page);
+  await page.getByRole("textbox", { name: "Seed" }).fill("12");
+  await page.getByRole("button", { name: "Begin" }).click();
+  await expect.poll(() => page.url()).toContain("seed=12&run=3");
+});
+
+test("a picture and the series can be saved", async ({ page, fake }) => {
+  await page.goto(live(fake, `${scenario}&tick=20`));
+  await expect(page.locator("#status")).toContainText("2.0 s");
+  for (const [name, file] of [
+    ["Picture", "search-mind-20.png"],
+    ["Series", "search-mind-20.csv"],
+  ] as const) {
+    await page.locator("summary", { hasText: "Export" }).click();
+    const [saved] = await Promise.all([
+      page.waitForEvent("download"),
+      page.getByRole("button", { name }).click(),
+    ]);
+    expect(saved.suggestedFilename()).toBe(file);
+  }
+});
+
+test("without WebGL2 the robots are drawn all the same", async ({ page, fake }) => {
+  await page.addInitScript(() => {
+    const get = HTMLCanvasElement.prototype.getContext;
+    // @ts-expect-error one signature stands for all
+    HTMLCanvasElement.prototype.getContext = function (kind: string, options: unknown) {
+      // @ts-expect-error the same
+      return kind === "webgl2" ? null : get.call(this, kind, options);
+    };
+  });
+  await page.goto(live(fake, "scenario=flock"));
+  await expect(page.locator("#status")).toContainText("400 robots");
+  const blue = await page
+    .locator("canvas")
+    .first()
+    .evaluate((canvas: HTMLCanvasElement) => {
+      const data = canvas.getContext("2d")?.getImageData(0, 0, canvas.width, canvas.height).data ?? [];
+      return Array.from(data).filter((value, i) => i % 4 === 2 && value > 180 && (data[i - 2] ?? 255) < 60)
+        .length;
+    });
+  expect(blue).toBeGreaterThan(400);
+});

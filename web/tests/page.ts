@@ -1,0 +1,46 @@
+import AxeBuilder from "@axe-core/playwright";
+import { test as base, expect, type Page } from "@playwright/test";
+import { serve } from "../dev/fake-server.mjs";
+
+interface Fake {
+  url: string;
+  drop(): void;
+}
+
+/** A page beside a fake server of its own; whatever the browser complains of fails the test. */
+export const test = base.extend<{ fake: Fake; complaints: string[] }>({
+  // biome-ignore lint/correctness/noEmptyPattern: Playwright reads the names of what is used.
+  fake: async ({}, use) => {
+    const server = await serve(0);
+    await use(server);
+    server.stop();
+  },
+  complaints: [
+    async ({ page }, use) => {
+      const complaints: string[] = [];
+      page.on("pageerror", (error) => complaints.push(error.message));
+      page.on("console", (message) => {
+        if (message.type() === "error" && !/422|ERR_CONNECTION/.test(message.text()))
+          complaints.push(message.text());
+      });
+      await use(complaints);
+      expect(complaints).toEqual([]);
+    },
+    { auto: true },
+  ],
+});
+
+export { expect };
+
+export function live(fake: Fake, query: string): string {
+  return `${fake.url}/#/live?${query}`;
+}
+
+/** No violation of axe's rules, in light and in dark. */
+export async function expectAccessible(page: Page): Promise<void> {
+  for (const colorScheme of ["light", "dark"] as const) {
+    await page.emulateMedia({ colorScheme });
+    const { violations } = await new AxeBuilder({ page }).analyze();
+    expect(violations.map(({ id, nodes }) => `${colorScheme} ${id}: ${nodes[0]?.html}`)).toEqual([]);
+  }
+}
