@@ -161,7 +161,6 @@ test("without WebGL2 the robots are drawn all the same", async ({ page, fake }) 
     const get = HTMLCanvasElement.prototype.getContext;
     // @ts-expect-error one signature stands for all
     HTMLCanvasElement.prototype.getContext = function (kind: string, options: unknown) {
-      // @ts-expect-error the same
       return kind === "webgl2" ? null : get.call(this, kind, options);
     };
   });
