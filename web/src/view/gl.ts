@@ -24,6 +24,35 @@ function shader(gl: WebGL2RenderingContext, type: number, source: string): WebGL
   return made;
 }
 
+/**
+ * Numbers of the corners of quads, two triangles each, 4 corners a quad: named so, each corner is computed
+ * once, not for either triangle.
+ */
+export class QuadIndices {
+  private readonly buffer: WebGLBuffer;
+  private quads = 0;
+
+  constructor(private readonly gl: WebGL2RenderingContext) {
+    this.buffer = gl.createBuffer();
+    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, this.buffer);
+  }
+
+  draw(first: number, count: number): void {
+    const { gl } = this;
+    gl.drawElements(gl.TRIANGLES, 6 * count, gl.UNSIGNED_INT, 6 * first * Uint32Array.BYTES_PER_ELEMENT);
+  }
+
+  /** Has room for so many. */
+  grow(quads: number): void {
+    if (quads <= this.quads) return;
+    this.quads = quads;
+    const numbers = new Uint32Array(6 * quads);
+    for (let i = 0; i < quads; i++)
+      numbers.set([4 * i, 4 * i + 1, 4 * i + 2, 4 * i, 4 * i + 2, 4 * i + 3], 6 * i);
+    this.gl.bufferData(this.gl.ELEMENT_ARRAY_BUFFER, numbers, this.gl.STATIC_DRAW);
+  }
+}
+
 export const rowTexels = 1024;
 
 /** A texture of a frame's floats as they are: a texel a robot, 1024 a row. */

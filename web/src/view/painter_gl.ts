@@ -3,7 +3,7 @@ import type { Range } from "../run/robots";
 import { Backdrop, type Box } from "./backdrop";
 import type { Camera } from "./camera";
 import { type Colours, rgb, robotColours } from "./colours";
-import { programOf, RobotTexture } from "./gl";
+import { programOf, QuadIndices, RobotTexture } from "./gl";
 import { leastRadius_px, type Painter } from "./painter";
 import { bodyVertex, flatFragment, markFragment, markVertex } from "./shaders";
 
@@ -16,7 +16,7 @@ interface Places {
 }
 
 /**
- * Robots by WebGL2: two triangles each whose corners are made up from their number, so that the frame's
+ * Robots by WebGL2: two triangles each whose four corners are made up from their number, so that the frame's
  * floats go to the processor of the picture as they came. Those that are not clear get a mark more.
  */
 export class PainterGl implements Painter {
@@ -26,6 +26,7 @@ export class PainterGl implements Painter {
   private readonly texture: RobotTexture;
   private readonly marked: WebGLBuffer;
   private readonly backdrop: Backdrop;
+  private readonly quads: QuadIndices;
   private colours: Colours | null = null;
   private numbers = new Uint32Array(0);
   private markCount = 0;
@@ -35,6 +36,7 @@ export class PainterGl implements Painter {
     this.marks = this.places(markVertex, markFragment);
     this.texture = new RobotTexture(gl);
     this.backdrop = new Backdrop(gl);
+    this.quads = new QuadIndices(gl);
     this.marked = gl.createBuffer();
     gl.bindBuffer(gl.ARRAY_BUFFER, this.marked);
     gl.vertexAttribIPointer(0, 1, gl.UNSIGNED_INT, 0, 0);
@@ -69,13 +71,14 @@ export class PainterGl implements Painter {
 
   private take(frame: Frame): void {
     this.texture.put(frame.robots, frame.count);
-    if (this.numbers.length < 6 * frame.count) this.numbers = new Uint32Array(6 * frame.count);
+    this.quads.grow(frame.count);
+    if (this.numbers.length < 4 * frame.count) this.numbers = new Uint32Array(4 * frame.count);
     this.markCount = markedOf(frame, this.numbers);
     if (this.markCount === 0) return;
     this.gl.bindBuffer(this.gl.ARRAY_BUFFER, this.marked);
     this.gl.bufferData(
       this.gl.ARRAY_BUFFER,
-      this.numbers.subarray(0, 6 * this.markCount),
+      this.numbers.subarray(0, 4 * this.markCount),
       this.gl.STREAM_DRAW,
     );
   }
@@ -88,7 +91,7 @@ export class PainterGl implements Painter {
     for (const { kind, first, count } of ranges) {
       gl.uniform1f(body.radius, drawnRadius(kind.radius_m, camera, frame.count));
       const drawn = Math.min(count, frame.count - first);
-      if (drawn > 0) gl.drawArrays(gl.TRIANGLES, 6 * first, 6 * drawn);
+      if (drawn > 0) this.quads.draw(first, drawn);
     }
   }
 
@@ -106,7 +109,7 @@ export class PainterGl implements Painter {
     const radius = drawnRadius(radius_m, camera, robots);
     gl.uniform1f(marks.radius, radius);
     gl.uniform1f(gl.getUniformLocation(marks.program, "pixel"), 1 / (radius * camera.scale));
-    gl.drawArrays(gl.TRIANGLES, 0, 6 * this.markCount);
+    this.quads.draw(0, this.markCount);
     gl.disable(gl.BLEND);
   }
 
@@ -126,12 +129,12 @@ export function drawnRadius(radius_m: number, camera: Camera, robots: number): n
   return Math.max(radius_m, leastRadius_px(robots) / camera.scale);
 }
 
-/** Puts the number of each robot that is not clear six times, once a corner; gives how many those are. */
+/** Puts the number of each robot that is not clear four times, once a corner; gives how many those are. */
 function markedOf({ robots, count }: Frame, numbers: Uint32Array): number {
   let marked = 0;
   for (let i = 0; i < count; i++) {
     if (robots[4 * i + 3] === 0) continue;
-    numbers.fill(i, 6 * marked, 6 * marked + 6);
+    numbers.fill(i, 4 * marked, 4 * marked + 4);
     marked += 1;
   }
   return marked;

@@ -6,12 +6,11 @@ uniform highp sampler2D robots; uniform vec4 view; uniform float radius; uniform
 /** A chevron: front at (1, 0), two tails, a notch between them. */
 export const bodyVertex = `${head}
 flat out vec3 colour;
-const vec2 corner[6] = vec2[6](
-  vec2(1, 0), vec2(-.8, .7), vec2(-.4, 0), vec2(1, 0), vec2(-.4, 0), vec2(-.8, -.7));
+const vec2 corner[4] = vec2[4](vec2(1, 0), vec2(-.8, .7), vec2(-.4, 0), vec2(-.8, -.7));
 void main() {
-  int robot = gl_VertexID / 6;
+  int robot = gl_VertexID >> 2;
   vec4 pose = texelFetch(robots, ivec2(robot & 1023, robot >> 10), 0);
-  vec2 at = corner[gl_VertexID - robot * 6] * radius;
+  vec2 at = corner[gl_VertexID & 3] * radius;
   float c = cos(pose.z), s = sin(pose.z);
   gl_Position = vec4((pose.xy + mat2(c, s, -s, c) * at) * view.xy + view.zw, 0, 1);
   colour = palette[int(pose.w)];
@@ -25,12 +24,11 @@ void main() { shown = vec4(colour, 1); }`;
 export const markVertex = `${head}
 layout(location = 0) in uint number;
 flat out vec3 colour; flat out int state; out vec2 at;
-const vec2 corner[6] = vec2[6](
-  vec2(-1, -1), vec2(1, -1), vec2(1, 1), vec2(-1, -1), vec2(1, 1), vec2(-1, 1));
+const vec2 corner[4] = vec2[4](vec2(-1, -1), vec2(1, -1), vec2(1, 1), vec2(-1, 1));
 void main() {
   int robot = int(number);
   vec4 pose = texelFetch(robots, ivec2(robot & 1023, robot >> 10), 0);
-  at = corner[gl_VertexID % 6] * 1.66;
+  at = corner[gl_VertexID & 3] * 1.66;
   float c = cos(pose.z), s = sin(pose.z);
   gl_Position = vec4((pose.xy + mat2(c, s, -s, c) * at * radius) * view.xy + view.zw, 0, 1);
   state = int(pose.w);
