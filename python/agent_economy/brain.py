@@ -9,27 +9,21 @@ unless said otherwise.
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import (
-    TYPE_CHECKING,
     Any,
     Generic,
     Literal,
     NotRequired,
-    TypeAlias,
     TypedDict,
     TypeVar,
     cast,
 )
 
 from agent_economy import _core, given
+from agent_economy.robots import Point, RobotId
 from agent_economy.scenario import Scenario, loaded
-
-if TYPE_CHECKING:
-    from agent_economy.thoughts import Thoughts
+from agent_economy.thoughts import Thoughts
 
 T = TypeVar("T")
-
-Point: TypeAlias = Sequence[float]
-"""[x, y] in the world, in metres."""
 
 
 class RangeRing(TypedDict):
@@ -132,13 +126,6 @@ class Motion(TypedDict):
 
     speed_m_s: float
     turn_rate_rad_s: float
-
-
-class RobotId(TypedDict):
-    """Which robot: the `index`-th of the `kind`-th kind, both counted from 0."""
-
-    kind: int
-    index: int
 
 
 class Seen(TypedDict):
@@ -362,7 +349,7 @@ class Brain:
         """
         return cast("Command", self._mind.step(percept))
 
-    def thoughts(self) -> "Thoughts | None":
+    def thoughts(self) -> Thoughts | None:
         """Return what it believes and wants, as of its last step.
 
         Returns:

@@ -2,7 +2,7 @@
 
 from typing import Literal, TypedDict
 
-from agent_economy.brain import Point, RobotId
+from agent_economy.robots import Point, RobotId
 
 
 class Pose(TypedDict):

@@ -85,6 +85,18 @@ impl Ray {
     }
 }
 
+/// How far each ray and its neighbours on both sides go.
+///
+/// A ray that passes a wall at a small angle goes through cells that the wall fills in part, of which
+/// the ray beside it says so.
+pub(crate) fn frees_m(ranges_m: &[f64]) -> impl Iterator<Item = f64> {
+    let at = |ray: usize| ranges_m.get(ray).copied().unwrap_or(f64::INFINITY);
+    (0..ranges_m.len()).map(move |ray| {
+        let before_m = ray.checked_sub(1).map_or(f64::INFINITY, at);
+        at(ray).min(before_m).min(at(ray + 1))
+    })
+}
+
 impl Ring {
     /// On a body of this half width, with a brain of this period.
     pub(crate) fn new(ring: &RangeRing, half_width_m: f64, period_s: f64) -> Self {
@@ -129,18 +141,6 @@ impl Ring {
         let age_s = age_s.max(self.latency_s);
         let is_whole = scan.ranges_m.len() == self.bearings_rad.len();
         (is_whole && age_s <= self.fresh_s).then_some((age_s, &scan.ranges_m))
-    }
-
-    /// How far each ray and its neighbours on both sides go.
-    ///
-    /// A ray that passes a wall at a small angle goes through cells that the wall fills in part, of which
-    /// the ray beside it says so.
-    pub(crate) fn frees_m(&self, ranges_m: &[f64]) -> impl Iterator<Item = f64> {
-        let at = |ray: usize| ranges_m.get(ray).copied().unwrap_or(f64::INFINITY);
-        (0..ranges_m.len()).map(move |ray| {
-            let before_m = ray.checked_sub(1).map_or(f64::INFINITY, at);
-            at(ray).min(before_m).min(at(ray + 1))
-        })
     }
 
     /// All rays, at most as long as the sensor sees.

@@ -21,7 +21,7 @@ pub use trust::TrustSpec;
 
 use crate::body::{Body, Detector, RobotId};
 use crate::percept::{Look, Percept};
-use crate::rays::Ring;
+use crate::rays::{Ring, frees_m};
 use crate::sector::direction;
 use crate::thoughts::BelievedItem;
 use alloc::collections::BTreeMap;
@@ -278,7 +278,7 @@ impl Beliefs {
         let there = |end: Point| pose.at.plus(turned(end, front));
         for (ring, ranges_m) in new_scans(percept, rings, period_s) {
             map.filled.begin_scan();
-            let frees_m = ring.frees_m(ranges_m);
+            let frees_m = frees_m(ranges_m);
             for (ray, free_m) in ring.rays(ranges_m).zip(frees_m) {
                 let end = ray.end();
                 let is_hit = ray.range_m < ring.range_m() && !self.others.is_on_one(end);
