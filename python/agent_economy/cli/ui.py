@@ -4,7 +4,6 @@ import secrets
 import socket
 import webbrowser
 from contextlib import suppress
-from ipaddress import ip_address
 from pathlib import Path
 from typing import Annotated
 
@@ -14,6 +13,7 @@ import uvicorn
 from agent_economy.cli.told import BAD_INPUT, faults_told
 from agent_economy.server import Places, app
 from agent_economy.server.app import MOST_BYTES
+from agent_economy.server.guard import is_loopback
 
 
 def ui(
@@ -69,14 +69,6 @@ def bound(host: str, port: int) -> socket.socket:
         )
         raise typer.Exit(BAD_INPUT) from None
     return listening
-
-
-def is_loopback(host: str) -> bool:
-    """Return whether only this machine can reach a host."""
-    try:
-        return ip_address(host).is_loopback
-    except ValueError:
-        return host == "localhost"
 
 
 def address_of(host: str, port: int, token: str | None) -> str:

@@ -108,9 +108,14 @@ def grid(given: Mapping[str, Any], time_ns: int) -> Grid:
 def painted(occupancy: NDArray[np.int8]) -> NDArray[np.uint8]:
     """Return the colour of each cell, shape (rows, columns, 4)."""
     palette = np.array([FREE, UNKNOWN, OCCUPIED], np.uint8)
-    unsure = (occupancy != 0).astype(np.intp)
-    cells: NDArray[np.uint8] = palette[unsure + (occupancy == WHOLLY_OCCUPIED)]
+    cells: NDArray[np.uint8] = palette[states(occupancy)]
     return cells
+
+
+def states(occupancy: NDArray[np.int8]) -> NDArray[np.uint8]:
+    """Return of each cell, shape (rows, columns), 0 if it is free, 1 unknown, 2 occupied."""
+    each: NDArray[np.uint8] = (occupancy != 0).astype(np.uint8) + (occupancy == WHOLLY_OCCUPIED)
+    return each
 
 
 def half_turn_of(corners_m: Sequence[Place]) -> tuple[float, float]:

@@ -6,9 +6,8 @@ import struct
 from collections.abc import Mapping
 from typing import Any
 
-import numpy as np
-
 from agent_economy import _core
+from agent_economy.recording.still import states
 from agent_economy.simulation import Simulation
 
 KIND = 1
@@ -16,8 +15,6 @@ KIND = 1
 
 HEADER = struct.Struct("<4Id2I")
 """Kind, generation, tick, robots; time in seconds; items, number of the frame."""
-
-WHOLLY_OCCUPIED = 100
 
 
 def frame(simulation: Simulation, generation: int, number: int) -> bytes:
@@ -95,11 +92,10 @@ def detector(body: Mapping[str, Any], given: Mapping[str, Any]) -> dict[str, Any
 def map_of(recorded: Mapping[str, Any]) -> dict[str, Any]:
     """Return a map: of each cell, the lowest row first, 0 free, 1 unknown, 2 occupied."""
     occupancy = recorded["occupancy"]
-    cells = (occupancy != 0).astype(np.uint8) + (occupancy == WHOLLY_OCCUPIED)
     rows, columns = occupancy.shape
     return {
         "corners_m": recorded["corners_m"],
         "columns": columns,
         "rows": rows,
-        "cells": base64.b64encode(cells.astype(np.uint8).tobytes()).decode(),
+        "cells": base64.b64encode(states(occupancy).tobytes()).decode(),
     }

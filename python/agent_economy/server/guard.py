@@ -8,7 +8,7 @@ this machine), so both are looked at. From other machines a token is needed besi
 import hmac
 from dataclasses import dataclass
 from http.cookies import CookieError, SimpleCookie
-from ipaddress import ip_address
+from ipaddress import IPv4Address, IPv6Address, ip_address
 from urllib.parse import parse_qs, urlsplit
 
 from starlette.datastructures import Headers, MutableHeaders
@@ -78,14 +78,9 @@ class Guard:
             name = urlsplit(f"//{host}").hostname or ""
         except ValueError:
             return False
-        if name == "localhost" or name == self.host.lower():
-            return True
-        try:
-            address = ip_address(name)
-        except ValueError:
-            return False
         # A name can be bound to any address; an address stands for itself.
-        return address.is_loopback or self.token is not None
+        is_asked_for = self.token is not None and address_of(name) is not None
+        return is_loopback(name) or name == self.host.lower() or is_asked_for
 
     def _shows_token(self, scope: Scope, headers: Headers) -> bool:
         query = parse_qs(scope.get("query_string", b"").decode("latin-1"))
@@ -106,6 +101,20 @@ class Guard:
             await send(message)
 
         return sent
+
+
+def is_loopback(host: str) -> bool:
+    """Return whether only this machine can reach a name or address."""
+    address = address_of(host)
+    return host == "localhost" if address is None else address.is_loopback
+
+
+def address_of(name: str) -> IPv4Address | IPv6Address | None:
+    """Return the address that a text is, if it is one."""
+    try:
+        return ip_address(name)
+    except ValueError:
+        return None
 
 
 def cookie(headers: Headers) -> str:

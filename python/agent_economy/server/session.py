@@ -195,8 +195,7 @@ class Session:
 
         scenario, self._timeline = await self._in_thread(begun)
         self._stand()
-        clock = scenario.to_dict()["clock"]
-        self._pace = Pace(clock.get("step_s", 0.1))
+        self._pace = Pace(self._run.step_s)
         self._aim, self._changes_told, self._selected = said.tick, -1, None
         described: dict[str, Any] = {
             "id": said.scenario,

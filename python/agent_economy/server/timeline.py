@@ -3,6 +3,7 @@
 import time
 from bisect import bisect_right
 from collections.abc import Iterable
+from dataclasses import replace
 from typing import Any
 
 from agent_economy import given
@@ -62,6 +63,11 @@ class Timeline:
         """Where the run is now."""
         return self.simulation.tick
 
+    @property
+    def step_s(self) -> float:
+        """Time in the world that a step takes."""
+        return self.simulation._run.step_s  # noqa: SLF001  (ours)
+
     def toward(self, tick: int, budget_s: float) -> bool:
         """Go towards a tick, back or forth, for about so long; return whether it is there.
 
@@ -110,9 +116,7 @@ class Timeline:
     def _before(self, path: str) -> Any:
         """Return what was at a path before the last change."""
         source = self.simulation.scenario.source
-        earlier = Scenario.of(
-            type(source)(source.file, source.text, source.overrides[:-1], source.files)
-        )
+        earlier = Scenario.of(replace(source, overrides=source.overrides[:-1]))
         return at(earlier.to_dict(), path)
 
     def _is_same(self, path: str, value: Given) -> bool:
@@ -128,7 +132,9 @@ class Timeline:
 
     def _advance(self, tick: int) -> None:
         """Take some steps towards a tick, to the next change or snapshot at most."""
-        stops = [tick, self._ticks[-1] + self._every if self.tick >= self._ticks[-1] else tick]
+        stops = [tick]
+        if self.tick >= self._ticks[-1]:
+            stops.append(self._ticks[-1] + self._every)
         waiting = self.log[len(self.simulation.changes) :]
         stops += [change.tick for change in waiting[:1]]
         steps = min(self._pace, min(stops) - self.tick)
@@ -172,19 +178,14 @@ class Timeline:
     def _most(self) -> int:
         """Return how many snapshots there may be."""
         robots = self.simulation.scenario.robots
-        brains = self.simulation.scenario.to_dict().get("robots", {})
+        minded = [kind for kind, count in robots.items() if count and self._has_mind(kind)]
         each = sum(
-            count * (MIND_BYTES if has_mind(brains.get(kind, {})) else BODY_BYTES)
-            for kind, count in robots.items()
+            count * (MIND_BYTES if kind in minded else BODY_BYTES) for kind, count in robots.items()
         )
         return max(3, min(MOST_KEPT, MEMORY_BYTES // max(1, each)))
 
-
-def has_mind(robot: Any) -> bool:
-    """Return whether a robot kind's brain is more than a reflex, as far as its document says."""
-    brain = robot.get("brain", {})
-    plain = {"cruise", "bounce", "avoid", "swarm", "correct"}
-    return any(each.get("kind") not in plain for each in brain.get("behaviours", []))
+    def _has_mind(self, kind: str) -> bool:
+        return self.simulation.thoughts(f"{kind}/0") is not None
 
 
 def at(document: Any, path: str) -> Any:

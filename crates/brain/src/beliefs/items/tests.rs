@@ -99,6 +99,13 @@ fn told(items: &mut Items) -> Vec<Report> {
     outbox.into_iter().filter_map(report).collect()
 }
 
+/// What one robot has come to after nine lies of another.
+fn distrust_of(liar: RobotId) -> (Trust, TrustSpec) {
+    let (mut trust, spec) = (Trust::default(), TrustSpec::default());
+    (0..9).for_each(|_| trust.learn(liar, false, &spec));
+    (trust, spec)
+}
+
 /// Who trusts everybody as one does at first.
 fn trusting<T>(own: RobotId, then: impl FnOnce(&Ears) -> T) -> T {
     let (trust, spec) = (&Trust::default(), &TrustSpec::default());
@@ -241,8 +248,7 @@ fn what_one_says_himself_holds_against_what_others_say_of_him() {
         },
         ..report(1, 1e-3)
     };
-    let (mut trust, spec) = (Trust::default(), TrustSpec::default());
-    (0..9).for_each(|_| trust.learn(robot(7), false, &spec));
+    let (trust, spec) = distrust_of(robot(7));
     let ears = Ears {
         own: ME,
         trust: &trust,
@@ -264,8 +270,7 @@ fn what_one_says_himself_holds_against_what_others_say_of_him() {
 #[test]
 fn who_is_not_trusted_is_not_passed_on() {
     let mut items = Items::default();
-    let (mut trust, spec) = (Trust::default(), TrustSpec::default());
-    (0..9).for_each(|_| trust.learn(robot(7), false, &spec));
+    let (trust, spec) = distrust_of(robot(7));
     let ears = Ears {
         own: ME,
         trust: &trust,

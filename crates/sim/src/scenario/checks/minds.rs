@@ -91,14 +91,14 @@ fn of_places(behaviour: &BehaviourSpec, spec: &ScenarioSpec, at: &Place) -> Vec<
         let listed = numbered.map(|(number, place)| (at.key("places_m").item(number), *place));
         listed.collect()
     };
-    let place = |at_m: &Option<Point>| at_m.iter().map(|to| (at.key("at_m"), *to)).collect();
-    let around = |at_m: &Option<Point>| at_m.iter().map(|to| (at.key("around_m"), *to)).collect();
+    let place =
+        |key: &str, at_m: &Option<Point>| at_m.iter().map(|to| (at.key(key), *to)).collect();
     let places: Vec<(Place, Point)> = match behaviour {
         BehaviourSpec::Correct(correct) => way(&correct.places_m),
         BehaviourSpec::Navigate(navigate) => way(&navigate.places_m),
-        BehaviourSpec::Hold(hold) => place(&hold.at_m),
-        BehaviourSpec::Home(home) => place(&home.at_m),
-        BehaviourSpec::Spiral(spiral) => around(&spiral.around_m),
+        BehaviourSpec::Hold(hold) => place("at_m", &hold.at_m),
+        BehaviourSpec::Home(home) => place("at_m", &home.at_m),
+        BehaviourSpec::Spiral(spiral) => place("around_m", &spiral.around_m),
         _ => return Vec::new(),
     };
     let goes = matches!(
