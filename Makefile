@@ -2,13 +2,14 @@
 
 PYTHON ?= python3
 BIN := .venv/bin
+CHROMIUM ?= $(shell command -v chromium || command -v chromium-browser || command -v google-chrome)
 WASM := wasm32-unknown-unknown
 RUST := $(shell find crates/*/src crates/*/Cargo.toml) Cargo.toml Cargo.lock
 # maturin, and what it starts, are found in the environment.
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 
 .PHONY: help study test bench bench-brains bench-peers bench-store verify-selection fuzz golden schemas \
-	picture examples replication validation minds web lint wasm rust-test python-test clean
+	picture examples replication validation minds web lint wasm rust-test python-test page-test clean
 
 help: ## Say what can be made
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "%-17s %s\n", $$1, $$2 }' Makefile
@@ -16,7 +17,7 @@ help: ## Say what can be made
 study: .venv/installed ## Answer the 2003 experiment's question: how many robots?
 	$(BIN)/agent-economy study scenarios/classic.toml
 
-test: lint wasm rust-test python-test ## Run every check, as CI does
+test: lint wasm rust-test python-test page-test ## Run every check, as CI does
 
 lint: .venv/installed ## Formatters, linters, types, stubs, layers
 	cargo fmt --all --check
@@ -41,8 +42,27 @@ wasm: ## The metric simulator and the brain compile for browsers
 rust-test:
 	cargo test --locked
 
+# Tests of one file stay together: some share what they have computed.
 python-test: .venv/installed
-	$(BIN)/pytest
+	$(BIN)/pytest --numprocesses 2 --dist loadfile
+
+# What is missing is said, and its tests are skipped; where CI is set that is a fault.
+define missing
+	@echo "SKIPPED: the page was not tested $(1): it needs $(2)"; test -z "$$CI"
+endef
+
+page-test: .venv/installed ## The page: types, units, and in Chromium beside the real server
+ifeq ($(shell command -v npm),)
+	$(call missing,at all,Node 20 or newer)
+else
+	$(PYTHON) packaging/backend.py
+	cd web && npm run --silent check && npm test --silent
+ifeq ($(CHROMIUM),)
+	$(call missing,in a browser,Chromium: apt-get install chromium, or make CHROMIUM=/path/to/it)
+else
+	cd web && CHROMIUM="$(CHROMIUM)" npm run --silent end
+endif
+endif
 
 bench: ## Speed of both simulators and the brain
 	cargo bench -p agent-economy-classic

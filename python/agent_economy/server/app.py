@@ -130,7 +130,7 @@ class Server:
             await Session(page, self.places, self.threads).run()
         finally:
             self.sessions -= 1
-        with contextlib.suppress(RuntimeError):
+        with contextlib.suppress(RuntimeError, WebSocketDisconnect):
             await socket.close()
 
 

@@ -1,0 +1,58 @@
+"""What is built to be installed: the page must be in it."""
+
+import os
+import shutil
+import subprocess
+import sys
+import tarfile
+import zipfile
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+
+needs_npm = pytest.mark.skipif(
+    shutil.which("npm") is None and "CI" not in os.environ, reason="the page is built by npm"
+)
+
+
+def built(kind: str, folder: Path) -> Path:
+    """Return what the build backend makes of this clone."""
+    code = f"import backend, sys; backend.build_{kind}(sys.argv[1])"
+    done = subprocess.run(
+        [sys.executable, "-c", code, str(folder)],
+        cwd=ROOT,
+        env=os.environ | {"PYTHONPATH": "packaging"},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr[-2000:]
+    (made,) = folder.iterdir()
+    return made
+
+
+def check_page(index: str, names: set[str], inside: str) -> None:
+    """See to it that all that the page begins with is there."""
+    wanted = [part.split('"')[0] for part in index.split('="./')[1:]]
+    assert any(name.endswith(".js") for name in wanted)
+    assert {f"{inside}/{name}" for name in wanted} <= names
+
+
+@needs_npm
+def test_a_wheel_carries_the_built_page(tmp_path: Path) -> None:
+    with zipfile.ZipFile(built("wheel", tmp_path)) as wheel:
+        index = wheel.read("agent_economy/web/index.html").decode()
+        check_page(index, set(wheel.namelist()), "agent_economy/web")
+
+
+@needs_npm
+def test_an_sdist_carries_the_built_page(tmp_path: Path) -> None:
+    with tarfile.open(built("sdist", tmp_path)) as sdist:
+        names = set(sdist.getnames())
+        root = min(names, key=len).split("/")[0]
+        inside = f"{root}/python/agent_economy/web"
+        index = sdist.extractfile(f"{inside}/index.html")
+        assert index is not None
+        check_page(index.read().decode(), names, inside)
