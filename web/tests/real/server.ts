@@ -45,7 +45,7 @@ export class Server {
     failed.catch(() => {});
     const first = createInterface(running.stdout)[Symbol.asyncIterator]().next();
     const { value } = await Promise.race([first, failed]);
-    return /http:\S+/.exec(value)?.[0].replace(/\/$/, "") ?? "";
+    return /http:\S+/.exec(value ?? "")?.[0].replace(/\/$/, "") ?? "";
   }
 }
 
