@@ -1,20 +1,10 @@
 import { defineConfig } from "@playwright/test";
+import { launchOptions } from "./dev/chromium.mjs";
 
 export default defineConfig({
   testDir: "tests",
   workers: 1,
   timeout: 30_000,
   reporter: [["list"]],
-  use: {
-    viewport: { width: 1280, height: 800 },
-    launchOptions: {
-      executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
-      args: [
-        "--no-sandbox",
-        "--use-angle=swiftshader",
-        "--enable-unsafe-swiftshader",
-        "--ignore-gpu-blocklist",
-      ],
-    },
-  },
+  use: { viewport: { width: 1280, height: 800 }, launchOptions },
 });

@@ -1,12 +1,12 @@
 import type { Page } from "@playwright/test";
-import { expect, type Server, test } from "./server";
+import { expect, type RealServer, test } from "./server";
 
 const status = (page: Page) => page.locator("#status");
 const hash = async (page: Page) =>
   (await page.getByTitle("Hash of the run's state").getAttribute("title")) ?? "";
 const time_s = async (page: Page) => Number.parseFloat((await status(page).textContent()) ?? "");
 
-async function open(page: Page, server: Server, query: string): Promise<void> {
+async function open(page: Page, server: RealServer, query: string): Promise<void> {
   await page.goto(`${server.url}/#/live?${query}`);
   await expect(status(page)).toContainText("robots");
 }

@@ -1,0 +1,26 @@
+/**
+ * What the page costs beside the real server, in Chromium without a graphics card. Needs the page built
+ * (`make web`) and `agent-economy` on the PATH; on Linux. Numbers as arguments: crowds of so many robots.
+ */
+import { chromium } from "@playwright/test";
+import { launchOptions } from "../chromium.mjs";
+import { RealServer } from "../real-server.mjs";
+import { measureChanges } from "./changes.mjs";
+import { measureCrowd } from "./crowd.mjs";
+import { measureLoad } from "./load.mjs";
+
+const given = process.argv.slice(2).map(Number);
+const server = new RealServer();
+await server.start();
+const browser = await chromium.launch(launchOptions);
+try {
+  if (given.length === 0) {
+    console.log(await measureLoad(browser, server));
+    console.log(await measureChanges(browser, server));
+  }
+  for (const robots of given.length > 0 ? given : [10_000, 50_000])
+    console.log(await measureCrowd(browser, server, robots));
+} finally {
+  await browser.close();
+  await server.end();
+}
