@@ -28,8 +28,8 @@ export class Drawing {
 
   constructor(private readonly canvases: Canvases) {
     const { robots, over } = canvases;
-    this.over = new Surface(over);
     this.painter = painterFor(robots);
+    this.over = new Surface(over, this.painter.isSoftware);
     this.recolour();
     robots.addEventListener("webglcontextlost", (event) => event.preventDefault());
     robots.addEventListener("webglcontextrestored", () => {

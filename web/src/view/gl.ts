@@ -13,6 +13,13 @@ export function programOf(gl: WebGL2RenderingContext, vertex: string, fragment: 
   return program;
 }
 
+/** Whether the processor does a graphics card's work, as far as the browser tells. */
+export function isSoftware(gl: WebGL2RenderingContext): boolean {
+  const told = gl.getExtension("WEBGL_debug_renderer_info");
+  const name = String(gl.getParameter(told ? told.UNMASKED_RENDERER_WEBGL : gl.RENDERER));
+  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
+}
+
 function shader(gl: WebGL2RenderingContext, type: number, source: string): WebGLShader {
   const made = gl.createShader(type);
   if (!made) throw new GlFault("no shader");

@@ -8,8 +8,8 @@ import { PainterGl } from "./painter_gl";
 
 /** Draws all robots of a frame. */
 export interface Painter {
-  /** How it draws: for people who ask why it is slow. */
-  readonly name: string;
+  /** Whether there is no graphics card: what is drawn on canvases is best kept in memory then. */
+  readonly isSoftware: boolean;
   setColours(colours: Colours): void;
   /** What is beneath the robots, and where in it the plain ground is. */
   setStill(still: CanvasRenderingContext2D, ground: Box): void;

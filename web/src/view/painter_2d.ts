@@ -6,7 +6,7 @@ import { leastRadius_px, type Painter } from "./painter";
 
 /** Robots by Canvas2D, where there is no WebGL2: the same shapes, some thousands of them. */
 export class Painter2d implements Painter {
-  readonly name = "Canvas2D";
+  readonly isSoftware = true;
   private readonly context: CanvasRenderingContext2D | null;
   private colours: Colours | null = null;
   private still: HTMLCanvasElement | null = null;

@@ -3,7 +3,7 @@ import type { Range } from "../run/robots";
 import { Backdrop, type Box } from "./backdrop";
 import type { Camera } from "./camera";
 import { type Colours, rgb, robotColours } from "./colours";
-import { programOf, QuadIndices, RobotTexture } from "./gl";
+import { isSoftware, programOf, QuadIndices, RobotTexture } from "./gl";
 import { leastRadius_px, type Painter } from "./painter";
 import { bodyVertex, flatFragment, markFragment, markVertex } from "./shaders";
 
@@ -20,7 +20,7 @@ interface Places {
  * floats go to the processor of the picture as they came. Those that are not clear get a mark more.
  */
 export class PainterGl implements Painter {
-  readonly name = "WebGL2";
+  readonly isSoftware: boolean;
   private readonly body: Places;
   private readonly marks: Places;
   private readonly texture: RobotTexture;
@@ -32,6 +32,7 @@ export class PainterGl implements Painter {
   private markCount = 0;
 
   constructor(private readonly gl: WebGL2RenderingContext) {
+    this.isSoftware = isSoftware(gl);
     this.body = this.places(bodyVertex, flatFragment);
     this.marks = this.places(markVertex, markFragment);
     this.texture = new RobotTexture(gl);

@@ -2,12 +2,12 @@
 export class Surface {
   readonly context: CanvasRenderingContext2D;
 
-  /** `isRead`: its pixels are asked for, so it need not be where the picture is put together. */
+  /** `inMemory`: its pixels need not be where the picture is put together. */
   constructor(
     readonly canvas: HTMLCanvasElement,
-    isRead = false,
+    inMemory = false,
   ) {
-    const context = canvas.getContext("2d", { willReadFrequently: isRead });
+    const context = canvas.getContext("2d", { willReadFrequently: inMemory });
     if (!context) throw new Error("This browser draws no pictures (no Canvas2D).");
     this.context = context;
   }
