@@ -90,6 +90,16 @@ def test_the_gallery_has_what_ships_and_what_is_in_the_folder(
     assert not {"other.toml", ".hidden/field.toml"} & rows.keys()
 
 
+def test_a_scenario_with_faults_is_in_the_gallery_and_tells_them_when_it_is_opened(
+    client: TestClient, page: Page, tmp_path: Path
+) -> None:
+    (tmp_path / "broken.toml").write_text('engine = "metric"\nsummary = "Mine."\n')
+    rows = {row["id"]: row for row in client.get("/api/scenarios").json()}
+    assert rows["broken.toml"]["summary"] == "Mine."
+    page.say("open", scenario="broken.toml")
+    assert "clock is missing" in page.until("refused")["faults"][0]["message"]
+
+
 @pytest.mark.parametrize("name", ["classic", "search", "open-field", "flock"])
 def test_each_scenario_has_a_picture(client: TestClient, name: str) -> None:
     told = client.get("/api/pictures", params={"scenario": name})

@@ -1,7 +1,10 @@
 """Where scenarios are: those that ship, and those in the folder in which the server was started."""
 
+import tomllib
+from collections import deque
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
@@ -9,9 +12,8 @@ from agent_economy import _core, given, shipped
 from agent_economy._core import InputError
 from agent_economy.scenario import MAX_BYTES, Scenario, Source, content
 
-DEEP = 4
-MOST_FILES = 200
-"""Of the folder's scenarios so many are listed, from so many folders below each other at most."""
+DEEP, MOST_FOLDERS, MOST_FILES = 4, 1000, 200
+"""So many of the folder's files are looked at, in so many folders, so many below each other."""
 
 OUTSIDE = "it is not below the folder in which the server was started"
 
@@ -23,25 +25,11 @@ class Places:
     folder: Path
 
     def listed(self) -> list[dict[str, Any]]:
-        """Return all scenarios that can be read, those that ship first."""
-        ships = ((name, "shipped") for name in shipped.scenarios())
-        mine = ((str(file.relative_to(self.folder)), "folder") for file in self._files())
-        rows = []
-        for name, where in (*ships, *mine):
-            try:
-                scenario = self.load(name)
-            except InputError:
-                continue
-            rows.append(
-                {
-                    "id": name,
-                    "name": scenario.name,
-                    "engine": scenario.engine,
-                    "summary": scenario.summary,
-                    "where": where,
-                }
-            )
-        return rows
+        """Return all that say that they are scenarios, those that ship first."""
+        ships = ((name, file, "shipped") for name, file in shipped.scenarios().items())
+        mine = ((str(file.relative_to(self.folder)), file, "folder") for file in self._files())
+        rows = (described(name, file, where) for name, file, where in (*ships, *mine))
+        return [row for row in rows if row]
 
     def load(self, name: str) -> Scenario:
         """Return a scenario by its id.
@@ -84,24 +72,49 @@ class Places:
             return False
 
     def _files(self) -> Iterator[Path]:
-        """Yield the folder's TOML files that may be scenarios."""
-        found = (file for file in sorted(tomls(self.folder, DEEP)) if self._has(file))
-        for number, file in enumerate(found):
-            if number == MOST_FILES:
-                return
-            yield file
+        """Yield the folder's TOML files."""
+        folders = islice(folders_of(self.folder, DEEP), MOST_FOLDERS)
+        files = (file for folder in folders for file in sorted(folder.glob("*.toml")))
+        yield from islice((file for file in files if self._has(file)), MOST_FILES)
 
 
-def tomls(folder: Path, deep: int) -> Iterator[Path]:
-    """Yield TOML files in and below a folder, but not in hidden ones or links."""
+def described(name: str, file: Path, where: str) -> dict[str, Any] | None:
+    """Return what the gallery tells of a scenario; what is wrong in it is told who opens it.
+
+    Returns:
+        None if the file does not say which engine it is for.
+    """
+    data = content(file, MAX_BYTES)
+    if isinstance(data, str):
+        return None
     try:
-        inside = sorted(folder.iterdir())
+        document = tomllib.loads(data.decode())
+    except ValueError:
+        return None
+    if not isinstance(document.get("engine"), str):
+        return None
+    told = {key: str(document.get(key, "")) for key in ("engine", "summary")}
+    return {"id": name, "name": file.stem, **told, "where": where}
+
+
+def folders_of(folder: Path, deep: int) -> Iterator[Path]:
+    """Yield a folder, and those in it, but not hidden ones and links; the nearest first."""
+    waiting = deque([(folder, deep)])
+    while waiting:
+        each, left = waiting.popleft()
+        yield each
+        if left:
+            waiting += [(inner, left - 1) for inner in inside(each)]
+
+
+def inside(folder: Path) -> list[Path]:
+    """Return the folders in one, but not hidden ones and links."""
+    try:
+        found = sorted(folder.iterdir())
     except OSError:
-        return
-    for each in inside:
-        if each.name.startswith(".") or each.is_symlink():
-            continue
-        if each.is_dir() and deep:
-            yield from tomls(each, deep - 1)
-        elif each.suffix == ".toml" and each.is_file():
-            yield each
+        return []
+    return [
+        each
+        for each in found
+        if not each.name.startswith(".") and not each.is_symlink() and each.is_dir()
+    ]
