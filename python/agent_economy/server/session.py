@@ -23,8 +23,8 @@ from agent_economy.server.pace import Pace
 from agent_economy.server.places import Places
 from agent_economy.server.timeline import Timeline
 
-FRAME_S, STATE_S = 1 / 30, 0.1
-"""Between two frames, and between two states, at least."""
+FRAME_S, STATE_S = 0.03, 0.1
+"""Between two frames, and between two states, at least: steps of a thirtieth each give a frame."""
 
 SLICE_S = 0.025
 """A run goes on for so long before the page is looked after again."""
@@ -129,7 +129,9 @@ class Session:
             return 0.0 if wants_frame else IDLE_S
         if self._aim is not None:
             return 0.0
-        return self._pace.wait_s(now_s, self._timeline.tick)
+        wait_s = self._pace.wait_s(now_s, self._timeline.tick)
+        is_due = self._is_new and len(self._on_the_way) < ON_THE_WAY
+        return min(wait_s, max(0.0, self._frame_at_s + FRAME_S - now_s)) if is_due else wait_s
 
     def _is_busy(self) -> bool:
         return self._pace.is_playing or self._aim is not None
