@@ -64,7 +64,7 @@ def in_words(file: Path, changes: tuple[Override, ...]) -> str:
     """
     scenario = Scenario.load(file, changes)
     plan = study.make_plan(scenario)
-    asked = design.in_words(scenario.design, plan.configurations)
+    asked = design.in_words(scenario.design, len(plan.configurations))
     return f"{file}: nothing is wrong: engine {scenario.engine}, {asked}"
 
 

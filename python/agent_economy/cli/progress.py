@@ -11,7 +11,7 @@ from rich.live import Live
 from rich.table import Table
 from rich.text import Text
 
-from agent_economy.study.race import OnProgress, Progress
+from agent_economy.study.progress import OnProgress, Progress
 
 PAUSE_S = 2.0
 """Between two plain lines in which nobody goes out."""

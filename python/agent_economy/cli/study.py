@@ -14,10 +14,10 @@ from agent_economy.cli.progress import Teller
 from agent_economy.cli.table import show
 from agent_economy.cli.told import INTERRUPTED, faults_told
 from agent_economy.scenario import Scenario
-from agent_economy.study import design as designs
 from agent_economy.study.answer.labels import label
 from agent_economy.study.engine import Engine
-from agent_economy.study.plan import Plan, is_same_data, tightened
+from agent_economy.study.plan import Plan, tightened
+from agent_economy.study.question import Question, usual_folder
 from agent_economy.study.rectangle import Compute
 
 Text = str | None
@@ -141,7 +141,7 @@ def study(  # noqa: PLR0913  (typer's options are arguments)
                 max_runs=max_runs,
             )
             folder = out or usual_folder(asked)
-        announce(asked)
+        typer.echo(str(Question.of(asked)), err=True)
         found = watched(asked, folder, workers, dask)
     show(found, folder, as_json=as_json)
 
@@ -169,25 +169,6 @@ def computing(engine: Engine, workers: int | None, dask: str | None) -> Iterator
             yield stack.enter_context(engine.on_dask(dask)).columns
         else:
             yield None
-
-
-def announce(asked: Plan) -> None:
-    """Say what is compared, and the difference worth finding."""
-    words = designs.in_words(asked.scenario.design, asked.configurations)
-    wanted = (
-        f"{asked.runs:,} runs of each"
-        if asked.runs is not None
-        else f"delta {asked.delta:g}, confidence {asked.confidence:g}, {asked.guarantee}"
-    )
-    typer.echo(f"{words}; {wanted}", err=True)
-
-
-def usual_folder(asked: Plan) -> Path:
-    """Return studies/NAME; where that holds other runs, the same with what tells these apart."""
-    folder = Path("studies") / asked.scenario.name
-    there = folder / "study.toml"
-    is_other = there.exists() and not is_same_data(there.read_text(errors="replace"), asked.text())
-    return folder.with_name(f"{folder.name}-{asked.identity[:8]}") if is_other else folder
 
 
 def one_executor(workers: int | None, dask: str | None) -> None:

@@ -12,6 +12,7 @@ from agent_economy.study import files
 from agent_economy.study.answer.conclude import Answer
 from agent_economy.study.answer.evidence import Interval
 from agent_economy.study.answer.results import Result
+from agent_economy.study.store.folder import REPORT
 
 WIDE = 118
 """Columns that a table with ranges needs, and that there are where the output is no terminal."""
@@ -38,7 +39,7 @@ def show(answer: Answer, folder: Path, *, as_json: bool) -> None:
         markup=False,
         emoji=False,
     )
-    typer.echo(f"Report: {folder / files.REPORT}")
+    typer.echo(f"Report: {folder / REPORT}")
 
 
 def results_table(answer: Answer, *, ranges: bool) -> Table:

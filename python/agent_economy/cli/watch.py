@@ -11,7 +11,7 @@ from agent_economy import study
 from agent_economy.cli.progress import Teller
 from agent_economy.cli.told import FAILED, INTERRUPTED, faults_told
 from agent_economy.study.answer.labels import label
-from agent_economy.study.race import Progress
+from agent_economy.study.progress import Progress
 
 PAUSE_S = 0.5
 """Between two looks at the ledger."""

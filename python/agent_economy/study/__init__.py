@@ -7,11 +7,11 @@ the procedure of `selection` asks, `store` looks up, `engine` or `workers` compu
 
 from agent_economy.study.answer.conclude import Answer
 from agent_economy.study.answer.results import Result
-from agent_economy.study.ask import plan_of, pursue, rebuild, resume, run
+from agent_economy.study.ask import look, plan_of, pursue, rebuild, resume, run
 from agent_economy.study.classical import Reference, reference
 from agent_economy.study.plan import Plan
 from agent_economy.study.plan import make as make_plan
-from agent_economy.study.race import Progress
+from agent_economy.study.progress import Progress
 from agent_economy.study.selection import Selection, select_best
 from agent_economy.study.store import read as open  # noqa: A004  (ae.study.open)
 from agent_economy.study.store.folder import is_worked_on
@@ -24,6 +24,7 @@ __all__ = [
     "Result",
     "Selection",
     "is_worked_on",
+    "look",
     "make_plan",
     "open",
     "plan_of",

@@ -15,7 +15,9 @@ from agent_economy.study.answer.evidence import Evidence
 from agent_economy.study.answer.labels import word
 from agent_economy.study.arguments import Guarantee
 from agent_economy.study.plan import Plan
-from agent_economy.study.race import OnProgress, hold
+from agent_economy.study.progress import OnProgress
+from agent_economy.study.race import hold
+from agent_economy.study.race import look as look_at
 from agent_economy.study.rectangle import Compute, Rectangle
 from agent_economy.study.report.page import ChartScript
 from agent_economy.study.store import read
@@ -52,7 +54,7 @@ def run(  # noqa: PLR0913  (keywords with defaults)
         seed: 0 to 2^64 - 1.
         out: Folder of the study, to go on with and to look at; None keeps nothing.
         compute: What computes rectangles, such as `Workers`; None for threads in this process.
-        on_progress: Called after each round.
+        on_progress: Called after each round, and each second of a long one.
 
     Raises:
         InputError: If anything is not allowed; or the folder holds another study, is damaged, or
@@ -103,6 +105,15 @@ def rebuild(folder: str | Path) -> Answer:
         InputError: If the folder holds no study, or one that is not finished.
     """
     return pursue(plan_of(folder), folder, compute=refuse(folder), anew=True)
+
+
+def look(folder: str | Path) -> tuple[Answer, Evidence]:
+    """Return the answer of a finished study and its runs; nothing is computed or written.
+
+    Raises:
+        InputError: If the folder holds no study, or one that is not finished.
+    """
+    return look_at(plan_of(folder), read(folder).stored(), refuse(folder))
 
 
 def pursue(

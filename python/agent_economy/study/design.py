@@ -38,14 +38,14 @@ def points(factors: Sequence[Factor], design: str = "factorial", seed: int = 0) 
     return [dict(zip(paths, row, strict=True)) for row in dict.fromkeys(rows)]
 
 
-def in_words(design: str, configurations: Sequence[Values]) -> str:
+def in_words(design: str, configurations: int) -> str:
     """Return how many configurations a design has, and how many of its points are left."""
-    left = f"{len(configurations):,} configuration{'' if len(configurations) == 1 else 's'}"
+    left = f"{configurations:,} configuration{'' if configurations == 1 else 's'}"
     if design == "factorial":
         return f"factorial: {left}"
     drawn = number_of_points(design)
     return f"{design}: {left}" + (
-        f" (of {drawn:,} points, the others fall on these)" if len(configurations) < drawn else ""
+        f" (of {drawn:,} points, the others fall on these)" if configurations < drawn else ""
     )
 
 

@@ -8,11 +8,8 @@ from typing import Any
 from agent_economy.study import report
 from agent_economy.study.answer.conclude import Answer
 from agent_economy.study.answer.evidence import Evidence
-from agent_economy.study.store.folder import read_bytes, write_whole
+from agent_economy.study.store.folder import ANSWER, REPORT, read_bytes, write_whole
 from agent_economy.study.versions import versions
-
-ANSWER = "answer.json"
-REPORT = "report.html"
 
 
 def write(folder: Path, answer: Answer, evidence: Evidence, script: report.ChartScript) -> None:

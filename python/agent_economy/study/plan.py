@@ -55,7 +55,6 @@ class Plan:
         max_runs: Of all together, after which it stops without a guarantee; None for no end.
         configurations: The values in which each differs from the scenario.
         engine: What runs them.
-        limits: Between which merits their runs lie; shape (configurations, 2).
     """
 
     scenario: Scenario
@@ -67,7 +66,6 @@ class Plan:
     max_runs: int | None
     configurations: tuple[Values, ...]
     engine: Engine
-    limits: Floats
 
     def text(self) -> str:
         """Return study.toml."""
@@ -92,6 +90,15 @@ class Plan:
         }
         document = {"format": FORMAT, "question": given(question), "data": given(data)}
         return HEADER + tomli_w.dumps(document, multiline_strings=True)
+
+    @cached_property
+    def limits(self) -> Floats:
+        """Between which merits the runs of each configuration lie; shape (configurations, 2).
+
+        Raises:
+            InputError: If a configuration is not allowed.
+        """
+        return self.engine.merit_limits()
 
     @property
     def files(self) -> dict[str, bytes]:
@@ -130,6 +137,40 @@ def make(  # noqa: PLR0913  (keywords with defaults)
     Raises:
         InputError: If anything is not allowed.
     """
+    plan = draft(
+        scenario,
+        seed=seed,
+        delta=delta,
+        confidence=confidence,
+        guarantee=guarantee,
+        runs=runs,
+        max_runs=max_runs,
+    )
+    limits = plan.limits
+    is_told = delta is not None or scenario.delta is not None
+    return plan if is_told else replace(plan, delta=usual_delta(limits))
+
+
+def usual_delta(limits: Floats) -> float:
+    """Return the delta of a study that is told none."""
+    return PART_OF_RANGE * float(limits[:, 1].max() - limits[:, 0].min()) or 1.0
+
+
+def draft(  # noqa: PLR0913  (as in make)
+    scenario: Scenario,
+    *,
+    seed: int,
+    delta: float | None,
+    confidence: float | None,
+    guarantee: Guarantee,
+    runs: int | None,
+    max_runs: int | None,
+) -> Plan:
+    """Return a plan of which it is not known yet that each configuration is allowed.
+
+    Raises:
+        InputError: If anything else is not.
+    """
     of_kind("scenario", scenario, Scenario, "a Scenario")
     sure = confidence if confidence is not None else scenario.confidence
     faults = question_faults(delta if delta is not None else 1.0, sure, guarantee)
@@ -140,21 +181,17 @@ def make(  # noqa: PLR0913  (keywords with defaults)
         raise InputError("\n".join(faults))
     configurations = tuple(design.points(scenario.factors, scenario.design, seed))
     check_max_runs(max_runs, runs, FIRST_LOOK * len(configurations))
-    engine = Engine(scenario, configurations, seed)
-    limits = engine.merit_limits()
-    span = float(limits[:, 1].max() - limits[:, 0].min())
     wanted = delta if delta is not None else scenario.delta
     return Plan(
         scenario=scenario,
         seed=int(seed),
-        delta=float(wanted) if wanted is not None else PART_OF_RANGE * span or 1.0,
+        delta=float(wanted if wanted is not None else 1.0),
         confidence=float(sure),
         guarantee=guarantee,
         runs=None if runs is None else int(runs),
         max_runs=None if max_runs is None else int(max_runs),
         configurations=configurations,
-        engine=engine,
-        limits=limits,
+        engine=Engine(scenario, configurations, seed),
     )
 
 
@@ -227,13 +264,13 @@ def read(text: str, file: str, content: Callable[[str], bytes]) -> Plan:
 
 
 def of_document(document: Mapping[str, Any], content: Callable[[str], bytes]) -> Plan:
-    """Return the plan of a parsed study.toml."""
+    """Return the plan of a parsed study.toml: that its configurations are allowed was seen to."""
     data, question = document["data"], document["question"]
     overrides = tuple(
         Override(tuple(each["path"]), each["value"], "study.toml") for each in data["changes"]
     )
     files = {name: content(known) for name, known in data.get("files", {}).items()}
-    return make(
+    return draft(
         Scenario.of(Source(data["name"], data["scenario"], overrides, files)),
         seed=int(data["seed"]),
         delta=question["delta"],

@@ -6,10 +6,8 @@ that was not, and asking again for what is known computes nothing.
 """
 
 import time
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -20,10 +18,12 @@ from agent_economy.study.answer.effort import remaining
 from agent_economy.study.answer.evidence import Evidence, Sample
 from agent_economy.study.answer.results import Ending
 from agent_economy.study.arguments import Floats
+from agent_economy.study.pieces import in_pieces
 from agent_economy.study.plan import Plan, digest, is_same_data
-from agent_economy.study.rectangle import Columns, Compute, Rectangle
+from agent_economy.study.progress import Leader, OnProgress, Progress, Ranged
+from agent_economy.study.rectangle import Compute, Rectangle
 from agent_economy.study.selection import Elimination, Integers, drive, in_words, within
-from agent_economy.study.store import Store
+from agent_economy.study.store import Store, Stored
 
 KEPT = ("time_s", "failed", "robots")
 """Columns that an answer is made of, besides the merit."""
@@ -31,74 +31,11 @@ KEPT = ("time_s", "failed", "robots")
 LEADERS = 10
 """Configurations that watchers see."""
 
-PIECE_ROWS = 20_000
-"""Runs between two reports of progress while a block is computed in this process."""
+RANGED = 50
+"""Configurations of which watchers can have the range of the merit."""
 
-
-@dataclass(frozen=True)
-class Leader:
-    """One of the best so far."""
-
-    configuration: int
-    runs: int
-    merit: float
-
-
-@dataclass(frozen=True)
-class Progress:
-    """How far a study is.
-
-    Attributes:
-        round: Rounds over.
-        runs: Runs of all configurations, the stored ones included.
-        computed: Those of them that this process had to compute.
-        seconds: Since it began.
-        survivors: Configurations still in.
-        leaders: The best of them so far.
-        eliminated: Those put out in this round, and by whom.
-        is_over: Whether it was the last round.
-        foretell: Returns about how many runs are left; None if nobody can say. It takes a moment.
-    """
-
-    round: int
-    runs: int
-    computed: int
-    seconds: float
-    survivors: int
-    leaders: tuple[Leader, ...]
-    eliminated: tuple[Elimination, ...]
-    is_over: bool
-    foretell: Callable[[], float | None]
-
-    def facts(self) -> dict[str, Any]:
-        """Return what the ledger keeps of the round: what follows from the data alone."""
-        return {
-            "runs": self.runs,
-            "survivors": self.survivors,
-            "leaders": [[each.configuration, each.runs, each.merit] for each in self.leaders],
-            "eliminated": [[each.configuration, each.by, each.runs] for each in self.eliminated],
-            "is_over": self.is_over,
-        }
-
-    @classmethod
-    def of_facts(
-        cls, number: int, facts: Mapping[str, Any], computed: int, seconds: float
-    ) -> "Progress":
-        """Return a round as the ledger keeps it; nobody can say how many runs are left."""
-        return cls(
-            round=number + 1,
-            runs=facts["runs"],
-            computed=computed,
-            seconds=seconds,
-            survivors=facts["survivors"],
-            leaders=tuple(Leader(*each) for each in facts["leaders"]),
-            eliminated=tuple(Elimination(*each) for each in facts["eliminated"]),
-            is_over=facts["is_over"],
-            foretell=lambda: None,
-        )
-
-
-OnProgress = Callable[[Progress], None]
+ROUND_S = 1.0
+"""A round that takes longer is reported on while it goes on, this often."""
 
 
 def hold(
@@ -115,7 +52,8 @@ def hold(
             guarantee than the folder's) takes the folder over and uses its runs.
         folder: Of the study; made if it is not there.
         compute: What computes rectangles: the plan's engine in this process if None.
-        on_progress: Called after each round.
+        on_progress: Called after each round, and each second of a long one that this process
+            computes.
         finish: Called with what is found, before another process may work on the folder.
 
     Raises:
@@ -128,7 +66,7 @@ def hold(
     with Store.open(
         folder, plan.text(), columns, content=content, may_replace=is_same_data
     ) as store:
-        race = Race(plan, store, compute or in_pieces(plan.engine), on_progress)
+        race = Race(plan, store, compute, on_progress)
         evidence, ending = race.run()
         answer = conclude(plan, evidence, ending)
         if finish:
@@ -136,33 +74,30 @@ def hold(
     return answer, evidence
 
 
-def in_pieces(compute: Compute) -> Compute:
-    """Return what computes a rectangle a piece at a time, so that Ctrl-C is heard between two."""
-
-    def pieces(rectangle: Rectangle) -> Columns:
-        runs = max(1, PIECE_ROWS // len(rectangle.configurations))
-        firsts = range(rectangle.first_run, rectangle.end, runs)
-        parts = [
-            compute(Rectangle(rectangle.configurations, first, min(runs, rectangle.end - first)))
-            for first in firsts
-        ]
-        return {name: np.concatenate([part[name] for part in parts], axis=1) for name in parts[0]}
-
-    return pieces
+def look(plan: Plan, store: Stored, compute: Compute) -> tuple[Answer, Evidence]:
+    """Return what stored runs say; nothing is written."""
+    evidence, ending = Race(plan, store, compute, None).run()
+    return conclude(plan, evidence, ending), evidence
 
 
 class Race:
     """A race over a store: what it asks for is looked up or computed, scored, kept and told."""
 
     def __init__(
-        self, plan: Plan, store: Store, compute: Compute, on_progress: OnProgress | None
+        self,
+        plan: Plan,
+        store: Store | Stored,
+        compute: Compute | None,
+        on_progress: OnProgress | None,
     ) -> None:
         """Begin with no runs."""
         self._plan = plan
         self._store = store
-        self._compute = compute
+        self._compute = compute or in_pieces(plan.engine, self._on_piece)
         self._on_progress = on_progress
-        self._begin = time.monotonic()
+        self._begin = self._told_at = time.monotonic()
+        self._procedure = procedure_of(plan)
+        self._rounds = self._computed = self._under_way = 0
         self._gone: set[int] = set()
         count = len(plan.configurations)
         self._limits = [plan.engine.limits(index) for index in range(count)]
@@ -174,49 +109,32 @@ class Race:
 
     def run(self) -> tuple[Evidence, Ending]:
         """Run it to its end."""
-        procedure = self._procedure()
+        procedure = self._procedure
         for number, _ in enumerate(drive(procedure, self._ask, self._plan.max_runs)):
-            progress = self._progress(number, procedure)
+            self._rounds = number + 1
+            self._computed, self._under_way = self._store.computed, 0
+            progress = self._progress()
             self._store.note(number, progress.facts())
-            if self._on_progress:
-                self._on_progress(progress)
+            self._tell(progress)
         eliminations = tuple(Elimination(*each) for each in procedure.eliminations)
         is_over = self._plan.runs is None and procedure.next() is None
-        guarantee = self._guarantee(procedure)
+        guarantee = guarantee_of(self._plan, procedure)
         return self.evidence(), Ending(procedure.best, eliminations, guarantee, is_over)
+
+    def _tell(self, progress: Progress) -> None:
+        if self._on_progress:
+            self._told_at = time.monotonic()
+            self._on_progress(progress)
+
+    def _on_piece(self, rows: int) -> None:
+        self._under_way = self._store.computed - self._computed + rows
+        if time.monotonic() - self._told_at > ROUND_S:
+            self._tell(self._progress())
 
     def evidence(self) -> Evidence:
         """Return the runs so far."""
         samples = [self._sample(index) for index in range(len(self._columns))]
         return Evidence(tuple(samples), self._plan.confidence)
-
-    def _procedure(self) -> _core.Procedure:
-        plan = self._plan
-        if plan.runs is None:
-            return _core.selection(
-                plan.limits,
-                delta=plan.delta,
-                confidence=plan.confidence,
-                guarantee=plan.guarantee,
-            )
-        return _core.reference(
-            "equal",
-            len(plan.configurations),
-            delta=plan.delta,
-            confidence=plan.confidence,
-            runs=plan.runs,
-        )
-
-    def _guarantee(self, procedure: _core.Procedure) -> str:
-        plan = self._plan
-        if len(plan.configurations) == 1:
-            return "One configuration has nothing to be compared with; the intervals hold."
-        if plan.runs is None:
-            return in_words(procedure, plan.delta, plan.confidence, plan.guarantee)
-        return (
-            "No error rate is promised for the choice itself, because the number of runs was fixed "
-            "beforehand; the intervals hold."
-        )
 
     def _ask(self, configurations: Integers, first_run: int, runs: int) -> Floats:
         rectangle = Rectangle(tuple(configurations.tolist()), first_run, runs)
@@ -247,42 +165,88 @@ class Race:
             quarantined=int(self._quarantined[index]),
         )
 
-    def _progress(self, number: int, procedure: _core.Procedure) -> Progress:
+    def _progress(self) -> Progress:
+        procedure = self._procedure
         runs = procedure.runs
         survivors = procedure.survivors
-        means = self._sums[survivors] / np.maximum(runs[survivors], 1)
-        best = survivors[np.argsort(-means, kind="stable")][:LEADERS]
+        best = self._best()
         eliminated = tuple(Elimination(*each) for each in procedure.eliminations)
         fresh = tuple(each for each in eliminated if each.configuration not in self._gone)
         self._gone = {each.configuration for each in eliminated}
         return Progress(
-            round=number + 1,
-            runs=int(runs.sum()),
-            computed=self._store.computed,
+            round=self._rounds,
+            runs=int(runs.sum()) + self._under_way,
+            computed=self._computed + self._under_way,
             seconds=time.monotonic() - self._begin,
             survivors=len(survivors),
-            leaders=tuple(
-                Leader(int(each), int(runs[each]), float(self._sums[each] / runs[each]))
-                for each in best
-            ),
+            leaders=best[:LEADERS],
             eliminated=fresh,
-            is_over=self._is_over(procedure),
-            foretell=lambda: self._foretell(procedure),
+            is_over=self._is_over(),
+            foretell=self._foretell,
+            ranged=lambda: self._ranged(best[:RANGED]),
         )
 
-    def _is_over(self, procedure: _core.Procedure) -> bool:
+    def _best(self) -> tuple[Leader, ...]:
+        """Return the survivors that have runs, the best first."""
+        runs, survivors = self._procedure.runs, self._procedure.survivors
+        begun = survivors[runs[survivors] > 0]
+        means = self._sums[begun] / runs[begun]
+        order = np.argsort(-means, kind="stable")
+        rows = zip(begun[order], runs[begun[order]], means[order], strict=True)
+        return tuple(Leader(int(each), int(count), float(mean)) for each, count, mean in rows)
+
+    def _ranged(self, leaders: tuple[Leader, ...]) -> tuple[Ranged, ...]:
+        evidence = self.evidence()
+        return tuple((each, evidence.interval(each.configuration, "merit")) for each in leaders)
+
+    def _is_over(self) -> bool:
         """Return whether it has selected, or must stop before its next round."""
+        procedure = self._procedure
         asked, max_runs = procedure.next(), self._plan.max_runs
         if asked is None or max_runs is None:
             return asked is None
         configurations, _, runs = asked
         return bool(procedure.runs.sum() + len(configurations) * runs > max_runs)
 
-    def _foretell(self, procedure: _core.Procedure) -> float | None:
-        plan = self._plan
+    def _foretell(self) -> float | None:
+        plan, procedure = self._plan, self._procedure
         if plan.runs is not None:
-            return float(plan.runs * len(plan.configurations) - procedure.runs.sum())
-        survivors = procedure.survivors.tolist()
-        evidence = Evidence(tuple(map(self._sample, survivors)), plan.confidence)
-        rivals = len(plan.configurations) - 1
-        return remaining(evidence, survivors.index(procedure.best), plan.delta, rivals)
+            left = float(plan.runs * len(plan.configurations) - procedure.runs.sum())
+        elif self._rounds:
+            survivors = procedure.survivors.tolist()
+            evidence = Evidence(tuple(map(self._sample, survivors)), plan.confidence)
+            rivals = len(plan.configurations) - 1
+            left = remaining(evidence, survivors.index(procedure.best), plan.delta, rivals)
+        else:
+            return None
+        return max(0.0, left - self._under_way)
+
+
+def procedure_of(plan: Plan) -> _core.Procedure:
+    """Return what says which runs a study needs next."""
+    if plan.runs is None:
+        return _core.selection(
+            plan.limits,
+            delta=plan.delta,
+            confidence=plan.confidence,
+            guarantee=plan.guarantee,
+        )
+    return _core.reference(
+        "equal",
+        len(plan.configurations),
+        delta=plan.delta,
+        confidence=plan.confidence,
+        runs=plan.runs,
+    )
+
+
+def guarantee_of(plan: Plan, procedure: _core.Procedure) -> str:
+    """Return what is guaranteed of an answer, in words."""
+    if len(plan.configurations) == 1:
+        return "One configuration has nothing to be compared with; the intervals hold."
+    if plan.runs is None:
+        return in_words(procedure, plan.delta, plan.confidence, plan.guarantee)
+    return (
+        "No error rate is promised for the choice itself, because the number of runs was fixed "
+        "beforehand; the intervals hold."
+    )

@@ -4,6 +4,20 @@
 `sections` put both in the page's order; `page` fills the template.
 """
 
-from agent_economy.study.report.page import ChartScript, html
+from agent_economy.study.report.charts import specifications
+from agent_economy.study.report.page import ChartScript, facts, html, quarantined
+from agent_economy.study.report.sections import Section, sections
+from agent_economy.study.report.tables import Table
+from agent_economy.study.report.view import View
 
-__all__ = ["ChartScript", "html"]
+__all__ = [
+    "ChartScript",
+    "Section",
+    "Table",
+    "View",
+    "facts",
+    "html",
+    "quarantined",
+    "sections",
+    "specifications",
+]

@@ -110,9 +110,14 @@ def by_name(rows: Rows) -> Spec:
     return field("label", "nominal", title=None, sort=names, axis=axis)
 
 
+def row_of(view: View, index: int) -> dict[str, Any]:
+    """Return a configuration's number and what it is called, as all rows that stand for one."""
+    return {"label": view.names[index], "configuration": index}
+
+
 def place_of(view: View, index: int) -> dict[str, Any]:
-    """Return what a configuration is called, and where it stands on the axis."""
-    row: dict[str, Any] = {"label": view.names[index]}
+    """Return which configuration a row is of, and where that stands on the axis."""
+    row = row_of(view, index)
     if view.numeric_factor:
         row["at"] = finite(float(view.result(index).values[view.numeric_factor]))
     return row

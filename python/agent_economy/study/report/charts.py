@@ -33,6 +33,7 @@ from agent_economy.study.report.chart_parts import (
     intervals,
     line_at,
     place_of,
+    row_of,
     with_bounds,
 )
 from agent_economy.study.report.view import View
@@ -150,7 +151,7 @@ def front_row(view: View, index: int) -> dict[str, Any]:
     """Return a configuration's price, time and failures."""
     result = view.result(index)
     return {
-        "label": view.names[index],
+        **row_of(view, index),
         **bounds(result.time_s),
         "price": finite(result.place.price),
         "failed": finite(result.failed.value),
@@ -169,7 +170,7 @@ def place_on_front(view: View, index: int) -> str:
 def runs(view: View) -> Spec:
     """Return the runs that each configuration took."""
     rows: Rows = [
-        {"label": view.names[index], "runs": view.result(index).runs, "state": state(view, index)}
+        {**row_of(view, index), "runs": view.result(index).runs, "state": state(view, index)}
         for index in view.by_runs
     ]
     base = {"y": by_name(rows), "x": field("runs", title="runs")}

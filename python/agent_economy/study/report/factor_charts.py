@@ -1,5 +1,8 @@
 """Charts of what factors do: a map of two, gains of larger teams, sensitivity; and of others."""
 
+from typing import Any
+
+from agent_economy.study.answer.evidence import Interval
 from agent_economy.study.answer.labels import robot_kind
 from agent_economy.study.answer.saturation import Saturation
 from agent_economy.study.report.chart_parts import (
@@ -15,6 +18,7 @@ from agent_economy.study.report.chart_parts import (
     fixed,
     heights,
     line_at,
+    row_of,
     with_bounds,
 )
 from agent_economy.study.report.view import View, factor_name
@@ -50,7 +54,7 @@ def heat(view: View) -> Spec:
     across, down = view.varied
     rows: Rows = [
         {
-            "label": view.names[index],
+            **row_of(view, index),
             "across": result.values[across],
             "down": result.values[down],
             "value": finite(result.merit.value),
@@ -130,20 +134,14 @@ def published(view: View, path: str) -> Spec:
     """Return our figures of merit beside those of others, by team size."""
     scenario = view.answer.scenario
     theirs = scenario.published.source if scenario.published else ""
-    ours = {int(view.result(index).values[path]): view.result(index).merit for index in view.shown}
-    others = {each.robots: each.merit for each in view.answer.published}
     rows: Rows = [
         {
-            "label": f"{source}, {size}",
-            "at": size,
-            "source": source,
-            "value": finite(interval.value),
-            "low": finite(interval.low),
-            "high": finite(interval.high),
+            **published_row(OURS, int(view.result(index).values[path]), view.result(index).merit),
+            "configuration": index,
         }
-        for source, found in ((OURS, ours), (theirs, others))
-        for size, interval in found.items()
+        for index in view.shown
     ]
+    rows += [published_row(theirs, each.robots, each.merit) for each in view.answer.published]
     looks = coded("source", {OURS: (BLUE, "circle"), theirs: (ORANGE, "diamond")}, rows)
     place = {
         "x": field("at", "ordinal", title=factor_name(path), axis={"labelAngle": 0}),
@@ -151,3 +149,15 @@ def published(view: View, path: str) -> Spec:
     }
     title = {"title": "figure of merit (higher is better)", "scale": {"zero": False}}
     return chart(with_bounds("y", title, place, looks), rows)
+
+
+def published_row(source: str, size: int, merit: Interval) -> dict[str, Any]:
+    """Return the figure of merit of a team, as somebody found it."""
+    return {
+        "label": f"{source}, {size}",
+        "at": size,
+        "source": source,
+        "value": finite(merit.value),
+        "low": finite(merit.low),
+        "high": finite(merit.high),
+    }

@@ -25,10 +25,14 @@ class Cell:
 
 @dataclass(frozen=True)
 class Row:
-    """A row; its first cell heads it. `look` is how it stands out."""
+    """A row; its first cell heads it.
+
+    `look` is how it stands out, `configuration` the number of the one that it is of, if of one.
+    """
 
     cells: tuple[Cell, ...]
     look: str = ""
+    configuration: int | None = None
 
 
 @dataclass(frozen=True)
@@ -60,7 +64,7 @@ def shares(interval: Interval, decimals: int) -> Cell:
 def row(view: View, index: int, cells: Iterable[Cell]) -> Row:
     """Return a configuration's row."""
     look = "best" if index == view.answer.best else view.result(index).standing.verdict
-    return Row((words(view.names[index]), *cells), look)
+    return Row((words(view.names[index]), *cells), look, index)
 
 
 def merit(view: View) -> Table:

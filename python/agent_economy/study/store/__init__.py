@@ -10,7 +10,7 @@ on. A study goes on by asking again from its beginning: what is stored is read.
 from agent_economy.study.rectangle import Columns, Compute, Rectangle
 from agent_economy.study.store.columns import Column
 from agent_economy.study.store.ledger import Block, Decision
-from agent_economy.study.store.reading import ReadStore, read
+from agent_economy.study.store.reading import ReadStore, Stored, read
 from agent_economy.study.store.writing import Store
 
 __all__ = [
@@ -22,5 +22,6 @@ __all__ = [
     "ReadStore",
     "Rectangle",
     "Store",
+    "Stored",
     "read",
 ]

@@ -19,6 +19,8 @@ BLOCKS = "blocks"
 FILES = "files"
 LEDGER = "ledger.sqlite"
 LOCK = ".lock"
+ANSWER = "answer.json"
+REPORT = "report.html"
 UNFINISHED = ".unfinished-"
 """What the names of files begin with until they are whole."""
 
@@ -192,6 +194,10 @@ def settle(
     if there == asked.encode():
         return
     if there is None or may_replace(there.decode(errors="replace"), asked):
+        # An answer that is there is to what study.toml asks, whenever this is killed.
+        with told(folder):
+            for name in (ANSWER, REPORT):
+                (folder / name).unlink(missing_ok=True)
         write_whole(path, asked.encode())
     else:
         message = (

@@ -3,15 +3,17 @@
 import hashlib
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from agent_economy import given
 from agent_economy._core import InputError
 from agent_economy.study.errors import StoreError
+from agent_economy.study.rectangle import Columns, Compute, Rectangle
 from agent_economy.study.store import folder as files
 from agent_economy.study.store.columns import Column
+from agent_economy.study.store.coverage import Coverage, cut
 from agent_economy.study.store.ledger import Block, Decision, snapshot
-from agent_economy.study.store.writing import check_there
+from agent_economy.study.store.writing import Gathered, check_there, read_block
 
 if TYPE_CHECKING:
     from duckdb import DuckDBPyRelation
@@ -54,6 +56,11 @@ class ReadStore:
             raise StoreError(message)
         return data
 
+    def stored(self) -> "Stored":
+        """Return what is stored now, to look rectangles up in."""
+        columns, blocks, _ = snapshot(self.folder / files.LEDGER)
+        return Stored(self.folder, columns, Coverage(self.folder, blocks))
+
     def runs(self) -> "DuckDBPyRelation":
         """Return the runs so far, a row each, to ask in SQL.
 
@@ -74,6 +81,43 @@ class ReadStore:
         paths = [str(self.folder / files.BLOCKS / block.name) for block in blocks]
         marked = connection.read_parquet(paths)
         return marked.project("* REPLACE (quarantined <> 0 AS quarantined)")
+
+
+@dataclass
+class Stored:
+    """The runs that a study had at some moment, as `Store` gives them; none is kept.
+
+    Attributes:
+        folder: Where.
+        columns: Of every run.
+        coverage: Which runs there are.
+        computed: Runs that had to be computed.
+    """
+
+    folder: Path
+    columns: tuple[Column, ...]
+    coverage: Coverage
+    computed: int = 0
+
+    def block(self, rectangle: Rectangle, compute: Compute) -> Columns:
+        """Return the outcomes of a rectangle, as `Store.block` does.
+
+        Raises:
+            StoreError: If a block is missing or damaged; or for what `compute` raises.
+        """
+        gathered = Gathered(rectangle, self.columns)
+        for part in cut(rectangle):
+            missing = self.coverage.missing(part)
+            if missing:
+                gathered.put(missing, compute(missing))
+                self.computed += missing.rows
+            for block, configurations in self.coverage.blocks(part):
+                data = read_block(self.folder, block, self.columns)
+                gathered.put(block.rectangle, data, configurations)
+        return gathered.columns
+
+    def note(self, round: int, facts: dict[str, Any]) -> None:  # noqa: A002  (as Store's)
+        """Write nothing down."""
 
 
 def empty(columns: tuple[Column, ...]) -> str:

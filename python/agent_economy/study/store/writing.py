@@ -129,7 +129,8 @@ class Store:
             if missing:
                 gathered.put(missing, self._keep(missing, compute(missing)))
             for block, configurations in stored:
-                gathered.put(block.rectangle, self._read(block), configurations)
+                data = read_block(self.folder, block, self.columns)
+                gathered.put(block.rectangle, data, configurations)
         return gathered.columns
 
     def note(self, round: int, facts: dict[str, Any]) -> None:  # noqa: A002  (the project's word)
@@ -163,19 +164,6 @@ class Store:
         self.computed += rectangle.rows
         return parquet.as_read(self.columns, data)
 
-    def _read(self, block: Block) -> Columns:
-        path = self.folder / files.BLOCKS / block.name
-        data = files.read_bytes(path)
-        if data is None:
-            check_there(self.folder, [block])
-        if data is None or hashlib.sha256(data).hexdigest() != block.sha256:
-            raise StoreError(damaged(path))
-        try:
-            return parquet.decode(data, block.rectangle, self.columns)
-        except pa.ArrowException as error:
-            message = f"{path}: cannot be read ({error})"
-            raise StoreError(message) from error
-
 
 class Gathered:
     """Outcomes of a rectangle, put together from blocks."""
@@ -197,6 +185,25 @@ class Gathered:
         first = area.first_run - self._rectangle.first_run
         for name, values in data.items():
             self.columns[name][target, first : first + area.runs] = values[source]
+
+
+def read_block(folder: Path, block: Block, columns: tuple[Column, ...]) -> Columns:
+    """Return the outcomes that a study's block holds.
+
+    Raises:
+        StoreError: If its file is missing or damaged.
+    """
+    path = folder / files.BLOCKS / block.name
+    data = files.read_bytes(path)
+    if data is None:
+        check_there(folder, [block])
+    if data is None or hashlib.sha256(data).hexdigest() != block.sha256:
+        raise StoreError(damaged(path))
+    try:
+        return parquet.decode(data, block.rectangle, columns)
+    except pa.ArrowException as error:
+        message = f"{path}: cannot be read ({error})"
+        raise StoreError(message) from error
 
 
 def span(places: list[int]) -> slice | list[int]:
