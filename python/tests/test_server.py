@@ -14,7 +14,8 @@ from starlette.websockets import WebSocketDisconnect
 
 import agent_economy as ae
 from agent_economy.server import Places, app
-from agent_economy.server.app import MOST_BYTES, MOST_SESSIONS
+from agent_economy.server.app import MOST_SESSIONS
+from agent_economy.server.bodies import MOST_BYTES
 from agent_economy.server.session import ON_THE_WAY
 
 HEADER = struct.Struct("<4Id2I")

@@ -12,7 +12,7 @@ import uvicorn
 
 from agent_economy.cli.told import BAD_INPUT, faults_told
 from agent_economy.server import Places, app
-from agent_economy.server.app import MOST_BYTES
+from agent_economy.server.bodies import MOST_BYTES
 from agent_economy.server.guard import is_loopback
 
 

@@ -2,13 +2,11 @@
 
 import asyncio
 import contextlib
-import json
 from collections.abc import AsyncIterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from importlib.resources import files
 from pathlib import Path
-from typing import Any
 
 from starlette.applications import Starlette
 from starlette.requests import Request
@@ -16,17 +14,19 @@ from starlette.responses import FileResponse, HTMLResponse, JSONResponse, Respon
 from starlette.routing import Mount, Route, WebSocketRoute
 from starlette.staticfiles import StaticFiles
 from starlette.types import ASGIApp
-from starlette.websockets import WebSocket, WebSocketDisconnect
+from starlette.websockets import WebSocket
 
 from agent_economy._core import InputError
+from agent_economy.server.bodies import BodyError, refused, text
 from agent_economy.server.guard import Guard
 from agent_economy.server.messages import faults_of
 from agent_economy.server.pictures import picture
 from agent_economy.server.places import Places
 from agent_economy.server.session import GoneError, Session
-
-MOST_BYTES = 1_000_000
-"""What a page sends has no more."""
+from agent_economy.server.sockets import Socket
+from agent_economy.server.studies.keeper import Studies
+from agent_economy.server.studies.routes import Routes
+from agent_economy.server.studies.watched import watch
 
 MOST_SESSIONS = 16
 """Runs at a time; each has a thread of its own, so that none waits for another's."""
@@ -43,7 +43,8 @@ def app(places: Places, host: str, token: str | None = None) -> ASGIApp:
         host: The name or address that is bound.
         token: What pages on other machines must show; None if only this machine can reach it.
     """
-    return Guard(Server(places, Path(str(files("agent_economy") / "web"))).routed(), host, token)
+    web = Path(str(files("agent_economy") / "web"))
+    return Guard(Server(places, web, Studies(places)).routed(), host, token)
 
 
 @dataclass
@@ -52,6 +53,7 @@ class Server:
 
     places: Places
     web: Path
+    studies: Studies
     sessions: int = 0
 
     def routed(self) -> Starlette:
@@ -62,6 +64,7 @@ class Server:
             Route("/api/pictures", self.pictures),
             Route("/api/schema", self.schema),
             Route("/api/check", self.check, methods=["POST"]),
+            *Routes(self.studies, self.places).all(),
             WebSocketRoute("/ws", self.speak),
         ]
         if self.web.is_dir():
@@ -70,9 +73,12 @@ class Server:
 
     @contextlib.asynccontextmanager
     async def lifespan(self, _: Starlette) -> AsyncIterator[None]:
-        """Have threads for as many runs as there may be."""
+        """Have threads for as many runs as there may be; end studies with the server."""
         with ThreadPoolExecutor(MOST_SESSIONS, "run") as self.threads:
-            yield
+            try:
+                yield
+            finally:
+                await asyncio.to_thread(self.studies.close)
 
     async def page(self, _: Request) -> Response:
         """Return the page."""
@@ -91,7 +97,7 @@ class Server:
         try:
             svg = await asyncio.to_thread(lambda: picture(self.places.load(name)))
         except InputError as error:
-            return JSONResponse({"faults": faults_of(error)}, 404)
+            return refused(faults_of(error), 404)
         return Response(svg, media_type="image/svg+xml")
 
     async def schema(self, _: Request) -> Response:
@@ -101,17 +107,13 @@ class Server:
 
     async def check(self, request: Request) -> Response:
         """Say what is wrong with a scenario."""
-        data = bytearray()
-        async for part in request.stream():
-            data += part
-            if len(data) > MOST_BYTES:
-                return JSONResponse({"faults": [too_big()]}, 413)
         try:
-            scenario = await asyncio.to_thread(lambda: self.places.read(data.decode()))
-        except UnicodeDecodeError:
-            return JSONResponse({"faults": [no_text()]}, 422)
+            given = await text(request)
+            scenario = await asyncio.to_thread(lambda: self.places.read(given))
+        except BodyError as error:
+            return error.response
         except InputError as error:
-            return JSONResponse({"faults": faults_of(error)}, 422)
+            return refused(faults_of(error))
         about = {"name": scenario.name, "engine": scenario.engine, "summary": scenario.summary}
         return JSONResponse(about)
 
@@ -119,64 +121,20 @@ class Server:
         """Serve a page."""
         await socket.accept()
         page = Socket(socket)
+        name = socket.query_params.get("study")
+        if name is not None:
+            await watch(page, self.studies, name)
+            await page.close()
+            return
         if self.sessions >= MOST_SESSIONS:
             message = f"This server has {MOST_SESSIONS} runs open, which is all it may. Close one."
             with contextlib.suppress(GoneError):
                 await page.tell({"type": "ended", "why": "full", "message": message})
-                await socket.close(1013)
+            await page.close(1013)
             return
         self.sessions += 1
         try:
             await Session(page, self.places, self.threads).run()
         finally:
             self.sessions -= 1
-        with contextlib.suppress(RuntimeError, WebSocketDisconnect):
-            await socket.close()
-
-
-@dataclass(frozen=True)
-class Socket:
-    """A page at the other end of a WebSocket."""
-
-    socket: WebSocket
-
-    async def receive(self) -> str:
-        """Return what the page says next."""
-        try:
-            return await self.socket.receive_text()
-        except (WebSocketDisconnect, RuntimeError, KeyError):
-            raise GoneError from None
-
-    async def tell(self, said: dict[str, Any]) -> None:
-        """Tell the page something."""
-        with ended_if_gone():
-            await self.socket.send_text(json.dumps(said, allow_nan=False))
-
-    async def show(self, frame: bytes) -> None:
-        """Send a frame."""
-        with ended_if_gone():
-            await self.socket.send_bytes(frame)
-
-
-@contextlib.contextmanager
-def ended_if_gone() -> Any:
-    """Say so if the page has gone."""
-    try:
-        yield
-    except (WebSocketDisconnect, RuntimeError):
-        raise GoneError from None
-
-
-def too_big() -> dict[str, Any]:
-    """Return what is wrong with a text that is too long."""
-    return fault(f"The file has more than {MOST_BYTES:,} bytes.")
-
-
-def no_text() -> dict[str, Any]:
-    """Return what is wrong with bytes that are no text."""
-    return fault("The file is not UTF-8 text.")
-
-
-def fault(message: str) -> dict[str, Any]:
-    """Return what is wrong with a file as a whole."""
-    return faults_of(InputError(message))[0]
+        await page.close()

@@ -5,8 +5,9 @@ bits, which JavaScript's cannot: seeds and runs go as texts.
 
 From the page:
 
-* `open`: `scenario` (an id of the gallery) or `text` (TOML), `seed`, `run`, `changes` (a list of
-  tick, path, value), `tick`. Begins a run, at that tick, standing.
+* `open`: `scenario` (an id of the gallery), `text` (TOML) or `study` (`id` and `configuration`: its
+  run is the very one that the study has), `seed` (left out, the study's, or 0), `run`, `changes` (a
+  list of tick, path, value), `tick`. Begins a run, at that tick, standing.
 * `play`: `speed`, times real time, or null for as fast as it can. `pause`.
 * `step`: `steps`, also less than 0. `go`: `tick`. Both stand then.
 * `change`: `path`, `value`. `undo`.
@@ -35,7 +36,18 @@ MAX_TICK = 2**53
 MOST_STEPS = 1_000_000
 SPEEDS = (0.01, 100_000.0)
 
+Fault = dict[str, Any]
+"""What is wrong, as a page takes it."""
+
 FAULT = ("file", "line", "path", "given", "allowed", "suggestion", "message")
+
+
+@dataclass(frozen=True)
+class Member:
+    """A configuration of a study."""
+
+    id: str
+    configuration: int
 
 
 @dataclass(frozen=True)
@@ -44,7 +56,8 @@ class Open:
 
     scenario: str | None
     text: str | None
-    seed: int
+    study: Member | None
+    seed: int | None
     run: int
     changes: tuple[Change, ...]
     tick: int
@@ -122,7 +135,7 @@ def read(text: str) -> Message:
     return READERS[kind](said)
 
 
-def faults_of(error: InputError) -> list[dict[str, Any]]:
+def faults_of(error: InputError) -> list[Fault]:
     """Return what is wrong, as a page takes it."""
     if not error.faults:
         return [dict.fromkeys(FAULT) | {"message": str(error), "path": "", "allowed": ""}]
@@ -131,20 +144,44 @@ def faults_of(error: InputError) -> list[dict[str, Any]]:
 
 def opened(said: Mapping[str, Any]) -> Open:
     """Return an `open`."""
-    scenario, text = said.get("scenario"), said.get("text")
-    is_one = (scenario is None) != (text is None)
-    given.check(is_one, "open", [scenario, text], "with either a scenario or a text")
-    each = scenario if text is None else text
-    given.check(given.is_text(each), "open", each, "a text")
+    study = None if said.get("study") is None else member(said["study"])
+    scenario, text = (None, None) if study else source_of("open", said)
+    seed = said.get("seed", None if study else "0")
     changes = said.get("changes", [])
     given.of_kind("open.changes", changes, list, "a list of [tick, path, value]")
     return Open(
         scenario,
         text,
-        number("open.seed", said.get("seed", "0")),
+        study,
+        None if seed is None else number("open.seed", seed),
         number("open.run", said.get("run", "0")),
         tuple(map(change, changes)),
         whole("open.tick", said.get("tick", 0), MAX_TICK),
+    )
+
+
+def source_of(about: str, said: Mapping[str, Any]) -> tuple[str | None, str | None]:
+    """Return the scenario's id or its text: one is None.
+
+    Raises:
+        InputError: If not one of them is given.
+    """
+    scenario, text = said.get("scenario"), said.get("text")
+    is_one = (scenario is None) != (text is None)
+    given.check(is_one, about, [scenario, text], "with either a scenario or a text")
+    each = scenario if text is None else text
+    given.check(given.is_text(each), about, each, "a text")
+    return scenario, text
+
+
+def member(said: object) -> Member:
+    """Return a configuration of a study."""
+    allowed = "an object with an id and a configuration"
+    given.of_kind("open.study", said, dict, allowed)
+    assert isinstance(said, dict)  # noqa: S101  (checked above)
+    given.check(given.is_text(said.get("id")), "open.study.id", said.get("id"), "a text")
+    return Member(
+        said["id"], whole("open.study.configuration", said.get("configuration"), MAX_TICK)
     )
 
 

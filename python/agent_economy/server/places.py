@@ -1,4 +1,4 @@
-"""Where scenarios are: those that ship, and those in the folder in which the server was started."""
+"""Where scenarios and studies are: what ships, and what is in the server's folder."""
 
 import tomllib
 from collections import deque
@@ -11,6 +11,8 @@ from typing import Any
 from agent_economy import _core, given, shipped
 from agent_economy._core import InputError
 from agent_economy.scenario import MAX_BYTES, Scenario, Source, content
+from agent_economy.study import plan_of
+from agent_economy.study.store.folder import ASKED
 
 DEEP, MOST_FOLDERS, MOST_FILES = 4, 1000, 200
 """So many of the folder's files are looked at, in so many folders, so many below each other."""
@@ -62,6 +64,41 @@ class Places:
             source = Source(name, source.text, (), {**source.files, **found})
         return Scenario.of(source)
 
+    def study(self, name: str) -> Path:
+        """Return the folder of a study by its id.
+
+        Raises:
+            InputError: If there is none, or it is outside of the folder.
+        """
+        folder = self.folder / name
+        is_plain = name == folder_id(folder, self.folder) and ".." not in folder.parts
+        is_here = is_plain and self._has(folder / ASKED) and is_study(folder)
+        given.check(is_here, "study", name, "the id of a study in the list")
+        return folder
+
+    def studies(self) -> Iterator[tuple[str, Path]]:
+        """Yield the ids and folders of the studies in the folder."""
+        for folder in filter(is_study, self._folders()):
+            yield folder_id(folder, self.folder), folder
+
+    def for_study(self, folder: Path) -> str:
+        """Return the id that a study in a folder would have.
+
+        Raises:
+            InputError: If it would be outside of the folder.
+        """
+        given.check(self._has(folder), "study", str(folder), "below the server's folder: no link")
+        return folder_id(folder, self.folder)
+
+    def member(self, name: str, configuration: int) -> tuple[Scenario, int]:
+        """Return the scenario of a configuration of a study, and the study's seed.
+
+        Raises:
+            InputError: If there is no such study or configuration.
+        """
+        plan = plan_of(self.study(name))
+        return plan.alone(configuration), plan.seed
+
     def _content(self, file: Path) -> bytes | str:
         return content(file, _core.MAX_IMAGE_BYTES) if self._has(file) else OUTSIDE
 
@@ -71,9 +108,12 @@ class Places:
         except (OSError, ValueError):
             return False
 
+    def _folders(self) -> Iterator[Path]:
+        return islice(folders_of(self.folder, DEEP), MOST_FOLDERS)
+
     def _files(self) -> Iterator[Path]:
         """Yield the folder's TOML files."""
-        folders = islice(folders_of(self.folder, DEEP), MOST_FOLDERS)
+        folders = (folder for folder in self._folders() if not is_study(folder))
         files = (file for folder in folders for file in sorted(folder.glob("*.toml")))
         yield from islice((file for file in files if self._has(file)), MOST_FILES)
 
@@ -98,12 +138,12 @@ def described(name: str, file: Path, where: str) -> dict[str, Any] | None:
 
 
 def folders_of(folder: Path, deep: int) -> Iterator[Path]:
-    """Yield a folder, and those in it, but not hidden ones and links; the nearest first."""
+    """Yield a folder and those in it, but no hidden ones, links or a study's; the nearest first."""
     waiting = deque([(folder, deep)])
     while waiting:
         each, left = waiting.popleft()
         yield each
-        if left:
+        if left and not is_study(each):
             waiting += [(inner, left - 1) for inner in inside(each)]
 
 
@@ -118,3 +158,16 @@ def inside(folder: Path) -> list[Path]:
         for each in found
         if not each.name.startswith(".") and not each.is_symlink() and each.is_dir()
     ]
+
+
+def folder_id(folder: Path, below: Path) -> str:
+    """Return the id of a study: where its folder is below another; nothing if it is not."""
+    return folder.relative_to(below).as_posix() if folder.is_relative_to(below) else ""
+
+
+def is_study(folder: Path) -> bool:
+    """Return whether a folder holds a study."""
+    try:
+        return (folder / ASKED).is_file()
+    except (OSError, ValueError):
+        return False

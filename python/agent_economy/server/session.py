@@ -187,15 +187,11 @@ class Session:
         return self._timeline
 
     async def _open(self, said: messages.Open) -> None:
-        def begun() -> tuple[Scenario, Timeline]:
-            scenario = (
-                self._places.load(said.scenario)
-                if said.scenario is not None
-                else self._places.read(said.text or "")
-            )
-            return scenario, Timeline(scenario, said.seed, said.run, said.changes)
+        def begun() -> tuple[Scenario, int, Timeline]:
+            scenario, seed = self._what(said)
+            return scenario, seed, Timeline(scenario, seed, said.run, said.changes)
 
-        scenario, self._timeline = await self._in_thread(begun)
+        scenario, seed, self._timeline = await self._in_thread(begun)
         self._stand()
         self._pace = Pace(self._run.step_s)
         self._aim, self._changes_told, self._selected = said.tick, -1, None
@@ -206,8 +202,17 @@ class Session:
         }
         described |= {"summary": scenario.summary, "cap_s": scenario.cap_s}
         described |= {"step_s": self._pace.step_s}
-        names = {"seed": str(said.seed), "run": str(said.run)}
+        names = {"seed": str(seed), "run": str(said.run)}
         await self._page.tell({"type": "opened", "scenario": described, **names})
+
+    def _what(self, said: messages.Open) -> tuple[Scenario, int]:
+        """Return the scenario to run, and the seed."""
+        if said.study is not None:
+            scenario, seed = self._places.member(said.study.id, said.study.configuration)
+            return scenario, seed if said.seed is None else said.seed
+        if said.scenario is not None:
+            return self._places.load(said.scenario), said.seed or 0
+        return self._places.read(said.text or ""), said.seed or 0
 
     def _stand(self) -> None:
         self._aim = None

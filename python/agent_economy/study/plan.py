@@ -20,7 +20,13 @@ from agent_economy._core import InputError
 from agent_economy.given import check, fault, is_whole, of_kind
 from agent_economy.scenario import Override, Scenario, Source
 from agent_economy.study import design
-from agent_economy.study.arguments import FIRST_LOOK, Floats, Guarantee, question_faults
+from agent_economy.study.arguments import (
+    FIRST_LOOK,
+    LEAST_CONFIDENCE,
+    Floats,
+    Guarantee,
+    question_faults,
+)
 from agent_economy.study.design import Values
 from agent_economy.study.engine import Engine
 
@@ -66,6 +72,20 @@ class Plan:
     max_runs: int | None
     configurations: tuple[Values, ...]
     engine: Engine
+
+    def alone(self, configuration: int) -> Scenario:
+        """Return the scenario with the values of a configuration: its runs are the study's.
+
+        Raises:
+            InputError: If there is no such configuration.
+        """
+        last = len(self.configurations) - 1
+        is_there = is_whole(configuration, 0, last)
+        check(is_there, "configuration", configuration, f"a whole number from 0 to {last}")
+        values = self.configurations[configuration].items()
+        return self.scenario.changed(
+            tuple(Override(tuple(path.split(".")), value, "study") for path, value in values)
+        )
 
     def text(self) -> str:
         """Return study.toml."""
@@ -173,12 +193,7 @@ def draft(  # noqa: PLR0913  (as in make)
     """
     of_kind("scenario", scenario, Scenario, "a Scenario")
     sure = confidence if confidence is not None else scenario.confidence
-    faults = question_faults(delta if delta is not None else 1.0, sure, guarantee)
-    faults += fault(is_whole(seed, 0, MAX_SEED), "seed", seed, f"0 to {MAX_SEED}")
-    is_fixed = runs is None or is_whole(runs, 2, MAX_RUNS)
-    faults += fault(is_fixed, "runs", runs, f"a whole number from 2 to {MAX_RUNS}")
-    if faults:
-        raise InputError("\n".join(faults))
+    check_question(seed=seed, delta=delta, confidence=sure, guarantee=guarantee, runs=runs)
     configurations = tuple(design.points(scenario.factors, scenario.design, seed))
     check_max_runs(max_runs, runs, FIRST_LOOK * len(configurations))
     wanted = delta if delta is not None else scenario.delta
@@ -193,6 +208,23 @@ def draft(  # noqa: PLR0913  (as in make)
         configurations=configurations,
         engine=Engine(scenario, configurations, seed),
     )
+
+
+def check_question(
+    *, seed: int, delta: float | None, confidence: float | None, guarantee: str, runs: int | None
+) -> None:
+    """See to what is asked of a scenario's study; None is for what the scenario says.
+
+    Raises:
+        InputError: If anything is not allowed; all faults at once.
+    """
+    sure = LEAST_CONFIDENCE if confidence is None else confidence
+    faults = question_faults(1.0 if delta is None else delta, sure, guarantee)
+    faults += fault(is_whole(seed, 0, MAX_SEED), "seed", seed, f"0 to {MAX_SEED}")
+    is_fixed = runs is None or is_whole(runs, 2, MAX_RUNS)
+    faults += fault(is_fixed, "runs", runs, f"a whole number from 2 to {MAX_RUNS}")
+    if faults:
+        raise InputError("\n".join(faults))
 
 
 def check_max_runs(max_runs: int | None, runs: int | None, least: int) -> None:

@@ -1,0 +1,103 @@
+"""Single runs of a study, as a page lists them: some in a row, or from the worst to the best."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyarrow as pa
+from numpy.typing import NDArray
+
+from agent_economy import study
+from agent_economy.given import check, is_whole
+from agent_economy.merit import Merit
+from agent_economy.study import Plan
+from agent_economy.study.answer.labels import label
+
+MOST = 1000
+"""Runs that are told at a time."""
+
+OWN = ("configuration", "quarantined")
+"""Columns that say nothing of an outcome."""
+
+Floats = NDArray[np.float64]
+
+
+def listed(plan: Plan, folder: Path, configuration: int, first: int, count: int) -> dict[str, Any]:
+    """Return consecutive runs of a configuration.
+
+    Raises:
+        InputError: If something is not allowed, or the study is damaged.
+    """
+    check(is_whole(first, 0), "first", first, "a whole number from 0")
+    check(is_whole(count, 1, MOST), "count", count, f"a whole number from 1 to {MOST}")
+    runs = rows(plan, folder, configuration)
+    found = runs.order("run").limit(count, first).to_arrow_table()
+    return told(plan, configuration, counted(runs), found)
+
+
+def sampled(plan: Plan, folder: Path, configuration: int, count: int) -> dict[str, Any]:
+    """Return runs of a configuration at even distances from the worst to the best.
+
+    Raises:
+        InputError: If something is not allowed, or the study is damaged.
+    """
+    check(is_whole(count, 1, MOST), "sample", count, f"a whole number from 1 to {MOST}")
+    found = rows(plan, folder, configuration).order("run").to_arrow_table()
+    merits = scores(plan.scenario.merit, found)
+    # Without a merit a run counts as the worst there is.
+    order = np.argsort(np.nan_to_num(merits, nan=-np.inf), kind="stable")
+    quantiles = np.linspace(0, 1, min(count, len(order)))
+    places = np.rint(quantiles * (len(order) - 1)).astype(int)
+    answer = told(plan, configuration, len(found), found.take(order[places]))
+    for run, quantile in zip(answer["runs"], quantiles.tolist(), strict=True):
+        run["quantile"] = quantile
+    return answer
+
+
+def rows(plan: Plan, folder: Path, configuration: int) -> Any:
+    """Return a configuration's runs, to ask in SQL.
+
+    Raises:
+        InputError: If there is no such configuration, or the study is damaged.
+    """
+    last = len(plan.configurations) - 1
+    allowed = f"a whole number from 0 to {last}"
+    check(is_whole(configuration, 0, last), "configuration", configuration, allowed)
+    return study.open(folder).runs().filter(f"configuration = {configuration}")
+
+
+def counted(runs: Any) -> int:
+    """Return how many runs there are."""
+    return int(runs.aggregate("count(*)").fetchall()[0][0])
+
+
+def told(plan: Plan, configuration: int, total: int, found: pa.Table) -> dict[str, Any]:
+    """Return runs as a page takes them."""
+    merits = scores(plan.scenario.merit, found).tolist()
+    columns = [name for name in found.column_names if name not in OWN]
+    runs = found.select(columns).to_pylist()
+    return {
+        "configuration": configuration,
+        "label": label(plan.configurations[configuration]),
+        "total": total,
+        "runs": [
+            {**run, "run": str(run["run"]), "merit": merit if np.isfinite(merit) else None}
+            for run, merit in zip(runs, merits, strict=True)
+        ],
+    }
+
+
+def scores(merit: Merit, found: pa.Table) -> Floats:
+    """Return the merit of each run; NaN where it has none."""
+    quarantined = found["quarantined"].to_numpy()
+    columns = {name: floats(found[name], quarantined) for name in merit.columns}
+    score: Floats = merit.score(columns)
+    return np.where(np.isfinite(score), score, np.nan)
+
+
+def floats(column: Any, quarantined: Sequence[bool]) -> Floats:
+    """Return a column of the store: null is never, or no number where a run is quarantined."""
+    values = column.cast(pa.float64()).to_numpy(zero_copy_only=False)
+    absent = np.where(quarantined, np.nan, np.inf)
+    return np.where(np.isnan(values), absent, values)

@@ -1,0 +1,109 @@
+"""The answer of a study as a page takes it: the report's sections, tables and charts."""
+
+import hashlib
+import math
+import re
+import threading
+from collections import OrderedDict
+from pathlib import Path
+from typing import Any
+
+from agent_economy import study
+from agent_economy.study import Answer, Result, report
+from agent_economy.study.answer.evidence import Evidence, Interval
+from agent_economy.study.report import Section, Table, View
+from agent_economy.study.store.folder import ANSWER, read_bytes
+
+MOST_KEPT = 8
+"""Answers that are kept ready."""
+
+Shown = dict[str, Any]
+
+
+class Answers:
+    """Answers of finished studies; each is made once for what its folder holds."""
+
+    def __init__(self) -> None:
+        """Begin with none."""
+        self._kept: OrderedDict[tuple[Path, str], Shown] = OrderedDict()
+        # One at a time: what two pages ask for is made once, and the runs of one study are held.
+        self._lock = threading.Lock()
+
+    def of(self, folder: Path) -> Shown | None:
+        """Return a study's answer; None if it has none.
+
+        Raises:
+            InputError: If the study is damaged.
+        """
+        data = read_bytes(folder / ANSWER)
+        if data is None:
+            return None
+        key = folder, hashlib.sha256(data).hexdigest()
+        with self._lock:
+            if key not in self._kept:
+                self._kept[key] = shown(*study.look(folder))
+            self._kept.move_to_end(key)
+            while len(self._kept) > MOST_KEPT:
+                self._kept.popitem(last=False)
+            return self._kept[key]
+
+
+def shown(answer: Answer, evidence: Evidence) -> Shown:
+    """Return an answer with the report's own sections and charts."""
+    view = View(answer, evidence)
+    return {
+        "sentence": answer.sentence,
+        "guarantee": answer.guarantee,
+        "facts": list(report.facts(answer)),
+        "quarantined": report.quarantined(view),
+        "sections": [section(each) for each in report.sections(view)],
+        "charts": report.specifications(answer, evidence),
+        "results": [result(index, each) for index, each in enumerate(answer.results)],
+    }
+
+
+def section(given: Section) -> Shown:
+    """Return a section of the report."""
+    return {
+        "id": re.sub(r"[^a-z0-9]+", "-", given.heading.lower()).strip("-"),
+        "title": given.heading,
+        "words": given.notes,
+        "charts": [picture.name for picture in given.pictures],
+        "captions": {picture.name: picture.shows for picture in given.pictures},
+        "tables": [table(each) for each in given.tables],
+        "folded": given.is_folded,
+    }
+
+
+def table(given: Table) -> Shown:
+    """Return a table of the report; a range stands after its number."""
+    return {
+        "caption": given.caption,
+        "head": given.heads,
+        "rows": [
+            [f"{cell.text} ({cell.range})" if cell.range else cell.text for cell in row.cells]
+            for row in given.rows
+        ],
+        "configurations": [row.configuration for row in given.rows],
+    }
+
+
+def result(index: int, given: Result) -> Shown:
+    """Return what a configuration's runs came to."""
+    return {
+        "configuration": index,
+        "label": given.label,
+        "values": given.values,
+        "runs": given.runs,
+        "merit": numbers(given.merit),
+        "time_s": numbers(given.time_s),
+        "failed": numbers(given.failed),
+        "verdict": given.standing.verdict,
+        "eliminated": given.eliminated is not None,
+    }
+
+
+def numbers(interval: Interval) -> list[float | None]:
+    """Return an interval as JSON can hold it."""
+    each = (interval.value, interval.low, interval.high)
+    return [number if math.isfinite(number) else None for number in each]

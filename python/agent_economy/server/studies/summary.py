@@ -1,0 +1,176 @@
+"""What a study's folder says of it at a glance: nothing is computed, few files are read."""
+
+import json
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from agent_economy import study
+from agent_economy._core import InputError
+from agent_economy.study import Plan
+from agent_economy.study.question import Question
+from agent_economy.study.store.folder import ANSWER, ASKED, LEDGER
+
+State = str
+"""running, answered, stopped or damaged."""
+
+
+@dataclass(frozen=True)
+class Summary:
+    """A study at a glance.
+
+    Attributes:
+        state: "answered", "stopped" or "damaged".
+        name: Of its scenario.
+        engine: The simulator.
+        question: What it compares; None if it is damaged.
+        runs: So far.
+        sentence: Its answer.
+        message: What is wrong.
+        changed_s: When it was last written to, in Unix time.
+    """
+
+    state: State
+    name: str
+    engine: str
+    question: Question | None
+    runs: int
+    sentence: str | None
+    message: str | None
+    changed_s: float
+
+    def listed(self, name: str) -> dict[str, Any]:
+        """Return it as a page takes it; `name` is its id."""
+        question = self.question
+        return {
+            "id": name,
+            "name": self.name,
+            "engine": self.engine,
+            "state": self.state,
+            "words": str(question or ""),
+            "configurations": question.configurations if question else 0,
+            "runs": self.runs,
+            "confidence": question.confidence if question else 0,
+            "delta": question.delta if question else 0,
+            "sentence": self.sentence,
+            "message": self.message,
+            "changed_s": self.changed_s,
+        }
+
+
+class Summaries:
+    """Summaries of folders; each is read again when its files have changed."""
+
+    def __init__(self) -> None:
+        """Begin with none."""
+        self._kept: dict[Path, tuple[object, Summary]] = {}
+
+    def of(self, folder: Path) -> Summary:
+        """Return the summary of a study's folder."""
+        now = stamp(folder)
+        kept = self._kept.get(folder)
+        if kept is None or kept[0] != now:
+            kept = self._kept[folder] = (now, summary(folder, max(at_s for at_s, _ in now)))
+        return kept[1]
+
+
+def stamp(folder: Path) -> list[tuple[float, int]]:
+    """Return when the files of a study were written, and how long they are."""
+    found = []
+    for name in (ASKED, ANSWER, LEDGER, f"{LEDGER}-wal"):
+        try:
+            about = (folder / name).stat()
+        except OSError:
+            found.append((0.0, 0))
+        else:
+            found.append((about.st_mtime, about.st_size))
+    return found
+
+
+def summary(folder: Path, changed_s: float) -> Summary:
+    """Return what a study's folder says."""
+    try:
+        answer = read_answer(folder)
+        if answer is not None:
+            return answered(read_asked(folder), answer, changed_s)
+        return of_plan(study.plan_of(folder), runs_so_far(folder), changed_s)
+    except InputError as error:
+        return Summary("damaged", folder.name, "", None, 0, None, str(error), changed_s)
+
+
+def of_plan(plan: Plan, runs: int, changed_s: float) -> Summary:
+    """Return the summary of a study that has no answer yet."""
+    scenario = plan.scenario
+    question = Question.of(plan)
+    return Summary("stopped", scenario.name, scenario.engine, question, runs, None, None, changed_s)
+
+
+def answered(asked: Mapping[str, Any], answer: Mapping[str, Any], changed_s: float) -> Summary:
+    """Return the summary of a study that has an answer."""
+    scenario, question = answer["scenario"], asked["question"]
+    return Summary(
+        "answered",
+        scenario["name"],
+        scenario["engine"],
+        Question(
+            scenario["design"],
+            len(answer["results"]),
+            question["delta"],
+            question["confidence"],
+            question["guarantee"],
+            asked["data"].get("runs"),
+        ),
+        answer["runs"],
+        answer["sentence"],
+        None,
+        changed_s,
+    )
+
+
+def read_answer(folder: Path) -> dict[str, Any] | None:
+    """Return a study's answer as it was written; None if there is none.
+
+    Raises:
+        InputError: If what is there is none.
+    """
+    file = folder / ANSWER
+    try:
+        answer: dict[str, Any] = json.loads(file.read_bytes())
+        answer["scenario"]["design"], answer["results"], answer["sentence"]
+    except FileNotFoundError:
+        return None
+    except OSError as error:
+        message = f"{file}: cannot be read ({error.strerror})"
+    except (ValueError, TypeError, KeyError, RecursionError):
+        message = f"{file}: is damaged: remove it, and go on with the study"
+    else:
+        return answer
+    raise InputError(message)
+
+
+def read_asked(folder: Path) -> dict[str, Any]:
+    """Return what study.toml says, as far as it is needed here.
+
+    Raises:
+        InputError: If it is none.
+    """
+    text = study.open(folder).asked
+    try:
+        asked = tomllib.loads(text)
+        asked["data"]["identity"], [asked["question"][name] for name in ("delta", "confidence")]
+    except (tomllib.TOMLDecodeError, KeyError, TypeError) as error:
+        message = f"{folder / ASKED}: is not a study: {error}"
+        raise InputError(message) from None
+    return asked
+
+
+def runs_so_far(folder: Path) -> int:
+    """Return how many runs a study had after its last round.
+
+    Raises:
+        InputError: If its ledger is damaged.
+    """
+    decisions = study.open(folder).decisions()
+    return int(decisions[-1].facts["runs"]) if decisions else 0

@@ -1,0 +1,122 @@
+"""How a study goes on, told to a page that watches it."""
+
+import asyncio
+import contextlib
+from typing import Any
+
+from agent_economy import study
+from agent_economy._core import InputError
+from agent_economy.server.session import GoneError
+from agent_economy.server.sockets import Socket
+from agent_economy.server.studies.keeper import Studies
+from agent_economy.server.studies.summary import read_answer
+from agent_economy.server.studies.work import NOTHING
+from agent_economy.study.answer.labels import label
+
+MOST_STANDINGS = 50
+"""Configurations that are told with their merit."""
+
+LOOK_S = 0.2
+"""Between two looks at a study, and two tellings, at least."""
+
+
+async def watch(page: Socket, studies: Studies, name: str) -> None:
+    """Tell a page how a study goes on, until it ends or the page has gone."""
+    telling = asyncio.create_task(tell(page, studies, name))
+    gone = asyncio.create_task(hear(page))
+    await asyncio.wait({telling, gone}, return_when=asyncio.FIRST_COMPLETED)
+    for task in (telling, gone):
+        task.cancel()
+    for ended in await asyncio.gather(telling, gone, return_exceptions=True):
+        if isinstance(ended, Exception) and not isinstance(ended, GoneError):
+            raise ended
+
+
+async def hear(page: Socket) -> None:
+    """Wait until a page has gone: what it says is not listened to."""
+    with contextlib.suppress(GoneError):
+        while True:
+            await page.receive()
+
+
+async def tell(page: Socket, studies: Studies, name: str) -> None:
+    """Tell a page what has changed, until the study does not go on."""
+    labels: list[str] | None = await asyncio.to_thread(labels_of, studies, name)
+    before = None
+    while True:
+        now = await asyncio.to_thread(seen, studies, name)
+        if now != before:
+            await page.tell({"type": "studying", **now, "labels": labels})
+            labels, before = None, now
+        if now["state"] != "running":
+            return
+        await asyncio.sleep(LOOK_S)
+
+
+def labels_of(studies: Studies, name: str) -> list[str]:
+    """Return what the configurations of a study are called; nothing if nobody can say."""
+    try:
+        return [label(values) for values in studies.plan(name).configurations]
+    except InputError:
+        return []
+
+
+def seen(studies: Studies, name: str) -> dict[str, Any]:
+    """Return how far a study is."""
+    try:
+        row = studies.of(name)
+        work = studies.work(name)
+        said = {**NOTHING, **(work.said if work else {})}
+        if row["state"] != "running" or work is None or not work.is_alive:
+            said |= stored(studies, name)
+    except InputError as error:
+        return {"state": "damaged", "message": str(error), **rates(NOTHING)}
+    return {"state": row["state"], "message": row["message"], **rates(said)}
+
+
+def rates(said: dict[str, Any]) -> dict[str, Any]:
+    """Return how far a study is, with how fast it is."""
+    seconds, left = said["seconds"], said["left_runs"]
+    rate = said["computed"] / seconds if seconds else 0.0
+    left_s = left / rate if rate and left is not None else None
+    return {**said, "runs_per_s": rate, "left_s": left_s}
+
+
+def stored(studies: Studies, name: str) -> dict[str, Any]:
+    """Return how far a study is as its folder has it: after its last round, or with its answer.
+
+    Raises:
+        InputError: If it is damaged.
+    """
+    folder = studies.folder(name)
+    if not folder.is_dir():
+        return {}
+    decisions = study.open(folder).decisions()
+    if not decisions:
+        return {"left_runs": None}
+    facts = decisions[-1].facts
+    answer = read_answer(folder)
+    return {
+        "round": len(decisions),
+        "runs": facts["runs"],
+        "survivors": facts["survivors"],
+        "left_runs": None,
+        "standings": answered(answer)
+        if answer
+        else [[*row, None, None] for row in facts["leaders"]],
+        "eliminated": [row for each in decisions for row in each.facts["eliminated"]],
+    }
+
+
+def answered(answer: dict[str, Any]) -> list[list[Any]]:
+    """Return the best that were never put out, with their ranges, as an answer has them."""
+    rows = [
+        [
+            row["configuration"],
+            row["runs"],
+            *(row["merit"][key] for key in ("value", "low", "high")),
+        ]
+        for row in answer["results"]
+        if row["eliminated"] is None
+    ]
+    return sorted(rows, key=lambda row: -row[2])[:MOST_STANDINGS]

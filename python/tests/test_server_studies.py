@@ -1,0 +1,522 @@
+"""Studies that are asked, watched, stopped and shown by the page's server."""
+
+import json
+import multiprocessing
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+import small
+from starlette.testclient import TestClient
+from starlette.websockets import WebSocketDisconnect
+
+from agent_economy import Scenario, study
+from agent_economy.server import Places, app
+from agent_economy.server.studies.factors import factors
+from agent_economy.study import ask, report
+from agent_economy.study.report import View
+
+OWN, WS = "http://127.0.0.1:8765", "ws://127.0.0.1:8765/ws"
+
+TEAM = "robots.wanderer.count"
+QUICK = {"scenario": "classic", "vary": {TEAM: "1..5"}, "delta": 0.3}
+LONG = {"scenario": "search", "vary": {"robots.rover.count": "1..20"}, "delta": 0.001}
+METRIC = {"scenario": "search", "vary": {"robots.rover.count": "2..5"}, "max_runs": 300}
+
+Told = dict[str, Any]
+
+
+class Folder:
+    """A server's folder, and a page that asks."""
+
+    def __init__(self, client: TestClient, path: Path) -> None:
+        """Begin with what is there."""
+        self.client, self.path = client, path
+
+    def post(self, address: str, **said: Any) -> Told:
+        """Ask, and return what is answered."""
+        told = self.client.post(address, json=said)
+        assert told.status_code in (200, 201), told.text
+        answer: Told = told.json()
+        return answer
+
+    def get(self, address: str, **query: Any) -> Told:
+        """Return what an address has."""
+        told = self.client.get(address, params=query)
+        assert told.status_code == 200, told.text
+        answer: Told = told.json()
+        return answer
+
+    def refused(self, address: str, **said: Any) -> list[Told]:
+        """Ask what is not allowed, and return its faults."""
+        told = self.client.post(address, json=said)
+        assert told.status_code == 422
+        faults: list[Told] = told.json()["faults"]
+        return faults
+
+    def watched(self, name: str, runs: float = float("inf")) -> list[Told]:
+        """Watch a study until its end, or until it has so many runs."""
+        said: list[Told] = []
+        with self.client.websocket_connect(f"{WS}?study={name}") as socket:
+            while not said or said[-1]["runs"] < runs:
+                message = socket.receive()
+                if message["type"] == "websocket.close":
+                    assert message["code"] == 1000
+                    break
+                said.append(json.loads(message["text"]))
+        return said
+
+
+def served(path: Path) -> TestClient:
+    return TestClient(app(Places(path), "127.0.0.1"), OWN)
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Iterator[Folder]:
+    with served(tmp_path) as client:
+        yield Folder(client, tmp_path)
+
+
+@pytest.fixture(scope="module")
+def answered(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Folder, list[Told]]]:
+    """Return a folder with a study that the page has asked, and all that it was told meanwhile."""
+    path = tmp_path_factory.mktemp("answered")
+    with served(path) as client:
+        folder = Folder(client, path)
+        name = folder.post("/api/studies", **QUICK)["id"]
+        assert name == "studies/classic"
+        yield folder, folder.watched(name)
+
+
+@pytest.fixture
+def quick_reports(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Leave the charts' JavaScript out of reports, which takes two seconds to make."""
+    monkeypatch.setattr(ask, "ChartScript", small.NoScript)
+
+
+Answered = tuple[Folder, list[Told]]
+
+
+@pytest.mark.usefixtures("quick_reports")
+def test_what_the_page_asks_is_answered_as_the_command_line_does(
+    answered: Answered, tmp_path: Path
+) -> None:
+    folder, _ = answered
+    theirs = study.run(Scenario.load("classic"), vary={TEAM: "1..5"}, delta=0.3, out=tmp_path)
+    shown = folder.get("/api/study", id="studies/classic")
+    assert shown["state"] == "answered"
+    assert shown["sentence"] == shown["answer"]["sentence"] == theirs.sentence
+    words = "factorial: 5 configurations; delta 0.3, confidence 0.95, indifference"
+    assert shown["words"] == shown["planned"]["words"] == words
+    assert shown["source"] == {"scenario": "classic"}
+    mine = (folder.path / "studies" / "classic" / "answer.json").read_bytes()
+    assert mine == (tmp_path / "answer.json").read_bytes()
+    assert [row["state"] for row in folder.get("/api/studies")["studies"]] == ["answered"]
+
+
+def test_progress_only_grows_and_ends_with_the_answer(answered: Answered) -> None:
+    folder, said = answered
+    for name in ("round", "runs", "computed", "seconds"):
+        values = [each[name] for each in said]
+        assert values == sorted(values), name
+    assert said[0]["labels"][2] == "3 wanderers"
+    assert all(each["labels"] is None for each in said[1:])
+    assert {each["state"] for each in said[:-1]} <= {"running"}
+    last, shown = said[-1], folder.get("/api/study", id="studies/classic")
+    assert last["state"] == "answered"
+    assert last["runs"] == shown["runs"]
+    outs = {row["configuration"] for row in shown["answer"]["results"] if row["eliminated"]}
+    assert {row[0] for row in last["eliminated"]} == outs
+    best = shown["answer"]["results"][last["standings"][0][0]]
+    assert last["standings"][0] == [best["configuration"], best["runs"], *best["merit"]]
+
+
+def test_who_comes_late_sees_the_present(answered: Answered) -> None:
+    folder, said = answered
+    (late,) = folder.watched("studies/classic")
+    assert late == {**said[-1], "labels": said[0]["labels"]}
+
+
+def test_an_answer_has_the_reports_own_sections_charts_and_tables(answered: Answered) -> None:
+    folder, _ = answered
+    found, evidence = study.look(folder.path / "studies" / "classic")
+    shown = folder.get("/api/study", id="studies/classic")["answer"]
+    sections = list(report.sections(View(found, evidence)))
+    assert [each["title"] for each in shown["sections"]] == [each.heading for each in sections]
+    assert shown["charts"] == json.loads(json.dumps(report.specifications(found, evidence)))
+    assert {name for each in shown["sections"] for name in each["charts"]} == set(shown["charts"])
+    for section in shown["sections"]:
+        for table in section["tables"]:
+            assert len(table["rows"]) == len(table["configurations"])
+            assert {len(row) for row in table["rows"]} == {len(table["head"])}
+    for row in shown["charts"]["merit"]["data"]["values"]:
+        result = shown["results"][row["configuration"]]
+        assert row["value"] == pytest.approx(result["merit"][0], rel=1e-5)
+    assert shown["sections"][0]["tables"][0]["configurations"] == [0, 1, 2, 3, 4]
+
+
+def test_runs_are_told_with_their_merit_as_the_study_scored_them(answered: Answered) -> None:
+    folder, _ = answered
+    asked = {"id": "studies/classic", "configuration": 2}
+    told = folder.get("/api/study/runs", **asked, first=3, count=4)
+    assert [run["run"] for run in told["runs"]] == ["3", "4", "5", "6"]
+    assert told["label"] == "3 wanderers"
+    shown = folder.get("/api/study", id="studies/classic")
+    everything = folder.get("/api/study/runs", **asked, count=1000)["runs"]
+    result = shown["answer"]["results"][2]
+    assert len(everything) == told["total"] == result["runs"]
+    merits = [run["merit"] for run in everything]
+    assert sum(merits) / len(merits) == pytest.approx(result["merit"][0])
+    sample = folder.get("/api/study/runs", **asked, sample=5)["runs"]
+    assert [run["quantile"] for run in sample] == [0, 0.25, 0.5, 0.75, 1]
+    assert [run["merit"] for run in sample] == sorted(run["merit"] for run in sample)
+    assert sample[0]["merit"] == min(merits)
+    assert sample[-1]["merit"] == max(merits)
+
+
+@pytest.mark.parametrize(
+    ("query", "told"),
+    [
+        ({"configuration": 5}, "from 0 to 4"),
+        ({"configuration": "x"}, "a whole number"),
+        ({"configuration": 0, "count": 1001}, "from 1 to 1000"),
+        ({"configuration": 0, "sample": 0}, "from 1 to 1000"),
+    ],
+)
+def test_runs_that_there_are_not_are_refused(answered: Answered, query: Told, told: str) -> None:
+    folder, _ = answered
+    query = {"id": "studies/classic", **query}
+    refused = folder.client.get("/api/study/runs", params=query)
+    assert refused.status_code == 422
+    assert told in refused.json()["faults"][0]["message"]
+
+
+def test_the_report_and_the_answer_can_be_kept(answered: Answered) -> None:
+    folder, _ = answered
+    for address, name in (("report", "report.html"), ("answer", "answer.json")):
+        told = folder.client.get(f"/api/study/{address}", params={"id": "studies/classic"})
+        assert told.content == (folder.path / "studies" / "classic" / name).read_bytes()
+        assert "attachment" in told.headers["content-disposition"]
+
+
+@pytest.mark.usefixtures("quick_reports")
+def test_a_tightened_study_is_a_fresh_one_at_that_confidence(
+    answered: Answered, tmp_path: Path
+) -> None:
+    folder, _ = answered
+    shutil.copytree(folder.path / "studies", folder.path / "more")
+    for confidence in ("high", 0.5):
+        refused = folder.refused("/api/studies/resume", id="more/classic", confidence=confidence)
+        assert refused[0]["message"].startswith("confidence")
+    begun = folder.post("/api/studies/resume", id="more/classic", confidence=0.99)
+    assert begun["confidence"] == 0.99
+    assert folder.watched("more/classic")[-1]["state"] == "answered"
+    scenario = Scenario.load("classic")
+    study.run(scenario, vary={TEAM: "1..5"}, delta=0.3, confidence=0.99, out=tmp_path)
+    mine = (folder.path / "more" / "classic" / "answer.json").read_bytes()
+    assert mine == (tmp_path / "answer.json").read_bytes()
+
+
+@pytest.mark.usefixtures("quick_reports")
+def test_a_stopped_or_killed_study_keeps_its_runs_and_goes_on_to_the_same_bytes(
+    folder: Folder, tmp_path: Path
+) -> None:
+    name = folder.post("/api/studies", **METRIC)["id"]
+    folder.watched(name, runs=1)
+    stopped = folder.post("/api/studies/stop", id=name)
+    assert stopped["state"] == "stopped"
+    assert stopped["message"] is None
+    assert folder.watched(name)[-1]["runs"] == stopped["runs"] > 0
+    assert folder.get("/api/study", id=name)["answer"] is None
+    kept = study.open(folder.path / name).runs().count("*").fetchall()[0][0]
+    assert kept >= stopped["runs"]
+
+    folder.post("/api/studies/resume", id=name)
+    folder.watched(name, runs=stopped["runs"] + 1)
+    (child,) = multiprocessing.active_children()
+    os.kill(int(child.pid or 0), signal.SIGKILL)
+    killed = folder.watched(name)[-1]
+    assert killed["state"] == "stopped"
+    assert "killed by signal 9" in killed["message"]
+    assert folder.get("/api/studies")["studies"][0]["message"] == killed["message"]
+
+    assert folder.post("/api/studies", **METRIC)["id"] == name
+    assert folder.watched(name)[-1]["message"] is None
+    vary = {"robots.rover.count": "2..5"}
+    study.run(Scenario.load("search"), vary=vary, max_runs=300, out=tmp_path / "whole")
+    mine = (folder.path / name / "answer.json").read_bytes()
+    assert mine == (tmp_path / "whole" / "answer.json").read_bytes()
+
+
+def test_a_run_of_a_study_can_be_watched_and_is_the_very_same(folder: Folder) -> None:
+    asked = {**METRIC, "max_runs": None, "runs": 2, "seed": "7"}
+    name = folder.post("/api/studies", **asked)["id"]
+    assert folder.watched(name)[-1]["state"] == "answered"
+    stored = folder.get("/api/study/runs", id=name, configuration=1)["runs"][1]
+    with folder.client.websocket_connect(WS) as socket:
+        member = {"id": name, "configuration": 1}
+        socket.send_json({"type": "open", "study": member, "run": "1"})
+        assert socket.receive_json()["seed"] == "7"
+        socket.send_json({"type": "go", "tick": 10**6})
+        socket.send_json({"type": "play", "speed": None})
+        state = over(socket)
+    assert {name: state["outcome"][name] for name in stored if name not in ("run", "failed")} == {
+        name: value for name, value in stored.items() if name not in ("run", "failed")
+    }
+    assert state["outcome"]["complete"] is not stored["failed"]
+
+
+def over(socket: Any) -> Told:
+    """Return the state in which a run has come to its end."""
+    while True:
+        message = socket.receive()
+        if message.get("bytes") is not None:
+            frame = int.from_bytes(message["bytes"][36:40], "little")
+            socket.send_json({"type": "got", "frame": frame})
+            continue
+        said: Told = json.loads(message["text"])
+        if said["type"] == "state" and said["over"] and not said["playing"]:
+            return said
+
+
+def test_no_more_than_two_run_at_a_time_and_all_end_with_the_server(tmp_path: Path) -> None:
+    with served(tmp_path) as client:
+        folder = Folder(client, tmp_path)
+        names = [folder.post("/api/studies", **LONG, seed=seed)["id"] for seed in ("1", "2")]
+        (fault,) = folder.refused("/api/studies", **LONG, seed="3")
+        assert all(name in fault["message"] for name in names)
+        assert "stop one" in fault["message"]
+        (again,) = folder.refused("/api/studies", **LONG, seed="1")
+        assert "is being worked on" in again["message"]
+        for name in names:
+            folder.watched(name, runs=1)
+            assert study.is_worked_on(tmp_path / name)
+        assert {row["state"] for row in folder.get("/api/studies")["studies"]} == {"running"}
+    assert not any(study.is_worked_on(tmp_path / name) for name in names)
+    assert multiprocessing.active_children() == []
+
+
+def test_a_study_ends_when_its_server_is_killed(tmp_path: Path) -> None:
+    code = (
+        "import sys, time; from pathlib import Path; from agent_economy.server import Places\n"
+        "from agent_economy.server.studies import asks, keeper\n"
+        "if __name__ == '__main__':\n"
+        f"    places = Places(Path(sys.argv[1])); plan = asks.plan({LONG!r}, places)\n"
+        "    print(keeper.Studies(places).start(plan)['id'], flush=True); time.sleep(60)\n"
+    )
+    script = tmp_path / "server.py"
+    script.write_text(code)
+    command = [sys.executable, str(script), str(tmp_path)]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as server:
+        assert server.stdout
+        place = tmp_path / server.stdout.readline().strip()
+        wait_until(lambda: study.is_worked_on(place))
+        server.kill()
+    wait_until(lambda: not study.is_worked_on(place))
+
+
+def wait_until(holds: Any, most_s: float = 30) -> None:
+    end_s = time.monotonic() + most_s
+    while not holds():
+        assert time.monotonic() < end_s
+        time.sleep(0.05)
+
+
+def test_another_processs_study_is_shown_as_running_and_not_stopped(
+    answered: Answered, tmp_path: Path
+) -> None:
+    shutil.copytree(answered[0].path / "studies", tmp_path / "studies")
+    plan = study.plan_of(tmp_path / "studies" / "classic")
+    with served(tmp_path) as client:
+        folder = Folder(client, tmp_path)
+
+        def look(_: study.Progress) -> None:
+            (row,) = folder.get("/api/studies")["studies"]
+            assert row["state"] == "running"
+            (fault,) = folder.refused("/api/studies/stop", id=row["id"])
+            assert "another process" in fault["message"]
+            raise KeyboardInterrupt
+
+        with pytest.raises(KeyboardInterrupt):
+            study.pursue(plan, tmp_path / "studies" / "classic", on_progress=look)
+        assert folder.get("/api/studies")["studies"][0]["state"] == "answered"
+
+
+def test_a_list_checks_no_scenario_and_computes_nothing(
+    answered: Answered, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for number in range(3):
+        shutil.copytree(answered[0].path / "studies" / "classic", tmp_path / f"deep/{number}")
+
+    os.utime(tmp_path / "deep" / "1" / "answer.json")
+
+    def never(*_: object) -> None:
+        raise AssertionError
+
+    monkeypatch.setattr(study, "plan_of", never)
+    monkeypatch.setattr(Scenario, "of", never)
+    with served(tmp_path) as client:
+        rows = Folder(client, tmp_path).get("/api/studies")["studies"]
+    assert [row["id"] for row in rows] == ["deep/1", "deep/0", "deep/2"]
+    assert all(row["configurations"] == 5 and row["runs"] > 0 for row in rows)
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["../secret", "/etc", "link", "", ".", "studies", "here/../here", "a\0b", "nothing", "here/"],
+)
+def test_no_study_outside_of_the_folder_is_opened(folder: Folder, name: str) -> None:
+    secret = folder.path.parent / "secret"
+    secret.mkdir(exist_ok=True)
+    for place in (secret, folder.path / "here"):
+        place.mkdir(exist_ok=True)
+        (place / "study.toml").write_text("format = 1\n")
+    (folder.path / "link").symlink_to(secret)
+    assert [row["id"] for row in folder.get("/api/studies")["studies"]] == ["here"]
+    for address in ("study", "study/runs", "study/report", "study/answer"):
+        told = folder.client.get(f"/api/{address}", params={"id": name, "configuration": 0})
+        assert "in the list" in told.json()["faults"][0]["message"]
+    for address in ("stop", "resume"):
+        (fault,) = folder.refused(f"/api/studies/{address}", id=name)
+        assert "in the list" in fault["message"]
+    (fault,) = folder.refused("/api/studies/stop", id=7)
+    assert "as a text" in fault["message"]
+
+
+def test_a_folder_of_studies_that_leads_elsewhere_is_not_written_to(folder: Folder) -> None:
+    elsewhere = folder.path.parent / "elsewhere"
+    elsewhere.mkdir()
+    (folder.path / "studies").symlink_to(elsewhere)
+    (fault,) = folder.refused("/api/studies", **QUICK)
+    assert "below the server's folder" in fault["message"]
+    assert list(elsewhere.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("file", "text"),
+    [
+        ("study.toml", "= 3"),
+        ("study.toml", "format = 7"),
+        ("answer.json", "{"),
+        ("answer.json", "[]"),
+    ],
+)
+def test_a_damaged_study_is_listed_with_what_is_wrong(
+    answered: Answered, tmp_path: Path, file: str, text: str
+) -> None:
+    shutil.copytree(answered[0].path / "studies", tmp_path / "studies")
+    (tmp_path / "studies" / "classic" / file).write_text(text)
+    with served(tmp_path) as client:
+        folder = Folder(client, tmp_path)
+        (row,) = folder.get("/api/studies")["studies"]
+        assert row["state"] == "damaged"
+        assert file in row["message"]
+        (last,) = folder.watched("studies/classic")
+        assert last["state"] == "damaged"
+        assert file in last["message"]
+
+
+def test_all_that_is_wrong_with_a_question_is_told_at_once(folder: Folder) -> None:
+    asked = {
+        "scenario": "classic",
+        "vary": {"robots.wanderer.cuont": "1..5", "contact": "tuch"},
+        "merit": "equation-5",
+        "delta": -1,
+        "confidence": 2,
+        "guarantee": "none",
+        "runs": 1,
+        "seed": 7,
+    }
+    for address in ("/api/plan", "/api/studies"):
+        paths = {fault["path"] for fault in folder.refused(address, **asked)}
+        assert paths >= {"merit", "delta", "confidence", "guarantee", "runs", "seed"}
+        assert any("cuont" in path for path in paths)
+    assert not (folder.path / "studies").exists()
+
+
+@pytest.mark.parametrize(
+    ("said", "told"),
+    [
+        ({}, "either a scenario or a text"),
+        ({"scenario": "classic", "text": "x"}, "either a scenario or a text"),
+        ({"scenario": "../x.toml"}, "one of the gallery"),
+        ({"text": "= 3"}, "scenario.toml"),
+        ({"scenario": "classic", "vary": [1]}, "an object of values"),
+        ({"scenario": "classic", "vary": {TEAM: 4}}, "a text"),
+        ({"scenario": "classic", "vary": {TEAM: "1..5"}, "max_runs": 3}, "50 or more"),
+        ({"scenario": "classic", "design": 3}, "a text"),
+    ],
+)
+def test_what_cannot_be_asked_is_told(folder: Folder, said: Told, told: str) -> None:
+    assert told in folder.refused("/api/plan", **said)[0]["message"]
+
+
+@pytest.mark.parametrize("content", [b"[]", b"{", b"\xff", b"[" * 100_000, b"x" * 1_000_001])
+def test_what_is_no_question_is_told(folder: Folder, content: bytes) -> None:
+    told = folder.client.post("/api/plan", content=content)
+    assert told.status_code in (413, 422)
+    assert told.json()["faults"][0]["message"]
+
+
+def test_pages_of_others_can_ask_nothing(folder: Folder) -> None:
+    headers = {"origin": "https://evil.example"}
+    for address in ("factors", "plan", "studies", "studies/stop", "studies/resume"):
+        told = folder.client.post(f"/api/{address}", json=QUICK, headers=headers)
+        assert told.status_code == 403
+    with (
+        pytest.raises(WebSocketDisconnect),
+        folder.client.websocket_connect(f"{WS}?study=x", headers=headers),
+    ):
+        pass
+    assert not (folder.path / "studies").exists()
+
+
+def test_a_plan_says_what_is_compared_where_and_whether_it_is_there(answered: Answered) -> None:
+    folder, _ = answered
+    told = folder.post("/api/plan", **QUICK)
+    assert told["id"] == "studies/classic"
+    assert told["state"] == "answered"
+    assert told["labels"] == [f"{n} wanderer{'s' * (n > 1)}" for n in range(1, 6)]
+    other = folder.post("/api/plan", **{**QUICK, "vary": {"contact": "touch,ahead"}})
+    assert other["factors"] == [
+        {"path": "contact", "values": ["touch", "ahead"], "range": None},
+    ]
+    assert other["id"].startswith("studies/classic-")
+    assert other["state"] is None
+
+
+def test_what_can_be_varied_is_told_with_its_bounds(folder: Folder) -> None:
+    told = folder.post("/api/factors", scenario="classic")
+    assert told["merits"] == ["equation-5.2", "appendix"]
+    assert told["delta"] == 0.01
+    team, *others = told["factors"]
+    assert team == {
+        "path": TEAM,
+        "value": 4,
+        "low": 1,
+        "high": 250,
+        "whole": True,
+        "values": None,
+        "varied": "1..8",
+    }
+    assert {each["path"] for each in others} == {"clock.paints_per_s", "clock.cap_s", "contact"}
+    text = Scenario.load("search").source.text
+    told = folder.post("/api/factors", text=text)
+    speed = next(each for each in told["factors"] if each["path"].endswith("max_speed_m_s"))
+    assert (speed["low"], speed["high"], speed["whole"], speed["value"]) == (0, 100, False, 1)
+
+
+@pytest.mark.parametrize("name", ["classic", "search", "search-mind", "open-field", "flock"])
+def test_all_that_is_told_can_be_varied(name: str) -> None:
+    scenario = Scenario.load(name)
+    found = factors(scenario)
+    assert found
+    for factor in found:
+        assert scenario.configuration({factor["path"]: factor["value"]})
