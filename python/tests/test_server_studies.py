@@ -28,7 +28,7 @@ OWN, WS = "http://127.0.0.1:8765", "ws://127.0.0.1:8765/ws"
 TEAM = "robots.wanderer.count"
 QUICK = {"scenario": "classic", "vary": {TEAM: "1..5"}, "delta": 0.3}
 LONG = {"scenario": "search", "vary": {"robots.rover.count": "1..20"}, "delta": 0.001}
-METRIC = {"scenario": "search", "vary": {"robots.rover.count": "2..5"}, "max_runs": 300}
+METRIC = {"scenario": "search", "vary": {"robots.rover.count": "2..5"}, "max_runs": 150}
 
 Told = dict[str, Any]
 
@@ -250,7 +250,7 @@ def test_a_stopped_or_killed_study_keeps_its_runs_and_goes_on_to_the_same_bytes(
     assert folder.post("/api/studies", **METRIC)["id"] == name
     assert folder.watched(name)[-1]["message"] is None
     vary = {"robots.rover.count": "2..5"}
-    study.run(Scenario.load("search"), vary=vary, max_runs=300, out=tmp_path / "whole")
+    study.run(Scenario.load("search"), vary=vary, max_runs=150, out=tmp_path / "whole")
     mine = (folder.path / name / "answer.json").read_bytes()
     assert mine == (tmp_path / "whole" / "answer.json").read_bytes()
 

@@ -4,12 +4,16 @@ import json
 from pathlib import Path
 from typing import Any
 
+import made_up
 import numpy as np
 import pytest
 import small
 
+import agent_economy as ae
 from agent_economy import InputError, Scenario, study
-from agent_economy.study import ask, files
+from agent_economy.study import ask, files, race
+from agent_economy.study.pieces import in_pieces
+from agent_economy.study.rectangle import Rectangle
 
 TEAM = "robots.wanderer.count"
 
@@ -292,3 +296,93 @@ def test_a_run_that_went_wrong_counts_as_the_worst_and_is_counted(
     assert four.merit.value == pytest.approx(-9.4)
     assert four.failed.value == 1
     assert answer.results[0].quarantined == 0
+
+
+def test_the_last_ranges_that_watchers_see_are_those_of_the_answer(scenario: Scenario) -> None:
+    seen: list[study.Progress] = []
+    answer = study.run(scenario, delta=0.5, on_progress=seen.append)
+    ranged = seen[-1].ranged()
+    assert len(ranged) == seen[-1].survivors
+    for leader, merit in ranged:
+        result = answer.results[leader.configuration]
+        assert (leader.runs, merit) == (result.runs, result.merit)
+
+
+def test_a_long_round_is_told_of_while_it_goes_on(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(race, "ROUND_S", 0.0)
+    seen: list[study.Progress] = []
+    left: list[float | None] = []
+
+    def look(now: study.Progress) -> None:
+        seen.append(now)
+        left.append(now.foretell())
+
+    search = Scenario.load("search").replace("clock.cap_s", 5)
+    vary = {"robots.rover.count": "1,2"}
+    answer = study.run(search, vary=vary, runs=60, on_progress=look)
+    assert [each.round for each in seen] == [0] * (len(seen) - 1) + [1]
+    assert len(seen) > 1
+    runs = [each.runs for each in seen]
+    assert runs == sorted(runs) == [each.computed for each in seen]
+    assert 0 < runs[0] < runs[-1] == answer.runs == 120
+    assert left == [120 - each for each in runs]
+    assert seen[0].leaders == ()
+
+
+def test_pieces_together_are_the_whole() -> None:
+    area = Rectangle(tuple(range(8)), 3, 700)
+    seen: list[int] = []
+    compute = in_pieces(made_up.slow_outcomes, seen.append)
+    assert made_up.same(compute(area), made_up.outcomes(area))
+    assert seen == sorted(set(seen))
+    assert 0 < seen[0] <= 64
+    assert seen[-1] < area.rows
+
+
+def test_an_answer_that_is_there_is_to_what_was_asked_last(
+    scenario: Scenario, tmp_path: Path
+) -> None:
+    def stop(_: study.Progress) -> None:
+        raise KeyboardInterrupt
+
+    study.run(scenario, delta=0.5, out=tmp_path)
+    with pytest.raises(KeyboardInterrupt):
+        study.run(scenario, delta=0.5, out=tmp_path, on_progress=stop)
+    assert (tmp_path / "answer.json").exists()
+    with pytest.raises(KeyboardInterrupt):
+        study.resume(tmp_path, confidence=0.99, on_progress=stop)
+    assert not (tmp_path / "answer.json").exists()
+    assert not (tmp_path / "report.html").exists()
+
+
+def written(folder: Path) -> dict[Path, int]:
+    """Return when each file was written, but for those by which readers of SQLite agree."""
+    own = [path for path in folder.rglob("*") if path.suffix not in (".sqlite-shm", ".sqlite-wal")]
+    return {path: path.stat().st_mtime_ns for path in own if path.is_file()}
+
+
+def test_to_look_at_a_finished_study_gives_its_answer_and_writes_nothing(
+    scenario: Scenario, tmp_path: Path
+) -> None:
+    answer = study.run(scenario, delta=0.5, out=tmp_path)
+    before = written(tmp_path)
+    found, evidence = study.look(tmp_path)
+    assert files.as_json(found) == files.as_json(answer)
+    assert sum(sample.runs for sample in evidence.samples) == answer.runs
+    assert written(tmp_path) == before
+    (tmp_path / "ledger.sqlite").unlink()
+    with pytest.raises(InputError, match="is not finished"):
+        study.look(tmp_path)
+
+
+def test_a_configuration_alone_has_the_very_runs_of_the_study(tmp_path: Path) -> None:
+    search = Scenario.load("search").replace("clock.cap_s", 5)
+    vary = {"robots.rover.count": "1,2", "items.mine.count": "3"}
+    study.run(search, vary=vary, runs=2, seed=5, out=tmp_path)
+    plan = study.plan_of(tmp_path)
+    stored = study.open(tmp_path).runs().filter("configuration = 1 AND run = 1").fetchnumpy()
+    mine = ae.run(plan.alone(1), seed=5, run=1).row
+    assert mine["distance_m"] == stored["distance_m"][0]
+    assert mine["robots"] == 2
+    with pytest.raises(InputError, match="from 0 to 1"):
+        plan.alone(2)

@@ -85,7 +85,8 @@ def stamp(folder: Path) -> list[tuple[float, int]]:
         except OSError:
             found.append((0.0, 0))
         else:
-            found.append((about.st_mtime, about.st_size))
+            # Readers of a ledger may leave an empty file beside it.
+            found.append((about.st_mtime if about.st_size else 0.0, about.st_size))
     return found
 
 

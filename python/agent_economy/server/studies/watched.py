@@ -22,14 +22,16 @@ LOOK_S = 0.2
 
 async def watch(page: Socket, studies: Studies, name: str) -> None:
     """Tell a page how a study goes on, until it ends or the page has gone."""
-    telling = asyncio.create_task(tell(page, studies, name))
-    gone = asyncio.create_task(hear(page))
-    await asyncio.wait({telling, gone}, return_when=asyncio.FIRST_COMPLETED)
-    for task in (telling, gone):
-        task.cancel()
-    for ended in await asyncio.gather(telling, gone, return_exceptions=True):
-        if isinstance(ended, Exception) and not isinstance(ended, GoneError):
-            raise ended
+    tasks = {asyncio.create_task(tell(page, studies, name)), asyncio.create_task(hear(page))}
+    try:
+        done, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
+        for task in done:
+            with contextlib.suppress(GoneError):
+                task.result()
+    finally:
+        for task in tasks:
+            task.cancel()
+        await asyncio.wait(tasks)
 
 
 async def hear(page: Socket) -> None:
