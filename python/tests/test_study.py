@@ -12,7 +12,7 @@ import small
 import agent_economy as ae
 from agent_economy import InputError, Scenario, study
 from agent_economy.study import ask, files, race
-from agent_economy.study.pieces import in_pieces
+from agent_economy.study.pieces import FEWEST_ROWS, in_pieces
 from agent_economy.study.rectangle import Rectangle
 
 TEAM = "robots.wanderer.count"
@@ -330,12 +330,12 @@ def test_a_long_round_is_told_of_while_it_goes_on(monkeypatch: pytest.MonkeyPatc
 
 
 def test_pieces_together_are_the_whole() -> None:
-    area = Rectangle(tuple(range(8)), 3, 700)
+    area = Rectangle(tuple(range(4)), 3, 1400)
     seen: list[int] = []
     compute = in_pieces(made_up.slow_outcomes, seen.append)
     assert made_up.same(compute(area), made_up.outcomes(area))
     assert seen == sorted(set(seen))
-    assert 0 < seen[0] <= 64
+    assert 0 < seen[0] <= FEWEST_ROWS
     assert seen[-1] < area.rows
 
 

@@ -1,5 +1,7 @@
 """What a page says to the server, and what the server says to it.
 
+Runs that are watched
+---------------------
 Over `/ws` go texts in JSON, each with a `type`, and frames in bytes. Numbers of runs can have 64
 bits, which JavaScript's cannot: seeds and runs go as texts.
 
@@ -19,6 +21,27 @@ ten times a second), `refused` (with `faults`; nothing has changed) and `ended`.
 endian is eight numbers, `u32` but for the time: 1, generation, tick, robots, time in s (`f64`),
 items, the frame's number; then what `_core.frame` says. It is drawn in the setting of its
 generation.
+
+Studies
+-------
+A study's id is its folder below the server's, as `studies/classic`. What is not allowed is answered
+with status 422 and `faults`.
+
+* POST `/api/factors`: `scenario` or `text`. What can be varied, and between which values.
+* POST `/api/plan`: an ask, which is `scenario` or `text`; `vary` (values by path, all that is
+  varied, or nothing for what the scenario varies), `design`, `delta`, `confidence`, `guarantee`,
+  `merit`, `runs`, `max_runs` (each may be null) and `seed`. What the study would compare.
+* POST `/api/studies`: an ask. Begins the study in the folder that the command line would use, or
+  goes on with it. GET: all studies, the newest first.
+* POST `/api/studies/stop`: `id`. `/api/studies/resume`: `id`, and a higher `confidence` or null.
+* GET `/api/study?id=`: a study with its plan, and its answer with the report's sections and charts.
+* GET `/api/study/runs?id=&configuration=`: its runs, `first` and `count` or a `sample` of them from
+  the worst to the best. `/api/study/report?id=`, `/api/study/answer?id=`: its files.
+* Over `/ws?study=ID` the server tells `studying`, at most five times a second, until the study does
+  not go on: its `state` (running, answered, stopped or damaged) and `message`, rounds and runs, the
+  best with their ranges in `standings` (configuration, runs, merit, low, high; the last two null
+  where nobody has computed them), who is `eliminated` (configuration, by whom, after how many
+  runs), and in the first message all `labels`.
 """
 
 import json

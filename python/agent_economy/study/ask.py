@@ -54,7 +54,7 @@ def run(  # noqa: PLR0913  (keywords with defaults)
         seed: 0 to 2^64 - 1.
         out: Folder of the study, to go on with and to look at; None keeps nothing.
         compute: What computes rectangles, such as `Workers`; None for threads in this process.
-        on_progress: Called after each round, and each second of a long one.
+        on_progress: Called after each round, and each second or so of a long one.
 
     Raises:
         InputError: If anything is not allowed; or the folder holds another study, is damaged, or

@@ -1,6 +1,6 @@
 """Compute a rectangle in this process, a piece at a time."""
 
-import math
+import os
 import time
 from collections.abc import Callable
 
@@ -8,8 +8,8 @@ import numpy as np
 
 from agent_economy.study.rectangle import Columns, Compute, Rectangle
 
-FIRST_PIECE_ROWS, MOST_PIECE_ROWS = 64, 20_000
-"""Runs that are computed together in this process: first, and at most."""
+FEWEST_ROWS, MOST_ROWS = 8 * (os.cpu_count() or 1), 20_000
+"""Runs of a piece: the first has the fewest, with which no processor waits long for another."""
 
 PIECE_S = 0.5
 """What a piece should take."""
@@ -20,7 +20,7 @@ def in_pieces(compute: Compute, on_piece: Callable[[int], None]) -> Compute:
 
     Between two pieces Ctrl-C is heard, and `on_piece` is told the runs that are computed.
     """
-    rows = FIRST_PIECE_ROWS
+    rows = FEWEST_ROWS
 
     def pieces(rectangle: Rectangle) -> Columns:
         nonlocal rows
@@ -30,7 +30,7 @@ def in_pieces(compute: Compute, on_piece: Callable[[int], None]) -> Compute:
             begin = time.monotonic()
             parts.append(compute(Rectangle(rectangle.configurations, first, runs)))
             took_s = max(time.monotonic() - begin, 1e-6)
-            rows = min(MOST_PIECE_ROWS, math.ceil(runs * width * PIECE_S / took_s))
+            rows = min(MOST_ROWS, max(FEWEST_ROWS, round(runs * width * PIECE_S / took_s)))
             first += runs
             if first < rectangle.end:
                 on_piece((first - rectangle.first_run) * width)

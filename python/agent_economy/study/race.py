@@ -34,7 +34,7 @@ LEADERS = 10
 RANGED = 50
 """Configurations of which watchers can have the range of the merit."""
 
-ROUND_S = 1.0
+ROUND_S = 0.5
 """A round that takes longer is reported on while it goes on, this often."""
 
 
@@ -52,8 +52,8 @@ def hold(
             guarantee than the folder's) takes the folder over and uses its runs.
         folder: Of the study; made if it is not there.
         compute: What computes rectangles: the plan's engine in this process if None.
-        on_progress: Called after each round, and each second of a long one that this process
-            computes.
+        on_progress: Called after each round, and each second or so of a long one that this
+            process computes.
         finish: Called with what is found, before another process may work on the folder.
 
     Raises:

@@ -9,7 +9,7 @@ from typing import Any
 
 from agent_economy import study
 from agent_economy._core import InputError
-from agent_economy.server.places import Places
+from agent_economy.server.places import Places, is_study
 from agent_economy.server.studies.summary import Summaries, of_plan
 from agent_economy.server.studies.work import Work
 from agent_economy.study import Plan
@@ -33,8 +33,8 @@ class Studies:
 
     def listed(self) -> list[dict[str, Any]]:
         """Return all studies, the newest first."""
-        names = {*dict(self._places.studies()), *self._works}
-        return sorted(map(self.of, names), key=lambda row: (-row["changed_s"], row["id"]))
+        rows = [self.of(name) for name, _ in self._places.studies()]
+        return sorted(rows, key=lambda row: (-row["changed_s"], row["id"]))
 
     def of(self, name: str) -> dict[str, Any]:
         """Return a study by its id, as a page takes it.
@@ -46,15 +46,13 @@ class Studies:
         if work and work.is_alive:
             row = of_plan(work.plan, work.said["runs"], time.time()).listed(name)
             return {**row, "state": "running"}
-        folder = self._places.folder / name
-        if work is None or self._is_there(name):
-            folder = self._places.study(name)
-            row = self._summaries.of(folder).listed(name)
-        else:
-            row = of_plan(work.plan, 0, time.time()).listed(name)
-        if row["state"] != "damaged" and is_worked_on(folder):
+        folder = self._places.study(name)
+        row = self._summaries.of(folder).listed(name)
+        if row["state"] == "damaged":
+            return row
+        if is_worked_on(folder):
             return {**row, "state": "running"}
-        return row if work is None else {**row, "message": row["message"] or work.message}
+        return {**row, "message": work.message if work else None}
 
     def plan(self, name: str) -> Plan:
         """Return what a study asks.
@@ -66,12 +64,12 @@ class Studies:
         return work.plan if work and work.is_alive else study.plan_of(self._places.study(name))
 
     def folder(self, name: str) -> Path:
-        """Return the folder of a study; one that has only begun may not be there yet.
+        """Return the folder of a study.
 
         Raises:
             InputError: If there is no such study.
         """
-        return self._places.folder / name if name in self._works else self._places.study(name)
+        return self._places.study(name)
 
     def work(self, name: str) -> Work | None:
         """Return a study that this server has, or had, at work."""
@@ -88,7 +86,8 @@ class Studies:
 
     def state(self, name: str) -> str | None:
         """Return the state of the study that has an id, None if there is none."""
-        return self.of(name)["state"] if name in self._works or self._is_there(name) else None
+        is_there = is_study(self._places.folder / name)
+        return str(self.of(name)["state"]) if is_there else None
 
     def start(self, plan: Plan) -> dict[str, Any]:
         """Begin a study, or go on with it.
@@ -149,14 +148,8 @@ class Studies:
                     "studies at a time: stop one, or wait for its answer"
                 )
                 raise InputError(message)
-            work = self._works[name] = Work(wanted(), folder)
+            work = Work(wanted(), folder)
             work.wait_until_begun()
             if work.message:
                 raise InputError(work.message)
-
-    def _is_there(self, name: str) -> bool:
-        try:
-            self._places.study(name)
-        except InputError:
-            return False
-        return True
+            self._works[name] = work

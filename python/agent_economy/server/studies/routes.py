@@ -84,13 +84,12 @@ class Routes:
         """Return a study with its answer, if it has one."""
         name = id_of(told)
         row, plan = self.studies.of(name), self.studies.plan(name)
-        answer = self.answers.of(self.studies.folder(name)) if row["state"] == "answered" else None
         return JSONResponse(
             {
                 **row,
                 "planned": asks.planned(plan, name, row["state"]),
                 "source": {"scenario": gallery_id(plan.scenario, self.places)},
-                "answer": answer,
+                "answer": self.answers.of(self.studies.folder(name)),
             }
         )
 
@@ -130,8 +129,8 @@ def gallery_id(scenario: Scenario, places: Places) -> str | None:
     A study keeps the text of its scenario, and the name of its file: no folder.
     """
     file = Path(scenario.source.file)
-    ids = [name for name in (scenario.name, file.name) if name in shipped.scenarios()]
-    for name in (*ids, file.name):
+    shipping = [scenario.name] if scenario.name in shipped.scenarios() else []
+    for name in (*shipping, file.name):
         try:
             if places.load(name).source.text == scenario.source.text:
                 return name

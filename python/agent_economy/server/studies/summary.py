@@ -11,7 +11,7 @@ from agent_economy import study
 from agent_economy._core import InputError
 from agent_economy.study import Plan
 from agent_economy.study.question import Question
-from agent_economy.study.store.folder import ANSWER, ASKED, LEDGER
+from agent_economy.study.store.folder import ANSWER, ASKED, LEDGER, read_bytes
 
 State = str
 """running, answered, stopped or damaged."""
@@ -95,7 +95,7 @@ def summary(folder: Path, changed_s: float) -> Summary:
     try:
         answer = read_answer(folder)
         if answer is not None:
-            return answered(read_asked(folder), answer, changed_s)
+            return answered(folder, answer, changed_s)
         return of_plan(study.plan_of(folder), runs_so_far(folder), changed_s)
     except InputError as error:
         return Summary("damaged", folder.name, "", None, 0, None, str(error), changed_s)
@@ -108,21 +108,31 @@ def of_plan(plan: Plan, runs: int, changed_s: float) -> Summary:
     return Summary("stopped", scenario.name, scenario.engine, question, runs, None, None, changed_s)
 
 
-def answered(asked: Mapping[str, Any], answer: Mapping[str, Any], changed_s: float) -> Summary:
-    """Return the summary of a study that has an answer."""
-    scenario, question = answer["scenario"], asked["question"]
+def answered(folder: Path, answer: Mapping[str, Any], changed_s: float) -> Summary:
+    """Return the summary of a study that has an answer.
+
+    Raises:
+        InputError: If its study.toml is none.
+    """
+    scenario = answer["scenario"]
+    try:
+        asked = tomllib.loads(study.open(folder).asked)
+        question = Question(
+            scenario["design"],
+            len(answer["results"]),
+            asked["question"]["delta"],
+            asked["question"]["confidence"],
+            asked["question"]["guarantee"],
+            asked["data"].get("runs"),
+        )
+    except (tomllib.TOMLDecodeError, KeyError, TypeError, AttributeError) as error:
+        message = f"{folder / ASKED}: is not a study: {error!r}"
+        raise InputError(message) from None
     return Summary(
         "answered",
         scenario["name"],
         scenario["engine"],
-        Question(
-            scenario["design"],
-            len(answer["results"]),
-            question["delta"],
-            question["confidence"],
-            question["guarantee"],
-            asked["data"].get("runs"),
-        ),
+        question,
         answer["runs"],
         answer["sentence"],
         None,
@@ -137,34 +147,18 @@ def read_answer(folder: Path) -> dict[str, Any] | None:
         InputError: If what is there is none.
     """
     file = folder / ANSWER
-    try:
-        answer: dict[str, Any] = json.loads(file.read_bytes())
-        answer["scenario"]["design"], answer["results"], answer["sentence"]
-    except FileNotFoundError:
+    data = read_bytes(file)
+    if data is None:
         return None
-    except OSError as error:
-        message = f"{file}: cannot be read ({error.strerror})"
-    except (ValueError, TypeError, KeyError, RecursionError):
-        message = f"{file}: is damaged: remove it, and go on with the study"
-    else:
-        return answer
-    raise InputError(message)
-
-
-def read_asked(folder: Path) -> dict[str, Any]:
-    """Return what study.toml says, as far as it is needed here.
-
-    Raises:
-        InputError: If it is none.
-    """
-    text = study.open(folder).asked
     try:
-        asked = tomllib.loads(text)
-        asked["data"]["identity"], [asked["question"][name] for name in ("delta", "confidence")]
-    except (tomllib.TOMLDecodeError, KeyError, TypeError) as error:
-        message = f"{folder / ASKED}: is not a study: {error}"
-        raise InputError(message) from None
-    return asked
+        answer: dict[str, Any] = json.loads(data)
+        is_answer = answer.keys() >= {"scenario", "results", "runs", "sentence"}
+    except (ValueError, AttributeError, RecursionError):
+        is_answer = False
+    if is_answer:
+        return answer
+    message = f"{file}: is damaged: remove it, and go on with the study"
+    raise InputError(message)
 
 
 def runs_so_far(folder: Path) -> int:

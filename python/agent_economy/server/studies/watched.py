@@ -2,6 +2,7 @@
 
 import asyncio
 import contextlib
+from pathlib import Path
 from typing import Any
 
 from agent_economy import study
@@ -65,14 +66,14 @@ def labels_of(studies: Studies, name: str) -> list[str]:
 
 def seen(studies: Studies, name: str) -> dict[str, Any]:
     """Return how far a study is."""
+    work = studies.work(name)
+    said = work.said if work else NOTHING
     try:
         row = studies.of(name)
-        work = studies.work(name)
-        said = {**NOTHING, **(work.said if work else {})}
-        if row["state"] != "running" or work is None or not work.is_alive:
-            said |= stored(studies, name)
+        if row["state"] != "damaged" and not (work and work.is_alive):
+            said = {**said, **stored(studies.folder(name))}
     except InputError as error:
-        return {"state": "damaged", "message": str(error), **rates(NOTHING)}
+        row = {"state": "damaged", "message": str(error)}
     return {"state": row["state"], "message": row["message"], **rates(said)}
 
 
@@ -84,41 +85,33 @@ def rates(said: dict[str, Any]) -> dict[str, Any]:
     return {**said, "runs_per_s": rate, "left_s": left_s}
 
 
-def stored(studies: Studies, name: str) -> dict[str, Any]:
+def stored(folder: Path) -> dict[str, Any]:
     """Return how far a study is as its folder has it: after its last round, or with its answer.
 
     Raises:
         InputError: If it is damaged.
     """
-    folder = studies.folder(name)
-    if not folder.is_dir():
-        return {}
     decisions = study.open(folder).decisions()
     if not decisions:
         return {"left_runs": None}
     facts = decisions[-1].facts
     answer = read_answer(folder)
+    if answer:
+        standings = answered(answer)
+    else:
+        standings = [[*leader, None, None] for leader in facts["leaders"]]
     return {
         "round": len(decisions),
         "runs": facts["runs"],
         "survivors": facts["survivors"],
         "left_runs": None,
-        "standings": answered(answer)
-        if answer
-        else [[*row, None, None] for row in facts["leaders"]],
+        "standings": standings,
         "eliminated": [row for each in decisions for row in each.facts["eliminated"]],
     }
 
 
 def answered(answer: dict[str, Any]) -> list[list[Any]]:
     """Return the best that were never put out, with their ranges, as an answer has them."""
-    rows = [
-        [
-            row["configuration"],
-            row["runs"],
-            *(row["merit"][key] for key in ("value", "low", "high")),
-        ]
-        for row in answer["results"]
-        if row["eliminated"] is None
-    ]
-    return sorted(rows, key=lambda row: -row[2])[:MOST_STANDINGS]
+    left = [row for row in answer["results"] if row["eliminated"] is None]
+    best = sorted(left, key=lambda row: -row["merit"]["value"])[:MOST_STANDINGS]
+    return [[row["configuration"], row["runs"], *row["merit"].values()] for row in best]

@@ -121,7 +121,7 @@ def work(plan: Plan, folder: Path, line: Connection) -> None:
     signal.signal(signal.SIGINT, signal.default_int_handler)
     os.nice(GENTLE)
     threading.Thread(target=end_with_server, daemon=True).start()
-    with contextlib.suppress(KeyboardInterrupt, BrokenPipeError):
+    with contextlib.suppress(KeyboardInterrupt, ConnectionError):
         try:
             study.pursue(plan, folder, on_progress=Teller(line))
         except (StudyError, InputError) as error:
