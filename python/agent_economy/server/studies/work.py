@@ -36,6 +36,9 @@ LOOK_S = 0.02
 STOP_S = 10.0
 """A process that was interrupted has so long until it is killed."""
 
+COUNTS = ("round", "runs", "computed", "seconds", "survivors")
+"""What is told of a study's progress as it is."""
+
 NOTHING: dict[str, Any] = {
     "round": 0,
     "runs": 0,
@@ -162,9 +165,6 @@ class Teller:
         self._line.send({**counts, **self._estimated, "eliminated": self._eliminated})
         self._eliminated = []
         self._tell_at_s = time.monotonic() + TELL_S
-
-
-COUNTS = ("round", "runs", "computed", "seconds", "survivors")
 
 
 def estimated(now: Progress) -> dict[str, Any]:
