@@ -7,7 +7,8 @@ export default defineConfig({
   base: "./",
   plugins: [svelte()],
   // Data in addresses would need `font-src data:` and the like in the policy that the server sends.
-  build: { assetsInlineLimit: 0, modulePreload: { polyfill: false } },
+  // The large chunk is Vega, which draws the charts of studies and is loaded with the first.
+  build: { assetsInlineLimit: 0, modulePreload: { polyfill: false }, chunkSizeWarningLimit: 900 },
   server: { proxy: { "/api": server, "/ws": { target: server, ws: true } } },
   test: { include: ["src/**/*.test.ts"], environment: "node" },
 });

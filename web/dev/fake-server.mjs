@@ -1,6 +1,7 @@
 /**
  * Speaks as the real server does, without a simulator: for work on the page, its checks in a browser and
- * its benchmark. Run it with a port; scenario `crowd-N` has N robots, `broken` and `full` are refused.
+ * its benchmark. Run it with a port; scenario `crowd-N` has N robots, `broken` and `full` are refused,
+ * and a study with seed 13 meets a full disk.
  */
 import { readFile } from "node:fs/promises";
 import { createServer } from "node:http";
@@ -9,6 +10,7 @@ import { fileURLToPath } from "node:url";
 import { WebSocketServer } from "ws";
 import { pictureOf } from "./fake/run.mjs";
 import { documentOf, entries } from "./fake/scenarios.mjs";
+import { FakeStudies } from "./fake/studies.mjs";
 import { Talk } from "./fake/talk.mjs";
 
 const here = fileURLToPath(new URL("..", import.meta.url));
@@ -18,24 +20,35 @@ const policy = "default-src 'self'; img-src 'self' data:; style-src 'self'";
 /** Starts it; gives its address, how many frames were drawn, and what stops it. */
 export async function serve(port = 0) {
   const counter = { drawn: 0 };
+  const studies = new FakeStudies();
   const server = createServer((request, answer) =>
-    handle(request, answer).catch(() => send(answer, 404, "text/plain", "no such thing")),
+    handle(request, answer, studies).catch(() => send(answer, 404, "text/plain", "no such thing")),
   );
   const sockets = new WebSocketServer({ server, path: "/ws", perMessageDeflate: false });
-  sockets.on("connection", (socket) => new Talk(socket, counter));
+  sockets.on("connection", (socket, request) => {
+    const study = new URL(request.url, "http://localhost").searchParams.get("study");
+    if (study === null) new Talk(socket, counter, studies);
+    else studies.follow(study, socket);
+  });
   await new Promise((ready) => server.listen(port, "127.0.0.1", ready));
   const drop = () => {
     for (const socket of sockets.clients) socket.terminate();
   };
   const stop = () => {
     drop();
+    studies.stop();
     server.close();
   };
   return { url: `http://127.0.0.1:${server.address().port}`, counter, drop, stop };
 }
 
-async function handle(request, answer) {
+async function handle(request, answer, studies) {
   const { pathname, searchParams } = new URL(request.url, "http://localhost");
+  if (/^\/api\/(factors|plan|stud)/.test(pathname)) {
+    const body = request.method === "POST" ? JSON.parse(await bodyOf(request)) : null;
+    const [status, said] = studies.answer(request.method, pathname, searchParams, body);
+    return send(answer, status, "application/json", JSON.stringify(said));
+  }
   if (pathname === "/api/scenarios") return send(answer, 200, "application/json", JSON.stringify(entries));
   if (pathname === "/api/pictures")
     return send(answer, 200, "image/svg+xml", pictureOf(documentOf(searchParams.get("scenario"))));
@@ -46,10 +59,14 @@ async function handle(request, answer) {
   send(answer, 200, kinds[extname(file)] ?? "text/plain", await readFile(join(here, "dist", file)));
 }
 
-async function check(request, answer) {
+async function bodyOf(request) {
   const parts = [];
   for await (const part of request) parts.push(part);
-  const lines = Buffer.concat(parts).toString().split("\n");
+  return Buffer.concat(parts).toString();
+}
+
+async function check(request, answer) {
+  const lines = (await bodyOf(request)).split("\n");
   const faults = lines.flatMap((line, i) => (/raduis|-3/.test(line) ? [faultAt(i + 1, line)] : []));
   const good = { name: "my scenario", engine: "metric", summary: "A scenario." };
   send(

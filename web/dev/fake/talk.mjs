@@ -5,8 +5,9 @@ const mostUnseen = 3;
 
 /** One page's run: what the real server's end of a socket does, without a simulator. */
 export class Talk {
-  constructor(socket, counter) {
+  constructor(socket, counter, studies) {
     this.socket = socket;
+    this.studies = studies;
     this.counter = counter;
     this.unseen = 0;
     this.number = 0;
@@ -28,7 +29,9 @@ export class Talk {
     this.show();
   }
 
-  open({ scenario, text, seed, run, changes, tick }) {
+  open({ scenario: asked, text, study, seed, run, changes, tick }) {
+    const held = study ? this.studies.all.get(study.id) : null;
+    const scenario = held ? held.ask.scenario : asked;
     if (scenario === "broken") {
       const message = "robots.rover.count is missing: must be a whole number from 0 to 1000000";
       return this.say({
@@ -52,6 +55,9 @@ export class Talk {
       return this.socket.close();
     }
     this.base = documentOf(text === null ? scenario : "search");
+    held?.points[study.configuration].forEach((value, i) =>
+      put(this.base, held.planned.factors[i].path, value),
+    );
     this.seed = Number(BigInt(seed) % 1000003n) + Number(run);
     Object.assign(this, { changes, generation: 0, edge: tick, playing: false, speed: 1, selected: null });
     const { name, engine, summary } = entryOf(text === null ? scenario : null);

@@ -1,3 +1,5 @@
+import type { OfStudy } from "../net/protocol";
+import { runsOf } from "../net/studies";
 import type { Link } from "../run/link";
 import { Session } from "../run/session.svelte";
 import type { Camera } from "../view/camera";
@@ -18,12 +20,23 @@ export class Desk {
   speed = $state<number | null>(1);
   camera = $state.raw<Camera | null>(null);
   stage: Stage | null = null;
+  /** What the configuration of a study is called, once the server has said so. */
+  private label = $state("");
 
   constructor(
     readonly link: Link,
     text: string | null,
   ) {
     this.session = new Session({ ...link, text });
+    if (link.study) void this.ask(link.study);
+  }
+
+  /** Such as `Run 12 of classic, 3 wanderers`; null if the run is of no study. */
+  get studied(): string | null {
+    const { study, run } = this.link;
+    if (!study) return null;
+    const name = study.id.split("/").at(-1) ?? study.id;
+    return `Run ${run} of ${name}, ${this.label || `configuration ${study.configuration}`}`;
   }
 
   toggle(): void {
@@ -35,6 +48,12 @@ export class Desk {
   setSpeed(speed: number | null): void {
     this.speed = speed;
     if (this.session.state?.playing) this.session.play(speed);
+  }
+
+  private async ask({ id, configuration }: OfStudy): Promise<void> {
+    // Without an answer the number of the configuration stands; that the server is gone is said by the line.
+    const said = await runsOf(id, configuration, 0, 1).catch(() => null);
+    if (said) this.label = said.label;
   }
 
   /** The address of what is seen now. */

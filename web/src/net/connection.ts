@@ -38,7 +38,7 @@ export class Connection {
 
   constructor(
     private readonly listener: Listener,
-    private readonly wires: Wires = browserWires(),
+    private readonly wires: Wires = browserWires("ws"),
   ) {}
 
   /** Connects now, whatever wait is under way. */
@@ -81,7 +81,7 @@ export class Connection {
   private receivedText(text: string): void {
     const message = readMessage(text);
     if (!message) return;
-    if (message.type === "opened") this.failures = 0;
+    if (message.type === "opened" || message.type === "studying") this.failures = 0;
     this.listener.message(message);
   }
 
@@ -106,9 +106,10 @@ export class Connection {
   }
 }
 
-function browserWires(): Wires {
+/** The browser's own, to an address of the server. */
+export function browserWires(address: string): Wires {
   return {
-    connect: () => new WebSocket(new URL("ws", location.href)) as unknown as Socket,
+    connect: () => new WebSocket(new URL(address, location.href)) as unknown as Socket,
     after: (ms, action) => {
       const timer = setTimeout(action, ms);
       return () => clearTimeout(timer);

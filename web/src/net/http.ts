@@ -1,4 +1,5 @@
 import type { Checked, Fault, ScenarioEntry } from "./protocol";
+import { Refusal } from "./study";
 
 export async function scenarios(): Promise<ScenarioEntry[]> {
   return (await asked("api/scenarios")).json() as Promise<ScenarioEntry[]>;
@@ -26,8 +27,11 @@ export async function check(text: string): Promise<Verdict> {
   return { scenario: (await answer.json()) as Checked };
 }
 
-async function asked(path: string): Promise<Response> {
-  const answer = await fetch(path);
-  if (!answer.ok) throw new Error(`The server answered ${answer.status} ${answer.statusText}.`);
-  return answer;
+/** The server's answer; throws a `Refusal` with the server's words where it gives any. */
+export async function asked(path: string, request: RequestInit = {}): Promise<Response> {
+  const answer = await fetch(path, request);
+  if (answer.ok) return answer;
+  const said = (await answer.json().catch(() => null)) as { faults?: Fault[] } | null;
+  if (said?.faults) throw new Refusal(said.faults);
+  throw new Error(`The server answered ${answer.status} ${answer.statusText}.`);
 }

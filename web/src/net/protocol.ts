@@ -1,4 +1,5 @@
 /** What page and server say to each other; names and shapes are those of the server. */
+import type { Studying } from "./study";
 
 export type Json = null | boolean | number | string | Json[] | { [key: string]: Json };
 export type Table = { [key: string]: Json };
@@ -35,10 +36,18 @@ export interface Checked {
 
 // From the page.
 
+/** A configuration of a study. */
+export interface OfStudy {
+  id: string;
+  configuration: number;
+}
+
+/** One of `scenario`, `text` and `study` says what runs. */
 export interface Open {
   type: "open";
   scenario: string | null;
   text: string | null;
+  study: OfStudy | null;
   /** Decimal, as it can be up to 2^64 - 1. */
   seed: string;
   run: string;
@@ -183,9 +192,9 @@ export interface Ended {
   message: string;
 }
 
-export type Message = Opened | Setting | State | Refused | Ended;
+export type Message = Opened | Setting | State | Refused | Ended | Studying;
 
-const types = ["opened", "setting", "state", "refused", "ended"];
+const types = ["opened", "setting", "state", "refused", "ended", "studying"];
 
 /** The message in a text from the server; null if it is none that this page knows. */
 export function readMessage(text: string): Message | null {

@@ -1,11 +1,12 @@
 import { expect, test } from "vitest";
-import { emptyLink, type Link, readLink, shortened, writeLink } from "./link";
+import { emptyLink, type Link, newStudyLink, readLink, shortened, studyLink, writeLink } from "./link";
 
 const read = (hash: string) => readLink(new URLSearchParams(hash.slice(hash.indexOf("?") + 1)));
 
 const full: Link = {
   scenario: "mine/room & hall.toml",
   text: null,
+  study: null,
   seed: "18446744073709551615",
   run: "3",
   changes: [
@@ -22,6 +23,7 @@ test.each([
   ["full", full],
   ["empty", emptyLink],
   ["of a text", { ...emptyLink, text: "zAb-_9" }],
+  ["of a study", { ...emptyLink, study: { id: "studies/mine & yours", configuration: 12 }, run: "7" }],
 ])("a link that is %s comes back as it was", (_, link) => expect(read(writeLink(link))).toEqual(link));
 
 test("what an address says wrongly is left out", () => {
@@ -29,6 +31,18 @@ test("what an address says wrongly is left out", () => {
     "#/live?scenario=a&seed=-1&run=x&tick=1.5&view=1,2&changes=[[1],[2,3,4],[-1,%22p%22,0],[5,%22p%22,0]]";
   expect(read(hash)).toEqual({ ...emptyLink, scenario: "a", changes: [[5, "p", 0]] });
   expect(read("#/live?changes={not json").changes).toEqual([]);
+});
+
+test("a study without a number of a configuration is no source of a run", () => {
+  expect(read("#/live?study=studies/a").study).toBeNull();
+  expect(read("#/live?study=studies/a&configuration=-1").study).toBeNull();
+});
+
+test("the address of a study holds its folder as it is read", () => {
+  expect(studyLink("studies/classic-12", 3)).toBe("#/study?id=studies/classic-12&configuration=3");
+  expect(newStudyLink({ scenario: "mine/hall.toml", text: null })).toBe(
+    "#/study/new?scenario=mine/hall.toml",
+  );
 });
 
 test("only the last change of a path at a tick is kept, and those of other ticks all", () => {

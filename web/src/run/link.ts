@@ -1,10 +1,12 @@
-import type { Change, Json } from "../net/protocol";
+import type { Change, Json, OfStudy } from "../net/protocol";
 
 /** What an address says of a run, so that opening it gives the same run at the same tick. */
 export interface Link {
   scenario: string | null;
   /** Text of a scenario of one's own, packed (`packed.ts`). */
   text: string | null;
+  /** A configuration of a study, in place of a scenario. */
+  study: OfStudy | null;
   seed: string;
   run: string;
   changes: Change[];
@@ -20,6 +22,7 @@ export const longestLink = 8000;
 export const emptyLink: Link = {
   scenario: null,
   text: null,
+  study: null,
   seed: "0",
   run: "0",
   changes: [],
@@ -33,6 +36,10 @@ export function writeLink(link: Link): string {
   const query = new URLSearchParams();
   if (link.scenario !== null) query.set("scenario", link.scenario);
   if (link.text !== null) query.set("text", link.text);
+  if (link.study) {
+    query.set("study", link.study.id);
+    query.set("configuration", String(link.study.configuration));
+  }
   query.set("seed", link.seed);
   query.set("run", link.run);
   if (link.changes.length > 0) query.set("changes", JSON.stringify(shortened(link.changes)));
@@ -47,6 +54,7 @@ export function readLink(query: URLSearchParams): Link {
   return {
     scenario: query.get("scenario"),
     text: query.get("text"),
+    study: readStudy(query.get("study"), query.get("configuration")),
     seed: whole(query.get("seed")),
     run: whole(query.get("run")),
     changes: readChanges(query.get("changes")),
@@ -54,6 +62,19 @@ export function readLink(query: URLSearchParams): Link {
     view: readView(query.get("view")),
     robot: query.get("robot"),
   };
+}
+
+/** The address of a study; with a configuration, of its runs there. */
+export function studyLink(id: string, configuration?: number): string {
+  const query = new URLSearchParams({ id });
+  if (configuration !== undefined) query.set("configuration", String(configuration));
+  return `#/study?${readable(query.toString())}`;
+}
+
+/** Where a new study of what a link runs is asked. */
+export function newStudyLink({ scenario, text }: Pick<Link, "scenario" | "text">): string {
+  const query: Record<string, string> = text === null ? { scenario: scenario ?? "" } : { text };
+  return `#/study/new?${readable(new URLSearchParams(query).toString())}`;
 }
 
 /** Of changes of one path at one tick only the last counts. */
@@ -80,6 +101,16 @@ function readable(query: string): string {
 
 function whole(text: string | null): string {
   return text !== null && /^\d{1,20}$/.test(text) ? text : "0";
+}
+
+/** Number of a configuration; null if it is none. */
+export function readConfiguration(text: string | null): number | null {
+  return text !== null && /^\d{1,9}$/.test(text) ? Number(text) : null;
+}
+
+function readStudy(id: string | null, given: string | null): OfStudy | null {
+  const configuration = readConfiguration(given);
+  return id === null || configuration === null ? null : { id, configuration };
 }
 
 function readView(text: string | null): Link["view"] {

@@ -142,7 +142,7 @@ export class Session implements Listener {
     else if (message.type === "setting") this.set(message);
     else if (message.type === "state") this.told(message);
     else if (message.type === "refused") this.refuse(message);
-    else this.end(message);
+    else if (message.type === "ended") this.end(message);
   }
 
   /** The latest frame is in the picture. */
@@ -196,9 +196,10 @@ export class Session implements Listener {
 
   /** The run as it stands, so that a line that was lost goes on where it was. */
   private opening(): Command {
-    const { scenario, text, seed, run } = this.source;
+    const { scenario, text, study, seed, run } = this.source;
     const changes: Change[] = this.setting?.changes ?? this.source.changes;
-    return { type: "open", scenario, text, seed, run, changes, tick: this.state?.tick ?? this.source.tick };
+    const tick = this.state?.tick ?? this.source.tick;
+    return { type: "open", scenario, text, study, seed, run, changes, tick };
   }
 
   private sendChange(path: string, value: Json): void {

@@ -1,4 +1,4 @@
-import type { Outcome } from "../../net/protocol";
+import type { Outcome } from "../net/protocol";
 
 export interface OutcomeRow {
   name: string;
@@ -30,10 +30,15 @@ export function outcomeRows(outcome: Outcome): OutcomeRow[] {
   return [...rows, ...names.flatMap((name) => row(name, rest[name]))];
 }
 
+/** A column's name in words, and the unit that it ends in. */
+export function named(column: string): { words: string; unit: string } {
+  const [ending = "", unit = ""] = units.find(([end]) => column.endsWith(end)) ?? [];
+  return { words: column.slice(0, column.length - ending.length).replaceAll("_", " "), unit };
+}
+
 function row(name: string, value: Outcome[string] | undefined): OutcomeRow[] {
   if (value === null || value === undefined || typeof value === "object") return [];
-  const [ending = "", unit = ""] = units.find(([end]) => name.endsWith(end)) ?? [];
-  const words = name.slice(0, name.length - ending.length).replaceAll("_", " ");
+  const { words, unit } = named(name);
   if (typeof value !== "number") return [{ name: words, value: String(value), unit: "" }];
   const [number, power] = unit === "J" && Math.abs(value) >= 10_000 ? [value / 1000, "k"] : [value, ""];
   return [{ name: words, value: readable(number), unit: `${power}${unit}` }];

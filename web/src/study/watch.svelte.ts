@@ -1,0 +1,112 @@
+import { browserWires, Connection, type Listener } from "../net/connection";
+import type { Message } from "../net/protocol";
+import { resume, stop, study } from "../net/studies";
+import { type Listed, Refusal, type Study, type StudyState, type Studying } from "../net/study";
+import { troubleOf } from "./words";
+
+/** `lost` while the server is called again; `refused` if there is no such study. */
+export type LinePhase = "opening" | "there" | "lost" | "refused";
+
+/** A study as the page knows it, and the commands to it. */
+export class Watch implements Listener {
+  phase = $state<LinePhase>("opening");
+  study = $state.raw<Study | null>(null);
+  state = $state<StudyState | null>(null);
+  race = $state.raw<Studying | null>(null);
+  /** Of all configurations. */
+  labels = $state.raw<string[]>([]);
+  /** Milliseconds until the line is tried again. */
+  again_ms = $state(0);
+  /** Why the study could not be opened, or a command was not obeyed. */
+  trouble = $state("");
+
+  private readonly connection: Connection;
+  private asked = 0;
+  private isClosed = false;
+
+  constructor(private readonly id: string) {
+    this.connection = new Connection(this, browserWires(`ws?${new URLSearchParams({ study: id })}`));
+  }
+
+  start(): void {
+    this.connection.start();
+    void this.load();
+  }
+
+  close(): void {
+    this.isClosed = true;
+    this.connection.close();
+  }
+
+  async stop(): Promise<void> {
+    this.trouble = "";
+    try {
+      this.told(await stop(this.id));
+    } catch (fault) {
+      this.trouble = troubleOf(fault);
+    }
+  }
+
+  /** Goes on, up to a higher confidence if one is given; returns why not, empty if it does. */
+  async resume(confidence: number | null): Promise<string> {
+    try {
+      this.told(await resume(this.id, confidence));
+      this.connection.start();
+      return "";
+    } catch (fault) {
+      return troubleOf(fault);
+    }
+  }
+
+  // What the line tells.
+
+  ready(): void {
+    if (!this.study) void this.load();
+  }
+
+  lost(again_ms: number): void {
+    this.phase = "lost";
+    this.again_ms = again_ms;
+  }
+
+  frame(): void {}
+
+  message(message: Message): void {
+    if (message.type !== "studying") return;
+    this.phase = "there";
+    if (message.labels) this.labels = message.labels;
+    this.race = message;
+    // An answer is in files: what has just ended is read from there.
+    const isNew = message.state !== "running" && message.state !== this.study?.state;
+    this.state = message.state;
+    if (message.state !== "running") this.connection.close();
+    if (isNew) void this.load();
+  }
+
+  private async load(): Promise<void> {
+    this.asked += 1;
+    const asked = this.asked;
+    try {
+      const loaded = await study(this.id);
+      // Answers may overtake each other; the last question is the one that counts.
+      if (asked !== this.asked) return;
+      this.study = loaded;
+      this.state ??= loaded.state;
+    } catch (fault) {
+      if (!this.isClosed) this.missed(fault);
+    }
+  }
+
+  private missed(fault: unknown): void {
+    // A server that does not answer is called by the line until it does.
+    if (!(fault instanceof Refusal)) return;
+    this.trouble = fault.message;
+    this.phase = "refused";
+    this.connection.close();
+  }
+
+  private told(listed: Listed): void {
+    this.state = listed.state;
+    if (this.study) this.study = { ...this.study, ...listed };
+  }
+}
