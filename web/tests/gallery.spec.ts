@@ -5,7 +5,7 @@ const file = (text: string) => ({ name: "my.toml", mimeType: "application/toml",
 
 test("the gallery shows each scenario with its picture, and opens it", async ({ page, fake }) => {
   await page.goto(fake.url);
-  const card = page.getByRole("link", { name: /search-mind/ });
+  const card = page.getByRole("link", { name: /^search-mind/ });
   await expect(card).toContainText("map, share and plan");
   await expect
     .poll(() => card.locator("img").evaluate((img: HTMLImageElement) => img.naturalWidth))

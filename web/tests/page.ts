@@ -19,7 +19,7 @@ export const test = base.extend<{ fake: Fake; complaints: string[] }>({
       const complaints: string[] = [];
       page.on("pageerror", (error) => complaints.push(error.message));
       page.on("console", (message) => {
-        if (message.type() === "error" && !/422|ERR_CONNECTION/.test(message.text()))
+        if (message.type() === "error" && !/422|ERR_(CONNECTION|INTERNET)/.test(message.text()))
           complaints.push(message.text());
       });
       await use(complaints);

@@ -54,7 +54,6 @@ export class Chart {
       defaultStyle: false,
       tooltip: { theme: isDark ? "dark" : "light", disableDefaultStyle: true },
       config: {
-        aria: false,
         axisY: { labelLimit: Math.max(90, 0.36 * this.width_px) },
         legend: this.width_px < 480 ? { columns: 1 } : {},
       },

@@ -22,7 +22,7 @@ export function ticksOf([low, high]: Domain, most = 6): number[] {
   const step = stepOf((high - low) / most);
   const first = Math.ceil(low / step - 1e-9);
   const last = Math.floor(high / step + 1e-9);
-  return Array.from({ length: last - first + 1 }, (_, i) => Number(((first + i) * step).toPrecision(12)));
+  return Array.from({ length: last - first + 1 }, (_, i) => tidy((first + i) * step));
 }
 
 /** Where a value lies, in percent of the axis. */
@@ -33,7 +33,13 @@ export function placeOn([low, high]: Domain, value: number): number {
 function rounded(low: number, high: number): Domain {
   const width = Math.max(high - low, 1e-6 * Math.max(1, Math.abs(low)));
   const step = stepOf(width / 5);
-  return [Math.floor(low / step) * step, Math.ceil((low + width) / step) * step];
+  const end = Math.max(high, low + width);
+  return [tidy(Math.floor(low / step + 1e-9) * step), tidy(Math.ceil(end / step - 1e-9) * step)];
+}
+
+/** Without what sums of binary fractions leave. */
+function tidy(value: number): number {
+  return Number(value.toPrecision(12));
 }
 
 /** The next of 1, 2, 5, 10, ... that is no smaller. */

@@ -20,7 +20,7 @@ export type Wrongs = Record<string, string>;
 
 const numbers = ["delta", "confidence", "runs", "max_runs"] as const;
 const usualGuarantee: Guarantee = "indifference";
-const teamPath = /^robots\.(.+)\.count$/;
+const teamPath = /^robots\.([^.]+)\.count$/;
 
 /** What the scenario asks, with the sizes of all its teams to begin with. */
 export function draftOf({ factors }: Factors): Draft {

@@ -14,7 +14,7 @@ export function raceWords(race: Studying, total: number, labels: string[]): stri
   parts.push(plural(race.runs, "run"));
   if (race.left_s !== null) parts.push(`about ${duration(race.left_s)} left`);
   const [best] = race.standings;
-  const leads = best ? ` ${nameOf(labels, best[0])} leads.` : "";
+  const leads = best ? ` In front: ${nameOf(labels, best[0])}.` : "";
   return `${stateWords[race.state]}: ${parts.join(", ")}.${leads}`;
 }
 

@@ -1,0 +1,341 @@
+import type { APIRequestContext, Page } from "@playwright/test";
+import { expect, expectAccessible, live, test } from "./page";
+
+const plain = {
+  scenario: "search",
+  text: null,
+  vary: {},
+  design: null,
+  delta: null,
+  confidence: null,
+  guarantee: null,
+  merit: null,
+  runs: null,
+  max_runs: null,
+  seed: "0",
+};
+/** Ends by no means meanwhile: mines more or fewer make no difference to the fake server's robots. */
+const long = {
+  ...plain,
+  vary: { "robots.rover.count": "1..9", "items.mine.count": "4,5" },
+  delta: 0.0001,
+};
+
+interface At {
+  url: string;
+}
+
+async function start(request: APIRequestContext, fake: At, ask: object = plain): Promise<string> {
+  const answer = await request.post(`${fake.url}/api/studies`, { data: ask });
+  return ((await answer.json()) as { id: string }).id;
+}
+
+const at = (fake: At, id: string) => `${fake.url}/#/study?id=${id}`;
+const sentence = (page: Page) => page.getByText(/^Send \d rovers?: a run takes/);
+
+async function answered(page: Page, fake: At) {
+  await page.goto(at(fake, await start(page.request, fake)));
+  await expect(sentence(page)).toBeVisible({ timeout: 10_000 });
+}
+
+test("without studies the page says what one is and how to start", async ({ page, fake }) => {
+  await page.goto(fake.url);
+  await page.getByRole("link", { name: "Studies" }).click();
+  await expect(page.getByRole("heading", { name: "No studies here yet" })).toBeVisible();
+  await expectAccessible(page);
+  await page.getByRole("link", { name: "New study" }).click();
+  await expect(page.getByRole("link", { name: /^search Four items/ })).toBeVisible();
+  await expectAccessible(page);
+});
+
+test("a study is asked, raced and answered by keyboard alone", async ({ page, fake }) => {
+  await page.goto(fake.url);
+  await page.getByRole("link", { name: "Study search", exact: true }).focus();
+  await page.keyboard.press("Enter");
+  const team = page.getByRole("textbox", { name: "Number of rovers" });
+  await expect(team).toHaveValue("1..9");
+  await team.focus();
+  await page.keyboard.press("Control+a");
+  await page.keyboard.type("1..6");
+  await expect(page.getByText("factorial: 6 configurations")).toBeVisible();
+  await page.keyboard.press("Enter");
+  await expect(page.getByRole("heading", { name: "Still in" })).toBeVisible();
+  await expect(page.getByText(/^\d of 6$/)).toBeVisible();
+  await expect(sentence(page)).toBeVisible({ timeout: 10_000 });
+});
+
+test("faults stand beside their fields, and the study cannot be started", async ({ page, fake }) => {
+  await page.goto(`${fake.url}/#/study/new?scenario=search`);
+  const team = page.getByRole("textbox", { name: "Number of rovers" });
+  await team.fill("1..4x");
+  await expect(team).toHaveAccessibleDescription(/must be a text of values/);
+  await expect(page.getByRole("button", { name: "Start" })).toBeDisabled();
+  await page.getByRole("textbox", { name: "Confidence" }).fill("high");
+  await expect(page.getByRole("textbox", { name: "Confidence" })).toHaveAccessibleDescription(
+    /must be a number/,
+  );
+  await expectAccessible(page);
+  await page.getByRole("textbox", { name: "Confidence" }).fill("");
+  await team.fill("");
+  await expect(page.getByText("Nothing is varied yet")).toBeVisible();
+  await team.fill("1..4");
+  await expect(page.getByRole("button", { name: "Start" })).toBeEnabled();
+});
+
+test("a fault under More opens it", async ({ page, fake }) => {
+  await page.goto(`${fake.url}/#/study/new?scenario=search`);
+  await page.getByText("More", { exact: true }).click();
+  await page.getByRole("textbox", { name: "Seed" }).fill("minus one");
+  await expect(page.getByRole("textbox", { name: "Seed" })).toHaveAccessibleDescription(/whole number/);
+  await expectAccessible(page);
+});
+
+test("what else is varied is found by its name, added and removed", async ({ page, fake }) => {
+  await page.goto(`${fake.url}/#/study/new?scenario=search`);
+  await page.getByText("Vary something else").click();
+  await page.getByRole("searchbox").fill("camera range");
+  await expect(page.getByText("1 parameter", { exact: true })).toBeVisible();
+  await page.getByRole("button", { name: "Vary robots.rover.sensors.camera.range_m" }).click();
+  const range = page.getByRole("textbox", { name: "robots.rover.sensors.camera.range_m" });
+  await expect(range).toBeFocused();
+  await range.fill("2,4");
+  await expect(page.getByText("factorial: 18 configurations")).toBeVisible();
+  await page.getByText("Vary something else").click();
+  await page.getByRole("button", { name: /^Vary .*arbitration.kind/ }).click();
+  await page.getByRole("checkbox", { name: "goals" }).check();
+  await page.getByRole("checkbox", { name: "schemas" }).check();
+  await expect(page.getByText("factorial: 36 configurations")).toBeVisible();
+  await expectAccessible(page);
+  await page.getByRole("button", { name: "Remove robots.rover.sensors.camera.range_m" }).click();
+  await expect(page.getByText("factorial: 18 configurations")).toBeVisible();
+});
+
+test("a scenario with faults is no study, in the server's words", async ({ page, fake }) => {
+  await page.goto(`${fake.url}/#/study/new?scenario=broken`);
+  await expect(page.getByRole("alert")).toContainText("robots.rover.count is missing");
+  await expectAccessible(page);
+});
+
+test("the race is told in words and as a table, stops, and goes on", async ({ page, fake }) => {
+  await page.goto(at(fake, await start(page.request, fake, long)));
+  await expect(
+    page.getByRole("status").filter({ hasText: /^Running: \d+ configurations of 18/ }),
+  ).toHaveCount(1);
+  await expect(page.getByText(/put out by \d rovers?, count \d after \d+ runs/).first()).toBeVisible();
+  await page.getByRole("button", { name: "Table" }).click();
+  await expect(page.getByRole("columnheader", { name: "merit" })).toBeVisible();
+  await page.getByRole("button", { name: "Stop" }).click();
+  await expect(page.getByText("Stopped", { exact: true })).toBeVisible();
+  await expectAccessible(page);
+  await page.getByRole("button", { name: "Chart" }).click();
+  await expectAccessible(page);
+  await page.getByRole("button", { name: "Go on" }).click();
+  await expect(page.getByRole("button", { name: "Stop" })).toBeVisible();
+  await expect(page.getByText("runs a second")).toBeVisible();
+});
+
+test("the race has no fault that axe finds", async ({ page, fake }) => {
+  await page.emulateMedia({ reducedMotion: "reduce" });
+  await page.goto(at(fake, await start(page.request, fake, long)));
+  await expect(page.getByRole("heading", { name: "Still in" })).toBeVisible();
+  await expectAccessible(page);
+});
+
+test("an answer has its sentence, guarantee, charts with tables, and files", async ({ page, fake }) => {
+  await answered(page, fake);
+  await expect(page.getByText("selected one with 95% confidence")).toBeVisible();
+  await expect(
+    page.getByRole("img", { name: /^Figure of merit with its range/ }).locator("svg"),
+  ).toBeVisible();
+  await expect(page.getByRole("row", { name: /^4 rovers/ }).first()).toBeVisible();
+  await page.getByText("The numbers as a table").first().click();
+  await expect(page.getByRole("columnheader", { name: "mean time, s" })).toBeVisible();
+  await expectAccessible(page);
+  const [saved] = await Promise.all([
+    page.waitForEvent("download"),
+    page.getByRole("link", { name: "Report (HTML)" }).click(),
+  ]);
+  expect(saved.suggestedFilename()).toBe("report.html");
+});
+
+test("charts are drawn anew in the colours of the theme and the width of the window", async ({
+  page,
+  fake,
+}) => {
+  await answered(page, fake);
+  const chart = page.getByRole("img", { name: /^Figure of merit with its range/ });
+  const width = () =>
+    chart
+      .locator("svg")
+      .first()
+      .evaluate((svg) => svg.getBoundingClientRect().width);
+  const ink = () =>
+    chart
+      .locator(".role-axis-title text")
+      .first()
+      .evaluate((text) => getComputedStyle(text).fill);
+  await expect.poll(width).toBeGreaterThan(900);
+  const before = await ink();
+  await page.setViewportSize({ width: 700, height: 800 });
+  await expect.poll(width).toBeLessThan(660);
+  await page.emulateMedia({ colorScheme: "dark" });
+  await expect.poll(ink).not.toBe(before);
+});
+
+test("a click on a chart's point leads to that configuration's runs, and on to that run in live", async ({
+  page,
+  fake,
+}) => {
+  await answered(page, fake);
+  const chart = page.getByRole("img", { name: /^Figure of merit with its range/ });
+  await chart.locator(".mark-symbol.role-mark path").nth(3).click();
+  const dialog = page.getByRole("dialog", { name: "Runs of 4 rovers" });
+  await expect(dialog.getByRole("row", { name: /^median/ })).toBeVisible();
+  await expectAccessible(page);
+  const link = dialog.getByRole("row", { name: /^worst/ }).getByRole("link");
+  const run = (await link.textContent()) ?? "";
+  await link.click();
+  await expect(page.getByRole("heading", { name: `Run ${run} of search, 4 rovers` })).toBeVisible();
+  await expect(page.locator("#status")).toContainText("4 robots");
+  await expectAccessible(page);
+  await page.getByRole("link", { name: "Back to the study" }).click();
+  await expect(dialog).toBeVisible();
+  await page.keyboard.press("Escape");
+  await expect(dialog).toBeHidden();
+  await expect(sentence(page)).toBeVisible();
+});
+
+test("all runs of a configuration can be paged through", async ({ page, fake }) => {
+  await answered(page, fake);
+  await page.getByRole("link", { name: "3 rovers" }).first().click();
+  await page.getByText("All runs").click();
+  await expect(page.getByText(/^1 to 50 of [\d,]+, in their order/)).toBeVisible();
+  await page.getByRole("button", { name: "Next" }).click();
+  await expect(page.getByText(/^51 to 100 of/)).toBeVisible();
+  await expect(page.getByRole("link", { name: "Watch run 50", exact: true })).toBeVisible();
+  await page.getByRole("button", { name: "Before" }).click();
+  await expect(page.getByText(/^1 to 50 of/)).toBeVisible();
+});
+
+test("an answer is tightened, and what is not allowed is said beside the box", async ({ page, fake }) => {
+  await answered(page, fake);
+  const box = page.getByRole("textbox", { name: /^Surer/ });
+  await expect(box).toHaveValue("0.99");
+  await box.fill("0.5");
+  await page.getByRole("button", { name: "Tighten" }).click();
+  await expect(page.getByText("must be greater than 0.95")).toBeVisible();
+  await expectAccessible(page);
+  await box.fill("0.99");
+  await box.press("Enter");
+  await expect(page.getByRole("button", { name: "Stop" })).toBeVisible();
+  await expect(page.getByText("selected one with 99% confidence")).toBeVisible({ timeout: 10_000 });
+});
+
+test("studies are listed with their state, newest first, and the list goes along", async ({ page, fake }) => {
+  await start(page.request, fake, { ...plain, seed: "13" });
+  await expect(async () => {
+    const { studies } = await (await page.request.get(`${fake.url}/api/studies`)).json();
+    expect(studies[0].state).toBe("damaged");
+  }).toPass();
+  await start(page.request, fake, long);
+  await start(page.request, fake);
+  await page.goto(`${fake.url}/#/studies`);
+  await expect(page.getByRole("listitem")).toHaveCount(3);
+  await expect(page.getByRole("link", { name: /^Damaged.*The disk is full/ })).toBeVisible();
+  await expect(page.getByRole("link", { name: /^Running/ }).first()).toBeVisible();
+  await expectAccessible(page);
+  await expect(page.getByRole("link", { name: /^Answered search studies\/search Send/ })).toBeVisible({
+    timeout: 10_000,
+  });
+});
+
+test("a study that met trouble says so, and offers to go on", async ({ page, fake }) => {
+  await page.goto(at(fake, await start(page.request, fake, { ...plain, seed: "13" })));
+  await expect(page.getByRole("alert")).toContainText("The disk is full");
+  await expect(page.getByRole("button", { name: "Go on" })).toBeVisible();
+  await expectAccessible(page);
+});
+
+test("a study that is not there is said in the server's words", async ({ page, fake, complaints }) => {
+  await page.goto(at(fake, "studies/none"));
+  await expect(page.getByRole("alert")).toContainText('id = "studies/none": is no study');
+  await expectAccessible(page);
+  complaints.splice(0, complaints.length, ...complaints.filter((one) => !one.includes("404")));
+});
+
+test("a lost line is told at once, and the race goes on where it is", async ({ page, fake }) => {
+  await page.goto(at(fake, await start(page.request, fake, long)));
+  await expect(page.getByText("runs a second")).toBeVisible();
+  fake.drop();
+  await expect(page.getByText("The connection is lost.")).toBeVisible();
+  await expect(page.getByText("runs a second")).toBeVisible();
+  await expectAccessible(page);
+  await expect(page.getByText("The connection is lost.")).toBeHidden();
+  const runs = () =>
+    page
+      .getByText(/^[\d,]+$/)
+      .first()
+      .textContent();
+  const before = await runs();
+  await expect.poll(runs).not.toBe(before);
+});
+
+test("a server that is gone is said on lists and forms, which mend themselves", async ({
+  page,
+  fake,
+  context,
+}) => {
+  await start(page.request, fake);
+  await page.goto(`${fake.url}/#/studies`);
+  await expect(page.getByRole("listitem")).toHaveCount(1);
+  await context.setOffline(true);
+  await expect(page.getByText("The server does not answer.")).toBeVisible();
+  await expect(page.getByRole("listitem")).toHaveCount(1);
+  await expectAccessible(page);
+  await context.setOffline(false);
+  await expect(page.getByText("The server does not answer.")).toBeHidden();
+  await page.goto(`${fake.url}/#/study/new?scenario=search`);
+  const team = page.getByRole("textbox", { name: "Number of rovers" });
+  await context.setOffline(true);
+  await team.fill("1..5");
+  await expect(page.getByText("The server does not answer. It is asked again.")).toBeVisible();
+  await context.setOffline(false);
+  await expect(page.getByText("factorial: 5 configurations")).toBeVisible();
+});
+
+test("a scenario that is watched can be studied, also one that was dropped", async ({ page, fake }) => {
+  await page.goto(live(fake, "scenario=search&seed=7"));
+  await page.getByRole("link", { name: "Study this scenario" }).click();
+  await expect(page.getByRole("heading", { name: "New study of search" })).toBeVisible();
+  await page.goto(fake.url);
+  const file = { name: "my.toml", mimeType: "application/toml", buffer: Buffer.from('engine = "metric"\n') };
+  await page.locator("input[type=file]").setInputFiles(file);
+  await page.getByRole("link", { name: "Study this scenario" }).click();
+  await expect(page.getByRole("heading", { name: "New study of my scenario" })).toBeVisible();
+});
+
+test("studies are of use on a phone", async ({ page, fake }) => {
+  await page.setViewportSize({ width: 360, height: 740 });
+  const fits = async () =>
+    expect(
+      await page.evaluate(() => [document.documentElement.scrollWidth, document.body.scrollWidth]),
+    ).toEqual([360, 360]);
+  await page.goto(`${fake.url}/#/study/new?scenario=search`);
+  await expect(page.getByText("factorial: 9 configurations")).toBeVisible();
+  await fits();
+  await expectAccessible(page);
+  await page.getByRole("button", { name: "Start" }).click();
+  await expect(page.getByRole("heading", { name: "Still in" })).toBeVisible();
+  await fits();
+  await expect(sentence(page)).toBeVisible({ timeout: 10_000 });
+  await expect(page.getByRole("img", { name: /^Runs of each/ }).locator("svg")).toBeVisible();
+  await fits();
+  await expectAccessible(page);
+  await page.getByRole("link", { name: "3 rovers" }).first().click();
+  await expect(page.getByRole("dialog")).toBeVisible();
+  await fits();
+  await page.goto(`${fake.url}/#/studies`);
+  await expect(page.getByRole("listitem")).toHaveCount(1);
+  await fits();
+  await expectAccessible(page);
+});
