@@ -1,7 +1,7 @@
 /**
  * Speaks as the real server does, without a simulator: for work on the page, its checks in a browser and
  * its benchmark. Run it with a port; scenario `crowd-N` has N robots, `broken` and `full` are refused,
- * and a study with seed 13 meets a full disk.
+ * and a study with seed 13 meets a full disk, one with seed 14 is damaged.
  */
 import { readFile } from "node:fs/promises";
 import { createServer } from "node:http";
@@ -46,7 +46,8 @@ async function handle(request, answer, studies) {
   const { pathname, searchParams } = new URL(request.url, "http://localhost");
   if (/^\/api\/(factors|plan|stud)/.test(pathname)) {
     const body = request.method === "POST" ? JSON.parse(await bodyOf(request)) : null;
-    const [status, said] = studies.answer(request.method, pathname, searchParams, body);
+    const [status, said, name] = studies.answer(request.method, pathname, searchParams, body);
+    if (name) answer.setHeader("Content-Disposition", `attachment; filename="${name}"`);
     return send(answer, status, "application/json", JSON.stringify(said));
   }
   if (pathname === "/api/scenarios") return send(answer, 200, "application/json", JSON.stringify(entries));

@@ -155,7 +155,7 @@ test("an answer has its sentence, guarantee, charts with tables, and files", asy
     page.waitForEvent("download"),
     page.getByRole("link", { name: "Report (HTML)" }).click(),
   ]);
-  expect(saved.suggestedFilename()).toBe("report.html");
+  expect(saved.suggestedFilename()).toBe("search-report.html");
 });
 
 test("charts are drawn anew in the colours of the theme and the width of the window", async ({
@@ -235,13 +235,13 @@ test("studies are listed with their state, newest first, and the list goes along
   await start(page.request, fake, { ...plain, seed: "13" });
   await expect(async () => {
     const { studies } = await (await page.request.get(`${fake.url}/api/studies`)).json();
-    expect(studies[0].state).toBe("damaged");
+    expect(studies[0].state).toBe("stopped");
   }).toPass();
   await start(page.request, fake, long);
   await start(page.request, fake);
   await page.goto(`${fake.url}/#/studies`);
   await expect(page.getByRole("listitem")).toHaveCount(3);
-  await expect(page.getByRole("link", { name: /^Damaged.*The disk is full/ })).toBeVisible();
+  await expect(page.getByRole("link", { name: /^Stopped.*The disk is full/ })).toBeVisible();
   await expect(page.getByRole("link", { name: /^Running/ }).first()).toBeVisible();
   await expectAccessible(page);
   await expect(page.getByRole("link", { name: /^Answered search studies\/search Send/ })).toBeVisible({
@@ -256,11 +256,30 @@ test("a study that met trouble says so, and offers to go on", async ({ page, fak
   await expectAccessible(page);
 });
 
-test("a study that is not there is said in the server's words", async ({ page, fake, complaints }) => {
+test("a study that is not there or is damaged is said in the server's words", async ({ page, fake }) => {
   await page.goto(at(fake, "studies/none"));
-  await expect(page.getByRole("alert")).toContainText('id = "studies/none": is no study');
+  await expect(page.getByRole("alert")).toContainText("must be the id of a study in the list");
   await expectAccessible(page);
-  complaints.splice(0, complaints.length, ...complaints.filter((one) => !one.includes("404")));
+  await page.goto(at(fake, await start(page.request, fake, { ...plain, seed: "14" })));
+  await expect(page.getByRole("alert")).toContainText("ledger.sqlite is damaged");
+  await page.getByRole("link", { name: "Other studies" }).click();
+  await expect(page.getByRole("link", { name: /^Damaged/ })).toContainText("ledger.sqlite is damaged");
+  await expectAccessible(page);
+});
+
+test("a study that may not start now is refused in words, and can be started later", async ({
+  page,
+  fake,
+}) => {
+  const first = await start(page.request, fake, long);
+  await start(page.request, fake, { ...long, seed: "1" });
+  await page.goto(`${fake.url}/#/study/new?scenario=search`);
+  await page.getByRole("button", { name: "Start" }).click();
+  await expect(page.getByText("that run already are two")).toBeVisible();
+  await expectAccessible(page);
+  await page.request.post(`${fake.url}/api/studies/stop`, { data: { id: first } });
+  await page.getByRole("button", { name: "Start" }).click();
+  await expect(page.getByRole("heading", { name: "Still in" })).toBeVisible();
 });
 
 test("a lost line is told at once, and the race goes on where it is", async ({ page, fake }) => {

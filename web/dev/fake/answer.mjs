@@ -10,7 +10,7 @@ export function answerOf(study) {
   const results = study.arms.map((arm) => resultOf(study, arm));
   const best = study.ranked()[0].number;
   for (const result of results) {
-    const behind = result.configuration === best ? "selected" : result.eliminated ? "worse" : "undecided";
+    const behind = result.configuration === best ? "best" : result.eliminated ? "worse" : "undecided";
     result.verdict = behind;
   }
   const { label, merit, failed } = results[best];
@@ -59,12 +59,12 @@ function sectionsOf(results) {
     rows: results.map((result) => [result.label, ...rowOf(result)]),
     configurations: results.map((result) => result.configuration),
   });
-  const section = (id, title, words, shows, found, folded) => ({
+  const section = (id, title, words, caption, found, folded) => ({
     id,
     title,
     words: [words],
     charts: [id],
-    shows: { [id]: shows },
+    captions: { [id]: caption },
     tables: [found],
     folded,
   });
@@ -77,7 +77,7 @@ function sectionsOf(results) {
       table(
         "Figure of merit of each configuration",
         ["standing", "figure of merit", "runs"],
-        ({ verdict, merit, runs }) => [verdict, ranged(merit, 2), runs.toLocaleString("en")],
+        ({ merit, runs, ...one }) => [standing(one), ranged(merit, 2), runs.toLocaleString("en")],
       ),
       false,
     ),
@@ -100,7 +100,7 @@ function sectionsOf(results) {
       table(
         "Runs of each configuration, and what became of it",
         ["runs", "what became of it"],
-        ({ runs, eliminated, verdict }) => [runs.toLocaleString("en"), eliminated ? "out" : verdict],
+        ({ runs, eliminated, ...one }) => [runs.toLocaleString("en"), eliminated ? "out" : standing(one)],
       ),
       true,
     ),
@@ -112,13 +112,13 @@ function chartsOf(results, { points, planned }) {
   const merit = results.map((one) => ({
     ...rowOf(one, one.merit),
     at: Number(points[one.configuration][0]) || 0,
-    verdict: one.verdict,
+    verdict: standing(one),
   }));
   const front = results.map((one) => ({
     ...rowOf(one, one.time_s),
     price: Number(points[one.configuration][0]) || 0,
     failed: one.failed[0],
-    place: one.verdict,
+    place: standing(one),
   }));
   const runs = results.map(({ configuration, label, runs, eliminated }) => ({
     configuration,
@@ -135,6 +135,11 @@ function chartsOf(results, { points, planned }) {
       "state",
     ),
   };
+}
+
+/** How a configuration stands, as charts and tables say it. */
+function standing({ verdict }) {
+  return verdict === "best" ? "selected" : verdict;
 }
 
 function rowOf({ configuration, label }, [value, low, high]) {

@@ -51,6 +51,7 @@ export function planOf(ask) {
   const factors = Object.entries(varied).map(([path, text]) => ({
     path,
     values: valuesOf(known, path, text, faults),
+    range: null,
   }));
   const configurations = factors.reduce((product, { values }) => product * values.length, 1);
   if (configurations > mostConfigurations)
@@ -76,7 +77,6 @@ function planned(ask, known, factors, configurations) {
     confidence,
     guarantee,
     merit: ask.merit ?? known.merit,
-    seed: ask.seed,
     factors,
     state: null,
   };

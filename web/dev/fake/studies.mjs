@@ -2,15 +2,16 @@
 import { factorsOf, fault, planOf } from "./asking.mjs";
 import { FakeStudy } from "./study.mjs";
 
+const mostRunning = 2;
+
 export class FakeStudies {
   constructor() {
     this.all = new Map();
   }
 
-  /** Status and body of an answer; null for what is asked elsewhere. */
+  /** Status and body of an answer, and its name as a file if it is one. */
   answer(method, path, query, body) {
-    const handler = this[`${method} ${path}`];
-    return handler ? handler.call(this, method === "POST" ? body : query) : null;
+    return this[`${method} ${path}`](method === "POST" ? body : query);
   }
 
   "POST /api/factors"(asked) {
@@ -33,6 +34,11 @@ export class FakeStudies {
   "POST /api/studies"(ask) {
     const { faults, planned } = planOf(ask);
     if (faults) return [422, { faults }];
+    const running = [...this.all].filter(([id, one]) => one.state === "running" && id !== planned.id);
+    if (running.length >= mostRunning)
+      return refused(
+        fault("studies", null, `that run already are two: ${running.map(([id]) => id).join(", ")}`),
+      );
     if (!this.all.has(planned.id)) this.all.set(planned.id, new FakeStudy(planned, ask));
     const study = this.all.get(planned.id);
     if (study.state !== "answered") study.run(null);
@@ -57,6 +63,8 @@ export class FakeStudies {
   }
 
   "GET /api/study"(query) {
+    const damaged = this.all.get(query.get("id"));
+    if (damaged?.state === "damaged") return refused(fault("study", null, damaged.message));
     return this.with(query.get("id"), (study) => study.whole());
   }
 
@@ -65,17 +73,20 @@ export class FakeStudies {
   }
 
   "GET /api/study/answer"(query) {
-    return this.with(query.get("id"), (study) => study.answer);
+    return [...this.with(query.get("id"), (study) => study.answer), "search-answer.json"];
   }
 
   "GET /api/study/report"(query) {
-    return this.with(query.get("id"), (study) => study.answer.sentence);
+    return [...this.with(query.get("id"), (study) => study.answer.sentence), "search-report.html"];
   }
 
   follow(id, socket) {
     const study = this.all.get(id);
-    if (study) study.follow(socket);
-    else socket.close();
+    if (study) return study.follow(socket);
+    socket.send(
+      JSON.stringify({ type: "studying", state: "damaged", standings: [], eliminated: [], labels: [] }),
+    );
+    socket.close(1000);
   }
 
   stop() {
@@ -85,7 +96,7 @@ export class FakeStudies {
   with(id, give) {
     const study = this.all.get(id);
     if (study) return [200, give(study)];
-    return [404, { faults: [fault("id", `"${id}"`, "is no study below the folder of the server")] }];
+    return refused(fault("study", `"${id}"`, "must be the id of a study in the list"));
   }
 }
 

@@ -7,8 +7,11 @@ const round_ms = 100;
 const cap_s = 120;
 /** Runs that a configuration gets in a round. */
 const mostMore = 20_000;
-/** A study with this seed meets a disk that is full. */
-const unlucky = "13";
+/** What becomes of studies with these seeds, and why. */
+const unlucky = {
+  13: ["stopped", "The disk is full: the study goes on once there is room."],
+  14: ["damaged", "studies/search: ledger.sqlite is damaged: a block of runs is missing"],
+};
 
 export class FakeStudy {
   constructor(planned, ask) {
@@ -67,9 +70,10 @@ export class FakeStudy {
     const target = Math.min(Math.ceil(most * 1.35) + 6, most + mostMore);
     for (const arm of this.in) this.extend(arm, Math.min(target, this.ask.runs ?? target));
     if (!this.ask.runs) this.putOut();
-    if (this.ask.seed === unlucky && this.round > 5) {
-      this.message = "The disk is full: the study goes on once there is room.";
-      return this.end("damaged");
+    if (this.ask.seed in unlucky && this.round > 5) {
+      const [state, message] = unlucky[this.ask.seed];
+      this.message = message;
+      return this.end(state);
     }
     if (this.isDecided()) this.end("answered");
     else if (this.round % 2 === 0) this.tell();

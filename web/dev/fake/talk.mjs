@@ -29,8 +29,9 @@ export class Talk {
     this.show();
   }
 
-  open({ scenario: asked, text, study, seed, run, changes, tick }) {
+  open({ scenario: asked, text, study, seed: given, run, changes, tick }) {
     const held = study ? this.studies.all.get(study.id) : null;
+    const seed = given ?? held.ask.seed;
     const scenario = held ? held.ask.scenario : asked;
     if (scenario === "broken") {
       const message = "robots.rover.count is missing: must be a whole number from 0 to 1000000";

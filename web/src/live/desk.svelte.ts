@@ -56,6 +56,11 @@ export class Desk {
     if (said) this.label = said.label;
   }
 
+  /** Of all chance in the run; null until the server has told that of the study. */
+  get seed(): string | null {
+    return this.session.opened?.seed ?? this.link.seed;
+  }
+
   /** The address of what is seen now. */
   get now(): Link {
     const { setting, state, selected } = this.session;
@@ -63,6 +68,7 @@ export class Desk {
     const round = (value: number) => Number(value.toFixed(3));
     return {
       ...link,
+      seed: this.seed,
       changes: setting?.changes ?? link.changes,
       tick: state?.tick ?? link.tick,
       view: camera ? [round(camera.x), round(camera.y), round(camera.scale)] : link.view,

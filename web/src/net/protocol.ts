@@ -48,8 +48,8 @@ export interface Open {
   scenario: string | null;
   text: string | null;
   study: OfStudy | null;
-  /** Decimal, as it can be up to 2^64 - 1. */
-  seed: string;
+  /** Decimal, as it can be up to 2^64 - 1; left out for that of the study. */
+  seed?: string;
   run: string;
   changes: Change[];
   tick: number;

@@ -2,7 +2,7 @@
 import type { Engine, Fault } from "./protocol";
 
 export type StudyState = "running" | "answered" | "stopped" | "damaged";
-export type Value = number | string;
+export type Value = number | string | boolean;
 export type Guarantee = "indifference" | "pgs";
 
 /** A scenario of the server's by its id, or the text of one: exactly one of them. */
@@ -10,12 +10,13 @@ export type Asked = { scenario: string; text: null } | { scenario: null; text: s
 
 export interface Factor {
   path: string;
-  value: Value;
+  /** Null if the scenario does not say. */
+  value: Value | null;
   low: number | null;
   high: number | null;
   whole: boolean;
   /** What there is to choose from, if it is no number. */
-  values: string[] | null;
+  values: Value[] | null;
   /** How the scenario varies it itself, such as `1..8`. */
   varied: string | null;
 }
@@ -55,8 +56,8 @@ export interface Planned {
   confidence: number;
   guarantee: Guarantee;
   merit: string;
-  seed: string;
-  factors: { path: string; values: Value[] }[];
+  /** Of each either values or a range. */
+  factors: { path: string; values: Value[]; range: [low: number, high: number] | null }[];
   /** Of the study that is in this folder already. */
   state: StudyState | null;
 }
@@ -92,7 +93,7 @@ export interface StudySection {
   words: string[];
   charts: string[];
   /** What each chart shows, in words. */
-  shows: Record<string, string>;
+  captions: Record<string, string>;
   tables: StudyTable[];
   folded: boolean;
 }
@@ -105,7 +106,7 @@ export interface Result {
   label: string;
   runs: number;
   merit: Interval;
-  verdict: string;
+  verdict: "best" | "tied" | "no better" | "undecided" | "worse";
   eliminated: boolean;
 }
 

@@ -23,6 +23,7 @@ test.each([
   ["full", full],
   ["empty", emptyLink],
   ["of a text", { ...emptyLink, text: "zAb-_9" }],
+  ["of a study with its own seed", { ...emptyLink, study: { id: "a", configuration: 0 }, seed: null }],
   ["of a study", { ...emptyLink, study: { id: "studies/mine & yours", configuration: 12 }, run: "7" }],
 ])("a link that is %s comes back as it was", (_, link) => expect(read(writeLink(link))).toEqual(link));
 

@@ -7,7 +7,8 @@ export interface Link {
   text: string | null;
   /** A configuration of a study, in place of a scenario. */
   study: OfStudy | null;
-  seed: string;
+  /** Null for that of the study. */
+  seed: string | null;
   run: string;
   changes: Change[];
   tick: number;
@@ -40,7 +41,7 @@ export function writeLink(link: Link): string {
     query.set("study", link.study.id);
     query.set("configuration", String(link.study.configuration));
   }
-  query.set("seed", link.seed);
+  if (link.seed !== null) query.set("seed", link.seed);
   query.set("run", link.run);
   if (link.changes.length > 0) query.set("changes", JSON.stringify(shortened(link.changes)));
   if (link.tick > 0) query.set("tick", String(link.tick));
@@ -51,11 +52,12 @@ export function writeLink(link: Link): string {
 
 /** What the query of an address says; what it says wrongly is left out. */
 export function readLink(query: URLSearchParams): Link {
+  const study = readStudy(query.get("study"), query.get("configuration"));
   return {
     scenario: query.get("scenario"),
     text: query.get("text"),
-    study: readStudy(query.get("study"), query.get("configuration")),
-    seed: whole(query.get("seed")),
+    study,
+    seed: study && !query.has("seed") ? null : whole(query.get("seed")),
     run: whole(query.get("run")),
     changes: readChanges(query.get("changes")),
     tick: Number(whole(query.get("tick"))),

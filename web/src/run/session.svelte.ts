@@ -199,7 +199,7 @@ export class Session implements Listener {
     const { scenario, text, study, seed, run } = this.source;
     const changes: Change[] = this.setting?.changes ?? this.source.changes;
     const tick = this.state?.tick ?? this.source.tick;
-    return { type: "open", scenario, text, study, seed, run, changes, tick };
+    return { type: "open", scenario, text, study, ...(seed === null ? {} : { seed }), run, changes, tick };
   }
 
   private sendChange(path: string, value: Json): void {

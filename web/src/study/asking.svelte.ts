@@ -69,12 +69,13 @@ export class Asking {
       this.wrongs = {};
       this.trouble = "";
     } catch (fault) {
-      if (!asking.signal.aborted) this.refused(fault);
+      if (asking.signal.aborted) return;
+      this.planned = null;
+      this.refused(fault);
     }
   }
 
   private refused(fault: unknown): void {
-    this.planned = null;
     this.wrongs = fault instanceof Refusal ? wrongsOf(fault.faults, this.draft) : {};
     this.trouble = fault instanceof Refusal ? "" : troubleOf(fault);
     if (this.trouble) this.changed(again_ms);

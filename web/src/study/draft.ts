@@ -75,6 +75,11 @@ export function wrongsOf(faults: Fault[], draft: Draft): Wrongs {
   return wrongs;
 }
 
+/** What holds for a factor now, in words. */
+export function valueWords({ value }: Factor): string {
+  return value === null ? "the model's own" : String(value);
+}
+
 /** The kind of robots whose number stands at a path; null if it is another path. */
 export function teamOf(path: string): string | null {
   return teamPath.exec(path)?.[1] ?? null;
@@ -82,7 +87,7 @@ export function teamOf(path: string): string | null {
 
 /** What may be given for a factor, in words. */
 export function rangeWords({ low, high, whole, values }: Factor): string {
-  if (values) return values.join(", ");
+  if (values) return values.map(String).join(", ");
   const kind = whole ? "whole numbers" : "numbers";
   if (low !== null && high !== null) return `${kind} from ${read(low)} to ${read(high)}`;
   if (low !== null) return `${kind} from ${read(low)}`;
@@ -105,14 +110,11 @@ function fieldOf(path: string): string {
     .replaceAll('"', "");
 }
 
+/** All that is varied; nothing where it is just what the scenario varies itself. */
 function variedOf({ vary }: Draft, factors: Factor[]): Record<string, string> {
   const own = factors.filter((factor) => factor.varied !== null);
   const given = Object.entries(vary).filter(([, text]) => text.trim() !== "");
   const isAsScenario =
     given.length === own.length && own.every(({ path, varied }) => vary[path]?.trim() === varied);
-  // What is given is added to what the scenario varies itself, so that what is not to be varied has one value.
-  const held = own.filter(({ path }) => !vary[path]?.trim()).map(({ path, value }) => [path, String(value)]);
-  return isAsScenario
-    ? {}
-    : Object.fromEntries([...given.map(([path, text]) => [path, text.trim()]), ...held]);
+  return isAsScenario ? {} : Object.fromEntries(given.map(([path, text]) => [path, text.trim()]));
 }
