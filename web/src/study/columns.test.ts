@@ -8,10 +8,10 @@ test("what is judged comes first, and what names a run is no column", () => {
 });
 
 test("numbers are as exact as they are read", () => {
-  expect([-1.238, 28.31, 119.98, 3, -4, null, true].map(cellWords)).toEqual([
+  expect([-1.238, 28.31, 51319.8, 3, -4, null, true].map(cellWords)).toEqual([
     "−1.24",
     "28.3",
-    "120",
+    "51,320",
     "3",
     "−4",
     "–",

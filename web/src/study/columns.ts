@@ -16,7 +16,8 @@ export function cellWords(value: Cell): string {
   if (typeof value === "string") return value;
   if (Number.isInteger(value)) return value.toLocaleString("en").replace("-", "−");
   const digits = Math.abs(value) >= 100 ? 0 : Math.abs(value) >= 10 ? 1 : 2;
-  return value.toFixed(digits).replace("-", "−");
+  const figures = { minimumFractionDigits: digits, maximumFractionDigits: digits };
+  return value.toLocaleString("en", figures).replace("-", "−");
 }
 
 /** Whether all cells are numbers, with a range or a unit perhaps; those are set to the right. */

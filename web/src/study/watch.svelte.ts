@@ -2,6 +2,7 @@ import { browserWires, Connection, type Listener } from "../net/connection";
 import type { Message } from "../net/protocol";
 import { resume, stop, study } from "../net/studies";
 import { type Listed, Refusal, type Study, type StudyState, type Studying } from "../net/study";
+import { following } from "./standings";
 import { troubleOf } from "./words";
 
 /** `lost` while the server is called again; `refused` if there is no such study. */
@@ -75,7 +76,7 @@ export class Watch implements Listener {
     if (message.type !== "studying") return;
     this.phase = "there";
     if (message.labels) this.labels = message.labels;
-    this.race = message;
+    this.race = following(this.race, message);
     // An answer is in files: what has just ended is read from there.
     const isNew = message.state !== "running" && message.state !== this.study?.state;
     this.state = message.state;

@@ -46,8 +46,8 @@ test("times past are told from now", () => {
   ]);
 });
 
-test("merits have as many decimals as delta tells apart", () => {
-  expect([0.01, 0.05, 0.2, 3].map(places)).toEqual([2, 2, 1, 0]);
+test("merits have so many decimals that delta has two figures", () => {
+  expect([0.01, 0.05, 0.2, 3, 40].map(places)).toEqual([3, 3, 2, 1, 0]);
   expect([decimal(-1.655, 2), decimal(null, 2)]).toEqual(["−1.66", "–"]);
 });
 

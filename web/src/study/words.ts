@@ -56,9 +56,9 @@ export function ago(changed_s: number, now_s: number): string {
   return words.format(-Math.floor(past / 86_400), "day");
 }
 
-/** Decimals of merits that tell differences of `delta` apart. */
+/** Decimals of merits, so that `delta` has two figures. */
 export function places(delta: number): number {
-  return Math.max(0, Math.min(6, Math.ceil(-Math.log10(delta))));
+  return Math.max(0, Math.min(6, 1 - Math.floor(Math.log10(delta))));
 }
 
 export function decimal(value: number | null, digits: number): string {
