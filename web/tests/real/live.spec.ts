@@ -13,7 +13,7 @@ async function open(page: Page, server: RealServer, query: string): Promise<void
 
 test("a scenario of the gallery becomes a run, and then another", async ({ page, server }) => {
   await page.goto(server.url);
-  await page.getByRole("link", { name: /search-mind/ }).click();
+  await page.getByRole("link", { name: /^search-mind/ }).click();
   await expect(status(page)).toContainText("0.0 s, 4 robots");
   const first = await hash(page);
   await page.getByRole("button", { name: "New run" }).click();
@@ -144,7 +144,7 @@ test("a server that was killed is missed at once, and nothing is lost when it is
 
 test("all of a run is done by keyboard alone", async ({ page, server }) => {
   await page.goto(server.url);
-  const card = page.getByRole("link", { name: /search-mind/ });
+  const card = page.getByRole("link", { name: /^search-mind/ });
   for (let i = 0; i < 60 && !(await card.evaluate((link) => link === document.activeElement)); i += 1)
     await page.keyboard.press("Tab");
   await page.keyboard.press("Enter");
