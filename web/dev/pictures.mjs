@@ -30,7 +30,7 @@ const views = {
 
 /** All pictures of the gallery are there. */
 async function pictured(page) {
-  await page.getByRole("link", { name: /search-mind/ }).waitFor();
+  await page.getByRole("link", { name: /^search-mind/ }).waitFor();
   await page.waitForLoadState("networkidle");
 }
 
