@@ -302,6 +302,27 @@ class Command(TypedDict):
     outbox: list[Message]
 
 
+class Watched(TypedDict):
+    """What a robot perceived in one step, what its brain made of it, and why.
+
+    Attributes:
+        tick: Steps of the run before that one.
+        percept: What it perceived.
+        command: What it decided.
+        leading: Place in the brain's list of the behaviour that has its way; None if nothing is to
+            be done, or all count together.
+        holds_s: For so long each behaviour keeps control though it has nothing to do.
+        thoughts: What it believes and wants then; None if it has no mind.
+    """
+
+    tick: int
+    percept: Percept
+    command: Command
+    leading: int | None
+    holds_s: list[float]
+    thoughts: Thoughts | None
+
+
 class Brain:
     """The mind of one robot.
 

@@ -12,11 +12,11 @@ import pyarrow as pa
 from numpy.typing import NDArray
 
 from agent_economy import _core, given
-from agent_economy.brain import Command, Percept
+from agent_economy.brain import Command, Percept, Watched
 from agent_economy.minds import Brains, changed_minds, minds
 from agent_economy.outcome import Outcome, table
 from agent_economy.scenario import Given, Override, Scenario, loaded
-from agent_economy.thoughts import Thoughts
+from agent_economy.thoughts import BelievedMap, Thoughts
 
 Floats = NDArray[np.float64]
 
@@ -103,6 +103,7 @@ class Simulation:
         self._minds = minds(brains, metric, self.scenario.robots)
         self.seed, self.run = seed, run
         self._changes: tuple[Change, ...] = ()
+        self._watches: str | None = None
         self._lock = RLock()
 
     def __repr__(self) -> str:
@@ -188,8 +189,51 @@ class Simulation:
             InputError: If there is no such robot.
         """
         thoughts = self._run.thoughts(robot)
-        is_in_python = any(robot.startswith(f"{mind.kind}/") for mind in self._minds)
-        return None if is_in_python else cast("Thoughts | None", thoughts)
+        return None if self._is_in_python(robot) else cast("Thoughts | None", thoughts)
+
+    def believed_map(self, robot: str) -> BelievedMap | None:
+        """Return the map in a robot's mind, as of its brain's last step.
+
+        Args:
+            robot: Its name.
+
+        Returns:
+            None if it has none, or a mind in Python.
+
+        Raises:
+            InputError: If there is no such robot.
+        """
+        told = _core.believed_map(self._run, robot)
+        return None if self._is_in_python(robot) else cast("BelievedMap | None", told)
+
+    def watch(self, robot: str | None) -> None:
+        """Watch a robot from now on, or none: `watched` tells of it. The run stays the same.
+
+        Args:
+            robot: Its name, or None.
+
+        Raises:
+            InputError: If there is no such robot.
+        """
+        _core.watch(self._run, robot)
+        self._watches = robot
+
+    def watched(self) -> Watched | None:
+        """Return what the watched robot perceives and decides in the next step, and why.
+
+        If its brain does not step then, it is what it perceived and decided when it stepped last.
+
+        Returns:
+            None if no robot is watched, its brain is in Python or has not stepped since it is
+            watched, or the robot cannot go on.
+        """
+        robot = self._watches
+        if robot is None or self._is_in_python(robot):
+            return None
+        return cast("Watched | None", _core.watched(self._run, robot))
+
+    def _is_in_python(self, robot: str) -> bool:
+        return any(robot.startswith(f"{mind.kind}/") for mind in self._minds)
 
     def finish(self) -> Outcome:
         """Take steps until the run is over; Ctrl-C stops between two."""

@@ -2,6 +2,9 @@
 
 from typing import Literal, TypedDict
 
+import numpy as np
+from numpy.typing import NDArray
+
 from agent_economy.robots import Point, RobotId
 
 
@@ -61,14 +64,63 @@ class Wanted(TypedDict):
     Attributes:
         behaviour: Place in the brain's list of the behaviour that wants it.
         to: Where in the world.
-        precedence: Its utility now.
+        precedence: Its utility now: value x likely / (1 + time / 10 s).
+        value: What it is worth to be there.
+        likely: How likely the battery lasts for it, 0 to 1.
+        time_s: Time that the straight way there takes.
+        within_m: Nearer than this it is there.
         verdict: What has become of it.
+        left_m: The way left in the last step.
+        best_m: The least that was left so far.
+        stuck_s: It has not come nearer for so long.
+        rests_s: It counts as impossible for so long, so that others have their turn.
+        is_pursued: Whether the robot goes there now.
     """
 
     behaviour: int
     to: Point
     precedence: float
+    value: float
+    likely: float
+    time_s: float
+    within_m: float
     verdict: Literal["complete", "impossible", "approaching", "receding"]
+    left_m: float
+    best_m: float
+    stuck_s: float
+    rests_s: float
+    is_pursued: bool
+
+
+class Course(TypedDict):
+    """A course that a robot looked along, and what it is worth.
+
+    Attributes:
+        bearing_rad: From the robot's front, from -pi to pi.
+        free_m: It is free so far, as far as the robot looks ahead.
+        at: The place that it would get to, from the robot's front.
+        utility: Of that place: minus the distance left from there, minus the cost of turning
+            there, in metres.
+    """
+
+    bearing_rad: float
+    free_m: float
+    at: Point
+    utility: float
+
+
+class Reach(TypedDict):
+    """The courses that a robot looked along, and which of them it took.
+
+    Attributes:
+        to: The next place on its way, from the robot's front.
+        taken: Place in `courses` of the one that it took.
+        courses: All around, the first ahead, anticlockwise.
+    """
+
+    to: Point
+    taken: int
+    courses: list[Course]
 
 
 class Thoughts(TypedDict):
@@ -79,9 +131,28 @@ class Thoughts(TypedDict):
         items: Items that it believes in, in the order in which it came to.
         robots: Robots, and what else moves, nearby.
         goals: What it wants, the highest precedence first.
+        reach: What the places around it were worth; None if it took no way in its last step.
     """
 
     pose: Pose | None
     items: list[BelievedItem]
     robots: list[BelievedRobot]
     goals: list[Wanted]
+    reach: Reach | None
+
+
+class BelievedMap(TypedDict):
+    """What a robot believes to fill its mission's field, and where it has not looked.
+
+    Attributes:
+        corner: Where the first cell's least corner is, in the world.
+        cell_m: Width of a cell.
+        occupancy: How likely each cell is filled, in percent; -1 where nothing says either. Shape
+            (rows, columns), the lowest row first.
+        unseen: How likely an item in each cell would not have been seen, in percent; same shape.
+    """
+
+    corner: Point
+    cell_m: float
+    occupancy: NDArray[np.int8]
+    unseen: NDArray[np.uint8]

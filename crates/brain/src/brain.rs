@@ -2,8 +2,10 @@
 
 use crate::arbitration::Arbitration;
 use crate::behaviours::{BehaviourSpec, Memory, Ready, swarm};
+use crate::believed_map::BelievedMap;
 use crate::body::{Body, RobotId};
 use crate::command::{Command, Motion};
+use crate::decision::Decision;
 use crate::mind::{Mind, Wants};
 use crate::percept::Percept;
 use crate::reckoning::Reckoning;
@@ -100,6 +102,27 @@ impl Brain {
         self.mind.as_deref().map(Thoughts::of)
     }
 
+    /// The map in its mind; `None` if it has none.
+    #[must_use]
+    pub fn map(&self) -> Option<BelievedMap> {
+        let map = self.mind.as_deref()?.beliefs.map.as_ref()?;
+        Some(BelievedMap::of(map))
+    }
+
+    /// What it would decide now, and why; the brain itself does not step.
+    #[must_use]
+    pub fn decision(&self, percept: &Percept) -> Decision {
+        let mut brain = self.clone();
+        let mut command = Command::default();
+        let leading = brain.lead_into(percept, &mut command);
+        Decision {
+            command,
+            leading: leading.and_then(|place| u32::try_from(place).ok()),
+            holds_s: brain.layers.iter().map(Layer::holds_s).collect(),
+            thoughts: brain.thoughts(),
+        }
+    }
+
     /// Robots have other numbers from now on; what is remembered of one that is gone is forgotten.
     pub fn renumber(&mut self, now: impl Fn(RobotId) -> Option<RobotId>) {
         if let Some(mind) = &mut self.mind {
@@ -130,16 +153,25 @@ impl Brain {
 
     /// As [`Brain::step`], into a command whose memory is used again.
     pub fn step_into(&mut self, percept: &Percept, command: &mut Command) {
+        self.lead_into(percept, command);
+    }
+
+    /// The same; returns the behaviour that has its way, if it is one.
+    #[inline]
+    fn lead_into(&mut self, percept: &Percept, command: &mut Command) -> Option<usize> {
         command.requests.clear();
         command.outbox.clear();
-        command.motion = self.motion(percept);
+        let (leading, motion) = self.motion(percept);
+        command.motion = motion;
         self.moved.told(command.motion, &self.kind.body);
         if let Some(mind) = &mut self.mind {
             mind.tell(self.kind.body.period_s, &mut command.outbox);
         }
+        leading
     }
 
-    fn motion(&mut self, percept: &Percept) -> Motion {
+    #[inline]
+    fn motion(&mut self, percept: &Percept) -> (Option<usize>, Motion) {
         let Kind {
             spec,
             body,
@@ -168,8 +200,11 @@ impl Brain {
             turned_rad,
             now_m_s,
         };
-        let wanted = match (sum.as_ref().zip(self.noise.as_deref_mut()), &mut wants) {
-            (Some((sum, noise)), _) => sum.motion(behaviours, &mut self.layers, noise, &senses),
+        let (leading, wanted) = match (sum.as_ref().zip(self.noise.as_deref_mut()), &mut wants) {
+            (Some((sum, noise)), _) => {
+                let motion = sum.motion(behaviours, &mut self.layers, noise, &senses);
+                (None, motion)
+            }
             (None, None) => moved(arbitrate(behaviours, &mut self.layers, &senses)),
             (None, Some(wants)) => chosen(spec, behaviours, (&mut self.layers, wants), &senses),
         };
@@ -182,26 +217,27 @@ impl Brain {
             traffic.look(&beliefs.others.movers, body, [now_m_s, turned_rad]);
             motion = traffic.limited(motion, body, now_m_s);
         }
-        possible(motion, body)
+        (leading, possible(motion, body))
     }
 }
 
-/// What one without a mind does: it cannot be somewhere on purpose.
-fn moved(wanted: Option<(usize, Wish)>) -> Motion {
+/// What one without a mind does, and the behaviour that wants it: it cannot be somewhere on purpose.
+fn moved(wanted: Option<(usize, Wish)>) -> (Option<usize>, Motion) {
     match wanted {
-        Some((_, Wish::Motion(motion))) => motion,
-        _ => Motion::default(),
+        Some((behaviour, Wish::Motion(motion))) => (Some(behaviour), motion),
+        _ => (None, Motion::default()),
     }
 }
 
-/// What one with a mind does.
+/// What one with a mind does, and the behaviour that wants it.
 fn chosen(
     spec: &BrainSpec,
     behaviours: &[Ready],
     (layers, wants): (&mut [Layer<Memory>], &mut Wants),
     senses: &Senses,
-) -> Motion {
+) -> (Option<usize>, Motion) {
     let mut all = core::mem::take(&mut wants.wishes);
+    wants.way.turned_to = None;
     match spec.arbitration {
         Arbitration::Goals => wishes(behaviours, layers, senses, &mut all),
         Arbitration::Subsumption | Arbitration::Schemas(_) => {
@@ -210,19 +246,22 @@ fn chosen(
         }
     }
     // The highest comes first: a motion there is a reflex, and one further down what is left to do.
-    let motion = match all.first() {
+    let decided = match all.first() {
         None => {
             wants.keep_below(0);
-            Motion::default()
+            (None, Motion::default())
         }
         Some((behaviour, Wish::Motion(motion))) => {
             wants.keep_below(*behaviour);
-            *motion
+            (Some(*behaviour), *motion)
         }
-        Some((_, Wish::Aim(_))) => wants.serve(&all, behaviours, layers, senses),
+        Some((_, Wish::Aim(_))) => {
+            let motion = wants.serve(&all, behaviours, layers, senses);
+            (wants.pursued(), motion)
+        }
     };
     wants.wishes = all;
-    motion
+    decided
 }
 
 /// The sum of what behaviours want, if the scenario asks for one.

@@ -10,7 +10,7 @@ use crate::beliefs::{Beliefs, BeliefsSpec};
 use crate::body::Body;
 use crate::command::{Message, Motion};
 use crate::goals::fitness::Step;
-use crate::goals::{Goals, Verdict};
+use crate::goals::{Goal, Goals, Verdict};
 use crate::senses::Senses;
 use crate::subsumption::{Behaviour, Layer};
 use crate::way::Way;
@@ -49,6 +49,17 @@ impl Mind {
 }
 
 impl Wants {
+    /// Whether a goal is the one that the robot goes for.
+    pub(crate) fn is_pursued(&self, goal: &Goal) -> bool {
+        self.going.is_some_and(|aim| aim.to == goal.aim.to)
+    }
+
+    /// The behaviour whose goal the robot goes for.
+    pub(crate) fn pursued(&self) -> Option<usize> {
+        let mut goals = self.goals.goals.iter();
+        Some(goals.find(|goal| self.is_pursued(goal))?.behaviour)
+    }
+
     /// Keeps the goals of behaviours below one, which were not asked; those above want nothing.
     pub(crate) fn keep_below(&mut self, behaviour: usize) {
         let goals = &mut self.goals.goals;

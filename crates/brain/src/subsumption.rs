@@ -60,6 +60,11 @@ impl<M> Layer<M> {
     pub(crate) fn memory(&mut self) -> &mut M {
         &mut self.memory
     }
+
+    /// It keeps control for so long though it has nothing to do.
+    pub(crate) fn holds_s(&self) -> f64 {
+        self.left_s.into()
+    }
 }
 
 /// A layer for each behaviour.

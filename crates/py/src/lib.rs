@@ -21,6 +21,7 @@ mod refused;
 mod scenario;
 mod selection;
 mod simulation;
+mod watch;
 
 use pyo3::prelude::*;
 
@@ -50,6 +51,8 @@ mod _core {
     use crate::selection::{Procedure, mean_bounds, mean_exceeds, reference, selection};
     #[pymodule_export]
     use crate::simulation::{MetricScenario, Simulation, Snapshot, read_metric};
+    #[pymodule_export]
+    use crate::watch::{believed_map, watch, watched};
 
     use classic::Contact;
     use pyo3::prelude::*;

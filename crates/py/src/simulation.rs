@@ -215,7 +215,12 @@ impl Simulation {
     }
 
     fn restore(&self, py: Python, snapshot: &Bound<Snapshot>) -> PyResult<()> {
-        *self.locked(py)? = snapshot.get().0.clone();
+        let mut run = self.locked(py)?;
+        let (watches, scenario) = (run.watches(), Arc::clone(run.scenario()));
+        *run = snapshot.get().0.clone();
+        // In another scenario robots may have other numbers.
+        let is_same = Arc::ptr_eq(&scenario, run.scenario());
+        run.watch(watches.filter(|_| is_same));
         Ok(())
     }
 
@@ -367,7 +372,7 @@ impl Simulation {
     }
 }
 
-fn id_of(scenario: &Scenario, robot: &Bound<PyAny>) -> PyResult<RobotId> {
+pub(crate) fn id_of(scenario: &Scenario, robot: &Bound<PyAny>) -> PyResult<RobotId> {
     let id = outside::robot_of(scenario, "robot", &exchange::text(robot));
     id.map_err(|fault| input_error(&Faults(vec![fault]), ""))
 }

@@ -102,6 +102,11 @@ impl Field {
         })
     }
 
+    /// Its least corner.
+    pub(crate) fn corner(&self) -> Point {
+        self.area.min()
+    }
+
     /// Its width and height.
     pub(crate) fn size(&self) -> Point {
         self.area.size()

@@ -83,6 +83,15 @@ impl Occupancy {
             .map(|(cell, _)| cell)
     }
 
+    /// How likely each cell is filled, in percent; -1 where nothing says either.
+    pub(crate) fn percent(&self) -> impl Iterator<Item = i8> {
+        let percents: [i8; 2 * MOST as usize + 1] = core::array::from_fn(percent);
+        let place = |odds: i8| usize::from((odds + MOST).unsigned_abs());
+        self.quarter_nats
+            .iter()
+            .map(move |odds| percents[place(*odds)])
+    }
+
     /// Begins a scan, whose rays follow each other.
     pub(crate) fn begin_scan(&mut self) {
         self.passed.clear();
@@ -155,6 +164,20 @@ impl Occupancy {
             is_filled(left, high) && is_filled(right, low)
         }
     }
+}
+
+/// How likely a cell is filled whose odds are so many quarter nats above the least; -1 if they are even.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_precision_loss,
+    reason = "0 to 100, of some forty"
+)]
+fn percent(above_least: usize) -> i8 {
+    let nats = (above_least as f64 - f64::from(MOST)) / 4.0;
+    if nats == 0.0 {
+        return -1;
+    }
+    libm::round(100.0 / (1.0 + libm::exp(-nats))) as i8
 }
 
 #[cfg(test)]

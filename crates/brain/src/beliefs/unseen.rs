@@ -43,6 +43,19 @@ impl Unseen {
 }
 
 impl Unseen {
+    /// The same of all cells, in percent.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "0 to 100"
+    )]
+    pub(crate) fn percent(&self) -> impl Iterator<Item = u8> {
+        // What is left of an item is not nothing.
+        self.missed
+            .iter()
+            .map(|missed| libm::ceilf(100.0 * missed) as u8)
+    }
+
     /// The same of all cells in a row of the field.
     #[inline]
     pub(crate) fn row(&self, field: &Field, row: usize) -> &[f32] {

@@ -53,11 +53,13 @@ impl Step {
 /// How a goal has been approached so far.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Fitness {
-    best_m: f64,
-    last_m: f64,
-    since_s: f64,
+    /// The way left when it was shortest, and in the last step.
+    pub(crate) best_m: f64,
+    pub(crate) last_m: f64,
+    /// It has not come nearer for so long.
+    pub(crate) since_s: f64,
     /// It still is impossible for so long.
-    rests_s: f64,
+    pub(crate) rests_s: f64,
 }
 
 impl Default for Fitness {

@@ -35,7 +35,7 @@ pub(crate) struct Goal {
     pub(crate) aim: Aim,
     pub(crate) precedence: f64,
     pub(crate) verdict: Verdict,
-    fitness: Fitness,
+    pub(crate) fitness: Fitness,
     /// Whether its behaviour has been told before that it is impossible.
     is_told: bool,
 }

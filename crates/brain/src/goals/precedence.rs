@@ -18,17 +18,22 @@ const MARGIN: f64 = 1.5;
 /// The nearer and the likelier a goal is, the higher it stands; one that is worth nothing, or cannot
 /// be reached, comes last.
 pub(crate) fn precedence(aim: &Aim, time_s: f64, battery_s: f64) -> f64 {
-    let needed_s = MARGIN * time_s;
-    let likely = if needed_s > battery_s {
-        battery_s / needed_s
-    } else {
-        1.0
-    };
-    let precedence = aim.value * likely / (1.0 + time_s / HALF_S);
+    let precedence = aim.value * likely(time_s, battery_s) / (1.0 + time_s / HALF_S);
     if precedence.is_finite() {
         precedence
     } else {
         0.0
+    }
+}
+
+/// Probability that it can be reached, P above.
+#[inline]
+pub(crate) fn likely(time_s: f64, battery_s: f64) -> f64 {
+    let needed_s = MARGIN * time_s;
+    if needed_s > battery_s {
+        battery_s / needed_s
+    } else {
+        1.0
     }
 }
 

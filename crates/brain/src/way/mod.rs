@@ -42,6 +42,8 @@ pub(crate) struct Way {
     hits: Vec<Ray>,
     wave: Wave,
     plan: Option<Plan>,
+    /// The place that it turned to in the last step, from its front: its bearing and how far it was.
+    pub(crate) turned_to: Option<[f64; 2]>,
 }
 
 /// A way that was found.
@@ -187,8 +189,9 @@ impl Way {
         let movers = &beliefs.others.movers;
         self.reachable
             .look(&self.hits, movers, (body.radius_m, speed_m_s));
-        let aim_rad = libm::atan2(way.y, way.x);
-        let choice = self.reachable.best(aim_rad, way.length());
+        let (aim_rad, away_m) = (libm::atan2(way.y, way.x), way.length());
+        self.turned_to = Some([aim_rad, away_m]);
+        let choice = self.reachable.best(aim_rad, away_m);
         let turn_rad = choice.bearing_rad;
         let aligned = (1.0 - turn_rad.abs() / FRAC_PI_3).max(0.0);
         let free_m = choice.free_m.min(self.reachable.ahead_m());

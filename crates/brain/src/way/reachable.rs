@@ -157,21 +157,32 @@ impl Reachable {
 
     /// The best way to an aim at `bearing_rad` and `away_m`.
     pub(crate) fn best(&self, aim_rad: f64, away_m: f64) -> Choice {
+        self.choice(self.best_course(aim_rad, away_m), aim_rad)
+    }
+
+    /// The course that is best for that.
+    #[inline]
+    pub(crate) fn best_course(&self, aim_rad: f64, away_m: f64) -> usize {
         let aim = direction(aim_rad).times(away_m);
         let mut best = (f64::NEG_INFINITY, 0);
-        for (course, free_m) in self.free_m.iter().enumerate() {
-            let reached = self.direction(course).times(free_m.min(away_m));
-            let left_m2 = reached.to(aim).length_squared();
+        for course in 0..COURSES {
+            let left_m2 = self.reached(course, away_m).to(aim).length_squared();
             // What is farther off than the best is worth, is worth less, whatever turning costs.
             if left_m2 < best.0 * best.0 {
-                let cost_m = TURN_M * bearing_rad(course).abs();
-                let utility = -libm::sqrt(left_m2) - cost_m;
+                let utility = utility(course, left_m2);
                 if utility > best.0 {
                     best = (utility, course);
                 }
             }
         }
-        self.choice(best.1, aim_rad)
+        best.1
+    }
+
+    /// The place that is reached along a course to an aim so far away.
+    #[inline]
+    pub(crate) fn reached(&self, course: usize, away_m: f64) -> Point {
+        self.direction(course)
+            .times(self.free_m[course].min(away_m))
     }
 
     /// A course, or the aim itself if that is next to it.
@@ -196,6 +207,12 @@ impl Reachable {
     pub(crate) fn ahead_m(&self) -> f64 {
         self.free_m[0]
     }
+}
+
+/// What it is worth to reach a place along a course, given the square of the distance left.
+#[inline]
+pub(crate) fn utility(course: usize, left_m2: f64) -> f64 {
+    -libm::sqrt(left_m2) - TURN_M * bearing_rad(course).abs()
 }
 
 /// At most so fast towards what is so far.

@@ -24,6 +24,7 @@ mod stay;
 mod tick;
 mod view;
 mod waiting;
+mod watch;
 
 pub use asked::Asked;
 pub use outcome::Outcome;
@@ -31,5 +32,6 @@ pub use outside::Outside;
 pub use seen::{Item, Robot};
 pub use simulation::{NoRobot, Simulation};
 pub use state::{NoRoom, State, Status};
+pub use watch::Watched;
 
 pub(crate) use tick::Workshop;

@@ -5,7 +5,7 @@ use crate::body::Layer;
 use crate::clock::seconds;
 use crate::scenario::Scenario;
 use base::geometry::Point;
-use brain::{Motion, RobotId, Thoughts};
+use brain::{BelievedMap, Motion, RobotId, Thoughts};
 
 /// A robot of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -63,6 +63,13 @@ impl State {
     pub fn thoughts(&self, id: RobotId) -> Option<Thoughts> {
         let robot = self.ids.binary_search(&id).ok()?;
         self.minds[robot].brain.thoughts()
+    }
+
+    /// The map in a robot's mind; `None` if there is no such robot, or it has none.
+    #[must_use]
+    pub fn map(&self, id: RobotId) -> Option<BelievedMap> {
+        let robot = self.ids.binary_search(&id).ok()?;
+        self.minds[robot].brain.map()
     }
 
     /// All robots, in the order of their kinds and indices.

@@ -6,6 +6,7 @@ use super::outcome::Outcome;
 use super::outside::Outside;
 use super::state::{NoRoom, State};
 use super::tick::Workshop;
+use super::watch::Watch;
 use crate::body::path::Course;
 use crate::clock::seconds;
 use crate::scenario::Scenario;
@@ -23,8 +24,9 @@ use std::sync::Arc;
 #[derive(Debug, Clone)]
 pub struct Simulation {
     scenario: Arc<Scenario>,
-    state: State,
+    pub(super) state: State,
     workshop: Workshop,
+    pub(super) watch: Watch,
 }
 
 /// A robot that a run does not have.
@@ -44,11 +46,13 @@ impl Simulation {
             scenario,
             state,
             workshop,
+            watch: Watch::default(),
         })
     }
 
     /// Takes one step, also after the run is over.
     pub fn step(&mut self) {
+        self.look();
         self.workshop.step(&self.scenario, &mut self.state);
     }
 
@@ -89,6 +93,7 @@ impl Simulation {
     /// the run; returns what the brains of bodies outside decide.
     pub fn answer(&mut self, mut outside: Outside) -> BTreeMap<RobotId, Command> {
         outside.asking.settle(&mut self.state.minds);
+        self.watch.forget();
         self.workshop
             .tick(&self.scenario, &mut self.state, &outside);
         self.workshop.asking = outside.asking;
@@ -162,6 +167,7 @@ impl Simulation {
     pub fn restore(&mut self, state: State) {
         self.state = state;
         self.workshop.forget();
+        self.watch.forget();
     }
 
     /// Goes on with another scenario: see [`State::changed`].
@@ -179,6 +185,7 @@ impl Simulation {
         self.state = state;
         self.workshop = Workshop::new(&scenario, true);
         self.scenario = scenario;
+        self.watch = Watch::default();
     }
 
     /// What comes from outside into a step, with bodies outside where their percepts say.
@@ -219,7 +226,7 @@ impl Simulation {
             .collect()
     }
 
-    fn number(&self, id: RobotId) -> Result<usize, NoRobot> {
+    pub(super) fn number(&self, id: RobotId) -> Result<usize, NoRobot> {
         self.state.ids.binary_search(&id).map_err(|_| NoRobot(id))
     }
 }

@@ -140,11 +140,16 @@ impl Workshop {
         robot: usize,
     ) -> Option<Percept> {
         self.refresh(scenario, state);
-        let mut mind = state.minds[robot].clone();
-        let (view, _) = state.view(scenario, &self.neighbours);
+        let (view, minds) = state.view(scenario, &self.neighbours);
+        if !view.is_due(robot) {
+            return None;
+        }
+        let mind = &mut minds[robot];
+        let waiting = mind.backlog.clone();
         let mut desk = Desk::default();
-        let is_time = view.is_simulated(robot) && desk.perceive(&view, robot, &mut mind);
-        is_time.then_some(desk.percept)
+        desk.perceive(&view, robot, mind);
+        mind.backlog = waiting;
+        Some(desk.percept)
     }
 
     /// The robots of the last step for which others decided.

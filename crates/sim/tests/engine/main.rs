@@ -36,4 +36,5 @@ mod schemas;
 mod sensors;
 mod streams;
 mod waiting;
+mod watch;
 mod wraps;

@@ -1,0 +1,75 @@
+//! What one robot of a run perceives, decides and believes, for whoever watches it.
+
+use crate::exchange;
+use crate::simulation::{Simulation, id_of};
+use brain::BelievedMap;
+use numpy::{IntoPyArray, PyArrayMethods};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use sim::engine::{self, Watched};
+
+/// Watches a robot from now on, or none.
+#[pyfunction]
+pub(crate) fn watch<'py>(
+    py: Python<'py>,
+    simulation: &Bound<'py, Simulation>,
+    robot: Option<Bound<'py, PyAny>>,
+) -> PyResult<()> {
+    let mut run = simulation.get().locked(py)?;
+    let robot = robot.map(|robot| id_of(run.scenario(), &robot));
+    run.watch(robot.transpose()?);
+    Ok(())
+}
+
+/// What a robot's brain perceives and decides, and why, if it is watched, as it is from now on; None if
+/// there is nothing to tell, or the robot is gone.
+#[pyfunction]
+pub(crate) fn watched<'py>(
+    py: Python<'py>,
+    simulation: &Bound<'py, Simulation>,
+    robot: &Bound<'py, PyAny>,
+) -> PyResult<Option<Bound<'py, PyDict>>> {
+    let mut locked = simulation.get().locked(py)?;
+    let run: &mut engine::Simulation = &mut locked;
+    // A change of the run may have given it another number.
+    run.watch(id_of(run.scenario(), robot).ok());
+    let Some(told) = py.detach(|| run.watched()) else {
+        return Ok(None);
+    };
+    let Watched {
+        tick,
+        percept,
+        decision,
+        ..
+    } = told;
+    let dict = PyDict::new(py);
+    dict.set_item("tick", tick)?;
+    dict.set_item("percept", exchange::write(py, &percept)?)?;
+    dict.set_item("command", exchange::write(py, &decision.command)?)?;
+    dict.set_item("leading", decision.leading)?;
+    dict.set_item("holds_s", decision.holds_s)?;
+    dict.set_item("thoughts", exchange::write(py, &decision.thoughts)?)?;
+    Ok(Some(dict))
+}
+
+/// The map in a robot's mind; None if it has none.
+#[pyfunction]
+pub(crate) fn believed_map<'py>(
+    py: Python<'py>,
+    simulation: &Bound<'py, Simulation>,
+    robot: &Bound<'py, PyAny>,
+) -> PyResult<Option<Bound<'py, PyDict>>> {
+    let run = simulation.get().locked(py)?;
+    let map = run.state().map(id_of(run.scenario(), robot)?);
+    map.map(|map| as_dict(py, map)).transpose()
+}
+
+fn as_dict(py: Python, map: BelievedMap) -> PyResult<Bound<PyDict>> {
+    let shape = [map.rows, map.columns];
+    let dict = PyDict::new(py);
+    dict.set_item("corner", (map.corner.x, map.corner.y))?;
+    dict.set_item("cell_m", map.cell_m)?;
+    dict.set_item("occupancy", map.occupancy.into_pyarray(py).reshape(shape)?)?;
+    dict.set_item("unseen", map.unseen.into_pyarray(py).reshape(shape)?)?;
+    Ok(dict)
+}
