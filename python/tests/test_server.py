@@ -1,6 +1,8 @@
 """What the page's server answers, and whom."""
 
+import base64
 import json
+import math
 import struct
 import time
 from collections.abc import Iterator
@@ -204,11 +206,55 @@ def test_the_mind_of_a_selected_robot_is_told(page: Page) -> None:
     page.open(tick=30)
     page.say("select", robot="rover/1")
     mind = page.until("state")["mind"]
-    assert mind["robot"] == "rover/1"
-    assert mind["goals"]
-    assert mind["pose"]
+    simulation = ae.Simulation("search-mind", 7)
+    simulation.step(30)
+    simulation.watch("rover/1")
+    expected = simulation.watched()
+    assert expected is not None
+    assert mind == json.loads(json.dumps({"robot": "rover/1", **expected}))
     page.say("select", robot="rover/99")
     assert page.until("state")["mind"] is None
+
+
+def test_what_is_told_of_a_map_comes_to_all_of_it(page: Page) -> None:
+    page.open(tick=30)
+    page.say("select", robot="rover/1")
+    page.until("map", robot="rover/1")
+    for said, tick in (({"type": "step", "steps": 2}, 32), ({"type": "go", "tick": 20}, 20)):
+        page.socket.send_text(json.dumps(said))
+        page.until("state", tick=tick, playing=False)
+    # A map comes behind the state that it is of.
+    page.say("pause")
+    page.until("state")
+    maps = [said for said in page.said if said["type"] == "map"]
+    shape = (maps[0]["rows"], maps[0]["columns"])
+    believed = {"occupancy": np.zeros(shape, np.int8), "unseen": np.zeros(shape, np.uint8)}
+    for told in maps:
+        (left, low), (columns, rows) = told["from"], told["size"]
+        for key, cells in believed.items():
+            part = np.frombuffer(base64.b64decode(told[key]), cells.dtype)
+            cells[low : low + rows, left : left + columns] = part.reshape(rows, columns)
+    simulation = ae.Simulation("search-mind", 7)
+    simulation.step(20)
+    expected = simulation.believed_map("rover/1")
+    assert expected is not None
+    assert (believed["occupancy"] == expected["occupancy"]).all()
+    assert (believed["unseen"] == expected["unseen"]).all()
+    assert maps[0]["size"] == [shape[1], shape[0]]
+    assert math.prod(maps[1]["size"]) < math.prod(shape) / 2
+
+
+def test_a_robot_without_a_mind_has_a_percept_and_a_command_and_no_map(page: Page) -> None:
+    page.open(scenario="search", tick=6)
+    page.say("select", robot="rover/0")
+    mind = page.until("state")["mind"]
+    assert mind["percept"]["scans"]
+    assert mind["command"]["motion"]
+    assert mind["leading"] is not None
+    assert mind["thoughts"] is None
+    page.say("select", robot=None)
+    assert page.until("state")["mind"] is None
+    assert not [said for said in page.said if said["type"] == "map"]
 
 
 @pytest.mark.parametrize(

@@ -8,6 +8,7 @@ from bumpers import Bumper
 from metric import search
 
 from agent_economy import InputError, Simulation
+from agent_economy.recording.moments import moment_of
 
 SEEK = {"robots.rover.brain.behaviours": [{"kind": "seek"}, {"kind": "avoid"}]}
 
@@ -58,7 +59,78 @@ def test_to_look_at_thoughts_changes_nothing() -> None:
     assert looked.hash == not_looked.hash
 
 
+def test_what_is_watched_is_what_the_robot_perceives_and_then_wants() -> None:
+    simulation = seeking()
+    simulation.watch("rover/1")
+    for _ in range(20):
+        percept = simulation.percept("rover/1")
+        told = simulation.watched()
+        assert told is not None
+        assert percept is None or (percept, simulation.tick) == (told["percept"], told["tick"])
+        simulation.step()
+        wanted = moment_of(simulation)["wanted"][1]
+        assert tuple(wanted) == tuple(told["command"]["motion"].values())
+        thoughts = simulation.thoughts("rover/1")
+        assert thoughts == told["thoughts"]
+
+
+def test_to_watch_changes_nothing_and_holds_when_the_run_is_put_back() -> None:
+    watched, free = seeking(), seeking()
+    watched.watch("rover/0")
+    before = watched.snapshot()
+    for simulation in (watched, free):
+        simulation.step(51)
+    told = watched.watched()
+    assert watched.hash == free.hash
+    watched.restore(before)
+    watched.step(51)
+    assert watched.watched() == told
+    watched.change("robots.rover.count", 6)
+    assert watched.watched() is None
+    watched.step(2)
+    assert watched.watched() is not None
+    watched.change("robots.rover.count", 0)
+    assert watched.watched() is None
+    watched.watch(None)
+    assert watched.watched() is None
+
+
+def test_of_the_places_around_it_a_robot_takes_the_one_that_is_worth_most() -> None:
+    simulation = seeking()
+    simulation.watch("rover/0")
+    looked = 0
+    for _ in range(100):
+        simulation.step()
+        told = simulation.watched()
+        assert told is not None
+        assert told["thoughts"] is not None
+        reach = told["thoughts"]["reach"]
+        if reach is not None:
+            looked += 1
+            most = max(course["utility"] for course in reach["courses"])
+            assert reach["courses"][reach["taken"]]["utility"] == pytest.approx(most)
+    assert looked > 50
+
+
+def test_a_map_says_what_is_free_and_what_nobody_has_seen() -> None:
+    simulation = seeking()
+    told = simulation.believed_map("rover/0")
+    assert told is not None
+    assert told["occupancy"].shape == told["unseen"].shape
+    assert told["occupancy"].min() == -1
+    assert 0 <= told["unseen"].min() < told["unseen"].max() == 100
+    x, y, _ = simulation.poses[0]
+    (left, low), cell_m = told["corner"], told["cell_m"]
+    here = told["occupancy"][int((y - low) / cell_m), int((x - left) / cell_m)]
+    assert 0 <= here < 50
+
+
 def test_who_has_no_mind_or_one_in_python_has_no_thoughts() -> None:
+    assert Simulation("search").believed_map("rover/0") is None
+    assert seeking(brains={"rover": Bumper}).believed_map("rover/0") is None
+    bumpers = seeking(brains={"rover": Bumper})
+    bumpers.watch("rover/0")
+    assert bumpers.watched() is None
     assert Simulation("search").thoughts("rover/0") is None
     assert seeking(brains={"rover": Bumper}).thoughts("rover/0") is None
 
@@ -67,3 +139,5 @@ def test_who_has_no_mind_or_one_in_python_has_no_thoughts() -> None:
 def test_a_robot_that_is_not_there_thinks_nothing(robot: Any) -> None:
     with pytest.raises(InputError, match="robot = .*must be one of the run's robots"):
         Simulation("search").thoughts(robot)
+    with pytest.raises(InputError, match="robot = .*must be one of the run's robots"):
+        Simulation("search").believed_map(robot)

@@ -62,6 +62,9 @@ def kind(name: str, count: int, recorded: Mapping[str, Any]) -> dict[str, Any]:
         "count": count,
         "radius_m": body["radius_m"],
         "radio_range_m": recorded["radio_m"][name],
+        "rings": [
+            {key: each[key] for key in ("bearings_rad", "range_m")} for each in body["rings"]
+        ],
         "sensors": [
             *map(ring, body["rings"]),
             *(detector(body, each) for each in body["detectors"]),

@@ -13,14 +13,22 @@ From the page:
 * `play`: `speed`, times real time, or null for as fast as it can. `pause`.
 * `step`: `steps`, also less than 0. `go`: `tick`. Both stand then.
 * `change`: `path`, `value`. `undo`.
-* `select`: `robot`, whose mind is told of, or null.
+* `select`: `robot`, of which is told what it perceives, decides and believes, or null.
 * `got`: `frame`, the number of one that has been drawn. No more than three are on their way.
 
 From the server: `opened`, `setting` (all that stays until something is changed), `state` (at most
-ten times a second), `refused` (with `faults`; nothing has changed) and `ended`. A frame in little
-endian is eight numbers, `u32` but for the time: 1, generation, tick, robots, time in s (`f64`),
-items, the frame's number; then what `_core.frame` says. It is drawn in the setting of its
-generation.
+ten times a second), `map`, `refused` (with `faults`; nothing has changed) and `ended`.
+
+* `state`: its `mind`, of the robot selected, is what `Simulation.watched` tells, with `robot`; its
+  entries are null, but for `thoughts`, if its brain has not stepped since, or it cannot go on.
+* `map`: what that robot believes, at most four times a second, if it has changed: `robot`;
+  `corner`, `cell_m`, `columns` and `rows` of the whole map; and of the cells `from` a column and
+  row, as many columns and rows as `size` says, `occupancy` and `unseen` as `BelievedMap` has them,
+  a byte each, in base64. All others are as they were; the first `map` of a robot has all.
+
+A frame in little endian is eight numbers, `u32` but for the time: 1, generation, tick, robots, time
+in s (`f64`), items, the frame's number; then what `_core.frame` says. It is drawn in the setting of
+its generation.
 
 Studies
 -------

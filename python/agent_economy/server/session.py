@@ -19,12 +19,14 @@ from agent_economy.scenario import Scenario
 from agent_economy.server import messages
 from agent_economy.server.frames import frame, setting
 from agent_economy.server.messages import Message
+from agent_economy.server.mind import Selected
 from agent_economy.server.pace import Pace
 from agent_economy.server.places import Places
 from agent_economy.server.timeline import Timeline
 
-FRAME_S, STATE_S = 0.03, 0.1
-"""Between two frames, and between two states, at least: steps of a thirtieth each give a frame."""
+FRAME_S, STATE_S, MAP_S = 0.03, 0.1, 0.25
+"""Between two frames, two states, and two maps of the selected robot, at least: steps of a thirtieth
+each give a frame."""
 
 SLICE_S = 0.025
 """A run goes on for so long before the page is looked after again."""
@@ -69,13 +71,13 @@ class Session:
         self._pace = Pace(0.1)
         self._heard: asyncio.Queue[Message | InputError] = asyncio.Queue(MOST_HEARD)
         self._aim: int | None = None
-        self._selected: str | None = None
+        self._selected = Selected()
         self._generation = 0
         self._changes_told = -1
         self._number = 0
         self._on_the_way: deque[int] = deque()
         self._is_new = False
-        self._frame_at_s = self._state_at_s = 0.0
+        self._frame_at_s = self._state_at_s = self._map_at_s = 0.0
         self._busy_at_s = time.monotonic()
 
     async def run(self) -> None:
@@ -177,7 +179,8 @@ class Session:
             case messages.Undo():
                 await self._in_thread(self._run.undo)
             case messages.Select(robot=robot):
-                self._selected = robot
+                self._selected.choose(robot)
+                self._map_at_s = 0.0
         self._is_new = True
 
     @property
@@ -194,7 +197,7 @@ class Session:
         scenario, seed, self._timeline = await self._in_thread(begun)
         self._stand()
         self._pace = Pace(self._run.step_s)
-        self._aim, self._changes_told, self._selected = said.tick, -1, None
+        self._aim, self._changes_told, self._selected = said.tick, -1, Selected()
         described: dict[str, Any] = {
             "id": said.scenario,
             "name": scenario.name,
@@ -262,6 +265,10 @@ class Session:
         if is_at_rest or now_s - self._state_at_s >= STATE_S:
             self._state_at_s = now_s
             await self._page.tell(self._state(timeline))
+        if is_at_rest or now_s - self._map_at_s >= MAP_S:
+            self._map_at_s = now_s
+            if told := self._selected.map(timeline.simulation):
+                await self._page.tell(told)
 
     def _state(self, timeline: Timeline) -> dict[str, Any]:
         simulation = timeline.simulation
@@ -276,15 +283,8 @@ class Session:
             "real": self._pace.reached,
             "over": simulation.is_over,
             "outcome": simulation.outcome().row,
-            "mind": self._mind(timeline),
+            "mind": self._selected.mind(simulation),
         }
-
-    def _mind(self, timeline: Timeline) -> dict[str, Any] | None:
-        robot = self._selected
-        if robot is None or robot not in timeline.simulation.robots:
-            return None
-        thoughts = timeline.simulation.thoughts(robot)
-        return {"robot": robot, **thoughts} if thoughts else None
 
     async def _refuse(self, about: str, error: InputError) -> None:
         faults = messages.faults_of(error)
