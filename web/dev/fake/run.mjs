@@ -103,8 +103,7 @@ export class FakeRun {
     const i = this.nameOf().indexOf(robot);
     if (i < 0) return null;
     const [x, y, heading_rad] = this.robots.subarray(4 * i, 4 * i + 3);
-    return {
-      robot,
+    const thoughts = {
       pose: { at: [x + 0.2, y - 0.1], heading_rad, deviation_m: 0.3, deviation_rad: 0.05, age_s: 0.1 },
       items: this.items.slice(0, 2).map((item, k) => ({
         kind: 0,
@@ -114,15 +113,86 @@ export class FakeRun {
       })),
       robots: [],
       goals: [
-        { behaviour: 0, to: [20, 12], precedence: 0.83, verdict: "approaching" },
-        { behaviour: 1, to: [3, 3], precedence: 0.12, verdict: "receding" },
+        goal(0, [20, 12], 0.83, "approaching"),
+        { ...goal(1, [3, 3], 0.12, "receding"), is_pursued: false, stuck_s: 6.2 },
       ],
+      reach: reachTo([6, 2]),
     };
+    const has = this.document.robots[robot.split("/")[0]].brain !== undefined;
+    return {
+      robot,
+      tick: this.tick,
+      percept: perceptOf([x, y, heading_rad], this.tick * this.step_s),
+      command: {
+        motion: { speed_m_s: 0.8, turn_rate_rad_s: 0.3 },
+        requests: [],
+        outbox: [{ about: { sender: {} }, confidence: 1 }],
+      },
+      leading: 0,
+      holds_s: [0, 0, 1.5],
+      thoughts: has ? thoughts : null,
+    };
+  }
+
+  /** A map of which a strip, as wide as the robot has come far, is known; walls at its edges. */
+  map(robot) {
+    const i = this.nameOf().indexOf(robot);
+    if (i < 0 || !this.mind(robot).thoughts) return null;
+    const [columns, rows] = this.size.map((size) => Math.ceil(size));
+    const [x, y] = this.robots.subarray(4 * i, 4 * i + 2);
+    const occupancy = Buffer.alloc(columns * rows, 255);
+    const unseen = Buffer.alloc(columns * rows, 100);
+    for (let cell = 0; cell < columns * rows; cell++) {
+      const [column, row] = [cell % columns, Math.floor(cell / columns)];
+      const away = Math.hypot(column + 0.5 - x, row + 0.5 - y);
+      if (away > 7) continue;
+      occupancy[cell] = away > 6 ? 95 : 5;
+      unseen[cell] = away < 4 ? 10 : 100;
+    }
+    const whole = { corner: [0, 0], cell_m: 1, columns, rows, from: [0, 0], size: [columns, rows] };
+    const cells = { occupancy: occupancy.toString("base64"), unseen: unseen.toString("base64") };
+    return { type: "map", robot, ...whole, ...cells };
   }
 
   nameOf() {
     return this.kinds.flatMap((kind) => Array.from({ length: kind.count }, (_, i) => `${kind.name}/${i}`));
   }
+}
+
+function goal(behaviour, to, precedence, verdict) {
+  const numbers = { value: 1, likely: 1, time_s: 2, within_m: 0.3, left_m: 4.2, best_m: 4.2 };
+  return { behaviour, to, precedence, verdict, ...numbers, stuck_s: 0, rests_s: 0, is_pursued: true };
+}
+
+/** Courses all around, of which the one nearest to a place before the front is taken. */
+function reachTo(to) {
+  const courses = Array.from({ length: 40 }, (_, i) => {
+    const bearing_rad = (tau * (i > 20 ? i - 40 : i)) / 40;
+    const free_m = 2 + 1.5 * Math.sin(3 * bearing_rad);
+    const at = [free_m * Math.cos(bearing_rad), free_m * Math.sin(bearing_rad)];
+    return { bearing_rad, free_m, at, utility: -Math.hypot(to[0] - at[0], to[1] - at[1]) };
+  });
+  const most = Math.max(...courses.map((course) => course.utility));
+  return { to, taken: courses.findIndex((course) => course.utility === most), courses };
+}
+
+const rays = Array.from({ length: 36 }, (_, i) => tau * (i / 36) - Math.PI);
+
+function perceptOf([x, y, heading_rad], time_s) {
+  const reading = (value) => ({ value, age_s: 0.1 });
+  return {
+    time_s,
+    position: reading([x, y]),
+    heading_rad: reading(heading_rad),
+    motion: reading({ speed_m_s: 0.8, turn_rate_rad_s: 0.3 }),
+    battery: reading(0.83),
+    touch: null,
+    scans: [{ age_s: 0.05, ranges_m: rays.map((ray) => (Math.abs(ray) < 1 ? null : 3 + Math.sin(5 * ray))) }],
+    looks: [{ sensor: 0, age_s: 0 }],
+    contacts: [{ kind: 0, range_m: 2, bearing_rad: 0.4, age_s: 0 }],
+    neighbours: [{ range_m: 3, bearing_rad: -2, course_rad: null, age_s: 0.1, id: { kind: 0, index: 2 } }],
+    inbox: [{ age_s: 0.2, message: { about: { goal: {} }, confidence: 1 } }],
+  };
 }
 
 function kindsOf(document) {
@@ -132,6 +202,7 @@ function kindsOf(document) {
     radius_m: robot.radius_m ?? 0.27,
     flies: robot.like === "quadrotor",
     radio_range_m: 12,
+    rings: robot.radius_m ? [] : [{ bearings_rad: rays, range_m: 6 }],
     sensors: robot.radius_m
       ? []
       : [

@@ -160,6 +160,8 @@ export class Talk {
       outcome: run.outcome(),
       mind,
     });
+    const map = this.selected === null ? null : run.map(this.selected);
+    if (map) this.say(map);
   }
 
   show() {

@@ -16,6 +16,8 @@ export class Desk {
   tool = $state<ToolId>("select");
   /** The kind that the item tool places. */
   itemKind = $state("");
+  /** Which sections of the robot's panel are open. */
+  sections = $state({ command: true, percept: true, goals: true, reach: false, items: true, map: false });
   /** Speed of the next play. */
   speed = $state<number | null>(1);
   camera = $state.raw<Camera | null>(null);

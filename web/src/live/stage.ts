@@ -139,7 +139,7 @@ export class Stage {
   }
 
   private scene(): Scene | null {
-    const { setting, state, arrivals, selected } = this.desk.session;
+    const { setting, state, map, arrivals, selected } = this.desk.session;
     if (!setting) return null;
     if (this.worldIsOf !== setting) {
       this.world = worldOf(setting);
@@ -151,6 +151,7 @@ export class Stage {
       world: this.world ?? worldOf(setting),
       frame: arrivals.shown?.generation === setting.generation ? arrivals.shown : null,
       mind: state?.mind ?? null,
+      map,
       selected: selected === null ? -1 : setting.robots.indexOf(selected),
       trails: this.trails,
       ghost: this.ghost,

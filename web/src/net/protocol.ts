@@ -92,6 +92,11 @@ export interface SensorView {
   facing_rad: number;
 }
 
+export interface RingView {
+  bearings_rad: number[];
+  range_m: number;
+}
+
 export interface KindView {
   name: string;
   count: number;
@@ -99,6 +104,8 @@ export interface KindView {
   flies: boolean;
   radio_range_m: number | null;
   sensors: SensorView[];
+  /** The rays of its range sensors, in the order in which percepts have their scans. */
+  rings: RingView[];
 }
 
 export interface ItemView {
@@ -152,15 +159,119 @@ export interface Goal {
   behaviour: number;
   to: Point;
   precedence: number;
+  value: number;
+  likely: number;
+  time_s: number;
+  within_m: number;
   verdict: "complete" | "impossible" | "approaching" | "receding";
+  left_m: number;
+  best_m: number;
+  stuck_s: number;
+  rests_s: number;
+  is_pursued: boolean;
 }
 
-export interface Mind {
-  robot: string;
+export interface Course {
+  bearing_rad: number;
+  free_m: number;
+  /** The place that it would get to, from the robot's front. */
+  at: Point;
+  utility: number;
+}
+
+export interface Reach {
+  /** The next place on its way, from the robot's front. */
+  to: Point;
+  /** Which of the courses it took. */
+  taken: number;
+  courses: Course[];
+}
+
+export interface Thoughts {
   pose: Pose | null;
   items: BelievedItem[];
   robots: BelievedRobot[];
   goals: Goal[];
+  reach: Reach | null;
+}
+
+export interface Reading<T> {
+  value: T;
+  age_s: number;
+}
+
+export interface Motion {
+  speed_m_s: number;
+  turn_rate_rad_s: number;
+}
+
+export interface Contact {
+  kind: number;
+  range_m: number;
+  bearing_rad: number;
+  age_s: number;
+}
+
+export interface Neighbour {
+  range_m: number;
+  bearing_rad: number;
+  course_rad: number | null;
+  age_s: number;
+  id: { kind: number; index: number };
+}
+
+export interface Percept {
+  time_s: number;
+  position: Reading<Point> | null;
+  heading_rad: Reading<number> | null;
+  motion: Reading<Motion> | null;
+  battery: Reading<number> | null;
+  touch: Reading<boolean> | null;
+  scans: { age_s: number | null; ranges_m: (number | null)[] }[];
+  looks: { sensor: number; age_s: number }[];
+  contacts: Contact[];
+  neighbours: Neighbour[];
+  inbox: { age_s: number; message: Said }[];
+}
+
+/** A message between robots: what it is about is its only key. */
+export interface Said {
+  about: { [about: string]: Json };
+  confidence: number;
+}
+
+export interface Decided {
+  motion: Motion;
+  requests: { sensor: number; on: boolean }[];
+  outbox: Said[];
+}
+
+/** What a robot perceived and decided in one step of its brain; null if it has not, but for `thoughts`. */
+export interface Mind {
+  robot: string;
+  tick: number | null;
+  percept: Percept | null;
+  command: Decided | null;
+  /** Place of the behaviour that has its way; null if none has, or all count together. */
+  leading: number | null;
+  holds_s: number[] | null;
+  thoughts: Thoughts | null;
+}
+
+/** What a robot believes of its field: the cells of a rectangle, the others are as they were. */
+export interface MapPart {
+  type: "map";
+  robot: string;
+  corner: Point;
+  cell_m: number;
+  columns: number;
+  rows: number;
+  from: [column: number, row: number];
+  size: [columns: number, rows: number];
+  /** Base64 of a byte a cell, the lowest row first: 0 to 100 percent filled, 255 unknown. */
+  occupancy: string;
+  /** The same: 0 to 100 percent that an item there would not have been seen. */
+  unseen: string;
 }
 
 export type Outcome = Record<string, number | string | boolean | null>;
@@ -192,9 +303,9 @@ export interface Ended {
   message: string;
 }
 
-export type Message = Opened | Setting | State | Refused | Ended | Studying;
+export type Message = Opened | Setting | State | MapPart | Refused | Ended | Studying;
 
-const types = ["opened", "setting", "state", "refused", "ended", "studying"];
+const types = ["opened", "setting", "state", "map", "refused", "ended", "studying"];
 
 /** The message in a text from the server; null if it is none that this page knows. */
 export function readMessage(text: string): Message | null {

@@ -27,6 +27,7 @@ const rover: KindView = {
   name: "rover",
   count: 4,
   radius_m: 0.27,
+  rings: [],
   flies: false,
   radio_range_m: 20,
   sensors: [{ name: "camera", kind: "items", range_m: 3, width_rad: Math.PI / 2, facing_rad: 0 }],

@@ -6,6 +6,7 @@ import type {
   Ended,
   Fault,
   Json,
+  MapPart,
   Message,
   Opened,
   Refused,
@@ -14,6 +15,7 @@ import type {
   State,
 } from "../net/protocol";
 import { Arrivals } from "./arrivals";
+import { BelievedMap } from "./believed_map";
 import type { Link } from "./link";
 import { Series } from "./series";
 import { Throttle } from "./throttle";
@@ -41,6 +43,8 @@ export class Session implements Listener {
   /** What was refused last, under the path of the change (or what else it was about). */
   refusals = $state.raw<Record<string, string>>({});
   selected = $state.raw<string | null>(null);
+  /** What the selected robot believes of its field. */
+  map = $state.raw<BelievedMap | null>(null);
   /** Milliseconds until the line is tried again. */
   again_ms = $state(0);
   /** How often `series` has got something new. */
@@ -112,6 +116,7 @@ export class Session implements Listener {
 
   select(robot: string | null): void {
     this.selected = robot;
+    this.map = null;
     this.send({ type: "select", robot });
   }
 
@@ -141,6 +146,7 @@ export class Session implements Listener {
     if (message.type === "opened") this.begin(message);
     else if (message.type === "setting") this.set(message);
     else if (message.type === "state") this.told(message);
+    else if (message.type === "map") this.mapped(message);
     else if (message.type === "refused") this.refuse(message);
     else if (message.type === "ended") this.end(message);
   }
@@ -156,6 +162,7 @@ export class Session implements Listener {
   private begin(opened: Opened): void {
     this.opened = opened;
     this.phase = "open";
+    this.map = null;
     if (this.selected !== null) this.send({ type: "select", robot: this.selected });
     if (this.goOn !== undefined) this.play(this.goOn);
     this.goOn = undefined;
@@ -175,6 +182,12 @@ export class Session implements Listener {
     this.toldAt = now;
     this.state = state;
     this.grown += 1;
+  }
+
+  private mapped(part: MapPart): void {
+    if (part.robot !== this.selected) return;
+    this.map = BelievedMap.with(this.map, part);
+    this.onFrame();
   }
 
   private refuse({ about, faults }: Refused): void {

@@ -26,6 +26,8 @@ const names = [
   "sense-items",
   "sense-other",
   "belief",
+  "reach-low",
+  "reach-high",
 ] as const;
 
 export type ColourName = (typeof names)[number];

@@ -1,3 +1,4 @@
+import { beliefMap, unseen } from "./belief_map";
 import { border, ground } from "./border";
 import { footprints } from "./footprints";
 import { ghost } from "./ghost";
@@ -8,6 +9,7 @@ import { links } from "./links";
 import { maps } from "./maps";
 import { mind } from "./mind";
 import { obstacles } from "./obstacles";
+import { reach } from "./reach";
 import { selection } from "./selection";
 import { terrain } from "./terrain";
 import { trails } from "./trails";
@@ -21,9 +23,12 @@ export const layers: Layer[] = [
   obstacles,
   border,
   items,
+  beliefMap,
+  unseen,
   footprints,
   links,
   trails,
+  reach,
   mind,
   selection,
   ghost,

@@ -1,5 +1,6 @@
 import type { Frame } from "../../net/frames";
 import type { Mind, Point, Setting } from "../../net/protocol";
+import type { BelievedMap } from "../../run/believed_map";
 import type { World } from "../../run/world";
 import type { Camera } from "../../view/camera";
 import type { Colours } from "../../view/colours";
@@ -11,6 +12,8 @@ export interface Scene {
   world: World;
   frame: Frame | null;
   mind: Mind | null;
+  /** What the selected robot believes of its field. */
+  map: BelievedMap | null;
   /** Number of the selected robot; -1 for none. */
   selected: number;
   trails: Trails;

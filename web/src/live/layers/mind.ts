@@ -1,4 +1,4 @@
-import type { BelievedItem, Goal, Mind, Pose } from "../../net/protocol";
+import type { BelievedItem, Goal, Pose } from "../../net/protocol";
 import { type Camera, toScreen } from "../../view/camera";
 import { chevron } from "../../view/painter_2d";
 import { type Layer, type Pen, poseOf } from "./layer";
@@ -12,26 +12,27 @@ export const mind: Layer = {
   switchable: true,
   on: true,
   place: "over",
-  active: (scene) => scene.mind !== null && scene.selected >= 0,
+  active: (scene) => !!scene.mind?.thoughts && scene.selected >= 0,
   draw(pen, scene) {
-    const { mind: thoughts } = scene;
+    const isOfSelected = scene.mind?.robot === scene.setting.robots[scene.selected];
+    const thoughts = isOfSelected ? scene.mind?.thoughts : null;
     const pose = poseOf(scene, scene.selected);
-    if (!thoughts || !pose || thoughts.robot !== scene.setting.robots[scene.selected]) return;
+    if (!thoughts || !pose) return;
     const { context, colours } = pen;
     context.strokeStyle = context.fillStyle = colours.belief;
     context.lineWidth = 1.5;
     context.font = "11px system-ui, sans-serif";
-    goals(pen, thoughts, toScreen(pen.camera, ...pose.at));
+    goals(pen, thoughts.goals, toScreen(pen.camera, ...pose.at));
     for (const item of thoughts.items) believed(pen, item);
     if (thoughts.pose) self(pen, thoughts.pose);
   },
 };
 
-function goals({ context, camera }: Pen, { goals: wanted }: Mind, from: [number, number]): void {
+function goals({ context, camera }: Pen, wanted: Goal[], from: [number, number]): void {
   wanted.forEach((goal: Goal, i) => {
     const [x, y] = toScreen(camera, ...goal.to);
-    context.globalAlpha = i === 0 ? 1 : 0.5;
-    context.setLineDash(i === 0 ? [] : [4, 4]);
+    context.globalAlpha = goal.is_pursued ? 1 : 0.5;
+    context.setLineDash(goal.is_pursued ? [] : [4, 4]);
     context.beginPath();
     context.moveTo(...from);
     context.lineTo(x, y);
