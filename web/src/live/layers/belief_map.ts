@@ -49,7 +49,7 @@ function madeOf(map: BelievedMap, colours: Colours): Made {
   for (const [column, row, length] of runs(map.occupancy, map.columns, (percent) => percent === unknown))
     dark.rect(column, row, length, 1);
   const filled = raster(map, map.occupancy, colours.belief, filledAlpha);
-  const notSeen = raster(map, map.unseen, colours["item-hidden"], (percent) => 0.45 * (percent / 100));
+  const notSeen = raster(map, map.unseen, colours["item-hidden"], (percent) => 0.22 * (percent / 100));
   const all = { colours, filled, unseen: notSeen, dark };
   made.set(map, all);
   return all;
@@ -57,7 +57,7 @@ function madeOf(map: BelievedMap, colours: Colours): Made {
 
 /** What is rather filled than free is the fuller the surer it is. */
 function filledAlpha(percent: number): number {
-  return percent === unknown || percent <= 50 ? 0 : 0.15 + (0.6 * (percent - 50)) / 50;
+  return percent === unknown || percent <= 50 ? 0 : 0.15 + (0.5 * (percent - 50)) / 50;
 }
 
 function raster(
