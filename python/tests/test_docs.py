@@ -52,7 +52,7 @@ def run_blocks(page: str) -> None:
             assert given.returncode == 0, given.stderr
 
 
-@pytest.mark.parametrize(("name", "prints"), [("simulation", 3), ("brains", 1)])
+@pytest.mark.parametrize(("name", "prints"), [("simulation", 3), ("brains", 2)])
 def test_the_examples_of_a_page_run_and_print_what_it_says(
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,

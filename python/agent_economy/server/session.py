@@ -25,8 +25,8 @@ from agent_economy.server.places import Places
 from agent_economy.server.timeline import Timeline
 
 FRAME_S, STATE_S, MAP_S = 0.03, 0.1, 0.25
-"""Between two frames, two states, and two maps of the selected robot, at least: steps of a thirtieth
-each give a frame."""
+"""Between two frames, two states, and two maps of a robot, at least: steps of a thirtieth each give
+a frame."""
 
 SLICE_S = 0.025
 """A run goes on for so long before the page is looked after again."""
