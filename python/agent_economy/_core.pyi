@@ -17,6 +17,7 @@ __all__ = [
     "Procedure",
     "Simulation",
     "Snapshot",
+    "believed_map",
     "body",
     "exhaust",
     "files_wanted",
@@ -37,6 +38,8 @@ __all__ = [
     "run_one",
     "selection",
     "trace",
+    "watch",
+    "watched",
 ]
 
 CONTACTS: list[str]
