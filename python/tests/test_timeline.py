@@ -3,6 +3,7 @@
 import pytest
 
 import agent_economy as ae
+from agent_economy import _core
 from agent_economy.server.timeline import FIRST_EVERY, MOST_KEPT, Timeline
 from agent_economy.simulation import Change
 
@@ -62,14 +63,32 @@ def test_what_is_put_where_it_is_already_changes_nothing() -> None:
     assert (timeline.edge, timeline.log) == (30, ())
 
 
-def test_undo_puts_back_what_was_there_from_now_on() -> None:
+def test_undo_gives_the_run_in_which_nothing_had_been_changed() -> None:
     timeline = begun()
-    obstacles = timeline.simulation.scenario.to_dict()["world"]["obstacles"]
-    timeline.change("world.obstacles", obstacles[1:])
-    hashes(timeline, [5])
+    once = hashes(timeline, [40, 70])
+    timeline.toward(40, FOREVER_S)
+    # The scenario says nothing of this one: there is no value that could be put back.
+    timeline.change("robots.rover.radius_m", 0.3)
+    assert hashes(timeline, [70]) != once[1:]
     timeline.undo()
-    assert timeline.simulation.scenario.to_dict()["world"]["obstacles"] == obstacles
-    assert [change.tick for change in timeline.log] == [0, 5]
+    assert timeline.log == ()
+    assert timeline.tick <= timeline.edge == 40
+    assert hashes(timeline, [40, 70]) == once
+
+
+@pytest.mark.parametrize("tick", [0, 60])
+def test_undo_takes_back_one_change_after_another(tick: int) -> None:
+    timeline = begun()
+    before = hashes(timeline, [tick])
+    for count in (6, 5):
+        timeline.change("robots.rover.count", count)
+    timeline.toward(tick + 10, FOREVER_S)
+    timeline.undo()
+    timeline.toward(tick + 5, FOREVER_S)
+    assert len(timeline.simulation.robots) == 6
+    timeline.undo()
+    assert hashes(timeline, [tick]) == before
+    assert timeline.log == ()
 
 
 def test_undo_after_nothing_is_told() -> None:
@@ -77,11 +96,11 @@ def test_undo_after_nothing_is_told() -> None:
         begun().undo()
 
 
-def test_undo_of_what_the_scenario_did_not_say_is_told() -> None:
+def test_what_a_robots_model_says_already_changes_nothing() -> None:
     timeline = begun()
-    timeline.change("robots.rover.radius_m", 0.3)
-    with pytest.raises(ae.InputError, match="did not say robots.rover.radius_m"):
-        timeline.undo()
+    document = _core.read_filled(timeline.simulation.scenario.source)
+    timeline.change("robots.rover.radius_m", document["robots"]["rover"]["radius_m"])
+    assert timeline.log == ()
 
 
 def test_a_run_that_is_over_goes_no_further() -> None:

@@ -46,7 +46,7 @@ mod _core {
     #[pymodule_export]
     use crate::recording::{recorded_moment, recorded_setting};
     #[pymodule_export]
-    use crate::scenario::{files_wanted, read_document, read_scenario};
+    use crate::scenario::{files_wanted, read_document, read_filled, read_scenario};
     #[pymodule_export]
     use crate::selection::{Procedure, mean_bounds, mean_exceeds, reference, selection};
     #[pymodule_export]

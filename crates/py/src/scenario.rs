@@ -9,6 +9,7 @@ use base::question::{self, Factor, Merit, Published, Scenario, Values};
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict};
+use sim::scenario::ScenarioSpec;
 use std::collections::BTreeMap;
 
 /// Changes as Python gives them: (path, value, origin).
@@ -57,7 +58,19 @@ pub(crate) fn read_document<'py>(
     py: Python<'py>,
     source: Source<'py>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let document = source.document()?;
+    whole(py, &source.document()?)
+}
+
+/// The same, in which every robot kind says what the model says that it is like.
+#[pyfunction]
+pub(crate) fn read_filled<'py>(
+    py: Python<'py>,
+    source: Source<'py>,
+) -> PyResult<Bound<'py, PyAny>> {
+    whole(py, &ScenarioSpec::filled(&source.document()?))
+}
+
+fn whole<'py>(py: Python<'py>, document: &Document) -> PyResult<Bound<'py, PyAny>> {
     document.get(&[]).map_or_else(
         || Ok(PyDict::new(py).into_any()),
         |root| plain(py, &root.value),

@@ -1,8 +1,8 @@
 """What a recording says of its run: read from the file alone, as far as that goes."""
 
 import json
-from collections.abc import Mapping
-from contextlib import suppress
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import IO, Any, cast
@@ -105,10 +105,21 @@ def read(path: Path) -> tuple[Identity, Recorded]:
         InputError: If it cannot be read, is damaged, or is no recording of a run of this program.
     """
     recorded = Recorded()
+    with told(path), path.open("rb") as stream:
+        recorded.take_all(stream)
+        identity = recorded.identity()
+    return identity, recorded
+
+
+@contextmanager
+def told(path: Path) -> Iterator[None]:
+    """Say of which file it is, and what is wrong with it, if it cannot be read.
+
+    Raises:
+        InputError: If so.
+    """
     try:
-        with path.open("rb") as stream:
-            recorded.take_all(stream)
-        return recorded.identity(), recorded
+        yield
     except InputError as error:
         message = f"{path}: {error}"
     except OSError as error:
@@ -116,6 +127,8 @@ def read(path: Path) -> tuple[Identity, Recorded]:
     # What libraries raise for damaged bytes is listed nowhere.
     except Exception as error:  # noqa: BLE001
         message = f"{path}: is no MCAP file, or damaged: {error or type(error).__name__}"
+    else:
+        return
     raise InputError(message)
 
 

@@ -23,6 +23,7 @@ from agent_economy.server.messages import faults_of
 from agent_economy.server.pictures import picture
 from agent_economy.server.places import Places
 from agent_economy.server.session import GoneError, Session
+from agent_economy.server.shelf import Shelf
 from agent_economy.server.sockets import Socket
 from agent_economy.server.studies.keeper import Studies
 from agent_economy.server.studies.routes import Routes
@@ -62,6 +63,8 @@ class Server:
             Route("/", self.page),
             Route("/api/scenarios", self.scenarios),
             Route("/api/pictures", self.pictures),
+            Route("/api/recordings", self.recordings),
+            Route("/api/recordings/file", self.recording),
             Route("/api/schema", self.schema),
             Route("/api/check", self.check, methods=["POST"]),
             *Routes(self.studies, self.places).all(),
@@ -73,8 +76,8 @@ class Server:
 
     @contextlib.asynccontextmanager
     async def lifespan(self, _: Starlette) -> AsyncIterator[None]:
-        """Have threads for as many runs as there may be; end studies with the server."""
-        with ThreadPoolExecutor(MOST_SESSIONS, "run") as self.threads:
+        """Have threads for as many runs as there may be, and to save each; end studies at last."""
+        with ThreadPoolExecutor(2 * MOST_SESSIONS, "run") as self.threads:
             try:
                 yield
             finally:
@@ -99,6 +102,19 @@ class Server:
         except InputError as error:
             return refused(faults_of(error), 404)
         return Response(svg, media_type="image/svg+xml")
+
+    async def recordings(self, _: Request) -> Response:
+        """Return the recordings."""
+        return JSONResponse(await asyncio.to_thread(Shelf(self.places).listed))
+
+    async def recording(self, request: Request) -> Response:
+        """Return a recording's file."""
+        name = request.query_params.get("id", "")
+        try:
+            file = Shelf(self.places).find(name)
+        except InputError as error:
+            return refused(faults_of(error), 404)
+        return FileResponse(file, media_type="application/octet-stream", filename=file.name)
 
     async def schema(self, _: Request) -> Response:
         """Return the schema of metric scenarios."""

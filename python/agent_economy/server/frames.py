@@ -8,6 +8,7 @@ from typing import Any
 
 from agent_economy import _core
 from agent_economy.recording.still import states
+from agent_economy.server.timeline import Timeline
 from agent_economy.simulation import Simulation
 
 KIND = 1
@@ -27,10 +28,11 @@ def frame(simulation: Simulation, generation: int, number: int) -> bytes:
     return HEADER.pack(KIND, generation, tick, robots, time_s, items, number) + drawn
 
 
-def setting(simulation: Simulation, generation: int) -> dict[str, Any]:
+def setting(timeline: Timeline, generation: int) -> dict[str, Any]:
     """Return all that stays from frame to frame until something is changed."""
+    simulation, log = timeline.simulation, timeline.log
     run = simulation._run  # noqa: SLF001  (ours)
-    document = simulation.scenario.to_dict()
+    document = _core.read_filled(simulation.scenario.source)
     recorded = _core.recorded_setting(run)
     items = simulation.items
     places = zip(
@@ -49,8 +51,10 @@ def setting(simulation: Simulation, generation: int) -> dict[str, Any]:
             {"kind": name, "at_m": [x, y], "sought": kinds.get(name, {}).get("sought", True)}
             for name, x, y in places
         ],
+        "item_kinds": sorted(kinds),
         "maps": [map_of(each) for each in recorded["maps"]],
         "changes": [list(change) for change in simulation.changes],
+        "log": None if timeline.is_recorded else [list(change) for change in log],
     }
 
 

@@ -7,20 +7,28 @@ bits, which JavaScript's cannot: seeds and runs go as texts.
 
 From the page:
 
-* `open`: `scenario` (an id of the gallery), `text` (TOML) or `study` (`id` and `configuration`: its
-  run is the very one that the study has), `seed` (left out, the study's, or 0), `run`, `changes` (a
-  list of tick, path, value), `tick`. Begins a run, at that tick, standing.
+* `open`: `scenario` (an id of the gallery), `text` (TOML), `study` (`id` and `configuration`: its
+  run is the very one that the study has) or `recording` (an id of `/api/recordings`, which has a
+  seed and a run, and changes if none are said), `seed` (left out, the study's, or 0), `run`,
+  `changes` (a list of tick, path, value), `tick`. Begins a run, at that tick, standing.
 * `play`: `speed`, times real time, or null for as fast as it can. `pause`.
 * `step`: `steps`, also less than 0. `go`: `tick`. Both stand then.
-* `change`: `path`, `value`. `undo`.
+* `change`: `path`, `value`. `undo`: the run as if the last change had not been made, at this tick.
+* `save`: the run up to its edge becomes a recording; `cancel`: not so. `export`: the scenario as it
+  is now, as a text.
 * `select`: `robot`, of which is told what it perceives, decides and believes, or null.
 * `got`: `frame`, the number of one that has been drawn. No more than three are on their way.
 
 From the server: `opened`, `setting` (all that stays until something is changed), `state` (at most
-ten times a second), `map`, `refused` (with `faults`; nothing has changed) and `ended`.
+ten times a second), `map`, `saving` (`done` of `steps`) and `saved` (`recording`, as
+`/api/recordings` has it, or null if it was cancelled), `exported` (`text`), `refused` (`about`, the
+`path` of a change, `faults`; nothing has changed) and `ended`.
 
+* `setting`: its `changes` are those made by now, its `log` those up to the edge, null if they are
+  the recording's.
 * `state`: its `mind`, of the robot selected, is what `Simulation.watched` tells, with `robot`; its
   entries are null, but for `thoughts`, if its brain has not stepped since, or it cannot go on.
+  `differs_at` is the tick at which the run was found not to be as recorded.
 * `map`: what that robot believes, at most four times a second, if it has changed: `robot`;
   `corner`, `cell_m`, `columns` and `rows` of the whole map; and of the cells `from` a column and
   row, as many columns and rows as `size` says, `occupancy` and `unseen` as `BelievedMap` has them,
@@ -50,6 +58,11 @@ with status 422 and `faults`.
   best with their ranges in `standings` (configuration, runs, merit, low, high; the last two null
   where nobody has computed them), who is `eliminated` (configuration, by whom, after how many
   runs), and in the first message all `labels`.
+
+Recordings
+----------
+GET `/api/recordings`: all below the server's folder, the newest first, by their `id`, and what each
+is `of` or what is its `fault`. GET `/api/recordings/file?id=`: its file.
 """
 
 import json
@@ -88,9 +101,10 @@ class Open:
     scenario: str | None
     text: str | None
     study: Member | None
+    recording: str | None
     seed: int | None
     run: int
-    changes: tuple[Change, ...]
+    changes: tuple[Change, ...] | None
     tick: int
 
 
@@ -130,7 +144,22 @@ class Put:
 
 @dataclass(frozen=True)
 class Undo:
-    """Put back what was there before the last change."""
+    """Take back the last change, as if it had never been made."""
+
+
+@dataclass(frozen=True)
+class Save:
+    """Make a recording of the run."""
+
+
+@dataclass(frozen=True)
+class Cancel:
+    """Make no recording after all."""
+
+
+@dataclass(frozen=True)
+class Export:
+    """Give the scenario as it is now."""
 
 
 @dataclass(frozen=True)
@@ -147,7 +176,7 @@ class Got:
     frame: int
 
 
-Message = Open | Play | Pause | Step | Go | Put | Undo | Select | Got
+Message = Open | Play | Pause | Step | Go | Put | Undo | Save | Cancel | Export | Select | Got
 
 
 def read(text: str) -> Message:
@@ -176,17 +205,24 @@ def faults_of(error: InputError) -> list[Fault]:
 def opened(said: Mapping[str, Any]) -> Open:
     """Return an `open`."""
     study = None if said.get("study") is None else member(said["study"])
-    scenario, text = (None, None) if study else source_of("open", said)
+    recording = said.get("recording")
+    given.check(
+        recording is None or given.is_text(recording), "open.recording", recording, "a text"
+    )
+    is_named = study is not None or recording is not None
+    scenario, text = (None, None) if is_named else source_of("open", said)
     seed = said.get("seed", None if study else "0")
-    changes = said.get("changes", [])
-    given.of_kind("open.changes", changes, list, "a list of [tick, path, value]")
+    log = said.get("changes")
+    if log is not None:
+        given.of_kind("open.changes", log, list, "a list of [tick, path, value]")
     return Open(
         scenario,
         text,
         study,
+        recording,
         None if seed is None else number("open.seed", seed),
         number("open.run", said.get("run", "0")),
-        tuple(map(change, changes)),
+        None if log is None else tuple(map(change, log)),
         whole("open.tick", said.get("tick", 0), MAX_TICK),
     )
 
@@ -293,6 +329,9 @@ READERS: dict[Any, Callable[[Mapping[str, Any]], Message]] = {
     "go": lambda said: Go(whole("go.tick", said.get("tick"), MAX_TICK)),
     "change": put,
     "undo": lambda _: Undo(),
+    "save": lambda _: Save(),
+    "cancel": lambda _: Cancel(),
+    "export": lambda _: Export(),
     "select": select,
     "got": lambda said: Got(whole("got.frame", said.get("frame"), MAX_TICK)),
 }

@@ -29,7 +29,8 @@ class Places:
     def listed(self) -> list[dict[str, Any]]:
         """Return all that say that they are scenarios, those that ship first."""
         ships = ((name, file, "shipped") for name, file in shipped.scenarios().items())
-        mine = ((str(file.relative_to(self.folder)), file, "folder") for file in self._files())
+        files = islice(self.files(".toml"), MOST_FILES)
+        mine = ((str(file.relative_to(self.folder)), file, "folder") for file in files)
         rows = (described(name, file, where) for name, file, where in (*ships, *mine))
         return [row for row in rows if row]
 
@@ -43,7 +44,7 @@ class Places:
         if name in ships:
             return Scenario.load(ships[name])
         file = self.folder / name
-        is_here = self._has(file) and file.suffix == ".toml"
+        is_here = self.has(file) and file.suffix == ".toml"
         given.check(is_here, "scenario", name, "one of the gallery")
         data = content(file, MAX_BYTES)
         if isinstance(data, str):
@@ -72,7 +73,7 @@ class Places:
         """
         folder = self.folder / name
         is_plain = name == folder_id(folder, self.folder) and ".." not in folder.parts
-        is_here = is_plain and self._has(folder / ASKED) and is_study(folder)
+        is_here = is_plain and self.has(folder / ASKED) and is_study(folder)
         given.check(is_here, "study", name, "the id of a study in the list")
         return folder
 
@@ -87,7 +88,7 @@ class Places:
         Raises:
             InputError: If it would be outside of the folder.
         """
-        given.check(self._has(folder), "study", str(folder), "below the server's folder: no link")
+        given.check(self.has(folder), "study", str(folder), "below the server's folder: no link")
         return folder_id(folder, self.folder)
 
     def member(self, name: str, configuration: int) -> tuple[Scenario, int]:
@@ -100,9 +101,10 @@ class Places:
         return plan.alone(configuration), plan.seed
 
     def _content(self, file: Path) -> bytes | str:
-        return content(file, _core.MAX_IMAGE_BYTES) if self._has(file) else OUTSIDE
+        return content(file, _core.MAX_IMAGE_BYTES) if self.has(file) else OUTSIDE
 
-    def _has(self, file: Path) -> bool:
+    def has(self, file: Path) -> bool:
+        """Return whether a file is below the folder, whatever links there are on the way."""
         try:
             return file.resolve().is_relative_to(self.folder.resolve())
         except (OSError, ValueError):
@@ -111,11 +113,11 @@ class Places:
     def _folders(self) -> Iterator[Path]:
         return islice(folders_of(self.folder, DEEP), MOST_FOLDERS)
 
-    def _files(self) -> Iterator[Path]:
-        """Yield the folder's TOML files."""
+    def files(self, ending: str) -> Iterator[Path]:
+        """Yield the folder's files of a kind, but not hidden ones, nor those of studies."""
         folders = (folder for folder in self._folders() if not is_study(folder))
-        files = (file for folder in folders for file in sorted(folder.glob("*.toml")))
-        yield from islice((file for file in files if self._has(file)), MOST_FILES)
+        files = (file for folder in folders for file in sorted(folder.glob(f"*{ending}")))
+        yield from (file for file in files if self.has(file) and not file.name.startswith("."))
 
 
 def described(name: str, file: Path, where: str) -> dict[str, Any] | None:

@@ -15,13 +15,16 @@ from typing import Any, Protocol, TypeVar
 
 from agent_economy import given
 from agent_economy._core import InputError
-from agent_economy.scenario import Scenario
 from agent_economy.server import messages
+from agent_economy.server.export import as_toml
 from agent_economy.server.frames import frame, setting
 from agent_economy.server.messages import Message
 from agent_economy.server.mind import Selected
+from agent_economy.server.opening import begun
 from agent_economy.server.pace import Pace
 from agent_economy.server.places import Places
+from agent_economy.server.saver import Saver
+from agent_economy.server.shelf import Shelf
 from agent_economy.server.timeline import Timeline
 
 FRAME_S, STATE_S, MAP_S = 0.03, 0.1, 0.25
@@ -68,12 +71,13 @@ class Session:
         """Begin without a run."""
         self._page, self._places, self._threads = page, places, threads
         self._timeline: Timeline | None = None
+        self._saver = Saver(page.tell, Shelf(places), threads)
         self._pace = Pace(0.1)
         self._heard: asyncio.Queue[Message | InputError] = asyncio.Queue(MOST_HEARD)
         self._aim: int | None = None
         self._selected = Selected()
         self._generation = 0
-        self._changes_told = -1
+        self._told: object = None
         self._number = 0
         self._on_the_way: deque[int] = deque()
         self._is_new = False
@@ -93,6 +97,7 @@ class Session:
             for task in (listening, playing):
                 task.cancel()
             await asyncio.gather(listening, playing, return_exceptions=True)
+            await self._saver.end()
 
     async def _listen(self) -> None:
         while True:
@@ -153,11 +158,12 @@ class Session:
             while self._on_the_way and self._on_the_way[0] <= said.frame:
                 self._on_the_way.popleft()
             return
-        about = "change" if isinstance(said, messages.Put) else type(said).__name__.lower()
+        path = said.path if isinstance(said, messages.Put) else None
+        about = type(said).__name__.lower() if path is None else "change"
         try:
             await self._obey(said)
         except InputError as error:
-            await self._refuse(about, error)
+            await self._refuse(about, error, path)
 
     async def _obey(self, said: Message) -> None:
         match said:
@@ -177,11 +183,24 @@ class Session:
             case messages.Put(path=path, value=value):
                 await self._in_thread(lambda: self._run.change(path, value))
             case messages.Undo():
-                await self._in_thread(self._run.undo)
+                await self._undo()
+            case messages.Save() | messages.Cancel() | messages.Export():
+                await self._hand_out(said)
             case messages.Select(robot=robot):
                 self._selected.choose(robot)
                 self._map_at_s = 0.0
         self._is_new = True
+
+    async def _hand_out(self, said: messages.Save | messages.Cancel | messages.Export) -> None:
+        match said:
+            case messages.Save():
+                self._saver.begin(self._run.course)
+            case messages.Cancel():
+                self._saver.cancel()
+            case messages.Export():
+                simulation = self._run.simulation
+                text = await self._in_thread(lambda: as_toml(simulation))
+                await self._page.tell({"type": "exported", "text": text})
 
     @property
     def _run(self) -> Timeline:
@@ -190,14 +209,12 @@ class Session:
         return self._timeline
 
     async def _open(self, said: messages.Open) -> None:
-        def begun() -> tuple[Scenario, int, Timeline]:
-            scenario, seed = self._what(said)
-            return scenario, seed, Timeline(scenario, seed, said.run, said.changes)
-
-        scenario, seed, self._timeline = await self._in_thread(begun)
+        self._timeline, program = await self._in_thread(lambda: begun(self._places, said))
         self._stand()
         self._pace = Pace(self._run.step_s)
-        self._aim, self._changes_told, self._selected = said.tick, -1, Selected()
+        self._aim, self._told, self._selected = said.tick, None, Selected()
+        simulation = self._run.simulation
+        scenario = simulation.scenario
         described: dict[str, Any] = {
             "id": said.scenario,
             "name": scenario.name,
@@ -205,17 +222,17 @@ class Session:
         }
         described |= {"summary": scenario.summary, "cap_s": scenario.cap_s}
         described |= {"step_s": self._pace.step_s}
-        names = {"seed": str(seed), "run": str(said.run)}
-        await self._page.tell({"type": "opened", "scenario": described, **names})
+        names = {"seed": str(simulation.seed), "run": str(simulation.run)}
+        recording = {"id": said.recording, "program": program} if program is not None else None
+        await self._page.tell(
+            {"type": "opened", "scenario": described, **names, "recording": recording}
+        )
 
-    def _what(self, said: messages.Open) -> tuple[Scenario, int]:
-        """Return the scenario to run, and the seed."""
-        if said.study is not None:
-            scenario, seed = self._places.member(said.study.id, said.study.configuration)
-            return scenario, seed if said.seed is None else said.seed
-        if said.scenario is not None:
-            return self._places.load(said.scenario), said.seed or 0
-        return self._places.read(said.text or ""), said.seed or 0
+    async def _undo(self) -> None:
+        """Take back the last change, and go on to where the run was."""
+        aim = self._run.tick if self._aim is None else self._aim
+        await self._in_thread(self._run.undo)
+        self._aim = aim
 
     def _stand(self) -> None:
         self._aim = None
@@ -253,10 +270,10 @@ class Session:
         is_at_rest = not self._is_busy()
         if not is_at_rest and now_s - self._frame_at_s < FRAME_S:
             return
-        if len(timeline.simulation.changes) != self._changes_told:
+        if (made := (timeline.simulation.changes, timeline.log)) != self._told:
             self._generation += 1
-            self._changes_told = len(timeline.simulation.changes)
-            await self._page.tell(setting(timeline.simulation, self._generation))
+            self._told = made
+            await self._page.tell(setting(timeline, self._generation))
         self._number += 1
         self._on_the_way.append(self._number)
         self._frame_at_s = now_s
@@ -282,13 +299,14 @@ class Session:
             "speed": self._pace.speed,
             "real": self._pace.reached,
             "over": simulation.is_over,
+            "differs_at": timeline.replay.differs_at,
             "outcome": simulation.outcome().row,
             "mind": self._selected.mind(simulation),
         }
 
-    async def _refuse(self, about: str, error: InputError) -> None:
+    async def _refuse(self, about: str, error: InputError, path: str | None = None) -> None:
         faults = messages.faults_of(error)
-        await self._page.tell({"type": "refused", "about": about, "faults": faults})
+        await self._page.tell({"type": "refused", "about": about, "path": path, "faults": faults})
 
     async def _in_thread(self, work: Callable[[], T]) -> T:
         return await asyncio.get_running_loop().run_in_executor(self._threads, work)

@@ -3,11 +3,13 @@
 import time
 from bisect import bisect_right
 from collections.abc import Iterable
-from dataclasses import replace
+from dataclasses import dataclass
 from typing import Any
 
-from agent_economy import given
+from agent_economy import _core, given
+from agent_economy.recording.reading import Recorded
 from agent_economy.scenario import Given, Scenario
+from agent_economy.server.replay import Replay
 from agent_economy.simulation import Change, Simulation, Snapshot
 
 MEMORY_BYTES = 200_000_000
@@ -26,37 +28,96 @@ SLICE_S = 0.004
 MISSING = object()
 
 
+@dataclass(frozen=True)
+class Course:
+    """All that it takes to take a run again, up to its edge.
+
+    Attributes:
+        scenario: What it began with.
+        seed: Of all chance.
+        run: Its number.
+        log: Changes, in order.
+        inputs: What came from outside, by the tick, as `Simulation.step` takes it.
+        edge: The latest tick.
+    """
+
+    scenario: Scenario
+    seed: int
+    run: int
+    log: tuple[Change, ...]
+    inputs: dict[int, dict[str, Any]]
+    edge: int
+
+
 class Timeline:
-    """A run from its beginning to the latest moment that was seen, its edge.
+    """A run from its beginning to the latest moment that was seen or recorded, its edge.
 
     Between snapshots the run is taken again, with the changes of the log at their ticks: going back
     and forth gives the same bytes. A change in the past makes what came after it void.
 
     Attributes:
-        edge: The latest tick seen.
-        log: All changes up to the edge, in order.
+        edge: The latest tick seen or recorded.
+        replay: What a recording says of the run; of a run that is of none, nothing.
     """
 
     edge: int
-    log: tuple[Change, ...]
+    replay: Replay
 
     def __init__(
-        self, scenario: Scenario, seed: int = 0, run: int = 0, log: Iterable[Change] = ()
+        self,
+        scenario: Scenario,
+        seed: int = 0,
+        run: int = 0,
+        log: Iterable[Change] | None = None,
+        recorded: Recorded | None = None,
     ) -> None:
         """Begin a run; changes of a log are made when their ticks are come to.
+
+        Args:
+            scenario: What it is of.
+            seed: Of all chance.
+            run: Its number.
+            log: Changes; None for those of the recording.
+            recorded: What a recording says of the run.
 
         Raises:
             InputError: If the scenario is of another engine, or there is no room for its team.
         """
         self.simulation = Simulation(scenario, seed, run)
-        self.log = tuple(sorted(log, key=lambda change: change.tick))
-        self.edge = 0
+        self._first = scenario
+        self._recorded = recorded
+        self.replay = Replay(recorded or Recorded())
+        self.log = tuple(sorted(self.replay.changes if log is None else log, key=tick_of))
+        self.edge = self.replay.edge
         self._every = FIRST_EVERY
         self._kept: list[Snapshot] = []
         self._ticks: list[int] = []
         self._pace = 1
-        self._apply()
+        # Of before all changes, those at its tick too: each can be undone.
         self._keep()
+        self._apply()
+        self.replay.compare(self.simulation)
+
+    @property
+    def log(self) -> tuple[Change, ...]:
+        """All changes up to the edge, in order."""
+        return self._log
+
+    @log.setter
+    def log(self, log: tuple[Change, ...]) -> None:
+        self._log = log
+        self.replay.follow(log)
+
+    @property
+    def is_recorded(self) -> bool:
+        """Whether the changes are those of a recording."""
+        return self._recorded is not None and self.log == self.replay.changes
+
+    @property
+    def course(self) -> Course:
+        """What it takes to take the run again."""
+        simulation, inputs = self.simulation, self.replay.inputs
+        return Course(self._first, simulation.seed, simulation.run, self.log, inputs, self.edge)
 
     @property
     def tick(self) -> int:
@@ -98,29 +159,23 @@ class Timeline:
         self._void_future()
 
     def undo(self) -> None:
-        """Put back what was there before the last change, from now on.
+        """Go back to before the last change was made, in a run in which it is not.
+
+        Who goes on from there to where they were sees the run as if it had never been made: that
+        needs no value to put back, and the log has nothing of it.
 
         Raises:
-            InputError: If nothing has been changed, or nothing was there.
+            InputError: If nothing has been changed.
         """
-        last = self.simulation.changes[-1] if self.simulation.changes else None
-        given.check(last is not None, "undo", None, "after a change")
-        assert last is not None  # noqa: S101  (checked above)
-        before = self._before(last.path)
-        allowed = (
-            f"of a change to what the scenario says; it did not say {last.path}: set it yourself"
-        )
-        given.check(before is not MISSING, "undo", last.value, allowed)
-        self.change(last.path, before)
-
-    def _before(self, path: str) -> Any:
-        """Return what was at a path before the last change."""
-        source = self.simulation.scenario.source
-        earlier = Scenario.of(replace(source, overrides=source.overrides[:-1]))
-        return at(earlier.to_dict(), path)
+        made = self.simulation.changes
+        given.check(bool(made), "undo", None, "after a change")
+        self.log, made_at = made[:-1], made[-1].tick
+        self.edge = max(made_at, self.replay.edge)
+        self._forget_from(made_at + 1)
+        self._back(made_at)
 
     def _is_same(self, path: str, value: Given) -> bool:
-        return bool(at(self.simulation.scenario.to_dict(), path) == value)
+        return bool(at(_core.read_filled(self.simulation.scenario.source), path) == value)
 
     def _is_at_the_end(self) -> bool:
         return self.simulation.is_over and self.tick >= self.edge
@@ -137,13 +192,17 @@ class Timeline:
             stops.append(self._ticks[-1] + self._every)
         waiting = self.log[len(self.simulation.changes) :]
         stops += [change.tick for change in waiting[:1]]
+        told = self.replay.stop(self.tick)
+        stops += [] if told is None else [told]
         steps = min(self._pace, min(stops) - self.tick)
         start_s = time.monotonic()
         if steps > 0:
-            self.simulation.step(steps)
+            given_here = self.replay.input(self.tick)
+            self.simulation.step(1 if given_here else steps, **given_here)
         took_s = time.monotonic() - start_s
         self._pace = max(1, min(10_000, round(self._pace * SLICE_S / max(took_s, SLICE_S / 4))))
         self._apply()
+        self.replay.compare(self.simulation)
         self.edge = max(self.edge, self.tick)
         if self.tick >= self._ticks[-1] + self._every:
             self._keep()
@@ -164,9 +223,18 @@ class Timeline:
         self.log = self.simulation.changes
         self.edge = self.tick
         # A snapshot of this very moment is of before the change.
-        kept = [each for each in zip(self._ticks, self._kept, strict=True) if each[0] < self.tick]
-        self._ticks, self._kept = [tick for tick, _ in kept], [snapshot for _, snapshot in kept]
+        self._forget_from(self.tick)
         self._keep()
+
+    def _forget_from(self, tick: int) -> None:
+        """Forget snapshots from a tick on, and those of other changes; but never the first."""
+        kept = [
+            (at_tick, each)
+            for at_tick, each in zip(self._ticks, self._kept, strict=True)
+            if each is self._kept[0]
+            or (at_tick < tick and each.changes == self.log[: len(each.changes)])
+        ]
+        self._ticks, self._kept = [each for each, _ in kept], [snapshot for _, snapshot in kept]
 
     def _keep(self) -> None:
         self._ticks.append(self.tick)
@@ -186,6 +254,11 @@ class Timeline:
 
     def _has_mind(self, kind: str) -> bool:
         return self.simulation.thoughts(f"{kind}/0") is not None
+
+
+def tick_of(change: Change) -> int:
+    """Return when a change is made."""
+    return change.tick
 
 
 def at(document: Any, path: str) -> Any:

@@ -65,10 +65,17 @@ impl ScenarioSpec {
     /// Everything that is wrong there: keys and values first, and if these are right, what they mean
     /// together.
     pub fn read(document: &Document) -> Result<Checked, Faults> {
-        let mut document = document.clone();
-        models::fill(&mut document);
+        let document = Self::filled(document);
         let spec = document.typed(&SCHEMA)?;
         checks::checked(spec, &document.place(), &|name| document.open(name))
+    }
+
+    /// A document in which every robot kind says what the model says that it is like.
+    #[must_use]
+    pub fn filled(document: &Document) -> Document {
+        let mut filled = document.clone();
+        models::fill(&mut filled);
+        filled
     }
 
     /// The same of a document whose files `open` reads: it gives the bytes of one by its name, or
@@ -99,9 +106,7 @@ impl ScenarioSpec {
         if !SCHEMA.has_names_at(path) {
             return None;
         }
-        let mut filled = document.clone();
-        models::fill(&mut filled);
-        match filled.get(path).map(|node| &node.value) {
+        match Self::filled(document).get(path).map(|node| &node.value) {
             None => Some(Vec::new()),
             Some(Value::Table(table)) => Some(table.keys().cloned().collect()),
             Some(_) => None,
@@ -110,9 +115,7 @@ impl ScenarioSpec {
 
     /// The files that a document names and that have not been read.
     pub(crate) fn files(document: &Document) -> Vec<String> {
-        let mut filled = document.clone();
-        models::fill(&mut filled);
-        let spec: Result<Self, Faults> = filled.typed(&SCHEMA);
+        let spec: Result<Self, Faults> = Self::filled(document).typed(&SCHEMA);
         spec.map_or_else(|_| Vec::new(), |spec| checks::files_wanted(&spec, document))
     }
 }

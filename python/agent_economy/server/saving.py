@@ -1,0 +1,139 @@
+"""Saving a run: it is taken again from its beginning to its edge, into a recording."""
+
+import hashlib
+import os
+import re
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from uuid import uuid4
+
+from agent_economy._core import InputError
+from agent_economy.recording import Recording, RecordingError
+from agent_economy.recording.recorder import ENDING
+from agent_economy.server.timeline import Course
+from agent_economy.simulation import Simulation
+
+MOST_ROBOT_STEPS = 10_000_000
+"""Steps times robots: half a gigabyte."""
+
+UNFINISHED = ".unfinished-"
+"""What names of files begin with until they are whole; hidden ones are never listed."""
+
+DIGITS = 12
+MOST_LETTERS = 60
+
+
+class Saving:
+    """A run on its way into a recording, in a thread of its own; any other can stop it.
+
+    Its name ends in a digest of what is in it: the same run saved once more is the same file.
+
+    Attributes:
+        course: What is saved.
+        done: Steps that are in the file.
+    """
+
+    course: Course
+    done: int
+
+    def __init__(self, course: Course, folder: Path) -> None:
+        """Begin with nothing written."""
+        self.course, self._folder = course, folder
+        self.done, self._is_stopped = 0, False
+
+    def stop(self) -> None:
+        """Give up between two steps; nothing is left of the file."""
+        self._is_stopped = True
+
+    def write(self) -> Path | None:
+        """Return the file, whole and on the disk; None if this was stopped.
+
+        Raises:
+            InputError: If the run is too long, or the file cannot be written; nothing is left.
+        """
+        course = self.course
+        simulation = Simulation(course.scenario, course.seed, course.run)
+        see_to_room(len(simulation.robots) * course.edge)
+        unfinished = self._folder / f"{UNFINISHED}{uuid4().hex}{ENDING}"
+        with in_words(self._folder):
+            try:
+                self._folder.mkdir(exist_ok=True)
+                unfinished.touch()
+                is_whole = self._record(simulation, unfinished)
+                return put_away(unfinished, stem(course)) if is_whole else None
+            finally:
+                with suppress(OSError):
+                    unfinished.unlink(missing_ok=True)
+
+    def _record(self, simulation: Simulation, file: Path) -> bool:
+        robot_steps = 0
+        with Recording(simulation, file) as recording:
+            for tick in taken_again(recording, self.course):
+                self.done = tick
+                robot_steps += len(simulation.robots)
+                see_to_room(robot_steps)
+                if self._is_stopped:
+                    return False
+        return True
+
+
+def taken_again(recording: Recording, course: Course) -> Iterator[int]:
+    """Take a run again to its edge; yield each tick that has been come to."""
+    simulation = recording.simulation
+    changes = iter(course.log)
+    change = next(changes, None)
+    while True:
+        while change and change.tick <= simulation.tick:
+            simulation.change(change.path, change.value)
+            change = next(changes, None)
+        if simulation.tick >= course.edge:
+            return
+        recording.step(1, **course.inputs.get(simulation.tick, {}))
+        yield simulation.tick
+
+
+def see_to_room(robot_steps: int) -> None:
+    """Refuse what is too long.
+
+    Raises:
+        InputError: If so.
+    """
+    if robot_steps > MOST_ROBOT_STEPS:
+        message = (
+            f"The run has {robot_steps:,} steps of robots so far: at most {MOST_ROBOT_STEPS:,} are "
+            "saved from here. agent-economy run --record FILE --every 10 saves longer ones."
+        )
+        raise InputError(message)
+
+
+@contextmanager
+def in_words(folder: Path) -> Iterator[None]:
+    """Say why nothing can be written into a folder.
+
+    Raises:
+        InputError: If so.
+    """
+    try:
+        yield
+    except RecordingError:
+        message = f"{folder}: takes no more, so that the recording is not kept: make room there"
+    except OSError as error:
+        message = f"{folder}: cannot be written: {error.strerror or error}"
+    else:
+        return
+    raise InputError(message)
+
+
+def put_away(unfinished: Path, name: str) -> Path:
+    """Give a file its name, once it is on the disk."""
+    with unfinished.open("rb") as stream:
+        digest = hashlib.file_digest(stream, "sha256").hexdigest()[:DIGITS]
+        os.fsync(stream.fileno())
+    return unfinished.replace(unfinished.with_name(f"{name}-{digest}{ENDING}"))
+
+
+def stem(course: Course) -> str:
+    """Return what a name begins with."""
+    name = re.sub(r"[^\w-]+", "-", course.scenario.name)[:MOST_LETTERS]
+    return f"{name}-{course.seed}-{course.run}"

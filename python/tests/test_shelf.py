@@ -1,0 +1,314 @@
+"""Runs that a page saves, and recordings that it opens."""
+
+import os
+import time
+import tomllib
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any, cast
+
+import pytest
+from starlette.testclient import TestClient
+from test_server import OWN, WS, Page
+
+import agent_economy as ae
+from agent_economy import _core
+from agent_economy.brain import Command
+from agent_economy.server import Places, app
+from agent_economy.server.saving import Saving
+from agent_economy.server.shelf import FOLDER, Shelf
+from agent_economy.server.timeline import Timeline
+from agent_economy.simulation import Change
+
+COUNT = "robots.rover.count"
+FOREVER_S = 60.0
+
+
+@pytest.fixture
+def client(tmp_path: Path) -> Iterator[TestClient]:
+    with TestClient(app(Places(tmp_path), "127.0.0.1"), OWN) as client:
+        yield client
+
+
+@pytest.fixture
+def page(client: TestClient) -> Iterator[Page]:
+    with client.websocket_connect(WS) as socket:
+        yield Page(socket)
+
+
+def saved(page: Page) -> dict[str, Any]:
+    """Save a run, and return its recording's row."""
+    page.say("save")
+    row = page.until("saved")["recording"]
+    assert isinstance(row, dict)
+    return row
+
+
+def changed(page: Page) -> dict[str, Any]:
+    """Open a run that is changed on its way, and return its last state."""
+    page.open(changes=[[40, COUNT, 7]], tick=60)
+    page.say("change", path="robots.rover.radius_m", value=0.3)
+    page.say("step", steps=10)
+    return page.until("state", tick=70)
+
+
+def turning(turn_rate_rad_s: float) -> Command:
+    motion = {"speed_m_s": 0.5, "turn_rate_rad_s": turn_rate_rad_s}
+    return cast("Command", {"motion": motion, "requests": [], "outbox": []})
+
+
+def begun(tick: int = 30) -> Timeline:
+    timeline = Timeline(ae.Scenario.load("search-mind"), 7, 0, [Change(10, COUNT, 6)])
+    assert timeline.toward(tick, FOREVER_S)
+    return timeline
+
+
+def test_a_saved_run_is_the_run_that_was_seen_with_all_its_changes(
+    page: Page, tmp_path: Path
+) -> None:
+    told = changed(page)
+    row = saved(page)
+    assert (row["of"]["steps"], row["of"]["seed"], row["fault"]) == (70, "7", None)
+    again = ae.rerun(tmp_path / row["id"])
+    assert again.agrees
+    assert again.is_whole
+    assert (again.tick, again.hash) == (70, told["hash"])
+
+
+def test_the_same_run_saved_again_is_the_same_file(page: Page, client: TestClient) -> None:
+    changed(page)
+    assert saved(page)["id"] == saved(page)["id"]
+    assert len(client.get("/api/recordings").json()) == 1
+
+
+def test_a_recording_is_opened_at_any_tick_and_goes_on(page: Page) -> None:
+    told = changed(page)
+    name = saved(page)["id"]
+    page.say("open", recording=name, tick=50)
+    opened = page.until("opened")
+    assert (opened["seed"], opened["recording"]["id"]) == ("7", name)
+    setting = page.until("setting")
+    assert (setting["log"], setting["changes"]) == (None, [[40, COUNT, 7]])
+    assert page.until("state", tick=50)["edge"] == 70
+    page.say("go", tick=70)
+    last = page.until("state", tick=70)
+    assert (last["hash"], last["differs_at"]) == (told["hash"], None)
+    page.say("step", steps=5)
+    page.until("state", tick=75, edge=75)
+
+
+def test_a_recording_with_other_changes_is_opened_as_that_run(page: Page) -> None:
+    changed(page)
+    name = saved(page)["id"]
+    page.say("open", recording=name, tick=45)
+    page.until("state", tick=45)
+    page.say("change", path=COUNT, value=2)
+    log = page.until("setting", log=[[40, COUNT, 7], [45, COUNT, 2]])["log"]
+    page.say("step", steps=15)
+    told = page.until("state", tick=60)
+    page.say("open", recording=name, changes=log, tick=60)
+    page.until("opened")
+    assert page.until("state", tick=60)["hash"] == told["hash"]
+
+
+def test_what_came_from_outside_comes_again(tmp_path: Path) -> None:
+    path = tmp_path / "outside.mcap"
+    with ae.Recording(ae.Simulation("search-mind", 7), path) as recording:
+        recording.step(10)
+        for turn_rate_rad_s in (1.0, -1.0, 0.5):
+            recording.step(commands={"rover/0": turning(turn_rate_rad_s)})
+        recording.step(10)
+        expected = recording.simulation.hash
+    which, recorded = Shelf(Places(tmp_path)).load("outside.mcap")
+    timeline = Timeline(which.scenario, which.seed, which.run, recorded=recorded)
+    for tick in (23, 5, 23):
+        assert timeline.toward(tick, FOREVER_S)
+    assert timeline.simulation.hash == expected
+    assert timeline.replay.differs_at is None
+    again = Saving(timeline.course, tmp_path).write()
+    assert again is not None
+    assert ae.rerun(again).hash == f"{expected:016x}"
+
+
+def test_a_run_that_is_not_as_recorded_is_told_with_its_tick(tmp_path: Path) -> None:
+    path = tmp_path / "behind.mcap"
+    simulation = ae.Simulation("search-mind", 7)
+    with ae.Recording(simulation, path) as recording:
+        recording.step(10)
+        # Behind the recording's back: it does not say of this what was done.
+        simulation.step(commands={"rover/0": turning(1.0)})
+        recording.step(10)
+    which, recorded = Shelf(Places(tmp_path)).load("behind.mcap")
+    timeline = Timeline(which.scenario, which.seed, which.run, recorded=recorded)
+    assert timeline.toward(21, FOREVER_S)
+    assert timeline.replay.differs_at == ae.rerun(path).differs_at
+
+
+def test_what_is_cancelled_leaves_nothing(page: Page, tmp_path: Path) -> None:
+    page.open()
+    page.say("play", speed=None)
+    page.until("state", over=True, playing=False)
+    page.say("save")
+    page.until("saving")
+    page.say("cancel")
+    assert page.until("saved")["recording"] is None
+    assert list((tmp_path / FOLDER).iterdir()) == []
+
+
+def test_one_recording_at_a_time_is_saved(page: Page) -> None:
+    page.open()
+    page.say("play", speed=None)
+    page.until("state", over=True, playing=False)
+    page.say("save")
+    page.say("save")
+    assert "one recording at a time" in page.until("refused")["faults"][0]["message"]
+    assert page.until("saved")["recording"]["fault"] is None
+
+
+def test_a_page_that_goes_leaves_nothing(client: TestClient, tmp_path: Path) -> None:
+    with client.websocket_connect(WS) as socket:
+        page = Page(socket)
+        page.open()
+        page.say("play", speed=None)
+        page.until("state", over=True, playing=False)
+        page.say("save")
+        page.until("saving")
+    for _ in range(100):
+        if not list((tmp_path / FOLDER).iterdir()):
+            return
+        time.sleep(0.05)
+    pytest.fail("there is still a file")
+
+
+def test_a_run_that_is_too_long_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("agent_economy.server.saving.MOST_ROBOT_STEPS", 100)
+    with pytest.raises(ae.InputError, match="at most 100 are saved from here"):
+        Saving(begun(30).course, tmp_path).write()
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_folder_that_cannot_be_written_is_told(page: Page, tmp_path: Path) -> None:
+    (tmp_path / FOLDER).write_text("not a folder")
+    page.open(tick=5)
+    page.say("save")
+    told = page.until("refused", about="save")["faults"][0]["message"]
+    assert f"{FOLDER}: cannot be written" in told
+
+
+def test_a_link_to_elsewhere_is_no_place_for_recordings(
+    page: Page, tmp_path: Path, tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    (tmp_path / FOLDER).symlink_to(tmp_path_factory.mktemp("elsewhere"))
+    page.open(tick=5)
+    page.say("save")
+    assert "not below the folder" in page.until("refused")["faults"][0]["message"]
+
+
+def test_a_full_disk_is_told_and_leaves_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(*_: object) -> None:
+        message = "No space left on device"
+        raise OSError(28, message)
+
+    course = begun().course
+    monkeypatch.setattr("agent_economy.recording.file.Output.flush", full)
+    with pytest.raises(ae.InputError, match="cannot be written: No space left"):
+        Saving(course, tmp_path).write()
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_recordings_are_listed_newest_first_with_what_they_are_of(
+    client: TestClient, tmp_path: Path
+) -> None:
+    (tmp_path / "deep" / "er").mkdir(parents=True)
+    names = ["deep/er/first.mcap", "second.mcap", "cut.mcap", "damaged.mcap", ".hidden.mcap"]
+    for age, name in enumerate(names):
+        path = tmp_path / name
+        ae.run("search-mind", seed=2**64 - 1, run=age, record=path)
+        os.utime(path, (1000 - age, 1000 - age))
+    whole = (tmp_path / "cut.mcap").read_bytes()
+    (tmp_path / "cut.mcap").write_bytes(whole[: len(whole) // 2])
+    (tmp_path / "damaged.mcap").write_bytes(b"no recording at all")
+    for age, name in enumerate(names):
+        os.utime(tmp_path / name, (1000 - age, 1000 - age))
+    rows = client.get("/api/recordings").json()
+    assert [row["id"] for row in rows] == names[:4]
+    steps = ae.rerun(tmp_path / names[0]).tick
+    of = rows[0]["of"]
+    assert (of["scenario"], of["seed"], of["run"]) == ("search-mind.toml", str(2**64 - 1), "0")
+    assert of["steps"] == steps
+    assert of["length_s"] == pytest.approx(steps / 10)
+    assert rows[2]["of"]["steps"] is None
+    assert "no MCAP file" in rows[3]["fault"]
+
+
+def test_a_recording_that_is_cut_is_opened_as_far_as_it_goes(page: Page, tmp_path: Path) -> None:
+    path = tmp_path / "cut.mcap"
+    ae.run("search-mind", seed=7, record=path)
+    whole = path.read_bytes()
+    path.write_bytes(whole[: 2 * len(whole) // 3])
+    page.say("open", recording="cut.mcap")
+    page.until("opened")
+    edge = page.until("state", tick=0)["edge"]
+    assert edge > 0
+    page.say("go", tick=edge)
+    assert page.until("state", tick=edge)["differs_at"] is None
+
+
+@pytest.mark.parametrize(
+    "name", ["../secret.mcap", "/etc/passwd", "link.mcap", "nothing.mcap", "a\0b.mcap", "search"]
+)
+def test_no_recording_outside_of_the_folder_is_opened_or_sent(
+    client: TestClient, page: Page, tmp_path: Path, name: str
+) -> None:
+    secret = tmp_path.parent / "secret.mcap"
+    secret.write_bytes(b"secret")
+    (tmp_path / "link.mcap").symlink_to(secret)
+    assert client.get("/api/recordings/file", params={"id": name}).status_code == 404
+    page.say("open", recording=name)
+    assert "below the folder" in page.until("refused")["faults"][0]["message"]
+
+
+def test_a_recording_is_sent_whole(client: TestClient, page: Page, tmp_path: Path) -> None:
+    page.open(tick=5)
+    name = saved(page)["id"]
+    told = client.get("/api/recordings/file", params={"id": name})
+    assert told.content == (tmp_path / name).read_bytes()
+    assert "attachment" in told.headers["content-disposition"]
+
+
+def exported(page: Page) -> str:
+    page.say("export")
+    text = page.until("exported")["text"]
+    assert isinstance(text, str)
+    return text
+
+
+def test_the_exported_text_is_the_scenario_as_it_was_changed(page: Page) -> None:
+    page.open(tick=20)
+    obstacles = ae.Scenario.load("search-mind").to_dict()["world"]["obstacles"]
+    page.say("change", path="robots.rover.sensors.camera.range_m", value=2.5)
+    page.say("change", path="world.obstacles", value=obstacles[1:])
+    text = exported(page)
+    expected = ae.Scenario.load("search-mind")
+    expected = expected.replace("robots.rover.sensors.camera.range_m", 2.5)
+    expected = expected.replace("world.obstacles", obstacles[1:])
+    assert ae.Scenario.loads(text).to_dict() == expected.to_dict()
+    assert text.startswith("# From search-mind, seed 7, run 0, as it was at tick 20 (2 s).\n")
+
+
+def test_the_exported_text_of_what_was_not_changed_keeps_its_comments(page: Page) -> None:
+    page.open()
+    source = ae.Scenario.load("search-mind").source.text
+    assert exported(page).endswith(source)
+    assert tomllib.loads(exported(page)) == tomllib.loads(source)
+
+
+def test_a_setting_has_what_robots_models_say_and_the_kinds_of_items(page: Page) -> None:
+    page.open(scenario="open-field")
+    setting = [each for each in page.said if each["type"] == "setting"][-1]
+    source = ae.Scenario.load("open-field").source
+    assert setting["document"] == _core.read_filled(source)
+    assert {"radius_m", "drive"} <= setting["document"]["robots"]["rover"].keys()
+    assert setting["item_kinds"] == sorted(setting["document"]["items"])
