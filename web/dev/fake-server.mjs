@@ -10,6 +10,7 @@ import { fileURLToPath } from "node:url";
 import { WebSocketServer } from "ws";
 import { pictureOf } from "./fake/run.mjs";
 import { documentOf, entries } from "./fake/scenarios.mjs";
+import { Shelf } from "./fake/shelf.mjs";
 import { FakeStudies } from "./fake/studies.mjs";
 import { Talk } from "./fake/talk.mjs";
 
@@ -21,13 +22,14 @@ const policy = "default-src 'self'; img-src 'self' data:; style-src 'self'";
 export async function serve(port = 0) {
   const counter = { drawn: 0 };
   const studies = new FakeStudies();
+  const shelf = new Shelf();
   const server = createServer((request, answer) =>
-    handle(request, answer, studies).catch(() => send(answer, 404, "text/plain", "no such thing")),
+    handle(request, answer, { studies, shelf }).catch(() => send(answer, 404, "text/plain", "no such thing")),
   );
   const sockets = new WebSocketServer({ server, path: "/ws", perMessageDeflate: false });
   sockets.on("connection", (socket, request) => {
     const study = new URL(request.url, "http://localhost").searchParams.get("study");
-    if (study === null) new Talk(socket, counter, studies);
+    if (study === null) new Talk(socket, counter, { studies, shelf });
     else studies.follow(study, socket);
   });
   await new Promise((ready) => server.listen(port, "127.0.0.1", ready));
@@ -42,7 +44,7 @@ export async function serve(port = 0) {
   return { url: `http://127.0.0.1:${server.address().port}`, counter, drop, stop };
 }
 
-async function handle(request, answer, studies) {
+async function handle(request, answer, { studies, shelf }) {
   const { pathname, searchParams } = new URL(request.url, "http://localhost");
   if (/^\/api\/(factors|plan|stud)/.test(pathname)) {
     const body = request.method === "POST" ? JSON.parse(await bodyOf(request)) : null;
@@ -51,6 +53,9 @@ async function handle(request, answer, studies) {
     return send(answer, status, "application/json", JSON.stringify(said));
   }
   if (pathname === "/api/scenarios") return send(answer, 200, "application/json", JSON.stringify(entries));
+  if (pathname === "/api/recordings")
+    return send(answer, 200, "application/json", JSON.stringify(shelf.listed()));
+  if (pathname === "/api/recordings/file") return send(answer, 200, "application/octet-stream", "MCAP");
   if (pathname === "/api/pictures")
     return send(answer, 200, "image/svg+xml", pictureOf(documentOf(searchParams.get("scenario"))));
   if (pathname === "/api/schema")

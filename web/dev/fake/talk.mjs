@@ -5,7 +5,8 @@ const mostUnseen = 3;
 
 /** One page's run: what the real server's end of a socket does, without a simulator. */
 export class Talk {
-  constructor(socket, counter, studies) {
+  constructor(socket, counter, { studies, shelf }) {
+    this.shelf = shelf;
     this.socket = socket;
     this.studies = studies;
     this.counter = counter;
@@ -13,7 +14,12 @@ export class Talk {
     this.number = 0;
     this.toldAt = 0;
     socket.on("message", (data) => this.hear(JSON.parse(data.toString())));
-    socket.on("close", () => clearInterval(this.timer));
+    socket.on("close", () => this.close());
+  }
+
+  close() {
+    clearInterval(this.timer);
+    clearTimeout(this.saving);
   }
 
   say(message) {
@@ -29,15 +35,21 @@ export class Talk {
     this.show();
   }
 
-  open({ scenario: asked, text, study, seed: given, run, changes, tick }) {
+  open(said) {
+    const recorded = this.shelf.find(said.recording);
+    if (said.recording !== null && !recorded) return this.refuse("open", "there is no such recording");
+    const { text, study, run } = { study: null, ...(recorded ?? said) };
     const held = study ? this.studies.all.get(study.id) : null;
-    const seed = given ?? held.ask.seed;
+    const { seed = held?.ask.seed, scenario: asked } = recorded ?? said;
     const scenario = held ? held.ask.scenario : asked;
+    const { tick } = said;
+    const changes = said.changes ?? recorded.changes;
     if (scenario === "broken") {
       const message = "robots.rover.count is missing: must be a whole number from 0 to 1000000";
       return this.say({
         type: "refused",
         about: "open",
+        path: null,
         faults: [
           {
             file: null,
@@ -60,10 +72,15 @@ export class Talk {
       put(this.base, held.planned.factors[i].path, value),
     );
     this.seed = Number(BigInt(seed) % 1000003n) + Number(run);
-    Object.assign(this, { changes, generation: 0, edge: tick, playing: false, speed: 1, selected: null });
+    this.source = { scenario, text, seed, run };
+    this.recorded = recorded;
+    const edge = Math.max(tick, recorded?.edge ?? 0);
+    Object.assign(this, { changes, generation: 0, edge, playing: false, speed: 1, selected: null });
     const { name, engine, summary } = entryOf(text === null ? scenario : null);
     const { cap_s, step_s } = this.base.clock;
-    this.say({ type: "opened", scenario: { id: scenario, name, engine, summary, cap_s, step_s }, seed, run });
+    const recording = recorded ? { id: said.recording, program: "0.1.0" } : null;
+    const told = { id: scenario, name, engine, summary, cap_s, step_s };
+    this.say({ type: "opened", scenario: told, seed, run, recording });
     this.build(tick);
     this.tell();
     this.show();
@@ -78,7 +95,9 @@ export class Talk {
     this.run = new FakeRun(document, this.seed);
     this.run.to(tick);
     const { kinds, items } = this.run;
-    const { generation, changes } = this;
+    const { generation, recorded } = this;
+    const changes = this.changes.filter(([at]) => at <= tick);
+    const isRecorded = recorded && JSON.stringify(recorded.changes) === JSON.stringify(this.changes);
     this.say({
       type: "setting",
       generation,
@@ -86,8 +105,10 @@ export class Talk {
       robots: this.run.nameOf(),
       kinds,
       items,
+      item_kinds: Object.keys(document.items ?? {}).sort(),
       maps: mapsOf(document),
       changes,
+      log: isRecorded ? null : this.changes,
     });
   }
 
@@ -99,18 +120,24 @@ export class Talk {
   }
   hear_step({ steps }) {
     this.playing = false;
-    this.run.to(Math.max(0, this.run.tick + steps));
+    this.go(Math.max(0, this.run.tick + steps));
     this.edge = Math.max(this.edge, this.run.tick);
   }
   hear_go({ tick }) {
     this.playing = false;
-    this.run.to(Math.min(tick, this.edge));
+    this.go(Math.min(tick, this.edge));
+  }
+  go(tick) {
+    const made = (at) => this.changes.filter((change) => change[0] <= at).length;
+    if (made(tick) === made(this.run.tick)) this.run.to(tick);
+    else this.build(tick);
   }
   hear_select({ robot }) {
     this.selected = robot;
   }
   hear_change({ path, value }) {
-    if (path.endsWith("behaviours") && value.some((one) => one.kind === "swarm")) return this.refuse(path);
+    if (path.endsWith("behaviours") && value.some((one) => one.kind === "swarm"))
+      return this.refuse("change", `${path}: swarm needs a sensor of kind robots, and rover has none`, path);
     this.changes = [...this.changes.filter(([at]) => at <= this.run.tick), [this.run.tick, path, value]];
     this.edge = this.run.tick;
     this.build(this.run.tick);
@@ -120,12 +147,33 @@ export class Talk {
     this.build(this.run.tick);
   }
 
-  refuse(path) {
-    const message = `${path}: swarm needs a sensor of kind robots, and rover has none`;
+  hear_save() {
+    if (this.source.scenario === "flock") return this.refuse("save", "recordings: takes no more");
+    const steps = this.edge;
+    this.say({ type: "saving", done: 0, steps });
+    this.saving = setTimeout(() => {
+      const run = { ...this.source, changes: this.changes, edge: steps };
+      const { name } = entryOf(run.scenario);
+      const id = `recordings/${name}-${run.seed}-${run.run}-${this.changes.length}.mcap`;
+      this.say({ type: "saved", recording: this.shelf.put(id, run) });
+    }, 400);
+  }
+  hear_cancel() {
+    clearTimeout(this.saving);
+    this.say({ type: "saved", recording: null });
+  }
+  hear_export() {
+    this.say({ type: "exported", text: `# From ${this.run.tick}\nengine = "metric"\n` });
+  }
+
+  refuse(about, message, path = null) {
     this.say({
       type: "refused",
-      about: "change",
-      faults: [{ file: null, line: null, path, given: null, allowed: "", suggestion: null, message }],
+      about,
+      path,
+      faults: [
+        { file: null, line: null, path: path ?? "", given: null, allowed: "", suggestion: null, message },
+      ],
     });
   }
 
@@ -157,6 +205,7 @@ export class Talk {
       speed,
       real: playing ? (speed ?? 30) : 0,
       over: run.over(),
+      differs_at: null,
       outcome: run.outcome(),
       mind,
     });
@@ -164,8 +213,11 @@ export class Talk {
     if (map) this.say(map);
   }
 
+  /** As the real one: what has been sent is not sent again. */
   show() {
-    if (!this.run || this.unseen >= mostUnseen) return;
+    const moment = this.run && `${this.generation}/${this.run.tick}`;
+    if (!moment || moment === this.shown || this.unseen >= mostUnseen) return;
+    this.shown = moment;
     this.unseen += 1;
     this.number += 1;
     this.socket.send(this.run.frame(this.generation, this.number));

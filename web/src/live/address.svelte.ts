@@ -1,24 +1,54 @@
 import { type Link, longestLink, writeLink } from "../run/link";
+import type { Desk } from "./desk.svelte";
 
 const most_ms = 1000;
+const rest_ms = 2000;
 
 /** Keeps the page's address that of what is seen: at most once a second, and once more when it rests. */
-export function keepAddress(now: () => Link): void {
+export function keepAddress(desk: Desk): void {
+  const names = new RecordedNames(desk);
   let timer: ReturnType<typeof setTimeout> | undefined;
   let written = 0;
 
   function write(): void {
     timer = undefined;
-    const hash = writeLink(now());
-    // A longer address would lose its end on its way, and give another run.
-    if (hash.length > longestLink || hash === location.hash) return;
+    const link = desk.now;
+    const hash = writeLink(link);
+    const kept = hash.length > longestLink ? names.hash(link) : hash;
+    if (kept === null) timer = setTimeout(write, rest_ms);
+    if (!kept || kept === location.hash) return;
     written = performance.now();
-    history.replaceState(history.state, "", hash);
+    history.replaceState(history.state, "", kept);
   }
 
   $effect(() => {
-    now();
+    void [desk.now, desk.session.saved];
     timer ??= setTimeout(write, Math.max(50, written + most_ms - performance.now()));
   });
   $effect(() => () => clearTimeout(timer));
+}
+
+/** Addresses of runs with more changes than an address holds: their recordings' names stand for them. */
+export class RecordedNames {
+  private seen = "";
+  private tried = "";
+
+  constructor(private readonly desk: Pick<Desk, "session">) {}
+
+  /** The address; null as long as changes are still made, empty until there is a recording. */
+  hash(link: Link): string | null {
+    const { session } = this.desk;
+    const key = session.changesKey;
+    if (session.saved?.changes === key) {
+      const recording = session.saved.recording.id;
+      return writeLink({ ...link, scenario: null, text: null, recording, changes: null });
+    }
+    const rests = this.seen === key;
+    this.seen = key;
+    if (!rests || session.saving) return null;
+    // What was refused is not tried again before something changes.
+    if (this.tried !== key) session.save();
+    this.tried = key;
+    return "";
+  }
 }

@@ -63,6 +63,13 @@ export class Desk {
     return this.session.opened?.seed ?? this.link.seed;
   }
 
+  /** Which run it is, for people; that of a study is in the title. */
+  get which(): string {
+    const { study, recording } = this.link;
+    const { run } = this.session.opened ?? this.link;
+    return `seed ${this.seed ?? "…"}${study ? "" : `, run ${run}`}${recording === null ? "" : ", recorded"}`;
+  }
+
   /** The address of what is seen now. */
   get now(): Link {
     const { setting, state, selected } = this.session;
@@ -71,7 +78,7 @@ export class Desk {
     return {
       ...link,
       seed: this.seed,
-      changes: setting?.changes ?? link.changes,
+      changes: setting ? setting.log : link.changes,
       tick: state?.tick ?? link.tick,
       view: camera ? [round(camera.x), round(camera.y), round(camera.scale)] : link.view,
       robot: selected,

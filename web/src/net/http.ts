@@ -1,8 +1,17 @@
-import type { Checked, Fault, ScenarioEntry } from "./protocol";
+import type { Checked, Fault, RecordingEntry, ScenarioEntry } from "./protocol";
 import { Refusal } from "./study";
 
 export async function scenarios(): Promise<ScenarioEntry[]> {
   return (await asked("api/scenarios")).json() as Promise<ScenarioEntry[]>;
+}
+
+export async function recordings(): Promise<RecordingEntry[]> {
+  return (await asked("api/recordings")).json() as Promise<RecordingEntry[]>;
+}
+
+/** The address of a recording's file. */
+export function recordingFile(id: string): string {
+  return `api/recordings/file?id=${encodeURIComponent(id)}`;
 }
 
 export async function schema(): Promise<unknown> {

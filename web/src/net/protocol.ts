@@ -34,6 +34,24 @@ export interface Checked {
   summary: string;
 }
 
+export interface RecordingEntry {
+  id: string;
+  bytes: number;
+  /** When, in seconds since 1970. */
+  saved_s: number;
+  /** Null if `fault` says what is wrong with it. */
+  of: {
+    scenario: string;
+    seed: string;
+    run: string;
+    program: string;
+    /** Null if the file is cut. */
+    steps: number | null;
+    length_s: number | null;
+  } | null;
+  fault: string | null;
+}
+
 // From the page.
 
 /** A configuration of a study. */
@@ -48,10 +66,12 @@ export interface Open {
   scenario: string | null;
   text: string | null;
   study: OfStudy | null;
-  /** Decimal, as it can be up to 2^64 - 1; left out for that of the study. */
+  recording: string | null;
+  /** Decimal, as it can be up to 2^64 - 1; left out for that of the study; a recording has its own. */
   seed?: string;
   run: string;
-  changes: Change[];
+  /** Null for those of the recording. */
+  changes: Change[] | null;
   tick: number;
 }
 
@@ -65,6 +85,9 @@ export type Command =
   | { type: "go"; tick: number }
   | { type: "change"; path: string; value: Json }
   | { type: "undo" }
+  | { type: "save" }
+  | { type: "cancel" }
+  | { type: "export" }
   | { type: "select"; robot: string | null }
   | { type: "got"; frame: number };
 
@@ -82,6 +105,8 @@ export interface Opened {
   };
   seed: string;
   run: string;
+  /** Where the run comes from, and the version that recorded it. */
+  recording: { id: string; program: string } | null;
 }
 
 export interface SensorView {
@@ -129,8 +154,13 @@ export interface Setting {
   robots: string[];
   kinds: KindView[];
   items: ItemView[];
+  /** In the order of the numbers that minds know them by. */
+  item_kinds: string[];
   maps: MapView[];
+  /** Those made by now. */
   changes: Change[];
+  /** Those up to the edge; null if they are the recording's. */
+  log: Change[] | null;
 }
 
 export interface Pose {
@@ -287,6 +317,8 @@ export interface State {
   /** Times real time that is reached. */
   real: number;
   over: boolean;
+  /** The tick at which the run was found not to be as recorded. */
+  differs_at: number | null;
   outcome: Outcome;
   mind: Mind | null;
 }
@@ -294,7 +326,27 @@ export interface State {
 export interface Refused {
   type: "refused";
   about: string;
+  /** Of the change that was refused. */
+  path: string | null;
   faults: Fault[];
+}
+
+/** How far a recording is. */
+export interface Saving {
+  type: "saving";
+  done: number;
+  steps: number;
+}
+
+export interface Saved {
+  type: "saved";
+  /** Null if it was cancelled. */
+  recording: RecordingEntry | null;
+}
+
+export interface Exported {
+  type: "exported";
+  text: string;
 }
 
 export interface Ended {
@@ -303,9 +355,30 @@ export interface Ended {
   message: string;
 }
 
-export type Message = Opened | Setting | State | MapPart | Refused | Ended | Studying;
+export type Message =
+  | Opened
+  | Setting
+  | State
+  | MapPart
+  | Refused
+  | Saving
+  | Saved
+  | Exported
+  | Ended
+  | Studying;
 
-const types = ["opened", "setting", "state", "map", "refused", "ended", "studying"];
+const types = [
+  "opened",
+  "setting",
+  "state",
+  "map",
+  "refused",
+  "saving",
+  "saved",
+  "exported",
+  "ended",
+  "studying",
+];
 
 /** The message in a text from the server; null if it is none that this page knows. */
 export function readMessage(text: string): Message | null {

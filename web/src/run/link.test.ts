@@ -1,4 +1,5 @@
 import { expect, test } from "vitest";
+import type { Change } from "../net/protocol";
 import { emptyLink, type Link, newStudyLink, readLink, shortened, studyLink, writeLink } from "./link";
 
 const read = (hash: string) => readLink(new URLSearchParams(hash.slice(hash.indexOf("?") + 1)));
@@ -7,6 +8,7 @@ const full: Link = {
   scenario: "mine/room & hall.toml",
   text: null,
   study: null,
+  recording: null,
   seed: "18446744073709551615",
   run: "3",
   changes: [
@@ -25,6 +27,8 @@ test.each([
   ["of a text", { ...emptyLink, text: "zAb-_9" }],
   ["of a study with its own seed", { ...emptyLink, study: { id: "a", configuration: 0 }, seed: null }],
   ["of a study", { ...emptyLink, study: { id: "studies/mine & yours", configuration: 12 }, run: "7" }],
+  ["of a recording", { ...emptyLink, recording: "recordings/a b.mcap", changes: null, tick: 3 }],
+  ["of a recording with other changes", { ...emptyLink, recording: "a.mcap", changes: [] }],
 ])("a link that is %s comes back as it was", (_, link) => expect(read(writeLink(link))).toEqual(link));
 
 test("what an address says wrongly is left out", () => {
@@ -71,6 +75,6 @@ test("a change of a part goes when the whole is replaced later at the same tick"
 });
 
 test("a hundred moves of a slider at one tick make a short address", () => {
-  const changes = Array.from({ length: 100 }, (_, i) => [7, "robots.rover.count", i] as Link["changes"][0]);
+  const changes = Array.from({ length: 100 }, (_, i) => [7, "robots.rover.count", i] as Change);
   expect(writeLink({ ...full, changes }).length).toBeLessThan(300);
 });

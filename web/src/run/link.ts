@@ -7,10 +7,13 @@ export interface Link {
   text: string | null;
   /** A configuration of a study, in place of a scenario. */
   study: OfStudy | null;
+  /** A recording by its name: it has a scenario, a seed and a run, and changes unless others are given. */
+  recording: string | null;
   /** Null for that of the study. */
   seed: string | null;
   run: string;
-  changes: Change[];
+  /** Null for those of the recording. */
+  changes: Change[] | null;
   tick: number;
   /** Centre in metres, and pixels a metre. */
   view: [number, number, number] | null;
@@ -24,6 +27,7 @@ export const emptyLink: Link = {
   scenario: null,
   text: null,
   study: null,
+  recording: null,
   seed: "0",
   run: "0",
   changes: [],
@@ -41,9 +45,14 @@ export function writeLink(link: Link): string {
     query.set("study", link.study.id);
     query.set("configuration", String(link.study.configuration));
   }
-  if (link.seed !== null) query.set("seed", link.seed);
-  query.set("run", link.run);
-  if (link.changes.length > 0) query.set("changes", JSON.stringify(shortened(link.changes)));
+  if (link.recording !== null) {
+    query.set("recording", link.recording);
+    if (link.changes) query.set("changes", JSON.stringify(link.changes));
+  } else {
+    if (link.seed !== null) query.set("seed", link.seed);
+    query.set("run", link.run);
+    if (link.changes?.length) query.set("changes", JSON.stringify(shortened(link.changes)));
+  }
   if (link.tick > 0) query.set("tick", String(link.tick));
   if (link.view) query.set("view", link.view.map((value) => Number(value.toPrecision(5))).join(","));
   if (link.robot !== null) query.set("robot", link.robot);
@@ -53,13 +62,16 @@ export function writeLink(link: Link): string {
 /** What the query of an address says; what it says wrongly is left out. */
 export function readLink(query: URLSearchParams): Link {
   const study = readStudy(query.get("study"), query.get("configuration"));
+  const recording = query.get("recording");
+  const isRecorded = recording !== null && !query.has("changes");
   return {
     scenario: query.get("scenario"),
     text: query.get("text"),
     study,
+    recording,
     seed: study && !query.has("seed") ? null : whole(query.get("seed")),
     run: whole(query.get("run")),
-    changes: readChanges(query.get("changes")),
+    changes: isRecorded ? null : readChanges(query.get("changes")),
     tick: Number(whole(query.get("tick"))),
     view: readView(query.get("view")),
     robot: query.get("robot"),

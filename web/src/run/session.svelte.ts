@@ -9,7 +9,9 @@ import type {
   MapPart,
   Message,
   Opened,
+  RecordingEntry,
   Refused,
+  Saving,
   Setting,
   Speed,
   State,
@@ -45,6 +47,10 @@ export class Session implements Listener {
   selected = $state.raw<string | null>(null);
   /** What the selected robot believes of its field. */
   map = $state.raw<BelievedMap | null>(null);
+  /** How far the recording is that is being saved. */
+  saving = $state.raw<Pick<Saving, "done" | "steps"> | null>(null);
+  /** What was saved last, and of which changes. */
+  saved = $state.raw<{ recording: RecordingEntry; changes: string } | null>(null);
   /** Milliseconds until the line is tried again. */
   again_ms = $state(0);
   /** How often `series` has got something new. */
@@ -61,7 +67,8 @@ export class Session implements Listener {
   private readonly changes = new Throttle<Json>(changes_ms, (path, value) => this.sendChange(path, value));
   private saw = 0;
   private toldAt = 0;
-  private lastChange = "";
+  private savedChanges = "";
+  private takeExported: ((text: string) => void) | null = null;
   /** Speed to go on with once the run is opened again; undefined if it stood. */
   private goOn: Speed | undefined;
 
@@ -114,6 +121,31 @@ export class Session implements Listener {
     this.send({ type: "undo" });
   }
 
+  /** Makes a recording of the run, unless one is being made. */
+  save(): void {
+    if (this.saving) return;
+    this.saving = { done: 0, steps: 0 };
+    this.savedChanges = this.changesKey;
+    this.send({ type: "save" });
+  }
+
+  cancelSaving(): void {
+    this.send({ type: "cancel" });
+  }
+
+  /** What tells the changes of this run from others. */
+  get changesKey(): string {
+    return JSON.stringify(this.setting?.log ?? null);
+  }
+
+  /** The scenario as it is now, as a TOML file has it. */
+  exported(): Promise<string> {
+    this.send({ type: "export" });
+    return new Promise((take) => {
+      this.takeExported = take;
+    });
+  }
+
   select(robot: string | null): void {
     this.selected = robot;
     this.map = null;
@@ -132,6 +164,7 @@ export class Session implements Listener {
       this.connection.close();
       return;
     }
+    this.saving = null;
     if (this.phase === "open") this.goOn = this.state?.playing ? this.state.speed : undefined;
     this.phase = "lost";
     this.again_ms = again_ms;
@@ -148,6 +181,9 @@ export class Session implements Listener {
     else if (message.type === "state") this.told(message);
     else if (message.type === "map") this.mapped(message);
     else if (message.type === "refused") this.refuse(message);
+    else if (message.type === "saving") this.saving = message;
+    else if (message.type === "saved") this.keep(message.recording);
+    else if (message.type === "exported") this.takeExported?.(message.text);
     else if (message.type === "ended") this.end(message);
   }
 
@@ -190,7 +226,13 @@ export class Session implements Listener {
     this.onFrame();
   }
 
-  private refuse({ about, faults }: Refused): void {
+  private keep(recording: RecordingEntry | null): void {
+    this.saving = null;
+    if (recording) this.saved = { recording, changes: this.savedChanges };
+  }
+
+  private refuse({ about, path, faults }: Refused): void {
+    if (about === "save") this.saving = null;
     if (about === "open") {
       this.faults = faults;
       this.phase = "refused";
@@ -198,7 +240,7 @@ export class Session implements Listener {
       return;
     }
     const words = faults.map((fault) => fault.message).join(" ");
-    this.refusals = { ...this.refusals, [about === "change" ? this.lastChange : about]: words };
+    this.refusals = { ...this.refusals, [path ?? about]: words };
   }
 
   private end(ended: Ended): void {
@@ -209,14 +251,14 @@ export class Session implements Listener {
 
   /** The run as it stands, so that a line that was lost goes on where it was. */
   private opening(): Command {
-    const { scenario, text, study, seed, run } = this.source;
-    const changes: Change[] = this.setting?.changes ?? this.source.changes;
+    const { scenario, text, study, recording, seed, run } = this.source;
+    const changes: Change[] | null = this.setting ? this.setting.log : this.source.changes;
     const tick = this.state?.tick ?? this.source.tick;
-    return { type: "open", scenario, text, study, ...(seed === null ? {} : { seed }), run, changes, tick };
+    const chance = seed === null ? {} : { seed };
+    return { type: "open", scenario, text, study, recording, ...chance, run, changes, tick };
   }
 
   private sendChange(path: string, value: Json): void {
-    this.lastChange = path;
     this.send({ type: "change", path, value });
   }
 

@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 import type { State } from "../net/protocol";
-import { statusWords, times } from "./words";
+import { bytes, statusWords, times } from "./words";
 
 const state: State = {
   type: "state",
@@ -12,6 +12,7 @@ const state: State = {
   speed: 3,
   real: 3.14,
   over: false,
+  differs_at: null,
   outcome: { found: 2 },
   mind: null,
 };
@@ -27,6 +28,12 @@ test("nothing is said of items where there are none, nor of robots that are not 
   expect(statusWords(paused, [0, 0, 0, 0, 0], 0, "open")).toBe("12.3 s, 0 robots; paused.");
   expect(statusWords(paused, [1, 0, 0, 0, 0], 0, "open")).toBe("12.3 s, 1 robot: all clear; paused.");
 });
+
+test.each([
+  [1, "1 byte"],
+  [12_345, "12 kB"],
+  [6_292_524, "6.3 MB"],
+])("%d bytes are %s", (count, words) => expect(bytes(count)).toBe(words));
 
 test("a lost line is said before all else", () => {
   expect(statusWords(state, [4], 4, "lost")).toBe("The connection is lost.");

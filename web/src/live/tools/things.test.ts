@@ -32,7 +32,9 @@ const setting: Setting = {
     { kind: "scrap", at_m: [1, 19], sought: false },
   ],
   maps: [],
+  item_kinds: ["mine"],
   changes: [],
+  log: [],
 };
 const bench: Bench = { setting, world: worldOf(setting), reach_m: 0.5, itemKind: "mine" };
 

@@ -1,0 +1,41 @@
+/** Recordings that the fake server has, and those that pages save on it. */
+export class Shelf {
+  constructor() {
+    this.runs = new Map();
+    this.damaged = {
+      id: "old/damaged.mcap",
+      bytes: 19,
+      saved_s: 1.6e9,
+      of: null,
+      fault: "is no MCAP file, or damaged: not a valid MCAP file",
+    };
+    const made = { scenario: "search", text: null, seed: "3", run: "0" };
+    this.put("field.mcap", { ...made, changes: [[20, "robots.rover.count", 6]], edge: 200 });
+  }
+
+  put(id, run) {
+    this.runs.set(id, run);
+    return this.entry(id, run);
+  }
+
+  find(id) {
+    return this.runs.get(id);
+  }
+
+  entry(id, { scenario, seed, run, edge }) {
+    const of = { scenario: `${scenario ?? "scenario"}.toml`, seed, run, program: "0.1.0" };
+    const bytes = 4000 + 500 * edge;
+    return {
+      id,
+      bytes,
+      saved_s: 1.7e9 + this.runs.size,
+      of: { ...of, steps: edge, length_s: edge / 10 },
+      fault: null,
+    };
+  }
+
+  listed() {
+    const rows = [...this.runs].map(([id, run]) => this.entry(id, run));
+    return [...rows.reverse(), this.damaged];
+  }
+}
