@@ -80,6 +80,26 @@ test("changes that an address does not hold are saved, and the recording is its 
   await expect(other.locator("#status")).toContainText("0.3 s");
 });
 
+test("a large file of one's own is saved, so that its address is of use elsewhere", async ({
+  page,
+  fake,
+  context,
+}) => {
+  const noise = Array.from({ length: 9000 }, (_, i) => ((i * 2654435761) >>> 0).toString(36)).join("\n# ");
+  const buffer = Buffer.from(`engine = "metric"\n# ${noise}`);
+  await page.goto(fake.url);
+  await page
+    .locator("input[type=file]")
+    .setInputFiles({ name: "my.toml", mimeType: "application/toml", buffer });
+  await expect(page.locator("#status")).toContainText("4 robots");
+  await expect.poll(() => page.url(), { timeout: 15_000 }).toContain("recording=recordings/");
+  await page.getByRole("application").press(".");
+  await expect.poll(() => page.url()).toContain("tick=1");
+  const other = await context.newPage();
+  await other.goto(page.url());
+  await expect(other.locator("#status")).toContainText("0.1 s, 4 robots");
+});
+
 test("a change in a recorded run makes it another, whose address has all changes", async ({ page, fake }) => {
   await page.goto(live(fake, "recording=field.mcap&tick=30"));
   await expect(page.locator("#status")).toContainText("3.0 s, 6 robots");

@@ -7,13 +7,13 @@ const warm_ms = 4000;
 const measured_ms = 10_000;
 const metersEach = 5;
 
-/** Robots that go straight on over a field without edges, a step a thirtieth of a second. */
-const crowd = (robots) => {
+/** Robots that go straight on over a field without edges. */
+const crowd = (robots, step_s) => {
   const side_m = Math.ceil(Math.sqrt(robots)) * metersEach;
   return `engine = "metric"
 summary = "${robots} robots."
 merit = "equation-5.2"
-clock = { step_s = 0.03333, cap_s = 1e5 }
+clock = { step_s = ${step_s}, cap_s = 1e5 }
 world = { size_m = [${side_m}, ${side_m}], wraps = true }
 [robots.rover]
 count = ${robots}
@@ -32,24 +32,44 @@ cohesion = 0.03
 `;
 };
 
-export async function measureCrowd(browser, server, robots) {
-  const name = `crowd-${robots}`;
-  await writeFile(join(server.folder, `${name}.toml`), crowd(robots));
+/** Counts how often robots are drawn: between what the server tells, too. */
+function countPictures() {
+  let isDrawn = false;
+  globalThis.pictures = 0;
+  const draw = WebGL2RenderingContext.prototype.drawElements;
+  WebGL2RenderingContext.prototype.drawElements = function (...given) {
+    isDrawn = true;
+    return draw.apply(this, given);
+  };
+  const ask = globalThis.requestAnimationFrame.bind(globalThis);
+  globalThis.requestAnimationFrame = (act) =>
+    ask((time_ms) => {
+      isDrawn = false;
+      act(time_ms);
+      if (isDrawn) globalThis.pictures += 1;
+    });
+}
+
+export async function measureCrowd(browser, server, robots, step_s) {
+  const name = `crowd-${robots}-${step_s}`;
+  await writeFile(join(server.folder, `${name}.toml`), crowd(robots, step_s));
   const page = await browser.newPage({ viewport: { width: 1280, height: 720 } });
-  let drawn = 0;
-  page.on("websocket", (socket) =>
-    socket.on("framesent", ({ payload }) => (drawn += String(payload).includes('"got"') ? 1 : 0)),
-  );
+  await page.addInitScript(countPictures);
   await page.goto(`${server.url}/#/live?scenario=${name}.toml&seed=0&run=0`);
   await page.getByRole("button", { name: "Play", exact: true }).click();
   const pause = (ms) => new Promise((done) => setTimeout(done, ms));
   await pause(warm_ms);
   const { pid } = server.process;
-  const now = () => [drawn, usedBelow_ms(pid), usedBy_ms(pid), performance.now()];
-  const before = now();
+  const now = async () => [
+    await page.evaluate("pictures"),
+    usedBelow_ms(pid),
+    usedBy_ms(pid),
+    performance.now(),
+  ];
+  const before = await now();
   await pause(measured_ms);
-  const [frames, browser_ms, server_ms, time_ms] = now().map((value, i) => value - before[i]);
+  const [frames, browser_ms, server_ms, time_ms] = (await now()).map((value, i) => value - before[i]);
   await page.close();
   const a = (ms) => (ms / frames).toFixed(1);
-  return `${robots} robots: ${((1000 * frames) / time_ms).toFixed(1)} frames/s; of the processor a frame: browser ${a(browser_ms)} ms, server with its simulation ${a(server_ms)} ms`;
+  return `${robots} robots, steps of ${step_s} s: ${((1000 * frames) / time_ms).toFixed(1)} frames/s; of the processor a frame: browser ${a(browser_ms)} ms, server with its simulation ${a(server_ms)} ms`;
 }

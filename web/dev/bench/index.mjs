@@ -9,6 +9,9 @@ import { measureChanges } from "./changes.mjs";
 import { measureCrowd } from "./crowd.mjs";
 import { measureLoad } from "./load.mjs";
 
+/** As often as pictures are drawn, and so that robots are drawn on their way between steps. */
+const steps_s = [0.0333, 0.1];
+
 const given = process.argv.slice(2).map(Number);
 const server = new RealServer();
 await server.start();
@@ -19,7 +22,7 @@ try {
     console.log(await measureChanges(browser, server));
   }
   for (const robots of given.length > 0 ? given : [10_000, 50_000])
-    console.log(await measureCrowd(browser, server, robots));
+    for (const step_s of steps_s) console.log(await measureCrowd(browser, server, robots, step_s));
 } finally {
   await browser.close();
   await server.end();

@@ -1,4 +1,6 @@
 import { type Link, longestLink, writeLink } from "../run/link";
+import { isKept } from "../run/packed";
+import type { Session } from "../run/session.svelte";
 import type { Desk } from "./desk.svelte";
 
 const most_ms = 1000;
@@ -14,7 +16,7 @@ export function keepAddress(desk: Desk): void {
     timer = undefined;
     const link = desk.now;
     const hash = writeLink(link);
-    const kept = hash.length > longestLink ? names.hash(link) : hash;
+    const kept = hash.length > longestLink || isKept(link.text) ? names.hash(link) : hash;
     if (kept === null) timer = setTimeout(write, rest_ms);
     if (!kept || kept === location.hash) return;
     written = performance.now();
@@ -28,7 +30,7 @@ export function keepAddress(desk: Desk): void {
   $effect(() => () => clearTimeout(timer));
 }
 
-/** Addresses of runs with more changes than an address holds: their recordings' names stand for them. */
+/** Addresses of runs of which an address does not hold all: their recordings' names stand for it. */
 export class RecordedNames {
   private seen = "";
   private tried = "";
@@ -39,10 +41,8 @@ export class RecordedNames {
   hash(link: Link): string | null {
     const { session } = this.desk;
     const key = session.changesKey;
-    if (session.saved?.changes === key) {
-      const recording = session.saved.recording.id;
-      return writeLink({ ...link, scenario: null, text: null, recording, changes: null });
-    }
+    const named = session.saved && recorded(link, session.saved, key);
+    if (named && named.length <= longestLink) return named;
     const rests = this.seen === key;
     this.seen = key;
     if (!rests || session.saving) return null;
@@ -51,4 +51,10 @@ export class RecordedNames {
     this.tried = key;
     return "";
   }
+}
+
+/** The address by a recording's name, with all changes if they are not the recording's. */
+function recorded(link: Link, saved: NonNullable<Session["saved"]>, key: string): string {
+  const changes = saved.changes === key ? null : link.changes;
+  return writeLink({ ...link, scenario: null, text: null, recording: saved.recording.id, changes });
 }

@@ -8,15 +8,21 @@ import type { Desk } from "./desk.svelte";
 import { type Canvases, Drawing } from "./drawing";
 import type { Scene } from "./layers/layer";
 import { Trails } from "./layers/trail_store";
+import { Motion, reachOf } from "./motion";
 import { Hand } from "./tools/hand";
 
 const tapReach_px = 14;
+/** More robots than this are drawn on their way only after a pause: some thirty times a second. */
+const crowd = 1000;
+const crowdPause_ms = 17;
+const isStill = matchMedia("(prefers-reduced-motion: reduce)");
 
 /** The picture of the world: what is seen of it, when it is drawn, and what hands do on it. */
 export class Stage {
   private camera: Camera = { x: 0, y: 0, scale: 1, width: 1, height: 1 };
   private readonly drawing: Drawing;
   private readonly trails = new Trails();
+  private readonly motion = new Motion();
   private readonly hand: Hand;
   private world: World | null = null;
   private worldIsOf: unknown = null;
@@ -128,19 +134,28 @@ export class Stage {
     const { setting, arrivals } = this.desk.session;
     if (!setting || this.camera.width <= 1) return;
     const fresh = arrivals.take(setting.generation);
+    if (fresh) this.motion.put(fresh, performance.now(), reachOf(setting));
     const scene = this.scene();
     if (!scene) return;
-    if (fresh) this.trails.put(fresh, scene.selected);
+    if (scene.frame) this.trails.put(scene.frame, scene.selected);
     this.frameView(scene.world);
     this.drawing.draw(scene, this.camera, this.desk.on);
+    if (this.motion.isUnderWay) this.goOn(setting.robots.length);
     if (!fresh) return;
     arrivals.drawn(fresh);
     this.desk.session.drew();
   }
 
+  /** Draws robots on their way. */
+  private goOn(robots: number): void {
+    if (robots <= crowd) this.redraw(false);
+    else setTimeout(() => this.redraw(false), crowdPause_ms);
+  }
+
   private scene(): Scene | null {
-    const { setting, state, map, arrivals, selected } = this.desk.session;
+    const { setting, state, map, selected } = this.desk.session;
     if (!setting) return null;
+    const frame = this.motion.at(performance.now(), state?.playing === true && !isStill.matches);
     if (this.worldIsOf !== setting) {
       this.world = worldOf(setting);
       this.worldIsOf = setting;
@@ -149,7 +164,7 @@ export class Stage {
     return {
       setting,
       world: this.world ?? worldOf(setting),
-      frame: arrivals.shown?.generation === setting.generation ? arrivals.shown : null,
+      frame: frame?.generation === setting.generation ? frame : null,
       mind: state?.mind ?? null,
       map,
       selected: selected === null ? -1 : setting.robots.indexOf(selected),

@@ -356,16 +356,7 @@ export interface Ended {
 }
 
 export type Message =
-  | Opened
-  | Setting
-  | State
-  | MapPart
-  | Refused
-  | Saving
-  | Saved
-  | Exported
-  | Ended
-  | Studying;
+  Opened | Setting | State | MapPart | Refused | Saving | Saved | Exported | Ended | Studying;
 
 const types = [
   "opened",

@@ -8,9 +8,14 @@ export async function pack(text: string): Promise<string> {
   return packed.length <= longest ? packed : keep(text);
 }
 
+/** Whether a packed text is of use in this tab of this browser only. */
+export function isKept(packed: string | null): boolean {
+  return packed?.startsWith("k") ?? false;
+}
+
 /** The text; null if it is not (or no longer) to be had. */
 export async function unpack(packed: string): Promise<string | null> {
-  if (packed.startsWith("k")) return sessionStorage.getItem(packed);
+  if (isKept(packed)) return sessionStorage.getItem(packed);
   try {
     const bytes = Uint8Array.from(atob(unescaped(packed.slice(1))), (sign) => sign.charCodeAt(0));
     return new TextDecoder().decode(await through(new DecompressionStream("deflate-raw"), bytes));

@@ -1,0 +1,44 @@
+import type { Page } from "@playwright/test";
+import { expect, live, test } from "./page";
+
+/** Pictures that are drawn of robots, and frames that came for them, while a run plays. */
+async function play(page: Page, url: string): Promise<() => Promise<[pictures: number, frames: number]>> {
+  await page.addInitScript(() => {
+    const draw = WebGL2RenderingContext.prototype.drawElements;
+    Object.assign(globalThis, { pictures: 0 });
+    WebGL2RenderingContext.prototype.drawElements = function (...given) {
+      // Of all robots at once, and marks are drawn besides.
+      if (given[3] === 0 && given[1] === 6 * 4) (globalThis as unknown as { pictures: number }).pictures += 1;
+      return draw.apply(this, given);
+    };
+  });
+  let frames = 0;
+  page.on("websocket", (socket) =>
+    socket.on("framesent", ({ payload }) => (frames += String(payload).includes('"got"') ? 1 : 0)),
+  );
+  await page.goto(url);
+  await expect(page.locator("#status")).toContainText("4 robots");
+  await page.keyboard.press("Space");
+  await expect.poll(() => frames).toBeGreaterThan(3);
+  const begun = { frames, pictures: Number(await page.evaluate("pictures")) };
+  return async () => [Number(await page.evaluate("pictures")) - begun.pictures, frames - begun.frames];
+}
+
+test("between two steps robots are drawn on their way", async ({ page, fake }) => {
+  const drawn = await play(page, live(fake, "scenario=search-mind&seed=7"));
+  await expect
+    .poll(async () => {
+      const [pictures, frames] = await drawn();
+      return frames > 5 && pictures > 1.5 * frames;
+    })
+    .toBe(true);
+});
+
+test("who wants no motion sees each step as it is", async ({ page, fake }) => {
+  await page.emulateMedia({ reducedMotion: "reduce" });
+  const drawn = await play(page, live(fake, "scenario=search-mind&seed=7"));
+  await expect.poll(async () => (await drawn())[1]).toBeGreaterThan(10);
+  const [pictures, frames] = await drawn();
+  // A word of the server has the picture drawn once more.
+  expect(pictures).toBeLessThan(1.3 * frames + 3);
+});
