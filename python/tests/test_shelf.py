@@ -52,6 +52,14 @@ def changed(page: Page) -> dict[str, Any]:
     return page.until("state", tick=70)
 
 
+def until_there_are(files: int, folder: Path) -> None:
+    for _ in range(200):
+        if len(list(folder.glob(f"{FOLDER}/*"))) == files:
+            return
+        time.sleep(0.01)
+    pytest.fail(f"there are not {files} files in two seconds")
+
+
 def turning(turn_rate_rad_s: float) -> Command:
     motion = {"speed_m_s": 0.5, "turn_rate_rad_s": turn_rate_rad_s}
     return cast("Command", {"motion": motion, "requests": [], "outbox": []})
@@ -172,17 +180,13 @@ def test_a_page_that_goes_leaves_nothing(client: TestClient, tmp_path: Path) -> 
         page.say("play", speed=None)
         page.until("state", over=True, playing=False)
         page.say("save")
-        page.until("saving")
-    for _ in range(100):
-        if not list((tmp_path / FOLDER).iterdir()):
-            return
-        time.sleep(0.05)
-    pytest.fail("there is still a file")
+        until_there_are(1, tmp_path)
+    until_there_are(0, tmp_path)
 
 
 def test_a_run_that_is_too_long_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("agent_economy.server.saving.MOST_ROBOT_STEPS", 100)
-    with pytest.raises(ae.InputError, match="at most 100 are saved from here"):
+    with pytest.raises(ae.InputError, match="at most 100 steps of a robot"):
         Saving(begun(30).course, tmp_path).write()
     assert list(tmp_path.iterdir()) == []
 

@@ -17,6 +17,9 @@ from agent_economy.simulation import Simulation
 MOST_ROBOT_STEPS = 10_000_000
 """Steps times robots: half a gigabyte."""
 
+STEP_ROBOTS = 10
+"""A step takes as much room besides as so many robots."""
+
 UNFINISHED = ".unfinished-"
 """What names of files begin with until they are whole; hidden ones are never listed."""
 
@@ -54,7 +57,7 @@ class Saving:
         """
         course = self.course
         simulation = Simulation(course.scenario, course.seed, course.run)
-        see_to_room(len(simulation.robots) * course.edge)
+        see_to_room(course.edge * room_of(simulation))
         unfinished = self._folder / f"{UNFINISHED}{uuid4().hex}{ENDING}"
         with in_words(self._folder):
             try:
@@ -71,7 +74,7 @@ class Saving:
         with Recording(simulation, file) as recording:
             for tick in taken_again(recording, self.course):
                 self.done = tick
-                robot_steps += len(simulation.robots)
+                robot_steps += room_of(simulation)
                 see_to_room(robot_steps)
                 if self._is_stopped:
                     return False
@@ -93,6 +96,11 @@ def taken_again(recording: Recording, course: Course) -> Iterator[int]:
         yield simulation.tick
 
 
+def room_of(simulation: Simulation) -> int:
+    """Return what a step takes, in robots."""
+    return len(simulation.robots) + STEP_ROBOTS
+
+
 def see_to_room(robot_steps: int) -> None:
     """Refuse what is too long.
 
@@ -101,8 +109,9 @@ def see_to_room(robot_steps: int) -> None:
     """
     if robot_steps > MOST_ROBOT_STEPS:
         message = (
-            f"The run has {robot_steps:,} steps of robots so far: at most {MOST_ROBOT_STEPS:,} are "
-            "saved from here. agent-economy run --record FILE --every 10 saves longer ones."
+            f"The run is too long to be saved from here: at most {MOST_ROBOT_STEPS:,} steps of a "
+            f"robot are, and each step counts for {STEP_ROBOTS} more. agent-economy run --record "
+            "FILE --every 10 saves longer ones."
         )
         raise InputError(message)
 

@@ -56,5 +56,6 @@ export class RecordedNames {
 /** The address by a recording's name, with all changes if they are not the recording's. */
 function recorded(link: Link, saved: NonNullable<Session["saved"]>, key: string): string {
   const changes = saved.changes === key ? null : link.changes;
-  return writeLink({ ...link, scenario: null, text: null, recording: saved.recording.id, changes });
+  const { id } = saved.recording;
+  return writeLink({ ...link, scenario: null, text: null, study: null, recording: id, changes });
 }
