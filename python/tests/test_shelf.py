@@ -36,6 +36,17 @@ def page(client: TestClient) -> Iterator[Page]:
         yield Page(socket)
 
 
+@pytest.fixture
+def slowly(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Have each step that is saved take so long that there is time to stop."""
+
+    def room_of(_: ae.Simulation) -> int:
+        time.sleep(0.01)
+        return 1
+
+    monkeypatch.setattr("agent_economy.server.saving.room_of", room_of)
+
+
 def saved(page: Page) -> dict[str, Any]:
     """Save a run, and return its recording's row."""
     page.say("save")
@@ -152,6 +163,7 @@ def test_a_run_that_is_not_as_recorded_is_told_with_its_tick(tmp_path: Path) -> 
     assert timeline.replay.differs_at == ae.rerun(path).differs_at
 
 
+@pytest.mark.usefixtures("slowly")
 def test_what_is_cancelled_leaves_nothing(page: Page, tmp_path: Path) -> None:
     page.open()
     page.say("play", speed=None)
@@ -163,6 +175,7 @@ def test_what_is_cancelled_leaves_nothing(page: Page, tmp_path: Path) -> None:
     assert list((tmp_path / FOLDER).iterdir()) == []
 
 
+@pytest.mark.usefixtures("slowly")
 def test_one_recording_at_a_time_is_saved(page: Page) -> None:
     page.open()
     page.say("play", speed=None)
@@ -173,6 +186,7 @@ def test_one_recording_at_a_time_is_saved(page: Page) -> None:
     assert page.until("saved")["recording"]["fault"] is None
 
 
+@pytest.mark.usefixtures("slowly")
 def test_a_page_that_goes_leaves_nothing(client: TestClient, tmp_path: Path) -> None:
     with client.websocket_connect(WS) as socket:
         page = Page(socket)
