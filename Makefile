@@ -97,6 +97,7 @@ replication: .venv/installed ## Recompute every figure of docs/replication.md
 
 schemas: ## Write the JSON Schema and the reference of scenarios anew from their types
 	RENEW_SCHEMAS=1 cargo test --locked -p agent-economy-sim --test schemas -- --test-threads=1
+	RENEW_SCHEMAS=1 cargo test --locked -p agent-economy-classic --test schema
 
 web: ## Build the page that `agent-economy ui` shows (needs Node 20 or newer)
 	$(PYTHON) packaging/backend.py

@@ -3,6 +3,7 @@
 //! * [`geometry`], [`trig`]: points, walls, pillars and polygons; sines that are the same on every
 //!   machine;
 //! * [`random`]: random streams keyed by (seed, run, entity, purpose);
+//! * [`hash`]: telling states apart;
 //! * [`map`]: occupancy maps of ROS;
 //! * [`placement`]: where items and robots are put, by rejection and without overlaps;
 //! * [`reach`]: which places no robot can come to;
@@ -14,6 +15,7 @@
 pub mod document;
 pub mod fault;
 pub mod geometry;
+pub mod hash;
 pub mod map;
 pub mod noise;
 pub mod philox;

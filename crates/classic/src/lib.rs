@@ -5,7 +5,8 @@
 //! |---|---|
 //! | what the world is | [`world`], [`heading`], [`clock`] |
 //! | what a robot does | [`robot`], `decision`, [`simulation`]: the *plain form*, rule by rule |
-//! | when a run is over | [`contact`], [`search`] |
+//! | when a run is over | [`contact`], [`search`](mod@search) |
+//! | how a page steps and changes a run | [`run`] |
 //! | how studies run it | [`fast`] (the same outcomes, tested), [`start`], [`replicate`](mod@replicate), [`runner`] |
 //! | what scenarios say of it | [`scenario`] |
 //! | what a trace holds | [`trace`](mod@trace) |
@@ -17,6 +18,7 @@ pub mod fast;
 pub mod heading;
 pub mod replicate;
 pub mod robot;
+pub mod run;
 pub mod runner;
 pub mod scenario;
 pub mod search;
@@ -30,7 +32,8 @@ pub use fast::FastSearch;
 pub use heading::Heading;
 pub use replicate::replicate;
 pub use robot::{Colour, Robot, Speed, Start};
+pub use run::Run;
 pub use runner::Configuration;
-pub use search::{Outcome, Task, search};
+pub use search::{Outcome, Search, Task, search};
 pub use simulation::Simulation;
 pub use trace::trace;

@@ -95,6 +95,18 @@ impl Robot {
         cell_of(self.x_px, self.y_px)
     }
 
+    /// All of it that shows, for a hash.
+    pub(crate) fn words(&self) -> [u64; 3] {
+        let [x, y] = [self.x_px, self.y_px].map(|px| u64::from(px.to_bits()));
+        let [left, right] = [self.left_turns, self.right_turns].map(i16::cast_unsigned);
+        let drawn = u64::from(self.speed.number()) << 8 | self.colour as u64;
+        [
+            x << 32 | y,
+            u64::from(left) << 32 | u64::from(right),
+            u64::from(self.heading.degrees()) << 16 | drawn,
+        ]
+    }
+
     /// One paint's move.
     pub(crate) fn advance(&mut self) {
         let (x_px, y_px) = self.heading.move_px();
@@ -124,7 +136,7 @@ impl Robot {
     }
 }
 
-fn cell_of(x_px: f32, y_px: f32) -> Cell {
+pub(crate) fn cell_of(x_px: f32, y_px: f32) -> Cell {
     Cell {
         x: nearest_cell(x_px),
         y: nearest_cell(y_px),

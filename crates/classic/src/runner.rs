@@ -60,7 +60,7 @@ impl Configuration {
         clippy::cast_precision_loss,
         reason = "collisions are bounded; paints beyond 2^53 take years to compute"
     )]
-    fn values(&self, outcome: Outcome) -> [f64; 6] {
+    pub(crate) fn values(&self, outcome: Outcome) -> [f64; 6] {
         let in_time = outcome.paints.filter(|at| *at <= self.task.cap_paints);
         // The last paint within the cap may be a rounding error beyond it: see `whole_paints`.
         let time_s = in_time.map(|at| (at as f64 / self.clock.paints_per_s).min(self.clock.cap_s));

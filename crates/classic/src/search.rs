@@ -1,11 +1,11 @@
-//! A run of the plain form until all items are found, or proven never to be.
+//! A run of the plain form, paint by paint, and what comes of it: items found, collisions, an end.
 
-use crate::contact::{Contact, Found, Pose};
+use crate::contact::{Contact, Pose};
 use crate::heading::Heading;
-use crate::robot::{Colour, Start};
+use crate::robot::{Colour, Robot, Start, cell_of};
 use crate::simulation::{Simulation, State};
-use crate::world::Cell;
-use std::collections::HashSet;
+use crate::world::{Cell, ITEMS};
+use base::hash::Hash;
 
 /// What is asked of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,118 +30,229 @@ pub struct Outcome {
 /// Runs the plain form from `starts`. The reference for [`crate::fast`]: slow and obvious.
 #[must_use]
 pub fn search(starts: &[Start], task: Task) -> Outcome {
-    let mut run = Search::new(starts, task);
-    loop {
-        if run.found == Found::ALL {
-            return run.outcome(Some(run.simulation.paint));
-        }
-        if run.has_recurred && run.simulation.paint >= task.cap_paints {
-            return run.outcome(None);
-        }
-        run.step();
-    }
+    Search::new(starts, task).concluded()
 }
 
-struct Search {
+/// A run of the plain form, and what has come of it.
+#[derive(Debug, Clone)]
+pub struct Search {
     simulation: Simulation,
     task: Task,
-    /// Pixels of each robot at the last decision, and paints since.
-    decided_px: Vec<(f32, f32)>,
-    paints_since: u8,
-    /// Headings with which the robots looked at the last decision.
-    looked: Vec<Heading>,
-    found: Found,
-    found_by_cap: Found,
+    /// One a robot.
+    marks: Vec<Mark>,
+    /// The paint at which each item was found.
+    found_at: [Option<u64>; ITEMS.len()],
     collisions: u64,
-    seen: HashSet<State>,
-    has_recurred: bool,
+    recurrence: Recurrence,
+}
+
+/// A robot at its last decision, or as it started if it has not decided yet.
+#[derive(Debug, Clone, Copy)]
+struct Mark {
+    px: (f32, f32),
+    /// The heading with which it looked.
+    looked: Heading,
+    paints_since: u8,
+}
+
+/// Whether a state has come again, which is found by Brent's method: the states of decisions 1, 2,
+/// 4, 8, ... are kept, and every later one is compared with the last of them.
+#[derive(Debug, Clone, Default)]
+struct Recurrence {
+    decisions: u64,
+    kept: Option<State>,
+    is_proven: bool,
 }
 
 impl Search {
-    fn new(starts: &[Start], task: Task) -> Self {
+    /// A run before its first paint.
+    #[must_use]
+    pub fn new(starts: &[Start], task: Task) -> Self {
         let simulation = Simulation::new(starts);
         let mut search = Self {
-            decided_px: pixels(&simulation),
-            looked: headings(&simulation),
+            marks: simulation.robots.iter().map(Mark::new).collect(),
             simulation,
             task,
-            paints_since: 0,
-            found: Found::default(),
-            found_by_cap: Found::default(),
+            found_at: [None; ITEMS.len()],
             collisions: 0,
-            seen: HashSet::new(),
-            has_recurred: false,
+            recurrence: Recurrence::default(),
         };
         search.judge();
         search
     }
 
-    fn step(&mut self) {
-        let looked = headings(&self.simulation);
-        self.paints_since += 1;
+    /// The original's run.
+    #[must_use]
+    pub fn simulation(&self) -> &Simulation {
+        &self.simulation
+    }
+
+    /// The paint at which each item was found, if it was.
+    #[must_use]
+    pub fn found_at(&self) -> [Option<u64>; ITEMS.len()] {
+        self.found_at
+    }
+
+    /// Whether nothing more is counted: all is found, the cap is reached, or a state has come again,
+    /// so that what is not found never will be.
+    #[must_use]
+    pub fn is_over(&self) -> bool {
+        let is_capped = self.simulation.paint >= self.task.cap_paints;
+        self.is_complete() || self.recurrence.is_proven || is_capped
+    }
+
+    /// One paint, also after the run is over.
+    pub fn step(&mut self) {
+        let is_counted = !self.is_complete() && self.simulation.paint < self.task.cap_paints;
+        let looked = self.simulation.robots.iter().map(|robot| robot.heading);
+        let looked: Vec<Heading> = looked.collect();
+        self.marks
+            .iter_mut()
+            .for_each(|mark| mark.paints_since += 1);
         if self.simulation.step() {
-            self.decided_px = pixels(&self.simulation);
-            self.looked = looked;
-            self.paints_since = 0;
-            self.has_recurred |= !self.seen.insert(self.simulation.state());
-            self.count_collisions();
+            let robots = self.simulation.robots.iter().zip(looked);
+            let mark = |(robot, looked)| Mark {
+                looked,
+                ..Mark::new(robot)
+            };
+            self.marks = robots.map(mark).collect();
+            self.recurrence.note(self.simulation.state());
+            self.collisions += if is_counted { self.collided() } else { 0 };
         }
         self.judge();
     }
 
-    fn judge(&mut self) {
-        for index in 0..self.simulation.robots.len() {
-            self.found |= Found::of(|item| self.is_contact(index, item));
+    /// Goes on with another task, and with a team of as many robots as there are starts: the last
+    /// ones leave, or more come in at theirs.
+    pub fn change(&mut self, task: Task, starts: &[Start]) {
+        let robots = &mut self.simulation.robots;
+        // What is proven is so for this team and this contact.
+        if robots.len() != starts.len() || task.contact != self.task.contact {
+            self.recurrence = Recurrence::default();
         }
-        if self.simulation.paint <= self.task.cap_paints {
-            self.found_by_cap = self.found;
-        }
+        self.task = task;
+        robots.truncate(starts.len());
+        robots.extend(starts.iter().skip(robots.len()).map(Robot::new));
+        self.marks.truncate(robots.len());
+        self.marks
+            .extend(robots.iter().skip(self.marks.len()).map(Mark::new));
+        // As it was refreshed at the last decision, had these been the robots.
+        self.simulation
+            .grid
+            .refresh(self.marks.iter().map(Mark::cell));
+        self.judge();
     }
 
-    fn is_contact(&self, index: usize, item: Cell) -> bool {
-        let robot = &self.simulation.robots[index];
-        let contact = self.task.contact;
-        if contact.is_by_paint() {
-            let (x_px, y_px) = self.decided_px[index];
-            let px = (f64::from(x_px), f64::from(y_px));
-            let speed = robot.speed.number();
-            Pose::new(px, robot.heading, speed, self.paints_since).touches(item)
-        } else {
-            self.paints_since == 0 && contact.holds(robot.cell(), self.looked[index], item)
-        }
-    }
-
-    fn count_collisions(&mut self) {
-        if self.simulation.paint <= self.task.cap_paints {
-            let robots = self.simulation.robots.iter();
-            let red = robots.filter(|robot| robot.colour == Colour::Red);
-            self.collisions += red.count() as u64;
-        }
-    }
-
-    fn outcome(&self, paints: Option<u64>) -> Outcome {
+    /// What has come of it so far: nothing is said of when the last item is found before it is.
+    #[must_use]
+    pub fn outcome(&self) -> Outcome {
+        let cap_paints = self.task.cap_paints;
+        let finds = self.found_at.iter().flatten();
+        let in_time = finds.clone().filter(|at| **at <= cap_paints);
         Outcome {
-            paints,
-            found: self.found_by_cap.count(),
+            paints: finds.max().copied().filter(|_| self.is_complete()),
+            found: in_time.map(|_| 1).sum(),
             collisions: self.collisions,
         }
     }
+
+    /// What comes of it in the end, if it goes on without change.
+    #[must_use]
+    pub fn concluded(&self) -> Outcome {
+        let mut rest = self.clone();
+        while !rest.is_concluded() {
+            rest.step();
+        }
+        rest.outcome()
+    }
+
+    /// A number that tells runs apart that differ in anything that shows, or will.
+    #[must_use]
+    pub fn hash(&self) -> u64 {
+        let mut hash = Hash::new();
+        hash.add(self.simulation.paint);
+        hash.add(u64::from(self.simulation.carry.cast_unsigned()));
+        for (robot, mark) in self.simulation.robots.iter().zip(&self.marks) {
+            robot.words().into_iter().for_each(|word| hash.add(word));
+            mark.words().into_iter().for_each(|word| hash.add(word));
+        }
+        for found_at in self.found_at {
+            hash.add(found_at.map_or(0, |paint| paint + 1));
+        }
+        hash.add(self.collisions);
+        hash.add(self.recurrence.is_proven.into());
+        hash.value()
+    }
+
+    fn is_complete(&self) -> bool {
+        self.found_at.iter().all(Option::is_some)
+    }
+
+    fn is_concluded(&self) -> bool {
+        let is_capped = self.simulation.paint >= self.task.cap_paints;
+        self.is_complete() || (self.recurrence.is_proven && is_capped)
+    }
+
+    fn judge(&mut self) {
+        for (number, item) in ITEMS.into_iter().enumerate() {
+            if self.found_at[number].is_none() && self.is_found(item) {
+                self.found_at[number] = Some(self.simulation.paint);
+            }
+        }
+    }
+
+    fn is_found(&self, item: Cell) -> bool {
+        let mut robots = self.simulation.robots.iter().zip(&self.marks);
+        robots.any(|(robot, mark)| self.is_contact(robot, mark, item))
+    }
+
+    fn is_contact(&self, robot: &Robot, mark: &Mark, item: Cell) -> bool {
+        let contact = self.task.contact;
+        if contact.is_by_paint() {
+            let px = (f64::from(mark.px.0), f64::from(mark.px.1));
+            let speed = robot.speed.number();
+            Pose::new(px, robot.heading, speed, mark.paints_since).touches(item)
+        } else {
+            mark.paints_since == 0 && contact.holds(robot.cell(), mark.looked, item)
+        }
+    }
+
+    /// Robots on a cell with something else on it.
+    fn collided(&self) -> u64 {
+        let robots = self.simulation.robots.iter();
+        robots.filter(|robot| robot.colour == Colour::Red).count() as u64
+    }
 }
 
-fn headings(simulation: &Simulation) -> Vec<Heading> {
-    simulation
-        .robots
-        .iter()
-        .map(|robot| robot.heading)
-        .collect()
+impl Mark {
+    /// Of a robot that stands where it has just decided, or where it starts.
+    fn new(robot: &Robot) -> Self {
+        Self {
+            px: (robot.x_px, robot.y_px),
+            looked: robot.heading,
+            paints_since: 0,
+        }
+    }
+
+    fn cell(&self) -> Cell {
+        cell_of(self.px.0, self.px.1)
+    }
+
+    fn words(&self) -> [u64; 2] {
+        let [x, y] = [self.px.0, self.px.1].map(|px| u64::from(px.to_bits()));
+        let since = u64::from(self.paints_since);
+        [x << 32 | y, u64::from(self.looked.degrees()) << 8 | since]
+    }
 }
 
-fn pixels(simulation: &Simulation) -> Vec<(f32, f32)> {
-    simulation
-        .robots
-        .iter()
-        .map(|robot| (robot.x_px, robot.y_px))
-        .collect()
+impl Recurrence {
+    fn note(&mut self, state: State) {
+        self.decisions += 1;
+        self.is_proven |= self.kept.as_ref() == Some(&state);
+        if self.decisions.is_power_of_two() {
+            self.kept = Some(state);
+        }
+    }
 }
 
 #[cfg(test)]

@@ -21,7 +21,7 @@ pub struct Simulation {
 
 /// What decides the whole future between two decisions. Pixels are left out: at a decision every
 /// robot stands exactly on its cell. So a state that comes again will come again for ever.
-#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct State {
     carry: i16,
     robots: Vec<(i32, i32, Heading, Speed, i16, i16)>,
@@ -40,6 +40,24 @@ impl Simulation {
             carry: 0,
             paint: 0,
         }
+    }
+
+    /// Paints so far.
+    #[must_use]
+    pub fn paint(&self) -> u64 {
+        self.paint
+    }
+
+    /// Paints until the team decides next.
+    #[must_use]
+    pub fn decides_in(&self) -> u64 {
+        clock::decides_in(self.paint)
+    }
+
+    /// The left-slow score that the robot which decided last has left to the next.
+    #[must_use]
+    pub fn carry(&self) -> i16 {
+        self.carry
     }
 
     /// The robots, in the order in which they decide.

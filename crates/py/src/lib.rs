@@ -5,6 +5,7 @@ mod arguments;
 mod arrays;
 mod brain;
 mod classic_runs;
+mod classic_simulation;
 mod classic_trace;
 mod commands;
 mod configuration;
@@ -33,6 +34,10 @@ mod _core {
     use crate::brain::Brain;
     #[pymodule_export]
     use crate::classic_runs::{exhaust, replicate};
+    #[pymodule_export]
+    use crate::classic_simulation::{
+        ClassicScenario, ClassicSimulation, ClassicSnapshot, classic_world, read_classic,
+    };
     #[pymodule_export]
     use crate::classic_trace::{random_start, trace};
     #[pymodule_export]

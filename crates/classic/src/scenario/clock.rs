@@ -2,9 +2,13 @@
 
 use base::document::Section;
 use base::question::MAX_CAP_S;
+use std::ops::RangeInclusive;
 
 /// Paints that a run may be counted for, so that one that never ends is not computed for minutes.
 pub const MAX_CAP_PAINTS: u64 = 1_000_000;
+
+pub(super) const PAINTS_PER_S: RangeInclusive<f64> = 0.1..=1000.0;
+pub(super) const CAP_S: RangeInclusive<f64> = 0.0..=MAX_CAP_S;
 
 /// How paints are seconds, and when a search has failed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,8 +23,8 @@ pub struct Clock {
 
 pub(super) fn clock(section: &Section) -> Option<Clock> {
     section.only(&["paints_per_s", "cap_s"]);
-    let paints_per_s = section.number("paints_per_s", 0.1..=1000.0);
-    let cap_s = section.number("cap_s", 0.0..=MAX_CAP_S);
+    let paints_per_s = section.number("paints_per_s", PAINTS_PER_S);
+    let cap_s = section.number("cap_s", CAP_S);
     let (paints_per_s, cap_s) = (paints_per_s?, cap_s?);
     let cap_paints = whole_paints(paints_per_s * cap_s);
     if cap_paints > MAX_CAP_PAINTS {

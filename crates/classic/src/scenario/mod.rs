@@ -26,8 +26,10 @@
 //! | `paints` | paints until the last find; infinite if it never comes, so it needs a `max` |
 
 mod clock;
+mod schema;
 
 pub use clock::{Clock, MAX_CAP_PAINTS};
+pub use schema::schema;
 
 use crate::contact::Contact;
 use crate::runner::Configuration;
@@ -60,7 +62,7 @@ impl Engine for Classic {
     }
 
     fn read(&self, document: &Document) -> Result<question::Configuration, Faults> {
-        let read = document.read(configuration)?;
+        let read = Configuration::read(document)?;
         Ok(question::Configuration {
             robots: vec![("wanderer".to_owned(), read.robots)],
             cap_s: read.clock.cap_s,
@@ -103,6 +105,16 @@ impl Engine for Classic {
 
     fn most_robots(&self) -> u32 {
         MAX_ROBOTS
+    }
+}
+
+impl Configuration {
+    /// What a run depends on, of a document that says how it is configured.
+    ///
+    /// # Errors
+    /// Everything that is wrong with that.
+    pub fn read(document: &Document) -> Result<Self, Faults> {
+        document.read(configuration)
     }
 }
 

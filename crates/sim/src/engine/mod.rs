@@ -8,7 +8,6 @@ mod danger;
 mod decide;
 mod flocks;
 mod glide;
-mod hash;
 mod meetings;
 mod mind;
 mod neighbours;

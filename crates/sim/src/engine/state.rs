@@ -1,7 +1,6 @@
 //! Everything that changes in a run.
 
 use super::air::Air;
-use super::hash::Hash;
 use super::mind::Mind;
 use super::neighbours::Neighbours;
 use super::view::View;
@@ -11,6 +10,7 @@ use crate::body::path::Course;
 use crate::scenario::Scenario;
 use crate::world::items::Items;
 use base::geometry::{Disc, Point};
+use base::hash::Hash;
 use base::noise::Noise;
 use base::placement::{Draws, Group, NoPlace, NoPlaceFor, Things, team};
 use base::random::Entity;

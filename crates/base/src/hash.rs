@@ -1,20 +1,35 @@
 //! Telling states apart.
 
 /// A running hash of 64-bit words: FNV-1a (Fowler, Noll, Vo), a word at a time.
-pub(crate) struct Hash(u64);
+#[derive(Debug)]
+pub struct Hash(u64);
 
 impl Hash {
-    pub(crate) fn new() -> Self {
+    /// Of no words yet.
+    #[must_use]
+    #[inline]
+    pub fn new() -> Self {
         Self(0xCBF2_9CE4_8422_2325)
     }
 
-    pub(crate) fn add(&mut self, word: u64) {
+    /// Takes one more word.
+    #[inline]
+    pub fn add(&mut self, word: u64) {
         // The shift lets high bits reach low ones, which a product alone does not.
         let mixed = (self.0 ^ word).wrapping_mul(0x0000_0100_0000_01B3);
         self.0 = mixed ^ (mixed >> 29);
     }
 
-    pub(crate) fn value(&self) -> u64 {
+    /// The hash of all words taken.
+    #[must_use]
+    #[inline]
+    pub fn value(&self) -> u64 {
         self.0
+    }
+}
+
+impl Default for Hash {
+    fn default() -> Self {
+        Self::new()
     }
 }

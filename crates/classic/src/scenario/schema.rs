@@ -1,0 +1,68 @@
+//! The JSON Schema of a whole scenario file of the classic engine, for editors and pages.
+
+use super::{Classic, MAX_ROBOTS, clock};
+use crate::contact::Contact;
+use base::document::Document;
+use base::question;
+use serde_json::{Value as Json, json};
+
+/// What a scenario may say. Draft 7; the question's keys are those of every engine.
+#[must_use]
+pub fn schema() -> Json {
+    let mut schema = question::schema(&Classic, &Document::default());
+    schema["$schema"] = json!("http://json-schema.org/draft-07/schema#");
+    schema["title"] = json!("A scenario of the classic engine");
+    schema["description"] = json!("docs/classic.md explains the engine.");
+    schema["properties"]["contact"] = contact();
+    schema["properties"]["clock"] = clock();
+    schema["properties"]["robots"] = table("Robots by kind.", &json!({ "wanderer": wanderer() }));
+    schema["required"] = json!(["engine", "summary", "merit", "contact", "clock", "robots"]);
+    schema
+}
+
+fn contact() -> Json {
+    let names = Contact::NAMES.map(|(name, _)| name);
+    json!({
+        "description": "What counts as finding an item: its distance in cells, that it lies ahead, \
+                        or that the drawn robot touches it.",
+        "type": "string",
+        "enum": names,
+    })
+}
+
+fn clock() -> Json {
+    let number = |description: &str, (least, most): (f64, f64)| json!({ "description": description, "type": "number", "minimum": least, "maximum": most });
+    let paints = "Paints of the original's window that make a second.";
+    let cap = "A run that takes longer has failed, and counts as this long.";
+    let bounds = json!({
+        "paints_per_s": number(paints, clock::PAINTS_PER_S.into_inner()),
+        "cap_s": number(cap, clock::CAP_S.into_inner()),
+    });
+    table("Seconds and paints.", &bounds)
+}
+
+fn wanderer() -> Json {
+    let count = json!({
+        "description": "How many there are in a single run.",
+        "type": "integer",
+        "minimum": 1,
+        "maximum": MAX_ROBOTS,
+    });
+    table("The robots of 2003.", &json!({ "count": count }))
+}
+
+/// A table that has all these keys and no others.
+fn table(description: &str, properties: &Json) -> Json {
+    let keys: Vec<&String> = properties
+        .as_object()
+        .into_iter()
+        .flat_map(|each| each.keys())
+        .collect();
+    json!({
+        "description": description,
+        "type": "object",
+        "required": keys,
+        "properties": properties,
+        "additionalProperties": false,
+    })
+}

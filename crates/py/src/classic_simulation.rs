@@ -1,0 +1,240 @@
+//! Runs of the classic engine, stepped by hand.
+
+use crate::arguments::Arguments;
+use crate::configuration::{ColumnTuple, as_tuple};
+use crate::error::input_error;
+use crate::long_work::interruptible;
+use crate::scenario::Source;
+use base::runner::Runner;
+use classic::world::{CELL_PX, ITEMS, SIZE, cells};
+use classic::{Colour, Configuration, Robot, Run};
+use pyo3::prelude::*;
+use pyo3::sync::MutexExt;
+use pyo3::types::{PyBytes, PyDict};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+/// So many steps of a robot take some milliseconds: less than it pays to wake a thread for.
+const SHORT: u64 = 4096;
+
+/// A scenario of the classic engine, as its runs need it.
+#[pyclass(frozen, module = "agent_economy._core")]
+pub(crate) struct ClassicScenario(Configuration);
+
+/// What a run of a source depends on.
+#[pyfunction]
+pub(crate) fn read_classic(source: Source) -> PyResult<ClassicScenario> {
+    let file = source.file.clone();
+    let read = Configuration::read(&source.document()?);
+    read.map(ClassicScenario)
+        .map_err(|faults| input_error(&faults, &file))
+}
+
+/// The world of 2003: cells a side, pixels a cell, and lists of cells (columns to the right, rows
+/// down) of its walls and its items.
+#[pyfunction]
+pub(crate) fn classic_world(py: Python) -> PyResult<Bound<PyDict>> {
+    let walls = cells().filter(|cell| cell.is_static() && !ITEMS.contains(cell));
+    let dict = PyDict::new(py);
+    dict.set_item("size", SIZE)?;
+    dict.set_item("cell_px", CELL_PX)?;
+    dict.set_item(
+        "walls",
+        walls.map(|cell| (cell.x, cell.y)).collect::<Vec<_>>(),
+    )?;
+    dict.set_item("items", ITEMS.map(|cell| (cell.x, cell.y)))?;
+    Ok(dict)
+}
+
+/// A whole run, at one of its moments.
+#[pyclass(frozen, module = "agent_economy._core")]
+pub(crate) struct ClassicSnapshot(Run);
+
+/// A run. Threads may share it: one waits until the other is done.
+#[pyclass(frozen, module = "agent_economy._core")]
+pub(crate) struct ClassicSimulation(Mutex<Run>);
+
+#[pymethods]
+impl ClassicSimulation {
+    #[new]
+    #[pyo3(signature = (scenario, *, seed, run))]
+    fn new(
+        scenario: &Bound<ClassicScenario>,
+        seed: &Bound<PyAny>,
+        run: &Bound<PyAny>,
+    ) -> PyResult<Self> {
+        let check = Arguments::default();
+        let (seed, run) = (check.seed(seed), check.run("run", run));
+        let (seed, run) = check.or_faults(seed.zip(run))?;
+        Ok(Self(Mutex::new(Run::new(scenario.get().0, seed, run))))
+    }
+
+    /// Takes steps, each a paint, until the run is over. Ctrl-C stops it between two.
+    fn step(&self, py: Python, steps: &Bound<PyAny>) -> PyResult<()> {
+        let check = Arguments::default();
+        let steps = check.integer("steps", steps, 0..=u64::MAX);
+        let steps = check.or_faults(steps)?;
+        let robots = u64::from(self.locked(py).configuration().robots);
+        let go = |stop: &AtomicBool| {
+            let mut run = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+            let end = run.paint().saturating_add(steps);
+            while run.paint() < end && !run.search().is_over() && !stop.load(Ordering::Relaxed) {
+                run.step();
+            }
+        };
+        if steps.saturating_mul(robots) <= SHORT {
+            py.detach(|| go(&AtomicBool::new(false)));
+            return Ok(());
+        }
+        interruptible(py, Some(1), go)
+    }
+
+    /// Goes on with another scenario; returns how many steps have been taken.
+    fn change(&self, py: Python, scenario: &Bound<ClassicScenario>) -> u64 {
+        let mut run = self.locked(py);
+        run.change(scenario.get().0);
+        run.paint()
+    }
+
+    fn snapshot(&self, py: Python) -> ClassicSnapshot {
+        ClassicSnapshot(self.locked(py).clone())
+    }
+
+    fn restore(&self, py: Python, snapshot: &Bound<ClassicSnapshot>) {
+        *self.locked(py) = snapshot.get().0.clone();
+    }
+
+    /// What the run has given so far, by column; of one that is over, as `run_one` gives it.
+    fn outcome<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let locked = self.locked(py);
+        let run: &Run = &locked;
+        // A run that is over may have to go on for a while to be told of.
+        let values = py.detach(|| run.values());
+        let dict = PyDict::new(py);
+        for (column, value) in run.configuration().columns().iter().zip(values) {
+            dict.set_item(&*column.name, value)?;
+        }
+        Ok(dict)
+    }
+
+    /// What a run tells: see `Configuration.columns`.
+    #[getter]
+    fn columns(&self, py: Python) -> Vec<ColumnTuple> {
+        let columns = self.locked(py).configuration().columns();
+        columns.iter().map(as_tuple).collect()
+    }
+
+    /// Paints so far.
+    #[getter]
+    fn tick(&self, py: Python) -> u64 {
+        self.locked(py).paint()
+    }
+
+    #[getter]
+    fn step_s(&self, py: Python) -> f64 {
+        self.locked(py).seconds(1)
+    }
+
+    #[getter]
+    fn time_s(&self, py: Python) -> f64 {
+        let run = self.locked(py);
+        run.seconds(run.paint())
+    }
+
+    #[getter]
+    fn is_over(&self, py: Python) -> bool {
+        self.locked(py).search().is_over()
+    }
+
+    #[getter]
+    fn hash(&self, py: Python) -> u64 {
+        self.locked(py).search().hash()
+    }
+
+    /// The left-slow score that the robot which decided last has left to the next.
+    #[getter]
+    fn carry(&self, py: Python) -> i16 {
+        self.locked(py).search().simulation().carry()
+    }
+
+    /// Paints until the team decides next.
+    #[getter]
+    fn decides_in(&self, py: Python) -> u64 {
+        self.locked(py).search().simulation().decides_in()
+    }
+
+    /// When each item was found, in seconds; None where it is not.
+    #[getter]
+    fn found_s(&self, py: Python) -> Vec<Option<f64>> {
+        self.locked(py).found_s().to_vec()
+    }
+
+    /// Of each robot `x_px` and `y_px` (right and down), `heading_deg` (clockwise from up), `speed`
+    /// (cells a decision), `left_turns`, `right_turns` and `colour` (0 blue, 1 yellow, 2 red).
+    #[getter]
+    fn robots<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let run = self.locked(py);
+        let robots = run.search().simulation().robots().iter();
+        let dict = PyDict::new(py);
+        dict.set_item(
+            "x_px",
+            robots.clone().map(|robot| robot.x_px).collect::<Vec<_>>(),
+        )?;
+        dict.set_item(
+            "y_px",
+            robots.clone().map(|robot| robot.y_px).collect::<Vec<_>>(),
+        )?;
+        let whole = |name: &str, of: fn(&Robot) -> i64| {
+            dict.set_item(name, robots.clone().map(of).collect::<Vec<_>>())
+        };
+        whole("heading_deg", |robot| robot.heading.degrees().into())?;
+        whole("speed", |robot| robot.speed.number().into())?;
+        whole("left_turns", |robot| robot.left_turns.into())?;
+        whole("right_turns", |robot| robot.right_turns.into())?;
+        whole("colour", |robot| look(robot.colour).into())?;
+        Ok(dict)
+    }
+
+    /// One moment, to be drawn, laid out as [`crate::frame::frame`] does, in pixels with y upwards.
+    fn frame<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
+        PyBytes::new(py, &drawn(&self.locked(py)))
+    }
+}
+
+impl ClassicSimulation {
+    /// The run, when no other thread has it; meanwhile the interpreter is free.
+    fn locked(&self, py: Python) -> MutexGuard<'_, Run> {
+        let locked = self.0.lock_py_attached(py);
+        locked.unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+#[expect(clippy::cast_precision_loss, reason = "25 cells")]
+const WINDOW_PX: f32 = SIZE as f32 * CELL_PX;
+
+fn drawn(run: &Run) -> Vec<u8> {
+    let robots = run.search().simulation().robots();
+    let mut bytes = Vec::with_capacity(16 * robots.len() + ITEMS.len());
+    for robot in robots {
+        let heading_rad = (90.0 - f32::from(robot.heading.degrees())).to_radians();
+        let up_px = WINDOW_PX - robot.y_px;
+        for number in [robot.x_px, up_px, heading_rad, look(robot.colour).into()] {
+            bytes.extend(number.to_le_bytes());
+        }
+    }
+    let is_over = run.search().is_over();
+    bytes.extend(run.search().found_at().map(|found_at| match found_at {
+        Some(_) => 1,
+        None if is_over => 2,
+        None => 0,
+    }));
+    bytes
+}
+
+fn look(colour: Colour) -> u8 {
+    match colour {
+        Colour::Blue => 0,
+        Colour::Yellow => 1,
+        Colour::Red => 2,
+    }
+}
