@@ -1,7 +1,7 @@
 """How many robots, of which kinds, does this job need? Answered by fast simulation.
 
 `Scenario` reads what a job is; `run`, `replicate` and `Simulation` run it; `study` answers;
-`classic` is more of the 2003 grid simulator.
+`ClassicSimulation` and `classic` are of the 2003 grid simulator.
 """
 
 from importlib import import_module
@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from agent_economy._core import InputError
     from agent_economy.batch import Batch
     from agent_economy.brain import Brain
+    from agent_economy.classic_simulation import ClassicSimulation
     from agent_economy.outcome import Outcome
     from agent_economy.recording import Recording, Rerun, rerun
     from agent_economy.runs import replicate, run
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
 __all__ = [
     "Batch",
     "Brain",
+    "ClassicSimulation",
     "InputError",
     "Outcome",
     "Recording",
@@ -42,6 +44,7 @@ __all__ = [
 _HOMES = {
     "Batch": "agent_economy.batch",
     "Brain": "agent_economy.brain",
+    "ClassicSimulation": "agent_economy.classic_simulation",
     "InputError": "agent_economy._core",
     "Outcome": "agent_economy.outcome",
     "Recording": "agent_economy.recording",

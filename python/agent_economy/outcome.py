@@ -69,6 +69,15 @@ class Outcome:
         return cls(**told)
 
 
+def so_far(
+    columns: Columns, told: Mapping[str, float], merit: Merit, run: int, status: Status | None
+) -> Outcome:
+    """Return what one run has told, by column, as an outcome; if nothing, it is quarantined."""
+    values = {name: np.array([told.get(name, np.nan)]) for name, *_ in columns}
+    row = table(columns, values, merit, run).to_pylist()[0]
+    return Outcome.of(row, status if told else None)
+
+
 def table(
     columns: Columns, values: Mapping[str, NDArray[np.float64]], merit: Merit, first_run: int
 ) -> pa.Table:

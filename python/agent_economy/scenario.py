@@ -272,13 +272,23 @@ class Scenario:
         Raises:
             InputError: If the scenario is of another engine.
         """
-        if self.engine != "metric":
-            message = (
-                f"{self.source.file}: engine = {self.engine!r}: must be 'metric': others have no "
-                "brains and no runs stepped by hand; see agent_economy.classic.trace"
-            )
-            raise InputError(message)
+        self._is_of("metric", "others have no brains; of classic runs see ClassicSimulation")
         return _core.read_metric(self.source)
+
+    def classic(self) -> _core.ClassicScenario:
+        """Return what a run of the classic engine needs.
+
+        Raises:
+            InputError: If the scenario is of another engine.
+        """
+        self._is_of("classic", "of metric runs see Simulation")
+        return _core.read_classic(self.source)
+
+    def _is_of(self, engine: str, else_see: str) -> None:
+        if self.engine != engine:
+            file = self.source.file
+            message = f"{file}: engine = {self.engine!r}: must be {engine!r}: {else_see}"
+            raise InputError(message)
 
 
 def of_path(origin: str, path: object) -> None:

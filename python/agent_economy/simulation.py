@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from numbers import Integral
 from pathlib import Path
 from threading import RLock
-from typing import Any, NamedTuple, cast
+from typing import Any, cast
 
 import numpy as np
 import pyarrow as pa
@@ -14,8 +14,9 @@ from numpy.typing import NDArray
 from agent_economy import _core, given
 from agent_economy.brain import Command, Percept, Watched
 from agent_economy.minds import Brains, changed_minds, minds
-from agent_economy.outcome import Outcome, table
+from agent_economy.outcome import Outcome, so_far
 from agent_economy.scenario import Given, Override, Scenario, loaded
+from agent_economy.stepped import Change
 from agent_economy.thoughts import BelievedMap, Thoughts
 
 Floats = NDArray[np.float64]
@@ -26,20 +27,6 @@ STATUSES = np.array(["active", "empty", "broken"])
 
 FIXED = ("clock.step_s", "world.size_m", "world.wraps")
 """What stays: times are counted in steps, and every place is within the world and its sides."""
-
-
-class Change(NamedTuple):
-    """A value that was put into a scenario in the middle of a run.
-
-    Attributes:
-        tick: Steps that had been taken.
-        path: Keys from the scenario's root, with dots between.
-        value: What was put there.
-    """
-
-    tick: int
-    path: str
-    value: Given
 
 
 @dataclass(frozen=True)
@@ -247,11 +234,7 @@ class Simulation:
         with self._lock:
             columns, told = self._run.columns, self._run.outcome()
             is_over, merit = self._run.is_over, self.scenario.merit
-        values = {name: np.array([np.nan]) for name, *_ in columns} | {
-            name: np.array([value]) for name, value in (told or {}).items()
-        }
-        row = table(columns, values, merit, self.run).to_pylist()[0]
-        return Outcome.of(row, None if is_over or told is None else "running")
+        return so_far(columns, told or {}, merit, self.run, None if is_over else "running")
 
     def change(self, path: str, value: Given) -> None:
         """Put a value into the scenario, and go on with that.
@@ -319,6 +302,11 @@ class Simulation:
     def tick(self) -> int:
         """Steps that have been taken."""
         return self._run.tick
+
+    @property
+    def step_s(self) -> float:
+        """Time that one takes in the world."""
+        return self._run.step_s
 
     @property
     def time_s(self) -> float:

@@ -18,6 +18,7 @@ import agent_economy as ae
 from agent_economy.server import Places, app
 from agent_economy.server.app import MOST_SESSIONS
 from agent_economy.server.bodies import MOST_BYTES
+from agent_economy.server.pictures import ITEM, ROBOT, WALL
 from agent_economy.server.session import ON_THE_WAY
 
 HEADER = struct.Struct("<4Id2I")
@@ -177,6 +178,80 @@ def test_a_frame_is_of_where_the_robots_are(page: Page) -> None:
     assert len(page.frames[-1]) == HEADER.size + 16 * robots + items
 
 
+def test_a_classic_run_is_opened_played_changed_and_taken_again(page: Page) -> None:
+    page.open(scenario="classic", tick=30)
+    page.say("select", robot="wanderer/1")
+    told = page.until("state")
+    assert told["mind"] is None
+    assert dict(told["robot"]["facts"])["Decides"] == "in 4 paints"
+    assert len(told["robot"]["looks"]) == 6
+    page.say("change", path="robots.wanderer.count", value=7)
+    setting = page.until("setting")
+    assert len(setting["robots"]) == setting["kinds"][0]["count"] == 7
+    page.say("play", speed=None)
+    over = page.until("state", over=True, playing=False)
+    assert over["outcome"]["complete"]
+    again = page.open(scenario="classic", changes=setting["changes"], tick=over["tick"])
+    assert (again["hash"], again["outcome"]) == (over["hash"], over["outcome"])
+
+
+def test_a_classic_run_is_the_one_that_run_gives(page: Page) -> None:
+    page.open(scenario="classic", seed="3")
+    page.say("play", speed=None)
+    over = page.until("state", over=True, playing=False)
+    assert over["outcome"] == ae.run("classic", seed=3).row
+
+
+def test_a_frame_of_a_classic_run_is_its_window_with_y_upwards(page: Page) -> None:
+    page.open(scenario="classic", tick=40)
+    simulation = ae.ClassicSimulation("classic", 7)
+    simulation.step(40)
+    team = simulation.team.to_pydict()
+    drawn = np.frombuffer(page.frames[-1], np.float32, 16, HEADER.size).reshape(4, 4)
+    assert drawn[:, 0].tolist() == team["x_px"]
+    assert drawn[:, 1] == pytest.approx(500 - np.array(team["y_px"]))
+    assert drawn[:, 2] == pytest.approx(np.radians(90 - np.array(team["heading_deg"])))
+    looks = ["blue", "yellow", "red"]
+    assert drawn[:, 3].tolist() == [looks.index(colour) for colour in team["colour"]]
+    setting = next(each for each in page.said if each["type"] == "setting")
+    assert setting["world"] == {"size": [500, 500], "wraps": False, "unit": "px", "cell": 20}
+    assert setting["items"][0] == {"kind": "item", "at": [70, 150], "sought": True}
+    cells = base64.b64decode(setting["maps"][0]["cells"])
+    assert cells.count(2) == 96 + 6 + 3 + 4 + 3 + 4
+    # The item in column 3, in the eighth row from below.
+    assert cells[7 * 25 + 3] == 2
+
+
+def test_the_clock_of_a_classic_run_can_be_changed_while_it_plays(page: Page) -> None:
+    page.open(scenario="classic", tick=56)
+    assert page.said[-1]["time_s"] == 1
+    page.say("play", speed=1)
+    page.say("change", path="clock.paints_per_s", value=560)
+    assert page.until("setting")["step_s"] == 1 / 560
+    page.say("pause")
+    told = page.until("state", playing=False)
+    assert told["time_s"] == pytest.approx(told["tick"] / 560)
+
+
+@pytest.mark.parametrize("engine", ["metric", "classic"])
+def test_each_engine_has_a_schema(client: TestClient, engine: str) -> None:
+    schema = client.get("/api/schema", params={"engine": engine}).json()
+    assert schema["properties"]["engine"]["const"] == engine
+
+
+def test_of_other_engines_there_is_no_schema(client: TestClient) -> None:
+    told = client.get("/api/schema", params={"engine": "../secret"})
+    assert told.status_code == 404
+    assert "metric, classic" in told.json()["faults"][0]["message"]
+
+
+def test_the_picture_of_2003_has_its_walls_and_its_items(client: TestClient) -> None:
+    svg = client.get("/api/pictures", params={"scenario": "classic"}).text
+    assert svg.count(WALL) == 96 + 6 + 3 + 4 + 3
+    assert svg.count(ITEM) == 4
+    assert svg.count(ROBOT) == 4
+
+
 def test_steps_go_forth_and_back(page: Page) -> None:
     page.open()
     page.say("step", steps=3)
@@ -271,7 +346,6 @@ def test_a_robot_without_a_mind_has_a_percept_and_a_command_and_no_map(page: Pag
         ('{"type": "open", "scenario": "search", "seed": 7}', "as a text"),
         ('{"type": "open", "scenario": "search", "seed": "99999999999999999999"}', "seed"),
         ('{"type": "open", "scenario": "nothing"}', "one of the gallery"),
-        ('{"type": "open", "scenario": "classic"}', "metric"),
         ('{"type": "open", "scenario": "search", "changes": [[1, 2]]}', "[tick, path, value]"),
     ],
 )

@@ -18,7 +18,7 @@ from agent_economy.server import Places, app
 from agent_economy.server.saving import Saving
 from agent_economy.server.shelf import FOLDER, Shelf
 from agent_economy.server.timeline import Timeline
-from agent_economy.simulation import Change
+from agent_economy.stepped import Change
 
 COUNT = "robots.rover.count"
 FOREVER_S = 60.0

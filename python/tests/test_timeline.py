@@ -5,7 +5,7 @@ import pytest
 import agent_economy as ae
 from agent_economy import _core
 from agent_economy.server.timeline import FIRST_EVERY, MOST_KEPT, Timeline
-from agent_economy.simulation import Change
+from agent_economy.stepped import Change
 
 FOREVER_S = 60.0
 
@@ -32,6 +32,31 @@ def test_back_and_forth_gives_the_same_run() -> None:
     simulation = ae.Simulation("search-mind", 7)
     simulation.step(200)
     assert simulation.hash == once[-1]
+
+
+def test_back_and_forth_gives_the_same_classic_run() -> None:
+    timeline = Timeline(ae.Scenario.load("classic"), 7)
+    ticks = [0, 1, 11, 12, FIRST_EVERY, 77, 200]
+    once = hashes(timeline, ticks)
+    assert hashes(timeline, ticks[::-1]) == once[::-1]
+    timeline.toward(60, FOREVER_S)
+    timeline.change("robots.wanderer.count", 40)
+    timeline.toward(100, FOREVER_S)
+    timeline.change("contact", "ahead")
+    timeline.undo()
+    changed = hashes(timeline, [100, 59, 60, 30, 100])
+    again = Timeline(ae.Scenario.load("classic"), 7, 0, timeline.log)
+    assert hashes(again, [59, 60, 100]) == [changed[1], changed[2], changed[4]]
+    assert again.simulation.scenario.to_dict()["contact"] == "touch"
+
+
+def test_a_classic_run_that_is_over_goes_on_after_a_change() -> None:
+    timeline = Timeline(ae.Scenario.load("classic").replace("clock.cap_s", 5), 7)
+    assert timeline.toward(100_000, FOREVER_S)
+    assert timeline.tick == 5 * 56
+    timeline.change("clock.cap_s", 10)
+    assert timeline.toward(300, FOREVER_S)
+    assert timeline.tick == 300
 
 
 def test_a_change_makes_void_what_came_after_it_and_its_log_gives_the_run_again() -> None:

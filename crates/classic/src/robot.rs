@@ -95,6 +95,15 @@ impl Robot {
         cell_of(self.x_px, self.y_px)
     }
 
+    /// The cells of the grid that it would look at if it decided now: left, ahead and right, near
+    /// and far.
+    pub fn looks(&self) -> impl Iterator<Item = Cell> + use<> {
+        let (cell, looks) = (self.cell(), self.heading.looks());
+        let at = move |steps| looks.map(|step| cell.ahead(step, steps)).into_iter();
+        let near = at(1).filter(move |_| cell.is_inside(1));
+        near.chain(at(2).filter(move |_| cell.is_inside(2)))
+    }
+
     /// All of it that shows, for a hash.
     pub(crate) fn words(&self) -> [u64; 3] {
         let [x, y] = [self.x_px, self.y_px].map(|px| u64::from(px.to_bits()));

@@ -169,7 +169,7 @@ impl ClassicSimulation {
         self.locked(py).found_s().to_vec()
     }
 
-    /// Of each robot `x_px` and `y_px` (right and down), `heading_deg` (clockwise from up), `speed`
+    /// Of each robot `x_px` and `y_px` (right and down), the cell's `column` and `row`, `heading_deg` (clockwise from up), `speed`
     /// (cells a decision), `left_turns`, `right_turns` and `colour` (0 blue, 1 yellow, 2 red).
     #[getter]
     fn robots<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
@@ -187,12 +187,22 @@ impl ClassicSimulation {
         let whole = |name: &str, of: fn(&Robot) -> i64| {
             dict.set_item(name, robots.clone().map(of).collect::<Vec<_>>())
         };
+        whole("column", |robot| robot.cell().x.into())?;
+        whole("row", |robot| robot.cell().y.into())?;
         whole("heading_deg", |robot| robot.heading.degrees().into())?;
         whole("speed", |robot| robot.speed.number().into())?;
         whole("left_turns", |robot| robot.left_turns.into())?;
         whole("right_turns", |robot| robot.right_turns.into())?;
         whole("colour", |robot| look(robot.colour).into())?;
         Ok(dict)
+    }
+
+    /// The cells, columns and rows, that a robot would look at if it decided now.
+    fn looks(&self, py: Python, robot: usize) -> Vec<(i32, i32)> {
+        let run = self.locked(py);
+        let robot = run.search().simulation().robots().get(robot);
+        let cells = robot.into_iter().flat_map(Robot::looks);
+        cells.map(|cell| (cell.x, cell.y)).collect()
     }
 
     /// One moment, to be drawn, laid out as [`crate::frame::frame`] does, in pixels with y upwards.

@@ -9,7 +9,8 @@ from agent_economy import __version__, _core
 from agent_economy._core import InputError
 from agent_economy.recording.file import File, strict
 from agent_economy.scenario import Override, Scenario, Source
-from agent_economy.simulation import Change, Simulation
+from agent_economy.simulation import Simulation
+from agent_economy.stepped import Change
 
 FORMAT = "1"
 

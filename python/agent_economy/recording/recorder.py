@@ -64,7 +64,7 @@ class Recording:
         check(simulation, path, every, chosen)
         self.simulation = simulation
         self._every, self._chosen = every, chosen
-        self._step_s = simulation._run.step_s  # noqa: SLF001  (ours)
+        self._step_s = simulation.step_s
         self._file = File(path)
         self._flushed_ns = self._time_ns(simulation.tick)
         self._changes = simulation.changes[:0]

@@ -16,8 +16,10 @@ from starlette.staticfiles import StaticFiles
 from starlette.types import ASGIApp
 from starlette.websockets import WebSocket
 
+from agent_economy import _core
 from agent_economy._core import InputError
 from agent_economy.server.bodies import BodyError, refused, text
+from agent_economy.server.engines import ENGINES
 from agent_economy.server.guard import Guard
 from agent_economy.server.messages import faults_of
 from agent_economy.server.pictures import picture
@@ -116,9 +118,13 @@ class Server:
             return refused(faults_of(error), 404)
         return FileResponse(file, media_type="application/octet-stream", filename=file.name)
 
-    async def schema(self, _: Request) -> Response:
-        """Return the schema of metric scenarios."""
-        file = files("agent_economy") / "schemas" / "metric.schema.json"
+    async def schema(self, request: Request) -> Response:
+        """Return the schema of an engine's scenarios."""
+        engine = request.query_params.get("engine", "metric")
+        if engine not in ENGINES:
+            known = f"one of {', '.join(ENGINES)}"
+            return refused(faults_of(_core.refusal("engine", engine, known)), 404)
+        file = files("agent_economy") / "schemas" / f"{engine}.schema.json"
         return Response(file.read_bytes(), media_type="application/schema+json")
 
     async def check(self, request: Request) -> Response:

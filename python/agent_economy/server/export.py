@@ -2,10 +2,10 @@
 
 import tomli_w
 
-from agent_economy.simulation import Simulation
+from agent_economy.stepped import Stepped
 
 
-def as_toml(simulation: Simulation) -> str:
+def as_toml(simulation: Stepped) -> str:
     """Return a text that reads as the scenario that a run has come to.
 
     Of a scenario that nothing was put over, it is its own text, with all comments.

@@ -38,6 +38,9 @@ A frame in little endian is eight numbers, `u32` but for the time: 1, generation
 in s (`f64`), items, the frame's number; then what `_core.frame` says. It is drawn in the setting of
 its generation.
 
+Places are in the `unit` of the setting's `world`: metres, or the pixels of the classic engine's
+window; y is upwards. A `cell` of that world is so wide, or null where there are none.
+
 Studies
 -------
 A study's id is its folder below the server's, as `studies/classic`. What is not allowed is answered
@@ -74,7 +77,7 @@ from typing import Any
 from agent_economy import given
 from agent_economy._core import InputError
 from agent_economy.scenario import Given
-from agent_economy.simulation import Change
+from agent_economy.stepped import Change
 
 MAX_TICK = 2**53
 MOST_STEPS = 1_000_000

@@ -65,6 +65,9 @@ class Selected:
             "unseen": packed(now["unseen"][low:high, left:right]),
         }
 
+    def told(self, simulation: Simulation) -> None:
+        """Return None: its mind says all."""
+
     def _watch(self, simulation: Simulation) -> str | None:
         """Return the robot, watched from now on; None if there is none of that name now."""
         try:

@@ -35,6 +35,12 @@ class Pace:
         self.speed, self.is_playing = speed, True
         self._since = (now_s, tick)
 
+    def measure(self, step_s: float, now_s: float, tick: int) -> None:
+        """Go on with steps that take so long."""
+        if step_s != self.step_s:
+            self.step_s = step_s
+            self._since = self._last = (now_s, tick)
+
     def pause(self) -> None:
         """Stand."""
         self.is_playing = False

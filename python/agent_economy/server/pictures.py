@@ -6,6 +6,7 @@ from typing import Any
 
 from agent_economy import classic
 from agent_economy.scenario import Scenario
+from agent_economy.server import classic_view
 from agent_economy.simulation import Simulation
 
 STEPS = 100
@@ -13,9 +14,6 @@ STEPS = 100
 
 MOST_ROBOTS = 400
 """Of more robots only so many are drawn."""
-
-CELLS, CELL_PX = 25, 20.0
-"""The grid of 2003."""
 
 FREE, WALL, GROUND, ROBOT, ITEM = "#f4f6fa", "#7b8494", "#e6d3b3", "#2563eb", "#dc2626"
 
@@ -55,10 +53,14 @@ def metric(scenario: Scenario) -> str:
 
 def grid(scenario: Scenario) -> str:
     """Return the grid of 2003, with robots where they start."""
-    team = classic.start(max(1, sum(scenario.robots.values())))
-    side = CELLS * CELL_PX
+    side = classic_view.SIDE_PX
+    team = classic.start(sum(scenario.robots.values()))
     poses = [(each["x"], side - each["y"], math.radians(90 - each["heading"])) for each in team]
-    return svg(side, side, [chevron(pose, CELL_PX / 2) for pose in poses])
+    cells = [(cell, WALL) for cell in classic_view.WORLD["walls"]]
+    cells += [(cell, ITEM) for cell in classic_view.WORLD["items"]]
+    shapes = [polygon(classic_view.corners(cell), colour) for cell, colour in cells]
+    shapes += [chevron(pose, classic_view.RADIUS_PX) for pose in poses]
+    return svg(side, side, shapes)
 
 
 def svg(width: float, height: float, shapes: Iterable[str]) -> str:

@@ -7,7 +7,7 @@ from itertools import zip_longest
 from typing import Any
 
 from agent_economy.recording.reading import Recorded
-from agent_economy.simulation import Change, Simulation
+from agent_economy.stepped import Change, Stepped
 
 
 class Replay:
@@ -57,7 +57,7 @@ class Replay:
         place = bisect_right(self._stops, tick)
         return self._stops[place] if place < len(self._stops) else None
 
-    def compare(self, simulation: Simulation) -> None:
+    def compare(self, simulation: Stepped) -> None:
         """See whether a state is as recorded, if it was."""
         if self.differs_at is not None and self.differs_at <= simulation.tick:
             return

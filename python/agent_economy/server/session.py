@@ -15,7 +15,7 @@ from typing import Any, Protocol, TypeVar
 
 from agent_economy import given
 from agent_economy._core import InputError
-from agent_economy.server import messages
+from agent_economy.server import engines, messages
 from agent_economy.server.export import as_toml
 from agent_economy.server.frames import frame, setting
 from agent_economy.server.messages import Message
@@ -75,7 +75,7 @@ class Session:
         self._pace = Pace(0.1)
         self._heard: asyncio.Queue[Message | InputError] = asyncio.Queue(MOST_HEARD)
         self._aim: int | None = None
-        self._selected = Selected()
+        self._selected: engines.Selection = Selected()
         self._generation = 0
         self._told: object = None
         self._number = 0
@@ -212,9 +212,10 @@ class Session:
         self._timeline, program = await self._in_thread(lambda: begun(self._places, said))
         self._stand()
         self._pace = Pace(self._run.step_s)
-        self._aim, self._told, self._selected = said.tick, None, Selected()
         simulation = self._run.simulation
         scenario = simulation.scenario
+        self._aim, self._told = said.tick, None
+        self._selected = engines.of(simulation).selected()
         described: dict[str, Any] = {
             "id": said.scenario,
             "name": scenario.name,
@@ -244,6 +245,7 @@ class Session:
         if timeline is None or not self._is_busy():
             return
         before = timeline.tick
+        self._pace.measure(timeline.step_s, now_s, before)
         aim = self._aim if self._aim is not None else self._pace.target(now_s, before)
         try:
             is_there = await self._in_thread(
@@ -302,6 +304,7 @@ class Session:
             "differs_at": timeline.replay.differs_at,
             "outcome": simulation.outcome().row,
             "mind": self._selected.mind(simulation),
+            "robot": self._selected.told(simulation),
         }
 
     async def _refuse(self, about: str, error: InputError, path: str | None = None) -> None:

@@ -1,16 +1,17 @@
-"""A run of the metric engine in which one can go back and forth, and change things on the way."""
+"""A run in which one can go back and forth, and change things on the way."""
 
 import time
 from bisect import bisect_right
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, cast
 
 from agent_economy import _core, given
 from agent_economy.recording.reading import Recorded
 from agent_economy.scenario import Given, Scenario
+from agent_economy.server import engines
 from agent_economy.server.replay import Replay
-from agent_economy.simulation import Change, Simulation, Snapshot
+from agent_economy.stepped import Change
 
 MEMORY_BYTES = 200_000_000
 """Snapshots together take no more, as far as that can be told."""
@@ -81,16 +82,16 @@ class Timeline:
             recorded: What a recording says of the run.
 
         Raises:
-            InputError: If the scenario is of another engine, or there is no room for its team.
+            InputError: If there is no room for its team.
         """
-        self.simulation = Simulation(scenario, seed, run)
+        self.simulation = engines.begun(scenario, seed, run)
         self._first = scenario
         self._recorded = recorded
         self.replay = Replay(recorded or Recorded())
         self.log = tuple(sorted(self.replay.changes if log is None else log, key=tick_of))
         self.edge = self.replay.edge
         self._every = FIRST_EVERY
-        self._kept: list[Snapshot] = []
+        self._kept: list[Any] = []
         self._ticks: list[int] = []
         self._pace = 1
         # Of before all changes, those at its tick too: each can be undone.
@@ -127,7 +128,7 @@ class Timeline:
     @property
     def step_s(self) -> float:
         """Time in the world that a step takes."""
-        return self.simulation._run.step_s  # noqa: SLF001  (ours)
+        return self.simulation.step_s
 
     def toward(self, tick: int, budget_s: float) -> bool:
         """Go towards a tick, back or forth, for about so long; return whether it is there.
@@ -198,7 +199,11 @@ class Timeline:
         start_s = time.monotonic()
         if steps > 0:
             given_here = self.replay.input(self.tick)
-            self.simulation.step(1 if given_here else steps, **given_here)
+            if given_here:
+                # Only runs of the metric engine have bodies outside.
+                cast("Any", self.simulation).step(1, **given_here)
+            else:
+                self.simulation.step(steps)
         took_s = time.monotonic() - start_s
         self._pace = max(1, min(10_000, round(self._pace * SLICE_S / max(took_s, SLICE_S / 4))))
         self._apply()

@@ -1,0 +1,112 @@
+"""What a page draws of a run of the classic engine: the window of 2003 in its pixels, y upwards.
+
+A robot stands on the cell whose upper left corner its place is nearest to: so did the original
+draw robots, walls and items.
+"""
+
+import base64
+from typing import Any
+
+from agent_economy import _core
+from agent_economy.classic_simulation import KIND, ClassicSimulation
+
+WORLD: dict[str, Any] = _core.classic_world()
+CELLS, CELL_PX = int(WORLD["size"]), float(WORLD["cell_px"])
+SIDE_PX = CELLS * CELL_PX
+
+FREE, FILLED = 0, 2
+"""As maps say it."""
+
+RADIUS_PX = CELL_PX / 2
+"""The chevron of 2003 is 24 px long, with 8 px before its place and 16 px behind."""
+
+Cell = tuple[int, int]
+
+
+def drawn(simulation: ClassicSimulation) -> bytes:
+    """Return one moment."""
+    return simulation._run.frame()  # noqa: SLF001  (ours)
+
+
+def still(simulation: ClassicSimulation) -> dict[str, Any]:
+    """Return the world, what is in it, and robots as they are made."""
+    side = {"size": [SIDE_PX, SIDE_PX], "wraps": False, "unit": "px", "cell": CELL_PX}
+    robots = {"name": KIND, "count": simulation.scenario.robots[KIND]}
+    return {
+        "world": side,
+        "kinds": [{**robots, "radius": RADIUS_PX, "radio_range_m": None, "sensors": []}],
+        "items": [{"kind": "item", "at": middle(cell), "sought": True} for cell in WORLD["items"]],
+        "item_kinds": ["item"],
+        "maps": [filled()],
+    }
+
+
+class Selected:
+    """The robot that a page looks at; it has no mind, and draws no map."""
+
+    def __init__(self) -> None:
+        """Begin with none."""
+        self._robot: str | None = None
+
+    def choose(self, robot: str | None) -> None:
+        """Look at a robot, or at none; nothing is told of one that is not there."""
+        self._robot = robot
+
+    def mind(self, simulation: ClassicSimulation) -> None:
+        """Return None."""
+
+    def map(self, simulation: ClassicSimulation) -> None:
+        """Return None."""
+
+    def told(self, simulation: ClassicSimulation) -> dict[str, Any] | None:
+        """Return what the robot has; None if there is no robot of that name now."""
+        robot = self._robot
+        return told(simulation, robot) if robot in simulation.robots else None
+
+
+def told(simulation: ClassicSimulation, robot: str) -> dict[str, Any]:
+    """Return what a robot has, in words, and the cells that it would look at."""
+    state = simulation.team.to_pylist()[simulation.robots.index(robot)]
+    paints = simulation.decides_in
+    return {
+        "name": robot,
+        "facts": [
+            ["Cell", f"column {state['column']}, row {state['row']} from the top"],
+            ["Speed", f"{state['speed']} cells a decision"],
+            ["Decides", f"in {paints} paint{'s' if paints > 1 else ''}"],
+            ["Turns that count", f"{state['left_turns']} left, {state['right_turns']} right"],
+            ["Carry, of all robots", str(simulation.carry)],
+        ],
+        "looks": [corners(cell) for cell in simulation.looks(robot)],
+    }
+
+
+def filled() -> dict[str, Any]:
+    """Return a map of what robots cannot enter: walls, and items, which to robots are walls."""
+    cells = {*WORLD["walls"], *WORLD["items"]}
+    states = [
+        FILLED if (column, row) in cells else FREE
+        for row in reversed(range(CELLS))
+        for column in range(CELLS)
+    ]
+    side = SIDE_PX
+    return {
+        "corners": [[0.0, 0.0], [side, 0.0], [side, side], [0.0, side]],
+        "columns": CELLS,
+        "rows": CELLS,
+        "cells": base64.b64encode(bytes(states)).decode(),
+    }
+
+
+def corners(cell: Cell) -> list[list[float]]:
+    """Return the corners of a cell as drawn."""
+    column, row = cell
+    left, top = column * CELL_PX, SIDE_PX - row * CELL_PX
+    right, bottom = left + CELL_PX, top - CELL_PX
+    return [[left, bottom], [right, bottom], [right, top], [left, top]]
+
+
+def middle(cell: Cell) -> list[float]:
+    """Return the middle of a cell as drawn."""
+    (left, bottom), _, (right, top), _ = corners(cell)
+    return [(left + right) / 2, (bottom + top) / 2]

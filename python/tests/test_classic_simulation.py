@@ -1,0 +1,146 @@
+"""Runs of the classic engine, stepped by hand."""
+
+from typing import Any
+
+import pytest
+
+import agent_economy as ae
+from agent_economy import _core
+
+
+def classic(**values: str | float) -> ae.Scenario:
+    scenario = ae.Scenario.load("classic")
+    for path, value in values.items():
+        scenario = scenario.replace(path.replace("__", "."), value)
+    return scenario
+
+
+@pytest.mark.parametrize("robots", [1, 2, 4, 8])
+@pytest.mark.parametrize("contact", _core.CONTACTS)
+def test_a_finished_run_is_a_row_of_replicate(robots: int, contact: str) -> None:
+    scenario = classic(robots__wanderer__count=robots, contact=contact, clock__cap_s=20)
+    rows = ae.replicate(scenario, runs=30, seed=3).to_pylist()
+    assert [ae.ClassicSimulation(scenario, 3, run).finish().row for run in range(30)] == rows
+    assert ae.ClassicSimulation(scenario, 3, 4).finish() == ae.run(scenario, seed=3, run=4)
+
+
+def test_its_robots_are_those_of_the_trace() -> None:
+    simulation = ae.ClassicSimulation("classic", 5, 2)
+    trace = ae.classic.trace(ae.classic.start(4, 5, 2), 3)
+    for pixels in trace["paints"]:
+        simulation.step()
+        team = simulation.team
+        drawn = zip(team["x_px"].to_pylist(), team["y_px"].to_pylist(), strict=True)
+        assert [list(place) for place in drawn] == pixels
+    carry, _, *robots = trace["decisions"][-1]
+    assert (simulation.tick, simulation.decides_in, simulation.carry) == (34, 11, carry)
+    names = ("heading_deg", "speed", "left_turns", "right_turns")
+    told = [list(row) for row in zip(*(team[name].to_pylist() for name in names), strict=True)]
+    assert told == [robot[2:6] for robot in robots]
+    assert [colour[0] for colour in team["colour"].to_pylist()] == [robot[6] for robot in robots]
+
+
+def test_a_run_in_pieces_is_the_run_in_one_go() -> None:
+    one, other = ae.ClassicSimulation("classic", 7), ae.ClassicSimulation("classic", 7)
+    one.step(500)
+    for steps in (0, 1, 11, 488):
+        other.step(steps)
+    assert (one.hash, one.tick, one.time_s) == (other.hash, 500, 500 / 56)
+    other.step()
+    assert one.hash != other.hash
+
+
+def test_a_run_that_is_over_stands_and_a_change_may_let_it_go_on() -> None:
+    simulation = ae.ClassicSimulation(classic(clock__cap_s=5), 1)
+    assert simulation.finish().status == "incomplete"
+    assert simulation.tick == 5 * 56
+    hash_ = simulation.hash
+    simulation.step(100)
+    assert simulation.hash == hash_
+    simulation.change("clock.cap_s", 120)
+    assert not simulation.is_over
+    assert simulation.finish() == ae.run("classic", seed=1)
+
+
+def test_what_was_changed_is_logged_and_gives_the_run_again() -> None:
+    changes: list[tuple[int, str, Any]] = [
+        (10, "robots.wanderer.count", 200),
+        (31, "contact", "ahead"),
+        (31, "robots.wanderer.count", 3),
+        (60, "clock.paints_per_s", 28),
+        (60, "merit", {"time": -1}),
+        (95, "clock.cap_s", 400),
+    ]
+    first, hashes = ae.ClassicSimulation("classic", 2, 9), []
+    for tick, path, value in changes:
+        first.step(tick - first.tick)
+        first.change(path, value)
+        hashes.append(first.hash)
+    assert [tuple(change) for change in first.changes] == changes
+    assert (first.step_s, first.time_s) == (1 / 28, 95 / 28)
+    again = ae.ClassicSimulation("classic", 2, 9)
+    for change, hash_ in zip(first.changes, hashes, strict=True):
+        again.step(change.tick - again.tick)
+        again.change(change.path, change.value)
+        assert again.hash == hash_
+    assert again.finish() == first.finish()
+    assert again.hash == first.hash
+
+
+@pytest.mark.parametrize(
+    ("path", "value", "told"),
+    [
+        ("robots.wanderer.count", 0, "a whole number from 1 to 250"),
+        ("robots.wanderer.count", 251, "a whole number from 1 to 250"),
+        ("contact", "nose", "one of"),
+        ("clock.cap_s", -1, "a number from 0"),
+        ("clock.paints_per_s", 10_000, "a number from 0.1 to 1000"),
+        ("world.size_m", [3, 3], "known keys"),
+        ("engine", "metric", "must be"),
+    ],
+)
+def test_what_is_not_allowed_is_told_and_changes_nothing(
+    path: str, value: str | float, told: str
+) -> None:
+    simulation = ae.ClassicSimulation("classic")
+    before = (simulation.hash, simulation.scenario)
+    with pytest.raises(ae.InputError, match=told):
+        simulation.change(path, value)
+    assert (simulation.hash, simulation.scenario, simulation.changes) == (*before, ())
+
+
+def test_a_snapshot_is_gone_back_to_with_its_scenario_and_its_changes() -> None:
+    simulation = ae.ClassicSimulation("classic", 4)
+    simulation.step(20)
+    simulation.change("robots.wanderer.count", 9)
+    kept, hash_ = simulation.snapshot(), simulation.hash
+    simulation.step(50)
+    simulation.change("robots.wanderer.count", 2)
+    simulation.restore(kept)
+    assert (simulation.hash, len(simulation.robots), len(simulation.changes)) == (hash_, 9, 1)
+
+
+def test_items_are_found_at_a_time() -> None:
+    simulation = ae.ClassicSimulation("classic", 1)
+    assert simulation.items["found_s"].null_count == 4
+    outcome = simulation.finish()
+    assert max(simulation.items["found_s"].to_pylist()) == outcome.time_s
+
+
+def test_a_robot_looks_at_three_cells_near_and_three_far() -> None:
+    simulation = ae.ClassicSimulation("classic", 1)
+    state = simulation.team.to_pylist()[0]
+    column, row = state["column"], state["row"]
+    near = [(column + side, row - 1) for side in (-1, 0, 1)]
+    far = [(column + 2 * side, row - 2) for side in (-1, 0, 1)]
+    assert state["heading_deg"] == 0
+    assert simulation.looks("wanderer/0") == near + far
+    with pytest.raises(ae.InputError, match="wanderer/0 to wanderer/3"):
+        simulation.looks("wanderer/4")
+
+
+def test_each_engine_says_which_runs_are_its_own() -> None:
+    with pytest.raises(ae.InputError, match="ClassicSimulation"):
+        ae.Simulation("classic")
+    with pytest.raises(ae.InputError, match="see Simulation"):
+        ae.ClassicSimulation("search")
