@@ -207,6 +207,14 @@ class ClassicSimulation:
         return pa.table({**robots, "colour": COLOURS[robots["colour"]]})
 
     @property
+    def contacts(self) -> list[list[tuple[int, int]]]:
+        """For each item the cells, columns and rows, on which a robot can find it.
+
+        None where contact is judged by what is drawn, as "touch" is.
+        """
+        return self._run.contacts
+
+    @property
     def items(self) -> pa.Table:
         """A row an item: the cell's `column` and `row`, and `found_s`, null until it is found."""
         columns, rows = zip(*_core.classic_world()["items"], strict=True)

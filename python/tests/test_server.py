@@ -3,6 +3,7 @@
 import base64
 import json
 import math
+import re
 import struct
 import time
 from collections.abc import Iterator
@@ -215,7 +216,12 @@ def test_a_frame_of_a_classic_run_is_its_window_with_y_upwards(page: Page) -> No
     assert drawn[:, 3].tolist() == [looks.index(colour) for colour in team["colour"]]
     setting = next(each for each in page.said if each["type"] == "setting")
     assert setting["world"] == {"size": [500, 500], "wraps": False, "unit": "px", "cell": 20}
-    assert setting["items"][0] == {"kind": "item", "at": [70, 150], "sought": True}
+    assert setting["items"][0] == {
+        "kind": "item",
+        "at": [70, 150],
+        "sought": True,
+        "contact": [],
+    }
     cells = base64.b64decode(setting["maps"][0]["cells"])
     assert cells.count(2) == 96 + 6 + 3 + 4 + 3 + 4
     # The item in column 3, in the eighth row from below.
@@ -247,9 +253,22 @@ def test_of_other_engines_there_is_no_schema(client: TestClient) -> None:
 
 def test_the_picture_of_2003_has_its_walls_and_its_items(client: TestClient) -> None:
     svg = client.get("/api/pictures", params={"scenario": "classic"}).text
-    assert svg.count(WALL) == 96 + 6 + 3 + 4 + 3
-    assert svg.count(ITEM) == 4
+    walls, items = (re.search(f'd="([^"]*)" fill="{colour}"', svg) for colour in (WALL, ITEM))
+    assert walls
+    assert items
+    assert walls[1].count("M") == 96 + 6 + 3 + 4 + 3
+    assert items[1].count("M") == 4
+    assert "M60,140h20v20h-20z" in items[1]
     assert svg.count(ROBOT) == 4
+
+
+def test_where_an_item_can_be_found_is_told_and_follows_the_contact(page: Page) -> None:
+    page.open(scenario="classic")
+    page.say("change", path="contact", value="neighbour")
+    contact = page.until("setting")["items"][0]["contact"]
+    # A robot on the item's own cell would be at the upper left corner of the square drawn.
+    assert len(contact) == 9
+    assert [[50, 150], [70, 150], [70, 170], [50, 170]] in contact
 
 
 def test_steps_go_forth_and_back(page: Page) -> None:

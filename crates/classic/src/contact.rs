@@ -1,7 +1,7 @@
 //! What counts as finding an item. The original was timed by eye; these are six definitions of it.
 
 use crate::heading::Heading;
-use crate::world::{Cell, ITEMS};
+use crate::world::{self, Cell, ITEMS};
 use std::f64::consts::FRAC_1_SQRT_2;
 use std::sync::LazyLock;
 
@@ -36,6 +36,15 @@ impl Contact {
     /// Whether it is judged at every paint, and not only at decisions.
     pub(crate) fn is_by_paint(self) -> bool {
         self == Self::Touch
+    }
+
+    /// The cells on which a robot can be in contact with `item`, whichever way it looks; none where
+    /// it is judged by what is drawn.
+    #[must_use]
+    pub fn cells(self, item: Cell) -> Vec<Cell> {
+        let holds =
+            |cell: &Cell| (0..8).any(|octant| self.holds(*cell, Heading::of_octant(octant), item));
+        world::cells().filter(holds).collect()
     }
 
     /// Whether a robot on `cell` that looks along `looking` is in contact with `item`.
@@ -182,6 +191,13 @@ mod tests {
         assert_eq!(cells_in_contact(Contact::Diagonal), diagonal);
         // Looking up, the item is above and to the left, above, or above and to the right.
         assert_eq!(cells_in_contact(Contact::Ahead), [(-1, 1), (0, 1), (1, 1)]);
+    }
+
+    #[test]
+    fn cells_of_contact_are_those_where_any_heading_gives_it() {
+        assert_eq!(Contact::Neighbour.cells(ITEM).len(), 9);
+        assert_eq!(Contact::Ahead.cells(ITEM).len(), 8);
+        assert_eq!(Contact::Touch.cells(ITEM), []);
     }
 
     #[test]

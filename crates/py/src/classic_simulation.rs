@@ -197,6 +197,17 @@ impl ClassicSimulation {
         Ok(dict)
     }
 
+    /// For each item the cells, columns and rows, on which a robot can find it.
+    #[getter]
+    fn contacts(&self, py: Python) -> Vec<Vec<(i32, i32)>> {
+        let contact = self.locked(py).configuration().task.contact;
+        let cells = ITEMS.map(|item| contact.cells(item));
+        let cells = cells
+            .into_iter()
+            .map(|cells| cells.into_iter().map(|cell| (cell.x, cell.y)));
+        cells.map(Iterator::collect).collect()
+    }
+
     /// The cells, columns and rows, that a robot would look at if it decided now.
     fn looks(&self, py: Python, robot: usize) -> Vec<(i32, i32)> {
         let run = self.locked(py);

@@ -1,7 +1,7 @@
 """What a page draws of a run of the classic engine: the window of 2003 in its pixels, y upwards.
 
-A robot stands on the cell whose upper left corner its place is nearest to: so did the original
-draw robots, walls and items.
+As in the original a robot's place on the cell that it stands on is the upper left corner of the
+square that is drawn of that cell; it has left the cell when it is nearer to another's.
 """
 
 import base64
@@ -35,7 +35,10 @@ def still(simulation: ClassicSimulation) -> dict[str, Any]:
     return {
         "world": side,
         "kinds": [{**robots, "radius": RADIUS_PX, "radio_range_m": None, "sensors": []}],
-        "items": [{"kind": "item", "at": middle(cell), "sought": True} for cell in WORLD["items"]],
+        "items": [
+            item(cell, contacts)
+            for cell, contacts in zip(WORLD["items"], simulation.contacts, strict=True)
+        ],
         "item_kinds": ["item"],
         "maps": [filled()],
     }
@@ -67,18 +70,24 @@ class Selected:
 def told(simulation: ClassicSimulation, robot: str) -> dict[str, Any]:
     """Return what a robot has, in words, and the cells that it would look at."""
     state = simulation.team.to_pylist()[simulation.robots.index(robot)]
-    paints = simulation.decides_in
     return {
         "name": robot,
         "facts": [
             ["Cell", f"column {state['column']}, row {state['row']} from the top"],
-            ["Speed", f"{state['speed']} cells a decision"],
-            ["Decides", f"in {paints} paint{'s' if paints > 1 else ''}"],
+            ["Heading", f"{state['heading_deg']}° from up, clockwise"],
+            ["Speed", counted(state["speed"], "cell") + " a decision"],
+            ["Decides", "in " + counted(simulation.decides_in, "paint")],
             ["Turns that count", f"{state['left_turns']} left, {state['right_turns']} right"],
             ["Carry, of all robots", str(simulation.carry)],
         ],
-        "looks": [corners(cell) for cell in simulation.looks(robot)],
+        "looks": [outline(cell) for cell in simulation.looks(robot)],
     }
+
+
+def item(cell: Cell, contacts: list[Cell]) -> dict[str, Any]:
+    """Return an item, and outlines of where robots must be to find it."""
+    contact = [outline((column - 0.5, row - 0.5)) for column, row in contacts]
+    return {"kind": "item", "at": middle(cell), "sought": True, "contact": contact}
 
 
 def filled() -> dict[str, Any]:
@@ -98,7 +107,7 @@ def filled() -> dict[str, Any]:
     }
 
 
-def corners(cell: Cell) -> list[list[float]]:
+def outline(cell: tuple[float, float]) -> list[list[float]]:
     """Return the corners of a cell as drawn."""
     column, row = cell
     left, top = column * CELL_PX, SIDE_PX - row * CELL_PX
@@ -108,5 +117,10 @@ def corners(cell: Cell) -> list[list[float]]:
 
 def middle(cell: Cell) -> list[float]:
     """Return the middle of a cell as drawn."""
-    (left, bottom), _, (right, top), _ = corners(cell)
+    (left, bottom), _, (right, top), _ = outline(cell)
     return [(left + right) / 2, (bottom + top) / 2]
+
+
+def counted(number: int, word: str) -> str:
+    """Return a number of things."""
+    return f"{number} {word}{'' if number == 1 else 's'}"

@@ -36,7 +36,12 @@ def still(simulation: Simulation) -> dict[str, Any]:
             kind(name, count, recorded) for name, count in simulation.scenario.robots.items()
         ],
         "items": [
-            {"kind": name, "at": [x, y], "sought": kinds.get(name, {}).get("sought", True)}
+            {
+                "kind": name,
+                "at": [x, y],
+                "sought": kinds.get(name, {}).get("sought", True),
+                "contact": [],
+            }
             for name, x, y in places
         ],
         "item_kinds": sorted(kinds),

@@ -56,11 +56,20 @@ def grid(scenario: Scenario) -> str:
     side = classic_view.SIDE_PX
     team = classic.start(sum(scenario.robots.values()))
     poses = [(each["x"], side - each["y"], math.radians(90 - each["heading"])) for each in team]
-    cells = [(cell, WALL) for cell in classic_view.WORLD["walls"]]
-    cells += [(cell, ITEM) for cell in classic_view.WORLD["items"]]
-    shapes = [polygon(classic_view.corners(cell), colour) for cell, colour in cells]
-    shapes += [chevron(pose, classic_view.RADIUS_PX) for pose in poses]
+    shapes = [
+        squares(classic_view.WORLD["walls"], WALL),
+        squares(classic_view.WORLD["items"], ITEM),
+        *(chevron(pose, classic_view.RADIUS_PX) for pose in poses),
+    ]
     return svg(side, side, shapes)
+
+
+def squares(cells: Iterable[tuple[int, int]], colour: str) -> str:
+    """Return cells of the grid in one path, so that no seams are between them."""
+    size = classic_view.CELL_PX
+    corners = (classic_view.outline(cell)[0] for cell in cells)
+    parts = (f"M{x:g},{y:g}h{size:g}v{size:g}h{-size:g}z" for x, y in corners)
+    return f'<path d="{"".join(parts)}" fill="{colour}"/>'
 
 
 def svg(width: float, height: float, shapes: Iterable[str]) -> str:

@@ -222,7 +222,6 @@ class Session:
             "engine": scenario.engine,
         }
         described |= {"summary": scenario.summary, "cap_s": scenario.cap_s}
-        described |= {"step_s": self._pace.step_s}
         names = {"seed": str(simulation.seed), "run": str(simulation.run)}
         recording = {"id": said.recording, "program": program} if program is not None else None
         await self._page.tell(

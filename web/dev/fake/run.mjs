@@ -59,7 +59,7 @@ export class FakeRun {
 
   look(x, y) {
     this.items.forEach((item, k) => {
-      if (item.sought && Math.hypot(item.at_m[0] - x, item.at_m[1] - y) < 1) this.found[k] = 1;
+      if (item.sought && Math.hypot(item.at[0] - x, item.at[1] - y) < 1) this.found[k] = 1;
     });
   }
 
@@ -107,7 +107,7 @@ export class FakeRun {
       pose: { at: [x + 0.2, y - 0.1], heading_rad, deviation_m: 0.3, deviation_rad: 0.05, age_s: 0.1 },
       items: this.items.slice(0, 2).map((item, k) => ({
         kind: 0,
-        at: [item.at_m[0] + 0.4, item.at_m[1] - 0.3],
+        at: [item.at[0] + 0.4, item.at[1] - 0.3],
         deviation_m: 0.5 + k / 3,
         confidence: 0.9 - 0.4 * k,
       })),
@@ -199,7 +199,7 @@ function kindsOf(document) {
   return Object.entries(document.robots).map(([name, robot]) => ({
     name,
     count: robot.count,
-    radius_m: robot.radius_m ?? 0.27,
+    radius: robot.radius_m ?? 0.27,
     flies: robot.like === "quadrotor",
     radio_range_m: 12,
     rings: robot.radius_m ? [] : [{ bearings_rad: rays, range_m: 6 }],
@@ -224,8 +224,9 @@ function itemsOf(document, seed) {
   return Object.entries(document.items ?? {}).flatMap(([kind, { count, sought = true, placement }]) =>
     Array.from({ length: count }, (_, i) => ({
       kind,
-      at_m: placement?.at_m?.[i] ?? [(0.1 + 0.8 * random()) * width, (0.1 + 0.8 * random()) * height],
+      at: placement?.at_m?.[i] ?? [(0.1 + 0.8 * random()) * width, (0.1 + 0.8 * random()) * height],
       sought,
+      contact: [],
     })),
   );
 }
@@ -260,11 +261,11 @@ export function mapsOf(document) {
       cells[row * columns + column] = wall ? 2 : row < 6 && column < 8 ? 1 : 0;
     }
   }
-  const corners_m = [
+  const corners = [
     [38, 22],
     [54, 22],
     [54, 34],
     [38, 34],
   ];
-  return [{ corners_m, columns, rows, cells: cells.toString("base64") }];
+  return [{ corners, columns, rows, cells: cells.toString("base64") }];
 }

@@ -77,9 +77,9 @@ export class Talk {
     const edge = Math.max(tick, recorded?.edge ?? 0);
     Object.assign(this, { changes, generation: 0, edge, playing: false, speed: 1, selected: null });
     const { name, engine, summary } = entryOf(text === null ? scenario : null);
-    const { cap_s, step_s } = this.base.clock;
+    const { cap_s } = this.base.clock;
     const recording = recorded ? { id: said.recording, program: "0.1.0" } : null;
-    const told = { id: scenario, name, engine, summary, cap_s, step_s };
+    const told = { id: scenario, name, engine, summary, cap_s };
     this.say({ type: "opened", scenario: told, seed, run, recording });
     this.build(tick);
     this.tell();
@@ -101,6 +101,8 @@ export class Talk {
     this.say({
       type: "setting",
       generation,
+      step_s: this.run.step_s,
+      world: { size: this.run.size, wraps: false, unit: "m", cell: null },
       document,
       robots: this.run.nameOf(),
       kinds,
@@ -208,6 +210,7 @@ export class Talk {
       differs_at: null,
       outcome: run.outcome(),
       mind,
+      robot: null,
     });
     const map = this.selected === null ? null : run.map(this.selected);
     if (map) this.say(map);

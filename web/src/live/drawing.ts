@@ -123,8 +123,8 @@ function isShown(layer: Layer, place: Layer["place"], scene: Scene, shown: Shown
 function groundBox(camera: Camera, { world }: Scene): Box {
   const ratio = pixelRatio();
   const inside = (value: number, most: number) => Math.min(most, Math.max(0, value));
-  const [left, top] = toScreen(camera, 0, world.size_m[1]).map((value) => Math.ceil(value * ratio));
-  const [right, bottom] = toScreen(camera, world.size_m[0], 0).map((value) => Math.floor(value * ratio));
+  const [left, top] = toScreen(camera, 0, world.size[1]).map((value) => Math.ceil(value * ratio));
+  const [right, bottom] = toScreen(camera, world.size[0], 0).map((value) => Math.floor(value * ratio));
   const [width, height] = [camera.width * ratio, camera.height * ratio];
   const [x, y] = [inside(left ?? 0, width), inside(top ?? 0, height)];
   return [x, y, Math.max(0, inside(right ?? 0, width) - x), Math.max(0, inside(bottom ?? 0, height) - y)];

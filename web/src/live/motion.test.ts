@@ -3,7 +3,7 @@ import type { Frame } from "../net/frames";
 import type { Setting } from "../net/protocol";
 import { Motion, reachOf } from "./motion";
 
-const reach = { speed_m_s: 2, most_m: 50 };
+const reach = { speed: 2, most: 50 };
 
 function frame(tick: number, robots: number[][], generation = 1): Frame {
   return {
@@ -103,6 +103,6 @@ test.each([
 
 test("the reach is that of the fastest kind, and half of the world", () => {
   const robots = { slow: { drive: { max_speed_m_s: 1 } }, fast: { drive: { max_speed_m_s: 5 } } };
-  const setting = { document: { world: { size_m: [40, 30] }, robots } } as unknown as Setting;
-  expect(reachOf(setting)).toEqual({ speed_m_s: 5, most_m: 15 });
+  const setting = { world: { size: [40, 30] }, document: { robots } } as unknown as Setting;
+  expect(reachOf(setting)).toEqual({ speed: 5, most: 15 });
 });

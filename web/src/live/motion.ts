@@ -1,15 +1,16 @@
 import type { Frame } from "../net/frames";
 import type { Json, Setting } from "../net/protocol";
-import { tableOf, worldOf } from "../run/world";
+import { tableOf } from "../run/world";
 
 /** Frames that come in turn come so far apart; closer ones are drawn as they come. */
 const [least_ms, most_ms] = [45, 1500];
 const slack = 1.5;
 
-/** How far robots can come: what is farther from where it was has jumped, as from edge to edge of a world. */
+/** How far robots can come, in the unit of the world: what is farther from where it was has jumped, as from edge to edge of a world. */
 export interface Reach {
-  speed_m_s: number;
-  most_m: number;
+  /** A second. */
+  speed: number;
+  most: number;
 }
 
 /**
@@ -51,11 +52,11 @@ export class Motion {
 
   /** Robots set out from where they are drawn; those that jumped are there at once. */
   private setOut(drawn: Frame, to: Frame, reach: Reach): void {
-    const most_m = Math.min(reach.most_m, slack * reach.speed_m_s * (to.time_s - drawn.time_s));
+    const most = Math.min(reach.most, slack * reach.speed * (to.time_s - drawn.time_s));
     const from = drawn.robots.slice();
     for (let i = 0; i < from.length; i += 4) {
       const [x, y] = [(to.robots[i] ?? 0) - (from[i] ?? 0), (to.robots[i + 1] ?? 0) - (from[i + 1] ?? 0)];
-      if (x * x + y * y > most_m * most_m) from.set(to.robots.subarray(i, i + 4), i);
+      if (x * x + y * y > most * most) from.set(to.robots.subarray(i, i + 4), i);
     }
     this.from = from;
     this.fromTime_s = drawn.time_s;
@@ -83,8 +84,8 @@ const reaches = new WeakMap<Setting, Reach>();
 
 export function reachOf(setting: Setting): Reach {
   const found = reaches.get(setting) ?? {
-    speed_m_s: Math.max(0, ...Object.values(tableOf(setting.document.robots)).map(speedOf_m_s)),
-    most_m: Math.min(...worldOf(setting).size_m) / 2,
+    speed: Math.max(0, ...Object.values(tableOf(setting.document.robots)).map(speedOf_m_s)),
+    most: Math.min(...setting.world.size) / 2,
   };
   reaches.set(setting, found);
   return found;

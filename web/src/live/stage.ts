@@ -63,7 +63,7 @@ export class Stage {
 
   fit(): void {
     const { setting } = this.desk.session;
-    if (setting) this.look(fitTo(worldOf(setting).size_m, this.camera.width, this.camera.height));
+    if (setting) this.look(fitTo(setting.world.size, this.camera.width, this.camera.height));
   }
 
   zoom(factor: number, at: Point = [this.camera.width / 2, this.camera.height / 2]): void {
@@ -86,8 +86,8 @@ export class Stage {
   }
 
   /** Where in the world a pixel is, and how far a pointer reaches there. */
-  place(at: Point): { at: Point; reach_m: number } {
-    return { at: toWorld(this.camera, ...at), reach_m: tapReach_px / this.camera.scale };
+  place(at: Point): { at: Point; reach: number } {
+    return { at: toWorld(this.camera, ...at), reach: tapReach_px / this.camera.scale };
   }
 
   /** Chooses the robot at a pixel, or none. */
@@ -95,8 +95,8 @@ export class Stage {
     const { session } = this.desk;
     const { shown } = session.arrivals;
     if (!session.setting || !shown) return;
-    const { at: place, reach_m } = this.place(at);
-    const robot = robotAt(shown, session.setting, ...place, reach_m);
+    const { at: place, reach } = this.place(at);
+    const robot = robotAt(shown, session.setting, ...place, reach);
     session.select(session.setting.robots[robot] ?? null);
   }
 
@@ -167,6 +167,7 @@ export class Stage {
       frame: frame?.generation === setting.generation ? frame : null,
       mind: state?.mind ?? null,
       map,
+      told: state?.robot ?? null,
       selected: selected === null ? -1 : setting.robots.indexOf(selected),
       trails: this.trails,
       ghost: this.ghost,
@@ -174,14 +175,14 @@ export class Stage {
   }
 
   /** The view that the address asks for, or all of the world. */
-  private frameView({ size_m }: World): void {
+  private frameView({ size }: World): void {
     if (this.isFramed) return;
     this.isFramed = true;
     const { width, height } = this.camera;
     const { view } = this.desk.link;
     this.camera = view
       ? { x: view[0], y: view[1], scale: view[2], width, height }
-      : fitTo(size_m, width, height);
+      : fitTo(size, width, height);
     this.desk.camera = this.camera;
   }
 }

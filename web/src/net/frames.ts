@@ -22,7 +22,7 @@ export interface Frame {
   number: number;
   /** Robots. */
   count: number;
-  /** (count, 4): x in m, y in m, heading in rad, state. */
+  /** (count, 4): x and y in the unit of the world, heading in rad, state. */
   robots: Float32Array;
   /** One state an item. */
   items: Uint8Array;

@@ -1,4 +1,4 @@
-import type { Checked, Fault, RecordingEntry, ScenarioEntry } from "./protocol";
+import type { Checked, Engine, Fault, RecordingEntry, ScenarioEntry } from "./protocol";
 import { Refusal } from "./study";
 
 export async function scenarios(): Promise<ScenarioEntry[]> {
@@ -14,8 +14,9 @@ export function recordingFile(id: string): string {
   return `api/recordings/file?id=${encodeURIComponent(id)}`;
 }
 
-export async function schema(): Promise<unknown> {
-  return (await asked("api/schema")).json();
+/** The schema of an engine's scenarios. */
+export async function schema(engine: Engine): Promise<unknown> {
+  return (await asked(`api/schema?engine=${engine}`)).json();
 }
 
 export function picture(scenario: string): string {

@@ -101,7 +101,6 @@ export interface Opened {
     engine: Engine;
     summary: string;
     cap_s: number;
-    step_s: number;
   };
   seed: string;
   run: string;
@@ -125,7 +124,8 @@ export interface RingView {
 export interface KindView {
   name: string;
   count: number;
-  radius_m: number;
+  /** As all of a setting's places, in the unit of its world. */
+  radius: number;
   flies: boolean;
   radio_range_m: number | null;
   sensors: SensorView[];
@@ -135,21 +135,34 @@ export interface KindView {
 
 export interface ItemView {
   kind: string;
-  at_m: Point;
+  at: Point;
   sought: boolean;
+  /** Outlines of where robots must be to find it, if there are such. */
+  contact: Point[][];
 }
 
 export interface MapView {
-  corners_m: [Point, Point, Point, Point];
+  corners: [Point, Point, Point, Point];
   columns: number;
   rows: number;
   /** Base64 of a byte a cell; row 0 lies at the side from corner 0 to corner 1. */
   cells: string;
 }
 
+export interface WorldView {
+  size: Point;
+  wraps: boolean;
+  unit: "m" | "px";
+  /** How wide its cells are; null where there are none. */
+  cell: number | null;
+}
+
 export interface Setting {
   type: "setting";
   generation: number;
+  /** Time in the world that a step takes. */
+  step_s: number;
+  world: WorldView;
   document: Table;
   robots: string[];
   kinds: KindView[];
@@ -304,6 +317,14 @@ export interface MapPart {
   unseen: string;
 }
 
+/** What an engine tells of the selected robot, besides its mind. */
+export interface RobotView {
+  name: string;
+  facts: [name: string, text: string][];
+  /** Outlines of the cells that it would look at if it decided now. */
+  looks: Point[][];
+}
+
 export type Outcome = Record<string, number | string | boolean | null>;
 
 export interface State {
@@ -321,6 +342,7 @@ export interface State {
   differs_at: number | null;
   outcome: Outcome;
   mind: Mind | null;
+  robot: RobotView | null;
 }
 
 export interface Refused {

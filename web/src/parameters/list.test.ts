@@ -26,7 +26,7 @@ const document: Table = {
 const rover: KindView = {
   name: "rover",
   count: 4,
-  radius_m: 0.27,
+  radius: 0.27,
   rings: [],
   flies: false,
   radio_range_m: 20,

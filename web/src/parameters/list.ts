@@ -69,7 +69,7 @@ function knownOf(kinds: KindView[]): Table {
     ]);
     const radio: Table = kind.radio_range_m === null ? {} : { radio: { range_m: kind.radio_range_m } };
     const layer = kind.flies ? "air" : "ground";
-    return [kind.name, { layer, radius_m: kind.radius_m, sensors: Object.fromEntries(sensors), ...radio }];
+    return [kind.name, { layer, radius_m: kind.radius, sensors: Object.fromEntries(sensors), ...radio }];
   });
   return { robots: Object.fromEntries(robots) };
 }
@@ -87,6 +87,8 @@ class Walk {
     if (choices) return [this.parameter(outer, "choice", choices, value, known, steps)];
     const schema = variantOf(outer, value ?? known, this.root);
     if (!schema) return [];
+    const names = choicesOf(schema, this.root);
+    if (names) return [this.parameter(outer, "choice", names, value, known, steps)];
     const { type } = schema;
     if (type === "number" || type === "integer" || type === "boolean") {
       const described = { ...schema, description: outer.description ?? schema.description };

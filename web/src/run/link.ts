@@ -15,7 +15,7 @@ export interface Link {
   /** Null for those of the recording. */
   changes: Change[] | null;
   tick: number;
-  /** Centre in metres, and pixels a metre. */
+  /** Centre, and pixels a metre (or whatever the world's unit is). */
   view: [number, number, number] | null;
   robot: string | null;
 }

@@ -2,14 +2,17 @@ import { expect, test } from "vitest";
 import { outcomeRows } from "./outcome";
 
 test("found is told of all, and what is weighed comes first, with units", () => {
-  const rows = outcomeRows({
-    time_s: 12.3456,
-    energy_j: 48_512,
-    found: 1,
-    missed: 3,
-    merit: -1.234,
-    collisions: 0,
-  });
+  const rows = outcomeRows(
+    {
+      time_s: 12.3456,
+      energy_j: 48_512,
+      found: 1,
+      missed: 3,
+      merit: -1.234,
+      collisions: 0,
+    },
+    9,
+  );
   expect(rows.map(({ name, value, unit }) => `${name} ${value} ${unit}`.trim())).toEqual([
     "found 1 / 4",
     "merit -1.23",
@@ -20,7 +23,11 @@ test("found is told of all, and what is weighed comes first, with units", () => 
 });
 
 test("what is not known yet is left out, and words are shown as they are", () => {
-  expect(outcomeRows({ merit: null, status: "running" })).toEqual([
+  expect(outcomeRows({ merit: null, status: "running" }, 4)).toEqual([
     { name: "status", value: "running", unit: "" },
   ]);
+});
+
+test("where an engine does not tell what was missed, all is what is sought", () => {
+  expect(outcomeRows({ found: 1 }, 4)[0]?.value).toBe("1 / 4");
 });

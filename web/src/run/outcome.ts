@@ -16,12 +16,12 @@ const units: [ending: string, unit: string][] = [
 const first = ["merit", "collisions", "energy_j"];
 
 /** What came of a run, as people read it: found of all, then numbers with their units. */
-export function outcomeRows(outcome: Outcome): OutcomeRow[] {
+export function outcomeRows(outcome: Outcome, sought: number): OutcomeRow[] {
   const { found, missed, ...rest } = outcome;
   const rows: OutcomeRow[] = [];
   if (typeof found === "number") {
-    const all = typeof missed === "number" ? ` / ${found + missed}` : "";
-    rows.push({ name: "found", value: `${found}${all}`, unit: "" });
+    const all = typeof missed === "number" ? found + missed : sought;
+    rows.push({ name: "found", value: `${found} / ${all}`, unit: "" });
   }
   const names = [
     ...first.filter((name) => name in rest),

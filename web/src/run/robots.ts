@@ -42,14 +42,14 @@ export function countStates(frame: Frame | null): number[] {
   return counts;
 }
 
-/** The robot nearest to a place, if one is within `reach_m` of it or covers it; else -1. */
-export function robotAt(frame: Frame, setting: Setting, x: number, y: number, reach_m: number): number {
+/** The robot nearest to a place, if one is within `reach` of it or covers it; else -1. */
+export function robotAt(frame: Frame, setting: Setting, x: number, y: number, reach: number): number {
   let [best, nearest] = [-1, Number.POSITIVE_INFINITY];
   for (const { kind, first, count } of rangesOf(setting)) {
-    const reach = Math.max(reach_m, kind.radius_m);
+    const covered = Math.max(reach, kind.radius);
     for (let i = first; i < Math.min(first + count, frame.count); i++) {
       const distance = Math.hypot((frame.robots[4 * i] ?? 0) - x, (frame.robots[4 * i + 1] ?? 0) - y);
-      if (distance <= reach && distance < nearest) [best, nearest] = [i, distance];
+      if (distance <= covered && distance < nearest) [best, nearest] = [i, distance];
     }
   }
   return best;

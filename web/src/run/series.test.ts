@@ -17,6 +17,7 @@ function state(tick: number, found: number, edge = tick): State {
     differs_at: null,
     outcome,
     mind: null,
+    robot: null,
   };
 }
 
@@ -47,4 +48,12 @@ test("a CSV has a column a number, and none for words", () => {
   series.add(state(0, 0));
   series.add(state(10, 3));
   expect(series.csv()).toBe("tick,time_s,found\n0,0,0\n10,1,3\n");
+});
+
+test("where the clock goes otherwise from now on, all times are told by it", () => {
+  const series = new Series();
+  series.add(state(0, 0));
+  series.add(state(10, 3));
+  series.measure(0.5);
+  expect(series.rows.map((row) => row.time_s)).toEqual([0, 5]);
 });

@@ -20,6 +20,11 @@ export class Series {
     this.rows.splice(place, replaced, row);
   }
 
+  /** Steps take so long: a clock that goes otherwise is told of all steps, so that time never goes back. */
+  measure(step_s: number): void {
+    this.rows = this.rows.map((row) => ({ ...row, time_s: row.tick * step_s }));
+  }
+
   /** Names of all values, in the order in which they came. */
   names(): string[] {
     return [...new Set(this.rows.flatMap((row) => Object.keys(row.values)))];

@@ -95,6 +95,11 @@ export class Session implements Listener {
     return this.source.text;
   }
 
+  /** The classic engine has robots of its own kind, and a world that nobody changes. */
+  get isClassic(): boolean {
+    return this.opened?.scenario.engine === "classic";
+  }
+
   // Commands.
 
   play(speed: Speed): void {
@@ -205,6 +210,7 @@ export class Session implements Listener {
   }
 
   private set(setting: Setting): void {
+    if (this.setting && this.setting.step_s !== setting.step_s) this.series.measure(setting.step_s);
     this.setting = setting;
     this.refusals = {};
     this.onFrame();

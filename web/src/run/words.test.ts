@@ -15,6 +15,7 @@ const state: State = {
   differs_at: null,
   outcome: { found: 2 },
   mind: null,
+  robot: null,
 };
 
 test("the status says in words what the picture shows", () => {

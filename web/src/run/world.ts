@@ -1,4 +1,4 @@
-import type { Json, Point, Setting, Table } from "../net/protocol";
+import type { Json, Point, Setting, Table, WorldView } from "../net/protocol";
 
 export interface Terrain {
   name: string;
@@ -7,19 +7,16 @@ export interface Terrain {
 
 export type Obstacle = { [key: string]: Json };
 
-export interface World {
-  size_m: Point;
-  wraps: boolean;
+/** The world of a setting, and what stands in it. */
+export interface World extends WorldView {
   obstacles: Obstacle[];
   terrain: Terrain[];
 }
 
-/** What stands in the world, as the scenario has it. */
 export function worldOf(setting: Setting): World {
   const world = tableOf(setting.document.world);
   return {
-    size_m: isPoint(world.size_m) ? world.size_m : extent(setting),
-    wraps: world.wraps === true,
+    ...setting.world,
     obstacles: listOf(world.obstacles).map(tableOf),
     terrain: Object.entries(tableOf(setting.document.terrain)).map(([name, ground]) => ({
       name,
@@ -51,10 +48,4 @@ export function pointsOf(value: Json | undefined): Point[] {
 
 export function isPoint(value: Json | undefined): value is Point {
   return Array.isArray(value) && value.length === 2 && value.every((part) => typeof part === "number");
-}
-
-/** Of a world whose scenario gives no size. */
-function extent({ items }: Setting): Point {
-  const most = (axis: 0 | 1) => Math.max(9, ...items.map((item) => item.at_m[axis])) + 1;
-  return [most(0), most(1)];
 }

@@ -1,6 +1,6 @@
 import type { Point } from "../net/protocol";
 
-/** What of the world is seen: its centre, pixels a metre, and the picture's size in pixels. */
+/** What of the world is seen: its centre, pixels a metre (or whatever its unit is), and the picture's size in pixels. */
 export interface Camera {
   x: number;
   y: number;

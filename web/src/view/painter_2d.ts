@@ -52,7 +52,7 @@ export class Painter2d implements Painter {
     mark: Path2D,
   ): void {
     for (const { kind, first, count: size } of ranges) {
-      const radius = Math.max(leastRadius_px(count), kind.radius_m * camera.scale);
+      const radius = Math.max(leastRadius_px(count), kind.radius * camera.scale);
       for (let i = first; i < Math.min(first + size, count); i++) {
         if (robots[4 * i + 3] !== state) continue;
         const [x, y] = toScreen(camera, robots[4 * i] ?? 0, robots[4 * i + 1] ?? 0);

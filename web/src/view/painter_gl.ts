@@ -90,7 +90,7 @@ export class PainterGl implements Painter {
     gl.disableVertexAttribArray(0);
     this.setView(body, camera);
     for (const { kind, first, count } of ranges) {
-      gl.uniform1f(body.radius, drawnRadius(kind.radius_m, camera, frame.count));
+      gl.uniform1f(body.radius, drawnRadius(kind.radius, camera, frame.count));
       const drawn = Math.min(count, frame.count - first);
       if (drawn > 0) this.quads.draw(first, drawn);
     }
@@ -103,11 +103,8 @@ export class PainterGl implements Painter {
     gl.enable(gl.BLEND);
     this.setView(marks, camera);
     // Marked robots of all kinds in one go: as large as the largest kind's.
-    const radius_m = Math.max(
-      0,
-      ...ranges.filter((range) => range.count > 0).map(({ kind }) => kind.radius_m),
-    );
-    const radius = drawnRadius(radius_m, camera, robots);
+    const greatest = Math.max(0, ...ranges.filter((range) => range.count > 0).map(({ kind }) => kind.radius));
+    const radius = drawnRadius(greatest, camera, robots);
     gl.uniform1f(marks.radius, radius);
     gl.uniform1f(gl.getUniformLocation(marks.program, "pixel"), 1 / (radius * camera.scale));
     this.quads.draw(0, this.markCount);
@@ -126,8 +123,8 @@ export class PainterGl implements Painter {
   }
 }
 
-export function drawnRadius(radius_m: number, camera: Camera, robots: number): number {
-  return Math.max(radius_m, leastRadius_px(robots) / camera.scale);
+export function drawnRadius(radius: number, camera: Camera, robots: number): number {
+  return Math.max(radius, leastRadius_px(robots) / camera.scale);
 }
 
 /** Puts the number of each robot that is not clear four times, once a corner; gives how many those are. */

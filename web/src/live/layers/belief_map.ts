@@ -20,6 +20,7 @@ export const beliefMap: Layer = {
   switchable: true,
   on: true,
   place: "over",
+  only: "metric",
   active: ({ map, selected }) => map !== null && selected >= 0,
   draw(pen, { map }) {
     if (!map) return;
@@ -36,6 +37,7 @@ export const unseen: Layer = {
   switchable: true,
   on: false,
   place: "over",
+  only: "metric",
   active: ({ map, selected }) => map !== null && selected >= 0,
   draw(pen, { map }) {
     if (map) picture(pen, map, madeOf(map, pen.colours).unseen);

@@ -34,6 +34,6 @@ export const border: Layer = {
 };
 
 function rectangle({ camera }: Pen, { world }: Scene): [number, number, number, number] {
-  const [left, top] = toScreen(camera, 0, world.size_m[1]);
-  return [left, top, world.size_m[0] * camera.scale, world.size_m[1] * camera.scale];
+  const [left, top] = toScreen(camera, 0, world.size[1]);
+  return [left, top, world.size[0] * camera.scale, world.size[1] * camera.scale];
 }

@@ -12,6 +12,7 @@ export const footprints: Layer = {
   switchable: true,
   on: true,
   place: "over",
+  only: "metric",
   active: ({ frame, selected, setting }) =>
     setting.kinds.some((kind) => kind.sensors.length > 0) &&
     frame !== null &&

@@ -3,7 +3,7 @@ import type { Layer, Pen, Scene } from "./layer";
 
 const least_px = 64;
 
-/** Metres from one line to the next: 1, 2 or 5 times a power of ten, so that lines are not too near. */
+/** From one mark to the next, in the unit of the world: 1, 2 or 5 times a power of ten, so that lines are not too near. */
 export function spacing(scale: number): number {
   const wanted = least_px / scale;
   const power = 10 ** Math.floor(Math.log10(wanted));
@@ -19,27 +19,28 @@ export const grid: Layer = {
   active: () => true,
   draw(pen, scene) {
     const { context, colours, camera } = pen;
-    const step = spacing(camera.scale);
+    const marks = spacing(camera.scale);
+    const step = scene.world.cell ?? marks;
     context.strokeStyle = colours.grid;
     context.lineWidth = 1;
     context.beginPath();
-    for (let x = step; x < scene.world.size_m[0]; x += step) line(pen, scene, x, true);
-    for (let y = step; y < scene.world.size_m[1]; y += step) line(pen, scene, y, false);
+    for (let x = step; x < scene.world.size[0]; x += step) line(pen, scene, x, true);
+    for (let y = step; y < scene.world.size[1]; y += step) line(pen, scene, y, false);
     context.stroke();
-    scaleBar(pen, step);
+    scaleBar(pen, marks, scene.world.unit);
   },
 };
 
 function line({ context, camera }: Pen, { world }: Scene, at: number, upright: boolean): void {
   const [from, to] = upright
-    ? [toScreen(camera, at, 0), toScreen(camera, at, world.size_m[1])]
-    : [toScreen(camera, 0, at), toScreen(camera, world.size_m[0], at)];
+    ? [toScreen(camera, at, 0), toScreen(camera, at, world.size[1])]
+    : [toScreen(camera, 0, at), toScreen(camera, world.size[0], at)];
   const snap = (value: number) => Math.round(value) + 0.5;
   context.moveTo(upright ? snap(from[0]) : from[0], upright ? from[1] : snap(from[1]));
   context.lineTo(upright ? snap(to[0]) : to[0], upright ? to[1] : snap(to[1]));
 }
 
-function scaleBar({ context, camera, colours }: Pen, step: number): void {
+function scaleBar({ context, camera, colours }: Pen, step: number, unit: string): void {
   const [left, bottom, length] = [16, camera.height - 16, step * camera.scale];
   context.strokeStyle = context.fillStyle = colours.text;
   context.lineWidth = 1.5;
@@ -50,5 +51,5 @@ function scaleBar({ context, camera, colours }: Pen, step: number): void {
   context.lineTo(left + length, bottom - 5);
   context.stroke();
   context.font = "12px system-ui, sans-serif";
-  context.fillText(`${Number(step.toPrecision(3))} m`, left + 5, bottom - 6);
+  context.fillText(`${Number(step.toPrecision(3))} ${unit}`, left + 5, bottom - 6);
 }

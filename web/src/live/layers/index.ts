@@ -1,11 +1,13 @@
 import { beliefMap, unseen } from "./belief_map";
 import { border, ground } from "./border";
+import { contact } from "./contact";
 import { footprints } from "./footprints";
 import { ghost } from "./ghost";
 import { grid } from "./grid";
 import { items } from "./items";
 import type { Layer } from "./layer";
 import { links } from "./links";
+import { looks } from "./looks";
 import { maps } from "./maps";
 import { mind } from "./mind";
 import { obstacles } from "./obstacles";
@@ -22,10 +24,12 @@ export const layers: Layer[] = [
   maps,
   obstacles,
   border,
+  contact,
   items,
   beliefMap,
   unseen,
   footprints,
+  looks,
   links,
   trails,
   reach,

@@ -15,8 +15,8 @@ export const items: Layer = {
   active: ({ setting }) => setting.items.length > 0,
   draw(pen, { setting, frame, ghost }) {
     const states = frame?.items;
-    setting.items.forEach(({ at_m, sought }, i) => {
-      const [x, y] = toScreen(pen.camera, ...at_m);
+    setting.items.forEach(({ at, sought }, i) => {
+      const [x, y] = toScreen(pen.camera, ...at);
       pen.context.globalAlpha = ghost ? 0.6 : 1;
       if (!sought) plus(pen, x, y);
       else if (states?.[i] === ItemState.Found) found(pen, x, y);

@@ -1,5 +1,5 @@
 import type { Frame } from "../../net/frames";
-import type { Mind, Point, Setting } from "../../net/protocol";
+import type { Engine, Mind, Point, RobotView, Setting } from "../../net/protocol";
 import type { BelievedMap } from "../../run/believed_map";
 import type { World } from "../../run/world";
 import type { Camera } from "../../view/camera";
@@ -14,6 +14,8 @@ export interface Scene {
   mind: Mind | null;
   /** What the selected robot believes of its field. */
   map: BelievedMap | null;
+  /** What else is told of the selected robot. */
+  told: RobotView | null;
   /** Number of the selected robot; -1 for none. */
   selected: number;
   trails: Trails;
@@ -38,12 +40,14 @@ export interface Layer {
   switchable: boolean;
   on: boolean;
   place: "still" | "over";
+  /** The engine that alone has such things; left out: all have. */
+  only?: Engine;
   /** Whether there is anything to draw; a canvas with nothing on it costs nothing. */
   active(scene: Scene): boolean;
   draw(pen: Pen, scene: Scene): void;
 }
 
-/** Draws in metres, y up, in which a line of a pixel is `1 / camera.scale` wide. */
+/** Draws in the world's unit, y up, in which a line of a pixel is `1 / camera.scale` wide. */
 export function inWorld({ context, camera }: Pen, draw: () => void): void {
   const { x, y, scale, width, height } = camera;
   context.save();

@@ -13,6 +13,7 @@ export const links: Layer = {
   switchable: true,
   on: false,
   place: "over",
+  only: "metric",
   active: ({ setting, frame, selected }) =>
     setting.kinds.some((kind) => kind.radio_range_m !== null) &&
     frame !== null &&

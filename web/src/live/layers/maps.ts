@@ -19,7 +19,7 @@ export const maps: Layer = {
 
 function drawMap(pen: Pen, map: MapView): void {
   const { context, colours } = pen;
-  const [origin, across, , up] = map.corners_m;
+  const [origin, across, , up] = map.corners;
   const { columns, rows } = map;
   const picture = pictureOf(map, colours);
   inWorld(pen, () => {

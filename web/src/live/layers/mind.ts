@@ -12,6 +12,7 @@ export const mind: Layer = {
   switchable: true,
   on: true,
   place: "over",
+  only: "metric",
   active: (scene) => !!scene.mind?.thoughts && scene.selected >= 0,
   draw(pen, scene) {
     const isOfSelected = scene.mind?.robot === scene.setting.robots[scene.selected];

@@ -10,6 +10,7 @@ export const reach: Layer = {
   switchable: true,
   on: true,
   place: "over",
+  only: "metric",
   active: ({ mind, selected }) => selected >= 0 && !!mind?.thoughts?.reach,
   draw(pen, { mind, setting, selected }) {
     const thoughts = mind?.robot === setting.robots[selected] ? mind?.thoughts : null;

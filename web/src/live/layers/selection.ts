@@ -14,8 +14,8 @@ export const selection: Layer = {
   draw({ context, camera, colours }, scene) {
     const pose = poseOf(scene, scene.selected);
     if (!pose) return;
-    const radius_m = kindOf(scene.setting, scene.selected)?.radius_m ?? 0;
-    const half = drawnRadius(radius_m, camera, scene.setting.robots.length) * camera.scale * 1.6 + 4;
+    const radius = kindOf(scene.setting, scene.selected)?.radius ?? 0;
+    const half = drawnRadius(radius, camera, scene.setting.robots.length) * camera.scale * 1.6 + 4;
     const [x, y] = toScreen(camera, ...pose.at);
     context.strokeStyle = colours.accent;
     context.lineWidth = 2;

@@ -8,6 +8,7 @@ export const terrain: Layer = {
   switchable: true,
   on: true,
   place: "still",
+  only: "metric",
   active: ({ world }) => world.terrain.length > 0,
   draw(pen, { world }) {
     const { context, colours, camera } = pen;

@@ -7,7 +7,7 @@ import type { Bench, Tool } from "./tool";
 /** The picture, as far as tools need it. */
 interface Picture {
   ghost: Path2D | null;
-  place(at: Point): { at: Point; reach_m: number };
+  place(at: Point): { at: Point; reach: number };
   redraw(still?: boolean): void;
 }
 
@@ -24,8 +24,8 @@ export class Hand {
     const { setting } = this.desk.session;
     const tool = toolOf(this.desk.tool);
     if (!tool || !setting) return false;
-    const { at: from, reach_m } = this.picture.place(at);
-    const bench = { setting, world: worldOf(setting), reach_m, itemKind: this.desk.itemKind };
+    const { at: from, reach } = this.picture.place(at);
+    const bench = { setting, world: worldOf(setting), reach, itemKind: this.desk.itemKind };
     this.grip = tool.grips(bench, from) ? { tool, bench, from } : null;
     if (this.grip) this.drag(at);
     return this.grip !== null;

@@ -6,9 +6,9 @@ export const item: Tool = {
   label: "Add item",
   help: "Press where it is to lie. All items of its kind then stay where they are now.",
   grips: ({ itemKind }) => itemKind !== "",
-  ghost({ reach_m }, _, to) {
+  ghost({ reach }, _, to) {
     const path = new Path2D();
-    ring(path, to, reach_m * 0.6);
+    ring(path, to, reach * 0.6);
     return path;
   },
   edit: ({ setting, itemKind }, _, to) => itemsEdit(setting, itemKind, [...placesOf(setting, itemKind), to]),

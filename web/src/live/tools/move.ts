@@ -10,7 +10,7 @@ export const move: Tool = {
   ghost(bench, from, to) {
     const thing = thingAt(bench, from);
     const path = new Path2D();
-    if (thing && "item" in thing) ring(path, to, bench.reach_m * 0.6);
+    if (thing && "item" in thing) ring(path, to, bench.reach * 0.6);
     else if (thing)
       addObstacle(path, moved(bench.world.obstacles[thing.obstacle] ?? {}, to[0] - from[0], to[1] - from[1]));
     return path;
@@ -31,7 +31,7 @@ function movedItem({ setting }: Bench, index: number, to: Point): Edit | null {
   return itemsEdit(
     setting,
     chosen.kind,
-    same.map((item) => (item === chosen ? to : item.at_m)),
+    same.map((item) => (item === chosen ? to : item.at)),
   );
 }
 

@@ -7,7 +7,7 @@ export const remove: Tool = {
   grips: (bench, at) => thingAt(bench, at) !== null,
   ghost(bench, from) {
     const thing = thingAt(bench, from);
-    return thing ? pathOf(bench.world, bench.setting, thing, bench.reach_m) : null;
+    return thing ? pathOf(bench.world, bench.setting, thing, bench.reach) : null;
   },
   edit(bench, from) {
     const thing = thingAt(bench, from);

@@ -7,9 +7,10 @@ import type { Bench } from "./tool";
 const setting: Setting = {
   type: "setting",
   generation: 1,
+  step_s: 0.1,
+  world: { size: [20, 20], wraps: false, unit: "m", cell: null },
   document: {
     world: {
-      size_m: [20, 20],
       obstacles: [
         {
           polygon_m: [
@@ -28,15 +29,15 @@ const setting: Setting = {
   robots: [],
   kinds: [],
   items: [
-    { kind: "mine", at_m: [15, 15], sought: true },
-    { kind: "scrap", at_m: [1, 19], sought: false },
+    { kind: "mine", at: [15, 15], sought: true, contact: [] },
+    { kind: "scrap", at: [1, 19], sought: false, contact: [] },
   ],
   maps: [],
   item_kinds: ["mine"],
   changes: [],
   log: [],
 };
-const bench: Bench = { setting, world: worldOf(setting), reach_m: 0.5, itemKind: "mine" };
+const bench: Bench = { setting, world: worldOf(setting), reach: 0.5, itemKind: "mine" };
 
 test("an item is found before the obstacle that it lies on", () => {
   expect(thingAt(bench, [15.2, 15])).toEqual({ item: 0 });

@@ -14,8 +14,8 @@ export function tidy([x, y]: Point): Point {
 }
 
 /** The thing at a place: an item before an obstacle, as items are small. */
-export function thingAt({ setting, world, reach_m }: Bench, at: Point): Thing | null {
-  const item = setting.items.findIndex(({ at_m }) => distance(at_m, at) <= reach_m);
+export function thingAt({ setting, world, reach }: Bench, at: Point): Thing | null {
+  const item = setting.items.findIndex((each) => distance(each.at, at) <= reach);
   if (item >= 0) return { item };
   const obstacle = world.obstacles.findLastIndex((one) => covers(one, at));
   return obstacle >= 0 ? { obstacle } : null;
@@ -34,7 +34,7 @@ export function itemsEdit(setting: Setting, kind: string, places: Point[]): Edit
 }
 
 export function placesOf(setting: Setting, kind: string, but: ItemView | null = null): Point[] {
-  return setting.items.filter((item) => item.kind === kind && item !== but).map((item) => item.at_m);
+  return setting.items.filter((item) => item.kind === kind && item !== but).map((item) => item.at);
 }
 
 export function moved(obstacle: Obstacle, dx: number, dy: number): Obstacle {
@@ -44,11 +44,11 @@ export function moved(obstacle: Obstacle, dx: number, dy: number): Obstacle {
   return circle ? { ...obstacle, circle: { ...circle, at_m: shift(circle.at_m) } } : obstacle;
 }
 
-export function pathOf(world: World, { items }: Setting, thing: Thing, reach_m: number): Path2D {
+export function pathOf(world: World, { items }: Setting, thing: Thing, reach: number): Path2D {
   const path = new Path2D();
   if ("item" in thing) {
     const item = items[thing.item];
-    if (item) ring(path, item.at_m, reach_m * 0.6);
+    if (item) ring(path, item.at, reach * 0.6);
     return path;
   }
   addObstacle(path, world.obstacles[thing.obstacle] ?? {});

@@ -6,7 +6,7 @@ export interface Bench {
   setting: Setting;
   world: World;
   /** Within this of a thing a pointer is at it. */
-  reach_m: number;
+  reach: number;
   /** The kind that is placed. */
   itemKind: string;
 }

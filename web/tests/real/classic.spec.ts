@@ -1,0 +1,78 @@
+import type { Page } from "@playwright/test";
+import { expectAccessible } from "../page";
+import { expect, type RealServer, test } from "./server";
+
+const status = (page: Page) => page.locator("#status");
+const hash = async (page: Page) =>
+  (await page.getByTitle("Hash of the run's state").getAttribute("title")) ?? "";
+
+async function open(page: Page, server: RealServer, query = ""): Promise<void> {
+  await page.goto(`${server.url}/#/live?scenario=classic&seed=7${query}`);
+  await expect(status(page)).toContainText("robots");
+}
+
+test("the experiment of 2003 opens from the gallery and runs until all is found", async ({
+  page,
+  server,
+}) => {
+  await page.goto(server.url);
+  await page.getByRole("link", { name: /Classic engine of 2003/ }).click();
+  await expect(status(page)).toHaveText("0.0 s, 4 robots: all clear; 1 of 4 items found; paused.");
+  await page.getByRole("combobox", { name: "Speed" }).selectOption({ label: "as fast as it can" });
+  await page.keyboard.press("Space");
+  await expect(status(page)).toContainText("4 of 4 items found; the run is over");
+});
+
+test("a step is a paint, and steps back lead to the same state", async ({ page, server }) => {
+  await open(page, server, "&tick=10&robot=wanderer/2");
+  const decides = page.locator("dt", { hasText: "Decides" }).locator("+ dd");
+  await expect(decides).toHaveText("in 2 paints");
+  const there = await hash(page);
+  await page.keyboard.press(".");
+  await expect(decides).toHaveText("in 1 paint");
+  await page.keyboard.press(".");
+  await expect(decides).toHaveText("in 11 paints");
+  for (let i = 0; i < 2; i += 1) await page.keyboard.press(",");
+  await expect(decides).toHaveText("in 2 paints");
+  await expect.poll(() => hash(page)).toBe(there);
+});
+
+test("team and contact change in mid-run, and the address gives the same run", async ({
+  page,
+  server,
+  context,
+}) => {
+  await open(page, server, "&tick=30");
+  await page.getByRole("tab", { name: "Parameters" }).click();
+  const slider = page.getByRole("slider", { name: "Count of wanderer, slider" });
+  await slider.focus();
+  for (let i = 0; i < 3; i += 1) await page.keyboard.press("ArrowRight");
+  await expect(status(page)).toContainText("7 robots");
+  await page.getByRole("searchbox").fill("contact");
+  await page.getByRole("combobox", { name: "contact" }).selectOption("within-2");
+  await expect.poll(() => page.url()).toContain("within-2");
+  await page.getByRole("application").focus();
+  for (let i = 0; i < 5; i += 1) await page.keyboard.press(".");
+  await expect.poll(() => page.url()).toContain("tick=35");
+  const other = await context.newPage();
+  await other.goto(page.url());
+  await expect(status(other)).toContainText("7 robots");
+  await expect.poll(() => hash(other)).toBe(await hash(page));
+});
+
+test("what 2003 had not is not offered", async ({ page, server }) => {
+  await open(page, server);
+  await expect(page.getByRole("tab", { name: "Edit" })).toHaveCount(0);
+  await page.getByRole("tab", { name: "Layers" }).click();
+  await expect(page.getByRole("checkbox", { name: "Cells looked at" })).toBeVisible();
+  await expect(page.getByRole("checkbox", { name: "Radio range" })).toHaveCount(0);
+  await expect(page.getByText("battery empty")).toHaveCount(0);
+});
+
+for (const tab of ["Results", "Robot", "Parameters", "Layers", "Changes"]) {
+  test(`of a classic run the panel ${tab} has no fault that axe finds`, async ({ page, server }) => {
+    await open(page, server, "&tick=60&changes=[[0,%22contact%22,%22ahead%22]]&robot=wanderer/0");
+    await page.getByRole("tab", { name: tab }).click();
+    await expectAccessible(page);
+  });
+}
