@@ -138,3 +138,10 @@ fn a_longer_cap_lets_a_capped_run_go_on_as_if_it_had_been_so_from_the_start() {
     let begun = finished(Run::new(configuration(3, Contact::Ahead, 6720), SEED, 3));
     assert_eq!(finished(run).search().hash(), begun.search().hash());
 }
+
+#[test]
+fn the_hash_of_a_state_is_the_same_on_every_machine() {
+    let mut run = Run::new(configuration(8, Contact::Touch, 6720), SEED, 0);
+    stepped(&mut run, 100);
+    assert_eq!(run.search().hash(), 0x9351_9214_100E_2DA1);
+}

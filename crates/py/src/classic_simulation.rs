@@ -86,7 +86,7 @@ impl ClassicSimulation {
             py.detach(|| go(&AtomicBool::new(false)));
             return Ok(());
         }
-        interruptible(py, Some(1), go)
+        interruptible(py, None, go)
     }
 
     /// Goes on with another scenario; returns how many steps have been taken.

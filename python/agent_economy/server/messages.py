@@ -38,6 +38,9 @@ A frame in little endian is eight numbers, `u32` but for the time: 1, generation
 in s (`f64`), items, the frame's number; then what `_core.frame` says. It is drawn in the setting of
 its generation.
 
+A state tells of the robot that was selected: its `mind`, and as `robot` what else its engine knows,
+in words, with outlines of the cells that it would look at; each null where there is nothing.
+
 Places are in the `unit` of the setting's `world`: metres, or the pixels of the classic engine's
 window; y is upwards. A `cell` of that world is so wide, or null where there are none.
 
