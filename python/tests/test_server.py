@@ -281,6 +281,13 @@ def test_steps_go_forth_and_back(page: Page) -> None:
     page.until("state", tick=0)
 
 
+def test_steps_said_fast_are_all_taken(page: Page) -> None:
+    page.open()
+    for _ in range(20):
+        page.say("step", steps=1)
+    page.until("state", tick=20)
+
+
 def test_a_change_in_the_run_is_seen_and_its_log_gives_the_run_again(page: Page) -> None:
     page.open(tick=40)
     page.say("change", path="robots.rover.count", value=7)

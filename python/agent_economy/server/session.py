@@ -175,8 +175,10 @@ class Session:
             case messages.Pause():
                 self._stand()
             case messages.Step(steps=steps):
+                # From where the steps said before lead to, if those are not yet taken.
+                first = self._run.tick if self._aim is None else self._aim
                 self._stand()
-                self._aim = max(0, self._run.tick + steps)
+                self._aim = max(0, first + steps)
             case messages.Go(tick=tick):
                 self._stand()
                 self._aim = min(tick, self._run.edge)
