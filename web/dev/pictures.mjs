@@ -18,6 +18,10 @@ const live = "#/live?scenario=search-mind&seed=7&run=0&tick=220";
 const views = {
   gallery: { at: "#/", ready: (page) => pictured(page) },
   live: { at: `${live}&robot=rover/0`, ready: (page) => standing(page, "22.0 s") },
+  classic: {
+    at: "#/live?scenario=classic&seed=7&run=0&tick=400&robot=wanderer/0",
+    ready: (page) => standing(page, "7.1 s"),
+  },
   parameters: {
     at: live,
     ready: async (page) => {
