@@ -9,7 +9,7 @@ RUST := $(shell find crates/*/src crates/*/Cargo.toml) Cargo.toml Cargo.lock
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 
 .PHONY: help study test bench bench-brains bench-peers bench-store verify-selection fuzz golden schemas \
-	picture examples replication validation minds web lint wasm rust-test python-test page-test clean
+	picture page-pictures bench-page examples replication validation minds web lint wasm rust-test python-test page-test clean
 
 help: ## Say what can be made
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "%-17s %s\n", $$1, $$2 }' Makefile
@@ -107,6 +107,12 @@ examples: .venv/installed ## Write anew what examples print
 
 picture: study ## Take docs/report.png anew (needs Chromium)
 	$(BIN)/python scripts/report_picture.py
+
+page-pictures: .venv/installed web ## Take the pictures of docs/ui anew (needs Node and Chromium)
+	cd web && CHROMIUM="$(CHROMIUM)" node dev/pictures.mjs
+
+bench-page: .venv/installed web ## What the page costs: first load, changes until seen, crowds (needs Chromium)
+	cd web && CHROMIUM="$(CHROMIUM)" npm run --silent bench
 
 # Needs a nightly Rust and cargo-fuzz (`cargo install cargo-fuzz`).
 fuzz: ## Broken input to every reader, a minute each
