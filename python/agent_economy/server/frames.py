@@ -18,7 +18,7 @@ HEADER = struct.Struct("<4Id2I")
 def frame(simulation: Stepped, generation: int, number: int) -> bytes:
     """Return one moment, as `messages` says."""
     drawn = engines.of(simulation).drawn(simulation)
-    robots = len(simulation.robots)
+    robots = sum(simulation.scenario.robots.values())
     items = len(drawn) - 16 * robots
     tick, time_s = simulation.tick, simulation.time_s
     return HEADER.pack(KIND, generation, tick, robots, time_s, items, number) + drawn
