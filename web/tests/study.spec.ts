@@ -134,6 +134,34 @@ test("the race is told in words and as a table, stops, and goes on", async ({ pa
   await expect(page.getByText("runs a second")).toBeVisible();
 });
 
+test("a study that is opened is asked for once", async ({ page, fake }) => {
+  const id = await start(page.request, fake, long);
+  let asked = 0;
+  page.on("request", (request) => (asked += Number(request.url().includes("api/study?"))));
+  await page.goto(at(fake, id));
+  await expect(page.getByText("runs a second")).toBeVisible();
+  await expect(page.getByText(/put out by/).first()).toBeVisible();
+  expect(asked).toBe(1);
+});
+
+test("a study that is answered just as it is stopped shows its answer", async ({ page, fake }) => {
+  await page.route("**/api/studies/stop", async (route) => {
+    const { studies } = await (await page.request.get(`${fake.url}/api/studies`)).json();
+    await route.fulfill({ json: { ...studies[0], state: "answered" } });
+  });
+  await page.goto(at(fake, await start(page.request, fake)));
+  await page.getByRole("button", { name: "Stop" }).click();
+  await expect(sentence(page)).toBeVisible({ timeout: 10_000 });
+});
+
+test("a study that cannot be read says so, under a heading", async ({ page, fake }) => {
+  await page.route("**/api/study?*", (route) => route.abort("connectionfailed"));
+  await page.goto(at(fake, await start(page.request, fake, long)));
+  await expect(page.getByRole("heading", { name: "studies/" })).toBeVisible();
+  await expect(page.getByText("The server does not answer.")).toBeVisible();
+  await expectAccessible(page);
+});
+
 test("the race has no fault that axe finds", async ({ page, fake }) => {
   await page.emulateMedia({ reducedMotion: "reduce" });
   await page.goto(at(fake, await start(page.request, fake, long)));

@@ -1,7 +1,7 @@
 import { browserWires, Connection, type Listener } from "../net/connection";
 import type { Message } from "../net/protocol";
 import { resume, stop, study } from "../net/studies";
-import { type Listed, Refusal, type Study, type StudyState, type Studying } from "../net/study";
+import { Refusal, type Study, type StudyState, type Studying } from "../net/study";
 import { following } from "./standings";
 import { troubleOf } from "./words";
 
@@ -24,6 +24,8 @@ export class Watch implements Listener {
   private readonly connection: Connection;
   private asked = 0;
   private isClosed = false;
+  /** Whether what is known of the study may be of before. */
+  private isStale = true;
 
   constructor(private readonly id: string) {
     this.connection = new Connection(this, browserWires(`ws?${new URLSearchParams({ study: id })}`));
@@ -31,7 +33,6 @@ export class Watch implements Listener {
 
   start(): void {
     this.connection.start();
-    void this.load();
   }
 
   close(): void {
@@ -42,7 +43,7 @@ export class Watch implements Listener {
   async stop(): Promise<void> {
     this.trouble = "";
     try {
-      this.told(await stop(this.id));
+      await stop(this.id);
     } catch (fault) {
       this.trouble = troubleOf(fault);
     }
@@ -51,7 +52,7 @@ export class Watch implements Listener {
   /** Goes on, up to a higher confidence if one is given; returns why not, empty if it does. */
   async resume(confidence: number | null): Promise<string> {
     try {
-      this.told(await resume(this.id, confidence));
+      await resume(this.id, confidence);
       this.connection.start();
       return "";
     } catch (fault) {
@@ -62,7 +63,7 @@ export class Watch implements Listener {
   // What the line tells.
 
   ready(): void {
-    if (!this.study) void this.load();
+    this.isStale = true;
   }
 
   lost(again_ms: number): void {
@@ -77,8 +78,9 @@ export class Watch implements Listener {
     this.phase = "there";
     if (message.labels) this.labels = message.labels;
     this.race = following(this.race, message);
-    // An answer is in files: what has just ended is read from there.
-    const isNew = message.state !== "running" && message.state !== this.study?.state;
+    // What a study asks and its answer are in files, which are other ones after a new state.
+    const isNew = this.isStale || message.state !== this.state;
+    this.isStale = false;
     this.state = message.state;
     if (message.state !== "running") this.connection.close();
     if (isNew) void this.load();
@@ -92,22 +94,16 @@ export class Watch implements Listener {
       // Answers may overtake each other; the last question is the one that counts.
       if (asked !== this.asked) return;
       this.study = loaded;
-      this.state ??= loaded.state;
+      this.trouble = "";
     } catch (fault) {
       if (!this.isClosed) this.missed(fault);
     }
   }
 
   private missed(fault: unknown): void {
-    // A server that does not answer is called by the line until it does.
+    this.trouble = troubleOf(fault);
     if (!(fault instanceof Refusal)) return;
-    this.trouble = fault.message;
     this.phase = "refused";
     this.connection.close();
-  }
-
-  private told(listed: Listed): void {
-    this.state = listed.state;
-    if (this.study) this.study = { ...this.study, ...listed };
   }
 }
