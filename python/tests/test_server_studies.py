@@ -20,6 +20,7 @@ from starlette.websockets import WebSocketDisconnect
 from agent_economy import Scenario, study
 from agent_economy.server import Places, app
 from agent_economy.server.studies.factors import factors
+from agent_economy.server.studies.work import Work, interrupted
 from agent_economy.study import ask, report
 from agent_economy.study.report import View
 
@@ -253,6 +254,34 @@ def test_a_stopped_or_killed_study_keeps_its_runs_and_goes_on_to_the_same_bytes(
     study.run(Scenario.load("search"), vary=vary, max_runs=150, out=tmp_path / "whole")
     mine = (folder.path / name / "answer.json").read_bytes()
     assert mine == (tmp_path / "whole" / "answer.json").read_bytes()
+
+
+def test_a_study_that_is_stopped_while_it_starts_says_nothing(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    work = Work(study.make_plan(Scenario.load("classic")), tmp_path / "study")
+    work.stop()
+    assert (work.is_alive, work.message) == (False, None)
+    assert capfd.readouterr().err == ""
+
+
+def test_a_study_is_interrupted_once() -> None:
+    before = signal.getsignal(signal.SIGINT)
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            interrupted()
+        assert signal.getsignal(signal.SIGINT) is signal.SIG_IGN
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+def test_before_its_first_round_all_are_still_in(folder: Folder) -> None:
+    place = folder.path / "studies" / "asked"
+    place.mkdir(parents=True)
+    scenario = Scenario.load("classic")
+    (place / "study.toml").write_text(study.make_plan(scenario).text(), encoding="utf-8")
+    (last,) = folder.watched("studies/asked")
+    assert (last["state"], last["survivors"], last["runs"]) == ("stopped", 8, 0)
 
 
 def test_a_run_of_a_study_can_be_watched_and_is_the_very_same(folder: Folder) -> None:

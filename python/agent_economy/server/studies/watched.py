@@ -70,6 +70,8 @@ def seen(studies: Studies, name: str) -> dict[str, Any]:
     said = work.said if work else NOTHING
     try:
         row = studies.of(name)
+        if not work:
+            said = {**NOTHING, "survivors": row["configurations"]}
         if row["state"] != "damaged" and not (work and work.is_alive):
             said = {**said, **stored(studies.folder(name))}
     except InputError as error:

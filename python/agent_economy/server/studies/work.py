@@ -67,6 +67,7 @@ class Work:
         self.said = {**NOTHING, "survivors": len(plan.configurations)}
         self.message: str | None = None
         self._is_stopped = False
+        self._is_heard = threading.Event()
         self._ended = threading.Event()
         context = multiprocessing.get_context("spawn")
         self._line, line = context.Pipe(duplex=False)
@@ -88,6 +89,8 @@ class Work:
     def stop(self) -> None:
         """Interrupt it, and wait until it has ended."""
         self._is_stopped = True
+        # Before it is heard it is only being made, and an interrupt would be lost, or printed.
+        self._is_heard.wait(STOP_S)
         if self.is_alive and self._process.pid is not None:
             with contextlib.suppress(ProcessLookupError):
                 os.kill(self._process.pid, signal.SIGINT)
@@ -99,12 +102,14 @@ class Work:
         with contextlib.suppress(EOFError, OSError), self._line:
             while True:
                 self._hear(self._line.recv())
+        self._is_heard.set()
         self._process.join()
         if self.message is None and not self._is_stopped:
             self.message = why(self._process.exitcode or 0)
         self._ended.set()
 
     def _hear(self, said: dict[str, Any]) -> None:
+        self._is_heard.set()
         self.message = said.pop("message", None)
         gone = self.said["eliminated"] + said.pop("eliminated", [])
         self.said = {**self.said, **said, "eliminated": gone}
@@ -120,15 +125,26 @@ def why(code: int) -> str | None:
 
 def work(plan: Plan, folder: Path, line: Connection) -> None:
     """Run a study, or go on with it; this is what the process does."""
-    # A shell that starts the server in the background may have it ignored.
-    signal.signal(signal.SIGINT, signal.default_int_handler)
     os.nice(GENTLE)
     threading.Thread(target=end_with_server, daemon=True).start()
     with contextlib.suppress(KeyboardInterrupt, ConnectionError):
+        # A shell that starts the server in the background may have it ignored.
+        signal.signal(signal.SIGINT, interrupted)
+        line.send({})
         try:
             study.pursue(plan, folder, on_progress=Teller(line))
         except (StudyError, InputError) as error:
             line.send({"message": str(error)})
+
+
+def interrupted(*_: object) -> None:
+    """Interrupt this process once: Ctrl-C in a terminal reaches it and its server, which asks again.
+
+    Raises:
+        KeyboardInterrupt: Always.
+    """
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    raise KeyboardInterrupt
 
 
 def end_with_server() -> None:
