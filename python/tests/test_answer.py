@@ -119,6 +119,12 @@ def test_the_effort_foretold_is_right_within_a_factor_of_three() -> None:
         assert 1 / 3 < effort.runs / taken < 3
 
 
+@pytest.mark.parametrize("delta", [1e-300, 1e308])
+def test_the_effort_of_any_delta_can_be_said(delta: float) -> None:
+    seen = evidence(sample(0.5, 40, {TEAM: 1}), sample(0.6, 40, {TEAM: 2}))
+    assert [effort.delta < delta for effort in efforts(seen, 1, delta)] == [True] * 3
+
+
 def test_the_factor_that_does_nothing_has_no_influence() -> None:
     rng = np.random.default_rng(2)
     samples = []

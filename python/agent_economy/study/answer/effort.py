@@ -77,7 +77,7 @@ def duel_runs(evidence: Evidence, best: int, other: int, asked: Asked) -> float:
     depth = challenger.limits["merit"][1] - champion.limits["merit"][0]
     goal = math.log(asked.rivals / (1 - evidence.confidence))
     fastest = max(0.0, 2 * depth / lead)
-    return goal * max(2 * float(differences.var()) / lead**2, fastest) + 1
+    return goal * max(2 * (float(differences.std()) / lead) ** 2, fastest) + 1
 
 
 def two_figures(number: float) -> int:
