@@ -19,8 +19,8 @@ from starlette.websockets import WebSocketDisconnect
 
 from agent_economy import Scenario, study
 from agent_economy.server import Places, app
+from agent_economy.server.studies import work
 from agent_economy.server.studies.factors import factors
-from agent_economy.server.studies.work import Work, interrupted
 from agent_economy.study import ask, report
 from agent_economy.study.report import View
 
@@ -259,17 +259,29 @@ def test_a_stopped_or_killed_study_keeps_its_runs_and_goes_on_to_the_same_bytes(
 def test_a_study_that_is_stopped_while_it_starts_says_nothing(
     tmp_path: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    work = Work(study.make_plan(Scenario.load("classic")), tmp_path / "study")
-    work.stop()
-    assert (work.is_alive, work.message) == (False, None)
+    begun = work.Work(study.make_plan(Scenario.load("classic")), tmp_path / "study")
+    begun.stop()
+    assert (begun.is_alive, begun.message) == (False, None)
     assert capfd.readouterr().err == ""
+
+
+def test_who_is_put_out_after_the_estimate_stands_no_more(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(work, "TELL_S", 0.0)
+    monkeypatch.setattr(work, "RANGES_S", 1e9)
+    theirs, mine = multiprocessing.Pipe()
+    teller = work.Teller(mine)
+    monkeypatch.setattr(work, "estimated", lambda _: {"standings": [[0], [1]], "left_runs": None})
+    for gone in ([], [[1, 0, 20]]):
+        facts = {"runs": 40, "survivors": 2, "leaders": [], "eliminated": gone, "is_over": False}
+        teller(study.Progress.of_facts(1, facts, 40, 1.0))
+    assert [theirs.recv()["standings"] for _ in range(2)] == [[[0], [1]], [[0]]]
 
 
 def test_a_study_is_interrupted_once() -> None:
     before = signal.getsignal(signal.SIGINT)
     try:
         with pytest.raises(KeyboardInterrupt):
-            interrupted()
+            work.interrupted()
         assert signal.getsignal(signal.SIGINT) is signal.SIG_IGN
     finally:
         signal.signal(signal.SIGINT, before)

@@ -138,7 +138,7 @@ def work(plan: Plan, folder: Path, line: Connection) -> None:
 
 
 def interrupted(*_: object) -> None:
-    """Interrupt this process once: Ctrl-C in a terminal reaches it and its server, which asks again.
+    """Interrupt this process once: Ctrl-C in a terminal reaches it, and its server that asks again.
 
     Raises:
         KeyboardInterrupt: Always.
@@ -164,12 +164,14 @@ class Teller:
         """Begin with nothing told."""
         self._line = line
         self._eliminated: list[list[int]] = []
+        self._gone: set[int] = set()
         self._estimated: dict[str, Any] = {}
         self._tell_at_s = self._estimate_at_s = 0.0
 
     def __call__(self, now: Progress) -> None:
         """Tell, if it is time."""
         self._eliminated += [[each.configuration, each.by, each.runs] for each in now.eliminated]
+        self._gone |= {each.configuration for each in now.eliminated}
         now_s = time.monotonic()
         if now_s < self._tell_at_s and not now.is_over:
             return
@@ -178,7 +180,10 @@ class Teller:
             took_s = time.monotonic() - now_s
             self._estimate_at_s = now_s + max(RANGES_S, took_s / RANGES_SHARE)
         counts = {name: getattr(now, name) for name in COUNTS}
-        self._line.send({**counts, **self._estimated, "eliminated": self._eliminated})
+        # Some may have been put out since the estimate.
+        left = [row for row in self._estimated["standings"] if row[0] not in self._gone]
+        told = {**counts, **self._estimated, "standings": left, "eliminated": self._eliminated}
+        self._line.send(told)
         self._eliminated = []
         self._tell_at_s = time.monotonic() + TELL_S
 
