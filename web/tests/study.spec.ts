@@ -154,6 +154,17 @@ test("a study that is answered just as it is stopped shows its answer", async ({
   await expect(sentence(page)).toBeVisible({ timeout: 10_000 });
 });
 
+test("a study that another page made go on is seen by who wants it to", async ({ page, fake }) => {
+  const id = await start(page.request, fake, long);
+  await page.goto(at(fake, id));
+  await page.getByRole("button", { name: "Stop" }).click();
+  await expect(page.getByRole("button", { name: "Go on" })).toBeVisible();
+  await page.request.post(`${fake.url}/api/studies/resume`, { data: { id, confidence: null } });
+  await page.route("**/api/studies/resume", (route) => route.fulfill({ status: 422, json: { faults: [] } }));
+  await page.getByRole("button", { name: "Go on" }).click();
+  await expect(page.getByRole("button", { name: "Stop" })).toBeVisible();
+});
+
 test("a study that cannot be read says so, under a heading", async ({ page, fake }) => {
   await page.route("**/api/study?*", (route) => route.abort("connectionfailed"));
   await page.goto(at(fake, await start(page.request, fake, long)));

@@ -53,11 +53,18 @@ export class Watch implements Listener {
   async resume(confidence: number | null): Promise<string> {
     try {
       await resume(this.id, confidence);
-      this.connection.start();
       return "";
     } catch (fault) {
       return troubleOf(fault);
+    } finally {
+      // Also if that was refused: another page may have been faster.
+      this.connection.start();
     }
+  }
+
+  /** Looks whether a study that stood goes on: others can see to that. */
+  lookAgain(): void {
+    if (this.phase === "there" && this.state !== "running") this.connection.start();
   }
 
   // What the line tells.
