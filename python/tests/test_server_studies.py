@@ -459,6 +459,7 @@ def test_a_damaged_study_is_listed_with_what_is_wrong(
         (row,) = folder.get("/api/studies")["studies"]
         assert row["state"] == "damaged"
         assert file in row["message"]
+        assert "Error" not in row["message"]
         (last,) = folder.watched("studies/classic")
         assert last["state"] == "damaged"
         assert file in last["message"]

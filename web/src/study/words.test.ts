@@ -32,6 +32,14 @@ test("a race that stands has no speed and no time left", () => {
   expect(words).toEqual(["3 of 8 still in", "2,031 runs", "36 round", "12 s taken"]);
 });
 
+test("a race in another process has no known speed", () => {
+  const words = figuresOf({ ...race, seconds: 0, runs_per_s: 0, left_s: null }, 8);
+  expect(words.slice(3)).toEqual([
+    ["–", "runs a second"],
+    ["–", "left, about"],
+  ]);
+});
+
 test("durations are as long as people say them", () => {
   expect([0.2, 42, 180, 7500].map(duration)).toEqual(["1 s", "42 s", "3 min", "2 h 5 min"]);
 });

@@ -27,7 +27,9 @@ export function figuresOf(race: Studying, total: number): [value: string, words:
   ];
   if (race.state !== "running") return [...first, [race.seconds > 0 ? duration(race.seconds) : "–", "taken"]];
   const left = race.left_s === null ? "–" : duration(race.left_s);
-  return [...first, [count(race.runs_per_s), "runs a second"], [left, "left, about"]];
+  // Of one in another process nobody knows.
+  const rate = race.seconds > 0 ? count(race.runs_per_s) : "–";
+  return [...first, [rate, "runs a second"], [left, "left, about"]];
 }
 
 export function nameOf(labels: string[], configuration: number): string {

@@ -125,8 +125,11 @@ def answered(folder: Path, answer: Mapping[str, Any], changed_s: float) -> Summa
             asked["question"]["guarantee"],
             asked["data"].get("runs"),
         )
-    except (tomllib.TOMLDecodeError, KeyError, TypeError, AttributeError) as error:
-        message = f"{folder / ASKED}: is not a study: {error!r}"
+    except tomllib.TOMLDecodeError as error:
+        message = f"{folder / ASKED}: is not a study: {error}"
+        raise InputError(message) from None
+    except (KeyError, TypeError, AttributeError):
+        message = f"{folder / ASKED}: is damaged: restore it, or start in another folder"
         raise InputError(message) from None
     return Summary(
         "answered",
