@@ -343,7 +343,7 @@ test("a server that is gone is said on lists and forms, which mend themselves", 
   fake,
   context,
 }) => {
-  await start(page.request, fake);
+  await start(page.request, fake, long);
   await page.goto(`${fake.url}/#/studies`);
   await expect(page.getByRole("listitem")).toHaveCount(1);
   await context.setOffline(true);
