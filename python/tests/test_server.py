@@ -379,6 +379,7 @@ def test_a_robot_without_a_mind_has_a_percept_and_a_command_and_no_map(page: Pag
     ("said", "told"),
     [
         ('{"type": "bogus"}', "one of open, play"),
+        ('{"type": ["open"]}', "one of open, play"),
         ("{", "in JSON"),
         ("[" * 100_000, "in JSON"),
         ('{"type": "play", "speed": "fast"}', "play.speed"),
@@ -389,12 +390,23 @@ def test_a_robot_without_a_mind_has_a_percept_and_a_command_and_no_map(page: Pag
         ('{"type": "open", "scenario": "search", "seed": "99999999999999999999"}', "seed"),
         ('{"type": "open", "scenario": "nothing"}', "one of the gallery"),
         ('{"type": "open", "scenario": "search", "changes": [[1, 2]]}', "[tick, path, value]"),
+        (f'{{"type": "open", "recording": "{"a" * 300}.mcap"}}', "one below the folder"),
     ],
 )
 def test_what_a_page_may_not_say_is_refused_in_words(page: Page, said: str, told: str) -> None:
     page.socket.send_text(said)
     refused = page.until("refused")
     assert told in refused["faults"][0]["message"]
+    page.open()
+
+
+@pytest.mark.parametrize("said", ["pause", "cancel", "select"])
+def test_what_is_said_before_a_run_is_opened_holds_nobody_up(
+    client: TestClient, page: Page, said: str
+) -> None:
+    page.say(said, robot=None)
+    with client.websocket_connect(WS) as other:
+        Page(other).open()
     page.open()
 
 

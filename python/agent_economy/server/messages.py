@@ -197,7 +197,8 @@ def read(text: str) -> Message:
         said = text[:80]
     given.of_kind("message", said, dict, "an object with a type, in JSON")
     kind = said.get("type")
-    given.check(kind in READERS, "message.type", kind, f"one of {', '.join(READERS)}")
+    is_known = isinstance(kind, str) and kind in READERS
+    given.check(is_known, "message.type", kind, f"one of {', '.join(READERS)}")
     return READERS[kind](said)
 
 
@@ -327,7 +328,7 @@ def finite(name: str, said: Any) -> Given:
     return said  # type: ignore[no-any-return]
 
 
-READERS: dict[Any, Callable[[Mapping[str, Any]], Message]] = {
+READERS: dict[str, Callable[[Mapping[str, Any]], Message]] = {
     "open": opened,
     "play": play,
     "pause": lambda _: Pause(),

@@ -169,7 +169,12 @@ def folder_id(folder: Path, below: Path) -> str:
 
 def is_study(folder: Path) -> bool:
     """Return whether a folder holds a study."""
+    return is_file(folder / ASKED)
+
+
+def is_file(path: Path) -> bool:
+    """Return whether there is a file; of a name that no file can have there is none."""
     try:
-        return (folder / ASKED).is_file()
+        return path.is_file()
     except (OSError, ValueError):
         return False

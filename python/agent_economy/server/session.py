@@ -130,14 +130,15 @@ class Session:
 
     def _wait_s(self) -> float:
         """Return for how long there is nothing to do."""
-        now_s = time.monotonic()
-        if self._timeline is None or not self._is_busy():
-            wants_frame = self._is_new and len(self._on_the_way) < ON_THE_WAY
-            return 0.0 if wants_frame else IDLE_S
+        if self._timeline is None:
+            return IDLE_S
+        is_due = self._is_new and len(self._on_the_way) < ON_THE_WAY
+        if not self._is_busy():
+            return 0.0 if is_due else IDLE_S
         if self._aim is not None:
             return 0.0
+        now_s = time.monotonic()
         wait_s = self._pace.wait_s(now_s, self._timeline.tick)
-        is_due = self._is_new and len(self._on_the_way) < ON_THE_WAY
         return min(wait_s, max(0.0, self._frame_at_s + FRAME_S - now_s)) if is_due else wait_s
 
     def _is_busy(self) -> bool:

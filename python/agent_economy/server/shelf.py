@@ -11,7 +11,7 @@ from agent_economy.recording.glance import glance
 from agent_economy.recording.identity import Identity
 from agent_economy.recording.reading import Recorded, read
 from agent_economy.recording.recorder import ENDING
-from agent_economy.server.places import OUTSIDE, Places
+from agent_economy.server.places import OUTSIDE, Places, is_file
 
 FOLDER = "recordings"
 """Where new ones go, below the folder in which the server was started."""
@@ -75,7 +75,7 @@ class Shelf:
             InputError: If there is none, or it is outside of the folder.
         """
         file = self.places.folder / name
-        is_here = self.places.has(file) and file.suffix == ENDING and file.is_file()
+        is_here = self.places.has(file) and file.suffix == ENDING and is_file(file)
         given.check(is_here, "recording", name, "one below the folder of the server")
         return file
 
