@@ -1,5 +1,6 @@
 """What the page's server answers, and whom."""
 
+import asyncio
 import base64
 import json
 import math
@@ -7,6 +8,7 @@ import re
 import struct
 import time
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -20,7 +22,7 @@ from agent_economy.server import Places, app
 from agent_economy.server.app import MOST_SESSIONS
 from agent_economy.server.bodies import MOST_BYTES
 from agent_economy.server.pictures import ITEM, ROBOT, WALL
-from agent_economy.server.session import ON_THE_WAY
+from agent_economy.server.session import ON_THE_WAY, GoneError, Session
 
 HEADER = struct.Struct("<4Id2I")
 
@@ -86,11 +88,20 @@ def test_the_gallery_has_what_ships_and_what_is_in_the_folder(
     text = ae.Scenario.load("search").source.text
     (tmp_path / "mine").mkdir()
     (tmp_path / "mine" / "field.toml").write_text(text)
+    (tmp_path / "marked.toml").write_text(f"\ufeff{text}")
     (tmp_path / "other.toml").write_text("[tool]\n")
+    (tmp_path / "deep.toml").write_text(f"a = {'[' * 5000}")
     (tmp_path / ".hidden").mkdir()
     (tmp_path / ".hidden" / "field.toml").write_text(text)
     rows = {row["id"]: row for row in client.get("/api/scenarios").json()}
-    assert rows.keys() >= {"classic", "search", "search-mind", "open-field", "mine/field.toml"}
+    assert rows.keys() >= {
+        "classic",
+        "search",
+        "search-mind",
+        "open-field",
+        "marked.toml",
+        "mine/field.toml",
+    }
     assert rows["mine/field.toml"]["where"] == "folder"
     assert not {"other.toml", ".hidden/field.toml"} & rows.keys()
 
@@ -410,6 +421,37 @@ def test_what_is_said_before_a_run_is_opened_holds_nobody_up(
     page.open()
 
 
+def test_a_page_that_goes_as_it_speaks_leaves_nothing_behind(tmp_path: Path) -> None:
+    said = iter([{"type": "open", "scenario": "search"}, {"type": "pause"}])
+
+    class Hasty:
+        def __init__(self) -> None:
+            self.has_seen = asyncio.Event()
+
+        async def receive(self) -> str:
+            message = next(said, None)
+            if message is None:
+                raise GoneError
+            if message["type"] == "pause":
+                await self.has_seen.wait()
+            return json.dumps(message)
+
+        async def tell(self, told: dict[str, Any]) -> None:
+            if told["type"] == "state":
+                # Not before the run stands and what is said next is waited for.
+                asyncio.get_running_loop().call_later(0.1, self.has_seen.set)
+
+        async def show(self, frame: bytes) -> None:
+            pass
+
+    async def served() -> None:
+        with ThreadPoolExecutor(2) as threads:
+            session = Session(Hasty(), Places(tmp_path), threads)
+            await asyncio.wait_for(session.run(), 10)
+
+    asyncio.run(served())
+
+
 def test_a_change_that_is_not_allowed_changes_nothing(page: Page) -> None:
     before = page.open(tick=10)
     for path, value in [("robots.rover.count", -1), ("clock.step_s", 1), ("a", None)]:
@@ -460,6 +502,7 @@ def test_no_more_than_so_many_runs_are_open(client: TestClient) -> None:
         ({"origin": "http://127.0.0.1:9999"}, False),
         ({"origin": "https://evil.example"}, False),
         ({"origin": "null"}, False),
+        ({"origin": "http://["}, False),
         ({"host": "evil.example"}, False),
         ({"host": "localhost:8765", "origin": "http://localhost:8765"}, True),
         ({"host": "localhost:8765", "origin": OWN}, False),

@@ -61,7 +61,7 @@ class Guard:
         if not self._is_own(host):
             return f"This server does not go by the name {host!r}."
         origin = headers.get("origin")
-        if origin is not None and urlsplit(origin).netloc != host:
+        if origin is not None and place_of(origin) != host:
             return f"Pages of {origin} may not speak to this server."
         if (
             scope["type"] == "websocket"
@@ -113,6 +113,14 @@ def address_of(name: str) -> IPv4Address | IPv6Address | None:
     """Return the address that a text is, if it is one."""
     try:
         return ip_address(name)
+    except ValueError:
+        return None
+
+
+def place_of(origin: str) -> str | None:
+    """Return the host and port of an origin; None if it has none."""
+    try:
+        return urlsplit(origin).netloc
     except ValueError:
         return None
 

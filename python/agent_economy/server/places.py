@@ -130,8 +130,8 @@ def described(name: str, file: Path, where: str) -> dict[str, Any] | None:
     if isinstance(data, str):
         return None
     try:
-        document = tomllib.loads(data.decode())
-    except ValueError:
+        document = tomllib.loads(data.decode("utf-8-sig"))
+    except (ValueError, RecursionError):
         return None
     if not isinstance(document.get("engine"), str):
         return None

@@ -86,18 +86,17 @@ class Session:
 
     async def run(self) -> None:
         """Serve the page until it has gone."""
-        listening = asyncio.create_task(self._listen())
-        playing = asyncio.create_task(self._play())
+        tasks = {asyncio.create_task(self._listen()), asyncio.create_task(self._play())}
         try:
-            done, _ = await asyncio.wait({listening, playing}, return_when=asyncio.FIRST_COMPLETED)
-            for task in done:
-                with contextlib.suppress(GoneError):
-                    task.result()
+            await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
         finally:
-            for task in (listening, playing):
+            for task in tasks:
                 task.cancel()
-            await asyncio.gather(listening, playing, return_exceptions=True)
+            await asyncio.wait(tasks)
             await self._saver.end()
+        for task in tasks:
+            with contextlib.suppress(GoneError, asyncio.CancelledError):
+                task.result()
 
     async def _listen(self) -> None:
         while True:
@@ -120,7 +119,9 @@ class Session:
             wait_s = self._wait_s()
             if wait_s > 0:
                 try:
-                    said = await asyncio.wait_for(self._heard.get(), wait_s)
+                    # Not `wait_for`, which may lose that this task is cancelled as the page goes.
+                    async with asyncio.timeout(wait_s):
+                        said = await self._heard.get()
                 except TimeoutError:
                     await self._let_go()
                     return
