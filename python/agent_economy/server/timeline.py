@@ -203,7 +203,7 @@ class Timeline:
                 # Only runs of the metric engine have bodies outside.
                 cast("Any", self.simulation).step(1, **given_here)
             else:
-                self.simulation.step(steps)
+                self._take(steps)
         took_s = time.monotonic() - start_s
         self._pace = max(1, min(10_000, round(self._pace * SLICE_S / max(took_s, SLICE_S / 4))))
         self._apply()
@@ -211,6 +211,13 @@ class Timeline:
         self.edge = max(self.edge, self.tick)
         if self.tick >= self._ticks[-1] + self._every:
             self._keep()
+
+    def _take(self, steps: int) -> None:
+        """Take steps, but none beyond the end, beyond which a run of the metric engine would go."""
+        for _ in range(steps):
+            if self._is_at_the_end():
+                return
+            self.simulation.step()
 
     def _apply(self) -> None:
         """Make the changes of the log whose time has come."""

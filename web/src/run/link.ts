@@ -51,7 +51,7 @@ export function writeLink(link: Link): string {
   } else {
     if (link.seed !== null) query.set("seed", link.seed);
     query.set("run", link.run);
-    if (link.changes?.length) query.set("changes", JSON.stringify(shortened(link.changes)));
+    if (link.changes?.length) query.set("changes", JSON.stringify(link.changes));
   }
   if (link.tick > 0) query.set("tick", String(link.tick));
   if (link.view) query.set("view", link.view.map((value) => Number(value.toPrecision(5))).join(","));
@@ -91,7 +91,7 @@ export function newStudyLink({ scenario, text }: Pick<Link, "scenario" | "text">
   return `#/study/new?${readable(new URLSearchParams(query).toString())}`;
 }
 
-/** Of changes of one path at one tick only the last counts. */
+/** What changes come to: of those of one path at one tick the last. A run that had all may still be another. */
 export function shortened(changes: Change[]): Change[] {
   return changes.filter(
     ([tick, path], i) => !changes.some(([t, p], j) => j > i && t === tick && overrides(p, path)),
