@@ -421,6 +421,11 @@ def test_what_is_said_before_a_run_is_opened_holds_nobody_up(
     page.open()
 
 
+def test_an_open_that_cannot_be_read_is_refused_as_one(page: Page) -> None:
+    page.say("open", scenario="search", tick=10**20)
+    assert page.until("refused")["about"] == "open"
+
+
 def test_a_page_that_goes_as_it_speaks_leaves_nothing_behind(tmp_path: Path) -> None:
     said = iter([{"type": "open", "scenario": "search"}, {"type": "pause"}])
 

@@ -154,7 +154,9 @@ class Session:
     async def _do(self, said: Message | InputError) -> None:
         self._busy_at_s = time.monotonic()
         if isinstance(said, InputError):
-            await self._refuse("message", said)
+            # So an `open` that cannot be read is refused as one that cannot be opened.
+            about = messages.faults_of(said)[0]["path"].partition(".")[0]
+            await self._refuse(about, said)
             return
         if isinstance(said, messages.Got):
             while self._on_the_way and self._on_the_way[0] <= said.frame:
