@@ -76,3 +76,13 @@ for (const tab of ["Results", "Robot", "Parameters", "Layers", "Changes"]) {
     await expectAccessible(page);
   });
 }
+
+test("the address of a run holds all of its changes, however many", async ({ page, server }) => {
+  const many = Array.from({ length: 400 }, (_, i) => [0, "robots.wanderer.count", 2 + (i % 7)]);
+  await page.goto(`${server.url}/#/live?scenario=classic&changes=${JSON.stringify(many)}`);
+  await page.getByRole("tab", { name: "Parameters" }).click();
+  await page.getByRole("slider", { name: /^Count of/ }).fill("9");
+  await expect.poll(() => decodeURIComponent(page.url())).toContain('[0,"robots.wanderer.count",9]]');
+  await page.reload();
+  await expect(page.locator("#status")).toContainText("9 robots");
+});
