@@ -22,6 +22,7 @@ from agent_economy.server import Places, app
 from agent_economy.server.studies import work
 from agent_economy.server.studies.factors import factors
 from agent_economy.study import ask, report
+from agent_economy.study.arguments import FIRST_LOOK
 from agent_economy.study.report import View
 
 OWN, WS = "http://127.0.0.1:8765", "ws://127.0.0.1:8765/ws"
@@ -30,6 +31,7 @@ TEAM = "robots.wanderer.count"
 QUICK = {"scenario": "classic", "vary": {TEAM: "1..5"}, "delta": 0.3}
 LONG = {"scenario": "search", "vary": {"robots.rover.count": "1..20"}, "delta": 0.001}
 METRIC = {"scenario": "search", "vary": {"robots.rover.count": "2..5"}, "max_runs": 150}
+FIRST_ROUND = 4 * FIRST_LOOK
 
 Told = dict[str, Any]
 
@@ -230,7 +232,7 @@ def test_a_stopped_or_killed_study_keeps_its_runs_and_goes_on_to_the_same_bytes(
     folder: Folder, tmp_path: Path
 ) -> None:
     name = folder.post("/api/studies", **METRIC)["id"]
-    folder.watched(name, runs=1)
+    folder.watched(name, runs=FIRST_ROUND + 1)
     stopped = folder.post("/api/studies/stop", id=name)
     assert stopped["state"] == "stopped"
     assert stopped["message"] is None
@@ -254,6 +256,17 @@ def test_a_stopped_or_killed_study_keeps_its_runs_and_goes_on_to_the_same_bytes(
     study.run(Scenario.load("search"), vary=vary, max_runs=150, out=tmp_path / "whole")
     mine = (folder.path / name / "answer.json").read_bytes()
     assert mine == (tmp_path / "whole" / "answer.json").read_bytes()
+
+
+def test_a_study_stopped_in_its_first_round_has_no_runs_in_the_list_nor_for_watchers(
+    folder: Folder,
+) -> None:
+    slow = {"scenario": "search", "vary": {"robots.rover.count": "1..400"}}
+    name = folder.post("/api/studies", **slow)["id"]
+    assert folder.watched(name, runs=1)[-1]["runs"] > 0
+    assert folder.post("/api/studies/stop", id=name)["runs"] == 0
+    last = folder.watched(name)[-1]
+    assert (last["runs"], last["round"], last["survivors"]) == (0, 0, 400)
 
 
 def test_a_study_that_is_stopped_while_it_starts_says_nothing(

@@ -70,10 +70,11 @@ def seen(studies: Studies, name: str) -> dict[str, Any]:
     said = work.said if work else NOTHING
     try:
         row = studies.of(name)
+        begun = {**NOTHING, "survivors": row["configurations"]}
         if not work:
-            said = {**NOTHING, "survivors": row["configurations"]}
+            said = begun
         if row["state"] != "damaged" and not (work and work.is_alive):
-            said = {**said, **stored(studies.folder(name))}
+            said = {**said, **(stored(studies.folder(name)) or begun)}
     except InputError as error:
         row = {"state": "damaged", "message": str(error)}
     return {"state": row["state"], "message": row["message"], **rates(said)}
@@ -90,12 +91,15 @@ def rates(said: dict[str, Any]) -> dict[str, Any]:
 def stored(folder: Path) -> dict[str, Any]:
     """Return how far a study is as its folder has it: after its last round, or with its answer.
 
+    Returns:
+        Nothing before its first round is over.
+
     Raises:
         InputError: If it is damaged.
     """
     decisions = study.open(folder).decisions()
     if not decisions:
-        return {"left_runs": None}
+        return {}
     facts = decisions[-1].facts
     answer = read_answer(folder)
     if answer:
