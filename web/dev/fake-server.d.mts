@@ -1,7 +1,6 @@
 /** What checks in a browser use of the fake server. */
 export function serve(port?: number): Promise<{
   url: string;
-  counter: { drawn: number };
   /** Cuts all lines. */
   drop(): void;
   stop(): void;

@@ -18,9 +18,8 @@ const here = fileURLToPath(new URL("..", import.meta.url));
 const kinds = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml" };
 const policy = "default-src 'self'; img-src 'self' data:; style-src 'self'";
 
-/** Starts it; gives its address, how many frames were drawn, and what stops it. */
+/** Starts it; gives its address, and what cuts its lines and stops it. */
 export async function serve(port = 0) {
-  const counter = { drawn: 0 };
   const studies = new FakeStudies();
   const shelf = new Shelf();
   const server = createServer((request, answer) =>
@@ -29,7 +28,7 @@ export async function serve(port = 0) {
   const sockets = new WebSocketServer({ server, path: "/ws", perMessageDeflate: false });
   sockets.on("connection", (socket, request) => {
     const study = new URL(request.url, "http://localhost").searchParams.get("study");
-    if (study === null) new Talk(socket, counter, { studies, shelf });
+    if (study === null) new Talk(socket, { studies, shelf });
     else studies.follow(study, socket);
   });
   await new Promise((ready) => server.listen(port, "127.0.0.1", ready));
@@ -41,7 +40,7 @@ export async function serve(port = 0) {
     studies.stop();
     server.close();
   };
-  return { url: `http://127.0.0.1:${server.address().port}`, counter, drop, stop };
+  return { url: `http://127.0.0.1:${server.address().port}`, drop, stop };
 }
 
 async function handle(request, answer, { studies, shelf }) {

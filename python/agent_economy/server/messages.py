@@ -17,7 +17,8 @@ From the page:
 * `save`: the run up to its edge becomes a recording; `cancel`: not so. `export`: the scenario as it
   is now, as a text.
 * `select`: `robot`, of which is told what it perceives, decides and believes, or null.
-* `got`: `frame`, the number of one that has been drawn. No more than three are on their way.
+* `got`: `frame`, the number of one that has been drawn, which holds for those before it. No more
+  than three are on their way.
 
 From the server: `opened`, `setting` (all that stays until something is changed), `state` (at most
 ten times a second), `map`, `saving` (`done` of `steps`) and `saved` (`recording`, as

@@ -36,11 +36,13 @@ cohesion = 0.03
 function countPictures() {
   let isDrawn = false;
   globalThis.pictures = 0;
-  const draw = WebGL2RenderingContext.prototype.drawElements;
-  WebGL2RenderingContext.prototype.drawElements = function (...given) {
-    isDrawn = true;
-    return draw.apply(this, given);
-  };
+  for (const name of ["drawElements", "drawArrays"]) {
+    const draw = WebGL2RenderingContext.prototype[name];
+    WebGL2RenderingContext.prototype[name] = function (...given) {
+      isDrawn = true;
+      return draw.apply(this, given);
+    };
+  }
   const ask = globalThis.requestAnimationFrame.bind(globalThis);
   globalThis.requestAnimationFrame = (act) =>
     ask((time_ms) => {

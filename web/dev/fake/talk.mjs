@@ -5,11 +5,10 @@ const mostUnseen = 3;
 
 /** One page's run: what the real server's end of a socket does, without a simulator. */
 export class Talk {
-  constructor(socket, counter, { studies, shelf }) {
+  constructor(socket, { studies, shelf }) {
     this.shelf = shelf;
     this.socket = socket;
     this.studies = studies;
-    this.counter = counter;
     this.unseen = 0;
     this.number = 0;
     this.toldAt = 0;
@@ -28,7 +27,7 @@ export class Talk {
 
   hear(message) {
     if (message.type === "open") return this.open(message);
-    if (message.type === "got") return this.got();
+    if (message.type === "got") return this.got(message.frame);
     this[`hear_${message.type}`]?.(message);
     if (message.type !== "select") this.dirty = true;
     this.tell();
@@ -226,9 +225,9 @@ export class Talk {
     this.socket.send(this.run.frame(this.generation, this.number));
   }
 
-  got() {
-    this.unseen -= 1;
-    this.counter.drawn += 1;
+  /** One is told for all before it. */
+  got(frame) {
+    this.unseen = this.number - frame;
   }
 }
 

@@ -14,7 +14,7 @@ import { Hand } from "./tools/hand";
 const tapReach_px = 14;
 /** More robots than this are drawn on their way only after a pause: some thirty times a second. */
 const crowd = 1000;
-const crowdPause_ms = 17;
+const crowdPause_ms = 28;
 const isStill = matchMedia("(prefers-reduced-motion: reduce)");
 
 /** The picture of the world: what is seen of it, when it is drawn, and what hands do on it. */
@@ -23,6 +23,7 @@ export class Stage {
   private readonly drawing: Drawing;
   private readonly trails = new Trails();
   private readonly motion = new Motion();
+  private pause: ReturnType<typeof setTimeout> | undefined;
   private readonly hand: Hand;
   private world: World | null = null;
   private worldIsOf: unknown = null;
@@ -148,8 +149,9 @@ export class Stage {
 
   /** Draws robots on their way. */
   private goOn(robots: number): void {
+    clearTimeout(this.pause);
     if (robots <= crowd) this.redraw(false);
-    else setTimeout(() => this.redraw(false), crowdPause_ms);
+    else this.pause = setTimeout(() => this.redraw(false), crowdPause_ms);
   }
 
   private scene(): Scene | null {

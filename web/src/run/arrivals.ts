@@ -1,6 +1,9 @@
 import type { Frame } from "../net/frames";
 
-/** Frames on their way to the screen: only the latest is drawn, and every one is acknowledged. */
+/**
+ * Frames on their way to the screen: only the latest is drawn, and its acknowledgement is one of all before it.
+ * So a page that draws slowly, or is not seen, is sent no more than it draws.
+ */
 export class Arrivals {
   /** The last one that was taken to be drawn. */
   shown: Frame | null = null;
@@ -9,7 +12,6 @@ export class Arrivals {
   constructor(private readonly acknowledge: (frame: number) => void) {}
 
   put(frame: Frame): void {
-    if (this.waiting) this.acknowledge(this.waiting.number);
     this.waiting = frame;
   }
 

@@ -7,6 +7,9 @@ import { isSoftware, programOf, QuadIndices, RobotTexture } from "./gl";
 import { leastRadius_px, type Painter } from "./painter";
 import { bodyVertex, flatFragment, markFragment, markVertex } from "./shaders";
 
+/** In smaller robots nobody sees the notch between the tails, and one triangle does instead of two. */
+const notched_px = 4;
+
 /** Where a program has what all of them are given. */
 interface Places {
   program: WebGLProgram;
@@ -22,6 +25,7 @@ interface Places {
 export class PainterGl implements Painter {
   readonly isSoftware: boolean;
   private readonly body: Places;
+  private readonly corners: WebGLUniformLocation | null;
   private readonly marks: Places;
   private readonly texture: RobotTexture;
   private readonly marked: WebGLBuffer;
@@ -34,6 +38,7 @@ export class PainterGl implements Painter {
   constructor(private readonly gl: WebGL2RenderingContext) {
     this.isSoftware = isSoftware(gl);
     this.body = this.places(bodyVertex, flatFragment);
+    this.corners = gl.getUniformLocation(this.body.program, "corners");
     this.marks = this.places(markVertex, markFragment);
     this.texture = new RobotTexture(gl);
     this.backdrop = new Backdrop(gl);
@@ -90,9 +95,13 @@ export class PainterGl implements Painter {
     gl.disableVertexAttribArray(0);
     this.setView(body, camera);
     for (const { kind, first, count } of ranges) {
-      gl.uniform1f(body.radius, drawnRadius(kind.radius, camera, frame.count));
-      const drawn = Math.min(count, frame.count - first);
-      if (drawn > 0) this.quads.draw(first, drawn);
+      const radius = drawnRadius(kind.radius, camera, frame.count);
+      const drawn = Math.max(0, Math.min(count, frame.count - first));
+      const isSmall = radius * camera.scale < notched_px;
+      gl.uniform1f(body.radius, radius);
+      gl.uniform1i(this.corners, isSmall ? 3 : 4);
+      if (isSmall) gl.drawArrays(gl.TRIANGLES, 3 * first, 3 * drawn);
+      else if (drawn > 0) this.quads.draw(first, drawn);
     }
   }
 

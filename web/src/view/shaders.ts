@@ -3,14 +3,16 @@ precision highp float; precision highp int;
 uniform highp sampler2D robots; uniform vec4 view; uniform float radius; uniform vec3 palette[5];
 `;
 
-/** A chevron: front at (1, 0), two tails, a notch between them. */
+/** A chevron: front at (1, 0), two tails, a notch between them, which is left out of small ones: three corners. */
 export const bodyVertex = `${head}
+uniform int corners;
 flat out vec3 colour;
 const vec2 corner[4] = vec2[4](vec2(1, 0), vec2(-.8, .7), vec2(-.4, 0), vec2(-.8, -.7));
 void main() {
-  int robot = gl_VertexID >> 2;
+  int robot = gl_VertexID / corners, number = gl_VertexID - robot * corners;
+  if (corners == 3 && number == 2) number = 3;
   vec4 pose = texelFetch(robots, ivec2(robot & 1023, robot >> 10), 0);
-  vec2 at = corner[gl_VertexID & 3] * radius;
+  vec2 at = corner[number] * radius;
   float c = cos(pose.z), s = sin(pose.z);
   gl_Position = vec4((pose.xy + mat2(c, s, -s, c) * at) * view.xy + view.zw, 0, 1);
   colour = palette[int(pose.w)];
