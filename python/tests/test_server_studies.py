@@ -30,7 +30,9 @@ OWN, WS = "http://127.0.0.1:8765", "ws://127.0.0.1:8765/ws"
 TEAM = "robots.wanderer.count"
 QUICK = {"scenario": "classic", "vary": {TEAM: "1..5"}, "delta": 0.3}
 LONG = {"scenario": "search", "vary": {"robots.rover.count": "1..20"}, "delta": 0.001}
-METRIC = {"scenario": "search", "vary": {"robots.rover.count": "2..5"}, "max_runs": 150}
+SIZES, RUNS = {"robots.rover.count": "2..5"}, 2000
+METRIC = {"scenario": "search", "vary": SIZES, "delta": 0.01, "max_runs": RUNS}
+"""A study that takes some seconds, however fast the machine, to be stopped and killed meanwhile."""
 FIRST_ROUND = 4 * FIRST_LOOK
 
 Told = dict[str, Any]
@@ -252,8 +254,8 @@ def test_a_stopped_or_killed_study_keeps_its_runs_and_goes_on_to_the_same_bytes(
 
     assert folder.post("/api/studies", **METRIC)["id"] == name
     assert folder.watched(name)[-1]["message"] is None
-    vary = {"robots.rover.count": "2..5"}
-    study.run(Scenario.load("search"), vary=vary, max_runs=150, out=tmp_path / "whole")
+    search = Scenario.load("search")
+    study.run(search, vary=SIZES, delta=0.01, max_runs=RUNS, out=tmp_path / "whole")
     mine = (folder.path / name / "answer.json").read_bytes()
     assert mine == (tmp_path / "whole" / "answer.json").read_bytes()
 
