@@ -354,6 +354,7 @@ test("a server that is gone is said on lists and forms, which mend themselves", 
   await expect(page.getByText("The server does not answer.")).toBeHidden();
   await page.goto(`${fake.url}/#/study/new?scenario=search`);
   const team = page.getByRole("textbox", { name: "Number of rovers" });
+  await expect(team).toBeVisible();
   await context.setOffline(true);
   await team.fill("1..5");
   await expect(page.getByText("The server does not answer. It is asked again.")).toBeVisible();
