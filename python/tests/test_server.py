@@ -331,6 +331,32 @@ def test_a_change_in_the_run_is_seen_and_its_log_gives_the_run_again(page: Page)
     assert page.until("state", tick=60)["hash"] == f"{simulation.hash:016x}"
 
 
+def test_of_values_said_instead_of_each_other_the_last_is_the_change(page: Page) -> None:
+    page.open(tick=40)
+    for count in (5, 90, 6):
+        page.say("change", path="robots.rover.count", value=count, instead=count != 5)
+    assert page.until("setting", changes=[[40, "robots.rover.count", 6]])
+    page.say("undo")
+    assert page.until("setting", changes=[])["kinds"][0]["count"] == 4
+
+
+def test_a_run_on_its_way_to_a_moment_says_where_it_goes(page: Page) -> None:
+    page.open(tick=0, changes=[[0, "clock.cap_s", 10_000], [0, "items.mine.count", 0]])
+    page.say("step", steps=50_000)
+    on_its_way = page.until("state", aim=50_000)
+    assert on_its_way["tick"] < 50_000
+    page.say("pause")
+    assert page.until("state", aim=None)["tick"] < 50_000
+
+
+def test_kinds_that_fly_are_told_from_those_that_do_not(page: Page) -> None:
+    page.open(scenario="search")
+    page.say("change", path="robots.rover.layer", value="air")
+    assert page.until("setting")["kinds"][0]["flies"] is True
+    page.say("undo")
+    assert page.until("setting", changes=[])["kinds"][0]["flies"] is False
+
+
 def test_the_mind_of_a_selected_robot_is_told(page: Page) -> None:
     page.open(tick=30)
     page.say("select", robot="rover/1")

@@ -117,6 +117,64 @@ def test_undo_takes_back_one_change_after_another(tick: int) -> None:
     assert timeline.log == ()
 
 
+@pytest.mark.parametrize("tick", [0, 60])
+def test_a_value_instead_of_another_is_as_if_that_had_never_been(tick: int) -> None:
+    timeline, straight = begun(), begun()
+    for each in (timeline, straight):
+        hashes(each, [tick])
+        each.change("clock.cap_s", 300)
+    timeline.change("robots.rover.count", 6)
+    for count in (90, 17, 8):
+        timeline.change("robots.rover.count", count, instead=True)
+    straight.change("robots.rover.count", 8)
+    assert timeline.log == straight.log
+    assert hashes(timeline, [tick, tick + 40]) == hashes(straight, [tick, tick + 40])
+    timeline.undo()
+    assert [change.path for change in timeline.log] == ["clock.cap_s"]
+
+
+def test_a_value_instead_that_is_not_allowed_leaves_the_one_that_is() -> None:
+    timeline = begun()
+    hashes(timeline, [30])
+    timeline.change("robots.rover.count", 6)
+    before = hashes(timeline, [30])
+    for count in (-1, 500_000):
+        with pytest.raises(ae.InputError):
+            timeline.change("robots.rover.count", count, instead=True)
+    assert hashes(timeline, [30]) == before
+    assert [change.value for change in timeline.log] == [6]
+
+
+def test_drawn_back_to_where_it_began_nothing_has_changed() -> None:
+    timeline = begun()
+    before = hashes(timeline, [30])
+    timeline.change("robots.rover.count", 6)
+    timeline.change("robots.rover.count", 4, instead=True)
+    assert timeline.log == ()
+    assert hashes(timeline, [30]) == before
+
+
+def test_a_value_instead_stands_beside_those_of_other_paths_and_ticks() -> None:
+    timeline = begun()
+    timeline.change("robots.rover.count", 6, instead=True)
+    timeline.change("clock.cap_s", 300, instead=True)
+    timeline.toward(1, FOREVER_S)
+    timeline.change("clock.cap_s", 200, instead=True)
+    assert [change.value for change in timeline.log] == [6, 300, 200]
+
+
+def test_however_few_snapshots_there_may_be_the_one_of_before_a_change_is_kept(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(Timeline, "_most", lambda _: 3)
+    timeline = begun()
+    for tick in (10, 20, 30, 40):
+        timeline.toward(tick, FOREVER_S)
+        timeline.change("robots.rover.count", tick)
+        timeline.change("robots.rover.count", tick + 1, instead=True)
+    assert [change.value for change in timeline.log] == [11, 21, 31, 41]
+
+
 def test_undo_after_nothing_is_told() -> None:
     with pytest.raises(ae.InputError, match="must be after a change"):
         begun().undo()

@@ -13,7 +13,9 @@ From the page:
   `changes` (a list of tick, path, value), `tick`. Begins a run, at that tick, standing.
 * `play`: `speed`, times real time, or null for as fast as it can. `pause`.
 * `step`: `steps`, also less than 0. `go`: `tick`. Both stand then.
-* `change`: `path`, `value`. `undo`: the run as if the last change had not been made, at this tick.
+* `change`: `path`, `value`; `instead`: whether the value takes the place of one that was put there
+  at the same tick, as one on the way of a slider that is drawn. `undo`: the run as if the last
+  change had not been made, at this tick.
 * `save`: the run up to its edge becomes a recording; `cancel`: not so. `export`: the scenario as it
   is now, as a text.
 * `select`: `robot`, of which is told what it perceives, decides and believes, or null.
@@ -143,10 +145,11 @@ class Go:
 
 @dataclass(frozen=True)
 class Put:
-    """Put a value into the scenario."""
+    """Put a value into the scenario; `instead` of the one put there before, at the same tick."""
 
     path: str
     value: Given
+    instead: bool
 
 
 @dataclass(frozen=True)
@@ -294,7 +297,9 @@ def put(said: Mapping[str, Any]) -> Put:
     path = said.get("path")
     given.check(given.is_text(path), "change.path", path, "a path, as clock.cap_s")
     given.check("value" in said, "change.value", None, "given")
-    return Put(str(path), finite("change.value", said["value"]))
+    instead = said.get("instead", False)
+    given.check(isinstance(instead, bool), "change.instead", instead, "true or false")
+    return Put(str(path), finite("change.value", said["value"]), instead)
 
 
 def select(said: Mapping[str, Any]) -> Select:

@@ -186,8 +186,8 @@ class Session:
             case messages.Go(tick=tick):
                 self._stand()
                 self._aim = min(tick, self._run.edge)
-            case messages.Put(path=path, value=value):
-                await self._in_thread(lambda: self._run.change(path, value))
+            case messages.Put(path=path, value=value, instead=instead):
+                await self._in_thread(lambda: self._run.change(path, value, instead=instead))
             case messages.Undo():
                 await self._undo()
             case messages.Save() | messages.Cancel() | messages.Export():
@@ -305,6 +305,7 @@ class Session:
             "playing": self._pace.is_playing,
             "speed": self._pace.speed,
             "real": self._pace.reached,
+            "aim": self._aim,
             "over": simulation.is_over,
             "differs_at": timeline.replay.differs_at,
             "outcome": simulation.outcome().row,

@@ -95,7 +95,7 @@ class Timeline:
         self._ticks: list[int] = []
         self._pace = 1
         # Of before all changes, those at its tick too: each can be undone.
-        self._keep()
+        self._keep(self.simulation.snapshot())
         self._apply()
         self.replay.compare(self.simulation)
 
@@ -148,16 +148,29 @@ class Timeline:
                 break
         return self.tick >= tick or self._is_at_the_end()
 
-    def change(self, path: str, value: Given) -> None:
+    def change(self, path: str, value: Given, *, instead: bool = False) -> None:
         """Put a value into the scenario from now on; what was seen after now is void.
+
+        Args:
+            path: Keys from the root, with dots between.
+            value: As the file could have it.
+            instead: Whether it takes the place of a value that was put there at this very tick,
+                as if that had never been.
 
         Raises:
             InputError: If the value is not allowed there; nothing has changed then.
         """
-        if self._is_same(path, value):
-            return
-        self.simulation.change(path, value)
-        self._void_future()
+        now = self.simulation.snapshot()
+        if instead:
+            self._take_back(path)
+        if not self._is_same(path, value):
+            try:
+                self.simulation.change(path, value)
+            except ValueError:
+                self.simulation.restore(now)
+                raise
+        if self.simulation.changes != now.changes:
+            self._void_future(now)
 
     def undo(self) -> None:
         """Go back to before the last change was made, in a run in which it is not.
@@ -172,8 +185,18 @@ class Timeline:
         given.check(bool(made), "undo", None, "after a change")
         self.log, made_at = made[:-1], made[-1].tick
         self.edge = max(made_at, self.replay.edge)
-        self._forget_from(made_at + 1)
+        self._forget_after(made_at)
         self._back(made_at)
+
+    def _take_back(self, path: str) -> None:
+        """Be before the last change, if it was made of a path at this tick, and that is kept."""
+        made = self.simulation.changes
+        if not made or (made[-1].tick, made[-1].path) != (self.tick, path):
+            return
+        if self._ticks[-1] == self.tick and len(self._kept[-1].changes) < len(made):
+            self.simulation.restore(self._kept[-1])
+            for change in made[len(self._kept[-1].changes) : -1]:
+                self.simulation.change(change.path, change.value)
 
     def _is_same(self, path: str, value: Given) -> bool:
         return bool(at(_core.read_filled(self.simulation.scenario.source), path) == value)
@@ -210,7 +233,7 @@ class Timeline:
         self.replay.compare(self.simulation)
         self.edge = max(self.edge, self.tick)
         if self.tick >= self._ticks[-1] + self._every:
-            self._keep()
+            self._keep(self.simulation.snapshot())
 
     def _take(self, steps: int) -> None:
         """Take steps, but none beyond the end, beyond which a run of the metric engine would go."""
@@ -231,29 +254,32 @@ class Timeline:
                 self.log = self.log[:done]
                 raise
 
-    def _void_future(self) -> None:
+    def _void_future(self, before: Any) -> None:
+        """Go on from a change, of before which there is a snapshot: it can be undone at once."""
         self.log = self.simulation.changes
         self.edge = self.tick
-        # A snapshot of this very moment is of before the change.
-        self._forget_from(self.tick)
-        self._keep()
+        self._forget_after(self.tick)
+        if self._ticks[-1] < self.tick:
+            self._keep(before)
 
-    def _forget_from(self, tick: int) -> None:
-        """Forget snapshots from a tick on, and those of other changes; but never the first."""
+    def _forget_after(self, tick: int) -> None:
+        """Forget snapshots of after a tick, and those of other changes; but never the first."""
         kept = [
             (at_tick, each)
             for at_tick, each in zip(self._ticks, self._kept, strict=True)
             if each is self._kept[0]
-            or (at_tick < tick and each.changes == self.log[: len(each.changes)])
+            or (at_tick <= tick and each.changes == self.log[: len(each.changes)])
         ]
         self._ticks, self._kept = [each for each, _ in kept], [snapshot for _, snapshot in kept]
 
-    def _keep(self) -> None:
+    def _keep(self, snapshot: Any) -> None:
         self._ticks.append(self.tick)
-        self._kept.append(self.simulation.snapshot())
+        self._kept.append(snapshot)
         if len(self._kept) > self._most():
             self._every *= 2
-            self._ticks, self._kept = self._ticks[::2], self._kept[::2]
+            # Every other one, counted from the newest, and the first.
+            self._ticks = self._ticks[:1] + self._ticks[:0:-2][::-1]
+            self._kept = self._kept[:1] + self._kept[:0:-2][::-1]
 
     def _most(self) -> int:
         """Return how many snapshots there may be."""

@@ -136,10 +136,13 @@ export class Talk {
   hear_select({ robot }) {
     this.selected = robot;
   }
-  hear_change({ path, value }) {
+  hear_change({ path, value, instead }) {
     if (path.endsWith("behaviours") && value.some((one) => one.kind === "swarm"))
       return this.refuse("change", `${path}: swarm needs a sensor of kind robots, and rover has none`, path);
-    this.changes = [...this.changes.filter(([at]) => at <= this.run.tick), [this.run.tick, path, value]];
+    const made = this.changes.filter(([at]) => at <= this.run.tick);
+    const last = made.at(-1);
+    if (instead && last?.[0] === this.run.tick && last[1] === path) made.pop();
+    this.changes = [...made, [this.run.tick, path, value]];
     this.edge = this.run.tick;
     this.build(this.run.tick);
   }
@@ -206,6 +209,7 @@ export class Talk {
       speed,
       real: playing ? (speed ?? 30) : 0,
       over: run.over(),
+      aim: null,
       differs_at: null,
       outcome: run.outcome(),
       mind,

@@ -72,14 +72,14 @@ export class Desk {
 
   /** The address of what is seen now. */
   get now(): Link {
-    const { setting, state, selected } = this.session;
+    const { setting, tick, selected } = this.session;
     const { camera, link } = this;
     const round = (value: number) => Number(value.toFixed(3));
     return {
       ...link,
       seed: this.seed,
       changes: setting ? setting.log : link.changes,
-      tick: state?.tick ?? link.tick,
+      tick,
       view: camera ? [round(camera.x), round(camera.y), round(camera.scale)] : link.view,
       robot: selected,
     };

@@ -83,7 +83,7 @@ export type Command =
   | { type: "pause" }
   | { type: "step"; steps: number }
   | { type: "go"; tick: number }
-  | { type: "change"; path: string; value: Json }
+  | { type: "change"; path: string; value: Json; instead: boolean }
   | { type: "undo" }
   | { type: "save" }
   | { type: "cancel" }
@@ -337,6 +337,8 @@ export interface State {
   speed: Speed;
   /** Times real time that is reached. */
   real: number;
+  /** The tick that it is on its way to; null if it stands or plays. */
+  aim: number | null;
   over: boolean;
   /** The tick at which the run was found not to be as recorded. */
   differs_at: number | null;

@@ -14,6 +14,7 @@ function state(tick: number, found: number, edge = tick): State {
     speed: 1,
     real: 1,
     over: false,
+    aim: null,
     differs_at: null,
     outcome,
     mind: null,

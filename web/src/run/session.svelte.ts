@@ -28,6 +28,13 @@ export type Phase = "opening" | "open" | "lost" | "refused" | "ended";
 /** What is to be run: of an address, with the text unpacked. */
 export type Source = Omit<Link, "text" | "view"> & { text: string | null };
 
+/** A value on its way into the scenario. */
+interface Put {
+  value: Json;
+  /** Whether it takes the place of the one that was put there before, if the run has not gone on. */
+  instead: boolean;
+}
+
 const changes_ms = 50;
 /** Numbers that change more often are hard to read, and each time the page is put together anew. */
 const words_ms = 180;
@@ -64,7 +71,11 @@ export class Session implements Listener {
   onFrame = () => {};
 
   private readonly connection = new Connection(this);
-  private readonly changes = new Throttle<Json>(changes_ms, (path, value) => this.sendChange(path, value));
+  private readonly changes = new Throttle<Put>(
+    changes_ms,
+    (path, put) => this.send({ type: "change", path, ...put }),
+    (passed, latest) => ({ ...latest, instead: passed.instead }),
+  );
   private saw = 0;
   private toldAt = 0;
   private savedChanges = "";
@@ -95,6 +106,11 @@ export class Session implements Listener {
     return this.source.text;
   }
 
+  /** Where the run stands, or is on its way to. */
+  get tick(): number {
+    return this.state?.aim ?? this.state?.tick ?? this.source.tick;
+  }
+
   /** The classic engine has robots of its own kind, and a world that nobody changes. */
   get isClassic(): boolean {
     return this.opened?.scenario.engine === "classic";
@@ -118,8 +134,9 @@ export class Session implements Listener {
     this.send({ type: "go", tick });
   }
 
-  change(path: string, value: Json): void {
-    this.changes.put(path, value);
+  /** Changes the scenario, `instead` for what is but one more value of a slider that is being drawn. */
+  change(path: string, value: Json, instead = false): void {
+    this.changes.put(path, { value, instead });
   }
 
   undo(): void {
@@ -259,13 +276,9 @@ export class Session implements Listener {
   private opening(): Command {
     const { scenario, text, study, recording, seed, run } = this.source;
     const changes: Change[] | null = this.setting ? this.setting.log : this.source.changes;
-    const tick = this.state?.tick ?? this.source.tick;
+    const { tick } = this;
     const chance = seed === null ? {} : { seed };
     return { type: "open", scenario, text, study, recording, ...chance, run, changes, tick };
-  }
-
-  private sendChange(path: string, value: Json): void {
-    this.send({ type: "change", path, value });
   }
 
   private send(command: Command): void {

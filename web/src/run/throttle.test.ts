@@ -1,12 +1,13 @@
 import { expect, test } from "vitest";
 import { Throttle } from "./throttle";
 
-function throttled() {
+function throttled(joined = (_: number, latest: number) => latest) {
   const sent: [string, number][] = [];
   const waits: (() => void)[] = [];
   const throttle = new Throttle<number>(
     50,
     (key, value) => sent.push([key, value]),
+    joined,
     (_, action) => waits.push(action),
   );
   return { throttle, sent, tick: () => waits.shift()?.() };
@@ -26,6 +27,16 @@ test("of what comes while waiting the latest goes, and nothing is lost at the en
   expect(sent).toEqual([
     ["a", 1],
     ["a", 4],
+  ]);
+});
+
+test("what was passed by is joined with what goes", () => {
+  const { throttle, sent, tick } = throttled((waiting, latest) => waiting + latest);
+  for (const value of [1, 2, 3, 4]) throttle.put("a", value);
+  tick();
+  expect(sent).toEqual([
+    ["a", 1],
+    ["a", 9],
   ]);
 });
 

@@ -12,6 +12,7 @@ const state: State = {
   speed: 3,
   real: 3.14,
   over: false,
+  aim: null,
   differs_at: null,
   outcome: { found: 2 },
   mind: null,

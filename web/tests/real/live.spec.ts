@@ -36,6 +36,53 @@ test("the slider changes the team in mid-run", async ({ page, server }) => {
   expect(await time_s(page)).toBeGreaterThanOrEqual(4);
 });
 
+test("a slider that is drawn while the run stands is one change, which one undo takes back", async ({
+  page,
+  server,
+}) => {
+  await open(page, server, "scenario=search&seed=3&tick=40");
+  await expect(status(page)).toContainText("4.0 s, 4 robots");
+  const before = await hash(page);
+  await page.getByRole("tab", { name: "Parameters" }).click();
+  const box = await page.getByRole("slider", { name: /^Count of/ }).boundingBox();
+  if (!box) throw new Error("there is no slider");
+  const middle = box.y + box.height / 2;
+  await page.mouse.move(box.x + 10, middle);
+  await page.mouse.down();
+  for (const share of [0.9, 0.3, 0.7, 0.5]) {
+    const was = await hash(page);
+    await page.mouse.move(box.x + share * box.width, middle, { steps: 4 });
+    await expect.poll(() => hash(page)).not.toBe(was);
+  }
+  await page.mouse.up();
+  await page.getByRole("tab", { name: "Changes" }).click();
+  await expect(page.getByRole("row")).toHaveCount(2);
+  await page.getByRole("application").focus();
+  await page.keyboard.press("Control+z");
+  await expect(status(page)).toContainText("4.0 s, 4 robots");
+  await expect.poll(() => hash(page)).toBe(before);
+});
+
+test("a page that is loaded anew while it is on its way to a moment comes there", async ({
+  page,
+  server,
+}) => {
+  const changes = encodeURIComponent(
+    JSON.stringify([
+      [0, "clock.cap_s", 100_000],
+      [0, "items.mine.count", 0],
+      [0, "robots.rover.count", 50],
+    ]),
+  );
+  await open(page, server, `scenario=search-mind&seed=3&changes=${changes}&tick=3000`);
+  await expect.poll(() => time_s(page)).toBeGreaterThan(2);
+  // Written anew meanwhile: the page adds its view.
+  await expect.poll(() => page.url()).toContain("view=");
+  expect(page.url()).toContain("tick=3000");
+  await page.reload();
+  await expect(status(page)).toContainText("300.0 s", { timeout: 40_000 });
+});
+
 test("a run plays, stands, steps, and goes back to the same bytes", async ({ page, server }) => {
   await open(page, server, "scenario=search-mind&seed=7");
   await page.keyboard.press("Space");
