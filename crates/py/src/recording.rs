@@ -75,8 +75,8 @@ fn rows<'py, const N: usize>(
 }
 
 /// What changes only when the scenario does: of each robot `radius_m` and `is_flying`; `bodies`, what
-/// brains know of them, and `radio_m`, how far their radios reach, by kind; and `maps`, the obstacles
-/// that are maps, in their order: `corners_m` anticlockwise from the origin, `resolution_m`, and
+/// brains know of them, `radio_m`, how far their radios reach, and `flies`, by kind; and `maps`, the
+/// obstacles that are maps, in their order: `corners_m` anticlockwise from the origin, `resolution_m`, and
 /// `occupancy`, shape (rows, columns), the lowest row first.
 #[pyfunction]
 pub(crate) fn recorded_setting<'py>(
@@ -103,6 +103,12 @@ pub(crate) fn recorded_setting<'py>(
     let radios = (0..).zip(run.scenario().robot_kinds());
     let radios = radios.map(|(number, kind)| (kind, run.scenario().radio_m(number)));
     dict.set_item("radio_m", radios.into_py_dict(py)?)?;
+    let layers = (0..).zip(run.scenario().robot_kinds());
+    let flies = layers.map(|(number, kind)| {
+        let layer = run.scenario().layer(number);
+        (kind, layer == Some(Layer::Air))
+    });
+    dict.set_item("flies", flies.into_py_dict(py)?)?;
     dict.set_item("maps", maps.collect::<PyResult<Vec<_>>>()?)?;
     Ok(dict)
 }

@@ -20,6 +20,14 @@ FREE, FILLED = 0, 2
 RADIUS_PX = CELL_PX / 2
 """The chevron of 2003 is 24 px long, with 8 px before its place and 16 px behind."""
 
+BODY: dict[str, Any] = {
+    "radius": RADIUS_PX,
+    "flies": False,
+    "radio_range_m": None,
+    "rings": [],
+    "sensors": [],
+}
+
 Cell = tuple[int, int]
 
 
@@ -34,7 +42,7 @@ def still(simulation: ClassicSimulation) -> dict[str, Any]:
     robots = {"name": KIND, "count": simulation.scenario.robots[KIND]}
     return {
         "world": side,
-        "kinds": [{**robots, "radius": RADIUS_PX, "radio_range_m": None, "sensors": []}],
+        "kinds": [{**robots, **BODY}],
         "items": [
             item(cell, contacts)
             for cell, contacts in zip(WORLD["items"], simulation.contacts, strict=True)

@@ -56,6 +56,7 @@ def kind(name: str, count: int, recorded: Mapping[str, Any]) -> dict[str, Any]:
         "name": name,
         "count": count,
         "radius": body["radius_m"],
+        "flies": recorded["flies"][name],
         "radio_range_m": recorded["radio_m"][name],
         "rings": [
             {key: each[key] for key in ("bearings_rad", "range_m")} for each in body["rings"]

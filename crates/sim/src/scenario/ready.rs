@@ -203,6 +203,12 @@ impl Scenario {
         kind.radio.map(|radio| radio.range_m)
     }
 
+    /// Whether robots of a kind go on the ground or fly; none if there is no such kind.
+    #[must_use]
+    pub fn layer(&self, kind: u8) -> Option<Layer> {
+        Some(self.kinds.get(usize::from(kind))?.layer)
+    }
+
     /// Whose random numbers a robot has.
     pub(crate) fn entity(&self, id: RobotId) -> Entity {
         Entity {
