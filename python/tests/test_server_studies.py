@@ -9,6 +9,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -309,6 +310,19 @@ def test_before_its_first_round_all_are_still_in(folder: Folder) -> None:
     (place / "study.toml").write_text(study.make_plan(scenario).text(), encoding="utf-8")
     (last,) = folder.watched("studies/asked")
     assert (last["state"], last["survivors"], last["runs"]) == ("stopped", 8, 0)
+
+
+def test_no_more_than_so_many_pages_watch_studies(
+    folder: Folder, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(import_module("agent_economy.server.app"), "MOST_WATCHERS", 1)
+    name = folder.post("/api/studies", **LONG)["id"]
+    with folder.client.websocket_connect(f"{WS}?study={name}") as first:
+        assert first.receive_json()["type"] == "studying"
+        with folder.client.websocket_connect(f"{WS}?study={name}") as second:
+            assert second.receive_json()["why"] == "full"
+    folder.post("/api/studies/stop", id=name)
+    assert folder.watched(name)[-1]["state"] == "stopped"
 
 
 def test_a_run_of_a_study_can_be_watched_and_is_the_very_same(folder: Folder) -> None:

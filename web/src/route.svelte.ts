@@ -21,3 +21,8 @@ export class Route {
 export function goTo(hash: string): void {
   location.hash = hash;
 }
+
+/** Goes on from what is closed by that: the way back leads past it. */
+export function goOn(hash: string): void {
+  location.replace(hash);
+}

@@ -242,6 +242,11 @@ test("a click on a chart's point leads to that configuration's runs, and on to t
   await page.keyboard.press("Escape");
   await expect(dialog).toBeHidden();
   await expect(sentence(page)).toBeVisible();
+  await expect.poll(() => page.url()).not.toContain("configuration");
+  // To where one was before, not to the runs that were closed.
+  await page.goBack();
+  await expect(page.getByRole("heading", { name: `Run ${run} of search, 4 rovers` })).toBeVisible();
+  await expect(dialog).toBeHidden();
 });
 
 test("all runs of a configuration can be paged through", async ({ page, fake }) => {

@@ -27,12 +27,16 @@ from agent_economy.server.places import Places
 from agent_economy.server.session import GoneError, Session
 from agent_economy.server.shelf import Shelf
 from agent_economy.server.sockets import Socket
+from agent_economy.server.studies.factors import schema
 from agent_economy.server.studies.keeper import Studies
 from agent_economy.server.studies.routes import Routes
 from agent_economy.server.studies.watched import watch
 
 MOST_SESSIONS = 16
 """Runs at a time; each has a thread of its own, so that none waits for another's."""
+
+MOST_WATCHERS = 64
+"""Pages at a time that watch studies; each reads its study's folder now and then."""
 
 NOT_BUILT = """<!doctype html><meta charset="utf-8"><title>Agent Economy</title>
 <p>The page has not been built. In a clone: <code>make web</code>, then reload this page.</p>"""
@@ -58,6 +62,7 @@ class Server:
     web: Path
     studies: Studies
     sessions: int = 0
+    watchers: int = 0
 
     def routed(self) -> Starlette:
         """Return the application without its guard."""
@@ -124,8 +129,7 @@ class Server:
         if engine not in ENGINES:
             known = f"one of {', '.join(ENGINES)}"
             return refused(faults_of(_core.refusal("engine", engine, known)), 404)
-        file = files("agent_economy") / "schemas" / f"{engine}.schema.json"
-        return Response(file.read_bytes(), media_type="application/schema+json")
+        return JSONResponse(schema(engine), media_type="application/schema+json")
 
     async def check(self, request: Request) -> Response:
         """Say what is wrong with a scenario."""
@@ -144,15 +148,12 @@ class Server:
         await socket.accept()
         page = Socket(socket)
         name = socket.query_params.get("study")
-        if name is not None:
-            await watch(page, self.studies, name)
-            await page.close()
-            return
+        await (self.run(page) if name is None else self.race(page, name))
+
+    async def run(self, page: Socket) -> None:
+        """Serve a page that watches a run."""
         if self.sessions >= MOST_SESSIONS:
-            message = f"This server has {MOST_SESSIONS} runs open, which is all it may. Close one."
-            with contextlib.suppress(GoneError):
-                await page.tell({"type": "ended", "why": "full", "message": message})
-            await page.close(1013)
+            await turn_away(page, f"{MOST_SESSIONS} runs")
             return
         self.sessions += 1
         try:
@@ -160,3 +161,23 @@ class Server:
         finally:
             self.sessions -= 1
         await page.close()
+
+    async def race(self, page: Socket, name: str) -> None:
+        """Serve a page that watches a study."""
+        if self.watchers >= MOST_WATCHERS:
+            await turn_away(page, f"{MOST_WATCHERS} pages of studies")
+            return
+        self.watchers += 1
+        try:
+            await watch(page, self.studies, name)
+        finally:
+            self.watchers -= 1
+        await page.close()
+
+
+async def turn_away(page: Socket, held: str) -> None:
+    """Say that no more can be served."""
+    message = f"This server has {held} open, which is all it may. Close one."
+    with contextlib.suppress(GoneError):
+        await page.tell({"type": "ended", "why": "full", "message": message})
+    await page.close(1013)

@@ -213,6 +213,11 @@ def faults_of(error: InputError) -> list[Fault]:
     return [{key: value for key, value in fault.items() if key in FAULT} for fault in error.faults]
 
 
+def refused(about: str, error: InputError, path: str | None = None) -> dict[str, Any]:
+    """Return what a page is told of what is not done."""
+    return {"type": "refused", "about": about, "path": path, "faults": faults_of(error)}
+
+
 def opened(said: Mapping[str, Any]) -> Open:
     """Return an `open`."""
     study = None if said.get("study") is None else member(said["study"])

@@ -40,17 +40,23 @@ class Places:
         Raises:
             InputError: If there is none, it is outside of the folder, or wrong.
         """
-        ships = shipped.scenarios()
-        if name in ships:
-            return Scenario.load(ships[name])
-        file = self.folder / name
-        is_here = self.has(file) and file.suffix == ".toml"
+        ships = shipped.scenarios().get(name)
+        return Scenario.load(ships) if ships else self.read(self.text(name), name)
+
+    def text(self, name: str) -> str:
+        """Return the text of a scenario by its id, whatever is wrong in it.
+
+        Raises:
+            InputError: If there is none, it is outside of the folder, or cannot be read.
+        """
+        ships, mine = shipped.scenarios().get(name), self.folder / name
+        is_here = ships is not None or (self.has(mine) and mine.suffix == ".toml")
         given.check(is_here, "scenario", name, "one of the gallery")
-        data = content(file, MAX_BYTES)
+        data = content(ships or mine, MAX_BYTES)
         if isinstance(data, str):
             message = f"{name}: cannot be read: {data}"
             raise InputError(message)
-        return self.read(data.decode(errors="replace"), name)
+        return lines(data.decode(errors="replace"))
 
     def read(self, text: str, name: str = "scenario.toml") -> Scenario:
         """Return the scenario of a text; files that it names are looked for in the folder.
@@ -58,7 +64,7 @@ class Places:
         Raises:
             InputError: If anything in it is wrong, or a file is outside of the folder.
         """
-        source = Source(name, text.replace("\r\n", "\n"), ())
+        source = Source(name, lines(text), ())
         beside = (self.folder / name).parent
         while wanted := _core.files_wanted(source):
             found = {each: self._content(beside / each) for each in wanted}
@@ -118,6 +124,11 @@ class Places:
         folders = (folder for folder in self._folders() if not is_study(folder))
         files = (file for folder in folders for file in sorted(folder.glob(f"*{ending}")))
         yield from (file for file in files if self.has(file) and not file.name.startswith("."))
+
+
+def lines(text: str) -> str:
+    """Return a text whose lines end as ours do."""
+    return text.replace("\r\n", "\n")
 
 
 def described(name: str, file: Path, where: str) -> dict[str, Any] | None:

@@ -314,8 +314,7 @@ class Session:
         }
 
     async def _refuse(self, about: str, error: InputError, path: str | None = None) -> None:
-        faults = messages.faults_of(error)
-        await self._page.tell({"type": "refused", "about": about, "path": path, "faults": faults})
+        await self._page.tell(messages.refused(about, error, path))
 
     async def _in_thread(self, work: Callable[[], T]) -> T:
         return await asyncio.get_running_loop().run_in_executor(self._threads, work)

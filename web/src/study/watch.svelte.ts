@@ -81,6 +81,7 @@ export class Watch implements Listener {
   frame(): void {}
 
   message(message: Message): void {
+    if (message.type === "ended") this.turnedAway(message.message);
     if (message.type !== "studying") return;
     this.phase = "there";
     if (message.labels) this.labels = message.labels;
@@ -107,10 +108,14 @@ export class Watch implements Listener {
     }
   }
 
-  private missed(fault: unknown): void {
-    this.trouble = troubleOf(fault);
-    if (!(fault instanceof Refusal)) return;
+  private turnedAway(why: string): void {
+    this.trouble = why;
     this.phase = "refused";
     this.connection.close();
+  }
+
+  private missed(fault: unknown): void {
+    this.trouble = troubleOf(fault);
+    if (fault instanceof Refusal) this.turnedAway(this.trouble);
   }
 }
