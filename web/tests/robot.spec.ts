@@ -41,6 +41,35 @@ test("its map is told in numbers too", async ({ page, fake }) => {
   await expect(part).toHaveText(/[1-9]\d%$/);
 });
 
+test("a robot that is followed stays in the middle until the picture is moved by hand", async ({
+  page,
+  fake,
+}) => {
+  await page.goto(live(fake, scenario));
+  const box = page.getByRole("checkbox", { name: "Keep it in the middle" });
+  await expect(box).not.toBeChecked();
+  await page.keyboard.press("f");
+  await expect(box).toBeChecked();
+  await page.keyboard.press("Space");
+  await page.waitForTimeout(500);
+  await page.keyboard.press("Space");
+  await expect(page.locator("#status")).toContainText("paused");
+  const picture = page.getByRole("application");
+  const frame = await picture.boundingBox();
+  if (!frame) throw new Error("there is no picture");
+  // The one in the middle is the one that is followed.
+  await page
+    .getByRole("textbox", { name: "Robot" })
+    .or(page.getByRole("combobox", { name: "Robot" }))
+    .fill("");
+  await page.keyboard.press("Enter");
+  await picture.click({ position: { x: frame.width / 2, y: frame.height / 2 } });
+  await expect.poll(() => page.url()).toContain("robot=rover/1");
+  await picture.focus();
+  await page.keyboard.press("ArrowLeft");
+  await expect(box).not.toBeChecked();
+});
+
 test("a robot without a mind has a percept and a command", async ({ page, fake }) => {
   await page.goto(live(fake, "scenario=crowd-5&robot=rover/1"));
   await expect(page.getByText("It has no mind")).toBeVisible();

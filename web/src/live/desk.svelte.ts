@@ -20,6 +20,8 @@ export class Desk {
   sections = $state({ command: true, percept: true, goals: true, reach: false, items: true, map: false });
   /** Speed of the next play. */
   speed = $state<number | null>(1);
+  /** Whether the selected robot stays in the middle of the picture. */
+  follows = $state(false);
   camera = $state.raw<Camera | null>(null);
   stage: Stage | null = null;
   /** What the configuration of a study is called, once the server has said so. */

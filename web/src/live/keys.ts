@@ -19,6 +19,11 @@ export const keys: Key[] = [
     does: `${speed} times real time`,
     act: (desk: Desk) => desk.setSpeed(speed),
   })),
+  {
+    keys: ["f"],
+    does: "follow the selected robot, or not",
+    act: (desk) => (desk.follows = !desk.follows),
+  },
   { keys: ["0"], does: "the whole world", act: ({ stage }) => stage?.fit() },
   { keys: ["+", "="], does: "nearer", act: ({ stage }) => stage?.zoom(zoomStep) },
   { keys: ["-"], does: "farther", act: ({ stage }) => stage?.zoom(1 / zoomStep) },

@@ -6,7 +6,7 @@ import { onThemeChange } from "../view/colours";
 import { Gestures } from "../view/gestures";
 import type { Desk } from "./desk.svelte";
 import { type Canvases, Drawing } from "./drawing";
-import type { Scene } from "./layers/layer";
+import { poseOf, type Scene } from "./layers/layer";
 import { Trails } from "./layers/trail_store";
 import { Motion, reachOf } from "./motion";
 import { Hand } from "./tools/hand";
@@ -64,6 +64,7 @@ export class Stage {
 
   fit(): void {
     const { setting } = this.desk.session;
+    this.desk.follows = false;
     if (setting) this.look(fitTo(setting.world.size, this.camera.width, this.camera.height));
   }
 
@@ -72,6 +73,7 @@ export class Stage {
   }
 
   pan(dx: number, dy: number): void {
+    this.desk.follows = false;
     this.look(pan(this.camera, dx, dy));
   }
 
@@ -140,6 +142,7 @@ export class Stage {
     if (!scene) return;
     if (scene.frame) this.trails.put(scene.frame, scene.selected);
     this.frameView(scene.world);
+    if (this.desk.follows) this.follow(scene);
     this.drawing.draw(scene, this.camera, this.desk.on);
     if (this.motion.isUnderWay) this.goOn(setting.robots.length);
     if (!fresh) return;
@@ -152,6 +155,14 @@ export class Stage {
     clearTimeout(this.pause);
     if (robots <= crowd) this.redraw(false);
     else this.pause = setTimeout(() => this.redraw(false), crowdPause_ms);
+  }
+
+  /** Moves the view with the selected robot. */
+  private follow(scene: Scene): void {
+    const [x, y] = poseOf(scene, scene.selected)?.at ?? [];
+    if (x === undefined || y === undefined || (x === this.camera.x && y === this.camera.y)) return;
+    this.camera = { ...this.camera, x, y };
+    this.drawing.stale();
   }
 
   private scene(): Scene | null {
