@@ -8,10 +8,12 @@ import numpy as np
 import pyarrow as pa
 
 from agent_economy import _core, given
+from agent_economy.begin import begun
 from agent_economy.minds import Brains
 from agent_economy.outcome import Outcome, table
 from agent_economy.scenario import Scenario, loaded
 from agent_economy.simulation import Simulation
+from agent_economy.stepped import Stepped
 
 
 def run(
@@ -27,8 +29,7 @@ def run(
         scenario: A scenario, its file, or the name of one that ships.
         seed: Of all chance, 0 to 2^64 - 1.
         run: Its number, 0 to 2^63 - 10,000,001; each is another world.
-        record: A file for a recording of all of it, NAME.mcap (see `agent_economy.recording`); of
-            the metric engine's runs only.
+        record: A file for a recording of all of it, NAME.mcap (see `agent_economy.recording`).
         brains: By kind of robots, what makes their brains in Python: see `Simulation`.
 
     Returns:
@@ -41,6 +42,8 @@ def run(
     scenario = loaded(scenario)
     if record is not None:
         path = given.path("record", record)
+        if brains is None:
+            return recorded(begun(scenario, seed, run), path)
         return recorded(Simulation(scenario, seed, run, brains=brains), path)
     if brains is not None:
         row = replicate(scenario, 1, seed, first_run=run, brains=brains)
@@ -117,7 +120,7 @@ def told_by(begin: Callable[[int], Simulation], run: int) -> dict[str, float]:
     return simulation._run.outcome() or {}  # noqa: SLF001  (ours)
 
 
-def recorded(simulation: Simulation, path: Path) -> Outcome:
+def recorded(simulation: Stepped, path: Path) -> Outcome:
     """Run to the end, and record it."""
     # What writes recordings takes longer to load than most runs take.
     from agent_economy.recording import Recording  # noqa: PLC0415

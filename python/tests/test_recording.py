@@ -321,8 +321,8 @@ def test_wrong_arguments_are_told_together(tmp_path: Path) -> None:
     assert not (tmp_path / "run").exists()
     with pytest.raises(InputError, match="cannot be written: No such file"):
         ae.run("search", record=tmp_path / "none" / "run.mcap")
-    with pytest.raises(InputError, match="must be 'metric'"):
-        ae.run("classic", record=tmp_path / "run.mcap")
+    with pytest.raises(InputError, match="must be a Simulation or a ClassicSimulation"):
+        ae.Recording("search", tmp_path / "run.mcap")  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("steps", [-1, 1.5, "1", True, None])

@@ -239,13 +239,6 @@ def test_a_frame_of_a_classic_run_is_its_window_with_y_upwards(page: Page) -> No
     assert cells[7 * 25 + 3] == 2
 
 
-def test_a_classic_run_is_not_saved_and_why_is_told(page: Page) -> None:
-    page.open(scenario="classic", tick=20)
-    page.say("save")
-    told = page.until("refused", about="save")
-    assert "a run of the metric engine" in told["faults"][0]["message"]
-
-
 def test_a_classic_run_is_exported_as_the_scenario_that_it_came_to(page: Page) -> None:
     page.open(scenario="classic", tick=20)
     page.say("change", path="robots.wanderer.count", value=9)

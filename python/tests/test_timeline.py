@@ -3,8 +3,7 @@
 import pytest
 
 import agent_economy as ae
-from agent_economy import _core
-from agent_economy.server import engines
+from agent_economy import _core, begin
 from agent_economy.server.timeline import FIRST_EVERY, MOST_KEPT, Timeline
 from agent_economy.stepped import Change
 
@@ -192,7 +191,7 @@ def test_a_run_ends_where_it_is_over_however_fast_it_goes(name: str) -> None:
     scenario = ae.Scenario.load(name)
     timeline = Timeline(scenario, 7)
     assert timeline.toward(10_000, FOREVER_S)
-    simulation = engines.begun(scenario, 7, 0)
+    simulation = begin.begun(scenario, 7, 0)
     while not simulation.is_over:
         simulation.step()
     assert timeline.edge == timeline.tick == simulation.tick < 10_000

@@ -13,12 +13,14 @@ from rich.text import Text
 
 from agent_economy import runs
 from agent_economy._core import InputError
+from agent_economy.begin import begun
 from agent_economy.cli.gauge import gauge
 from agent_economy.cli.given import Seed, Sets, overrides
 from agent_economy.cli.told import FAILED, faults_told
 from agent_economy.outcome import Outcome
 from agent_economy.scenario import Scenario
 from agent_economy.simulation import Simulation
+from agent_economy.stepped import Stepped
 
 
 def run(  # noqa: PLR0913  (typer's options are arguments)
@@ -70,7 +72,7 @@ def run(  # noqa: PLR0913  (typer's options are arguments)
         if record is None:
             outcome = watched(given, seed, number)
         else:
-            outcome = recorded(Simulation(given, seed, number), record, every or 1, percepts or [])
+            outcome = recorded(begun(given, seed, number), record, every or 1, percepts or [])
     if as_json:
         typer.echo(json.dumps({"seed": seed, "status": outcome.status, **outcome.row}, indent=2))
     else:
@@ -102,7 +104,7 @@ def watched(scenario: Scenario, seed: int, number: int) -> Outcome:
     return shown(simulation, simulation.step)
 
 
-def recorded(simulation: Simulation, path: Path, every: int, percepts: Sequence[str]) -> Outcome:
+def recorded(simulation: Stepped, path: Path, every: int, percepts: Sequence[str]) -> Outcome:
     """The same, into a file; end with an exit code if the disk takes no more."""
     # What writes recordings takes as long to load as all the rest.
     from agent_economy.recording import Recording, RecordingError  # noqa: PLC0415
@@ -115,7 +117,7 @@ def recorded(simulation: Simulation, path: Path, every: int, percepts: Sequence[
         raise typer.Exit(FAILED) from None
 
 
-def shown(simulation: Simulation, step: Callable[[], object]) -> Outcome:
+def shown(simulation: Stepped, step: Callable[[], object]) -> Outcome:
     """Step until the run is over."""
     with gauge(simulation.scenario.cap_s, "simulated seconds") as tell:
         while not simulation.is_over:

@@ -1,7 +1,6 @@
 """What a recording is of, from its two ends: for lists of many, however large each is."""
 
 import os
-from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import IO
@@ -11,7 +10,8 @@ from mcap.records import Metadata
 from mcap.stream_reader import StreamReader
 
 from agent_economy._core import InputError
-from agent_economy.recording.identity import END, FORMAT, RUN
+from agent_economy.recording.entries import Entries
+from agent_economy.recording.identity import END, RUN, read_run
 from agent_economy.recording.messages import SECOND_NS
 from agent_economy.recording.reading import MAX_BYTES, told
 
@@ -50,15 +50,15 @@ def glance(path: Path) -> Glance:
         run = beginning(stream)
         end = ending(stream)
         return Glance(
-            run["scenario"],
-            int(run["seed"]),
-            int(run["run"]),
-            run["program"],
+            run.text("scenario"),
+            run.whole("seed"),
+            run.whole("run"),
+            run.text("program"),
             *(end or (None, None)),
         )
 
 
-def beginning(stream: IO[bytes]) -> Mapping[str, str]:
+def beginning(stream: IO[bytes]) -> Entries:
     """Return which run it is, which is written before all else.
 
     Raises:
@@ -70,10 +70,7 @@ def beginning(stream: IO[bytes]) -> Mapping[str, str]:
     if not isinstance(first, Metadata) or first.name != RUN:
         message = f"is no recording of a run: it does not begin with metadata {RUN!r}"
         raise InputError(message)
-    if first.metadata["format"] != FORMAT:
-        message = f"is of format {first.metadata['format']!r}: must be {FORMAT!r}"
-        raise InputError(message)
-    return first.metadata
+    return read_run(first.metadata)
 
 
 def ending(stream: IO[bytes]) -> tuple[int, float] | None:
@@ -90,5 +87,8 @@ def ending(stream: IO[bytes]) -> tuple[int, float] | None:
         return None
     stream.seek(places[-1])
     end = next(StreamReader(stream, skip_magic=True, record_size_limit=MAX_BYTES).records)
-    assert isinstance(end, Metadata)  # noqa: S101  (an index that lies is damage, which is told)
-    return int(end.metadata["tick"]), summary.statistics.message_end_time / SECOND_NS
+    if not isinstance(end, Metadata):
+        message = f"is damaged: its index says of another record that it is metadata {END!r}"
+        raise InputError(message)
+    tick = Entries(f"metadata {END!r}", end.metadata).whole("tick")
+    return tick, summary.statistics.message_end_time / SECOND_NS

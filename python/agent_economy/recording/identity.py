@@ -5,12 +5,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from agent_economy import __version__, _core
+from agent_economy import __version__, _core, given
 from agent_economy._core import InputError
+from agent_economy.recording.entries import Entries
 from agent_economy.recording.file import File, strict
 from agent_economy.scenario import Override, Scenario, Source
-from agent_economy.simulation import Simulation
-from agent_economy.stepped import Change
+from agent_economy.stepped import Change, Stepped
 
 FORMAT = "1"
 
@@ -38,7 +38,7 @@ class Identity:
     program: str
 
 
-def write_identity(file: File, simulation: Simulation) -> None:
+def write_identity(file: File, simulation: Stepped) -> None:
     """Write which run it is, before its first message."""
     source = simulation.scenario.source
     began = source.overrides[: len(source.overrides) - len(simulation.changes)]
@@ -80,34 +80,65 @@ def write_end(file: File, tick: int, state_hash: int) -> None:
     file.note(END, {"tick": str(tick), "hash": f"{state_hash:016x}"})
 
 
+def read_run(values: object) -> Entries:
+    """Return what metadata says of which run it is.
+
+    Raises:
+        InputError: If it is of another format.
+    """
+    run = Entries(f"metadata {RUN!r}", values)
+    if (found := run.text("format")) != FORMAT:
+        message = f"is of format {found!r}: must be {FORMAT!r}"
+        raise InputError(message)
+    return run
+
+
 def read_identity(values: Mapping[str, str], attached: Mapping[str, bytes]) -> Identity:
     """Return which run a recording is of, from its metadata and attachments; no other file is read.
 
     Raises:
         InputError: If anything of it is missing, or of another format.
     """
-    if values["format"] != FORMAT:
-        message = f"is of format {values['format']!r}: must be {FORMAT!r}"
-        raise InputError(message)
-    name = values["scenario"]
+    run = read_run(values)
+    name = run.text("scenario")
     own = attached.get(f"scenario/{name}")
     if own is None:
         message = f"lacks its scenario, {name}: nothing of the run is there"
         raise InputError(message)
-    overrides = tuple(
-        Override(tuple(keys), value, "recording") for keys, value in json.loads(values["overrides"])
-    )
     files: dict[str, bytes | str] = {
         key.removeprefix(FILES): data for key, data in attached.items() if key.startswith(FILES)
     }
-    source = Source(name, own.decode(), overrides, files)
+    try:
+        text = own.decode()
+    except UnicodeDecodeError:
+        message = f"is damaged: its scenario, {name}, is not UTF-8 text"
+        raise InputError(message) from None
+    source = Source(name, text, read_overrides(run), files)
     if missing := _core.files_wanted(source):
         message = f"lacks what the scenario names: {', '.join(missing)}"
         raise InputError(message)
-    seed, run = int(values["seed"]), int(values["run"])
-    return Identity(Scenario.of(source), seed, run, values["program"])
+    seed, number = run.whole("seed"), run.whole("run")
+    return Identity(Scenario.of(source), seed, number, run.text("program"))
+
+
+def read_overrides(run: Entries) -> tuple[Override, ...]:
+    """Return what was put over the scenario before the run began."""
+    rows = run.json("overrides")
+    if not (isinstance(rows, list) and all(map(is_override, rows))):
+        run.refuse("overrides that are no list of paths and values")
+    return tuple(Override(tuple(keys), value, "recording") for keys, value in rows)
+
+
+def is_override(row: object) -> bool:
+    """Return whether something is a path, as keys, and a value."""
+    match row:
+        case [[_, *_] as keys, _]:
+            return all(map(given.is_text, keys))
+        case _:
+            return False
 
 
 def read_change(values: Mapping[str, str]) -> Change:
     """Return a change that was written."""
-    return Change(int(values["tick"]), values["path"], json.loads(values["value"]))
+    change = Entries(f"metadata {CHANGE!r}", values)
+    return Change(change.whole("tick"), change.text("path"), change.json("value"))

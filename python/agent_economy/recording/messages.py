@@ -10,6 +10,7 @@ from collections.abc import Sequence
 
 from foxglove_schemas_protobuf.ArrowPrimitive_pb2 import ArrowPrimitive
 from foxglove_schemas_protobuf.Color_pb2 import Color
+from foxglove_schemas_protobuf.CubePrimitive_pb2 import CubePrimitive
 from foxglove_schemas_protobuf.CylinderPrimitive_pb2 import CylinderPrimitive
 from foxglove_schemas_protobuf.LaserScan_pb2 import LaserScan
 from foxglove_schemas_protobuf.LinePrimitive_pb2 import LinePrimitive
@@ -78,6 +79,12 @@ def cylinder(
         top_scale=1,
         color=paint,
     )
+
+
+def cube(at: Place, size_m: tuple[float, float, float], paint: Color) -> CubePrimitive:
+    """Return a block that stands on the ground."""
+    x_m, y_m, z_m = size_m
+    return CubePrimitive(pose=pose(at, z_m / 2), size=Vector3(x=x_m, y=y_m, z=z_m), color=paint)
 
 
 def sphere(at: Place, radius_m: float, paint: Color) -> SpherePrimitive:

@@ -6,7 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from agent_economy.brain import Percept
+from agent_economy import _core
+from agent_economy.brain import Command, Percept
 from agent_economy.recording import schemas
 from agent_economy.recording.file import File, strict
 from agent_economy.recording.messages import SECOND_NS, scan
@@ -17,12 +18,18 @@ class Minds:
     """What goes into and comes out of the brains of some robots, in every step."""
 
     def __init__(
-        self, file: File, robots: Mapping[str, int], bodies: Mapping[str, Mapping[str, Any]]
+        self,
+        file: File,
+        simulation: Simulation,
+        chosen: Sequence[str],
+        bodies: Mapping[str, Mapping[str, Any]],
     ) -> None:
-        """Declare what will be written of each of the robots, given with its place in the team."""
-        self._file, self._robots = file, robots
+        """Declare what will be written of each of the chosen robots that is in the team."""
+        places = {name: place for place, name in enumerate(simulation.robots)}
+        self._robots = {name: places[name] for name in chosen if name in places}
+        self._file, self._simulation = file, simulation
         self._bearings: dict[str, list[list[float]]] = {}
-        for name in robots:
+        for name in self._robots:
             body = bodies[name.rpartition("/")[0]]
             # A ring's bearings may pass from pi to -pi; those of a scan only grow.
             rings = body["rings"]
@@ -31,18 +38,41 @@ class Minds:
             file.declare(f"/percept/{name}", schemas.exchanged("Percept"), about)
             file.declare(f"/command/{name}", schemas.exchanged("Command"), about)
 
-    def perceive(
-        self, simulation: Simulation, outside: Mapping[str, Percept]
-    ) -> dict[str, Mapping[str, Any]]:
+    def step(
+        self,
+        steps: int,
+        percepts: Mapping[str, Percept] | None,
+        commands: Mapping[str, Command] | None,
+        time_ns: int,
+    ) -> dict[str, Command]:
+        """Take steps, and write what came into them from outside, and what chosen robots had."""
+        simulation = self._simulation
+        tick = simulation.tick
+        perceived = self._perceive(percepts or {})
+        try:
+            return simulation.step(steps, percepts=percepts, commands=commands)
+        finally:
+            # Also after Ctrl-C: a step that was taken cannot be taken again without its input.
+            if simulation.tick > tick:
+                decided = {**simulation.decided, **(commands or {})}
+                inputs = {"percepts": percepts or {}, "commands": decided}
+                if any(inputs.values()):
+                    self._file.write_json("/input", strict({"tick": tick, **inputs}), time_ns)
+                if perceived:
+                    self._write(perceived, time_ns)
+
+    def _perceive(self, outside: Mapping[str, Percept]) -> dict[str, Mapping[str, Any]]:
         """Return what they will perceive in the next step, who decide in it."""
         given = strict({name: outside[name] for name in self._robots if name in outside})
-        percepts = {name: given.get(name) or simulation.percept(name) for name in self._robots}
+        percepts = {
+            name: given.get(name) or self._simulation.percept(name) for name in self._robots
+        }
         return {name: percept for name, percept in percepts.items() if percept is not None}
 
-    def write(
-        self, percepts: Mapping[str, Mapping[str, Any]], wanted: Sequence[Any], time_ns: int
-    ) -> None:
-        """Write what they perceived, and what they wanted then: of each robot speed and turn."""
+    def _write(self, percepts: Mapping[str, Mapping[str, Any]], time_ns: int) -> None:
+        """Write what they perceived, and what they wanted then."""
+        moment = _core.recorded_moment(self._simulation._run)  # noqa: SLF001  (ours)
+        wanted = moment["wanted"].tolist()
         for name, percept in percepts.items():
             self._file.write_json(f"/percept/{name}", percept, time_ns)
             self._write_scans(name, percept, time_ns)

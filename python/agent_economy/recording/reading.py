@@ -4,6 +4,7 @@ import json
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
+from errno import EINVAL
 from pathlib import Path
 from typing import IO, Any, cast
 
@@ -12,6 +13,7 @@ from mcap.records import Attachment, Channel, McapRecord, Message, Metadata
 from mcap.stream_reader import StreamReader
 
 from agent_economy._core import InputError
+from agent_economy.recording.entries import Entries
 from agent_economy.recording.identity import CHANGE, RUN, Identity, read_change, read_identity
 from agent_economy.stepped import Change
 
@@ -85,15 +87,22 @@ class Recorded:
         if self._run is None:
             message = f"is no recording of a run: it has no metadata {RUN!r}"
             raise InputError(message)
-        return read_identity(self._run, self._attached)
+        identity = read_identity(self._run, self._attached)
+        if self.inputs and identity.scenario.engine != "metric":
+            message = "is damaged: it has percepts or commands for robots that take none"
+            raise InputError(message)
+        return identity
 
     def _take_message(self, topic: str, data: bytes) -> None:
         if topic == "/run":
-            values = json.loads(data)
-            self.points.append(Point(values["tick"], values["changes"], values["hash"]))
+            run = Entries(f"topic {topic}", json.loads(data))
+            self.points.append(Point(run.whole("tick"), run.whole("changes"), run.text("hash")))
         elif topic == "/input":
-            values = json.loads(data)
-            self.inputs[values.pop("tick")] = values
+            self._take_input(Entries(f"topic {topic}", json.loads(data)))
+
+    def _take_input(self, came: Entries) -> None:
+        each = {name: came.by_name(name) for name in ("percepts", "commands")}
+        self.inputs[came.whole("tick")] = each
 
 
 def read(path: Path) -> tuple[Identity, Recorded]:
@@ -112,8 +121,8 @@ def read(path: Path) -> tuple[Identity, Recorded]:
 
 
 @contextmanager
-def told(path: Path) -> Iterator[None]:
-    """Say of which file it is, and what is wrong with it, if it cannot be read.
+def named(path: Path) -> Iterator[None]:
+    """Say of which file it is that something in it cannot be taken.
 
     Raises:
         InputError: If so.
@@ -122,11 +131,30 @@ def told(path: Path) -> Iterator[None]:
         yield
     except InputError as error:
         message = f"{path}: {error}"
+        raise InputError(message) from None
+
+
+@contextmanager
+def told(path: Path) -> Iterator[None]:
+    """Say of which file it is, and what is wrong with it, if it cannot be read.
+
+    Raises:
+        InputError: If so.
+    """
+    try:
+        with named(path):
+            yield
+    except InputError:
+        raise
     except OSError as error:
         message = f"{path}: cannot be read: {error.strerror or error}"
+        if error.errno == EINVAL:  # an index sent the reader to before the file's beginning
+            message = f"{path}: is damaged: parts are missing"
     # What libraries raise for damaged bytes is listed nowhere.
     except Exception as error:  # noqa: BLE001
-        message = f"{path}: is no MCAP file, or damaged: {error or type(error).__name__}"
+        is_missing = isinstance(error, EndOfFile | LookupError)
+        why = "parts are missing" if is_missing else str(error) or type(error).__name__
+        message = f"{path}: is no MCAP file, or damaged: {why}"
     else:
         return
     raise InputError(message)

@@ -6,17 +6,17 @@ from typing import Self
 
 from foxglove_schemas_protobuf.Log_pb2 import Log
 
-from agent_economy import _core, given
+from agent_economy import given
 from agent_economy._core import InputError
 from agent_economy.brain import Command, Percept
 from agent_economy.outcome import Outcome
-from agent_economy.recording.file import File, strict
+from agent_economy.recording import engines
+from agent_economy.recording.clock import Clock
+from agent_economy.recording.file import File
 from agent_economy.recording.identity import write_change, write_end, write_files, write_identity
 from agent_economy.recording.messages import SECOND_NS, log
-from agent_economy.recording.minds import Minds
-from agent_economy.recording.moments import Moments, moment_of
 from agent_economy.scenario import Source
-from agent_economy.simulation import Simulation
+from agent_economy.stepped import Stepped
 
 ENDING = ".mcap"
 """Of the names of recordings."""
@@ -34,11 +34,11 @@ class Recording:
         simulation: The run; between two steps it can be looked at and changed.
     """
 
-    simulation: Simulation
+    simulation: Stepped
 
     def __init__(
         self,
-        simulation: Simulation,
+        simulation: Stepped,
         path: str | Path,
         *,
         every: int = 1,
@@ -47,28 +47,30 @@ class Recording:
         """Begin a recording, with the run as it is now.
 
         Args:
-            simulation: The run; at its beginning, or what came before cannot be taken again but
-                for its changes.
+            simulation: The run, a `Simulation` or a `ClassicSimulation`; at its beginning, or what
+                came before cannot be taken again but for its changes.
             path: The file, NAME.mcap; one that is there is written anew, but for one that the
                 scenario was read from.
             every: Steps from one recorded moment to the next, 1 or more.
             percepts: Names of robots, KIND/INDEX, of which all is recorded that their brains
                 perceive and want, and their range scans, in every step. None by default: those of
-                all robots take some twenty times the room of all the rest.
+                all robots take some twenty times the room of all the rest. Robots of the classic
+                engine have none.
 
         Raises:
             InputError: If an argument is not allowed, or the file cannot be written.
         """
         chosen = given.texts("percepts", percepts, "a list of robots' names")
         path = given.path("path", path)
-        check(simulation, path, every, chosen)
+        self._engine = check(simulation, path, every, chosen)
         self.simulation = simulation
         self._every, self._chosen = every, chosen
-        self._step_s = simulation.step_s
+        self._clock = Clock(simulation.step_s)
         self._file = File(path)
-        self._flushed_ns = self._time_ns(simulation.tick)
+        self._flushed_ns = self._clock.time_ns(simulation.tick)
         self._changes = simulation.changes[:0]
         self._files: set[str] = set()
+        self._found: set[str] = set()
         write_identity(self._file, simulation)
         self._take_in_scenario()
         # Whoever finds the file of a killed process can see which run it was.
@@ -81,11 +83,12 @@ class Recording:
         percepts: Mapping[str, Percept] | None = None,
         commands: Mapping[str, Command] | None = None,
     ) -> dict[str, Command]:
-        """Take steps as `Simulation.step` does, and record them.
+        """Take steps as `step` of the simulation does, and record them.
 
         Raises:
-            InputError: If anything is not allowed, the recording is closed, or the simulation was
-                put back to an earlier moment.
+            InputError: If anything is not allowed, as percepts and commands for robots of the
+                classic engine, the recording is closed, or the simulation was put back to an
+                earlier moment.
             RecordingError: If the disk takes no more; the recording is closed then.
         """
         self._keep_up()
@@ -93,7 +96,10 @@ class Recording:
             return self._step(steps, percepts or {}, commands or {})
         given.check(given.is_whole(steps, 0), "steps", steps, "a whole number, 0 or more")
         for _ in range(steps):
+            tick = self.simulation.tick
             self._step(1, None, None)
+            if self.simulation.tick == tick:  # a classic run that is over stands
+                break
         return {}
 
     def finish(self) -> Outcome:
@@ -110,9 +116,9 @@ class Recording:
                 moment.
         """
         self._keep_up()
-        time_ns = self._time_ns(self.simulation.tick)
-        if self.simulation.tick != self._moments.last["tick"]:
-            self._moments.write(moment_of(self.simulation), time_ns)
+        time_ns = self._clock.time_ns(self.simulation.tick)
+        if self.simulation.tick != self._moments.tick:
+            self._moments.write(time_ns)
         if time_ns - self._flushed_ns >= FLUSH_NS:
             self._file.flush()
             self._flushed_ns = time_ns
@@ -123,10 +129,10 @@ class Recording:
             return
         try:
             self.note()
-            last, outcome = self._moments.last, self.simulation.outcome()
+            last, outcome = self._moments, self.simulation.outcome()
             row = {"status": outcome.status, **outcome.row}
-            self._file.write_json("/outcome", row, self._time_ns(last["tick"]))
-            write_end(self._file, last["tick"], last["hash"])
+            self._file.write_json("/outcome", row, self._clock.time_ns(last.tick))
+            write_end(self._file, last.tick, last.hash)
         finally:
             if self._file.is_open:
                 self._file.close()
@@ -147,30 +153,11 @@ class Recording:
     ) -> dict[str, Command]:
         self._keep_up()
         tick = self.simulation.tick
-        perceived = self._minds.perceive(self.simulation, percepts or {})
         try:
-            return self.simulation.step(steps, percepts=percepts, commands=commands)
+            return self._moments.step(steps, percepts, commands, self._clock.time_ns(tick))
         finally:
-            # Also after Ctrl-C: a step that was taken cannot be taken again without its input.
-            if self.simulation.tick > tick:
-                decided = {**self.simulation.decided, **(commands or {})}
-                inputs = {"percepts": percepts or {}, "commands": decided}
-                self._write_step(tick, perceived, inputs)
-
-    def _write_step(
-        self,
-        tick: int,
-        perceived: Mapping[str, Mapping[str, object]],
-        inputs: Mapping[str, Mapping[str, object]],
-    ) -> None:
-        time_ns = self._time_ns(tick)
-        if any(inputs.values()):
-            self._file.write_json("/input", strict({"tick": tick, **inputs}), time_ns)
-        if perceived:
-            wanted = moment_of(self.simulation)["wanted"].tolist()
-            self._minds.write(perceived, wanted, time_ns)
-        if self.simulation.tick % self._every == 0:
-            self.note()
+            if self.simulation.tick > tick and self.simulation.tick % self._every == 0:
+                self.note()
 
     def _keep_up(self) -> None:
         """Take in what was done to the simulation since the last step."""
@@ -178,7 +165,7 @@ class Recording:
             message = "the recording is closed: step the simulation itself, or record it anew"
             raise InputError(message)
         simulation, seen = self.simulation, self._changes
-        if simulation.tick < self._moments.last["tick"] or simulation.changes[: len(seen)] != seen:
+        if simulation.tick < self._moments.tick or simulation.changes[: len(seen)] != seen:
             message = "the simulation was put back: must go on from where it was recorded last"
             raise InputError(message)
         if simulation.changes != seen:
@@ -187,7 +174,8 @@ class Recording:
     def _take_in_scenario(self) -> None:
         """Write what was changed, the files that came with it, and the scene as it now is."""
         simulation = self.simulation
-        time_ns = self._time_ns(simulation.tick)
+        self._clock.go_on(simulation.tick, simulation.step_s)
+        time_ns = self._clock.time_ns(simulation.tick)
         files = simulation.scenario.source.files
         write_files(self._file, files, self._files)
         self._files |= files.keys()
@@ -196,37 +184,31 @@ class Recording:
             words = f"{change.path} = {change.value!r}"
             self._file.write("/log", log(time_ns, Log.INFO, "scenario", words), time_ns)
         self._changes = simulation.changes
-        setting = _core.recorded_setting(simulation._run)  # noqa: SLF001  (ours)
-        places = {name: place for place, name in enumerate(simulation.robots)}
-        chosen = {name: places[name] for name in self._chosen if name in places}
-        self._minds = Minds(self._file, chosen, setting["bodies"])
-        self._moments = Moments(self._file, simulation, setting, time_ns)
-
-    def _time_ns(self, tick: int) -> int:
-        return round(tick * self._step_s * SECOND_NS)
+        self._moments = self._engine.moments(
+            self._file, simulation, self._chosen, self._found, time_ns
+        )
 
 
-def check(simulation: Simulation, path: Path, every: int, percepts: Sequence[str]) -> None:
-    """See to it that arguments are allowed.
+def check(simulation: Stepped, path: Path, every: int, percepts: Sequence[str]) -> engines.Engine:
+    """See to it that arguments are allowed, and return what is recorded of such runs.
 
     Raises:
         InputError: If one is not; all faults at once.
     """
+    engine = engines.of(simulation)
     faults = []
     if path.suffix != ENDING:
         faults.append(f"{path}: a recording's name must end in {ENDING}")
-    elif isinstance(simulation, Simulation) and is_read_from(simulation.scenario.source, path):
+    elif engine and is_read_from(simulation.scenario.source, path):
         faults.append(f"{path}: must be another file than what the scenario is read from")
-    if not isinstance(simulation, Simulation):
-        faults += given.fault(False, "simulation", simulation, "a Simulation")  # noqa: FBT003
-    elif unknown := set(percepts) - set(simulation.robots):
-        team = simulation.robots
-        names = ", ".join(sorted(map(repr, unknown)))
-        robots = f"robots: {team[0]} to {team[-1]}" if team else "robots, and it has none"
-        faults.append(f"percepts: {names}: must be among the run's {robots}")
+    if engine:
+        faults += engine.faults(simulation, percepts)
+    runs = "a Simulation or a ClassicSimulation"
+    faults += given.fault(engine is not None, "simulation", simulation, runs)
     faults += given.fault(given.is_whole(every, 1), "every", every, "a whole number, 1 or more")
-    if faults:
+    if faults or engine is None:
         raise InputError("\n".join(faults))
+    return engine
 
 
 def is_read_from(source: Source, path: Path) -> bool:

@@ -1,13 +1,17 @@
 """Taking a recorded run again, to see whether the same comes of it."""
 
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from agent_economy import given
+from agent_economy.begin import begun
 from agent_economy.outcome import Outcome
-from agent_economy.recording.reading import Point, Recorded, read
+from agent_economy.recording.identity import Identity
+from agent_economy.recording.reading import Recorded, named, read
 from agent_economy.scenario import Scenario
-from agent_economy.simulation import Simulation
+from agent_economy.stepped import Change, Stepped
 
 
 @dataclass(frozen=True)
@@ -52,11 +56,20 @@ def rerun(path: str | Path) -> Rerun:
         InputError: If the file cannot be read, is damaged, is no recording of a run, or this
             version does not take its scenario any more.
     """
-    identity, recorded = read(given.path("path", path))
-    simulation = Simulation(identity.scenario, identity.seed, identity.run)
+    path = given.path("path", path)
+    identity, recorded = read(path)
+    with named(path):
+        simulation = begun(identity.scenario, identity.seed, identity.run)
+        return compared(simulation, identity, recorded)
+
+
+def compared(simulation: Stepped, identity: Identity, recorded: Recorded) -> Rerun:
+    """Take a run again, and compare it with what was recorded."""
     differs_at = None
     for point in recorded.points:
-        go_to(simulation, point, recorded)
+        changes = recorded.changes[: point.changes]
+        for _ in taken_again(simulation, simulation.step, changes, recorded.inputs, point.tick):
+            pass
         if differs_at is None and f"{simulation.hash:016x}" != point.hash:
             differs_at = point.tick
     return Rerun(
@@ -72,15 +85,29 @@ def rerun(path: str | Path) -> Rerun:
     )
 
 
-def go_to(simulation: Simulation, point: Point, recorded: Recorded) -> None:
-    """Step and change a run until it is where a state was recorded."""
-    for change in recorded.changes[len(simulation.changes) : point.changes]:
-        step_to(simulation, change.tick, recorded)
-        simulation.change(change.path, change.value)
-    step_to(simulation, point.tick, recorded)
+def taken_again(
+    simulation: Stepped,
+    step: Callable[..., object],
+    changes: Sequence[Change],
+    inputs: Mapping[int, Mapping[str, Any]],
+    until: int,
+) -> Iterator[int]:
+    """Take a run again up to a tick, or as far as it goes; yield each tick that has been come to.
 
-
-def step_to(simulation: Simulation, tick: int, recorded: Recorded) -> None:
-    """Step a run, with what came into it from outside."""
-    while simulation.tick < tick:
-        simulation.step(1, **recorded.inputs.get(simulation.tick, {}))
+    Args:
+        simulation: The run, where it is.
+        step: What steps it, as `Simulation.step` does.
+        changes: All of its changes, in order; those that it does not have yet are made.
+        inputs: What came into it from outside, by the tick, as `step` takes it.
+        until: The tick.
+    """
+    while True:
+        tick = simulation.tick
+        while (made := len(simulation.changes)) < len(changes) and changes[made].tick <= tick:
+            simulation.change(changes[made].path, changes[made].value)
+        if tick >= until:
+            return
+        step(1, **inputs.get(tick, {}))
+        if simulation.tick == tick:  # a classic run that is over stands
+            return
+        yield simulation.tick

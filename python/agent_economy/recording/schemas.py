@@ -9,6 +9,7 @@ from agent_economy import _core
 
 NUMBER = {"type": "number"}
 INTEGER = {"type": "integer", "minimum": 0}
+SIGNED = {"type": "integer"}
 TEXT = {"type": "string"}
 
 Schema = Mapping[str, Any]
@@ -34,15 +35,26 @@ def each(description: str, kind: Schema = NUMBER) -> Schema:
     return {"type": "array", "items": kind, "description": description}
 
 
+OF_ALL_RUNS: dict[str, Schema] = {
+    "tick": INTEGER | {"description": "Steps that have been taken."},
+    "hash": TEXT | {"description": "Tells states apart: 64 bits, hexadecimal."},
+    "changes": INTEGER | {"description": "Changes of the scenario so far."},
+    "found": INTEGER | {"description": "Items found so far."},
+}
+
 RUN = of_object(
     "agent_economy.Run",
     "Where a run is.",
+    {**OF_ALL_RUNS, "stopped": INTEGER | {"description": "Robots that cannot go on."}},
+)
+
+CLASSIC_RUN = of_object(
+    "agent_economy.ClassicRun",
+    "Where a run of the classic engine is.",
     {
-        "tick": INTEGER | {"description": "Steps that have been taken."},
-        "hash": TEXT | {"description": "Tells states apart: 64 bits, hexadecimal."},
-        "changes": INTEGER | {"description": "Changes of the scenario so far."},
-        "found": INTEGER | {"description": "Items found so far."},
-        "stopped": INTEGER | {"description": "Robots that cannot go on."},
+        **OF_ALL_RUNS,
+        "carry": SIGNED | {"description": "The score with which the next robot begins to decide."},
+        "decides_in": INTEGER | {"description": "Steps until the team decides next."},
     },
 )
 
@@ -69,6 +81,25 @@ ROBOTS = of_object(
         "status": each("Whether it can go on.", {"enum": ["active", "empty", "broken"]}),
         "battery": each("Share that is left; 1 if it never empties."),
         "collisions": each("New contacts that it has had.", INTEGER),
+    },
+)
+
+CLASSIC_ROBOTS = of_object(
+    "agent_economy.ClassicRobots",
+    "How each robot of the classic engine is; a cell is a metre.",
+    {
+        "x_m": each("Where it is drawn."),
+        "y_m": each("Where it is drawn, upwards."),
+        "heading_rad": each("Where it goes: 0 along x, anticlockwise, above -pi, to pi."),
+        "column": each("Of its cell, to the right.", SIGNED),
+        "row": each("Of its cell, downwards.", SIGNED),
+        "speed": each("Cells a decision.", SIGNED),
+        "left_turns": each("As far as they count.", SIGNED),
+        "right_turns": each("As far as they count.", SIGNED),
+        "colour": each(
+            "Since the last decision: yellow if something is near, red if on a shared cell.",
+            {"enum": ["blue", "yellow", "red"]},
+        ),
     },
 )
 

@@ -7,18 +7,15 @@ square that is drawn of that cell; it has left the cell when it is nearer to ano
 import base64
 from typing import Any
 
-from agent_economy import _core
+from agent_economy import classic_world
 from agent_economy.classic_simulation import KIND, ClassicSimulation
+from agent_economy.classic_world import CELL_PX, CELLS, RADIUS, WORLD, Cell, Place
 
-WORLD: dict[str, Any] = _core.classic_world()
-CELLS, CELL_PX = int(WORLD["size"]), float(WORLD["cell_px"])
 SIDE_PX = CELLS * CELL_PX
+RADIUS_PX = RADIUS * CELL_PX
 
 FREE, FILLED = 0, 2
 """As maps say it."""
-
-RADIUS_PX = CELL_PX / 2
-"""The chevron of 2003 is 24 px long, with 8 px before its place and 16 px behind."""
 
 BODY: dict[str, Any] = {
     "radius": RADIUS_PX,
@@ -27,8 +24,6 @@ BODY: dict[str, Any] = {
     "rings": [],
     "sensors": [],
 }
-
-Cell = tuple[int, int]
 
 
 def drawn(simulation: ClassicSimulation) -> bytes:
@@ -115,18 +110,19 @@ def filled() -> dict[str, Any]:
     }
 
 
-def outline(cell: tuple[float, float]) -> list[list[float]]:
+def outline(cell: Place) -> list[list[float]]:
     """Return the corners of a cell as drawn."""
-    column, row = cell
-    left, top = column * CELL_PX, SIDE_PX - row * CELL_PX
-    right, bottom = left + CELL_PX, top - CELL_PX
-    return [[left, bottom], [right, bottom], [right, top], [left, top]]
+    return [in_px(corner) for corner in classic_world.outline(cell)]
 
 
 def middle(cell: Cell) -> list[float]:
     """Return the middle of a cell as drawn."""
-    (left, bottom), _, (right, top), _ = outline(cell)
-    return [(left + right) / 2, (bottom + top) / 2]
+    return in_px(classic_world.middle(cell))
+
+
+def in_px(place: Place) -> list[float]:
+    """Return a place that is given in cells."""
+    return [each * CELL_PX for each in place]
 
 
 def counted(number: int, word: str) -> str:

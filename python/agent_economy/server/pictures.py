@@ -5,6 +5,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from agent_economy import classic
+from agent_economy.classic_world import CELL_PX, WORLD
 from agent_economy.scenario import Scenario
 from agent_economy.server import classic_view
 from agent_economy.simulation import Simulation
@@ -57,8 +58,8 @@ def grid(scenario: Scenario) -> str:
     team = classic.start(sum(scenario.robots.values()))
     poses = [(each["x"], side - each["y"], math.radians(90 - each["heading"])) for each in team]
     shapes = [
-        squares(classic_view.WORLD["walls"], WALL),
-        squares(classic_view.WORLD["items"], ITEM),
+        squares(WORLD["walls"], WALL),
+        squares(WORLD["items"], ITEM),
         *(chevron(pose, classic_view.RADIUS_PX) for pose in poses),
     ]
     return svg(side, side, shapes)
@@ -66,7 +67,7 @@ def grid(scenario: Scenario) -> str:
 
 def squares(cells: Iterable[tuple[int, int]], colour: str) -> str:
     """Return cells of the grid in one path, so that no seams are between them."""
-    size = classic_view.CELL_PX
+    size = CELL_PX
     corners = (classic_view.outline(cell)[0] for cell in cells)
     parts = (f"M{x:g},{y:g}h{size:g}v{size:g}h{-size:g}z" for x, y in corners)
     return f'<path d="{"".join(parts)}" fill="{colour}"/>'

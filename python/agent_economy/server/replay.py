@@ -57,6 +57,12 @@ class Replay:
         place = bisect_right(self._stops, tick)
         return self._stops[place] if place < len(self._stops) else None
 
+    def end(self, tick: int) -> None:
+        """Hear that the run goes no further than a tick: what was recorded beyond is not so."""
+        beyond = [each for each, _ in self._hashes if tick < each < self.until]
+        if self.differs_at is None and beyond:
+            self.differs_at = min(beyond)
+
     def compare(self, simulation: Stepped) -> None:
         """See whether a state is as recorded, if it was."""
         if self.differs_at is not None and self.differs_at <= simulation.tick:

@@ -32,12 +32,8 @@ class Saver:
         """Save a run.
 
         Raises:
-            InputError: If another is being saved, there is no place for recordings, or runs of its
-                engine cannot be recorded.
+            InputError: If another is being saved, or there is no place for recordings.
         """
-        engine = course.scenario.engine
-        needless = "a run of the metric engine: the address of a classic one holds all of it"
-        given.check(engine == "metric", "save: engine", engine, needless)
         is_free = self._task is None or self._task.done()
         given.check(
             is_free, "save", None, "one recording at a time: cancel the other, or wait for it"

@@ -4,24 +4,23 @@ import hashlib
 import os
 import re
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from pathlib import Path
-from uuid import uuid4
 
 from agent_economy._core import InputError
+from agent_economy.begin import begun
 from agent_economy.recording import Recording, RecordingError
 from agent_economy.recording.recorder import ENDING
+from agent_economy.recording.rerunning import taken_again
 from agent_economy.server.timeline import Course
-from agent_economy.simulation import Simulation
+from agent_economy.server.unfinished import clear, unfinished
+from agent_economy.stepped import Stepped
 
 MOST_ROBOT_STEPS = 10_000_000
 """Steps times robots: half a gigabyte."""
 
 STEP_ROBOTS = 10
 """A step takes as much room besides as so many robots."""
-
-UNFINISHED = ".unfinished-"
-"""What names of files begin with until they are whole; hidden ones are never listed."""
 
 DIGITS = 12
 MOST_LETTERS = 60
@@ -56,23 +55,20 @@ class Saving:
             InputError: If the run is too long, or the file cannot be written; nothing is left.
         """
         course = self.course
-        simulation = Simulation(course.scenario, course.seed, course.run)
+        simulation = begun(course.scenario, course.seed, course.run)
         see_to_room(course.edge * room_of(simulation))
-        unfinished = self._folder / f"{UNFINISHED}{uuid4().hex}{ENDING}"
         with in_words(self._folder):
-            try:
-                self._folder.mkdir(exist_ok=True)
-                unfinished.touch()
-                is_whole = self._record(simulation, unfinished)
-                return put_away(unfinished, stem(course)) if is_whole else None
-            finally:
-                with suppress(OSError):
-                    unfinished.unlink(missing_ok=True)
+            self._folder.mkdir(exist_ok=True)
+            clear(self._folder, ENDING)
+            with unfinished(self._folder, ENDING) as file:
+                is_whole = self._record(simulation, file)
+                return put_away(file, stem(course)) if is_whole else None
 
-    def _record(self, simulation: Simulation, file: Path) -> bool:
-        robot_steps = 0
+    def _record(self, simulation: Stepped, file: Path) -> bool:
+        robot_steps, course = 0, self.course
         with Recording(simulation, file) as recording:
-            for tick in taken_again(recording, self.course):
+            again = (simulation, recording.step, course.log, course.inputs, course.edge)
+            for tick in taken_again(*again):
                 self.done = tick
                 robot_steps += room_of(simulation)
                 see_to_room(robot_steps)
@@ -81,22 +77,7 @@ class Saving:
         return True
 
 
-def taken_again(recording: Recording, course: Course) -> Iterator[int]:
-    """Take a run again to its edge; yield each tick that has been come to."""
-    simulation = recording.simulation
-    changes = iter(course.log)
-    change = next(changes, None)
-    while True:
-        while change and change.tick <= simulation.tick:
-            simulation.change(change.path, change.value)
-            change = next(changes, None)
-        if simulation.tick >= course.edge:
-            return
-        recording.step(1, **course.inputs.get(simulation.tick, {}))
-        yield simulation.tick
-
-
-def room_of(simulation: Simulation) -> int:
+def room_of(simulation: Stepped) -> int:
     """Return what a step takes, in robots."""
     return len(simulation.robots) + STEP_ROBOTS
 

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from typing import Any, cast
 
 from agent_economy import _core, given
+from agent_economy.begin import begun
 from agent_economy.recording.reading import Recorded
 from agent_economy.scenario import Given, Scenario
-from agent_economy.server import engines
 from agent_economy.server.replay import Replay
 from agent_economy.stepped import Change
 
@@ -84,7 +84,7 @@ class Timeline:
         Raises:
             InputError: If there is no room for its team.
         """
-        self.simulation = engines.begun(scenario, seed, run)
+        self.simulation = begun(scenario, seed, run)
         self._first = scenario
         self._recorded = recorded
         self.replay = Replay(recorded or Recorded())
@@ -221,12 +221,7 @@ class Timeline:
         steps = min(self._pace, min(stops) - self.tick)
         start_s = time.monotonic()
         if steps > 0:
-            given_here = self.replay.input(self.tick)
-            if given_here:
-                # Only runs of the metric engine have bodies outside.
-                cast("Any", self.simulation).step(1, **given_here)
-            else:
-                self._take(steps)
+            self._take(steps)
         took_s = time.monotonic() - start_s
         self._pace = max(1, min(10_000, round(self._pace * SLICE_S / max(took_s, SLICE_S / 4))))
         self._apply()
@@ -237,10 +232,19 @@ class Timeline:
 
     def _take(self, steps: int) -> None:
         """Take steps, but none beyond the end, beyond which a run of the metric engine would go."""
+        before = self.tick
+        if given_here := self.replay.input(before):
+            # Only runs of the metric engine have bodies outside.
+            cast("Any", self.simulation).step(1, **given_here)
+            return
         for _ in range(steps):
             if self._is_at_the_end():
                 return
             self.simulation.step()
+        if self.tick == before:
+            # A run of the classic engine stands when it is over, whatever a recording says.
+            self.edge = before
+            self.replay.end(before)
 
     def _apply(self) -> None:
         """Make the changes of the log whose time has come."""

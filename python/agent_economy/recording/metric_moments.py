@@ -1,16 +1,19 @@
-"""What is written of a run at one moment: where all are, how they are, and what has happened."""
+"""What is written of a run of the metric engine: where all are, how they are, what has happened."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 from foxglove_schemas_protobuf.Log_pb2 import Log
 
 from agent_economy import _core
+from agent_economy.brain import Command, Percept
 from agent_economy.recording import schemas
 from agent_economy.recording.file import File
+from agent_economy.recording.items import Items
 from agent_economy.recording.messages import log, scene
-from agent_economy.recording.moving import Frames, Items, robot
+from agent_economy.recording.minds import Minds
+from agent_economy.recording.moving import BLUE, RED, YELLOW, Frames, robot
 from agent_economy.recording.still import grid, still
 from agent_economy.simulation import STATUSES, Simulation
 
@@ -25,7 +28,13 @@ TOPICS = {
     "/outcome": schemas.OUTCOME,
 }
 
+PAINTS = {"active": BLUE, "empty": YELLOW, "broken": RED}
+"""By status."""
+
 LEVELS = {"empty": Log.WARNING, "broken": Log.ERROR}
+
+AIR_M = 1.5
+"""How high a flying robot is drawn: the simulator has no heights."""
 
 
 def moment_of(simulation: Simulation) -> Moment:
@@ -33,20 +42,27 @@ def moment_of(simulation: Simulation) -> Moment:
     return _core.recorded_moment(simulation._run)  # noqa: SLF001  (ours)
 
 
-class Moments:
-    """The moments of a run, as long as its scenario does not change.
+class MetricMoments:
+    """The moments of a run, as long as its scenario does not change: see `engines.Moments`.
 
     A viewer that jumps in time shows the last message of each topic: so each is whole, and what
     changes seldom has a topic of its own and is written when it does.
     """
 
     def __init__(
-        self, file: File, simulation: Simulation, setting: Mapping[str, Any], time_ns: int
+        self,
+        file: File,
+        simulation: Simulation,
+        percepts: Sequence[str],
+        told: set[str],
+        time_ns: int,
     ) -> None:
-        """Write what stays as it is, and the first moment."""
+        """Write what stays as it is, and the first moment; see `engines.Engine`."""
+        setting = _core.recorded_setting(simulation._run)  # noqa: SLF001  (ours)
+        self._minds = Minds(file, simulation, percepts, setting["bodies"])
         for topic, schema in TOPICS.items():
             file.declare(topic, schema)
-        self._file = file
+        self._file, self._simulation = file, simulation
         self._changes = len(simulation.changes)
         self._names = simulation.robots
         self._frames = Frames(self._names)
@@ -54,24 +70,44 @@ class Moments:
         document = simulation.scenario.to_dict()
         kinds = document.get("items", {})
         sought = {name: kind.get("sought", True) for name, kind in kinds.items()}
-        self._items = Items(file, simulation.items, sought)
-        self.last = moment_of(simulation)
+        self._items = Items(file, simulation.items, sought, told)
+        self._last = moment_of(simulation)
         file.write_json("/team", {"robots": self._names, **self._bodies}, time_ns)
         file.write("/scene/world", scene(still(document), time_ns), time_ns)
         for number, given in enumerate(setting["maps"]):
             file.write(f"/map/{number}", grid(given, time_ns), time_ns)
-        self._write_bodies(self.last, time_ns)
-        self._items.write_all(self.last["found_s"], time_ns)
-        self._write_numbers(self.last, time_ns)
+        self._write_bodies(self._last, time_ns)
+        self._items.write_all(self._last["found_s"], time_ns)
+        self._write_numbers(self._last, time_ns)
 
-    def write(self, moment: Moment, time_ns: int) -> None:
-        """Write a moment."""
-        before, self.last = self.last, moment
+    @property
+    def tick(self) -> int:
+        """Of the moment that was written last."""
+        return int(self._last["tick"])
+
+    @property
+    def hash(self) -> int:
+        """Of the moment that was written last."""
+        return int(self._last["hash"])
+
+    def step(
+        self,
+        steps: int,
+        percepts: Mapping[str, Percept] | None,
+        commands: Mapping[str, Command] | None,
+        time_ns: int,
+    ) -> dict[str, Command]:
+        """Take steps as `Simulation.step` does, and write what went into them."""
+        return self._minds.step(steps, percepts, commands, time_ns)
+
+    def write(self, time_ns: int) -> None:
+        """Write the run as it is now."""
+        before, self._last = self._last, moment_of(self._simulation)
+        moment = self._last
         self._write_numbers(moment, time_ns)
         if (moment["status"] != before["status"]).any():
             self._write_bodies(moment, time_ns)
-        if (np.isnan(moment["found_s"]) != np.isnan(before["found_s"])).any():
-            self._items.write_finds(moment["found_s"], time_ns)
+        self._items.write_finds(moment["found_s"], time_ns)
         self._log_events(before, moment, time_ns)
 
     def _write_numbers(self, moment: Moment, time_ns: int) -> None:
@@ -90,18 +126,13 @@ class Moments:
     def _write_bodies(self, moment: Moment, time_ns: int) -> None:
         rows = zip(self._names, STATUSES[moment["status"]], *self._bodies.values(), strict=True)
         bodies = [
-            robot(name, status, radius_m, is_flying=is_flying)
+            robot(name, PAINTS[status], radius_m, AIR_M if is_flying else 0)
             for name, status, radius_m, is_flying in rows
         ]
         self._file.write("/scene/robots", scene(bodies, time_ns), time_ns)
 
     def _log_events(self, before: Moment, moment: Moment, time_ns: int) -> None:
-        """Tell what has happened since the moment before."""
-        is_new = np.isfinite(moment["found_s"]) & np.isnan(before["found_s"])
-        for place in np.flatnonzero(is_new).tolist():
-            words = f"found at {moment['found_s'][place]:.3f} s"
-            name = self._items.name(place)
-            self._file.write("/log", log(time_ns, Log.INFO, name, words), time_ns)
+        """Tell what has happened to robots since the moment before."""
         for place in np.flatnonzero(moment["collisions"] > before["collisions"]).tolist():
             words = f"collision, {moment['collisions'][place]} so far"
             self._file.write("/log", log(time_ns, Log.WARNING, self._names[place], words), time_ns)
@@ -109,6 +140,17 @@ class Moments:
             status = str(STATUSES[moment["status"][place]])
             level = LEVELS.get(status, Log.INFO)
             self._file.write("/log", log(time_ns, level, self._names[place], status), time_ns)
+
+
+def faults(simulation: Simulation, percepts: Sequence[str]) -> list[str]:
+    """Return what is wrong with the names of robots whose percepts are to be recorded."""
+    unknown = set(percepts) - set(simulation.robots)
+    if not unknown:
+        return []
+    team = simulation.robots
+    names = ", ".join(sorted(map(repr, unknown)))
+    robots = f"robots: {team[0]} to {team[-1]}" if team else "robots, and it has none"
+    return [f"percepts: {names}: must be among the run's {robots}"]
 
 
 def states(moment: Moment) -> dict[str, list[Any]]:

@@ -1,0 +1,159 @@
+"""What is written of a run of the classic engine: a cell is drawn a metre wide, with y upwards."""
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import pyarrow as pa
+from foxglove_schemas_protobuf.SceneEntity_pb2 import SceneEntity
+
+from agent_economy import given
+from agent_economy.brain import Command, Percept
+from agent_economy.classic_simulation import COLOURS, ClassicSimulation
+from agent_economy.classic_world import CELL_PX, CELLS, RADIUS, WORLD, middle
+from agent_economy.recording import schemas
+from agent_economy.recording.file import File
+from agent_economy.recording.items import Floats, Items
+from agent_economy.recording.messages import WORLD as FRAME
+from agent_economy.recording.messages import color, cube, scene
+from agent_economy.recording.moving import BLUE, RED, YELLOW, Frames, robot
+from agent_economy.recording.still import OBSTACLE, WALL_M, half_turn_of
+
+TOPICS = {
+    "/run": schemas.CLASSIC_RUN,
+    "/team": schemas.TEAM,
+    "/robots": schemas.CLASSIC_ROBOTS,
+    "/outcome": schemas.OUTCOME,
+}
+
+PAINTS = (BLUE, YELLOW, RED)
+"""By the compiled part's numbers of colours."""
+
+AHEAD = ((0, 1), (1, 1), (1, 0), (1, -1), (0, -1), (-1, -1), (-1, 0), (-1, 1))
+"""To the right and upwards, by heading: eighths of a turn from up, clockwise."""
+
+HALF_TURNS = np.array([half_turn_of([(0, 0), ahead]) for ahead in AHEAD])
+"""By heading: sine and cosine of half the angle from x."""
+
+EIGHTH_DEG, LEFT_DEG = 45, 270
+
+AS_TOLD = ("column", "row", "speed", "left_turns", "right_turns")
+
+MINDLESS = "none: robots of 2003 have no minds"
+
+
+class ClassicMoments:
+    """The moments of a run, as long as its scenario does not change: see `engines.Moments`."""
+
+    def __init__(
+        self,
+        file: File,
+        simulation: ClassicSimulation,
+        _: Sequence[str],
+        told: set[str],
+        time_ns: int,
+    ) -> None:
+        """Write what stays as it is, and the first moment; see `engines.Engine`."""
+        for topic, schema in TOPICS.items():
+            file.declare(topic, schema)
+        self._file, self._simulation = file, simulation
+        self._changes = len(simulation.changes)
+        self._names = simulation.robots
+        self._frames = Frames(self._names)
+        self._items = Items(file, items(), {"item": True}, told)
+        self._colours: list[int] = []
+        robots = len(self._names)
+        bodies = {"radius_m": [RADIUS] * robots, "is_flying": [False] * robots}
+        file.write_json("/team", {"robots": self._names, **bodies}, time_ns)
+        file.write("/scene/world", scene([walls()], time_ns), time_ns)
+        self._items.write_all(found_s(simulation), time_ns)
+        self.write(time_ns)
+
+    def step(
+        self,
+        steps: int,
+        percepts: Mapping[str, Percept] | None,
+        commands: Mapping[str, Command] | None,
+        _: int,
+    ) -> dict[str, Command]:
+        """Take steps as `ClassicSimulation.step` does, which nothing goes into.
+
+        Raises:
+            InputError: If there are percepts or commands.
+        """
+        for name, each in {"percepts": percepts, "commands": commands}.items():
+            given.check(each is None, name, each, MINDLESS)
+        self._simulation.step(steps)
+        return {}
+
+    def write(self, time_ns: int) -> None:
+        """Write the run as it is now."""
+        simulation = self._simulation
+        robots = simulation._run.robots  # noqa: SLF001  (ours)
+        found = found_s(simulation)
+        self.tick, self.hash = simulation.tick, simulation.hash
+        self._file.write("/tf", self._frames.at(time_ns, *placed(robots)), time_ns)
+        self._file.write_json("/robots", states(robots), time_ns)
+        run = {
+            "tick": self.tick,
+            "hash": f"{self.hash:016x}",
+            "changes": self._changes,
+            "found": int(np.isfinite(found).sum()),
+            "carry": simulation.carry,
+            "decides_in": simulation.decides_in,
+        }
+        self._file.write_json("/run", run, time_ns)
+        if robots["colour"] != self._colours:
+            self._colours = robots["colour"]
+            paints = zip(self._names, self._colours, strict=True)
+            bodies = [robot(name, PAINTS[colour], RADIUS) for name, colour in paints]
+            self._file.write("/scene/robots", scene(bodies, time_ns), time_ns)
+        self._items.write_finds(found, time_ns)
+
+
+def faults(_: ClassicSimulation, percepts: Sequence[str]) -> list[str]:
+    """Return what is wrong with the names of robots whose percepts are to be recorded."""
+    return given.fault(not percepts, "percepts", list(percepts), MINDLESS)
+
+
+def walls() -> SceneEntity:
+    """Return what stands in the world for ever; items, which to robots stand too, are no part."""
+    size_m = (1.0, 1.0, WALL_M)
+    cubes = [cube(middle(cell), size_m, color(OBSTACLE)) for cell in WORLD["walls"]]
+    return SceneEntity(frame_id=FRAME, id="walls", cubes=cubes)
+
+
+def items() -> pa.Table:
+    """Return the items as those of the metric engine are."""
+    x_m, y_m = zip(*map(middle, WORLD["items"]), strict=True)
+    return pa.table({"kind": ["item"] * len(x_m), "x_m": x_m, "y_m": y_m})
+
+
+def found_s(simulation: ClassicSimulation) -> Floats:
+    """Return when each item was found; what is not found has no number."""
+    found = simulation._run.found_s  # noqa: SLF001  (ours)
+    return np.array(found, np.float64)  # None becomes NaN
+
+
+def placed(robots: Mapping[str, list[float]]) -> tuple[Floats, Floats]:
+    """Return poses, shape (robots, 3), and of half their headings sine and cosine."""
+    half_turns = HALF_TURNS[np.array(robots["heading_deg"]) // EIGHTH_DEG % len(AHEAD)]
+    told = states(robots)
+    return np.column_stack([told[name] for name in ("x_m", "y_m", "heading_rad")]), half_turns
+
+
+def states(robots: Mapping[str, list[Any]]) -> dict[str, list[Any]]:
+    """Return how each robot is, as lists."""
+    return {
+        "x_m": [x_px / CELL_PX for x_px in robots["x_px"]],
+        "y_m": [CELLS - y_px / CELL_PX for y_px in robots["y_px"]],
+        "heading_rad": [heading_rad(degrees) for degrees in robots["heading_deg"]],
+        **{name: robots[name] for name in AS_TOLD},
+        "colour": COLOURS[robots["colour"]].tolist(),
+    }
+
+
+def heading_rad(degrees: float) -> float:
+    """Return a heading, given clockwise from up, as it is anticlockwise from x."""
+    return math.radians(90 - degrees if degrees < LEFT_DEG else 450 - degrees)

@@ -1,0 +1,245 @@
+"""Recordings of runs of the classic engine, and such runs taken again from them."""
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+import numpy as np
+import pytest
+from recorded import SECOND_NS, contents
+from test_cli import run
+
+import agent_economy as ae
+from agent_economy import ClassicSimulation, InputError, Scenario
+
+CHANGES: list[tuple[int, str, Any]] = [
+    (0, "robots.wanderer.count", 6),
+    (34, "robots.wanderer.count", 9),
+    (50, "contact", "within-3"),
+    (50, "merit", {"time": -1}),
+    (90, "clock.paints_per_s", 1000),
+    (120, "clock.cap_s", 1),
+]
+
+
+def changed(path: Path, every: int = 1) -> ClassicSimulation:
+    """Record a run with changes on its way, until it is over."""
+    simulation = ClassicSimulation(Scenario.load("classic").replace("contact", "ahead"), 3)
+    with ae.Recording(simulation, path, every=every) as recording:
+        for tick, name, value in CHANGES:
+            recording.step(tick - simulation.tick)
+            simulation.change(name, value)
+        recording.finish()
+    return simulation
+
+
+def test_a_recorded_run_is_the_run_and_is_taken_again(tmp_path: Path) -> None:
+    recorded = ae.run("classic", 3, 1, record=tmp_path / "run.mcap")
+    assert recorded == ae.run("classic", 3, 1)
+    again = ae.rerun(tmp_path / "run.mcap")
+    assert (again.agrees, again.is_whole, again.seed, again.run) == (True, True, 3, 1)
+    assert again.outcome == recorded
+    assert again.tick == recorded.row["paints"]
+
+
+@pytest.mark.parametrize("every", [1, 7])
+def test_a_run_that_is_changed_is_taken_again(tmp_path: Path, every: int) -> None:
+    simulation = changed(tmp_path / "run.mcap", every)
+    again = ae.rerun(tmp_path / "run.mcap")
+    assert again.agrees
+    assert (again.tick, again.hash) == (simulation.tick, f"{simulation.hash:016x}")
+    assert again.outcome == simulation.outcome()
+
+
+def test_the_same_run_is_the_same_bytes(tmp_path: Path) -> None:
+    first, again, other = (tmp_path / f"{name}.mcap" for name in ("first", "again", "other"))
+    changed(first), changed(again)
+    assert first.read_bytes() == again.read_bytes()
+    ae.run("classic", 4, record=other)
+    ae.run("classic", 3, record=first)
+    assert first.read_bytes() != other.read_bytes()
+
+
+def test_every_paint_is_recorded_with_the_robots_that_the_run_has_then(tmp_path: Path) -> None:
+    ae.run("classic", 5, record=tmp_path / "run.mcap")
+    topics = contents(tmp_path / "run.mcap").topics
+    simulation = ClassicSimulation("classic", 5)
+    moments = zip(topics["/tf"], topics["/robots"], topics["/run"], strict=True)
+    for frames, robots, at in moments:
+        assert frames.time_ns == robots.time_ns == at.time_ns
+        assert at.time_ns == round(simulation.time_s * SECOND_NS)
+        assert at.content["hash"] == f"{simulation.hash:016x}"
+        assert (at.content["carry"], at.content["decides_in"]) == (
+            simulation.carry,
+            simulation.decides_in,
+        )
+        team = simulation.team.to_pydict()
+        told = robots.content
+        assert told["x_m"] == (np.array(team["x_px"]) / 20).tolist()
+        assert told["y_m"] == (25 - np.array(team["y_px"]) / 20).tolist()
+        for name in ("column", "row", "speed", "left_turns", "right_turns", "colour"):
+            assert told[name] == team[name]
+        for number, frame in enumerate(frames.content.transforms):
+            assert frame.child_frame_id == simulation.robots[number]
+            assert frame.translation.x == told["x_m"][number]
+            assert frame.translation.y == told["y_m"][number]
+            turn = 2 * math.atan2(frame.rotation.z, frame.rotation.w)
+            upwards = math.radians(90 - team["heading_deg"][number])
+            assert math.cos(turn - upwards) == pytest.approx(1, abs=1e-15)
+            assert math.cos(told["heading_rad"][number] - upwards) == pytest.approx(1, abs=1e-15)
+            assert -math.pi < told["heading_rad"][number] <= math.pi
+        simulation.step()
+    assert simulation.is_over
+    assert topics["/run"][-1].content["tick"] == simulation.tick
+
+
+def test_the_scene_is_the_world_of_2003_with_y_upwards(tmp_path: Path) -> None:
+    ae.run("classic", 5, record=tmp_path / "run.mcap")
+    topics = contents(tmp_path / "run.mcap").topics
+    assert set(topics) == {
+        "/tf", "/robots", "/run", "/team", "/scene/world", "/scene/robots", "/scene/items",
+        "/scene/found/0", "/log", "/outcome",
+    }  # fmt: skip
+    (world,) = topics["/scene/world"]
+    (walls,) = world.content.entities
+    assert len(walls.cubes) == 96 + 6 + 3 + 4 + 3
+    middles = {(each.pose.position.x, each.pose.position.y) for each in walls.cubes}
+    # The frame's corner, and the obstacle in columns 3 to 5 of row 11 from the top.
+    assert {(0.5, 0.5), (3.5, 13.5), (5.5, 13.5)} <= middles
+    (items,) = topics["/scene/items"]
+    places = [each.pose.position for each in items.content.entities[0].spheres]
+    assert [(at.x, at.y) for at in places] == [(3.5, 7.5), (9.5, 19.5), (14.5, 2.5), (21.5, 16.5)]
+    bodies = topics["/scene/robots"][0].content.entities
+    assert [each.frame_id for each in bodies] == [f"wanderer/{number}" for number in range(4)]
+
+
+def test_bodies_have_the_colours_that_robots_have_then(tmp_path: Path) -> None:
+    ae.run("classic", 5, record=tmp_path / "run.mcap")
+    topics = contents(tmp_path / "run.mcap").topics
+    states = {each.time_ns: each.content["colour"] for each in topics["/robots"]}
+    painted = {"blue": set(), "yellow": set(), "red": set()}  # type: dict[str, set[float]]
+    for time_ns, scene in topics["/scene/robots"]:
+        for colour, entity in zip(states[time_ns], scene.entities, strict=True):
+            painted[colour].add(round(entity.cylinders[0].color.r, 3))
+    assert all(len(each) == 1 for each in painted.values())
+    assert len(set.union(*painted.values())) == 3
+    changes = [a != b for a, b in zip([None, *states.values()], states.values(), strict=False)]
+    assert len(topics["/scene/robots"]) == sum(changes)
+
+
+@pytest.mark.parametrize("every", [1, 25])
+def test_every_find_is_in_the_log_when_it_was_made(tmp_path: Path, every: int) -> None:
+    simulation = changed(tmp_path / "run.mcap", every)
+    topics = contents(tmp_path / "run.mcap").topics
+    finds = [each.content for each in topics["/log"] if each.content.name != "scenario"]
+    found_s = simulation.items["found_s"].to_pylist()
+    there = {f"item/{place}" for place, at_s in enumerate(found_s) if at_s is not None}
+    assert sorted(each.name for each in finds) == sorted(there)
+    assert topics["/run"][-1].content["found"] == len(there) > 1
+
+
+def test_finds_in_the_log_have_their_seconds(tmp_path: Path) -> None:
+    simulation = ClassicSimulation("classic", 0)
+    with ae.Recording(simulation, tmp_path / "run.mcap") as recording:
+        recording.finish()
+    log = contents(tmp_path / "run.mcap").topics["/log"]
+    told = {each.content.name: (each.content.message, each.time_ns) for each in log}
+    found_s = simulation.items["found_s"].to_pylist()
+    assert told == {
+        f"item/{place}": (f"found at {at_s:.3f} s", round(at_s * SECOND_NS))
+        for place, at_s in enumerate(found_s)
+    }
+    assert 0 in found_s  # one beside the start
+
+
+def test_times_only_grow_also_if_paints_become_shorter(tmp_path: Path) -> None:
+    simulation = changed(tmp_path / "run.mcap")
+    runs = contents(tmp_path / "run.mcap").topics["/run"]
+    times_ns = [each.time_ns for each in runs]
+    assert times_ns == sorted(times_ns)
+    last = simulation.tick
+    assert times_ns[-1] == round(90 / 56 * SECOND_NS) + (last - 90) * SECOND_NS // 1000
+
+
+def test_changes_are_in_the_log_and_teams_follow_them(tmp_path: Path) -> None:
+    changed(tmp_path / "run.mcap")
+    topics = contents(tmp_path / "run.mcap").topics
+    said = [each.content.message for each in topics["/log"] if each.content.name == "scenario"]
+    assert said == [f"{name} = {value!r}" for _, name, value in CHANGES]
+    teams = [len(each.content["robots"]) for each in topics["/team"]]
+    assert teams == [4, 6, 9, 9, 9, 9]
+
+
+def test_what_is_json_holds_to_its_schema(tmp_path: Path) -> None:
+    changed(tmp_path / "run.mcap")
+    topics, schemas, *_ = contents(tmp_path / "run.mcap")
+    declared = {
+        topic: json.loads(schema.data)
+        for topic, schema in schemas.items()
+        if schema.encoding == "jsonschema"
+    }
+    assert set(declared) == {"/run", "/team", "/robots", "/outcome"}
+    for topic, schema in declared.items():
+        for message in topics[topic]:
+            jsonschema.validate(message.content, schema)
+
+
+def test_a_run_that_is_over_stands_and_a_change_lets_it_go_on(tmp_path: Path) -> None:
+    simulation = ClassicSimulation(Scenario.load("classic").replace("clock.cap_s", 1), 1)
+    with ae.Recording(simulation, tmp_path / "run.mcap") as recording:
+        recording.step(10**12)
+        assert simulation.tick == 56
+        simulation.change("clock.cap_s", 2)
+        recording.finish()
+    ticks = [each.content["tick"] for each in contents(tmp_path / "run.mcap").topics["/run"]]
+    assert ticks == [*range(57), *range(56, 113)]
+    assert ae.rerun(tmp_path / "run.mcap").agrees
+
+
+def test_robots_without_minds_have_no_percepts_and_take_no_commands(tmp_path: Path) -> None:
+    path = tmp_path / "run.mcap"
+    with pytest.raises(InputError, match=r"percepts = .*: must be none: robots of 2003 have no"):
+        ae.Recording(ClassicSimulation("classic"), path, percepts=["wanderer/0"])
+    assert not path.exists()
+    with ae.Recording(ClassicSimulation("classic"), path) as recording:
+        given: Any
+        for given in ({"percepts": {"wanderer/0": {}}}, {"commands": {}}):
+            with pytest.raises(InputError, match="must be none: robots of 2003 have no minds"):
+                recording.step(**given)
+        recording.step(3)
+    assert ae.rerun(path).tick == 3
+
+
+def test_a_run_that_is_not_the_recorded_one_differs_where_it_ends(tmp_path: Path) -> None:
+    path = tmp_path / "run.mcap"
+    short, long = (ClassicSimulation(capped(cap_s), 1) for cap_s in (1, 5))
+    with ae.Recording(short, path) as recording:
+        recording.step(20)
+        long.step(20)
+        short.restore(long.snapshot())
+        recording.step(80)
+    again = ae.rerun(path)
+    assert (again.differs_at, again.tick) == (57, 56)
+
+
+def capped(cap_s: float) -> Scenario:
+    return Scenario.load("classic").replace("clock.cap_s", cap_s)
+
+
+def test_the_command_line_records_and_takes_again(tmp_path: Path) -> None:
+    path = str(tmp_path / "run.mcap")
+    given = run("run", "classic", "--seed", "7", "--record", path, "--every", "5", "--json")
+    assert (given.returncode, given.stderr) == (0, "")
+    outcome = ae.run("classic", 7)
+    assert json.loads(given.stdout)["paints"] == outcome.row["paints"]
+    again = run("rerun", path)
+    assert (again.returncode, again.stderr) == (0, "")
+    steps = f"{outcome.row['paints']:,}"
+    assert again.stdout.startswith(
+        f"classic, seed 7, run 0: the same as recorded after each of {steps} steps"
+    )
+    refused = run("run", "classic", "--record", path, "--percepts", "wanderer/0")
+    assert refused.returncode == 2
+    assert "robots of 2003 have no minds" in refused.stderr
