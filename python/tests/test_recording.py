@@ -2,7 +2,6 @@
 
 import json
 import math
-import random
 import shutil
 import subprocess
 import sys
@@ -15,7 +14,6 @@ import jsonschema
 import numpy as np
 import pytest
 from conftest import ROOT
-from mcap.reader import make_reader
 from mcap.records import Channel
 from mcap.stream_reader import StreamReader
 from metric import ENDLESS, search
@@ -25,7 +23,6 @@ from test_cli import run
 import agent_economy as ae
 from agent_economy import InputError, Scenario
 from agent_economy.brain import Command, Percept
-from agent_economy.recording.file import File
 
 SCENARIOS = ROOT / "scenarios"
 
@@ -379,75 +376,6 @@ def test_a_run_without_robots_is_recorded_and_has_nobodys_percepts(tmp_path: Pat
     with ae.Recording(nobody, tmp_path / "run.mcap") as recording:
         recording.step(3)
     assert ae.rerun(tmp_path / "run.mcap").agrees
-
-
-def test_a_file_that_is_cut_is_compared_as_far_as_it_goes(tmp_path: Path) -> None:
-    whole = short(tmp_path / "run.mcap").read_bytes()
-    (cut := tmp_path / "cut.mcap").touch()
-    ticks = []
-    for length in np.linspace(len(whole) - 1, 0, 24, dtype=int).tolist():
-        cut.write_bytes(whole[:length])
-        try:
-            again = ae.rerun(cut)
-        except InputError as error:
-            assert "is no recording of a run" in str(error) or "lacks its sc" in str(error)  # noqa: PT017
-        else:
-            assert (again.agrees, again.is_whole) == (True, False)
-            ticks.append(again.tick)
-    assert ticks == sorted(ticks, reverse=True)
-    assert ticks[0] == 100
-
-
-def test_a_file_that_is_cut_within_an_index_is_no_damaged_one(tmp_path: Path) -> None:
-    path = tmp_path / "run.mcap"
-    with ae.Recording(ae.Simulation(search(SHORT), 1), path) as recording:
-        recording.step(60)
-    whole = path.read_bytes()
-    with path.open("rb") as stream:
-        summary = make_reader(stream).get_summary()
-    assert summary is not None
-    chunks = summary.chunk_indexes
-    assert len(chunks) > 2
-    end = len(whole) - 1
-    inside = [each.chunk_start_offset + each.chunk_length + 20 for each in chunks]
-    for length in (*inside, *range(end - 400, end, 7)):
-        path.write_bytes(whole[:length])
-        again = ae.rerun(path)
-        assert (again.agrees, again.is_whole) == (True, False)
-
-
-def test_damage_never_ends_in_anything_but_a_word(tmp_path: Path) -> None:
-    whole = short(tmp_path / "run.mcap").read_bytes()
-    dice = random.Random(1)  # noqa: S311
-    refused = 0
-    for _ in range(60):
-        damaged = bytearray(whole)
-        damaged[dice.randrange(len(whole))] ^= 1 << dice.randrange(8)
-        (tmp_path / "damaged.mcap").write_bytes(damaged)
-        try:
-            ae.rerun(tmp_path / "damaged.mcap")
-        except InputError as error:
-            refused += str(tmp_path) in str(error)
-    assert refused > 20
-
-
-@pytest.mark.parametrize("content", [b"", b"engine = 'metric'", b"\x89MCAP0\r\n", b"\x00" * 100])
-def test_what_is_no_recording_is_refused(tmp_path: Path, content: bytes) -> None:
-    (tmp_path / "other").write_bytes(content)
-    with pytest.raises(InputError, match="other: is no "):
-        ae.rerun(tmp_path / "other")
-
-
-def test_a_recording_does_not_make_the_program_read_other_files(tmp_path: Path) -> None:
-    path = tmp_path / "run.mcap"
-    file = File(path)
-    text = (SCENARIOS / "open-field.toml").read_bytes()
-    file.attach("scenario/open-field.toml", "application/toml", text)
-    run = {"format": "1", "program": "0", "scenario": "open-field.toml"}
-    file.note("agent_economy.run", {**run, "overrides": "[]", "seed": "0", "run": "0"})
-    file.close()
-    with pytest.raises(InputError, match=r"lacks what the scenario names: open-field\.yaml"):
-        ae.rerun(path)
 
 
 FILLS = """

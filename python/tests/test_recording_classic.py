@@ -169,7 +169,7 @@ def test_changes_are_in_the_log_and_teams_follow_them(tmp_path: Path) -> None:
     said = [each.content.message for each in topics["/log"] if each.content.name == "scenario"]
     assert said == [f"{name} = {value!r}" for _, name, value in CHANGES]
     teams = [len(each.content["robots"]) for each in topics["/team"]]
-    assert teams == [4, 6, 9, 9, 9, 9]
+    assert teams == [4, 6, 9, 9, 9, 9, 9]
 
 
 def test_what_is_json_holds_to_its_schema(tmp_path: Path) -> None:

@@ -1,9 +1,12 @@
 """Runs that a page saves, and recordings that it opens."""
 
 import os
+import subprocess
+import sys
 import time
 import tomllib
 from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, cast
 
@@ -92,6 +95,45 @@ def test_a_saved_run_is_the_run_that_was_seen_with_all_its_changes(
     assert again.agrees
     assert again.is_whole
     assert (again.tick, again.hash) == (70, told["hash"])
+
+
+def test_a_saved_classic_run_is_the_run_that_was_seen_and_is_opened_as_that(
+    page: Page, client: TestClient, tmp_path: Path
+) -> None:
+    page.open(scenario="classic", tick=60)
+    page.say("change", path="robots.wanderer.count", value=7)
+    page.say("change", path="clock.paints_per_s", value=28)
+    page.say("step", steps=40)
+    told = page.until("state", tick=100)
+    row = saved(page)
+    assert client.get("/api/recordings").json() == [row]
+    assert (row["of"]["scenario"], row["of"]["steps"], row["fault"]) == ("classic.toml", 100, None)
+    assert row["of"]["length_s"] == pytest.approx(60 / 56 + 40 / 28)
+    again = ae.rerun(tmp_path / row["id"])
+    assert (again.agrees, again.tick, again.hash) == (True, 100, told["hash"])
+    page.say("open", recording=row["id"], tick=100)
+    page.until("opened")
+    opened = page.until("state", tick=100)
+    assert (opened["hash"], opened["edge"], opened["differs_at"]) == (told["hash"], 100, None)
+    page.say("undo")
+    assert page.until("setting")["step_s"] == 1 / 56
+    assert saved(page)["id"] != row["id"]
+
+
+def test_a_classic_run_that_is_not_as_recorded_is_told_with_its_tick(
+    page: Page, tmp_path: Path
+) -> None:
+    path = tmp_path / "behind.mcap"
+    simulation, other = (ae.ClassicSimulation("classic", seed) for seed in (7, 8))
+    with ae.Recording(simulation, path) as recording:
+        recording.step(30)
+        other.step(31)
+        # Behind the recording's back: it does not say of this that it became another run.
+        simulation.restore(other.snapshot())
+        recording.step(20)
+    page.say("open", recording="behind.mcap", tick=40)
+    page.until("opened")
+    assert page.until("state", tick=40)["differs_at"] == ae.rerun(path).differs_at == 32
 
 
 def test_the_same_run_saved_again_is_the_same_file(page: Page, client: TestClient) -> None:
@@ -196,6 +238,73 @@ def test_a_page_that_goes_leaves_nothing(client: TestClient, tmp_path: Path) -> 
         page.say("save")
         until_there_are(1, tmp_path)
     until_there_are(0, tmp_path)
+
+
+SAVES = """
+import sys, time
+from pathlib import Path
+import agent_economy as ae
+from agent_economy.server import saving
+from agent_economy.server.timeline import Course
+
+def room_of(_):
+    time.sleep(0.05)
+    return 1
+
+saving.room_of = room_of
+course = Course(ae.Scenario.load("classic"), 1, 0, (), {}, 100_000)
+saving.Saving(course, Path(sys.argv[1])).write()
+"""
+
+
+@contextmanager
+def another_that_saves(folder: Path) -> Iterator[subprocess.Popen[bytes]]:
+    """Have another process save a run that takes long."""
+    before = set(folder.iterdir())
+    process = subprocess.Popen([sys.executable, "-c", SAVES, str(folder)])
+    try:
+        deadline = time.monotonic() + 30
+        while not any(file.stat().st_size for file in set(folder.iterdir()) - before):
+            assert time.monotonic() < deadline
+            time.sleep(0.02)
+        yield process
+    finally:
+        process.kill()
+        process.wait()
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="nobody can tell there who writes a file")
+def test_what_a_killed_server_left_is_removed_and_what_another_writes_is_not(
+    tmp_path: Path,
+) -> None:
+    with another_that_saves(tmp_path) as killed:
+        killed.kill()
+        killed.wait()
+    (left,) = tmp_path.iterdir()
+    with another_that_saves(tmp_path) as living:
+        assert not left.exists()
+        (written,) = tmp_path.iterdir()
+        size = written.stat().st_size
+        file = Saving(begun(5).course, tmp_path).write()
+        assert file is not None
+        assert set(tmp_path.iterdir()) == {written, file}
+        assert living.poll() is None
+        assert written.stat().st_size >= size
+
+
+def test_without_locks_nothing_is_removed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("agent_economy.server.unfinished.fcntl", None)
+    (left := tmp_path / ".unfinished-1.mcap").touch()
+    file = Saving(begun(5).course, tmp_path).write()
+    assert set(tmp_path.iterdir()) == {left, file}
+
+
+def test_what_only_has_such_a_name_stays(tmp_path: Path) -> None:
+    (folder := tmp_path / ".unfinished-folder.mcap").mkdir()
+    (link := tmp_path / ".unfinished-link.mcap").symlink_to(tmp_path / "elsewhere")
+    (other := tmp_path / ".unfinished-notes.txt").touch()
+    file = Saving(begun(5).course, tmp_path).write()
+    assert set(tmp_path.iterdir()) == {folder, link, other, file}
 
 
 def test_a_run_that_is_too_long_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -4,6 +4,7 @@ import pytest
 
 import agent_economy as ae
 from agent_economy import _core, begin
+from agent_economy.recording.reading import Point, Recorded
 from agent_economy.server.timeline import FIRST_EVERY, MOST_KEPT, Timeline
 from agent_economy.stepped import Change
 
@@ -57,6 +58,19 @@ def test_a_classic_run_that_is_over_goes_on_after_a_change() -> None:
     timeline.change("clock.cap_s", 10)
     assert timeline.toward(300, FOREVER_S)
     assert timeline.tick == 300
+
+
+def test_a_classic_run_that_ends_before_its_recording_stands_there_and_is_told() -> None:
+    scenario = ae.Scenario.load("classic").replace("clock.cap_s", 1)
+    simulation = ae.ClassicSimulation("classic", 7)
+    points = []
+    for tick in range(101):
+        points.append(Point(tick, 0, f"{simulation.hash:016x}"))
+        simulation.step()
+    timeline = Timeline(scenario, 7, recorded=Recorded(points))
+    assert timeline.edge == 100
+    assert timeline.toward(100, FOREVER_S)
+    assert (timeline.tick, timeline.edge, timeline.replay.differs_at) == (56, 56, 57)
 
 
 def test_a_change_makes_void_what_came_after_it_and_its_log_gives_the_run_again() -> None:
