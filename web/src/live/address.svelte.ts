@@ -17,8 +17,7 @@ export function keepAddress(desk: Desk): void {
     const link = desk.now;
     const hash = writeLink(link);
     const isTooMuch = hash.length > longestLink || isKept(link.text);
-    // Classic runs are not recorded: nothing but their address holds them, however long.
-    const kept = isTooMuch && !desk.session.isClassic ? names.hash(link) : hash;
+    const kept = isTooMuch ? names.hash(link) : hash;
     if (kept === null) timer = setTimeout(write, rest_ms);
     if (!kept || kept === location.hash) return;
     written = performance.now();

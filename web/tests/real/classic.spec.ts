@@ -77,12 +77,33 @@ for (const tab of ["Results", "Robot", "Parameters", "Layers", "Changes"]) {
   });
 }
 
-test("the address of a run holds all of its changes, however many", async ({ page, server }) => {
+test("a run is saved, listed, and opened as the run that it was", async ({ page, server }) => {
+  await open(page, server, `&tick=90&changes=[[30,"robots.wanderer.count",7],[60,"contact","ahead"]]`);
+  await expect(status(page)).toContainText("1.6 s, 7 robots");
+  const there = await hash(page);
+  await page.locator("summary", { hasText: "Export" }).click();
+  await page.getByRole("button", { name: "Save recording" }).click();
+  await expect(page.getByText("Saved as recordings/classic-7-0-")).toBeVisible();
+  await page.getByRole("link", { name: "All recordings" }).last().click();
+  await expect(page.getByRole("row", { name: /classic-7-0-/ })).toContainText("90");
+  await page.getByRole("link", { name: /^recordings\/classic-7-0-/ }).click();
+  await expect(status(page)).toContainText("0.0 s, 4 robots");
+  const slider = page.getByRole("slider", { name: "Time" });
+  await slider.fill((await slider.getAttribute("max")) ?? "");
+  await expect(status(page)).toContainText("1.6 s, 7 robots");
+  await expect.poll(() => hash(page)).toBe(there);
+  await expect.poll(() => page.url()).toMatch(/recording=recordings.*tick=90/);
+});
+
+test("changes that an address does not hold are saved, and the recording is its name", async ({
+  page,
+  server,
+}) => {
   const many = Array.from({ length: 400 }, (_, i) => [0, "robots.wanderer.count", 2 + (i % 7)]);
   await page.goto(`${server.url}/#/live?scenario=classic&changes=${JSON.stringify(many)}`);
   await page.getByRole("tab", { name: "Parameters" }).click();
   await page.getByRole("slider", { name: /^Count of/ }).fill("9");
-  await expect.poll(() => decodeURIComponent(page.url())).toContain('[0,"robots.wanderer.count",9]]');
+  await expect.poll(() => page.url(), { timeout: 15_000 }).toContain("recording=recordings/classic-0-0-");
   await page.reload();
-  await expect(page.locator("#status")).toContainText("9 robots");
+  await expect(status(page)).toContainText("9 robots");
 });
