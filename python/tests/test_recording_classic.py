@@ -2,6 +2,8 @@
 
 import json
 import math
+import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -204,9 +206,9 @@ def test_robots_without_minds_have_no_percepts_and_take_no_commands(tmp_path: Pa
         ae.Recording(ClassicSimulation("classic"), path, percepts=["wanderer/0"])
     assert not path.exists()
     with ae.Recording(ClassicSimulation("classic"), path) as recording:
-        given: Any
-        for given in ({"percepts": {"wanderer/0": {}}}, {"commands": {}}):
-            with pytest.raises(InputError, match="must be none: robots of 2003 have no minds"):
+        for name in ("percepts", "commands"):
+            given: dict[str, Any] = {name: {}}
+            with pytest.raises(InputError, match=f"{name} = .*: must be none: robots of 2003 hav"):
                 recording.step(**given)
         recording.step(3)
     assert ae.rerun(path).tick == 3
@@ -226,6 +228,23 @@ def test_a_run_that_is_not_the_recorded_one_differs_where_it_ends(tmp_path: Path
 
 def capped(cap_s: float) -> Scenario:
     return Scenario.load("classic").replace("clock.cap_s", cap_s)
+
+
+KILLED = """
+import os, signal, sys, agent_economy as ae
+recording = ae.Recording(ae.ClassicSimulation("classic", 7), sys.argv[1])
+recording.step(600)
+os.kill(os.getpid(), signal.SIGKILL)
+"""
+
+
+def test_a_killed_process_leaves_what_it_had_recorded(tmp_path: Path) -> None:
+    path = tmp_path / "run.mcap"
+    killed = subprocess.run([sys.executable, "-c", KILLED, str(path)], check=False)
+    assert killed.returncode != 0
+    again = ae.rerun(path)
+    assert (again.agrees, again.is_whole) == (True, False)
+    assert 600 - 5 * 56 < again.tick <= 600
 
 
 def test_the_command_line_records_and_takes_again(tmp_path: Path) -> None:

@@ -93,7 +93,7 @@ class Recording:
         """
         self._keep_up()
         if percepts is not None or commands is not None:
-            return self._step(steps, percepts or {}, commands or {})
+            return self._step(steps, percepts, commands)
         given.check(given.is_whole(steps, 0), "steps", steps, "a whole number, 0 or more")
         for _ in range(steps):
             tick = self.simulation.tick
