@@ -2,15 +2,14 @@
 
 from dataclasses import dataclass, field
 from pathlib import Path
-from threading import RLock
 
 import numpy as np
 import pyarrow as pa
 
 from agent_economy import _core, given
-from agent_economy.outcome import Outcome, so_far
+from agent_economy.outcome import Outcome
 from agent_economy.scenario import Given, Override, Scenario, loaded
-from agent_economy.stepped import Change
+from agent_economy.stepped import Change, Stepped
 
 COLOURS = np.array(["blue", "yellow", "red"])
 """What a robot can look like, by the compiled part's numbers."""
@@ -30,7 +29,7 @@ class ClassicSnapshot:
     _inside: _core.ClassicSnapshot = field(repr=False)
 
 
-class ClassicSimulation:
+class ClassicSimulation(Stepped):
     """A run of the classic engine, stepped by hand: it is `run`, paint by paint.
 
     A step is a paint of the original's window; the team decides in paints 12, 23, 34, ... The run
@@ -43,9 +42,7 @@ class ClassicSimulation:
         run: Its number.
     """
 
-    scenario: Scenario
-    seed: int
-    run: int
+    _run: _core.ClassicSimulation
 
     def __init__(self, scenario: Scenario | str | Path, seed: int = 0, run: int = 0) -> None:
         """Begin a run.
@@ -58,16 +55,8 @@ class ClassicSimulation:
         Raises:
             InputError: If the scenario is wrong or of another engine, or an argument out of range.
         """
-        self.scenario = loaded(scenario)
+        super().__init__(loaded(scenario), seed, run)
         self._run = _core.ClassicSimulation(self.scenario.classic(), seed=seed, run=run)
-        self.seed, self.run = seed, run
-        self._changes: tuple[Change, ...] = ()
-        self._lock = RLock()
-
-    def __repr__(self) -> str:
-        """Return which run it is, and where."""
-        which = f"{self.scenario.name!r}, seed={self.seed}, run={self.run}"
-        return f"<ClassicSimulation of {which}: tick {self.tick}>"
 
     def step(self, steps: int = 1) -> None:
         """Take steps, 0 or more, until the run is over; Ctrl-C stops between two.
@@ -82,13 +71,6 @@ class ClassicSimulation:
         while not self.is_over:
             self._run.step(10_000)
         return self.outcome()
-
-    def outcome(self) -> Outcome:
-        """Return what the run has given so far; once it is over, what `run` returns."""
-        with self._lock:
-            columns, told = self._run.columns, self._run.outcome()
-            is_over, merit = self.is_over, self.scenario.merit
-        return so_far(columns, told, merit, self.run, None if is_over else "running")
 
     def change(self, path: str, value: Given) -> None:
         """Put a value into the scenario, and go on with that.
@@ -109,11 +91,6 @@ class ClassicSimulation:
             tick = self._run.change(changed.classic())
             self.scenario = changed
             self._changes += (Change(tick, path, value),)
-
-    @property
-    def changes(self) -> tuple[Change, ...]:
-        """What was changed, in order: with it a run can be taken again."""
-        return self._changes
 
     def snapshot(self) -> ClassicSnapshot:
         """Return the whole run as it is now."""
@@ -153,31 +130,6 @@ class ClassicSimulation:
         allowed = f"one of {KIND}/0 to {KIND}/{len(self.robots) - 1}"
         given.check(robot in self.robots, "robot", robot, allowed)
         return self.robots.index(robot)
-
-    @property
-    def tick(self) -> int:
-        """Paints that have been taken."""
-        return self._run.tick
-
-    @property
-    def step_s(self) -> float:
-        """Seconds that a paint takes."""
-        return self._run.step_s
-
-    @property
-    def time_s(self) -> float:
-        """Seconds that all paints took, as the clock goes now."""
-        return self._run.time_s
-
-    @property
-    def is_over(self) -> bool:
-        """Whether nothing more can come."""
-        return self._run.is_over
-
-    @property
-    def hash(self) -> int:
-        """A number of 64 bits that tells runs apart that differ in anything that shows."""
-        return self._run.hash
 
     @property
     def carry(self) -> int:

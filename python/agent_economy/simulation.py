@@ -4,7 +4,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from numbers import Integral
 from pathlib import Path
-from threading import RLock
 from typing import Any, cast
 
 import numpy as np
@@ -14,9 +13,9 @@ from numpy.typing import NDArray
 from agent_economy import _core, given
 from agent_economy.brain import Command, Percept, Watched
 from agent_economy.minds import Brains, changed_minds, minds
-from agent_economy.outcome import Outcome, so_far
+from agent_economy.outcome import Outcome
 from agent_economy.scenario import Given, Override, Scenario, loaded
-from agent_economy.stepped import Change
+from agent_economy.stepped import Change, Stepped
 from agent_economy.thoughts import BelievedMap, Thoughts
 
 Floats = NDArray[np.float64]
@@ -43,7 +42,7 @@ class Snapshot:
     _inside: _core.Snapshot = field(repr=False)
 
 
-class Simulation:
+class Simulation(Stepped):
     """A run of the metric engine, stepped by hand: it is `run`, step by step.
 
     Arrays and tables are copies: they stay as they are when the run goes on. Threads may share a
@@ -55,9 +54,7 @@ class Simulation:
         run: Its number.
     """
 
-    scenario: Scenario
-    seed: int
-    run: int
+    _run: _core.Simulation
 
     def __init__(
         self,
@@ -84,19 +81,11 @@ class Simulation:
             InputError: If the scenario is wrong or of another engine, an argument out of range, or
                 the world has no room for the team or the items.
         """
-        self.scenario = loaded(scenario)
+        super().__init__(loaded(scenario), seed, run)
         metric = self.scenario.metric()
         self._run = _core.Simulation(metric, seed=seed, run=run, threads=threads)
         self._minds = minds(brains, metric, self.scenario.robots)
-        self.seed, self.run = seed, run
-        self._changes: tuple[Change, ...] = ()
         self._watches: str | None = None
-        self._lock = RLock()
-
-    def __repr__(self) -> str:
-        """Return which run it is, and where."""
-        which = f"{self.scenario.name!r}, seed={self.seed}, run={self.run}"
-        return f"<Simulation of {which}: tick {self.tick}>"
 
     def step(
         self,
@@ -229,13 +218,6 @@ class Simulation:
         self._run.finish()
         return self.outcome()
 
-    def outcome(self) -> Outcome:
-        """Return what the run has given so far; once it is over, what `run` returns."""
-        with self._lock:
-            columns, told = self._run.columns, self._run.outcome()
-            is_over, merit = self._run.is_over, self.scenario.merit
-        return so_far(columns, told or {}, merit, self.run, None if is_over else "running")
-
     def change(self, path: str, value: Given) -> None:
         """Put a value into the scenario, and go on with that.
 
@@ -263,11 +245,6 @@ class Simulation:
             tick = self._run.change(metric)
             self.scenario, self._minds = changed, after
             self._changes += (Change(tick, path, value),)
-
-    @property
-    def changes(self) -> tuple[Change, ...]:
-        """What was changed, in order: with it a run can be taken again."""
-        return self._changes
 
     def snapshot(self) -> Snapshot:
         """Return the whole run as it is now; it costs as much memory as the run.
@@ -297,31 +274,6 @@ class Simulation:
         kinds = [mind.kind for mind in self._minds]
         allowed = "none: what brains in Python remember is in no snapshot; begin the run again"
         given.check(not kinds, f"{what}: brains", kinds, allowed)
-
-    @property
-    def tick(self) -> int:
-        """Steps that have been taken."""
-        return self._run.tick
-
-    @property
-    def step_s(self) -> float:
-        """Time that one takes in the world."""
-        return self._run.step_s
-
-    @property
-    def time_s(self) -> float:
-        """Time that they took in the world."""
-        return self._run.time_s
-
-    @property
-    def is_over(self) -> bool:
-        """Whether nothing more can come: all is found, time is up, or no robot can go on."""
-        return self._run.is_over
-
-    @property
-    def hash(self) -> int:
-        """A number of 64 bits that tells runs apart that differ in anything that shows."""
-        return self._run.hash
 
     @property
     def robots(self) -> tuple[str, ...]:
