@@ -23,9 +23,13 @@ __all__ = [
     "believed_map",
     "body",
     "classic_world",
+    "drawn_footprints",
+    "drawn_links",
     "exhaust",
     "files_wanted",
+    "footprints",
     "frame",
+    "links",
     "mean_bounds",
     "mean_exceeds",
     "random_start",
@@ -216,6 +220,16 @@ class Simulation:
     def restore(self, snapshot: Snapshot) -> None: ...
 
 def frame(simulation: Simulation) -> bytes: ...
+def links(
+    simulation: Simulation, robot: str | None, most: int
+) -> NDArray[np.uint32]: ...
+def footprints(
+    simulation: Simulation, robot: str
+) -> dict[str, tuple[NDArray[np.float64], NDArray[np.float64]]]: ...
+def drawn_links(
+    simulation: Simulation, selected: str | None, all: bool, most: int
+) -> bytes: ...
+def drawn_footprints(simulation: Simulation, selected: str | None, all: bool) -> bytes: ...
 def watch(simulation: Simulation, robot: str | None) -> None: ...
 def watched(simulation: Simulation, robot: str) -> dict[str, Any] | None: ...
 def believed_map(simulation: Simulation, robot: str) -> dict[str, Any] | None: ...

@@ -17,6 +17,7 @@ mod fit;
 mod frame;
 mod long_work;
 mod outside;
+mod overlay;
 mod recording;
 mod refused;
 mod scenario;
@@ -48,6 +49,8 @@ mod _core {
     use crate::error::{InputError, NoRoomError};
     #[pymodule_export]
     use crate::frame::frame;
+    #[pymodule_export]
+    use crate::overlay::{drawn_footprints, drawn_links, footprints, links};
     #[pymodule_export]
     use crate::recording::{recorded_moment, recorded_setting};
     #[pymodule_export]

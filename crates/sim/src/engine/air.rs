@@ -65,7 +65,7 @@ impl Air {
         }
         let is_reached = |to: &u32| {
             let to = *to as usize;
-            to != from && view.hears(&outgoing, to, radio)
+            to != from && view.reaches(from, to, radio) && !view.is_lost(&outgoing, to, radio)
         };
         let about = view.neighbours.about(place, radio.range_m);
         self.hearers.clear();
@@ -85,8 +85,8 @@ impl Air {
 }
 
 impl View<'_> {
-    fn hears(&self, outgoing: &Outgoing, to: usize, radio: &Radio) -> bool {
-        let from = outgoing.from as usize;
+    /// Whether another robot hears what a robot sends with its radio, unless that is lost by chance.
+    pub(super) fn reaches(&self, from: usize, to: usize, radio: &Radio) -> bool {
         let here = self.discs[from].centre;
         let there = self.scenario.image(here, self.discs[to].centre);
         if !self.is_listening(to) || here.to(there).length_squared() > radio.range_m * radio.range_m
@@ -94,17 +94,18 @@ impl View<'_> {
             return false;
         }
         let layers = [from, to].map(|robot| self.kind(robot).layer);
-        if radio.needs_line_of_sight && !self.scenario.hiding(layers).is_open(here, there) {
+        !radio.needs_line_of_sight || self.scenario.hiding(layers).is_open(here, there)
+    }
+
+    fn is_lost(&self, outgoing: &Outgoing, to: usize, radio: &Radio) -> bool {
+        if radio.loss <= 0.0 {
             return false;
         }
-        if radio.loss <= 0.0 {
-            return true;
-        }
-        let sender = self.scenario.entity(self.ids[from]);
+        let sender = self.scenario.entity(self.ids[outgoing.from as usize]);
         let used = Use::Radio as u32 | outgoing.number << 16;
         // Steps are at most 1e8: the sender's kind is in the half of their number that is free.
         let time = u64::from(sender.kind) << 32 | self.tick;
         let words = self.noises[to].words(used, time, sender.index);
-        share(words[0]) >= radio.loss
+        share(words[0]) < radio.loss
     }
 }

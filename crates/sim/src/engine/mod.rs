@@ -7,7 +7,9 @@ mod change;
 mod danger;
 mod decide;
 mod flocks;
+mod footprints;
 mod glide;
+mod links;
 mod meetings;
 mod mind;
 mod neighbours;
@@ -26,6 +28,8 @@ mod waiting;
 mod watch;
 
 pub use asked::Asked;
+pub use footprints::{Footprint, Sensors};
+pub use links::Link;
 pub use outcome::Outcome;
 pub use outside::Outside;
 pub use seen::{Item, Robot};

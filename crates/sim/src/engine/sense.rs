@@ -346,7 +346,7 @@ fn deviations(eye: &Eye) -> [f64; 2] {
 
 /// What the rays of a robot can meet.
 #[inline]
-fn gather<'v>(view: &View<'v>, robot: usize, near: &mut Near) {
+pub(super) fn gather<'v>(view: &View<'v>, robot: usize, near: &mut Near) {
     let kind = view.kind(robot);
     let stands = view.scenario.seen(kind.layer);
     let vicinity = view.neighbours.of(robot);

@@ -1,11 +1,13 @@
 //! One run, stepped by hand.
 
 use super::asked::Asked;
+use super::mind::Mind;
 use super::neighbours::Neighbours;
 use super::outcome::Outcome;
 use super::outside::Outside;
 use super::state::{NoRoom, State};
 use super::tick::Workshop;
+use super::view::View;
 use super::watch::Watch;
 use crate::body::path::Course;
 use crate::clock::seconds;
@@ -157,6 +159,12 @@ impl Simulation {
     /// Sees to it that neighbours are known.
     pub(super) fn refresh(&mut self) {
         self.workshop.refresh(&self.scenario, &self.state);
+    }
+
+    /// What robots sense and decide from now, and their minds.
+    pub(super) fn view(&mut self) -> (View<'_>, &mut [Mind]) {
+        self.refresh();
+        self.state.view(&self.scenario, &self.workshop.neighbours)
     }
 
     pub(super) fn neighbours(&self) -> &Neighbours {

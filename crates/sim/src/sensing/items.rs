@@ -145,7 +145,7 @@ pub(crate) struct ItemDetector {
     /// By the kind that they are taken for; only those that there are.
     false_alarms: Vec<FalseAlarm>,
     noise_m: f64,
-    needs_line_of_sight: bool,
+    pub(crate) needs_line_of_sight: bool,
 }
 
 /// Contacts of nothing that are taken for one kind of item.

@@ -13,6 +13,7 @@ use pulp::{Arch, Simd, WithSimd};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::array::from_fn;
+use std::f64::consts::TAU;
 
 /// Rays from the robot's centre, evenly spread over the field of view.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -58,6 +59,8 @@ pub(super) fn whole_circle() -> f64 {
 pub(crate) struct Ring {
     rays: Rays,
     pub(crate) bearings_rad: Vec<f64>,
+    pub(crate) width_rad: f64,
+    pub(crate) facing_rad: f64,
     pub(crate) range_m: f64,
     noise_m: f64,
     noise_share: f64,
@@ -71,11 +74,26 @@ impl Ring {
         Self {
             rays: Rays::new(&bearings_rad),
             bearings_rad,
+            width_rad: spec.fov_deg.to_radians(),
+            facing_rad: spec.facing_deg.to_radians(),
             range_m: spec.range_m,
             noise_m: spec.noise_m,
             noise_share: spec.noise_share,
             miss: spec.miss,
             false_echo: spec.false_echo,
+        }
+    }
+
+    /// The same without errors, and with a ray along each of other bearings.
+    pub(crate) fn exact(&self, bearings_rad: Vec<f64>) -> Self {
+        Self {
+            rays: Rays::new(&bearings_rad),
+            bearings_rad,
+            noise_m: 0.0,
+            noise_share: 0.0,
+            miss: 0.0,
+            false_echo: 0.0,
+            ..*self
         }
     }
 
@@ -223,22 +241,26 @@ impl Ring {
     }
 }
 
-/// A whole circle has no ray twice; a sector has one on each edge.
 fn bearings(spec: &RangeSpec) -> Vec<f64> {
-    let (fov_rad, facing_rad) = (spec.fov_deg.to_radians(), spec.facing_deg.to_radians());
-    let rays = f64::from(spec.rays);
+    let (width_rad, facing_rad) = (spec.fov_deg.to_radians(), spec.facing_deg.to_radians());
+    spread(spec.rays, width_rad, facing_rad)
+}
+
+/// Bearings of rays: a whole circle has none twice, a sector has one on each edge.
+pub(crate) fn spread(rays: u32, width_rad: f64, facing_rad: f64) -> Vec<f64> {
+    let count = f64::from(rays);
     let bearing = |ray: u32| {
         let ray = f64::from(ray);
-        let from_middle = if spec.fov_deg >= 360.0 {
-            ray / rays * fov_rad
-        } else if spec.rays == 1 {
+        let from_middle = if width_rad >= TAU {
+            ray / count * width_rad
+        } else if rays == 1 {
             0.0
         } else {
-            (ray / (rays - 1.0) - 0.5) * fov_rad
+            (ray / (count - 1.0) - 0.5) * width_rad
         };
         wrapped(facing_rad + from_middle)
     };
-    (0..spec.rays).map(bearing).collect()
+    (0..rays).map(bearing).collect()
 }
 
 #[cfg(test)]

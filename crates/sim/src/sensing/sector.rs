@@ -27,7 +27,7 @@ pub struct SectorSpec {
 pub(crate) struct Sector {
     pub(crate) range_m: f64,
     pub(crate) width_rad: f64,
-    facing_rad: f64,
+    pub(crate) facing_rad: f64,
     /// Of length 1, from the robot's front.
     facing: Point,
     /// Cosine of half the width.

@@ -217,6 +217,15 @@ impl NearCells {
         self.of(self.grid.cell(point))
     }
 
+    /// What is within reach of any point of a box, in the order of the numbers.
+    pub(crate) fn within(&self, low: Point, high: Point) -> Vec<u32> {
+        let cells = self.grid.rows_of(low, high).flatten();
+        let mut numbers: Vec<u32> = cells.flat_map(|cell| self.of(cell)).copied().collect();
+        numbers.sort_unstable();
+        numbers.dedup();
+        numbers
+    }
+
     /// What is within reach of any point of a cell.
     #[inline]
     pub(crate) fn of(&self, cell: usize) -> &[u32] {

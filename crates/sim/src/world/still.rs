@@ -1,5 +1,7 @@
 //! What stands in the way in one layer, found by place.
 
+mod around;
+
 use super::grid::{NearCells, Still};
 use base::geometry::{Disc, Point, Rectangle, Segment, Torus};
 
@@ -209,20 +211,21 @@ impl Stands {
         let way = from.to(to);
         if self.walls.len() + self.discs.len() <= FEW {
             let mut discs = self.discs.iter();
-            let sees_past_walls = self.walls.iter().all(|wall| !wall.crosses(from, way));
-            return sees_past_walls && discs.all(|disc| !crosses(disc, from, way));
+            let mut walls = self.walls.iter();
+            let sees_past_walls = walls.all(|wall| wall.crossed_at(from, way).is_none());
+            return sees_past_walls && discs.all(|disc| crossed_at(disc, from, way).is_none());
         }
         let sees_past = |cell: usize| {
             let walls = self.near_walls.of(cell).iter();
             walls
                 .map(|number| &self.walls[*number as usize])
-                .all(|wall| !wall.crosses(from, way))
+                .all(|wall| wall.crossed_at(from, way).is_none())
         };
         let sees_past_discs = |cell: usize| {
             let discs = self.near_discs.of(cell).iter();
             discs
                 .map(|number| &self.discs[*number as usize])
-                .all(|disc| !crosses(disc, from, way))
+                .all(|disc| crossed_at(disc, from, way).is_none())
         };
         self.near_walls.grid().on_the_way(from, to).all(sees_past)
             && self
@@ -234,17 +237,20 @@ impl Stands {
 }
 
 impl Wall {
-    /// Whether a way from `from` goes through the wall, from either side; a way that begins or ends
-    /// on it does not.
-    fn crosses(&self, from: Point, way: Point) -> bool {
+    /// At which share of a way from `from` that goes through the wall, from either side; a way that
+    /// begins or ends on it does not.
+    #[inline]
+    fn crossed_at(&self, from: Point, way: Point) -> Option<f64> {
         let offset = from.to(self.start);
         let across = way.cross(self.along);
         if across == 0.0 {
-            return false;
+            return None;
         }
         let share = offset.cross(self.along) / across;
         let place = offset.cross(way) / across;
-        (HAIR..=1.0 - HAIR).contains(&share) && (0.0..=self.length).contains(&place)
+        let is_crossed =
+            (HAIR..=1.0 - HAIR).contains(&share) && (0.0..=self.length).contains(&place);
+        is_crossed.then_some(share)
     }
 }
 
@@ -301,18 +307,22 @@ fn overlaps(discs: &[Disc]) -> Vec<bool> {
     overlaps
 }
 
-fn crosses(disc: &Disc, from: Point, way: Point) -> bool {
+/// At which share of a way from `from` that goes through a disc.
+#[inline]
+fn crossed_at(disc: &Disc, from: Point, way: Point) -> Option<f64> {
     let to_centre = from.to(disc.centre);
     let (along, all) = (way.dot(to_centre), way.length_squared());
-    let square_m2 = disc.radius_m * disc.radius_m;
-    if along <= 0.0 {
+    let (across, square_m2) = (way.cross(to_centre), disc.radius_m * disc.radius_m);
+    let is_crossed = if along <= 0.0 {
         to_centre.length_squared() < square_m2
     } else if along >= all {
         way.to(to_centre).length_squared() < square_m2
     } else {
-        let across = way.cross(to_centre);
         across * across < square_m2 * all
-    }
+    };
+    // Of a way that begins in the disc nothing comes before it.
+    let half_chord = || (square_m2 * all - across * across).max(0.0).sqrt();
+    is_crossed.then(|| ((along - half_chord()) / all.max(f64::MIN_POSITIVE)).clamp(0.0, 1.0))
 }
 
 #[cfg(test)]

@@ -113,6 +113,17 @@ fn a_way_is_open_if_nothing_at_all_crosses_it() {
                 is_open,
                 "{number}: {from:?} {to:?}"
             );
+            let around = stands.around(from, from.to(to).length());
+            let share = around.open_share(to);
+            assert_eq!(share >= 1.0, is_open, "{number}: {from:?} {to:?} {share}");
+            for (part, is_open) in [(0.999, true), (1.001, false)] {
+                let end = from.plus(from.to(to).times(share * part));
+                let is_told = share * part < 1.0 && scene.plain(from, end).is_some();
+                assert!(
+                    !is_told || stands.is_open(from, end) == is_open,
+                    "{number}: {share}"
+                );
+            }
             assert_eq!(
                 stands.is_open(to, from),
                 is_open,
@@ -222,4 +233,35 @@ fn who_sees_all_around_him_sees_every_place_there() {
         }
     }
     assert!((200..1900).contains(&clear), "{clear}");
+}
+
+#[test]
+fn on_a_torus_what_is_around_a_place_tells_which_ways_from_it_are_open() {
+    let (mut open, mut shut) = (0, 0);
+    for number in 0..40 {
+        let mut random = random(number);
+        let scene = Scene::new(&mut random);
+        let torus = Torus { size_m: scene.size };
+        // Without the border, which a torus has not.
+        let walls: Vec<Wall> = scene.walls[4..].iter().filter_map(Wall::of).collect();
+        let stands = Stands::on(torus, &walls, &scene.discs, 0.1);
+        for _ in 0..50 {
+            let mut share = || unit(&mut random);
+            let from = Point {
+                x: share() * scene.size.x,
+                y: share() * scene.size.y,
+            };
+            let way = Point {
+                x: share() - 0.5,
+                y: share() - 0.5,
+            }
+            .times(0.9 * scene.size.y.min(scene.size.x));
+            let to = from.plus(way);
+            let told = stands.around(from, way.length()).open_share(to) >= 1.0;
+            assert_eq!(told, stands.is_open(from, to), "{number}: {from:?} {to:?}");
+            open += u32::from(told);
+            shut += u32::from(!told);
+        }
+    }
+    assert!(open > 300 && shut > 300, "{open} {shut}");
 }

@@ -1,0 +1,137 @@
+//! Who hears whom, and what sensors cover: for whoever watches a run.
+
+use crate::simulation::{Simulation, id_of};
+use brain::RobotId;
+use numpy::{IntoPyArray, PyArray2, PyArrayMethods};
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict};
+use sim::engine::{self, Footprint, Link, Sensors};
+
+/// Links of a robot, or of all, shape (links, 3), `most` at most: the number of who is heard, of who
+/// hears, and 1 if both hear each other, else 0.
+#[pyfunction]
+pub(crate) fn links<'py>(
+    py: Python<'py>,
+    simulation: &Bound<'py, Simulation>,
+    robot: Option<Bound<'py, PyAny>>,
+    most: usize,
+) -> PyResult<Bound<'py, PyArray2<u32>>> {
+    let mut locked = simulation.get().locked(py)?;
+    let run: &mut engine::Simulation = &mut locked;
+    let robot = robot
+        .map(|robot| id_of(run.scenario(), &robot))
+        .transpose()?;
+    let links = py.detach(|| run.links(robot, most)).unwrap_or_default();
+    rows(&links).into_pyarray(py).reshape([links.len(), 3])
+}
+
+/// By the names of a robot's sensors, bearings in radians and how far it sees along them in metres.
+#[pyfunction]
+pub(crate) fn footprints<'py>(
+    py: Python<'py>,
+    simulation: &Bound<'py, Simulation>,
+    robot: &Bound<'py, PyAny>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let mut locked = simulation.get().locked(py)?;
+    let run: &mut engine::Simulation = &mut locked;
+    let id = id_of(run.scenario(), robot)?;
+    let footprints = py
+        .detach(|| run.footprints(id, Sensors::All))
+        .unwrap_or_default();
+    let body = run.scenario().brain(id.kind).map(brain::Brain::body);
+    let dict = PyDict::new(py);
+    for footprint in footprints {
+        let bearings_rad = footprint.bearings_rad().into_pyarray(py);
+        let name = body.map(|body| body.sensors[footprint.sensor].as_str());
+        dict.set_item(name, (bearings_rad, footprint.ranges_m.into_pyarray(py)))?;
+    }
+    Ok(dict)
+}
+
+/// Links to be drawn, `most` at most, each as three 32-bit numbers in little endian, as [`links`] has
+/// them: of all robots, or of the `selected` one, if it is there.
+#[pyfunction]
+pub(crate) fn drawn_links<'py>(
+    py: Python<'py>,
+    simulation: &Bound<'py, Simulation>,
+    selected: Option<Bound<'py, PyAny>>,
+    all: bool,
+    most: usize,
+) -> PyResult<Bound<'py, PyBytes>> {
+    let mut locked = simulation.get().locked(py)?;
+    let run: &mut engine::Simulation = &mut locked;
+    let selected = selected.and_then(|robot| id_of(run.scenario(), &robot).ok());
+    if !all && selected.is_none() {
+        return Ok(PyBytes::new(py, &[]));
+    }
+    let links = py.detach(|| run.links(selected.filter(|_| !all), most));
+    let numbers = rows(&links.unwrap_or_default()).into_iter();
+    let bytes: Vec<u8> = numbers.flat_map(u32::to_le_bytes).collect();
+    Ok(PyBytes::new(py, &bytes))
+}
+
+fn rows(links: &[Link]) -> Vec<u32> {
+    let row = |link: &Link| [link.from, link.to, u32::from(link.is_mutual)];
+    links.iter().flat_map(row).collect()
+}
+
+/// Footprints to be drawn, in little endian: of the `selected` robot, if it is there, those of all its sensors, and if
+/// `all` is asked for, of the others those of their detectors of items.
+///
+/// Each is six 32-bit numbers, whole ones and floats: the robot's, 1 if it finds items and else 0, how
+/// many ranges follow, its range in metres, its width and its facing in radians; then the ranges in
+/// metres, or none if nothing cuts it.
+#[pyfunction]
+pub(crate) fn drawn_footprints<'py>(
+    py: Python<'py>,
+    simulation: &Bound<'py, Simulation>,
+    selected: Option<Bound<'py, PyAny>>,
+    all: bool,
+) -> PyResult<Bound<'py, PyBytes>> {
+    let mut locked = simulation.get().locked(py)?;
+    let run: &mut engine::Simulation = &mut locked;
+    let selected = selected.and_then(|robot| id_of(run.scenario(), &robot).ok());
+    let bytes = py.detach(|| drawn(run, selected, all));
+    Ok(PyBytes::new(py, &bytes))
+}
+
+fn drawn(run: &mut engine::Simulation, selected: Option<RobotId>, all: bool) -> Vec<u8> {
+    let robots = run.state().each_robot(run.scenario());
+    let ids = (0..).zip(robots.map(|robot| robot.id));
+    let ids: Vec<(u32, RobotId)> = ids.filter(|(_, id)| all || selected == Some(*id)).collect();
+    let mut bytes = Vec::new();
+    for (number, id) in ids {
+        let of = if selected == Some(id) {
+            Sensors::All
+        } else {
+            Sensors::Items
+        };
+        for footprint in run.footprints(id, of).unwrap_or_default() {
+            draw(number, &footprint, &mut bytes);
+        }
+    }
+    bytes
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "to be drawn; 360 ranges at most"
+)]
+fn draw(robot: u32, footprint: &Footprint, bytes: &mut Vec<u8>) {
+    let ranges_m: &[f64] = if footprint.is_cut() {
+        &footprint.ranges_m
+    } else {
+        &[]
+    };
+    for number in [
+        robot,
+        u32::from(footprint.finds_items),
+        ranges_m.len() as u32,
+    ] {
+        bytes.extend(number.to_le_bytes());
+    }
+    let sector = [footprint.range_m, footprint.width_rad, footprint.facing_rad];
+    for number in sector.iter().chain(ranges_m) {
+        bytes.extend((*number as f32).to_le_bytes());
+    }
+}

@@ -1,0 +1,165 @@
+//! What sensors cover, as it is told to people who watch.
+
+use crate::common::{id, robots, start, told};
+use crate::determinism::{commands, crowd};
+use brain::{Command, SensorRequest};
+use sim::engine::{Footprint, Sensors, Simulation};
+use std::collections::BTreeMap;
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// A robot at a place of a field of 20 m with a wall from 12 m to 13 m, that looks along x.
+fn at(place: &str, world: &str, more: &str) -> Simulation {
+    let count = place.matches('[').count();
+    start(&format!(
+        "[clock]\ncap_s = 100\n[world]\nsize_m = [20, 20]\n{world}\n\
+         [items.mine]\ncount = 1\nsought = false\nplacement = {{ kind = \"fixed\", at_m = [[1, 1]] }}\n\
+         [robots.rover]\ncount = {count}\nradius_m = 0.2\nbrain = {{ behaviours = [] }}\n\
+         start = {{ kind = \"fixed\", at_m = [{place}], heading_deg = {:?} }}\n\
+         drive = {{ max_speed_m_s = 1, max_turn_rate_deg_s = 90 }}\n{more}",
+        vec![0.0; count]
+    ))
+}
+
+const WALL: &str = "obstacles = [{ polygon_m = [[12, 2], [13, 2], [13, 18], [12, 18]] }]";
+const EYE: &str = "sensors.eye = { kind = \"items\", range_m = 4 }\n";
+
+fn footprints(simulation: &mut Simulation) -> Vec<Footprint> {
+    simulation.footprints(id(0, 0), Sensors::All).unwrap()
+}
+
+fn only(simulation: &mut Simulation) -> Footprint {
+    let [footprint] = footprints(simulation).try_into().unwrap();
+    footprint
+}
+
+/// How far it sees along the bearing nearest to this.
+fn along(footprint: &Footprint, bearing_rad: f64) -> f64 {
+    let pairs = footprint
+        .bearings_rad()
+        .into_iter()
+        .zip(&footprint.ranges_m);
+    let off = |bearing: f64| -(bearing - bearing_rad).cos();
+    *pairs
+        .min_by(|one, other| off(one.0).total_cmp(&off(other.0)))
+        .unwrap()
+        .1
+}
+
+#[track_caller]
+fn assert_near(given: f64, expected: f64) {
+    assert!((given - expected).abs() < 1e-9, "{given} for {expected}");
+}
+
+#[test]
+fn a_footprint_ends_at_the_wall_and_goes_on_beside_it() {
+    let footprint = only(&mut at("[10, 10]", WALL, EYE));
+    assert!(footprint.finds_items && footprint.is_cut());
+    assert_eq!(footprint.ranges_m.len(), 360);
+    assert_near(along(&footprint, 0.0), 2.0);
+    assert_near(along(&footprint, PI / 4.0), 2.0 * 2.0_f64.sqrt());
+    assert_near(along(&footprint, FRAC_PI_2), 4.0);
+    assert_near(along(&footprint, PI), 4.0);
+}
+
+#[test]
+fn what_needs_no_line_of_sight_sees_through_the_wall() {
+    let metal = EYE.replace("4 }", "4, needs_line_of_sight = false }");
+    let footprint = only(&mut at("[10, 10]", WALL, &metal));
+    assert!(!footprint.is_cut() && footprint.ranges_m == [4.0; 360]);
+}
+
+#[test]
+fn obstacles_hide_items_from_who_flies_and_stop_none_of_its_rays() {
+    let bird = format!(
+        "layer = \"air\"\n{EYE}sensors.sonar = {{ kind = \"range\", rays = 4, range_m = 3 }}\n"
+    );
+    let [eye, sonar] = footprints(&mut at("[10, 10]", WALL, &bird))
+        .try_into()
+        .unwrap();
+    assert_near(along(&eye, 0.0), 2.0);
+    assert!(!sonar.finds_items && !sonar.is_cut());
+    // Over an obstacle, its outline hides all that is beyond.
+    let [eye, _] = footprints(&mut at("[12.5, 10]", WALL, &bird))
+        .try_into()
+        .unwrap();
+    assert_near(along(&eye, 0.0), 0.5);
+    let pillar = "obstacles = [{ circle = { at_m = [10, 10], radius_m = 1 } }]";
+    let [eye, _] = footprints(&mut at("[10.5, 10]", pillar, &bird))
+        .try_into()
+        .unwrap();
+    assert_eq!(eye.ranges_m, [0.0; 360]);
+}
+
+#[test]
+fn a_sector_is_looked_at_from_edge_to_edge() {
+    let camera = EYE.replace("4 }", "4, fov_deg = 60, facing_deg = -30 }");
+    let footprint = only(&mut at("[10, 10]", WALL, &camera));
+    let bearings_rad = footprint.bearings_rad();
+    assert!((61..=62).contains(&bearings_rad.len()));
+    assert_near(bearings_rad[0], -PI / 3.0);
+    assert_near(*bearings_rad.last().unwrap(), 0.0);
+    assert_near(footprint.ranges_m[0], 4.0);
+    assert_near(*footprint.ranges_m.last().unwrap(), 2.0);
+}
+
+#[test]
+fn rays_of_a_ring_end_at_walls_and_robots_without_errors() {
+    let sonar = "sensors.sonar = { kind = \"range\", rays = 8, range_m = 3, noise_m = 0.5, miss = 0.5, false_echo = 0.1 }\n";
+    let ring = only(&mut at("[10, 10], [8, 10]", WALL, sonar));
+    assert_near(along(&ring, 0.0), 2.0);
+    assert_near(along(&ring, PI), 1.8);
+    assert_near(along(&ring, FRAC_PI_2), 3.0);
+    let mut simulation = at("[10, 10], [8, 10]", WALL, &format!("{EYE}{sonar}"));
+    let items = simulation.footprints(id(0, 0), Sensors::Items).unwrap();
+    assert!(items.len() == 1 && items[0].finds_items);
+    assert_near(along(&items[0], PI), 4.0);
+}
+
+#[test]
+fn in_a_world_that_wraps_a_wall_beyond_the_border_hides() {
+    let world = format!(
+        "wraps = true\n{}",
+        WALL.replace("12", "1").replace("13", "2")
+    );
+    let footprint = only(&mut at("[18.5, 10]", &world, EYE));
+    assert_near(along(&footprint, 0.0), 2.5);
+    assert_near(along(&footprint, PI), 4.0);
+}
+
+#[test]
+fn sensors_that_are_off_and_robots_that_cannot_go_on_see_nothing() {
+    let mut simulation = at("[10, 10]", WALL, EYE);
+    let off = SensorRequest {
+        sensor: 0,
+        on: false,
+    };
+    let command = Command {
+        requests: vec![off],
+        ..Command::default()
+    };
+    told(&mut simulation, [(id(0, 0), command)]);
+    assert_eq!(footprints(&mut simulation), []);
+    let empty = format!("{EYE}battery = {{ capacity_j = 1, idle_w = 100 }}\n");
+    let mut simulation = at("[10, 10]", WALL, &empty);
+    assert_eq!(footprints(&mut simulation).len(), 1);
+    simulation.step();
+    assert_eq!(footprints(&mut simulation), []);
+    assert!(simulation.footprints(id(3, 0), Sensors::All).is_err());
+}
+
+#[test]
+fn to_ask_for_footprints_changes_nothing() {
+    let text = crowd(120, 40.0);
+    let (mut asked, mut free) = (start(&text), start(&text));
+    for step in 0..100 {
+        for simulation in [&mut asked, &mut free] {
+            let commands = commands(simulation, step);
+            simulation.step_with(BTreeMap::new(), commands).unwrap();
+        }
+        for robot in robots(&asked) {
+            asked.footprints(robot.id, Sensors::All).unwrap();
+        }
+        assert_eq!(asked.state().hash(), free.state().hash());
+    }
+    assert_eq!(asked.outcome(), free.outcome());
+}
