@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from numbers import Integral
 from pathlib import Path
-from typing import Any, cast
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 import pyarrow as pa
@@ -26,6 +26,18 @@ STATUSES = np.array(["active", "empty", "broken"])
 
 FIXED = ("clock.step_s", "world.size_m", "world.wraps")
 """What stays: times are counted in steps, and every place is within the world and its sides."""
+
+
+class Footprint(NamedTuple):
+    """What a sensor covers: how far it sees in each direction, past all that hides things from it.
+
+    Attributes:
+        bearings_rad: Directions from the robot's front, one a degree, from -pi to pi.
+        ranges_m: How far it sees along each, at most as far as it sees at all.
+    """
+
+    bearings_rad: Floats
+    ranges_m: Floats
 
 
 @dataclass(frozen=True)
@@ -207,6 +219,42 @@ class Simulation(Stepped):
         if robot is None or self._is_in_python(robot):
             return None
         return cast("Watched | None", _core.watched(self._run, robot))
+
+    def links(self, robot: str | None = None) -> NDArray[np.uint32]:
+        """Return who hears whom now, but for messages that are lost by chance.
+
+        The run stays the same.
+
+        Args:
+            robot: The name of one whose links are asked for; None for those of all.
+
+        Returns:
+            A row a pair, shape (links, 3): the places in `robots` of who is heard and of who hears,
+            and 1 if each hears the other, 0 if not. Who is broken or empty has no links.
+
+        Raises:
+            InputError: If there is no such robot.
+        """
+        return _core.links(self._run, robot)
+
+    def footprints(self, robot: str) -> dict[str, Footprint]:
+        """Return what a robot's range rings and detectors of items cover now.
+
+        Obstacles cut what a detector covers if it needs a line of sight, and all that rays meet,
+        robots too, what a ring does; errors and chances are left out. The run stays the same.
+
+        Args:
+            robot: Its name.
+
+        Returns:
+            By the names of the sensors that are on; empty if the robot is empty or broken, or its
+            body outside.
+
+        Raises:
+            InputError: If there is no such robot.
+        """
+        told = _core.footprints(self._run, robot)
+        return {sensor: Footprint(*each) for sensor, each in told.items()}
 
     def _is_in_python(self, robot: str) -> bool:
         return any(robot.startswith(f"{mind.kind}/") for mind in self._minds)

@@ -7,21 +7,21 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use sim::engine::{self, Footprint, Link, Sensors};
 
-/// Links of a robot, or of all, shape (links, 3), `most` at most: the number of who is heard, of who
-/// hears, and 1 if both hear each other, else 0.
+/// Links of a robot, or of all, shape (links, 3): the number of who is heard, of who hears, and 1
+/// if both hear each other, else 0.
 #[pyfunction]
 pub(crate) fn links<'py>(
     py: Python<'py>,
     simulation: &Bound<'py, Simulation>,
     robot: Option<Bound<'py, PyAny>>,
-    most: usize,
 ) -> PyResult<Bound<'py, PyArray2<u32>>> {
     let mut locked = simulation.get().locked(py)?;
     let run: &mut engine::Simulation = &mut locked;
     let robot = robot
         .map(|robot| id_of(run.scenario(), &robot))
         .transpose()?;
-    let links = py.detach(|| run.links(robot, most)).unwrap_or_default();
+    let links = py.detach(|| run.links(robot, usize::MAX));
+    let links = links.unwrap_or_default();
     rows(&links).into_pyarray(py).reshape([links.len(), 3])
 }
 
@@ -49,22 +49,22 @@ pub(crate) fn footprints<'py>(
 }
 
 /// Links to be drawn, `most` at most, each as three 32-bit numbers in little endian, as [`links`] has
-/// them: of all robots, or of the `selected` one, if it is there.
+/// them: of `everyone`, or of the `selected` robot, if it is there.
 #[pyfunction]
 pub(crate) fn drawn_links<'py>(
     py: Python<'py>,
     simulation: &Bound<'py, Simulation>,
     selected: Option<Bound<'py, PyAny>>,
-    all: bool,
+    everyone: bool,
     most: usize,
 ) -> PyResult<Bound<'py, PyBytes>> {
     let mut locked = simulation.get().locked(py)?;
     let run: &mut engine::Simulation = &mut locked;
     let selected = selected.and_then(|robot| id_of(run.scenario(), &robot).ok());
-    if !all && selected.is_none() {
+    if !everyone && selected.is_none() {
         return Ok(PyBytes::new(py, &[]));
     }
-    let links = py.detach(|| run.links(selected.filter(|_| !all), most));
+    let links = py.detach(|| run.links(selected.filter(|_| !everyone), most));
     let numbers = rows(&links.unwrap_or_default()).into_iter();
     let bytes: Vec<u8> = numbers.flat_map(u32::to_le_bytes).collect();
     Ok(PyBytes::new(py, &bytes))
@@ -75,8 +75,8 @@ fn rows(links: &[Link]) -> Vec<u32> {
     links.iter().flat_map(row).collect()
 }
 
-/// Footprints to be drawn, in little endian: of the `selected` robot, if it is there, those of all its sensors, and if
-/// `all` is asked for, of the others those of their detectors of items.
+/// Footprints to be drawn, in little endian: of the `selected` robot, if it is there, those of all its
+/// sensors, and if those of `everyone` are asked for, of the others those of their detectors of items.
 ///
 /// Each is six 32-bit numbers, whole ones and floats: the robot's, 1 if it finds items and else 0, how
 /// many ranges follow, its range in metres, its width and its facing in radians; then the ranges in
@@ -86,19 +86,21 @@ pub(crate) fn drawn_footprints<'py>(
     py: Python<'py>,
     simulation: &Bound<'py, Simulation>,
     selected: Option<Bound<'py, PyAny>>,
-    all: bool,
+    everyone: bool,
 ) -> PyResult<Bound<'py, PyBytes>> {
     let mut locked = simulation.get().locked(py)?;
     let run: &mut engine::Simulation = &mut locked;
     let selected = selected.and_then(|robot| id_of(run.scenario(), &robot).ok());
-    let bytes = py.detach(|| drawn(run, selected, all));
+    let bytes = py.detach(|| drawn(run, selected, everyone));
     Ok(PyBytes::new(py, &bytes))
 }
 
-fn drawn(run: &mut engine::Simulation, selected: Option<RobotId>, all: bool) -> Vec<u8> {
+fn drawn(run: &mut engine::Simulation, selected: Option<RobotId>, everyone: bool) -> Vec<u8> {
     let robots = run.state().each_robot(run.scenario());
     let ids = (0..).zip(robots.map(|robot| robot.id));
-    let ids: Vec<(u32, RobotId)> = ids.filter(|(_, id)| all || selected == Some(*id)).collect();
+    let ids: Vec<(u32, RobotId)> = ids
+        .filter(|(_, id)| everyone || selected == Some(*id))
+        .collect();
     let mut bytes = Vec::new();
     for (number, id) in ids {
         let of = if selected == Some(id) {

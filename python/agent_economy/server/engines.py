@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from typing import Any, NamedTuple, Protocol
 
-from agent_economy.server import classic_view, metric_view, mind
+from agent_economy.server import classic_view, metric_overlay, metric_view, mind
 from agent_economy.stepped import Stepped
 
 
@@ -23,6 +23,10 @@ class Selection(Protocol):
         """Return what else the engine knows of the robot."""
 
 
+Overlaid = Callable[[Any, str | None], bytes]
+"""What lies over a moment of a run, of which a robot may be selected."""
+
+
 class Engine(NamedTuple):
     """What one engine gives; its functions take runs of its own.
 
@@ -30,16 +34,26 @@ class Engine(NamedTuple):
         drawn: One moment of it, as `messages` says.
         still: What a setting has that is the engine's own: `world`, `kinds`, `items`, `maps`.
         selected: Makes what tells of the robot that a page looks at.
+        links: Who hears whom, as `messages` says; None if robots have no radios.
+        footprints: What sensors cover, as `messages` says; None if robots have none.
     """
 
     drawn: Callable[[Any], bytes]
     still: Callable[[Any], dict[str, Any]]
     selected: Callable[[], Selection]
+    links: Overlaid | None
+    footprints: Overlaid | None
 
 
 ENGINES = {
-    "metric": Engine(metric_view.drawn, metric_view.still, mind.Selected),
-    "classic": Engine(classic_view.drawn, classic_view.still, classic_view.Selected),
+    "metric": Engine(
+        metric_view.drawn,
+        metric_view.still,
+        mind.Selected,
+        metric_overlay.links,
+        metric_overlay.footprints,
+    ),
+    "classic": Engine(classic_view.drawn, classic_view.still, classic_view.Selected, None, None),
 }
 
 

@@ -19,6 +19,8 @@ From the page:
 * `save`: the run up to its edge becomes a recording; `cancel`: not so. `export`: the scenario as it
   is now, as a text.
 * `select`: `robot`, of which is told what it perceives, decides and believes, or null.
+* `layers`: `links` and `footprints`, whether frames are to come with these from now on; at first
+  they do not.
 * `got`: `frame`, the number of one that has been drawn, which holds for those before it. No more
   than three are on their way.
 
@@ -40,6 +42,11 @@ ten times a second), `map`, `saving` (`done` of `steps`) and `saved` (`recording
 A frame in little endian is eight numbers, `u32` but for the time: 1, generation, tick, robots, time
 in s (`f64`), items, the frame's number; then what `_core.frame` says. It is drawn in the setting of
 its generation.
+
+An overlay comes right before the frame that it lies over, if a layer is on and the engine has such
+things. In little endian it is three `u32`: 2, the frame's number, links; then the links and to the
+end the footprints, as `_core.drawn_links` and `_core.drawn_footprints` say. Links are at most 4000,
+and of more than 300 robots both are of the selected one only.
 
 A state tells of the robot that was selected: its `mind`, and as `robot` what else its engine knows,
 in words, with outlines of the cells that it would look at; each null where there is nothing.
@@ -180,13 +187,23 @@ class Select:
 
 
 @dataclass(frozen=True)
+class Layers:
+    """Let frames come with these."""
+
+    links: bool
+    footprints: bool
+
+
+@dataclass(frozen=True)
 class Got:
     """A frame has been drawn."""
 
     frame: int
 
 
-Message = Open | Play | Pause | Step | Go | Put | Undo | Save | Cancel | Export | Select | Got
+Message = (
+    Open | Play | Pause | Step | Go | Put | Undo | Save | Cancel | Export | Select | Layers | Got
+)
 
 
 def read(text: str) -> Message:
@@ -314,6 +331,13 @@ def select(said: Mapping[str, Any]) -> Select:
     return Select(robot)
 
 
+def layers(said: Mapping[str, Any]) -> Layers:
+    """Return a `layers`."""
+    for layer in ("links", "footprints"):
+        given.of_kind(f"layers.{layer}", said.get(layer), bool, "true or false")
+    return Layers(links=said["links"], footprints=said["footprints"])
+
+
 def number(name: str, said: object) -> int:
     """Return a whole number that comes as a text; who uses it says how great it may be."""
     is_number = isinstance(said, str) and said.isascii() and said.isdigit() and len(said) <= 20  # noqa: PLR2004
@@ -351,5 +375,6 @@ READERS: dict[str, Callable[[Mapping[str, Any]], Message]] = {
     "cancel": lambda _: Cancel(),
     "export": lambda _: Export(),
     "select": select,
+    "layers": layers,
     "got": lambda said: Got(whole("got.frame", said.get("frame"), MAX_TICK)),
 }

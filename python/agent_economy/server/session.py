@@ -21,6 +21,7 @@ from agent_economy.server.frames import frame, setting
 from agent_economy.server.messages import Message
 from agent_economy.server.mind import Selected
 from agent_economy.server.opening import begun
+from agent_economy.server.overlay import Overlay
 from agent_economy.server.pace import Pace
 from agent_economy.server.places import Places
 from agent_economy.server.saver import Saver
@@ -61,7 +62,7 @@ class Page(Protocol):
         """Tell the page something; raise `GoneError` if it has gone."""
 
     async def show(self, frame: bytes) -> None:
-        """Send a frame; raise `GoneError` if it has gone."""
+        """Send a frame, or what lies over it; raise `GoneError` if it has gone."""
 
 
 class Session:
@@ -76,6 +77,7 @@ class Session:
         self._heard: asyncio.Queue[Message | InputError] = asyncio.Queue(MOST_HEARD)
         self._aim: int | None = None
         self._selected: engines.Selection = Selected()
+        self._overlay = Overlay()
         self._generation = 0
         self._told: object = None
         self._number = 0
@@ -192,10 +194,18 @@ class Session:
                 await self._undo()
             case messages.Save() | messages.Cancel() | messages.Export():
                 await self._hand_out(said)
+            case messages.Select() | messages.Layers():
+                self._look(said)
+        self._is_new = True
+
+    def _look(self, said: messages.Select | messages.Layers) -> None:
+        match said:
             case messages.Select(robot=robot):
                 self._selected.choose(robot)
+                self._overlay.choose(robot)
                 self._map_at_s = 0.0
-        self._is_new = True
+            case messages.Layers():
+                self._overlay.ask(said)
 
     async def _hand_out(self, said: messages.Save | messages.Cancel | messages.Export) -> None:
         match said:
@@ -222,6 +232,7 @@ class Session:
         scenario = simulation.scenario
         self._aim, self._told = said.tick, None
         self._selected = engines.of(simulation).selected()
+        self._overlay.choose(None)
         described: dict[str, Any] = {
             "id": said.scenario,
             "name": scenario.name,
@@ -285,6 +296,8 @@ class Session:
         self._on_the_way.append(self._number)
         self._frame_at_s = now_s
         self._is_new = False
+        if self._overlay.is_asked(timeline.simulation):
+            await self._page.show(await self._in_thread(self._over))
         await self._page.show(frame(timeline.simulation, self._generation, self._number))
         if is_at_rest or now_s - self._state_at_s >= STATE_S:
             self._state_at_s = now_s
@@ -293,6 +306,9 @@ class Session:
             self._map_at_s = now_s
             if told := self._selected.map(timeline.simulation):
                 await self._page.tell(told)
+
+    def _over(self) -> bytes:
+        return self._overlay.over(self._run.simulation, self._number)
 
     def _state(self, timeline: Timeline) -> dict[str, Any]:
         simulation = timeline.simulation

@@ -1,0 +1,268 @@
+"""What lies over frames: who hears whom, and what sensors cover."""
+
+import asyncio
+import json
+import struct
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import agent_economy as ae
+from agent_economy.server import Places
+from agent_economy.server.session import ON_THE_WAY, GoneError, Session
+
+Said = dict[str, Any]
+
+FRAME, OVERLAY = 1, 2
+
+WALL = "{ polygon_m = [[10, 9], [10.5, 9], [10.5, 11], [10, 11]] }"
+
+
+def field(robots: int = 2, obstacles: str = "", range_m: float = 5) -> str:
+    """Return a scenario whose first two robots stand on both sides of where a wall may be."""
+    places = [[9, 10], [12, 10], *([1 + i % 50, 20 + i // 50] for i in range(robots))]
+    headings = [0] * len(places)
+    return f"""
+engine = "metric"
+summary = "Two robots and a wall."
+merit = "equation-5.2"
+clock.cap_s = 100
+[world]
+size_m = [60, 60]
+obstacles = [{obstacles}]
+[items.mine]
+count = 1
+[robots.rover]
+count = {robots}
+radius_m = 0.2
+start = {{ kind = "fixed", at_m = {places}, heading_deg = {headings} }}
+drive = {{ max_speed_m_s = 1, max_turn_rate_deg_s = 90 }}
+brain = {{ behaviours = [] }}
+radio = {{ range_m = {range_m}, needs_line_of_sight = true }}
+sensors.camera = {{ kind = "items", range_m = 3, fov_deg = 90 }}
+"""
+
+
+class Page:
+    """A page that says one thing after the other, each once the one before is done at its tick."""
+
+    def __init__(self, script: Sequence[tuple[Said, int]], *, draws: bool = True) -> None:
+        """Begin with the first thing to be said."""
+        self.script, self.draws = iter(script), draws
+        self.sent: list[bytes | Said] = []
+        self.said: asyncio.Queue[Said | None] = asyncio.Queue()
+        self._say_next()
+
+    def _say_next(self) -> None:
+        said, self.tick = next(self.script, (None, -1))
+        self.said.put_nowait(said)
+
+    async def receive(self) -> str:
+        """Say what is next; go when all is said."""
+        said = await self.said.get()
+        if said is None:
+            raise GoneError
+        return json.dumps(said)
+
+    async def tell(self, said: Said) -> None:
+        """Keep it, and go on once what was said is done."""
+        self.sent.append(said)
+        if said["type"] == "refused" or (said["type"] == "state" and said["tick"] == self.tick):
+            self._say_next()
+
+    async def show(self, frame: bytes) -> None:
+        """Keep it, and say of frames that they are drawn."""
+        self.sent.append(frame)
+        if self.draws and kind_of(frame) == FRAME:
+            self.said.put_nowait({"type": "got", "frame": number_of(frame)})
+
+
+def kind_of(sent: bytes) -> int:
+    return int(struct.unpack_from("<I", sent)[0])
+
+
+def number_of(sent: bytes) -> int:
+    return int(struct.unpack_from("<I", sent, 28 if kind_of(sent) == FRAME else 4)[0])
+
+
+def served(folder: Path, script: Sequence[tuple[Said, int]], *, draws: bool = True) -> list[bytes]:
+    """Return the bytes that a page is sent which says all this."""
+    page = Page(script, draws=draws)
+
+    async def serve() -> None:
+        with ThreadPoolExecutor(2) as threads:
+            await asyncio.wait_for(Session(page, Places(folder), threads).run(), 30)
+
+    asyncio.run(serve())
+    return [sent for sent in page.sent if isinstance(sent, bytes)]
+
+
+def opening(scenario: str, tick: int = 0) -> tuple[Said, int]:
+    """Return an `open`, of the text of a scenario or of one that ships."""
+    key = "text" if "\n" in scenario else "scenario"
+    return {"type": "open", key: scenario, "seed": "7", "tick": tick}, tick
+
+
+def layers(*, links: bool, footprints: bool) -> Said:
+    return {"type": "layers", "links": links, "footprints": footprints}
+
+
+def read(overlay: bytes) -> tuple[list[list[int]], list[tuple[int, int, list[float], list[float]]]]:
+    """Return links, and footprints: robot, whether it finds items, sector, ranges."""
+    count = struct.unpack_from("<3I", overlay)[2]
+    links = np.frombuffer(overlay, "<u4", 3 * count, 12).reshape(count, 3)
+    at, footprints = 12 + links.nbytes, []
+    while at < len(overlay):
+        robot, finds_items, ranges = struct.unpack_from("<3I", overlay, at)
+        sector, distances = (
+            np.frombuffer(overlay, "<f4", number, offset).tolist()
+            for number, offset in ((3, at + 12), (ranges, at + 24))
+        )
+        footprints.append((robot, finds_items, sector, distances))
+        at += 24 + 4 * ranges
+    return links.tolist(), footprints
+
+
+def test_frames_come_with_an_overlay_as_long_as_it_is_asked_for(tmp_path: Path) -> None:
+    script = [
+        opening("open-field"),
+        ({"type": "step", "steps": 5}, 5),
+        (layers(links=True, footprints=False), 5),
+        ({"type": "step", "steps": 5}, 10),
+        (layers(links=False, footprints=False), 10),
+        ({"type": "step", "steps": 5}, 15),
+    ]
+    sent = served(tmp_path, script)
+    overlays = [number for number, each in enumerate(sent) if kind_of(each) == OVERLAY]
+    assert overlays
+    # Each right before its frame, and all those after one another.
+    assert all(number_of(sent[at]) == number_of(sent[at + 1]) for at in overlays)
+    assert all(kind_of(sent[at + 1]) == FRAME for at in overlays)
+    ticks = [struct.unpack_from("<3I", sent[at + 1])[2] for at in overlays]
+    assert ticks[0] == 5
+    assert ticks[-1] == 10
+    assert kind_of(sent[0]) == kind_of(sent[-1]) == kind_of(sent[-2]) == FRAME
+    for at in overlays:
+        links, footprints = read(sent[at])
+        assert links
+        assert not footprints
+
+
+def test_an_overlay_is_of_the_moment_of_its_frame(tmp_path: Path) -> None:
+    script = [
+        opening("open-field", 40),
+        ({"type": "select", "robot": "rover/0"}, 40),
+        (layers(links=True, footprints=True), 40),
+        ({"type": "step", "steps": 25}, 65),
+    ]
+    sent = served(tmp_path, script)
+    links, footprints = read(sent[-2])
+    simulation = ae.Simulation("open-field", 7)
+    simulation.step(65)
+    assert links == simulation.links().tolist()
+    own = [each for each in footprints if each[0] == 1]
+    expected = simulation.footprints("rover/0")
+    assert len(own) == len(expected)
+    assert [each[1] for each in own] == [int("camera" in name) for name in expected]
+    for (*_, sector, ranges), footprint in zip(own, expected.values(), strict=True):
+        told = ranges or [sector[0]] * len(footprint.ranges_m)
+        assert told == pytest.approx(footprint.ranges_m, rel=1e-6)
+    # Of the others only what finds items.
+    assert {each[0] for each in footprints} == {0, 1, 2, 3}
+    assert all(each[1] for each in footprints if each[0] != 1)
+
+
+def test_a_wall_cuts_links_and_footprints(tmp_path: Path) -> None:
+    asking = (layers(links=True, footprints=True), 0)
+    links, footprints = read(served(tmp_path, [opening(field(obstacles=WALL)), asking])[-2])
+    assert links == []
+    camera = next(ranges for robot, _, _, ranges in footprints if robot == 0)
+    assert min(camera) == pytest.approx(1.0)
+    links, footprints = read(served(tmp_path, [opening(field()), asking])[-2])
+    assert links == [[0, 1, 1]]
+    assert [ranges for *_, ranges in footprints] == [[], []]
+
+
+def test_of_many_robots_only_the_selected_one_is_told_of(tmp_path: Path) -> None:
+    script = [
+        opening(field(301)),
+        (layers(links=True, footprints=True), 0),
+        ({"type": "select", "robot": "rover/300"}, 0),
+        ({"type": "change", "path": "robots.rover.count", "value": 300}, 0),
+    ]
+    sent = [each for each in served(tmp_path, script) if kind_of(each) == OVERLAY]
+    alone, selected, all_of_300 = map(read, sent)
+    assert alone == ([], [])
+    assert {robot for robot, *_ in selected[1]} == {300}
+    assert selected[0]
+    assert all(300 in link[:2] for link in selected[0])
+    # The selected one is gone.
+    assert {robot for robot, *_ in all_of_300[1]} == set(range(300))
+    assert len(all_of_300[0]) > len(selected[0])
+
+
+def test_links_are_no_more_than_4000(tmp_path: Path) -> None:
+    script = [opening(field(300, range_m=100)), (layers(links=True, footprints=False), 0)]
+    links, _ = read(served(tmp_path, script)[-2])
+    assert len(links) == 4000
+
+
+def test_the_classic_engine_has_no_overlays(tmp_path: Path) -> None:
+    script = [
+        opening("classic"),
+        (layers(links=True, footprints=True), 0),
+        ({"type": "step", "steps": 1}, 1),
+    ]
+    assert {kind_of(each) for each in served(tmp_path, script)} == {FRAME}
+
+
+def test_a_page_that_draws_nothing_gets_no_more_overlays_than_frames(tmp_path: Path) -> None:
+    script = [
+        opening("open-field"),
+        (layers(links=True, footprints=True), 0),
+        ({"type": "step", "steps": 1}, 1),
+        *[({"type": "step", "steps": "bogus"}, -1)] * 50,
+    ]
+    sent = served(tmp_path, script, draws=False)
+    assert [kind_of(each) for each in sent].count(FRAME) == ON_THE_WAY
+    assert [kind_of(each) for each in sent].count(OVERLAY) == ON_THE_WAY - 1
+
+
+def test_layers_that_are_none_are_refused_in_words(tmp_path: Path) -> None:
+    page = Page([({"type": "layers", "links": 1}, 0)])
+
+    async def serve() -> None:
+        with ThreadPoolExecutor(2) as threads:
+            await asyncio.wait_for(Session(page, Places(tmp_path), threads).run(), 10)
+
+    asyncio.run(serve())
+    (refused,) = page.sent
+    assert isinstance(refused, dict)
+    assert "layers.links = 1: must be true or false" in refused["faults"][0]["message"]
+
+
+def test_to_ask_who_hears_and_sees_what_changes_nothing() -> None:
+    asked, not_asked = (ae.Simulation("open-field", 3) for _ in range(2))
+    for _ in range(40):
+        asked.step(5)
+        not_asked.step(5)
+        assert asked.links().shape[1] == 3
+        for robot in asked.robots:
+            asked.footprints(robot)
+        assert asked.hash == not_asked.hash
+    assert asked.finish() == not_asked.finish()
+
+
+def test_links_of_one_are_its_own_and_who_is_not_there_is_said() -> None:
+    simulation = ae.Simulation(ae.Scenario.loads(field()), 7)
+    assert simulation.links().dtype == np.uint32
+    assert simulation.links("rover/1").tolist() == [[0, 1, 1]]
+    camera = simulation.footprints("rover/0")["camera"]
+    assert camera.bearings_rad.shape == camera.ranges_m.shape
+    for ask in (simulation.links, simulation.footprints):
+        with pytest.raises(ae.InputError, match="rover/9"):
+            ask("rover/9")
