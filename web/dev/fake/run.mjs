@@ -154,6 +154,11 @@ export class FakeRun {
     return { type: "map", robot, ...whole, ...cells };
   }
 
+  kindOf(robot) {
+    let last = 0;
+    return this.kinds.find((kind) => robot < (last += kind.count));
+  }
+
   nameOf() {
     return this.kinds.flatMap((kind) => Array.from({ length: kind.count }, (_, i) => `${kind.name}/${i}`));
   }

@@ -1,3 +1,4 @@
+import { overlayOf } from "./overlay.mjs";
 import { FakeRun, mapsOf } from "./run.mjs";
 import { documentOf, entryOf } from "./scenarios.mjs";
 
@@ -11,6 +12,7 @@ export class Talk {
     this.studies = studies;
     this.unseen = 0;
     this.number = 0;
+    this.layers = { links: false, footprints: false };
     this.toldAt = 0;
     socket.on("message", (data) => this.hear(JSON.parse(data.toString())));
     socket.on("close", () => this.close());
@@ -136,6 +138,9 @@ export class Talk {
   hear_select({ robot }) {
     this.selected = robot;
   }
+  hear_layers({ links, footprints }) {
+    this.layers = { links, footprints };
+  }
   hear_change({ path, value, instead }) {
     if (path.endsWith("behaviours") && value.some((one) => one.kind === "swarm"))
       return this.refuse("change", `${path}: swarm needs a sensor of kind robots, and rover has none`, path);
@@ -221,11 +226,14 @@ export class Talk {
 
   /** As the real one: what has been sent is not sent again. */
   show() {
-    const moment = this.run && `${this.generation}/${this.run.tick}`;
+    const { layers, selected } = this;
+    const moment = this.run && JSON.stringify([this.generation, this.run.tick, layers, selected]);
     if (!moment || moment === this.shown || this.unseen >= mostUnseen) return;
     this.shown = moment;
     this.unseen += 1;
     this.number += 1;
+    const overlay = overlayOf(this.run, this.number, layers, this.run.nameOf().indexOf(selected));
+    if (overlay) this.socket.send(overlay);
     this.socket.send(this.run.frame(this.generation, this.number));
   }
 

@@ -1,4 +1,5 @@
 import { type Frame, FrameFault, readFrame } from "./frames";
+import { type Overlay, overlayKind, readOverlay } from "./overlay";
 import { type Command, type Message, readMessage } from "./protocol";
 
 /** What of a WebSocket is used; tests put something else in its place. */
@@ -35,6 +36,8 @@ export class Connection {
   private isOpen = false;
   private failures = 0;
   private cancel = () => {};
+  /** Lies over the next frame. */
+  private overlay: Overlay | null = null;
 
   constructor(
     private readonly listener: Listener,
@@ -47,6 +50,7 @@ export class Connection {
     const socket = this.wires.connect();
     this.socket = socket;
     socket.binaryType = "arraybuffer";
+    this.overlay = null;
     socket.onopen = () => {
       this.isOpen = true;
       this.listener.ready();
@@ -87,13 +91,23 @@ export class Connection {
 
   private receivedFrame(data: ArrayBuffer): void {
     try {
-      this.listener.frame(readFrame(data));
+      this.readBytes(data);
     } catch (fault) {
       if (!(fault instanceof FrameFault)) throw fault;
       // Its number is unknown, so it cannot be acknowledged: only a new line goes on.
       this.close();
       this.dropped();
     }
+  }
+
+  private readBytes(data: ArrayBuffer): void {
+    if (data.byteLength >= 4 && new Uint32Array(data, 0, 1)[0] === overlayKind) {
+      this.overlay = readOverlay(data);
+      return;
+    }
+    const [frame, { overlay }] = [readFrame(data), this];
+    this.overlay = null;
+    this.listener.frame(overlay?.frame === frame.number ? { ...frame, overlay } : frame);
   }
 
   private dropped(): void {

@@ -1,4 +1,5 @@
 /** Frames: what moves, at one tick. Nothing is copied: the arrays look into the buffer received. */
+import type { Overlay } from "./overlay";
 
 export enum RobotState {
   Clear,
@@ -26,6 +27,8 @@ export interface Frame {
   robots: Float32Array;
   /** One state an item. */
   items: Uint8Array;
+  /** What lies over it, if layers were asked for. */
+  overlay?: Overlay;
 }
 
 const version = 1;

@@ -75,6 +75,12 @@ export interface Open {
   tick: number;
 }
 
+/** What frames are to come with. */
+export interface Asked {
+  links: boolean;
+  footprints: boolean;
+}
+
 export type Speed = number | null;
 
 export type Command =
@@ -89,6 +95,7 @@ export type Command =
   | { type: "cancel" }
   | { type: "export" }
   | { type: "select"; robot: string | null }
+  | ({ type: "layers" } & Asked)
   | { type: "got"; frame: number };
 
 // From the server.

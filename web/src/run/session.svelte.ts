@@ -1,6 +1,7 @@
 import { Connection, type Listener } from "../net/connection";
 import type { Frame } from "../net/frames";
 import type {
+  Asked,
   Change,
   Command,
   Ended,
@@ -76,6 +77,7 @@ export class Session implements Listener {
     (path, put) => this.send({ type: "change", path, ...put }),
     (passed, latest) => ({ ...latest, instead: passed.instead }),
   );
+  private asked: Asked | null = null;
   private saw = 0;
   private toldAt = 0;
   private savedChanges = "";
@@ -174,10 +176,17 @@ export class Session implements Listener {
     this.send({ type: "select", robot });
   }
 
+  /** What frames are to come with from now on. */
+  ask(asked: Asked): void {
+    this.asked = asked;
+    this.send({ type: "layers", ...asked });
+  }
+
   // What the line tells.
 
   ready(): void {
     this.arrivals.clear();
+    if (this.asked) this.ask(this.asked);
     this.send(this.opening());
   }
 

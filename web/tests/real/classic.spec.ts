@@ -65,7 +65,7 @@ test("what 2003 had not is not offered", async ({ page, server }) => {
   await expect(page.getByRole("tab", { name: "Edit" })).toHaveCount(0);
   await page.getByRole("tab", { name: "Layers" }).click();
   await expect(page.getByRole("checkbox", { name: "Cells looked at" })).toBeVisible();
-  await expect(page.getByRole("checkbox", { name: "Radio range" })).toHaveCount(0);
+  await expect(page.getByRole("checkbox", { name: "Radio links" })).toHaveCount(0);
   await expect(page.getByText("battery empty")).toHaveCount(0);
 });
 

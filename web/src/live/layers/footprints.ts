@@ -1,11 +1,8 @@
-import type { SensorView } from "../../net/protocol";
-import { rangesOf } from "../../run/robots";
-import { inWorld, type Layer, type Pen, poseOf, type Scene } from "./layer";
+import type { Footprint } from "../../net/overlay";
+import type { Point } from "../../net/protocol";
+import { imagesOf, type Layer, type Pen, poseOf, type Scene, withinWorld } from "./layer";
 
-/** Of more robots than this only the selected one's are drawn: a picture full of them says nothing. */
-const most = 300;
-
-/** What sensors see: filled for those that find items, outlined for all others. */
+/** What sensors cover, as the engine tells: filled for those that find items, outlined for all others. */
 export const footprints: Layer = {
   id: "footprints",
   label: "Sensing",
@@ -13,29 +10,23 @@ export const footprints: Layer = {
   on: true,
   place: "over",
   only: "metric",
-  active: ({ frame, selected, setting }) =>
-    setting.kinds.some((kind) => kind.sensors.length > 0) &&
-    frame !== null &&
-    (frame.count <= most || selected >= 0),
+  active: ({ frame }) => (frame?.overlay?.footprints.length ?? 0) > 0,
   draw(pen, scene) {
     const [filled, outlined] = [new Path2D(), new Path2D()];
-    for (const { kind, first, count } of rangesOf(scene.setting)) {
-      for (let robot = first; robot < first + count; robot++) {
-        if (robot !== scene.selected && (scene.frame?.count ?? 0) > most) continue;
-        for (const sensor of kind.sensors) {
-          // Only the selected robot's other sensors, whose circles would cover each other.
-          if (sensor.kind === "items") sector(filled, scene, robot, sensor);
-          else if (robot === scene.selected) sector(outlined, scene, robot, sensor);
-        }
+    for (const footprint of scene.frame?.overlay?.footprints ?? []) {
+      const pose = poseOf(scene, footprint.robot);
+      if (!pose) continue;
+      for (const at of imagesOf(scene, pose.at, footprint.range_m)) {
+        outline(footprint.findsItems ? filled : outlined, footprint, at, pose.heading_rad);
       }
     }
-    paint(pen, filled, outlined);
+    paint(pen, scene, filled, outlined);
   },
 };
 
-function paint(pen: Pen, filled: Path2D, outlined: Path2D): void {
+function paint(pen: Pen, scene: Scene, filled: Path2D, outlined: Path2D): void {
   const { context, colours, camera } = pen;
-  inWorld(pen, () => {
+  withinWorld(pen, scene, () => {
     context.globalAlpha = 0.16;
     context.fillStyle = colours["sense-items"];
     context.fill(filled);
@@ -49,20 +40,22 @@ function paint(pen: Pen, filled: Path2D, outlined: Path2D): void {
   });
 }
 
-function sector(
-  path: Path2D,
-  scene: Scene,
-  robot: number,
-  { range_m, width_rad, facing_rad }: SensorView,
-): void {
-  const pose = poseOf(scene, robot);
-  if (!pose) return;
-  const [x, y] = pose.at;
-  const middle = pose.heading_rad + facing_rad;
-  const [from, to] = [middle - width_rad / 2, middle + width_rad / 2];
-  const whole = width_rad >= 2 * Math.PI - 1e-6;
-  if (whole) path.moveTo(x + range_m * Math.cos(from), y + range_m * Math.sin(from));
+function outline(path: Path2D, footprint: Footprint, [x, y]: Point, heading_rad: number): void {
+  const { range_m, width_rad, facing_rad, ranges_m } = footprint;
+  const isWhole = width_rad >= 2 * Math.PI - 1e-6;
+  const parts = isWhole ? ranges_m.length : Math.max(1, ranges_m.length - 1);
+  // A whole circle has its first bearing where it faces, a sector its two on the edges.
+  const first = heading_rad + facing_rad - (isWhole ? 0 : width_rad / 2);
+  if (isWhole)
+    path.moveTo(
+      x + (ranges_m[0] ?? range_m) * Math.cos(first),
+      y + (ranges_m[0] ?? range_m) * Math.sin(first),
+    );
   else path.moveTo(x, y);
-  path.arc(x, y, range_m, from, to);
+  if (ranges_m.length === 0) path.arc(x, y, range_m, first, first + width_rad);
+  ranges_m.forEach((distance_m, i) => {
+    const bearing_rad = first + (i / parts) * width_rad;
+    path.lineTo(x + distance_m * Math.cos(bearing_rad), y + distance_m * Math.sin(bearing_rad));
+  });
   path.closePath();
 }

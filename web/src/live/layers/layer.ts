@@ -56,6 +56,27 @@ export function inWorld({ context, camera }: Pen, draw: () => void): void {
   context.restore();
 }
 
+/** The same, and nothing beyond the border: nothing is there, or it is at the other side of a world that wraps. */
+export function withinWorld(pen: Pen, { world: { size } }: Scene, draw: () => void): void {
+  inWorld(pen, () => {
+    pen.context.beginPath();
+    pen.context.rect(0, 0, ...size);
+    pen.context.clip();
+    draw();
+  });
+}
+
+/** Where a place is, and in a world that wraps its images that are within `reach` of the world too. */
+export function imagesOf({ world }: Scene, [x, y]: Point, reach: number): Point[] {
+  if (!world.wraps) return [[x, y]];
+  const [xs, ys] = [along(x, world.size[0], reach), along(y, world.size[1], reach)];
+  return xs.flatMap((x) => ys.map((y): Point => [x, y]));
+}
+
+function along(at: number, size: number, reach: number): number[] {
+  return [at, at - size, at + size].filter((image) => image >= -reach && image <= size + reach);
+}
+
 export function outline(path: Path2D, points: Point[]): void {
   points.forEach(([x, y], i) => {
     if (i === 0) path.moveTo(x, y);
