@@ -17,6 +17,9 @@ from agent_economy.server.session import ON_THE_WAY, GoneError, Session
 
 Said = dict[str, Any]
 
+Corners = list[list[float]]
+"""Of an outline: bearings in radians and distances in metres."""
+
 FRAME, OVERLAY = 1, 2
 
 WALL = "{ polygon_m = [[10, 9], [10.5, 9], [10.5, 11], [10, 11]] }"
@@ -111,19 +114,16 @@ def layers(*, links: bool, footprints: bool) -> Said:
     return {"type": "layers", "links": links, "footprints": footprints}
 
 
-def read(overlay: bytes) -> tuple[list[list[int]], list[tuple[int, int, list[float], list[float]]]]:
-    """Return links, and footprints: robot, whether it finds items, sector, ranges."""
+def read(overlay: bytes) -> tuple[list[list[int]], list[tuple[int, int, float, Corners]]]:
+    """Return links, and footprints: robot, whether it finds items, range, corners."""
     count = struct.unpack_from("<3I", overlay)[2]
     links = np.frombuffer(overlay, "<u4", 3 * count, 12).reshape(count, 3)
     at, footprints = 12 + links.nbytes, []
     while at < len(overlay):
-        robot, finds_items, ranges = struct.unpack_from("<3I", overlay, at)
-        sector, distances = (
-            np.frombuffer(overlay, "<f4", number, offset).tolist()
-            for number, offset in ((3, at + 12), (ranges, at + 24))
-        )
-        footprints.append((robot, finds_items, sector, distances))
-        at += 24 + 4 * ranges
+        robot, finds_items, corners, range_m = struct.unpack_from("<3If", overlay, at)
+        outline = np.frombuffer(overlay, "<f4", 2 * corners, at + 16).reshape(corners, 2)
+        footprints.append((robot, finds_items, range_m, outline.tolist()))
+        at += 16 + outline.nbytes
     return links.tolist(), footprints
 
 
@@ -168,9 +168,13 @@ def test_an_overlay_is_of_the_moment_of_its_frame(tmp_path: Path) -> None:
     expected = simulation.footprints("rover/0")
     assert len(own) == len(expected)
     assert [each[1] for each in own] == [int("camera" in name) for name in expected]
-    for (*_, sector, ranges), footprint in zip(own, expected.values(), strict=True):
-        told = ranges or [sector[0]] * len(footprint.ranges_m)
-        assert told == pytest.approx(footprint.ranges_m, rel=1e-6)
+    for (*_, range_m, corners), footprint in zip(own, expected.values(), strict=True):
+        assert footprint.ranges_m.max() <= range_m * (1 + 1e-6)
+        # Each corner is one of the places up to which it sees.
+        for bearing_rad, distance_m in corners:
+            off = np.cos(footprint.bearings_rad - bearing_rad)
+            nearest = footprint.ranges_m[off > off.max() - 1e-9]
+            assert np.abs(nearest - distance_m).min() == pytest.approx(0, abs=1e-5)
     # Of the others only what finds items.
     assert {each[0] for each in footprints} == {0, 1, 2, 3}
     assert all(each[1] for each in footprints if each[0] != 1)
@@ -180,11 +184,11 @@ def test_a_wall_cuts_links_and_footprints(tmp_path: Path) -> None:
     asking = (layers(links=True, footprints=True), 0)
     links, footprints = read(served(tmp_path, [opening(field(obstacles=WALL)), asking])[-2])
     assert links == []
-    camera = next(ranges for robot, _, _, ranges in footprints if robot == 0)
-    assert min(camera) == pytest.approx(1.0)
+    (nearest,) = (min(at[1] for at in corners) for robot, *_, corners in footprints if robot == 0)
+    assert nearest < 1.5
     links, footprints = read(served(tmp_path, [opening(field()), asking])[-2])
     assert links == [[0, 1, 1]]
-    assert [ranges for *_, ranges in footprints] == [[], []]
+    assert [at[1] for *_, corners in footprints for at in corners] == [3] * 4
 
 
 def test_of_many_robots_only_the_selected_one_is_told_of(tmp_path: Path) -> None:

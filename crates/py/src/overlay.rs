@@ -6,6 +6,7 @@ use numpy::{IntoPyArray, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use sim::engine::{self, Footprint, Link, Sensors};
+use std::iter;
 
 /// Links of a robot, or of all, shape (links, 3): the number of who is heard, of who hears, and 1
 /// if both hear each other, else 0.
@@ -78,9 +79,9 @@ fn rows(links: &[Link]) -> Vec<u32> {
 /// Footprints to be drawn, in little endian: of the `selected` robot, if it is there, those of all its
 /// sensors, and if those of `everyone` are asked for, of the others those of their detectors of items.
 ///
-/// Each is six 32-bit numbers, whole ones and floats: the robot's, 1 if it finds items and else 0, how
-/// many ranges follow, its range in metres, its width and its facing in radians; then the ranges in
-/// metres, or none if nothing cuts it.
+/// Each is four 32-bit numbers, the last a float: the robot's, 1 if it finds items and else 0, how many
+/// corners follow, and its range in metres; then of each corner two floats: its bearing from the robot's
+/// front in radians, and its distance in metres, as [`Footprint::corners`] says.
 #[pyfunction]
 pub(crate) fn drawn_footprints<'py>(
     py: Python<'py>,
@@ -117,23 +118,19 @@ fn drawn(run: &mut engine::Simulation, selected: Option<RobotId>, everyone: bool
 
 #[expect(
     clippy::cast_possible_truncation,
-    reason = "to be drawn; 360 ranges at most"
+    reason = "to be drawn; 361 corners at most"
 )]
 fn draw(robot: u32, footprint: &Footprint, bytes: &mut Vec<u8>) {
-    let ranges_m: &[f64] = if footprint.is_cut() {
-        &footprint.ranges_m
-    } else {
-        &[]
-    };
+    let corners = footprint.corners();
     for number in [
         robot,
         u32::from(footprint.finds_items),
-        ranges_m.len() as u32,
+        corners.len() as u32,
     ] {
         bytes.extend(number.to_le_bytes());
     }
-    let sector = [footprint.range_m, footprint.width_rad, footprint.facing_rad];
-    for number in sector.iter().chain(ranges_m) {
+    let floats = iter::once(&footprint.range_m).chain(corners.as_flattened());
+    for number in floats {
         bytes.extend((*number as f32).to_le_bytes());
     }
 }

@@ -23,9 +23,12 @@ function linksOf({ count }) {
 function footprintsOf(run, robot, isSelected) {
   const sensors = run.kindOf(robot).sensors.filter(({ kind }) => kind === "items" || isSelected);
   return sensors.map(({ kind, range_m, width_rad, facing_rad }) => {
-    const ranges = kind === "items" ? [range_m, range_m, range_m / 2, range_m / 2, range_m / 2] : [];
-    const head = u32([robot, kind === "items" ? 1 : 0, ranges.length]);
-    return Buffer.concat([head, f32([range_m, width_rad, facing_rad, ...ranges])]);
+    const [right, left] = [facing_rad - width_rad / 2, facing_rad + width_rad / 2];
+    const near = [facing_rad, range_m / 2, left, range_m / 2];
+    const corners =
+      kind === "items" ? [right, range_m, facing_rad, range_m, ...near] : [right, range_m, left, range_m];
+    const head = u32([robot, kind === "items" ? 1 : 0, corners.length / 2]);
+    return Buffer.concat([head, f32([range_m, ...corners])]);
   });
 }
 

@@ -21,12 +21,12 @@ const full = () =>
   overlay(
     [2, 17, 2, 0, 1, 1, 3, 0, 0],
     [
-      [5, 1, 0],
-      [4, 1.5, 0.25],
+      [5, 1, 2],
+      [4, -0.5, 4, 0.5, 4],
     ],
     [
       [6, 0, 3],
-      [8, 6.25, 0, 8, 2.5, 8],
+      [8, 0, 8, 2.5, 1.5, 6.25, 8],
     ],
   );
 
@@ -35,10 +35,13 @@ test("an overlay gives what was put in", () => {
   expect(frame).toBe(17);
   expect([...links]).toEqual([0, 1, 1, 3, 0, 0]);
   expect(footprints).toMatchObject([
-    { robot: 5, findsItems: true, range_m: 4, width_rad: 1.5, facing_rad: 0.25 },
-    { robot: 6, findsItems: false, range_m: 8, width_rad: 6.25, facing_rad: 0 },
+    { robot: 5, findsItems: true, range_m: 4 },
+    { robot: 6, findsItems: false, range_m: 8 },
   ]);
-  expect(footprints.map(({ ranges_m }) => [...ranges_m])).toEqual([[], [8, 2.5, 8]]);
+  expect(footprints.map(({ corners }) => [...corners])).toEqual([
+    [-0.5, 4, 0.5, 4],
+    [0, 8, 2.5, 1.5, 6.25, 8],
+  ]);
 });
 
 test("an overlay without anything is one", () => {
@@ -47,7 +50,7 @@ test("an overlay without anything is one", () => {
 
 test("an overlay cut within a part, and what is none, are refused", () => {
   const whole = full();
-  const ends = [36, 60];
+  const ends = [36, 68];
   for (let bytes = 0; bytes < whole.byteLength; bytes += 4) {
     const part = () => readOverlay(whole.slice(0, bytes));
     if (ends.includes(bytes)) expect(part).not.toThrow();

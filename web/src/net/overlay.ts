@@ -6,11 +6,13 @@ export interface Footprint {
   /** Number of the robot. */
   robot: number;
   findsItems: boolean;
+  /** As far as it sees at all. */
   range_m: number;
-  width_rad: number;
-  facing_rad: number;
-  /** How far it sees along bearings that are evenly spread over the sector; empty if nothing cuts it. */
-  ranges_m: Float32Array;
+  /**
+   * (corners, 2): of its outline, bearing from the robot's front in rad, ascending, and distance. Between two at
+   * full range lies an arc, between others a straight line.
+   */
+  corners: Float32Array;
 }
 
 export interface Overlay {
@@ -24,7 +26,8 @@ export interface Overlay {
 export const overlayKind = 2;
 const headBytes = 12;
 const linkBytes = 12;
-const footprintBytes = 24;
+const footprintBytes = 16;
+const cornerBytes = 8;
 
 /** The overlay in a message; throws `FrameFault` for what is none. */
 export function readOverlay(buffer: ArrayBuffer): Overlay {
@@ -42,12 +45,12 @@ function* footprintsIn(buffer: ArrayBuffer, start: number): Generator<Footprint>
   while (at < buffer.byteLength) {
     const left = buffer.byteLength - at;
     if (left < footprintBytes) throw new FrameFault(`${left} bytes left for a footprint`);
-    const [robot = 0, findsItems, ranges = 0] = new Uint32Array(buffer, at, 3);
-    const [range_m = 0, width_rad = 0, facing_rad = 0] = new Float32Array(buffer, at + 12, 3);
-    const end = at + footprintBytes + 4 * ranges;
-    if (end > buffer.byteLength) throw new FrameFault(`${left} bytes left for ${ranges} ranges`);
-    const ranges_m = new Float32Array(buffer, at + footprintBytes, ranges);
-    yield { robot, findsItems: findsItems === 1, range_m, width_rad, facing_rad, ranges_m };
+    const [robot = 0, findsItems, count = 0] = new Uint32Array(buffer, at, 3);
+    const [range_m = 0] = new Float32Array(buffer, at + 12, 1);
+    const end = at + footprintBytes + cornerBytes * count;
+    if (end > buffer.byteLength) throw new FrameFault(`${left} bytes left for ${count} corners`);
+    const corners = new Float32Array(buffer, at + footprintBytes, 2 * count);
+    yield { robot, findsItems: findsItems === 1, range_m, corners };
     at = end;
   }
 }

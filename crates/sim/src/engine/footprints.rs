@@ -14,6 +14,9 @@ use std::f64::consts::TAU;
 /// A sector is looked at along so many bearings for each radian: one a degree.
 const BEARINGS_PER_RAD: f64 = 360.0 / TAU;
 
+/// An outline is drawn straight where it is so but for this share of the range.
+const STRAIGHT: f64 = 2e-4;
+
 /// Whose footprints are asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sensors {
@@ -119,10 +122,49 @@ impl Footprint {
         spread(bearings(self.width_rad), self.width_rad, self.facing_rad)
     }
 
-    /// Whether something hides a part of the sector.
+    /// Its outline, as bearings from the robot's front, ascending, and distances: between two that
+    /// are at its full range lies an arc, between others a straight line.
+    ///
+    /// A whole circle ends where it begins; a sector is closed by the robot's place.
     #[must_use]
-    pub fn is_cut(&self) -> bool {
-        self.ranges_m.iter().any(|range_m| *range_m < self.range_m)
+    pub fn corners(&self) -> Vec<[f64; 2]> {
+        let is_whole = self.width_rad >= TAU;
+        let count = self.ranges_m.len();
+        let parts = if is_whole { count } else { count - 1 }.max(1);
+        let first_rad = self.facing_rad - if is_whole { 0.0 } else { self.width_rad / 2.0 };
+        #[expect(clippy::cast_precision_loss, reason = "361 at most")]
+        let corner = |place: usize| {
+            let share = place as f64 / parts as f64;
+            [
+                first_rad + share * self.width_rad,
+                self.ranges_m[place % count],
+            ]
+        };
+        let mut last = corner(0);
+        let mut corners = vec![last];
+        for place in 1..parts {
+            let [this, next] = [corner(place), corner(place + 1)];
+            if !self.is_smooth([last, this, next]) {
+                corners.push(this);
+                last = this;
+            }
+        }
+        corners.push(corner(parts));
+        corners
+    }
+
+    /// Whether three corners lie on its arc, or as good as on a line.
+    fn is_smooth(&self, corners: [[f64; 2]; 3]) -> bool {
+        let is_full = corners.map(|[_, range_m]| range_m >= self.range_m);
+        if is_full[0] && is_full[1] {
+            return is_full[2];
+        }
+        let [last, this, next] = corners.map(|[bearing_rad, range_m]| {
+            let (y, x) = sin_cos(bearing_rad);
+            Point { x, y }.times(range_m)
+        });
+        let way = last.to(next);
+        way.cross(last.to(this)).abs() <= STRAIGHT * self.range_m * way.length()
     }
 }
 

@@ -53,7 +53,7 @@ fn assert_near(given: f64, expected: f64) {
 #[test]
 fn a_footprint_ends_at_the_wall_and_goes_on_beside_it() {
     let footprint = only(&mut at("[10, 10]", WALL, EYE));
-    assert!(footprint.finds_items && footprint.is_cut());
+    assert!(footprint.finds_items);
     assert_eq!(footprint.ranges_m.len(), 360);
     assert_near(along(&footprint, 0.0), 2.0);
     assert_near(along(&footprint, PI / 4.0), 2.0 * 2.0_f64.sqrt());
@@ -65,7 +65,7 @@ fn a_footprint_ends_at_the_wall_and_goes_on_beside_it() {
 fn what_needs_no_line_of_sight_sees_through_the_wall() {
     let metal = EYE.replace("4 }", "4, needs_line_of_sight = false }");
     let footprint = only(&mut at("[10, 10]", WALL, &metal));
-    assert!(!footprint.is_cut() && footprint.ranges_m == [4.0; 360]);
+    assert!(footprint.ranges_m == [4.0; 360]);
 }
 
 #[test]
@@ -77,7 +77,7 @@ fn obstacles_hide_items_from_who_flies_and_stop_none_of_its_rays() {
         .try_into()
         .unwrap();
     assert_near(along(&eye, 0.0), 2.0);
-    assert!(!sonar.finds_items && !sonar.is_cut());
+    assert!(!sonar.finds_items && sonar.ranges_m == [3.0; 360]);
     // Over an obstacle, its outline hides all that is beyond.
     let [eye, _] = footprints(&mut at("[12.5, 10]", WALL, &bird))
         .try_into()
@@ -88,6 +88,60 @@ fn obstacles_hide_items_from_who_flies_and_stop_none_of_its_rays() {
         .try_into()
         .unwrap();
     assert_eq!(eye.ranges_m, [0.0; 360]);
+}
+
+#[test]
+fn an_outline_has_a_corner_where_it_turns_and_no_other() {
+    let free = only(&mut at("[10, 10]", "", EYE)).corners();
+    assert_eq!(free, [[0.0, 4.0], [2.0 * PI, 4.0]]);
+    // The wall is 2 m away: it is seen up to 60 degrees to each side.
+    let cut = only(&mut at("[10, 10]", WALL, EYE)).corners();
+    let expected = [(0.0, 2.0), (60.0, 4.0), (300.0, 4.0), (360.0, 2.0)];
+    assert_eq!(cut.len(), expected.len(), "{cut:?}");
+    for ([bearing_rad, range_m], (bearing_deg, expected_m)) in cut.iter().zip(expected) {
+        assert!(
+            (bearing_rad.to_degrees() - bearing_deg).abs() < 1.01,
+            "{cut:?}"
+        );
+        assert!((range_m - expected_m).abs() < 0.1, "{cut:?}");
+    }
+    let camera = EYE.replace("4 }", "4, fov_deg = 60, facing_deg = 180 }");
+    let back = only(&mut at("[10, 10]", WALL, &camera)).corners();
+    assert_eq!(back.len(), 2);
+    assert_near(back[0][0], PI * 5.0 / 6.0);
+    assert_near(back[1][0], PI * 7.0 / 6.0);
+}
+
+#[test]
+fn an_outline_is_as_far_as_the_sensor_sees_along_each_bearing() {
+    let world = "obstacles = [{ polygon_m = [[12, 2], [13, 2], [11, 18]] }, { circle = { at_m = [8, 11], radius_m = 1 } }]";
+    let footprint = only(&mut at("[10, 10]", world, EYE));
+    let corners = footprint.corners();
+    assert!(corners.len() < 100, "{}", corners.len());
+    for (place, range_m) in footprint.ranges_m.iter().enumerate() {
+        let bearing_rad = (place as f64).to_radians();
+        let next = corners.partition_point(|[corner_rad, _]| *corner_rad < bearing_rad - 1e-9);
+        let [after, before] = [corners[next.max(1)], corners[next.max(1) - 1]];
+        let told_m = if before[1] >= 4.0 && after[1] >= 4.0 {
+            4.0
+        } else {
+            // Where the line between the corners crosses the bearing.
+            let [a, b] = [before, after].map(|[corner_rad, range_m]| {
+                let off_rad = corner_rad - bearing_rad;
+                [range_m * off_rad.cos(), range_m * off_rad.sin()]
+            });
+            let share = if b[1] == a[1] {
+                0.0
+            } else {
+                a[1] / (a[1] - b[1])
+            };
+            a[0] + share * (b[0] - a[0])
+        };
+        assert!(
+            (told_m - range_m).abs() < 0.01,
+            "{place}: {told_m} for {range_m}"
+        );
+    }
 }
 
 #[test]

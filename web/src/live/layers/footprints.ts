@@ -40,22 +40,22 @@ function paint(pen: Pen, scene: Scene, filled: Path2D, outlined: Path2D): void {
   });
 }
 
-function outline(path: Path2D, footprint: Footprint, [x, y]: Point, heading_rad: number): void {
-  const { range_m, width_rad, facing_rad, ranges_m } = footprint;
-  const isWhole = width_rad >= 2 * Math.PI - 1e-6;
-  const parts = isWhole ? ranges_m.length : Math.max(1, ranges_m.length - 1);
-  // A whole circle has its first bearing where it faces, a sector its two on the edges.
-  const first = heading_rad + facing_rad - (isWhole ? 0 : width_rad / 2);
-  if (isWhole)
-    path.moveTo(
-      x + (ranges_m[0] ?? range_m) * Math.cos(first),
-      y + (ranges_m[0] ?? range_m) * Math.sin(first),
-    );
-  else path.moveTo(x, y);
-  if (ranges_m.length === 0) path.arc(x, y, range_m, first, first + width_rad);
-  ranges_m.forEach((distance_m, i) => {
-    const bearing_rad = first + (i / parts) * width_rad;
-    path.lineTo(x + distance_m * Math.cos(bearing_rad), y + distance_m * Math.sin(bearing_rad));
-  });
+const whole_rad = 2 * Math.PI - 1e-6;
+
+function outline(path: Path2D, { corners, range_m }: Footprint, at: Point, heading_rad: number): void {
+  const [first = 0, last = 0] = [corners[0], corners.at(-2)];
+  // The place of the robot closes a sector.
+  if (last - first < whole_rad) path.moveTo(...at);
+  else path.moveTo(...placeOf(at, heading_rad + first, corners[1] ?? 0));
+  for (let i = 0; i < corners.length; i += 2) {
+    const [bearing = 0, distance = 0] = [corners[i], corners[i + 1]];
+    const isArc = i > 0 && distance >= range_m && (corners[i - 1] ?? 0) >= range_m;
+    if (isArc) path.arc(...at, range_m, heading_rad + (corners[i - 2] ?? 0), heading_rad + bearing);
+    else path.lineTo(...placeOf(at, heading_rad + bearing, distance));
+  }
   path.closePath();
+}
+
+function placeOf([x, y]: Point, bearing_rad: number, distance: number): Point {
+  return [x + distance * Math.cos(bearing_rad), y + distance * Math.sin(bearing_rad)];
 }

@@ -1,0 +1,56 @@
+import { inkAt, opens, type View } from "./ink";
+import { expect, expectAccessible, live, test } from "./page";
+
+const view: View = [30, 20, 12];
+const scenario = `scenario=search-mind&seed=7&run=2&${opens(view)}`;
+
+test("links are asked for once their layer is on, and drawn as they are told", async ({ page, fake }) => {
+  const asked: string[] = [];
+  const told: Buffer[] = [];
+  page.on("websocket", (line) => {
+    line.on("framesent", ({ payload }) => {
+      if (String(payload).includes('"layers"')) asked.push(String(payload));
+    });
+    line.on("framereceived", ({ payload }) => {
+      if (Buffer.isBuffer(payload)) told.push(payload);
+    });
+  });
+  await page.goto(live(fake, scenario));
+  await expect(page.locator("#status")).toContainText("4 robots");
+  await page.getByRole("tab", { name: "Layers" }).click();
+  for (const name of ["Sensing", "Trails", "Beliefs and goals", "Worth of places"]) {
+    await page.getByRole("checkbox", { name }).uncheck();
+  }
+  const frame = told.at(-1);
+  if (!frame) throw new Error("no frame has come");
+  const robot = (i: number) => [0, 1].map((axis) => frame.readFloatLE(32 + 16 * i + 4 * axis));
+  const [first = [], second = [], third = []] = [robot(0), robot(1), robot(2)];
+  const middle = (a: number[], b: number[]): [number, number] => [
+    ((a[0] ?? 0) + (b[0] ?? 0)) / 2,
+    ((a[1] ?? 0) + (b[1] ?? 0)) / 2,
+  ];
+  expect(await inkAt(page, view, middle(first, second))).toBe(false);
+  await page.getByRole("checkbox", { name: "Radio links" }).check();
+  await expect.poll(() => inkAt(page, view, middle(first, second))).toBe(true);
+  expect(await inkAt(page, view, middle(second, third))).toBe(false);
+  await page.getByRole("checkbox", { name: "Radio links" }).uncheck();
+  await expect.poll(() => inkAt(page, view, middle(first, second))).toBe(false);
+  expect(asked.map((text) => JSON.parse(text)).map(({ links, footprints }) => [links, footprints])).toEqual([
+    [false, true],
+    [false, false],
+    [true, false],
+    [false, false],
+  ]);
+  // With both off, frames come alone.
+  const before = told.length;
+  await page.keyboard.press(".");
+  await expect.poll(() => told.length).toBeGreaterThan(before);
+  expect(told.slice(before).map((bytes) => bytes.readUInt32LE(0))).not.toContain(2);
+});
+
+test("the layers with their legend are accessible", async ({ page, fake }) => {
+  await page.goto(live(fake, scenario));
+  await page.getByRole("tab", { name: "Layers" }).click();
+  await page.getByRole("checkbox", { name: "Radio links" }).check();
+  await expectAccessible(page);
+});

@@ -1,0 +1,104 @@
+import { writeFile } from "node:fs/promises";
+import { join } from "node:path";
+import type { Page } from "@playwright/test";
+import { inkAt, opens, type View } from "../ink";
+import { expect, type RealServer, test } from "./server";
+
+const view: View = [5, 5, 60];
+
+/** Robots that stand and look along x, and what else is in their world. */
+function field(places: [number, number][], world: string): string {
+  return `
+engine = "metric"
+summary = "Robots that stand."
+merit = "equation-5.2"
+clock.cap_s = 100
+[world]
+size_m = [10, 10]
+${world}
+[items.mine]
+count = 1
+sought = false
+placement = { kind = "fixed", at_m = [[1, 1]] }
+[robots.rover]
+count = ${places.length}
+radius_m = 0.2
+start = { kind = "fixed", at_m = ${JSON.stringify(places)}, heading_deg = ${JSON.stringify(places.map(() => 0))} }
+drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
+brain = { behaviours = [] }
+radio = { range_m = 4.5, needs_line_of_sight = true }
+sensors.camera = { kind = "items", range_m = 3, fov_deg = 90 }
+`;
+}
+
+async function open(page: Page, server: RealServer, text: string): Promise<void> {
+  await writeFile(join(server.folder, "field.toml"), text);
+  await page.goto(`${server.url}/#/live?scenario=field.toml&seed=1&run=0&${opens(view)}`);
+  await expect(page.locator("#status")).toContainText(/[23] robots/);
+  await page.getByRole("tab", { name: "Layers" }).click();
+  for (const name of ["Trails", "Grid and scale"]) await page.getByRole("checkbox", { name }).uncheck();
+}
+
+const link = (page: Page) => page.getByRole("checkbox", { name: "Radio links" });
+
+test("walls cut what robots see, and who hears whom", async ({ page, server }) => {
+  const wall = "obstacles = [{ polygon_m = [[5.5, 3], [6, 3], [6, 7], [5.5, 7]] }]";
+  await open(
+    page,
+    server,
+    field(
+      [
+        [4, 5],
+        [8, 5],
+        [4, 8],
+      ],
+      wall,
+    ),
+  );
+  // The first robot sees up to the wall, and hears the third only.
+  await expect.poll(() => inkAt(page, view, [5, 5])).toBe(true);
+  expect(await inkAt(page, view, [6.6, 5])).toBe(false);
+  await link(page).check();
+  await expect.poll(() => inkAt(page, view, [4, 6.5])).toBe(true);
+  expect(await inkAt(page, view, [7.5, 5])).toBe(false);
+});
+
+test("without walls they see as far as they can, and hear each other", async ({ page, server }) => {
+  await open(
+    page,
+    server,
+    field(
+      [
+        [4, 5],
+        [8, 5],
+      ],
+      "",
+    ),
+  );
+  await expect.poll(() => inkAt(page, view, [6.6, 5])).toBe(true);
+  expect(await inkAt(page, view, [7.5, 5])).toBe(false);
+  await link(page).check();
+  await expect.poll(() => inkAt(page, view, [7.5, 5])).toBe(true);
+});
+
+test("in a world that wraps links and views go on at the other side", async ({ page, server }) => {
+  await open(
+    page,
+    server,
+    field(
+      [
+        [1, 5],
+        [8.5, 5],
+      ],
+      "wraps = true",
+    ),
+  );
+  // What the second robot sees beyond the right side comes in at the left one, behind the first.
+  await expect.poll(() => inkAt(page, view, [0.4, 5])).toBe(true);
+  await page.getByRole("checkbox", { name: "Sensing" }).uncheck();
+  await expect.poll(() => inkAt(page, view, [0.4, 5])).toBe(false);
+  await link(page).check();
+  await expect.poll(() => inkAt(page, view, [0.4, 5])).toBe(true);
+  expect(await inkAt(page, view, [9.5, 5])).toBe(true);
+  expect(await inkAt(page, view, [5, 5])).toBe(false);
+});
