@@ -23,6 +23,8 @@ export interface Overlay {
   footprints: Footprint[];
 }
 
+/** If there are more links than this, some are not told. */
+export const mostLinks = 4000;
 export const overlayKind = 2;
 const headBytes = 12;
 const linkBytes = 12;

@@ -1,4 +1,5 @@
 import type { Frame } from "../net/frames";
+import { mostLinks } from "../net/overlay";
 import type { KindView, Setting } from "../net/protocol";
 
 /** The robots of one kind: those with numbers from `first` on. */
@@ -29,6 +30,16 @@ export function rangesOf(setting: Setting): Range[] {
 
 export function kindOf(setting: Setting, robot: number): KindView | null {
   return rangesOf(setting).find(({ first, count }) => robot >= first && robot < first + count)?.kind ?? null;
+}
+
+/** How many others a robot hears, given all links of its own; null if some may not have been told. */
+export function heardBy(links: Uint32Array, robot: number): number | null {
+  if (links.length >= 3 * mostLinks) return null;
+  let heard = 0;
+  for (let i = 0; i < links.length; i += 3) {
+    if (links[i + 1] === robot || (links[i] === robot && links[i + 2] === 1)) heard += 1;
+  }
+  return heard;
 }
 
 /** How many robots are in each state. */

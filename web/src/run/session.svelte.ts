@@ -55,6 +55,8 @@ export class Session implements Listener {
   selected = $state.raw<string | null>(null);
   /** What the selected robot believes of its field. */
   map = $state.raw<BelievedMap | null>(null);
+  /** What frames come with. */
+  asked = $state.raw<Asked | null>(null);
   /** How far the recording is that is being saved. */
   saving = $state.raw<Pick<Saving, "done" | "steps"> | null>(null);
   /** What was saved last, and of which changes. */
@@ -77,7 +79,6 @@ export class Session implements Listener {
     (path, put) => this.send({ type: "change", path, ...put }),
     (passed, latest) => ({ ...latest, instead: passed.instead }),
   );
-  private asked: Asked | null = null;
   private saw = 0;
   private toldAt = 0;
   private savedChanges = "";

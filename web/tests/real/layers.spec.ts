@@ -33,7 +33,7 @@ sensors.camera = { kind = "items", range_m = 3, fov_deg = 90 }
 
 async function open(page: Page, server: RealServer, text: string): Promise<void> {
   await writeFile(join(server.folder, "field.toml"), text);
-  await page.goto(`${server.url}/#/live?scenario=field.toml&seed=1&run=0&${opens(view)}`);
+  await page.goto(`${server.url}/#/live?scenario=field.toml&seed=1&run=0&robot=rover/0&${opens(view)}`);
   await expect(page.locator("#status")).toContainText(/[23] robots/);
   await page.getByRole("tab", { name: "Layers" }).click();
   for (const name of ["Trails", "Grid and scale"]) await page.getByRole("checkbox", { name }).uncheck();
@@ -61,6 +61,8 @@ test("walls cut what robots see, and who hears whom", async ({ page, server }) =
   await link(page).check();
   await expect.poll(() => inkAt(page, view, [4, 6.5])).toBe(true);
   expect(await inkAt(page, view, [7.5, 5])).toBe(false);
+  await page.getByRole("tab", { name: "Robot" }).click();
+  await expect(page.getByText("1 robot", { exact: true })).toBeVisible();
 });
 
 test("without walls they see as far as they can, and hear each other", async ({ page, server }) => {
