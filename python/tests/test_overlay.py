@@ -249,8 +249,9 @@ def test_layers_that_are_none_are_refused_in_words(tmp_path: Path) -> None:
     assert "layers.links = 1: must be true or false" in refused["faults"][0]["message"]
 
 
-def test_to_ask_who_hears_and_sees_what_changes_nothing() -> None:
-    asked, not_asked = (ae.Simulation("open-field", 3) for _ in range(2))
+@pytest.mark.parametrize("name", ["open-field", "flock"])
+def test_to_ask_who_hears_and_sees_what_changes_nothing(name: str) -> None:
+    asked, not_asked = (ae.Simulation(name, 3) for _ in range(2))
     for _ in range(40):
         asked.step(5)
         not_asked.step(5)
@@ -258,7 +259,7 @@ def test_to_ask_who_hears_and_sees_what_changes_nothing() -> None:
         for robot in asked.robots:
             asked.footprints(robot)
         assert asked.hash == not_asked.hash
-    assert asked.finish() == not_asked.finish()
+    assert asked.outcome() == not_asked.outcome()
 
 
 def test_links_of_one_are_its_own_and_who_is_not_there_is_said() -> None:
