@@ -4,6 +4,7 @@ import { outcomeRows } from "./outcome";
 test("found is told of all, and what is weighed comes first, with units", () => {
   const rows = outcomeRows(
     {
+      run: 7,
       time_s: 12.3456,
       energy_j: 48_512,
       found: 1,

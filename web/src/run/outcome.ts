@@ -15,9 +15,9 @@ const units: [ending: string, unit: string][] = [
 /** Told first, in this order; all else follows as it comes. */
 const first = ["merit", "collisions", "energy_j"];
 
-/** What came of a run, as people read it: found of all, then numbers with their units. */
+/** What came of a run, as people read it: found of all, then numbers with their units; not which run it is. */
 export function outcomeRows(outcome: Outcome, sought: number): OutcomeRow[] {
-  const { found, missed, ...rest } = outcome;
+  const { found, missed, run: _, ...rest } = outcome;
   const rows: OutcomeRow[] = [];
   if (typeof found === "number") {
     const all = typeof missed === "number" ? found + missed : sought;
