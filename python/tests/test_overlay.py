@@ -209,10 +209,15 @@ def test_of_many_robots_only_the_selected_one_is_told_of(tmp_path: Path) -> None
     assert len(all_of_300[0]) > len(selected[0])
 
 
-def test_links_are_no_more_than_4000(tmp_path: Path) -> None:
-    script = [opening(field(300, range_m=100)), (layers(links=True, footprints=False), 0)]
+def test_links_are_no_more_than_4000_with_all_of_the_selected_robot(tmp_path: Path) -> None:
+    script = [
+        opening(field(300, range_m=100)),
+        (layers(links=True, footprints=False), 0),
+        ({"type": "select", "robot": "rover/250"}, 0),
+    ]
     links, _ = read(served(tmp_path, script)[-2])
-    assert len(links) == 4000
+    assert len(links) == len({tuple(link) for link in links}) == 4000
+    assert sum(250 in link[:2] for link in links) == 299
 
 
 def test_the_classic_engine_has_no_overlays(tmp_path: Path) -> None:

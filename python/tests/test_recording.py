@@ -464,7 +464,7 @@ def test_the_command_line_records_and_takes_again(tmp_path: Path) -> None:
     assert {"/tf", "/percept/rover/0"} < contents(Path(path)).topics.keys()
     again = run("rerun", path)
     assert (again.returncode, again.stderr) == (0, "")
-    assert again.stdout.startswith("search, seed 7, run 0: the same as recorded after each of 100")
+    assert again.stdout.startswith("search, seed 7, run 0: the same as recorded, up to step 100")
     told = json.loads(run("rerun", path, "--json").stdout)
     assert (told["agrees"], told["differs_at"], told["tick"]) == (True, None, 100)
     refused = run("rerun", "README.md")

@@ -257,7 +257,7 @@ def test_the_command_line_records_and_takes_again(tmp_path: Path) -> None:
     assert (again.returncode, again.stderr) == (0, "")
     steps = f"{outcome.row['paints']:,}"
     assert again.stdout.startswith(
-        f"classic, seed 7, run 0: the same as recorded after each of {steps} steps"
+        f"classic, seed 7, run 0: the same as recorded, up to step {steps}"
     )
     refused = run("run", "classic", "--record", path, "--percepts", "wanderer/0")
     assert refused.returncode == 2

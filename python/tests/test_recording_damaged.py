@@ -170,8 +170,7 @@ def test_a_file_without_a_part_of_it_is_told_or_has_none(recorded: Path, tmp_pat
     for place, each in enumerate(records):
         if isinstance(each, Metadata | Attachment):
             path = written(tmp_path / "part.mcap", [*records[:place], *records[place + 1 :]])
-            is_needed = each.name != "agent_economy.end"
-            assert bool(told(path)) is (is_needed and each.name != "agent_economy.change")
+            assert bool(told(path)) is (each.name != "agent_economy.end")
 
 
 def test_input_for_robots_that_take_none_is_told(tmp_path: Path) -> None:

@@ -1,5 +1,7 @@
 """Going back and forth in a run."""
 
+from contextlib import suppress
+
 import pytest
 
 import agent_economy as ae
@@ -174,6 +176,36 @@ def test_a_value_instead_stands_beside_those_of_other_paths_and_ticks() -> None:
     timeline.toward(1, FOREVER_S)
     timeline.change("clock.cap_s", 200, instead=True)
     assert [change.value for change in timeline.log] == [6, 300, 200]
+
+
+@pytest.mark.parametrize("first", [500_000, 6])
+def test_what_was_not_put_there_is_not_what_the_next_value_takes_the_place_of(first: int) -> None:
+    timeline = begun()
+    timeline.change("robots.rover.count", 6)
+    with suppress(ae.InputError):
+        timeline.change("robots.rover.count", first)
+    timeline.change("robots.rover.count", 8, instead=True)
+    assert [change.value for change in timeline.log] == [6, 8]
+
+
+def test_a_value_takes_the_place_of_the_last_also_if_the_run_was_elsewhere_meanwhile() -> None:
+    timeline = begun()
+    hashes(timeline, [30])
+    timeline.change("robots.rover.count", 6)
+    hashes(timeline, [90, 30])
+    timeline.change("robots.rover.count", 8, instead=True)
+    assert timeline.log == (Change(30, "robots.rover.count", 8),)
+    straight = begun()
+    hashes(straight, [30])
+    straight.change("robots.rover.count", 8)
+    assert hashes(timeline, [30, 60]) == hashes(straight, [30, 60])
+
+
+def test_true_is_no_number_that_is_there_already() -> None:
+    timeline = begun()
+    timeline.change("robots.rover.count", 1)
+    with pytest.raises(ae.InputError):
+        timeline.change("robots.rover.count", True)  # noqa: FBT003
 
 
 def test_however_few_snapshots_there_may_be_the_one_of_before_a_change_is_kept(

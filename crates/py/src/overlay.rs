@@ -50,7 +50,7 @@ pub(crate) fn footprints<'py>(
 }
 
 /// Links to be drawn, `most` at most, each as three 32-bit numbers in little endian, as [`links`] has
-/// them: of `everyone`, or of the `selected` robot, if it is there.
+/// them: of the `selected` robot, if it is there, or of `everyone`, and then its own are never left out.
 #[pyfunction]
 pub(crate) fn drawn_links<'py>(
     py: Python<'py>,
@@ -62,13 +62,31 @@ pub(crate) fn drawn_links<'py>(
     let mut locked = simulation.get().locked(py)?;
     let run: &mut engine::Simulation = &mut locked;
     let selected = selected.and_then(|robot| id_of(run.scenario(), &robot).ok());
-    if !everyone && selected.is_none() {
-        return Ok(PyBytes::new(py, &[]));
-    }
-    let links = py.detach(|| run.links(selected.filter(|_| !everyone), most));
-    let numbers = rows(&links.unwrap_or_default()).into_iter();
+    let links = py.detach(|| to_draw(run, selected, everyone, most));
+    let numbers = rows(&links).into_iter();
     let bytes: Vec<u8> = numbers.flat_map(u32::to_le_bytes).collect();
     Ok(PyBytes::new(py, &bytes))
+}
+
+fn to_draw(
+    run: &mut engine::Simulation,
+    selected: Option<RobotId>,
+    everyone: bool,
+    most: usize,
+) -> Vec<Link> {
+    let mut of = |robot| run.links(robot, most).unwrap_or_default();
+    let mut links = match selected {
+        _ if everyone => of(None),
+        Some(id) => of(Some(id)),
+        None => Vec::new(),
+    };
+    if everyone && selected.is_some() && links.len() == most {
+        let own = of(selected);
+        links.retain(|link| !own.contains(link));
+        links.splice(..0, own);
+        links.truncate(most);
+    }
+    links
 }
 
 fn rows(links: &[Link]) -> Vec<u32> {

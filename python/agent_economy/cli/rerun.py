@@ -42,7 +42,7 @@ def in_words(again: "Rerun") -> str:
     """Return what came of it, for people."""
     which = f"{again.scenario.name}, seed {again.seed}, run {again.run}"
     if again.agrees:
-        said = f"the same as recorded after each of {again.tick:,} steps (hash {again.hash})"
+        said = f"the same as recorded, up to step {again.tick:,} (hash {again.hash})"
     else:
         said = f"not the same as recorded from step {again.differs_at:,} on"
         if again.program != __version__:

@@ -3,7 +3,7 @@
 import os
 from dataclasses import dataclass
 from pathlib import Path
-from typing import IO
+from typing import IO, cast
 
 from mcap.reader import SeekingReader
 from mcap.records import Metadata
@@ -13,7 +13,7 @@ from agent_economy._core import InputError
 from agent_economy.recording.entries import Entries
 from agent_economy.recording.identity import END, RUN, read_run
 from agent_economy.recording.messages import SECOND_NS
-from agent_economy.recording.reading import MAX_BYTES, told
+from agent_economy.recording.reading import MAX_BYTES, Unbroken, told
 
 MAGIC = b"\x89MCAP0\r\n"
 """What files in MCAP begin and end with."""
@@ -64,7 +64,8 @@ def beginning(stream: IO[bytes]) -> Entries:
     Raises:
         InputError: If it is no recording of a run, or of another format.
     """
-    records = StreamReader(stream, record_size_limit=MAX_BYTES).records
+    unbroken = cast("IO[bytes]", Unbroken(stream))  # the reader needs no more of a stream
+    records = StreamReader(unbroken, record_size_limit=MAX_BYTES).records
     next(records)  # the header
     first = next(records)
     if not isinstance(first, Metadata) or first.name != RUN:

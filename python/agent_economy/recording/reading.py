@@ -88,6 +88,12 @@ class Recorded:
             message = f"is no recording of a run: it has no metadata {RUN!r}"
             raise InputError(message)
         identity = read_identity(self._run, self._attached)
+        most = max((point.changes for point in self.points), default=0)
+        if most > len(self.changes):
+            message = (
+                f"is damaged: it has states after {most} changes, and {len(self.changes)} changes"
+            )
+            raise InputError(message)
         if self.inputs and identity.scenario.engine != "metric":
             message = "is damaged: it has percepts or commands for robots that take none"
             raise InputError(message)

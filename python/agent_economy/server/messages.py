@@ -12,10 +12,12 @@ From the page:
   seed and a run, and changes if none are said), `seed` (left out, the study's, or 0), `run`,
   `changes` (a list of tick, path, value), `tick`. Begins a run, at that tick, standing.
 * `play`: `speed`, times real time, or null for as fast as it can. `pause`.
-* `step`: `steps`, also less than 0. `go`: `tick`. Both stand then.
-* `change`: `path`, `value`; `instead`: whether the value takes the place of one that was put there
-  at the same tick, as one on the way of a slider that is drawn. `undo`: the run as if the last
-  change had not been made, at this tick.
+* `step`: `steps`, also less than 0. `go`: `tick`. Both stand then. A run that was opened at a tick,
+  or is to step or go there, is on its way for a while: what is said meanwhile is done when it is
+  there, but for `pause`, `go` and `open`, which end that way, and for what changes no run.
+* `change`: `path`, `value`; `instead`: whether the value takes the place of the one that was said
+  before, if the run has not gone on since, as one on the way of a slider that is drawn. `undo`: the
+  run as if the last change had not been made, at this tick.
 * `save`: the run up to its edge becomes a recording; `cancel`: not so. `export`: the scenario as it
   is now, as a text.
 * `select`: `robot`, of which is told what it perceives, decides and believes, or null.

@@ -18,6 +18,7 @@ from agent_economy._core import InputError
 from agent_economy.server import engines, messages
 from agent_economy.server.export import as_toml
 from agent_economy.server.frames import frame, setting
+from agent_economy.server.later import Later
 from agent_economy.server.messages import Message
 from agent_economy.server.mind import Selected
 from agent_economy.server.opening import begun
@@ -76,6 +77,7 @@ class Session:
         self._pace = Pace(0.1)
         self._heard: asyncio.Queue[Message | InputError] = asyncio.Queue(MOST_HEARD)
         self._aim: int | None = None
+        self._later = Later()
         self._selected: engines.Selection = Selected()
         self._overlay = Overlay()
         self._generation = 0
@@ -117,6 +119,8 @@ class Session:
 
     async def _hear(self) -> None:
         """Do what was said; if there is nothing else to do, wait for it."""
+        while self._later and self._aim is None:
+            await self._try(self._later.take())
         if self._heard.empty():
             wait_s = self._wait_s()
             if wait_s > 0:
@@ -128,7 +132,7 @@ class Session:
                     await self._let_go()
                     return
                 await self._do(said)
-        while not self._heard.empty():
+        while not self._heard.empty() and not self._later.is_full:
             await self._do(self._heard.get_nowait())
 
     def _wait_s(self) -> float:
@@ -163,7 +167,18 @@ class Session:
         if isinstance(said, messages.Got):
             while self._on_the_way and self._on_the_way[0] <= said.frame:
                 self._on_the_way.popleft()
-            return
+        elif self._waits(said):
+            self._later.put(said)
+        else:
+            await self._try(said)
+
+    def _waits(self, said: Message) -> bool:
+        timeline = self._timeline
+        if timeline is None or self._aim is None:
+            return False
+        return self._later.waits(said, has_changes=timeline.simulation.changes != timeline.log)
+
+    async def _try(self, said: Message) -> None:
         path = said.path if isinstance(said, messages.Put) else None
         about = type(said).__name__.lower() if path is None else "change"
         try:
@@ -176,9 +191,9 @@ class Session:
             case messages.Open():
                 await self._open(said)
             case messages.Play(speed=speed):
-                self._aim = None
                 self._pace.play(speed, time.monotonic(), self._run.tick)
             case messages.Pause():
+                self._later.pause()
                 self._stand()
             case messages.Step(steps=steps):
                 # From where the steps said before lead to, if those are not yet taken.
@@ -225,6 +240,7 @@ class Session:
         return self._timeline
 
     async def _open(self, said: messages.Open) -> None:
+        self._later.clear()
         self._timeline, program = await self._in_thread(lambda: begun(self._places, said))
         self._stand()
         self._pace = Pace(self._run.step_s)

@@ -94,6 +94,8 @@ class Timeline:
         self._kept: list[Any] = []
         self._ticks: list[int] = []
         self._pace = 1
+        # When the last change was put here that another may take the place of, and the run before.
+        self._last: tuple[int, Any] | None = None
         # Of before all changes, those at its tick too: each can be undone.
         self._keep(self.simulation.snapshot())
         self._apply()
@@ -154,23 +156,27 @@ class Timeline:
         Args:
             path: Keys from the root, with dots between.
             value: As the file could have it.
-            instead: Whether it takes the place of a value that was put there at this very tick,
-                as if that had never been.
+            instead: Whether it takes the place of the value that was put there last, if that was
+                done here, at this very tick: as if it had never been.
 
         Raises:
             InputError: If the value is not allowed there; nothing has changed then.
         """
         now = self.simulation.snapshot()
-        if instead:
-            self._take_back(path)
-        if not self._is_same(path, value):
-            try:
+        before = (self._before_last(path) if instead else None) or now
+        if not instead:
+            self._last = None
+        try:
+            if before is not now:
+                self.simulation.restore(before)
+            if not self._is_same(path, value):
                 self.simulation.change(path, value)
-            except ValueError:
-                self.simulation.restore(now)
-                raise
+        except ValueError:
+            self.simulation.restore(now)
+            raise
         if self.simulation.changes != now.changes:
-            self._void_future(now)
+            self._last = self.tick, before
+            self._void_future(before)
 
     def undo(self) -> None:
         """Go back to before the last change was made, in a run in which it is not.
@@ -188,18 +194,18 @@ class Timeline:
         self._forget_after(made_at)
         self._back(made_at)
 
-    def _take_back(self, path: str) -> None:
-        """Be before the last change, if it was made of a path at this tick, and that is kept."""
-        made = self.simulation.changes
-        if not made or (made[-1].tick, made[-1].path) != (self.tick, path):
-            return
-        if self._ticks[-1] == self.tick and len(self._kept[-1].changes) < len(made):
-            self.simulation.restore(self._kept[-1])
-            for change in made[len(self._kept[-1].changes) : -1]:
-                self.simulation.change(change.path, change.value)
+    def _before_last(self, path: str) -> Any:
+        """Return the run before its last change; None if that is of another path or tick."""
+        if self._last is None:
+            return None
+        (tick, before), made = self._last, self.simulation.changes
+        is_last = tick == self.tick and made[:-1] == before.changes and len(made) > 0
+        return before if is_last and made[-1].path == path else None
 
     def _is_same(self, path: str, value: Given) -> bool:
-        return bool(at(_core.read_filled(self.simulation.scenario.source), path) == value)
+        there = at(_core.read_filled(self.simulation.scenario.source), path)
+        # To Python, true is one.
+        return bool(there == value) and isinstance(there, bool) == isinstance(value, bool)
 
     def _is_at_the_end(self) -> bool:
         return self.simulation.is_over and self.tick >= self.edge

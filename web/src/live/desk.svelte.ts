@@ -45,7 +45,7 @@ export class Desk {
 
   toggle(): void {
     const { session } = this;
-    if (session.state?.playing) session.pause();
+    if (session.isGoing) session.pause();
     else session.play(this.speed);
   }
 

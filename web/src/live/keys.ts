@@ -22,7 +22,7 @@ export const keys: Key[] = [
   {
     keys: ["f"],
     does: "follow the selected robot, or not",
-    act: (desk) => (desk.follows = !desk.follows),
+    act: (desk) => (desk.follows = !desk.follows && desk.session.selected !== null),
   },
   { keys: ["0"], does: "the whole world", act: ({ stage }) => stage?.fit() },
   { keys: ["+", "="], does: "nearer", act: ({ stage }) => stage?.zoom(zoomStep) },

@@ -37,6 +37,21 @@ test("between two frames robots are drawn on their way, at the time that lies be
   expect(motion.isUnderWay).toBe(true);
 });
 
+test("what lies over robots on their way is of the moment that they have come from", () => {
+  const over = (tick: number, robots: number[][]): Frame => {
+    const told = frame(tick, robots);
+    const footprints = { frame: tick, links: new Uint32Array(), footprints: [], robots: told.robots };
+    return { ...told, overlay: footprints };
+  };
+  const motion = new Motion();
+  motion.put(over(5, [[1, 2, 0.5, 0]]), 1000, reach);
+  motion.at(1000, true);
+  motion.put(over(6, [[1.1, 1.9, 0.7, 1]]), 1100, reach);
+  expect(motion.at(1150, true)?.overlay?.frame).toBe(5);
+  expect(Array.from(motion.at(1150, true)?.overlay?.robots ?? []).slice(0, 2)).toEqual([1, 2]);
+  expect(motion.at(1200, true)?.overlay?.frame).toBe(6);
+});
+
 test("nothing is drawn beyond what has been told, however late the next frame is", () => {
   const motion = moving([[1, 2, 0, 0]], [[1.1, 2, 0, 0]]);
   for (const now_ms of [1200, 1300, 9000]) expect(poses(motion, now_ms)).toEqual([1.1, 2, 0, 0]);

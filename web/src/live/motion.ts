@@ -21,6 +21,8 @@ export class Motion {
   private to: Frame | null = null;
   private from = new Float32Array(0);
   private fromTime_s = 0;
+  /** Of the moment that robots have come to last: what lies over them until they come to the next. */
+  private overlay: Frame["overlay"];
   private drawn: Frame | null = null;
   private came_ms = 0;
   private lasts_ms = 0;
@@ -33,6 +35,7 @@ export class Motion {
     const isInTurn = isNext && frame.time_s > drawn.time_s && apart_ms >= least_ms && apart_ms <= most_ms;
     this.lasts_ms = isInTurn ? apart_ms : 0;
     if (isInTurn) this.setOut(drawn, frame, reach);
+    this.overlay = this.to?.overlay;
     this.to = frame;
     this.came_ms = now_ms;
   }
@@ -63,7 +66,7 @@ export class Motion {
   }
 
   private between(to: Frame, part: number): Frame {
-    const { from } = this;
+    const { from, overlay } = this;
     const robots = to.robots.slice();
     for (let i = 0; i < robots.length; i += 4) {
       for (let j = i; j < i + 3; j += 1) {
@@ -71,7 +74,7 @@ export class Motion {
         robots[j] = start + part * (j === i + 2 ? turn(end - start) : end - start);
       }
     }
-    return { ...to, robots, time_s: this.fromTime_s + part * (to.time_s - this.fromTime_s) };
+    return { ...to, robots, overlay, time_s: this.fromTime_s + part * (to.time_s - this.fromTime_s) };
   }
 }
 

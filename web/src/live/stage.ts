@@ -162,6 +162,7 @@ export class Stage {
     const [x, y] = poseOf(scene, scene.selected)?.at ?? [];
     if (x === undefined || y === undefined || (x === this.camera.x && y === this.camera.y)) return;
     this.camera = { ...this.camera, x, y };
+    this.desk.camera = this.camera;
     this.drawing.stale();
   }
 

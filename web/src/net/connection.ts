@@ -1,5 +1,5 @@
 import { type Frame, FrameFault, readFrame } from "./frames";
-import { type Overlay, overlayKind, readOverlay } from "./overlay";
+import { overlayKind, readOverlay, type Told } from "./overlay";
 import { type Command, type Message, readMessage } from "./protocol";
 
 /** What of a WebSocket is used; tests put something else in its place. */
@@ -37,7 +37,7 @@ export class Connection {
   private failures = 0;
   private cancel = () => {};
   /** Lies over the next frame. */
-  private overlay: Overlay | null = null;
+  private overlay: Told | null = null;
 
   constructor(
     private readonly listener: Listener,
@@ -107,7 +107,8 @@ export class Connection {
     }
     const [frame, { overlay }] = [readFrame(data), this];
     this.overlay = null;
-    this.listener.frame(overlay?.frame === frame.number ? { ...frame, overlay } : frame);
+    const isOfIt = overlay?.frame === frame.number;
+    this.listener.frame(isOfIt ? { ...frame, overlay: { ...overlay, robots: frame.robots } } : frame);
   }
 
   private dropped(): void {

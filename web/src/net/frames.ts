@@ -28,7 +28,7 @@ export interface Frame {
   /** One state an item. */
   items: Uint8Array;
   /** What lies over it, if layers were asked for. */
-  overlay?: Overlay;
+  overlay?: Overlay | undefined;
 }
 
 const version = 1;

@@ -15,7 +15,13 @@ export interface Footprint {
   corners: Float32Array;
 }
 
-export interface Overlay {
+export interface Overlay extends Told {
+  /** The robots of the frame that it lies over: those in the picture may be on their way to the next. */
+  robots: Float32Array;
+}
+
+/** An overlay as it comes. */
+export interface Told {
   /** Number of the frame that it lies over. */
   frame: number;
   /** (links, 3): the robot that is heard, the one that hears, and 1 if both hear each other. */
@@ -23,7 +29,7 @@ export interface Overlay {
   footprints: Footprint[];
 }
 
-/** If there are more links than this, some are not told. */
+/** If there are more links than this, those of the selected robot are told, and some others. */
 export const mostLinks = 4000;
 export const overlayKind = 2;
 const headBytes = 12;
@@ -32,7 +38,7 @@ const footprintBytes = 16;
 const cornerBytes = 8;
 
 /** The overlay in a message; throws `FrameFault` for what is none. */
-export function readOverlay(buffer: ArrayBuffer): Overlay {
+export function readOverlay(buffer: ArrayBuffer): Told {
   if (buffer.byteLength < headBytes) throw new FrameFault(`only ${buffer.byteLength} bytes`);
   const [kind, frame = 0, count = 0] = new Uint32Array(buffer, 0, 3);
   if (kind !== overlayKind) throw new FrameFault("no overlay");

@@ -32,14 +32,15 @@ export function kindOf(setting: Setting, robot: number): KindView | null {
   return rangesOf(setting).find(({ first, count }) => robot >= first && robot < first + count)?.kind ?? null;
 }
 
-/** How many others a robot hears, given all links of its own; null if some may not have been told. */
+/** How many others a robot hears, given links with all of its own; null if some of these may not be told. */
 export function heardBy(links: Uint32Array, robot: number): number | null {
-  if (links.length >= 3 * mostLinks) return null;
-  let heard = 0;
+  let [own, heard] = [0, 0];
   for (let i = 0; i < links.length; i += 3) {
-    if (links[i + 1] === robot || (links[i] === robot && links[i + 2] === 1)) heard += 1;
+    if (links[i] !== robot && links[i + 1] !== robot) continue;
+    own += 1;
+    if (links[i + 1] === robot || links[i + 2] === 1) heard += 1;
   }
-  return heard;
+  return own < mostLinks ? heard : null;
 }
 
 /** How many robots are in each state. */

@@ -114,6 +114,11 @@ export class Session implements Listener {
     return this.state?.aim ?? this.state?.tick ?? this.source.tick;
   }
 
+  /** Whether it goes on by itself: plays, or is on its way to a moment. */
+  get isGoing(): boolean {
+    return this.state !== null && (this.state.playing || this.state.aim !== null);
+  }
+
   /** The classic engine has robots of its own kind, and a world that nobody changes. */
   get isClassic(): boolean {
     return this.opened?.scenario.engine === "classic";

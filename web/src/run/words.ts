@@ -40,5 +40,6 @@ function robotWords(counts: number[]): string {
 
 function motion(state: State): string {
   if (state.over) return "the run is over";
-  return state.playing ? `running at ${times(state.real)} times real time` : "paused";
+  if (state.playing) return `running at ${times(state.real)} times real time`;
+  return state.aim === null ? "paused" : "on its way";
 }

@@ -29,7 +29,8 @@ pub enum Sensors {
 /// What a sensor covers now: its sector, as far as nothing hides it.
 ///
 /// What hides it is what does so in the run: of a ring all that its rays meet, robots too; of a
-/// detector of items the obstacles, if it needs a line of sight, and nothing if not.
+/// detector of items the obstacles, if it needs a line of sight, and nothing if not. A ring of few
+/// rays measures between them nothing: its footprint is what its rays could meet.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Footprint {
     /// Place of the sensor among the robot's.

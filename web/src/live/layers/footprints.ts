@@ -1,6 +1,6 @@
 import type { Footprint } from "../../net/overlay";
 import type { Point } from "../../net/protocol";
-import { imagesOf, type Layer, type Pen, poseOf, type Scene, withinWorld } from "./layer";
+import { imagesOf, type Layer, type Pen, poseIn, type Scene, withinWorld } from "./layer";
 
 /** What sensors cover, as the engine tells: filled for those that find items, outlined for all others. */
 export const footprints: Layer = {
@@ -13,8 +13,10 @@ export const footprints: Layer = {
   active: ({ frame }) => (frame?.overlay?.footprints.length ?? 0) > 0,
   draw(pen, scene) {
     const [filled, outlined] = [new Path2D(), new Path2D()];
-    for (const footprint of scene.frame?.overlay?.footprints ?? []) {
-      const pose = poseOf(scene, footprint.robot);
+    const overlay = scene.frame?.overlay;
+    for (const footprint of overlay?.footprints ?? []) {
+      // Where the sensors looked: from where robots are drawn on their way, walls would be elsewhere.
+      const pose = poseIn(overlay?.robots ?? none, footprint.robot);
       if (!pose) continue;
       for (const at of imagesOf(scene, pose.at, footprint.range_m)) {
         outline(footprint.findsItems ? filled : outlined, footprint, at, pose.heading_rad);
@@ -23,6 +25,8 @@ export const footprints: Layer = {
     paint(pen, scene, filled, outlined);
   },
 };
+
+const none = new Float32Array(0);
 
 function paint(pen: Pen, scene: Scene, filled: Path2D, outlined: Path2D): void {
   const { context, colours, camera } = pen;

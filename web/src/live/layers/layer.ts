@@ -90,9 +90,18 @@ export function ring(path: Path2D, [x, y]: Point, radius: number): void {
   path.arc(x, y, radius, 0, 2 * Math.PI);
 }
 
+export interface Pose {
+  at: Point;
+  heading_rad: number;
+}
+
 /** Where a robot is; null if there is no such robot. */
-export function poseOf({ frame }: Scene, robot: number): { at: Point; heading_rad: number } | null {
-  if (!frame || robot < 0 || robot >= frame.count) return null;
-  const [x = 0, y = 0, heading_rad = 0] = frame.robots.subarray(4 * robot, 4 * robot + 3);
-  return { at: [x, y], heading_rad };
+export function poseOf({ frame }: Scene, robot: number): Pose | null {
+  return frame && poseIn(frame.robots, robot);
+}
+
+/** The same of robots as a frame has them. */
+export function poseIn(robots: Float32Array, robot: number): Pose | null {
+  const [x, y, heading_rad] = robot < 0 ? [] : robots.subarray(4 * robot, 4 * robot + 3);
+  return x === undefined || y === undefined || heading_rad === undefined ? null : { at: [x, y], heading_rad };
 }
