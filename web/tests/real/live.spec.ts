@@ -189,6 +189,25 @@ test("a server that was killed is missed at once, and nothing is lost when it is
   await expect.poll(() => hash(page)).toBe(there);
 });
 
+test("a run that played when its server was killed plays on from there", async ({ page, server }) => {
+  const changes = encodeURIComponent(
+    JSON.stringify([
+      [0, "clock.cap_s", 100_000],
+      [0, "items.mine.count", 0],
+    ]),
+  );
+  await open(page, server, `scenario=search-mind&seed=7&changes=${changes}&tick=200`);
+  await expect(status(page)).toContainText("20.0 s");
+  await page.keyboard.press("Space");
+  await expect.poll(() => time_s(page)).toBeGreaterThan(21);
+  const there = await time_s(page);
+  await server.kill();
+  await expect(page.getByText("The connection is lost.").first()).toBeVisible({ timeout: 1500 });
+  await server.start();
+  await expect(status(page)).toContainText("running", { timeout: 20_000 });
+  expect(await time_s(page)).toBeGreaterThanOrEqual(there);
+});
+
 test("all of a run is done by keyboard alone", async ({ page, server }) => {
   await page.goto(server.url);
   const card = page.getByRole("link", { name: /^search-mind/ });
