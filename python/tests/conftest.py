@@ -6,6 +6,10 @@ from pathlib import Path
 import dask_cluster
 import pytest
 from dask_cluster import Cluster
+from starlette.testclient import TestClient
+from watching import OWN, WS, Page
+
+from agent_economy.server import Places, app
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -22,3 +26,17 @@ def cluster() -> Iterator[Cluster]:
     pytest.importorskip("distributed", reason="Dask is an extra")
     with dask_cluster.running() as cluster:
         yield cluster
+
+
+@pytest.fixture
+def client(tmp_path: Path) -> Iterator[TestClient]:
+    """Return who asks a server whose folder is the test's own."""
+    with TestClient(app(Places(tmp_path), "127.0.0.1"), OWN) as client:
+        yield client
+
+
+@pytest.fixture
+def page(client: TestClient) -> Iterator[Page]:
+    """Return a page that watches a run of that server."""
+    with client.websocket_connect(WS) as socket:
+        yield Page(socket)

@@ -5,17 +5,16 @@ import base64
 import json
 import math
 import re
-import struct
 import time
-from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from starlette.testclient import TestClient, WebSocketTestSession
+from starlette.testclient import TestClient
 from starlette.websockets import WebSocketDisconnect
+from watching import HEADER, OWN, WS, Page
 
 import agent_economy as ae
 from agent_economy.server import Places, app
@@ -23,63 +22,6 @@ from agent_economy.server.app import MOST_SESSIONS
 from agent_economy.server.bodies import MOST_BYTES
 from agent_economy.server.pictures import ITEM, ROBOT, WALL
 from agent_economy.server.session import ON_THE_WAY, GoneError, Session
-
-HEADER = struct.Struct("<4Id2I")
-
-OWN, WS = "http://127.0.0.1:8765", "ws://127.0.0.1:8765/ws"
-
-
-@pytest.fixture
-def client(tmp_path: Path) -> Iterator[TestClient]:
-    with TestClient(app(Places(tmp_path), "127.0.0.1"), OWN) as client:
-        yield client
-
-
-class Page:
-    """A page that reads all that it is sent, and says that it has drawn each frame."""
-
-    def __init__(self, socket: WebSocketTestSession, *, draws: bool = True) -> None:
-        """Begin with nothing heard."""
-        self.socket, self.draws = socket, draws
-        self.frames: list[bytes] = []
-        self.said: list[dict[str, Any]] = []
-
-    def say(self, kind: str, **rest: Any) -> None:
-        """Say something."""
-        self.socket.send_text(json.dumps({"type": kind, **rest}))
-
-    def next(self) -> dict[str, Any]:
-        """Return what is told next; frames are drawn on the way."""
-        while True:
-            message = self.socket.receive()
-            if message["type"] == "websocket.close":
-                raise WebSocketDisconnect(message["code"])
-            if message.get("bytes") is not None:
-                self.frames.append(message["bytes"])
-                if self.draws:
-                    self.say("got", frame=HEADER.unpack_from(message["bytes"])[6])
-                continue
-            self.said.append(json.loads(message["text"]))
-            return self.said[-1]
-
-    def until(self, kind: str, **rest: Any) -> dict[str, Any]:
-        """Wait until something is told, with these values in it."""
-        while True:
-            told = self.next()
-            if told["type"] == kind and all(told[key] == value for key, value in rest.items()):
-                return told
-
-    def open(self, **rest: Any) -> dict[str, Any]:
-        """Open a run, and wait until it has come to its tick."""
-        self.say("open", **{"scenario": "search-mind", "seed": "7", "run": "0"} | rest)
-        self.until("opened")
-        return self.until("state", tick=rest.get("tick", 0))
-
-
-@pytest.fixture
-def page(client: TestClient) -> Iterator[Page]:
-    with client.websocket_connect(WS) as socket:
-        yield Page(socket)
 
 
 def test_the_gallery_has_what_ships_and_what_is_in_the_folder(
@@ -322,66 +264,6 @@ def test_a_change_in_the_run_is_seen_and_its_log_gives_the_run_again(page: Page)
     simulation = ae.Simulation("search-mind", 7)
     simulation.step(60)
     assert page.until("state", tick=60)["hash"] == f"{simulation.hash:016x}"
-
-
-def test_of_values_said_instead_of_each_other_the_last_is_the_change(page: Page) -> None:
-    page.open(tick=40)
-    for count in (5, 90, 6):
-        page.say("change", path="robots.rover.count", value=count, instead=count != 5)
-    assert page.until("setting", changes=[[40, "robots.rover.count", 6]])
-    page.say("undo")
-    assert page.until("setting", changes=[])["kinds"][0]["count"] == 4
-
-
-def test_a_run_on_its_way_to_a_moment_says_where_it_goes(page: Page) -> None:
-    page.open(tick=0, changes=[[0, "clock.cap_s", 10_000], [0, "items.mine.count", 0]])
-    page.say("step", steps=50_000)
-    on_its_way = page.until("state", aim=50_000)
-    assert on_its_way["tick"] < 50_000
-    page.say("pause")
-    assert page.until("state", aim=None)["tick"] < 50_000
-
-
-ENDLESS = [[0, "clock.cap_s", 10_000], [0, "items.mine.count", 0]]
-
-
-@pytest.mark.parametrize("way", ["step", "go", "open", "undo"])
-def test_a_change_said_on_the_way_to_a_moment_is_made_there(page: Page, way: str) -> None:
-    page.open(changes=ENDLESS)
-    page.say("step", steps=300)
-    page.until("state", tick=300)
-    match way:
-        case "step":
-            page.say("step", steps=-100)
-        case "go":
-            page.say("go", tick=200)
-        case "open":
-            page.say("open", scenario="search-mind", seed="7", changes=ENDLESS, tick=200)
-        case "undo":
-            page.say("go", tick=100)
-            page.until("state", tick=100)
-            page.say("change", path="robots.rover.count", value=5)
-            page.say("step", steps=100)
-            page.until("state", tick=200)
-            page.say("undo")
-    page.say("change", path="robots.rover.count", value=3)
-    assert page.until("setting", changes=[*ENDLESS, [200, "robots.rover.count", 3]])
-
-
-def test_who_plays_on_the_way_plays_from_where_it_leads_unless_they_pause(page: Page) -> None:
-    page.open(changes=ENDLESS)
-    page.say("step", steps=150)
-    page.say("play", speed=1)
-    assert page.until("state", playing=True)["tick"] >= 150
-    page.say("pause")
-    page.until("state", playing=False)
-    page.say("step", steps=90_000)
-    page.say("play", speed=1)
-    page.say("pause")
-    page.say("step", steps=1)
-    stood = page.until("state", aim=None)
-    assert not stood["playing"]
-    assert stood["tick"] < 90_000
 
 
 def test_kinds_that_fly_are_told_from_those_that_do_not(page: Page) -> None:

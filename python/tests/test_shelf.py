@@ -12,7 +12,7 @@ from typing import Any, cast
 
 import pytest
 from starlette.testclient import TestClient
-from test_server import OWN, WS, Page
+from watching import OWN, WS, Page
 
 import agent_economy as ae
 from agent_economy import _core
