@@ -12,12 +12,12 @@ from typing import Any, cast
 
 import pytest
 from starlette.testclient import TestClient
-from watching import OWN, WS, Page
+from watching import WS, Page
 
 import agent_economy as ae
 from agent_economy import _core
 from agent_economy.brain import Command
-from agent_economy.server import Places, app
+from agent_economy.server import Places
 from agent_economy.server.saving import Saving
 from agent_economy.server.shelf import FOLDER, Shelf
 from agent_economy.server.timeline import Timeline
@@ -25,18 +25,6 @@ from agent_economy.stepped import Change
 
 COUNT = "robots.rover.count"
 FOREVER_S = 60.0
-
-
-@pytest.fixture
-def client(tmp_path: Path) -> Iterator[TestClient]:
-    with TestClient(app(Places(tmp_path), "127.0.0.1"), OWN) as client:
-        yield client
-
-
-@pytest.fixture
-def page(client: TestClient) -> Iterator[Page]:
-    with client.websocket_connect(WS) as socket:
-        yield Page(socket)
 
 
 @pytest.fixture
