@@ -3,9 +3,9 @@
 use base::document::Document;
 use sim::scenario::{Scenario, ScenarioSpec};
 
-/// Reads one that has no faults.
+/// Reads one that has no errors.
 pub(crate) fn read(name: &str, text: &str) -> Scenario {
     let document = Document::parse(name, text).expect("it is TOML");
-    let checked = ScenarioSpec::read(&document).map_err(|faults| faults.to_string());
-    checked.expect("it has no faults").scenario
+    let checked = ScenarioSpec::read(&document).map_err(|errors| errors.to_string());
+    checked.expect("it has no errors").scenario
 }

@@ -10,15 +10,15 @@ fuzz_target!(|text: &str| {
         Document::parse("file", text),
         Document::parse_yaml("file", text),
     ] {
-        let faults = document.and_then(|document| {
+        let errors = document.and_then(|document| {
             document.read(|root: &Section| {
                 root.only(&["cap_s", "robots"]);
                 let count = root.section("robots").integer("count", 1..=100);
                 root.number("cap_s", 0.0..=1e6).and(count)
             })
         });
-        if let Err(faults) = faults {
-            assert!(!faults.to_string().is_empty());
+        if let Err(errors) = errors {
+            assert!(!errors.to_string().is_empty());
         }
     }
 });

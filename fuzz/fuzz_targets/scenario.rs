@@ -1,4 +1,4 @@
-//! No text makes the reader of scenarios panic, and every fault says where it stands.
+//! No text makes the reader of scenarios panic, and every error says where it stands.
 
 #![no_main]
 
@@ -19,11 +19,11 @@ fn open(file: &str) -> Result<Vec<u8>, String> {
 fuzz_target!(|text: &str| {
     let read = Document::parse("t", text)
         .and_then(|document| ScenarioSpec::read_with(&document, open).map(drop));
-    if let Err(faults) = read {
-        assert!(!faults.0.is_empty());
-        for fault in faults.0 {
-            assert!(fault.origin.is_some(), "{fault}");
-            assert!(!fault.allowed.starts_with("readable"), "{fault}");
+    if let Err(errors) = read {
+        assert!(!errors.0.is_empty());
+        for error in errors.0 {
+            assert!(error.origin.is_some(), "{error}");
+            assert!(!error.allowed.starts_with("readable"), "{error}");
         }
     }
 });

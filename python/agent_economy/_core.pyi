@@ -58,7 +58,7 @@ MAX_IMAGE_BYTES: int
 MAX_RUNS: int
 
 @type_check_only
-class Fault(TypedDict):
+class ErrorDetails(TypedDict):
     origin: str | None
     file: str | None
     line: int | None
@@ -69,7 +69,7 @@ class Fault(TypedDict):
     message: str
 
 class InputError(ValueError):
-    faults: Sequence[Fault]
+    errors: Sequence[ErrorDetails]
 
 class NoRoomError(InputError): ...
 

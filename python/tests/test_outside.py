@@ -188,7 +188,7 @@ def test_faults_of_several_robots_are_told_at_once() -> None:
     with pytest.raises(InputError) as caught:
         Simulation("search").step(percepts=percepts, commands={"rover/7": STOP})
     assert len(str(caught.value).splitlines()) == 3
-    assert len(caught.value.faults) == 3
+    assert len(caught.value.errors) == 3
 
 
 def test_a_body_far_outside_of_the_world_does_no_harm() -> None:

@@ -100,18 +100,18 @@ def test_faults_are_there_one_by_one_with_their_places(classic_toml: Path) -> No
     path = ("clock", "cap_s")
     with pytest.raises(InputError) as caught:
         Scenario.loads(text, "my.toml", (Override(path, -1, "--set clock.cap_s"),))
-    assert "\n".join(fault["message"] for fault in caught.value.faults) == str(caught.value)
-    places = {fault["path"]: (fault["file"], fault["line"]) for fault in caught.value.faults}
+    assert "\n".join(fault["message"] for fault in caught.value.errors) == str(caught.value)
+    places = {fault["path"]: (fault["file"], fault["line"]) for fault in caught.value.errors}
     assert places == {
         "contact": ("my.toml", 7),
         "summary": ("my.toml", None),
         "clock.cap_s": (None, None),
     }
-    (contact,) = (fault for fault in caught.value.faults if fault["path"] == "contact")
+    (contact,) = (fault for fault in caught.value.errors if fault["path"] == "contact")
     assert (contact["origin"], contact["given"]) == ("my.toml:7", '"tuoch"')
     assert contact["suggestion"] == '"touch"'
     assert "one of" in contact["allowed"]
-    assert InputError("of another kind").faults == ()
+    assert InputError("of another kind").errors == ()
 
 
 def test_a_scenario_is_a_plain_dict_with_what_was_put_over_it(classic_toml: Path) -> None:

@@ -7,13 +7,13 @@
 //! * [`map`]: occupancy maps of ROS;
 //! * [`placement`]: where items and robots are put, by rejection and without overlaps;
 //! * [`reach`]: which places no robot can come to;
-//! * [`fault`]: what is wrong with something a person wrote, in words;
-//! * [`document`]: a TOML document read against what is allowed, every fault at once;
+//! * [`error`]: what is wrong with something a person wrote, in words;
+//! * [`document`]: a TOML document read against what is allowed, every error at once;
 //! * [`runner`]: the seam between simulators and studies;
 //! * [`question`]: what a study asks, alike for every simulator.
 
 pub mod document;
-pub mod fault;
+pub mod error;
 pub mod geometry;
 pub mod hash;
 pub mod map;

@@ -1,8 +1,8 @@
-//! Arguments of Python functions, checked at the edge: all faults of a call in one exception.
+//! Arguments of Python functions, checked at the edge: all errors of a call in one exception.
 
 use crate::configuration::MAX_RUNS;
 use crate::error::input_error;
-use base::fault::{Fault, Faults};
+use base::error::{InputError, InputErrors};
 use classic::Contact;
 use pyo3::exceptions::PyBaseException;
 use pyo3::prelude::*;
@@ -13,7 +13,7 @@ use std::ops::RangeInclusive;
 /// Collects what is wrong with a call's arguments.
 #[derive(Default)]
 pub(crate) struct Arguments {
-    faults: RefCell<Vec<Fault>>,
+    errors: RefCell<Vec<InputError>>,
 }
 
 impl Arguments {
@@ -28,7 +28,7 @@ impl Arguments {
         let number = number.flatten().filter(|number| range.contains(number));
         if number.is_none() {
             let allowed = format!("a whole number from {} to {}", range.start(), range.end());
-            self.fault(name, given, allowed);
+            self.error(name, given, allowed);
         }
         number
     }
@@ -55,14 +55,18 @@ impl Arguments {
         let found = Contact::NAMES.iter().find(|(known, _)| *known == name);
         if found.is_none() {
             let names = Contact::NAMES.iter().map(|(known, _)| *known);
-            let fault = Fault::not_one_of("contact".to_owned(), Some(shown(given)), &name, names);
-            self.faults.borrow_mut().push(fault);
+            let error =
+                InputError::not_one_of("contact".to_owned(), Some(shown(given)), &name, names);
+            self.errors.borrow_mut().push(error);
         }
         found.map(|(_, contact)| *contact)
     }
 
     /// Threads to use; `Some(None)` for as many as there are processors.
-    #[expect(clippy::option_option, reason = "a fault, Python's None, and a number")]
+    #[expect(
+        clippy::option_option,
+        reason = "an error, Python's None, and a number"
+    )]
     pub(crate) fn threads(&self, given: &Bound<PyAny>) -> Option<Option<usize>> {
         if given.is_none() {
             return Some(None);
@@ -72,14 +76,14 @@ impl Arguments {
     }
 
     /// Notes that `given` is not what is `allowed`.
-    pub(crate) fn fault(&self, path: &str, given: &Bound<PyAny>, allowed: String) {
-        let fault = Fault::new(path.to_owned(), Some(shown(given)), allowed);
-        self.faults.borrow_mut().push(fault);
+    pub(crate) fn error(&self, path: &str, given: &Bound<PyAny>, allowed: String) {
+        let error = InputError::new(path.to_owned(), Some(shown(given)), allowed);
+        self.errors.borrow_mut().push(error);
     }
 
-    /// `value`, or an exception with all faults.
-    pub(crate) fn or_faults<T>(self, value: Option<T>) -> PyResult<T> {
-        Faults::or(self.faults.into_inner(), value).map_err(|faults| input_error(&faults, ""))
+    /// `value`, or an exception with all errors.
+    pub(crate) fn or_errors<T>(self, value: Option<T>) -> PyResult<T> {
+        InputErrors::or(self.errors.into_inner(), value).map_err(|errors| input_error(&errors, ""))
     }
 }
 
@@ -91,8 +95,8 @@ pub(crate) fn refusal<'py>(
     allowed: String,
 ) -> Bound<'py, PyBaseException> {
     let check = Arguments::default();
-    check.fault(name, given, allowed);
-    let error = input_error(&Faults(check.faults.into_inner()), "");
+    check.error(name, given, allowed);
+    let error = input_error(&InputErrors(check.errors.into_inner()), "");
     error.into_value(given.py()).into_bound(given.py())
 }
 

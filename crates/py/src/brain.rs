@@ -9,7 +9,7 @@ use crate::scenario::value_without_none;
 use crate::simulation::MetricScenario;
 use base::document::Document;
 use base::document::schema::Schema;
-use base::fault::{Fault, Faults};
+use base::error::{InputError, InputErrors};
 use brain::{Body, BrainSpec, Command, Percept, Thoughts};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
@@ -27,11 +27,12 @@ impl Brain {
     /// As a scenario's `[robots.KIND.brain]` says, in a body; both are dicts.
     #[new]
     fn new(spec: &Bound<PyAny>, body: &Bound<PyAny>) -> PyResult<Self> {
-        let mut faults = Vec::new();
-        let spec = read::<BrainSpec>("brain", spec, &mut faults)?;
-        let body = read::<Body>("body", body, &mut faults)?;
+        let mut errors = Vec::new();
+        let spec = read::<BrainSpec>("brain", spec, &mut errors)?;
+        let body = read::<Body>("body", body, &mut errors)?;
         let both = spec.zip(body);
-        let (spec, body) = Faults::or(faults, both).map_err(|faults| input_error(&faults, ""))?;
+        let (spec, body) =
+            InputErrors::or(errors, both).map_err(|errors| input_error(&errors, ""))?;
         let brain = brain::Brain::new(Arc::new(spec), Arc::new(body));
         Ok(Self(Mutex::new(brain)))
     }
@@ -41,7 +42,7 @@ impl Brain {
     fn of(scenario: &Bound<MetricScenario>, kind: &str) -> PyResult<Self> {
         let scenario = &scenario.get().0;
         let number = kind_of(scenario, "kind", kind);
-        let number = number.map_err(|fault| input_error(&Faults(vec![fault]), ""))?;
+        let number = number.map_err(|error| input_error(&InputErrors(vec![error]), ""))?;
         let brain = scenario.brain(number);
         let brain = brain.ok_or_else(|| PyRuntimeError::new_err("a kind has no brain"))?;
         Ok(Self(Mutex::new(brain.clone())))
@@ -52,7 +53,7 @@ impl Brain {
         let read = exchange::read("percept", percept);
         let fitting = |read| self.with(|brain| fitting("percept", read, brain.body()));
         let read = read.and_then(fitting);
-        let read: Percept = read.map_err(|fault| input_error(&Faults(vec![fault]), ""))?;
+        let read: Percept = read.map_err(|error| input_error(&InputErrors(vec![error]), ""))?;
         let command = self.with(|brain| brain.step(&read));
         exchange::write(percept.py(), &command)
     }
@@ -90,12 +91,12 @@ impl Brain {
     }
 }
 
-/// What a dict says that is checked as a document is, and whose None is left out; `name` is how faults
+/// What a dict says that is checked as a document is, and whose None is left out; `name` is how errors
 /// name it.
 fn read<T: DeserializeOwned + JsonSchema>(
     name: &str,
     given: &Bound<PyAny>,
-    faults: &mut Vec<Fault>,
+    errors: &mut Vec<InputError>,
 ) -> PyResult<Option<T>> {
     let mut document = Document::default();
     document.set(
@@ -104,12 +105,12 @@ fn read<T: DeserializeOwned + JsonSchema>(
         "",
     );
     let read = document.typed(&Schema::of::<T>());
-    let wrong = read.as_ref().err().into_iter().flat_map(|faults| &faults.0);
-    faults.extend(wrong.map(|fault| Fault {
+    let wrong = read.as_ref().err().into_iter().flat_map(|errors| &errors.0);
+    errors.extend(wrong.map(|error| InputError {
         origin: None,
-        path: below(name, &fault.path),
-        allowed: as_in_python(&fault.allowed),
-        ..fault.clone()
+        path: below(name, &error.path),
+        allowed: as_in_python(&error.allowed),
+        ..error.clone()
     }));
     Ok(read.ok())
 }

@@ -46,7 +46,7 @@ pub(crate) fn replicate<'py>(
         cap_paints,
     });
     let all = (|| Some((robots?, runs?, task?, seed?, first_run?, threads?)))();
-    let (robots, runs, task, seed, first_run, threads) = check.or_faults(all)?;
+    let (robots, runs, task, seed, first_run, threads) = check.or_errors(all)?;
     let outcomes = in_blocks(py, first_run..first_run + runs, threads, |runs| {
         classic::replicate(robots, runs, seed, task)
     })?;
@@ -68,7 +68,7 @@ pub(crate) fn exhaust<'py>(
     let contact = check.contact(contact);
     let threads = check.threads(threads);
     let all = (|| Some((robots?, contact?, threads?)))();
-    let (robots, contact, threads) = check.or_faults(all)?;
+    let (robots, contact, threads) = check.or_errors(all)?;
     let starts = number_of_starts(robots).unwrap_or_default();
     let task = Task {
         contact,

@@ -27,7 +27,7 @@ pub(crate) fn read_classic(source: Source) -> PyResult<ClassicScenario> {
     let file = source.file.clone();
     let read = Configuration::read(&source.document()?);
     read.map(ClassicScenario)
-        .map_err(|faults| input_error(&faults, &file))
+        .map_err(|errors| input_error(&errors, &file))
 }
 
 /// The world of 2003: cells a side, pixels a cell, and lists of cells (columns to the right, rows
@@ -65,7 +65,7 @@ impl ClassicSimulation {
     ) -> PyResult<Self> {
         let check = Arguments::default();
         let (seed, run) = (check.seed(seed), check.run("run", run));
-        let (seed, run) = check.or_faults(seed.zip(run))?;
+        let (seed, run) = check.or_errors(seed.zip(run))?;
         Ok(Self(Mutex::new(Run::new(scenario.get().0, seed, run))))
     }
 
@@ -73,7 +73,7 @@ impl ClassicSimulation {
     fn step(&self, py: Python, steps: &Bound<PyAny>) -> PyResult<()> {
         let check = Arguments::default();
         let steps = check.integer("steps", steps, 0..=u64::MAX);
-        let steps = check.or_faults(steps)?;
+        let steps = check.or_errors(steps)?;
         let robots = u64::from(self.locked(py).configuration().robots);
         let go = |stop: &AtomicBool| {
             let mut run = self.0.lock().unwrap_or_else(PoisonError::into_inner);

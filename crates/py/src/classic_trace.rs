@@ -25,7 +25,7 @@ pub(crate) fn random_start<'py>(
     let seed = check.integer("seed", seed, 0..=u64::MAX);
     let run = check.integer("run", run, 0..=u64::MAX);
     let all = (|| Some((robots?, seed?, run?)))();
-    let (robots, seed, run) = check.or_faults(all)?;
+    let (robots, seed, run) = check.or_errors(all)?;
     let row = |start: &Start| {
         let row = PyDict::new(py);
         row.set_item("x", start.x_px)?;
@@ -48,7 +48,7 @@ pub(crate) fn trace<'py>(
     let starts = starts(&check, start);
     let robots = starts.as_ref().map_or(1, |starts| starts.len() as u64);
     let decisions = check.integer("decisions", decisions, 0..=MAX_ROBOT_DECISIONS / robots);
-    let (starts, decisions) = check.or_faults(starts.zip(decisions))?;
+    let (starts, decisions) = check.or_errors(starts.zip(decisions))?;
     let decisions = usize::try_from(decisions)?;
     let trace = py.detach(|| classic::trace(&starts, decisions));
     as_dict(py, &trace)
@@ -61,7 +61,7 @@ fn starts(check: &Arguments, given: &Bound<PyAny>) -> Option<Vec<Start>> {
         .filter(|rows| (1..=MAX_ROBOTS as usize).contains(&rows.len()));
     let Some(rows) = rows else {
         let allowed = format!("a list of 1 to {MAX_ROBOTS} dicts with {}", KEYS.join(", "));
-        check.fault("start", given, allowed);
+        check.error("start", given, allowed);
         return None;
     };
     let starts: Vec<Option<Start>> = rows
@@ -77,7 +77,7 @@ fn start(check: &Arguments, path: &str, given: &Bound<PyAny>) -> Option<Start> {
         row.len() == KEYS.len() && KEYS.iter().all(|key| row.contains(key).unwrap_or(false))
     };
     let Some(row) = given.cast::<PyDict>().ok().filter(has_all_keys) else {
-        check.fault(
+        check.error(
             path,
             given,
             format!("a dict with exactly {}", KEYS.join(", ")),
@@ -120,7 +120,7 @@ fn pixels(check: &Arguments, path: &str, given: &Bound<PyAny>) -> Option<f32> {
             "a number of pixels on the grid: from -10 to below {} (20 px a cell, halves round up)",
             SIZE * 20 - 10
         );
-        check.fault(path, given, allowed);
+        check.error(path, given, allowed);
     }
     px
 }
@@ -129,7 +129,7 @@ fn heading(check: &Arguments, path: &str, given: &Bound<PyAny>) -> Option<Headin
     let degrees = (!given.is_instance_of::<PyBool>()).then(|| given.extract::<i64>().ok());
     let heading = degrees.flatten().and_then(Heading::new);
     if heading.is_none() {
-        check.fault(
+        check.error(
             path,
             given,
             "one of 0, 45, 90, 135, 180, 225, 270, 315, 360".to_owned(),

@@ -70,7 +70,7 @@ pub(crate) fn read_configuration(
     });
     let values: Vec<(String, Value)> = values.collect::<PyResult<_>>()?;
     let read = question::Configuration::read(&ENGINES, document, &values);
-    let read = read.map_err(|faults| input_error(&faults, &file))?;
+    let read = read.map_err(|errors| input_error(&errors, &file))?;
     Ok(Configuration {
         runner: read.runner,
     })
@@ -99,7 +99,7 @@ pub(crate) fn run_block<'py>(
     let first_run = check.run("first_run", first_run);
     let threads = check.threads(threads);
     let all = (|| Some((given?, seed?, first_run?, runs?, threads?)))();
-    let (given, seed, first_run, runs, threads) = check.or_faults(all)?;
+    let (given, seed, first_run, runs, threads) = check.or_errors(all)?;
     let runners: Vec<&dyn Runner> = given.iter().map(|each| &*each.get().runner).collect();
     let runs = first_run..first_run + runs;
     let columns = interruptible(py, threads, |stop| in_tasks(&runners, seed, &runs, stop))?;
@@ -117,7 +117,7 @@ pub(crate) fn run_one<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let check = Arguments::default();
     let (seed, run) = (check.seed(seed), check.run("run", run));
-    let (seed, run) = check.or_faults(seed.zip(run))?;
+    let (seed, run) = check.or_errors(seed.zip(run))?;
     let runners = [&*configuration.get().runner];
     let columns = interruptible(py, None, |stop| {
         in_tasks(&runners, seed, &(run..run + 1), stop)
@@ -136,14 +136,14 @@ fn given_configurations<'py>(
     let list = given.cast::<PyList>().ok().filter(|list| !list.is_empty());
     let Some(list) = list else {
         let allowed = "a list of at least one Configuration, as read_configuration makes it";
-        check.fault("configurations", given, allowed.to_owned());
+        check.error("configurations", given, allowed.to_owned());
         return None;
     };
     let configuration = |(index, item): (usize, Bound<'py, PyAny>)| {
         let configuration = item.cast::<Configuration>().ok().cloned();
         if configuration.is_none() {
             let path = format!("configurations[{index}]");
-            check.fault(&path, &item, "a Configuration".to_owned());
+            check.error(&path, &item, "a Configuration".to_owned());
         }
         configuration
     };

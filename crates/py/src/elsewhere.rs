@@ -7,7 +7,7 @@ use crate::exchange;
 use crate::outside::name_of;
 use crate::simulation::MetricScenario;
 use base::document::path_of;
-use base::fault::{Fault, Faults};
+use base::error::{InputError, InputErrors};
 use brain::Command;
 use pyo3::prelude::*;
 use sim::engine::{Asked, Outside};
@@ -47,7 +47,7 @@ impl Elsewhere<'_> {
         let command = self.step.call1((asked.robot.index, percept))?;
         let at = path_of("brains", &name_of(scenario, asked.robot));
         let read = exchange::read::<Command>(&format!("{at}.step()"), &command);
-        asked.command = read.map_err(|fault| input_error(&Faults(vec![fault]), ""))?;
+        asked.command = read.map_err(|error| input_error(&InputErrors(vec![error]), ""))?;
         Ok(())
     }
 }
@@ -69,18 +69,18 @@ pub(crate) fn decide(
     Ok(())
 }
 
-/// The number of a kind of robots; `path` is what a fault names.
-pub(crate) fn kind_of(scenario: &Scenario, path: &str, kind: &str) -> Result<u8, Fault> {
+/// The number of a kind of robots; `path` is what an error names.
+pub(crate) fn kind_of(scenario: &Scenario, path: &str, kind: &str) -> Result<u8, InputError> {
     let kinds: Vec<&str> = scenario.robot_kinds().collect();
     let place = kinds.iter().position(|known| *known == kind);
     let number = place.and_then(|place| u8::try_from(place).ok());
     number.ok_or_else(|| {
         let given = Some(format!("{kind:?}"));
-        Fault::not_one_of(path.to_owned(), given, kind, kinds.iter().copied())
+        InputError::not_one_of(path.to_owned(), given, kind, kinds.iter().copied())
     })
 }
 
-/// What brains know of their bodies that are robots of a kind; `path` is what a fault names.
+/// What brains know of their bodies that are robots of a kind; `path` is what an error names.
 #[pyfunction]
 pub(crate) fn body<'py>(
     scenario: &Bound<'py, MetricScenario>,
@@ -90,6 +90,6 @@ pub(crate) fn body<'py>(
     let py = scenario.py();
     let scenario = &scenario.get().0;
     let number = kind_of(scenario, path, kind);
-    let number = number.map_err(|fault| input_error(&Faults(vec![fault]), ""))?;
+    let number = number.map_err(|error| input_error(&InputErrors(vec![error]), ""))?;
     exchange::write(py, &scenario.brain(number).map(brain::Brain::body))
 }

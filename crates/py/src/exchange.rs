@@ -1,10 +1,10 @@
 //! What enters and leaves brains, as Python has it: dicts, lists and values.
 //!
-//! It comes many times a second, so it is read without a schema, up to its first fault.
+//! It comes many times a second, so it is read without a schema, up to its first error.
 
 use crate::refused;
 use base::document::path_of;
-use base::fault::Fault;
+use base::error::InputError;
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyFloat, PyString};
@@ -18,35 +18,35 @@ use serde_path_to_error::{Path, Segment};
 pub(crate) const MAX_DEPTH: usize = 32;
 
 /// That what is at a path is deeper: Python may not be able to show it.
-pub(crate) fn too_deep(at: String) -> Fault {
+pub(crate) fn too_deep(at: String) -> InputError {
     let allowed = format!("no more than {MAX_DEPTH} lists and dicts deep; does one hold itself?");
-    Fault::new(at, Some("...".to_owned()), allowed)
+    InputError::new(at, Some("...".to_owned()), allowed)
 }
 
-/// What a dict says; `at` is how a fault names it.
+/// What a dict says; `at` is how an error names it.
 pub(crate) fn read<T: DeserializeOwned + JsonSchema>(
     at: &str,
     given: &Bound<PyAny>,
-) -> Result<T, Fault> {
+) -> Result<T, InputError> {
     let json = json(at, given, MAX_DEPTH)?;
     // Serde would take a list for one by position.
     if !json.is_object() {
-        return Err(fault(at, json.to_string(), "a dict"));
+        return Err(mismatch(at, json.to_string(), "a dict"));
     }
-    serde_path_to_error::deserialize(&json).map_err(|error| {
-        let fault = refused::fault::<T>(&json, error.path());
-        let path = below(at, &fault.path);
+    serde_path_to_error::deserialize(&json).map_err(|refusal| {
+        let error = refused::error::<T>(&json, refusal.path());
+        let path = below(at, &error.path);
         // It is null too, where it may not stand.
-        if is_infinite(given, error.path()) {
-            return Fault::new(path, Some("inf".to_owned()), "a finite number".to_owned());
+        if is_infinite(given, refusal.path()) {
+            return InputError::new(path, Some("inf".to_owned()), "a finite number".to_owned());
         }
-        Fault { path, ..fault }
+        InputError { path, ..error }
     })
 }
 
 /// The same as Python has it.
 pub(crate) fn write<'py>(py: Python<'py>, told: &impl Serialize) -> PyResult<Bound<'py, PyAny>> {
-    // It holds texts for keys, and numbers, which JSON has: never a fault.
+    // It holds texts for keys, and numbers, which JSON has: never an error.
     as_python(py, &serde_json::to_value(told).unwrap_or_default())
 }
 
@@ -72,7 +72,7 @@ fn is_infinite(given: &Bound<PyAny>, path: &Path) -> bool {
 }
 
 /// A Python value as JSON has it: infinity is null. It is at most so `deep`.
-fn json(at: &str, given: &Bound<PyAny>, deep: usize) -> Result<Json, Fault> {
+fn json(at: &str, given: &Bound<PyAny>, deep: usize) -> Result<Json, InputError> {
     let too_deep = || too_deep(at.to_owned());
     if given.is_none() {
         Ok(Json::Null)
@@ -80,20 +80,20 @@ fn json(at: &str, given: &Bound<PyAny>, deep: usize) -> Result<Json, Fault> {
         Ok(Json::Bool(truth))
     } else if let Ok(text) = given.cast::<PyString>() {
         let text = text.extract().map(Json::String);
-        text.map_err(|_| fault(at, given.to_string(), "a text of whole characters"))
+        text.map_err(|_| mismatch(at, given.to_string(), "a text of whole characters"))
     } else if let Ok(dict) = given.cast::<PyDict>() {
         let deep = deep.checked_sub(1).ok_or_else(too_deep)?;
         let entry = |(key, given): (Bound<PyAny>, Bound<PyAny>)| {
             let key = text(&key);
             Ok((key.clone(), json(&path_of(at, &key), &given, deep)?))
         };
-        let entries: Result<Map<String, Json>, Fault> = dict.iter().map(entry).collect();
+        let entries: Result<Map<String, Json>, InputError> = dict.iter().map(entry).collect();
         entries.map(Json::Object)
     } else if let Ok(items) = given.try_iter() {
         let deep = deep.checked_sub(1).ok_or_else(too_deep)?;
         let item = |(index, item): (usize, PyResult<Bound<PyAny>>)| {
             let at = format!("{at}[{index}]");
-            let item = item.map_err(|error| fault(&at, error.to_string(), "there"))?;
+            let item = item.map_err(|error| mismatch(&at, error.to_string(), "there"))?;
             json(&at, &item, deep)
         };
         items.enumerate().map(item).collect()
@@ -110,7 +110,7 @@ pub(crate) fn text(given: &Bound<PyAny>) -> String {
     text.unwrap_or_else(|_| given.to_string())
 }
 
-fn number(at: &str, given: &Bound<PyAny>) -> Result<Json, Fault> {
+fn number(at: &str, given: &Bound<PyAny>) -> Result<Json, InputError> {
     let number = given.extract::<f64>().ok();
     if number == Some(f64::INFINITY) {
         return Ok(Json::Null);
@@ -121,11 +121,11 @@ fn number(at: &str, given: &Bound<PyAny>) -> Result<Json, Fault> {
     } else {
         "a number, a text, True, False, None, or a list or dict of these"
     };
-    number.ok_or_else(|| fault(at, given.to_string(), allowed))
+    number.ok_or_else(|| mismatch(at, given.to_string(), allowed))
 }
 
-fn fault(at: &str, given: String, allowed: &str) -> Fault {
-    Fault::new(at.to_owned(), Some(given), allowed.to_owned())
+fn mismatch(at: &str, given: String, allowed: &str) -> InputError {
+    InputError::new(at.to_owned(), Some(given), allowed.to_owned())
 }
 
 fn as_python<'py>(py: Python<'py>, value: &Json) -> PyResult<Bound<'py, PyAny>> {

@@ -1,17 +1,17 @@
 //! Percepts that a body cannot have had: a slip in a driver, which the brain would only not see.
 
-use base::fault::Fault;
+use base::error::InputError;
 use brain::{Body, Percept, Scan};
 
-/// `percept`, if it can be one of `body`; `at` is how a fault names it.
-pub(crate) fn fitting(at: &str, percept: Percept, body: &Body) -> Result<Percept, Fault> {
+/// `percept`, if it can be one of `body`; `at` is how an error names it.
+pub(crate) fn fitting(at: &str, percept: Percept, body: &Body) -> Result<Percept, InputError> {
     match misfit(at, &percept, body) {
-        Some(fault) => Err(fault),
+        Some(error) => Err(error),
         None => Ok(percept),
     }
 }
 
-fn misfit(at: &str, percept: &Percept, body: &Body) -> Option<Fault> {
+fn misfit(at: &str, percept: &Percept, body: &Body) -> Option<InputError> {
     let (scans, rings) = (percept.scans.len(), body.rings.len());
     if scans > rings {
         let allowed = format!("a list of {rings} at most, one for each range ring of the body");
@@ -24,7 +24,7 @@ fn misfit(at: &str, percept: &Percept, body: &Body) -> Option<Fault> {
     let unknown = unknown.map(|(number, contact)| {
         let path = format!("{at}.contacts[{number}].kind");
         let allowed = format!("below {kinds}, the number of kinds of items that there are");
-        Fault::new(path, Some(contact.kind.to_string()), allowed)
+        InputError::new(path, Some(contact.kind.to_string()), allowed)
     });
     unknown.or_else(|| {
         let rings = percept.scans.iter().zip(&body.rings).enumerate();
@@ -42,6 +42,6 @@ fn is_missing(scan: &Scan) -> bool {
     scan.age_s.is_none() && scan.ranges_m.is_empty()
 }
 
-fn counted(path: String, count: usize, allowed: String) -> Fault {
-    Fault::new(path, Some(format!("a list of {count}")), allowed)
+fn counted(path: String, count: usize, allowed: String) -> InputError {
+    InputError::new(path, Some(format!("a list of {count}")), allowed)
 }

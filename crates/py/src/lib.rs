@@ -69,7 +69,7 @@ mod _core {
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
         let none = PyTuple::empty(module.py());
-        module.getattr("InputError")?.setattr("faults", none)?;
+        module.getattr("InputError")?.setattr("errors", none)?;
         module.add("FIRST_LOOK", select::schedule::next_look(0))?;
         module.add("MAX_IMAGE_BYTES", base::map::MAX_IMAGE_BYTES)?;
         module.add("MAX_RUNS", crate::configuration::MAX_RUNS)?;

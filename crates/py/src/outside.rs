@@ -3,7 +3,7 @@
 use crate::exchange;
 use crate::fit::fitting;
 use base::document::path_of;
-use base::fault::{Fault, Faults, nearest};
+use base::error::{InputError, InputErrors, nearest};
 use brain::{Command, Percept, RobotId};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -22,8 +22,8 @@ pub(crate) fn name_of(scenario: &Scenario, id: RobotId) -> String {
     format!("{}/{}", kind.unwrap_or_default(), id.index)
 }
 
-/// The robot of a name; `path` is what a fault names.
-pub(crate) fn robot_of(scenario: &Scenario, path: &str, name: &str) -> Result<RobotId, Fault> {
+/// The robot of a name; `path` is what an error names.
+pub(crate) fn robot_of(scenario: &Scenario, path: &str, name: &str) -> Result<RobotId, InputError> {
     let (kind, index) = name.rsplit_once('/').unwrap_or((name, ""));
     let team = scenario.team();
     let place = team.iter().position(|(known, _)| known == kind);
@@ -35,7 +35,7 @@ pub(crate) fn robot_of(scenario: &Scenario, path: &str, name: &str) -> Result<Ro
     id.ok_or_else(|| no_robot(&team, path, name))
 }
 
-fn no_robot(team: &[(String, u32)], path: &str, name: &str) -> Fault {
+fn no_robot(team: &[(String, u32)], path: &str, name: &str) -> InputError {
     let there = team.iter().filter(|(_, count)| *count > 0);
     let (kind, index) = name.rsplit_once('/').unwrap_or((name, "0"));
     let kinds = there.clone().map(|(kind, _)| kind.as_str());
@@ -55,41 +55,41 @@ fn no_robot(team: &[(String, u32)], path: &str, name: &str) -> Fault {
     });
     let names: Vec<String> = names.collect();
     let allowed = format!("one of the run's robots: {}", names.join(", "));
-    Fault {
+    InputError {
         suggestion,
-        ..Fault::new(path.to_owned(), Some(format!("{name:?}")), allowed)
+        ..InputError::new(path.to_owned(), Some(format!("{name:?}")), allowed)
     }
 }
 
 /// The percepts and commands of a step; the brains of some kinds are `elsewhere`.
 ///
 /// # Errors
-/// Everything that is wrong with them; of each percept and command the first fault.
+/// Everything that is wrong with them; of each percept and command the first error.
 pub(crate) fn read(
     run: &Simulation,
     percepts: &Bound<PyDict>,
     commands: &Bound<PyDict>,
     elsewhere: &[u8],
-) -> Result<(ByRobot<Percept>, ByRobot<Command>), Faults> {
-    let mut faults = Vec::new();
+) -> Result<(ByRobot<Percept>, ByRobot<Command>), InputErrors> {
+    let mut errors = Vec::new();
     let scenario = run.scenario();
     let fits = |at: &str, id: RobotId, percept: Percept| match scenario.brain(id.kind) {
         Some(brain) => fitting(at, percept, brain.body()),
         None => Ok(percept),
     };
-    let percepts = by_robot(scenario, ("percepts", percepts), fits, &mut faults);
+    let percepts = by_robot(scenario, ("percepts", percepts), fits, &mut errors);
     let as_it_is = |_: &str, _, command| Ok(command);
-    let commands = by_robot(scenario, ("commands", commands), as_it_is, &mut faults);
-    faults.extend(commanded_outside(run, &percepts, &commands));
-    faults.extend(without_brain(scenario, &percepts, elsewhere));
-    Faults::or(faults, Some((percepts, commands)))
+    let commands = by_robot(scenario, ("commands", commands), as_it_is, &mut errors);
+    errors.extend(commanded_outside(run, &percepts, &commands));
+    errors.extend(without_brain(scenario, &percepts, elsewhere));
+    InputErrors::or(errors, Some((percepts, commands)))
 }
 
 fn by_robot<T: DeserializeOwned + JsonSchema>(
     scenario: &Scenario,
     (argument, given): (&str, &Bound<PyDict>),
-    fits: impl Fn(&str, RobotId, T) -> Result<T, Fault>,
-    faults: &mut Vec<Fault>,
+    fits: impl Fn(&str, RobotId, T) -> Result<T, InputError>,
+    errors: &mut Vec<InputError>,
 ) -> ByRobot<T> {
     let entry = |(name, given): (Bound<PyAny>, Bound<PyAny>)| {
         let name = exchange::text(&name);
@@ -99,7 +99,7 @@ fn by_robot<T: DeserializeOwned + JsonSchema>(
     };
     let entries = given.iter().map(entry);
     entries
-        .filter_map(|read| read.map_err(|fault| faults.push(fault)).ok())
+        .filter_map(|read| read.map_err(|error| errors.push(error)).ok())
         .collect()
 }
 
@@ -108,7 +108,7 @@ fn commanded_outside(
     run: &Simulation,
     percepts: &ByRobot<Percept>,
     commands: &ByRobot<Command>,
-) -> Vec<Fault> {
+) -> Vec<InputError> {
     if commands.is_empty() {
         return Vec::new();
     }
@@ -118,12 +118,12 @@ fn commanded_outside(
     let of_outside = commands
         .keys()
         .filter(|id| outside.contains(id) || percepts.contains_key(id));
-    let fault = |id: &RobotId| {
+    let error = |id: &RobotId| {
         let name = format!("{:?}", name_of(run.scenario(), *id));
         let allowed = "a robot whose body is not outside: it gives percepts, and gets commands";
-        Fault::new("commands".to_owned(), Some(name), allowed.to_owned())
+        InputError::new("commands".to_owned(), Some(name), allowed.to_owned())
     };
-    of_outside.map(fault).collect()
+    of_outside.map(error).collect()
 }
 
 /// Only the brain of a scenario steps with percepts from outside.
@@ -131,12 +131,12 @@ fn without_brain(
     scenario: &Scenario,
     percepts: &ByRobot<Percept>,
     elsewhere: &[u8],
-) -> impl Iterator<Item = Fault> {
+) -> impl Iterator<Item = InputError> {
     let given = percepts.keys().filter(|id| elsewhere.contains(&id.kind));
     given.map(|id| {
         let name = format!("{:?}", name_of(scenario, *id));
         let allowed = "a robot that has the scenario's brain: step yours of `brains` yourself";
-        Fault::new("percepts".to_owned(), Some(name), allowed.to_owned())
+        InputError::new("percepts".to_owned(), Some(name), allowed.to_owned())
     })
 }
 

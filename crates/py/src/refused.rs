@@ -2,13 +2,13 @@
 
 use base::document::schema::Schema;
 use base::document::{Document, Node, Value, path_of};
-use base::fault::Fault;
+use base::error::InputError;
 use schemars::JsonSchema;
 use serde_json::Value as Json;
 use serde_path_to_error::{Path, Segment};
 
 /// What in `json` serde has refused at `path` when it read a `T`.
-pub(crate) fn fault<T: JsonSchema>(json: &Json, path: &Path) -> Fault {
+pub(crate) fn error<T: JsonSchema>(json: &Json, path: &Path) -> InputError {
     let at = path.iter().fold(String::new(), |at, each| match each {
         Segment::Seq { index } => format!("{at}[{index}]"),
         Segment::Map { key } | Segment::Enum { variant: key } => path_of(&at, key),
@@ -16,17 +16,17 @@ pub(crate) fn fault<T: JsonSchema>(json: &Json, path: &Path) -> Fault {
     });
     let mut document = Document::default();
     document.set(&[], value(json), "");
-    let faults = Schema::of::<T>().faults(&document).into_iter();
+    let errors = Schema::of::<T>().errors(&document).into_iter();
     // Elsewhere the schema refuses what a percept may say: None for what is not there.
     let mut here =
-        faults.filter(|fault| fault.path.starts_with(&at) || at.starts_with(&fault.path));
-    let fault = here.next();
+        errors.filter(|error| error.path.starts_with(&at) || at.starts_with(&error.path));
+    let error = here.next();
     // Whatever serde refuses, the schema does; should they disagree, the place is told.
-    let fault = fault.unwrap_or_else(|| Fault::new(at, None, "another value".to_owned()));
-    Fault {
+    let error = error.unwrap_or_else(|| InputError::new(at, None, "another value".to_owned()));
+    InputError {
         origin: None,
-        allowed: as_in_python(&fault.allowed),
-        ..fault
+        allowed: as_in_python(&error.allowed),
+        ..error
     }
 }
 

@@ -4,7 +4,7 @@ use crate::engines::ENGINES;
 use crate::error::input_error;
 use crate::exchange::{MAX_DEPTH, too_deep};
 use base::document::{Document, Node, Override, Table, Value};
-use base::fault::{Fault, Faults};
+use base::error::{InputError, InputErrors};
 use base::question::{self, Factor, Merit, Published, Scenario, Values};
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
@@ -18,7 +18,7 @@ pub(crate) type GivenOverride<'py> = (Vec<String>, Bound<'py, PyAny>, String);
 /// What a scenario is read from, as Python has it: see `Source` in `agent_economy.scenario`.
 ///
 /// `overrides` are (path, value, origin): `value` is put at `path` over what the text says, and
-/// `origin` is how faults name it. `files` are those that the text names, by their names: bytes, or
+/// `origin` is how errors name it. `files` are those that the text names, by their names: bytes, or
 /// a text that says why they cannot be read.
 #[derive(FromPyObject)]
 pub(crate) struct Source<'py> {
@@ -43,7 +43,7 @@ pub(crate) fn read_scenario<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let file = source.file.clone();
     let read = Scenario::read(&ENGINES, source.document()?);
-    as_dict(py, &read.map_err(|faults| input_error(&faults, &file))?)
+    as_dict(py, &read.map_err(|errors| input_error(&errors, &file))?)
 }
 
 /// The files that a source names and does not have; when it has them, it may name more.
@@ -80,7 +80,7 @@ fn whole<'py>(py: Python<'py>, document: &Document) -> PyResult<Bound<'py, PyAny
 impl Source<'_> {
     pub(crate) fn document(self) -> PyResult<Document> {
         let parsed = Document::parse(&self.file, &self.text);
-        let parsed = parsed.map_err(|faults| input_error(&faults, &self.file))?;
+        let parsed = parsed.map_err(|errors| input_error(&errors, &self.file))?;
         let overrides = self.overrides.into_iter().map(|(path, given, origin)| {
             Ok(Override {
                 value: value(&path, &given, &origin)?,
@@ -144,7 +144,10 @@ fn nested(at: At, given: &Bound<PyAny>, deep: usize) -> PyResult<Value> {
     given.extract::<f64>().map(Value::Float).map_err(|_| {
         let allowed = "a text, a number, true, false, or a list or dict of these".to_owned();
         let given = Some(given.to_string());
-        refusal(at.origin, Fault::new(at.path.join("."), given, allowed))
+        refusal(
+            at.origin,
+            InputError::new(at.path.join("."), given, allowed),
+        )
     })
 }
 
@@ -156,9 +159,9 @@ struct At<'a> {
     skips_none: bool,
 }
 
-fn refusal(origin: &str, fault: Fault) -> PyErr {
+fn refusal(origin: &str, error: InputError) -> PyErr {
     let origin = Some(origin.to_owned());
-    input_error(&Faults(vec![Fault { origin, ..fault }]), "")
+    input_error(&InputErrors(vec![InputError { origin, ..error }]), "")
 }
 
 fn node(at: At, given: &Bound<PyAny>, deep: usize) -> PyResult<Node> {

@@ -13,7 +13,7 @@ const MAX_CONFIGURATIONS: usize = 100_000;
 
 /// A selection procedure, between two of its rounds.
 ///
-/// Its callers in Python check what people give; here a wrong argument is a fault of ours.
+/// Its callers in Python check what people give; here a wrong argument is an error of ours.
 #[pyclass(frozen, module = "agent_economy._core")]
 pub(crate) struct Procedure(Mutex<Box<dyn select::Procedure + Send>>);
 

@@ -8,7 +8,7 @@ use crate::exchange;
 use crate::long_work::interruptible;
 use crate::outside;
 use crate::scenario::Source;
-use base::fault::{Fault, Faults};
+use base::error::{InputError, InputErrors};
 use base::runner::Runner;
 use brain::RobotId;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
@@ -38,7 +38,7 @@ pub(crate) struct MetricScenario(pub(crate) Arc<Scenario>);
 pub(crate) fn read_metric(source: Source) -> PyResult<MetricScenario> {
     let file = source.file.clone();
     let read = ScenarioSpec::read(&source.document()?);
-    let checked = read.map_err(|faults| input_error(&faults, &file))?;
+    let checked = read.map_err(|errors| input_error(&errors, &file))?;
     Ok(MetricScenario(Arc::new(checked.scenario)))
 }
 
@@ -73,7 +73,7 @@ impl Simulation {
             check.threads(threads),
         );
         let all = (|| Some((seed?, run?, threads?)))();
-        let (seed, run, threads) = check.or_faults(all)?;
+        let (seed, run, threads) = check.or_errors(all)?;
         let scenario = &scenario.get().0;
         let begun = py.detach(|| engine::Simulation::new(Arc::clone(scenario), seed, run));
         let begun = begun.map_err(|why| no_room(scenario, why))?;
@@ -88,7 +88,7 @@ impl Simulation {
     fn step(&self, py: Python, steps: &Bound<PyAny>) -> PyResult<()> {
         let check = Arguments::default();
         let steps = check.integer("steps", steps, 0..=u64::MAX);
-        let steps = check.or_faults(steps)?;
+        let steps = check.or_errors(steps)?;
         let mut run = self.locked(py)?;
         let work = robots(&run).max(1).saturating_mul(steps);
         let steps = 0..steps;
@@ -124,7 +124,7 @@ impl Simulation {
         let kinds = brains.iter().filter_map(|brain| brain.kind(run.scenario()));
         let kinds: Vec<u8> = kinds.collect();
         let read = outside::read(&run, percepts, commands, &kinds);
-        let (percepts, commands) = read.map_err(|faults| input_error(&faults, ""))?;
+        let (percepts, commands) = read.map_err(|errors| input_error(&errors, ""))?;
         let work = robots(&run);
         let begun = self.take(py, &mut run, work, |run, _| {
             run.ask(percepts, commands, &kinds)
@@ -199,8 +199,8 @@ impl Simulation {
     fn change(&self, py: Python, scenario: &Bound<MetricScenario>) -> PyResult<u64> {
         let mut run = self.locked(py)?;
         let to = &scenario.get().0;
-        let faults = unchangeable(run.scenario(), to);
-        Faults::or(faults, Some(())).map_err(|faults| input_error(&faults, ""))?;
+        let errors = unchangeable(run.scenario(), to);
+        InputErrors::or(errors, Some(())).map_err(|errors| input_error(&errors, ""))?;
         let work = robots(&run).saturating_add(to.robots() as u64);
         let changed = self.take(py, &mut run, work, |run, _| {
             run.state().changed(run.scenario(), to)
@@ -325,8 +325,8 @@ impl Simulation {
                 Err(TryLockError::WouldBlock) if *self.asking() == Some(thread::current().id()) => {
                     let sentence = "a brain must not look at the run that it is in, nor step it: \
                                     all that it knows is its percept";
-                    let fault = Fault::new(String::new(), None, sentence.to_owned());
-                    return Err(input_error(&Faults(vec![fault]), ""));
+                    let error = InputError::new(String::new(), None, sentence.to_owned());
+                    return Err(input_error(&InputErrors(vec![error]), ""));
                 }
                 Err(TryLockError::WouldBlock) => {
                     py.detach(|| thread::sleep(BETWEEN_LOOKS));
@@ -374,7 +374,7 @@ impl Simulation {
 
 pub(crate) fn id_of(scenario: &Scenario, robot: &Bound<PyAny>) -> PyResult<RobotId> {
     let id = outside::robot_of(scenario, "robot", &exchange::text(robot));
-    id.map_err(|fault| input_error(&Faults(vec![fault]), ""))
+    id.map_err(|error| input_error(&InputErrors(vec![error]), ""))
 }
 
 fn robots(run: &engine::Simulation) -> u64 {
@@ -383,26 +383,26 @@ fn robots(run: &engine::Simulation) -> u64 {
 
 /// What cannot be another in the middle of a run: every time in it is counted in steps, and every
 /// place is within the world.
-fn unchangeable(from: &Scenario, to: &Scenario) -> Vec<Fault> {
-    let fault = |path: &str, given: String, was: String| {
+fn unchangeable(from: &Scenario, to: &Scenario) -> Vec<InputError> {
+    let error = |path: &str, given: String, was: String| {
         let allowed = format!("{was}, as when the run began");
-        Fault::new(path.to_owned(), Some(given), allowed)
+        InputError::new(path.to_owned(), Some(given), allowed)
     };
-    let mut faults = Vec::new();
+    let mut errors = Vec::new();
     let [was_s, is_s] = [from, to].map(Scenario::step_s);
     if was_s.to_bits() != is_s.to_bits() {
-        faults.push(fault("clock.step_s", is_s.to_string(), was_s.to_string()));
+        errors.push(error("clock.step_s", is_s.to_string(), was_s.to_string()));
     }
     let [was, is] = [from, to].map(|scenario| scenario.world().size());
     if was != is {
         let shown = |size: base::geometry::Point| format!("[{}, {}]", size.x, size.y);
-        faults.push(fault("world.size_m", shown(is), shown(was)));
+        errors.push(error("world.size_m", shown(is), shown(was)));
     }
     let [was, is] = [from, to].map(Scenario::wraps);
     if was != is {
-        faults.push(fault("world.wraps", is.to_string(), was.to_string()));
+        errors.push(error("world.wraps", is.to_string(), was.to_string()));
     }
-    faults
+    errors
 }
 
 /// That a run has no room for something, by the name of its kind.
@@ -411,9 +411,9 @@ fn no_room(scenario: &Scenario, why: NoRoom) -> PyErr {
         |kind: u8, index: u32, names: Vec<&str>, what: &str, why: &dyn std::fmt::Display| {
             let name = names.get(usize::from(kind)).copied().unwrap_or_default();
             let sentence = format!("{what}.{name}: the run has no room for {name}/{index}: {why}");
-            Fault::new(String::new(), None, sentence)
+            InputError::new(String::new(), None, sentence)
         };
-    let fault = match why {
+    let error = match why {
         NoRoom::Item { kind, index, why } => {
             named(kind, index, scenario.item_kinds().collect(), "items", &why)
         }
@@ -425,5 +425,5 @@ fn no_room(scenario: &Scenario, why: NoRoom) -> PyErr {
             &robot.why,
         ),
     };
-    no_room_error(&Faults(vec![fault]))
+    no_room_error(&InputErrors(vec![error]))
 }

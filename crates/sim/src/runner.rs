@@ -3,7 +3,7 @@
 use crate::engine::{Outcome, State, Workshop};
 use crate::scenario::{Scenario, ScenarioSpec};
 use base::document::Document;
-use base::fault::Faults;
+use base::error::InputErrors;
 use base::question::{Configuration, Engine, Measure, NamedMerit};
 use base::runner::{Column, Kind, Runner, Work};
 use std::borrow::Cow;
@@ -27,7 +27,7 @@ impl Engine for Metric {
         &ScenarioSpec::KEYS
     }
 
-    fn read(&self, document: &Document) -> Result<Configuration, Faults> {
+    fn read(&self, document: &Document) -> Result<Configuration, InputErrors> {
         let scenario = ScenarioSpec::read(document)?.scenario;
         Ok(Configuration {
             robots: scenario.team(),

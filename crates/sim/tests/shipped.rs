@@ -30,7 +30,7 @@ fn shipped() -> Vec<(String, String)> {
 }
 
 #[test]
-fn every_shipped_scenario_is_without_faults() {
+fn every_shipped_scenario_is_without_errors() {
     let open = |file: &str| std::fs::read(folder().join(file)).map_err(|why| why.to_string());
     let shipped = shipped();
     assert!(shipped.len() >= 2);

@@ -83,4 +83,4 @@ def faults_of(file: Path, error: InputError) -> list[Fault]:
         }
         for sentence in str(error).splitlines()
     ]
-    return [dict(fault) for fault in error.faults] or whole
+    return [dict(fault) for fault in error.errors] or whole

@@ -227,9 +227,9 @@ def read(text: str) -> Message:
 
 def faults_of(error: InputError) -> list[Fault]:
     """Return what is wrong, as a page takes it."""
-    if not error.faults:
+    if not error.errors:
         return [dict.fromkeys(FAULT) | {"message": str(error), "path": "", "allowed": ""}]
-    return [{key: value for key, value in fault.items() if key in FAULT} for fault in error.faults]
+    return [{key: value for key, value in fault.items() if key in FAULT} for fault in error.errors]
 
 
 def refused(about: str, error: InputError, path: str | None = None) -> dict[str, Any]:

@@ -1,7 +1,7 @@
-//! A document read against what is allowed, every fault at once, each with its line: TOML, and the
+//! A document read against what is allowed, every error at once, each with its line: TOML, and the
 //! plain YAML of maps.
 //!
-//! serde stops at the first fault and forgets the line. Here the text becomes a tree of [`Node`]s
+//! serde stops at the first error and forgets the line. Here the text becomes a tree of [`Node`]s
 //! that know where they came from ([`parse`]), options of the command line replace nodes
 //! ([`Document::set`]), and a [`Section`] reads typed values and collects what is wrong.
 //!
@@ -9,7 +9,7 @@
 //! use base::document::{Document, Section, Value};
 //! let mut document = Document::parse("job.toml", "cap_s = 120\n[robots]\ncount = 0")?;
 //! document.set(&["cap_s"], Value::Float(-1.0), "--cap");
-//! let faults = document
+//! let errors = document
 //!     .read(|root: &Section| {
 //!         root.only(&["cap_s", "robots"]);
 //!         let cap_s = root.number("cap_s", 0.0..=1e6);
@@ -18,11 +18,11 @@
 //!     })
 //!     .unwrap_err();
 //! assert_eq!(
-//!     faults.to_string(),
+//!     errors.to_string(),
 //!     "--cap: cap_s = -1.0: must be a number from 0 to 1000000\n\
 //!      job.toml:3: robots.count = 0: must be a whole number from 1 to 100"
 //! );
-//! # Ok::<(), base::fault::Faults>(())
+//! # Ok::<(), base::error::InputErrors>(())
 //! ```
 
 mod parse;
@@ -35,7 +35,7 @@ mod yaml;
 pub use place::Place;
 pub use section::Section;
 
-use crate::fault::{Fault, Faults};
+use crate::error::{InputError, InputErrors};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -122,7 +122,7 @@ fn as_number(node: &Node) -> Option<f64> {
     }
 }
 
-/// A value put over what a file says, and how faults should name where it comes from.
+/// A value put over what a file says, and how errors should name where it comes from.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Override {
     /// Keys from the root.
@@ -164,22 +164,22 @@ impl Default for Document {
 }
 
 impl Document {
-    /// Reads TOML `text`; `file` is how faults name it.
+    /// Reads TOML `text`; `file` is how errors name it.
     ///
     /// # Errors
     /// Every place at which the text is not TOML.
-    pub fn parse(file: &str, text: &str) -> Result<Self, Faults> {
+    pub fn parse(file: &str, text: &str) -> Result<Self, InputErrors> {
         parse::parse(file, text).map(Self::of)
     }
 
     /// Reads the YAML `text` of one flat file: mappings, lists and plain values, a few levels deep.
-    /// `file` is how faults name it.
+    /// `file` is how errors name it.
     ///
     /// Aliases and tags are refused, so that a short text cannot become a large document.
     ///
     /// # Errors
     /// What in the text is not such YAML.
-    pub fn parse_yaml(file: &str, text: &str) -> Result<Self, Faults> {
+    pub fn parse_yaml(file: &str, text: &str) -> Result<Self, InputErrors> {
         yaml::parse(file, text).map(Self::of)
     }
 
@@ -213,7 +213,7 @@ impl Document {
         self.files.contains_key(name)
     }
 
-    /// Puts `value` at `path`, over what the file says; `origin` is how faults name it.
+    /// Puts `value` at `path`, over what the file says; `origin` is how errors name it.
     ///
     /// Tables on the way are made; something on the way that is no table is replaced by one.
     pub fn set(&mut self, path: &[&str], value: Value, origin: &str) {
@@ -290,23 +290,23 @@ impl Document {
 
     /// What `reader` makes of the document, if it finds nothing wrong.
     ///
-    /// `reader` should look at everything before it gives up, so that all faults are told at once.
+    /// `reader` should look at everything before it gives up, so that all errors are told at once.
     ///
     /// # Errors
     /// Everything that the sections found wrong.
-    pub fn read<T>(&self, reader: impl FnOnce(&Section) -> Option<T>) -> Result<T, Faults> {
-        let (value, faults) = self.read_all(reader);
-        Faults::or(faults, value)
+    pub fn read<T>(&self, reader: impl FnOnce(&Section) -> Option<T>) -> Result<T, InputErrors> {
+        let (value, errors) = self.read_all(reader);
+        InputErrors::or(errors, value)
     }
 
     /// What `reader` makes of the document, and everything that the sections found wrong.
     pub fn read_all<T>(
         &self,
         reader: impl FnOnce(&Section) -> Option<T>,
-    ) -> (Option<T>, Vec<Fault>) {
-        let faults = RefCell::new(Vec::<Fault>::new());
-        let value = reader(&Section::root(&self.root, &faults));
-        (value, faults.into_inner())
+    ) -> (Option<T>, Vec<InputError>) {
+        let errors = RefCell::new(Vec::<InputError>::new());
+        let value = reader(&Section::root(&self.root, &errors));
+        (value, errors.into_inner())
     }
 }
 

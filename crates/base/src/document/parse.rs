@@ -1,21 +1,21 @@
 //! From TOML text to nodes that know their lines.
 
 use super::{Node, Table, Value};
-use crate::fault::{Fault, Faults};
+use crate::error::{InputError, InputErrors};
 use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 /// Reads `text`, or tells every place at which it is not TOML.
-pub(super) fn parse(file: &str, text: &str) -> Result<Node, Faults> {
+pub(super) fn parse(file: &str, text: &str) -> Result<Node, InputErrors> {
     let lines = Lines::new(file, text);
     let (table, errors) = DeTable::parse_recoverable(text);
-    let faults: Vec<Fault> = errors.iter().map(|error| lines.fault(error)).collect();
+    let errors: Vec<InputError> = errors.iter().map(|error| lines.error(error)).collect();
     let root = Node {
         value: lines.table(table.get_ref()),
         origin: file.to_owned(),
     };
-    Faults::or(faults, Some(root))
+    InputErrors::or(errors, Some(root))
 }
 
 /// Where the lines of a text begin.
@@ -38,11 +38,11 @@ impl<'t> Lines<'t> {
         format!("{}:{line}", self.file)
     }
 
-    fn fault(&self, error: &toml::de::Error) -> Fault {
+    fn error(&self, error: &toml::de::Error) -> InputError {
         let allowed = format!("not valid TOML: {}", error.message());
-        Fault {
+        InputError {
             origin: Some(self.origin(&error.span().unwrap_or(0..0))),
-            ..Fault::new(String::new(), None, allowed)
+            ..InputError::new(String::new(), None, allowed)
         }
     }
 

@@ -1,7 +1,7 @@
 //! A place in a document, to tell what is wrong there.
 
 use super::{Document, Node, Value, path_of};
-use crate::fault::{Fault, nearest};
+use crate::error::{InputError, nearest};
 
 /// A place in a document, whether something stands there or not.
 ///
@@ -10,11 +10,11 @@ use crate::fault::{Fault, nearest};
 /// let document = Document::parse("job.toml", "\n[[walls]]\ncorners = [1, 2]").unwrap();
 /// let walls = document.place().key("walls");
 /// assert_eq!(
-///     walls.item(0).key("corners").fault("a triangle").to_string(),
+///     walls.item(0).key("corners").error("a triangle").to_string(),
 ///     "job.toml:3: walls[0].corners = [1, 2]: must be a triangle"
 /// );
 /// assert_eq!(
-///     walls.item(0).key("height").fault("above 0").to_string(),
+///     walls.item(0).key("height").error("above 0").to_string(),
 ///     "job.toml:2: walls[0].height is missing: must be above 0"
 /// );
 /// ```
@@ -65,7 +65,7 @@ impl<'d> Place<'d> {
         Self { node, origin, path }
     }
 
-    /// What is written here, as a fault shows it.
+    /// What is written here, as an error shows it.
     #[must_use]
     pub fn given(&self) -> Option<String> {
         self.node.map(|node| node.value.to_string())
@@ -73,10 +73,10 @@ impl<'d> Place<'d> {
 
     /// What stands here is not what is `allowed` ("must be ...").
     #[must_use]
-    pub fn fault(&self, allowed: impl Into<String>) -> Fault {
-        Fault {
+    pub fn error(&self, allowed: impl Into<String>) -> InputError {
+        InputError {
             origin: Some(self.origin.to_owned()),
-            ..Fault::new(self.path.clone(), self.given(), allowed.into())
+            ..InputError::new(self.path.clone(), self.given(), allowed.into())
         }
     }
 
@@ -86,11 +86,11 @@ impl<'d> Place<'d> {
         &self,
         word: &str,
         names: impl Iterator<Item = &'n str> + Clone,
-    ) -> Fault {
+    ) -> InputError {
         let known: Vec<&str> = names.clone().collect();
-        Fault {
+        InputError {
             suggestion: nearest(word, names).map(str::to_owned),
-            ..self.fault(format!("under one of {}", known.join(", ")))
+            ..self.error(format!("under one of {}", known.join(", ")))
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Typed reading of a table, collecting what is wrong.
 
 use super::{Node, Table, Value, as_number, path_of, written};
-use crate::fault::{Fault, nearest};
+use crate::error::{InputError, nearest};
 use std::cell::RefCell;
 use std::ops::RangeInclusive;
 
@@ -13,18 +13,18 @@ pub struct Section<'d> {
     origin: &'d str,
     path: String,
     /// It is no table, which has been told: nothing in it is told as missing.
-    is_faulty: bool,
-    faults: &'d RefCell<Vec<Fault>>,
+    is_invalid: bool,
+    errors: &'d RefCell<Vec<InputError>>,
 }
 
 impl<'d> Section<'d> {
-    pub(super) fn root(node: &'d Node, faults: &'d RefCell<Vec<Fault>>) -> Self {
+    pub(super) fn root(node: &'d Node, errors: &'d RefCell<Vec<InputError>>) -> Self {
         Self {
             table: as_table(node),
             origin: &node.origin,
             path: String::new(),
-            is_faulty: false,
-            faults,
+            is_invalid: false,
+            errors,
         }
     }
 
@@ -33,7 +33,7 @@ impl<'d> Section<'d> {
         for key in self.keys().filter(|key| !keys.contains(key)) {
             let allowed = format!("one of the known keys here: {}", keys.join(", "));
             let meant = nearest(key, keys.iter().copied());
-            self.fault_for(key, &allowed, meant.map(str::to_owned));
+            self.error_for(key, &allowed, meant.map(str::to_owned));
         }
     }
 
@@ -70,14 +70,14 @@ impl<'d> Section<'d> {
         let table = node.and_then(as_table);
         let is_no_table = node.is_some() && table.is_none();
         if is_no_table {
-            self.fault(key, "a table");
+            self.error(key, "a table");
         }
         Section {
             table,
             origin: node.map_or(self.origin, |node| &node.origin),
             path: self.path_of(key),
-            is_faulty: self.is_faulty || is_no_table,
-            faults: self.faults,
+            is_invalid: self.is_invalid || is_no_table,
+            errors: self.errors,
         }
     }
 
@@ -118,22 +118,25 @@ impl<'d> Section<'d> {
     pub fn numbers(&self, key: &str, range: RangeInclusive<f64>) -> Option<Vec<f64>> {
         let (low, high) = (written(*range.start()), written(*range.end()));
         let Some(Value::List(items)) = self.node(key).map(|node| &node.value) else {
-            self.fault(key, &format!("a list of numbers from {low} to {high}"));
+            self.error(key, &format!("a list of numbers from {low} to {high}"));
             return None;
         };
         if items.is_empty() {
-            self.fault(key, "a list of at least one number");
+            self.error(key, "a list of at least one number");
         }
         let number = |(index, item): (usize, &Node)| {
             let number = as_number(item).filter(|number| range.contains(number));
             if number.is_none() {
                 let path = format!("{}[{index}]", self.path_of(key));
                 let allowed = format!("a number from {low} to {high}");
-                self.push(key, Fault::new(path, Some(item.value.to_string()), allowed));
+                self.push(
+                    key,
+                    InputError::new(path, Some(item.value.to_string()), allowed),
+                );
             }
             number
         };
-        // All are looked at, so that all faults are told, before the list is given up.
+        // All are looked at, so that all errors are told, before the list is given up.
         let numbers: Vec<Option<f64>> = items.iter().enumerate().map(number).collect();
         let numbers: Option<Vec<f64>> = numbers.into_iter().collect();
         numbers.filter(|numbers| !numbers.is_empty())
@@ -178,44 +181,44 @@ impl<'d> Section<'d> {
             let names = names.iter().map(|(name, _)| *name);
             self.push(
                 key,
-                Fault::not_one_of(self.path_of(key), given, word, names),
+                InputError::not_one_of(self.path_of(key), given, word, names),
             );
         }
         chosen.map(|(_, value)| *value)
     }
 
     /// Tells that what stands at `key` is not what is `allowed` ("must be ...").
-    pub fn fault(&self, key: &str, allowed: &str) {
-        self.fault_for(key, allowed, None);
+    pub fn error(&self, key: &str, allowed: &str) {
+        self.error_for(key, allowed, None);
     }
 
-    /// As [`Section::fault`], with what was perhaps meant.
-    pub fn fault_for(&self, key: &str, allowed: &str, suggestion: Option<String>) {
+    /// As [`Section::error`], with what was perhaps meant.
+    pub fn error_for(&self, key: &str, allowed: &str, suggestion: Option<String>) {
         let given = self.node(key).map(|node| node.value.to_string());
-        let fault = Fault::new(self.path_of(key), given, allowed.to_owned());
+        let error = InputError::new(self.path_of(key), given, allowed.to_owned());
         self.push(
             key,
-            Fault {
+            InputError {
                 suggestion,
-                ..fault
+                ..error
             },
         );
     }
 
     fn told<T>(&self, value: Option<T>, key: &str, allowed: impl Fn() -> String) -> Option<T> {
         if value.is_none() {
-            self.fault(key, &allowed());
+            self.error(key, &allowed());
         }
         value
     }
 
-    /// Notes a fault of what stands at `key`, unless the section as a whole is one.
-    fn push(&self, key: &str, fault: Fault) {
+    /// Notes an error of what stands at `key`, unless the section as a whole is one.
+    fn push(&self, key: &str, error: InputError) {
         let origin = self.origin(key);
-        if !self.is_faulty {
-            self.faults.borrow_mut().push(Fault {
+        if !self.is_invalid {
+            self.errors.borrow_mut().push(InputError {
                 origin: Some(origin.to_owned()),
-                ..fault
+                ..error
             });
         }
     }

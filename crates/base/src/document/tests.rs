@@ -1,21 +1,21 @@
 use super::*;
 use proptest::prelude::*;
 
-fn faults_of(text: &str, reader: impl FnOnce(&Section) -> Option<()>) -> Vec<String> {
+fn errors_of(text: &str, reader: impl FnOnce(&Section) -> Option<()>) -> Vec<String> {
     let document = match Document::parse("job.toml", text) {
         Ok(document) => document,
-        Err(faults) => return faults.0.iter().map(ToString::to_string).collect(),
+        Err(errors) => return errors.0.iter().map(ToString::to_string).collect(),
     };
     match document.read(reader) {
         Ok(()) => Vec::new(),
-        Err(faults) => faults.0.iter().map(ToString::to_string).collect(),
+        Err(errors) => errors.0.iter().map(ToString::to_string).collect(),
     }
 }
 
 #[test]
-fn all_faults_are_told_at_once_each_with_its_line() {
+fn all_errors_are_told_at_once_each_with_its_line() {
     let text = "engine = \"clasic\"\ncap_s = \"long\"\n\n[robots.rover]\ncuont = 3\n";
-    let faults = faults_of(text, |root| {
+    let errors = errors_of(text, |root| {
         root.only(&["engine", "cap_s", "robots"]);
         let engine = root.choice("engine", &[("classic", 1), ("metric", 2)]);
         let cap_s = root.number("cap_s", 0.0..=10.0);
@@ -25,7 +25,7 @@ fn all_faults_are_told_at_once_each_with_its_line() {
         engine.and(cap_s).and(count).map(|_| ())
     });
     assert_eq!(
-        faults,
+        errors,
         [
             "job.toml:1: engine = \"clasic\": must be one of \"classic\", \"metric\"; \
              did you mean \"classic\"?",
@@ -39,34 +39,34 @@ fn all_faults_are_told_at_once_each_with_its_line() {
 
 #[test]
 fn text_that_is_not_toml_is_told_with_its_line() {
-    let faults = faults_of("a = 1\nb = = 2\n", |_| Some(()));
-    assert!(!faults.is_empty());
-    for fault in faults {
-        assert!(fault.starts_with("job.toml:2: not valid TOML: "), "{fault}");
+    let errors = errors_of("a = 1\nb = = 2\n", |_| Some(()));
+    assert!(!errors.is_empty());
+    for error in errors {
+        assert!(error.starts_with("job.toml:2: not valid TOML: "), "{error}");
     }
 }
 
 #[test]
 fn nan_and_numbers_beyond_64_bits_are_out_of_every_range() {
     let text = "a = nan\nb = 99999999999999999999\nc = 1979-05-27";
-    let faults = faults_of(text, |root| {
+    let errors = errors_of(text, |root| {
         let a = root.number("a", f64::MIN..=f64::MAX);
         let b = root.integer("b", i64::MIN..=i64::MAX);
         let c = root.line("c");
         a.and(b).and(c).map(|_| ())
     });
-    assert_eq!(faults.len(), 3, "{faults:?}");
+    assert_eq!(errors.len(), 3, "{errors:?}");
 }
 
 #[test]
 fn a_table_where_a_value_belongs_and_the_reverse_are_told() {
-    let faults = faults_of("a = 1\n[b]\nc = 1", |root| {
+    let errors = errors_of("a = 1\n[b]\nc = 1", |root| {
         let a = root.section("a").integer("x", 0..=1);
         let b = root.integer("b", 0..=1);
         a.and(b).map(|_| ())
     });
     assert_eq!(
-        faults,
+        errors,
         [
             "job.toml:1: a = 1: must be a table",
             "job.toml:2: b = {...}: must be a whole number from 0 to 1",
@@ -76,13 +76,13 @@ fn a_table_where_a_value_belongs_and_the_reverse_are_told() {
 
 #[test]
 fn each_bad_number_of_a_list_is_told_with_its_place() {
-    let faults = faults_of("a = [1, 20, \"x\"]\nb = []", |root| {
+    let errors = errors_of("a = [1, 20, \"x\"]\nb = []", |root| {
         let a = root.numbers("a", 0.0..=10.0);
         let b = root.numbers("b", 0.0..=10.0);
         a.and(b).map(|_| ())
     });
     assert_eq!(
-        faults,
+        errors,
         [
             "job.toml:1: a[1] = 20: must be a number from 0 to 10",
             "job.toml:1: a[2] = \"x\": must be a number from 0 to 10",
@@ -94,23 +94,23 @@ fn each_bad_number_of_a_list_is_told_with_its_place() {
 #[test]
 fn a_line_is_neither_empty_nor_broken() {
     for text in ["''", "' '", r#""a\nb""#, r#""\u2028""#, r#""\u0000""#] {
-        let faults = faults_of(&format!("a = {text}"), |root| root.line("a").map(|_| ()));
-        assert_eq!(faults.len(), 1, "{text}");
+        let errors = errors_of(&format!("a = {text}"), |root| root.line("a").map(|_| ()));
+        assert_eq!(errors.len(), 1, "{text}");
         assert!(
-            faults[0].ends_with("must be a line of text in quotes"),
-            "{faults:?}"
+            errors[0].ends_with("must be a line of text in quotes"),
+            "{errors:?}"
         );
     }
 }
 
 #[test]
-fn an_option_replaces_what_the_file_says_and_is_named_in_its_fault() {
+fn an_option_replaces_what_the_file_says_and_is_named_in_its_error() {
     let mut document = Document::parse("job.toml", "[robots]\ncount = 3").unwrap();
     document.set(&["robots", "count"], Value::Integer(0), "--count");
     let read = |root: &Section| root.section("robots").integer("count", 1..=9);
-    let faults = document.read(read).unwrap_err();
+    let errors = document.read(read).unwrap_err();
     assert_eq!(
-        faults.to_string(),
+        errors.to_string(),
         "--count: robots.count = 0: must be a whole number from 1 to 9"
     );
     document.set(&["robots", "count"], Value::Integer(5), "--count");
@@ -161,7 +161,7 @@ fn what_stands_at_a_path_is_found_with_its_line() {
 #[test]
 fn a_number_that_does_not_hold_is_told_with_what_is_allowed() {
     let read = |text: &str| {
-        faults_of(text, |root| {
+        errors_of(text, |root| {
             root.number_if("a", "a number above 0", |a| a > 0.0)
                 .map(|_| ())
         })

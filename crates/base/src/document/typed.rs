@@ -2,7 +2,7 @@
 
 use super::schema::Schema;
 use super::{Document, Node, Value};
-use crate::fault::{Fault, Faults};
+use crate::error::{InputError, InputErrors};
 use serde::de::DeserializeOwned;
 use serde_json::Value as Json;
 use serde_path_to_error::Segment;
@@ -12,10 +12,10 @@ impl Document {
     ///
     /// # Errors
     /// Everything that is wrong with it.
-    pub fn typed<T: DeserializeOwned>(&self, schema: &Schema) -> Result<T, Faults> {
-        let faults = schema.faults(self);
-        if !faults.is_empty() {
-            return Err(Faults(faults));
+    pub fn typed<T: DeserializeOwned>(&self, schema: &Schema) -> Result<T, InputErrors> {
+        let errors = schema.errors(self);
+        if !errors.is_empty() {
+            return Err(InputErrors(errors));
         }
         // What the schema of a type allows is read; should one disagree with its type, it is told.
         serde_path_to_error::deserialize(json(&self.root)).map_err(|error| {
@@ -23,8 +23,8 @@ impl Document {
             let node = node_at(&self.root, error.path().iter());
             let allowed = format!("readable: {}", error.inner());
             let origin = Some(node.origin.clone());
-            let fault = Fault::new(path, Some(node.value.to_string()), allowed);
-            Faults(vec![Fault { origin, ..fault }])
+            let error = InputError::new(path, Some(node.value.to_string()), allowed);
+            InputErrors(vec![InputError { origin, ..error }])
         })
     }
 }

@@ -1,7 +1,7 @@
 //! From YAML text to nodes that know their lines.
 
 use super::{Node, Table, Value};
-use crate::fault::{Fault, Faults};
+use crate::error::{InputError, InputErrors};
 use granit_parser::{Event, Parser, ScalarStyle, ScanError, Span, options};
 
 /// Longest text that is read.
@@ -11,12 +11,12 @@ const MAX_BYTES: usize = 1 << 16;
 const MAX_DEPTH: usize = 8;
 
 /// Reads `text`, or tells what in it is not plain YAML.
-pub(super) fn parse(file: &str, text: &str) -> Result<Node, Faults> {
+pub(super) fn parse(file: &str, text: &str) -> Result<Node, InputErrors> {
     if text.len() > MAX_BYTES {
         let allowed = format!("a text of at most {MAX_BYTES} bytes; it has {}", text.len());
-        let fault = Fault::new(String::new(), None, allowed);
+        let error = InputError::new(String::new(), None, allowed);
         let origin = Some(file.to_owned());
-        return Err(Faults(vec![Fault { origin, ..fault }]));
+        return Err(InputErrors(vec![InputError { origin, ..error }]));
     }
     let options = options! {
         flow_nesting_limit: MAX_DEPTH,
@@ -26,19 +26,19 @@ pub(super) fn parse(file: &str, text: &str) -> Result<Node, Faults> {
     let mut reader = Reader {
         file,
         events: Parser::new_from_str_with_options(text, options),
-        faults: Vec::new(),
+        errors: Vec::new(),
     };
     let root = reader.root();
-    let Reader { mut faults, .. } = reader;
-    let root = root.map_err(|stop| faults.push(stop)).ok();
-    Faults::or(faults, root)
+    let Reader { mut errors, .. } = reader;
+    let root = root.map_err(|stop| errors.push(stop)).ok();
+    InputErrors::or(errors, root)
 }
 
 struct Reader<'t, I> {
     file: &'t str,
     events: I,
     /// What is wrong but does not end the reading.
-    faults: Vec<Fault>,
+    errors: Vec<InputError>,
 }
 
 impl<'t, I> Reader<'t, I>
@@ -46,14 +46,14 @@ where
     I: Iterator<Item = Result<(Event<'t>, Span), ScanError>>,
 {
     /// The mapping that the text is; an empty text is an empty one.
-    fn root(&mut self) -> Result<Node, Fault> {
+    fn root(&mut self) -> Result<Node, InputError> {
         let mut root = None;
         loop {
             match self.next()? {
                 (Event::StreamStart | Event::DocumentStart(..) | Event::DocumentEnd, _) => (),
                 (Event::StreamEnd, _) => break,
                 (_, span) if root.is_some() => {
-                    return Err(self.fault(&span, "one YAML document, not several"));
+                    return Err(self.error(&span, "one YAML document, not several"));
                 }
                 (event, span) => root = Some(self.node(event, &span, MAX_DEPTH)?),
             }
@@ -62,9 +62,9 @@ where
         match root.map(|root| root.value) {
             None => Ok(Value::Table(Table::new())),
             Some(Value::Table(table)) => Ok(Value::Table(table)),
-            Some(_) => Err(Fault {
+            Some(_) => Err(InputError {
                 origin: Some(origin.clone()),
-                ..Fault::new(
+                ..InputError::new(
                     String::new(),
                     None,
                     "not a YAML mapping of keys to values".into(),
@@ -74,7 +74,7 @@ where
         .map(|value| Node { value, origin })
     }
 
-    fn next(&mut self) -> Result<(Event<'t>, Span), Fault> {
+    fn next(&mut self) -> Result<(Event<'t>, Span), InputError> {
         match self.events.next() {
             Some(Ok(event)) => Ok(event),
             Some(Err(error)) => Err(self.told(
@@ -85,22 +85,22 @@ where
         }
     }
 
-    fn node(&mut self, event: Event<'t>, span: &Span, levels: usize) -> Result<Node, Fault> {
+    fn node(&mut self, event: Event<'t>, span: &Span, levels: usize) -> Result<Node, InputError> {
         if levels == 0 {
-            return Err(self.fault(span, "a document with fewer levels"));
+            return Err(self.error(span, "a document with fewer levels"));
         }
         let value = match event {
             Event::Scalar(text, style, _, None) => scalar(&text, style),
             Event::SequenceStart(_, _, None) => self.list(levels - 1)?,
             Event::MappingStart(_, _, None) => self.table(levels - 1)?,
-            Event::Alias(_) => return Err(self.fault(span, "a document without aliases (*name)")),
-            _ => return Err(self.fault(span, "a document without tags (!name)")),
+            Event::Alias(_) => return Err(self.error(span, "a document without aliases (*name)")),
+            _ => return Err(self.error(span, "a document without tags (!name)")),
         };
         let origin = self.origin(span);
         Ok(Node { value, origin })
     }
 
-    fn list(&mut self, levels: usize) -> Result<Value, Fault> {
+    fn list(&mut self, levels: usize) -> Result<Value, InputError> {
         let mut items = Vec::new();
         loop {
             match self.next()? {
@@ -110,14 +110,14 @@ where
         }
     }
 
-    fn table(&mut self, levels: usize) -> Result<Value, Fault> {
+    fn table(&mut self, levels: usize) -> Result<Value, InputError> {
         let mut table = Table::new();
         loop {
             let (event, span) = self.next()?;
             let key = match event {
                 Event::MappingEnd => return Ok(Value::Table(table)),
                 Event::Scalar(text, _, _, None) => text.into_owned(),
-                _ => return Err(self.fault(&span, "a document whose keys are plain names")),
+                _ => return Err(self.error(&span, "a document whose keys are plain names")),
             };
             let (event, value_span) = self.next()?;
             // A key's line is the value's, as in TOML.
@@ -127,8 +127,8 @@ where
                 ..self.node(event, &value_span, levels)?
             };
             if table.contains_key(&key) {
-                let fault = self.fault(&span, &format!("a document with {key:?} only once"));
-                self.faults.push(fault);
+                let error = self.error(&span, &format!("a document with {key:?} only once"));
+                self.errors.push(error);
             }
             table.insert(key, value);
         }
@@ -138,14 +138,14 @@ where
         format!("{}:{}", self.file, span.start.line())
     }
 
-    fn fault(&self, span: &Span, allowed: &str) -> Fault {
+    fn error(&self, span: &Span, allowed: &str) -> InputError {
         self.told(span.start.line(), &format!("must be {allowed}"))
     }
 
-    fn told(&self, line: usize, sentence: &str) -> Fault {
-        Fault {
+    fn told(&self, line: usize, sentence: &str) -> InputError {
+        InputError {
             origin: Some(format!("{}:{line}", self.file)),
-            ..Fault::new(String::new(), None, sentence.to_owned())
+            ..InputError::new(String::new(), None, sentence.to_owned())
         }
     }
 }

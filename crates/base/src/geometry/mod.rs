@@ -11,7 +11,7 @@ mod segment;
 mod torus;
 
 pub use disc::Disc;
-pub use polygon::{Polygon, PolygonFault};
+pub use polygon::{Polygon, PolygonError};
 pub use rectangle::Rectangle;
 pub use segment::Segment;
 pub use torus::Torus;

@@ -23,7 +23,7 @@ mod outline;
 mod pgm;
 mod settings;
 
-use crate::fault::{Fault, Faults};
+use crate::error::{InputError, InputErrors};
 use crate::geometry::{Point, Rectangle, Segment};
 use grid::Grid;
 use schemars::JsonSchema;
@@ -60,7 +60,7 @@ pub struct OccupancyMap {
     outline: Vec<Segment>,
 }
 
-/// Reads the map whose YAML is `text`; `file` is how faults name it.
+/// Reads the map whose YAML is `text`; `file` is how errors name it.
 ///
 /// `open` gives the bytes of the image that the YAML names, or says why it cannot; a relative name
 /// is relative to the YAML file. No more than [`MAX_IMAGE_BYTES`] are looked at. The map takes a
@@ -78,17 +78,17 @@ pub struct OccupancyMap {
 /// assert!(map.is_solid([1.25, 2.75].into()));
 /// assert!(!map.is_solid([1.75, 2.75].into()));
 /// assert_eq!(map.outline().len(), 4);
-/// # Ok::<(), base::fault::Faults>(())
+/// # Ok::<(), base::error::InputErrors>(())
 /// ```
 pub fn read(
     file: &str,
     text: &str,
     unknown: Unknown,
     open: impl FnOnce(&str) -> Result<Vec<u8>, String>,
-) -> Result<OccupancyMap, Faults> {
+) -> Result<OccupancyMap, InputErrors> {
     let settings = settings::read(file, text)?;
-    let only = |fault| Faults(vec![fault]);
-    let bytes = open(&settings.image).map_err(|why| only(settings.image_fault(&why)))?;
+    let only = |error| InputErrors(vec![error]);
+    let bytes = open(&settings.image).map_err(|why| only(settings.image_error(&why)))?;
     let meaning = |value, greatest| settings.occupancy(value, greatest);
     let cells = pgm::read(&settings.image, &bytes, meaning).map_err(only)?;
     drop(bytes);
@@ -96,12 +96,12 @@ pub fn read(
 }
 
 impl OccupancyMap {
-    fn new(cells: Grid, settings: Settings, unknown: Unknown) -> Result<Self, Fault> {
+    fn new(cells: Grid, settings: Settings, unknown: Unknown) -> Result<Self, InputError> {
         let is_solid = |occupancy| is_solid(occupancy, unknown);
         let corner = |column, row| settings.place(f64::from(column), f64::from(row));
         let outline = outline::trace(&cells, is_solid, corner).ok_or_else(|| {
             let why = format!("it has more than {MAX_SEGMENTS} straight walls: smooth it");
-            settings.image_fault(&why)
+            settings.image_error(&why)
         })?;
         Ok(Self {
             cells,

@@ -2,9 +2,9 @@
 
 use super::grid::{Grid, size};
 use super::{MAX_CELLS, MAX_IMAGE_BYTES};
-use crate::fault::Fault;
+use crate::error::InputError;
 
-/// Reads the image `bytes`, each pixel as its `meaning(value, greatest value)`; `file` is how faults
+/// Reads the image `bytes`, each pixel as its `meaning(value, greatest value)`; `file` is how errors
 /// name it. The image's last row becomes the grid's first.
 ///
 /// # Errors
@@ -13,15 +13,15 @@ pub(super) fn read(
     file: &str,
     bytes: &[u8],
     meaning: impl Fn(u16, u16) -> i8,
-) -> Result<Grid, Fault> {
+) -> Result<Grid, InputError> {
     let mut reader = Reader {
         bytes,
         at: 0,
         is_text: true,
     };
-    image(&mut reader, meaning).map_err(|allowed| Fault {
+    image(&mut reader, meaning).map_err(|allowed| InputError {
         origin: Some(reader.origin(file)),
-        ..Fault::new(String::new(), None, allowed)
+        ..InputError::new(String::new(), None, allowed)
     })
 }
 

@@ -1,7 +1,7 @@
 //! What a map's YAML file says, and what it makes of pixels and places.
 
 use crate::document::{Document, Section, Value};
-use crate::fault::{Fault, Faults};
+use crate::error::{InputError, InputErrors};
 use crate::geometry::Point;
 use crate::trig;
 
@@ -48,7 +48,7 @@ pub(super) struct Settings {
     mode: Mode,
 }
 
-pub(super) fn read(file: &str, text: &str) -> Result<Settings, Faults> {
+pub(super) fn read(file: &str, text: &str) -> Result<Settings, InputErrors> {
     Document::parse_yaml(file, text)?.read(|root| {
         root.only(&KEYS);
         let image = root.line("image");
@@ -82,7 +82,7 @@ fn pose(root: &Section) -> Option<(Point, f64)> {
     if let [x, y, yaw_rad] = numbers[..] {
         return Some((Point { x, y }, yaw_rad));
     }
-    root.fault("origin", "three numbers: x and y in metres, yaw in radians");
+    root.error("origin", "three numbers: x and y in metres, yaw in radians");
     None
 }
 
@@ -91,7 +91,7 @@ fn is_negated(root: &Section) -> Option<bool> {
         Some(Value::Bool(value)) => Some(*value),
         Some(Value::Integer(value @ 0..=1)) => Some(*value == 1),
         _ => {
-            root.fault("negate", "0, 1, false or true");
+            root.error("negate", "0, 1, false or true");
             None
         }
     }
@@ -103,7 +103,7 @@ fn thresholds(root: &Section) -> Option<(f64, f64)> {
     let occupied = root.number("occupied_thresh", 0.0..=1.0);
     let (free, occupied) = (free?, occupied?);
     if free >= occupied {
-        root.fault(
+        root.error(
             "free_thresh",
             &format!("below occupied_thresh, which is {occupied:?}"),
         );
@@ -114,12 +114,12 @@ fn thresholds(root: &Section) -> Option<(f64, f64)> {
 
 impl Settings {
     /// What is wrong with the image as a whole.
-    pub(super) fn image_fault(&self, why: &str) -> Fault {
+    pub(super) fn image_error(&self, why: &str) -> InputError {
         let given = Some(format!("{:?}", self.image));
         let allowed = format!("the name of a map's image in PGM; {why}");
-        Fault {
+        InputError {
             origin: Some(self.source.clone()),
-            ..Fault::new("image".to_owned(), given, allowed)
+            ..InputError::new("image".to_owned(), given, allowed)
         }
     }
 

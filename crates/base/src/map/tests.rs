@@ -31,11 +31,11 @@ fn yaml(lines: &[&str]) -> String {
 "
 }
 
-fn load(text: &str, image: &[u8]) -> Result<OccupancyMap, Faults> {
+fn load(text: &str, image: &[u8]) -> Result<OccupancyMap, InputErrors> {
     read("room.yaml", text, Unknown::Free, |_| Ok(image.to_vec()))
 }
 
-fn faults(text: &str, image: &[u8]) -> String {
+fn errors(text: &str, image: &[u8]) -> String {
     load(text, image).unwrap_err().to_string()
 }
 
@@ -174,11 +174,11 @@ fn edges_end_where_two_cells_touch_by_a_corner() {
 }
 
 #[test]
-fn all_faults_of_the_yaml_are_told_at_once_each_with_its_line() {
+fn all_errors_of_the_yaml_are_told_at_once_each_with_its_line() {
     let text = "image: ''\nresolution: -0.05\norigin: [0, .nan]\nnegate: 2\n\
                 occupied_tresh: 0.65\nfree_thresh: 1.5\nmode: trinery\n";
     assert_eq!(
-        faults(text, b""),
+        errors(text, b""),
         "room.yaml:5: occupied_tresh = 0.65: must be one of the known keys here: image, \
          resolution, origin, negate, occupied_thresh, free_thresh, mode; \
          did you mean occupied_thresh?\n\
@@ -197,7 +197,7 @@ fn all_faults_of_the_yaml_are_told_at_once_each_with_its_line() {
 fn thresholds_are_in_order_and_the_pose_has_three_numbers() {
     let text = yaml(&["origin: [0, 0]", "free_thresh: 0.7"]);
     assert_eq!(
-        faults(&text, b""),
+        errors(&text, b""),
         "room.yaml:5: origin = [0, 0]: must be three numbers: x and y in metres, yaw in radians\n\
          room.yaml:6: free_thresh = 0.7: must be below occupied_thresh, which is 0.65"
     );
@@ -205,11 +205,11 @@ fn thresholds_are_in_order_and_the_pose_has_three_numbers() {
 
 #[test]
 fn an_image_that_cannot_be_opened_is_told_where_it_is_named() {
-    let faults = read("a/room.yaml", ROOM, Unknown::Free, |name| {
+    let errors = read("a/room.yaml", ROOM, Unknown::Free, |name| {
         Err(format!("{name} is not there"))
     });
     assert_eq!(
-        faults.unwrap_err().to_string(),
+        errors.unwrap_err().to_string(),
         "a/room.yaml:1: image = \"room.pgm\": must be the name of a map's image in PGM; \
          room.pgm is not there"
     );
@@ -280,7 +280,7 @@ fn a_header_that_lies_is_told_before_anything_is_set_aside() {
             "room.pgm:1: not a PGM image: it must begin with P5 or P2",
         ),
     ] {
-        assert_eq!(faults(ROOM, image), expected);
+        assert_eq!(errors(ROOM, image), expected);
     }
 }
 
@@ -294,14 +294,14 @@ fn comments_may_stand_anywhere_in_the_header() {
 fn a_short_yaml_cannot_become_a_large_document() {
     let laughs = "a: &a [ha, ha]\nb: &b [*a, *a]\nimage: [*b, *b]\n";
     assert_eq!(
-        faults(laughs, b""),
+        errors(laughs, b""),
         "room.yaml:2: must be a document without aliases (*name)"
     );
     let deep = format!("image: {}", "[".repeat(60_000));
-    assert!(faults(&deep, b"").starts_with("room.yaml:1: not valid YAML"));
+    assert!(errors(&deep, b"").starts_with("room.yaml:1: not valid YAML"));
     let long = format!("image: {}", "a".repeat(70_000));
     assert_eq!(
-        faults(&long, b""),
+        errors(&long, b""),
         "room.yaml: a text of at most 65536 bytes; it has 70007"
     );
 }
@@ -323,9 +323,9 @@ fn what_is_no_plain_yaml_is_told() {
             "room.yaml:1: must be a document whose keys are plain names",
         ),
     ] {
-        assert_eq!(faults(text, b""), expected);
+        assert_eq!(errors(text, b""), expected);
     }
-    let twice = faults(&format!("{ROOM}image: other.pgm\n"), b"");
+    let twice = errors(&format!("{ROOM}image: other.pgm\n"), b"");
     assert_eq!(
         twice,
         "room.yaml:7: must be a document with \"image\" only once"
@@ -337,7 +337,7 @@ fn a_map_with_too_many_walls_is_told() {
     let mut image = b"P5 1600 1600 255\n".to_vec();
     image.extend((0..1600 * 1600).map(|at| if (at + at / 1600) % 2 == 0 { 0 } else { 254 }));
     assert_eq!(
-        faults(ROOM, &image),
+        errors(ROOM, &image),
         "room.yaml:1: image = \"room.pgm\": must be the name of a map's image in PGM; \
          it has more than 4000000 straight walls: smooth it"
     );
@@ -473,7 +473,7 @@ proptest! {
     }
 
     #[test]
-    fn no_bytes_make_the_reader_fail_otherwise_than_by_a_fault(
+    fn no_bytes_make_the_reader_fail_otherwise_than_by_an_error(
         text in "[a-z_:0-9.\\[\\]{}&*!#'\"\\n -]{0,200}", image in prop::collection::vec(any::<u8>(), 0..200),
     ) {
         let _ = load(&text, &image);

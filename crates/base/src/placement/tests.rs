@@ -353,22 +353,22 @@ fn given_places_that_overlap_are_told_and_those_that_touch_are_not() {
     };
     let draws = draws(10.0, Things::Robots);
     assert!(team(&draws, &[group(0, 10, 0.15, &row(0.3))], |_, _| true).is_ok());
-    let fault = team(&draws, &[group(0, 10, 0.15, &row(0.299))], |_, _| true).unwrap_err();
+    let error = team(&draws, &[group(0, 10, 0.15, &row(0.299))], |_, _| true).unwrap_err();
     assert_eq!(
-        fault.to_string(),
+        error.to_string(),
         "robot 1 of kind 0: its place is not free"
     );
 }
 
 #[test]
 fn a_team_that_does_not_fit_is_told() {
-    let fault = team(
+    let error = team(
         &draws(1.0, Things::Robots),
         &[group(4, 9, 0.5, &ANYWHERE)],
         |_, _| true,
     );
-    let fault = fault.unwrap_err();
-    assert_eq!((fault.kind, fault.why), (4, NoPlace::NoneFree));
+    let error = error.unwrap_err();
+    assert_eq!((error.kind, error.why), (4, NoPlace::NoneFree));
 }
 
 #[test]

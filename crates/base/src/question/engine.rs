@@ -2,7 +2,7 @@
 
 use super::merit::{Measure, NamedMerit};
 use crate::document::Document;
-use crate::fault::Faults;
+use crate::error::InputErrors;
 use crate::runner::Runner;
 
 /// A simulator, as scenarios see it.
@@ -20,16 +20,16 @@ pub trait Engine: Sync {
     ///
     /// # Errors
     /// Everything that is wrong there.
-    fn read(&self, document: &Document) -> Result<Configuration, Faults>;
+    fn read(&self, document: &Document) -> Result<Configuration, InputErrors>;
 
     /// The files that a document names and that have not been read: see [`Document::open`]. When
-    /// they have, it may name more. It is asked of documents with faults too.
+    /// they have, it may name more. It is asked of documents with errors too.
     fn files(&self, _document: &Document) -> Vec<String> {
         Vec::new()
     }
 
     /// What a figure of merit can weigh, in the order of its sum; it is asked of documents with
-    /// faults too.
+    /// errors too.
     fn measures(&self, document: &Document) -> Vec<Measure>;
 
     /// The figures of merit that have names.
@@ -40,7 +40,7 @@ pub trait Engine: Sync {
     fn factors(&self) -> Option<&'static [&'static str]>;
 
     /// The names in the table at `path`, if it is one of things under names of a person's choice,
-    /// whether it is there or not; it is asked of documents with faults too.
+    /// whether it is there or not; it is asked of documents with errors too.
     fn names(&self, document: &Document, path: &[&str]) -> Option<Vec<String>>;
 
     /// The largest team.

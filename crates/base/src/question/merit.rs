@@ -16,7 +16,7 @@ pub struct Measure {
     pub name: Cow<'static, str>,
     /// The column of a run's outcome.
     pub column: Cow<'static, str>,
-    /// For a column without a bound of its own, whose terms need a `max`: one that faults show.
+    /// For a column without a bound of its own, whose terms need a `max`: one that errors show.
     pub usual_max: Option<f64>,
 }
 
@@ -141,7 +141,7 @@ pub(super) fn merit(root: &Section, measures: &[Measure], known: &[NamedMerit]) 
     terms.retain(|term| term.weight != 0.0);
     if terms.is_empty() {
         let allowed = "a table with a weight other than 0, such as { time = -0.03, robots = -0.2 }";
-        root.fault("merit", allowed);
+        root.error("merit", allowed);
         return None;
     }
     Some(Merit { name: None, terms })
@@ -161,7 +161,7 @@ fn term(table: &Section, measure: &Measure) -> Option<Term> {
             "given a max in the scenario, such as {{ weight = {weight}, max = {usual} }}: {name} \
              have no bound of their own"
         );
-        table.fault(name, &allowed);
+        table.error(name, &allowed);
         return None;
     }
     Some(Term::new(measure, weight, max))
@@ -201,7 +201,7 @@ mod tests {
         make_table(&mut document);
         let named = [NamedMerit::EQUATION_5_2];
         let read = document.read(|root| merit(root, &measures(), &named));
-        read.map_err(|faults| faults.to_string())
+        read.map_err(|errors| errors.to_string())
     }
 
     fn weights(text: &str) -> Vec<(String, f64, Option<f64>)> {
@@ -241,9 +241,9 @@ mod tests {
     }
 
     #[test]
-    fn every_fault_is_told_at_once() {
+    fn every_error_is_told_at_once() {
         let text = "{ tiem = 1, robots = 1e7, failed = nan, found = { max = -1 }, paints = -1 }";
-        let faults = read(text).unwrap_err();
+        let errors = read(text).unwrap_err();
         for expected in [
             "t.toml:1: merit.tiem = 1: must be one of the known keys here: time, robots",
             "did you mean time?",
@@ -254,7 +254,7 @@ mod tests {
             "merit.paints = -1: must be given a max in the scenario, such as { weight = -1, max = \
              6720 }: paints have no bound",
         ] {
-            assert!(faults.contains(expected), "{expected}\nnot in\n{faults}");
+            assert!(errors.contains(expected), "{expected}\nnot in\n{errors}");
         }
     }
 
@@ -270,8 +270,8 @@ mod tests {
             ("3", "merit = 3: must be one of \"equation-5.2\""),
             ("\"paints=1\"", "merit.paints = 1: must be given a max"),
         ] {
-            let faults = read(text).unwrap_err();
-            assert!(faults.contains(expected), "{expected}\nnot in\n{faults}");
+            let errors = read(text).unwrap_err();
+            assert!(errors.contains(expected), "{expected}\nnot in\n{errors}");
         }
     }
 }

@@ -56,7 +56,7 @@ pub use values::Values;
 pub use vary::Factor;
 
 use crate::document::{Document, Section, Value};
-use crate::fault::Faults;
+use crate::error::InputErrors;
 
 /// Largest time after which a run has failed, in seconds.
 pub const MAX_CAP_S: f64 = 1e6;
@@ -83,20 +83,20 @@ impl Scenario {
     /// # Errors
     /// Everything that is wrong with it; of a scenario of no known engine only that, since all else
     /// that is allowed follows from the engine.
-    pub fn read(engines: &[&dyn Engine], mut document: Document) -> Result<Self, Faults> {
+    pub fn read(engines: &[&dyn Engine], mut document: Document) -> Result<Self, InputErrors> {
         merit::make_table(&mut document);
         let engine = engine_of(engines, &document)?;
-        let (_, mut faults) = document.read_all(|root| {
+        let (_, mut errors) = document.read_all(|root| {
             root.only(&all_keys(engine));
             Some(())
         });
         let read = names::read(engine, &document);
-        let configuration = read.map_err(|told| faults.extend(told.0)).ok();
+        let configuration = read.map_err(|told| errors.extend(told.0)).ok();
         let measures = engine.measures(&document);
         let (asked, told) = document.read_all(|root| asked(root, engine, &measures));
-        faults.extend(told);
+        errors.extend(told);
         let given = configuration.as_ref();
-        faults.extend(trial::faults_of_values(engine, &document, given, &faults));
+        errors.extend(trial::errors_of_values(engine, &document, given, &errors));
         let scenario = asked.zip(configuration).map(|(asked, configuration)| Self {
             engine: engine.name(),
             summary: asked.summary,
@@ -105,7 +105,7 @@ impl Scenario {
             study: asked.study,
             published: asked.published,
         });
-        Faults::or(faults, scenario)
+        InputErrors::or(errors, scenario)
     }
 }
 
@@ -125,13 +125,13 @@ impl Configuration {
         engines: &[&dyn Engine],
         mut document: Document,
         values: &[(String, Value)],
-    ) -> Result<Self, Faults> {
+    ) -> Result<Self, InputErrors> {
         let engine = engine_of(engines, &document)?;
         let unknown = values.iter().filter_map(|(path, value)| {
             let refusal = vary::refusal(engine, path)?;
             Some(refusal.of(path, value, ORIGIN))
         });
-        Faults::or(unknown.collect(), Some(()))?;
+        InputErrors::or(unknown.collect(), Some(()))?;
         for (path, value) in values {
             vary::put(&mut document, path, value, ORIGIN);
         }
@@ -139,7 +139,7 @@ impl Configuration {
     }
 }
 
-/// How faults name a configuration's values.
+/// How errors name a configuration's values.
 const ORIGIN: &str = "study.vary";
 
 /// The part of a scenario that is the question's.
@@ -172,7 +172,7 @@ fn asked(root: &Section, engine: &dyn Engine, measures: &[Measure]) -> Option<As
 fn engine_of<'e>(
     engines: &[&'e dyn Engine],
     document: &Document,
-) -> Result<&'e dyn Engine, Faults> {
+) -> Result<&'e dyn Engine, InputErrors> {
     let names: Vec<(&str, &dyn Engine)> = engines.iter().map(|each| (each.name(), *each)).collect();
     document.read(|root| root.choice("engine", &names))
 }

@@ -2,7 +2,7 @@
 
 use super::{Configuration, Engine};
 use crate::document::{Document, Node, Value, path_of};
-use crate::fault::{Fault, Faults, nearest, shortened};
+use crate::error::{InputError, InputErrors, nearest, shortened};
 
 /// A name on a path, in a table of things under names, that the scenario does not have.
 pub(super) struct Unknown<'p> {
@@ -39,28 +39,29 @@ impl<'p> Unknown<'p> {
         Some(Self { path, place, names })
     }
 
-    /// `faults`, with one of the `node` at the path in place of those of what is missing.
-    fn told_in(&self, faults: Vec<Fault>, node: &Node) -> Vec<Fault> {
+    /// `errors`, with one of the `node` at the path in place of those of what is missing.
+    fn told_in(&self, errors: Vec<InputError>, node: &Node) -> Vec<InputError> {
         let thing = format!("{}.", joined(&self.path[..=self.place]));
-        let is_missing = |fault: &Fault| fault.given.is_none() && fault.path.starts_with(&thing);
-        let (missing, mut told): (Vec<_>, Vec<_>) = faults.into_iter().partition(is_missing);
+        let is_missing =
+            |error: &InputError| error.given.is_none() && error.path.starts_with(&thing);
+        let (missing, mut told): (Vec<_>, Vec<_>) = errors.into_iter().partition(is_missing);
         let missing: Vec<&str> = missing
             .iter()
-            .map(|fault| &fault.path[thing.len()..])
+            .map(|error| &error.path[thing.len()..])
             .collect();
         if !missing.is_empty() {
-            told.push(self.fault(&node.value, &node.origin, &missing));
+            told.push(self.error(&node.value, &node.origin, &missing));
         }
         told
     }
 
-    /// The fault of `value` at the path; a new thing under this name would need all of `missing`.
-    pub(super) fn fault(&self, value: &Value, origin: &str, missing: &[&str]) -> Fault {
+    /// The error of `value` at the path; a new thing under this name would need all of `missing`.
+    pub(super) fn error(&self, value: &Value, origin: &str, missing: &[&str]) -> InputError {
         let near = nearest(self.path[self.place], self.names.iter().map(String::as_str));
-        Fault {
+        InputError {
             origin: Some(origin.to_owned()),
             suggestion: near.map(|name| self.path_with(name)),
-            ..Fault::new(
+            ..InputError::new(
                 joined(self.path),
                 Some(value.to_string()),
                 self.allowed(missing),
@@ -97,16 +98,16 @@ impl<'p> Unknown<'p> {
 ///
 /// # Errors
 /// Everything that is wrong there.
-pub(super) fn read(engine: &dyn Engine, document: &Document) -> Result<Configuration, Faults> {
-    engine.read(document).map_err(|Faults(mut faults)| {
+pub(super) fn read(engine: &dyn Engine, document: &Document) -> Result<Configuration, InputErrors> {
+    engine.read(document).map_err(|InputErrors(mut errors)| {
         for made in document.made() {
             let path: Vec<&str> = made.path.iter().map(String::as_str).collect();
             let unknown = Unknown::made(&path, made.place, engine, document);
             if let Some((unknown, node)) = unknown.zip(document.get(&path)) {
-                faults = unknown.told_in(faults, node);
+                errors = unknown.told_in(errors, node);
             }
         }
-        Faults(faults)
+        InputErrors(errors)
     })
 }
 

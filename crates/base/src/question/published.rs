@@ -39,12 +39,12 @@ fn times_s(teams: &Section, max_s: f64, most_robots: u32) -> Option<Vec<(u32, Ve
             .filter(|robots| (1..=most_robots).contains(robots));
         // "01" is a team size to a parser, but would be a second one of 1.
         let Some(robots) = robots.filter(|robots: &u32| robots.to_string() == key) else {
-            teams.fault(key, &format!("under a team size from 1 to {most_robots}"));
+            teams.error(key, &format!("under a team size from 1 to {most_robots}"));
             return None;
         };
         let times_s = teams.numbers(key, 0.0..=max_s)?;
         if times_s.len() < 2 {
-            teams.fault(key, "two times or more: one has no interval");
+            teams.error(key, "two times or more: one has no interval");
             return None;
         }
         Some((robots, times_s))

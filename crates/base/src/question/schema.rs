@@ -1,6 +1,6 @@
 //! The JSON Schema of the question's keys, for editors and the reference page.
 //!
-//! Their faults are told by the sections that read them, which know what else there is: what can be
+//! Their errors are told by the sections that read them, which know what else there is: what can be
 //! varied, and what a figure of merit can weigh.
 
 use super::merit::{MAX_MAX, MAX_WEIGHT};

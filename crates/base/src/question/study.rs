@@ -89,8 +89,8 @@ pub(super) fn study(section: &Section, engine: &dyn Engine) -> Option<Study> {
     })
 }
 
-/// `None` for a fault, `Some(None)` for a key that is not there.
-#[expect(clippy::option_option, reason = "a fault, nothing, and a value")]
+/// `None` for an error, `Some(None)` for a key that is not there.
+#[expect(clippy::option_option, reason = "an error, nothing, and a value")]
 fn if_given<T>(section: &Section, key: &str, read: impl Fn() -> Option<T>) -> Option<Option<T>> {
     if section.has(key) {
         read().map(Some)
@@ -109,7 +109,7 @@ fn tell_ranges_without_points(vary: &Section, factors: &[Factor], design: Design
     for factor in ranges {
         let allowed = "a list of values where the design is \"factorial\"; design = \"lhs:200\" or \
                        \"sobol:256\" takes points from a range of any numbers";
-        vary.fault(&factor.path, allowed);
+        vary.error(&factor.path, allowed);
     }
     false
 }

@@ -1,5 +1,5 @@
 use super::*;
-use crate::fault::Fault;
+use crate::error::InputError;
 use crate::runner::{Column, Kind, Runner, Work};
 use std::ops::Range;
 
@@ -42,7 +42,7 @@ fn robot(section: &Section) -> Option<u32> {
         section.number("speed", 0.0..=2.0)?;
     }
     if section.has("loud") && !matches!(section.value("loud"), Some(Value::Bool(_))) {
-        section.fault("loud", "true or false");
+        section.error("loud", "true or false");
     }
     if section.has("mode") {
         section.choice("mode", &[("sweep", ()), ("spiral", ())])?;
@@ -59,7 +59,7 @@ impl Engine for Shop {
         &["robots"]
     }
 
-    fn read(&self, document: &Document) -> Result<Configuration, Faults> {
+    fn read(&self, document: &Document) -> Result<Configuration, InputErrors> {
         let robots = document.read(|root| {
             let robots = root.section("robots");
             let kinds = robots.keys();
@@ -104,13 +104,13 @@ impl Engine for Shop {
 
 const ENGINES: [&dyn Engine; 1] = [&Shop];
 
-fn read(text: &str) -> Result<Scenario, Faults> {
+fn read(text: &str) -> Result<Scenario, InputErrors> {
     Scenario::read(&ENGINES, Document::parse("t.toml", text)?)
 }
 
-fn faults_with(vary: &str) -> Vec<String> {
+fn errors_with(vary: &str) -> Vec<String> {
     let text = EXAMPLE.replace("\"robots.rover.count\" = \"1..3\"", vary);
-    let told: Vec<Fault> = read(&text).err().map(|faults| faults.0).unwrap_or_default();
+    let told: Vec<InputError> = read(&text).err().map(|errors| errors.0).unwrap_or_default();
     told.iter().map(ToString::to_string).collect()
 }
 
@@ -142,7 +142,7 @@ fn both_parts_are_told_of_at_once() {
         .replace("\"equation-5.2\"", "{ tiem = 1 }")
         .replace("delta = 0.05", "delta = -1")
         .replace("[study]", "[stduy]\n[study]");
-    let faults = read(&text).err().unwrap().to_string();
+    let errors = read(&text).err().unwrap().to_string();
     for part in [
         "stduy = {...}: must be one of the known keys here: engine, summary, robots, merit, study, \
          published; did you mean study?",
@@ -151,17 +151,17 @@ fn both_parts_are_told_of_at_once() {
         "merit.tiem = 1: must be one of the known keys here: time, robots; did you mean time?",
         "study.delta = -1: must be a number above 0",
     ] {
-        assert!(faults.contains(part), "{part}\nnot in\n{faults}");
+        assert!(errors.contains(part), "{part}\nnot in\n{errors}");
     }
 }
 
 #[test]
 fn an_unknown_engine_is_told_with_the_known_ones() {
-    let faults = read(&EXAMPLE.replace("\"shop\"", "\"shpo\""))
+    let errors = read(&EXAMPLE.replace("\"shop\"", "\"shpo\""))
         .err()
         .unwrap();
     assert_eq!(
-        faults.to_string(),
+        errors.to_string(),
         "t.toml:2: engine = \"shpo\": must be one of \"shop\"; did you mean \"shop\"?"
     );
 }
@@ -173,18 +173,18 @@ fn any_path_that_the_engine_can_read_is_varied() {
         r#""robots.rover.loud" = "false,true""#,
         r#""robots.rover.mode" = "spiral,sweep""#,
     ] {
-        assert_eq!(faults_with(vary), [""; 0], "{vary}");
+        assert_eq!(errors_with(vary), [""; 0], "{vary}");
     }
 }
 
 #[test]
 fn values_that_the_engine_cannot_read_are_told() {
     assert_eq!(
-        faults_with(r#""robots.rover.count" = "8..10""#),
+        errors_with(r#""robots.rover.count" = "8..10""#),
         ["t.toml:9: robots.rover.count = 10: must be a whole number from 1 to 9"]
     );
     assert_eq!(
-        faults_with(r#""robots.rover.mode" = "siral,sweep""#),
+        errors_with(r#""robots.rover.mode" = "siral,sweep""#),
         [
             "t.toml:9: robots.rover.mode = \"siral\": must be one of \"sweep\", \"spiral\"; did you \
              mean \"spiral\"?"
@@ -195,7 +195,7 @@ fn values_that_the_engine_cannot_read_are_told() {
 #[test]
 fn an_unknown_path_is_told_once_with_the_nearest() {
     assert_eq!(
-        faults_with(r#""robots.rover.cuont" = "1..8""#),
+        errors_with(r#""robots.rover.cuont" = "1..8""#),
         [
             "t.toml:9: robots.rover.cuont = 1: must be one of the known keys here: count, loud, \
              mode, speed; did you mean count?",
@@ -203,19 +203,19 @@ fn an_unknown_path_is_told_once_with_the_nearest() {
         ]
     );
     assert_eq!(
-        faults_with(r#""robot.rover.count" = "1..8""#),
+        errors_with(r#""robot.rover.count" = "1..8""#),
         [
             "t.toml:9: study.vary.\"robot.rover.count\" = \"1..8\": must be a path that begins with \
              one of robots; did you mean robots.rover.count?"
         ]
     );
-    assert_eq!(faults_with(r#""study.delta" = "1..8""#).len(), 1);
+    assert_eq!(errors_with(r#""study.delta" = "1..8""#).len(), 1);
 }
 
 #[test]
 fn a_misspelt_kind_is_told_and_not_made() {
     assert_eq!(
-        faults_with(r#""robots.rovr.count" = "1""#),
+        errors_with(r#""robots.rovr.count" = "1""#),
         [
             "t.toml:9: robots.rovr.count = \"1\": must be under one of the names in robots: rover; \
              did you mean robots.rover.count?"
@@ -226,17 +226,17 @@ fn a_misspelt_kind_is_told_and_not_made() {
 #[test]
 fn a_kind_that_is_not_there_suggests_the_nearest_one_and_is_told_once() {
     for (vary, kind) in [("rovr.speed", "rovr"), ("rovr.cuont", "rovr")] {
-        let told = faults_with(&format!("\"robots.{vary}\" = \"0..2\""));
+        let told = errors_with(&format!("\"robots.{vary}\" = \"0..2\""));
         assert_eq!(told.len(), 1, "{told:?}");
         let meant = vary.replace(kind, "rover");
         let expected = format!("robots: rover; did you mean robots.{meant}?");
         assert!(told[0].ends_with(&expected), "{told:?}");
     }
-    let told = faults_with(r#""robots.zeppelin.speed" = "1""#);
+    let told = errors_with(r#""robots.zeppelin.speed" = "1""#);
     assert!(told[0].ends_with("names in robots: rover"), "{told:?}");
 }
 
-fn faults_with_set(sets: &[(&str, Value)]) -> String {
+fn errors_with_set(sets: &[(&str, Value)]) -> String {
     let mut document = Document::parse("t.toml", EXAMPLE).unwrap();
     for (path, value) in sets {
         let keys: Vec<&str> = path.split('.').collect();
@@ -244,13 +244,13 @@ fn faults_with_set(sets: &[(&str, Value)]) -> String {
     }
     let read = Scenario::read(&ENGINES, document);
     read.err()
-        .map_or_else(String::new, |faults| faults.to_string())
+        .map_or_else(String::new, |errors| errors.to_string())
 }
 
 #[test]
 fn a_value_of_a_kind_that_is_not_there_tells_the_kinds_and_what_a_new_one_needs() {
     assert_eq!(
-        faults_with_set(&[("robots.rovr.speed", Value::Integer(1))]),
+        errors_with_set(&[("robots.rovr.speed", Value::Integer(1))]),
         "--set: robots.rovr.speed = 1: must be under one of the names in robots: rover; a new one \
          needs count too; did you mean robots.rover.speed?"
     );
@@ -259,10 +259,10 @@ fn a_value_of_a_kind_that_is_not_there_tells_the_kinds_and_what_a_new_one_needs(
 #[test]
 fn a_whole_new_kind_can_be_set() {
     let [count, speed] = ["robots.scout.count", "robots.scout.speed"];
-    assert_eq!(faults_with_set(&[(count, Value::Integer(1))]), "");
+    assert_eq!(errors_with_set(&[(count, Value::Integer(1))]), "");
     let wrong = [(count, Value::Integer(1)), (speed, Value::Integer(7))];
     assert_eq!(
-        faults_with_set(&wrong),
+        errors_with_set(&wrong),
         "--set: robots.scout.speed = 7: must be a number from 0 to 2"
     );
 }
@@ -270,7 +270,7 @@ fn a_whole_new_kind_can_be_set() {
 #[test]
 fn too_many_values_are_told_by_their_number() {
     assert_eq!(
-        faults_with(r#""robots.rover.count" = "1..100000""#),
+        errors_with(r#""robots.rover.count" = "1..100000""#),
         [
             "t.toml:9: study.vary.\"robots.rover.count\" = \"1..100000\": must be at most 10000 \
              values; it has 100000"
@@ -286,9 +286,9 @@ fn a_configuration_takes_values_at_the_paths_of_factors_only() {
     };
     let read = configuration("robots.rover.count", Value::Integer(5));
     assert_eq!(read.ok().unwrap().robots, [("rover".to_owned(), 5)]);
-    let faults = configuration("summary", Value::Integer(5)).err().unwrap();
+    let errors = configuration("summary", Value::Integer(5)).err().unwrap();
     assert_eq!(
-        faults.to_string(),
+        errors.to_string(),
         "study.vary: summary = 5: must be a path that begins with one of robots"
     );
 }

@@ -5,25 +5,25 @@ use super::values::{Values, values};
 use super::vary::{in_order_of, put};
 use super::{Configuration, Engine};
 use crate::document::{Document, Node, Value};
-use crate::fault::{Fault, Faults, shortened};
+use crate::error::{InputError, InputErrors, shortened};
 
 /// Bad values of one factor that are told one by one.
 const TOLD: usize = 3;
 
 /// What is wrong with single values: each is put into the document, which is read. `given` is what
 /// the engine reads without it, and `known` what is wrong without it.
-pub(super) fn faults_of_values(
+pub(super) fn errors_of_values(
     engine: &dyn Engine,
     document: &Document,
     given: Option<&Configuration>,
-    known: &[Fault],
-) -> Vec<Fault> {
+    known: &[InputError],
+) -> Vec<InputError> {
     let Some(Value::Table(vary)) = document.get(&["study", "vary"]).map(|node| &node.value) else {
         return Vec::new();
     };
     // Where a section is no table, a value in it would make it one, and its other keys be missing.
     let is_readable = |path: &&str| {
-        let below = |fault: &Fault| path.strip_prefix(fault.path.as_str());
+        let below = |error: &InputError| path.strip_prefix(error.path.as_str());
         let mut below = known.iter().filter_map(below);
         !below.any(|rest| rest.starts_with('.'))
     };
@@ -35,7 +35,7 @@ pub(super) fn faults_of_values(
         known,
     };
     paths
-        .filter_map(|path| Some(trial.faults(path, vary.get(path)?)))
+        .filter_map(|path| Some(trial.errors(path, vary.get(path)?)))
         .flatten()
         .collect()
 }
@@ -45,12 +45,12 @@ struct Trial<'t> {
     engine: &'t dyn Engine,
     document: &'t Document,
     given: Option<&'t Configuration>,
-    known: &'t [Fault],
+    known: &'t [InputError],
 }
 
 impl Trial<'_> {
     /// What is wrong with the values of one factor.
-    fn faults(&self, path: &str, node: &Node) -> Vec<Fault> {
+    fn errors(&self, path: &str, node: &Node) -> Vec<InputError> {
         let (given, origin) = (&node.value, &node.origin);
         let values = match given {
             Value::Text(text) => values(text).ok(),
@@ -62,53 +62,59 @@ impl Trial<'_> {
             None => return Vec::new(),
         };
         let mut varied = self.document.clone();
-        let mut faults = Vec::new();
+        let mut errors = Vec::new();
         for value in values {
             put(&mut varied, path, &value, origin);
-            faults.extend(self.fault(path, &value, origin, &varied));
+            errors.extend(self.error(path, &value, origin, &varied));
         }
         let keys: Vec<&str> = path.split('.').collect();
         let unknown = Unknown::on(&keys, self.engine, self.document);
-        if let Some(unknown) = unknown.filter(|_| !faults.is_empty()) {
-            return vec![unknown.fault(given, origin, &[])];
+        if let Some(unknown) = unknown.filter(|_| !errors.is_empty()) {
+            return vec![unknown.error(given, origin, &[])];
         }
-        self.shortened(faults, path, origin)
+        self.shortened(errors, path, origin)
     }
 
     /// What is wrong with a value that has been put into a document.
-    fn fault(&self, path: &str, value: &Value, origin: &str, varied: &Document) -> Option<Fault> {
+    fn error(
+        &self,
+        path: &str,
+        value: &Value,
+        origin: &str,
+        varied: &Document,
+    ) -> Option<InputError> {
         match read(self.engine, varied) {
-            Err(Faults(told)) => {
-                let new = told.into_iter().find(|fault| !self.known.contains(fault));
-                new.map(|fault| about(path, value, origin, fault))
+            Err(InputErrors(told)) => {
+                let new = told.into_iter().find(|error| !self.known.contains(error));
+                new.map(|error| about(path, value, origin, error))
             }
             Ok(read) => self.given.filter(|given| !is_alike(given, &read)).map(|_| {
                 let allowed = "of a robot, an item or another thing that the scenario has";
-                Fault {
+                InputError {
                     origin: Some(origin.to_owned()),
-                    ..Fault::new(path.to_owned(), Some(value.to_string()), allowed.to_owned())
+                    ..InputError::new(path.to_owned(), Some(value.to_string()), allowed.to_owned())
                 }
             }),
         }
     }
 
-    /// The first faults, and how many more there are. Of a path that the scenario does not have one
+    /// The first errors, and how many more there are. Of a path that the scenario does not have one
     /// will do: the path itself may be wrong.
-    fn shortened(&self, mut faults: Vec<Fault>, path: &str, origin: &str) -> Vec<Fault> {
+    fn shortened(&self, mut errors: Vec<InputError>, path: &str, origin: &str) -> Vec<InputError> {
         let keys: Vec<&str> = path.split('.').collect();
         let is_there = self.document.get(&keys).is_some();
         let told = if is_there { TOLD } else { 1 };
-        let more = faults.len().saturating_sub(told);
+        let more = errors.len().saturating_sub(told);
         if more > 0 {
-            faults.truncate(told);
+            errors.truncate(told);
             let path = shortened(path);
             let sentence = format!("{more} more values of {path} are not allowed either");
-            faults.push(Fault {
+            errors.push(InputError {
                 origin: Some(origin.to_owned()),
-                ..Fault::new(String::new(), None, sentence)
+                ..InputError::new(String::new(), None, sentence)
             });
         }
-        faults
+        errors
     }
 }
 
@@ -125,16 +131,16 @@ fn is_alike(one: &Configuration, other: &Configuration) -> bool {
     kinds(one) == kinds(other) && names(one) == names(other)
 }
 
-/// A value's fault as the factor's: one that is told elsewhere, as of a cap that is too many paints
+/// A value's error as the factor's: one that is told elsewhere, as of a cap that is too many paints
 /// at a varied rate, would not name what to change.
-fn about(path: &str, value: &Value, origin: &str, fault: Fault) -> Fault {
-    if fault.path == path {
-        return fault;
+fn about(path: &str, value: &Value, origin: &str, error: InputError) -> InputError {
+    if error.path == path {
+        return error;
     }
-    let other = shortened(&fault.path);
-    let allowed = format!("one with which {other} is {}", fault.allowed);
-    Fault {
+    let other = shortened(&error.path);
+    let allowed = format!("one with which {other} is {}", error.allowed);
+    InputError {
         origin: Some(origin.to_owned()),
-        ..Fault::new(path.to_owned(), Some(value.to_string()), allowed)
+        ..InputError::new(path.to_owned(), Some(value.to_string()), allowed)
     }
 }

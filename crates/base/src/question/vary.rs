@@ -3,7 +3,7 @@
 use super::Engine;
 use super::values::{ALLOWED, Values, values};
 use crate::document::{Document, Section, Value};
-use crate::fault::{Fault, nearest};
+use crate::error::{InputError, nearest};
 
 /// What is varied, and over what.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,12 +21,12 @@ pub(super) struct Refusal {
 }
 
 impl Refusal {
-    /// The fault of `value` at `path`.
-    pub(super) fn of(self, path: &str, value: &Value, origin: &str) -> Fault {
-        Fault {
+    /// The error of `value` at `path`.
+    pub(super) fn of(self, path: &str, value: &Value, origin: &str) -> InputError {
+        InputError {
             origin: Some(origin.to_owned()),
             suggestion: self.suggestion,
-            ..Fault::new(path.to_owned(), Some(value.to_string()), self.allowed)
+            ..InputError::new(path.to_owned(), Some(value.to_string()), self.allowed)
         }
     }
 }
@@ -64,7 +64,7 @@ pub(super) fn factors(vary: &Section, engine: &dyn Engine) -> Option<Vec<Factor>
             suggestion,
         }) = refusal(engine, path)
         {
-            vary.fault_for(path, &allowed, suggestion);
+            vary.error_for(path, &allowed, suggestion);
         }
     }
     let factor = |path: &str| {
@@ -72,7 +72,7 @@ pub(super) fn factors(vary: &Section, engine: &dyn Engine) -> Option<Vec<Factor>
             Some(Value::Text(text)) => values(text),
             _ => Err(ALLOWED.to_owned()),
         };
-        let values = read.map_err(|allowed| vary.fault(path, &allowed)).ok()?;
+        let values = read.map_err(|allowed| vary.error(path, &allowed)).ok()?;
         let path = path.to_owned();
         Some(Factor { path, values })
     };

@@ -30,7 +30,7 @@ pub(super) fn clock(section: &Section) -> Option<Clock> {
     if cap_paints > MAX_CAP_PAINTS {
         let allowed =
             format!("at most {MAX_CAP_PAINTS} paints at {paints_per_s} paints per second");
-        section.fault("cap_s", &allowed);
+        section.error("cap_s", &allowed);
         return None;
     }
     Some(Clock {

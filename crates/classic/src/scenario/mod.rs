@@ -36,7 +36,7 @@ use crate::runner::Configuration;
 use crate::search::Task;
 use crate::start::MAX_ROBOTS;
 use base::document::{Document, Section};
-use base::fault::Faults;
+use base::error::InputErrors;
 use base::question::{self, Engine, Measure, NamedMerit};
 
 /// The sheet in the thesis's appendix, which forgets to divide the time by ten.
@@ -61,7 +61,7 @@ impl Engine for Classic {
         &["contact", "clock", "robots"]
     }
 
-    fn read(&self, document: &Document) -> Result<question::Configuration, Faults> {
+    fn read(&self, document: &Document) -> Result<question::Configuration, InputErrors> {
         let read = Configuration::read(document)?;
         Ok(question::Configuration {
             robots: vec![("wanderer".to_owned(), read.robots)],
@@ -113,7 +113,7 @@ impl Configuration {
     ///
     /// # Errors
     /// Everything that is wrong with that.
-    pub fn read(document: &Document) -> Result<Self, Faults> {
+    pub fn read(document: &Document) -> Result<Self, InputErrors> {
         document.read(configuration)
     }
 }
@@ -181,7 +181,7 @@ cap_s = 120
 times_s = { 10 = [120, 120], 2 = [4, 5.5] }
 "#;
 
-    fn read(text: &str, changes: &[Override]) -> Result<Scenario, Faults> {
+    fn read(text: &str, changes: &[Override]) -> Result<Scenario, InputErrors> {
         let document = Document::parse("t.toml", text).unwrap();
         Scenario::read(&[&Classic], document.with(changes))
     }
@@ -190,7 +190,7 @@ times_s = { 10 = [120, 120], 2 = [4, 5.5] }
         read(text, &[]).ok().unwrap()
     }
 
-    fn faults(text: &str) -> String {
+    fn errors(text: &str) -> String {
         read(text, &[]).err().unwrap().to_string()
     }
 
@@ -263,7 +263,7 @@ times_s = { 10 = [120, 120], 2 = [4, 5.5] }
         );
         let text = text.replace("vary = {", "design = \"lhs:20\"\nvary = {");
         assert_eq!(
-            faults(&text).lines().collect::<Vec<_>>(),
+            errors(&text).lines().collect::<Vec<_>>(),
             [
                 "t.toml:14: robots.wanderer.count = 0: must be a whole number from 1 to 250",
                 "t.toml:14: robots.wanderer.count = 251: must be a whole number from 1 to 250",
@@ -281,29 +281,29 @@ times_s = { 10 = [120, 120], 2 = [4, 5.5] }
     }
 
     #[test]
-    fn values_are_checked_beside_other_faults_but_not_within_what_is_no_table() {
+    fn values_are_checked_beside_other_errors_but_not_within_what_is_no_table() {
         let vary = r#"vary = { "clock.cap_s" = "-1", "#;
         let text = GOOD.replace("vary = {", vary);
-        let told = faults(&text.replace("cap_s = 120\n[robots", "cap_s = 120\ncap = 3\n[robots"));
+        let told = errors(&text.replace("cap_s = 120\n[robots", "cap_s = 120\ncap = 3\n[robots"));
         assert!(told.contains("clock.cap = 3: must be one of the known keys"));
         assert!(told.contains("clock.cap_s = -1: must be a number from 0"));
         let no_table = "[clock]\npaints_per_s = 56\ncap_s = 120\n";
-        let told = faults(&format!("clock = 3\n{}", text.replace(no_table, "")));
+        let told = errors(&format!("clock = 3\n{}", text.replace(no_table, "")));
         assert_eq!(told, "t.toml:1: clock = 3: must be a table");
     }
 
     #[test]
     fn a_studys_bad_keys_are_told_at_once() {
         let more = "delta = 0\nconfidence = 1\ndesign = \"sobol:200\"\nvary = ";
-        let faults = faults(&GOOD.replace("delta = 0.05\nvary = ", more));
+        let errors = errors(&GOOD.replace("delta = 0.05\nvary = ", more));
         for expected in [
             "t.toml:12: study.delta = 0: must be a number above 0",
             "t.toml:13: study.confidence = 1: must be a number above 0.5 and below 1",
             "t.toml:14: study.design = \"sobol:200\": must be \"factorial\", \"lhs:200\" or",
         ] {
-            assert!(faults.contains(expected), "{expected}\nnot in\n{faults}");
+            assert!(errors.contains(expected), "{expected}\nnot in\n{errors}");
         }
-        assert_eq!(faults.lines().count(), 3);
+        assert_eq!(errors.lines().count(), 3);
     }
 
     #[test]
@@ -311,7 +311,7 @@ times_s = { 10 = [120, 120], 2 = [4, 5.5] }
         let range = r#"vary = { "clock.paints_per_s" = "41.0..57.0", "#;
         let text = GOOD.replace("vary = {", range);
         assert!(
-            faults(&text).contains("= \"41.0..57.0\": must be a list of values where the design")
+            errors(&text).contains("= \"41.0..57.0\": must be a list of values where the design")
         );
         let filling = text.replace("vary =", "design = \"sobol:256\"\nvary =");
         let study = good(&filling).study;
@@ -319,14 +319,14 @@ times_s = { 10 = [120, 120], 2 = [4, 5.5] }
     }
 
     #[test]
-    fn every_fault_of_a_bad_scenario_is_told_at_once() {
+    fn every_error_of_a_bad_scenario_is_told_at_once() {
         let text = GOOD
             .replace("\"touch\"", "\"tuoch\"")
             .replace("count = 4", "count = 0")
             .replace("delta = 0.05", "delta = -5")
             .replace("1..3, 8", "8..1")
             .replace("cap_s = 120", "cap_s = nan\ncap = 3");
-        let faults = faults(&text);
+        let errors = errors(&text);
         for expected in [
             "t.toml:4: contact = \"tuoch\": must be one of",
             "did you mean \"touch\"?",
@@ -336,7 +336,7 @@ times_s = { 10 = [120, 120], 2 = [4, 5.5] }
             "t.toml:8: clock.cap_s = NaN: must be a number",
             "t.toml:9: clock.cap = 3: must be one of the known keys here: paints_per_s, cap_s",
         ] {
-            assert!(faults.contains(expected), "{expected}\nnot in\n{faults}");
+            assert!(errors.contains(expected), "{expected}\nnot in\n{errors}");
         }
     }
 
@@ -344,7 +344,7 @@ times_s = { 10 = [120, 120], 2 = [4, 5.5] }
     fn a_cap_too_long_to_compute_is_told() {
         let text = GOOD.replace("cap_s = 120", "cap_s = 100000");
         assert!(
-            faults(&text).contains("clock.cap_s = 100000: must be at most 1000000 paints at 56")
+            errors(&text).contains("clock.cap_s = 100000: must be at most 1000000 paints at 56")
         );
     }
 
@@ -355,9 +355,9 @@ times_s = { 10 = [120, 120], 2 = [4, 5.5] }
             value: Value::Text("nose".to_owned()),
             origin: "--contact".to_owned(),
         };
-        let faults = read(GOOD, &[change]).err().unwrap();
+        let errors = read(GOOD, &[change]).err().unwrap();
         assert!(
-            faults
+            errors
                 .to_string()
                 .starts_with("--contact: contact = \"nose\": must be one of")
         );

@@ -26,7 +26,7 @@ use std::process::ExitCode;
 fn main() -> ExitCode {
     let arguments = match Arguments::parse(std::env::args().skip(1)) {
         Ok(arguments) => arguments,
-        Err(fault) => return end(&mut io::stderr(), &fault, 2),
+        Err(error) => return end(&mut io::stderr(), &error, 2),
     };
     if arguments.help {
         return end(&mut io::stdout(), arguments::HELP, 0);
@@ -43,11 +43,11 @@ fn verify(arguments: &Arguments) -> io::Result<bool> {
     let mut lines = lines::all();
     lines.retain(|line| line.is_named(&arguments.only));
     if lines.is_empty() {
-        let fault = format!(
+        let error = format!(
             "--only {}: no line has these words in its name",
             arguments.only
         );
-        return Err(io::Error::new(io::ErrorKind::InvalidInput, fault));
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, error));
     }
     let mut report = report::Report::new(arguments.json);
     report.begin()?;

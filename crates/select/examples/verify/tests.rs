@@ -114,7 +114,7 @@ fn a_play_is_the_same_whenever_it_is_played() {
 fn a_wrong_command_line_is_told_what_is_wrong() {
     let parse = |words: &str| Arguments::parse(words.split_whitespace().map(str::to_owned));
     assert!(parse("--seed 3 --json").is_ok_and(|arguments| arguments.json && arguments.seed == 3));
-    assert!(parse("--sed 3").is_err_and(|fault| fault.contains("no such option")));
-    assert!(parse("--seed three").is_err_and(|fault| fault.contains("whole number")));
-    assert!(parse("--replications 0").is_err_and(|fault| fault.contains("at least 1")));
+    assert!(parse("--sed 3").is_err_and(|error| error.contains("no such option")));
+    assert!(parse("--seed three").is_err_and(|error| error.contains("whole number")));
+    assert!(parse("--replications 0").is_err_and(|error| error.contains("at least 1")));
 }

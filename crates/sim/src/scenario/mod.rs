@@ -14,7 +14,7 @@ use crate::world::items::ItemSpec;
 use crate::world::terrain::TerrainSpec;
 use base::document::schema::Schema;
 use base::document::{Document, Files, Value};
-use base::fault::Faults;
+use base::error::InputErrors;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -64,7 +64,7 @@ impl ScenarioSpec {
     /// # Errors
     /// Everything that is wrong there: keys and values first, and if these are right, what they mean
     /// together.
-    pub fn read(document: &Document) -> Result<Checked, Faults> {
+    pub fn read(document: &Document) -> Result<Checked, InputErrors> {
         let document = Self::filled(document);
         let spec = document.typed(&SCHEMA)?;
         checks::checked(spec, &document.place(), &|name| document.open(name))
@@ -86,7 +86,7 @@ impl ScenarioSpec {
     pub fn read_with(
         document: &Document,
         open: impl Fn(&str) -> Result<Vec<u8>, String>,
-    ) -> Result<Checked, Faults> {
+    ) -> Result<Checked, InputErrors> {
         let mut document = document.clone();
         let mut files = Files::new();
         // What has been read may name more.
@@ -115,7 +115,7 @@ impl ScenarioSpec {
 
     /// The files that a document names and that have not been read.
     pub(crate) fn files(document: &Document) -> Vec<String> {
-        let spec: Result<Self, Faults> = Self::filled(document).typed(&SCHEMA);
+        let spec: Result<Self, InputErrors> = Self::filled(document).typed(&SCHEMA);
         spec.map_or_else(|_| Vec::new(), |spec| checks::files_wanted(&spec, document))
     }
 }

@@ -26,7 +26,7 @@ const NEW_MOSTS: usize = 3;
 fn everything() -> Simulation {
     let text = include_str!("everything.toml");
     let document = Document::parse("everything.toml", text).unwrap();
-    let checked = ScenarioSpec::read(&document).unwrap_or_else(|faults| panic!("{faults}"));
+    let checked = ScenarioSpec::read(&document).unwrap_or_else(|errors| panic!("{errors}"));
     Simulation::new(Arc::new(checked.scenario), 1, 0).unwrap()
 }
 

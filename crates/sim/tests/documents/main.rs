@@ -1,12 +1,12 @@
 //! Documents made at random from the schema of scenarios, as they should be and spoiled, and good
-//! scenarios spoiled: each is read, or its faults are told.
+//! scenarios spoiled: each is read, or its errors are told.
 
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 
 mod made;
 
 use base::document::{Document, Node, Value};
-use base::fault::Faults;
+use base::error::InputErrors;
 use made::{Dice, made, spoiled};
 use proptest::prelude::*;
 use sim::scenario::ScenarioSpec;
@@ -58,12 +58,12 @@ fn document(root: &Value) -> Document {
     document
 }
 
-/// That every fault says where and what, and that none is of a type that disagrees with its schema.
-fn are_told(faults: &Faults) -> bool {
-    let is_told = |fault: &base::fault::Fault| {
-        fault.origin.is_some() && !fault.allowed.starts_with("readable")
+/// That every error says where and what, and that none is of a type that disagrees with its schema.
+fn are_told(errors: &InputErrors) -> bool {
+    let is_told = |error: &base::error::InputError| {
+        error.origin.is_some() && !error.allowed.starts_with("readable")
     };
-    !faults.0.is_empty() && faults.0.iter().all(is_told)
+    !errors.0.is_empty() && errors.0.iter().all(is_told)
 }
 
 #[test]
@@ -104,8 +104,8 @@ proptest! {
         for _ in 0..=dice.below(3) {
             spoiled(&mut root, &mut dice);
         }
-        if let Err(faults) = document(&root).typed::<ScenarioSpec>(schema) {
-            prop_assert!(are_told(&faults), "{faults}\n{root:?}");
+        if let Err(errors) = document(&root).typed::<ScenarioSpec>(schema) {
+            prop_assert!(are_told(&errors), "{errors}\n{root:?}");
         }
     }
 
@@ -117,8 +117,8 @@ proptest! {
         for _ in 0..=dice.below(3) {
             spoiled(&mut root, &mut dice);
         }
-        if let Err(faults) = ScenarioSpec::read_with(&document(&root), open) {
-            prop_assert!(are_told(&faults), "{faults}\n{root:?}");
+        if let Err(errors) = ScenarioSpec::read_with(&document(&root), open) {
+            prop_assert!(are_told(&errors), "{errors}\n{root:?}");
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Scenarios made of text, and runs stepped by hand.
 
 use base::document::Document;
-use base::fault::Faults;
+use base::error::InputErrors;
 use base::geometry::Point;
 use base::random::{Entity, Purpose, Stream, stream, unit};
 use brain::{About, Command, Message, Motion, RobotId, Seen};
@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// The scenario of a text, or what is wrong with it.
-pub(crate) fn read(text: &str) -> Result<Scenario, Faults> {
+pub(crate) fn read(text: &str) -> Result<Scenario, InputErrors> {
     let document = Document::parse("t.toml", text)?;
     let checked = ScenarioSpec::read(&document)?;
     Ok(checked.scenario)
@@ -19,7 +19,7 @@ pub(crate) fn read(text: &str) -> Result<Scenario, Faults> {
 
 /// The scenario of a text in which nothing is wrong.
 pub(crate) fn scenario(text: &str) -> Arc<Scenario> {
-    Arc::new(read(text).unwrap_or_else(|faults| panic!("{faults}\n{text}")))
+    Arc::new(read(text).unwrap_or_else(|errors| panic!("{errors}\n{text}")))
 }
 
 /// A run of a scenario, at its beginning.

@@ -77,7 +77,7 @@ fn assert_sane(simulation: &Simulation, seed: u64) {
 }
 
 #[test]
-fn no_scenario_without_faults_makes_a_run_panic() {
+fn no_scenario_without_errors_makes_a_run_panic() {
     let mut stepped = 0;
     for (seed, scenario) in scenarios(150) {
         let Ok(mut simulation) = Simulation::new(scenario, seed, 0) else {

@@ -18,12 +18,12 @@ use base::geometry::Point;
 use sim::scenario::{Scenario, ScenarioSpec};
 use std::sync::Arc;
 
-/// A scenario without faults.
+/// A scenario without errors.
 fn scenario(text: &str) -> Arc<Scenario> {
     let document = Document::parse("test.toml", text).unwrap();
     match ScenarioSpec::read(&document) {
         Ok(checked) => Arc::new(checked.scenario),
-        Err(faults) => panic!("{faults}\n{text}"),
+        Err(errors) => panic!("{errors}\n{text}"),
     }
 }
 

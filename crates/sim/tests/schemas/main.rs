@@ -61,30 +61,30 @@ fn tutorial() -> String {
     whole.to_owned()
 }
 
-fn faults(text: &str) -> Vec<String> {
+fn errors(text: &str) -> Vec<String> {
     let document = Document::parse("my.toml", text).unwrap();
     let read = ScenarioSpec::read(&document);
-    let faults = read.map_or_else(|faults| faults.0, |_| Vec::new());
-    faults.iter().map(ToString::to_string).collect()
+    let errors = read.map_or_else(|errors| errors.0, |_| Vec::new());
+    errors.iter().map(ToString::to_string).collect()
 }
 
 #[test]
-fn the_tutorials_scenario_is_without_faults() {
+fn the_tutorials_scenario_is_without_errors() {
     assert!(tutorial().contains("engine = \"metric\""));
-    assert!(faults(&tutorial()).is_empty());
+    assert!(errors(&tutorial()).is_empty());
 }
 
 #[test]
-fn the_tutorials_faults_are_those_that_are_told() {
+fn the_tutorials_errors_are_those_that_are_told() {
     let bad = tutorial()
         .replace("radius_m = 0.25", "raduis_m = 0.25")
         .replace("range_m = 3", "range_m = -3");
-    let told = faults(&bad);
+    let told = errors(&bad);
     let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
     let page = words(&fs::read_to_string(path(PAGE)).unwrap());
     assert_eq!(told.len(), 3, "{told:?}");
-    for fault in told {
-        assert!(page.contains(&words(&fault)), "{fault}");
+    for error in told {
+        assert!(page.contains(&words(&error)), "{error}");
     }
 }
 

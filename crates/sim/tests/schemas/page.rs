@@ -184,7 +184,7 @@ impl<'s> Page<'s> {
             let left_out = match part.get("default").or(keywords.get("default")) {
                 Some(_) if own.is_some() => String::new(),
                 Some(default) => format!("`{}`", toml(default)),
-                None if is_required(key) => "a fault".to_owned(),
+                None if is_required(key) => "an error".to_owned(),
                 None => String::new(),
             };
             let allowed =

@@ -22,7 +22,7 @@ pub(crate) fn scenario(text: &str, changes: &[(&str, Value)]) -> Arc<Scenario> {
         document.set(&path, value.clone(), "the check");
     }
     let read = ScenarioSpec::read(&document);
-    Arc::new(read.unwrap_or_else(|faults| panic!("{faults}")).scenario)
+    Arc::new(read.unwrap_or_else(|errors| panic!("{errors}")).scenario)
 }
 
 /// A run at its beginning.

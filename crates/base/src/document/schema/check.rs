@@ -3,19 +3,19 @@
 use super::words::{choices, words};
 use super::{Object, Schema, alternatives, list};
 use crate::document::{Node, Table, Value, as_number, path_of};
-use crate::fault::{Fault, nearest};
+use crate::error::{InputError, nearest};
 use serde_json::Value as Json;
 
 pub(super) struct Check<'s> {
     pub(super) schema: &'s Schema,
-    pub(super) faults: Vec<Fault>,
+    pub(super) errors: Vec<InputError>,
 }
 
 impl<'s> Check<'s> {
     pub(super) fn new(schema: &'s Schema) -> Self {
         Self {
             schema,
-            faults: Vec::new(),
+            errors: Vec::new(),
         }
     }
 
@@ -35,7 +35,7 @@ impl<'s> Check<'s> {
             (Some("array"), Value::List(items)) => self.list(schema, (items, node), path),
             (None, _) => {}
             (Some(name), _) if is_plain(name, keywords, node) => {}
-            _ => self.fault(schema, node, path),
+            _ => self.error(schema, node, path),
         }
     }
 
@@ -68,7 +68,7 @@ impl<'s> Check<'s> {
         let length = items.len() as u64;
         let (low, high) = (bound("minItems"), bound("maxItems"));
         if low.is_some_and(|low| length < low) || high.is_some_and(|high| length > high) {
-            self.fault(schema, node, path);
+            self.error(schema, node, path);
         }
         let each = keywords.get("items").unwrap_or(&Json::Bool(true));
         for (index, item) in items.iter().enumerate() {
@@ -91,22 +91,22 @@ impl<'s> Check<'s> {
         if !names.contains(&word) {
             let given = Some(node.value.to_string());
             let names = names.iter().copied();
-            let fault = Fault::not_one_of(path.to_owned(), given, word, names);
-            self.push(node, fault);
+            let error = InputError::not_one_of(path.to_owned(), given, word, names);
+            self.push(node, error);
         }
     }
 
     /// Tells that `node` is not what `schema` allows.
-    pub(super) fn fault(&mut self, schema: &Json, node: &Node, path: &str) {
+    pub(super) fn error(&mut self, schema: &Json, node: &Node, path: &str) {
         let allowed = words(self.schema, schema);
-        let fault = Fault::new(path.to_owned(), Some(node.value.to_string()), allowed);
-        self.push(node, fault);
+        let error = InputError::new(path.to_owned(), Some(node.value.to_string()), allowed);
+        self.push(node, error);
     }
 
     /// Tells that the table `node` at `path` lacks `key`.
     pub(super) fn missing(&mut self, schema: &Json, (key, node): (&str, &Node), path: &str) {
         let allowed = words(self.schema, schema);
-        self.push(node, Fault::new(path_of(path, key), None, allowed));
+        self.push(node, InputError::new(path_of(path, key), None, allowed));
     }
 
     /// Tells that the table at `path` has a `key` that is none of the `known`.
@@ -118,20 +118,20 @@ impl<'s> Check<'s> {
     ) {
         let names: Vec<&str> = known.clone().collect();
         let allowed = format!("one of the known keys here: {}", names.join(", "));
-        let fault = Fault::new(path_of(path, key), Some(value.value.to_string()), allowed);
+        let error = InputError::new(path_of(path, key), Some(value.value.to_string()), allowed);
         let suggestion = nearest(key, known).map(str::to_owned);
         self.push(
             value,
-            Fault {
+            InputError {
                 suggestion,
-                ..fault
+                ..error
             },
         );
     }
 
-    pub(super) fn push(&mut self, node: &Node, fault: Fault) {
+    pub(super) fn push(&mut self, node: &Node, error: InputError) {
         let origin = Some(node.origin.clone());
-        self.faults.push(Fault { origin, ..fault });
+        self.errors.push(InputError { origin, ..error });
     }
 }
 

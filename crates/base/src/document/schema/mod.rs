@@ -1,4 +1,4 @@
-//! A document checked against a JSON Schema, every fault at once, each with its line.
+//! A document checked against a JSON Schema, every error at once, each with its line.
 //!
 //! The schema is made from the Rust types that serde reads the document into, so what is checked,
 //! what editors complete and what the program reads cannot disagree.
@@ -26,7 +26,7 @@
 //!      did you mean count?\n\
 //!      job.toml: count is missing: must be a whole number from 0 to 255"
 //! );
-//! # Ok::<(), base::fault::Faults>(())
+//! # Ok::<(), base::error::InputErrors>(())
 //! ```
 
 mod check;
@@ -35,7 +35,7 @@ mod union;
 mod words;
 
 use super::Document;
-use crate::fault::Fault;
+use crate::error::InputError;
 use check::Check;
 use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
@@ -87,10 +87,10 @@ impl Schema {
 
     /// Everything that is wrong with `document`.
     #[must_use]
-    pub fn faults(&self, document: &Document) -> Vec<Fault> {
+    pub fn errors(&self, document: &Document) -> Vec<InputError> {
         let mut check = Check::new(self);
         check.value(&self.root, &document.root, "");
-        check.faults
+        check.errors
     }
 
     /// What `part` of the schema allows, as the end of "must be ...".

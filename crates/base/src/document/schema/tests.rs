@@ -79,11 +79,11 @@ enum Chance {
 fn read(text: &str) -> Result<Job, Vec<String>> {
     let document = Document::parse("t", text).unwrap();
     let job = document.typed(&Schema::of::<Job>());
-    job.map_err(|faults| faults.0.iter().map(ToString::to_string).collect())
+    job.map_err(|errors| errors.0.iter().map(ToString::to_string).collect())
 }
 
-/// The faults of a job that has this besides what it must have.
-fn faults(more: &str) -> Vec<String> {
+/// The errors of a job that has this besides what it must have.
+fn errors(more: &str) -> Vec<String> {
     read(&format!("cap_s = 1\n{more}")).unwrap_err()
 }
 
@@ -140,13 +140,13 @@ fn a_range_is_told_with_its_unit_and_nan_is_in_none() {
     }
     let given = "shapes = [{ circle = { radius_m = inf } }]";
     let expected = "t:2: shapes[0].circle.radius_m = inf: must be a number of at least 0";
-    assert_eq!(faults(given), [expected]);
+    assert_eq!(errors(given), [expected]);
 }
 
 #[test]
 fn a_whole_number_is_one_that_the_type_can_hold() {
     for bad in ["0", "1.0", "4294967296", "99999999999999999999"] {
-        let told = faults(&format!("workers = {bad}"));
+        let told = errors(&format!("workers = {bad}"));
         assert!(
             told[0].ends_with("must be a whole number from 1 to 4294967295"),
             "{told:?}"
@@ -169,7 +169,7 @@ fn what_is_missing_is_told_where_it_should_stand() {
 #[test]
 fn a_name_is_one_of_the_known_and_a_slip_is_recognised() {
     assert_eq!(
-        faults("kind = \"iar\"\nkidn = 3"),
+        errors("kind = \"iar\"\nkidn = 3"),
         [
             "t:3: kidn = 3: must be one of the known keys here: cap_s, kind, shapes, sensors, \
              workers, pair, chance; did you mean kind?",
@@ -180,7 +180,7 @@ fn a_name_is_one_of_the_known_and_a_slip_is_recognised() {
 
 #[test]
 fn of_tagged_forms_the_one_that_its_tag_names_is_meant() {
-    let told = faults(
+    let told = errors(
         "[sensors.a]\nkind = \"range\"\nrays = 10\nfov = 3\n[sensors.b]\nkind = \"heding\"\n\
          [sensors.c]\nrays = 1\n[sensors]\nd = 3",
     );
@@ -199,7 +199,7 @@ fn of_tagged_forms_the_one_that_its_tag_names_is_meant() {
 
 #[test]
 fn of_untagged_forms_the_one_whose_keys_are_there_is_meant() {
-    let told = faults(
+    let told = errors(
         "shapes = [\n{ polygn_m = [] },\n{ circle = 3 },\n{ square = 1 },\n\
          { polygon_m = [[0, 0], [1]] },\n{ circle = { radius_m = 1 }, polygon_m = 2 }]",
     );
@@ -221,7 +221,7 @@ fn of_untagged_forms_the_one_whose_keys_are_there_is_meant() {
 
 #[test]
 fn of_forms_of_other_types_the_one_of_its_type_is_meant() {
-    let told = |given: &str| faults(&format!("chance = {given}")).join("\n");
+    let told = |given: &str| errors(&format!("chance = {given}")).join("\n");
     let all = "a number from 0 to 1, a list of lists of 2 numbers or a table with best and half_m";
     assert_eq!(told("2"), "t:2: chance = 2: must be a number from 0 to 1");
     assert_eq!(
@@ -255,7 +255,7 @@ fn only_tables_without_keys_of_their_own_have_names_of_a_persons_choice() {
 
 #[test]
 fn each_place_of_a_pair_has_its_own_type() {
-    let told = |given: &str| faults(&format!("pair = {given}")).join("\n");
+    let told = |given: &str| errors(&format!("pair = {given}")).join("\n");
     assert_eq!(told("[1, 2]"), "t:2: pair[1] = 2: must be a text in quotes");
     assert_eq!(
         told("[300, \"a\"]"),
@@ -267,7 +267,7 @@ fn each_place_of_a_pair_has_its_own_type() {
 #[test]
 fn a_long_value_is_told_by_its_ends() {
     let long = format!("kind = \"{}\"", "x".repeat(1000));
-    let told = faults(&long).concat();
+    let told = errors(&long).concat();
     assert!(
         told.len() < 180 && told.contains("xxx...xxx") && told.contains("xxx\": must be"),
         "{told}"

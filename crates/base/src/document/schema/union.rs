@@ -1,10 +1,10 @@
-//! Which of several forms a value was meant to have, so that its faults are those of that form.
+//! Which of several forms a value was meant to have, so that its errors are those of that form.
 
 use super::check::Check;
 use super::words::choices;
 use super::{Object, Schema, alternatives};
 use crate::document::{Node, Table, Value, path_of};
-use crate::fault::{Fault, nearest};
+use crate::error::{InputError, nearest};
 use serde_json::Value as Json;
 use std::cmp::Reverse;
 
@@ -15,23 +15,23 @@ impl<'s> Check<'s> {
         if let (Value::Table(table), Some(tag)) = (&node.value, tag(self.schema, &forms)) {
             return self.tagged(&forms, (tag, table), (node, path));
         }
-        let faults_as = |form: &'s Json| {
+        let errors_as = |form: &'s Json| {
             let mut check = Check::new(self.schema);
             check.value(form, node, path);
-            check.faults
+            check.errors
         };
         let alike = forms.into_iter().filter_map(|form| {
             let likeness = likeness(self.schema, form, node)?;
-            Some((likeness, faults_as(form)))
+            Some((likeness, errors_as(form)))
         });
-        let meant = alike.min_by_key(|(likeness, faults)| {
-            (!faults.is_empty(), Reverse(*likeness), faults.len())
+        let meant = alike.min_by_key(|(likeness, errors)| {
+            (!errors.is_empty(), Reverse(*likeness), errors.len())
         });
         match meant {
-            Some((likeness, faults)) if likeness > 0 || faults.is_empty() => {
-                self.faults.extend(faults);
+            Some((likeness, errors)) if likeness > 0 || errors.is_empty() => {
+                self.errors.extend(errors);
             }
-            _ => self.fault(schema, node, path),
+            _ => self.error(schema, node, path),
         }
     }
 
@@ -46,8 +46,8 @@ impl<'s> Check<'s> {
         let names: Vec<&str> = forms.iter().filter_map(name_of).collect();
         let path_of_tag = path_of(path, tag);
         let Some(given) = table.get(tag) else {
-            let fault = Fault::not_one_of(path_of_tag, None, "", names.into_iter());
-            return self.push(node, fault);
+            let error = InputError::not_one_of(path_of_tag, None, "", names.into_iter());
+            return self.push(node, error);
         };
         let is_meant = |form: &&&'s Json| {
             name_of(form).is_some_and(|name| given.value == Value::Text(name.to_owned()))

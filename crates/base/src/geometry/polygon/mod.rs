@@ -16,7 +16,7 @@ use robust::{Coord, orient2d};
 /// use base::geometry::{Point, Polygon};
 /// let wall = Polygon::new(&[[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]].map(Point::from))?;
 /// assert!(wall.contains(Point { x: 2.0, y: 0.5 }));
-/// # Ok::<(), base::geometry::PolygonFault>(())
+/// # Ok::<(), base::geometry::PolygonError>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Polygon {
@@ -26,7 +26,7 @@ pub struct Polygon {
 
 /// Why a list of vertices, counted from 0, is no polygon.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-pub enum PolygonFault {
+pub enum PolygonError {
     /// Too few or too many vertices.
     #[error("a polygon of {least} to {most} vertices; it has {0}", least = Polygon::MIN_VERTICES, most = Polygon::MAX_VERTICES)]
     Count(usize),
@@ -61,22 +61,22 @@ impl Polygon {
     ///
     /// # Errors
     /// The first thing that is wrong, if something is.
-    pub fn new(vertices: &[Point]) -> Result<Self, PolygonFault> {
+    pub fn new(vertices: &[Point]) -> Result<Self, PolygonError> {
         if !(Self::MIN_VERTICES..=Self::MAX_VERTICES).contains(&vertices.len()) {
-            return Err(PolygonFault::Count(vertices.len()));
+            return Err(PolygonError::Count(vertices.len()));
         }
         let is_fine = |value: f64| value.abs() <= Self::MAX_COORDINATE_M;
         if let Some(bad) = vertices
             .iter()
             .position(|at| !(is_fine(at.x) && is_fine(at.y)))
         {
-            return Err(PolygonFault::Coordinate(bad));
+            return Err(PolygonError::Coordinate(bad));
         }
         simple::check(vertices)?;
         let mut vertices = vertices.to_vec();
         let area_m2 = anticlockwise_area(&vertices);
         if area_m2 == 0.0 {
-            return Err(PolygonFault::Flat);
+            return Err(PolygonError::Flat);
         }
         if area_m2 > 0.0 {
             vertices.reverse();

@@ -1,19 +1,19 @@
 //! Whether a closed line neither crosses nor touches itself.
 
-use super::{Point, PolygonFault, Rectangle, Segment, edges, side};
+use super::{Point, PolygonError, Rectangle, Segment, edges, side};
 
 /// Tells the first thing that is wrong with the closed line through `vertices`.
-pub(super) fn check(vertices: &[Point]) -> Result<(), PolygonFault> {
+pub(super) fn check(vertices: &[Point]) -> Result<(), PolygonError> {
     let edges: Vec<Segment> = edges(vertices).collect();
     if let Some(at) = edges.iter().position(|edge| edge.from == edge.to) {
-        return Err(PolygonFault::Repeated(at));
+        return Err(PolygonError::Repeated(at));
     }
     let next = |at: usize| (at + 1) % edges.len();
     if let Some(at) = (0..edges.len()).find(|&at| turns_back(edges[at], edges[next(at)])) {
-        return Err(PolygonFault::Folded(next(at)));
+        return Err(PolygonError::Folded(next(at)));
     }
     match crossing(&edges) {
-        Some((one, other)) => Err(PolygonFault::Crossed(one, other)),
+        Some((one, other)) => Err(PolygonError::Crossed(one, other)),
         None => Ok(()),
     }
 }

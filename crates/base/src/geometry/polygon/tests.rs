@@ -3,7 +3,7 @@ use proptest::prelude::*;
 use std::f64::consts::TAU;
 use std::time::{Duration, Instant};
 
-fn polygon<const N: usize>(vertices: [[f64; 2]; N]) -> Result<Polygon, PolygonFault> {
+fn polygon<const N: usize>(vertices: [[f64; 2]; N]) -> Result<Polygon, PolygonError> {
     Polygon::new(&vertices.map(Point::from))
 }
 
@@ -24,10 +24,10 @@ fn star(radii: &[f64]) -> Vec<Point> {
 fn a_polygon_has_a_sound_number_of_vertices() {
     assert_eq!(
         polygon([[0.0, 0.0], [1.0, 0.0]]),
-        Err(PolygonFault::Count(2))
+        Err(PolygonError::Count(2))
     );
     let many = star(&vec![1.0; Polygon::MAX_VERTICES + 1]);
-    assert_eq!(Polygon::new(&many), Err(PolygonFault::Count(10_001)));
+    assert_eq!(Polygon::new(&many), Err(PolygonError::Count(10_001)));
     assert!(Polygon::new(&many[1..]).is_ok());
 }
 
@@ -39,32 +39,32 @@ fn what_is_wrong_is_told_with_the_vertex() {
     };
     assert_eq!(
         wrong(&[[0.0, 0.0], [1.0, f64::NAN], [1.0, 1.0]]),
-        PolygonFault::Coordinate(1)
+        PolygonError::Coordinate(1)
     );
     assert_eq!(
         wrong(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1e300]]),
-        PolygonFault::Coordinate(2)
+        PolygonError::Coordinate(2)
     );
     assert_eq!(
         wrong(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 0.0]]),
-        PolygonFault::Repeated(3)
+        PolygonError::Repeated(3)
     );
     assert_eq!(
         wrong(&[[0.0, 0.0], [1.0, 1.0], [3.0, 3.0]]),
-        PolygonFault::Folded(2)
+        PolygonError::Folded(2)
     );
     assert_eq!(
         wrong(&[[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [2.0, -1.0]]),
-        PolygonFault::Folded(2)
+        PolygonError::Folded(2)
     );
     let bow_tie = wrong(&[[0.0, 0.0], [2.0, 2.0], [2.0, 0.0], [0.0, 2.0]]);
-    assert_eq!(bow_tie, PolygonFault::Crossed(0, 2));
+    assert_eq!(bow_tie, PolygonError::Crossed(0, 2));
     assert_eq!(
         bow_tie.to_string(),
         "a polygon that does not cross or touch itself; its edges from vertices 0 and 2 do"
     );
     assert_eq!(
-        PolygonFault::Coordinate(4).to_string(),
+        PolygonError::Coordinate(4).to_string(),
         "a polygon of coordinates from -1e9 to 1e9; those of vertex 4 are not"
     );
 }
@@ -92,8 +92,8 @@ fn a_line_that_only_touches_itself_is_no_polygon() {
         ],
     ] {
         let vertices: Vec<Point> = touching.into_iter().map(Point::from).collect();
-        let fault = Polygon::new(&vertices).unwrap_err();
-        assert!(matches!(fault, PolygonFault::Crossed(..)), "{fault}");
+        let error = Polygon::new(&vertices).unwrap_err();
+        assert!(matches!(error, PolygonError::Crossed(..)), "{error}");
     }
 }
 
@@ -203,6 +203,6 @@ proptest! {
         let (one, apart) = (one % count, 2 + apart % (count - 3));
         let mut vertices = star(&vec![1.0; count]);
         vertices.swap(one, (one + apart) % count);
-        prop_assert!(matches!(Polygon::new(&vertices), Err(PolygonFault::Crossed(..))));
+        prop_assert!(matches!(Polygon::new(&vertices), Err(PolygonError::Crossed(..))));
     }
 }

@@ -2,12 +2,12 @@
 
 use super::ScenarioSpec;
 use base::document::Place;
-use base::fault::Fault;
+use base::error::InputError;
 
 /// Most steps of a run.
 const MAX_STEPS: f64 = 1e8;
 
-pub(super) fn faults(spec: &ScenarioSpec, at: &Place) -> Vec<Fault> {
+pub(super) fn errors(spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
     let step_s = spec.clock.step_s;
     if spec.clock.cap_s <= MAX_STEPS * step_s {
         return Vec::new();
@@ -16,5 +16,5 @@ pub(super) fn faults(spec: &ScenarioSpec, at: &Place) -> Vec<Fault> {
         "at most {}: a run has at most {MAX_STEPS} steps, here of {step_s} s",
         MAX_STEPS * step_s
     );
-    vec![at.key("clock").key("cap_s").fault(allowed)]
+    vec![at.key("clock").key("cap_s").error(allowed)]
 }

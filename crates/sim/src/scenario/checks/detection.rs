@@ -6,73 +6,73 @@ use crate::sensing::items::{Detection, ItemsSpec};
 use crate::sensing::poisson::MAX_MEAN;
 use crate::sensing::timing::Rhythm;
 use base::document::Place;
-use base::fault::Fault;
+use base::error::InputError;
 
 /// Most false contacts that a scenario may ask for, so that a slip is told and not simulated.
 const MAX_FALSE_ALARMS: f64 = 1000.0;
 
-pub(super) fn faults(spec: &ScenarioSpec, at: &Place) -> Vec<Fault> {
+pub(super) fn errors(spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
     let kinds: Vec<&str> = spec.items.keys().map(String::as_str).collect();
-    let mut faults = Vec::new();
+    let mut errors = Vec::new();
     for (robot, of) in &spec.robots {
         for (name, sensor) in &of.sensors {
             let at = at.key("robots").key(robot).key("sensors").key(name);
             match &sensor.measures {
                 Measures::Items(items) => {
-                    faults.extend(faults_of(items, &kinds, &at));
+                    errors.extend(errors_of(items, &kinds, &at));
                     let step_s = spec.clock.step_s;
                     let period_s = Rhythm::new(sensor.rate_hz, step_s).period_s(step_s);
-                    faults.extend(too_many(items, period_s, &at));
+                    errors.extend(too_many(items, period_s, &at));
                 }
                 Measures::Robots(robots) => {
                     let detection = robots.detects.as_ref();
-                    faults.extend(detection.and_then(|each| fault_of(each, &at.key("detects"))));
+                    errors.extend(detection.and_then(|each| error_of(each, &at.key("detects"))));
                 }
                 _ => {}
             }
         }
     }
-    faults
+    errors
 }
 
-fn faults_of(items: &ItemsSpec, kinds: &[&str], at: &Place) -> Vec<Fault> {
-    let mut faults = Vec::new();
+fn errors_of(items: &ItemsSpec, kinds: &[&str], at: &Place) -> Vec<InputError> {
+    let mut errors = Vec::new();
     let unknown = |kind: &str, at: &Place| {
         let is_known = kinds.contains(&kind);
         (!is_known).then(|| at.key(kind).names_none_of(kind, kinds.iter().copied()))
     };
     let detects = at.key("detects");
     for (kind, detection) in items.detects.iter().flatten() {
-        faults.extend(unknown(kind, &detects));
-        faults.extend(fault_of(detection, &detects.key(kind)));
+        errors.extend(unknown(kind, &detects));
+        errors.extend(error_of(detection, &detects.key(kind)));
     }
     let alarms = at.key("false_alarms_per_m2_s");
     for (kind, rate) in &items.false_alarms_per_m2_s {
-        faults.extend(unknown(kind, &alarms));
+        errors.extend(unknown(kind, &alarms));
         if !(0.0..=MAX_FALSE_ALARMS).contains(rate) {
             let allowed = format!("a number from 0 to {MAX_FALSE_ALARMS}");
-            faults.push(alarms.key(kind).fault(allowed));
+            errors.push(alarms.key(kind).error(allowed));
         }
     }
-    faults
+    errors
 }
 
 /// False contacts beyond what one look can give.
-fn too_many(items: &ItemsSpec, period_s: f64, at: &Place) -> Vec<Fault> {
+fn too_many(items: &ItemsSpec, period_s: f64, at: &Place) -> Vec<InputError> {
     let rates = items.false_alarms_per_m2_s.iter();
     let rates = rates.filter(|(_, rate)| (0.0..=MAX_FALSE_ALARMS).contains(*rate));
     let means = rates.map(|(kind, _)| (kind, items.false_alarms_a_look(kind, period_s)));
-    let faults = means.filter(|(_, mean)| *mean > MAX_MEAN).map(|(kind, mean)| {
+    let errors = means.filter(|(_, mean)| *mean > MAX_MEAN).map(|(kind, mean)| {
         let allowed = format!(
             "lower, so that a look has at most {MAX_MEAN} false contacts; in its whole range and \
              {period_s} s it has {mean:.0}"
         );
-        at.key("false_alarms_per_m2_s").key(kind).fault(allowed)
+        at.key("false_alarms_per_m2_s").key(kind).error(allowed)
     });
-    faults.collect()
+    errors.collect()
 }
 
-fn fault_of(detection: &Detection, at: &Place) -> Option<Fault> {
+fn error_of(detection: &Detection, at: &Place) -> Option<InputError> {
     let Detection::Table(rows) = detection else {
         return None;
     };
@@ -82,5 +82,5 @@ fn fault_of(detection: &Detection, at: &Place) -> Option<Fault> {
     let allowed = "at least one pair of a distance of at least 0 and a probability from 0 to 1, each \
                    distance above the one before";
     let is_right = !rows.is_empty() && ascends && rows.iter().all(is_fine);
-    (!is_right).then(|| at.fault(allowed))
+    (!is_right).then(|| at.error(allowed))
 }

@@ -3,12 +3,12 @@
 use super::ScenarioSpec;
 use crate::body::drive::DriveSpec;
 use base::document::Place;
-use base::fault::Fault;
+use base::error::InputError;
 
 /// Beyond half a turn a step, a robot could as well turn the other way.
 const MAX_TURN_DEG: f64 = 180.0;
 
-pub(super) fn faults(spec: &ScenarioSpec, at: &Place) -> Vec<Fault> {
+pub(super) fn errors(spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
     let step_s = spec.clock.step_s;
     let [width, height] = spec.world.size_m;
     let across_m = width.0.min(height.0);
@@ -17,18 +17,18 @@ pub(super) fn faults(spec: &ScenarioSpec, at: &Place) -> Vec<Fault> {
         .iter()
         .map(|(name, robot)| (&robot.drive, at.key("robots").key(name)));
     robots
-        .flat_map(|(drive, at)| faults_of(drive, (step_s, across_m), &at.key("drive")))
+        .flat_map(|(drive, at)| errors_of(drive, (step_s, across_m), &at.key("drive")))
         .collect()
 }
 
-fn faults_of(drive: &DriveSpec, (step_s, across_m): (f64, f64), at: &Place) -> Vec<Fault> {
-    let mut faults = Vec::new();
+fn errors_of(drive: &DriveSpec, (step_s, across_m): (f64, f64), at: &Place) -> Vec<InputError> {
+    let mut errors = Vec::new();
     for (key, speed) in [
         ("max_speed_m_s", drive.max_speed_m_s),
         ("max_reverse_speed_m_s", drive.max_reverse_speed_m_s),
     ] {
         if speed * step_s > across_m {
-            faults.push(at.key(key).fault(format!(
+            errors.push(at.key(key).error(format!(
                 "at most {}, with which it is across the world in a step of {step_s} s",
                 across_m / step_s
             )));
@@ -36,10 +36,10 @@ fn faults_of(drive: &DriveSpec, (step_s, across_m): (f64, f64), at: &Place) -> V
     }
     let turn_rate = drive.max_turn_rate_deg_s;
     if turn_rate.is_some_and(|turn_rate| turn_rate * step_s > MAX_TURN_DEG) {
-        faults.push(at.key("max_turn_rate_deg_s").fault(format!(
+        errors.push(at.key("max_turn_rate_deg_s").error(format!(
             "at most {}, half a turn in a step of {step_s} s",
             MAX_TURN_DEG / step_s
         )));
     }
-    faults
+    errors
 }

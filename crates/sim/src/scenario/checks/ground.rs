@@ -6,7 +6,7 @@ use crate::world::grid::Still;
 use crate::world::obstacles::{ObstacleSpec, Solid};
 use crate::world::terrain::{Area, TerrainSpec};
 use base::document::Place;
-use base::fault::Fault;
+use base::error::InputError;
 use base::geometry::{Disc, Point, Polygon, Rectangle};
 use base::map::{self, OccupancyMap, Unknown};
 use std::collections::BTreeMap;
@@ -16,7 +16,7 @@ pub(super) fn solids(
     world: &WorldSpec,
     at: &Place,
     open: Open,
-    faults: &mut Vec<Fault>,
+    errors: &mut Vec<InputError>,
 ) -> Vec<Solid> {
     let mut solids = Vec::new();
     let rectangle = rectangle(world);
@@ -33,10 +33,10 @@ pub(super) fn solids(
                 if is_there {
                     solids.push(solid);
                 } else {
-                    faults.push(at.fault(where_obstacles_are(world)));
+                    errors.push(at.error(where_obstacles_are(world)));
                 }
             }
-            Err(told) => faults.extend(told),
+            Err(told) => errors.extend(told),
         }
     }
     solids
@@ -66,7 +66,7 @@ pub(super) fn words(world: &WorldSpec) -> String {
     format!("the world, from [0, 0] to [{}, {}]", width.0, height.0)
 }
 
-fn solid(obstacle: &ObstacleSpec, at: &Place, open: Open) -> Result<Solid, Vec<Fault>> {
+fn solid(obstacle: &ObstacleSpec, at: &Place, open: Open) -> Result<Solid, Vec<InputError>> {
     match obstacle {
         ObstacleSpec::Polygon { polygon_m } => {
             polygon(polygon_m, &at.key("polygon_m")).map(Solid::Polygon)
@@ -94,8 +94,8 @@ fn read_map(
     unknown: Unknown,
     at: &Place,
     open: Open,
-) -> Result<OccupancyMap, Vec<Fault>> {
-    let refusal = |why: String| vec![at.fault(format!("a file that can be read: {why}"))];
+) -> Result<OccupancyMap, Vec<InputError>> {
+    let refusal = |why: String| vec![at.error(format!("a file that can be read: {why}"))];
     let bytes = open(file).map_err(refusal)?;
     let text = String::from_utf8(bytes).map_err(|why| refusal(why.to_string()))?;
     let folder = file.rsplit_once('/').map(|(folder, _)| folder);
@@ -103,14 +103,14 @@ fn read_map(
         Some(folder) if !image.starts_with('/') => open(&format!("{folder}/{image}")),
         _ => open(image),
     };
-    map::read(file, &text, unknown, beside).map_err(|faults| faults.0)
+    map::read(file, &text, unknown, beside).map_err(|errors| errors.0)
 }
 
 /// The areas of all classes of ground.
 pub(super) fn areas(
     classes: &BTreeMap<String, TerrainSpec>,
     at: &Place,
-    faults: &mut Vec<Fault>,
+    errors: &mut Vec<InputError>,
 ) -> Vec<Area> {
     let mut areas = Vec::new();
     for (name, class) in classes {
@@ -118,13 +118,13 @@ pub(super) fn areas(
         for (index, corners) in class.areas_m.iter().enumerate() {
             match polygon(corners, &at.item(index)) {
                 Ok(polygon) => areas.push(Area::new(polygon, class)),
-                Err(told) => faults.extend(told),
+                Err(told) => errors.extend(told),
             }
         }
     }
     areas
 }
 
-fn polygon(corners: &[Point], at: &Place) -> Result<Polygon, Vec<Fault>> {
-    Polygon::new(corners).map_err(|fault| vec![at.fault(fault.to_string())])
+fn polygon(corners: &[Point], at: &Place) -> Result<Polygon, Vec<InputError>> {
+    Polygon::new(corners).map_err(|error| vec![at.error(error.to_string())])
 }

@@ -11,7 +11,7 @@ use crate::sensing::items::ItemsSpec;
 use crate::sensing::sector::Sector;
 use crate::sensing::{Measures, SensorSpec};
 use base::document::Place;
-use base::fault::Fault;
+use base::error::InputError;
 use base::geometry::Rectangle;
 use base::placement::Placement;
 use brain::behaviours::BehaviourSpec;
@@ -36,7 +36,7 @@ const LEAST_VALUES: f64 = 4.0;
 /// An item, about.
 const ITEM_BYTES: f64 = 64.0;
 
-pub(super) fn faults(spec: &ScenarioSpec, at: &Place) -> Vec<Fault> {
+pub(super) fn errors(spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
     let items = spec.items.iter().map(|(name, kind)| {
         let bytes = f64::from(kind.count) * ITEM_BYTES;
         (bytes, at.key("items").key(name))
@@ -50,7 +50,7 @@ pub(super) fn faults(spec: &ScenarioSpec, at: &Place) -> Vec<Fault> {
     let largest = all.iter().max_by(|one, other| one.0.total_cmp(&other.0));
     let largest = largest.filter(|_| total > MAX_BYTES);
     let told = largest.map(|(bytes, at)| {
-        at.key("count").fault(format!(
+        at.key("count").error(format!(
             "fewer, or with fewer rays, contacts and messages: a run may take {} GB of memory, and this one \
              takes about {:.1} GB, {:.1} GB for these",
             MAX_BYTES / 1e9,

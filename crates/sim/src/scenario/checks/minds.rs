@@ -5,7 +5,7 @@ use super::ground::rectangle;
 use crate::body::RobotSpec;
 use crate::sensing::Measures;
 use base::document::Place;
-use base::fault::Fault;
+use base::error::InputError;
 use base::geometry::{Point, Rectangle};
 use brain::behaviours::BehaviourSpec;
 use brain::{Arbitration, BrainSpec};
@@ -16,22 +16,22 @@ const MOST_EXPECTED: f64 = 1e6;
 /// Most that a behaviour can count beside others, as a `value`.
 const MOST_GAIN: f64 = 1e6;
 
-pub(super) fn faults(spec: &ScenarioSpec, at: &Place) -> Vec<Fault> {
+pub(super) fn errors(spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
     let robots = spec.robots.iter();
     robots
         .flat_map(|(name, robot)| {
             let at = at.key("robots").key(name);
-            let mut faults = of_behaviours(robot, spec, &at);
-            faults.extend(of_wrapping(robot, spec, &at.key("brain")));
-            faults.extend(of_gains(&robot.brain, &at.key("brain").key("arbitration")));
-            faults.extend(of_beliefs(robot, spec, &at.key("brain").key("beliefs")));
-            faults
+            let mut errors = of_behaviours(robot, spec, &at);
+            errors.extend(of_wrapping(robot, spec, &at.key("brain")));
+            errors.extend(of_gains(&robot.brain, &at.key("brain").key("arbitration")));
+            errors.extend(of_beliefs(robot, spec, &at.key("brain").key("beliefs")));
+            errors
         })
         .collect()
 }
 
 /// Behaviours that the robot's sensors are not enough for.
-fn of_behaviours(robot: &RobotSpec, spec: &ScenarioSpec, at: &Place) -> Vec<Fault> {
+fn of_behaviours(robot: &RobotSpec, spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
     let has = |is_it: fn(&Measures) -> bool| {
         let mut sensors = robot.sensors.values();
         sensors.any(|sensor| is_it(&sensor.measures))
@@ -40,13 +40,13 @@ fn of_behaviours(robot: &RobotSpec, spec: &ScenarioSpec, at: &Place) -> Vec<Faul
     let has_heading = has(|measures| matches!(measures, Measures::Heading(_)));
     let has_robots = has(|measures| matches!(measures, Measures::Robots(_)));
     let has_detector = has(|measures| matches!(measures, Measures::Items(_)));
-    let mut faults = Vec::new();
+    let mut errors = Vec::new();
     for (number, behaviour) in robot.brain.behaviours.iter().enumerate() {
         let at = at.key("brain").key("behaviours").item(number);
         let name = behaviour.name();
         let mut needs = |is_needed: bool, has: bool, what: &str| {
             if is_needed && !has {
-                faults.push(at.key("kind").fault(format!(
+                errors.push(at.key("kind").error(format!(
                     "of a robot with a sensor that {name} needs, such as {what} under its sensors"
                 )));
             }
@@ -77,15 +77,15 @@ fn of_behaviours(robot: &RobotSpec, spec: &ScenarioSpec, at: &Place) -> Vec<Faul
         {
             let allowed =
                 "\"all\" or \"each\", or a robot with a radio, such as radio = { range_m = 100 }";
-            faults.push(at.key("share").fault(allowed));
+            errors.push(at.key("share").error(allowed));
         }
-        faults.extend(of_places(behaviour, spec, &at));
+        errors.extend(of_places(behaviour, spec, &at));
     }
-    faults
+    errors
 }
 
 /// A way to nowhere, or out of the world.
-fn of_places(behaviour: &BehaviourSpec, spec: &ScenarioSpec, at: &Place) -> Vec<Fault> {
+fn of_places(behaviour: &BehaviourSpec, spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
     let way = |places_m: &[Point]| {
         let numbered = places_m.iter().enumerate();
         let listed = numbered.map(|(number, place)| (at.key("places_m").item(number), *place));
@@ -107,7 +107,7 @@ fn of_places(behaviour: &BehaviourSpec, spec: &ScenarioSpec, at: &Place) -> Vec<
     );
     if goes && places.is_empty() {
         let allowed = "the places to visit, at least one, as in [[5, 5], [9, 2.5]]";
-        return vec![at.key("places_m").fault(allowed)];
+        return vec![at.key("places_m").error(allowed)];
     }
     let (world, [width, height]) = (rectangle(&spec.world), spec.world.size_m);
     let allowed = format!(
@@ -117,29 +117,29 @@ fn of_places(behaviour: &BehaviourSpec, spec: &ScenarioSpec, at: &Place) -> Vec<
     let outside = places
         .into_iter()
         .filter(|(_, place)| !world.contains(*place));
-    outside.map(|(at, _)| at.fault(&allowed)).collect()
+    outside.map(|(at, _)| at.error(&allowed)).collect()
 }
 
 /// Gains of behaviours that it has not, or that are none.
-fn of_gains(brain: &BrainSpec, at: &Place) -> Vec<Fault> {
+fn of_gains(brain: &BrainSpec, at: &Place) -> Vec<InputError> {
     let Arbitration::Schemas(schemas) = &brain.arbitration else {
         return Vec::new();
     };
     let kinds: Vec<&str> = brain.behaviours.iter().map(BehaviourSpec::name).collect();
-    let mut faults = Vec::new();
+    let mut errors = Vec::new();
     for (kind, gain) in &schemas.gains {
         let at = at.key("gains").key(kind);
         if !kinds.contains(&kind.as_str()) {
-            faults.push(at.names_none_of(kind, kinds.iter().copied()));
+            errors.push(at.names_none_of(kind, kinds.iter().copied()));
         } else if !(0.0..=MOST_GAIN).contains(gain) {
-            faults.push(at.fault(format!("a number from 0 to {MOST_GAIN}")));
+            errors.push(at.error(format!("a number from 0 to {MOST_GAIN}")));
         }
     }
-    faults
+    errors
 }
 
 /// Minds in a world that goes on at its other side: they draw maps, which end.
-fn of_wrapping(robot: &RobotSpec, spec: &ScenarioSpec, at: &Place) -> Vec<Fault> {
+fn of_wrapping(robot: &RobotSpec, spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
     if !spec.world.wraps {
         return Vec::new();
     }
@@ -147,31 +147,31 @@ fn of_wrapping(robot: &RobotSpec, spec: &ScenarioSpec, at: &Place) -> Vec<Fault>
     let minded = behaviours.filter(|(_, behaviour)| behaviour.needs_beliefs());
     let at_behaviours = minded.map(|(number, behaviour)| {
         let at = at.key("behaviours").item(number).key("kind");
-        at.fault(format!(
+        at.error(format!(
             "one that needs no map, in a world that wraps: {} needs wraps = false",
             behaviour.name()
         ))
     });
     let beliefs = robot.brain.beliefs.iter().map(|_| {
         at.key("beliefs")
-            .fault("left out in a world that wraps: maps need wraps = false")
+            .error("left out in a world that wraps: maps need wraps = false")
     });
     at_behaviours.chain(beliefs).collect()
 }
 
 /// Beliefs about what there is not.
-fn of_beliefs(robot: &RobotSpec, spec: &ScenarioSpec, at: &Place) -> Vec<Fault> {
+fn of_beliefs(robot: &RobotSpec, spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
     let Some(beliefs) = &robot.brain.beliefs else {
         return Vec::new();
     };
     let kinds: Vec<&str> = spec.items.keys().map(String::as_str).collect();
-    let mut faults = Vec::new();
+    let mut errors = Vec::new();
     for (kind, expected) in &beliefs.expected {
         let at = at.key("expected").key(kind);
         if !kinds.contains(&kind.as_str()) {
-            faults.push(at.names_none_of(kind, kinds.iter().copied()));
+            errors.push(at.names_none_of(kind, kinds.iter().copied()));
         } else if !(0.0..=MOST_EXPECTED).contains(expected) {
-            faults.push(at.fault(format!("a number from 0 to {MOST_EXPECTED}")));
+            errors.push(at.error(format!("a number from 0 to {MOST_EXPECTED}")));
         }
     }
     let ([width, height], world) = (spec.world.size_m, rectangle(&spec.world));
@@ -183,7 +183,7 @@ fn of_beliefs(robot: &RobotSpec, spec: &ScenarioSpec, at: &Place) -> Vec<Fault> 
             "two opposite corners within [0, 0] and [{}, {}]",
             width.0, height.0
         );
-        faults.push(at.key("area_m").fault(allowed));
+        errors.push(at.key("area_m").error(allowed));
     }
-    faults
+    errors
 }

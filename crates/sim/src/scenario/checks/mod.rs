@@ -15,7 +15,7 @@ mod wraps;
 
 use super::{Checked, Scenario, ScenarioSpec};
 use base::document::{Document, Place};
-use base::fault::{Fault, Faults};
+use base::error::{InputError, InputErrors};
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 
@@ -23,42 +23,42 @@ use std::collections::BTreeSet;
 type Open<'o> = &'o dyn Fn(&str) -> Result<Vec<u8>, String>;
 
 /// A check: what is wrong with a scenario that stands `at` the root of a document.
-type Check = fn(&ScenarioSpec, &Place) -> Vec<Fault>;
+type Check = fn(&ScenarioSpec, &Place) -> Vec<InputError>;
 
 const CHECKS: [Check; 7] = [
-    clock::faults,
-    names::faults,
-    rates::faults,
-    drive::faults,
-    detection::faults,
-    minds::faults,
-    memory::faults,
+    clock::errors,
+    names::errors,
+    rates::errors,
+    drive::errors,
+    detection::errors,
+    minds::errors,
+    memory::errors,
 ];
 
 /// A check of what stands where, in a world of the obstacles that are right.
-type CheckOfPlaces = fn(&Checked, &Place) -> Vec<Fault>;
+type CheckOfPlaces = fn(&Checked, &Place) -> Vec<InputError>;
 
 const CHECKS_OF_PLACES: [CheckOfPlaces; 4] =
-    [wraps::faults, places::faults, room::faults, reach::faults];
+    [wraps::errors, places::errors, room::errors, reach::errors];
 
 /// `spec`, which stands `at` the root of a document, if nothing is wrong with it.
-pub(super) fn checked(spec: ScenarioSpec, at: &Place, open: Open) -> Result<Checked, Faults> {
-    let faults: Vec<Fault> = CHECKS.iter().flat_map(|check| check(&spec, at)).collect();
+pub(super) fn checked(spec: ScenarioSpec, at: &Place, open: Open) -> Result<Checked, InputErrors> {
+    let errors: Vec<InputError> = CHECKS.iter().flat_map(|check| check(&spec, at)).collect();
     let mut of_places = Vec::new();
     let solids = ground::solids(&spec.world, &at.key("world"), open, &mut of_places);
     let areas = ground::areas(&spec.terrain, &at.key("terrain"), &mut of_places);
-    if !faults.is_empty() {
-        return Err(Faults([faults, of_places].concat()));
+    if !errors.is_empty() {
+        return Err(InputErrors([errors, of_places].concat()));
     }
     let scenario = Scenario::new(&spec, solids, areas);
     let checked = Checked { spec, scenario };
     // What is wrong in a world without the obstacles that are wrong is wrong with them too.
     for check in CHECKS_OF_PLACES {
-        let told: BTreeSet<String> = of_places.iter().map(|fault| fault.path.clone()).collect();
+        let told: BTreeSet<String> = of_places.iter().map(|error| error.path.clone()).collect();
         let more = check(&checked, at).into_iter();
-        of_places.extend(more.filter(|fault| !told.contains(&fault.path)));
+        of_places.extend(more.filter(|error| !told.contains(&error.path)));
     }
-    Faults::or(of_places, Some(checked))
+    InputErrors::or(of_places, Some(checked))
 }
 
 /// The files of obstacles that have not been read.

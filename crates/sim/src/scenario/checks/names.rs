@@ -2,7 +2,7 @@
 
 use super::ScenarioSpec;
 use base::document::Place;
-use base::fault::Fault;
+use base::error::InputError;
 use base::random::kind_key;
 use std::collections::BTreeMap;
 
@@ -15,57 +15,57 @@ const MAX_SENSORS: usize = 32;
 /// Most characters of a name.
 const MAX_LENGTH: usize = 64;
 
-pub(super) fn faults(spec: &ScenarioSpec, at: &Place) -> Vec<Fault> {
+pub(super) fn errors(spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
     let robots = at.key("robots");
-    let mut faults = faults_of(&names(&spec.robots), 1, MAX_KINDS, &robots);
-    faults.extend(faults_of(
+    let mut errors = errors_of(&names(&spec.robots), 1, MAX_KINDS, &robots);
+    errors.extend(errors_of(
         &names(&spec.items),
         0,
         MAX_KINDS,
         &at.key("items"),
     ));
-    faults.extend(faults_of(
+    errors.extend(errors_of(
         &names(&spec.terrain),
         0,
         MAX_KINDS,
         &at.key("terrain"),
     ));
-    faults.extend(twins(&names(&spec.robots), &robots));
-    faults.extend(twins(&names(&spec.items), &at.key("items")));
+    errors.extend(twins(&names(&spec.robots), &robots));
+    errors.extend(twins(&names(&spec.items), &at.key("items")));
     for (name, robot) in &spec.robots {
         let sensors = robots.key(name).key("sensors");
-        faults.extend(faults_of(&names(&robot.sensors), 0, MAX_SENSORS, &sensors));
+        errors.extend(errors_of(&names(&robot.sensors), 0, MAX_SENSORS, &sensors));
     }
-    faults
+    errors
 }
 
 fn names<T>(table: &BTreeMap<String, T>) -> Vec<&str> {
     table.keys().map(String::as_str).collect()
 }
 
-fn faults_of(names: &[&str], least: usize, most: usize, at: &Place) -> Vec<Fault> {
+fn errors_of(names: &[&str], least: usize, most: usize, at: &Place) -> Vec<InputError> {
     let bad = names.iter().filter(|name| !is_fine(name));
-    let mut faults: Vec<Fault> = bad
+    let mut errors: Vec<InputError> = bad
         .map(|name| {
-            at.key(name).fault(format!(
+            at.key(name).error(format!(
                 "under a name of at most {MAX_LENGTH} letters a to z or A to Z, digits, _ and -"
             ))
         })
         .collect();
     if !(least..=most).contains(&names.len()) {
         let allowed = format!("a table of {least} to {most}; it has {}", names.len());
-        faults.push(at.fault(allowed));
+        errors.push(at.error(allowed));
     }
-    faults
+    errors
 }
 
 /// Kinds that would have the random numbers of another.
-fn twins(names: &[&str], at: &Place) -> Vec<Fault> {
+fn twins(names: &[&str], at: &Place) -> Vec<InputError> {
     let mut known = BTreeMap::new();
     let twins = names.iter().filter_map(|name| {
         let other = *known.entry(kind_key(name)).or_insert(*name);
         (other != *name).then(|| {
-            at.key(name).fault(format!(
+            at.key(name).error(format!(
                 "under another name: random numbers go by a hash of it, which is that of {other} too"
             ))
         })

@@ -4,39 +4,39 @@ use super::ground::{rectangle, words};
 use super::{Checked, ScenarioSpec};
 use crate::body::{Layer, RobotSpec};
 use base::document::Place;
-use base::fault::Fault;
+use base::error::InputError;
 use base::geometry::{Point, Rectangle, Torus};
 use base::placement::Placement;
 
 /// Robots that come nearer to each other than this, in metres, overlap; less is rounding.
 const TOLERANCE_M: f64 = 1e-9;
 
-pub(super) fn faults(checked: &Checked, at: &Place) -> Vec<Fault> {
+pub(super) fn errors(checked: &Checked, at: &Place) -> Vec<InputError> {
     let spec = &checked.spec;
-    let mut faults = Vec::new();
+    let mut errors = Vec::new();
     for (name, kind) in &spec.items {
         let at = at.key("items").key(name).key("placement");
-        faults.extend(faults_of_list(&kind.placement, kind.count, &at));
-        faults.extend(faults_of_rectangle(&kind.placement, spec, &at));
+        errors.extend(errors_of_list(&kind.placement, kind.count, &at));
+        errors.extend(errors_of_rectangle(&kind.placement, spec, &at));
         for (place, at) in given(&kind.placement, kind.count, &at) {
             if !checked.scenario.is_free(place, 0.0, Layer::Ground) {
                 let world = words(&spec.world);
-                faults.push(at.fault(format!("in {world}, and not in an obstacle")));
+                errors.push(at.error(format!("in {world}, and not in an obstacle")));
             }
         }
     }
     for (name, kind) in &spec.robots {
         let at = at.key("robots").key(name).key("start");
-        faults.extend(faults_of_list(&kind.start, kind.count, &at));
-        faults.extend(faults_of_rectangle(&kind.start, spec, &at));
+        errors.extend(errors_of_list(&kind.start, kind.count, &at));
+        errors.extend(errors_of_rectangle(&kind.start, spec, &at));
         for (place, at) in given(&kind.start, kind.count, &at) {
             if !checked.scenario.is_free(place, kind.radius_m, kind.layer) {
-                faults.push(at.fault(not_free(kind, spec)));
+                errors.push(at.error(not_free(kind, spec)));
             }
         }
     }
-    faults.extend(overlaps(spec, checked.scenario.torus, at));
-    faults
+    errors.extend(overlaps(spec, checked.scenario.torus, at));
+    errors
 }
 
 fn not_free(kind: &RobotSpec, spec: &ScenarioSpec) -> String {
@@ -66,29 +66,33 @@ fn given<'d>(placement: &Placement, count: u32, at: &Place<'d>) -> Vec<(Point, P
 }
 
 /// There are enough places, and as many headings as places.
-fn faults_of_list(placement: &Placement, count: u32, at: &Place) -> Vec<Fault> {
+fn errors_of_list(placement: &Placement, count: u32, at: &Place) -> Vec<InputError> {
     let Placement::Fixed { at_m, heading_deg } = placement else {
         return Vec::new();
     };
-    let mut faults = Vec::new();
+    let mut errors = Vec::new();
     if at_m.len() < count as usize {
         let allowed = format!(
             "a list of at least {count} places, the count; it has {}",
             at_m.len()
         );
-        faults.push(at.key("at_m").fault(allowed));
+        errors.push(at.key("at_m").error(allowed));
     }
     if heading_deg
         .as_ref()
         .is_some_and(|given| given.len() != at_m.len())
     {
         let allowed = format!("a list of {} directions, one for each place", at_m.len());
-        faults.push(at.key("heading_deg").fault(allowed));
+        errors.push(at.key("heading_deg").error(allowed));
     }
-    faults
+    errors
 }
 
-fn faults_of_rectangle(placement: &Placement, spec: &ScenarioSpec, at: &Place) -> Option<Fault> {
+fn errors_of_rectangle(
+    placement: &Placement,
+    spec: &ScenarioSpec,
+    at: &Place,
+) -> Option<InputError> {
     let (Placement::Uniform { within_m } | Placement::Clustered { within_m, .. }) = placement
     else {
         return None;
@@ -98,7 +102,7 @@ fn faults_of_rectangle(placement: &Placement, spec: &ScenarioSpec, at: &Place) -
     let is_bad = within_m.as_ref().is_some_and(|within| !is_in(within));
     is_bad.then(|| {
         at.key("within_m")
-            .fault(format!("two corners in {}", words(&spec.world)))
+            .error(format!("two corners in {}", words(&spec.world)))
     })
 }
 
@@ -113,7 +117,7 @@ struct Standing<'d> {
 }
 
 /// Given places at which one robot would stand in another.
-fn overlaps(spec: &ScenarioSpec, torus: Option<Torus>, at: &Place) -> Vec<Fault> {
+fn overlaps(spec: &ScenarioSpec, torus: Option<Torus>, at: &Place) -> Vec<InputError> {
     let standing = spec.robots.iter().flat_map(|(name, kind)| {
         let at = at.key("robots").key(name).key("start");
         given(&kind.start, kind.count, &at)
@@ -143,7 +147,7 @@ fn overlaps(spec: &ScenarioSpec, torus: Option<Torus>, at: &Place) -> Vec<Fault>
         Some(
             other
                 .at
-                .fault(format!("at least {radii_m} from the robot at [{x}, {y}]")),
+                .error(format!("at least {radii_m} from the robot at [{x}, {y}]")),
         )
     };
     standing

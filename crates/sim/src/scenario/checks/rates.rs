@@ -2,13 +2,13 @@
 
 use super::ScenarioSpec;
 use base::document::Place;
-use base::fault::Fault;
+use base::error::InputError;
 
 /// 10 a second are once a step of 0.1 s, though the product of the floats may be a little more.
 const ROUNDING: f64 = 1e-9;
 
-pub(super) fn faults(spec: &ScenarioSpec, at: &Place) -> Vec<Fault> {
-    let mut faults = Vec::new();
+pub(super) fn errors(spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
+    let mut errors = Vec::new();
     for (name, robot) in &spec.robots {
         let at = at.key("robots").key(name);
         let sensors = robot.sensors.iter().map(|(name, sensor)| {
@@ -19,7 +19,7 @@ pub(super) fn faults(spec: &ScenarioSpec, at: &Place) -> Vec<Fault> {
         for (rate_hz, at) in sensors.chain([brain]) {
             let too_fast = rate_hz.is_some_and(|rate| rate * spec.clock.step_s > 1.0 + ROUNDING);
             if too_fast {
-                faults.push(at.fault(format!(
+                errors.push(at.error(format!(
                     "at most {}, which is once in a step of {} s",
                     1.0 / spec.clock.step_s,
                     spec.clock.step_s
@@ -27,5 +27,5 @@ pub(super) fn faults(spec: &ScenarioSpec, at: &Place) -> Vec<Fault> {
             }
         }
     }
-    faults
+    errors
 }

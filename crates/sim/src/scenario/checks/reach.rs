@@ -8,14 +8,14 @@ use crate::sensing::Measures;
 use crate::world::items::ItemSpec;
 use crate::world::obstacles::Solid;
 use base::document::Place;
-use base::fault::Fault;
+use base::error::InputError;
 use base::geometry::{Point, Rectangle};
 use base::placement::Placement;
 use base::reach::{self, Reach};
 
 /// Whatever its number of robots, which a study may vary, a kind counts.
-pub(super) fn faults(checked: &Checked, at: &Place) -> Vec<Fault> {
-    let mut faults = Vec::new();
+pub(super) fn errors(checked: &Checked, at: &Place) -> Vec<InputError> {
+    let mut errors = Vec::new();
     let sought = checked
         .spec
         .items
@@ -27,15 +27,15 @@ pub(super) fn faults(checked: &Checked, at: &Place) -> Vec<Fault> {
         if finders.is_empty() {
             let allowed = "recognised by a robot: none has a sensor of kind \"items\" for these; of \
                            clutter, say sought = false";
-            faults.push(at.fault(allowed));
+            errors.push(at.error(allowed));
         }
         // Which ways there are through a world that wraps is not looked into.
         if !finders.is_empty() && !checked.spec.world.wraps {
-            faults.extend(out_of_reach(checked, kind, &finders, &at));
-            faults.extend(all_out_of_reach(checked, kind, &finders, &at));
+            errors.extend(out_of_reach(checked, kind, &finders, &at));
+            errors.extend(all_out_of_reach(checked, kind, &finders, &at));
         }
     }
-    faults
+    errors
 }
 
 /// A kind of robot that recognises an item from so far.
@@ -64,7 +64,12 @@ fn finders<'s>(spec: &'s ScenarioSpec, item: &str) -> Vec<Finder<'s>> {
 }
 
 /// The given places to which no finder comes near enough.
-fn out_of_reach(checked: &Checked, kind: &ItemSpec, finders: &[Finder], at: &Place) -> Vec<Fault> {
+fn out_of_reach(
+    checked: &Checked,
+    kind: &ItemSpec,
+    finders: &[Finder],
+    at: &Place,
+) -> Vec<InputError> {
     let Placement::Fixed { at_m, .. } = &kind.placement else {
         return Vec::new();
     };
@@ -83,7 +88,7 @@ fn out_of_reach(checked: &Checked, kind: &ItemSpec, finders: &[Finder], at: &Pla
         .filter(|(_, place)| !is_found(**place))
         .map(|(index, _)| {
             at.item(index)
-                .fault("where a robot that recognises it can come into its range")
+                .error("where a robot that recognises it can come into its range")
         })
         .collect()
 }
@@ -94,7 +99,7 @@ fn all_out_of_reach(
     kind: &ItemSpec,
     finders: &[Finder],
     at: &Place,
-) -> Option<Fault> {
+) -> Option<InputError> {
     let world = rectangle(&checked.spec.world);
     let within = within(&kind.placement, &world)?;
     let is_free = |place: &Point| checked.scenario.is_free(*place, 0.0, Layer::Ground);
@@ -117,7 +122,7 @@ fn all_out_of_reach(
     };
     let allowed = "where a robot that recognises one can come into its range: there is no such place \
                    among those that are free";
-    (!is_fine).then(|| at.fault(allowed))
+    (!is_fine).then(|| at.error(allowed))
 }
 
 /// Whether a robot may start upon one of these places: mostly so, and sooner seen than where it may

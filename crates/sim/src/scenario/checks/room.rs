@@ -4,7 +4,7 @@ use super::ground::rectangle;
 use super::{Checked, Scenario};
 use crate::body::{Layer, RobotSpec};
 use base::document::Place;
-use base::fault::Fault;
+use base::error::InputError;
 use base::geometry::{Point, Rectangle};
 use base::placement::Placement;
 use std::f64::consts::PI;
@@ -38,34 +38,34 @@ fn share(scenario: &Scenario, within: &Rectangle, radius_m: f64, layer: Layer) -
     free / f64::from(SIDE * SIDE)
 }
 
-pub(super) fn faults(checked: &Checked, at: &Place) -> Vec<Fault> {
+pub(super) fn errors(checked: &Checked, at: &Place) -> Vec<InputError> {
     let world = rectangle(&checked.spec.world);
     let scenario = &checked.scenario;
-    let mut faults = Vec::new();
+    let mut errors = Vec::new();
     for (name, kind) in &checked.spec.items {
         let within = within(&kind.placement, &world);
         let within = within.filter(|_| kind.count > 0);
         if within.is_some_and(|within| share(scenario, &within, 0.0, Layer::Ground) == 0.0) {
             let at = at.key("items").key(name).key("count");
-            faults.push(at.fault("0: there is no free place where these are to be"));
+            errors.push(at.error("0: there is no free place where these are to be"));
         }
     }
     let mut is_fine = true;
     for (name, kind) in &checked.spec.robots {
         let at = at.key("robots").key(name);
-        let fault = fault_of(kind, checked, &at);
-        is_fine &= fault.is_none();
-        faults.extend(fault);
+        let error = error_of(kind, checked, &at);
+        is_fine &= error.is_none();
+        errors.extend(error);
     }
     if is_fine {
         let layers = [Layer::Ground, Layer::Air];
-        faults.extend(
+        errors.extend(
             layers
                 .into_iter()
                 .filter_map(|layer| crowd(checked, layer, at)),
         );
     }
-    faults
+    errors
 }
 
 /// Where those are put that have no given place.
@@ -79,13 +79,13 @@ pub(super) fn within(placement: &Placement, world: &Rectangle) -> Option<Rectang
 }
 
 /// There is a place for one robot of the kind.
-fn fault_of(kind: &RobotSpec, checked: &Checked, at: &Place) -> Option<Fault> {
+fn error_of(kind: &RobotSpec, checked: &Checked, at: &Place) -> Option<InputError> {
     let scenario = &checked.scenario;
     let within = within(&kind.start, &rectangle(&checked.spec.world)).filter(|_| kind.count > 0)?;
     let has_none = share(scenario, &within, kind.radius_m, kind.layer) == 0.0;
     has_none.then(|| {
         let radius_m = kind.radius_m;
-        at.key("count").fault(format!(
+        at.key("count").error(format!(
             "0: of {} places where one of radius_m = {radius_m} is to start, none is free",
             SIDE * SIDE
         ))
@@ -93,7 +93,7 @@ fn fault_of(kind: &RobotSpec, checked: &Checked, at: &Place) -> Option<Fault> {
 }
 
 /// All robots of a layer have room beside each other.
-fn crowd(checked: &Checked, layer: Layer, at: &Place) -> Option<Fault> {
+fn crowd(checked: &Checked, layer: Layer, at: &Place) -> Option<InputError> {
     let kinds = checked
         .spec
         .robots
@@ -118,5 +118,5 @@ fn crowd(checked: &Checked, layer: Layer, at: &Place) -> Option<Fault> {
             Layer::Air => "air",
         }
     );
-    Some(at.key("robots").key(name).key("count").fault(allowed))
+    Some(at.key("robots").key(name).key("count").error(allowed))
 }

@@ -1,6 +1,6 @@
 use super::super::{Checked, ScenarioSpec};
 use base::document::Document;
-use base::fault::Faults;
+use base::error::InputErrors;
 
 mod minds;
 
@@ -42,28 +42,28 @@ layer = "air"
 drive = { max_speed_m_s = 5, max_turn_rate_deg_s = 90 }
 "#;
 
-fn read(text: &str) -> Result<Checked, Faults> {
+fn read(text: &str) -> Result<Checked, InputErrors> {
     let document = Document::parse("t", text).unwrap();
     ScenarioSpec::read(&document)
 }
 
-/// The faults of the good scenario with this in place of that, without their lines.
-fn faults(this: &str, that: &str) -> Vec<String> {
+/// The errors of the good scenario with this in place of that, without their lines.
+fn errors(this: &str, that: &str) -> Vec<String> {
     assert!(GOOD.contains(this), "{this}");
-    let faults = read(&GOOD.replace(this, that)).unwrap_err().0;
-    let told = faults.iter().map(ToString::to_string);
-    told.map(|fault| {
-        let (origin, rest) = fault.split_once(": ").unwrap();
-        assert!(origin.starts_with("t:"), "{fault}");
+    let errors = read(&GOOD.replace(this, that)).unwrap_err().0;
+    let told = errors.iter().map(ToString::to_string);
+    told.map(|error| {
+        let (origin, rest) = error.split_once(": ").unwrap();
+        assert!(origin.starts_with("t:"), "{error}");
         rest.to_owned()
     })
     .collect()
 }
 
-fn fault(this: &str, that: &str) -> String {
-    let faults = faults(this, that);
-    assert_eq!(faults.len(), 1, "{faults:?}");
-    faults.concat()
+fn error(this: &str, that: &str) -> String {
+    let errors = errors(this, that);
+    assert_eq!(errors.len(), 1, "{errors:?}");
+    errors.concat()
 }
 
 #[test]
@@ -79,7 +79,7 @@ fn keys_that_are_not_the_engines_are_left_to_others() {
 }
 
 #[test]
-fn faults_of_every_part_are_told_at_once_with_their_lines() {
+fn errors_of_every_part_are_told_at_once_with_their_lines() {
     let bad = GOOD
         .replace("cap_s = 120", "cap_s = 1e7\n")
         .replace("0.1\n", "0.01\n")
@@ -96,9 +96,9 @@ fn faults_of_every_part_are_told_at_once_with_their_lines() {
 }
 
 #[test]
-fn a_types_fault_is_told_before_what_values_mean_together() {
+fn a_types_error_is_told_before_what_values_mean_together() {
     assert_eq!(
-        faults("radius_m = 0.5", "radius_m = nan"),
+        errors("radius_m = 0.5", "radius_m = nan"),
         ["robots.rover.radius_m = NaN: must be a number from 0 to 100, in metres"]
     );
 }
@@ -107,14 +107,14 @@ fn a_types_fault_is_told_before_what_values_mean_together() {
 fn names_can_stand_in_a_column_and_a_path() {
     let long = "x".repeat(65);
     for name in ["\"a b\"", "\"\"", "\"a.b\"", "\"ä\"", &long] {
-        let told = fault("[robots.bird]", &format!("[robots.{name}]"));
+        let told = error("[robots.bird]", &format!("[robots.{name}]"));
         assert!(told.ends_with(
             "must be under a name of at most 64 letters a to z or A to Z, digits, _ and -"
         ));
     }
-    assert!(fault("[terrain.mud]", "[terrain.\"m d\"]").starts_with("terrain.\"m d\" = {...}"));
+    assert!(error("[terrain.mud]", "[terrain.\"m d\"]").starts_with("terrain.\"m d\" = {...}"));
     assert!(
-        fault("sensors.eye]", "sensors.\"\"]").starts_with("robots.rover.sensors.\"\" = {...}")
+        error("sensors.eye]", "sensors.\"\"]").starts_with("robots.rover.sensors.\"\" = {...}")
     );
 }
 
@@ -158,19 +158,19 @@ fn there_are_one_to_255_kinds_of_robots() {
 #[test]
 fn rates_are_at_most_one_a_step() {
     assert_eq!(
-        fault("range_m = 3", "range_m = 3\nrate_hz = 10.1"),
+        error("range_m = 3", "range_m = 3\nrate_hz = 10.1"),
         "robots.rover.sensors.eye.rate_hz = 10.1: must be at most 10, which is once in a step of 0.1 \
          s"
     );
     assert!(read(&GOOD.replace("range_m = 3", "range_m = 3\nrate_hz = 10")).is_ok());
     let brain = "radius_m = 0.3\nbrain = { rate_hz = 20 }";
-    assert!(fault("radius_m = 0.3", brain).starts_with("robots.bird.brain.rate_hz = 20: must be"));
+    assert!(error("radius_m = 0.3", brain).starts_with("robots.bird.brain.rate_hz = 20: must be"));
 }
 
 #[test]
 fn a_step_is_short_enough_for_what_moves() {
     assert_eq!(
-        faults("step_s = 0.1", "step_s = 3"),
+        errors("step_s = 0.1", "step_s = 3"),
         [
             "robots.bird.drive.max_speed_m_s = 5: must be at most 3.3333333333333335, with which it \
              is across the world in a step of 3 s",
@@ -191,16 +191,16 @@ fn a_detection_table_ascends_and_has_probabilities() {
         "[[1, 1], [1, 0]]",
         "[[2, 1], [1, 0]]",
     ] {
-        let told = fault("[[0, 1], [3, 0.5]]", table);
+        let told = error("[[0, 1], [3, 0.5]]", table);
         assert!(
             told.contains("must be at least one pair of a distance"),
             "{told}"
         );
     }
-    let told = fault("mine = 0.01", "mine = -1");
+    let told = error("mine = 0.01", "mine = -1");
     assert!(told.ends_with("false_alarms_per_m2_s.mine = -1: must be a number from 0 to 1000"));
     assert_eq!(
-        fault("mine = 0.01", "cow = 1"),
+        error("mine = 0.01", "cow = 1"),
         "robots.rover.sensors.eye.false_alarms_per_m2_s.cow = 1: must be under one of mine"
     );
 }
@@ -208,14 +208,14 @@ fn a_detection_table_ascends_and_has_probabilities() {
 #[test]
 fn a_look_has_no_more_false_contacts_than_can_be_drawn() {
     // A circle of 3 m for 0.1 s.
-    let told = fault("mine = 0.01", "mine = 200");
+    let told = error("mine = 0.01", "mine = 200");
     let end = "must be lower, so that a look has at most 500 false contacts; in its whole range and \
                0.1 s it has 565";
     assert!(told.ends_with(end), "{told}");
     assert!(read(&GOOD.replace("mine = 0.01", "mine = 150")).is_ok());
     let slow = GOOD.replace("range_m = 3", "range_m = 3\nrate_hz = 0.01");
     assert!(read(&slow).is_ok());
-    assert!(fault("mine = 0.01 }", "mine = 1 }\nrate_hz = 0.01").contains("and 100 s it has 2827"));
+    assert!(error("mine = 0.01 }", "mine = 1 }\nrate_hz = 0.01").contains("and 100 s it has 2827"));
 }
 
 #[test]
@@ -226,7 +226,7 @@ fn a_robot_has_at_most_32_sensors() {
     };
     let with = |count| format!("{}[robots.bird]", sensors(count));
     assert!(read(&GOOD.replace("[robots.bird]", &with(31))).is_ok());
-    let told = fault("[robots.bird]", &with(32));
+    let told = error("[robots.bird]", &with(32));
     assert!(
         told.ends_with("must be a table of 0 to 32; it has 33"),
         "{told}"
@@ -235,7 +235,7 @@ fn a_robot_has_at_most_32_sensors() {
 
 #[test]
 fn a_battery_that_is_never_full_is_none() {
-    let told = fault(
+    let told = error(
         "count = 1\nradius_m = 0.3",
         "count = 1\nbattery = { capacity_j = 0 }\nradius_m = 0.3",
     );
@@ -250,8 +250,8 @@ fn wrong_obstacles_and_wrong_places_are_told_at_once() {
     let text = GOOD
         .replace("[15, 5]", "[150, 5]")
         .replace("[19, 9]", "[190, 9]");
-    let faults = read(&text).unwrap_err().0;
-    let paths: Vec<&str> = faults.iter().map(|fault| fault.path.as_str()).collect();
+    let errors = read(&text).unwrap_err().0;
+    let paths: Vec<&str> = errors.iter().map(|error| error.path.as_str()).collect();
     assert_eq!(
         paths,
         ["world.obstacles[1]", "items.mine.placement.at_m[1]"]
@@ -261,7 +261,7 @@ fn wrong_obstacles_and_wrong_places_are_told_at_once() {
 #[test]
 fn an_obstacle_is_at_least_partly_in_the_world() {
     assert_eq!(
-        fault("[15, 5]", "[15, -2]"),
+        error("[15, 5]", "[15, -2]"),
         "world.obstacles[1] = {...}: must be at least partly in the world, from [0, 0] to [20, 10]"
     );
     assert!(read(&GOOD.replace("[15, 5]", "[15, -0.5]")).is_ok());
@@ -269,13 +269,13 @@ fn an_obstacle_is_at_least_partly_in_the_world() {
 
 #[test]
 fn an_area_has_an_inside() {
-    let told = fault("[[[10, 0], [20, 0], [20, 10]]]", "[[[10, 0], [20, 0]]]");
+    let told = error("[[[10, 0], [20, 0], [20, 10]]]", "[[[10, 0], [20, 0]]]");
     assert!(told.starts_with("terrain.mud.areas_m[0] = [[10, 0], [20, 0]]: must be a polygon"));
 }
 
 #[test]
 fn given_places_are_enough_and_free() {
-    let of_items = |places: &str| fault("[[5, 5], [19, 9]]", places);
+    let of_items = |places: &str| error("[[5, 5], [19, 9]]", places);
     assert_eq!(
         of_items("[[5, 5]]"),
         "items.mine.placement.at_m = [[5, 5]]: must be a list of at least 2 places, the count; it has \
@@ -291,7 +291,7 @@ fn given_places_are_enough_and_free() {
         format!("items.mine.placement.at_m[0] = [4, 1]: {free}")
     );
     assert_eq!(
-        fault("[[6, 6], [7, 6]]", "[[6, 6], [4.4, 1]]"),
+        error("[[6, 6], [7, 6]]", "[[6, 6], [4.4, 1]]"),
         "robots.rover.start.at_m[1] = [4.4, 1]: must be in the world, from [0, 0] to [20, 10], at \
          least radius_m = 0.5 from its border and from any obstacle"
     );
@@ -309,7 +309,7 @@ fn given_places_are_enough_and_free() {
 #[test]
 fn each_given_place_has_a_heading_or_none_has() {
     assert_eq!(
-        fault("[0, 90]", "[0]"),
+        error("[0, 90]", "[0]"),
         "robots.rover.start.heading_deg = [0]: must be a list of 2 directions, one for each place"
     );
 }
@@ -317,19 +317,19 @@ fn each_given_place_has_a_heading_or_none_has() {
 #[test]
 fn robots_of_a_layer_do_not_stand_in_each_other() {
     assert_eq!(
-        fault("[[6, 6], [7, 6]]", "[[6, 6], [6.9, 6]]"),
+        error("[[6, 6], [7, 6]]", "[[6, 6], [6.9, 6]]"),
         "robots.rover.start.at_m[1] = [6.9, 6]: must be at least 1 from the robot at [6, 6]"
     );
     let bird = "layer = \"air\"\nstart = { kind = \"fixed\", at_m = [[6, 6]] }";
     assert!(read(&GOOD.replace("layer = \"air\"", bird)).is_ok());
-    let told = fault("layer = \"air\"", &bird.replace("air", "ground"));
+    let told = error("layer = \"air\"", &bird.replace("air", "ground"));
     assert!(told.contains("at least 0.8 from the robot at"), "{told}");
 }
 
 #[test]
 fn robots_that_start_anywhere_have_room() {
     let bird = |count: &str, radius: &str| {
-        fault(
+        error(
             "count = 1\nradius_m = 0.3",
             &format!("count = {count}\nradius_m = {radius}"),
         )
@@ -350,7 +350,7 @@ fn robots_that_start_anywhere_have_room() {
 #[test]
 fn items_that_are_anywhere_have_room() {
     let anywhere = "placement = { kind = \"uniform\", within_m = [[1, 1], [3, 3]] }";
-    let told = fault(
+    let told = error(
         "placement = { kind = \"fixed\", at_m = [[5, 5], [19, 9]] }",
         anywhere,
     );
@@ -359,7 +359,7 @@ fn items_that_are_anywhere_have_room() {
         "items.mine.count = 2: must be 0: there is no free place where these are to be"
     );
     let outside = anywhere.replace("[3, 3]", "[3, 13]");
-    let told = fault(
+    let told = error(
         "placement = { kind = \"fixed\", at_m = [[5, 5], [19, 9]] }",
         &outside,
     );
@@ -369,7 +369,7 @@ fn items_that_are_anywhere_have_room() {
 #[test]
 fn a_run_fits_into_memory() {
     let rays = "count = 1000000\nsensors = { a = { kind = \"range\", rays = 1440, range_m = 1 } }";
-    let told = fault(
+    let told = error(
         "count = 1\nradius_m = 0.3",
         &format!("{rays}\nradius_m = 0"),
     );
@@ -402,7 +402,7 @@ fn read_with_map(map: &str, start: &str) -> Result<Checked, String> {
     let map = format!("{{ map = {map:?} }}");
     let text = GOOD.replace("{ circle = { at_m = [15, 5], radius_m = 1 } }", &map);
     let document = Document::parse("t", &text.replace("[7, 6]", start)).unwrap();
-    ScenarioSpec::read_with(&document, open).map_err(|faults| faults.to_string())
+    ScenarioSpec::read_with(&document, open).map_err(|errors| errors.to_string())
 }
 
 #[test]
@@ -441,7 +441,7 @@ fn a_map_that_is_not_there_or_wrong_is_told() {
 fn what_is_sought_can_be_recognised_by_a_robot() {
     let clutter = "[items.cow]\ncount = 1\n[items.mine]";
     assert_eq!(
-        fault("[items.mine]", clutter),
+        error("[items.mine]", clutter),
         "items.cow = {...}: must be recognised by a robot: none has a sensor of kind \"items\" for \
          these; of clutter, say sought = false"
     );
@@ -458,7 +458,7 @@ fn what_is_sought_can_be_recognised_by_a_robot() {
 fn a_given_place_behind_walls_is_out_of_reach() {
     let wall = "{ polygon_m = [[13, 0], [13.5, 0], [13.5, 10], [13, 10]] },\n{ circle";
     assert_eq!(
-        fault("{ circle", wall),
+        error("{ circle", wall),
         "items.mine.placement.at_m[1] = [19, 9]: must be where a robot that recognises it can come into \
          its range"
     );
@@ -497,10 +497,10 @@ fn items_anywhere_in_a_closed_ring_are_out_of_reach() {
         format!(r#"{{ kind = "uniform", {hollow} }}"#),
         format!(r#"{{ kind = "clustered", clusters = 1, spread_m = 1, {hollow} }}"#),
     ] {
-        let faults = read(&ring(6.5, &placement)).unwrap_err().0;
-        assert_eq!(faults.len(), 1, "{faults:?}");
-        assert_eq!(faults[0].path, "items.mine.placement.within_m");
-        assert!(faults[0].to_string().contains("can come into its range"));
+        let errors = read(&ring(6.5, &placement)).unwrap_err().0;
+        assert_eq!(errors.len(), 1, "{errors:?}");
+        assert_eq!(errors[0].path, "items.mine.placement.within_m");
+        assert!(errors[0].to_string().contains("can come into its range"));
         // With a gap, or a robot that starts within, or that sees or flies over the walls, they are
         // not.
         assert!(read(&ring(4.8, &placement)).is_ok());

@@ -3,22 +3,22 @@
 use super::Checked;
 use crate::sensing::Measures;
 use base::document::Place;
-use base::fault::Fault;
+use base::error::InputError;
 
 /// Of all images of a thing only the nearest is ever in reach. A radio may reach farther: who hears is
 /// told by the nearest image alone.
-pub(super) fn faults(checked: &Checked, at: &Place) -> Vec<Fault> {
+pub(super) fn errors(checked: &Checked, at: &Place) -> Vec<InputError> {
     let (spec, scenario) = (&checked.spec, &checked.scenario);
     let Some(torus) = scenario.torus else {
         return Vec::new();
     };
     let half_m = torus.size_m.x.min(torus.size_m.y) / 2.0;
     let most_m = half_m - scenario.skin_m - scenario.biggest_radius_m();
-    let mut faults = Vec::new();
+    let mut errors = Vec::new();
     let least_m = 2.0 * (scenario.contact_m + scenario.skin_m);
     if 2.0 * half_m < least_m {
         let allowed = format!("at least {least_m:.3} each way for these robots, as it wraps");
-        faults.push(at.key("world").key("size_m").fault(allowed));
+        errors.push(at.key("world").key("size_m").error(allowed));
     }
     for (name, robot) in &spec.robots {
         let at = at.key("robots").key(name);
@@ -27,9 +27,9 @@ pub(super) fn faults(checked: &Checked, at: &Place) -> Vec<Fault> {
             Some((range_m(&sensor.measures)?, at))
         });
         let too_far = sensors.filter(|(range_m, _)| *range_m > most_m);
-        faults.extend(too_far.map(|(_, at)| at.fault(allowed(most_m))));
+        errors.extend(too_far.map(|(_, at)| at.error(allowed(most_m))));
     }
-    faults
+    errors
 }
 
 fn allowed(most_m: f64) -> String {

@@ -81,7 +81,7 @@ mod tests {
         let robots = read.map(|checked| checked.spec.robots);
         robots
             .map(|mut robots| robots.remove("r").unwrap())
-            .map_err(|faults| faults.to_string())
+            .map_err(|errors| errors.to_string())
     }
 
     #[test]
@@ -122,7 +122,7 @@ mod tests {
     }
 
     #[test]
-    fn a_fault_of_a_models_value_names_the_model() {
+    fn an_error_of_a_models_value_names_the_model() {
         let told = read("like = \"ugv\"\n[clock.x]").unwrap_err();
         assert!(told.starts_with("t.toml:8: clock.x"), "{told}");
         let document =

@@ -14,15 +14,15 @@ fn a_mind_has_a_world_that_ends() {
     );
 }
 
-/// The faults of the good scenario whose bird, which has no sensors, has this brain.
-fn faults_of_brain(brain: &str) -> Vec<String> {
+/// The errors of the good scenario whose bird, which has no sensors, has this brain.
+fn errors_of_brain(brain: &str) -> Vec<String> {
     let drive = "drive = { max_speed_m_s = 5, max_turn_rate_deg_s = 90 }";
-    faults(drive, &format!("{drive}\nbrain = {{ {brain} }}"))
+    errors(drive, &format!("{drive}\nbrain = {{ {brain} }}"))
 }
 
 #[test]
 fn behaviours_need_sensors_and_places() {
-    let told = faults_of_brain("behaviours = [{ kind = \"correct\" }]");
+    let told = errors_of_brain("behaviours = [{ kind = \"correct\" }]");
     let at = "robots.bird.brain.behaviours[0]";
     let needs = |what: &str| {
         format!(
@@ -42,7 +42,7 @@ fn behaviours_need_sensors_and_places() {
 
 #[test]
 fn behaviours_with_others_need_to_know_of_them_and_sweeps_how_wide_they_see() {
-    let told = faults_of_brain(
+    let told = errors_of_brain(
         "behaviours = [{ kind = \"follow\" }, { kind = \"swarm\" }, { kind = \"lanes\" }, \
          { kind = \"spiral\" }, { kind = \"navigate\", share = \"team\", places_m = [[1, 1]] }]",
     );
@@ -50,7 +50,7 @@ fn behaviours_with_others_need_to_know_of_them_and_sweeps_how_wide_they_see() {
     let lacks = |number, key: &str, what: &str| {
         let path = format!("{}.{key} = ", behaviour(number));
         told.iter()
-            .any(|fault| fault.starts_with(&path) && fault.contains(what))
+            .any(|error| error.starts_with(&path) && error.contains(what))
     };
     for (number, key, what) in [
         (0, "kind", "kind = \"robots\""),
@@ -61,24 +61,24 @@ fn behaviours_with_others_need_to_know_of_them_and_sweeps_how_wide_they_see() {
     ] {
         assert!(lacks(number, key, what), "{number}: {told:?}");
     }
-    let told = faults_of_brain(
+    let told = errors_of_brain(
         "behaviours = [{ kind = \"lanes\", width_m = 2 }, { kind = \"spiral\", width_m = 2 }]",
     );
     assert!(
-        !told.iter().any(|fault| fault.contains("items")),
+        !told.iter().any(|error| error.contains("items")),
         "{told:?}"
     );
 }
 
 #[test]
 fn places_lie_in_the_world() {
-    let told = faults_of_brain(
+    let told = errors_of_brain(
         "behaviours = [{ kind = \"navigate\", places_m = [[2, 2], [21, 2]] }, \
          { kind = \"home\", at_m = [-1, 2] }, { kind = \"spiral\", around_m = [3, 11], width_m = 1 }]",
     );
     let outside: Vec<&String> = told
         .iter()
-        .filter(|fault| fault.contains("within"))
+        .filter(|error| error.contains("within"))
         .collect();
     let at = "robots.bird.brain.behaviours";
     let expected = [
@@ -99,14 +99,14 @@ fn gains_are_those_of_its_behaviours() {
     };
     let at = "robots.bird.brain.arbitration.gains";
     assert_eq!(
-        faults_of_brain(&brain("cruse = 2, avoid = -1")),
+        errors_of_brain(&brain("cruse = 2, avoid = -1")),
         [
             format!("{at}.avoid = -1: must be a number from 0 to 1000000"),
             format!("{at}.cruse = 2: must be under one of cruise, avoid; did you mean cruise?"),
         ]
     );
     let slip = brain("").replace("gains", "gain");
-    let told = faults_of_brain(&slip).concat();
+    let told = errors_of_brain(&slip).concat();
     assert!(
         told.contains("must be one of the known keys here: kind, gains, influence_m"),
         "{told}"

@@ -11,7 +11,7 @@ const SHOWN_OF_ORIGIN: usize = 300;
 
 /// One thing that is wrong: where, what was given, what is allowed.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Fault {
+pub struct InputError {
     /// Where it stands, when it stands in a file or an option: `scenario.toml:7`, `--contact`.
     pub origin: Option<String>,
     /// Path of the value: `robots.wanderer.count`, `start[2].x`. Empty for a whole document.
@@ -24,7 +24,7 @@ pub struct Fault {
     pub suggestion: Option<String>,
 }
 
-impl Fault {
+impl InputError {
     /// What was `given` at `path`, or is missing there, is not what is `allowed`.
     #[must_use]
     pub fn new(path: String, given: Option<String>, allowed: String) -> Self {
@@ -63,7 +63,7 @@ impl Fault {
     }
 }
 
-impl fmt::Display for Fault {
+impl fmt::Display for InputError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(origin) = &self.origin {
             let origin = cut(origin, SHOWN_OF_ORIGIN);
@@ -100,20 +100,20 @@ fn cut(text: &str, most: usize) -> Cow<'_, str> {
     format!("{}...{}", &text[..head], &text[tail..]).into()
 }
 
-/// Everything that is wrong, at least one fault; shown one a line.
+/// Everything that is wrong, at least one error; shown one a line.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
-pub struct Faults(pub Vec<Fault>);
+pub struct InputErrors(pub Vec<InputError>);
 
-impl Faults {
-    /// `value` if nothing is wrong, else the faults.
+impl InputErrors {
+    /// `value` if nothing is wrong, else the errors.
     ///
     /// # Errors
-    /// The faults, when there are any or when there is no value.
-    pub fn or<T>(faults: Vec<Fault>, value: Option<T>) -> Result<T, Self> {
+    /// The errors, when there are any or when there is no value.
+    pub fn or<T>(errors: Vec<InputError>, value: Option<T>) -> Result<T, Self> {
         match value {
-            Some(value) if faults.is_empty() => Ok(value),
-            _ => Err(Self(faults)),
+            Some(value) if errors.is_empty() => Ok(value),
+            _ => Err(Self(errors)),
         }
     }
 }
@@ -158,11 +158,11 @@ mod tests {
     #[test]
     fn a_place_is_a_file_and_perhaps_a_line_and_an_option_is_none() {
         let place = |origin: &str| {
-            let fault = Fault {
+            let error = InputError {
                 origin: Some(origin.to_owned()),
-                ..Fault::new(String::new(), None, String::new())
+                ..InputError::new(String::new(), None, String::new())
             };
-            let place = fault.place("a:b.toml");
+            let place = error.place("a:b.toml");
             place.map(|(file, line)| (file.to_owned(), line))
         };
         assert_eq!(place("a:b.toml:7"), Some(("a:b.toml".to_owned(), Some(7))));
@@ -175,12 +175,12 @@ mod tests {
     fn a_megabyte_is_shown_by_its_ends() {
         let long = "ö".repeat(1 << 20);
         let (path, given) = (format!("robots.{long}.count"), format!("\"{long}\""));
-        let fault = Fault {
+        let error = InputError {
             origin: Some(format!("--set {path}")),
             suggestion: nearest(&long, ["rover", "ö"]).map(str::to_owned),
-            ..Fault::new(path.clone(), Some(given), "a number".to_owned())
+            ..InputError::new(path.clone(), Some(given), "a number".to_owned())
         };
-        let told = fault.to_string();
+        let told = error.to_string();
         assert!(told.chars().count() < 600, "{told}");
         for part in [
             "--set robots.ö",
@@ -190,17 +190,17 @@ mod tests {
         ] {
             assert!(told.contains(part), "{part}\nnot in\n{told}");
         }
-        assert_eq!(fault.path, path);
-        assert_eq!(fault.suggestion, None);
+        assert_eq!(error.path, path);
+        assert_eq!(error.suggestion, None);
     }
 
     #[test]
     fn what_controls_a_terminal_is_not_printed() {
-        let fault = Fault {
+        let error = InputError {
             origin: Some("--set robots.\u{1b}[31mred\n".to_owned()),
-            ..Fault::new("robots".to_owned(), None, "there".to_owned())
+            ..InputError::new("robots".to_owned(), None, "there".to_owned())
         };
-        assert!(!fault.to_string().contains(char::is_control));
+        assert!(!error.to_string().contains(char::is_control));
     }
 
     #[test]
