@@ -3,6 +3,7 @@
 import re
 from dataclasses import replace
 from itertools import product
+from pathlib import Path
 
 import altair as alt
 import by_hand
@@ -11,11 +12,13 @@ import pytest
 import vl_convert
 from by_hand import WANDERERS
 
-from agent_economy.study import report
+from agent_economy.study import files, report
 from agent_economy.study.answer.conclude import Answer
 from agent_economy.study.answer.evidence import Evidence
 from agent_economy.study.answer.results import Ending
+from agent_economy.study.errors import StudyError
 from agent_economy.study.report import charts
+from agent_economy.study.report import script as chart_script
 from agent_economy.study.report.sections import saturation_in_words, sections
 from agent_economy.study.report.view import View
 from agent_economy.study.report.writing import MINUS
@@ -28,19 +31,10 @@ CONTACTS = ("touch", "within-2", "ahead")
 
 
 @pytest.fixture(scope="module")
-def script() -> report.ChartScript:
-    """Return the script, made once."""
+def script() -> str:
+    """Return the JavaScript that draws charts."""
     with report.ChartScript() as made:
-        text = made.text()
-
-    class Made(report.ChartScript):
-        def __init__(self) -> None:
-            """Start nothing."""
-
-        def text(self) -> str:
-            return text
-
-    return Made()
+        return made.text()
 
 
 @pytest.fixture(scope="module")
@@ -92,21 +86,19 @@ def with_label(study: Study, label: str) -> Study:
     return replace(answer, results=results, sentence=f"Send {label}: it is best."), evidence
 
 
-def test_a_page_is_one_file_that_fetches_nothing(
-    any_study: Study, script: report.ChartScript
-) -> None:
+def test_a_page_is_one_file_that_fetches_nothing(any_study: Study, script: str) -> None:
     page = report.html(*any_study, script)
     assert len(page.encode()) < 1_500_000
     assert not re.search(r"<script |src=|href=|url\(|@import|https?:", body(page))
     assert "default-src 'none'" in page
 
 
-def test_the_same_answer_gives_the_same_bytes(any_study: Study, script: report.ChartScript) -> None:
+def test_the_same_answer_gives_the_same_bytes(any_study: Study, script: str) -> None:
     assert report.html(*any_study, script) == report.html(*any_study, script)
 
 
 def test_the_answer_comes_first_then_what_is_guaranteed_and_how_many_runs_it_took(
-    teams: Study, script: report.ChartScript
+    teams: Study, script: str
 ) -> None:
     answer, _ = teams
     page = body(report.html(*teams, script))
@@ -129,7 +121,7 @@ def test_sections_come_in_the_order_in_which_people_ask(teams: Study) -> None:
     ]
 
 
-def test_markup_in_names_and_summaries_stays_text(teams: Study, script: report.ChartScript) -> None:
+def test_markup_in_names_and_summaries_stays_text(teams: Study, script: str) -> None:
     nasty = "</script><img src=x onerror=alert(1)>"
     answer, evidence = with_label(teams, nasty)
     scenario = replace(answer.scenario, summary=nasty, name=nasty)
@@ -147,7 +139,7 @@ def test_every_chart_is_a_valid_specification_and_can_be_drawn(any_study: Study)
 
 
 def test_every_chart_has_a_place_and_a_table_and_every_place_a_chart(
-    any_study: Study, script: report.ChartScript
+    any_study: Study, script: str
 ) -> None:
     page = body(report.html(*any_study, script))
     made = charts.specifications(*any_study)
@@ -173,7 +165,7 @@ def test_one_configuration_has_nothing_to_be_compared_with(alone: Study) -> None
 
 
 def test_of_a_thousand_configurations_the_best_fifty_are_shown_and_the_page_says_so(
-    thousand: Study, script: report.ChartScript
+    thousand: Study, script: str
 ) -> None:
     answer, _ = thousand
     page = body(report.html(*thousand, script))
@@ -215,7 +207,7 @@ def test_two_configurations_of_the_same_name_stay_two(teams: Study) -> None:
     assert len({row["label"] for row in rows}) == 8
 
 
-def test_quarantined_runs_are_said_and_counted(teams: Study, script: report.ChartScript) -> None:
+def test_quarantined_runs_are_said_and_counted(teams: Study, script: str) -> None:
     answer, evidence = teams
     assert "quarantined:" not in body(report.html(answer, evidence, script))
     first, *others = answer.results
@@ -227,7 +219,7 @@ def test_quarantined_runs_are_said_and_counted(teams: Study, script: report.Char
 
 
 def test_a_column_that_is_not_finite_is_not_known_rather_than_a_number(
-    teams: Study, script: report.ChartScript
+    teams: Study, script: str
 ) -> None:
     answer, evidence = teams
     first, *others = evidence.samples
@@ -242,7 +234,7 @@ def test_a_column_that_is_not_finite_is_not_known_rather_than_a_number(
     assert ending.best == answer.best
 
 
-def test_what_the_runs_leave_open_is_called_undecided(script: report.ChartScript) -> None:
+def test_what_the_runs_leave_open_is_called_undecided(script: str) -> None:
     few = by_hand.study([{WANDERERS: robots} for robots in (3, 4, 5)], by_hand.classic, runs=20)
     page = body(report.html(*few, script))
     assert page.count('<td class="words">undecided</td>') == 2
@@ -250,7 +242,7 @@ def test_what_the_runs_leave_open_is_called_undecided(script: report.ChartScript
     assert "No configuration was put out" in page
 
 
-def test_what_the_runs_prove_is_said(script: report.ChartScript) -> None:
+def test_what_the_runs_prove_is_said(script: str) -> None:
     # Two teams of the same merit in every run, and one that is always worse.
     answer, evidence = by_hand.study(
         [{WANDERERS: robots} for robots in (3, 4, 5)], by_hand.classic, runs=4000
@@ -276,7 +268,7 @@ def test_a_largest_team_that_beats_all_is_not_called_enough(teams: Study) -> Non
     assert saturation_in_words(view, beaten).startswith("Not reached")
 
 
-def test_without_published_results_none_are_shown(teams: Study, script: report.ChartScript) -> None:
+def test_without_published_results_none_are_shown(teams: Study, script: str) -> None:
     answer, evidence = teams
     scenario = replace(answer.scenario, published=None)
     bare = replace(answer, published=(), scenario=scenario)
@@ -286,7 +278,7 @@ def test_without_published_results_none_are_shown(teams: Study, script: report.C
 
 
 def test_factors_that_matter_are_shown_with_the_share_of_chance(
-    script: report.ChartScript,
+    script: str,
 ) -> None:
     grid = product(range(4), range(1, 11))
     given: list[by_hand.Values] = [{MIX: 8 * mix, ROVERS: robots} for mix, robots in grid]
@@ -295,3 +287,45 @@ def test_factors_that_matter_are_shown_with_the_share_of_chance(
     assert "of that spread is chance" in page
     rows = charts.specifications(*found)["sensitivity"]["data"]["values"]
     assert {row["label"] for row in rows} == {"mix", "rovers"}
+
+
+@pytest.fixture
+def empty_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Return a cache folder of the test's own."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    return tmp_path
+
+
+def test_the_script_is_bundled_once_whole_by_however_many_processes(
+    empty_cache: Path, script: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(chart_script, "BUNDLE", f"print({script[:5000]!r}, end='')")
+    with report.ChartScript() as first, report.ChartScript() as second:
+        assert first.text() == second.text() == script[:5000]
+    (cached,) = (empty_cache / "agent-economy").iterdir()
+    assert cached.read_text("utf-8") == script[:5000]
+    monkeypatch.setattr(chart_script, "BUNDLE", "raise SystemExit(3)")
+    with report.ChartScript() as third:
+        assert third.text() == script[:5000]
+
+
+def test_where_nothing_can_be_cached_the_script_is_bundled_each_time(
+    empty_cache: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (empty_cache / "agent-economy").touch()
+    monkeypatch.setattr(chart_script, "BUNDLE", "print('draw()', end='')")
+    for _ in range(2):
+        with report.ChartScript() as made:
+            assert made.text() == made.text() == "draw()"
+
+
+@pytest.mark.usefixtures("empty_cache")
+def test_a_script_that_cannot_be_bundled_is_an_error_and_its_report_says_so(
+    teams: Study, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(chart_script, "BUNDLE", "raise SystemExit('no memory')")
+    with report.ChartScript() as made:
+        with pytest.raises(StudyError, match="could not bundle the chart script: no memory"):
+            made.text()
+        files.write(tmp_path, *teams, made)
+    assert "The charts could not be made" in (tmp_path / "report.html").read_text("utf-8")

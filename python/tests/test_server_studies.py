@@ -14,7 +14,6 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-import small
 from starlette.testclient import TestClient
 from starlette.websockets import WebSocketDisconnect
 
@@ -22,7 +21,7 @@ from agent_economy import Scenario, study
 from agent_economy.server import Places, app
 from agent_economy.server.studies import work
 from agent_economy.server.studies.factors import factors
-from agent_economy.study import ask, report
+from agent_economy.study import report
 from agent_economy.study.arguments import FIRST_LOOK
 from agent_economy.study.report import View
 
@@ -101,16 +100,9 @@ def answered(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Folder,
         yield folder, folder.watched(name)
 
 
-@pytest.fixture
-def quick_reports(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Leave the charts' JavaScript out of reports, which takes two seconds to make."""
-    monkeypatch.setattr(ask, "ChartScript", small.NoScript)
-
-
 Answered = tuple[Folder, list[Told]]
 
 
-@pytest.mark.usefixtures("quick_reports")
 def test_what_the_page_asks_is_answered_as_the_command_line_does(
     answered: Answered, tmp_path: Path
 ) -> None:
@@ -212,7 +204,6 @@ def test_the_report_and_the_answer_can_be_kept(answered: Answered) -> None:
         assert "attachment" in told.headers["content-disposition"]
 
 
-@pytest.mark.usefixtures("quick_reports")
 def test_a_tightened_study_is_a_fresh_one_at_that_confidence(
     answered: Answered, tmp_path: Path
 ) -> None:
@@ -230,7 +221,6 @@ def test_a_tightened_study_is_a_fresh_one_at_that_confidence(
     assert mine == (tmp_path / "answer.json").read_bytes()
 
 
-@pytest.mark.usefixtures("quick_reports")
 def test_a_stopped_or_killed_study_keeps_its_runs_and_goes_on_to_the_same_bytes(
     folder: Folder, tmp_path: Path
 ) -> None:

@@ -11,7 +11,7 @@ import small
 
 import agent_economy as ae
 from agent_economy import InputError, Scenario, study
-from agent_economy.study import ask, files, race
+from agent_economy.study import files, race
 from agent_economy.study.pieces import FEWEST_ROWS, in_pieces
 from agent_economy.study.rectangle import Rectangle
 
@@ -22,12 +22,6 @@ TEAM = "robots.wanderer.count"
 def scenario(classic_toml: Path) -> Scenario:
     """Return the 2003 experiment."""
     return Scenario.load(classic_toml)
-
-
-@pytest.fixture(autouse=True)
-def quick_reports(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Leave the charts' JavaScript out of reports, which takes two seconds to make."""
-    monkeypatch.setattr(ask, "ChartScript", small.NoScript)
 
 
 def test_forty_teams_are_settled_in_a_few_thousand_runs(scenario: Scenario) -> None:

@@ -2,18 +2,15 @@
 
 from pathlib import Path
 
-import pytest
 import small
 from dask_cluster import Cluster
 
 from agent_economy import study
-from agent_economy.study import ask
 
 
 def test_a_dask_worker_killed_in_mid_study_changes_no_byte(
-    cluster: Cluster, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    cluster: Cluster, tmp_path: Path
 ) -> None:
-    monkeypatch.setattr(ask, "ChartScript", small.NoScript)
     address, (_, victim, _) = cluster
     asked = small.plan()
 

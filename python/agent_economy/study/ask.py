@@ -19,7 +19,7 @@ from agent_economy.study.progress import OnProgress
 from agent_economy.study.race import hold
 from agent_economy.study.race import look as look_at
 from agent_economy.study.rectangle import Compute, Rectangle
-from agent_economy.study.report.page import ChartScript
+from agent_economy.study.report.script import ChartScript
 from agent_economy.study.store import read
 
 

@@ -8,6 +8,7 @@ from typing import Any
 from agent_economy.study import report
 from agent_economy.study.answer.conclude import Answer
 from agent_economy.study.answer.evidence import Evidence
+from agent_economy.study.errors import StudyError
 from agent_economy.study.store.folder import ANSWER, REPORT, read_bytes, write_whole
 from agent_economy.study.versions import versions
 
@@ -18,7 +19,12 @@ def write(folder: Path, answer: Answer, evidence: Evidence, script: report.Chart
     Raises:
         InputError: If they cannot be written.
     """
-    page = report.html(answer, evidence, script)
+    try:
+        javascript = script.text()
+    except StudyError:
+        # Bundling needs gigabytes of address space: a report without charts is better than none.
+        javascript = ""
+    page = report.html(answer, evidence, javascript)
     write_whole(folder / REPORT, page.encode())
     write_whole(folder / ANSWER, as_json(answer).encode())
 

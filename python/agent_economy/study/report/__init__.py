@@ -1,11 +1,12 @@
 """The report of a study: one HTML page that works offline.
 
 `view` orders what is shown; `charts` are Vega-Lite specifications, `tables` the same numbers;
-`sections` put both in the page's order; `page` fills the template.
+`sections` put both in the page's order; `page` fills the template with them and the `script`.
 """
 
 from agent_economy.study.report.charts import specifications
-from agent_economy.study.report.page import ChartScript, facts, html, quarantined
+from agent_economy.study.report.page import facts, html, quarantined
+from agent_economy.study.report.script import ChartScript
 from agent_economy.study.report.sections import Section, sections
 from agent_economy.study.report.tables import Table
 from agent_economy.study.report.view import View

@@ -1,15 +1,11 @@
 """The report: one HTML file that works offline."""
 
-import subprocess
-import sys
 from collections.abc import Iterator
-from typing import Self
 
 import jinja2
 
 from agent_economy.study.answer.conclude import Answer
 from agent_economy.study.answer.evidence import Evidence
-from agent_economy.study.errors import StudyError
 from agent_economy.study.report.assumptions import assumptions
 from agent_economy.study.report.charts import specifications
 from agent_economy.study.report.sections import sections
@@ -21,60 +17,15 @@ MOST_NAMED = 8
 """Configurations that a warning names."""
 
 
-class ChartScript:
-    """The JavaScript that draws charts, made in a process of its own while the runs go on.
-
-    vl-convert takes a second or two to bundle it and holds the interpreter's lock meanwhile; here
-    it costs no time and cannot delay Ctrl-C. Use as a context manager: leaving it ends the
-    process.
-    """
-
-    def __init__(self) -> None:
-        """Start to make it."""
-        code = (
-            "import sys, vl_convert; "
-            "sys.stdout.buffer.write(vl_convert.javascript_bundle().encode('utf-8'))"
-        )
-        self._process = subprocess.Popen(
-            [sys.executable, "-c", code],
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            encoding="utf-8",
-        )
-
-    def __enter__(self) -> Self:
-        """Return itself."""
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        """End the process if it still runs."""
-        self._process.kill()
-        self._process.communicate()
-
-    def text(self) -> str:
-        """Return the script, when it is made.
-
-        Raises:
-            StudyError: If vl-convert failed; with what it said.
-        """
-        script, errors = self._process.communicate()
-        if self._process.returncode != 0:
-            message = f"vl-convert made no script for the charts: {errors.strip()}"
-            raise StudyError(message)
-        return script
-
-
-def html(answer: Answer, evidence: Evidence, script: ChartScript) -> str:
+def html(answer: Answer, evidence: Evidence, javascript: str) -> str:
     """Return the report's page: the same text for the same answer and evidence.
 
-    Where the script cannot be made (it needs gigabytes of address space), the page has its tables
-    and says that the charts are missing: an answer is worth more than they.
+    Args:
+        answer: What is reported.
+        evidence: The runs that the answer follows from.
+        javascript: The text of `ChartScript`. If it is empty, the page has its tables and says that
+            the charts are missing.
     """
-    try:
-        javascript = script.text()
-    except StudyError:
-        javascript = ""
     environment = jinja2.Environment(
         loader=jinja2.PackageLoader("agent_economy.study.report", "."),
         autoescape=True,
