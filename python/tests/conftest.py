@@ -1,5 +1,6 @@
 """What tests share."""
 
+import signal
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -9,9 +10,17 @@ from dask_cluster import Cluster
 from starlette.testclient import TestClient
 from watching import OWN, WS, Page
 
-from agent_economy.server import Places, app
+from agent_economy.server import Workspace, app
 
 ROOT = Path(__file__).resolve().parents[2]
+
+
+def pytest_configure() -> None:
+    """Restore Ctrl-C: a shell that runs the tests in the background has it ignored.
+
+    Processes that tests start, and send it to, would inherit that.
+    """
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @pytest.fixture
@@ -31,7 +40,7 @@ def cluster() -> Iterator[Cluster]:
 @pytest.fixture
 def client(tmp_path: Path) -> Iterator[TestClient]:
     """Return who asks a server whose folder is the test's own."""
-    with TestClient(app(Places(tmp_path), "127.0.0.1"), OWN) as client:
+    with TestClient(app(Workspace(tmp_path), "127.0.0.1"), OWN) as client:
         yield client
 
 

@@ -9,7 +9,7 @@ from metric import search
 
 from agent_economy import Brain, InputError, Scenario, Simulation
 from agent_economy.brain import Command, Percept
-from agent_economy.recording.metric_moments import moment_of
+from agent_economy.recording.metric_writer import moment_of
 
 STOP: Command = {"motion": {"speed_m_s": 0.0, "turn_rate_rad_s": 0.0}, "requests": [], "outbox": []}
 

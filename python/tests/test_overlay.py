@@ -12,8 +12,9 @@ import numpy as np
 import pytest
 
 import agent_economy as ae
-from agent_economy.server import Places
-from agent_economy.server.session import ON_THE_WAY, GoneError, Session
+from agent_economy.server import Workspace
+from agent_economy.server.runs.session import ON_THE_WAY, Session
+from agent_economy.server.transport import ConnectionClosedError
 
 Said = dict[str, Any]
 
@@ -68,16 +69,16 @@ class Page:
         """Say what is next; go when all is said."""
         said = await self.said.get()
         if said is None:
-            raise GoneError
+            raise ConnectionClosedError
         return json.dumps(said)
 
-    async def tell(self, said: Said) -> None:
+    async def send(self, said: Said) -> None:
         """Keep it, and go on once what was said is done."""
         self.sent.append(said)
         if said["type"] == "refused" or (said["type"] == "state" and said["tick"] == self.tick):
             self._say_next()
 
-    async def show(self, frame: bytes) -> None:
+    async def send_bytes(self, frame: bytes) -> None:
         """Keep it, and say of frames that they are drawn."""
         self.sent.append(frame)
         if self.draws and kind_of(frame) == FRAME:
@@ -98,7 +99,7 @@ def served(folder: Path, script: Sequence[tuple[Said, int]], *, draws: bool = Tr
 
     async def serve() -> None:
         with ThreadPoolExecutor(2) as threads:
-            await asyncio.wait_for(Session(page, Places(folder), threads).run(), 30)
+            await asyncio.wait_for(Session(page, Workspace(folder), threads).run(), 30)
 
     asyncio.run(serve())
     return [sent for sent in page.sent if isinstance(sent, bytes)]
@@ -246,7 +247,7 @@ def test_layers_that_are_none_are_refused_in_words(tmp_path: Path) -> None:
 
     async def serve() -> None:
         with ThreadPoolExecutor(2) as threads:
-            await asyncio.wait_for(Session(page, Places(tmp_path), threads).run(), 10)
+            await asyncio.wait_for(Session(page, Workspace(tmp_path), threads).run(), 10)
 
     asyncio.run(serve())
     (refused,) = page.sent

@@ -18,7 +18,7 @@ from test_recording import DRIVE, SCENARIOS, SHORT, short
 import agent_economy as ae
 from agent_economy import InputError
 from agent_economy.recording.file import File
-from agent_economy.recording.glance import glance
+from agent_economy.recording.summary import glance
 
 JUNK = (
     "",

@@ -17,11 +17,12 @@ from starlette.websockets import WebSocketDisconnect
 from watching import HEADER, OWN, WS, Page
 
 import agent_economy as ae
-from agent_economy.server import Places, app
-from agent_economy.server.app import MOST_SESSIONS
-from agent_economy.server.bodies import MOST_BYTES
-from agent_economy.server.pictures import ITEM, ROBOT, WALL
-from agent_economy.server.session import ON_THE_WAY, GoneError, Session
+from agent_economy.server import Workspace, app
+from agent_economy.server.app import MAX_SESSIONS
+from agent_economy.server.request_body import MAX_BYTES
+from agent_economy.server.runs.session import ON_THE_WAY, Session
+from agent_economy.server.runs.thumbnail import ITEM, ROBOT, WALL
+from agent_economy.server.transport import ConnectionClosedError
 
 
 def test_the_gallery_has_what_ships_and_what_is_in_the_folder(
@@ -97,7 +98,7 @@ def test_faults_of_a_text_are_told_with_their_lines(client: TestClient) -> None:
     assert told["cuont"]["suggestion"] == "count"
 
 
-@pytest.mark.parametrize("content", [b"\xff\xfe", b"x" * (MOST_BYTES + 1), b"= 3", b""])
+@pytest.mark.parametrize("content", [b"\xff\xfe", b"x" * (MAX_BYTES + 1), b"= 3", b""])
 def test_what_is_no_scenario_is_told(client: TestClient, content: bytes) -> None:
     told = client.post("/api/check", content=content)
     assert told.status_code in (413, 422)
@@ -379,22 +380,22 @@ def test_a_page_that_goes_as_it_speaks_leaves_nothing_behind(tmp_path: Path) -> 
         async def receive(self) -> str:
             message = next(said, None)
             if message is None:
-                raise GoneError
+                raise ConnectionClosedError
             if message["type"] == "pause":
                 await self.has_seen.wait()
             return json.dumps(message)
 
-        async def tell(self, told: dict[str, Any]) -> None:
+        async def send(self, told: dict[str, Any]) -> None:
             if told["type"] == "state":
                 # Not before the run stands and what is said next is waited for.
                 asyncio.get_running_loop().call_later(0.1, self.has_seen.set)
 
-        async def show(self, frame: bytes) -> None:
+        async def send_bytes(self, frame: bytes) -> None:
             pass
 
     async def served() -> None:
         with ThreadPoolExecutor(2) as threads:
-            session = Session(Hasty(), Places(tmp_path), threads)
+            session = Session(Hasty(), Workspace(tmp_path), threads)
             await asyncio.wait_for(session.run(), 10)
 
     asyncio.run(served())
@@ -430,7 +431,7 @@ def test_a_page_that_draws_nothing_gets_three_frames_and_the_run_goes_on(
 
 
 def test_no_more_than_so_many_runs_are_open(client: TestClient) -> None:
-    sockets = [client.websocket_connect(WS) for _ in range(MOST_SESSIONS)]
+    sockets = [client.websocket_connect(WS) for _ in range(MAX_SESSIONS)]
     for socket in sockets:
         socket.__enter__()
     with client.websocket_connect(WS) as socket:
@@ -471,7 +472,7 @@ def test_only_its_own_pages_on_this_machine_are_let_in(
 
 
 def test_from_elsewhere_a_token_is_needed_and_kept(tmp_path: Path) -> None:
-    served = app(Places(tmp_path), "192.168.0.7", "secret")
+    served = app(Workspace(tmp_path), "192.168.0.7", "secret")
     with TestClient(served, "http://192.168.0.7:8765") as client:
         assert client.get("/api/scenarios").status_code == 403
         assert client.get("/api/scenarios", params={"token": "other"}).status_code == 403

@@ -1,4 +1,4 @@
-"""Studies that are asked, watched, stopped and shown by the page's server."""
+"""StudyManager that are asked, watched, stopped and shown by the page's server."""
 
 import json
 import multiprocessing
@@ -18,8 +18,8 @@ from starlette.testclient import TestClient
 from starlette.websockets import WebSocketDisconnect
 
 from agent_economy import Scenario, study
-from agent_economy.server import Places, app
-from agent_economy.server.studies import work
+from agent_economy.server import Workspace, app
+from agent_economy.server.studies import job
 from agent_economy.server.studies.factors import factors
 from agent_economy.study import report
 from agent_economy.study.arguments import FIRST_LOOK
@@ -80,7 +80,7 @@ class Folder:
 
 
 def served(path: Path) -> TestClient:
-    return TestClient(app(Places(path), "127.0.0.1"), OWN)
+    return TestClient(app(Workspace(path), "127.0.0.1"), OWN)
 
 
 @pytest.fixture
@@ -265,18 +265,18 @@ def test_a_study_stopped_in_its_first_round_has_no_runs_in_the_list_nor_for_watc
 def test_a_study_that_is_stopped_while_it_starts_says_nothing(
     tmp_path: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    begun = work.Work(study.make_plan(Scenario.load("classic")), tmp_path / "study")
+    begun = job.StudyJob(study.make_plan(Scenario.load("classic")), tmp_path / "study")
     begun.stop()
     assert (begun.is_alive, begun.message) == (False, None)
     assert capfd.readouterr().err == ""
 
 
 def test_who_is_put_out_after_the_estimate_stands_no_more(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(work, "TELL_S", 0.0)
-    monkeypatch.setattr(work, "RANGES_S", 1e9)
+    monkeypatch.setattr(job, "TELL_S", 0.0)
+    monkeypatch.setattr(job, "RANGES_S", 1e9)
     theirs, mine = multiprocessing.Pipe()
-    teller = work.Teller(mine)
-    monkeypatch.setattr(work, "estimated", lambda _: {"standings": [[0], [1]], "left_runs": None})
+    teller = job.ProgressReporter(mine)
+    monkeypatch.setattr(job, "estimated", lambda _: {"standings": [[0], [1]], "left_runs": None})
     for gone in ([], [[1, 0, 20]]):
         facts = {"runs": 40, "survivors": 2, "leaders": [], "eliminated": gone, "is_over": False}
         teller(study.Progress.of_facts(1, facts, 40, 1.0))
@@ -287,7 +287,7 @@ def test_a_study_is_interrupted_once() -> None:
     before = signal.getsignal(signal.SIGINT)
     try:
         with pytest.raises(KeyboardInterrupt):
-            work.interrupted()
+            job.interrupted()
         assert signal.getsignal(signal.SIGINT) is signal.SIG_IGN
     finally:
         signal.signal(signal.SIGINT, before)
@@ -305,7 +305,7 @@ def test_before_its_first_round_all_are_still_in(folder: Folder) -> None:
 def test_no_more_than_so_many_pages_watch_studies(
     folder: Folder, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(import_module("agent_economy.server.app"), "MOST_WATCHERS", 1)
+    monkeypatch.setattr(import_module("agent_economy.server.app"), "MAX_WATCHERS", 1)
     name = folder.post("/api/studies", **LONG)["id"]
     with folder.client.websocket_connect(f"{WS}?study={name}") as first:
         assert first.receive_json()["type"] == "studying"
@@ -365,11 +365,11 @@ def test_no_more_than_two_run_at_a_time_and_all_end_with_the_server(tmp_path: Pa
 
 def test_a_study_ends_when_its_server_is_killed(tmp_path: Path) -> None:
     code = (
-        "import sys, time; from pathlib import Path; from agent_economy.server import Places\n"
-        "from agent_economy.server.studies import asks, keeper\n"
+        "import sys, time; from pathlib import Path; from agent_economy.server import Workspace\n"
+        "from agent_economy.server.studies import manager, requests\n"
         "if __name__ == '__main__':\n"
-        f"    places = Places(Path(sys.argv[1])); plan = asks.plan({LONG!r}, places)\n"
-        "    print(keeper.Studies(places).start(plan)['id'], flush=True); time.sleep(60)\n"
+        f"    places = Workspace(Path(sys.argv[1])); plan = requests.plan({LONG!r}, places)\n"
+        "    print(manager.StudyManager(places).start(plan)['id'], flush=True); time.sleep(60)\n"
     )
     script = tmp_path / "server.py"
     script.write_text(code)

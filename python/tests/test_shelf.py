@@ -17,10 +17,10 @@ from watching import WS, Page
 import agent_economy as ae
 from agent_economy import _core
 from agent_economy.brain import Command
-from agent_economy.server import Places
-from agent_economy.server.saving import Saving
-from agent_economy.server.shelf import FOLDER, Shelf
-from agent_economy.server.timeline import Timeline
+from agent_economy.server import Workspace
+from agent_economy.server.recordings.store import FOLDER, RecordingStore
+from agent_economy.server.recordings.writer import Saving
+from agent_economy.server.runs.timeline import Timeline
 from agent_economy.stepped import Change
 
 COUNT = "robots.rover.count"
@@ -35,7 +35,7 @@ def slowly(monkeypatch: pytest.MonkeyPatch) -> None:
         time.sleep(0.01)
         return 1
 
-    monkeypatch.setattr("agent_economy.server.saving.room_of", room_of)
+    monkeypatch.setattr("agent_economy.server.recordings.writer.room_of", room_of)
 
 
 def saved(page: Page) -> dict[str, Any]:
@@ -168,7 +168,7 @@ def test_what_came_from_outside_comes_again(tmp_path: Path) -> None:
             recording.step(commands={"rover/0": turning(turn_rate_rad_s)})
         recording.step(10)
         expected = recording.simulation.hash
-    which, recorded = Shelf(Places(tmp_path)).load("outside.mcap")
+    which, recorded = RecordingStore(Workspace(tmp_path)).load("outside.mcap")
     timeline = Timeline(which.scenario, which.seed, which.run, recorded=recorded)
     for tick in (23, 5, 23):
         assert timeline.toward(tick, FOREVER_S)
@@ -187,7 +187,7 @@ def test_a_run_that_is_not_as_recorded_is_told_with_its_tick(tmp_path: Path) -> 
         # Behind the recording's back: it does not say of this what was done.
         simulation.step(commands={"rover/0": turning(1.0)})
         recording.step(10)
-    which, recorded = Shelf(Places(tmp_path)).load("behind.mcap")
+    which, recorded = RecordingStore(Workspace(tmp_path)).load("behind.mcap")
     timeline = Timeline(which.scenario, which.seed, which.run, recorded=recorded)
     assert timeline.toward(21, FOREVER_S)
     assert timeline.replay.differs_at == ae.rerun(path).differs_at
@@ -232,16 +232,16 @@ SAVES = """
 import sys, time
 from pathlib import Path
 import agent_economy as ae
-from agent_economy.server import saving
-from agent_economy.server.timeline import Course
+from agent_economy.server.recordings import writer
+from agent_economy.server.recordings.history import RunHistory
 
 def room_of(_):
     time.sleep(0.05)
     return 1
 
-saving.room_of = room_of
-course = Course(ae.Scenario.load("classic"), 1, 0, (), {}, 100_000)
-saving.Saving(course, Path(sys.argv[1])).write()
+writer.room_of = room_of
+course = RunHistory(ae.Scenario.load("classic"), 1, 0, (), {}, 100_000)
+writer.Saving(course, Path(sys.argv[1])).write()
 """
 
 
@@ -281,7 +281,7 @@ def test_what_a_killed_server_left_is_removed_and_what_another_writes_is_not(
 
 
 def test_without_locks_nothing_is_removed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("agent_economy.server.unfinished.fcntl", None)
+    monkeypatch.setattr("agent_economy.server.recordings.temporary_files.fcntl", None)
     (left := tmp_path / ".unfinished-1.mcap").touch()
     file = Saving(begun(5).course, tmp_path).write()
     assert set(tmp_path.iterdir()) == {left, file}
@@ -296,7 +296,7 @@ def test_what_only_has_such_a_name_stays(tmp_path: Path) -> None:
 
 
 def test_a_run_that_is_too_long_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("agent_economy.server.saving.MOST_ROBOT_STEPS", 100)
+    monkeypatch.setattr("agent_economy.server.recordings.writer.MAX_ROBOT_STEPS", 100)
     with pytest.raises(ae.InputError, match="at most 100 steps of a robot"):
         Saving(begun(30).course, tmp_path).write()
     assert list(tmp_path.iterdir()) == []

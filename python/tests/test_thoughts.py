@@ -8,7 +8,7 @@ from bumpers import Bumper
 from metric import search
 
 from agent_economy import InputError, Simulation
-from agent_economy.recording.metric_moments import moment_of
+from agent_economy.recording.metric_writer import moment_of
 
 SEEK = {"robots.rover.brain.behaviours": [{"kind": "seek"}, {"kind": "avoid"}]}
 

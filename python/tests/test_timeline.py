@@ -7,7 +7,7 @@ import pytest
 import agent_economy as ae
 from agent_economy import _core, begin
 from agent_economy.recording.reading import Point, Recorded
-from agent_economy.server.timeline import FIRST_EVERY, MOST_KEPT, Timeline
+from agent_economy.server.runs.timeline import FIRST_EVERY, MAX_KEPT, Timeline
 from agent_economy.stepped import Change
 
 FOREVER_S = 60.0
@@ -255,9 +255,9 @@ def test_a_long_way_is_gone_in_pieces_of_the_time_that_there_is() -> None:
 def test_snapshots_are_thinned_out_and_all_moments_can_still_be_gone_to() -> None:
     long = ae.Scenario.load("search").replace("clock.cap_s", 10_000).replace("items.mine.count", 0)
     timeline = Timeline(long, 1)
-    end = FIRST_EVERY * (MOST_KEPT + 10)
+    end = FIRST_EVERY * (MAX_KEPT + 10)
     last = hashes(timeline, [end])
-    assert len(timeline._kept) <= MOST_KEPT
+    assert len(timeline._kept) <= MAX_KEPT
     assert hashes(timeline, [17, end])[1:] == last
 
 

@@ -11,9 +11,9 @@ import typer
 import uvicorn
 
 from agent_economy.cli.told import BAD_INPUT, faults_told
-from agent_economy.server import Places, app
-from agent_economy.server.bodies import MOST_BYTES
+from agent_economy.server import Workspace, app
 from agent_economy.server.guard import is_loopback
+from agent_economy.server.request_body import MAX_BYTES
 
 
 def ui(
@@ -39,12 +39,12 @@ def ui(
         typer.echo(f"Agent Economy is at {address}   (Ctrl-C ends it)")
         if not no_browser:
             webbrowser.open(address)
-        served = app(Places(Path.cwd()), host, token)
+        served = app(Workspace(Path.cwd()), host, token)
         config = uvicorn.Config(
             served,
             log_level="warning",
             ws="websockets-sansio",
-            ws_max_size=MOST_BYTES,
+            ws_max_size=MAX_BYTES,
             # Frames are floats, which pack badly: of 10,000 robots it took 7 ms each.
             ws_per_message_deflate=False,
             lifespan="on",

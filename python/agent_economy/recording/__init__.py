@@ -5,6 +5,6 @@
 
 from agent_economy.recording.file import RecordingError
 from agent_economy.recording.recorder import Recording
-from agent_economy.recording.rerunning import Rerun, rerun
+from agent_economy.recording.replayer import Rerun, rerun
 
 __all__ = ["Recording", "RecordingError", "Rerun", "rerun"]

@@ -1,6 +1,6 @@
 """When in a recording each step is."""
 
-from agent_economy.recording.messages import SECOND_NS
+from agent_economy.recording.foxglove import SECOND_NS
 
 
 class Clock:

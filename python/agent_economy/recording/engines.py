@@ -5,10 +5,10 @@ from typing import Any, NamedTuple, Protocol
 
 from agent_economy.brain import Command, Percept
 from agent_economy.classic_simulation import ClassicSimulation
-from agent_economy.recording import classic_moments, metric_moments
-from agent_economy.recording.classic_moments import ClassicMoments
+from agent_economy.recording import classic_writer, metric_writer
+from agent_economy.recording.classic_writer import ClassicMoments
 from agent_economy.recording.file import File
-from agent_economy.recording.metric_moments import MetricMoments
+from agent_economy.recording.metric_writer import MetricMoments
 from agent_economy.simulation import Simulation
 
 
@@ -52,8 +52,8 @@ class Engine(NamedTuple):
 
 
 ENGINES: dict[type, Engine] = {
-    Simulation: Engine(MetricMoments, metric_moments.faults),
-    ClassicSimulation: Engine(ClassicMoments, classic_moments.faults),
+    Simulation: Engine(MetricMoments, metric_writer.faults),
+    ClassicSimulation: Engine(ClassicMoments, classic_writer.faults),
 }
 
 

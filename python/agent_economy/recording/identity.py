@@ -7,7 +7,7 @@ from pathlib import Path
 
 from agent_economy import __version__, _core, given
 from agent_economy._core import InputError
-from agent_economy.recording.entries import Entries
+from agent_economy.recording.fields import Entries
 from agent_economy.recording.file import File, strict
 from agent_economy.scenario import Override, Scenario, Source
 from agent_economy.stepped import Change, Stepped

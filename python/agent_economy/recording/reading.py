@@ -13,7 +13,7 @@ from mcap.records import Attachment, Channel, McapRecord, Message, Metadata
 from mcap.stream_reader import StreamReader
 
 from agent_economy._core import InputError
-from agent_economy.recording.entries import Entries
+from agent_economy.recording.fields import Entries
 from agent_economy.recording.identity import CHANGE, RUN, Identity, read_change, read_identity
 from agent_economy.stepped import Change
 

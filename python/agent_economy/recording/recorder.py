@@ -13,8 +13,8 @@ from agent_economy.outcome import Outcome
 from agent_economy.recording import engines
 from agent_economy.recording.clock import Clock
 from agent_economy.recording.file import File
+from agent_economy.recording.foxglove import SECOND_NS, log
 from agent_economy.recording.identity import write_change, write_end, write_files, write_identity
-from agent_economy.recording.messages import SECOND_NS, log
 from agent_economy.scenario import Source
 from agent_economy.stepped import Stepped
 

@@ -5,6 +5,6 @@ back and forth in. `messages` says what they say to each other, `guard` who may.
 """
 
 from agent_economy.server.app import app
-from agent_economy.server.places import Places
+from agent_economy.server.workspace import Workspace
 
-__all__ = ["Places", "app"]
+__all__ = ["Workspace", "app"]

@@ -18,31 +18,31 @@ from starlette.websockets import WebSocket
 
 from agent_economy import _core
 from agent_economy._core import InputError
-from agent_economy.server.bodies import BodyError, refused, text
-from agent_economy.server.engines import ENGINES
 from agent_economy.server.guard import Guard
 from agent_economy.server.messages import faults_of
-from agent_economy.server.pictures import picture
-from agent_economy.server.places import Places
-from agent_economy.server.session import GoneError, Session
-from agent_economy.server.shelf import Shelf
-from agent_economy.server.sockets import Socket
+from agent_economy.server.recordings.store import RecordingStore
+from agent_economy.server.request_body import RequestBodyError, refused, text
+from agent_economy.server.runs.engines import ENGINES
+from agent_economy.server.runs.session import Session
+from agent_economy.server.runs.thumbnail import picture
 from agent_economy.server.studies.factors import schema
-from agent_economy.server.studies.keeper import Studies
+from agent_economy.server.studies.manager import StudyManager
+from agent_economy.server.studies.progress import watch
 from agent_economy.server.studies.routes import Routes
-from agent_economy.server.studies.watched import watch
+from agent_economy.server.transport import Connection, ConnectionClosedError
+from agent_economy.server.workspace import Workspace
 
-MOST_SESSIONS = 16
+MAX_SESSIONS = 16
 """Runs at a time; each has a thread of its own, so that none waits for another's."""
 
-MOST_WATCHERS = 64
+MAX_WATCHERS = 64
 """Pages at a time that watch studies; each reads its study's folder now and then."""
 
 NOT_BUILT = """<!doctype html><meta charset="utf-8"><title>Agent Economy</title>
 <p>The page has not been built. In a clone: <code>make web</code>, then reload this page.</p>"""
 
 
-def app(places: Places, host: str, token: str | None = None) -> ASGIApp:
+def app(places: Workspace, host: str, token: str | None = None) -> ASGIApp:
     """Return the application.
 
     Args:
@@ -51,16 +51,16 @@ def app(places: Places, host: str, token: str | None = None) -> ASGIApp:
         token: What pages on other machines must show; None if only this machine can reach it.
     """
     web = Path(str(files("agent_economy") / "web"))
-    return Guard(Server(places, web, Studies(places)).routed(), host, token)
+    return Guard(Server(places, web, StudyManager(places)).routed(), host, token)
 
 
 @dataclass
 class Server:
     """What all requests have in common."""
 
-    places: Places
+    places: Workspace
     web: Path
-    studies: Studies
+    studies: StudyManager
     sessions: int = 0
     watchers: int = 0
 
@@ -84,7 +84,7 @@ class Server:
     @contextlib.asynccontextmanager
     async def lifespan(self, _: Starlette) -> AsyncIterator[None]:
         """Have threads for as many runs as there may be, and to save each; end studies at last."""
-        with ThreadPoolExecutor(2 * MOST_SESSIONS, "run") as self.threads:
+        with ThreadPoolExecutor(2 * MAX_SESSIONS, "run") as self.threads:
             try:
                 yield
             finally:
@@ -112,13 +112,13 @@ class Server:
 
     async def recordings(self, _: Request) -> Response:
         """Return the recordings."""
-        return JSONResponse(await asyncio.to_thread(Shelf(self.places).listed))
+        return JSONResponse(await asyncio.to_thread(RecordingStore(self.places).listed))
 
     async def recording(self, request: Request) -> Response:
         """Return a recording's file."""
         name = request.query_params.get("id", "")
         try:
-            file = Shelf(self.places).find(name)
+            file = RecordingStore(self.places).find(name)
         except InputError as error:
             return refused(faults_of(error), 404)
         return FileResponse(file, media_type="application/octet-stream", filename=file.name)
@@ -136,7 +136,7 @@ class Server:
         try:
             given = await text(request)
             scenario = await asyncio.to_thread(lambda: self.places.read(given))
-        except BodyError as error:
+        except RequestBodyError as error:
             return error.response
         except InputError as error:
             return refused(faults_of(error))
@@ -146,14 +146,14 @@ class Server:
     async def speak(self, socket: WebSocket) -> None:
         """Serve a page."""
         await socket.accept()
-        page = Socket(socket)
+        page = Connection(socket)
         name = socket.query_params.get("study")
         await (self.run(page) if name is None else self.race(page, name))
 
-    async def run(self, page: Socket) -> None:
+    async def run(self, page: Connection) -> None:
         """Serve a page that watches a run."""
-        if self.sessions >= MOST_SESSIONS:
-            await turn_away(page, f"{MOST_SESSIONS} runs")
+        if self.sessions >= MAX_SESSIONS:
+            await turn_away(page, f"{MAX_SESSIONS} runs")
             return
         self.sessions += 1
         try:
@@ -162,10 +162,10 @@ class Server:
             self.sessions -= 1
         await page.close()
 
-    async def race(self, page: Socket, name: str) -> None:
+    async def race(self, page: Connection, name: str) -> None:
         """Serve a page that watches a study."""
-        if self.watchers >= MOST_WATCHERS:
-            await turn_away(page, f"{MOST_WATCHERS} pages of studies")
+        if self.watchers >= MAX_WATCHERS:
+            await turn_away(page, f"{MAX_WATCHERS} pages of studies")
             return
         self.watchers += 1
         try:
@@ -175,9 +175,9 @@ class Server:
         await page.close()
 
 
-async def turn_away(page: Socket, held: str) -> None:
+async def turn_away(page: Connection, held: str) -> None:
     """Say that no more can be served."""
     message = f"This server has {held} open, which is all it may. Close one."
-    with contextlib.suppress(GoneError):
-        await page.tell({"type": "ended", "why": "full", "message": message})
+    with contextlib.suppress(ConnectionClosedError):
+        await page.send({"type": "ended", "why": "full", "message": message})
     await page.close(1013)

@@ -53,10 +53,10 @@ and of more than 300 robots both are of the selected one only.
 A state tells of the robot that was selected: its `mind`, and as `robot` what else its engine knows,
 in words, with outlines of the cells that it would look at; each null where there is nothing.
 
-Places are in the `unit` of the setting's `world`: metres, or the pixels of the classic engine's
+Workspace are in the `unit` of the setting's `world`: metres, or the pixels of the classic engine's
 window; y is upwards. A `cell` of that world is so wide, or null where there are none.
 
-Studies
+StudyManager
 -------
 A study's id is its folder below the server's, as `studies/classic`. What is not allowed is answered
 with status 422 and `faults`.
@@ -95,7 +95,7 @@ from agent_economy.scenario import Given
 from agent_economy.stepped import Change
 
 MAX_TICK = 2**53
-MOST_STEPS = 1_000_000
+MAX_STEPS = 1_000_000
 SPEEDS = (0.01, 100_000.0)
 
 Fault = dict[str, Any]
@@ -311,8 +311,8 @@ def play(said: Mapping[str, Any]) -> Play:
 def step(said: Mapping[str, Any]) -> Step:
     """Return a `step`."""
     steps = said.get("steps", 1)
-    is_allowed = given.is_whole(steps, -MAX_TICK, MOST_STEPS)
-    given.check(is_allowed, "step.steps", steps, f"a whole number, {MOST_STEPS:,} at most")
+    is_allowed = given.is_whole(steps, -MAX_TICK, MAX_STEPS)
+    given.check(is_allowed, "step.steps", steps, f"a whole number, {MAX_STEPS:,} at most")
     return Step(steps)
 
 

@@ -14,14 +14,14 @@ from agent_economy import shipped
 from agent_economy._core import InputError
 from agent_economy.given import check
 from agent_economy.scenario import Scenario
-from agent_economy.server.bodies import BodyError, asked, refused
 from agent_economy.server.messages import faults_of, number
-from agent_economy.server.places import Places
-from agent_economy.server.studies import asks, runs
-from agent_economy.server.studies.asks import AskError
+from agent_economy.server.request_body import RequestBodyError, asked, refused
+from agent_economy.server.studies import requests, run_rows
+from agent_economy.server.studies.detail import AnswerCache
 from agent_economy.server.studies.factors import described
-from agent_economy.server.studies.keeper import Studies
-from agent_economy.server.studies.shown import Answers
+from agent_economy.server.studies.manager import StudyManager
+from agent_economy.server.studies.requests import StudyRequestError
+from agent_economy.server.workspace import Workspace
 from agent_economy.study.store.folder import ANSWER, REPORT
 
 USUAL_COUNT = "500"
@@ -35,9 +35,9 @@ Work = Callable[[Any], Response]
 class Routes:
     """The addresses of studies."""
 
-    studies: Studies
-    places: Places
-    answers: Answers = field(default_factory=Answers)
+    studies: StudyManager
+    places: Workspace
+    answers: AnswerCache = field(default_factory=AnswerCache)
 
     def all(self) -> list[Route]:
         """Return them."""
@@ -56,13 +56,13 @@ class Routes:
 
     def factors(self, said: dict[str, Any]) -> Response:
         """Return what can be varied in a scenario."""
-        return JSONResponse(described(asks.scenario_of(said, self.places)))
+        return JSONResponse(described(requests.scenario_of(said, self.places)))
 
     def plan(self, said: dict[str, Any]) -> Response:
         """Return what a study would compare."""
-        plan = asks.plan(said, self.places)
+        plan = requests.plan(said, self.places)
         name = self.studies.id_of(plan)
-        return JSONResponse(asks.planned(plan, name, self.studies.state(name)))
+        return JSONResponse(requests.planned(plan, name, self.studies.state(name)))
 
     def listed(self, _: dict[str, str]) -> Response:
         """Return all studies."""
@@ -70,7 +70,7 @@ class Routes:
 
     def start(self, said: dict[str, Any]) -> Response:
         """Begin a study, or go on with it."""
-        return JSONResponse(self.studies.start(asks.plan(said, self.places)), 201)
+        return JSONResponse(self.studies.start(requests.plan(said, self.places)), 201)
 
     def stop(self, said: dict[str, Any]) -> Response:
         """Stop a study."""
@@ -87,7 +87,7 @@ class Routes:
         return JSONResponse(
             {
                 **row,
-                "planned": asks.planned(plan, name, row["state"]),
+                "planned": requests.planned(plan, name, row["state"]),
                 "source": {"scenario": gallery_id(plan.scenario, self.places)},
                 "answer": self.answers.of(self.studies.folder(name)),
             }
@@ -100,10 +100,10 @@ class Routes:
         configuration = number("configuration", told.get("configuration"))
         if "sample" in told:
             sample = number("sample", told["sample"])
-            return JSONResponse(runs.sampled(plan, folder, configuration, sample))
+            return JSONResponse(run_rows.sampled(plan, folder, configuration, sample))
         first = number("first", told.get("first", "0"))
         count = number("count", told.get("count", USUAL_COUNT))
-        return JSONResponse(runs.listed(plan, folder, configuration, first, count))
+        return JSONResponse(run_rows.listed(plan, folder, configuration, first, count))
 
     def file(self, told: dict[str, str], name: str) -> Response:
         """Return a file of a study, to be kept."""
@@ -123,7 +123,7 @@ def id_of(told: dict[str, Any]) -> str:
     return str(name)
 
 
-def gallery_id(scenario: Scenario, places: Places) -> str | None:
+def gallery_id(scenario: Scenario, places: Workspace) -> str | None:
     """Return the id in the gallery of the scenario that a study was asked of; None if it is gone.
 
     A study keeps the text of its scenario, and the name of its file: no folder.
@@ -145,7 +145,7 @@ def posted(work: Work) -> Callable[[Request], Coroutine[Any, Any, Response]]:
     async def answer(request: Request) -> Response:
         try:
             said = await asked(request)
-        except BodyError as error:
+        except RequestBodyError as error:
             return error.response
         return await answered(work, said)
 
@@ -165,7 +165,7 @@ async def answered(work: Work, told: dict[str, Any]) -> Response:
     """Return the answer, or what is wrong with what is asked."""
     try:
         return await asyncio.to_thread(work, told)
-    except AskError as error:
+    except StudyRequestError as error:
         return refused(error.faults)
     except InputError as error:
         return refused(faults_of(error))

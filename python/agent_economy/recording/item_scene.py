@@ -11,7 +11,7 @@ from foxglove_schemas_protobuf.SceneUpdate_pb2 import SceneUpdate
 from numpy.typing import NDArray
 
 from agent_economy.recording.file import File
-from agent_economy.recording.messages import WORLD, color, log, scene, sphere, stamp
+from agent_economy.recording.foxglove import WORLD, color, log, scene, sphere, stamp
 
 ITEM_M = 0.2
 """Radius with which an item is drawn: to the simulator it is a point."""

@@ -9,7 +9,7 @@ MOST = 256
 """So much is kept, at most: a page that says more waits."""
 
 
-class Later:
+class PendingQueue:
     """Messages that wait, in their order."""
 
     def __init__(self) -> None:

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from agent_economy import _core
-from agent_economy.recording.still import states
+from agent_economy.recording.static_scene import states
 from agent_economy.simulation import Simulation
 
 

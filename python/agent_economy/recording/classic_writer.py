@@ -14,11 +14,11 @@ from agent_economy.classic_simulation import COLOURS, ClassicSimulation
 from agent_economy.classic_world import CELL_PX, CELLS, RADIUS, WORLD, middle
 from agent_economy.recording import schemas
 from agent_economy.recording.file import File
-from agent_economy.recording.items import Floats, Items
-from agent_economy.recording.messages import WORLD as FRAME
-from agent_economy.recording.messages import color, cube, scene
-from agent_economy.recording.moving import BLUE, RED, YELLOW, Frames, robot
-from agent_economy.recording.still import OBSTACLE, WALL_M, half_turn_of
+from agent_economy.recording.foxglove import WORLD as FRAME
+from agent_economy.recording.foxglove import color, cube, scene
+from agent_economy.recording.item_scene import Floats, Items
+from agent_economy.recording.robot_scene import BLUE, RED, YELLOW, Frames, robot
+from agent_economy.recording.static_scene import OBSTACLE, WALL_M, half_turn_of
 
 TOPICS = {
     "/run": schemas.CLASSIC_RUN,

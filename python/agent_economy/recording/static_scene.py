@@ -13,7 +13,7 @@ from foxglove_schemas_protobuf.TriangleListPrimitive_pb2 import TriangleListPrim
 from foxglove_schemas_protobuf.Vector2_pb2 import Vector2
 from numpy.typing import NDArray
 
-from agent_economy.recording.messages import (
+from agent_economy.recording.foxglove import (
     WORLD,
     Place,
     color,

@@ -7,27 +7,26 @@ from typing import Any
 
 from agent_economy import study
 from agent_economy._core import InputError
-from agent_economy.server.session import GoneError
-from agent_economy.server.sockets import Socket
-from agent_economy.server.studies.keeper import Studies
+from agent_economy.server.studies.job import NOTHING
+from agent_economy.server.studies.manager import StudyManager
 from agent_economy.server.studies.summary import read_answer
-from agent_economy.server.studies.work import NOTHING
+from agent_economy.server.transport import Connection, ConnectionClosedError
 from agent_economy.study.answer.labels import label
 
-MOST_STANDINGS = 50
+MAX_STANDINGS = 50
 """Configurations that are told with their merit."""
 
 LOOK_S = 0.2
 """Between two looks at a study, and two tellings, at least."""
 
 
-async def watch(page: Socket, studies: Studies, name: str) -> None:
+async def watch(page: Connection, studies: StudyManager, name: str) -> None:
     """Tell a page how a study goes on, until it ends or the page has gone."""
     tasks = {asyncio.create_task(tell(page, studies, name)), asyncio.create_task(hear(page))}
     try:
         done, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
         for task in done:
-            with contextlib.suppress(GoneError):
+            with contextlib.suppress(ConnectionClosedError):
                 task.result()
     finally:
         for task in tasks:
@@ -35,28 +34,28 @@ async def watch(page: Socket, studies: Studies, name: str) -> None:
         await asyncio.wait(tasks)
 
 
-async def hear(page: Socket) -> None:
+async def hear(page: Connection) -> None:
     """Wait until a page has gone: what it says is not listened to."""
-    with contextlib.suppress(GoneError):
+    with contextlib.suppress(ConnectionClosedError):
         while True:
             await page.receive()
 
 
-async def tell(page: Socket, studies: Studies, name: str) -> None:
+async def tell(page: Connection, studies: StudyManager, name: str) -> None:
     """Tell a page what has changed, until the study does not go on."""
     labels: list[str] | None = await asyncio.to_thread(labels_of, studies, name)
     before = None
     while True:
         now = await asyncio.to_thread(seen, studies, name)
         if now != before:
-            await page.tell({"type": "studying", **now, "labels": labels})
+            await page.send({"type": "studying", **now, "labels": labels})
             labels, before = None, now
         if now["state"] != "running":
             return
         await asyncio.sleep(LOOK_S)
 
 
-def labels_of(studies: Studies, name: str) -> list[str]:
+def labels_of(studies: StudyManager, name: str) -> list[str]:
     """Return what the configurations of a study are called; nothing if nobody can say."""
     try:
         return [label(values) for values in studies.plan(name).configurations]
@@ -64,7 +63,7 @@ def labels_of(studies: Studies, name: str) -> list[str]:
         return []
 
 
-def seen(studies: Studies, name: str) -> dict[str, Any]:
+def seen(studies: StudyManager, name: str) -> dict[str, Any]:
     """Return how far a study is."""
     work = studies.work(name)
     said = work.said if work else NOTHING
@@ -119,5 +118,5 @@ def stored(folder: Path) -> dict[str, Any]:
 def answered(answer: dict[str, Any]) -> list[list[Any]]:
     """Return the best that were never put out, with their ranges, as an answer has them."""
     left = [row for row in answer["results"] if row["eliminated"] is None]
-    best = sorted(left, key=lambda row: -row["merit"]["value"])[:MOST_STANDINGS]
+    best = sorted(left, key=lambda row: -row["merit"]["value"])[:MAX_STANDINGS]
     return [[row["configuration"], row["runs"], *row["merit"].values()] for row in best]

@@ -4,8 +4,8 @@ import struct
 from typing import Any
 
 from agent_economy import _core
-from agent_economy.server import engines
-from agent_economy.server.timeline import Timeline
+from agent_economy.server.runs import engines
+from agent_economy.server.runs.timeline import Timeline
 from agent_economy.stepped import Stepped
 
 KIND = 1

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from typing import Any, NamedTuple, Protocol
 
-from agent_economy.server import classic_view, metric_overlay, metric_view, mind
+from agent_economy.server.runs import belief_view, classic_view, metric_overlay, metric_view
 from agent_economy.stepped import Stepped
 
 
@@ -49,7 +49,7 @@ ENGINES = {
     "metric": Engine(
         metric_view.drawn,
         metric_view.still,
-        mind.Selected,
+        belief_view.Selected,
         metric_overlay.links,
         metric_overlay.footprints,
     ),

@@ -2,8 +2,8 @@
 
 import struct
 
-from agent_economy.server import engines
 from agent_economy.server.messages import Layers
+from agent_economy.server.runs import engines
 from agent_economy.stepped import Stepped
 
 KIND = 2

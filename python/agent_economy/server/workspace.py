@@ -14,14 +14,14 @@ from agent_economy.scenario import MAX_BYTES, Scenario, Source, content
 from agent_economy.study import plan_of
 from agent_economy.study.store.folder import ASKED
 
-DEEP, MOST_FOLDERS, MOST_FILES = 4, 1000, 200
+DEEP, MAX_FOLDERS, MAX_FILES = 4, 1000, 200
 """So many of the folder's files are looked at, in so many folders, so many below each other."""
 
 OUTSIDE = "it is not below the folder in which the server was started"
 
 
 @dataclass(frozen=True)
-class Places:
+class Workspace:
     """The folder below which files are opened, and no others but those that ship."""
 
     folder: Path
@@ -29,7 +29,7 @@ class Places:
     def listed(self) -> list[dict[str, Any]]:
         """Return all that say that they are scenarios, those that ship first."""
         ships = ((name, file, "shipped") for name, file in shipped.scenarios().items())
-        files = islice(self.files(".toml"), MOST_FILES)
+        files = islice(self.files(".toml"), MAX_FILES)
         mine = ((str(file.relative_to(self.folder)), file, "folder") for file in files)
         rows = (described(name, file, where) for name, file, where in (*ships, *mine))
         return [row for row in rows if row]
@@ -117,7 +117,7 @@ class Places:
             return False
 
     def _folders(self) -> Iterator[Path]:
-        return islice(folders_of(self.folder, DEEP), MOST_FOLDERS)
+        return islice(folders_of(self.folder, DEEP), MAX_FOLDERS)
 
     def files(self, ending: str) -> Iterator[Path]:
         """Yield the folder's files of a kind, but not hidden ones, nor those of studies."""

@@ -10,7 +10,7 @@ from foxglove_schemas_protobuf.SceneEntity_pb2 import SceneEntity
 from foxglove_schemas_protobuf.Vector3_pb2 import Vector3
 from numpy.typing import NDArray
 
-from agent_economy.recording.messages import WORLD, arrow, color, cylinder, stamp
+from agent_economy.recording.foxglove import WORLD, arrow, color, cylinder, stamp
 
 BLUE, YELLOW, RED = "#3b7dd8", "#d8a03b", "#c0392b"
 """Colours of robots."""

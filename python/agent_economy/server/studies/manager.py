@@ -9,25 +9,25 @@ from typing import Any
 
 from agent_economy import study
 from agent_economy._core import InputError
-from agent_economy.server.places import Places, is_study
+from agent_economy.server.studies.job import StudyJob
 from agent_economy.server.studies.summary import Summaries, of_plan
-from agent_economy.server.studies.work import Work
+from agent_economy.server.workspace import Workspace, is_study
 from agent_economy.study import Plan
 from agent_economy.study.plan import tightened
 from agent_economy.study.question import usual_folder
 from agent_economy.study.store.folder import is_worked_on, told
 
-MOST_AT_WORK = 2
-"""Studies at work at a time: each uses all processors."""
+MAX_AT_WORK = 2
+"""StudyManager at work at a time: each uses all processors."""
 
 
-class Studies:
+class StudyManager:
     """All studies of a server; its methods may be called in any thread."""
 
-    def __init__(self, places: Places) -> None:
+    def __init__(self, places: Workspace) -> None:
         """Begin with none at work."""
         self._places = places
-        self._works: dict[str, Work] = {}
+        self._works: dict[str, StudyJob] = {}
         self._summaries = Summaries()
         self._lock = threading.Lock()
 
@@ -71,7 +71,7 @@ class Studies:
         """
         return self._places.study(name)
 
-    def work(self, name: str) -> Work | None:
+    def work(self, name: str) -> StudyJob | None:
         """Return a study that this server has, or had, at work."""
         return self._works.get(name)
 
@@ -132,8 +132,8 @@ class Studies:
     def close(self) -> None:
         """Stop all that are at work."""
         works = [work for work in self._works.values() if work.is_alive]
-        with ThreadPoolExecutor(MOST_AT_WORK) as threads:
-            list(threads.map(Work.stop, works))
+        with ThreadPoolExecutor(MAX_AT_WORK) as threads:
+            list(threads.map(StudyJob.stop, works))
 
     def _begin(self, name: str, wanted: Callable[[], Plan]) -> None:
         folder: Path = self._places.folder / name
@@ -142,13 +142,13 @@ class Studies:
             if name in at_work or is_worked_on(folder):
                 message = f"{name}: is being worked on: stop it first, or wait for its answer"
                 raise InputError(message)
-            if len(at_work) >= MOST_AT_WORK:
+            if len(at_work) >= MAX_AT_WORK:
                 message = (
-                    f"{' and '.join(at_work)} are running, and this server runs {MOST_AT_WORK} "
+                    f"{' and '.join(at_work)} are running, and this server runs {MAX_AT_WORK} "
                     "studies at a time: stop one, or wait for its answer"
                 )
                 raise InputError(message)
-            work = Work(wanted(), folder)
+            work = StudyJob(wanted(), folder)
             work.wait_until_begun()
             if work.message:
                 raise InputError(work.message)

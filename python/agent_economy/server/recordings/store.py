@@ -7,27 +7,27 @@ from typing import Any
 
 from agent_economy import given
 from agent_economy._core import InputError
-from agent_economy.recording.glance import glance
 from agent_economy.recording.identity import Identity
 from agent_economy.recording.reading import Recorded, read
 from agent_economy.recording.recorder import ENDING
-from agent_economy.server.places import OUTSIDE, Places, is_file
+from agent_economy.recording.summary import glance
+from agent_economy.server.workspace import OUTSIDE, Workspace, is_file
 
 FOLDER = "recordings"
 """Where new ones go, below the folder in which the server was started."""
 
-MOST_LISTED = 200
+MAX_LISTED = 200
 """So many are listed, the newest."""
 
-MOST_BYTES = 2**30
+MAX_BYTES = 2**30
 """A larger one is not opened: its states alone would be too many to hold."""
 
 
 @dataclass(frozen=True)
-class Shelf:
+class RecordingStore:
     """Where recordings are."""
 
-    places: Places
+    places: Workspace
 
     @property
     def folder(self) -> Path:
@@ -46,7 +46,7 @@ class Shelf:
         for file in self.places.files(ENDING):
             with suppress(OSError):  # gone meanwhile
                 times[file] = file.stat().st_mtime
-        newest = sorted(times, key=lambda file: (-times[file], file))[:MOST_LISTED]
+        newest = sorted(times, key=lambda file: (-times[file], file))[:MAX_LISTED]
         return [row for row in map(self.row, newest) if row]
 
     def row(self, file: Path) -> dict[str, Any]:
@@ -87,6 +87,6 @@ class Shelf:
         """
         file = self.find(name)
         size = file.stat().st_size
-        allowed = f"one of at most {MOST_BYTES:,} bytes; agent-economy rerun takes larger ones"
-        given.check(size <= MOST_BYTES, "recording", f"{name} ({size:,} bytes)", allowed)
+        allowed = f"one of at most {MAX_BYTES:,} bytes; agent-economy rerun takes larger ones"
+        given.check(size <= MAX_BYTES, "recording", f"{name} ({size:,} bytes)", allowed)
         return read(file)

@@ -3,14 +3,14 @@
 import time
 from bisect import bisect_right
 from collections.abc import Iterable
-from dataclasses import dataclass
 from typing import Any, cast
 
 from agent_economy import _core, given
 from agent_economy.begin import begun
 from agent_economy.recording.reading import Recorded
 from agent_economy.scenario import Given, Scenario
-from agent_economy.server.replay import Replay
+from agent_economy.server.recordings.history import RunHistory
+from agent_economy.server.runs.recorded_run import Replay
 from agent_economy.stepped import Change
 
 MEMORY_BYTES = 200_000_000
@@ -19,7 +19,7 @@ MEMORY_BYTES = 200_000_000
 MIND_BYTES, BODY_BYTES = 100_000, 1_000
 """A robot in a snapshot, with a map in its mind or without; rather too many."""
 
-MOST_KEPT = 128
+MAX_KEPT = 128
 FIRST_EVERY = 50
 """Steps between snapshots at first; twice as many whenever there are too many of them."""
 
@@ -27,27 +27,6 @@ SLICE_S = 0.004
 """Steps are taken together for so long: then the clock is looked at."""
 
 MISSING = object()
-
-
-@dataclass(frozen=True)
-class Course:
-    """All that it takes to take a run again, up to its edge.
-
-    Attributes:
-        scenario: What it began with.
-        seed: Of all chance.
-        run: Its number.
-        log: Changes, in order.
-        inputs: What came from outside, by the tick, as `Simulation.step` takes it.
-        edge: The latest tick.
-    """
-
-    scenario: Scenario
-    seed: int
-    run: int
-    log: tuple[Change, ...]
-    inputs: dict[int, dict[str, Any]]
-    edge: int
 
 
 class Timeline:
@@ -117,10 +96,10 @@ class Timeline:
         return self._recorded is not None and self.log == self.replay.changes
 
     @property
-    def course(self) -> Course:
+    def course(self) -> RunHistory:
         """What it takes to take the run again."""
         simulation, inputs = self.simulation, self.replay.inputs
-        return Course(self._first, simulation.seed, simulation.run, self.log, inputs, self.edge)
+        return RunHistory(self._first, simulation.seed, simulation.run, self.log, inputs, self.edge)
 
     @property
     def tick(self) -> int:
@@ -298,7 +277,7 @@ class Timeline:
         each = sum(
             count * (MIND_BYTES if kind in minded else BODY_BYTES) for kind, count in robots.items()
         )
-        return max(3, min(MOST_KEPT, MEMORY_BYTES // max(1, each)))
+        return max(3, min(MAX_KEPT, MEMORY_BYTES // max(1, each)))
 
     def _has_mind(self, kind: str) -> bool:
         return self.simulation.thoughts(f"{kind}/0") is not None

@@ -9,12 +9,12 @@ from foxglove_schemas_protobuf.Log_pb2 import Log
 from agent_economy import _core
 from agent_economy.brain import Command, Percept
 from agent_economy.recording import schemas
+from agent_economy.recording.brain_topics import Minds
 from agent_economy.recording.file import File
-from agent_economy.recording.items import Items
-from agent_economy.recording.messages import log, scene
-from agent_economy.recording.minds import Minds
-from agent_economy.recording.moving import BLUE, RED, YELLOW, Frames, robot
-from agent_economy.recording.still import grid, still
+from agent_economy.recording.foxglove import log, scene
+from agent_economy.recording.item_scene import Items
+from agent_economy.recording.robot_scene import BLUE, RED, YELLOW, Frames, robot
+from agent_economy.recording.static_scene import grid, still
 from agent_economy.simulation import STATUSES, Simulation
 
 Moment = Mapping[str, Any]

@@ -10,7 +10,7 @@ from agent_economy import _core
 from agent_economy.brain import Command, Percept
 from agent_economy.recording import schemas
 from agent_economy.recording.file import File, strict
-from agent_economy.recording.messages import SECOND_NS, scan
+from agent_economy.recording.foxglove import SECOND_NS, scan
 from agent_economy.simulation import Simulation
 
 

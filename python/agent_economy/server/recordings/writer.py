@@ -11,19 +11,19 @@ from agent_economy._core import InputError
 from agent_economy.begin import begun
 from agent_economy.recording import Recording, RecordingError
 from agent_economy.recording.recorder import ENDING
-from agent_economy.recording.rerunning import taken_again
-from agent_economy.server.timeline import Course
-from agent_economy.server.unfinished import clear, unfinished
+from agent_economy.recording.replayer import taken_again
+from agent_economy.server.recordings.history import RunHistory
+from agent_economy.server.recordings.temporary_files import clear, unfinished
 from agent_economy.stepped import Stepped
 
-MOST_ROBOT_STEPS = 10_000_000
+MAX_ROBOT_STEPS = 10_000_000
 """Steps times robots: half a gigabyte."""
 
 STEP_ROBOTS = 10
 """A step takes as much room besides as so many robots."""
 
 DIGITS = 12
-MOST_LETTERS = 60
+MAX_LETTERS = 60
 
 
 class Saving:
@@ -36,10 +36,10 @@ class Saving:
         done: Steps that are in the file.
     """
 
-    course: Course
+    course: RunHistory
     done: int
 
-    def __init__(self, course: Course, folder: Path) -> None:
+    def __init__(self, course: RunHistory, folder: Path) -> None:
         """Begin with nothing written."""
         self.course, self._folder = course, folder
         self.done, self._is_stopped = 0, False
@@ -56,7 +56,7 @@ class Saving:
         """
         course = self.course
         simulation = begun(course.scenario, course.seed, course.run)
-        see_to_room(course.edge * room_of(simulation))
+        see_to_room(course.latest_tick * room_of(simulation))
         with in_words(self._folder):
             self._folder.mkdir(exist_ok=True)
             clear(self._folder, ENDING)
@@ -67,7 +67,7 @@ class Saving:
     def _record(self, simulation: Stepped, file: Path) -> bool:
         robot_steps, course = 0, self.course
         with Recording(simulation, file) as recording:
-            again = (simulation, recording.step, course.log, course.inputs, course.edge)
+            again = (simulation, recording.step, course.log, course.inputs, course.latest_tick)
             for tick in taken_again(*again):
                 self.done = tick
                 robot_steps += room_of(simulation)
@@ -88,9 +88,9 @@ def see_to_room(robot_steps: int) -> None:
     Raises:
         InputError: If so.
     """
-    if robot_steps > MOST_ROBOT_STEPS:
+    if robot_steps > MAX_ROBOT_STEPS:
         message = (
-            f"The run is too long to be saved from here: at most {MOST_ROBOT_STEPS:,} steps of a "
+            f"The run is too long to be saved from here: at most {MAX_ROBOT_STEPS:,} steps of a "
             f"robot are, and each step counts for {STEP_ROBOTS} more. agent-economy run --record "
             "FILE --every 10 saves longer ones."
         )
@@ -123,7 +123,7 @@ def put_away(unfinished: Path, name: str) -> Path:
     return unfinished.replace(unfinished.with_name(f"{name}-{digest}{ENDING}"))
 
 
-def stem(course: Course) -> str:
+def stem(course: RunHistory) -> str:
     """Return what a name begins with."""
-    name = re.sub(r"[^\w-]+", "-", course.scenario.name)[:MOST_LETTERS]
+    name = re.sub(r"[^\w-]+", "-", course.scenario.name)[:MAX_LETTERS]
     return f"{name}-{course.seed}-{course.run}"

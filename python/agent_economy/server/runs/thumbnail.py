@@ -7,13 +7,13 @@ from typing import Any
 from agent_economy import classic
 from agent_economy.classic_world import CELL_PX, WORLD
 from agent_economy.scenario import Scenario
-from agent_economy.server import classic_view
+from agent_economy.server.runs import classic_view
 from agent_economy.simulation import Simulation
 
 STEPS = 100
 """The picture shows the run after so many steps."""
 
-MOST_ROBOTS = 400
+MAX_ROBOTS = 400
 """Of more robots only so many are drawn."""
 
 FREE, WALL, GROUND, ROBOT, ITEM = "#f4f6fa", "#7b8494", "#e6d3b3", "#2563eb", "#dc2626"
@@ -47,7 +47,7 @@ def metric(scenario: Scenario) -> str:
         ),
         *(obstacle(each) for each in document["world"].get("obstacles", [])),
         *(circle(place, size_m / 1.5, ITEM) for place in places),
-        *(chevron(pose, size_m) for pose in simulation.poses[:MOST_ROBOTS].tolist()),
+        *(chevron(pose, size_m) for pose in simulation.poses[:MAX_ROBOTS].tolist()),
     ]
     return svg(width_m, height_m, shapes)
 

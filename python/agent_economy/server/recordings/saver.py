@@ -9,9 +9,9 @@ from typing import Any
 from agent_economy import given
 from agent_economy._core import InputError
 from agent_economy.server.messages import faults_of
-from agent_economy.server.saving import Saving
-from agent_economy.server.shelf import Shelf
-from agent_economy.server.timeline import Course
+from agent_economy.server.recordings.history import RunHistory
+from agent_economy.server.recordings.store import RecordingStore
+from agent_economy.server.recordings.writer import Saving
 
 TOLD_S = 0.25
 """Between two words of how far it is."""
@@ -22,13 +22,13 @@ Tell = Callable[[dict[str, Any]], Awaitable[None]]
 class Saver:
     """What saves the runs of one page."""
 
-    def __init__(self, tell: Tell, shelf: Shelf, threads: Executor) -> None:
+    def __init__(self, tell: Tell, shelf: RecordingStore, threads: Executor) -> None:
         """Begin without anything to save."""
         self._tell, self._shelf, self._threads = tell, shelf, threads
         self._saving: Saving | None = None
         self._task: asyncio.Task[None] | None = None
 
-    def begin(self, course: Course) -> None:
+    def begin(self, course: RunHistory) -> None:
         """Save a run.
 
         Raises:
@@ -59,7 +59,7 @@ class Saver:
         work = loop.run_in_executor(self._threads, saving.write)
         try:
             while not work.done():
-                steps = saving.course.edge
+                steps = saving.course.latest_tick
                 await self._tell({"type": "saving", "done": saving.done, "steps": steps})
                 await asyncio.wait({work}, timeout=TOLD_S)
             file = work.result()

@@ -11,7 +11,7 @@ REMEMBERED_S = 1.0
 
 
 @dataclass
-class Pace:
+class PlaybackClock:
     """The speed that is wanted, and what is reached of it.
 
     Attributes:

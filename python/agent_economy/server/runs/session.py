@@ -11,23 +11,25 @@ import time
 from collections import deque
 from collections.abc import Callable
 from concurrent.futures import Executor
-from typing import Any, Protocol, TypeVar
+from typing import Any, TypeVar
 
 from agent_economy import given
 from agent_economy._core import InputError
-from agent_economy.server import engines, messages
-from agent_economy.server.export import as_toml
-from agent_economy.server.frames import frame, setting
-from agent_economy.server.later import Later
+from agent_economy.server import messages
 from agent_economy.server.messages import Message
-from agent_economy.server.mind import Selected
-from agent_economy.server.opening import begun
-from agent_economy.server.overlay import Overlay
-from agent_economy.server.pace import Pace
-from agent_economy.server.places import Places
-from agent_economy.server.saver import Saver
-from agent_economy.server.shelf import Shelf
-from agent_economy.server.timeline import Timeline
+from agent_economy.server.recordings.saver import Saver
+from agent_economy.server.recordings.store import RecordingStore
+from agent_economy.server.runs import engines
+from agent_economy.server.runs.belief_view import Selected
+from agent_economy.server.runs.export import as_toml
+from agent_economy.server.runs.frames import frame, setting
+from agent_economy.server.runs.opening import begun
+from agent_economy.server.runs.overlay import Overlay
+from agent_economy.server.runs.pending import PendingQueue
+from agent_economy.server.runs.playback_clock import PlaybackClock
+from agent_economy.server.runs.timeline import Timeline
+from agent_economy.server.transport import ConnectionClosedError, Page
+from agent_economy.server.workspace import Workspace
 
 FRAME_S, STATE_S, MAP_S = 0.03, 0.1, 0.25
 """Between two frames, two states, and two maps of a robot, at least: steps of a thirtieth each give
@@ -39,7 +41,7 @@ SLICE_S = 0.025
 ON_THE_WAY = 3
 """Frames that a page has not said it has drawn, at most."""
 
-MOST_HEARD = 256
+MAX_HEARD = 256
 """Messages that wait to be done, at most: a page that says more waits."""
 
 IDLE_S = 1800.0
@@ -49,35 +51,18 @@ IDLE_S = 1800.0
 T = TypeVar("T")
 
 
-class GoneError(Exception):
-    """The page has gone, or is let go."""
-
-
-class Page(Protocol):
-    """What is at the other end."""
-
-    async def receive(self) -> str:
-        """Return what the page says next; raise `GoneError` if it has gone."""
-
-    async def tell(self, said: dict[str, Any]) -> None:
-        """Tell the page something; raise `GoneError` if it has gone."""
-
-    async def show(self, frame: bytes) -> None:
-        """Send a frame, or what lies over it; raise `GoneError` if it has gone."""
-
-
 class Session:
     """What goes on between one page and its run."""
 
-    def __init__(self, page: Page, places: Places, threads: Executor) -> None:
+    def __init__(self, page: Page, places: Workspace, threads: Executor) -> None:
         """Begin without a run."""
         self._page, self._places, self._threads = page, places, threads
         self._timeline: Timeline | None = None
-        self._saver = Saver(page.tell, Shelf(places), threads)
-        self._pace = Pace(0.1)
-        self._heard: asyncio.Queue[Message | InputError] = asyncio.Queue(MOST_HEARD)
+        self._saver = Saver(page.send, RecordingStore(places), threads)
+        self._pace = PlaybackClock(0.1)
+        self._heard: asyncio.Queue[Message | InputError] = asyncio.Queue(MAX_HEARD)
         self._aim: int | None = None
-        self._later = Later()
+        self._later = PendingQueue()
         self._selected: engines.Selection = Selected()
         self._overlay = Overlay()
         self._generation = 0
@@ -99,7 +84,7 @@ class Session:
             await asyncio.wait(tasks)
             await self._saver.end()
         for task in tasks:
-            with contextlib.suppress(GoneError, asyncio.CancelledError):
+            with contextlib.suppress(ConnectionClosedError, asyncio.CancelledError):
                 task.result()
 
     async def _listen(self) -> None:
@@ -154,8 +139,8 @@ class Session:
     async def _let_go(self) -> None:
         if not self._is_busy() and time.monotonic() - self._busy_at_s >= IDLE_S:
             message = "Nothing was done for half an hour. Reload the page to go on."
-            await self._page.tell({"type": "ended", "why": "idle", "message": message})
-            raise GoneError
+            await self._page.send({"type": "ended", "why": "idle", "message": message})
+            raise ConnectionClosedError
 
     async def _do(self, said: Message | InputError) -> None:
         self._busy_at_s = time.monotonic()
@@ -231,7 +216,7 @@ class Session:
             case messages.Export():
                 simulation = self._run.simulation
                 text = await self._in_thread(lambda: as_toml(simulation))
-                await self._page.tell({"type": "exported", "text": text})
+                await self._page.send({"type": "exported", "text": text})
 
     @property
     def _run(self) -> Timeline:
@@ -243,7 +228,7 @@ class Session:
         self._later.clear()
         self._timeline, program = await self._in_thread(lambda: begun(self._places, said))
         self._stand()
-        self._pace = Pace(self._run.step_s)
+        self._pace = PlaybackClock(self._run.step_s)
         simulation = self._run.simulation
         scenario = simulation.scenario
         self._aim, self._told = said.tick, None
@@ -257,7 +242,7 @@ class Session:
         described |= {"summary": scenario.summary, "cap_s": scenario.cap_s}
         names = {"seed": str(simulation.seed), "run": str(simulation.run)}
         recording = {"id": said.recording, "program": program} if program is not None else None
-        await self._page.tell(
+        await self._page.send(
             {"type": "opened", "scenario": described, **names, "recording": recording}
         )
 
@@ -307,21 +292,21 @@ class Session:
         if (made := (timeline.simulation.changes, timeline.log)) != self._told:
             self._generation += 1
             self._told = made
-            await self._page.tell(setting(timeline, self._generation))
+            await self._page.send(setting(timeline, self._generation))
         self._number += 1
         self._on_the_way.append(self._number)
         self._frame_at_s = now_s
         self._is_new = False
         if self._overlay.is_asked(timeline.simulation):
-            await self._page.show(await self._in_thread(self._over))
-        await self._page.show(frame(timeline.simulation, self._generation, self._number))
+            await self._page.send_bytes(await self._in_thread(self._over))
+        await self._page.send_bytes(frame(timeline.simulation, self._generation, self._number))
         if is_at_rest or now_s - self._state_at_s >= STATE_S:
             self._state_at_s = now_s
-            await self._page.tell(self._state(timeline))
+            await self._page.send(self._state(timeline))
         if is_at_rest or now_s - self._map_at_s >= MAP_S:
             self._map_at_s = now_s
             if told := self._selected.map(timeline.simulation):
-                await self._page.tell(told)
+                await self._page.send(told)
 
     def _over(self) -> bytes:
         return self._overlay.over(self._run.simulation, self._number)
@@ -346,7 +331,7 @@ class Session:
         }
 
     async def _refuse(self, about: str, error: InputError, path: str | None = None) -> None:
-        await self._page.tell(messages.refused(about, error, path))
+        await self._page.send(messages.refused(about, error, path))
 
     async def _in_thread(self, work: Callable[[], T]) -> T:
         return await asyncio.get_running_loop().run_in_executor(self._threads, work)

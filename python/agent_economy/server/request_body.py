@@ -9,11 +9,11 @@ from starlette.responses import JSONResponse
 from agent_economy._core import InputError
 from agent_economy.server.messages import Fault, faults_of
 
-MOST_BYTES = 1_000_000
+MAX_BYTES = 1_000_000
 """What a page sends has no more."""
 
 
-class BodyError(Exception):
+class RequestBodyError(Exception):
     """What came cannot be taken; `response` says why."""
 
     def __init__(self, status: int, message: str) -> None:
@@ -26,31 +26,31 @@ async def text(request: Request) -> str:
     """Return the text that came with a request.
 
     Raises:
-        BodyError: If it is too long, or none.
+        RequestBodyError: If it is too long, or none.
     """
     data = bytearray()
     async for part in request.stream():
         data += part
-        if len(data) > MOST_BYTES:
-            raise BodyError(413, f"The file has more than {MOST_BYTES:,} bytes.")
+        if len(data) > MAX_BYTES:
+            raise RequestBodyError(413, f"The file has more than {MAX_BYTES:,} bytes.")
     try:
         return data.decode()
     except UnicodeDecodeError:
-        raise BodyError(422, "The file is not UTF-8 text.") from None
+        raise RequestBodyError(422, "The file is not UTF-8 text.") from None
 
 
 async def asked(request: Request) -> dict[str, Any]:
     """Return the object in JSON that came with a request.
 
     Raises:
-        BodyError: If it is too long, or none.
+        RequestBodyError: If it is too long, or none.
     """
     try:
         said = json.loads(await text(request))
     except (ValueError, RecursionError):
         said = None
     if not isinstance(said, dict):
-        raise BodyError(422, "What is asked must be an object, in JSON.")
+        raise RequestBodyError(422, "What is asked must be an object, in JSON.")
     return said
 
 

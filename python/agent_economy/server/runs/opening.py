@@ -2,26 +2,26 @@
 
 from agent_economy.scenario import Scenario
 from agent_economy.server.messages import Open
-from agent_economy.server.places import Places
-from agent_economy.server.shelf import Shelf
-from agent_economy.server.timeline import Timeline
+from agent_economy.server.recordings.store import RecordingStore
+from agent_economy.server.runs.timeline import Timeline
+from agent_economy.server.workspace import Workspace
 
 
-def begun(places: Places, said: Open) -> tuple[Timeline, str | None]:
+def begun(places: Workspace, said: Open) -> tuple[Timeline, str | None]:
     """Return a run at its beginning, and the version that recorded it if a recording is asked for.
 
     Raises:
         InputError: If there is no such scenario or recording, it is wrong, or has no room.
     """
     if said.recording is not None:
-        which, recorded = Shelf(places).load(said.recording)
+        which, recorded = RecordingStore(places).load(said.recording)
         timeline = Timeline(which.scenario, which.seed, which.run, said.changes, recorded)
         return timeline, which.program
     scenario, seed = what(places, said)
     return Timeline(scenario, seed, said.run, said.changes), None
 
 
-def what(places: Places, said: Open) -> tuple[Scenario, int]:
+def what(places: Workspace, said: Open) -> tuple[Scenario, int]:
     """Return the scenario to run, and the seed."""
     if said.study is not None:
         scenario, seed = places.member(said.study.id, said.study.configuration)

@@ -14,14 +14,14 @@ from agent_economy.study.answer.evidence import Evidence, Interval
 from agent_economy.study.report import Section, Table, View
 from agent_economy.study.store.folder import ANSWER, read_bytes
 
-MOST_KEPT = 8
-"""Answers that are kept ready."""
+MAX_KEPT = 8
+"""AnswerCache that are kept ready."""
 
 Shown = dict[str, Any]
 
 
-class Answers:
-    """Answers of finished studies; each is made once for what its folder holds."""
+class AnswerCache:
+    """AnswerCache of finished studies; each is made once for what its folder holds."""
 
     def __init__(self) -> None:
         """Begin with none."""
@@ -43,7 +43,7 @@ class Answers:
             if key not in self._kept:
                 self._kept[key] = shown(*study.look(folder))
             self._kept.move_to_end(key)
-            while len(self._kept) > MOST_KEPT:
+            while len(self._kept) > MAX_KEPT:
                 self._kept.popitem(last=False)
             return self._kept[key]
 

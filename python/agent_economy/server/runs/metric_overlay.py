@@ -3,16 +3,16 @@
 from agent_economy import _core
 from agent_economy.simulation import Simulation
 
-MOST_ROBOTS = 300
+MAX_ROBOTS = 300
 """Of more robots only what is the selected one's is drawn: a picture full of it says nothing."""
 
-MOST_LINKS = 4000
+MAX_LINKS = 4000
 
 
 def links(simulation: Simulation, selected: str | None) -> bytes:
     """Return who hears whom: see `_core.drawn_links`."""
     run, everyone = simulation._run, is_few(simulation)  # noqa: SLF001  (ours)
-    return _core.drawn_links(run, selected, everyone, MOST_LINKS)
+    return _core.drawn_links(run, selected, everyone, MAX_LINKS)
 
 
 def footprints(simulation: Simulation, selected: str | None) -> bytes:
@@ -23,4 +23,4 @@ def footprints(simulation: Simulation, selected: str | None) -> bytes:
 
 def is_few(simulation: Simulation) -> bool:
     """Return whether what is of all robots can be drawn."""
-    return sum(simulation.scenario.robots.values()) <= MOST_ROBOTS
+    return sum(simulation.scenario.robots.values()) <= MAX_ROBOTS

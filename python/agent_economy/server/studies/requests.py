@@ -7,7 +7,7 @@ from agent_economy import given, study
 from agent_economy._core import InputError
 from agent_economy.scenario import Override, Scenario, of_path
 from agent_economy.server.messages import Fault, faults_of, number, source_of
-from agent_economy.server.places import Places
+from agent_economy.server.workspace import Workspace
 from agent_economy.study import Plan
 from agent_economy.study.answer.labels import label
 from agent_economy.study.plan import check_question
@@ -15,11 +15,11 @@ from agent_economy.study.question import Question
 
 T = TypeVar("T")
 
-MOST_LABELS = 50
+MAX_LABELS = 50
 """Configurations of a plan that are named."""
 
 
-class AskError(Exception):
+class StudyRequestError(Exception):
     """What a page asks is not allowed."""
 
     def __init__(self, faults: list[Fault]) -> None:
@@ -54,11 +54,11 @@ def path_of(line: str) -> str:
     return path if equals and " " not in path else ""
 
 
-def plan(said: Any, places: Places) -> Plan:
+def plan(said: Any, places: Workspace) -> Plan:
     """Return the plan that a page asks for.
 
     Raises:
-        AskError: If anything is not allowed; all faults at once.
+        StudyRequestError: If anything is not allowed; all faults at once.
         InputError: If it is no object.
     """
     given.of_kind("ask", said, dict, "an object")
@@ -75,10 +75,10 @@ def plan(said: Any, places: Places) -> Plan:
         )
         if made is not None:
             return made
-    raise AskError(faults)
+    raise StudyRequestError(faults)
 
 
-def scenario_of(said: Mapping[str, Any], places: Places) -> Scenario:
+def scenario_of(said: Mapping[str, Any], places: Workspace) -> Scenario:
     """Return the scenario that a page names, or the one of its text.
 
     Raises:
@@ -114,7 +114,7 @@ def planned(plan: Plan, name: str, state: str | None) -> dict[str, Any]:
         "id": name,
         "name": plan.scenario.name,
         "configurations": len(plan.configurations),
-        "labels": [label(values) for values in plan.configurations[:MOST_LABELS]],
+        "labels": [label(values) for values in plan.configurations[:MAX_LABELS]],
         "words": str(Question.of(plan)),
         "delta": plan.delta,
         "confidence": plan.confidence,

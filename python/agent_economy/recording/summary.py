@@ -10,9 +10,9 @@ from mcap.records import Metadata
 from mcap.stream_reader import StreamReader
 
 from agent_economy._core import InputError
-from agent_economy.recording.entries import Entries
+from agent_economy.recording.fields import Entries
+from agent_economy.recording.foxglove import SECOND_NS
 from agent_economy.recording.identity import END, RUN, read_run
-from agent_economy.recording.messages import SECOND_NS
 from agent_economy.recording.reading import MAX_BYTES, Unbroken, told
 
 MAGIC = b"\x89MCAP0\r\n"

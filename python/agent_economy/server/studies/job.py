@@ -52,12 +52,12 @@ NOTHING: dict[str, Any] = {
 """What is known of a study that has only begun."""
 
 
-class Work:
+class StudyJob:
     """A study at work.
 
     Attributes:
         plan: What is asked.
-        said: How far it is, as `Teller` says.
+        said: How far it is, as `ProgressReporter` says.
         message: Why it ended, if not because it was done or stopped.
     """
 
@@ -132,7 +132,7 @@ def work(plan: Plan, folder: Path, line: Connection) -> None:
         signal.signal(signal.SIGINT, interrupted)
         line.send({})
         try:
-            study.pursue(plan, folder, on_progress=Teller(line))
+            study.pursue(plan, folder, on_progress=ProgressReporter(line))
         except (StudyError, InputError) as error:
             line.send({"message": str(error)})
 
@@ -157,7 +157,7 @@ def end_with_server() -> None:
         os._exit(1)
 
 
-class Teller:
+class ProgressReporter:
     """Tells the server how far a study is, not too often."""
 
     def __init__(self, line: Connection) -> None:

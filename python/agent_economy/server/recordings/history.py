@@ -1,0 +1,28 @@
+"""Everything that is needed to replay a run."""
+
+from dataclasses import dataclass
+from typing import Any
+
+from agent_economy.scenario import Scenario
+from agent_economy.stepped import Change
+
+
+@dataclass(frozen=True)
+class RunHistory:
+    """Everything that is needed to replay a run up to its latest tick.
+
+    Attributes:
+        scenario: The scenario at the beginning of the run.
+        seed: The seed of all random streams.
+        run: The number of the run.
+        log: Changes of the scenario, in order.
+        inputs: External percepts and commands by tick, as keyword arguments of `Simulation.step`.
+        latest_tick: The last tick that was reached.
+    """
+
+    scenario: Scenario
+    seed: int
+    run: int
+    log: tuple[Change, ...]
+    inputs: dict[int, dict[str, Any]]
+    latest_tick: int
