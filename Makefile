@@ -89,7 +89,7 @@ minds: .venv/installed ## Measure and draw docs/minds.md anew (some minutes)
 	$(BIN)/python scripts/minds.py
 
 golden: ## Runs of the metric engine are the same bytes from a debug and from a release build
-	cargo test --locked --profile dev -p agent-economy-sim --test engine golden
+	cargo test --locked --profile unoptimised -p agent-economy-sim --test engine golden
 	cargo test --locked --release -p agent-economy-sim --test engine golden
 
 replication: .venv/installed ## Recompute every figure of docs/replication.md
