@@ -428,6 +428,14 @@ def test_a_study_leaves_no_files_but_its_own(tmp_path: Path) -> None:
     assert names == {".lock", "blocks", "ledger.sqlite", "study.toml"}
 
 
+def test_a_study_is_written_and_read_without_pandas(tmp_path: Path) -> None:
+    code = "import made_up, pathlib, sys; folder = pathlib.Path(sys.argv[1]);"
+    code += "made_up.write_study(folder); made_up.write_study(folder);"
+    code += "sys.exit('pandas' in sys.modules)"
+    arguments = [sys.executable, "-c", code, str(tmp_path)]
+    assert subprocess.run(arguments, cwd=Path(__file__).parent, check=False).returncode == 0
+
+
 def test_watching_loads_no_query_engine_until_it_asks() -> None:
     code = "import agent_economy.study.store, agent_economy.study.executors, sys;"
     code += "sys.exit('duckdb' in sys.modules or 'distributed' in sys.modules)"

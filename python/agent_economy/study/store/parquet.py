@@ -35,8 +35,13 @@ def encode(rectangle: Rectangle, columns: tuple[Column, ...], data: Columns) -> 
     cells = [
         cell(column, data[column.name].ravel(), marks, bit) for bit, column in enumerate(columns)
     ]
-    arrays = [np.repeat(names, runs), np.tile(numbers, configurations), *cells, marks]
-    table = pa.Table.from_arrays([pa.array(each) for each in arrays], schema=schema(columns))
+    arrays = [
+        arrow(np.repeat(names, runs)),
+        arrow(np.tile(numbers, configurations)),
+        *cells,
+        arrow(marks),
+    ]
+    table = pa.Table.from_arrays(arrays, schema=schema(columns))
     sink = pa.BufferOutputStream()
     pq.write_table(
         table,
@@ -64,12 +69,27 @@ def cell(column: Column, values: NDArray[np.float64], marks: NDArray[np.int64], 
         absent = quarantined | (values == np.inf)
         values = np.where(absent, 0.0, values)
     if column.kind == "real":
-        return pa.array(values, mask=absent)
+        return arrow(values, absent)
     check_least_and_greatest(column, values)
     kept = values.astype(np.bool_ if column.kind == "flag" else np.int64)
     if (kept != values).any():
         refuse(column, values[kept != values][0])
-    return pa.array(kept, mask=absent)
+    return arrow(kept, absent)
+
+
+def arrow(values: NDArray[Any], absent: NDArray[np.bool_] | None = None) -> Any:
+    """Return an array as Arrow has it, null where it is absent.
+
+    `pyarrow.array` does the same, but imports pandas where it is installed: a second per process.
+    """
+    data = bits(values) if values.dtype == np.bool_ else pa.py_buffer(values)
+    valid = None if absent is None else bits(~absent)
+    return pa.Array.from_buffers(pa.from_numpy_dtype(values.dtype), len(values), [valid, data])
+
+
+def bits(flags: NDArray[np.bool_]) -> Any:
+    """Return flags as Arrow has them, eight to a byte."""
+    return pa.py_buffer(np.packbits(flags, bitorder="little"))
 
 
 def check_least_and_greatest(column: Column, values: NDArray[np.float64]) -> None:
@@ -92,10 +112,11 @@ def decode(data: bytes, rectangle: Rectangle, columns: tuple[Column, ...]) -> Co
         pyarrow.ArrowException: If it is not a file of `encode`.
     """
     names = [column.name for column in columns]
-    table = pq.read_table(
-        pa.BufferReader(data), columns=[*names, "quarantined"], use_threads=rectangle.rows > 2**14
+    # Not `read_table`: it imports pandas, as in `arrow`.
+    table = pq.ParquetFile(pa.BufferReader(data)).read(
+        [*names, "quarantined"], use_threads=rectangle.rows > 2**14
     )
-    marks = table["quarantined"].to_numpy()
+    marks = numbers(table["quarantined"])
     any_marked = marks.any()
     outcomes = {}
     for bit, name in enumerate(names):
@@ -108,12 +129,13 @@ def decode(data: bytes, rectangle: Rectangle, columns: tuple[Column, ...]) -> Co
 
 def floats(column: Any) -> NDArray[np.float64]:
     """Return a column of a file as floats that can be written to, null as +inf."""
-    if column.null_count:
-        values = np.full(len(column), np.inf)
-        there = column.is_valid().to_numpy(zero_copy_only=False)
-        values[there] = column.drop_null().to_numpy(zero_copy_only=False)
-        return values
-    return np.array(column.to_numpy(zero_copy_only=False), dtype=np.float64)
+    never = arrow(np.array([np.inf]))[0]  # `pyarrow.scalar` would import pandas.
+    return numbers(column.cast(pa.float64()).fill_null(never)).copy()
+
+
+def numbers(column: Any) -> NDArray[Any]:
+    """Return a column of numbers without nulls; `to_numpy` would import pandas."""
+    return np.from_dlpack(column.combine_chunks())
 
 
 def as_read(columns: tuple[Column, ...], data: Columns) -> Columns:
