@@ -3,7 +3,7 @@
 
 use crate::scenarios::read;
 use crate::threads::by_turns;
-use base::runner::{Runner, Work};
+use base::engine::{BlockOptions, Runner};
 use rayon::prelude::*;
 use sim::engine::Simulation;
 use sim::runner::Runs;
@@ -51,7 +51,7 @@ fn block(runs: &Runs, piece: u64) -> u64 {
     let tasks = (0..PIECE / TASK).into_par_iter();
     let times = tasks.map(|task| {
         let first = piece * PIECE + task * TASK;
-        let columns = runs.run_block(7, first..first + TASK, Work::ALONE);
+        let columns = runs.run_block(7, first..first + TASK, BlockOptions::ALONE);
         columns[0].iter().sum::<f64>()
     });
     // In the order of the tasks, whoever does them.

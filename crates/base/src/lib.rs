@@ -1,18 +1,20 @@
-//! What every other crate may use, and nothing else.
+//! Building blocks that all other crates share.
 //!
-//! * [`geometry`], [`trig`]: points, walls, pillars and polygons; sines that are the same on every
-//!   machine;
-//! * [`random`]: random streams keyed by (seed, run, entity, purpose);
-//! * [`hash`]: telling states apart;
-//! * [`map`]: occupancy maps of ROS;
-//! * [`placement`]: where items and robots are put, by rejection and without overlaps;
-//! * [`reach`]: which places no robot can come to;
-//! * [`error`]: what is wrong with something a person wrote, in words;
-//! * [`document`]: a TOML document read against what is allowed, every error at once;
-//! * [`runner`]: the seam between simulators and studies;
-//! * [`question`]: what a study asks, alike for every simulator.
+//! * [`geometry`], [`trig`]: points, walls, pillars and polygons; trigonometry that returns the same
+//!   bits on every machine;
+//! * [`random`], [`philox`], [`noise`]: counter-based random streams, keyed by (seed, run, entity,
+//!   purpose), and the distributions drawn from them;
+//! * [`hash`]: a hash of simulation states;
+//! * [`map`]: ROS occupancy maps;
+//! * [`placement`]: random positions of items and robots without overlaps;
+//! * [`reachability`]: the parts of a world that a robot cannot reach;
+//! * [`error`]: errors of user input;
+//! * [`document`]: TOML documents, checked as a whole, with all errors reported at once;
+//! * [`engine`]: the seam between simulators and studies, [`engine::Engine`] and [`engine::Runner`];
+//! * [`scenario`]: the part of a scenario that is common to all engines.
 
 pub mod document;
+pub mod engine;
 pub mod error;
 pub mod geometry;
 pub mod hash;
@@ -20,8 +22,7 @@ pub mod map;
 pub mod noise;
 pub mod philox;
 pub mod placement;
-pub mod question;
 pub mod random;
-pub mod reach;
-pub mod runner;
+pub mod reachability;
+pub mod scenario;
 pub mod trig;

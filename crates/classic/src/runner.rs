@@ -6,7 +6,7 @@ use crate::replicate::run_of;
 use crate::scenario::Clock;
 use crate::search::{Outcome, Task};
 use crate::world::ITEMS;
-use base::runner::{Column, Kind, Runner, Work};
+use base::engine::{BlockOptions, Column, ColumnKind, Runner};
 use std::ops::Range;
 
 /// All that a run depends on, besides its seed and its number.
@@ -25,26 +25,31 @@ impl Runner for Configuration {
     fn columns(&self) -> Vec<Column> {
         let robots = f64::from(self.robots);
         let collisions = u64::from(self.robots) * decisions_until(self.task.cap_paints);
-        let column = |name: &'static str, kind, least, greatest| Column {
+        let column = |name: &'static str, kind, min, max| Column {
             name: name.into(),
             kind,
-            least: Some(least),
-            greatest,
+            min: Some(min),
+            max,
         };
         vec![
-            column("time_s", Kind::Real, 0.0, Some(self.clock.cap_s)),
-            column("failed", Kind::Flag, 0.0, Some(1.0)),
-            column("robots", Kind::Whole, robots, Some(robots)),
-            column("found", Kind::Whole, 0.0, Some(ITEMS.len() as f64)),
-            column("collisions", Kind::Whole, 0.0, Some(collisions as f64)),
-            column("paints", Kind::Whole, 0.0, None),
+            column("time_s", ColumnKind::Real, 0.0, Some(self.clock.cap_s)),
+            column("failed", ColumnKind::Flag, 0.0, Some(1.0)),
+            column("robots", ColumnKind::Whole, robots, Some(robots)),
+            column("found", ColumnKind::Whole, 0.0, Some(ITEMS.len() as f64)),
+            column(
+                "collisions",
+                ColumnKind::Whole,
+                0.0,
+                Some(collisions as f64),
+            ),
+            column("paints", ColumnKind::Whole, 0.0, None),
         ]
     }
 
-    fn run_block(&self, seed: u64, runs: Range<u64>, work: Work) -> Vec<Vec<f64>> {
+    fn run_block(&self, seed: u64, runs: Range<u64>, options: BlockOptions) -> Vec<Vec<f64>> {
         let mut columns = vec![Vec::new(); self.columns().len()];
         let mut search = FastSearch::new(self.task);
-        for run in runs.take_while(|_| !work.is_stopped()) {
+        for run in runs.take_while(|_| !options.is_stopped()) {
             let outcome = run_of(&mut search, self.robots, seed, run);
             for (column, value) in columns.iter_mut().zip(self.values(outcome)) {
                 column.push(value);
@@ -112,7 +117,7 @@ mod tests {
         ] {
             let configuration = configuration(robots, contact, 2000);
             let expected = replicate(robots, 5..205, 7, configuration.task);
-            let block = configuration.run_block(7, 5..205, Work::ALONE);
+            let block = configuration.run_block(7, 5..205, BlockOptions::ALONE);
             for (index, outcome) in expected.into_iter().enumerate() {
                 let row: Vec<f64> = block.iter().map(|column| column[index]).collect();
                 assert_eq!(row, configuration.values(outcome));
@@ -124,14 +129,14 @@ mod tests {
     fn every_run_is_within_the_columns_bounds() {
         for (robots, cap_paints) in [(1, 0), (2, 11), (5, 12), (100, 23), (250, 300), (3, 6720)] {
             let configuration = configuration(robots, Contact::Touch, cap_paints);
-            let block = configuration.run_block(1, 0..200, Work::ALONE);
+            let block = configuration.run_block(1, 0..200, BlockOptions::ALONE);
             for (column, values) in configuration.columns().iter().zip(block) {
-                let least = column.least.unwrap_or(f64::NEG_INFINITY);
-                let greatest = column.greatest.unwrap_or(f64::INFINITY);
-                let is_within = |value: &f64| (least..=greatest).contains(value);
+                let min = column.min.unwrap_or(f64::NEG_INFINITY);
+                let max = column.max.unwrap_or(f64::INFINITY);
+                let is_within = |value: &f64| (min..=max).contains(value);
                 assert!(values.iter().all(is_within), "{}", column.name);
                 let is_whole = |value: &f64| value.is_infinite() || value.fract() == 0.0;
-                assert!(column.kind == Kind::Real || values.iter().all(is_whole));
+                assert!(column.kind == ColumnKind::Real || values.iter().all(is_whole));
             }
         }
     }

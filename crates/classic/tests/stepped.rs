@@ -1,6 +1,6 @@
 //! A run that is stepped by hand is the run that studies compute, and a changed one can be taken again.
 
-use base::runner::{Runner, Work};
+use base::engine::{BlockOptions, Runner};
 use classic::scenario::Clock;
 use classic::{Configuration, Contact, Run, Task};
 
@@ -40,7 +40,7 @@ fn a_finished_run_gives_what_studies_are_told_of_it() {
         for (_, contact) in Contact::NAMES {
             for cap_paints in [0, 12, 700, 6720] {
                 let configuration = configuration(robots, contact, cap_paints);
-                let columns = configuration.run_block(SEED, 0..runs, Work::ALONE);
+                let columns = configuration.run_block(SEED, 0..runs, BlockOptions::ALONE);
                 for (run, number) in (0..runs).enumerate() {
                     let values = finished(Run::new(configuration, SEED, number)).values();
                     let expected: Vec<f64> = columns.iter().map(|column| column[run]).collect();

@@ -1,6 +1,5 @@
 //! Arguments of Python functions, checked at the edge: all errors of a call in one exception.
 
-use crate::configuration::MAX_RUNS;
 use crate::error::input_error;
 use base::error::{InputError, InputErrors};
 use classic::Contact;
@@ -9,6 +8,9 @@ use pyo3::prelude::*;
 use pyo3::types::PyBool;
 use std::cell::RefCell;
 use std::ops::RangeInclusive;
+
+/// Maximum runs of one call, over all configurations: about half a gigabyte of outcomes.
+pub(crate) const MAX_RUNS: u64 = 10_000_000;
 
 /// Collects what is wrong with a call's arguments.
 #[derive(Default)]

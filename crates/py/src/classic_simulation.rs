@@ -5,7 +5,7 @@ use crate::configuration::{ColumnTuple, as_tuple};
 use crate::error::input_error;
 use crate::long_work::interruptible;
 use crate::scenario::Source;
-use base::runner::Runner;
+use base::engine::Runner;
 use classic::world::{CELL_PX, ITEMS, SIZE, cells};
 use classic::{Colour, Configuration, Robot, Run};
 use pyo3::prelude::*;

@@ -1,22 +1,19 @@
 //! Configurations of a study, and blocks of their runs.
 
-use crate::arguments::Arguments;
+use crate::arguments::{Arguments, MAX_RUNS};
 use crate::engines::ENGINES;
 use crate::error::input_error;
 use crate::long_work::interruptible;
 use crate::scenario::{Source, value};
 use base::document::Value;
-use base::question;
-use base::runner::{Column, Kind, Runner, Work};
+use base::engine::{BlockOptions, Column, ColumnKind, Runner};
+use base::scenario::read_configuration as read_configuration_of;
 use numpy::{IntoPyArray, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::atomic::AtomicBool;
-
-/// Runs of one call, of all configurations together: some half a gigabyte of outcomes.
-pub(crate) const MAX_RUNS: u64 = 10_000_000;
 
 /// Most runs that one task takes from the pool: starting one costs less than a microsecond.
 const RUNS_PER_TASK: u64 = 16;
@@ -37,7 +34,7 @@ pub(crate) struct Configuration {
 
 #[pymethods]
 impl Configuration {
-    /// What each run tells: (name, kind, least, greatest); a bound is None where there is none.
+    /// What each run tells: (name, kind, min, max); a bound is None if there is none.
     #[getter]
     fn columns(&self) -> Vec<ColumnTuple> {
         let columns = self.runner.columns();
@@ -47,11 +44,11 @@ impl Configuration {
 
 pub(crate) fn as_tuple(column: &Column) -> ColumnTuple {
     let kind = match column.kind {
-        Kind::Whole => "whole",
-        Kind::Real => "real",
-        Kind::Flag => "flag",
+        ColumnKind::Whole => "whole",
+        ColumnKind::Real => "real",
+        ColumnKind::Flag => "flag",
     };
-    (column.name.to_string(), kind, column.least, column.greatest)
+    (column.name.to_string(), kind, column.min, column.max)
 }
 
 /// The configuration of a source with a value at the path of each factor in `values`; only what a
@@ -69,7 +66,7 @@ pub(crate) fn read_configuration(
         Ok((path, value))
     });
     let values: Vec<(String, Value)> = values.collect::<PyResult<_>>()?;
-    let read = question::Configuration::read(&ENGINES, document, &values);
+    let read = read_configuration_of(&ENGINES, document, &values);
     let read = read.map_err(|errors| input_error(&errors, &file))?;
     Ok(Configuration {
         runner: read.runner,
@@ -163,7 +160,7 @@ fn in_tasks(
 ) -> Vec<Vec<f64>> {
     let threads = rayon::current_num_threads() as u64;
     let total = (runs.end - runs.start) * runners.len() as u64;
-    let work = Work {
+    let options = BlockOptions {
         stop,
         may_share: total < threads,
     };
@@ -175,7 +172,7 @@ fn in_tasks(
     let mut columns = vec![Vec::new(); number_of_columns(runners)];
     for some in tasks.chunks(TASKS_BEFORE_JOINING) {
         let done = some.par_iter().with_max_len(1).map(|(runner, part)| {
-            (!work.is_stopped()).then(|| runner.run_block(seed, part.clone(), work))
+            (!options.is_stopped()).then(|| runner.run_block(seed, part.clone(), options))
         });
         let done: Vec<Option<Vec<Vec<f64>>>> = done.collect();
         for block in done.into_iter().flatten() {

@@ -1,6 +1,6 @@
 //! The simulators that scenarios can name.
 
-use base::question::Engine;
+use base::engine::Engine;
 use classic::scenario::Classic;
 use sim::runner::Metric;
 

@@ -43,7 +43,11 @@ fn noted(error: PyErr, errors: &InputErrors, file: &str) -> PyErr {
     })
 }
 
-fn as_dict<'py>(py: Python<'py>, error: &input::InputError, file: &str) -> PyResult<Bound<'py, PyDict>> {
+fn as_dict<'py>(
+    py: Python<'py>,
+    error: &input::InputError,
+    file: &str,
+) -> PyResult<Bound<'py, PyDict>> {
     let place = error.place(file);
     let dict = PyDict::new(py);
     dict.set_item("origin", &error.origin)?;

@@ -72,7 +72,7 @@ mod _core {
         module.getattr("InputError")?.setattr("errors", none)?;
         module.add("FIRST_LOOK", select::schedule::next_look(0))?;
         module.add("MAX_IMAGE_BYTES", base::map::MAX_IMAGE_BYTES)?;
-        module.add("MAX_RUNS", crate::configuration::MAX_RUNS)?;
+        module.add("MAX_RUNS", crate::arguments::MAX_RUNS)?;
         module.add("CONTACTS", Contact::NAMES.map(|(name, _)| name))
     }
 }

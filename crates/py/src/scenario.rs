@@ -5,7 +5,7 @@ use crate::error::input_error;
 use crate::exchange::{MAX_DEPTH, too_deep};
 use base::document::{Document, Node, Override, Table, Value};
 use base::error::{InputError, InputErrors};
-use base::question::{self, Factor, Merit, Published, Scenario, Values};
+use base::scenario::{Factor, Merit, Published, Scenario, Values};
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict};
@@ -49,7 +49,7 @@ pub(crate) fn read_scenario<'py>(
 /// The files that a source names and does not have; when it has them, it may name more.
 #[pyfunction]
 pub(crate) fn files_wanted(source: Source) -> PyResult<Vec<String>> {
-    Ok(question::files_wanted(&ENGINES, &source.document()?))
+    Ok(base::scenario::files_wanted(&ENGINES, &source.document()?))
 }
 
 /// The whole document of a source, unchecked, as dicts, lists and values.

@@ -3,9 +3,9 @@
 use crate::engine::{Outcome, State, Workshop};
 use crate::scenario::{Scenario, ScenarioSpec};
 use base::document::Document;
+use base::engine::{BlockOptions, Column, ColumnKind, Runner};
+use base::engine::{Configuration, Engine, Measure, NamedMerit};
 use base::error::InputErrors;
-use base::question::{Configuration, Engine, Measure, NamedMerit};
-use base::runner::{Column, Kind, Runner, Work};
 use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::Arc;
@@ -74,7 +74,7 @@ impl Engine for Metric {
         ScenarioSpec::names(document, path)
     }
 
-    fn most_robots(&self) -> u32 {
+    fn max_robots(&self) -> u32 {
         1_000_000
     }
 }
@@ -85,32 +85,40 @@ impl Runner for Runs {
         let most = scenario.bounds();
         let fixed = |name, kind, value| column(name, kind, value, Some(value));
         let mut columns = vec![
-            up_to("time_s", Kind::Real, scenario.cap_s),
-            up_to("failed", Kind::Flag, 1.0),
-            fixed("robots", Kind::Whole, most.robots),
-            fixed("price", Kind::Real, most.price),
-            up_to("found", Kind::Whole, most.sought),
-            up_to("missed", Kind::Whole, most.sought),
-            column("false_alarms", Kind::Whole, 0.0, None),
-            up_to("collisions", Kind::Whole, most.collisions),
-            up_to("energy_j", Kind::Real, most.energy_j),
-            up_to("distance_m", Kind::Real, most.distance_m),
-            up_to("robots_stopped", Kind::Whole, most.robots),
+            up_to("time_s", ColumnKind::Real, scenario.cap_s),
+            up_to("failed", ColumnKind::Flag, 1.0),
+            fixed("robots", ColumnKind::Whole, most.robots),
+            fixed("price", ColumnKind::Real, most.price),
+            up_to("found", ColumnKind::Whole, most.sought),
+            up_to("missed", ColumnKind::Whole, most.sought),
+            column("false_alarms", ColumnKind::Whole, 0.0, None),
+            up_to("collisions", ColumnKind::Whole, most.collisions),
+            up_to("energy_j", ColumnKind::Real, most.energy_j),
+            up_to("distance_m", ColumnKind::Real, most.distance_m),
+            up_to("robots_stopped", ColumnKind::Whole, most.robots),
         ];
         for kind in &scenario.items {
             let count = f64::from(kind.count);
-            columns.push(up_to(format!("found_{}", kind.name), Kind::Whole, count));
-            columns.push(up_to(format!("missed_{}", kind.name), Kind::Whole, count));
+            columns.push(up_to(
+                format!("found_{}", kind.name),
+                ColumnKind::Whole,
+                count,
+            ));
+            columns.push(up_to(
+                format!("missed_{}", kind.name),
+                ColumnKind::Whole,
+                count,
+            ));
         }
         columns
     }
 
-    fn run_block(&self, seed: u64, runs: Range<u64>, work: Work) -> Vec<Vec<f64>> {
+    fn run_block(&self, seed: u64, runs: Range<u64>, options: BlockOptions) -> Vec<Vec<f64>> {
         let mut columns = vec![Vec::new(); self.columns().len()];
-        let mut workshop = Workshop::new(&self.0, work.may_share);
-        for run in runs.take_while(|_| !work.is_stopped()) {
+        let mut workshop = Workshop::new(&self.0, options.may_share);
+        for run in runs.take_while(|_| !options.is_stopped()) {
             let state = State::new(&self.0, seed, run).ok();
-            let outcome = state.map(|state| self.finish(&mut workshop, state, work));
+            let outcome = state.map(|state| self.finish(&mut workshop, state, options));
             let values = outcome.and_then(|outcome| self.values(&outcome));
             for (number, column) in columns.iter_mut().enumerate() {
                 column.push(values.as_ref().map_or(f64::NAN, |values| values[number]));
@@ -121,10 +129,10 @@ impl Runner for Runs {
 }
 
 impl Runs {
-    fn finish(&self, workshop: &mut Workshop, mut state: State, work: Work) -> Outcome {
+    fn finish(&self, workshop: &mut Workshop, mut state: State, options: BlockOptions) -> Outcome {
         let scenario = &*self.0;
         workshop.forget();
-        while !state.is_over(scenario) && !work.is_stopped() {
+        while !state.is_over(scenario) && !options.is_stopped() {
             workshop.step(scenario, &mut state);
         }
         Outcome::of(scenario, &state)
@@ -164,20 +172,20 @@ impl Runs {
     }
 }
 
-fn up_to(name: impl Into<Cow<'static, str>>, kind: Kind, most: f64) -> Column {
+fn up_to(name: impl Into<Cow<'static, str>>, kind: ColumnKind, most: f64) -> Column {
     column(name, kind, 0.0, Some(most))
 }
 
 fn column(
     name: impl Into<Cow<'static, str>>,
-    kind: Kind,
-    least: f64,
-    greatest: Option<f64>,
+    kind: ColumnKind,
+    min: f64,
+    max: Option<f64>,
 ) -> Column {
     Column {
         name: name.into(),
         kind,
-        least: Some(least),
-        greatest,
+        min: Some(min),
+        max,
     }
 }

@@ -1,7 +1,7 @@
 //! Seconds and paints.
 
 use base::document::Section;
-use base::question::MAX_CAP_S;
+use base::engine::MAX_CAP_S;
 use std::ops::RangeInclusive;
 
 /// Paints that a run may be counted for, so that one that never ends is not computed for minutes.

@@ -12,7 +12,7 @@
 //! count = 4                               # of a single run; a study varies it
 //! ```
 //!
-//! What is asked about it stands beside: [`base::question`]. **What can be varied** is
+//! The keys that all engines share are in [`base::scenario`]. **What can be varied** is
 //! `robots.wanderer.count`, `clock.paints_per_s`, `clock.cap_s` and `contact`. **What a figure of
 //! merit can weigh**:
 //!
@@ -36,8 +36,8 @@ use crate::runner::Configuration;
 use crate::search::Task;
 use crate::start::MAX_ROBOTS;
 use base::document::{Document, Section};
+use base::engine::{Engine, Measure, NamedMerit};
 use base::error::InputErrors;
-use base::question::{self, Engine, Measure, NamedMerit};
 
 /// The sheet in the thesis's appendix, which forgets to divide the time by ten.
 const APPENDIX: NamedMerit = NamedMerit {
@@ -61,9 +61,9 @@ impl Engine for Classic {
         &["contact", "clock", "robots"]
     }
 
-    fn read(&self, document: &Document) -> Result<question::Configuration, InputErrors> {
+    fn read(&self, document: &Document) -> Result<base::engine::Configuration, InputErrors> {
         let read = Configuration::read(document)?;
-        Ok(question::Configuration {
+        Ok(base::engine::Configuration {
             robots: vec![("wanderer".to_owned(), read.robots)],
             cap_s: read.clock.cap_s,
             facts: facts(&read),
@@ -103,7 +103,7 @@ impl Engine for Classic {
         None
     }
 
-    fn most_robots(&self) -> u32 {
+    fn max_robots(&self) -> u32 {
         MAX_ROBOTS
     }
 }
@@ -158,8 +158,8 @@ fn facts(read: &Configuration) -> Vec<(String, String)> {
 mod tests {
     use super::*;
     use base::document::{Override, Value};
-    use base::question::{Design, Factor, Scenario, Values};
-    use base::runner::Runner;
+    use base::engine::Runner;
+    use base::scenario::{Design, Factor, Scenario, Values};
 
     const GOOD: &str = r#"
 engine = "classic"
@@ -369,7 +369,7 @@ times_s = { 10 = [120, 120], 2 = [4, 5.5] }
         let columns = document.read(configuration).unwrap().columns();
         for measure in Classic.measures(&document) {
             let column = columns.iter().find(|each| each.name == measure.column);
-            let is_bounded = column.unwrap().greatest.is_some();
+            let is_bounded = column.unwrap().max.is_some();
             assert_eq!(is_bounded, measure.usual_max.is_none());
         }
     }

@@ -3,13 +3,13 @@
 use super::{Classic, MAX_ROBOTS, clock};
 use crate::contact::Contact;
 use base::document::Document;
-use base::question;
+use base::scenario as common;
 use serde_json::{Value as Json, json};
 
-/// What a scenario may say. Draft 7; the question's keys are those of every engine.
+/// What a scenario may say. JSON Schema of draft 7.
 #[must_use]
 pub fn schema() -> Json {
-    let mut schema = question::schema(&Classic, &Document::default());
+    let mut schema = common::schema(&Classic, &Document::default());
     schema["$schema"] = json!("http://json-schema.org/draft-07/schema#");
     schema["title"] = json!("A scenario of the classic engine");
     schema["description"] = json!("docs/classic.md explains the engine.");

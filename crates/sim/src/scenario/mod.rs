@@ -46,7 +46,7 @@ pub struct Checked {
     pub scenario: Scenario,
 }
 
-/// Other keys at the root are the question's.
+/// The other keys at the root are common to all engines.
 static SCHEMA: LazyLock<Schema> = LazyLock::new(|| Schema::of::<ScenarioSpec>().open());
 
 impl ScenarioSpec {

@@ -2,8 +2,8 @@
 
 use crate::common::{Random, id, read, robots, scenario, start};
 use crate::random;
+use base::engine::{BlockOptions, Runner};
 use base::geometry::Point;
-use base::runner::{Runner, Work};
 use brain::{About, Command, Message, Percept, RobotId, Seen};
 use rayon::ThreadPoolBuilder;
 use sim::engine::{Outcome, Simulation};
@@ -174,9 +174,9 @@ fn runs_in_a_block_are_those_stepped_by_hand_one_by_one() {
             .map(|column| column.name)
             .collect();
         // One block, and blocks of one run: a workshop is used again in the first only.
-        let block = runs.run_block(seed, 3..9, Work::ALONE);
+        let block = runs.run_block(seed, 3..9, BlockOptions::ALONE);
         for (place, run) in (3..9).enumerate() {
-            let alone = runs.run_block(seed, run..run + 1, Work::ALONE);
+            let alone = runs.run_block(seed, run..run + 1, BlockOptions::ALONE);
             let bits = |columns: &[Vec<f64>], place: usize| -> Vec<u64> {
                 columns
                     .iter()

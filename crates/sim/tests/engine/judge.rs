@@ -1,7 +1,7 @@
 //! What is found, when, and when a run is over.
 
 use crate::common::{go, id, scenario, start, told};
-use base::runner::{Runner, Work};
+use base::engine::{BlockOptions, Runner};
 use sim::engine::{Outcome, Simulation};
 use sim::runner::Runs;
 
@@ -83,7 +83,7 @@ fn clutter_is_told_of_and_does_not_complete_a_run() {
         .map(|column| column.name)
         .collect();
     let values: Vec<f64> = runs
-        .run_block(1, 0..1, Work::ALONE)
+        .run_block(1, 0..1, BlockOptions::ALONE)
         .into_iter()
         .map(|column| column[0])
         .collect();
@@ -163,7 +163,7 @@ fn a_run_without_room_is_quarantined() {
     let text = "[clock]\ncap_s = 1\n[world]\nsize_m = [4.1, 4.1]\n[robots.rover]\ncount = 10\n\
                 radius_m = 0.5\ndrive = { max_speed_m_s = 0, max_turn_rate_deg_s = 0 }\n";
     let runs = Runs(scenario(text));
-    let columns = runs.run_block(1, 0..200, Work::ALONE);
+    let columns = runs.run_block(1, 0..200, BlockOptions::ALONE);
     let is_out = |run: usize| columns[0][run].is_nan();
     let out = (0..200).filter(|run| is_out(*run)).count();
     assert!(out > 0 && out < 200, "{out}");

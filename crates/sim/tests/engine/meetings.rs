@@ -1,8 +1,8 @@
 //! Who runs into whom, when, and what that counts, against many tiny steps.
 
 use crate::common::{Random, go, id, motion, robots, scenario, start, told};
+use base::engine::{BlockOptions, Runner};
 use base::geometry::Point;
-use base::runner::{Runner, Work};
 use base::trig::sin_cos;
 use brain::Motion;
 use sim::engine::Simulation;
@@ -244,6 +244,6 @@ fn contacts_of_a_step_are_no_more_than_robots() {
         .iter()
         .position(|column| column.name == "collisions")
         .unwrap();
-    assert_eq!(runs.run_block(1, 0..1, Work::ALONE)[place], [7.0]);
-    assert_eq!(columns[place].greatest, Some(7.0));
+    assert_eq!(runs.run_block(1, 0..1, BlockOptions::ALONE)[place], [7.0]);
+    assert_eq!(columns[place].max, Some(7.0));
 }

@@ -2,8 +2,8 @@
 
 use crate::common::{Random, motion, read, robots};
 use crate::random;
+use base::engine::{BlockOptions, ColumnKind, Runner};
 use base::geometry::Point;
-use base::runner::{Kind, Runner, Work};
 use brain::{About, Command, Message, Seen, SensorRequest};
 use sim::engine::{Simulation, State, Status};
 use sim::runner::Runs;
@@ -110,7 +110,7 @@ fn every_outcome_is_within_the_bounds_of_its_columns() {
     for (seed, scenario) in scenarios(150) {
         let runs = Runs(Arc::clone(&scenario));
         let columns = runs.columns();
-        let values = runs.run_block(seed, 5..8, Work::ALONE);
+        let values = runs.run_block(seed, 5..8, BlockOptions::ALONE);
         assert_eq!(columns.len(), values.len());
         for (column, values) in columns.iter().zip(&values) {
             assert_eq!(values.len(), 3);
@@ -119,13 +119,13 @@ fn every_outcome_is_within_the_bounds_of_its_columns() {
                     assert!(value.is_nan());
                     continue;
                 }
-                let is_within = column.least.is_none_or(|least| *value >= least)
-                    && column.greatest.is_none_or(|greatest| *value <= greatest);
+                let is_within = column.min.is_none_or(|min| *value >= min)
+                    && column.max.is_none_or(|max| *value <= max);
                 assert!(is_within, "{seed}: {value} {column:?}");
                 let is_kind = match column.kind {
-                    Kind::Whole => value.fract() == 0.0,
-                    Kind::Flag => [0.0, 1.0].contains(value),
-                    Kind::Real => true,
+                    ColumnKind::Whole => value.fract() == 0.0,
+                    ColumnKind::Flag => [0.0, 1.0].contains(value),
+                    ColumnKind::Real => true,
                 };
                 assert!(is_kind, "{seed}: {value} {column:?}");
                 compared += 1;

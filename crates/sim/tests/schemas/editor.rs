@@ -5,14 +5,14 @@ use serde_json::{Map, Value as Json, json};
 use sim::scenario::ScenarioSpec;
 use std::collections::BTreeSet;
 
-/// The schema: that of the reader, and the question's keys; a robot that is `like` a shipped one
+/// The schema: that of the reader, with the keys that all engines share; a robot that is `like` a shipped one
 /// need say nothing that the model says.
 pub(crate) fn schema() -> Json {
     let mut schema = ScenarioSpec::schema().json().clone();
-    let question = crate::question();
-    schema["properties"] = joined(&question["properties"], &schema["properties"]);
-    schema["definitions"] = joined(&question["definitions"], &schema["definitions"]);
-    let required = [&question["required"], &schema["required"]];
+    let common = crate::common();
+    schema["properties"] = joined(&common["properties"], &schema["properties"]);
+    schema["definitions"] = joined(&common["definitions"], &schema["definitions"]);
+    let required = [&common["required"], &schema["required"]];
     schema["required"] = required
         .into_iter()
         .filter_map(Json::as_array)

@@ -7,7 +7,7 @@ mod editor;
 mod page;
 
 use base::document::Document;
-use base::question::{self, Engine};
+use base::engine::Engine;
 use sim::runner::Metric;
 use sim::scenario::ScenarioSpec;
 use std::fs;
@@ -19,9 +19,9 @@ const PAGE: &str = "docs/scenario.md";
 /// What stands before it is written by hand.
 const MARK: &str = "<!-- From here on made by `make schemas` from the types. -->\n";
 
-/// The schema of the question's keys.
-fn question() -> serde_json::Value {
-    question::schema(&Metric, &Document::parse("", "").unwrap())
+/// The schema of the keys that all engines share.
+fn common() -> serde_json::Value {
+    base::scenario::schema(&Metric, &Document::parse("", "").unwrap())
 }
 
 fn path(file: &str) -> PathBuf {

@@ -14,12 +14,12 @@ const SHARED: [(&str, &str); 3] = [
 
 /// The text of the reference.
 pub(crate) fn reference() -> String {
-    let question = Schema::closed(crate::question().try_into().unwrap());
+    let common = Schema::closed(crate::common().try_into().unwrap());
     let mut page = Page {
-        schema: &question,
+        schema: &common,
         text: String::from("\n## Every key\n\n### At the top\n\n"),
     };
-    page.section(question.json(), "");
+    page.section(common.json(), "");
     page.shared();
     page.schema = ScenarioSpec::schema();
     let root = page.schema.json()["properties"].as_object().unwrap();

@@ -11,7 +11,7 @@ use base::document::Place;
 use base::error::InputError;
 use base::geometry::{Point, Rectangle};
 use base::placement::Placement;
-use base::reach::{self, Reach};
+use base::reachability::{self, Reachability};
 
 /// Whatever its number of robots, which a study may vary, a kind counts.
 pub(super) fn errors(checked: &Checked, at: &Place) -> Vec<InputError> {
@@ -73,7 +73,7 @@ fn out_of_reach(
     let Placement::Fixed { at_m, .. } = &kind.placement else {
         return Vec::new();
     };
-    let reaches: Vec<(Reach, f64)> = finders
+    let reaches: Vec<(Reachability, f64)> = finders
         .iter()
         .map(|finder| (reach(checked, finder.robot), finder.range_m))
         .collect();
@@ -142,7 +142,7 @@ fn starts_at_one(
 }
 
 /// Where robots of a kind may come to.
-fn reach(checked: &Checked, robot: &RobotSpec) -> Reach {
+fn reach(checked: &Checked, robot: &RobotSpec) -> Reachability {
     let world = rectangle(&checked.spec.world);
     let starts = match &robot.start {
         Placement::Fixed { at_m, .. } => at_m
@@ -157,7 +157,7 @@ fn reach(checked: &Checked, robot: &RobotSpec) -> Reach {
         Layer::Ground => checked.scenario.solids(),
         Layer::Air => &[],
     };
-    Reach::new(
+    Reachability::new(
         world,
         robot.radius_m,
         solids.iter().flat_map(parts),
@@ -165,15 +165,15 @@ fn reach(checked: &Checked, robot: &RobotSpec) -> Reach {
     )
 }
 
-fn parts(solid: &Solid) -> Vec<reach::Solid> {
+fn parts(solid: &Solid) -> Vec<reachability::Solid> {
     match solid {
-        Solid::Polygon(polygon) => polygon.edges().map(reach::Solid::Wall).collect(),
-        Solid::Disc(disc) => vec![reach::Solid::Pillar(*disc)],
+        Solid::Polygon(polygon) => polygon.edges().map(reachability::Solid::Wall).collect(),
+        Solid::Disc(disc) => vec![reachability::Solid::Pillar(*disc)],
         Solid::Map(map) => map
             .outline()
             .iter()
             .copied()
-            .map(reach::Solid::Wall)
+            .map(reachability::Solid::Wall)
             .collect(),
     }
 }

@@ -1,8 +1,8 @@
 //! What a study varies: paths in a scenario, each with its values.
 
-use super::Engine;
 use super::values::{ALLOWED, Values, values};
 use crate::document::{Document, Section, Value};
+use crate::engine::Engine;
 use crate::error::{InputError, nearest};
 
 /// What is varied, and over what.

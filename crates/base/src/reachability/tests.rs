@@ -35,7 +35,7 @@ fn may_pass(gap_m: f64, turn: fn(f64, f64) -> [f64; 2]) -> bool {
         wall(turn(5.0, 0.0), turn(5.2, 4.0)),
         wall(turn(5.2, 4.0 + gap_m), turn(5.0, 10.0)),
     ];
-    let reach = Reach::new(
+    let reach = Reachability::new(
         square(10.0),
         0.5,
         walls,
@@ -47,7 +47,7 @@ fn may_pass(gap_m: f64, turn: fn(f64, f64) -> [f64; 2]) -> bool {
 #[test]
 fn a_wall_without_a_gap_keeps_a_robot_on_its_side() {
     let divided = [wall([5.0, -1.0], [6.0, 11.0])];
-    let reach = Reach::new(square(10.0), 0.5, divided, &[here(2.0, 2.0)]);
+    let reach = Reachability::new(square(10.0), 0.5, divided, &[here(2.0, 2.0)]);
     assert!(reach.may_come_near(point(1.0, 9.0), 0.0));
     assert!(!reach.may_come_near(point(8.0, 8.0), 0.0));
     // Close to the wall it comes near what is behind it.
@@ -76,7 +76,7 @@ fn a_ring_of_pillars_is_a_wall_if_the_robot_does_not_fit_between_them() {
             let (sine, cosine) = crate::trig::sin_cos(turn * f64::from(at));
             pillar(5.0 + 3.0 * cosine, 5.0 + 3.0 * sine, 0.3)
         });
-        let reach = Reach::new(
+        let reach = Reachability::new(
             square(10.0),
             0.4,
             pillars.collect::<Vec<_>>(),
@@ -91,19 +91,19 @@ fn a_ring_of_pillars_is_a_wall_if_the_robot_does_not_fit_between_them() {
 
 #[test]
 fn what_lies_beyond_the_world_is_never_come_to() {
-    let reach = Reach::new(square(10.0), 0.5, [], &[square(10.0)]);
+    let reach = Reachability::new(square(10.0), 0.5, [], &[square(10.0)]);
     assert!(reach.may_come_near(point(5.0, 5.0), 0.0));
     assert!(!reach.may_come_near(point(0.2, 5.0), 0.0));
     assert!(reach.may_come_near(point(0.2, 5.0), 0.3));
     assert!(!reach.may_come_near(point(12.0, 5.0), 1.0));
-    let nowhere = Reach::new(square(10.0), 0.5, [], &[]);
+    let nowhere = Reachability::new(square(10.0), 0.5, [], &[]);
     assert!(!nowhere.may_come_near(point(5.0, 5.0), 100.0));
 }
 
 #[test]
 fn a_start_anywhere_is_a_start_in_every_room() {
     let divided = [wall([5.0, 0.0], [5.0, 10.0])];
-    let reach = Reach::new(square(10.0), 0.5, divided, &[square(10.0)]);
+    let reach = Reachability::new(square(10.0), 0.5, divided, &[square(10.0)]);
     assert!(reach.may_come_near(point(2.0, 2.0), 0.0));
     assert!(reach.may_come_near(point(8.0, 8.0), 0.0));
 }
@@ -111,7 +111,7 @@ fn a_start_anywhere_is_a_start_in_every_room() {
 #[test]
 fn a_world_too_large_for_fine_cells_is_never_called_unreachable_in_vain() {
     let divided = [wall([5e4, 0.0], [5e4, 1e5])];
-    let reach = Reach::new(square(1e5), 0.1, divided, &[here(1.0, 1.0)]);
+    let reach = Reachability::new(square(1e5), 0.1, divided, &[here(1.0, 1.0)]);
     assert!(reach.may_come_near(point(9e4, 9e4), 0.0));
     assert!(reach.cells.count() <= MAX_CELLS as usize);
     let narrow = Rectangle::spanned(point(0.0, 0.0), point(1e9, 1e-3));
@@ -125,7 +125,7 @@ fn ten_thousand_walls_and_four_million_cells_take_seconds() {
         wall([along, 0.0], [1000.0 - along, 900.0])
     });
     let start = Instant::now();
-    let reach = Reach::new(square(1000.0), 2.0, walls, &[square(1000.0)]);
+    let reach = Reachability::new(square(1000.0), 2.0, walls, &[square(1000.0)]);
     assert!(reach.may_come_near(point(500.0, 950.0), 0.0));
     assert!(
         start.elapsed() < Duration::from_secs(20),
@@ -165,7 +165,7 @@ proptest! {
                 && solids.iter().chain(&walls).all(|solid| distance_m(solid, at) >= radius_m)
         };
         prop_assume!(is_free(at));
-        let reach = Reach::new(world, radius_m, solids.iter().copied(), &[here(at.x, at.y)]);
+        let reach = Reachability::new(world, radius_m, solids.iter().copied(), &[here(at.x, at.y)]);
         for _ in 0..2000 {
             // Shorter than anything between two places could be thick.
             let step = point(0.1 * crate::random::unit(&mut stream) - 0.05, 0.1 * crate::random::unit(&mut stream) - 0.05);

@@ -1,7 +1,7 @@
 //! Results of others, to show beside ours.
 
-use super::MAX_CAP_S;
 use crate::document::Section;
+use crate::engine::MAX_CAP_S;
 
 /// Results of others, to show beside ours.
 #[derive(Debug, Clone, PartialEq)]
@@ -16,13 +16,13 @@ pub struct Published {
     pub times_s: Vec<(u32, Vec<f64>)>,
 }
 
-pub(super) fn published(section: &Section, most_robots: u32) -> Option<Published> {
+pub(super) fn published(section: &Section, max_robots: u32) -> Option<Published> {
     section.only(&["source", "choice", "cap_s", "times_s"]);
     let source = section.line("source");
-    let choice = section.integer("choice", 1..=most_robots.into());
+    let choice = section.integer("choice", 1..=max_robots.into());
     let cap_s = section.number("cap_s", 0.0..=MAX_CAP_S);
     let max_s = cap_s.unwrap_or(MAX_CAP_S);
-    let times_s = times_s(&section.section("times_s"), max_s, most_robots);
+    let times_s = times_s(&section.section("times_s"), max_s, max_robots);
     Some(Published {
         source: source?,
         choice: u32::try_from(choice?).ok()?,
@@ -31,15 +31,15 @@ pub(super) fn published(section: &Section, most_robots: u32) -> Option<Published
     })
 }
 
-fn times_s(teams: &Section, max_s: f64, most_robots: u32) -> Option<Vec<(u32, Vec<f64>)>> {
+fn times_s(teams: &Section, max_s: f64, max_robots: u32) -> Option<Vec<(u32, Vec<f64>)>> {
     let times_of = |key: &str| {
         let robots = key
             .parse()
             .ok()
-            .filter(|robots| (1..=most_robots).contains(robots));
+            .filter(|robots| (1..=max_robots).contains(robots));
         // "01" is a team size to a parser, but would be a second one of 1.
         let Some(robots) = robots.filter(|robots: &u32| robots.to_string() == key) else {
-            teams.error(key, &format!("under a team size from 1 to {most_robots}"));
+            teams.error(key, &format!("under a team size from 1 to {max_robots}"));
             return None;
         };
         let times_s = teams.numbers(key, 0.0..=max_s)?;

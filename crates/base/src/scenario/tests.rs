@@ -1,6 +1,6 @@
 use super::*;
+use crate::engine::{BlockOptions, Column, ColumnKind, NamedMerit, Runner};
 use crate::error::InputError;
-use crate::runner::{Column, Kind, Runner, Work};
 use std::ops::Range;
 
 const EXAMPLE: &str = r#"
@@ -23,14 +23,14 @@ impl Runner for Waiting {
     fn columns(&self) -> Vec<Column> {
         let column = |name: &str| Column {
             name: name.to_owned().into(),
-            kind: Kind::Real,
-            least: Some(0.0),
-            greatest: Some(1.0),
+            kind: ColumnKind::Real,
+            min: Some(0.0),
+            max: Some(1.0),
         };
         ["time_s", "failed", "robots"].map(column).into()
     }
 
-    fn run_block(&self, _: u64, runs: Range<u64>, _: Work) -> Vec<Vec<f64>> {
+    fn run_block(&self, _: u64, runs: Range<u64>, _: BlockOptions) -> Vec<Vec<f64>> {
         vec![runs.map(|_| 0.0).collect(); 3]
     }
 }
@@ -97,7 +97,7 @@ impl Engine for Shop {
         }
     }
 
-    fn most_robots(&self) -> u32 {
+    fn max_robots(&self) -> u32 {
         9
     }
 }
@@ -115,7 +115,7 @@ fn errors_with(vary: &str) -> Vec<String> {
 }
 
 #[test]
-fn the_question_and_the_engines_part_are_read_together() {
+fn the_common_keys_and_the_engines_part_are_read_together() {
     let scenario = read(EXAMPLE).ok().unwrap();
     assert_eq!(scenario.engine, "shop");
     assert_eq!(scenario.configuration.robots, [("rover".to_owned(), 2)]);
@@ -282,7 +282,7 @@ fn too_many_values_are_told_by_their_number() {
 fn a_configuration_takes_values_at_the_paths_of_factors_only() {
     let configuration = |path: &str, value| {
         let document = Document::parse("t.toml", EXAMPLE)?;
-        Configuration::read(&ENGINES, document, &[(path.to_owned(), value)])
+        read_configuration(&ENGINES, document, &[(path.to_owned(), value)])
     };
     let read = configuration("robots.rover.count", Value::Integer(5));
     assert_eq!(read.ok().unwrap().robots, [("rover".to_owned(), 5)]);

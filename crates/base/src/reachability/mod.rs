@@ -1,6 +1,6 @@
 //! Which places a robot can never come to, to tell a user before any run.
 //!
-//! The answer errs on one side: [`Reach::may_come_near`] says no only when it is sure. The world is
+//! The answer errs on one side: [`Reachability::may_come_near`] says no only when it is sure. The world is
 //! cut into square cells. A cell is closed when every place in it is nearer to something solid than
 //! the robot's radius: its middle is nearer by half the cell's diagonal. A robot that moves visits
 //! one cell after another that touches it, by a side or by a corner; so from the cells where it
@@ -33,13 +33,13 @@ pub enum Solid {
 
 /// Where a robot may come to.
 #[derive(Debug, Clone)]
-pub struct Reach {
+pub struct Reachability {
     cells: Cells,
     /// How many cells may be come to before each, row by row, and in all.
     flooded_before: Vec<u32>,
 }
 
-impl Reach {
+impl Reachability {
     /// Where a robot of `radius_m` may come to from anywhere in its `starts` (a single place is a
     /// rectangle from itself to itself), within the walls of `world` and among what is `solid`.
     ///

@@ -1,6 +1,7 @@
 //! How runs are scored.
 
 use crate::document::{Document, Node, Section, Table, Value};
+use crate::engine::{Measure, NamedMerit};
 use std::borrow::Cow;
 
 /// Largest weight, so that no sum overflows and `1e30` is told as the slip that it is.
@@ -8,60 +9,6 @@ pub(super) const MAX_WEIGHT: f64 = 1e6;
 
 /// Largest `max` of a term.
 pub(super) const MAX_MAX: f64 = 1e12;
-
-/// What a figure of merit can weigh.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Measure {
-    /// How scenarios name it, such as `time`.
-    pub name: Cow<'static, str>,
-    /// The column of a run's outcome.
-    pub column: Cow<'static, str>,
-    /// For a column without a bound of its own, whose terms need a `max`: one that errors show.
-    pub usual_max: Option<f64>,
-}
-
-impl Measure {
-    /// What is weighed by `column`, which has bounds of its own.
-    #[must_use]
-    pub fn new(name: impl Into<Cow<'static, str>>, column: impl Into<Cow<'static, str>>) -> Self {
-        Self {
-            name: name.into(),
-            column: column.into(),
-            usual_max: None,
-        }
-    }
-}
-
-/// Weights that have a name of their own.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct NamedMerit {
-    /// How scenarios name it.
-    pub name: &'static str,
-    /// Names of measures, and their weights.
-    pub weights: &'static [(&'static str, f64)],
-}
-
-impl NamedMerit {
-    /// Equation 5.2 of Williams 2003: -(0.3 T/10 + 0.2 n + 0.5 failures in ten).
-    pub const EQUATION_5_2: Self = Self {
-        name: "equation-5.2",
-        weights: &[("time", -0.03), ("robots", -0.2), ("failed", -5.0)],
-    };
-
-    fn merit(&self, measures: &[Measure]) -> Merit {
-        let term = |measure: &Measure| {
-            let (_, weight) = self
-                .weights
-                .iter()
-                .find(|(name, _)| *name == measure.name)?;
-            Some(Term::new(measure, *weight, None))
-        };
-        Merit {
-            name: Some(self.name),
-            terms: measures.iter().filter_map(term).collect(),
-        }
-    }
-}
 
 /// A figure of merit: a weighted sum of columns of a run's outcome; higher is better.
 #[derive(Debug, Clone, PartialEq)]
@@ -93,6 +40,19 @@ impl Term {
             weight,
             max,
         }
+    }
+}
+
+/// The figure of merit of a name, of the terms that the engine measures.
+fn named(merit: &NamedMerit, measures: &[Measure]) -> Merit {
+    let term = |measure: &Measure| {
+        let mut weights = merit.weights.iter();
+        let (_, weight) = weights.find(|(name, _)| *name == measure.name)?;
+        Some(Term::new(measure, *weight, None))
+    };
+    Merit {
+        name: Some(merit.name),
+        terms: measures.iter().filter_map(term).collect(),
     }
 }
 
@@ -130,7 +90,7 @@ fn number(text: &str) -> Value {
 pub(super) fn merit(root: &Section, measures: &[Measure], known: &[NamedMerit]) -> Option<Merit> {
     if !matches!(root.value("merit"), Some(Value::Table(_))) {
         let names: Vec<_> = known.iter().map(|each| (each.name, each)).collect();
-        return Some(root.choice("merit", &names)?.merit(measures));
+        return Some(named(root.choice("merit", &names)?, measures));
     }
     let table = root.section("merit");
     let names: Vec<&str> = measures.iter().map(|each| &*each.name).collect();

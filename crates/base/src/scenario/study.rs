@@ -1,9 +1,9 @@
 //! What a study does.
 
-use super::Engine;
+use super::factors::{Factor, factors};
 use super::values::Values;
-use super::vary::{Factor, factors};
 use crate::document::Section;
+use crate::engine::Engine;
 use std::fmt;
 
 const MAX_POINTS: u32 = 100_000;

@@ -5,8 +5,8 @@
 
 use super::merit::{MAX_MAX, MAX_WEIGHT};
 use super::study::CONFIDENCE;
-use super::{Engine, MAX_CAP_S, Measure};
 use crate::document::Document;
+use crate::engine::{Engine, MAX_CAP_S, Measure};
 use serde_json::{Map, Value as Json, json};
 
 /// What a scenario of `engine` may say under the question's keys; what can be weighed may depend on

@@ -1,7 +1,7 @@
 //! Paths through a name that the scenario does not have: most often a slip, sometimes a new thing.
 
-use super::{Configuration, Engine};
 use crate::document::{Document, Node, Value, path_of};
+use crate::engine::{Configuration, Engine};
 use crate::error::{InputError, InputErrors, nearest, shortened};
 
 /// A name on a path, in a table of things under names, that the scenario does not have.

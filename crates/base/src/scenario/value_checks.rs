@@ -1,10 +1,10 @@
 //! Whether each value of each factor is allowed: it is put into the scenario, which is read.
 
-use super::names::{Unknown, read};
+use super::factors::{in_order_of, put};
+use super::unknown_names::{Unknown, read};
 use super::values::{Values, values};
-use super::vary::{in_order_of, put};
-use super::{Configuration, Engine};
 use crate::document::{Document, Node, Value};
+use crate::engine::{Configuration, Engine};
 use crate::error::{InputError, InputErrors, shortened};
 
 /// Bad values of one factor that are told one by one.
