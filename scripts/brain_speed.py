@@ -18,12 +18,12 @@ engine = "metric"
 summary = "Robots with sixteen sonars each among pillars, a hundred on each 20 m by 20 m."
 merit = "equation-5.2"
 [clock]
-cap_s = 1e6
+time_limit_s = 1e6
 [world]
 size_m = [{side_m}, {side_m}]
 obstacles = [{pillars}]
 [items.mine]
-sought = false
+target = false
 count = 1
 [robots.rover]
 count = {robots}

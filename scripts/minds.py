@@ -36,8 +36,8 @@ BEHAVIOURS = "robots.rover.brain.behaviours"
 RADIO = "robots.rover.radio.range_m"
 
 WANDERERS = [{"kind": "cruise"}, {"kind": "avoid"}]
-PLANS = ("lanes", "frontier", "seek")
-"""What minds search by; the first behaviour of scenarios/search-mind.toml."""
+PLANS = ("lawnmower", "frontier", "bayesian_search")
+"""What minds search by; the first behaviour of scenarios/search-beliefs.toml."""
 
 Kind = TypeVar("Kind")
 
@@ -57,8 +57,8 @@ class Mind:
     def scenario(self) -> ae.Scenario:
         """Return the search by robots with this mind."""
         if self.name in PLANS:
-            scenario = ae.Scenario.load(ROOT / "scenarios" / "search-mind.toml")
-            plan = [{"kind": self.name}, {"kind": "home"}, {"kind": "avoid"}]
+            scenario = ae.Scenario.load(ROOT / "scenarios" / "search-beliefs.toml")
+            plan = [{"kind": self.name}, {"kind": "return_home"}, {"kind": "avoid"}]
             scenario = scenario.replace(BEHAVIOURS, plan)
         else:
             scenario = ae.Scenario.load(ROOT / "scenarios" / "search.toml")
@@ -67,18 +67,18 @@ class Mind:
         return scenario if self.radio == "radio" else scenario.replace(RADIO, 0)
 
 
-ALONE = [Mind(name, "alone") for name in ("wanderers", "bounce", *PLANS)]
+ALONE = [Mind(name, "alone") for name in ("wanderers", "random_bounce", *PLANS)]
 TOLD = [Mind(name, "radio") for name in PLANS]
 MINDS = [*ALONE, *TOLD]
 """Wanderers and bouncing robots tell nothing, so a radio changes nothing for them."""
 
 STEPS = {
-    "bouncing, not wandering": (Mind("wanderers", "alone"), Mind("bounce", "alone")),
-    "memory: frontier, not bouncing": (Mind("bounce", "alone"), Mind("frontier", "alone")),
+    "bouncing, not wandering": (Mind("wanderers", "alone"), Mind("random_bounce", "alone")),
+    "memory: frontier, not bouncing": (Mind("random_bounce", "alone"), Mind("frontier", "alone")),
     "telling: frontier with radio": (Mind("frontier", "alone"), Mind("frontier", "radio")),
-    "telling: seek with radio": (Mind("seek", "alone"), Mind("seek", "radio")),
-    "rate: seek, not frontier": (Mind("frontier", "radio"), Mind("seek", "radio")),
-    "beliefs: seek, not lanes": (Mind("lanes", "radio"), Mind("seek", "radio")),
+    "telling: seek with radio": (Mind("bayesian_search", "alone"), Mind("bayesian_search", "radio")),
+    "rate: seek, not frontier": (Mind("frontier", "radio"), Mind("bayesian_search", "radio")),
+    "beliefs: seek, not lanes": (Mind("lawnmower", "radio"), Mind("bayesian_search", "radio")),
 }
 """What each part buys: from which mind to which."""
 
@@ -335,7 +335,7 @@ def by_radio(
     panels = []
     for words, radio in (("alone", "alone"), ("with radio", "radio")):
         # In this order a mind has the same colour on both sides.
-        names = (*PLANS, "wanderers", "bounce")
+        names = (*PLANS, "wanderers", "random_bounce")
         own = [
             each for name in names for each in teams() if (each.mind, each.radio) == (name, radio)
         ]

@@ -24,18 +24,18 @@ HEADER = [
 
 def compared(file: Path) -> list[list[str]]:
     """Return a line for each camera, of the times of all worlds."""
-    return [line(file, percent, cap_s) for percent, cap_s in CAMERAS]
+    return [line(file, percent, time_limit_s) for percent, time_limit_s in CAMERAS]
 
 
-def line(file: Path, percent: int, cap_s: float) -> list[str]:
+def line(file: Path, percent: int, time_limit_s: float) -> list[str]:
     """Return how long searching by belief takes beside lanes."""
-    both = [times(file, f"{percent}_{search}_s") for search in ("lanes", "seek")]
+    both = [times(file, f"{percent}_{search}_s") for search in ("lawnmower", "bayesian_search")]
     low, ratio, high = interval(*both)
     means = [f"{sum(each) / len(each):.1f}" for each in both]
-    capped = [str(sum(time >= cap_s for time in each)) for each in both]
+    capped = [str(sum(time >= time_limit_s for time in each)) for each in both]
     said = f"{ratio:.3f} ({low:.3f} to {high:.3f})"
     camera = "sees all in view" if percent == ALL else f"sees {percent}% in a look"
-    return [camera, *means, said, f"{' and '.join(capped)} by {cap_s:,} s"]
+    return [camera, *means, said, f"{' and '.join(capped)} by {time_limit_s:,} s"]
 
 
 def times(file: Path, column: str) -> list[float]:

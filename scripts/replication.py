@@ -134,10 +134,10 @@ def log_likelihood(paints: dict[int, Counted], rate: float) -> float:
     for robots, (values, counts) in paints.items():
         shares = counts / counts.sum()
         observed = np.array(published()[robots])
-        at_cap = observed >= SCENARIO.cap_s
+        at_cap = observed >= SCENARIO.time_limit_s
         gaps = observed[~at_cap, np.newaxis] - values / rate
         density = stats.norm.pdf(gaps, scale=HAND_TIMING_S) @ shares
-        beyond = shares[values / rate >= SCENARIO.cap_s].sum()
+        beyond = shares[values / rate >= SCENARIO.time_limit_s].sum()
         # A time that no run took is as likely as half a run makes it, not impossible.
         least = 0.5 / counts.sum()
         total += float(np.sum(np.log(np.maximum(density, least))))
@@ -148,10 +148,10 @@ def log_likelihood(paints: dict[int, Counted], rate: float) -> float:
 def capped(paints: Counted, rate: float) -> tuple[float, float]:
     """Return the mean capped time and the share of failed searches."""
     values, counts = paints
-    times = np.minimum(values / rate, SCENARIO.cap_s)
+    times = np.minimum(values / rate, SCENARIO.time_limit_s)
     return (
         float(np.average(times, weights=counts)),
-        float(np.average(times >= SCENARIO.cap_s, weights=counts)),
+        float(np.average(times >= SCENARIO.time_limit_s, weights=counts)),
     )
 
 

@@ -70,7 +70,7 @@ impl Field {
             "sensors": {"sonar": {"kind": "range", "rays": 16, "range_m": 3.0, "noise_m": 0.02}},
         });
         let spec = serde_json::json!({
-            "clock": {"cap_s": 1e6},
+            "clock": {"time_limit_s": 1e6},
             "world": {"size_m": [self.side_m, self.side_m]},
             "robots": {"rover": rover},
         });

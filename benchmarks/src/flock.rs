@@ -59,7 +59,7 @@ fn fly(simulation: &mut Simulation, start: &State, runs: u32) -> u64 {
 fn scenario(birds: u32) -> Scenario {
     let side_m = SIDE_M * (f64::from(birds) / BIRDS).sqrt();
     let swarm = serde_json::json!({
-        "kind": "swarm", "separation_m": 1.0,
+        "kind": "flock", "separation_m": 1.0,
         "separation": 0.015, "alignment": 0.05, "cohesion": 0.03,
     });
     let bird = serde_json::json!({
@@ -70,8 +70,8 @@ fn scenario(birds: u32) -> Scenario {
         "brain": {"behaviours": [swarm]},
     });
     let spec = serde_json::json!({
-        "clock": {"step_s": 1.0, "cap_s": 1e6},
-        "world": {"size_m": [side_m, side_m], "wraps": true},
+        "clock": {"step_s": 1.0, "time_limit_s": 1e6},
+        "world": {"size_m": [side_m, side_m], "periodic": true},
         "robots": {"bird": bird},
     });
     let spec: ScenarioSpec = serde_json::from_value(spec).expect("it is as it should be");

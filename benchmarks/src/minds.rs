@@ -24,7 +24,7 @@ const PIECES: u32 = 9;
 /// All but how many there are, where they start and where they want to be.
 const TEXT: &str = r#"
 [clock]
-cap_s = 10000
+time_limit_s = 10000
 
 [world]
 size_m = [70, 70]
@@ -53,8 +53,8 @@ eye = { kind = "robots", range_m = 6 }
 kind = "items"
 range_m = 3
 fov_deg = 70
-detects = { mine = 0.7 }
-false_alarms_per_m2_s = { mine = 0.001 }
+detection_probability = { mine = 0.7 }
+false_alarm_rate_per_m2_s = { mine = 0.001 }
 rate_hz = 5
 "#;
 
@@ -92,7 +92,7 @@ fn scenario(further: u32) -> Scenario {
     let text = format!(
         "{TEXT}\n[robots.rover.start]\nkind = \"fixed\"\nat_m = [{from}]\n\n\
          [robots.rover.brain]\narbitration = {{ kind = \"goals\" }}\nbehaviours = [\
-         {{ kind = \"navigate\", share = \"each\", places_m = [{to}] }}, {{ kind = \"avoid\" }}]\n"
+         {{ kind = \"navigate\", assignment = \"one_each\", waypoints_m = [{to}] }}, {{ kind = \"avoid\" }}]\n"
     );
     let text = text.replacen(
         "[robots.rover]\n",

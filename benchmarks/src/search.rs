@@ -1,5 +1,5 @@
 //! Runs a second of `scenarios/search.toml`, four robots with scanners of 55 rays that search for items,
-//! and of `scenarios/search-mind.toml`, the same with minds.
+//! and of `scenarios/search-beliefs.toml`, the same with minds.
 
 use crate::scenarios::read;
 use crate::threads::by_turns;
@@ -23,7 +23,7 @@ const PIECES: u32 = 15;
 pub(crate) fn report() {
     println!("| scenario | robot-updates a run | threads | runs/s | by the clock on the wall |");
     println!("|---|---|---|---|---|");
-    for name in ["search.toml", "search-mind.toml"] {
+    for name in ["search.toml", "search-beliefs.toml"] {
         compare(name);
     }
 }

@@ -12,9 +12,9 @@ fuzz_target!(|text: &str| {
     ] {
         let errors = document.and_then(|document| {
             document.read(|root: &Section| {
-                root.only(&["cap_s", "robots"]);
+                root.only(&["time_limit_s", "robots"]);
                 let count = root.section("robots").integer("count", 1..=100);
-                root.number("cap_s", 0.0..=1e6).and(count)
+                root.number("time_limit_s", 0.0..=1e6).and(count)
             })
         });
         if let Err(errors) = errors {

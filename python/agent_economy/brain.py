@@ -50,7 +50,7 @@ class Detector(TypedDict):
         range_m: It looks no farther from the robot's centre.
         width_rad: Angle that it covers.
         facing_rad: Its middle, from the robot's front.
-        detects: For each kind of item, pairs of distance and probability of detection in one look;
+        detection_probability: For each kind of item, pairs of distance and probability of detection in one look;
             empty if it never recognises that kind.
         false_alarms_per_m2: False contacts of each kind in one look, for each square metre in view.
         noise_m: Standard deviation of where a contact seems to be, along each axis.
@@ -61,7 +61,7 @@ class Detector(TypedDict):
     range_m: float
     width_rad: float
     facing_rad: float
-    detects: Sequence[Sequence[Sequence[float]]]
+    detection_probability: Sequence[Sequence[Sequence[float]]]
     false_alarms_per_m2: Sequence[float]
     noise_m: float
     needs_line_of_sight: bool

@@ -25,11 +25,11 @@ class Outcome:
 
     Attributes:
         run: Its number.
-        status: "complete": all that is sought was found. "incomplete": not so. "quarantined": the
+        status: "complete": all targets were found. "incomplete": not so. "quarantined": the
             world had no room for the team or its items, or numbers went beyond all bounds; the run
             gave nothing. "running": of a `Simulation` that is not over; all is as if it ended now.
         time_s: Until the last find; the scenario's cap if the run is not complete.
-        complete: Whether all that is sought was found.
+        complete: Whether all targets were found.
         merit: The run's score in the scenario's figure of merit.
         found: Items found, by kind. Of an engine whose items have no kinds: all, as "item".
         missed: Items not found, by kind.

@@ -77,7 +77,7 @@ def replicate(  # noqa: PLR0913  (keywords with defaults)
     Returns:
         A row a run: `run`, `time_s` (of the last find; the cap if not all was found), `complete`
         (whether it was), then what else the engine tells, and `merit`. Of the metric engine that is
-        `robots`, `price`, `found` and `missed` (of what is sought), `false_alarms`, `collisions`,
+        `robots`, `price`, `found` and `missed` (of the targets), `false_alarms`, `collisions`,
         `energy_j`, `distance_m`, `robots_stopped`, and `found_KIND` and `missed_KIND` of each kind
         of items. Counts are int64, `complete` is a bool. A run that is quarantined (see
         `Outcome.status`) has nulls everywhere but in `run`; what never happened is null.

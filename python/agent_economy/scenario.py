@@ -35,13 +35,13 @@ class Published:
     Attributes:
         source: Where they stand.
         choice: The team size that they recommend.
-        cap_s: Where they stopped; a time of this much is a failed run.
+        time_limit_s: Where they stopped; a time of this much is a failed run.
         times_s: The times of a team's runs, by team size.
     """
 
     source: str
     choice: int
-    cap_s: float
+    time_limit_s: float
     times_s: dict[int, list[float]]
 
 
@@ -155,7 +155,7 @@ class Scenario:
         summary: One line for people.
         merit: How runs are scored.
         robots: Robots in a single run, by kind.
-        cap_s: A run that takes longer has failed, and counts as this long.
+        time_limit_s: A run that takes longer has failed, and counts as this long.
         facts: What else does not change in a run, for people: names, and texts of them.
         factors: What a study varies, if anything; in a fixed order.
         design: Which configurations it compares: "factorial", "lhs:N" or "sobol:N" (N points).
@@ -170,7 +170,7 @@ class Scenario:
     summary: str
     merit: Merit
     robots: dict[str, int]
-    cap_s: float
+    time_limit_s: float
     facts: tuple[tuple[str, str], ...]
     factors: tuple[Factor, ...]
     design: str
@@ -235,7 +235,7 @@ class Scenario:
         """Return the scenario with another value at a path, checked as a whole.
 
         Args:
-            path: Keys from the root with dots between, such as "clock.cap_s", "merit" or
+            path: Keys from the root with dots between, such as "clock.time_limit_s", "merit" or
                 "study.vary.robots.wanderer.count".
             value: A text, a number, true or false, or a list or dict of these, as the file could
                 have it.
@@ -297,7 +297,7 @@ def of_path(origin: str, path: object) -> None:
     Raises:
         InputError: If it is no text, or has too many keys.
     """
-    allowed = f"keys from the root, as clock.cap_s; at most {MAX_KEYS}"
+    allowed = f"keys from the root, as clock.time_limit_s; at most {MAX_KEYS}"
     is_path = given.is_text(path) and path.count(".") < MAX_KEYS
     given.check(is_path, f"{origin}: path", path, allowed)
 

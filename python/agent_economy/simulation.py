@@ -24,7 +24,7 @@ STATUSES = np.array(["active", "empty", "broken"])
 """What a robot can be, by the compiled part's numbers."""
 
 
-FIXED = ("clock.step_s", "world.size_m", "world.wraps")
+FIXED = ("clock.step_s", "world.size_m", "world.periodic")
 """What stays: times are counted in steps, and every place is within the world and its sides."""
 
 
@@ -276,7 +276,7 @@ class Simulation(Stepped):
 
         Args:
             path: Keys from the root, with dots between, such as "robots.rover.count"; any but
-                `clock.step_s`, `world.size_m` and `world.wraps`.
+                `clock.step_s`, `world.size_m` and `world.periodic`.
             value: As the file could have it.
 
         Raises:

@@ -12,7 +12,7 @@ engine = "metric"
 summary = "Blind robots bounce off what they touch."
 merit = "equation-5.2"
 [clock]
-cap_s = 60
+time_limit_s = 60
 [world]
 size_m = [12, 8]
 [items.mine]
@@ -21,7 +21,7 @@ count = 2
 radius_m = 0.2
 count = 3
 drive = { max_speed_m_s = 0.6, max_turn_rate_deg_s = 90, max_acceleration_m_s2 = 0.5 }
-radio = { range_m = 5, loss = 0.1, delay_s = 0.3 }
+radio = { range_m = 5, loss_probability = 0.1, delay_s = 0.3 }
 [robots.bumper.sensors.mates]
 kind = "robots"
 range_m = 4
@@ -29,13 +29,13 @@ latency_s = 0.4
 [robots.bumper.sensors.eye]
 kind = "items"
 range_m = 0.5
-detects = { mine = 0.5 }
+detection_probability = { mine = 0.5 }
 rate_hz = 2
-[robots.bumper.sensors.eye.false_alarms_per_m2_s]
+[robots.bumper.sensors.eye.false_alarm_rate_per_m2_s]
 mine = 0.5
 [robots.bumper.brain]
 rate_hz = 4
-behaviours = [{ kind = "cruise" }, { kind = "bounce" }]
+behaviours = [{ kind = "cruise" }, { kind = "random_bounce" }]
 """
 """Blind robots that bounce off what they touch, see late, hear late and take nothing for mines."""
 

@@ -34,7 +34,7 @@ WEIGHTS = {"time_s": -0.03, "robots": -0.2, "failed": -5.0}
 def classic(values: Values, first_run: int, runs: int) -> Columns:
     """Return runs of the classic simulator."""
     robots = int(values.get(WANDERERS, 4))
-    cap_paints = round(56 * float(values.get("clock.cap_s", LONGEST_S)))
+    cap_paints = round(56 * float(values.get("clock.time_limit_s", LONGEST_S)))
     paints, _, _ = _core.replicate(
         robots,
         runs,

@@ -6,13 +6,13 @@ from agent_economy import Scenario
 from agent_economy.scenario import Override
 
 ENDLESS = {
-    "clock.cap_s": 1_000_000,
-    "items.mine.sought": False,
+    "clock.time_limit_s": 1_000_000,
+    "items.mine.target": False,
     "robots.rover.battery.capacity_j": 1e12,
 }
 """Nobody looks for anything for weeks."""
 
-HUGE = {"robots.rover.count": 3000, "world.size_m": [300, 300], "clock.cap_s": 1}
+HUGE = {"robots.rover.count": 3000, "world.size_m": [300, 300], "clock.time_limit_s": 1}
 """Enough robots for threads to share a step."""
 
 FULL = """
@@ -22,7 +22,7 @@ merit = "equation-5.2"
 
 [clock]
 step_s = 0.1
-cap_s = 10
+time_limit_s = 10
 
 [world]
 size_m = [10, 10]
@@ -31,12 +31,12 @@ size_m = [10, 10]
 count = 1
 
 [robots.first]
-like = "ugv"
+model = "ugv"
 count = 1
 start = { kind = "fixed", at_m = [[5, 5]] }
 
 [robots.second]
-like = "ugv"
+model = "ugv"
 count = 1
 start = { kind = "uniform", within_m = [[4.9, 4.9], [5.1, 5.1]] }
 """

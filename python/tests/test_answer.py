@@ -147,6 +147,6 @@ def test_a_configuration_is_named_as_people_name_it() -> None:
     assert label({TEAM: 1}) == "1 rover"
     assert label({TEAM: 4, "contact": "touch"}) == "4 rovers, contact touch"
     assert label({"a.range_m": 1.5, "b.range_m": 2}) == "a.range_m 1.5, b.range_m 2"
-    assert order({TEAM: 4, "clock.cap_s": 60}) == "Send 4 rovers with cap_s 60"
-    assert order({"clock.cap_s": 60}) == "Choose cap_s 60"
+    assert order({TEAM: 4, "clock.time_limit_s": 60}) == "Send 4 rovers with time_limit_s 60"
+    assert order({"clock.time_limit_s": 60}) == "Choose time_limit_s 60"
     assert order({"robots.rover.is_loud": False}) == "Choose is_loud false"

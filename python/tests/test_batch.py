@@ -73,7 +73,7 @@ def finished(scenario: Scenario, brains: Any, run: int = 2) -> Simulation:
 
 @pytest.mark.parametrize("run", range(3))
 def test_a_batch_is_the_same_run_as_a_class_with_the_same_rule(run: int) -> None:
-    scenario = search({"robots.rover.sensors.lidar.dropout": 0.1})
+    scenario = search({"robots.rover.sensors.lidar.dropout_probability": 0.1})
     one, all_at_once = (finished(scenario, {"rover": each}, run) for each in (Shy, Batch(shy)))
     assert one.hash == all_at_once.hash
     assert one.outcome() == all_at_once.outcome()
@@ -93,7 +93,7 @@ def test_what_a_batch_tells_switches_and_remembers_is_as_a_class_does() -> None:
 
 
 def test_threads_that_share_a_step_change_no_byte() -> None:
-    huge = search({"robots.rover.count": 3000, "world.size_m": [300, 300], "clock.cap_s": 1})
+    huge = search({"robots.rover.count": 3000, "world.size_m": [300, 300], "clock.time_limit_s": 1})
     runs = [Simulation(huge, threads=threads, brains={"rover": Batch(shy)}) for threads in (1, 3)]
     assert len({run.finish().energy_j for run in runs}) == 1
     assert len({run.hash for run in runs}) == 1
@@ -285,7 +285,7 @@ def test_only_the_sender_itself_has_a_course() -> None:
         outbox = {"row": rows, "confidence": 1.0, "item_kind": [-1, 0], "at": [3, 4]}
         return {"motion": STAND, "outbox": {**outbox, "heading_rad": 0.5}}  # type: ignore[typeddict-item]
 
-    simulation = Simulation(Scenario.loads(SMALL).replace("robots.bumper.radio.loss", 0.0))
+    simulation = Simulation(Scenario.loads(SMALL).replace("robots.bumper.radio.loss_probability", 0.0))
     simulation = Simulation(simulation.scenario, brains={"bumper": Batch(tell)})
     simulation.step(40)
     courses = [told["heading_rad"].tolist() for told in heard if len(told["row"])]

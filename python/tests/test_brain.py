@@ -27,7 +27,7 @@ ROVER: Body = {
     ],
 }
 OPEN: Percept = {"scans": [{"age_s": 0.0, "ranges_m": [math.inf] * 16}]}
-NAVIGATE = {"kind": "navigate", "places_m": [[9, 2]]}
+NAVIGATE = {"kind": "navigate", "waypoints_m": [[9, 2]]}
 WALLED: Percept = {"dice": [7, 7, 7, 7], "scans": [{"age_s": 0.0, "ranges_m": [0.5] * 16}]}
 
 
@@ -106,7 +106,7 @@ def test_none_in_body_and_spec_is_as_if_it_were_left_out() -> None:
     with pytest.raises(ae.InputError, match=r"body\.others"):
         ae.Brain(None, listed)
     with pytest.raises(ae.InputError, match="None"):
-        ae.Scenario.load("search").replace("clock.cap_s", none)
+        ae.Scenario.load("search").replace("clock.time_limit_s", none)
 
 
 CONTACT = {"kind": 0, "range_m": 1.0, "bearing_rad": 0.0, "age_s": 0.0}

@@ -18,7 +18,7 @@ def classic(**values: str | float) -> ae.Scenario:
 @pytest.mark.parametrize("robots", [1, 2, 4, 8])
 @pytest.mark.parametrize("contact", _core.CONTACTS)
 def test_a_finished_run_is_a_row_of_replicate(robots: int, contact: str) -> None:
-    scenario = classic(robots__wanderer__count=robots, contact=contact, clock__cap_s=20)
+    scenario = classic(robots__wanderer__count=robots, contact=contact, clock__time_limit_s=20)
     rows = ae.replicate(scenario, runs=30, seed=3).to_pylist()
     assert [ae.ClassicSimulation(scenario, 3, run).finish().row for run in range(30)] == rows
     assert ae.ClassicSimulation(scenario, 3, 4).finish() == ae.run(scenario, seed=3, run=4)
@@ -51,13 +51,13 @@ def test_a_run_in_pieces_is_the_run_in_one_go() -> None:
 
 
 def test_a_run_that_is_over_stands_and_a_change_may_let_it_go_on() -> None:
-    simulation = ae.ClassicSimulation(classic(clock__cap_s=5), 1)
+    simulation = ae.ClassicSimulation(classic(clock__time_limit_s=5), 1)
     assert simulation.finish().status == "incomplete"
     assert simulation.tick == 5 * 56
     hash_ = simulation.hash
     simulation.step(100)
     assert simulation.hash == hash_
-    simulation.change("clock.cap_s", 120)
+    simulation.change("clock.time_limit_s", 120)
     assert not simulation.is_over
     assert simulation.finish() == ae.run("classic", seed=1)
 
@@ -69,7 +69,7 @@ def test_what_was_changed_is_logged_and_gives_the_run_again() -> None:
         (31, "robots.wanderer.count", 3),
         (60, "clock.paints_per_s", 28),
         (60, "merit", {"time": -1}),
-        (95, "clock.cap_s", 400),
+        (95, "clock.time_limit_s", 400),
     ]
     first, hashes = ae.ClassicSimulation("classic", 2, 9), []
     for tick, path, value in changes:
@@ -93,7 +93,7 @@ def test_what_was_changed_is_logged_and_gives_the_run_again() -> None:
         ("robots.wanderer.count", 0, "a whole number from 1 to 250"),
         ("robots.wanderer.count", 251, "a whole number from 1 to 250"),
         ("contact", "nose", "one of"),
-        ("clock.cap_s", -1, "a number from 0"),
+        ("clock.time_limit_s", -1, "a number from 0"),
         ("clock.paints_per_s", 10_000, "a number from 0.1 to 1000"),
         ("world.size_m", [3, 3], "known keys"),
         ("engine", "metric", "must be"),

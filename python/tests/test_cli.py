@@ -69,11 +69,11 @@ def test_options_go_before_the_file(classic_toml: Path, tmp_path: Path) -> None:
 
 
 def test_a_value_that_is_set_wins_and_is_kept(classic_toml: Path, tmp_path: Path) -> None:
-    options = ["--set", "clock.cap_s=60", "--set", "study.vary.robots.wanderer.count=2,3"]
+    options = ["--set", "clock.time_limit_s=60", "--set", "study.vary.robots.wanderer.count=2,3"]
     given = run("study", classic_toml, *options, "--runs", "20", "--json", "--out", tmp_path)
     assert given.returncode == 0, given.stderr
     answer = json.loads(given.stdout)
-    assert answer["scenario"]["cap_s"] == 60
+    assert answer["scenario"]["time_limit_s"] == 60
     assert [each["label"] for each in answer["results"]] == ["2 wanderers", "3 wanderers"]
     again = run("study", "--resume", tmp_path, "--json")
     assert again.stdout == given.stdout
@@ -94,7 +94,7 @@ def test_check_tells_every_fault_of_every_file(classic_toml: Path, tmp_path: Pat
     bad.write_text(classic_toml.read_text().replace("count = 4", "cuont = 4"))
     wide = tmp_path / "wide.toml"
     wide.write_text(
-        classic_toml.read_text().replace('"1..8"', '"1..250", "clock.cap_s" = "1..1000"')
+        classic_toml.read_text().replace('"1..8"', '"1..250", "clock.time_limit_s" = "1..1000"')
     )
     files = [bad, tmp_path / "none.toml", classic_toml, wide]
     given = run("check", *files, "--set", "study.delta=0.5")
@@ -217,13 +217,13 @@ def test_a_folder_without_a_study_is_told(command: list[str], tmp_path: Path) ->
     [
         (["--set", "contact=nose"], '--set contact: contact = "nose": must be one of "neighbour"'),
         (["--set", "contact='nose'"], '--set contact: contact = "nose": must be one of'),
-        (["--set", "clock.cap_s=-5"], "--set clock.cap_s: clock.cap_s = -5: must be a number"),
-        (["--set", "clock.cap_s={a=1}"], "clock.cap_s = {...}: must be a number"),
+        (["--set", "clock.time_limit_s=-5"], "--set clock.time_limit_s: clock.time_limit_s = -5: must be a number"),
+        (["--set", "clock.time_limit_s={a=1}"], "clock.time_limit_s = {...}: must be a number"),
         (["--set", "clock.caps=5"], "clock.caps = 5: must be one of the known keys here"),
-        (["--set", "clock.cap_s"], "--set = 'clock.cap_s': must be PATH=VALUE"),
+        (["--set", "clock.time_limit_s"], "--set = 'clock.time_limit_s': must be PATH=VALUE"),
         (
-            ["--set", "clock.cap_s=1", "--set", "clock.cap_s=2"],
-            "--set clock.cap_s: is given twice: must be given once",
+            ["--set", "clock.time_limit_s=1", "--set", "clock.time_limit_s=2"],
+            "--set clock.time_limit_s: is given twice: must be given once",
         ),
         (
             ["--vary", "robots.wanderer.count=0"],

@@ -99,7 +99,7 @@ def test_runs_that_gave_nothing_are_told_and_not_counted(tmp_path: Path) -> None
 
 def test_a_recording_in_place_of_a_scenario_is_to_be_taken_again(tmp_path: Path) -> None:
     recorded = tmp_path / "run.mcap"
-    short = ["--set", "clock.cap_s=1", "--record", str(recorded)]
+    short = ["--set", "clock.time_limit_s=1", "--record", str(recorded)]
     assert run("run", "search", *short).returncode == 0
     for command in ("run", "replicate", "check", "study"):
         given = run(command, recorded, cwd=tmp_path)
@@ -126,7 +126,7 @@ def test_a_recording_in_place_of_a_scenario_is_to_be_taken_again(tmp_path: Path)
             "in robots.rover.sensors: camera, compass, gps, lidar; "
             "did you mean robots.rover.sensors.camera.range_m?",
         ),
-        (["run", "search", "--set", "robots.scout.like=ugv"], "a new one needs count too"),
+        (["run", "search", "--set", "robots.scout.model=ugv"], "a new one needs count too"),
         (
             ["study", "search", "--vary", "robots.rover.count=1..100000"],
             "must be at most 10000 values; it has 100000",

@@ -75,7 +75,7 @@ def test_every_factor_changes_what_is_run(scenario: Scenario) -> None:
     values: dict[str, str | float] = {
         "robots.wanderer.count": 5,
         "clock.paints_per_s": 41.5,
-        "clock.cap_s": 10,
+        "clock.time_limit_s": 10,
         "contact": "within-3",
     }
     for path, value in values.items():
@@ -113,15 +113,15 @@ def test_no_runs_are_a_block_too(scenario: Scenario) -> None:
 
 
 def test_replace_gives_the_scenario_with_another_value(scenario: Scenario) -> None:
-    changed = scenario.replace("clock.cap_s", 60).replace("contact", "ahead")
+    changed = scenario.replace("clock.time_limit_s", 60).replace("contact", "ahead")
     changed = changed.replace("study.vary.clock.paints_per_s", "50,41.5")
-    assert (changed.cap_s, changed.facts[0], scenario.cap_s) == (60, ("contact", "ahead"), 120)
+    assert (changed.time_limit_s, changed.facts[0], scenario.time_limit_s) == (60, ("contact", "ahead"), 120)
     rates = [factor.values for factor in changed.factors]
     assert rates == [(1, 2, 3, 4, 5, 6, 7, 8), (41.5, 50)]
     assert changed.configuration({}).columns[0] == ("time_s", "real", 0.0, 60.0)
-    assert changed.replace("clock.cap_s", 90).cap_s == 90
-    with pytest.raises(InputError, match="^replace: clock.cap_s = -1: must be a number from 0"):
-        scenario.replace("clock.cap_s", -1)
+    assert changed.replace("clock.time_limit_s", 90).time_limit_s == 90
+    with pytest.raises(InputError, match="^replace: clock.time_limit_s = -1: must be a number from 0"):
+        scenario.replace("clock.time_limit_s", -1)
 
 
 def test_what_a_study_may_also_say_is_read(scenario: Scenario) -> None:
@@ -143,12 +143,12 @@ def test_values_that_no_configuration_can_have_are_told_at_once(scenario: Scenar
         scenario.configuration({"robots.rover.count": 1})
     assert str(caught.value) == (
         "study.vary: robots.rover.count = 1: must be one of the known keys here: "
-        "robots.wanderer.count, clock.paints_per_s, clock.cap_s, contact; did you mean "
+        "robots.wanderer.count, clock.paints_per_s, clock.time_limit_s, contact; did you mean "
         "robots.wanderer.count?"
     )
     # Either value is allowed; a million and more paints are not.
     with pytest.raises(InputError, match="must be at most 1000000 paints at 1000 paints per sec"):
-        scenario.configuration({"clock.paints_per_s": 1000, "clock.cap_s": 1001})
+        scenario.configuration({"clock.paints_per_s": 1000, "clock.time_limit_s": 1001})
 
 
 def test_bad_arguments_of_a_block_are_told_at_once(scenario: Scenario) -> None:

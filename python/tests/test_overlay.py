@@ -34,7 +34,7 @@ def field(robots: int = 2, obstacles: str = "", range_m: float = 5) -> str:
 engine = "metric"
 summary = "Two robots and a wall."
 merit = "equation-5.2"
-clock.cap_s = 100
+clock.time_limit_s = 100
 [world]
 size_m = [60, 60]
 obstacles = [{obstacles}]

@@ -26,7 +26,7 @@ from agent_economy.brain import Command, Percept
 
 SCENARIOS = ROOT / "scenarios"
 
-SHORT = {"clock.cap_s": 10}
+SHORT = {"clock.time_limit_s": 10}
 
 DRIVE: Command = {
     "motion": {"speed_m_s": 0.5, "turn_rate_rad_s": 0.3},
@@ -81,7 +81,7 @@ def test_the_file_alone_is_enough_to_take_the_run_again(
 ) -> None:
     there = tmp_path / "there"
     shutil.copytree(SCENARIOS, there)
-    scenario = Scenario.load(there / "open-field.toml").replace("clock.cap_s", 20)
+    scenario = Scenario.load(there / "open-field.toml").replace("clock.time_limit_s", 20)
     ae.run(scenario, seed=2**64 - 1, run=7, record=tmp_path / "run.mcap")
     shutil.rmtree(there)
     monkeypatch.chdir(tmp_path)
@@ -218,7 +218,7 @@ def test_the_scene_is_the_scenarios_and_shows_what_is_found(tmp_path: Path) -> N
     assert sum(found or 0 for found in outcome.found.values()) == len(told) > 0
 
 
-MANY = {"items.mine.count": 3000, "robots.rover.count": 20, "clock.cap_s": 60}
+MANY = {"items.mine.count": 3000, "robots.rover.count": 20, "clock.time_limit_s": 60}
 
 
 def found_at(topics: Mapping[str, list[Message]], time_ns: int) -> list[str]:
@@ -261,7 +261,7 @@ def test_each_find_is_written_some_twenty_times_a_topic_and_not_all_items(tmp_pa
 
 
 def test_what_happens_to_robots_is_in_the_log_and_in_their_colours(tmp_path: Path) -> None:
-    crowded = search({"robots.rover.count": 20, "robots.rover.collision.breaks_after": 1, **SHORT})
+    crowded = search({"robots.rover.count": 20, "robots.rover.collision.max_collisions": 1, **SHORT})
     path = tmp_path / "run.mcap"
     outcome = ae.run(crowded.replace("world.size_m", [26, 25]), 1, record=path)
     topics = contents(path).topics
@@ -458,7 +458,7 @@ def test_recording_off_loads_nothing_of_it() -> None:
 
 def test_the_command_line_records_and_takes_again(tmp_path: Path) -> None:
     path = str(tmp_path / "run.mcap")
-    args = ("search", "--seed", "7", "--set", "clock.cap_s=10", "--every", "5")
+    args = ("search", "--seed", "7", "--set", "clock.time_limit_s=10", "--every", "5")
     given = run("run", *args, "--record", path, "--percepts", "rover/0")
     assert given.returncode == 0, given.stderr
     assert {"/tf", "/percept/rover/0"} < contents(Path(path)).topics.keys()

@@ -22,7 +22,7 @@ CHANGES: list[tuple[int, str, Any]] = [
     (50, "contact", "within-3"),
     (50, "merit", {"time": -1}),
     (90, "clock.paints_per_s", 1000),
-    (120, "clock.cap_s", 1),
+    (120, "clock.time_limit_s", 1),
 ]
 
 
@@ -189,11 +189,11 @@ def test_what_is_json_holds_to_its_schema(tmp_path: Path) -> None:
 
 
 def test_a_run_that_is_over_stands_and_a_change_lets_it_go_on(tmp_path: Path) -> None:
-    simulation = ClassicSimulation(Scenario.load("classic").replace("clock.cap_s", 1), 1)
+    simulation = ClassicSimulation(Scenario.load("classic").replace("clock.time_limit_s", 1), 1)
     with ae.Recording(simulation, tmp_path / "run.mcap") as recording:
         recording.step(10**12)
         assert simulation.tick == 56
-        simulation.change("clock.cap_s", 2)
+        simulation.change("clock.time_limit_s", 2)
         recording.finish()
     ticks = [each.content["tick"] for each in contents(tmp_path / "run.mcap").topics["/run"]]
     assert ticks == [*range(57), *range(56, 113)]
@@ -216,7 +216,7 @@ def test_robots_without_minds_have_no_percepts_and_take_no_commands(tmp_path: Pa
 
 def test_a_run_that_is_not_the_recorded_one_differs_where_it_ends(tmp_path: Path) -> None:
     path = tmp_path / "run.mcap"
-    short, long = (ClassicSimulation(capped(cap_s), 1) for cap_s in (1, 5))
+    short, long = (ClassicSimulation(capped(time_limit_s), 1) for time_limit_s in (1, 5))
     with ae.Recording(short, path) as recording:
         recording.step(20)
         long.step(20)
@@ -226,8 +226,8 @@ def test_a_run_that_is_not_the_recorded_one_differs_where_it_ends(tmp_path: Path
     assert (again.differs_at, again.tick) == (57, 56)
 
 
-def capped(cap_s: float) -> Scenario:
-    return Scenario.load("classic").replace("clock.cap_s", cap_s)
+def capped(time_limit_s: float) -> Scenario:
+    return Scenario.load("classic").replace("clock.time_limit_s", time_limit_s)
 
 
 KILLED = """

@@ -13,7 +13,7 @@ from agent_economy.scenario import Override
 
 def test_the_shipped_scenario_is_the_2003_experiment(classic_toml: Path) -> None:
     scenario = Scenario.load(classic_toml)
-    assert (scenario.engine, scenario.cap_s) == ("classic", 120)
+    assert (scenario.engine, scenario.time_limit_s) == ("classic", 120)
     assert scenario.robots == {"wanderer": 4}
     assert scenario.facts == (
         ("contact", "touch"),
@@ -37,7 +37,7 @@ def test_every_fault_is_told_at_once_with_file_line_value_and_what_is_allowed(
         classic_toml.read_text()
         .replace('contact = "touch"', 'contact = "tuch"')
         .replace("count = 4", 'count = "four"')
-        .replace("cap_s = 120  ", "cap_s = -1  ")
+        .replace("time_limit_s = 120  ", "time_limit_s = -1  ")
         .replace("choice = 3", "chioce = 3")
     )
     with pytest.raises(InputError) as caught:
@@ -48,9 +48,9 @@ def test_every_fault_is_told_at_once_with_file_line_value_and_what_is_allowed(
         'my.toml:7: contact = "tuch": must be one of "neighbour", "diagonal", "within-2", '
         '"within-3", "touch", "ahead"; did you mean "touch"?',
         'my.toml:18: robots.wanderer.count = "four": must be a whole number from 1 to 250',
-        "my.toml:15: clock.cap_s = -1: must be a number from 0 to 1000000",
+        "my.toml:15: clock.time_limit_s = -1: must be a number from 0 to 1000000",
         "my.toml:26: published.chioce = 3: must be one of the known keys here: source, choice, "
-        "cap_s, times_s; did you mean choice?",
+        "time_limit_s, times_s; did you mean choice?",
         "my.toml:24: published.choice is missing: must be a whole number from 1 to 250",
     ):
         assert part in lines
@@ -88,24 +88,24 @@ def test_a_name_that_ships_is_a_scenario_and_a_slip_of_it_is_told(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     assert Scenario.load("classic").source.text == classic_toml.read_text()
-    own = classic_toml.read_text().replace("cap_s = 120  ", "cap_s = 60  ")
+    own = classic_toml.read_text().replace("time_limit_s = 120  ", "time_limit_s = 60  ")
     (tmp_path / "classic").write_text(own)
-    assert Scenario.load("classic").cap_s == 60
+    assert Scenario.load("classic").time_limit_s == 60
     with pytest.raises(InputError, match="clasic: cannot be read: .*; did you mean classic?"):
         Scenario.load("clasic")
 
 
 def test_faults_are_there_one_by_one_with_their_places(classic_toml: Path) -> None:
     text = classic_toml.read_text().replace('"touch"', '"tuoch"').replace("summary", "#")
-    path = ("clock", "cap_s")
+    path = ("clock", "time_limit_s")
     with pytest.raises(InputError) as caught:
-        Scenario.loads(text, "my.toml", (Override(path, -1, "--set clock.cap_s"),))
+        Scenario.loads(text, "my.toml", (Override(path, -1, "--set clock.time_limit_s"),))
     assert "\n".join(fault["message"] for fault in caught.value.errors) == str(caught.value)
     places = {fault["path"]: (fault["file"], fault["line"]) for fault in caught.value.errors}
     assert places == {
         "contact": ("my.toml", 7),
         "summary": ("my.toml", None),
-        "clock.cap_s": (None, None),
+        "clock.time_limit_s": (None, None),
     }
     (contact,) = (fault for fault in caught.value.errors if fault["path"] == "contact")
     assert (contact["origin"], contact["given"]) == ("my.toml:7", '"tuoch"')
@@ -136,10 +136,10 @@ def test_any_kind_of_value_reaches_the_check(classic_toml: Path) -> None:
     }
     for shown, value in given.items():
         with pytest.raises(InputError) as caught:
-            scenario.replace("clock.cap_s", value)
-        assert f"replace: clock.cap_s = {shown}: must be a number" in str(caught.value)
-    with pytest.raises(InputError, match="replace: clock.cap_s.a = None: must be a text, a number"):
-        scenario.replace("clock.cap_s", {"a": None})
+            scenario.replace("clock.time_limit_s", value)
+        assert f"replace: clock.time_limit_s = {shown}: must be a number" in str(caught.value)
+    with pytest.raises(InputError, match="replace: clock.time_limit_s.a = None: must be a text, a number"):
+        scenario.replace("clock.time_limit_s", {"a": None})
 
 
 def nested(depth: int) -> list[Any]:
@@ -157,9 +157,9 @@ def test_a_value_that_holds_itself_is_told(classic_toml: Path) -> None:
     knot["a"] = [knot]
     for value in (ring, knot, nested(33), nested(100_000)):
         with pytest.raises(InputError, match="no more than 32 lists and dicts deep"):
-            scenario.replace("clock.cap_s", value)
-    with pytest.raises(InputError, match="clock.cap_s = .*must be a number"):
-        scenario.replace("clock.cap_s", nested(32))
+            scenario.replace("clock.time_limit_s", value)
+    with pytest.raises(InputError, match="clock.time_limit_s = .*must be a number"):
+        scenario.replace("clock.time_limit_s", nested(32))
 
 
 @pytest.mark.parametrize(

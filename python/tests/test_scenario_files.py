@@ -22,7 +22,7 @@ TEXT = """
 engine = "metric"
 summary = "A room of two cells, one of them solid."
 merit = { distance = 1 }
-clock = { cap_s = 1 }
+clock = { time_limit_s = 1 }
 world = { size_m = [2, 1], obstacles = [{ map = "maps/room.yaml" }] }
 
 [robots.rover]
@@ -51,7 +51,7 @@ def test_a_scenario_needs_its_files_no_more_once_it_is_read(room: Path) -> None:
     scenario = ae.Scenario.load(room)
     assert set(scenario.source.files) == {"maps/room.yaml", "maps/room.pgm"}
     shutil.rmtree(room.parent / "maps")
-    assert scenario.replace("clock.cap_s", 2).cap_s == 2
+    assert scenario.replace("clock.time_limit_s", 2).time_limit_s == 2
     assert scenario.configuration({"robots.rover.count": 2}).columns
 
 

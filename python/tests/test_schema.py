@@ -36,8 +36,8 @@ def test_shipped_scenarios_are_valid_and_name_their_schema(
 
 
 SPOILED = [
-    ("cap_s = 120", "cpa_s = 120"),
-    ("cap_s = 120", "cap_s = -1"),
+    ("time_limit_s = 120", "cpa_s = 120"),
+    ("time_limit_s = 120", "time_limit_s = -1"),
     ("size_m = [25, 25]", "size_m = [25]"),
     ("count = 4\n", ""),
     ('like = "ugv"', 'like = "ugw"'),

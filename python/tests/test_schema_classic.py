@@ -16,7 +16,7 @@ TEXT = shipped.scenarios()["classic"].read_text(encoding="utf-8")
 NUMBERS = {
     "robots.wanderer.count": ("robots", "wanderer", "count"),
     "clock.paints_per_s": ("clock", "paints_per_s"),
-    "clock.cap_s": ("clock", "cap_s"),
+    "clock.time_limit_s": ("clock", "time_limit_s"),
 }
 """All numbers that can be varied, and where the schema has them."""
 
@@ -47,7 +47,7 @@ def is_taken(text: str) -> bool:
     ("good", "bad"),
     [
         ("", ""),
-        ("cap_s = 120       #", "cpa_s = 120       #"),
+        ("time_limit_s = 120       #", "cpa_s = 120       #"),
         ("count = 4", ""),
         ("count = 4", "count = 4.5"),
         ("count = 4", 'count = "four"'),

@@ -40,7 +40,7 @@ def test_the_gallery_has_what_ships_and_what_is_in_the_folder(
     assert rows.keys() >= {
         "classic",
         "search",
-        "search-mind",
+        "search-beliefs",
         "open-field",
         "marked.toml",
         "mine/field.toml",
@@ -90,11 +90,11 @@ def test_a_map_outside_of_the_folder_is_not_read(client: TestClient) -> None:
 def test_faults_of_a_text_are_told_with_their_lines(client: TestClient) -> None:
     text = ae.Scenario.load("search").source.text
     assert client.post("/api/check", content=text).json()["engine"] == "metric"
-    wrong = text.replace("cap_s = 120", "cap_s = -1").replace("count = 4", "cuont = 4", 1)
+    wrong = text.replace("time_limit_s = 120", "time_limit_s = -1").replace("count = 4", "cuont = 4", 1)
     faults = client.post("/api/check", content=wrong).json()["faults"]
     told = {fault["path"].split(".")[-1]: fault for fault in faults}
-    line = 1 + wrong[: wrong.index("cap_s = -1")].count("\n")
-    assert told["cap_s"]["line"] == line
+    line = 1 + wrong[: wrong.index("time_limit_s = -1")].count("\n")
+    assert told["time_limit_s"]["line"] == line
     assert told["cuont"]["suggestion"] == "count"
 
 
@@ -110,10 +110,10 @@ def test_a_run_is_opened_played_and_paused(page: Page) -> None:
     page.say("play", speed=None)
     over = page.until("state", over=True, playing=False)
     assert over["outcome"]["complete"]
-    expected = ae.run("search-mind", seed=7)
+    expected = ae.run("search-beliefs", seed=7)
     assert over["outcome"]["time_s"] == expected.time_s
     page.say("go", tick=50)
-    simulation = ae.Simulation("search-mind", 7)
+    simulation = ae.Simulation("search-beliefs", 7)
     simulation.step(50)
     told = page.until("state", tick=50)
     assert told["hash"] == f"{simulation.hash:016x}"
@@ -122,7 +122,7 @@ def test_a_run_is_opened_played_and_paused(page: Page) -> None:
 
 def test_a_frame_is_of_where_the_robots_are(page: Page) -> None:
     page.open(tick=30)
-    simulation = ae.Simulation("search-mind", 7)
+    simulation = ae.Simulation("search-beliefs", 7)
     simulation.step(30)
     kind, generation, tick, robots, time_s, items, _ = HEADER.unpack_from(page.frames[-1])
     assert (kind, tick, robots, items) == (1, 30, 4, 4)
@@ -169,11 +169,11 @@ def test_a_frame_of_a_classic_run_is_its_window_with_y_upwards(page: Page) -> No
     looks = ["blue", "yellow", "red"]
     assert drawn[:, 3].tolist() == [looks.index(colour) for colour in team["colour"]]
     setting = next(each for each in page.said if each["type"] == "setting")
-    assert setting["world"] == {"size": [500, 500], "wraps": False, "unit": "px", "cell": 20}
+    assert setting["world"] == {"size": [500, 500], "periodic": False, "unit": "px", "cell": 20}
     assert setting["items"][0] == {
         "kind": "item",
         "at": [70, 150],
-        "sought": True,
+        "target": True,
         "contact": [],
     }
     cells = base64.b64decode(setting["maps"][0]["cells"])
@@ -262,7 +262,7 @@ def test_a_change_in_the_run_is_seen_and_its_log_gives_the_run_again(page: Page)
     assert again["hash"] == told["hash"]
     page.say("undo")
     assert page.until("setting", changes=[])["log"] == []
-    simulation = ae.Simulation("search-mind", 7)
+    simulation = ae.Simulation("search-beliefs", 7)
     simulation.step(60)
     assert page.until("state", tick=60)["hash"] == f"{simulation.hash:016x}"
 
@@ -279,7 +279,7 @@ def test_the_mind_of_a_selected_robot_is_told(page: Page) -> None:
     page.open(tick=30)
     page.say("select", robot="rover/1")
     mind = page.until("state")["mind"]
-    simulation = ae.Simulation("search-mind", 7)
+    simulation = ae.Simulation("search-beliefs", 7)
     simulation.step(30)
     simulation.watch("rover/1")
     expected = simulation.watched()
@@ -307,7 +307,7 @@ def test_what_is_told_of_a_map_comes_to_all_of_it(page: Page) -> None:
         for key, cells in believed.items():
             part = np.frombuffer(base64.b64decode(told[key]), cells.dtype)
             cells[low : low + rows, left : left + columns] = part.reshape(rows, columns)
-    simulation = ae.Simulation("search-mind", 7)
+    simulation = ae.Simulation("search-beliefs", 7)
     simulation.step(20)
     expected = simulation.believed_map("rover/1")
     assert expected is not None

@@ -14,7 +14,7 @@ def test_of_values_said_instead_of_each_other_the_last_is_the_change(page: Page)
 
 
 def test_a_run_on_its_way_to_a_moment_says_where_it_goes(page: Page) -> None:
-    page.open(tick=0, changes=[[0, "clock.cap_s", 10_000], [0, "items.mine.count", 0]])
+    page.open(tick=0, changes=[[0, "clock.time_limit_s", 10_000], [0, "items.mine.count", 0]])
     page.say("step", steps=50_000)
     on_its_way = page.until("state", aim=50_000)
     assert on_its_way["tick"] < 50_000
@@ -22,7 +22,7 @@ def test_a_run_on_its_way_to_a_moment_says_where_it_goes(page: Page) -> None:
     assert page.until("state", aim=None)["tick"] < 50_000
 
 
-ENDLESS = [[0, "clock.cap_s", 10_000], [0, "items.mine.count", 0]]
+ENDLESS = [[0, "clock.time_limit_s", 10_000], [0, "items.mine.count", 0]]
 
 
 @pytest.mark.parametrize("way", ["step", "go", "open", "undo"])
@@ -36,7 +36,7 @@ def test_a_change_said_on_the_way_to_a_moment_is_made_there(page: Page, way: str
         case "go":
             page.say("go", tick=200)
         case "open":
-            page.say("open", scenario="search-mind", seed="7", changes=ENDLESS, tick=200)
+            page.say("open", scenario="search-beliefs", seed="7", changes=ENDLESS, tick=200)
         case "undo":
             page.say("go", tick=100)
             page.until("state", tick=100)

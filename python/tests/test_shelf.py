@@ -68,7 +68,7 @@ def turning(turn_rate_rad_s: float) -> Command:
 
 
 def begun(tick: int = 30) -> Timeline:
-    timeline = Timeline(ae.Scenario.load("search-mind"), 7, 0, [Change(10, COUNT, 6)])
+    timeline = Timeline(ae.Scenario.load("search-beliefs"), 7, 0, [Change(10, COUNT, 6)])
     assert timeline.toward(tick, FOREVER_S)
     return timeline
 
@@ -162,7 +162,7 @@ def test_a_recording_with_other_changes_is_opened_as_that_run(page: Page) -> Non
 
 def test_what_came_from_outside_comes_again(tmp_path: Path) -> None:
     path = tmp_path / "outside.mcap"
-    with ae.Recording(ae.Simulation("search-mind", 7), path) as recording:
+    with ae.Recording(ae.Simulation("search-beliefs", 7), path) as recording:
         recording.step(10)
         for turn_rate_rad_s in (1.0, -1.0, 0.5):
             recording.step(commands={"rover/0": turning(turn_rate_rad_s)})
@@ -181,7 +181,7 @@ def test_what_came_from_outside_comes_again(tmp_path: Path) -> None:
 
 def test_a_run_that_is_not_as_recorded_is_told_with_its_tick(tmp_path: Path) -> None:
     path = tmp_path / "behind.mcap"
-    simulation = ae.Simulation("search-mind", 7)
+    simulation = ae.Simulation("search-beliefs", 7)
     with ae.Recording(simulation, path) as recording:
         recording.step(10)
         # Behind the recording's back: it does not say of this what was done.
@@ -340,7 +340,7 @@ def test_recordings_are_listed_newest_first_with_what_they_are_of(
     names = ["deep/er/first.mcap", "second.mcap", "cut.mcap", "damaged.mcap", ".hidden.mcap"]
     for age, name in enumerate(names):
         path = tmp_path / name
-        ae.run("search-mind", seed=2**64 - 1, run=age, record=path)
+        ae.run("search-beliefs", seed=2**64 - 1, run=age, record=path)
         os.utime(path, (1000 - age, 1000 - age))
     whole = (tmp_path / "cut.mcap").read_bytes()
     (tmp_path / "cut.mcap").write_bytes(whole[: len(whole) // 2])
@@ -351,7 +351,7 @@ def test_recordings_are_listed_newest_first_with_what_they_are_of(
     assert [row["id"] for row in rows] == names[:4]
     steps = ae.rerun(tmp_path / names[0]).tick
     of = rows[0]["of"]
-    assert (of["scenario"], of["seed"], of["run"]) == ("search-mind.toml", str(2**64 - 1), "0")
+    assert (of["scenario"], of["seed"], of["run"]) == ("search-beliefs.toml", str(2**64 - 1), "0")
     assert of["steps"] == steps
     assert of["length_s"] == pytest.approx(steps / 10)
     assert rows[2]["of"]["steps"] is None
@@ -360,7 +360,7 @@ def test_recordings_are_listed_newest_first_with_what_they_are_of(
 
 def test_a_recording_that_is_cut_is_opened_as_far_as_it_goes(page: Page, tmp_path: Path) -> None:
     path = tmp_path / "cut.mcap"
-    ae.run("search-mind", seed=7, record=path)
+    ae.run("search-beliefs", seed=7, record=path)
     whole = path.read_bytes()
     path.write_bytes(whole[: 2 * len(whole) // 3])
     page.say("open", recording="cut.mcap")
@@ -402,20 +402,20 @@ def exported(page: Page) -> str:
 
 def test_the_exported_text_is_the_scenario_as_it_was_changed(page: Page) -> None:
     page.open(tick=20)
-    obstacles = ae.Scenario.load("search-mind").to_dict()["world"]["obstacles"]
+    obstacles = ae.Scenario.load("search-beliefs").to_dict()["world"]["obstacles"]
     page.say("change", path="robots.rover.sensors.camera.range_m", value=2.5)
     page.say("change", path="world.obstacles", value=obstacles[1:])
     text = exported(page)
-    expected = ae.Scenario.load("search-mind")
+    expected = ae.Scenario.load("search-beliefs")
     expected = expected.replace("robots.rover.sensors.camera.range_m", 2.5)
     expected = expected.replace("world.obstacles", obstacles[1:])
     assert ae.Scenario.loads(text).to_dict() == expected.to_dict()
-    assert text.startswith("# From search-mind, seed 7, run 0, as it was at tick 20 (2 s).\n")
+    assert text.startswith("# From search-beliefs, seed 7, run 0, as it was at tick 20 (2 s).\n")
 
 
 def test_the_exported_text_of_what_was_not_changed_keeps_its_comments(page: Page) -> None:
     page.open()
-    source = ae.Scenario.load("search-mind").source.text
+    source = ae.Scenario.load("search-beliefs").source.text
     assert exported(page).endswith(source)
     assert tomllib.loads(exported(page)) == tomllib.loads(source)
 

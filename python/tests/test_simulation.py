@@ -188,7 +188,7 @@ def test_any_path_can_be_changed_and_what_comes_of_it_is_new() -> None:
 
 def test_the_cap_can_be_moved() -> None:
     simulation = stepped(30)
-    simulation.change("clock.cap_s", 2.5)
+    simulation.change("clock.time_limit_s", 2.5)
     assert simulation.is_over
     assert simulation.outcome().status == "incomplete"
     assert simulation.outcome().time_s == 2.5
@@ -221,17 +221,17 @@ def test_changes_are_a_record_that_gives_the_same_run() -> None:
             "change: clock.step_s = 0.05: must be as it was when the run began",
         ),
         ("world.size_m", [30, 30], "change: world.size_m = .*: must be as it was"),
-        ("world.wraps", True, "change: world.wraps = .*: must be as it was"),
+        ("world.periodic", True, "change: world.periodic = .*: must be as it was"),
         (
             "clock",
-            {"step_s": 0.05, "cap_s": 9},
+            {"step_s": 0.05, "time_limit_s": 9},
             "clock.step_s = 0.05: must be 0.1, as when the run",
         ),
         ("world", {"size_m": [30, 30]}, r"world.size_m = \[30, 30\]: must be \[25, 25\], as when"),
         (
             "world",
-            {"size_m": [25, 25], "wraps": True},
-            "world.wraps = true: must be false, as when",
+            {"size_m": [25, 25], "periodic": True},
+            "world.periodic = true: must be false, as when",
         ),
         ("robots.rover.cuont", 3, r"change: robots.rover.cuont = 3: .*did you mean count\?"),
         ("robots.rover.count", -1, "change: robots.rover.count = -1: must be a whole number from"),
@@ -248,7 +248,7 @@ def test_a_change_that_is_not_allowed_changes_nothing(path: str, value: Any, tol
     assert simulation.scenario == Scenario.load("search")
 
 
-@pytest.mark.parametrize("path", [None, 1, ["clock", "cap_s"]])
+@pytest.mark.parametrize("path", [None, 1, ["clock", "time_limit_s"]])
 def test_a_path_that_is_no_text_is_told(path: Any) -> None:
     simulation = Simulation("search")
     for act in (simulation.change, simulation.scenario.replace):

@@ -241,7 +241,7 @@ def test_several_factors_are_compared_together(scenario: Scenario) -> None:
     vary: dict[str, Any] = {
         TEAM: ["1..6"],
         "contact": ["touch", "ahead", "within-2"],
-        "clock.cap_s": [60, 120],
+        "clock.time_limit_s": [60, 120],
     }
     answer = study.run(scenario, vary=vary, delta=0.5)
     assert len(answer.results) == 36
@@ -311,7 +311,7 @@ def test_a_long_round_is_told_of_while_it_goes_on(monkeypatch: pytest.MonkeyPatc
         seen.append(now)
         left.append(now.foretell())
 
-    search = Scenario.load("search").replace("clock.cap_s", 5)
+    search = Scenario.load("search").replace("clock.time_limit_s", 5)
     vary = {"robots.rover.count": "1,2"}
     answer = study.run(search, vary=vary, runs=60, on_progress=look)
     assert [each.round for each in seen] == [0] * (len(seen) - 1) + [1]
@@ -370,7 +370,7 @@ def test_to_look_at_a_finished_study_gives_its_answer_and_writes_nothing(
 
 
 def test_a_configuration_alone_has_the_very_runs_of_the_study(tmp_path: Path) -> None:
-    search = Scenario.load("search").replace("clock.cap_s", 5)
+    search = Scenario.load("search").replace("clock.time_limit_s", 5)
     vary = {"robots.rover.count": "1,2", "items.mine.count": "3"}
     study.run(search, vary=vary, runs=2, seed=5, out=tmp_path)
     plan = study.plan_of(tmp_path)

@@ -10,7 +10,7 @@ from metric import search
 from agent_economy import InputError, Simulation
 from agent_economy.recording.metric_writer import moment_of
 
-SEEK = {"robots.rover.brain.behaviours": [{"kind": "seek"}, {"kind": "avoid"}]}
+SEEK = {"robots.rover.brain.behaviours": [{"kind": "bayesian_search"}, {"kind": "avoid"}]}
 
 
 def seeking(**arguments: Any) -> Simulation:

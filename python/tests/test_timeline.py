@@ -14,7 +14,7 @@ FOREVER_S = 60.0
 
 
 def begun(log: tuple[Change, ...] = ()) -> Timeline:
-    return Timeline(ae.Scenario.load("search-mind"), 7, 0, log)
+    return Timeline(ae.Scenario.load("search-beliefs"), 7, 0, log)
 
 
 def hashes(timeline: Timeline, ticks: range | list[int]) -> list[int]:
@@ -32,7 +32,7 @@ def test_back_and_forth_gives_the_same_run() -> None:
     once = hashes(timeline, ticks)
     assert hashes(timeline, ticks[::-1]) == once[::-1]
     assert timeline.edge == 200
-    simulation = ae.Simulation("search-mind", 7)
+    simulation = ae.Simulation("search-beliefs", 7)
     simulation.step(200)
     assert simulation.hash == once[-1]
 
@@ -54,16 +54,16 @@ def test_back_and_forth_gives_the_same_classic_run() -> None:
 
 
 def test_a_classic_run_that_is_over_goes_on_after_a_change() -> None:
-    timeline = Timeline(ae.Scenario.load("classic").replace("clock.cap_s", 5), 7)
+    timeline = Timeline(ae.Scenario.load("classic").replace("clock.time_limit_s", 5), 7)
     assert timeline.toward(100_000, FOREVER_S)
     assert timeline.tick == 5 * 56
-    timeline.change("clock.cap_s", 10)
+    timeline.change("clock.time_limit_s", 10)
     assert timeline.toward(300, FOREVER_S)
     assert timeline.tick == 300
 
 
 def test_a_classic_run_that_ends_before_its_recording_stands_there_and_is_told() -> None:
-    scenario = ae.Scenario.load("classic").replace("clock.cap_s", 1)
+    scenario = ae.Scenario.load("classic").replace("clock.time_limit_s", 1)
     simulation = ae.ClassicSimulation("classic", 7)
     points = []
     for tick in range(101):
@@ -137,7 +137,7 @@ def test_a_value_instead_of_another_is_as_if_that_had_never_been(tick: int) -> N
     timeline, straight = begun(), begun()
     for each in (timeline, straight):
         hashes(each, [tick])
-        each.change("clock.cap_s", 300)
+        each.change("clock.time_limit_s", 300)
     timeline.change("robots.rover.count", 6)
     for count in (90, 17, 8):
         timeline.change("robots.rover.count", count, instead=True)
@@ -145,7 +145,7 @@ def test_a_value_instead_of_another_is_as_if_that_had_never_been(tick: int) -> N
     assert timeline.log == straight.log
     assert hashes(timeline, [tick, tick + 40]) == hashes(straight, [tick, tick + 40])
     timeline.undo()
-    assert [change.path for change in timeline.log] == ["clock.cap_s"]
+    assert [change.path for change in timeline.log] == ["clock.time_limit_s"]
 
 
 def test_a_value_instead_that_is_not_allowed_leaves_the_one_that_is() -> None:
@@ -172,9 +172,9 @@ def test_drawn_back_to_where_it_began_nothing_has_changed() -> None:
 def test_a_value_instead_stands_beside_those_of_other_paths_and_ticks() -> None:
     timeline = begun()
     timeline.change("robots.rover.count", 6, instead=True)
-    timeline.change("clock.cap_s", 300, instead=True)
+    timeline.change("clock.time_limit_s", 300, instead=True)
     timeline.toward(1, FOREVER_S)
-    timeline.change("clock.cap_s", 200, instead=True)
+    timeline.change("clock.time_limit_s", 200, instead=True)
     assert [change.value for change in timeline.log] == [6, 300, 200]
 
 
@@ -232,7 +232,7 @@ def test_what_a_robots_model_says_already_changes_nothing() -> None:
     assert timeline.log == ()
 
 
-@pytest.mark.parametrize("name", ["search", "search-mind", "flock", "classic"])
+@pytest.mark.parametrize("name", ["search", "search-beliefs", "flock", "classic"])
 def test_a_run_ends_where_it_is_over_however_fast_it_goes(name: str) -> None:
     scenario = ae.Scenario.load(name)
     timeline = Timeline(scenario, 7)
@@ -245,7 +245,7 @@ def test_a_run_ends_where_it_is_over_however_fast_it_goes(name: str) -> None:
 
 
 def test_a_long_way_is_gone_in_pieces_of_the_time_that_there_is() -> None:
-    timeline = Timeline(ae.Scenario.load("search-mind").replace("clock.cap_s", 10_000), 1)
+    timeline = Timeline(ae.Scenario.load("search-beliefs").replace("clock.time_limit_s", 10_000), 1)
     pieces = 0
     while not timeline.toward(2_000, 0.0):
         pieces += 1
@@ -253,7 +253,7 @@ def test_a_long_way_is_gone_in_pieces_of_the_time_that_there_is() -> None:
 
 
 def test_snapshots_are_thinned_out_and_all_moments_can_still_be_gone_to() -> None:
-    long = ae.Scenario.load("search").replace("clock.cap_s", 10_000).replace("items.mine.count", 0)
+    long = ae.Scenario.load("search").replace("clock.time_limit_s", 10_000).replace("items.mine.count", 0)
     timeline = Timeline(long, 1)
     end = FIRST_EVERY * (MAX_KEPT + 10)
     last = hashes(timeline, [end])

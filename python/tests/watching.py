@@ -48,6 +48,6 @@ class Page:
 
     def open(self, **rest: Any) -> dict[str, Any]:
         """Open a run, and wait until it has come to its tick."""
-        self.say("open", **{"scenario": "search-mind", "seed": "7", "run": "0"} | rest)
+        self.say("open", **{"scenario": "search-beliefs", "seed": "7", "run": "0"} | rest)
         self.until("opened")
         return self.until("state", tick=rest.get("tick", 0))

@@ -12,7 +12,7 @@ const folder = fileURLToPath(new URL("../../docs/ui", import.meta.url));
 const wide = { width: 1280, height: 800 };
 const phone = { width: 390, height: 780 };
 
-const live = "#/live?scenario=search-mind&seed=7&run=0&tick=220";
+const live = "#/live?scenario=search-beliefs&seed=7&run=0&tick=220";
 
 /** Each view: where it is, what must be there before, and what is done before the picture is taken. */
 const views = {
@@ -71,7 +71,7 @@ async function answered(server) {
 
 /** All pictures of the gallery are there. */
 async function pictured(page) {
-  await page.getByRole("link", { name: /^search-mind/ }).waitFor();
+  await page.getByRole("link", { name: /^search-beliefs/ }).waitFor();
   await page.waitForLoadState("networkidle");
 }
 

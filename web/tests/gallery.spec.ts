@@ -5,14 +5,14 @@ const file = (text: string) => ({ name: "my.toml", mimeType: "application/toml",
 
 test("the gallery shows each scenario with its picture, and opens it", async ({ page, fake }) => {
   await page.goto(fake.url);
-  const card = page.getByRole("link", { name: /^search-mind/ });
+  const card = page.getByRole("link", { name: /^search-beliefs/ });
   await expect(card).toContainText("map, share and plan");
   await expect
     .poll(() => card.locator("img").evaluate((img: HTMLImageElement) => img.naturalWidth))
     .toBeGreaterThan(0);
   await expectAccessible(page);
   await card.click();
-  await expect(page.getByRole("heading", { name: "search-mind" })).toBeVisible();
+  await expect(page.getByRole("heading", { name: "search-beliefs" })).toBeVisible();
 });
 
 test("the faults of a file are listed beside its text, with those lines marked", async ({ page, fake }) => {

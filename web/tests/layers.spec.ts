@@ -2,7 +2,7 @@ import { inkAt, opens, type View } from "./ink";
 import { expect, expectAccessible, live, test } from "./page";
 
 const view: View = [30, 20, 12];
-const scenario = `scenario=search-mind&seed=7&run=2&${opens(view)}`;
+const scenario = `scenario=search-beliefs&seed=7&run=2&${opens(view)}`;
 
 test("links are asked for once their layer is on, and drawn as they are told", async ({ page, fake }) => {
   const asked: string[] = [];

@@ -1,6 +1,6 @@
 import { expect, expectAccessible, live, test } from "./page";
 
-const scenario = "scenario=search-mind&seed=7&run=2";
+const scenario = "scenario=search-beliefs&seed=7&run=2";
 
 test("a run plays, pauses and steps, and says so in words", async ({ page, fake }) => {
   await page.goto(live(fake, scenario));
@@ -41,7 +41,7 @@ test("a refusal is told beside the switch, which stays as it was", async ({ page
   await page.getByRole("tab", { name: "Parameters" }).click();
   const swarm = page.getByRole("checkbox", { name: "Swarm" });
   await swarm.click();
-  await expect(page.getByText("swarm needs a sensor of kind robots").first()).toBeVisible();
+  await expect(page.getByText("flock needs a sensor of kind robots").first()).toBeVisible();
   await expect(swarm).not.toBeChecked();
   await expect(swarm).toBeDisabled();
   await page.getByRole("checkbox", { name: "Follow" }).click();
@@ -65,7 +65,7 @@ test("each parameter of the schema can be found and changed, and undone", async 
 test("a robot is selected by pointer and by keyboard, and its mind is told", async ({ page, fake }) => {
   await page.goto(live(fake, `${scenario}&robot=rover/1`));
   await expect(page.getByRole("combobox", { name: "Robot", exact: true })).toHaveValue("rover/1");
-  await expect(page.getByRole("cell", { name: "seek" }).first()).toBeVisible();
+  await expect(page.getByRole("cell", { name: "bayesian_search" }).first()).toBeVisible();
   await page.getByRole("button", { name: "Next" }).click();
   await expect.poll(() => page.url()).toContain("robot=rover/2");
   await expectAccessible(page);
@@ -144,8 +144,8 @@ test("a picture and the series can be saved", async ({ page, fake }) => {
   await page.goto(live(fake, `${scenario}&tick=20`));
   await expect(page.locator("#status")).toContainText("2.0 s");
   for (const [name, file] of [
-    ["Picture", "search-mind-20.png"],
-    ["Series", "search-mind-20.csv"],
+    ["Picture", "search-beliefs-20.png"],
+    ["Series", "search-beliefs-20.csv"],
   ] as const) {
     await page.locator("summary", { hasText: "Export" }).click();
     const [saved] = await Promise.all([

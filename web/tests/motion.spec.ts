@@ -25,7 +25,7 @@ async function play(page: Page, url: string): Promise<() => Promise<[pictures: n
 }
 
 test("between two steps robots are drawn on their way", async ({ page, fake }) => {
-  const drawn = await play(page, live(fake, "scenario=search-mind&seed=7"));
+  const drawn = await play(page, live(fake, "scenario=search-beliefs&seed=7"));
   await expect
     .poll(async () => {
       const [pictures, frames] = await drawn();
@@ -36,7 +36,7 @@ test("between two steps robots are drawn on their way", async ({ page, fake }) =
 
 test("who wants no motion sees each step as it is", async ({ page, fake }) => {
   await page.emulateMedia({ reducedMotion: "reduce" });
-  const drawn = await play(page, live(fake, "scenario=search-mind&seed=7"));
+  const drawn = await play(page, live(fake, "scenario=search-beliefs&seed=7"));
   await expect.poll(async () => (await drawn())[1]).toBeGreaterThan(10);
   const [pictures, frames] = await drawn();
   // A word of the server has the picture drawn once more.

@@ -2,7 +2,7 @@ import { readFile } from "node:fs/promises";
 import type { Page } from "@playwright/test";
 import { expect, expectAccessible, live, test } from "./page";
 
-const scenario = "scenario=search-mind&seed=7&run=2";
+const scenario = "scenario=search-beliefs&seed=7&run=2";
 
 async function choose(page: Page, name: string): Promise<void> {
   await page.locator("summary", { hasText: "Export" }).click();
@@ -15,14 +15,14 @@ test("a run is saved, and its recording opened as that run", async ({ page, fake
   await choose(page, "Save recording");
   await expect(page.getByRole("progressbar", { name: "Saving the run" })).toBeVisible();
   await expectAccessible(page);
-  await expect(page.getByText("Saved as recordings/search-mind-7-2-1.mcap")).toBeVisible();
+  await expect(page.getByText("Saved as recordings/search-beliefs-7-2-1.mcap")).toBeVisible();
   await expectAccessible(page);
   await page.getByRole("link", { name: "Open", exact: true }).click();
   await expect(page.getByText("seed 7, run 2, recorded")).toBeVisible();
   await expect(page.locator("#status")).toContainText("0.0 s, 4 robots");
   await page.getByRole("slider", { name: "Time" }).fill("20");
   await expect(page.locator("#status")).toContainText("2.0 s, 6 robots");
-  await expect.poll(() => page.url()).toMatch(/recording=recordings\/search-mind-7-2-1.mcap&tick=20/);
+  await expect.poll(() => page.url()).toMatch(/recording=recordings\/search-beliefs-7-2-1.mcap&tick=20/);
 });
 
 test("what is being saved can be cancelled", async ({ page, fake }) => {
@@ -74,7 +74,7 @@ test("changes that an address does not hold are saved, and the recording is its 
   await expect(page.locator("#status")).toContainText("0.3 s");
   await expect
     .poll(() => page.url(), { timeout: 15_000 })
-    .toContain("recording=recordings/search-mind-7-2-1.mcap&tick=3");
+    .toContain("recording=recordings/search-beliefs-7-2-1.mcap&tick=3");
   const other = await context.newPage();
   await other.goto(page.url());
   await expect(other.locator("#status")).toContainText("0.3 s");
@@ -126,6 +126,6 @@ test("the scenario as it is now is saved as a file", async ({ page, fake }) => {
   await page.goto(live(fake, `${scenario}&tick=20`));
   await expect(page.locator("#status")).toContainText("2.0 s");
   const [saved] = await Promise.all([page.waitForEvent("download"), choose(page, "Scenario as it is now")]);
-  expect(saved.suggestedFilename()).toBe("search-mind-20.toml");
+  expect(saved.suggestedFilename()).toBe("search-beliefs-20.toml");
   expect(await readFile(await saved.path(), "utf8")).toContain("# From 20");
 });

@@ -1,12 +1,12 @@
 import { expect, expectAccessible, live, test } from "./page";
 
-const scenario = "scenario=search-mind&seed=7&robot=rover/1";
+const scenario = "scenario=search-beliefs&seed=7&robot=rover/1";
 const sections = ["Command", "Percept", "Goals", "Reach", "Items", "Map"];
 
 test("of a selected robot is told what it perceives, decides, wants and believes", async ({ page, fake }) => {
   await page.goto(live(fake, scenario));
   const panel = page.getByRole("tabpanel");
-  await expect(panel.getByRole("row", { name: /seek has its way/ })).toBeVisible();
+  await expect(panel.getByRole("row", { name: /bayesian_search has its way/ })).toBeVisible();
   await expect(panel.getByRole("row", { name: /avoid holds for 1.5 s/ })).toBeVisible();
   await expect(panel.getByText("0.80 m/s").first()).toBeVisible();
   await expect(panel.getByText("1 about itself")).toBeVisible();

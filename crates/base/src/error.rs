@@ -168,7 +168,7 @@ mod tests {
         assert_eq!(place("a:b.toml:7"), Some(("a:b.toml".to_owned(), Some(7))));
         assert_eq!(place("a:b.toml"), Some(("a:b.toml".to_owned(), None)));
         assert_eq!(place("map.yaml:2"), Some(("map.yaml".to_owned(), Some(2))));
-        assert_eq!(place("--set clock.cap_s"), None);
+        assert_eq!(place("--set clock.time_limit_s"), None);
     }
 
     #[test]

@@ -131,7 +131,7 @@ pub struct Detector {
     pub facing_rad: f64,
     /// For each kind of item, pairs of distance in metres and probability of detection in one look,
     /// by growing distance, linear between two; none if it never recognises that kind.
-    pub detects: Vec<Vec<[f64; 2]>>,
+    pub detection_probability: Vec<Vec<[f64; 2]>>,
     /// False contacts of each kind in one look, for each square metre in view.
     pub false_alarms_per_m2: Vec<f64>,
     /// Standard deviation of where a contact seems to be, along each axis.

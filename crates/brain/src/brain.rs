@@ -1,7 +1,7 @@
 //! The brain of one robot.
 
 use crate::arbitration::Arbitration;
-use crate::behaviours::{BehaviourSpec, Memory, Ready, swarm};
+use crate::behaviours::{BehaviourSpec, Memory, Ready, flock};
 use crate::believed_map::BelievedMap;
 use crate::body::{Body, RobotId};
 use crate::command::{Command, Motion};
@@ -133,9 +133,9 @@ impl Brain {
     /// How it goes with the others, if it does nothing else: then its commands are what this says,
     /// whatever else it may know.
     #[must_use]
-    pub fn swarm(&self) -> Option<&swarm::Ready> {
+    pub fn flock(&self) -> Option<&flock::Ready> {
         match self.kind.behaviours.as_slice() {
-            [Ready::Swarm(ready)] if self.kind.body.rings.is_empty() && self.mind.is_none() => {
+            [Ready::Flock(ready)] if self.kind.body.rings.is_empty() && self.mind.is_none() => {
                 Some(ready)
             }
             _ => None,
@@ -209,7 +209,7 @@ impl Brain {
             (None, Some(wants)) => chosen(spec, behaviours, (&mut self.layers, wants), &senses),
         };
         let mut motion = possible(wanted, body);
-        if spec.speed_limited_by_sight {
+        if spec.limit_speed_to_stopping_distance {
             motion = sight.limited(motion, &senses, &self.moved);
         }
         if let (Some(beliefs), Some(wants)) = (beliefs, wants) {

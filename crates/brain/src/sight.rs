@@ -361,7 +361,7 @@ mod tests {
     #[test]
     fn without_the_law_it_hits_the_wall() {
         let spec = BrainSpec {
-            speed_limited_by_sight: false,
+            limit_speed_to_stopping_distance: false,
             ..cruising()
         };
         let mut walk = Walk::new(rover(), room(20.0, 9.0), [4.0, 4.0], 0.0);

@@ -1,7 +1,7 @@
 //! What a scenario says of a brain.
 
 use crate::arbitration::Arbitration;
-use crate::behaviours::{Avoid, BehaviourSpec, Bounce, Cruise};
+use crate::behaviours::{Avoid, BehaviourSpec, Cruise, RandomBounce};
 use crate::beliefs::BeliefsSpec;
 use alloc::vec;
 use alloc::vec::Vec;
@@ -22,7 +22,7 @@ pub struct BrainSpec {
     /// Whether it goes only so fast that it can stop within what its range sensors see to be free.
     /// It then stands when they see nothing, and can still hit what slips between two rays. A robot
     /// without a range sensor that looks where it goes is blind, and is not limited.
-    pub speed_limited_by_sight: bool,
+    pub limit_speed_to_stopping_distance: bool,
     /// How one motion is made of what all behaviours want.
     pub arbitration: Arbitration,
     /// What it believes of the world; left out, it has what its behaviours need.
@@ -36,12 +36,12 @@ impl Default for BrainSpec {
     fn default() -> Self {
         Self {
             rate_hz: None,
-            speed_limited_by_sight: true,
+            limit_speed_to_stopping_distance: true,
             arbitration: Arbitration::default(),
             beliefs: None,
             behaviours: vec![
                 BehaviourSpec::Cruise(Cruise::default()),
-                BehaviourSpec::Bounce(Bounce::default()),
+                BehaviourSpec::RandomBounce(RandomBounce::default()),
                 BehaviourSpec::Avoid(Avoid::default()),
             ],
         }

@@ -1,7 +1,7 @@
 //! When a brain alone goes home, whatever its battery's gauge says.
 
 use base::geometry::Point;
-use brain::behaviours::{BehaviourSpec, Home, Navigate};
+use brain::behaviours::{BehaviourSpec, Navigate, ReturnHome};
 use brain::{Arbitration, Body, Brain, BrainSpec, Percept, Reading};
 use std::sync::Arc;
 
@@ -16,17 +16,20 @@ fn brain() -> Brain {
         ..Body::default()
     };
     let navigate = Navigate {
-        places_m: vec![Point { x: 45.0, y: 0.0 }],
+        waypoints_m: vec![Point { x: 45.0, y: 0.0 }],
         ..Navigate::default()
     };
-    let home = Home {
+    let home = ReturnHome {
         at_m: Some(Point { x: -9.0, y: 0.0 }),
-        ..Home::default()
+        ..ReturnHome::default()
     };
     let spec = BrainSpec {
         arbitration: Arbitration::Goals,
-        behaviours: vec![BehaviourSpec::Navigate(navigate), BehaviourSpec::Home(home)],
-        speed_limited_by_sight: false,
+        behaviours: vec![
+            BehaviourSpec::Navigate(navigate),
+            BehaviourSpec::ReturnHome(home),
+        ],
+        limit_speed_to_stopping_distance: false,
         ..BrainSpec::default()
     };
     Brain::new(Arc::new(spec), Arc::new(body))

@@ -2,8 +2,8 @@
 
 use base::geometry::{Point, Rectangle};
 use brain::behaviours::{
-    Avoid, BehaviourSpec, Bounce, Cruise, Follow, Frontier, Hold, Home, Lanes, Navigate, Seek,
-    Spiral,
+    Avoid, BayesianSearch, BehaviourSpec, Cruise, Follow, Frontier, HoldPosition, Lawnmower,
+    Navigate, RandomBounce, ReturnHome, Spiral,
 };
 use brain::{
     About, Arbitration, BeliefsSpec, Body, Brain, BrainSpec, Command, Contact, Detector, Heard,
@@ -35,9 +35,8 @@ fn rover() -> Body {
 /// Brains that make motions in different ways, with a mind and without.
 #[expect(clippy::unwrap_used, reason = "written here")]
 fn brains(body: &Body) -> Vec<Brain> {
-    let correct = r#"[{"kind": "cruise"}, {"kind": "correct", "places_m": [[5, 0], [0, 5]]}, {"kind": "avoid"}]"#;
-    let navigate =
-        r#"[{"kind": "cruise"}, {"kind": "navigate", "places_m": [[5, 0]]}, {"kind": "hold"}]"#;
+    let correct = r#"[{"kind": "cruise"}, {"kind": "correct", "waypoints_m": [[5, 0], [0, 5]]}, {"kind": "avoid"}]"#;
+    let navigate = r#"[{"kind": "cruise"}, {"kind": "navigate", "waypoints_m": [[5, 0]]}, {"kind": "hold_position"}]"#;
     let specs = [
         "{}".to_owned(),
         format!(r#"{{"behaviours": {correct}}}"#),
@@ -59,7 +58,7 @@ fn explorer() -> Body {
         sensor,
         range_m: 4.0,
         width_rad: 3.0,
-        detects: vec![vec![[0.0, 0.9], [4.0, 0.5]], vec![]],
+        detection_probability: vec![vec![[0.0, 0.9], [4.0, 0.5]], vec![]],
         false_alarms_per_m2: vec![0.01],
         noise_m: 0.1,
         needs_line_of_sight: true,
@@ -83,19 +82,19 @@ fn explorer() -> Body {
 
 /// All behaviours in one mind, each in its turn the highest.
 fn mind(arbitration: Arbitration, turn: usize, body: &Body) -> Brain {
-    let places_m = vec![Point { x: 5.0, y: 5.0 }, Point { x: -5.0, y: 0.0 }];
+    let waypoints_m = vec![Point { x: 5.0, y: 5.0 }, Point { x: -5.0, y: 0.0 }];
     let mut behaviours = vec![
         BehaviourSpec::Cruise(Cruise::default()),
-        BehaviourSpec::Bounce(Bounce::default()),
-        BehaviourSpec::Hold(Hold::default()),
-        BehaviourSpec::Lanes(Lanes::default()),
+        BehaviourSpec::RandomBounce(RandomBounce::default()),
+        BehaviourSpec::HoldPosition(HoldPosition::default()),
+        BehaviourSpec::Lawnmower(Lawnmower::default()),
         BehaviourSpec::Spiral(Spiral::default()),
         BehaviourSpec::Frontier(Frontier::default()),
-        BehaviourSpec::Seek(Seek::default()),
+        BehaviourSpec::BayesianSearch(BayesianSearch::default()),
         BehaviourSpec::Follow(Follow::default()),
-        BehaviourSpec::Home(Home::default()),
+        BehaviourSpec::ReturnHome(ReturnHome::default()),
         BehaviourSpec::Navigate(Navigate {
-            places_m,
+            waypoints_m,
             ..Navigate::default()
         }),
         BehaviourSpec::Avoid(Avoid::default()),
@@ -510,7 +509,7 @@ fn a_brain_is_written_as_a_scenario_says_it() {
         "rate_hz": 10,
         "behaviours": [
             {"kind": "cruise", "speed_m_s": 0.5},
-            {"kind": "bounce"},
+            {"kind": "random_bounce"},
             {"kind": "avoid", "near_m": 0.3}
         ]
     }"#;
@@ -518,7 +517,7 @@ fn a_brain_is_written_as_a_scenario_says_it() {
         BehaviourSpec::Cruise(Cruise {
             speed_m_s: Some(0.5),
         }),
-        BehaviourSpec::Bounce(Bounce::default()),
+        BehaviourSpec::RandomBounce(RandomBounce::default()),
         BehaviourSpec::Avoid(Avoid {
             near_m: 0.3,
             ..Avoid::default()
@@ -528,7 +527,7 @@ fn a_brain_is_written_as_a_scenario_says_it() {
         arbitration: Arbitration::Subsumption,
         beliefs: None,
         rate_hz: Some(10.0),
-        speed_limited_by_sight: true,
+        limit_speed_to_stopping_distance: true,
         behaviours,
     };
     assert_eq!(serde_json::from_str::<BrainSpec>(text).unwrap(), expected);

@@ -3,7 +3,7 @@
 use base::geometry::Point;
 use base::random::{Entity, Purpose, Stream, stream, unit};
 use base::trig::wrapped;
-use brain::behaviours::{BehaviourSpec, Cruise, Hold};
+use brain::behaviours::{BehaviourSpec, Cruise, HoldPosition};
 use brain::{BeliefsSpec, Body, Brain, BrainSpec, Motion, Percept, Pose, Reading};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
@@ -30,7 +30,7 @@ fn brain_in(body: Body, behaviour: BehaviourSpec) -> Brain {
     let spec = BrainSpec {
         behaviours: vec![behaviour],
         beliefs: Some(BeliefsSpec::default()),
-        speed_limited_by_sight: false,
+        limit_speed_to_stopping_distance: false,
         ..BrainSpec::default()
     };
     Brain::new(Arc::new(spec), Arc::new(body))
@@ -38,7 +38,7 @@ fn brain_in(body: Body, behaviour: BehaviourSpec) -> Brain {
 
 /// A brain whose commands are to stand.
 fn still(body: Body) -> Brain {
-    brain_in(body, BehaviourSpec::Hold(Hold::default()))
+    brain_in(body, BehaviourSpec::HoldPosition(HoldPosition::default()))
 }
 
 /// A brain whose commands are to go at 1 m/s.

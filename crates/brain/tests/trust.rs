@@ -21,7 +21,7 @@ fn body() -> Body {
     let eye = Detector {
         range_m: 3.0,
         width_rad: TAU,
-        detects: vec![vec![[0.0, 0.8], [3.0, 0.8]]],
+        detection_probability: vec![vec![[0.0, 0.8], [3.0, 0.8]]],
         false_alarms_per_m2: vec![0.0],
         noise_m: 0.1,
         ..Detector::default()
@@ -50,7 +50,7 @@ fn body() -> Body {
 #[expect(clippy::unwrap_used, reason = "written here")]
 fn brain(behaviour: &str, trust: &str) -> Brain {
     let spec = format!(
-        r#"{{"arbitration": {{"kind": "goals"}}, "speed_limited_by_sight": false,
+        r#"{{"arbitration": {{"kind": "goals"}}, "limit_speed_to_stopping_distance": false,
             "beliefs": {{"trust": {{{trust}}}}}, "behaviours": [{behaviour}]}}"#
     );
     let spec: BrainSpec = serde_json::from_str(&spec).unwrap();
@@ -126,7 +126,7 @@ fn all_over() -> impl Iterator<Item = Point> {
 }
 
 const PLACE: Point = Point { x: 15.0, y: 10.0 };
-const ERRAND: &str = r#"{"kind": "navigate", "share": "team", "places_m": [[15, 10]]}"#;
+const ERRAND: &str = r#"{"kind": "navigate", "assignment": "shared", "waypoints_m": [[15, 10]]}"#;
 
 fn done(confidence: f64) -> Heard {
     let (at, stand) = (PLACE, Stand::Done);
@@ -142,7 +142,7 @@ fn who_is_not_trusted_or_not_sure_has_done_no_errand() {
         (0.9, 0.0, false),
         (0.7, 0.7, false),
     ] {
-        let trust = format!(r#""initial": {initial}, "learns": false"#);
+        let trust = format!(r#""initial": {initial}, "adaptive": false"#);
         let mut brain = brain(ERRAND, &trust);
         step(&mut brain, vec![done(confidence)]);
         let goes = goes_to(&mut brain, PLACE, 3);
@@ -216,7 +216,7 @@ fn nobody_follows_where_its_leader_was_long_ago() {
 #[test]
 fn however_many_looks_one_claims_who_is_not_trusted_ends_no_search() {
     for (initial, confidence, ends) in [(0.9, 1.0, true), (0.05, 1.0, false), (0.9, 0.05, false)] {
-        let trust = format!(r#""initial": {initial}, "learns": false"#);
+        let trust = format!(r#""initial": {initial}, "adaptive": false"#);
         let mut brain = brain(r#"{"kind": "frontier"}"#, &trust);
         let mut looks = 0;
         // Three times, as saying it again must not help.

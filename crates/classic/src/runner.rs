@@ -32,7 +32,12 @@ impl Runner for Configuration {
             max,
         };
         vec![
-            column("time_s", ColumnKind::Real, 0.0, Some(self.clock.cap_s)),
+            column(
+                "time_s",
+                ColumnKind::Real,
+                0.0,
+                Some(self.clock.time_limit_s),
+            ),
             column("failed", ColumnKind::Flag, 0.0, Some(1.0)),
             column("robots", ColumnKind::Whole, robots, Some(robots)),
             column("found", ColumnKind::Whole, 0.0, Some(ITEMS.len() as f64)),
@@ -68,9 +73,10 @@ impl Configuration {
     pub(crate) fn values(&self, outcome: Outcome) -> [f64; 6] {
         let in_time = outcome.paints.filter(|at| *at <= self.task.cap_paints);
         // The last paint within the cap may be a rounding error beyond it: see `whole_paints`.
-        let time_s = in_time.map(|at| (at as f64 / self.clock.paints_per_s).min(self.clock.cap_s));
+        let time_s =
+            in_time.map(|at| (at as f64 / self.clock.paints_per_s).min(self.clock.time_limit_s));
         [
-            time_s.unwrap_or(self.clock.cap_s),
+            time_s.unwrap_or(self.clock.time_limit_s),
             f64::from(u8::from(in_time.is_none())),
             f64::from(self.robots),
             f64::from(outcome.found),
@@ -102,7 +108,7 @@ mod tests {
             },
             clock: Clock {
                 paints_per_s: 50.0,
-                cap_s: f64::from(u32::try_from(cap_paints).unwrap()) / 50.0,
+                time_limit_s: f64::from(u32::try_from(cap_paints).unwrap()) / 50.0,
                 cap_paints,
             },
         }
@@ -171,7 +177,7 @@ mod tests {
     fn a_time_is_never_beyond_a_cap_that_floats_cannot_hold() {
         let mut rounded = configuration(1, Contact::Touch, 435);
         rounded.clock.paints_per_s = 100.0;
-        rounded.clock.cap_s = 4.35 - 1e-9;
+        rounded.clock.time_limit_s = 4.35 - 1e-9;
         let last = Outcome {
             paints: Some(435),
             found: 4,

@@ -15,7 +15,7 @@ fn configuration(robots: u32, contact: Contact, cap_paints: u32) -> Configuratio
         },
         clock: Clock {
             paints_per_s: 50.0,
-            cap_s: f64::from(cap_paints) / 50.0,
+            time_limit_s: f64::from(cap_paints) / 50.0,
             cap_paints: cap_paints.into(),
         },
     }

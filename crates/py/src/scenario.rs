@@ -197,7 +197,7 @@ fn as_dict<'py>(py: Python<'py>, scenario: &Scenario) -> PyResult<Bound<'py, PyD
     dict.set_item("summary", &scenario.summary)?;
     dict.set_item("merit", merit_dict(py, &scenario.merit)?)?;
     dict.set_item("robots", robots)?;
-    dict.set_item("cap_s", configuration.cap_s)?;
+    dict.set_item("time_limit_s", configuration.time_limit_s)?;
     dict.set_item("facts", configuration.facts.clone())?;
     dict.set_item("factors", factor_dicts(py, &study.factors)?)?;
     dict.set_item("design", study.design.to_string())?;
@@ -261,7 +261,7 @@ fn published_dict<'py>(py: Python<'py>, published: &Published) -> PyResult<Bound
     let dict = PyDict::new(py);
     dict.set_item("source", &published.source)?;
     dict.set_item("choice", published.choice)?;
-    dict.set_item("cap_s", published.cap_s)?;
+    dict.set_item("time_limit_s", published.time_limit_s)?;
     dict.set_item("times_s", published.times_s.clone())?;
     Ok(dict)
 }

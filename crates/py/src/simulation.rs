@@ -398,9 +398,9 @@ fn unchangeable(from: &Scenario, to: &Scenario) -> Vec<InputError> {
         let shown = |size: base::geometry::Point| format!("[{}, {}]", size.x, size.y);
         errors.push(error("world.size_m", shown(is), shown(was)));
     }
-    let [was, is] = [from, to].map(Scenario::wraps);
+    let [was, is] = [from, to].map(Scenario::periodic);
     if was != is {
-        errors.push(error("world.wraps", is.to_string(), was.to_string()));
+        errors.push(error("world.periodic", is.to_string(), was.to_string()));
     }
     errors
 }

@@ -12,7 +12,7 @@ pub struct ClockSpec {
     pub step_s: f64,
     /// A run ends here, in seconds; a search that has not found all by then has failed.
     #[schemars(range(min = 0.0, max = 1e7))]
-    pub cap_s: f64,
+    pub time_limit_s: f64,
 }
 
 fn tenth() -> f64 {

@@ -13,7 +13,7 @@ pub struct RadioSpec {
     /// Probability that one receiver misses a message.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1.0))]
-    pub loss: f64,
+    pub loss_probability: f64,
     /// Time from sending to hearing, in seconds; a message is heard in the next step at the soonest.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 3600.0))]
@@ -39,7 +39,7 @@ fn four() -> u32 {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Radio {
     pub(crate) range_m: f64,
-    pub(crate) loss: f64,
+    pub(crate) loss_probability: f64,
     /// At least 1.
     pub(crate) delay_steps: u64,
     pub(crate) messages_per_step: usize,
@@ -51,7 +51,7 @@ impl Radio {
     pub(crate) fn new(spec: &RadioSpec, step_s: f64) -> Self {
         Self {
             range_m: spec.range_m,
-            loss: spec.loss,
+            loss_probability: spec.loss_probability,
             delay_steps: steps_of(spec.delay_s, step_s).max(1),
             messages_per_step: spec.messages_per_step as usize,
             needs_line_of_sight: spec.needs_line_of_sight,

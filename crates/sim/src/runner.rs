@@ -31,7 +31,7 @@ impl Engine for Metric {
         let scenario = ScenarioSpec::read(document)?.scenario;
         Ok(Configuration {
             robots: scenario.team(),
-            cap_s: scenario.cap_s,
+            time_limit_s: scenario.time_limit_s,
             facts: scenario.facts(),
             runner: Box::new(Runs(Arc::new(scenario))),
         })
@@ -85,12 +85,12 @@ impl Runner for Runs {
         let most = scenario.bounds();
         let fixed = |name, kind, value| column(name, kind, value, Some(value));
         let mut columns = vec![
-            up_to("time_s", ColumnKind::Real, scenario.cap_s),
+            up_to("time_s", ColumnKind::Real, scenario.time_limit_s),
             up_to("failed", ColumnKind::Flag, 1.0),
             fixed("robots", ColumnKind::Whole, most.robots),
             fixed("price", ColumnKind::Real, most.price),
-            up_to("found", ColumnKind::Whole, most.sought),
-            up_to("missed", ColumnKind::Whole, most.sought),
+            up_to("found", ColumnKind::Whole, most.target),
+            up_to("missed", ColumnKind::Whole, most.target),
             column("false_alarms", ColumnKind::Whole, 0.0, None),
             up_to("collisions", ColumnKind::Whole, most.collisions),
             up_to("energy_j", ColumnKind::Real, most.energy_j),
@@ -147,10 +147,10 @@ impl Runs {
             return None;
         }
         let scenario = &*self.0;
-        let sought = |counts: &[u32]| {
+        let target = |counts: &[u32]| {
             let kinds = scenario.items.iter().zip(counts);
-            let sought = kinds.filter(|(kind, _)| kind.is_sought);
-            f64::from(sought.map(|(_, count)| count).sum::<u32>())
+            let target = kinds.filter(|(kind, _)| kind.is_target);
+            f64::from(target.map(|(_, count)| count).sum::<u32>())
         };
         let most = scenario.bounds();
         let mut values = vec![
@@ -158,8 +158,8 @@ impl Runs {
             f64::from(u8::from(outcome.has_failed)),
             most.robots,
             most.price,
-            sought(&outcome.found),
-            sought(&outcome.missed),
+            target(&outcome.found),
+            target(&outcome.missed),
             outcome.false_alarms as f64,
             outcome.collisions as f64,
             outcome.energy_j,

@@ -35,7 +35,7 @@ def check(
 
     Exit codes: 0 nothing is wrong, 2 something is, or something given is not allowed.
 
-    Example: agent-economy check scenarios/classic.toml --set clock.cap_s=60
+    Example: agent-economy check scenarios/classic.toml --set clock.time_limit_s=60
     """
     with faults_told():
         changes = overrides(sets)

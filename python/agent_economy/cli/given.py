@@ -14,7 +14,7 @@ Sets = Annotated[
     typer.Option(
         "--set",
         metavar="PATH=VALUE",
-        help="A value of the scenario, as clock.cap_s=60; may be repeated.",
+        help="A value of the scenario, as clock.time_limit_s=60; may be repeated.",
         show_default=False,
     ),
 ]
@@ -67,7 +67,7 @@ def once(option: str, given: list[str]) -> list[str]:
 
 def assigned(text: str) -> Override:
     """Return the value of PATH=VALUE."""
-    path, value = parts("--set", text, "PATH=VALUE, such as clock.cap_s=60")
+    path, value = parts("--set", text, "PATH=VALUE, such as clock.time_limit_s=60")
     return Override.at(path, parsed(value), f"--set {path}")
 
 

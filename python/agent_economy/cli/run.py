@@ -119,7 +119,7 @@ def recorded(simulation: Stepped, path: Path, every: int, percepts: Sequence[str
 
 def shown(simulation: Stepped, step: Callable[[], object]) -> Outcome:
     """Step until the run is over."""
-    with gauge(simulation.scenario.cap_s, "simulated seconds") as tell:
+    with gauge(simulation.scenario.time_limit_s, "simulated seconds") as tell:
         while not simulation.is_over:
             step()
             tell(simulation.time_s)
@@ -146,7 +146,7 @@ def lines(scenario: Scenario, outcome: Outcome) -> list[tuple[str, str]]:
     found = {f"{kind} found": counts(outcome, kind) for kind in outcome.found}
     told: dict[str, str | None] = {
         **found,
-        "time": f"{outcome.time_s:.1f} s of {scenario.cap_s:g} s",
+        "time": f"{outcome.time_s:.1f} s of {scenario.time_limit_s:g} s",
         "energy": number(outcome.energy_j, "J"),
         "distance": number(outcome.distance_m, "m"),
         "collisions": number(outcome.collisions),

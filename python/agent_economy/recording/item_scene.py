@@ -44,14 +44,14 @@ class Items:
     """
 
     def __init__(
-        self, file: File, items: pa.Table, sought: Mapping[str, bool], told: set[str]
+        self, file: File, items: pa.Table, target: Mapping[str, bool], told: set[str]
     ) -> None:
         """Begin with all items.
 
         Args:
             file: Where they are written.
             items: Each with its `kind`, `x_m` and `y_m`.
-            sought: Of each kind, whether it is.
+            target: Of each kind, whether it is.
             told: Names of those whose finds are in the log; those that follow are put there.
         """
         kinds = items["kind"].combine_chunks().dictionary_encode()
@@ -62,7 +62,7 @@ class Items:
             places = np.flatnonzero(self._kind_of == kind)
             self._number[places] = np.arange(len(places))
         self._at = np.column_stack([items["x_m"].to_numpy(), items["y_m"].to_numpy()])
-        self._file, self._sought, self._told = file, sought, told
+        self._file, self._target, self._told = file, target, told
         self._found = np.zeros(len(items), np.bool_)
         self._order: list[int] = []
 
@@ -103,7 +103,7 @@ class Items:
         now = stamp(time_ns)
         yield scene([], time_ns)
         for kind, name in enumerate(self._kinds):
-            paint = color(SOUGHT if self._sought[name] else CLUTTER)
+            paint = color(SOUGHT if self._target[name] else CLUTTER)
             places = self._at[self._kind_of == kind]
             for first in range(0, len(places), TOGETHER):
                 several = places[first : first + TOGETHER].tolist()

@@ -69,8 +69,8 @@ class MetricMoments:
         self._bodies = {name: setting[name].tolist() for name in ("radius_m", "is_flying")}
         document = simulation.scenario.to_dict()
         kinds = document.get("items", {})
-        sought = {name: kind.get("sought", True) for name, kind in kinds.items()}
-        self._items = Items(file, simulation.items, sought, told)
+        target = {name: kind.get("target", True) for name, kind in kinds.items()}
+        self._items = Items(file, simulation.items, target, told)
         self._last = moment_of(simulation)
         file.write_json("/team", {"robots": self._names, **self._bodies}, time_ns)
         file.write("/scene/world", scene(still(document), time_ns), time_ns)

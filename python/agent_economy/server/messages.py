@@ -319,7 +319,7 @@ def step(said: Mapping[str, Any]) -> Step:
 def put(said: Mapping[str, Any]) -> Put:
     """Return a `change`."""
     path = said.get("path")
-    given.check(given.is_text(path), "change.path", path, "a path, as clock.cap_s")
+    given.check(given.is_text(path), "change.path", path, "a path, as clock.time_limit_s")
     given.check("value" in said, "change.value", None, "given")
     instead = said.get("instead", False)
     given.check(isinstance(instead, bool), "change.instead", instead, "true or false")

@@ -13,8 +13,8 @@ const crowd = (robots, step_s) => {
   return `engine = "metric"
 summary = "${robots} robots."
 merit = "equation-5.2"
-clock = { step_s = ${step_s}, cap_s = 1e5 }
-world = { size_m = [${side_m}, ${side_m}], wraps = true }
+clock = { step_s = ${step_s}, time_limit_s = 1e5 }
+world = { size_m = [${side_m}, ${side_m}], periodic = true }
 [robots.rover]
 count = ${robots}
 radius_m = 0
@@ -24,7 +24,7 @@ kind = "robots"
 range_m = 3
 course_noise_deg = 0
 [[robots.rover.brain.behaviours]]
-kind = "swarm"
+kind = "flock"
 separation_m = 1
 separation = 0.015
 alignment = 0.05

@@ -13,7 +13,7 @@ export async function measureLoad(browser, server) {
     page.on("response", (answer) => answers.push(answer));
     const began = performance.now();
     await page.goto(server.url);
-    await page.getByRole("link", { name: /^search-mind/ }).waitFor();
+    await page.getByRole("link", { name: /^search-beliefs/ }).waitFor();
     loads.push(performance.now() - began);
     const ours = answers.filter((answer) => /(\/|js|css|svg)$/.test(new URL(answer.url()).pathname));
     const bodies = await Promise.all(ours.map((answer) => answer.body()));

@@ -3,7 +3,7 @@ import { documentOf, entryOf } from "./scenarios.mjs";
 
 const mostConfigurations = 10_000;
 const others = [
-  { path: "clock.cap_s", value: 120, low: 0.1, high: 100_000, whole: false },
+  { path: "clock.time_limit_s", value: 120, low: 0.1, high: 100_000, whole: false },
   { path: "items.mine.count", value: 4, low: 0, high: 10_000, whole: true },
   { path: "robots.rover.drive.max_speed_m_s", value: 1, low: 0.01, high: 50, whole: false },
   { path: "robots.rover.sensors.camera.range_m", value: 3, low: 0.1, high: 1000, whole: false },

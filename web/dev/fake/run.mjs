@@ -59,16 +59,16 @@ export class FakeRun {
 
   look(x, y) {
     this.items.forEach((item, k) => {
-      if (item.sought && Math.hypot(item.at[0] - x, item.at[1] - y) < 1) this.found[k] = 1;
+      if (item.target && Math.hypot(item.at[0] - x, item.at[1] - y) < 1) this.found[k] = 1;
     });
   }
 
   outcome() {
-    const sought = this.items.filter((item) => item.sought).length;
+    const target = this.items.filter((item) => item.target).length;
     const found = this.found.reduce((sum, state) => sum + (state === 1 ? 1 : 0), 0);
     return {
       found,
-      missed: sought - found,
+      missed: target - found,
       collisions: this.collisions,
       energy_j: 40 * this.tick * this.count * this.step_s,
       time_s: this.tick * this.step_s,
@@ -81,7 +81,7 @@ export class FakeRun {
 
   over() {
     const { missed } = this.outcome();
-    return missed === 0 || this.tick * this.step_s >= this.document.clock.cap_s;
+    return missed === 0 || this.tick * this.step_s >= this.document.clock.time_limit_s;
   }
 
   frame(generation, number) {
@@ -92,9 +92,9 @@ export class FakeRun {
     buffer.writeUInt32LE(this.items.length, 24);
     buffer.writeUInt32LE(number, 28);
     Buffer.from(this.robots.buffer).copy(buffer, 32);
-    const missed = this.tick * this.step_s >= this.document.clock.cap_s;
+    const missed = this.tick * this.step_s >= this.document.clock.time_limit_s;
     this.items.forEach((item, i) => {
-      buffer[32 + 16 * this.count + i] = missed && item.sought && !this.found[i] ? 2 : this.found[i];
+      buffer[32 + 16 * this.count + i] = missed && item.target && !this.found[i] ? 2 : this.found[i];
     });
     return buffer;
   }
@@ -205,7 +205,7 @@ function kindsOf(document) {
     name,
     count: robot.count,
     radius: robot.radius_m ?? 0.27,
-    flies: robot.like === "quadrotor",
+    flies: robot.model === "quadrotor",
     radio_range_m: 12,
     rings: robot.radius_m ? [] : [{ bearings_rad: rays, range_m: 6 }],
     sensors: robot.radius_m
@@ -226,11 +226,11 @@ function kindsOf(document) {
 function itemsOf(document, seed) {
   const random = dice(seed + 5);
   const [width, height] = document.world.size_m;
-  return Object.entries(document.items ?? {}).flatMap(([kind, { count, sought = true, placement }]) =>
+  return Object.entries(document.items ?? {}).flatMap(([kind, { count, target = true, placement }]) =>
     Array.from({ length: count }, (_, i) => ({
       kind,
       at: placement?.at_m?.[i] ?? [(0.1 + 0.8 * random()) * width, (0.1 + 0.8 * random()) * height],
-      sought,
+      target,
       contact: [],
     })),
   );

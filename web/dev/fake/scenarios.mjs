@@ -3,7 +3,7 @@
 const yard = {
   engine: "metric",
   merit: "equation-5.2",
-  clock: { step_s: 0.1, cap_s: 120 },
+  clock: { step_s: 0.1, time_limit_s: 120 },
   world: {
     size_m: [25, 25],
     obstacles: [
@@ -36,11 +36,11 @@ const yard = {
       { circle: { at_m: [13, 10], radius_m: 0.5 } },
     ],
   },
-  items: { mine: { count: 4 }, scrap: { count: 2, sought: false } },
+  items: { mine: { count: 4 }, scrap: { count: 2, target: false } },
 };
 
 export const entries = [
-  entry("search-mind", "The search of four items by one to twenty ground robots that map, share and plan."),
+  entry("search-beliefs", "The search of four items by one to twenty ground robots that map, share and plan."),
   entry("search", "Four items on a field of 25 m by 25 m, one to twenty ground robots, 120 seconds."),
   entry(
     "open-field",
@@ -62,9 +62,9 @@ export function documentOf(id) {
   const brain = {
     rate_hz: 5,
     arbitration: { kind: "goals" },
-    behaviours: [{ kind: "seek" }, { kind: "home" }, { kind: "avoid" }],
+    behaviours: [{ kind: "bayesian_search" }, { kind: "return_home" }, { kind: "avoid" }],
   };
-  const rover = { like: "ugv", count: id === "flock" ? 400 : 4, drive: { max_speed_m_s: 1 }, brain };
+  const rover = { model: "ugv", count: id === "flock" ? 400 : 4, drive: { max_speed_m_s: 1 }, brain };
   return structuredClone({ ...yard, summary: entryOf(id).summary, robots: { rover } });
 }
 
@@ -118,9 +118,9 @@ function field() {
           ],
         },
       },
-      scrap: { count: 10, sought: false },
+      scrap: { count: 10, target: false },
     },
-    robots: { rover: { like: "ugv", count: 6 }, bird: { like: "quadrotor", count: 2 } },
+    robots: { rover: { model: "ugv", count: 6 }, bird: { model: "quadrotor", count: 2 } },
   };
 }
 
@@ -129,7 +129,7 @@ function crowded(count) {
     engine: "metric",
     summary: `A crowd of ${count} robots.`,
     merit: "equation-5.2",
-    clock: { step_s: 0.1, cap_s: 100000 },
+    clock: { step_s: 0.1, time_limit_s: 100000 },
     world: { size_m: [1000, 560] },
     items: { mine: { count: 20 } },
     robots: { rover: { count, radius_m: 1, drive: { max_speed_m_s: 5 } } },

@@ -4,7 +4,7 @@ import { namesOf, pointsOf } from "./asking.mjs";
 import { dice } from "./dice.mjs";
 
 const round_ms = 100;
-const cap_s = 120;
+const time_limit_s = 120;
 /** Runs that a configuration gets in a round. */
 const mostMore = 20_000;
 /** What becomes of studies with these seeds, and why. */
@@ -124,8 +124,8 @@ export class FakeStudy {
     const random = dice(Number(BigInt(this.ask.seed) % 999983n) * 31 + configuration * 1000003 + run * 7919);
     const [team] = this.points[configuration];
     const time_s = 6 + (70 / Math.max(1, team)) * -Math.log(1 - random()) * (0.6 + 0.8 * random());
-    const failed = time_s > cap_s || team === 0;
-    const taken_s = Math.min(cap_s, time_s);
+    const failed = time_s > time_limit_s || team === 0;
+    const taken_s = Math.min(time_limit_s, time_s);
     const merit = -0.03 * taken_s - 0.2 * team - (failed ? 2 : 0);
     const missed = failed ? 1 + Math.floor(2 * random()) : 0;
     return {

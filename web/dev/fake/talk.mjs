@@ -78,9 +78,9 @@ export class Talk {
     const edge = Math.max(tick, recorded?.edge ?? 0);
     Object.assign(this, { changes, generation: 0, edge, playing: false, speed: 1, selected: null });
     const { name, engine, summary } = entryOf(text === null ? scenario : null);
-    const { cap_s } = this.base.clock;
+    const { time_limit_s } = this.base.clock;
     const recording = recorded ? { id: said.recording, program: "0.1.0" } : null;
-    const told = { id: scenario, name, engine, summary, cap_s };
+    const told = { id: scenario, name, engine, summary, time_limit_s };
     this.say({ type: "opened", scenario: told, seed, run, recording });
     this.build(tick);
     this.tell();
@@ -103,7 +103,7 @@ export class Talk {
       type: "setting",
       generation,
       step_s: this.run.step_s,
-      world: { size: this.run.size, wraps: false, unit: "m", cell: null },
+      world: { size: this.run.size, periodic: false, unit: "m", cell: null },
       document,
       robots: this.run.nameOf(),
       kinds,
@@ -142,8 +142,8 @@ export class Talk {
     this.layers = { links, footprints };
   }
   hear_change({ path, value, instead }) {
-    if (path.endsWith("behaviours") && value.some((one) => one.kind === "swarm"))
-      return this.refuse("change", `${path}: swarm needs a sensor of kind robots, and rover has none`, path);
+    if (path.endsWith("behaviours") && value.some((one) => one.kind === "flock"))
+      return this.refuse("change", `${path}: flock needs a sensor of kind robots, and rover has none`, path);
     const made = this.changes.filter(([at]) => at <= this.run.tick);
     const last = made.at(-1);
     if (instead && last?.[0] === this.run.tick && last[1] === path) made.pop();

@@ -107,7 +107,7 @@ export interface Opened {
     name: string;
     engine: Engine;
     summary: string;
-    cap_s: number;
+    time_limit_s: number;
   };
   seed: string;
   run: string;
@@ -143,7 +143,7 @@ export interface KindView {
 export interface ItemView {
   kind: string;
   at: Point;
-  sought: boolean;
+  target: boolean;
   /** Outlines of where robots must be to find it, if there are such. */
   contact: Point[][];
 }
@@ -158,7 +158,7 @@ export interface MapView {
 
 export interface WorldView {
   size: Point;
-  wraps: boolean;
+  periodic: boolean;
   unit: "m" | "px";
   /** How wide its cells are; null where there are none. */
   cell: number | null;

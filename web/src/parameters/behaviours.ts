@@ -15,16 +15,16 @@ export interface Switch {
 }
 
 export const switches: Switch[] = [
-  { name: "Search", help: "looks for items", kinds: ["seek", "frontier", "lanes", "spiral", "bounce"] },
+  { name: "Search", help: "looks for items", kinds: ["bayesian_search", "frontier", "lawnmower", "spiral", "random_bounce"] },
   { name: "Follow", help: "goes behind the robot before it", kinds: ["follow"] },
-  { name: "Swarm", help: "goes with the others", kinds: ["swarm"] },
+  { name: "Swarm", help: "goes with the others", kinds: ["flock"] },
 ];
 
 /** What a robot does whose scenario does not say. */
-const usual: Behaviour[] = [{ kind: "cruise" }, { kind: "bounce" }, { kind: "avoid" }];
+const usual: Behaviour[] = [{ kind: "cruise" }, { kind: "random_bounce" }, { kind: "avoid" }];
 
 /** These have their way before all others. */
-const reflexes = new Set(["avoid", "home"]);
+const reflexes = new Set(["avoid", "return_home"]);
 
 export function behavioursOf(document: Table, robotKind: string): Behaviour[] {
   const given = valueAt(document, ["robots", robotKind, "brain", "behaviours"]);
@@ -61,7 +61,7 @@ export function wantsGoals(document: Table, robotKind: string): boolean {
 
 function firstKind(toggle: Switch, goals: boolean): string {
   const first = toggle.kinds[0] ?? "";
-  return first === "seek" && !goals ? "bounce" : first;
+  return first === "bayesian_search" && !goals ? "random_bounce" : first;
 }
 
 function isBehaviour(value: Json): value is Behaviour {

@@ -10,14 +10,14 @@ const document: Table = {
   engine: "metric",
   summary: "A search.",
   merit: { time: -0.03, energy: { weight: -1 } },
-  clock: { cap_s: 120 },
+  clock: { time_limit_s: 120 },
   world: { size_m: [25, 20], obstacles: [{ circle: { at_m: [8, 16], radius_m: 1.5 } }] },
   items: { mine: { count: 4 } },
   robots: {
     rover: {
-      like: "ugv",
+      model: "ugv",
       count: 4,
-      brain: { behaviours: [{ kind: "seek" }, { kind: "avoid", near_m: 0.3 }] },
+      brain: { behaviours: [{ kind: "bayesian_search" }, { kind: "avoid", near_m: 0.3 }] },
     },
   },
   study: { delta: 0.1 },
@@ -48,7 +48,7 @@ test("numbers have their bounds, their words and their value from schema and sce
 
 test("what a scenario leaves out is listed with its default", () => {
   expect(at("clock.step_s")).toMatchObject({ value: undefined, fallback: 0.1 });
-  expect(at("world.wraps")).toMatchObject({ type: "boolean", fallback: false });
+  expect(at("world.periodic")).toMatchObject({ type: "boolean", fallback: false });
 });
 
 test("what a shipped robot brings is listed as what holds", () => {
@@ -59,7 +59,7 @@ test("what a shipped robot brings is listed as what holds", () => {
 });
 
 test("names to choose from are choices", () => {
-  expect(at("robots.rover.like")).toMatchObject({ type: "choice", choices: ["tracked", "ugv", "quadrotor"] });
+  expect(at("robots.rover.model")).toMatchObject({ type: "choice", choices: ["tracked", "ugv", "quadrotor"] });
   expect(at("robots.rover.layer")).toMatchObject({ choices: ["ground", "air"], fallback: "ground" });
 });
 
@@ -86,7 +86,7 @@ test("a value in a list is set with the whole list, which stays as it was", () =
   const steps = ["robots", "rover", "brain", "behaviours", 1, "near_m"];
   expect(changeOf(document, steps, 0.5)).toEqual({
     path: "robots.rover.brain.behaviours",
-    value: [{ kind: "seek" }, { kind: "avoid", near_m: 0.5 }],
+    value: [{ kind: "bayesian_search" }, { kind: "avoid", near_m: 0.5 }],
   });
   expect(at("robots.rover.brain.behaviours[1].near_m")?.value).toBe(0.3);
 });

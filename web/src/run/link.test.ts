@@ -14,7 +14,7 @@ const full: Link = {
   changes: [
     [0, "robots.rover.count", 12],
     [40, "world.obstacles", [{ circle: { at_m: [1.5, -2], radius_m: 0.5 } }]],
-    [41, "robots.rover.brain.behaviours", [{ kind: "seek" }]],
+    [41, "robots.rover.brain.behaviours", [{ kind: "bayesian_search" }]],
   ],
   tick: 512,
   view: [12.5, 8, 31.25],

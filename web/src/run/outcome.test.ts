@@ -29,6 +29,6 @@ test("what is not known yet is left out, and words are shown as they are", () =>
   ]);
 });
 
-test("where an engine does not tell what was missed, all is what is sought", () => {
+test("where an engine does not tell what was missed, all is what is target", () => {
   expect(outcomeRows({ found: 1 }, 4)[0]?.value).toBe("1 / 4");
 });

@@ -16,11 +16,11 @@ const units: [ending: string, unit: string][] = [
 const first = ["merit", "collisions", "energy_j"];
 
 /** What came of a run, as people read it: found of all, then numbers with their units; not which run it is. */
-export function outcomeRows(outcome: Outcome, sought: number): OutcomeRow[] {
+export function outcomeRows(outcome: Outcome, target: number): OutcomeRow[] {
   const { found, missed, run: _, ...rest } = outcome;
   const rows: OutcomeRow[] = [];
   if (typeof found === "number") {
-    const all = typeof missed === "number" ? found + missed : sought;
+    const all = typeof missed === "number" ? found + missed : target;
     rows.push({ name: "found", value: `${found} / ${all}`, unit: "" });
   }
   const names = [

@@ -13,7 +13,7 @@ const known: Factors = {
   factors: [
     factor("robots.wanderer.count", 4, "1..8"),
     factor("robots.guide.count", 1, null),
-    factor("clock.cap_s", 120, null),
+    factor("clock.time_limit_s", 120, null),
   ],
   design: "factorial",
   merits: ["equation-5.2"],
@@ -53,8 +53,8 @@ test("what is typed is asked, numbers as numbers", () => {
 });
 
 test("what is left empty is not varied, also where the scenario varies it", () => {
-  const vary = { "robots.wanderer.count": "", "clock.cap_s": "60,120" };
-  expect(asked({ vary })).toMatchObject({ ask: { vary: { "clock.cap_s": "60,120" } } });
+  const vary = { "robots.wanderer.count": "", "clock.time_limit_s": "60,120" };
+  expect(asked({ vary })).toMatchObject({ ask: { vary: { "clock.time_limit_s": "60,120" } } });
   expect(asked({ vary })).not.toHaveProperty(["ask", "vary", "robots.wanderer.count"]);
 });
 

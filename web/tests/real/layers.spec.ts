@@ -12,13 +12,13 @@ function field(places: [number, number][], world: string): string {
 engine = "metric"
 summary = "Robots that stand."
 merit = "equation-5.2"
-clock.cap_s = 100
+clock.time_limit_s = 100
 [world]
 size_m = [10, 10]
 ${world}
 [items.mine]
 count = 1
-sought = false
+target = false
 placement = { kind = "fixed", at_m = [[1, 1]] }
 [robots.rover]
 count = ${places.length}
@@ -83,7 +83,7 @@ test("without walls they see as far as they can, and hear each other", async ({ 
   await expect.poll(() => inkAt(page, view, [7.5, 5])).toBe(true);
 });
 
-test("in a world that wraps links and views go on at the other side", async ({ page, server }) => {
+test("in a world that periodic links and views go on at the other side", async ({ page, server }) => {
   await open(
     page,
     server,
@@ -92,7 +92,7 @@ test("in a world that wraps links and views go on at the other side", async ({ p
         [1, 5],
         [8.5, 5],
       ],
-      "wraps = true",
+      "periodic = true",
     ),
   );
   // What the second robot sees beyond the right side comes in at the left one, behind the first.

@@ -13,7 +13,7 @@ async function open(page: Page, server: RealServer, query: string): Promise<void
 
 test("a scenario of the gallery becomes a run, and then another", async ({ page, server }) => {
   await page.goto(server.url);
-  await page.getByRole("link", { name: /^search-mind/ }).click();
+  await page.getByRole("link", { name: /^search-beliefs/ }).click();
   await expect(status(page)).toContainText("0.0 s, 4 robots");
   const first = await hash(page);
   await page.getByRole("button", { name: "New run" }).click();
@@ -69,12 +69,12 @@ test("a page that is loaded anew while it is on its way to a moment comes there"
 }) => {
   const changes = encodeURIComponent(
     JSON.stringify([
-      [0, "clock.cap_s", 100_000],
+      [0, "clock.time_limit_s", 100_000],
       [0, "items.mine.count", 0],
       [0, "robots.rover.count", 50],
     ]),
   );
-  await open(page, server, `scenario=search-mind&seed=3&changes=${changes}&tick=3000`);
+  await open(page, server, `scenario=search-beliefs&seed=3&changes=${changes}&tick=3000`);
   await expect.poll(() => time_s(page)).toBeGreaterThan(2);
   // Written anew meanwhile: the page adds its view.
   await expect.poll(() => page.url()).toContain("view=");
@@ -84,7 +84,7 @@ test("a page that is loaded anew while it is on its way to a moment comes there"
 });
 
 test("a run plays, stands, steps, and goes back to the same bytes", async ({ page, server }) => {
-  await open(page, server, "scenario=search-mind&seed=7");
+  await open(page, server, "scenario=search-beliefs&seed=7");
   await page.keyboard.press("Space");
   await expect.poll(() => time_s(page)).toBeGreaterThan(1);
   await page.keyboard.press("Space");
@@ -105,7 +105,7 @@ test("a parameter changes in mid-run, what is not allowed is refused, and both c
   page,
   server,
 }) => {
-  await open(page, server, "scenario=search-mind&seed=7&tick=10");
+  await open(page, server, "scenario=search-beliefs&seed=7&tick=10");
   await page.getByRole("tab", { name: "Parameters" }).click();
   await page.getByRole("searchbox").fill("max_speed");
   const box = page.getByRole("spinbutton", { name: /rover.*max_speed_m_s/ });
@@ -126,7 +126,7 @@ test("an address reproduces the run, tick for tick, in another tab and beside it
   server,
   context,
 }) => {
-  await open(page, server, "scenario=search-mind&seed=7&run=2");
+  await open(page, server, "scenario=search-beliefs&seed=7&run=2");
   await page.keyboard.press("Space");
   await expect.poll(() => time_s(page)).toBeGreaterThan(0.5);
   await page.getByRole("tab", { name: "Parameters" }).click();
@@ -164,8 +164,8 @@ test("a bad file is told with its lines, and a good one opens", async ({ page, s
   await input.setInputFiles(
     file(
       [
-        'engine = "metric"\nsummary = "Three rovers."\nmerit = "equation-5.2"\nclock = { cap_s = 60 }',
-        'world = { size_m = [20, 20] }\nitems.mine.count = 2\n[robots.rover]\nlike = "ugv"\ncount = 3\n',
+        'engine = "metric"\nsummary = "Three rovers."\nmerit = "equation-5.2"\nclock = { time_limit_s = 60 }',
+        'world = { size_m = [20, 20] }\nitems.mine.count = 2\n[robots.rover]\nmodel = "ugv"\ncount = 3\n',
       ].join("\n"),
     ),
   );
@@ -176,7 +176,7 @@ test("a server that was killed is missed at once, and nothing is lost when it is
   page,
   server,
 }) => {
-  await open(page, server, "scenario=search-mind&seed=7&tick=20");
+  await open(page, server, "scenario=search-beliefs&seed=7&tick=20");
   await page.getByRole("tab", { name: "Parameters" }).click();
   await page.getByRole("spinbutton", { name: "Count of rover" }).fill("6");
   await page.keyboard.press("Enter");
@@ -192,11 +192,11 @@ test("a server that was killed is missed at once, and nothing is lost when it is
 test("a run that played when its server was killed plays on from there", async ({ page, server }) => {
   const changes = encodeURIComponent(
     JSON.stringify([
-      [0, "clock.cap_s", 100_000],
+      [0, "clock.time_limit_s", 100_000],
       [0, "items.mine.count", 0],
     ]),
   );
-  await open(page, server, `scenario=search-mind&seed=7&changes=${changes}&tick=200`);
+  await open(page, server, `scenario=search-beliefs&seed=7&changes=${changes}&tick=200`);
   await expect(status(page)).toContainText("20.0 s");
   await page.keyboard.press("Space");
   await expect.poll(() => time_s(page)).toBeGreaterThan(21);
@@ -210,7 +210,7 @@ test("a run that played when its server was killed plays on from there", async (
 
 test("all of a run is done by keyboard alone", async ({ page, server }) => {
   await page.goto(server.url);
-  const card = page.getByRole("link", { name: /^search-mind/ });
+  const card = page.getByRole("link", { name: /^search-beliefs/ });
   for (let i = 0; i < 60 && !(await card.evaluate((link) => link === document.activeElement)); i += 1)
     await page.keyboard.press("Tab");
   await page.keyboard.press("Enter");

@@ -7,19 +7,19 @@
 //!
 //! ```
 //! use base::document::{Document, Section, Value};
-//! let mut document = Document::parse("job.toml", "cap_s = 120\n[robots]\ncount = 0")?;
-//! document.set(&["cap_s"], Value::Float(-1.0), "--cap");
+//! let mut document = Document::parse("job.toml", "time_limit_s = 120\n[robots]\ncount = 0")?;
+//! document.set(&["time_limit_s"], Value::Float(-1.0), "--cap");
 //! let errors = document
 //!     .read(|root: &Section| {
-//!         root.only(&["cap_s", "robots"]);
-//!         let cap_s = root.number("cap_s", 0.0..=1e6);
+//!         root.only(&["time_limit_s", "robots"]);
+//!         let time_limit_s = root.number("time_limit_s", 0.0..=1e6);
 //!         let count = root.section("robots").integer("count", 1..=100);
-//!         Some((cap_s?, count?))
+//!         Some((time_limit_s?, count?))
 //!     })
 //!     .unwrap_err();
 //! assert_eq!(
 //!     errors.to_string(),
-//!     "--cap: cap_s = -1.0: must be a number from 0 to 1000000\n\
+//!     "--cap: time_limit_s = -1.0: must be a number from 0 to 1000000\n\
 //!      job.toml:3: robots.count = 0: must be a whole number from 1 to 100"
 //! );
 //! # Ok::<(), base::error::InputErrors>(())
@@ -129,7 +129,7 @@ pub struct Override {
     pub path: Vec<String>,
     /// The new value.
     pub value: Value,
-    /// For example `--set clock.cap_s`.
+    /// For example `--set clock.time_limit_s`.
     pub origin: String,
 }
 

@@ -14,22 +14,22 @@ fn errors_of(text: &str, reader: impl FnOnce(&Section) -> Option<()>) -> Vec<Str
 
 #[test]
 fn all_errors_are_told_at_once_each_with_its_line() {
-    let text = "engine = \"clasic\"\ncap_s = \"long\"\n\n[robots.rover]\ncuont = 3\n";
+    let text = "engine = \"clasic\"\ntime_limit_s = \"long\"\n\n[robots.rover]\ncuont = 3\n";
     let errors = errors_of(text, |root| {
-        root.only(&["engine", "cap_s", "robots"]);
+        root.only(&["engine", "time_limit_s", "robots"]);
         let engine = root.choice("engine", &[("classic", 1), ("metric", 2)]);
-        let cap_s = root.number("cap_s", 0.0..=10.0);
+        let time_limit_s = root.number("time_limit_s", 0.0..=10.0);
         let rover = root.section("robots").section("rover");
         rover.only(&["count"]);
         let count = rover.integer("count", 1..=9);
-        engine.and(cap_s).and(count).map(|_| ())
+        engine.and(time_limit_s).and(count).map(|_| ())
     });
     assert_eq!(
         errors,
         [
             "job.toml:1: engine = \"clasic\": must be one of \"classic\", \"metric\"; \
              did you mean \"classic\"?",
-            "job.toml:2: cap_s = \"long\": must be a number from 0 to 10",
+            "job.toml:2: time_limit_s = \"long\": must be a number from 0 to 10",
             "job.toml:5: robots.rover.cuont = 3: must be one of the known keys here: count; \
              did you mean count?",
             "job.toml:4: robots.rover.count is missing: must be a whole number from 1 to 9",

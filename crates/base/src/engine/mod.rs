@@ -64,7 +64,7 @@ pub struct Configuration {
     /// Number of robots of each kind.
     pub robots: Vec<(String, u32)>,
     /// Time limit of a run, in seconds. A run that is not finished by then has failed.
-    pub cap_s: f64,
+    pub time_limit_s: f64,
     /// Other properties that all runs share, as (name, description) for display.
     pub facts: Vec<(String, String)>,
 }

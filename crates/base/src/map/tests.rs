@@ -145,7 +145,7 @@ fn raw_takes_the_pixel_as_the_percentage() {
 }
 
 #[test]
-fn what_is_unknown_is_solid_on_request() {
+fn what_is_unknown_is_occupied_on_request() {
     let rows = ["#?.", "..?"];
     let free = drawn(&rows, &[], Unknown::Free);
     let solid = drawn(&rows, &[], Unknown::Solid);

@@ -15,7 +15,7 @@
 //! [published]                             # optional: results to show beside those of a study
 //! source = "Williams 2003"
 //! choice = 3
-//! cap_s = 120
+//! time_limit_s = 120
 //! times_s = { 1 = [120, 44], 2 = [120, 43] }
 //! ```
 //!

@@ -11,22 +11,22 @@ pub struct Published {
     /// The team size that they recommend.
     pub choice: u32,
     /// Where they stopped; a time of this much is a failed run.
-    pub cap_s: f64,
+    pub time_limit_s: f64,
     /// Team size and the times of its runs.
     pub times_s: Vec<(u32, Vec<f64>)>,
 }
 
 pub(super) fn published(section: &Section, max_robots: u32) -> Option<Published> {
-    section.only(&["source", "choice", "cap_s", "times_s"]);
+    section.only(&["source", "choice", "time_limit_s", "times_s"]);
     let source = section.line("source");
     let choice = section.integer("choice", 1..=max_robots.into());
-    let cap_s = section.number("cap_s", 0.0..=MAX_CAP_S);
-    let max_s = cap_s.unwrap_or(MAX_CAP_S);
+    let time_limit_s = section.number("time_limit_s", 0.0..=MAX_CAP_S);
+    let max_s = time_limit_s.unwrap_or(MAX_CAP_S);
     let times_s = times_s(&section.section("times_s"), max_s, max_robots);
     Some(Published {
         source: source?,
         choice: u32::try_from(choice?).ok()?,
-        cap_s: cap_s?,
+        time_limit_s: time_limit_s?,
         times_s: times_s?,
     })
 }

@@ -138,7 +138,7 @@ fn published() -> Json {
                 "type": "integer",
                 "minimum": 1,
             },
-            "cap_s": {
+            "time_limit_s": {
                 "description": "Where they stopped, in seconds; a time of this much is a failed run.",
                 "type": "number",
                 "minimum": 0,
@@ -154,7 +154,7 @@ fn published() -> Json {
                 },
             },
         },
-        "required": ["source", "choice", "cap_s", "times_s"],
+        "required": ["source", "choice", "time_limit_s", "times_s"],
         "additionalProperties": false,
     })
 }

@@ -70,7 +70,7 @@ impl Engine for Shop {
         Ok(Configuration {
             runner: Box::new(Waiting),
             robots,
-            cap_s: 1.0,
+            time_limit_s: 1.0,
             facts: Vec::new(),
         })
     }

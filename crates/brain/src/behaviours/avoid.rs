@@ -34,13 +34,13 @@ pub struct Avoid {
     pub near_m: f64,
     /// It is clear when everything is farther than `near_m` by this, in metres; at most by as much.
     #[schemars(range(min = 0.0, max = 1000.0))]
-    pub clear_by_m: f64,
+    pub clearance_hysteresis_m: f64,
     /// Angle about the front in which it looks, in degrees.
     #[schemars(range(min = 0.0, max = 360.0))]
     pub sector_deg: f64,
     /// It backs off so far from what it touches, in metres.
     #[schemars(range(min = 0.0, max = 100.0))]
-    pub back_off_m: f64,
+    pub reverse_distance_m: f64,
     /// Time that it goes straight on once it is clear before lower behaviours have their way, in
     /// seconds. Without it a robot with a goal locks in front of a large obstacle: it turns away,
     /// and at once back to its goal.
@@ -55,9 +55,9 @@ impl Default for Avoid {
     fn default() -> Self {
         Self {
             near_m: 0.15,
-            clear_by_m: 0.05,
+            clearance_hysteresis_m: 0.05,
             sector_deg: 120.0,
-            back_off_m: 0.2,
+            reverse_distance_m: 0.2,
             hold_s: 1.0,
             speed_m_s: None,
         }
@@ -107,12 +107,12 @@ impl Ready {
         let near_m = spec.near_m.min(half_sight_m(body));
         Self {
             near_m,
-            clear_m: near_m + spec.clear_by_m.min(near_m),
+            clear_m: near_m + spec.clearance_hysteresis_m.min(near_m),
             hold_s: spec.hold_s,
             held: ahead(spec.speed_m_s, body),
             back: ahead(Some(-back_m_s), body),
             backing_s: if back_m_s > 0.0 {
-                spec.back_off_m / back_m_s
+                spec.reverse_distance_m / back_m_s
             } else {
                 0.0
             },

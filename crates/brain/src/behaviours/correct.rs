@@ -30,7 +30,7 @@ const MOST_RAD: f64 = 1e4;
 pub struct Correct {
     /// The places, in metres.
     #[schemars(length(max = 10_000))]
-    pub places_m: Vec<Point>,
+    pub waypoints_m: Vec<Point>,
     /// It is at a place that is no farther, in metres.
     #[schemars(range(min = 0.01, max = 1000.0))]
     pub within_m: f64,
@@ -47,7 +47,7 @@ pub struct Correct {
 impl Default for Correct {
     fn default() -> Self {
         Self {
-            places_m: Vec::new(),
+            waypoints_m: Vec::new(),
             within_m: 0.5,
             course_error_deg: 6.3,
             wait_s: 5.0,
@@ -88,7 +88,7 @@ impl Ready {
     /// The next place, seen from where it is.
     fn next(&self, progress: &mut Progress, at: Point) -> Option<Point> {
         loop {
-            let place = self.spec.places_m.get(progress.visited)?;
+            let place = self.spec.waypoints_m.get(progress.visited)?;
             if at.to(*place).length() > self.spec.within_m {
                 return Some(*place);
             }
@@ -185,7 +185,7 @@ mod tests {
         ];
         let spec = BrainSpec {
             behaviours,
-            speed_limited_by_sight: false,
+            limit_speed_to_stopping_distance: false,
             ..BrainSpec::default()
         };
         Brain::new(Arc::new(spec), Arc::new(rover()))
@@ -193,7 +193,7 @@ mod tests {
 
     fn to(x: f64, y: f64) -> Correct {
         Correct {
-            places_m: vec![Point { x, y }],
+            waypoints_m: vec![Point { x, y }],
             ..Correct::default()
         }
     }
@@ -260,7 +260,7 @@ mod tests {
     #[test]
     fn at_a_place_it_goes_on_to_the_next() {
         let mut two = to(0.3, 0.0);
-        two.places_m.push(Point { x: 0.0, y: 9.0 });
+        two.waypoints_m.push(Point { x: 0.0, y: 9.0 });
         assert!(turn_rate(two, &percept(0.0)) > 0.0);
     }
 

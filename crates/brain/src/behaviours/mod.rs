@@ -2,37 +2,37 @@
 //! robot remembers for it.
 
 mod avoid;
-mod bounce;
+mod bayesian_search;
 mod correct;
 mod cruise;
 mod errands;
+pub mod flock;
 mod follow;
 mod frontier;
-mod hold;
-mod home;
-mod lanes;
+mod hold_position;
+mod lawnmower;
 mod navigate;
 mod outlook;
 mod part;
-mod seek;
+mod random_bounce;
+mod return_home;
 mod spiral;
 mod survey;
-pub mod swarm;
 mod turn;
 
 pub use avoid::Avoid;
-pub use bounce::Bounce;
+pub use bayesian_search::BayesianSearch;
 pub use correct::Correct;
 pub use cruise::Cruise;
+pub use flock::Flock;
 pub use follow::Follow;
 pub use frontier::Frontier;
-pub use hold::Hold;
-pub use home::Home;
-pub use lanes::Lanes;
-pub use navigate::{Navigate, Share};
-pub use seek::Seek;
+pub use hold_position::HoldPosition;
+pub use lawnmower::Lawnmower;
+pub use navigate::{Assignment, Navigate};
+pub use random_bounce::RandomBounce;
+pub use return_home::ReturnHome;
 pub use spiral::Spiral;
-pub use swarm::Swarm;
 
 use crate::body::Body;
 use crate::command::Motion;
@@ -166,27 +166,27 @@ behaviours! {
     /// Turns to the course to the next of some places, when it is off it.
     Correct in correct;
     /// Searches by random bounces: straight on, and at an obstacle to a random free course.
-    Bounce in bounce;
+    RandomBounce in random_bounce;
     /// Searches lane by lane, which the team shares.
-    Lanes in lanes;
+    Lawnmower in lawnmower;
     /// Searches in a spiral.
     Spiral in spiral;
     /// Searches at the nearest place that nobody has looked at.
     Frontier in frontier;
     /// Searches where beliefs say most is to be found a second.
-    Seek in seek;
+    BayesianSearch in bayesian_search;
     /// Follows another robot.
     Follow in follow;
     /// Stays at a place.
-    Hold in hold;
+    HoldPosition in hold_position;
     /// Goes home before the battery is empty.
-    Home in home;
+    ReturnHome in return_home;
     /// Visits places, around what is known to be in the way.
     Navigate in navigate;
     /// Gets out of the way of what is too near.
     Avoid in avoid;
     /// Goes with the others: keeps apart from them, takes their course, and stays with them.
-    Swarm in swarm;
+    Flock in flock;
 }
 
 /// Straight ahead at a speed, or else as fast as the body can.

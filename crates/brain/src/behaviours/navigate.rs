@@ -21,9 +21,9 @@ use serde::{Deserialize, Serialize};
 pub struct Navigate {
     /// The places, in metres.
     #[schemars(length(max = 10_000))]
-    pub places_m: Vec<Point>,
+    pub waypoints_m: Vec<Point>,
     /// Who visits which.
-    pub share: Share,
+    pub assignment: Assignment,
     /// It is at a place that is no farther, in metres.
     #[schemars(range(min = 0.01, max = 1000.0))]
     pub within_m: f64,
@@ -38,31 +38,31 @@ pub struct Navigate {
 /// Who visits which places.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum Share {
+pub enum Assignment {
     /// Every robot all of them.
     #[default]
     All,
     /// Each robot one: the first of its kind the first, and so on, from the beginning again if there are
     /// fewer places than robots.
-    Each,
+    OneEach,
     /// The team all of them, each by whoever comes first: by radio they tell where they go and have been, and
     /// what one cannot get to others visit.
-    Team,
+    Shared,
 }
 
 impl Navigate {
     /// Whether robots share the places by what they tell each other.
     #[must_use]
     pub fn is_shared_by_team(&self) -> bool {
-        self.share == Share::Team
+        self.assignment == Assignment::Shared
     }
 }
 
 impl Default for Navigate {
     fn default() -> Self {
         Self {
-            places_m: Vec::new(),
-            share: Share::default(),
+            waypoints_m: Vec::new(),
+            assignment: Assignment::default(),
             within_m: 0.5,
             speed_m_s: None,
             value: 1.0,
@@ -91,10 +91,10 @@ impl Ready {
     /// All places of a robot, the next one last.
     #[expect(clippy::cast_possible_truncation, reason = "ten thousand at most")]
     fn errands(&self, senses: &Senses) -> Errands {
-        let count = self.spec.places_m.len() as u32;
-        Errands::new(match self.spec.share {
-            Share::All | Share::Team => (0..count).rev().collect(),
-            Share::Each => {
+        let count = self.spec.waypoints_m.len() as u32;
+        Errands::new(match self.spec.assignment {
+            Assignment::All | Assignment::Shared => (0..count).rev().collect(),
+            Assignment::OneEach => {
                 let own = senses.percept.id.index.checked_rem(count);
                 own.into_iter().collect()
             }
@@ -102,10 +102,10 @@ impl Ready {
     }
 
     fn next(&self, errands: &mut Errands, at: Point, senses: &Senses) -> Option<Point> {
-        let places = &self.spec.places_m;
-        match self.spec.share {
-            Share::All | Share::Each => errands.next(places),
-            Share::Team => {
+        let places = &self.spec.waypoints_m;
+        match self.spec.assignment {
+            Assignment::All | Assignment::OneEach => errands.next(places),
+            Assignment::Shared => {
                 let mates = &senses.beliefs?.peers;
                 errands.next_of_team(places, (senses.percept.id, at), mates)
             }

@@ -1,6 +1,6 @@
 //! Searching in a spiral.
 
-use super::lanes::swath_m;
+use super::lawnmower::swath_m;
 use crate::body::Body;
 use crate::command::Motion;
 use crate::goals::Verdict;

@@ -105,10 +105,10 @@ fn sides([left, low, right, high]: [f64; 4]) -> Vec<Segment> {
     outline(&[[left, low], [left, high], [right, high], [right, low]])
 }
 
-fn navigate(places: &[Point], share: Share) -> BehaviourSpec {
+fn navigate(places: &[Point], assignment: Assignment) -> BehaviourSpec {
     BehaviourSpec::Navigate(Navigate {
-        places_m: places.to_vec(),
-        share,
+        waypoints_m: places.to_vec(),
+        assignment,
         ..Navigate::default()
     })
 }
@@ -120,7 +120,7 @@ const WALL: [f64; 4] = [7.8, 0.0, 8.2, 9.0];
 #[test]
 fn a_robot_goes_around_a_wall_to_its_place() {
     let place = at(13.0, 2.0);
-    let errand = navigate(&[place], Share::All);
+    let errand = navigate(&[place], Assignment::All);
     let mut robot = Errand::new(errand, [16.0, 12.0], &[WALL], at(3.0, 2.0));
     robot.go(60);
     assert!(robot.visit(place).is_some(), "{:?}", robot.walk.at);
@@ -139,7 +139,7 @@ fn a_robot_comes_out_of_a_deep_dead_end_without_going_astray() {
         [16.0, 6.4, 16.4, 17.6],
     ];
     let mut robot = Errand::new(
-        navigate(&[place], Share::All),
+        navigate(&[place], Assignment::All),
         [24.0, 24.0],
         &walls,
         at(15.0, 12.0),
@@ -153,7 +153,7 @@ fn a_robot_comes_out_of_a_deep_dead_end_without_going_astray() {
 #[test]
 fn places_are_visited_in_their_order() {
     let places = [at(2.0, 9.0), at(9.0, 9.0), at(9.0, 2.0), at(2.0, 2.0)];
-    let errand = navigate(&places, Share::All);
+    let errand = navigate(&places, Assignment::All);
     let mut robot = Errand::new(errand, [11.0, 11.0], &[], at(5.0, 5.0));
     robot.go(60);
     let visits: Vec<usize> = places.iter().map(|p| robot.visit(*p).unwrap()).collect();
@@ -169,7 +169,7 @@ fn a_robot_fits_through_a_door_twice_as_wide_as_itself_wherever_its_cells_lie() 
             [12.0, 12.5 + off_m, 12.3, 24.0],
         ];
         let place = at(20.0, 5.0);
-        let errand = navigate(&[place], Share::All);
+        let errand = navigate(&[place], Assignment::All);
         let mut robot = Errand::new(errand, [24.0, 24.0], &walls, at(6.0, 6.0));
         robot.go(150);
         assert!(robot.visit(place).is_some(), "{off_m}: {:?}", robot.walk.at);
@@ -179,7 +179,7 @@ fn a_robot_fits_through_a_door_twice_as_wide_as_itself_wherever_its_cells_lie() 
 #[test]
 fn a_place_that_is_closed_in_is_left_out() {
     let (closed, open) = (at(8.0, 6.0), at(13.0, 9.0));
-    let errand = navigate(&[closed, open], Share::All);
+    let errand = navigate(&[closed, open], Assignment::All);
     let cage = [
         [6.5, 4.5, 9.5, 4.8],
         [6.5, 7.2, 9.5, 7.5],
@@ -196,7 +196,7 @@ fn a_place_that_is_closed_in_is_left_out() {
 fn places_that_are_shared_are_visited_by_one_robot_each() {
     let places = [at(2.0, 2.0), at(8.0, 2.0), at(8.0, 8.0)];
     for (index, own) in [(1, 1), (5, 2)] {
-        let errand = navigate(&places, Share::Each);
+        let errand = navigate(&places, Assignment::OneEach);
         let mut robot = Errand::new(errand, [10.0, 10.0], &[], at(5.0, 5.0));
         robot.walk.id = (RobotId { kind: 0, index }, 6);
         robot.go(30);
@@ -212,7 +212,7 @@ fn places_that_are_shared_are_visited_by_one_robot_each() {
 
 #[test]
 fn lanes_cover_a_room() {
-    let errand = BehaviourSpec::Lanes(Lanes::default());
+    let errand = BehaviourSpec::Lawnmower(Lawnmower::default());
     let mut robot = Errand::new(errand, [10.0, 8.0], &[], at(2.0, 2.0));
     robot.go(45);
     assert!(robot.covered() > 0.99, "{}", robot.covered());
@@ -221,7 +221,7 @@ fn lanes_cover_a_room() {
 #[test]
 fn two_robots_cover_a_room_together_in_half_the_time() {
     let both = [0, 1].map(|index| {
-        let errand = BehaviourSpec::Lanes(Lanes::default());
+        let errand = BehaviourSpec::Lawnmower(Lawnmower::default());
         let mut robot = Errand::new(errand, [10.0, 8.0], &[], at(5.0, 4.0));
         robot.walk.id = (RobotId { kind: 0, index }, 2);
         robot.go(26);
@@ -266,7 +266,7 @@ fn along_frontiers_one_looks_at_all_of_a_room_and_has_nothing_more_to_do() {
 
 #[test]
 fn who_seeks_looks_at_all_of_a_room_and_then_again_as_something_may_have_been_missed() {
-    let errand = BehaviourSpec::Seek(Seek::default());
+    let errand = BehaviourSpec::BayesianSearch(BayesianSearch::default());
     let mut robot = looks_at_all_of_a_room_with_a_wall(errand, 120);
     for _ in 0..2 {
         robot.track.clear();
@@ -280,7 +280,7 @@ fn who_seeks_looks_at_all_of_a_room_and_then_again_as_something_may_have_been_mi
 
 #[test]
 fn who_holds_a_place_comes_back_to_it() {
-    let errand = BehaviourSpec::Hold(Hold::default());
+    let errand = BehaviourSpec::HoldPosition(HoldPosition::default());
     let mut robot = Errand::new(errand, [10.0, 10.0], &[], at(3.0, 3.0));
     robot.go(3);
     assert!(robot.walk.at == at(3.0, 3.0));
@@ -304,9 +304,9 @@ fn a_robot_is_home_before_its_battery_is_empty() {
         at(27.0, 2.0),
     ];
     for arbitration in [Arbitration::Subsumption, Arbitration::Goals] {
-        let errand = navigate(&far, Share::All);
+        let errand = navigate(&far, Assignment::All);
         let mut robot = Errand::new(errand.clone(), [29.0, 8.0], &[], home);
-        let behaviours = vec![errand, BehaviourSpec::Home(Home::default())];
+        let behaviours = vec![errand, BehaviourSpec::ReturnHome(ReturnHome::default())];
         robot.brain = brain(behaviours, arbitration, &robot.walk.body);
         robot.walk.wiring.drain = 0.01;
         robot.go(98);
@@ -339,16 +339,16 @@ fn who_follows_keeps_his_distance() {
 #[test]
 fn who_does_not_know_where_he_is_leaves_it_to_lower_behaviours() {
     let lower = || BehaviourSpec::Cruise(Cruise::default());
-    let place = navigate(&[at(1.0, 9.0)], Share::All);
+    let place = navigate(&[at(1.0, 9.0)], Assignment::All);
     let errands = [
         place,
-        BehaviourSpec::Lanes(Lanes::default()),
+        BehaviourSpec::Lawnmower(Lawnmower::default()),
         BehaviourSpec::Spiral(Spiral::default()),
         BehaviourSpec::Frontier(Frontier::default()),
-        BehaviourSpec::Seek(Seek::default()),
-        BehaviourSpec::Home(Home {
-            below: 1.0,
-            ..Home::default()
+        BehaviourSpec::BayesianSearch(BayesianSearch::default()),
+        BehaviourSpec::ReturnHome(ReturnHome {
+            min_charge: 1.0,
+            ..ReturnHome::default()
         }),
         BehaviourSpec::Follow(Follow::default()),
     ];

@@ -65,7 +65,7 @@ pub struct BeliefsSpec {
     #[schemars(range(min = 16, max = 65_000))]
     pub cells: u32,
     /// How many items of each kind it expects before it has looked; left out, one of each kind.
-    pub expected: BTreeMap<String, f64>,
+    pub prior_count: BTreeMap<String, f64>,
     /// How far it trusts what others tell.
     pub trust: TrustSpec,
 }
@@ -76,7 +76,7 @@ impl Default for BeliefsSpec {
             area_m: None,
             cell_m: 0.25,
             cells: 4096,
-            expected: BTreeMap::new(),
+            prior_count: BTreeMap::new(),
             trust: TrustSpec::default(),
         }
     }
@@ -155,7 +155,7 @@ impl Beliefs {
         let area = spec.area_m.or(body.field);
         let area_m2 = area.map_or(1.0, |area| area.area_m2().max(1.0));
         let kinds = body.item_kinds.iter();
-        let expected = kinds.map(|kind| spec.expected.get(kind).copied().unwrap_or(1.0));
+        let expected = kinds.map(|kind| spec.prior_count.get(kind).copied().unwrap_or(1.0));
         let prior = Prior {
             trust: spec.trust.clone(),
             per_m2: expected.map(|expected| expected / area_m2).collect(),

@@ -22,14 +22,14 @@ pub struct TrustSpec {
     #[schemars(range(min = 0.0, max = 1.0))]
     pub initial: f64,
     /// Whether it changes when own looks confirm or refute reports.
-    pub learns: bool,
+    pub adaptive: bool,
 }
 
 impl Default for TrustSpec {
     fn default() -> Self {
         Self {
             initial: 0.9,
-            learns: true,
+            adaptive: true,
         }
     }
 }
@@ -83,7 +83,7 @@ impl Trust {
 
     /// Notes that a robot's report was confirmed, or refuted.
     pub(crate) fn learn(&mut self, robot: RobotId, is_confirmed: bool, spec: &TrustSpec) {
-        if !spec.learns {
+        if !spec.adaptive {
             return;
         }
         let known = self.records.iter().position(|record| record.of == robot);
@@ -128,7 +128,7 @@ mod tests {
     fn who_does_not_learn_trusts_as_he_was_told() {
         let spec = TrustSpec {
             initial: 0.3,
-            learns: false,
+            adaptive: false,
         };
         let mut trust = Trust::default();
         (0..9).for_each(|_| trust.learn(LIAR, true, &spec));

@@ -231,7 +231,10 @@ impl View {
 impl Detector {
     /// Probability that one look recognises an item of a kind at a distance.
     pub(crate) fn probability(&self, kind: usize, distance_m: f64) -> f64 {
-        let pairs = self.detects.get(kind).map_or(&[][..], Vec::as_slice);
+        let pairs = self
+            .detection_probability
+            .get(kind)
+            .map_or(&[][..], Vec::as_slice);
         let next = pairs.partition_point(|[at_m, _]| *at_m <= distance_m);
         let last = next.checked_sub(1).and_then(|last| pairs.get(last));
         match (last, pairs.get(next)) {
@@ -243,7 +246,8 @@ impl Detector {
 
     /// The least of all kinds that it recognises at all: who has seen those has seen the others.
     pub(crate) fn least_probability(&self, distance_m: f64) -> f64 {
-        let kinds = (0..self.detects.len()).filter(|kind| !self.detects[*kind].is_empty());
+        let kinds = (0..self.detection_probability.len())
+            .filter(|kind| !self.detection_probability[*kind].is_empty());
         let least = kinds
             .map(|kind| self.probability(kind, distance_m))
             .fold(f64::INFINITY, f64::min);
@@ -263,7 +267,7 @@ pub(crate) mod tests {
         Detector {
             range_m,
             width_rad,
-            detects: vec![vec![[0.0, probability]]],
+            detection_probability: vec![vec![[0.0, probability]]],
             false_alarms_per_m2: vec![0.0],
             ..Detector::default()
         }
@@ -387,7 +391,7 @@ pub(crate) mod tests {
     #[test]
     fn a_detection_table_is_linear_between_its_pairs() {
         let mut eye = detector(3.0, 7.0, 1.0);
-        eye.detects = vec![vec![[1.0, 0.9], [3.0, 0.1]], vec![]];
+        eye.detection_probability = vec![vec![[1.0, 0.9], [3.0, 0.1]], vec![]];
         for (distance_m, expected) in [(0.0, 0.9), (2.0, 0.5), (5.0, 0.1)] {
             assert!((eye.probability(0, distance_m) - expected).abs() < 1e-12);
         }

@@ -53,7 +53,7 @@ pub struct Schemas {
     pub noise: f64,
     /// While it is blocked, `noise` grows to this, and then falls again; at most `noise`: it never grows.
     #[schemars(range(min = 0.0, max = 1000.0))]
-    pub most_noise: f64,
+    pub max_noise: f64,
     /// A random direction is kept for so long, in seconds.
     #[schemars(range(min = 0.0, max = 3600.0))]
     pub noise_s: f64,
@@ -74,7 +74,7 @@ impl Default for Schemas {
             influence_m: 1.0,
             repulsion: 2.0,
             noise: 0.1,
-            most_noise: 3.0,
+            max_noise: 3.0,
             noise_s: 4.0,
             blocked_within_m: 2.0,
             blocked_after_s: 5.0,
@@ -130,7 +130,7 @@ impl Sum {
 mod tests {
     use super::*;
     use crate::arbitration::Arbitration;
-    use crate::behaviours::{Avoid, BehaviourSpec, Cruise, Hold, Navigate};
+    use crate::behaviours::{Avoid, BehaviourSpec, Cruise, HoldPosition, Navigate};
     use crate::body::Body;
     use crate::world_of_walls::{Walk, now, room, rover};
     use crate::{Brain, BrainSpec, Percept, Scan};
@@ -149,7 +149,7 @@ mod tests {
     fn still() -> Schemas {
         Schemas {
             noise: 0.0,
-            most_noise: 0.0,
+            max_noise: 0.0,
             ..Schemas::default()
         }
     }
@@ -157,7 +157,7 @@ mod tests {
     fn brain(schemas: Schemas, behaviours: Vec<BehaviourSpec>, body: Body) -> Brain {
         let spec = BrainSpec {
             arbitration: Arbitration::Schemas(schemas),
-            speed_limited_by_sight: false,
+            limit_speed_to_stopping_distance: false,
             behaviours,
             ..BrainSpec::default()
         };
@@ -172,7 +172,7 @@ mod tests {
 
     fn to(x: f64, y: f64, value: f64) -> BehaviourSpec {
         BehaviourSpec::Navigate(Navigate {
-            places_m: vec![Point { x, y }],
+            waypoints_m: vec![Point { x, y }],
             value,
             ..Navigate::default()
         })
@@ -217,12 +217,12 @@ mod tests {
         let both = vec![to(9.0, 0.0, 3.0), to(0.0, 9.0, 1.0)];
         assert_near(motion(still(), both, &percept(&[])), [turn_rad, speed_m_s]);
         // The same by a gain: what it wants at a place is worth 0.1 without.
-        let stay = BehaviourSpec::Hold(Hold {
+        let stay = BehaviourSpec::HoldPosition(HoldPosition {
             at_m: Some(Point { x: 0.0, y: 9.0 }),
-            ..Hold::default()
+            ..HoldPosition::default()
         });
         let schemas = Schemas {
-            gains: [("navigate".into(), 6.0), ("hold".into(), 2.0)].into(),
+            gains: [("navigate".into(), 6.0), ("hold_position".into(), 2.0)].into(),
             ..still()
         };
         let both = vec![stay, to(9.0, 0.0, 1.0)];

@@ -54,7 +54,7 @@ impl Noise {
     }
 
     fn grow(&mut self, spec: &Schemas, period_s: f64) {
-        let most = (spec.most_noise - spec.noise).max(0.0);
+        let most = (spec.max_noise - spec.noise).max(0.0);
         let change = most * period_s / spec.blocked_after_s;
         let is_blocked = self.since_s > spec.blocked_after_s;
         let change = if is_blocked { change } else { -FALLS * change };
@@ -147,7 +147,7 @@ mod tests {
             rover(),
             Schemas {
                 noise: 0.5,
-                most_noise: 0.0,
+                max_noise: 0.0,
                 ..Schemas::default()
             },
         );

@@ -16,26 +16,26 @@ pub struct Clock {
     /// Turns paints into seconds.
     pub paints_per_s: f64,
     /// A run that takes longer has failed, and counts as this long.
-    pub cap_s: f64,
+    pub time_limit_s: f64,
     /// The last paint that is not beyond the cap.
     pub cap_paints: u64,
 }
 
 pub(super) fn clock(section: &Section) -> Option<Clock> {
-    section.only(&["paints_per_s", "cap_s"]);
+    section.only(&["paints_per_s", "time_limit_s"]);
     let paints_per_s = section.number("paints_per_s", PAINTS_PER_S);
-    let cap_s = section.number("cap_s", CAP_S);
-    let (paints_per_s, cap_s) = (paints_per_s?, cap_s?);
-    let cap_paints = whole_paints(paints_per_s * cap_s);
+    let time_limit_s = section.number("time_limit_s", CAP_S);
+    let (paints_per_s, time_limit_s) = (paints_per_s?, time_limit_s?);
+    let cap_paints = whole_paints(paints_per_s * time_limit_s);
     if cap_paints > MAX_CAP_PAINTS {
         let allowed =
             format!("at most {MAX_CAP_PAINTS} paints at {paints_per_s} paints per second");
-        section.error("cap_s", &allowed);
+        section.error("time_limit_s", &allowed);
         return None;
     }
     Some(Clock {
         paints_per_s,
-        cap_s,
+        time_limit_s,
         cap_paints,
     })
 }

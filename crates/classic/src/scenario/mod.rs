@@ -6,21 +6,21 @@
 //!
 //! [clock]
 //! paints_per_s = 56
-//! cap_s = 120
+//! time_limit_s = 120
 //!
 //! [robots.wanderer]
 //! count = 4                               # of a single run; a study varies it
 //! ```
 //!
 //! The keys that all engines share are in [`base::scenario`]. **What can be varied** is
-//! `robots.wanderer.count`, `clock.paints_per_s`, `clock.cap_s` and `contact`. **What a figure of
+//! `robots.wanderer.count`, `clock.paints_per_s`, `clock.time_limit_s` and `contact`. **What a figure of
 //! merit can weigh**:
 //!
 //! | term | of a run |
 //! |---|---|
-//! | `time` | seconds until the last find, at most `cap_s` |
+//! | `time` | seconds until the last find, at most `time_limit_s` |
 //! | `robots` | team size |
-//! | `failed` | 1 if it took longer than `cap_s`, else 0 |
+//! | `failed` | 1 if it took longer than `time_limit_s`, else 0 |
 //! | `found` | items found until the cap, 0 to 4 |
 //! | `collisions` | robot-decisions spent on a shared cell, until completion or the cap |
 //! | `paints` | paints until the last find; infinite if it never comes, so it needs a `max` |
@@ -65,7 +65,7 @@ impl Engine for Classic {
         let read = Configuration::read(document)?;
         Ok(base::engine::Configuration {
             robots: vec![("wanderer".to_owned(), read.robots)],
-            cap_s: read.clock.cap_s,
+            time_limit_s: read.clock.time_limit_s,
             facts: facts(&read),
             runner: Box::new(read),
         })
@@ -94,7 +94,7 @@ impl Engine for Classic {
         Some(&[
             "robots.wanderer.count",
             "clock.paints_per_s",
-            "clock.cap_s",
+            "clock.time_limit_s",
             "contact",
         ])
     }
@@ -144,13 +144,13 @@ fn robots(section: &Section) -> Option<u32> {
 fn facts(read: &Configuration) -> Vec<(String, String)> {
     let Clock {
         paints_per_s,
-        cap_s,
+        time_limit_s,
         ..
     } = read.clock;
     let names = Contact::NAMES.iter();
     let contact = names.filter(|(_, each)| *each == read.task.contact);
     let contact = contact.map(|(name, _)| ("contact".to_owned(), (*name).to_owned()));
-    let clock = format!("{paints_per_s} paints per second, cap {cap_s} s");
+    let clock = format!("{paints_per_s} paints per second, cap {time_limit_s} s");
     contact.chain([("clock".to_owned(), clock)]).collect()
 }
 
@@ -168,7 +168,7 @@ contact = "touch"
 merit = "equation-5.2"
 [clock]
 paints_per_s = 56
-cap_s = 120
+time_limit_s = 120
 [robots.wanderer]
 count = 4
 [study]
@@ -177,7 +177,7 @@ vary = { "robots.wanderer.count" = "1..3, 8" }
 [published]
 source = "Someone"
 choice = 3
-cap_s = 120
+time_limit_s = 120
 times_s = { 10 = [120, 120], 2 = [4, 5.5] }
 "#;
 
@@ -229,7 +229,7 @@ times_s = { 10 = [120, 120], 2 = [4, 5.5] }
         let changes = [
             change("robots.wanderer.count", Value::Integer(9)),
             change("clock.paints_per_s", Value::Float(41.5)),
-            change("clock.cap_s", Value::Integer(10)),
+            change("clock.time_limit_s", Value::Integer(10)),
             change("contact", Value::Text("ahead".to_owned())),
         ];
         let document = Document::parse("t.toml", GOOD).unwrap().with(&changes);
@@ -253,12 +253,12 @@ times_s = { 10 = [120, 120], 2 = [4, 5.5] }
         let text = GOOD.replace(
             r#""robots.wanderer.count" = "1..3, 8""#,
             r#""robots.wanderer.count" = "0..3, 249..260", "contact" = "touch,aheda,3",
-               "clock.cap_s" = "-1.0..5.0", "clock.paints_per_s" = "500""#,
+               "clock.time_limit_s" = "-1.0..5.0", "clock.paints_per_s" = "500""#,
         );
         let text = text.replace(
-            "cap_s = 120
+            "time_limit_s = 120
 [robots",
-            "cap_s = 9000
+            "time_limit_s = 9000
 [robots",
         );
         let text = text.replace("vary = {", "design = \"lhs:20\"\nvary = {");
@@ -269,9 +269,9 @@ times_s = { 10 = [120, 120], 2 = [4, 5.5] }
                 "t.toml:14: robots.wanderer.count = 251: must be a whole number from 1 to 250",
                 "t.toml:14: robots.wanderer.count = 252: must be a whole number from 1 to 250",
                 "t.toml:14: 8 more values of robots.wanderer.count are not allowed either",
-                "t.toml:15: clock.paints_per_s = 500: must be one with which clock.cap_s is at most \
+                "t.toml:15: clock.paints_per_s = 500: must be one with which clock.time_limit_s is at most \
                  1000000 paints at 500 paints per second",
-                "t.toml:15: clock.cap_s = -1.0: must be a number from 0 to 1000000",
+                "t.toml:15: clock.time_limit_s = -1.0: must be a number from 0 to 1000000",
                 "t.toml:14: contact = \"aheda\": must be one of \"neighbour\", \"diagonal\", \
                  \"within-2\", \"within-3\", \"touch\", \"ahead\"; did you mean \"ahead\"?",
                 "t.toml:14: contact = 3: must be one of \"neighbour\", \"diagonal\", \
@@ -282,12 +282,15 @@ times_s = { 10 = [120, 120], 2 = [4, 5.5] }
 
     #[test]
     fn values_are_checked_beside_other_errors_but_not_within_what_is_no_table() {
-        let vary = r#"vary = { "clock.cap_s" = "-1", "#;
+        let vary = r#"vary = { "clock.time_limit_s" = "-1", "#;
         let text = GOOD.replace("vary = {", vary);
-        let told = errors(&text.replace("cap_s = 120\n[robots", "cap_s = 120\ncap = 3\n[robots"));
+        let told = errors(&text.replace(
+            "time_limit_s = 120\n[robots",
+            "time_limit_s = 120\ncap = 3\n[robots",
+        ));
         assert!(told.contains("clock.cap = 3: must be one of the known keys"));
-        assert!(told.contains("clock.cap_s = -1: must be a number from 0"));
-        let no_table = "[clock]\npaints_per_s = 56\ncap_s = 120\n";
+        assert!(told.contains("clock.time_limit_s = -1: must be a number from 0"));
+        let no_table = "[clock]\npaints_per_s = 56\ntime_limit_s = 120\n";
         let told = errors(&format!("clock = 3\n{}", text.replace(no_table, "")));
         assert_eq!(told, "t.toml:1: clock = 3: must be a table");
     }
@@ -325,7 +328,7 @@ times_s = { 10 = [120, 120], 2 = [4, 5.5] }
             .replace("count = 4", "count = 0")
             .replace("delta = 0.05", "delta = -5")
             .replace("1..3, 8", "8..1")
-            .replace("cap_s = 120", "cap_s = nan\ncap = 3");
+            .replace("time_limit_s = 120", "time_limit_s = nan\ncap = 3");
         let errors = errors(&text);
         for expected in [
             "t.toml:4: contact = \"tuoch\": must be one of",
@@ -333,8 +336,8 @@ times_s = { 10 = [120, 120], 2 = [4, 5.5] }
             "t.toml:11: robots.wanderer.count = 0: must be a whole number from 1 to 250",
             "t.toml:13: study.delta = -5: must be a number above 0",
             "t.toml:14: study.vary.\"robots.wanderer.count\" = \"8..1\": must be a text of values",
-            "t.toml:8: clock.cap_s = NaN: must be a number",
-            "t.toml:9: clock.cap = 3: must be one of the known keys here: paints_per_s, cap_s",
+            "t.toml:8: clock.time_limit_s = NaN: must be a number",
+            "t.toml:9: clock.cap = 3: must be one of the known keys here: paints_per_s, time_limit_s",
         ] {
             assert!(errors.contains(expected), "{expected}\nnot in\n{errors}");
         }
@@ -342,9 +345,10 @@ times_s = { 10 = [120, 120], 2 = [4, 5.5] }
 
     #[test]
     fn a_cap_too_long_to_compute_is_told() {
-        let text = GOOD.replace("cap_s = 120", "cap_s = 100000");
+        let text = GOOD.replace("time_limit_s = 120", "time_limit_s = 100000");
         assert!(
-            errors(&text).contains("clock.cap_s = 100000: must be at most 1000000 paints at 56")
+            errors(&text)
+                .contains("clock.time_limit_s = 100000: must be at most 1000000 paints at 56")
         );
     }
 

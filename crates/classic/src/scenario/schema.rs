@@ -36,7 +36,7 @@ fn clock() -> Json {
     let cap = "A run that takes longer has failed, and counts as this long.";
     let bounds = json!({
         "paints_per_s": number(paints, clock::PAINTS_PER_S.into_inner()),
-        "cap_s": number(cap, clock::CAP_S.into_inner()),
+        "time_limit_s": number(cap, clock::CAP_S.into_inner()),
     });
     table("Seconds and paints.", &bounds)
 }

@@ -10,7 +10,7 @@ use crate::sensing::{Measure, Measures, Sensor, SensorSpec};
 use base::geometry::{Point, Rectangle};
 use base::placement::Placement;
 use base::random::kind_key;
-use brain::behaviours::swarm::{self, Sums};
+use brain::behaviours::flock::{self, Sums};
 use brain::{Body, Brain, Detector, Dice, Motion, Other, RangeRing};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -47,7 +47,7 @@ pub(crate) struct Kind {
 /// How robots go with the others that do nothing else, and see all of them at once and exactly.
 #[derive(Debug, Clone)]
 pub(crate) struct Flocking {
-    rule: swarm::Ready,
+    rule: flock::Ready,
     /// They see no farther.
     pub(crate) reach_m: f64,
     sees_courses: bool,
@@ -167,7 +167,7 @@ impl Kind {
     /// How its robots go with the others in a world where nothing stands, if they do nothing else and
     /// have what that takes, and no more.
     pub(crate) fn as_flock(&self) -> Option<Flocking> {
-        let rule = self.brain.swarm()?;
+        let rule = self.brain.flock()?;
         let [sensor] = self.sensors.as_slice() else {
             return None;
         };
@@ -177,7 +177,7 @@ impl Kind {
         let is_plain = self.rhythm.is_each_step()
             && self.radio.is_none()
             && sensor.tells_at_once()
-            && sensor.dropout == 0.0
+            && sensor.dropout_probability == 0.0
             && detector.is_exact();
         is_plain.then(|| Flocking {
             rule: rule.clone(),

@@ -23,7 +23,7 @@ use std::collections::BTreeMap;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RobotSpec {
     /// A shipped robot whose values stand for all that is left out here.
-    pub like: Option<Model>,
+    pub model: Option<Model>,
     /// Robots of this kind in the team.
     #[schemars(range(max = 1_000_000))]
     pub count: u32,

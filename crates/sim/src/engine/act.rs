@@ -278,7 +278,7 @@ impl Hull {
     fn collide(&mut self, kind: &Kind, tick: u64) {
         self.collisions += 1;
         self.held_until = tick + 1 + kind.collision.stop_steps;
-        let is_too_often = self.collisions >= kind.collision.breaks_after;
+        let is_too_often = self.collisions >= kind.collision.max_collisions;
         if is_too_often && self.status == Status::Active && !self.is_external {
             self.status = Status::Broken;
         }

@@ -98,7 +98,7 @@ impl View<'_> {
     }
 
     fn is_lost(&self, outgoing: &Outgoing, to: usize, radio: &Radio) -> bool {
-        if radio.loss <= 0.0 {
+        if radio.loss_probability <= 0.0 {
             return false;
         }
         let sender = self.scenario.entity(self.ids[outgoing.from as usize]);
@@ -106,6 +106,6 @@ impl View<'_> {
         // Steps are at most 1e8: the sender's kind is in the half of their number that is free.
         let time = u64::from(sender.kind) << 32 | self.tick;
         let words = self.noises[to].words(used, time, sender.index);
-        share(words[0]) < radio.loss
+        share(words[0]) < radio.loss_probability
     }
 }

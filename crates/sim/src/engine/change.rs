@@ -163,9 +163,9 @@ impl State {
 
     /// Counts the sought items that are left.
     fn count_sought(&mut self, scenario: &Scenario) {
-        let is_sought = |kind: u16| scenario.items[usize::from(kind)].is_sought;
-        let sought = self.items.each().filter(|(kind, _)| is_sought(*kind));
-        let found: Vec<Option<u64>> = sought.map(|(_, found)| found).collect();
+        let is_target = |kind: u16| scenario.items[usize::from(kind)].is_target;
+        let target = self.items.each().filter(|(kind, _)| is_target(*kind));
+        let found: Vec<Option<u64>> = target.map(|(_, found)| found).collect();
         let left = found.iter().filter(|found| found.is_none()).count();
         self.tally.sought_left = u32::try_from(left).unwrap_or(u32::MAX);
         // What is left out can complete a run, and what comes in can open it again.

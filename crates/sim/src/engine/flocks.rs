@@ -12,7 +12,7 @@ use crate::scenario::Scenario;
 use crate::sensing::eye::Use;
 use crate::sensing::flock::Flock;
 use base::noise::Noise;
-use brain::behaviours::swarm::Sums;
+use brain::behaviours::flock::Sums;
 use brain::{Dice, Motion};
 use rayon::prelude::*;
 

@@ -68,7 +68,7 @@ impl View<'_> {
     /// Whether a robot's messages come to another, if it has any to send.
     fn is_heard(&self, from: usize, to: usize) -> bool {
         let radio = self.kind(from).radio.as_ref();
-        let radio = radio.filter(|radio| self.is_on_air(from) && radio.loss < 1.0);
+        let radio = radio.filter(|radio| self.is_on_air(from) && radio.loss_probability < 1.0);
         radio.is_some_and(|radio| self.is_on_air(to) && self.reaches(from, to, radio))
     }
 

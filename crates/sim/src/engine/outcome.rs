@@ -51,8 +51,10 @@ impl Outcome {
         let cost = state.tally.gone.and(state.hulls.iter());
         Self {
             // The step of the last find may be a rounding error beyond the cap.
-            time_s: complete_s.map_or(scenario.cap_s, |time_s| time_s.min(scenario.cap_s)),
-            has_failed: complete_s.is_none() && scenario.sought() > 0,
+            time_s: complete_s.map_or(scenario.time_limit_s, |time_s| {
+                time_s.min(scenario.time_limit_s)
+            }),
+            has_failed: complete_s.is_none() && scenario.target() > 0,
             found,
             missed,
             false_alarms: state.tally.false_alarms,
@@ -87,7 +89,7 @@ mod tests {
 
     const ROVERS: &str = "
 [clock]
-cap_s = 60
+time_limit_s = 60
 [world]
 size_m = [20, 10]
 [robots.rover]

@@ -39,7 +39,7 @@ mod tests {
 
     const TWO: &str = "
 [clock]
-cap_s = 100
+time_limit_s = 100
 [world]
 size_m = [40, 20]
 [robots.rover]

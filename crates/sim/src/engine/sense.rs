@@ -147,8 +147,8 @@ impl Look<'_> {
     #[inline]
     fn take(&self, mind: &mut Mind, senses: &mut Senses, percept: Option<&mut Percept>) {
         let sensor = self.sensor;
-        let is_lost =
-            sensor.dropout > 0.0 && share(self.eye.words(Use::Dropout, 0)[0]) < sensor.dropout;
+        let is_lost = sensor.dropout_probability > 0.0
+            && share(self.eye.words(Use::Dropout, 0)[0]) < sensor.dropout_probability;
         match &sensor.measure {
             Measure::Items(_) | Measure::Robots(_) if is_lost => {}
             Measure::Items(detector) => self.find_items(detector, mind, senses, percept),

@@ -149,7 +149,7 @@ impl State {
             tally: Tally::default(),
         };
         state.place_robots(scenario)?;
-        state.tally.sought_left = scenario.sought();
+        state.tally.sought_left = scenario.target();
         Ok(state)
     }
 
@@ -222,7 +222,7 @@ impl State {
     /// Notes that a robot was told of an item.
     pub(crate) fn find(&mut self, scenario: &Scenario, item: u32) {
         let kind = &scenario.items[usize::from(self.items.kind(item))];
-        if self.items.find(item, self.tick) && kind.is_sought {
+        if self.items.find(item, self.tick) && kind.is_target {
             self.tally.sought_left -= 1;
             if self.tally.sought_left == 0 {
                 self.tally.complete_at = Some(self.tick);

@@ -13,7 +13,7 @@ const HAIR: f64 = 1.001;
 pub(crate) struct Bounds {
     pub(crate) robots: f64,
     pub(crate) price: f64,
-    pub(crate) sought: f64,
+    pub(crate) target: f64,
     pub(crate) collisions: f64,
     pub(crate) energy_j: f64,
     pub(crate) distance_m: f64,
@@ -33,7 +33,7 @@ impl Scenario {
         Bounds {
             robots: of_team(&|_| 1.0),
             price: of_team(&|kind| kind.price),
-            sought: f64::from(self.sought()),
+            target: f64::from(self.target()),
             collisions: of_team(&|_| steps),
             energy_j: of_team(&|kind| self.most_energy_j(kind, hardest)),
             distance_m: of_team(&|kind| self.most_distance_m(kind, hardest)),
@@ -41,7 +41,7 @@ impl Scenario {
     }
 
     fn longest_s(&self) -> f64 {
-        HAIR * (self.cap_s + self.step_s)
+        HAIR * (self.time_limit_s + self.step_s)
     }
 
     fn most_distance_m(&self, kind: &Kind, hardest: Going) -> f64 {
@@ -91,9 +91,9 @@ impl Scenario {
             size.y,
             self.solids().len()
         );
-        let clock = format!("{} s a step, cap {} s", self.step_s, self.cap_s);
+        let clock = format!("{} s a step, cap {} s", self.step_s, self.time_limit_s);
         let items = self.items.iter().map(|kind| {
-            let clutter = if kind.is_sought { "" } else { " (not sought)" };
+            let clutter = if kind.is_target { "" } else { " (not target)" };
             (
                 format!("items {}", kind.name),
                 format!("{}{clutter}", kind.count),

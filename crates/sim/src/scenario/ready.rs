@@ -25,7 +25,7 @@ const MOST_SKIN_M: f64 = 2.0;
 #[derive(Debug, Clone)]
 pub struct Scenario {
     pub(crate) step_s: f64,
-    pub(crate) cap_s: f64,
+    pub(crate) time_limit_s: f64,
     /// Steps until the cap.
     pub(crate) steps: u64,
     pub(crate) world: Rectangle,
@@ -73,7 +73,7 @@ impl Scenario {
         let mut kinds: Vec<Kind> = kinds
             .map(|(name, spec)| Kind::new(name, spec, &briefing))
             .collect();
-        if spec.world.wraps && solids.is_empty() {
+        if spec.world.periodic && solids.is_empty() {
             for kind in &mut kinds {
                 kind.flocking = kind.as_flock();
             }
@@ -82,7 +82,7 @@ impl Scenario {
         let touch_m = greatest(&kinds, |kind| kind.touch_m(fastest * step_s));
         let rays_m = greatest(&kinds, |kind| kind.rays_m);
         let skin_m = (SKIN * rays_m).clamp(LEAST_SKIN_M, MOST_SKIN_M);
-        let torus = spec.world.wraps.then_some(Torus { size_m });
+        let torus = spec.world.periodic.then_some(Torus { size_m });
         let stands = |layer, reach_m| {
             let border = torus.is_none().then_some(&world);
             let (walls, discs) = in_the_way(border, &solids, layer);
@@ -95,8 +95,8 @@ impl Scenario {
         let layers = [Layer::Ground, Layer::Air];
         Self {
             step_s,
-            cap_s: spec.clock.cap_s,
-            steps: steps_of(spec.clock.cap_s, step_s),
+            time_limit_s: spec.clock.time_limit_s,
+            steps: steps_of(spec.clock.time_limit_s, step_s),
             world,
             torus,
             terrain: (!areas.is_empty()).then(|| Terrain::new(size_m, areas)),
@@ -143,10 +143,10 @@ impl Scenario {
     }
 
     /// Items that are to be found.
-    pub(crate) fn sought(&self) -> u32 {
+    pub(crate) fn target(&self) -> u32 {
         self.items
             .iter()
-            .filter(|kind| kind.is_sought)
+            .filter(|kind| kind.is_target)
             .map(|kind| kind.count)
             .sum()
     }
@@ -164,8 +164,8 @@ impl Scenario {
 
     /// A run ends here at the latest.
     #[must_use]
-    pub fn cap_s(&self) -> f64 {
-        self.cap_s
+    pub fn time_limit_s(&self) -> f64 {
+        self.time_limit_s
     }
 
     /// The world.
@@ -176,7 +176,7 @@ impl Scenario {
 
     /// Whether the world goes on at its other side.
     #[must_use]
-    pub fn wraps(&self) -> bool {
+    pub fn periodic(&self) -> bool {
         self.torus.is_some()
     }
 

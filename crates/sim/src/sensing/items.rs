@@ -19,10 +19,10 @@ pub struct ItemsSpec {
     pub sector: SectorSpec,
     /// Probability of detection in one look, for each kind of item that it can recognise; left out,
     /// it recognises all kinds always.
-    pub detects: Option<BTreeMap<String, Detection>>,
+    pub detection_probability: Option<BTreeMap<String, Detection>>,
     /// False contacts a second for each square metre in view, by the kind that they are taken for.
     #[serde(default)]
-    pub false_alarms_per_m2_s: BTreeMap<String, f64>,
+    pub false_alarm_rate_per_m2_s: BTreeMap<String, f64>,
     /// Standard deviation of where a contact seems to be, along each axis, in metres.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1000.0))]
@@ -47,10 +47,10 @@ pub enum Detection {
     Curve {
         /// Probability at no distance.
         #[schemars(range(min = 0.0, max = 1.0))]
-        best: f64,
+        peak: f64,
         /// Where it is half of that, in metres.
         #[schemars(range(min = 0.001, max = 10_000.0))]
-        half_m: f64,
+        half_range_m: f64,
     },
 }
 
@@ -60,9 +60,9 @@ impl Detection {
         match self {
             Self::Constant(probability) => *probability,
             Self::Table(pairs) => between(pairs, distance_m),
-            Self::Curve { best, half_m } => {
-                let halves = distance_m / half_m;
-                best * libm::exp2(-halves * halves)
+            Self::Curve { peak, half_range_m } => {
+                let halves = distance_m / half_range_m;
+                peak * libm::exp2(-halves * halves)
             }
         }
     }
@@ -106,21 +106,24 @@ impl ItemsSpec {
     ) -> brain::Detector {
         let sector = &self.sector;
         let always = Detection::Constant(1.0);
-        let detects = item_kinds.iter().map(|kind| match &self.detects {
-            None => always.pairs(sector.range_m),
-            Some(detects) => detects
-                .get(kind)
-                .map_or_else(Vec::new, |detection| detection.pairs(sector.range_m)),
-        });
+        let detection_probability =
+            item_kinds
+                .iter()
+                .map(|kind| match &self.detection_probability {
+                    None => always.pairs(sector.range_m),
+                    Some(detection_probability) => detection_probability
+                        .get(kind)
+                        .map_or_else(Vec::new, |detection| detection.pairs(sector.range_m)),
+                });
         let rates = item_kinds
             .iter()
-            .map(|kind| self.false_alarms_per_m2_s.get(kind));
+            .map(|kind| self.false_alarm_rate_per_m2_s.get(kind));
         brain::Detector {
             sensor,
             range_m: sector.range_m,
             width_rad: sector.fov_deg.to_radians(),
             facing_rad: sector.facing_deg.to_radians(),
-            detects: detects.collect(),
+            detection_probability: detection_probability.collect(),
             false_alarms_per_m2: rates
                 .map(|rate| rate.copied().unwrap_or(0.0) * period_s)
                 .collect(),
@@ -131,7 +134,7 @@ impl ItemsSpec {
 
     /// False contacts of a kind in one look, on average, if nothing hides any.
     pub(crate) fn false_alarms_a_look(&self, kind: &str, period_s: f64) -> f64 {
-        let rate = self.false_alarms_per_m2_s.get(kind).copied();
+        let rate = self.false_alarm_rate_per_m2_s.get(kind).copied();
         rate.unwrap_or(0.0) * Sector::new(&self.sector).area_m2() * period_s
     }
 }
@@ -141,7 +144,7 @@ impl ItemsSpec {
 pub(crate) struct ItemDetector {
     pub(crate) sector: Sector,
     /// By the item's kind; `None` is never seen.
-    detects: Vec<Option<Detection>>,
+    detection_probability: Vec<Option<Detection>>,
     /// By the kind that they are taken for; only those that there are.
     false_alarms: Vec<FalseAlarm>,
     noise_m: f64,
@@ -161,9 +164,9 @@ struct FalseAlarm {
 impl ItemDetector {
     /// For `kinds` of items, by their order; a look is had every `period_s`.
     pub(crate) fn new(spec: &ItemsSpec, kinds: &[String], period_s: f64) -> Self {
-        let detection = |kind: &String| match &spec.detects {
+        let detection = |kind: &String| match &spec.detection_probability {
             None => Some(Detection::Constant(1.0)),
-            Some(detects) => detects.get(kind).cloned(),
+            Some(detection_probability) => detection_probability.get(kind).cloned(),
         };
         let false_alarm = |(number, kind): (u16, &String)| {
             let mean = spec.false_alarms_a_look(kind, period_s);
@@ -175,7 +178,7 @@ impl ItemDetector {
         };
         Self {
             sector: Sector::new(&spec.sector),
-            detects: kinds.iter().map(detection).collect(),
+            detection_probability: kinds.iter().map(detection).collect(),
             false_alarms: (0..).zip(kinds).filter_map(false_alarm).collect(),
             noise_m: spec.noise_m,
             needs_line_of_sight: spec.needs_line_of_sight,
@@ -192,7 +195,7 @@ impl ItemDetector {
         for (place, number) in items.near(eye.at, self.sector.range_m) {
             let way = eye.own(*place);
             let kind = items.kind(*number);
-            let Some(detection) = &self.detects[usize::from(kind)] else {
+            let Some(detection) = &self.detection_probability[usize::from(kind)] else {
                 continue;
             };
             if !self.sector.holds(way) || self.is_hidden(eye, *place) {
@@ -259,8 +262,8 @@ mod tests {
     #[test]
     fn a_detection_curve_is_half_where_it_says_and_a_bell() {
         let curve = Detection::Curve {
-            best: 0.8,
-            half_m: 1.5,
+            peak: 0.8,
+            half_range_m: 1.5,
         };
         for (distance_m, expected) in [(0.0, 0.8), (1.5, 0.4), (3.0, 0.05), (4.5, 0.8 / 512.0)] {
             assert!(

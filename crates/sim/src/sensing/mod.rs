@@ -36,7 +36,7 @@ pub struct SensorSpec {
     /// Probability that a look gives nothing at all.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1.0))]
-    pub dropout: f64,
+    pub dropout_probability: f64,
     /// Power while it is on, in watts.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1e6))]
@@ -69,7 +69,7 @@ pub(crate) struct Sensor {
     pub(crate) rhythm: Rhythm,
     /// From a look until the robot has it.
     pub(crate) latency_steps: u64,
-    pub(crate) dropout: f64,
+    pub(crate) dropout_probability: f64,
     pub(crate) power_w: f64,
     pub(crate) measure: Measure,
 }
@@ -115,7 +115,7 @@ impl Sensor {
             name: name.to_owned(),
             rhythm,
             latency_steps: steps_of(spec.latency_s, step_s),
-            dropout: spec.dropout,
+            dropout_probability: spec.dropout_probability,
             power_w: spec.power_w,
             measure,
         }

@@ -39,15 +39,15 @@ pub struct RangeSpec {
     /// More standard deviation, as a share of the distance.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1.0))]
-    pub noise_share: f64,
+    pub relative_noise: f64,
     /// Probability that a ray's echo is lost.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1.0))]
-    pub miss: f64,
+    pub miss_probability: f64,
     /// Probability that a ray has an echo of nothing, at any distance up to what is there.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1.0))]
-    pub false_echo: f64,
+    pub spurious_return_probability: f64,
 }
 
 pub(super) fn whole_circle() -> f64 {
@@ -63,9 +63,9 @@ pub(crate) struct Ring {
     pub(crate) facing_rad: f64,
     pub(crate) range_m: f64,
     noise_m: f64,
-    noise_share: f64,
-    miss: f64,
-    false_echo: f64,
+    relative_noise: f64,
+    miss_probability: f64,
+    spurious_return_probability: f64,
 }
 
 impl Ring {
@@ -78,9 +78,9 @@ impl Ring {
             facing_rad: spec.facing_deg.to_radians(),
             range_m: spec.range_m,
             noise_m: spec.noise_m,
-            noise_share: spec.noise_share,
-            miss: spec.miss,
-            false_echo: spec.false_echo,
+            relative_noise: spec.relative_noise,
+            miss_probability: spec.miss_probability,
+            spurious_return_probability: spec.spurious_return_probability,
         }
     }
 
@@ -90,9 +90,9 @@ impl Ring {
             rays: Rays::new(&bearings_rad),
             bearings_rad,
             noise_m: 0.0,
-            noise_share: 0.0,
-            miss: 0.0,
-            false_echo: 0.0,
+            relative_noise: 0.0,
+            miss_probability: 0.0,
+            spurious_return_probability: 0.0,
             ..*self
         }
     }
@@ -162,10 +162,10 @@ impl WithSimd for RingLook<'_> {
             deviate(eye, deviations);
         }
         ring.rays.cast(simd, (eye.front, ring.range_m), near, to);
-        if ring.false_echo > 0.0 {
+        if ring.spurious_return_probability > 0.0 {
             ring.invent(eye, to);
         }
-        if ring.miss > 0.0 {
+        if ring.miss_probability > 0.0 {
             ring.lose(eye, to);
         }
         for (distances, deviations) in to.iter_mut().zip(deviations) {
@@ -199,7 +199,7 @@ impl Ring {
             let chances = eye.deal(Use::Echo, hand);
             for (distances, chances) in groups.iter_mut().zip(&chances) {
                 *distances = from_fn(|lane| {
-                    let is_lost = share_of(chances[lane]) < self.miss;
+                    let is_lost = share_of(chances[lane]) < self.miss_probability;
                     if is_lost {
                         self.range_m
                     } else {
@@ -218,7 +218,7 @@ impl Ring {
             let places = eye.deal(Use::EchoPlace, hand);
             for ((distances, chances), places) in groups.iter_mut().zip(&chances).zip(&places) {
                 *distances = from_fn(|lane| {
-                    let is_false = share_of(chances[lane]) > 1.0 - self.false_echo;
+                    let is_false = share_of(chances[lane]) > 1.0 - self.spurious_return_probability;
                     let before = distances[lane] * share_of(places[lane]);
                     if is_false { before } else { distances[lane] }
                 });
@@ -227,13 +227,13 @@ impl Ring {
     }
 
     fn is_noisy(&self) -> bool {
-        self.noise_m > 0.0 || self.noise_share > 0.0
+        self.noise_m > 0.0 || self.relative_noise > 0.0
     }
 
     /// What is out of range stays so, whatever the noise: there is no echo to be measured.
     #[inline(always)]
     fn measured(&self, distance: f64, deviation: f64) -> f64 {
-        let spread = self.noise_m + self.noise_share * distance;
+        let spread = self.noise_m + self.relative_noise * distance;
         let measured = distance + spread * deviation;
         let measured = if measured > 0.0 { measured } else { 0.0 };
         let is_echo = (distance < self.range_m) && (measured < self.range_m);

@@ -17,7 +17,7 @@ pub struct RobotsSpec {
     #[serde(flatten)]
     pub sector: SectorSpec,
     /// Probability of detection in one look; left out, always.
-    pub detects: Option<Detection>,
+    pub detection_probability: Option<Detection>,
     /// Standard deviation of where a robot seems to be, along each axis, in metres.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1000.0))]
@@ -35,7 +35,7 @@ pub struct RobotsSpec {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct RobotDetector {
     pub(crate) sector: Sector,
-    detects: Detection,
+    detection_probability: Detection,
     pub(crate) noise_m: f64,
     course_noise_rad: Option<f64>,
     needs_line_of_sight: bool,
@@ -45,11 +45,14 @@ pub(crate) struct RobotDetector {
 
 impl RobotDetector {
     pub(crate) fn new(spec: &RobotsSpec) -> Self {
-        let detects = spec.detects.clone().unwrap_or(Detection::Constant(1.0));
+        let detection_probability = spec
+            .detection_probability
+            .clone()
+            .unwrap_or(Detection::Constant(1.0));
         Self {
             sector: Sector::new(&spec.sector),
-            is_sure: detects == Detection::Constant(1.0) && spec.noise_m == 0.0,
-            detects,
+            is_sure: detection_probability == Detection::Constant(1.0) && spec.noise_m == 0.0,
+            detection_probability,
             noise_m: spec.noise_m,
             course_noise_rad: spec.course_noise_deg.map(f64::to_radians),
             needs_line_of_sight: spec.needs_line_of_sight,
@@ -77,7 +80,7 @@ impl RobotDetector {
             return Some(way);
         }
         let words = eye.words_of(Use::Thing, robot);
-        let is_seen = share(words[0]) < self.detects.probability(way.length());
+        let is_seen = share(words[0]) < self.detection_probability.probability(way.length());
         is_seen.then(|| blurred(way, self.noise_m, words))
     }
 

@@ -20,7 +20,7 @@ pub struct ItemSpec {
     /// Whether they are to be found; false for clutter. A run is complete when all that are sought
     /// are found.
     #[serde(default = "yes")]
-    pub sought: bool,
+    pub target: bool,
     /// Where they are.
     #[serde(default)]
     pub placement: Placement,
@@ -37,7 +37,7 @@ pub(crate) struct ItemKind {
     /// Its name in random streams: [`kind_key`].
     pub(crate) key: u32,
     pub(crate) count: u32,
-    pub(crate) is_sought: bool,
+    pub(crate) is_target: bool,
     pub(crate) placement: Placement,
 }
 
@@ -47,7 +47,7 @@ impl ItemKind {
             name: name.clone(),
             key: kind_key(name),
             count: spec.count,
-            is_sought: spec.sought,
+            is_target: spec.target,
             placement: spec.placement.clone(),
         }
     }

@@ -19,7 +19,7 @@ pub struct WorldSpec {
     /// Whether it goes on at its other side: who leaves on one side comes in on the opposite one, and
     /// all distances are to the nearest image. Left out, it has a wall around it.
     #[serde(default)]
-    pub wraps: bool,
+    pub periodic: bool,
     /// What is in the way on the ground.
     #[serde(default)]
     pub obstacles: Vec<ObstacleSpec>,

@@ -26,7 +26,7 @@ pub enum ObstacleSpec {
         map: String,
         /// Whether cells of which the map knows nothing are solid.
         #[serde(default)]
-        unknown_is_solid: bool,
+        unknown_is_occupied: bool,
     },
 }
 

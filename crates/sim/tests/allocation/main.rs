@@ -97,7 +97,7 @@ fn mind(cells: usize, rays: u32) -> Brain {
         r#"{{
             "arbitration": {{"kind": "goals"}},
             "beliefs": {{"cells": {cells}, "cell_m": 0.05}},
-            "behaviours": [{{"kind": "hold"}}, {{"kind": "seek"}}, {{"kind": "home", "below": 0.5}}]
+            "behaviours": [{{"kind": "hold_position"}}, {{"kind": "bayesian_search"}}, {{"kind": "return_home", "min_charge": 0.5}}]
         }}"#
     );
     let spec: BrainSpec = serde_json::from_str(&spec).unwrap();
@@ -112,7 +112,7 @@ fn mind(cells: usize, rays: u32) -> Brain {
     let eye = Detector {
         range_m: 4.0,
         width_rad: 7.0,
-        detects: vec![vec![[0.0, 0.9], [4.0, 0.5]]],
+        detection_probability: vec![vec![[0.0, 0.9], [4.0, 0.5]]],
         false_alarms_per_m2: vec![0.01],
         noise_m: 0.1,
         ..Detector::default()

@@ -13,7 +13,7 @@ use sim::scenario::ScenarioSpec;
 
 /// Small enough that what is spoiled in it is likely to matter.
 const GOOD: &str = r#"
-clock = { cap_s = 60 }
+clock = { time_limit_s = 60 }
 world = { size_m = [20, 10], obstacles = [
     { polygon_m = [[0, 0], [4, 0], [4, 4], [0, 4]] },
     { circle = { at_m = [15, 5], radius_m = 1 } },
@@ -22,7 +22,7 @@ world = { size_m = [20, 10], obstacles = [
 terrain = { mud = { speed = 0.5, areas_m = [[[10, 0], [20, 0], [20, 10]]] } }
 [items]
 mine = { count = 2, placement = { kind = "fixed", at_m = [[5, 5], [19, 9]] } }
-scrap = { count = 3, sought = false, placement = { kind = "clustered", clusters = 2, spread_m = 1 } }
+scrap = { count = 3, target = false, placement = { kind = "clustered", clusters = 2, spread_m = 1 } }
 [robots.rover]
 count = 2
 radius_m = 0.5
@@ -32,10 +32,10 @@ battery = { capacity_j = 1000 }
 radio = { range_m = 10, delay_s = 0.3 }
 brain = { behaviours = [{ kind = "cruise" }, { kind = "avoid", near_m = 0.2 }] }
 [robots.rover.sensors]
-eye = { kind = "items", range_m = 3, detects = { mine = [[0, 1], [3, 0.5]], scrap = 0.1 } }
+eye = { kind = "items", range_m = 3, detection_probability = { mine = [[0, 1], [3, 0.5]], scrap = 0.1 } }
 sonar = { kind = "range", rays = 8, range_m = 2 }
 [robots.bird]
-like = "quadrotor"
+model = "quadrotor"
 count = 1
 start = { kind = "uniform", within_m = [[10, 1], [19, 9]] }
 "#;

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 const LATE: &str = "
 [clock]
 step_s = 0.1
-cap_s = 100
+time_limit_s = 100
 [world]
 size_m = [20, 10]
 obstacles = [{ circle = { at_m = [10, 5], radius_m = 1 } }]
@@ -20,7 +20,7 @@ count = 4
 radius_m = 0.3
 drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
 brain = { rate_hz = 4 }
-radio = { range_m = 8, delay_s = 0.3, loss = 0.1 }
+radio = { range_m = 8, delay_s = 0.3, loss_probability = 0.1 }
 [robots.rover.sensors.sonar]
 kind = \"range\"
 rays = 8
@@ -30,8 +30,8 @@ latency_s = 0.3
 kind = \"items\"
 range_m = 2
 latency_s = 0.5
-detects = { mine = 0.5 }
-false_alarms_per_m2_s = { mine = 0.01 }
+detection_probability = { mine = 0.5 }
+false_alarm_rate_per_m2_s = { mine = 0.01 }
 [robots.tug]
 count = 2
 radius_m = 0.3

@@ -7,7 +7,7 @@ use sim::engine::{Simulation, Status};
 /// A robot with a battery of these values at the left of a long field, looking along it.
 fn field(battery: &str, more: &str) -> String {
     format!(
-        "[clock]\nstep_s = 0.1\ncap_s = 1000\n[world]\nsize_m = [100, 10]\n\
+        "[clock]\nstep_s = 0.1\ntime_limit_s = 1000\n[world]\nsize_m = [100, 10]\n\
          [terrain.mud]\nspeed = 0.5\nenergy = 3\nareas_m = [[[50, 0], [100, 0], [100, 10], [50, 10]]]\n\
          [robots.rover]\ncount = 1\nradius_m = 0.5\n\
          start = {{ kind = \"fixed\", at_m = [[10, 5], [10, 7], [10, 3]], heading_deg = [0, 0, 0] }}\n\

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 const GROUND: &str = "
 [clock]
 step_s = 0.1
-cap_s = 60
+time_limit_s = 60
 [world]
 size_m = [20, 10]
 obstacles = [{ circle = { at_m = [10, 5], radius_m = 1 } }]
@@ -25,8 +25,8 @@ drive = { max_speed_m_s = 5, max_turn_rate_deg_s = 90 }
 kind = \"items\"
 range_m = 2
 latency_s = 0.5
-detects = { mine = 0.5 }
-false_alarms_per_m2_s = { mine = 0.1 }
+detection_probability = { mine = 0.5 }
+false_alarm_rate_per_m2_s = { mine = 0.1 }
 needs_line_of_sight = false
 [robots.rover]
 count = 6
@@ -46,7 +46,7 @@ kind = \"items\"
 range_m = 1
 [robots.rover.radio]
 range_m = 20
-loss = 0.3
+loss_probability = 0.3
 ";
 
 fn with(changes: &[(&str, &str)]) -> String {
@@ -174,7 +174,7 @@ fn items_that_were_there_stay_and_stay_found() {
 
 const LATE: &str = "
 [clock]
-cap_s = 60
+time_limit_s = 60
 [world]
 size_m = [20, 10]
 [items.flag]
@@ -256,7 +256,7 @@ fn a_run_is_complete_when_what_is_not_found_is_left_out_and_open_when_more_comes
     // So that the test says something whichever was found first: leave all out but clutter.
     let clutter = with(&[
         ("count = 3", "count = 0"),
-        ("count = 5", "count = 5\nsought = false"),
+        ("count = 5", "count = 5\ntarget = false"),
     ]);
     simulation.change(scenario(&clutter)).unwrap();
     assert!(!simulation.outcome().has_failed);
@@ -269,7 +269,7 @@ fn a_run_is_complete_when_what_is_not_found_is_left_out_and_open_when_more_comes
 fn the_last_item_to_be_found_can_be_left_out() {
     let line = "
 [clock]
-cap_s = 60
+time_limit_s = 60
 [world]
 size_m = [20, 10]
 [items.mine]
@@ -302,7 +302,7 @@ fn a_robot_is_at_once_no_faster_than_its_drive_allows() {
     let fast = "
 [clock]
 step_s = 0.1
-cap_s = 60
+time_limit_s = 60
 [world]
 size_m = [200, 20]
 [robots.rover]
@@ -360,7 +360,7 @@ fn what_has_no_room_is_refused_and_nothing_changes() {
 fn a_given_place_that_somebody_has_by_now_is_refused() {
     let two = "
 [clock]
-cap_s = 60
+time_limit_s = 60
 [world]
 size_m = [20, 10]
 [robots.rover]
@@ -399,7 +399,7 @@ fn talkers(kinds: &[(&str, u32)], items: &[&str], brain_hz: f64) -> String {
         )
     });
     let robots: String = robots.collect();
-    format!("[clock]\nstep_s = 0.1\ncap_s = 60\n[world]\nsize_m = [20, 10]\n{items}{robots}")
+    format!("[clock]\nstep_s = 0.1\ntime_limit_s = 60\n[world]\nsize_m = [20, 10]\n{items}{robots}")
 }
 
 /// What a robot is told from now on until so many steps later.
@@ -480,7 +480,7 @@ fn what_waits_for_a_brain_names_robots_as_they_are_called_now_and_none_that_is_g
 const DRAINED: &str = "
 [clock]
 step_s = 1
-cap_s = 1000
+time_limit_s = 1000
 [world]
 size_m = [20, 10]
 [robots.rover]
@@ -563,7 +563,10 @@ fn a_hundred_thousand_robots_come_in_within_seconds_and_apart() {
             "radius_m = 0.4",
             "radius_m = 0.4\nbrain = { behaviours = [] }",
         ),
-        ("[robots.rover.radio]\nrange_m = 20\nloss = 0.3\n", ""),
+        (
+            "[robots.rover.radio]\nrange_m = 20\nloss_probability = 0.3\n",
+            "",
+        ),
     ]);
     let few = scenario(&many.replace("count = 100000", "count = 1000"));
     let (few, many) = (Simulation::new(few, 1, 0).unwrap(), scenario(&many));

@@ -9,7 +9,7 @@ use std::f64::consts::FRAC_PI_2;
 /// One robot half a metre from the wall that it looks at, at 1 m/s; or two, face to face.
 fn text(collision: &str, robots: u32) -> String {
     format!(
-        "[clock]\nstep_s = 0.1\ncap_s = 100\n[world]\nsize_m = [10, 10]\n\
+        "[clock]\nstep_s = 0.1\ntime_limit_s = 100\n[world]\nsize_m = [10, 10]\n\
          [robots.rover]\ncount = {robots}\nradius_m = 0.5\n\
          start = {{ kind = \"fixed\", at_m = [[9, 5], [7, 5]], heading_deg = [0, 0] }}\n\
          drive = {{ max_speed_m_s = 1, max_reverse_speed_m_s = 1, max_turn_rate_deg_s = 180 }}\n\
@@ -75,8 +75,8 @@ fn a_robot_that_reverses_from_a_wall_is_free_at_once() {
 
 #[test]
 fn a_robot_is_held_for_as_long_as_its_scenario_says() {
-    for (stop_s, steps) in [(0.0, 0), (0.3, 3), (0.25, 3), (1.0, 10)] {
-        let mut simulation = start(&text(&format!("stop_s = {stop_s}"), 1));
+    for (stop_duration_s, steps) in [(0.0, 0), (0.3, 3), (0.25, 3), (1.0, 10)] {
+        let mut simulation = start(&text(&format!("stop_duration_s = {stop_duration_s}"), 1));
         let mut hit = 0;
         while first(&simulation).collisions == 0 {
             drive(&mut simulation, 1, &[(0, 1.0, 0.0)]);
@@ -86,17 +86,21 @@ fn a_robot_is_held_for_as_long_as_its_scenario_says() {
         let ways = drive(&mut simulation, steps + 2, &[(0, -1.0, 1.0)]);
         for (step, robots) in ways.iter().enumerate() {
             let is_held = step < steps as usize;
-            assert_eq!(robots[0].at.x > 9.499, is_held, "{stop_s} {step}");
-            assert_eq!(robots[0].is_touching, is_held, "{stop_s} {step}");
+            assert_eq!(robots[0].at.x > 9.499, is_held, "{stop_duration_s} {step}");
+            assert_eq!(robots[0].is_touching, is_held, "{stop_duration_s} {step}");
             // Neither goes nor turns who is held.
-            assert_eq!(robots[0].heading_rad == 0.0, is_held, "{stop_s} {step}");
+            assert_eq!(
+                robots[0].heading_rad == 0.0,
+                is_held,
+                "{stop_duration_s} {step}"
+            );
         }
     }
 }
 
 #[test]
 fn a_robot_is_broken_after_so_many_collisions() {
-    let mut simulation = start(&text("breaks_after = 3", 1));
+    let mut simulation = start(&text("max_collisions = 3", 1));
     for collision in 1..=3 {
         assert_eq!(first(&simulation).status, Status::Active);
         drive(&mut simulation, 8, &[(0, 1.0, 0.0)]);
@@ -113,7 +117,7 @@ fn a_robot_is_broken_after_so_many_collisions() {
 
 #[test]
 fn of_two_robots_that_meet_both_are_stopped_and_the_contact_counts_once() {
-    let mut simulation = start(&text("stop_s = 0.2", 2));
+    let mut simulation = start(&text("stop_duration_s = 0.2", 2));
     // The second comes from behind at 1 m/s, the first reverses at half of that: 1 m between them.
     let ways = drive(&mut simulation, 9, &[(0, -0.5, 0.0), (1, 1.0, 0.0)]);
     let last = &ways[8];
@@ -142,7 +146,7 @@ fn who_is_run_into_from_behind_is_stopped_too() {
 
 #[test]
 fn a_broken_robot_is_in_the_way_of_others() {
-    let mut simulation = start(&text("breaks_after = 1", 2));
+    let mut simulation = start(&text("max_collisions = 1", 2));
     let ways = drive(&mut simulation, 30, &[(0, 1.0, 0.0), (1, 1.0, 0.0)]);
     let last = &ways[29];
     assert!(last.iter().all(|robot| robot.status == Status::Broken));
@@ -160,7 +164,7 @@ fn touching(collision: &str, apart_rad: f64, course_rad: f64) -> String {
     };
     let degrees = [course_rad, apart_rad].map(f64::to_degrees);
     format!(
-        "[clock]\nstep_s = 0.1\ncap_s = 100\n[world]\nsize_m = [100, 100]\n\
+        "[clock]\nstep_s = 0.1\ntime_limit_s = 100\n[world]\nsize_m = [100, 100]\n\
          [robots.rover]\ncount = 2\nradius_m = 0.5\n\
          start = {{ kind = \"fixed\", at_m = [[50, 50], [{}, {}]], heading_deg = {degrees:?} }}\n\
          drive = {{ max_speed_m_s = 2, max_reverse_speed_m_s = 2, max_turn_rate_deg_s = 180 }}\n\
@@ -202,7 +206,7 @@ fn a_slow_robot_leaves_freely_while_a_faster_one_presses_from_behind() {
 
 #[test]
 fn who_is_pressed_and_stands_feels_it_and_is_hit_once() {
-    let mut simulation = start(&touching("stop_s = 0.3", 0.4, 0.4));
+    let mut simulation = start(&touching("stop_duration_s = 0.3", 0.4, 0.4));
     let ways = drive(&mut simulation, 20, &[(0, 0.0, 0.0), (1, 1.0, 0.0)]);
     let mut all = ways[1..].iter().flatten();
     assert!(all.all(|robot| robot.is_touching && robot.collisions == 1 && robot.distance_m < 1e-9));
@@ -239,7 +243,7 @@ fn in_a_crowd_that_presses_from_all_sides_none_overlaps_another() {
         };
         let kinds = kind("big", 0.3) + &kind("small", 0.15);
         let mut simulation = start(&format!(
-            "[clock]\nstep_s = {step_s}\ncap_s = 100\n[world]\nsize_m = [4, 4]\n{kinds}"
+            "[clock]\nstep_s = {step_s}\ntime_limit_s = 100\n[world]\nsize_m = [4, 4]\n{kinds}"
         ));
         let mut touching = 0;
         for _ in 0..150 {

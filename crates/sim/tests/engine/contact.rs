@@ -35,7 +35,7 @@ fn maze(random: &mut Random) -> String {
     }
     let [x, y] = [random.between(65.0, 100.0), random.between(5.0, 100.0)];
     format!(
-        "[clock]\nstep_s = {step_s}\ncap_s = 1000\n[world]\nsize_m = [{SIDE_M}, {SIDE_M}]\nobstacles = [\n\
+        "[clock]\nstep_s = {step_s}\ntime_limit_s = 1000\n[world]\nsize_m = [{SIDE_M}, {SIDE_M}]\nobstacles = [\n\
          {{ polygon_m = [[60, -1], [60.01, -1], [60.01, 121], [60, 121]] }},\n\
          {{ polygon_m = [[10, 10], [40, 12], [12, 40]] }},\n\
          {{ polygon_m = [[40, 80], [40, 100], [20, 100], [20, 99.99], [39.99, 99.99], [39.99, 80]] }},\n\

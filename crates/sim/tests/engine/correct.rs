@@ -7,7 +7,7 @@ use sim::engine::Simulation;
 /// One rover at the left that looks along x, with the brain's middle layer as given.
 fn rover(obstacles: &str, start_y_m: f64, correct: &str) -> Simulation {
     start(&format!(
-        "[clock]\nstep_s = 0.1\ncap_s = 1000\n[world]\nsize_m = [24, 20]\n\
+        "[clock]\nstep_s = 0.1\ntime_limit_s = 1000\n[world]\nsize_m = [24, 20]\n\
          obstacles = [{obstacles}]\n[robots.rover]\ncount = 1\nradius_m = 0.25\n\
          start = {{ kind = \"fixed\", at_m = [[3, {start_y_m}]], heading_deg = [0] }}\n\
          drive = {{ max_speed_m_s = 1, max_acceleration_m_s2 = 1, max_turn_rate_deg_s = 90 }}\n\
@@ -36,7 +36,11 @@ fn past_the_wall(correct: &str) -> (usize, f64) {
     let to = Point { x: 20.0, y: 10.0 };
     let runs = (0..10).map(|number| {
         let start_y_m = 9.5 + 0.1 * f64::from(number);
-        let mut simulation = rover(wall, start_y_m, &format!("places_m = [[20, 10]]{correct}"));
+        let mut simulation = rover(
+            wall,
+            start_y_m,
+            &format!("waypoints_m = [[20, 10]]{correct}"),
+        );
         steps_to(&mut simulation, to)
     });
     let (past, locked): (Vec<_>, Vec<_>) = runs.partition(|(steps, _)| steps.is_some());
@@ -61,7 +65,7 @@ fn who_waits_as_long_as_is_usual_gets_past() {
 #[test]
 fn places_are_visited_in_their_order() {
     let places = [[12.0, 10.0], [12.0, 17.0], [5.0, 5.0]];
-    let mut simulation = rover("", 10.0, &format!("places_m = {places:?}"));
+    let mut simulation = rover("", 10.0, &format!("waypoints_m = {places:?}"));
     for place in places {
         let (steps, _) = steps_to(&mut simulation, place.into());
         assert!(steps.is_some(), "{place:?}");

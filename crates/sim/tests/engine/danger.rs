@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 fn team(places: &str, headings_deg: &str) -> Simulation {
     let count = places.matches('[').count() - 1;
     start(&format!(
-        "[clock]\ncap_s = 100\n[world]\nsize_m = [20, 20]\n\
+        "[clock]\ntime_limit_s = 100\n[world]\nsize_m = [20, 20]\n\
          obstacles = [{{ circle = {{ at_m = [10, 15], radius_m = 1 }} }}]\n\
          [robots.rover]\ncount = {count}\nradius_m = 0.25\n\
          drive = {{ max_speed_m_s = 1, max_reverse_speed_m_s = 1, max_turn_rate_deg_s = 90 }}\n\

@@ -17,22 +17,22 @@ pub(crate) fn crowd(robots: u32, side_m: f64) -> String {
     let birds = robots / 5;
     let rovers = robots - birds;
     format!(
-        "[clock]\nstep_s = 0.1\ncap_s = 100\n[world]\nsize_m = [{side_m}, {side_m}]\n\
+        "[clock]\nstep_s = 0.1\ntime_limit_s = 100\n[world]\nsize_m = [{side_m}, {side_m}]\n\
          obstacles = [{{ circle = {{ at_m = [10, 10], radius_m = 3 }} }}, {{ polygon_m = [[15, 2], [16, 2], [16, 9]] }}]\n\
-         [items.mine]\ncount = {robots}\n[items.scrap]\ncount = 50\nsought = false\n\
+         [items.mine]\ncount = {robots}\n[items.scrap]\ncount = 50\ntarget = false\n\
          [robots.bird]\ncount = {birds}\nlayer = \"air\"\nradius_m = 0.3\n\
          drive = {{ max_speed_m_s = 5, max_acceleration_m_s2 = 3, max_turn_rate_deg_s = 90 }}\n\
          [robots.bird.sensors.eye]\nkind = \"items\"\nrange_m = 2\nlatency_s = 0.3\nneeds_line_of_sight = false\n\
-         detects = {{ mine = 0.1 }}\nfalse_alarms_per_m2_s = {{ scrap = 0.01 }}\n\
-         [robots.bird.radio]\nrange_m = 6\nloss = 0.2\n\
+         detection_probability = {{ mine = 0.1 }}\nfalse_alarm_rate_per_m2_s = {{ scrap = 0.01 }}\n\
+         [robots.bird.radio]\nrange_m = 6\nloss_probability = 0.2\n\
          [robots.rover]\ncount = {rovers}\nradius_m = 0.25\n\
          drive = {{ max_speed_m_s = 1, max_acceleration_m_s2 = 2, max_turn_rate_deg_s = 120 }}\n\
-         battery = {{ capacity_j = 60, idle_w = 5, move_j_per_m = 20 }}\ncollision = {{ stop_s = 0.3, breaks_after = 20 }}\n\
-         [robots.rover.sensors.sonar]\nkind = \"range\"\nrays = 12\nrange_m = 2\nnoise_m = 0.02\nmiss = 0.1\n\
+         battery = {{ capacity_j = 60, idle_w = 5, move_j_per_m = 20 }}\ncollision = {{ stop_duration_s = 0.3, max_collisions = 20 }}\n\
+         [robots.rover.sensors.sonar]\nkind = \"range\"\nrays = 12\nrange_m = 2\nnoise_m = 0.02\nmiss_probability = 0.1\n\
          [robots.rover.sensors.gps]\nkind = \"position\"\nnoise_m = 1\nrate_hz = 3\n\
-         [robots.rover.sensors.mates]\nkind = \"robots\"\nrange_m = 3\ndetects = 0.5\nnoise_m = 0.1\n\
-         [robots.rover.sensors.eye]\nkind = \"items\"\nrange_m = 1\ndetects = {{ mine = 0.05, scrap = 0.1 }}\n\
-         [robots.rover.radio]\nrange_m = 4\nloss = 0.2\ndelay_s = 0.2\nneeds_line_of_sight = true\n"
+         [robots.rover.sensors.mates]\nkind = \"robots\"\nrange_m = 3\ndetection_probability = 0.5\nnoise_m = 0.1\n\
+         [robots.rover.sensors.eye]\nkind = \"items\"\nrange_m = 1\ndetection_probability = {{ mine = 0.05, scrap = 0.1 }}\n\
+         [robots.rover.radio]\nrange_m = 4\nloss_probability = 0.2\ndelay_s = 0.2\nneeds_line_of_sight = true\n"
     )
 }
 
@@ -206,19 +206,19 @@ fn runs_in_a_block_are_those_stepped_by_hand_one_by_one() {
 fn a_robot_more_or_a_kind_more_changes_nothing_for_the_others_at_first() {
     let field = |rovers: u32, more: &str| {
         format!(
-            "[clock]\ncap_s = 100\n[world]\nsize_m = [500, 500]\n[items.mine]\ncount = 20\n\
+            "[clock]\ntime_limit_s = 100\n[world]\nsize_m = [500, 500]\n[items.mine]\ncount = 20\n\
              placement = {{ kind = \"clustered\", clusters = 3, spread_m = 9 }}\n\
              [robots.rover]\ncount = {rovers}\nradius_m = 0.3\n\
              drive = {{ max_speed_m_s = 1, max_turn_rate_deg_s = 90 }}\n\
              [robots.rover.sensors.gps]\nkind = \"position\"\nnoise_m = 2\n\
-             [robots.rover.sensors.sonar]\nkind = \"range\"\nrays = 9\nrange_m = 4\nnoise_m = 0.1\nfalse_echo = 0.5\n\
-             [robots.rover.sensors.eye]\nkind = \"items\"\nrange_m = 50\ndetects = {{ mine = 0.5 }}\nnoise_m = 1\n\
-             false_alarms_per_m2_s = {{ mine = 0.001 }}\n{more}"
+             [robots.rover.sensors.sonar]\nkind = \"range\"\nrays = 9\nrange_m = 4\nnoise_m = 0.1\nspurious_return_probability = 0.5\n\
+             [robots.rover.sensors.eye]\nkind = \"items\"\nrange_m = 50\ndetection_probability = {{ mine = 0.5 }}\nnoise_m = 1\n\
+             false_alarm_rate_per_m2_s = {{ mine = 0.001 }}\n{more}"
         )
     };
     let kind = "[robots.zebra]\ncount = 5\nradius_m = 0.3\n\
                 drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }\n";
-    let items = "[items.stone]\ncount = 7\nsought = false\n";
+    let items = "[items.stone]\ncount = 7\ntarget = false\n";
     let perceived = |text: &str| {
         let mut simulation = start(text);
         let mut percepts = Vec::new();
@@ -253,11 +253,11 @@ fn a_robot_more_or_a_kind_more_changes_nothing_for_the_others_at_first() {
 fn more_items_of_one_kind_change_no_look_at_another() {
     let field = |mines: u32| {
         format!(
-            "[clock]\ncap_s = 100\n[world]\nsize_m = [20, 20]\n[items.mine]\ncount = {mines}\n\
-             [items.stone]\ncount = 9\nsought = false\n[robots.rover]\ncount = 1\nradius_m = 0.3\n\
+            "[clock]\ntime_limit_s = 100\n[world]\nsize_m = [20, 20]\n[items.mine]\ncount = {mines}\n\
+             [items.stone]\ncount = 9\ntarget = false\n[robots.rover]\ncount = 1\nradius_m = 0.3\n\
              drive = {{ max_speed_m_s = 0, max_turn_rate_deg_s = 0 }}\n\
              [robots.rover.sensors.eye]\nkind = \"items\"\nrange_m = 50\nnoise_m = 1\n\
-             detects = {{ mine = 0.5, stone = 0.5 }}\n"
+             detection_probability = {{ mine = 0.5, stone = 0.5 }}\n"
         )
     };
     let seen = |mines: u32| {

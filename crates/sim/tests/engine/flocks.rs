@@ -10,10 +10,10 @@ use std::collections::BTreeMap;
 /// Birds by the declared rule of `ABMFrameworksComparison`, in steps of a second.
 fn birds(count: u32, side_m: f64, more: &str) -> String {
     format!(
-        "[clock]\nstep_s = 1\ncap_s = 1000\n[world]\nsize_m = [{side_m}, {side_m}]\nwraps = true\n\
+        "[clock]\nstep_s = 1\ntime_limit_s = 1000\n[world]\nsize_m = [{side_m}, {side_m}]\nperiodic = true\n\
          [robots.bird]\ncount = {count}\nradius_m = 0\ndrive = {{ max_speed_m_s = 1 }}\n\
          sensors.eyes = {{ kind = \"robots\", range_m = 15, course_noise_deg = 0 }}\n\
-         [[robots.bird.brain.behaviours]]\nkind = \"swarm\"\nseparation_m = 4\n\
+         [[robots.bird.brain.behaviours]]\nkind = \"flock\"\nseparation_m = 4\n\
          separation = 0.015\nalignment = 0.05\ncohesion = 0.03\n{more}\n"
     )
 }
@@ -58,7 +58,7 @@ fn so_does_a_flock_of_discs_among_others() {
                   [robots.duck]\ncount = 40\nradius_m = 0.5\n\
                   drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 45 }\n\
                   sensors.eyes = { kind = \"robots\", range_m = 9 }\n\
-                  brain.behaviours = [{ kind = \"swarm\", separation_m = 3 }]";
+                  brain.behaviours = [{ kind = \"flock\", separation_m = 3 }]";
     let text = birds(60, 60.0, others);
     let mut simulation = start(&text);
     for _ in 0..40 {

@@ -11,8 +11,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 fn at(place: &str, world: &str, more: &str) -> Simulation {
     let count = place.matches('[').count();
     start(&format!(
-        "[clock]\ncap_s = 100\n[world]\nsize_m = [20, 20]\n{world}\n\
-         [items.mine]\ncount = 1\nsought = false\nplacement = {{ kind = \"fixed\", at_m = [[1, 1]] }}\n\
+        "[clock]\ntime_limit_s = 100\n[world]\nsize_m = [20, 20]\n{world}\n\
+         [items.mine]\ncount = 1\ntarget = false\nplacement = {{ kind = \"fixed\", at_m = [[1, 1]] }}\n\
          [robots.rover]\ncount = {count}\nradius_m = 0.2\nbrain = {{ behaviours = [] }}\n\
          start = {{ kind = \"fixed\", at_m = [{place}], heading_deg = {:?} }}\n\
          drive = {{ max_speed_m_s = 1, max_turn_rate_deg_s = 90 }}\n{more}",
@@ -158,7 +158,7 @@ fn a_sector_is_looked_at_from_edge_to_edge() {
 
 #[test]
 fn rays_of_a_ring_end_at_walls_and_robots_without_errors() {
-    let sonar = "sensors.sonar = { kind = \"range\", rays = 8, range_m = 3, noise_m = 0.5, miss = 0.5, false_echo = 0.1 }\n";
+    let sonar = "sensors.sonar = { kind = \"range\", rays = 8, range_m = 3, noise_m = 0.5, miss_probability = 0.5, spurious_return_probability = 0.1 }\n";
     let ring = only(&mut at("[10, 10], [8, 10]", WALL, sonar));
     assert_near(along(&ring, 0.0), 2.0);
     assert_near(along(&ring, PI), 1.8);
@@ -172,7 +172,7 @@ fn rays_of_a_ring_end_at_walls_and_robots_without_errors() {
 #[test]
 fn in_a_world_that_wraps_a_wall_beyond_the_border_hides() {
     let world = format!(
-        "wraps = true\n{}",
+        "periodic = true\n{}",
         WALL.replace("12", "1").replace("13", "2")
     );
     let footprint = only(&mut at("[18.5, 10]", &world, EYE));

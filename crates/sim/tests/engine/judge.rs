@@ -6,9 +6,9 @@ use sim::engine::{Outcome, Simulation};
 use sim::runner::Runs;
 
 /// A robot that drives along a line with items on it, and sees a metre.
-fn line(cap_s: f64, items: &str, sensor: &str) -> String {
+fn line(time_limit_s: f64, items: &str, sensor: &str) -> String {
     format!(
-        "[clock]\nstep_s = 0.1\ncap_s = {cap_s}\n[world]\nsize_m = [50, 10]\n{items}\n\
+        "[clock]\nstep_s = 0.1\ntime_limit_s = {time_limit_s}\n[world]\nsize_m = [50, 10]\n{items}\n\
          [robots.rover]\ncount = 1\nradius_m = 0.5\nprice = 3\n\
          start = {{ kind = \"fixed\", at_m = [[1, 5]], heading_deg = [0] }}\n\
          drive = {{ max_speed_m_s = 1, max_turn_rate_deg_s = 90 }}\n\
@@ -67,7 +67,7 @@ fn each_item_has_the_time_at_which_it_was_found() {
 
 #[test]
 fn clutter_is_told_of_and_does_not_complete_a_run() {
-    let items = "[items.scrap]\ncount = 2\nsought = false\n\
+    let items = "[items.scrap]\ncount = 2\ntarget = false\n\
                  placement = { kind = \"fixed\", at_m = [[4, 5], [6, 5]] }\n"
         .to_owned()
         + &mines("[[5, 5], [9, 9]]", 2);
@@ -116,7 +116,7 @@ fn a_run_with_nothing_to_seek_lasts_until_the_cap_and_has_not_failed() {
 
 #[test]
 fn a_cap_that_is_no_multiple_of_the_step_ends_with_the_step_that_begins_before_it() {
-    for (cap_s, steps) in [
+    for (time_limit_s, steps) in [
         (0.0, 0),
         (0.05, 1),
         (0.1, 1),
@@ -125,16 +125,16 @@ fn a_cap_that_is_no_multiple_of_the_step_ends_with_the_step_that_begins_before_i
         (2.03, 21),
     ] {
         // In sight at step 20, which only the last cap reaches.
-        let (outcome, simulation) = finish(&line(cap_s, &mines("[[4, 5]]", 1), ""));
-        assert_eq!(simulation.state().tick(), steps, "{cap_s}");
-        let is_found = cap_s > 2.0;
-        assert_eq!(outcome.has_failed, !is_found, "{cap_s}");
+        let (outcome, simulation) = finish(&line(time_limit_s, &mines("[[4, 5]]", 1), ""));
+        assert_eq!(simulation.state().tick(), steps, "{time_limit_s}");
+        let is_found = time_limit_s > 2.0;
+        assert_eq!(outcome.has_failed, !is_found, "{time_limit_s}");
         assert_eq!(
             outcome.time_s,
-            if is_found { 2.0 } else { cap_s },
-            "{cap_s}"
+            if is_found { 2.0 } else { time_limit_s },
+            "{time_limit_s}"
         );
-        assert!(outcome.time_s <= cap_s);
+        assert!(outcome.time_s <= time_limit_s);
     }
 }
 
@@ -160,7 +160,7 @@ fn steps_after_the_end_change_no_find() {
 #[test]
 fn a_run_without_room_is_quarantined() {
     // Eight robots of a metre hardly fit into 4.1 m: most runs find no place for all.
-    let text = "[clock]\ncap_s = 1\n[world]\nsize_m = [4.1, 4.1]\n[robots.rover]\ncount = 10\n\
+    let text = "[clock]\ntime_limit_s = 1\n[world]\nsize_m = [4.1, 4.1]\n[robots.rover]\ncount = 10\n\
                 radius_m = 0.5\ndrive = { max_speed_m_s = 0, max_turn_rate_deg_s = 0 }\n";
     let runs = Runs(scenario(text));
     let columns = runs.run_block(1, 0..200, BlockOptions::ALONE);

@@ -7,7 +7,7 @@ use sim::engine::Simulation;
 const FIELD: &str = "
 [clock]
 step_s = 0.1
-cap_s = 100
+time_limit_s = 100
 [world]
 size_m = [20, 10]
 obstacles = [{ circle = { at_m = [10, 5], radius_m = 1 } }]
@@ -113,7 +113,7 @@ fn who_turns_and_drives_goes_around_a_circle_exactly() {
 /// A bird, and another or a rover, on two sides of a wall.
 fn across_a_wall(other: &str) -> usize {
     let text = format!(
-        "[clock]\nstep_s = 0.1\ncap_s = 10\n[world]\nsize_m = [20, 10]\n\
+        "[clock]\nstep_s = 0.1\ntime_limit_s = 10\n[world]\nsize_m = [20, 10]\n\
          obstacles = [{{ polygon_m = [[9, 1], [10, 1], [10, 9], [9, 9]] }}]\n\
          [robots.bird]\ncount = 1\nlayer = \"air\"\nradius_m = 0.5\n\
          start = {{ kind = \"fixed\", at_m = [[5, 5]] }}\n\

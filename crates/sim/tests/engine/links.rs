@@ -18,7 +18,7 @@ fn field(world: &str, kinds: &[(&str, &str)]) -> Simulation {
         )
     });
     start(&format!(
-        "[clock]\ncap_s = 100\n[world]\nsize_m = [40, 20]\n{world}\n\
+        "[clock]\ntime_limit_s = 100\n[world]\nsize_m = [40, 20]\n{world}\n\
          obstacles = [{{ polygon_m = [[30, 9], [30.1, 9], [30.1, 11], [30, 11]] }}]\n{}",
         kinds.collect::<String>()
     ))
@@ -59,7 +59,7 @@ fn two_that_fly_hear_each_other_over_a_wall() {
 fn a_link_goes_across_the_border_of_a_world_that_wraps() {
     let kinds = [("[[1, 1], [39, 19]]", "radio = { range_m = 3 }")];
     assert_eq!(links(&mut field("", &kinds)), []);
-    assert_eq!(links(&mut field("wraps = true", &kinds)), [(0, 1, true)]);
+    assert_eq!(links(&mut field("periodic = true", &kinds)), [(0, 1, true)]);
 }
 
 #[test]
@@ -92,7 +92,7 @@ fn who_is_broken_or_empty_or_mute_has_no_links() {
         simulation.step();
         assert_eq!(links(&mut simulation).len(), count, "{more}");
     }
-    let deaf = "radio = { range_m = 5, loss = 1 }";
+    let deaf = "radio = { range_m = 5, loss_probability = 1 }";
     assert_eq!(
         links(&mut pair(deaf)),
         [(0, 1, true), (0, 2, false), (1, 2, false)]
@@ -101,7 +101,7 @@ fn who_is_broken_or_empty_or_mute_has_no_links() {
 
 #[test]
 fn who_breaks_hears_nothing_any_more() {
-    let radio = "radio = { range_m = 5 }\ncollision = { breaks_after = 1 }";
+    let radio = "radio = { range_m = 5 }\ncollision = { max_collisions = 1 }";
     let mut simulation = field("", &[("[[29.7, 10], [28, 10]]", radio)]);
     assert_eq!(links(&mut simulation), [(0, 1, true)]);
     for _ in 0..3 {
@@ -130,7 +130,7 @@ fn links_of_one_are_those_of_all_that_are_its_own_and_most_bounds_them() {
 fn a_link_is_there_where_a_message_comes_and_nowhere_else() {
     // Without loss, and the next step hears.
     let text = crowd(60, 25.0)
-        .replace("loss = 0.2", "")
+        .replace("loss_probability = 0.2", "")
         .replace("delay_s = 0.2", "");
     let mut simulation = start(&text);
     let ids: Vec<RobotId> = robots(&simulation).iter().map(|robot| robot.id).collect();

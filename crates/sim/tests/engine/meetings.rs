@@ -126,7 +126,7 @@ fn text(bodies: &[Body], names: [&str; 3], order: [usize; 3]) -> String {
     });
     let kinds: Vec<String> = kinds.collect();
     format!(
-        "[clock]\nstep_s = 1\ncap_s = 100\n[world]\nsize_m = [{SIDE_M}, {SIDE_M}]\n{}",
+        "[clock]\nstep_s = 1\ntime_limit_s = 100\n[world]\nsize_m = [{SIDE_M}, {SIDE_M}]\n{}",
         kinds.concat()
     )
 }
@@ -234,7 +234,7 @@ fn contacts_of_a_step_are_no_more_than_robots() {
         about.collect::<Vec<_>>().join(", ")
     );
     let text = format!(
-        "[clock]\nstep_s = 0.1\ncap_s = 0.1\n[world]\nsize_m = [8, 8]\n{}{}",
+        "[clock]\nstep_s = 0.1\ntime_limit_s = 0.1\n[world]\nsize_m = [8, 8]\n{}{}",
         kind("around", 6, 3, around),
         kind("middle", 1, 0, "at_m = [[4, 4]]".to_owned())
     );

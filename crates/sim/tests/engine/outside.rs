@@ -10,7 +10,7 @@ use std::sync::Arc;
 const FIELD: &str = "
 [clock]
 step_s = 0.1
-cap_s = 1000
+time_limit_s = 1000
 [world]
 size_m = [20, 10]
 obstacles = [{ circle = { at_m = [10, 5], radius_m = 1 } }]
@@ -25,7 +25,7 @@ count = 3
 radius_m = 0.4
 start = { kind = \"fixed\", at_m = [[2, 2], [4, 2], [16, 8]], heading_deg = [0, 90, 45] }
 drive = { max_speed_m_s = 2, max_turn_rate_deg_s = 90 }
-collision = { breaks_after = 1 }
+collision = { max_collisions = 1 }
 battery = { capacity_j = 20, idle_w = 10 }
 [robots.rover.sensors.sonar]
 kind = \"range\"
@@ -34,7 +34,7 @@ range_m = 3
 [robots.rover.sensors.eye]
 kind = \"items\"
 range_m = 1
-detects = { flag = 0, mine = 0 }
+detection_probability = { flag = 0, mine = 0 }
 ";
 
 const OUT: RobotId = RobotId { kind: 0, index: 0 };

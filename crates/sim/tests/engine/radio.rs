@@ -5,10 +5,10 @@ use brain::{About, Heard, Message, RobotId};
 use sim::engine::Simulation;
 
 /// Robots at places on a line through the middle of a field of 40 m, with a wall at 30 m.
-fn line(radio: &str, places_m: &[f64], more: &str) -> String {
-    let places: Vec<String> = places_m.iter().map(|x| format!("[{x}, 10]")).collect();
+fn line(radio: &str, waypoints_m: &[f64], more: &str) -> String {
+    let places: Vec<String> = waypoints_m.iter().map(|x| format!("[{x}, 10]")).collect();
     format!(
-        "[clock]\nstep_s = 0.1\ncap_s = 100000\n[world]\nsize_m = [40, 20]\n\
+        "[clock]\nstep_s = 0.1\ntime_limit_s = 100000\n[world]\nsize_m = [40, 20]\n\
          obstacles = [{{ polygon_m = [[30, 9], [30.1, 9], [30.1, 11], [30, 11]] }}]\n\
          [robots.rover]\ncount = {}\nradius_m = 0.2\n\
          start = {{ kind = \"fixed\", at_m = [{}] }}\n\
@@ -94,7 +94,11 @@ fn a_delay_is_as_long_as_the_scenario_says() {
 
 #[test]
 fn messages_are_lost_as_often_as_the_scenario_says_and_by_each_alone() {
-    let mut simulation = start(&line("range_m = 9, loss = 0.3", &[9.0, 10.0, 11.0], ""));
+    let mut simulation = start(&line(
+        "range_m = 9, loss_probability = 0.3",
+        &[9.0, 10.0, 11.0],
+        "",
+    ));
     let (count, mut heard, mut both) = (20_000, [0.0; 2], 0.0);
     for _ in 0..count {
         told(&mut simulation, [(id(0, 0), say(&[message(0.0)]))]);
@@ -117,7 +121,11 @@ fn messages_are_lost_as_often_as_the_scenario_says_and_by_each_alone() {
 
 #[test]
 fn two_messages_of_a_step_are_lost_one_by_one() {
-    let mut simulation = start(&line("range_m = 9, loss = 0.5", &[9.0, 10.0], ""));
+    let mut simulation = start(&line(
+        "range_m = 9, loss_probability = 0.5",
+        &[9.0, 10.0],
+        "",
+    ));
     let mut counts = [0.0_f64; 3];
     for _ in 0..10_000 {
         told(

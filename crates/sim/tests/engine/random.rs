@@ -6,10 +6,10 @@ use crate::common::Random;
 pub(crate) fn text(seed: u64) -> String {
     let random = &mut Random::new(seed);
     let step_s = random.one_of(&[0.02, 0.1, 0.1, 0.25, 1.0]);
-    let cap_s = f64::from(random.below(200)) * step_s * random.one_of(&[1.0, 0.99]);
+    let time_limit_s = f64::from(random.below(200)) * step_s * random.one_of(&[1.0, 0.99]);
     let [wide, high] = [random.between(4.0, 30.0), random.between(4.0, 30.0)];
     let mut text = format!(
-        "[clock]\nstep_s = {step_s}\ncap_s = {cap_s}\n[world]\nsize_m = [{wide}, {high}]\nobstacles = [{}]\n",
+        "[clock]\nstep_s = {step_s}\ntime_limit_s = {time_limit_s}\n[world]\nsize_m = [{wide}, {high}]\nobstacles = [{}]\n",
         list(random.below(4), || obstacle(random, wide, high))
     );
     for name in ["grass", "swamp"].iter().take(random.below(3) as usize) {
@@ -20,10 +20,10 @@ pub(crate) fn text(seed: u64) -> String {
     }
     let items: Vec<&str> = ["cow", "flag", "mine"][..random.below(4) as usize].to_vec();
     for name in &items {
-        let (count, is_sought) = (random.below(6), random.below(3) > 0);
+        let (count, is_target) = (random.below(6), random.below(3) > 0);
         let placement = placement(random, wide, high);
         text += &format!(
-            "[items.{name}]\ncount = {count}\nsought = {is_sought}\nplacement = {placement}\n"
+            "[items.{name}]\ncount = {count}\ntarget = {is_target}\nplacement = {placement}\n"
         );
     }
     for name in ["alpha", "beta", "gamma"]
@@ -94,9 +94,9 @@ fn robot(
         "",
         "",
         "",
-        "like = \"tracked\"",
-        "like = \"ugv\"",
-        "like = \"quadrotor\"",
+        "model = \"tracked\"",
+        "model = \"ugv\"",
+        "model = \"quadrotor\"",
     ]);
     let layer = random.one_of(&["ground", "ground", "air"]);
     let radius_m = random.one_of(&[0.0, 0.1, 0.3, 0.8]);
@@ -116,9 +116,9 @@ fn robot(
         random.below(6),
         placement(random, wide, high),
     );
-    let stop_s = random.one_of(&[0.0, 0.3, 2.0]);
-    let breaks = random.one_of(&["", ", breaks_after = 1", ", breaks_after = 5"]);
-    text += &format!("collision = {{ stop_s = {stop_s}{breaks} }}\n");
+    let stop_duration_s = random.one_of(&[0.0, 0.3, 2.0]);
+    let breaks = random.one_of(&["", ", max_collisions = 1", ", max_collisions = 5"]);
+    text += &format!("collision = {{ stop_duration_s = {stop_duration_s}{breaks} }}\n");
     if random.below(2) == 0 {
         let capacity = random.one_of(&[
             "",
@@ -132,7 +132,7 @@ fn robot(
         let [loss, delay_s] = [random.one_of(&[0.0, 0.4]), random.one_of(&[0.0, 0.1, 0.7])];
         let needs = random.below(2) == 0;
         text += &format!(
-            "radio = {{ range_m = 8, loss = {loss}, delay_s = {delay_s}, power_w = 1, messages_per_step = {}, \
+            "radio = {{ range_m = 8, loss_probability = {loss}, delay_s = {delay_s}, power_w = 1, messages_per_step = {}, \
              needs_line_of_sight = {needs} }}\n",
             random.below(4)
         );
@@ -146,11 +146,13 @@ fn robot(
         "",
         "behaviours = []",
         "behaviours = [{ kind = \"cruise\" }]",
-        "behaviours = [{ kind = \"cruise\" }, { kind = \"bounce\" }]",
+        "behaviours = [{ kind = \"cruise\" }, { kind = \"random_bounce\" }]",
     ]);
     let limited = random.below(2) == 0;
     let comma = if behaviours.is_empty() { "" } else { ", " };
-    text += &format!("brain = {{ {rate}speed_limited_by_sight = {limited}{comma}{behaviours} }}\n");
+    text += &format!(
+        "brain = {{ {rate}limit_speed_to_stopping_distance = {limited}{comma}{behaviours} }}\n"
+    );
     for number in 0..random.below(5) {
         text += &sensor(
             random,
@@ -170,7 +172,11 @@ fn sensor(random: &mut Random, head: &str, items: &[&str], step_s: f64) -> Strin
         "latency_s",
         random.one_of(&[0.0, 0.0, 0.03, 0.5]),
     );
-    line(&mut text, "dropout", random.one_of(&[0.0, 0.3, 1.0]));
+    line(
+        &mut text,
+        "dropout_probability",
+        random.one_of(&[0.0, 0.3, 1.0]),
+    );
     line(&mut text, "power_w", 0.5);
     if random.below(2) == 0 {
         line(
@@ -200,9 +206,17 @@ fn sensor(random: &mut Random, head: &str, items: &[&str], step_s: f64) -> Strin
     line(&mut text, "noise_m", random.one_of(&[0.0, 0.2]));
     if kind == "range" {
         text += &format!("rays = {}\n", 1 + random.below(30));
-        line(&mut text, "noise_share", random.one_of(&[0.0, 0.1]));
-        line(&mut text, "miss", random.one_of(&[0.0, 0.1, 1.0]));
-        line(&mut text, "false_echo", random.one_of(&[0.0, 0.1, 1.0]));
+        line(&mut text, "relative_noise", random.one_of(&[0.0, 0.1]));
+        line(
+            &mut text,
+            "miss_probability",
+            random.one_of(&[0.0, 0.1, 1.0]),
+        );
+        line(
+            &mut text,
+            "spurious_return_probability",
+            random.one_of(&[0.0, 0.1, 1.0]),
+        );
         return text;
     }
     text += &format!("needs_line_of_sight = {}\n", random.below(2) == 0);
@@ -211,14 +225,14 @@ fn sensor(random: &mut Random, head: &str, items: &[&str], step_s: f64) -> Strin
             "0.5",
             "1",
             "[[0, 1], [2, 0.2]]",
-            "{ best = 0.9, half_m = 1 }",
+            "{ peak = 0.9, half_range_m = 1 }",
         ])
     };
     if kind == "robots" {
-        text += &format!("detects = {}\n", detection(random));
+        text += &format!("detection_probability = {}\n", detection(random));
     } else if let Some(item) = items.last() {
         text += &format!(
-            "false_alarms_per_m2_s = {{ {item} = {} }}\n",
+            "false_alarm_rate_per_m2_s = {{ {item} = {} }}\n",
             random.one_of(&[0.0, 0.02, 1.0])
         );
         if random.below(2) == 0 {
@@ -226,7 +240,7 @@ fn sensor(random: &mut Random, head: &str, items: &[&str], step_s: f64) -> Strin
                 .iter()
                 .map(|item| format!("{item} = {}", detection(random)))
                 .collect();
-            text += &format!("detects = {{ {} }}\n", all.join(", "));
+            text += &format!("detection_probability = {{ {} }}\n", all.join(", "));
         }
     }
     text

@@ -16,14 +16,14 @@ fn canyon(schemas: &str) -> String {
         .map(|wall| format!("{{ polygon_m = {wall} }}"))
         .join(", ");
     format!(
-        "[clock]\nstep_s = 0.1\ncap_s = 1000\n[world]\nsize_m = [24, 20]\n\
+        "[clock]\nstep_s = 0.1\ntime_limit_s = 1000\n[world]\nsize_m = [24, 20]\n\
          obstacles = [{obstacles}]\n[robots.rover]\ncount = 1\nradius_m = 0.25\n\
          start = {{ kind = \"fixed\", at_m = [[5, 10]], heading_deg = [0] }}\n\
          drive = {{ max_speed_m_s = 1, max_acceleration_m_s2 = 1, max_turn_rate_deg_s = 90 }}\n\
          [robots.rover.sensors]\nsonar = {{ kind = \"range\", rays = 24, range_m = 3 }}\n\
          gps = {{ kind = \"position\" }}\ncompass = {{ kind = \"heading\" }}\n\
          [robots.rover.brain]\narbitration = {{ kind = \"schemas\"{schemas} }}\n\
-         behaviours = [{{ kind = \"navigate\", places_m = [[20, 10]] }}]\n"
+         behaviours = [{{ kind = \"navigate\", waypoints_m = [[20, 10]] }}]\n"
     )
 }
 
@@ -47,7 +47,7 @@ fn out_of_the_canyon(schemas: &str) -> usize {
 /// No chance is left in it, so one run is all of them.
 #[test]
 fn with_constant_gains_and_no_noise_it_stays_in_a_dead_end_for_ever() {
-    let mut simulation = start(&canyon(", noise = 0, most_noise = 0"));
+    let mut simulation = start(&canyon(", noise = 0, max_noise = 0"));
     (0..600).for_each(|_| simulation.step());
     let before = first(&simulation).at;
     assert!(before.x > 12.0 && before.x < 12.75, "{before:?}");
@@ -61,5 +61,5 @@ fn with_constant_gains_and_no_noise_it_stays_in_a_dead_end_for_ever() {
 fn with_noise_that_grows_while_it_is_blocked_it_leaves() {
     let out = out_of_the_canyon("");
     assert!(out >= 17, "{out}");
-    assert_eq!(out_of_the_canyon(", most_noise = 0"), 0);
+    assert_eq!(out_of_the_canyon(", max_noise = 0"), 0);
 }

@@ -11,7 +11,7 @@ const STEP_S: f64 = 0.1;
 /// about.
 fn room(sensors: &str, more: &str) -> String {
     format!(
-        "[clock]\nstep_s = {STEP_S}\ncap_s = 100000\n[world]\nsize_m = [20, 20]\n\
+        "[clock]\nstep_s = {STEP_S}\ntime_limit_s = 100000\n[world]\nsize_m = [20, 20]\n\
          obstacles = [{{ polygon_m = [[13, 9], [13.5, 9], [13.5, 11], [13, 11]] }}]\n\
          [robots.rover]\ncount = 1\nradius_m = 0.5\n\
          start = {{ kind = \"fixed\", at_m = [[10, 10]], heading_deg = [0] }}\n\
@@ -135,7 +135,7 @@ fn a_value_is_that_of_the_newest_look_that_has_come_and_as_old_as_that_is() {
 
 #[test]
 fn looks_give_nothing_as_often_as_they_drop_out() {
-    let out = "dropout = 0.3";
+    let out = "dropout_probability = 0.3";
     let sensors = sensor("compass", &format!("kind = \"heading\"\n{out}"))
         + &sensor("gps", &format!("kind = \"position\"\n{out}"))
         + &sensor(
@@ -166,7 +166,10 @@ fn looks_give_nothing_as_often_as_they_drop_out() {
 
 #[test]
 fn a_late_value_that_dropped_out_leaves_the_one_before() {
-    let sensors = sensor("gps", "kind = \"position\"\nrate_hz = 2\ndropout = 0.5");
+    let sensors = sensor(
+        "gps",
+        "kind = \"position\"\nrate_hz = 2\ndropout_probability = 0.5",
+    );
     let all = standing(&room(&sensors, ""), 4000);
     let ages = all
         .iter()
@@ -287,7 +290,7 @@ fn items_are_detected_as_often_as_a_kind_and_a_distance_say() {
     let sensors = sensor(
         "eye",
         "kind = \"items\"\nrange_m = 5\n\
-         detects = { mine = 0.3, flag = [[1, 0.9], [3, 0.1]], rock = { best = 0.8, half_m = 2 } }",
+         detection_probability = { mine = 0.3, flag = [[1, 0.9], [3, 0.1]], rock = { peak = 0.8, half_range_m = 2 } }",
     );
     let item = |name: &str, x: f64| {
         format!(
@@ -298,7 +301,7 @@ fn items_are_detected_as_often_as_a_kind_and_a_distance_say() {
         + &item("flag", 8.0)
         + &item("rock", 8.0)
         + &item("cow", 8.5)
-        + "sought = false\n";
+        + "target = false\n";
     let all = standing(&room(&sensors, &more), 20_000);
     // Kinds are in the order of their names: cow, flag, mine, rock.
     for (kind, share) in [(0, 0.0), (1, 0.5), (2, 0.3), (3, 0.4)] {
@@ -326,11 +329,11 @@ fn false_contacts_are_as_many_as_the_area_in_view_says() {
             "eye",
             &format!(
                 "kind = \"items\"\nrange_m = 4\nfov_deg = 90\nfacing_deg = {facing_deg}\nrate_hz = 5\n\
-                 detects = {{}}\nfalse_alarms_per_m2_s = {{ mine = 0.02 }}\nnoise_m = 3"
+                 detection_probability = {{}}\nfalse_alarm_rate_per_m2_s = {{ mine = 0.02 }}\nnoise_m = 3"
             ),
         );
         let more =
-            "[items.mine]\ncount = 1\nsought = false\n[items.cow]\ncount = 1\nsought = false";
+            "[items.mine]\ncount = 1\ntarget = false\n[items.cow]\ncount = 1\ntarget = false";
         let mut simulation = start(&room(&sensors, more));
         let all = percepts(&mut simulation, 40_000, &go(0.0, 0.0));
         let looks: Vec<&Percept> = all.iter().step_by(2).flatten().collect();
@@ -369,9 +372,9 @@ fn false_contacts_are_where_a_robot_can_see() {
     // The world's border is 10 m off, half of a range of 20 m is beyond it or behind the wall.
     let sensors = sensor(
         "eye",
-        "kind = \"items\"\nrange_m = 30\ndetects = {}\nfalse_alarms_per_m2_s = { mine = 0.01 }",
+        "kind = \"items\"\nrange_m = 30\ndetection_probability = {}\nfalse_alarm_rate_per_m2_s = { mine = 0.01 }",
     );
-    let more = "[items.mine]\ncount = 1\nsought = false";
+    let more = "[items.mine]\ncount = 1\ntarget = false";
     let all = standing(&room(&sensors, more), 4_000);
     let counts: Vec<f64> = all
         .iter()
@@ -483,7 +486,7 @@ fn robots_of_all_layers_are_recognised_where_they_are() {
 fn robots_are_recognised_as_often_as_the_distance_says() {
     let sensors = sensor(
         "mates",
-        "kind = \"robots\"\nrange_m = 5\ndetects = [[0, 1], [4, 0.2]]\nnoise_m = 0.1",
+        "kind = \"robots\"\nrange_m = 5\ndetection_probability = [[0, 1], [4, 0.2]]\nnoise_m = 0.1",
     );
     let more = "[robots.stone]\ncount = 2\nradius_m = 0.1\ndrive = { max_speed_m_s = 0, max_turn_rate_deg_s = 0 }\n\
                 start = { kind = \"fixed\", at_m = [[8, 10], [10, 14]] }";
@@ -506,7 +509,7 @@ fn a_sensor_that_is_switched_off_measures_nothing_until_it_is_on_again() {
         + &sensor("eye", "kind = \"items\"\nrange_m = 5")
         + &sensor("gps", "kind = \"position\"\nrate_hz = 5")
         + &sensor("sonar", "kind = \"range\"\nrays = 4\nrange_m = 15");
-    let more = "[items.mine]\ncount = 1\nsought = false\nplacement = { kind = \"fixed\", at_m = [[10, 12]] }";
+    let more = "[items.mine]\ncount = 1\ntarget = false\nplacement = { kind = \"fixed\", at_m = [[10, 12]] }";
     let mut simulation = start(&room(&sensors, more));
     let switch = |numbers: &[u16], on| Command {
         requests: numbers
@@ -549,10 +552,10 @@ fn a_sensor_that_is_switched_off_measures_nothing_until_it_is_on_again() {
 fn false_contacts_are_in_the_world_even_for_who_sees_through_walls() {
     let sensors = sensor(
         "eye",
-        "kind = \"items\"\nrange_m = 30\ndetects = {}\nneeds_line_of_sight = false\n\
-         false_alarms_per_m2_s = { mine = 0.01 }",
+        "kind = \"items\"\nrange_m = 30\ndetection_probability = {}\nneeds_line_of_sight = false\n\
+         false_alarm_rate_per_m2_s = { mine = 0.01 }",
     );
-    let more = "[items.mine]\ncount = 1\nsought = false";
+    let more = "[items.mine]\ncount = 1\ntarget = false";
     let all = standing(&room(&sensors, more), 4_000);
     let counts: Vec<f64> = all
         .iter()

@@ -7,13 +7,13 @@ use sim::engine::Simulation;
 
 const ROVERS: &str = "
 [clock]
-cap_s = 60
+time_limit_s = 60
 [world]
 size_m = [20, 15]
 obstacles = [{ circle = { at_m = [10, 5], radius_m = 1 } }]
 [items.clutter]
 count = 9
-sought = false
+target = false
 placement = { kind = \"clustered\", clusters = 3, spread_m = 1 }
 [items.mine]
 count = 9
@@ -29,29 +29,29 @@ kind = \"items\"
 range_m = 2
 latency_s = 0.3
 noise_m = 0.1
-detects = { clutter = 0.2, mine = 0.3 }
-false_alarms_per_m2_s = { clutter = 0.2, mine = 0.1 }
+detection_probability = { clutter = 0.2, mine = 0.3 }
+false_alarm_rate_per_m2_s = { clutter = 0.2, mine = 0.1 }
 [robots.rover.sensors.mates]
 kind = \"robots\"
 range_m = 9
-detects = 0.5
+detection_probability = 0.5
 noise_m = 0.1
 [robots.rover.sensors.sonar]
 kind = \"range\"
 rays = 12
 range_m = 3
 noise_m = 0.02
-miss = 0.1
+miss_probability = 0.1
 [robots.rover.radio]
 range_m = 50
-loss = 0.5
+loss_probability = 0.5
 ";
 
 /// Kinds whose names come first, and which nothing of the others meets.
 const OTHERS: &str = "
 [items.aaa]
 count = 20
-sought = false
+target = false
 [robots.aaa]
 count = 4
 layer = \"air\"

@@ -6,7 +6,7 @@ use crate::common::{id, message, say, start, told};
 const SLOW: &str = "
 [clock]
 step_s = 0.1
-cap_s = 1000
+time_limit_s = 1000
 [world]
 size_m = [20, 10]
 [items.flag]

@@ -7,7 +7,7 @@ use std::sync::Arc;
 /// Rovers that think in every third step, and birds that go with the others.
 const TEAM: &str = "
 [clock]
-cap_s = 200
+time_limit_s = 200
 [world]
 size_m = [25, 25]
 obstacles = [{ circle = { at_m = [12, 12], radius_m = 3 } }]
@@ -19,13 +19,13 @@ radius_m = 0.1
 layer = \"air\"
 drive = { max_speed_m_s = 2, max_turn_rate_deg_s = 90 }
 sensors.eyes = { kind = \"robots\", range_m = 5 }
-brain.behaviours = [{ kind = \"swarm\" }]
+brain.behaviours = [{ kind = \"flock\" }]
 [robots.rover]
 count = 3
-like = \"ugv\"
+model = \"ugv\"
 brain.rate_hz = 3.3333333333333335
 brain.arbitration = { kind = \"goals\" }
-brain.behaviours = [{ kind = \"seek\" }, { kind = \"home\" }, { kind = \"avoid\" }]
+brain.behaviours = [{ kind = \"bayesian_search\" }, { kind = \"return_home\" }, { kind = \"avoid\" }]
 ";
 
 const BIRD: u8 = 0;

@@ -24,7 +24,7 @@ size_m = [40, 20]
 /// A robot that wants from one place, looking along x, to another.
 fn rover(world: &str, drive: &str, rays_m: f64, from: Point, to: Point) -> String {
     format!(
-        "[clock]\ncap_s = 1000\n{world}
+        "[clock]\ntime_limit_s = 1000\n{world}
 [robots.rover]
 count = 1
 radius_m = 0.25
@@ -35,7 +35,7 @@ gps = {{ kind = \"position\", noise_m = 0.02 }}
 compass = {{ kind = \"heading\", noise_deg = 1 }}
 laser = {{ kind = \"range\", rays = 72, range_m = {rays_m}, noise_m = 0.02 }}
 [robots.rover.brain]
-behaviours = [{{ kind = \"navigate\", places_m = [[{}, {}]] }}]
+behaviours = [{{ kind = \"navigate\", waypoints_m = [[{}, {}]] }}]
 ",
         from.x, from.y, to.x, to.y
     )

@@ -24,7 +24,7 @@ struct Crossing {
     obstacles: String,
     from: Vec<Point>,
     to: Vec<Point>,
-    cap_s: u32,
+    time_limit_s: u32,
 }
 
 const STEPS_A_SECOND: u32 = 10;
@@ -38,7 +38,7 @@ struct Crossed {
 impl Crossing {
     fn run(&self) -> Crossed {
         let mut simulation = Simulation::new(scenario(&self.text()), 1, 0).unwrap();
-        for _ in 0..self.cap_s * STEPS_A_SECOND {
+        for _ in 0..self.time_limit_s * STEPS_A_SECOND {
             simulation.step();
             if self.have_all_arrived(&simulation) {
                 break;
@@ -59,7 +59,7 @@ impl Crossing {
     fn text(&self) -> String {
         let [width, height] = self.size_m;
         let mut text = format!(
-            "[clock]\ncap_s = 10000\n[world]\nsize_m = [{width}, {height}]\nobstacles = [{}]\n\
+            "[clock]\ntime_limit_s = 10000\n[world]\nsize_m = [{width}, {height}]\nobstacles = [{}]\n\
              [robots.rover]\ncount = {}\n{ROVER}\n[robots.rover.start]\nkind = \"fixed\"\nat_m = {}\n",
             self.obstacles,
             self.from.len(),
@@ -67,8 +67,8 @@ impl Crossing {
         );
         writeln!(
             text,
-            "[robots.rover.brain]\nbehaviours = [{{ kind = \"navigate\", share = \"each\", \
-             within_m = 0.3, places_m = {} }}]",
+            "[robots.rover.brain]\nbehaviours = [{{ kind = \"navigate\", assignment = \"one_each\", \
+             within_m = 0.3, waypoints_m = {} }}]",
             listed(&self.to)
         )
         .unwrap();
@@ -116,7 +116,7 @@ fn square(seed: u64) -> Crossing {
         obstacles: String::new(),
         from,
         to,
-        cap_s: 400,
+        time_limit_s: 400,
     }
 }
 
@@ -173,7 +173,7 @@ fn corridor(seed: u64) -> Crossing {
         obstacles: format!("{}, {}", wall(0.0, low), wall(high, 7.3)),
         from,
         to,
-        cap_s: 400,
+        time_limit_s: 400,
     }
 }
 

@@ -9,7 +9,7 @@ const WITHIN_M: f64 = 0.3;
 /// A yard with a wall in it.
 const YARD: &str = "
 [clock]
-cap_s = 1000
+time_limit_s = 1000
 [world]
 size_m = [30, 30]
 obstacles = [{ polygon_m = [[14, 8], [14.5, 8], [14.5, 30], [14, 30]] }]
@@ -17,7 +17,7 @@ obstacles = [{ polygon_m = [[14, 8], [14.5, 8], [14.5, 30], [14, 30]] }]
 
 /// Robots of a kind that begin in a corner, and how they share the places.
 fn robots(kind: &str, at_m: &str, share: &str, more: &str) -> String {
-    let places_m = listed(&places());
+    let waypoints_m = listed(&places());
     let count = at_m.matches('[').count() - 1;
     format!(
         "
@@ -34,7 +34,7 @@ gps = {{ kind = \"position\" }}
 compass = {{ kind = \"heading\" }}
 eye = {{ kind = \"robots\", range_m = 6 }}
 [robots.{kind}.brain]
-behaviours = [{{ kind = \"navigate\", share = \"{share}\", within_m = {WITHIN_M}, places_m = {places_m} }}]
+behaviours = [{{ kind = \"navigate\", assignment = \"{share}\", within_m = {WITHIN_M}, waypoints_m = {waypoints_m} }}]
 "
     )
 }
@@ -84,7 +84,7 @@ const CORNER: &str = "[[1, 1], [2, 1], [1, 2], [2, 2]]";
 
 #[test]
 fn a_team_visits_hardly_any_place_twice_and_is_sooner_done_than_if_each_visited_all() {
-    let [shared, alone] = ["team", "all"].map(|share| {
+    let [shared, alone] = ["shared", "all"].map(|share| {
         let mut yard = yard(&robots("rover", CORNER, share, ""));
         visits(&mut yard, 600)
     });
@@ -98,10 +98,10 @@ fn a_team_visits_hardly_any_place_twice_and_is_sooner_done_than_if_each_visited_
 fn what_robots_whose_batteries_end_can_no_longer_visit_others_do() {
     // Enough for some twelve metres.
     let weak = "battery = { capacity_j = 12, move_j_per_m = 1 }";
-    let weak = robots("weak", "[[1, 1], [2, 1], [1, 2]]", "team", weak);
+    let weak = robots("weak", "[[1, 1], [2, 1], [1, 2]]", "shared", weak);
     let alone = visits(&mut yard(&weak), 200);
     assert!(alone.all_s.is_none(), "{:?}", alone.by);
-    let strong = robots("strong", "[[2, 2]]", "team", "");
+    let strong = robots("strong", "[[2, 2]]", "shared", "");
     let together = visits(&mut yard(&format!("{weak}{strong}")), 400);
     assert!(together.all_s.is_some(), "{:?}", together.by);
     assert!(

@@ -8,7 +8,7 @@ use sim::engine::Simulation;
 fn searcher(search: &str) -> String {
     format!(
         "[clock]
-cap_s = 400
+time_limit_s = 400
 [world]
 size_m = [40, 20]
 [items.mine]
@@ -24,10 +24,10 @@ battery = {{ capacity_j = 2000, idle_w = 5, move_w = 15 }}
 gps = {{ kind = \"position\", noise_m = 0.02 }}
 compass = {{ kind = \"heading\", noise_deg = 1 }}
 laser = {{ kind = \"range\", rays = 72, range_m = 6, noise_m = 0.02 }}
-eye = {{ kind = \"items\", range_m = 2, detects = {{ mine = 0.8 }} }}
+eye = {{ kind = \"items\", range_m = 2, detection_probability = {{ mine = 0.8 }} }}
 [robots.rover.brain]
 arbitration = {{ kind = \"goals\" }}
-behaviours = [{{ kind = \"{search}\" }}, {{ kind = \"home\", at_m = [3, 10] }}, {{ kind = \"avoid\" }}]
+behaviours = [{{ kind = \"{search}\" }}, {{ kind = \"return_home\", at_m = [3, 10] }}, {{ kind = \"avoid\" }}]
 "
     )
 }
@@ -48,7 +48,7 @@ fn away_m(search: &str) -> Vec<f64> {
 
 #[test]
 fn who_searches_with_a_battery_ends_at_home() {
-    for search in ["seek", "frontier", "lanes"] {
+    for search in ["bayesian_search", "frontier", "lawnmower"] {
         let away_m = away_m(search);
         assert!(
             away_m.iter().all(|away_m| *away_m < 1.1),

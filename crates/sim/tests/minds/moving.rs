@@ -9,7 +9,7 @@ const WATCHER: RobotId = RobotId { kind: 0, index: 0 };
 /// A robot with a mind among pillars, and somebody who comes.
 const HALL: &str = "
 [clock]
-cap_s = 1000
+time_limit_s = 1000
 [world]
 size_m = [24, 12]
 obstacles = [
@@ -48,14 +48,14 @@ kind = \"fixed\"
 at_m = [[2, 6]]
 heading_deg = [0]
 [robots.a.brain]
-behaviours = [{ kind = \"hold\" }]
+behaviours = [{ kind = \"hold_position\" }]
 [robots.b]
 count = 1
 radius_m = 0.3
 drive = { max_speed_m_s = 0.6, max_turn_rate_deg_s = 90 }
 start = { kind = \"fixed\", at_m = [[7, 6]], heading_deg = [180] }
 [robots.b.brain]
-speed_limited_by_sight = false
+limit_speed_to_stopping_distance = false
 behaviours = [{ kind = \"cruise\" }]
 ",
         0,
@@ -86,5 +86,5 @@ const PASSES: &str = "[robots.a.start]
 kind = \"fixed\"
 at_m = [[2, 6]]
 [robots.a.brain]
-behaviours = [{ kind = \"navigate\", places_m = [[22, 6], [22, 2], [2, 2], [2, 10], [22, 10], [11, 6]] }]
+behaviours = [{ kind = \"navigate\", waypoints_m = [[22, 6], [22, 2], [2, 2], [2, 10], [22, 10], [11, 6]] }]
 ";

@@ -18,9 +18,9 @@ const FRONTIER_RUNS: u64 = 400;
 
 fn text(behaviours: &str, more: &str) -> String {
     let of_brain = "[robots.rover.brain]\n";
-    assert!(SEARCH.contains(of_brain) && SEARCH.contains("cap_s = 120"));
+    assert!(SEARCH.contains(of_brain) && SEARCH.contains("time_limit_s = 120"));
     SEARCH
-        .replace("cap_s = 120", &format!("cap_s = {CAP_S}"))
+        .replace("time_limit_s = 120", &format!("time_limit_s = {CAP_S}"))
         .replace(
             of_brain,
             &format!("{more}\n{of_brain}behaviours = [{behaviours}]\n"),
@@ -61,13 +61,13 @@ fn assert_sooner(slow: &[f64], fast: &[f64]) {
     assert!(mean > 3.1 * error, "{mean} s sooner, give or take {error}");
 }
 
-const BOUNCE: &str = "{ kind = \"cruise\" }, { kind = \"bounce\" }, { kind = \"avoid\" }";
+const BOUNCE: &str = "{ kind = \"cruise\" }, { kind = \"random_bounce\" }, { kind = \"avoid\" }";
 const SILENT: &str = "[robots.rover.radio]\nrange_m = 0\n";
 
 #[test]
 fn who_knows_where_it_has_looked_and_tells_finds_sooner_than_who_bounces() {
     let bounces = times_s(BOUNCE, "", RUNS);
-    for kind in ["frontier", "seek"] {
+    for kind in ["frontier", "bayesian_search"] {
         let behaviours = format!("{{ kind = \"{kind}\" }}, {{ kind = \"avoid\" }}");
         assert_sooner(&bounces, &times_s(&behaviours, "", RUNS));
     }
@@ -75,7 +75,7 @@ fn who_knows_where_it_has_looked_and_tells_finds_sooner_than_who_bounces() {
 
 #[test]
 fn four_that_tell_each_other_where_they_look_find_sooner_than_four_that_do_not() {
-    for (kind, runs) in [("frontier", FRONTIER_RUNS), ("seek", RUNS)] {
+    for (kind, runs) in [("frontier", FRONTIER_RUNS), ("bayesian_search", RUNS)] {
         let behaviours = format!("{{ kind = \"{kind}\" }}, {{ kind = \"avoid\" }}");
         let silent = times_s(&behaviours, SILENT, runs);
         assert_sooner(&silent, &times_s(&behaviours, "", runs));

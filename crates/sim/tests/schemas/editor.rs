@@ -28,7 +28,7 @@ pub(crate) fn schema() -> Json {
     }
     let robot = &mut schema["definitions"]["RobotSpec"];
     robot["required"] = json!(["count"]);
-    robot["anyOf"] = json!([{ "required": ["like"] }, { "required": needed }]);
+    robot["anyOf"] = json!([{ "required": ["model"] }, { "required": needed }]);
     // Editors of older drafts look at nothing beside a $ref.
     let mut schema = schemars::Schema::try_from(schema).unwrap();
     RemoveRefSiblings::default().transform(&mut schema);

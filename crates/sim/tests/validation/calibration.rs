@@ -40,7 +40,10 @@ fn camera() -> [(&'static str, Changes); 3] {
         ("coarse", set("robots.rover.sensors.camera.noise_m", 0.4)),
         (
             "faint",
-            set("robots.rover.sensors.camera.detects.mine", 0.15),
+            set(
+                "robots.rover.sensors.camera.detection_probability.mine",
+                0.15,
+            ),
         ),
     ]
 }
@@ -159,7 +162,7 @@ fn of_what_is_believed_with_some_confidence_so_much_is_true() {
 #[test]
 fn minds_that_expect_ten_times_as_many_items_are_noticed() {
     let many = (
-        "robots.rover.brain.beliefs.expected.mine",
+        "robots.rover.brain.beliefs.prior_count.mine",
         Value::Float(80.0),
     );
     assert_wrong(&rows("", &[many]));

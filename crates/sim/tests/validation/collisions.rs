@@ -123,7 +123,7 @@ fn rows(series: &str, counts: &[u32], changes: &[(&str, Value)]) -> Vec<Row> {
 fn blind_robots_collide_as_often_as_molecules_of_a_gas() {
     let counts = [100, 200, 400];
     let mut all = rows("no stop", &counts, &[]);
-    let stop = [("robots.disc.collision.stop_s", Value::Float(2.0))];
+    let stop = [("robots.disc.collision.stop_duration_s", Value::Float(2.0))];
     all.extend(rows("2 s stop", &counts, &stop));
     assert_published("collisions.csv", &all);
     assert_right(&all);

@@ -1,4 +1,4 @@
-//! Lanes as wide as the sweep find in proportion to time: nothing is looked at twice.
+//! Lawnmower as wide as the sweep find in proportion to time: nothing is looked at twice.
 
 use crate::rows::{Row, assert_published, assert_right, assert_wrong};
 use crate::setup::{first_of, found, run, scenario, step, turning, width_of_looks};

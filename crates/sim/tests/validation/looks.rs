@@ -87,6 +87,6 @@ fn the_number_of_looks_until_detection_is_geometric() {
 
 #[test]
 fn a_probability_of_detection_5_percent_off_is_noticed() {
-    let curve = "robots.watcher.sensors.eye.detects.by_curve.best";
+    let curve = "robots.watcher.sensors.eye.detection_probability.by_curve.peak";
     assert_wrong(&rows(&[(curve, Value::Float(0.57))]));
 }

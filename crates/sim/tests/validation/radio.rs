@@ -83,7 +83,7 @@ fn by_distance(loss: f64) -> Vec<Row> {
         ..CALLER
     });
     let changes = vec![
-        ("robots.caller.radio.loss", Value::Float(loss)),
+        ("robots.caller.radio.loss_probability", Value::Float(loss)),
         ("robots.listener.count", whole(9)),
         ("robots.listener.start.at_m", places(listeners)),
     ];
@@ -182,7 +182,7 @@ fn by_delay() -> Vec<Row> {
     ];
     let rows = delays.map(|(delay_s, steps_s)| {
         let changes = vec![
-            ("robots.caller.radio.loss", Value::Float(0.0)),
+            ("robots.caller.radio.loss_probability", Value::Float(0.0)),
             ("robots.caller.radio.delay_s", Value::Float(delay_s)),
         ];
         let air = Air {
@@ -202,7 +202,7 @@ fn by_delay() -> Vec<Row> {
 /// A brain that thinks twice a second hears with an age of the delay and 0 to 4 steps more.
 fn by_age() -> Vec<Row> {
     let changes = vec![
-        ("robots.caller.radio.loss", Value::Float(0.0)),
+        ("robots.caller.radio.loss_probability", Value::Float(0.0)),
         ("robots.caller.radio.delay_s", Value::Float(0.2)),
         ("robots.listener.brain.rate_hz", Value::Float(2.0)),
     ];

@@ -8,7 +8,7 @@ use base::document::{Node, Table, Value};
 use rayon::prelude::*;
 use std::fmt::Write;
 
-const TEXT: &str = include_str!("../../../../scenarios/search-mind.toml");
+const TEXT: &str = include_str!("../../../../scenarios/search-beliefs.toml");
 const FILE: &str = "search-minds.csv";
 
 const WORLDS: u64 = 1000;
@@ -22,7 +22,7 @@ const Z99: f64 = 2.576;
 /// What a camera sees in a look of what is in view, in percent, and until when all are to be found.
 const CAMERAS: [(u8, f64); 3] = [(100, 600.0), (30, 600.0), (10, 2400.0)];
 
-const BY: [&str; 2] = ["lanes", "seek"];
+const BY: [&str; 2] = ["lawnmower", "bayesian_search"];
 
 /// The searches of each world, those of a camera beside each other, in seconds.
 type Times = [f64; 2 * CAMERAS.len()];
@@ -36,21 +36,21 @@ fn behaviour(kind: &str) -> Value {
 }
 
 /// Times of the first so many worlds.
-fn times_s(worlds: u64, (percent, cap_s): (u8, f64), search: &str) -> Vec<f64> {
+fn times_s(worlds: u64, (percent, time_limit_s): (u8, f64), search: &str) -> Vec<f64> {
     let sensor = |path, value| (path, Value::Float(value));
     let changes = [
-        sensor("clock.cap_s", cap_s),
-        sensor("robots.rover.sensors.camera.dropout", 0.0),
+        sensor("clock.time_limit_s", time_limit_s),
+        sensor("robots.rover.sensors.camera.dropout_probability", 0.0),
         sensor("robots.rover.sensors.camera.noise_m", 0.0),
         sensor(
-            "robots.rover.sensors.camera.detects.mine",
+            "robots.rover.sensors.camera.detection_probability.mine",
             f64::from(percent) / 100.0,
         ),
         sensor("robots.rover.sensors.gps.noise_m", 0.0),
         sensor("robots.rover.sensors.compass.noise_deg", 0.0),
         (
             "robots.rover.brain.behaviours",
-            list([search, "home", "avoid"].map(behaviour)),
+            list([search, "return_home", "avoid"].map(behaviour)),
         ),
     ];
     let scenario = scenario(TEXT, &changes);

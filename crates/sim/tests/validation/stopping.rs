@@ -105,7 +105,7 @@ fn a_robot_that_knows_how_far_it_sees_can_always_stop_before_a_wall() {
 #[test]
 fn a_robot_that_does_not_care_what_it_sees_cannot() {
     let careless = (
-        "robots.rover.brain.speed_limited_by_sight",
+        "robots.rover.brain.limit_speed_to_stopping_distance",
         Value::Bool(false),
     );
     assert!(approach(&[careless]).iter().any(needs_more_than_it_has));

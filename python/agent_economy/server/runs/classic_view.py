@@ -33,7 +33,7 @@ def drawn(simulation: ClassicSimulation) -> bytes:
 
 def still(simulation: ClassicSimulation) -> dict[str, Any]:
     """Return the world, what is in it, and robots as they are made."""
-    side = {"size": [SIDE_PX, SIDE_PX], "wraps": False, "unit": "px", "cell": CELL_PX}
+    side = {"size": [SIDE_PX, SIDE_PX], "periodic": False, "unit": "px", "cell": CELL_PX}
     robots = {"name": KIND, "count": simulation.scenario.robots[KIND]}
     return {
         "world": side,
@@ -90,7 +90,7 @@ def told(simulation: ClassicSimulation, robot: str) -> dict[str, Any]:
 def item(cell: Cell, contacts: list[Cell]) -> dict[str, Any]:
     """Return an item, and outlines of where robots must be to find it."""
     contact = [outline((column - 0.5, row - 0.5)) for column, row in contacts]
-    return {"kind": "item", "at": middle(cell), "sought": True, "contact": contact}
+    return {"kind": "item", "at": middle(cell), "target": True, "contact": contact}
 
 
 def filled() -> dict[str, Any]:

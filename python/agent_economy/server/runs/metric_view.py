@@ -28,7 +28,7 @@ def still(simulation: Simulation) -> dict[str, Any]:
     return {
         "world": {
             "size": world["size_m"],
-            "wraps": world.get("wraps", False),
+            "periodic": world.get("periodic", False),
             "unit": "m",
             "cell": None,
         },
@@ -39,7 +39,7 @@ def still(simulation: Simulation) -> dict[str, Any]:
             {
                 "kind": name,
                 "at": [x, y],
-                "sought": kinds.get(name, {}).get("sought", True),
+                "target": kinds.get(name, {}).get("target", True),
                 "contact": [],
             }
             for name, x, y in places

@@ -239,7 +239,7 @@ class Session:
             "name": scenario.name,
             "engine": scenario.engine,
         }
-        described |= {"summary": scenario.summary, "cap_s": scenario.cap_s}
+        described |= {"summary": scenario.summary, "time_limit_s": scenario.time_limit_s}
         names = {"seed": str(simulation.seed), "run": str(simulation.run)}
         recording = {"id": said.recording, "program": program} if program is not None else None
         await self._page.send(

@@ -20,7 +20,7 @@ def label(values: Values) -> str:
 
 
 def part(path: str, value: float | str, *, is_short: bool = True) -> str:
-    """Return one value in words: "4 rovers" for robots.rover.count, else "cap_s 120"."""
+    """Return one value in words: "4 rovers" for robots.rover.count, else "time_limit_s 120"."""
     kind = robot_kind(path)
     if kind is not None:
         return f"{value} {kind}" if value == 1 else f"{value} {kind}s"
@@ -45,7 +45,7 @@ def robot_kind(path: str) -> str | None:
 
 
 def order(values: Values) -> str:
-    """Return what to do: "Send 4 rovers", "Choose cap_s 120", "Send 4 rovers with cap_s 120"."""
+    """Return what to do: "Send 4 rovers", "Choose time_limit_s 120", "Send 4 rovers with time_limit_s 120"."""
     teams = {path: value for path, value in values.items() if robot_kind(path) is not None}
     others = {path: value for path, value in values.items() if path not in teams}
     if not values:

@@ -37,15 +37,15 @@ def results(scenario: Scenario) -> tuple[PublishedResult, ...]:
     if not published or not set(scenario.merit.columns) <= known:
         return ()
     return tuple(
-        result(scenario, published.cap_s, robots, times_s)
+        result(scenario, published.time_limit_s, robots, times_s)
         for robots, times_s in published.times_s.items()
     )
 
 
-def result(scenario: Scenario, cap_s: float, robots: int, times_s: list[float]) -> PublishedResult:
+def result(scenario: Scenario, time_limit_s: float, robots: int, times_s: list[float]) -> PublishedResult:
     """Return one published team, scored; a time at the cap is a failed run."""
     times = np.array(times_s)
-    failed = times >= cap_s
+    failed = times >= time_limit_s
     columns = {"time_s": times, "failed": failed * 1.0, "robots": np.full(len(times), robots * 1.0)}
     count = int(np.sum(failed))
     return PublishedResult(

@@ -223,9 +223,9 @@ def times(view: View) -> Section:
 def published(view: View) -> Section:
     """Return what others found."""
     given = view.answer.scenario.published
-    source, cap_s = (given.source, brief(given.cap_s)) if given else ("", "")
+    source, time_limit_s = (given.source, brief(given.time_limit_s)) if given else ("", "")
     note = (
-        f"Its own runs, stopped at {cap_s} s, scored by the same figure of merit. Their ranges are "
+        f"Its own runs, stopped at {time_limit_s} s, scored by the same figure of merit. Their ranges are "
         "95% intervals, each for itself: Student's of merits, exact of failures."
     )
     shows = f"Figure of merit in this study and in {source}"

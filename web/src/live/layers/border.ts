@@ -26,8 +26,8 @@ export const border: Layer = {
   draw(pen, scene) {
     const { context, colours } = pen;
     context.strokeStyle = colours.border;
-    context.lineWidth = scene.world.wraps ? 1 : 2;
-    context.setLineDash(scene.world.wraps ? [6, 4] : []);
+    context.lineWidth = scene.world.periodic ? 1 : 2;
+    context.setLineDash(scene.world.periodic ? [6, 4] : []);
     context.strokeRect(...rectangle(pen, scene));
     context.setLineDash([]);
   },

@@ -15,10 +15,10 @@ export const items: Layer = {
   active: ({ setting }) => setting.items.length > 0,
   draw(pen, { setting, frame, ghost }) {
     const states = frame?.items;
-    setting.items.forEach(({ at, sought }, i) => {
+    setting.items.forEach(({ at, target }, i) => {
       const [x, y] = toScreen(pen.camera, ...at);
       pen.context.globalAlpha = ghost ? 0.6 : 1;
-      if (!sought) plus(pen, x, y);
+      if (!target) plus(pen, x, y);
       else if (states?.[i] === ItemState.Found) found(pen, x, y);
       else diamond(pen, x, y, states?.[i] === ItemState.Missed);
     });

@@ -68,7 +68,7 @@ export function withinWorld(pen: Pen, { world: { size } }: Scene, draw: () => vo
 
 /** Where a place is, and in a world that wraps its images that are within `reach` of the world too. */
 export function imagesOf({ world }: Scene, [x, y]: Point, reach: number): Point[] {
-  if (!world.wraps) return [[x, y]];
+  if (!world.periodic) return [[x, y]];
   const [xs, ys] = [along(x, world.size[0], reach), along(y, world.size[1], reach)];
   return xs.flatMap((x) => ys.map((y): Point => [x, y]));
 }

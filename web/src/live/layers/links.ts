@@ -30,11 +30,11 @@ export const links: Layer = {
 
 /** The short way, which in a world that wraps may leave it at one side and come in at the other. */
 function connect(path: Path2D, scene: Scene, from: Point, to: Point): void {
-  const { size, wraps } = scene.world;
+  const { size, periodic } = scene.world;
   const [x, y] = [0, 1].map((axis) => {
     const way = (to[axis] ?? 0) - (from[axis] ?? 0);
     const side = size[axis] ?? 1;
-    return wraps ? way - side * Math.round(way / side) : way;
+    return periodic ? way - side * Math.round(way / side) : way;
   }) as Point;
   for (const [startX, startY] of imagesOf(scene, from, Math.max(Math.abs(x), Math.abs(y)))) {
     path.moveTo(startX, startY);

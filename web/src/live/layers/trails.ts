@@ -14,7 +14,7 @@ export const trails: Layer = {
     const { context, colours, camera } = pen;
     const samples = kept.inOrder();
     const size = samples[0] ? samples[0].places.length / 2 : 0;
-    const jump = world.wraps ? Math.min(...world.size) / 2 : Number.POSITIVE_INFINITY;
+    const jump = world.periodic ? Math.min(...world.size) / 2 : Number.POSITIVE_INFINITY;
     const paths = Array.from({ length: bands }, () => new Path2D());
     for (let robot = 0; robot < size; robot++) {
       for (let i = 1; i < samples.length; i++) {

@@ -8,7 +8,7 @@ const setting: Setting = {
   type: "setting",
   generation: 1,
   step_s: 0.1,
-  world: { size: [20, 20], wraps: false, unit: "m", cell: null },
+  world: { size: [20, 20], periodic: false, unit: "m", cell: null },
   document: {
     world: {
       obstacles: [
@@ -24,13 +24,13 @@ const setting: Setting = {
         { circle: { at_m: [15, 15], radius_m: 2 } },
       ],
     },
-    items: { mine: { count: 2, sought: true } },
+    items: { mine: { count: 2, target: true } },
   },
   robots: [],
   kinds: [],
   items: [
-    { kind: "mine", at: [15, 15], sought: true, contact: [] },
-    { kind: "scrap", at: [1, 19], sought: false, contact: [] },
+    { kind: "mine", at: [15, 15], target: true, contact: [] },
+    { kind: "scrap", at: [1, 19], target: false, contact: [] },
   ],
   maps: [],
   item_kinds: ["mine"],
@@ -54,7 +54,7 @@ test("placing by hand fixes all items of the kind where they are, and keeps thei
     path: "items.mine",
     value: {
       count: 2,
-      sought: true,
+      target: true,
       placement: {
         kind: "fixed",
         at_m: [

@@ -12,18 +12,18 @@
 //! struct Job {
 //!     /// When it ends, in seconds.
 //!     #[schemars(range(min = 0.0, max = 1e6))]
-//!     cap_s: f64,
+//!     time_limit_s: f64,
 //!     count: u8,
 //! }
 //! let schema = Schema::of::<Job>();
-//! let job = Document::parse("job.toml", "cap_s = 120\ncount = 3")?.typed(&schema);
-//! assert_eq!(job, Ok(Job { cap_s: 120.0, count: 3 }));
-//! let job = Document::parse("job.toml", "cap_s = -1\ncuont = 3")?.typed::<Job>(&schema);
+//! let job = Document::parse("job.toml", "time_limit_s = 120\ncount = 3")?.typed(&schema);
+//! assert_eq!(job, Ok(Job { time_limit_s: 120.0, count: 3 }));
+//! let job = Document::parse("job.toml", "time_limit_s = -1\ncuont = 3")?.typed::<Job>(&schema);
 //! assert_eq!(
 //!     job.unwrap_err().to_string(),
-//!     "job.toml:1: cap_s = -1: must be a number from 0 to 1000000, in seconds\n\
-//!      job.toml:2: cuont = 3: must be one of the known keys here: cap_s, count; \
+//!     "job.toml:2: cuont = 3: must be one of the known keys here: time_limit_s, count; \
 //!      did you mean count?\n\
+//!      job.toml:1: time_limit_s = -1: must be a number from 0 to 1000000, in seconds\n\
 //!      job.toml: count is missing: must be a whole number from 0 to 255"
 //! );
 //! # Ok::<(), base::error::InputErrors>(())

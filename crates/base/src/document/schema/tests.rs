@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 struct Job {
     /// When it ends, in seconds; later is failed.
     #[schemars(range(min = 0.0, max = 100.0))]
-    cap_s: f64,
+    time_limit_s: f64,
     #[serde(default)]
     kind: Kind,
     #[serde(default)]
@@ -73,7 +73,7 @@ struct Range {
 enum Chance {
     Constant(#[schemars(range(min = 0.0, max = 1.0))] f64),
     Steps(Vec<[f64; 2]>),
-    Curve { best: f64, half_m: f64 },
+    Curve { peak: f64, half_range_m: f64 },
 }
 
 fn read(text: &str) -> Result<Job, Vec<String>> {
@@ -84,18 +84,18 @@ fn read(text: &str) -> Result<Job, Vec<String>> {
 
 /// The errors of a job that has this besides what it must have.
 fn errors(more: &str) -> Vec<String> {
-    read(&format!("cap_s = 1\n{more}")).unwrap_err()
+    read(&format!("time_limit_s = 1\n{more}")).unwrap_err()
 }
 
 #[test]
 fn a_good_document_is_read_whole() {
     let text = r#"
-        cap_s = 7
+        time_limit_s = 7
         kind = "air"
         shapes = [{ circle = { radius_m = 1 } }, { polygon_m = [[0, 0], [1, 0], [0, 1.5]] }]
         workers = 4
         pair = [1, "a"]
-        chance = { best = 0.5, half_m = 2 }
+        chance = { peak = 0.5, half_range_m = 2 }
         [sensors.front]
         kind = "range"
         rays = 3
@@ -106,7 +106,7 @@ fn a_good_document_is_read_whole() {
     let corners = vec![[0.0, 0.0], [1.0, 0.0], [0.0, 1.5]];
     let sensor = |on, measures| Sensor { on, measures };
     let job = Job {
-        cap_s: 7.0,
+        time_limit_s: 7.0,
         kind: Kind::Air,
         shapes: vec![
             Shape::Circle {
@@ -124,8 +124,8 @@ fn a_good_document_is_read_whole() {
         workers: Some(4),
         pair: Some((1, "a".to_owned())),
         chance: Some(Chance::Curve {
-            best: 0.5,
-            half_m: 2.0,
+            peak: 0.5,
+            half_range_m: 2.0,
         }),
     };
     assert_eq!(read(text), Ok(job));
@@ -135,8 +135,12 @@ fn a_good_document_is_read_whole() {
 fn a_range_is_told_with_its_unit_and_nan_is_in_none() {
     for bad in ["nan", "inf", "-1", "100.5", "\"1\"", "true", "[1]"] {
         let given = if bad == "nan" { "NaN" } else { bad };
-        let expected = format!("t:1: cap_s = {given}: must be a number from 0 to 100, in seconds");
-        assert_eq!(read(&format!("cap_s = {bad}")).unwrap_err(), [expected]);
+        let expected =
+            format!("t:1: time_limit_s = {given}: must be a number from 0 to 100, in seconds");
+        assert_eq!(
+            read(&format!("time_limit_s = {bad}")).unwrap_err(),
+            [expected]
+        );
     }
     let given = "shapes = [{ circle = { radius_m = inf } }]";
     let expected = "t:2: shapes[0].circle.radius_m = inf: must be a number of at least 0";
@@ -152,7 +156,7 @@ fn a_whole_number_is_one_that_the_type_can_hold() {
             "{told:?}"
         );
     }
-    assert!(read("cap_s = 1\nworkers = 4294967295").is_ok());
+    assert!(read("time_limit_s = 1\nworkers = 4294967295").is_ok());
 }
 
 #[test]
@@ -161,7 +165,7 @@ fn what_is_missing_is_told_where_it_should_stand() {
         read("shapes = [{ circle = {} }]").unwrap_err(),
         [
             "t:1: shapes[0].circle.radius_m is missing: must be a number of at least 0",
-            "t: cap_s is missing: must be a number from 0 to 100, in seconds",
+            "t: time_limit_s is missing: must be a number from 0 to 100, in seconds",
         ]
     );
 }
@@ -171,7 +175,7 @@ fn a_name_is_one_of_the_known_and_a_slip_is_recognised() {
     assert_eq!(
         errors("kind = \"iar\"\nkidn = 3"),
         [
-            "t:3: kidn = 3: must be one of the known keys here: cap_s, kind, shapes, sensors, \
+            "t:3: kidn = 3: must be one of the known keys here: time_limit_s, kind, shapes, sensors, \
              workers, pair, chance; did you mean kind?",
             "t:2: kind = \"iar\": must be one of \"ground\", \"air\"; did you mean \"air\"?",
         ]
@@ -229,8 +233,8 @@ fn of_forms_of_other_types_the_one_of_its_type_is_meant() {
         "t:2: chance[0] = 3: must be a list of 2 numbers"
     );
     assert_eq!(
-        told("{ best = 1 }"),
-        "t:2: chance.half_m is missing: must be a number"
+        told("{ peak = 1 }"),
+        "t:2: chance.half_range_m is missing: must be a number"
     );
     assert_eq!(
         told("{ x = 1 }"),

@@ -9,12 +9,12 @@ const MAX_STEPS: f64 = 1e8;
 
 pub(super) fn errors(spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
     let step_s = spec.clock.step_s;
-    if spec.clock.cap_s <= MAX_STEPS * step_s {
+    if spec.clock.time_limit_s <= MAX_STEPS * step_s {
         return Vec::new();
     }
     let allowed = format!(
         "at most {}: a run has at most {MAX_STEPS} steps, here of {step_s} s",
         MAX_STEPS * step_s
     );
-    vec![at.key("clock").key("cap_s").error(allowed)]
+    vec![at.key("clock").key("time_limit_s").error(allowed)]
 }

@@ -25,8 +25,10 @@ pub(super) fn errors(spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
                     errors.extend(too_many(items, period_s, &at));
                 }
                 Measures::Robots(robots) => {
-                    let detection = robots.detects.as_ref();
-                    errors.extend(detection.and_then(|each| error_of(each, &at.key("detects"))));
+                    let detection = robots.detection_probability.as_ref();
+                    errors.extend(
+                        detection.and_then(|each| error_of(each, &at.key("detection_probability"))),
+                    );
                 }
                 _ => {}
             }
@@ -41,13 +43,13 @@ fn errors_of(items: &ItemsSpec, kinds: &[&str], at: &Place) -> Vec<InputError> {
         let is_known = kinds.contains(&kind);
         (!is_known).then(|| at.key(kind).names_none_of(kind, kinds.iter().copied()))
     };
-    let detects = at.key("detects");
-    for (kind, detection) in items.detects.iter().flatten() {
-        errors.extend(unknown(kind, &detects));
-        errors.extend(error_of(detection, &detects.key(kind)));
+    let detection_probability = at.key("detection_probability");
+    for (kind, detection) in items.detection_probability.iter().flatten() {
+        errors.extend(unknown(kind, &detection_probability));
+        errors.extend(error_of(detection, &detection_probability.key(kind)));
     }
-    let alarms = at.key("false_alarms_per_m2_s");
-    for (kind, rate) in &items.false_alarms_per_m2_s {
+    let alarms = at.key("false_alarm_rate_per_m2_s");
+    for (kind, rate) in &items.false_alarm_rate_per_m2_s {
         errors.extend(unknown(kind, &alarms));
         if !(0.0..=MAX_FALSE_ALARMS).contains(rate) {
             let allowed = format!("a number from 0 to {MAX_FALSE_ALARMS}");
@@ -59,7 +61,7 @@ fn errors_of(items: &ItemsSpec, kinds: &[&str], at: &Place) -> Vec<InputError> {
 
 /// False contacts beyond what one look can give.
 fn too_many(items: &ItemsSpec, period_s: f64, at: &Place) -> Vec<InputError> {
-    let rates = items.false_alarms_per_m2_s.iter();
+    let rates = items.false_alarm_rate_per_m2_s.iter();
     let rates = rates.filter(|(_, rate)| (0.0..=MAX_FALSE_ALARMS).contains(*rate));
     let means = rates.map(|(kind, _)| (kind, items.false_alarms_a_look(kind, period_s)));
     let errors = means.filter(|(_, mean)| *mean > MAX_MEAN).map(|(kind, mean)| {
@@ -67,7 +69,7 @@ fn too_many(items: &ItemsSpec, period_s: f64, at: &Place) -> Vec<InputError> {
             "lower, so that a look has at most {MAX_MEAN} false contacts; in its whole range and \
              {period_s} s it has {mean:.0}"
         );
-        at.key("false_alarms_per_m2_s").key(kind).error(allowed)
+        at.key("false_alarm_rate_per_m2_s").key(kind).error(allowed)
     });
     errors.collect()
 }

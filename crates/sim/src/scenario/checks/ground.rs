@@ -25,7 +25,7 @@ pub(super) fn solids(
         match solid(obstacle, &at, open) {
             Ok(solid) => {
                 let [least, greatest] = solid.bounds();
-                let is_there = if world.wraps {
+                let is_there = if world.periodic {
                     rectangle.contains(least) && rectangle.contains(greatest)
                 } else {
                     rectangle.overlaps(&Rectangle::spanned(least, greatest))
@@ -53,8 +53,8 @@ pub(super) fn rectangle(world: &WorldSpec) -> Rectangle {
 }
 
 fn where_obstacles_are(world: &WorldSpec) -> String {
-    if world.wraps {
-        format!("wholly in {}, as it wraps", words(world))
+    if world.periodic {
+        format!("wholly in {}, because the world is periodic", words(world))
     } else {
         format!("at least partly in {}", words(world))
     }
@@ -77,9 +77,9 @@ fn solid(obstacle: &ObstacleSpec, at: &Place, open: Open) -> Result<Solid, Vec<I
         })),
         ObstacleSpec::Map {
             map,
-            unknown_is_solid,
+            unknown_is_occupied,
         } => {
-            let unknown = match unknown_is_solid {
+            let unknown = match unknown_is_occupied {
                 true => Unknown::Solid,
                 false => Unknown::Free,
             };

@@ -152,8 +152,8 @@ impl Looks {
 fn contacts_a_look(sensor: &ItemsSpec, period_s: f64, spec: &ScenarioSpec) -> f64 {
     let view_m2 = Sector::new(&sensor.sector).area_m2();
     let contacts = spec.items.iter().map(|(name, kind)| {
-        let detects = sensor.detects.as_ref();
-        let is_known = detects.is_none_or(|kinds| kinds.contains_key(name));
+        let detection_probability = sensor.detection_probability.as_ref();
+        let is_known = detection_probability.is_none_or(|kinds| kinds.contains_key(name));
         let items = if is_known {
             things_within(view_m2, kind.count, &kind.placement, spec)
         } else {
@@ -220,7 +220,7 @@ mod tests {
     /// About what a run of so many robots takes, in megabytes, besides the robots themselves.
     fn megabytes(step_s: f64, count: u32, robot: &str) -> f64 {
         let text = format!(
-            "[clock]\nstep_s = {step_s}\ncap_s = 60\n[world]\nsize_m = [100, 100]\n\
+            "[clock]\nstep_s = {step_s}\ntime_limit_s = 60\n[world]\nsize_m = [100, 100]\n\
              [items.mine]\ncount = 100\n[robots.rover]\ncount = {count}\nradius_m = 0.5\n\
              drive = {{ max_speed_m_s = 1, max_turn_rate_deg_s = 90 }}\n{robot}"
         );
@@ -256,9 +256,9 @@ mod tests {
         let area_m2 = std::f64::consts::PI * 100.0;
         assert_about(
             looks * (contact * area_m2 / 100.0 + glance),
-            eye("detects = { mine = 1 }"),
+            eye("detection_probability = { mine = 1 }"),
         );
-        let alarms = "detects = {}, false_alarms_per_m2_s = { mine = 1 }";
+        let alarms = "detection_probability = {}, false_alarm_rate_per_m2_s = { mine = 1 }";
         assert_about(looks * (contact * area_m2 / 10.0 + glance), eye(alarms));
     }
 

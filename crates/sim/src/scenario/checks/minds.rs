@@ -52,7 +52,7 @@ fn of_behaviours(robot: &RobotSpec, spec: &ScenarioSpec, at: &Place) -> Vec<Inpu
             }
         };
         let needs_robots = match behaviour {
-            BehaviourSpec::Swarm(_) => true,
+            BehaviourSpec::Flock(_) => true,
             BehaviourSpec::Follow(_) => robot.radio.is_none(),
             _ => false,
         };
@@ -66,7 +66,7 @@ fn of_behaviours(robot: &RobotSpec, spec: &ScenarioSpec, at: &Place) -> Vec<Inpu
         needs(needs_pose, has_heading, "compass = { kind = \"heading\" }");
         let eye = "eye = { kind = \"items\", range_m = 3 }";
         let needs_width = match behaviour {
-            BehaviourSpec::Lanes(lanes) => lanes.width_m.is_none(),
+            BehaviourSpec::Lawnmower(lanes) => lanes.width_m.is_none(),
             BehaviourSpec::Spiral(spiral) => spiral.width_m.is_none(),
             _ => false,
         };
@@ -77,7 +77,7 @@ fn of_behaviours(robot: &RobotSpec, spec: &ScenarioSpec, at: &Place) -> Vec<Inpu
         {
             let allowed =
                 "\"all\" or \"each\", or a robot with a radio, such as radio = { range_m = 100 }";
-            errors.push(at.key("share").error(allowed));
+            errors.push(at.key("assignment").error(allowed));
         }
         errors.extend(of_places(behaviour, spec, &at));
     }
@@ -86,18 +86,18 @@ fn of_behaviours(robot: &RobotSpec, spec: &ScenarioSpec, at: &Place) -> Vec<Inpu
 
 /// A way to nowhere, or out of the world.
 fn of_places(behaviour: &BehaviourSpec, spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
-    let way = |places_m: &[Point]| {
-        let numbered = places_m.iter().enumerate();
-        let listed = numbered.map(|(number, place)| (at.key("places_m").item(number), *place));
+    let way = |waypoints_m: &[Point]| {
+        let numbered = waypoints_m.iter().enumerate();
+        let listed = numbered.map(|(number, place)| (at.key("waypoints_m").item(number), *place));
         listed.collect()
     };
     let place =
         |key: &str, at_m: &Option<Point>| at_m.iter().map(|to| (at.key(key), *to)).collect();
     let places: Vec<(Place, Point)> = match behaviour {
-        BehaviourSpec::Correct(correct) => way(&correct.places_m),
-        BehaviourSpec::Navigate(navigate) => way(&navigate.places_m),
-        BehaviourSpec::Hold(hold) => place("at_m", &hold.at_m),
-        BehaviourSpec::Home(home) => place("at_m", &home.at_m),
+        BehaviourSpec::Correct(correct) => way(&correct.waypoints_m),
+        BehaviourSpec::Navigate(navigate) => way(&navigate.waypoints_m),
+        BehaviourSpec::HoldPosition(hold) => place("at_m", &hold.at_m),
+        BehaviourSpec::ReturnHome(home) => place("at_m", &home.at_m),
         BehaviourSpec::Spiral(spiral) => place("around_m", &spiral.around_m),
         _ => return Vec::new(),
     };
@@ -107,7 +107,7 @@ fn of_places(behaviour: &BehaviourSpec, spec: &ScenarioSpec, at: &Place) -> Vec<
     );
     if goes && places.is_empty() {
         let allowed = "the places to visit, at least one, as in [[5, 5], [9, 2.5]]";
-        return vec![at.key("places_m").error(allowed)];
+        return vec![at.key("waypoints_m").error(allowed)];
     }
     let (world, [width, height]) = (rectangle(&spec.world), spec.world.size_m);
     let allowed = format!(
@@ -140,7 +140,7 @@ fn of_gains(brain: &BrainSpec, at: &Place) -> Vec<InputError> {
 
 /// Minds in a world that goes on at its other side: they draw maps, which end.
 fn of_wrapping(robot: &RobotSpec, spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
-    if !spec.world.wraps {
+    if !spec.world.periodic {
         return Vec::new();
     }
     let behaviours = robot.brain.behaviours.iter().enumerate();
@@ -148,13 +148,13 @@ fn of_wrapping(robot: &RobotSpec, spec: &ScenarioSpec, at: &Place) -> Vec<InputE
     let at_behaviours = minded.map(|(number, behaviour)| {
         let at = at.key("behaviours").item(number).key("kind");
         at.error(format!(
-            "one that needs no map, in a world that wraps: {} needs wraps = false",
+            "one that needs no map, in a periodic world: {} needs periodic = false",
             behaviour.name()
         ))
     });
     let beliefs = robot.brain.beliefs.iter().map(|_| {
         at.key("beliefs")
-            .error("left out in a world that wraps: maps need wraps = false")
+            .error("left out in a periodic world: maps need periodic = false")
     });
     at_behaviours.chain(beliefs).collect()
 }
@@ -166,8 +166,8 @@ fn of_beliefs(robot: &RobotSpec, spec: &ScenarioSpec, at: &Place) -> Vec<InputEr
     };
     let kinds: Vec<&str> = spec.items.keys().map(String::as_str).collect();
     let mut errors = Vec::new();
-    for (kind, expected) in &beliefs.expected {
-        let at = at.key("expected").key(kind);
+    for (kind, expected) in &beliefs.prior_count {
+        let at = at.key("prior_count").key(kind);
         if !kinds.contains(&kind.as_str()) {
             errors.push(at.names_none_of(kind, kinds.iter().copied()));
         } else if !(0.0..=MOST_EXPECTED).contains(expected) {

@@ -7,11 +7,11 @@ mod ground;
 mod memory;
 mod minds;
 mod names;
+mod periodic;
 mod places;
 mod rates;
 mod reach;
 mod room;
-mod wraps;
 
 use super::{Checked, Scenario, ScenarioSpec};
 use base::document::{Document, Place};
@@ -38,8 +38,12 @@ const CHECKS: [Check; 7] = [
 /// A check of what stands where, in a world of the obstacles that are right.
 type CheckOfPlaces = fn(&Checked, &Place) -> Vec<InputError>;
 
-const CHECKS_OF_PLACES: [CheckOfPlaces; 4] =
-    [wraps::errors, places::errors, room::errors, reach::errors];
+const CHECKS_OF_PLACES: [CheckOfPlaces; 4] = [
+    periodic::errors,
+    places::errors,
+    room::errors,
+    reach::errors,
+];
 
 /// `spec`, which stands `at` the root of a document, if nothing is wrong with it.
 pub(super) fn checked(spec: ScenarioSpec, at: &Place, open: Open) -> Result<Checked, InputErrors> {

@@ -46,7 +46,7 @@ fn not_free(kind: &RobotSpec, spec: &ScenarioSpec) -> String {
     };
     let world = words(&spec.world);
     let radius_m = kind.radius_m;
-    if spec.world.wraps {
+    if spec.world.periodic {
         return format!("in {world}, at least radius_m = {radius_m} from any obstacle");
     }
     format!("in {world}, at least radius_m = {radius_m} from its border{obstacles}")
@@ -112,7 +112,7 @@ struct Standing<'d> {
     radius_m: f64,
     layer: Layer,
     at: Place<'d>,
-    /// Where it is seen to stand too, in a world that wraps.
+    /// Where it is seen to stand too, in a periodic world.
     is_image: bool,
 }
 

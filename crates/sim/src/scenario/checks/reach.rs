@@ -16,21 +16,21 @@ use base::reachability::{self, Reachability};
 /// Whatever its number of robots, which a study may vary, a kind counts.
 pub(super) fn errors(checked: &Checked, at: &Place) -> Vec<InputError> {
     let mut errors = Vec::new();
-    let sought = checked
+    let target = checked
         .spec
         .items
         .iter()
-        .filter(|(_, kind)| kind.sought && kind.count > 0);
-    for (name, kind) in sought {
+        .filter(|(_, kind)| kind.target && kind.count > 0);
+    for (name, kind) in target {
         let at = at.key("items").key(name);
         let finders: Vec<Finder> = finders(&checked.spec, name);
         if finders.is_empty() {
             let allowed = "recognised by a robot: none has a sensor of kind \"items\" for these; of \
-                           clutter, say sought = false";
+                           clutter, say target = false";
             errors.push(at.error(allowed));
         }
-        // Which ways there are through a world that wraps is not looked into.
-        if !finders.is_empty() && !checked.spec.world.wraps {
+        // Which ways there are through a periodic world is not looked into.
+        if !finders.is_empty() && !checked.spec.world.periodic {
             errors.extend(out_of_reach(checked, kind, &finders, &at));
             errors.extend(all_out_of_reach(checked, kind, &finders, &at));
         }
@@ -51,8 +51,9 @@ fn finders<'s>(spec: &'s ScenarioSpec, item: &str) -> Vec<Finder<'s>> {
             .values()
             .filter_map(|sensor| match &sensor.measures {
                 Measures::Items(items) => {
-                    let detects = items.detects.as_ref();
-                    let is_known = detects.is_none_or(|kinds| kinds.contains_key(item));
+                    let detection_probability = items.detection_probability.as_ref();
+                    let is_known =
+                        detection_probability.is_none_or(|kinds| kinds.contains_key(item));
                     is_known.then_some(items.sector.range_m)
                 }
                 _ => None,

@@ -7,7 +7,7 @@ mod minds;
 const GOOD: &str = r#"
 [clock]
 step_s = 0.1
-cap_s = 120
+time_limit_s = 120
 
 [world]
 size_m = [20, 10]
@@ -32,8 +32,8 @@ drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
 [robots.rover.sensors.eye]
 kind = "items"
 range_m = 3
-detects = { mine = [[0, 1], [3, 0.5]] }
-false_alarms_per_m2_s = { mine = 0.01 }
+detection_probability = { mine = [[0, 1], [3, 0.5]] }
+false_alarm_rate_per_m2_s = { mine = 0.01 }
 
 [robots.bird]
 count = 1
@@ -81,14 +81,17 @@ fn keys_that_are_not_the_engines_are_left_to_others() {
 #[test]
 fn errors_of_every_part_are_told_at_once_with_their_lines() {
     let bad = GOOD
-        .replace("cap_s = 120", "cap_s = 1e7\n")
+        .replace("time_limit_s = 120", "time_limit_s = 1e7\n")
         .replace("0.1\n", "0.01\n")
         .replace("[4, 4]", "[-1, 2]")
-        .replace("detects = { mine", "detects = { mien");
+        .replace(
+            "detection_probability = { mine",
+            "detection_probability = { mien",
+        );
     let told = read(&bad).unwrap_err().to_string();
-    let expected = "t:4: clock.cap_s = 10000000.0: must be at most 1000000: a run has at most \
+    let expected = "t:4: clock.time_limit_s = 10000000.0: must be at most 1000000: a run has at most \
                     100000000 steps, here of 0.01 s\n\
-                    t:30: robots.rover.sensors.eye.detects.mien = [[0, 1], [3, 0.5]]: must be under \
+                    t:30: robots.rover.sensors.eye.detection_probability.mien = [[0, 1], [3, 0.5]]: must be under \
                     one of mine; did you mean mine?\n\
                     t:10: world.obstacles[0].polygon_m = [[0, 0], [4, 0], [-1, 2], [0, 4]]: must be a \
                     polygon that does not cross or touch itself; its edges from vertices 1 and 3 do";
@@ -125,7 +128,7 @@ fn two_kinds_never_have_the_same_random_numbers() {
         let rest = if what == "items" {
             "count = 0"
         } else {
-            "like = \"ugv\"\ncount = 0"
+            "model = \"ugv\"\ncount = 0"
         };
         let kind = |name: &str| format!("\n[{what}.{name}]\n{rest}\n");
         let both = kind("costarring") + &kind("liquid");
@@ -149,7 +152,7 @@ fn there_are_one_to_255_kinds_of_robots() {
         read(&none).unwrap_err().to_string(),
         "t:20: robots = {...}: must be a table of 1 to 255; it has 0"
     );
-    let many = (0..256).map(|kind| format!("[robots.r{kind}]\nlike = \"ugv\"\ncount = 0\n"));
+    let many = (0..256).map(|kind| format!("[robots.r{kind}]\nmodel = \"ugv\"\ncount = 0\n"));
     let many = many.collect::<Vec<_>>().concat();
     let told = read(&format!("{}{many}", &GOOD[..start])).unwrap_err();
     assert!(told.to_string().contains("it has 256"), "{told}");
@@ -198,10 +201,10 @@ fn a_detection_table_ascends_and_has_probabilities() {
         );
     }
     let told = error("mine = 0.01", "mine = -1");
-    assert!(told.ends_with("false_alarms_per_m2_s.mine = -1: must be a number from 0 to 1000"));
+    assert!(told.ends_with("false_alarm_rate_per_m2_s.mine = -1: must be a number from 0 to 1000"));
     assert_eq!(
         error("mine = 0.01", "cow = 1"),
-        "robots.rover.sensors.eye.false_alarms_per_m2_s.cow = 1: must be under one of mine"
+        "robots.rover.sensors.eye.false_alarm_rate_per_m2_s.cow = 1: must be under one of mine"
     );
 }
 
@@ -443,12 +446,12 @@ fn what_is_sought_can_be_recognised_by_a_robot() {
     assert_eq!(
         error("[items.mine]", clutter),
         "items.cow = {...}: must be recognised by a robot: none has a sensor of kind \"items\" for \
-         these; of clutter, say sought = false"
+         these; of clutter, say target = false"
     );
     assert!(
         read(&GOOD.replace(
             "[items.mine]",
-            &clutter.replace("1\n", "1\nsought = false\n")
+            &clutter.replace("1\n", "1\ntarget = false\n")
         ))
         .is_ok()
     );
@@ -535,11 +538,11 @@ fn looking_for_a_place_in_reach_is_done_within_seconds() {
 
 #[test]
 fn a_world_that_wraps_is_large_enough_and_holds_its_obstacles_wholly() {
-    let wraps = "size_m = [20, 10]\nwraps = true";
-    assert!(read(&GOOD.replace("size_m = [20, 10]", wraps)).is_ok());
+    let periodic = "size_m = [20, 10]\nperiodic = true";
+    assert!(read(&GOOD.replace("size_m = [20, 10]", periodic)).is_ok());
     // Half of 10 m, less the skin of 0.6 m and the radius of 0.5 m of the largest robot.
     let far = GOOD
-        .replace("size_m = [20, 10]", wraps)
+        .replace("size_m = [20, 10]", periodic)
         .replace("range_m = 3", "range_m = 4");
     let told = read(&far).unwrap_err().to_string();
     assert!(
@@ -547,20 +550,20 @@ fn a_world_that_wraps_is_large_enough_and_holds_its_obstacles_wholly() {
         "{told}"
     );
     let outside = GOOD
-        .replace("size_m = [20, 10]", wraps)
+        .replace("size_m = [20, 10]", periodic)
         .replace("[15, 5]", "[19.5, 5]");
     let told = read(&outside).unwrap_err().to_string();
     assert!(
-        told.contains("world.obstacles[1]") && told.contains("as it wraps"),
+        told.contains("world.obstacles[1]") && told.contains("because the world is periodic"),
         "{told}"
     );
     let fast = GOOD
-        .replace("size_m = [20, 10]", wraps)
+        .replace("size_m = [20, 10]", periodic)
         .replace("max_speed_m_s = 5", "max_speed_m_s = 50");
     let told = read(&fast).unwrap_err().to_string();
     assert!(told.contains("world.size_m"), "{told}");
     let beside = GOOD
-        .replace("size_m = [20, 10]", wraps)
+        .replace("size_m = [20, 10]", periodic)
         .replace("[[6, 6], [7, 6]]", "[[0.1, 6], [19.9, 6]]");
     let told = read(&beside).unwrap_err().to_string();
     assert!(told.contains("robots.rover.start.at_m["), "{told}");

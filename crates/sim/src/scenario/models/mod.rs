@@ -1,4 +1,4 @@
-//! The shipped robots, of which a scenario's robots can be `like` one; docs/robots.md has the
+//! The shipped robots, of which a scenario's robots can be the `model` of one; docs/robots.md has the
 //! source of every figure.
 
 use base::document::{Document, Value};
@@ -44,9 +44,9 @@ pub(super) fn fill(document: &mut Document) {
     };
     let names: Vec<String> = kinds.keys().cloned().collect();
     for name in names {
-        let like = document.get(&["robots", &name, "like"]);
+        let model = document.get(&["robots", &name, "model"]);
         // One whose model is unknown is not told to lack what the model has.
-        let model = like.map(|like| named(&like.value).unwrap_or(Model::Ugv));
+        let model = model.map(|model| named(&model.value).unwrap_or(Model::Ugv));
         if let Some(model) = model {
             fill_with(document, &name, model);
         }
@@ -73,7 +73,8 @@ mod tests {
     use super::*;
     use crate::scenario::ScenarioSpec;
 
-    const REST: &str = "[clock]\ncap_s = 9\n[world]\nsize_m = [9, 9]\n[robots.r]\ncount = 1\n";
+    const REST: &str =
+        "[clock]\ntime_limit_s = 9\n[world]\nsize_m = [9, 9]\n[robots.r]\ncount = 1\n";
 
     fn read(more: &str) -> Result<crate::body::RobotSpec, String> {
         let document = Document::parse("t.toml", &format!("{REST}{more}")).unwrap();
@@ -87,15 +88,15 @@ mod tests {
     #[test]
     fn every_model_is_a_robot_that_lacks_only_its_number() {
         for (name, model) in Model::NAMES {
-            let robot = read(&format!("like = {name:?}"));
-            assert_eq!(robot.map(|robot| robot.like), Ok(Some(model)));
+            let robot = read(&format!("model = {name:?}"));
+            assert_eq!(robot.map(|robot| robot.model), Ok(Some(model)));
         }
     }
 
     #[test]
     fn what_is_written_holds_over_the_model() {
-        let robot = read("like = \"ugv\"\nradius_m = 0.5\ndrive = { max_speed_m_s = 1 }").unwrap();
-        let ugv = read("like = \"ugv\"").unwrap();
+        let robot = read("model = \"ugv\"\nradius_m = 0.5\ndrive = { max_speed_m_s = 1 }").unwrap();
+        let ugv = read("model = \"ugv\"").unwrap();
         let expected = crate::body::RobotSpec {
             radius_m: 0.5,
             drive: crate::body::drive::DriveSpec {
@@ -110,23 +111,23 @@ mod tests {
     #[test]
     fn a_model_that_is_not_known_is_told_alone() {
         assert_eq!(
-            read("like = \"ugw\"").unwrap_err(),
-            "t.toml:7: robots.r.like = \"ugw\": must be one of \"tracked\", \"ugv\", \
+            read("model = \"ugw\"").unwrap_err(),
+            "t.toml:7: robots.r.model = \"ugw\": must be one of \"tracked\", \"ugv\", \
              \"quadrotor\"; did you mean \"ugv\"?"
         );
         assert!(
-            read("like = 3")
+            read("model = 3")
                 .unwrap_err()
-                .starts_with("t.toml:7: robots.r.like = 3: must")
+                .starts_with("t.toml:7: robots.r.model = 3: must")
         );
     }
 
     #[test]
     fn an_error_of_a_models_value_names_the_model() {
-        let told = read("like = \"ugv\"\n[clock.x]").unwrap_err();
+        let told = read("model = \"ugv\"\n[clock.x]").unwrap_err();
         assert!(told.starts_with("t.toml:8: clock.x"), "{told}");
-        let document =
-            format!("{REST}like = \"ugv\"").replace("cap_s = 9", "cap_s = 9\nstep_s = 1");
+        let document = format!("{REST}model = \"ugv\"")
+            .replace("time_limit_s = 9", "time_limit_s = 9\nstep_s = 1");
         let document = Document::parse("t.toml", &document).unwrap();
         let told = ScenarioSpec::read(&document).unwrap_err();
         let expected = "shipped model ugv:12: robots.r.drive.max_turn_rate_deg_s = 229: must be at \

@@ -14,7 +14,7 @@ use super::{Flock, Run};
 use crate::sensing::range::instruction_set;
 use crate::sensing::rays::GROUP;
 use base::geometry::Point;
-use brain::behaviours::swarm::Sums;
+use brain::behaviours::flock::Sums;
 use pulp::{Simd, WithSimd};
 use std::array::from_fn;
 

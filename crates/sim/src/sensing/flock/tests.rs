@@ -1,7 +1,7 @@
 use super::*;
 use crate::sensing::range::tests::{instruction_sets, with_set};
 use base::random::{Entity, Purpose, stream, unit};
-use brain::behaviours::swarm::Sums;
+use brain::behaviours::flock::Sums;
 use proptest::prelude::*;
 use pulp::Arch;
 

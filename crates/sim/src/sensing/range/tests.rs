@@ -19,9 +19,9 @@ fn spec(rays: u32) -> RangeSpec {
         facing_deg: 0.0,
         range_m: RANGE_M,
         noise_m: 0.0,
-        noise_share: 0.0,
-        miss: 0.0,
-        false_echo: 0.0,
+        relative_noise: 0.0,
+        miss_probability: 0.0,
+        spurious_return_probability: 0.0,
     }
 }
 
@@ -100,7 +100,7 @@ fn nothing_at_the_range_or_farther_gives_an_echo() {
     assert_eq!(ray(6.0), f64::INFINITY);
     let noisy = RangeSpec {
         noise_m: 1.0,
-        noise_share: 0.5,
+        relative_noise: 0.5,
         ..spec(1)
     };
     // Noise brings back no echo of what is out of range.
@@ -115,7 +115,7 @@ fn nothing_at_the_range_or_farther_gives_an_echo() {
 fn noise_has_the_moments_that_are_asked_for() {
     let noisy = RangeSpec {
         noise_m: 0.1,
-        noise_share: 0.05,
+        relative_noise: 0.05,
         ..spec(1)
     };
     let values = looks(&noisy, 2.0, 200_000);
@@ -172,8 +172,8 @@ fn a_distance_is_never_below_0() {
 #[test]
 fn echoes_are_lost_and_invented_as_often_as_is_asked_for() {
     let false_and_lost = RangeSpec {
-        miss: 0.1,
-        false_echo: 0.2,
+        miss_probability: 0.1,
+        spurious_return_probability: 0.2,
         ..spec(1)
     };
     let values = looks(&false_and_lost, 3.0, 100_000);
@@ -191,8 +191,8 @@ fn echoes_are_lost_and_invented_as_often_as_is_asked_for() {
 #[test]
 fn what_is_always_lost_is_never_measured_and_what_never_is_always() {
     let always = RangeSpec {
-        miss: 1.0,
-        false_echo: 1.0,
+        miss_probability: 1.0,
+        spurious_return_probability: 1.0,
         noise_m: 0.1,
         ..spec(1)
     };
@@ -242,9 +242,9 @@ fn rays_of_a_turned_robot_are_turned_with_it() {
 fn a_look_gives_the_same_bits_in_every_instruction_set() {
     let mut everything = RangeSpec {
         noise_m: 0.1,
-        noise_share: 0.05,
-        miss: 0.1,
-        false_echo: 0.1,
+        relative_noise: 0.05,
+        miss_probability: 0.1,
+        spurious_return_probability: 0.1,
         ..spec(1)
     };
     let room = base::geometry::Rectangle::spanned([-3.0, -2.0].into(), [4.0, 3.0].into()).room();
@@ -307,7 +307,7 @@ pub(in crate::sensing) fn with_set<T>(arch: Arch, work: impl FnOnce() -> T) -> T
 #[test]
 fn a_run_has_the_same_bits_in_every_instruction_set() {
     let spec = serde_json::json!({
-        "clock": {"cap_s": 1e4},
+        "clock": {"time_limit_s": 1e4},
         "world": {"size_m": [12, 9]},
         "robots": {"rover": {
             "count": 30,
@@ -315,7 +315,7 @@ fn a_run_has_the_same_bits_in_every_instruction_set() {
             "drive": {"max_speed_m_s": 1.0, "max_turn_rate_deg_s": 90},
             "sensors": {
                 "lidar": {"kind": "range", "rays": 55, "fov_deg": 270, "range_m": 10,
-                    "noise_m": 0.02, "noise_share": 0.01, "miss": 0.01, "false_echo": 0.01},
+                    "noise_m": 0.02, "relative_noise": 0.01, "miss_probability": 0.01, "spurious_return_probability": 0.01},
                 "sonar": {"kind": "range", "rays": 16, "range_m": 3, "rate_hz": 4},
             },
         }},

@@ -6,10 +6,10 @@ fn a_mind_has_a_world_that_ends() {
     let world = "size_m = [20, 10]\n";
     let text = GOOD
         .replace(drive, &format!("{drive}brain = {{ beliefs = {{}} }}\n"))
-        .replace(world, &format!("{world}wraps = true\n"));
+        .replace(world, &format!("{world}periodic = true\n"));
     let told = read(&text).unwrap_err().to_string();
     assert!(
-        told.contains("robots.rover.brain.beliefs = ") && told.contains("need wraps = false"),
+        told.contains("robots.rover.brain.beliefs = ") && told.contains("need periodic = false"),
         "{told}"
     );
 }
@@ -34,7 +34,7 @@ fn behaviours_need_sensors_and_places() {
         needs("gps = { kind = \"position\" }"),
         needs("compass = { kind = \"heading\" }"),
         format!(
-            "{at}.places_m is missing: must be the places to visit, at least one, as in [[5, 5], [9, 2.5]]"
+            "{at}.waypoints_m is missing: must be the places to visit, at least one, as in [[5, 5], [9, 2.5]]"
         ),
     ];
     assert_eq!(told, expected);
@@ -43,8 +43,8 @@ fn behaviours_need_sensors_and_places() {
 #[test]
 fn behaviours_with_others_need_to_know_of_them_and_sweeps_how_wide_they_see() {
     let told = errors_of_brain(
-        "behaviours = [{ kind = \"follow\" }, { kind = \"swarm\" }, { kind = \"lanes\" }, \
-         { kind = \"spiral\" }, { kind = \"navigate\", share = \"team\", places_m = [[1, 1]] }]",
+        "behaviours = [{ kind = \"follow\" }, { kind = \"flock\" }, { kind = \"lawnmower\" }, \
+         { kind = \"spiral\" }, { kind = \"navigate\", assignment = \"shared\", waypoints_m = [[1, 1]] }]",
     );
     let behaviour = |number: u32| format!("robots.bird.brain.behaviours[{number}]");
     let lacks = |number, key: &str, what: &str| {
@@ -57,12 +57,12 @@ fn behaviours_with_others_need_to_know_of_them_and_sweeps_how_wide_they_see() {
         (1, "kind", "kind = \"robots\""),
         (2, "kind", "kind = \"items\""),
         (3, "kind", "kind = \"items\""),
-        (4, "share", "a robot with a radio"),
+        (4, "assignment", "a robot with a radio"),
     ] {
         assert!(lacks(number, key, what), "{number}: {told:?}");
     }
     let told = errors_of_brain(
-        "behaviours = [{ kind = \"lanes\", width_m = 2 }, { kind = \"spiral\", width_m = 2 }]",
+        "behaviours = [{ kind = \"lawnmower\", width_m = 2 }, { kind = \"spiral\", width_m = 2 }]",
     );
     assert!(
         !told.iter().any(|error| error.contains("items")),
@@ -73,8 +73,8 @@ fn behaviours_with_others_need_to_know_of_them_and_sweeps_how_wide_they_see() {
 #[test]
 fn places_lie_in_the_world() {
     let told = errors_of_brain(
-        "behaviours = [{ kind = \"navigate\", places_m = [[2, 2], [21, 2]] }, \
-         { kind = \"home\", at_m = [-1, 2] }, { kind = \"spiral\", around_m = [3, 11], width_m = 1 }]",
+        "behaviours = [{ kind = \"navigate\", waypoints_m = [[2, 2], [21, 2]] }, \
+         { kind = \"return_home\", at_m = [-1, 2] }, { kind = \"spiral\", around_m = [3, 11], width_m = 1 }]",
     );
     let outside: Vec<&String> = told
         .iter()
@@ -82,7 +82,9 @@ fn places_lie_in_the_world() {
         .collect();
     let at = "robots.bird.brain.behaviours";
     let expected = [
-        format!("{at}[0].places_m[1] = [21, 2]: must be within the world: from [0, 0] to [20, 10]"),
+        format!(
+            "{at}[0].waypoints_m[1] = [21, 2]: must be within the world: from [0, 0] to [20, 10]"
+        ),
         format!("{at}[1].at_m = [-1, 2]: must be within the world: from [0, 0] to [20, 10]"),
         format!("{at}[2].around_m = [3, 11]: must be within the world: from [0, 0] to [20, 10]"),
     ];

@@ -14,9 +14,9 @@ fn body() -> Body {
     }
 }
 
-fn brain(swarm: Swarm) -> Brain {
+fn brain(swarm: Flock) -> Brain {
     let spec = BrainSpec {
-        behaviours: vec![BehaviourSpec::Swarm(swarm)],
+        behaviours: vec![BehaviourSpec::Flock(swarm)],
         ..BrainSpec::default()
     };
     Brain::new(Arc::new(spec), Arc::new(body()))
@@ -33,7 +33,7 @@ fn at(x: f64, y: f64, course_rad: f64) -> Neighbour {
 }
 
 /// By how much it turns.
-fn turn_rad(swarm: Swarm, neighbours: Vec<Neighbour>) -> f64 {
+fn turn_rad(swarm: Flock, neighbours: Vec<Neighbour>) -> f64 {
     let percept = Percept {
         neighbours,
         ..Percept::default()
@@ -41,7 +41,7 @@ fn turn_rad(swarm: Swarm, neighbours: Vec<Neighbour>) -> f64 {
     brain(swarm).step(&percept).motion.turn_rate_rad_s
 }
 
-const NOTHING: Swarm = Swarm {
+const NOTHING: Flock = Flock {
     separation_m: 2.0,
     separation: 0.0,
     alignment: 0.0,
@@ -52,7 +52,7 @@ const NOTHING: Swarm = Swarm {
     speed_m_s: None,
 };
 
-fn assert_turns(swarm: Swarm, neighbours: Vec<Neighbour>, expected_rad: f64) {
+fn assert_turns(swarm: Flock, neighbours: Vec<Neighbour>, expected_rad: f64) {
     let turned_rad = turn_rad(swarm, neighbours);
     assert!(
         (turned_rad - expected_rad).abs() < 1e-12,
@@ -62,14 +62,14 @@ fn assert_turns(swarm: Swarm, neighbours: Vec<Neighbour>, expected_rad: f64) {
 
 #[test]
 fn alone_it_goes_straight_on() {
-    assert_turns(Swarm::default(), vec![], 0.0);
-    let motion = brain(Swarm::default()).step(&Percept::default()).motion;
+    assert_turns(Flock::default(), vec![], 0.0);
+    let motion = brain(Flock::default()).step(&Percept::default()).motion;
     assert!((motion.speed_m_s - 2.0).abs() < 1e-12);
 }
 
 #[test]
 fn it_turns_to_the_others_away_from_those_too_near_and_to_their_course() {
-    let swarm = Swarm {
+    let swarm = Flock {
         cohesion: 0.5,
         ..NOTHING
     };
@@ -79,7 +79,7 @@ fn it_turns_to_the_others_away_from_those_too_near_and_to_their_course() {
         vec![at(1.0, 3.0, 0.0), at(1.0, 5.0, 0.0)],
         2_f64.atan2(1.5),
     );
-    let swarm = Swarm {
+    let swarm = Flock {
         separation: 1.0,
         ..NOTHING
     };
@@ -89,7 +89,7 @@ fn it_turns_to_the_others_away_from_those_too_near_and_to_their_course() {
         vec![at(0.0, 1.0, 0.0), at(0.0, 5.0, 0.0)],
         (-0.5_f64).atan2(1.0),
     );
-    let swarm = Swarm {
+    let swarm = Flock {
         alignment: 1.0,
         ..NOTHING
     };
@@ -98,12 +98,12 @@ fn it_turns_to_the_others_away_from_those_too_near_and_to_their_course() {
 
 #[test]
 fn the_declared_flock_of_the_comparison_of_frameworks_is_one_of_its_settings() {
-    let swarm = Swarm {
+    let swarm = Flock {
         separation_m: 4.0,
         separation: 0.015,
         alignment: 0.05,
         cohesion: 0.03,
-        ..Swarm::default()
+        ..Flock::default()
     };
     let others = [(3.0, 1.0, 0.5), (-9.0, 7.0, -2.0), (-0.5, -1.0, 3.0)];
     // As they write it, in the order of their lines.
@@ -127,7 +127,7 @@ fn the_declared_flock_of_the_comparison_of_frameworks_is_one_of_its_settings() {
 
 #[test]
 fn by_sums_its_own_course_is_one_of_those_of_which_it_takes_the_mean() {
-    let vicsek = Swarm {
+    let vicsek = Flock {
         alignment: 1.0,
         averages: false,
         ..NOTHING
@@ -142,7 +142,7 @@ fn by_sums_its_own_course_is_one_of_those_of_which_it_takes_the_mean() {
 
 #[test]
 fn separation_is_granted_first_then_alignment_then_cohesion() {
-    let swarm = |steering_limit: f64| Swarm {
+    let swarm = |steering_limit: f64| Flock {
         separation: 1.0,
         alignment: 1.0,
         cohesion: 1.0,
@@ -166,7 +166,7 @@ fn separation_is_granted_first_then_alignment_then_cohesion() {
 
 #[test]
 fn noise_is_uniform_over_its_width() {
-    let swarm = Swarm {
+    let swarm = Flock {
         noise_deg: 90.0,
         ..NOTHING
     };
@@ -199,20 +199,20 @@ fn who_was_seen_long_ago_or_is_nonsense_pulls_on_nobody() {
     let by_range = broken.map(|range_m| Neighbour { range_m, ..one });
     let by_age = broken.map(|age_s| Neighbour { age_s, ..one });
     for other in by_range.into_iter().chain(by_age) {
-        assert_turns(Swarm::default(), vec![other], 0.0);
+        assert_turns(Flock::default(), vec![other], 0.0);
     }
     for bearing_rad in [f64::NAN, f64::INFINITY, 1e300] {
         assert_turns(
-            Swarm::default(),
+            Flock::default(),
             vec![Neighbour { bearing_rad, ..one }],
             0.0,
         );
     }
     let uncoursed = [None, Some(f64::NAN), Some(f64::INFINITY), Some(1e300)];
     for course_rad in uncoursed {
-        let swarm = Swarm {
+        let swarm = Flock {
             cohesion: 0.0,
-            ..Swarm::default()
+            ..Flock::default()
         };
         assert_turns(swarm, vec![Neighbour { course_rad, ..one }], 0.0);
     }
@@ -243,7 +243,7 @@ proptest! {
         (separation, alignment, cohesion) in (0.0..=1000.0, 0.0..=1000.0, 0.0..=1000.0),
         (steering_limit, noise_deg) in (0.0..=1e9, 0.0..=360.0), averages: bool, dice: [u32; 4],
     ) {
-        let swarm = Swarm {
+        let swarm = Flock {
             separation, alignment, cohesion, averages, steering_limit, noise_deg, ..NOTHING
         };
         let percept = Percept { dice, neighbours, ..Percept::default() };

@@ -35,7 +35,7 @@ const MOST_ANGLE_RAD: f64 = 1e4;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 #[schemars(inline)]
-pub struct Swarm {
+pub struct Flock {
     /// Who is nearer than this, from centre to centre, is too near, in metres.
     #[schemars(range(min = 0.0, max = 10_000.0))]
     pub separation_m: f64,
@@ -63,7 +63,7 @@ pub struct Swarm {
     pub speed_m_s: Option<f64>,
 }
 
-impl Default for Swarm {
+impl Default for Flock {
     fn default() -> Self {
         Self {
             separation_m: 1.0,
@@ -91,7 +91,7 @@ pub struct Sums {
     pub way_to_near: Point,
 }
 
-/// [`Swarm`] in a body.
+/// [`Flock`] in a body.
 #[derive(Debug, Clone)]
 pub struct Ready {
     separation_m: f64,
@@ -107,7 +107,7 @@ pub struct Ready {
 }
 
 impl Ready {
-    pub(super) fn new(spec: &Swarm, body: &Body) -> Self {
+    pub(super) fn new(spec: &Flock, body: &Body) -> Self {
         Self {
             separation_m: spec.separation_m,
             separation: spec.separation,

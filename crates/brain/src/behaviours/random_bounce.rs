@@ -24,7 +24,7 @@ const LEAST_BLIND_RAD: f64 = FRAC_PI_4;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 #[schemars(inline)]
-pub struct Bounce {
+pub struct RandomBounce {
     /// It turns so far before what stands ahead, from its hull, in metres, and brakes in time for
     /// that; at most half as far as its range sensors see.
     #[schemars(range(min = 0.0, max = 1000.0))]
@@ -38,7 +38,7 @@ pub struct Bounce {
     pub speed_m_s: Option<f64>,
 }
 
-impl Default for Bounce {
+impl Default for RandomBounce {
     fn default() -> Self {
         Self {
             turn_at_m: 0.5,
@@ -48,7 +48,7 @@ impl Default for Bounce {
     }
 }
 
-/// [`Bounce`] in a body.
+/// [`RandomBounce`] in a body.
 #[derive(Debug, Clone)]
 pub(crate) struct Ready {
     turn_at_m: f64,
@@ -71,7 +71,7 @@ pub(crate) enum Memory {
 const GOING: Memory = Memory::Going { since_s: 0.0 };
 
 impl Ready {
-    pub(super) fn new(spec: &Bounce, body: &Body) -> Self {
+    pub(super) fn new(spec: &RandomBounce, body: &Body) -> Self {
         let half_sight_m = half_sight_m(body);
         Self {
             turn_at_m: spec.turn_at_m.min(half_sight_m),
@@ -171,10 +171,10 @@ mod tests {
     use proptest::prelude::*;
     use std::sync::Arc;
 
-    fn brain(body: &Body, bounce: Bounce) -> Brain {
+    fn brain(body: &Body, bounce: RandomBounce) -> Brain {
         let behaviours = vec![
             BehaviourSpec::Cruise(Cruise::default()),
-            BehaviourSpec::Bounce(bounce),
+            BehaviourSpec::RandomBounce(bounce),
         ];
         let spec = BrainSpec {
             behaviours,
@@ -208,7 +208,8 @@ mod tests {
         ] {
             let mut walk = Walk::new(body.clone(), room(5.0, 5.0), [2.5, 2.5], 0.3);
             walk.wiring = wiring;
-            let squares = squares_visited(&mut walk, &mut brain(&body, Bounce::default()), 600);
+            let squares =
+                squares_visited(&mut walk, &mut brain(&body, RandomBounce::default()), 600);
             assert!(squares >= 24, "{squares} of 25");
             assert!(walk.least_gap_m > 0.0, "{}", walk.least_gap_m);
         }
@@ -239,7 +240,7 @@ mod tests {
         body.rings.clear();
         let mut walk = Walk::new(body.clone(), room(5.0, 5.0), [2.5, 2.5], 0.3);
         walk.wiring.touch = true;
-        let squares = squares_visited(&mut walk, &mut brain(&body, Bounce::default()), 600);
+        let squares = squares_visited(&mut walk, &mut brain(&body, RandomBounce::default()), 600);
         assert!(squares >= 24, "{squares} of 25");
     }
 
@@ -248,14 +249,14 @@ mod tests {
         let mut body = rover();
         body.rings[0].range_m = 0.6;
         let mut walk = Walk::new(body.clone(), room(9.0, 9.0), [4.0, 4.0], 0.0);
-        walk.go(&mut brain(&body, Bounce::default()), 20);
+        walk.go(&mut brain(&body, RandomBounce::default()), 20);
         assert!(walk.at.x > 4.3, "{:?}", walk.at);
     }
 
     /// The angle by which it turns when it stands before what it sees, with a compass or without.
     fn turn_rad(ranges_m: &[f64], dice: [u32; 4], has_compass: bool) -> f64 {
         let body = rover();
-        let mut brain = brain(&body, Bounce::default());
+        let mut brain = brain(&body, RandomBounce::default());
         let mut turned_rad = 0.0;
         for step in 0..60 {
             let command = brain.step(&Percept {
@@ -323,7 +324,7 @@ mod tests {
     fn a_robot_that_cannot_turn_loses_patience() {
         let mut body = rover();
         body.max_turn_rate_rad_s = 0.0;
-        let mut brain = brain(&body, Bounce::default());
+        let mut brain = brain(&body, RandomBounce::default());
         let walled = |range_m| Percept {
             scans: vec![Scan {
                 age_s: Some(0.0),

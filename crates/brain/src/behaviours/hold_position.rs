@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 #[schemars(inline)]
-pub struct Hold {
+pub struct HoldPosition {
     /// The place, in metres; left out, where it is when it first has its way.
     pub at_m: Option<Point>,
     /// It is at a place that is no farther, in metres.
@@ -26,7 +26,7 @@ pub struct Hold {
     pub value: f64,
 }
 
-impl Default for Hold {
+impl Default for HoldPosition {
     fn default() -> Self {
         Self {
             at_m: None,
@@ -36,7 +36,7 @@ impl Default for Hold {
     }
 }
 
-/// [`Hold`] in a body.
+/// [`HoldPosition`] in a body.
 #[derive(Debug, Clone)]
 pub(crate) struct Ready {
     at: Option<Point>,
@@ -47,7 +47,7 @@ pub(crate) struct Ready {
 pub(crate) type Memory = Option<Box<Point>>;
 
 impl Ready {
-    pub(super) fn new(spec: &Hold, body: &Body) -> Self {
+    pub(super) fn new(spec: &HoldPosition, body: &Body) -> Self {
         Self {
             at: spec.at_m,
             aim: Aim {

@@ -16,15 +16,15 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 #[schemars(inline)]
-pub struct Home {
+pub struct ReturnHome {
     /// The base, in metres; left out, where the robot was first switched on.
     pub at_m: Option<Point>,
     /// Share of the battery at which it goes home in any case.
     #[schemars(range(min = 0.0, max = 1.0))]
-    pub below: f64,
+    pub min_charge: f64,
     /// It goes home when the battery lasts for no more than so many times the straight way.
     #[schemars(range(min = 1.0, max = 100.0))]
-    pub margin: f64,
+    pub reserve_factor: f64,
     /// It is at a place that is no farther, in metres.
     #[schemars(range(min = 0.01, max = 1000.0))]
     pub within_m: f64,
@@ -33,12 +33,12 @@ pub struct Home {
     pub value: f64,
 }
 
-impl Default for Home {
+impl Default for ReturnHome {
     fn default() -> Self {
         Self {
             at_m: None,
-            below: 0.1,
-            margin: 2.0,
+            min_charge: 0.1,
+            reserve_factor: 2.0,
             within_m: 1.0,
             value: 1000.0,
         }
@@ -49,10 +49,10 @@ impl Default for Home {
 const GAINED: f64 = 0.2;
 const FULL: f64 = 0.95;
 
-/// [`Home`] in a body.
+/// [`ReturnHome`] in a body.
 #[derive(Debug, Clone)]
 pub(crate) struct Ready {
-    spec: Home,
+    spec: ReturnHome,
     aim: Aim,
 }
 
@@ -60,7 +60,7 @@ pub(crate) struct Ready {
 pub(crate) type Memory = Option<Box<(Point, Option<f64>)>>;
 
 impl Ready {
-    pub(super) fn new(spec: &Home, body: &Body) -> Self {
+    pub(super) fn new(spec: &ReturnHome, body: &Body) -> Self {
         Self {
             spec: spec.clone(),
             aim: Aim {
@@ -76,7 +76,8 @@ impl Ready {
     fn low_since(&self, low: Option<f64>, way_m: f64, beliefs: &Beliefs) -> Option<f64> {
         let left = beliefs.battery_left()?;
         let way_s = way_m / self.aim.speed_m_s.max(1e-6);
-        let is_low = left <= self.spec.below || beliefs.battery_s() < self.spec.margin * way_s;
+        let is_low =
+            left <= self.spec.min_charge || beliefs.battery_s() < self.spec.reserve_factor * way_s;
         let low = low.filter(|low| left < (low + GAINED).min(FULL));
         match low {
             Some(low) => Some(low.min(left)),

@@ -22,7 +22,7 @@ const OVERLAP: f64 = 0.1;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 #[schemars(inline)]
-pub struct Lanes {
+pub struct Lawnmower {
     /// From one lane to the next, in metres; left out, as wide as its detector sees, less a tenth.
     #[schemars(range(min = 0.1, max = 10_000.0))]
     pub width_m: Option<f64>,
@@ -34,7 +34,7 @@ pub struct Lanes {
     pub value: f64,
 }
 
-impl Default for Lanes {
+impl Default for Lawnmower {
     fn default() -> Self {
         Self {
             width_m: None,
@@ -47,7 +47,7 @@ impl Default for Lanes {
 /// Nobody has more lanes.
 const MOST_CORNERS: usize = 100_000;
 
-/// [`Lanes`] in a body.
+/// [`Lawnmower`] in a body.
 #[derive(Debug, Clone)]
 pub(crate) struct Ready {
     width_m: f64,
@@ -72,7 +72,7 @@ pub(crate) struct Progress {
 }
 
 impl Ready {
-    pub(super) fn new(spec: &Lanes, body: &Body) -> Self {
+    pub(super) fn new(spec: &Lawnmower, body: &Body) -> Self {
         let (width_m, range_m) = swath_m(body);
         let width_m = spec.width_m.unwrap_or(width_m * (1.0 - OVERLAP));
         Self {

@@ -17,7 +17,9 @@ pub(super) fn errors(checked: &Checked, at: &Place) -> Vec<InputError> {
     let mut errors = Vec::new();
     let least_m = 2.0 * (scenario.contact_m + scenario.skin_m);
     if 2.0 * half_m < least_m {
-        let allowed = format!("at least {least_m:.3} each way for these robots, as it wraps");
+        let allowed = format!(
+            "at least {least_m:.3} each way for these robots, because the world is periodic"
+        );
         errors.push(at.key("world").key("size_m").error(allowed));
     }
     for (name, robot) in &spec.robots {
@@ -34,9 +36,9 @@ pub(super) fn errors(checked: &Checked, at: &Place) -> Vec<InputError> {
 
 fn allowed(most_m: f64) -> String {
     if most_m > 0.0 {
-        format!("at most {most_m:.3}, somewhat less than half of a world that wraps")
+        format!("at most {most_m:.3}, somewhat less than half of a periodic world")
     } else {
-        "none: the world wraps and is too small".to_owned()
+        "none: the world is periodic and too small".to_owned()
     }
 }
 

@@ -41,7 +41,7 @@ const PLACES: f64 = 3.0;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 #[schemars(inline)]
-pub struct Seek {
+pub struct BayesianSearch {
     /// Its speed, in m/s; left out, the most that the body can.
     #[schemars(range(min = 0.0, max = 100.0))]
     pub speed_m_s: Option<f64>,
@@ -50,7 +50,7 @@ pub struct Seek {
     pub value: f64,
 }
 
-impl Default for Seek {
+impl Default for BayesianSearch {
     fn default() -> Self {
         Self {
             speed_m_s: None,
@@ -59,7 +59,7 @@ impl Default for Seek {
     }
 }
 
-/// [`Seek`] in a body.
+/// [`BayesianSearch`] in a body.
 #[derive(Debug, Clone)]
 pub(crate) struct Ready {
     aim: Aim,
@@ -76,7 +76,7 @@ pub(crate) struct Search {
 }
 
 impl Ready {
-    pub(super) fn new(spec: &Seek, body: &Body) -> Self {
+    pub(super) fn new(spec: &BayesianSearch, body: &Body) -> Self {
         Self {
             aim: aim(spec.speed_m_s, spec.value, body),
             outlook: Outlook::new(&body.detectors),
@@ -88,8 +88,8 @@ impl Ready {
         let Known { map, pose, beliefs } = known;
         let (Search { survey, part, .. }, outlook) = (search, &self.outlook);
         part.renew(beliefs, map);
-        let stop_s = STOP_S + outlook.looks(LOOKED) * beliefs.look_s();
-        let time_s = |way_m: f64| stop_s + way_m / self.aim.speed_m_s.max(1e-6);
+        let stop_duration_s = STOP_S + outlook.looks(LOOKED) * beliefs.look_s();
+        let time_s = |way_m: f64| stop_duration_s + way_m / self.aim.speed_m_s.max(1e-6);
         let apart = apart(senses.body, map);
         let worth = |cell: usize, way_m: f64, least: f64| {
             let [column, row] = map.field.column_and_row_of(cell);

@@ -79,7 +79,7 @@ fn the_second_pass_runs_across_the_first() {
 
 #[test]
 fn after_a_pass_comes_the_next_and_one_that_is_hard_to_get_to_is_left_out() {
-    let ready = Ready::new(&Lanes::default(), &crate::world_of_walls::rover());
+    let ready = Ready::new(&Lawnmower::default(), &crate::world_of_walls::rover());
     let field = field(20.0, 10.0);
     let mut progress = Progress::of([0, 1]);
     let first = ready.place(&mut progress, &field).unwrap();

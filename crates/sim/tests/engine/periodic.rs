@@ -12,7 +12,7 @@ const SIZE: Torus = Torus {
 
 fn world(more: &str, kinds: &str) -> String {
     format!(
-        "[clock]\nstep_s = 0.1\ncap_s = 100\n[world]\nsize_m = [20, 16]\nwraps = true\n{more}\n{kinds}"
+        "[clock]\nstep_s = 0.1\ntime_limit_s = 100\n[world]\nsize_m = [20, 16]\nperiodic = true\n{more}\n{kinds}"
     )
 }
 
@@ -201,10 +201,10 @@ fn busy(seed: u64, by: Point) -> Simulation {
          start = {{ kind = \"fixed\", at_m = {:?} }}\n\
          drive = {{ max_speed_m_s = 2, max_turn_rate_deg_s = 90 }}\n\
          sensors.sonar = {{ kind = \"range\", rays = 8, range_m = 1.5, noise_m = 0.01 }}\n\
-         sensors.eye = {{ kind = \"items\", range_m = 1, noise_m = 0.1, detects = {{ mine = 0.2 }} }}\n\
+         sensors.eye = {{ kind = \"items\", range_m = 1, noise_m = 0.1, detection_probability = {{ mine = 0.2 }} }}\n\
          sensors.mates = {{ kind = \"robots\", range_m = 2, noise_m = 0.1, course_noise_deg = 5 }}\n\
-         brain = {{ speed_limited_by_sight = false, behaviours = [\
-         {{ kind = \"swarm\", separation = 0, cohesion = 0.3 }}, {{ kind = \"bounce\", turn_at_m = 0 }}] }}",
+         brain = {{ limit_speed_to_stopping_distance = false, behaviours = [\
+         {{ kind = \"flock\", separation = 0, cohesion = 0.3 }}, {{ kind = \"random_bounce\", turn_at_m = 0 }}] }}",
         places.collect::<Vec<[f64; 2]>>()
     );
     start(&world("", &rovers))
