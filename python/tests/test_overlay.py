@@ -13,7 +13,8 @@ import pytest
 
 import agent_economy as ae
 from agent_economy.server import Workspace
-from agent_economy.server.runs.session import ON_THE_WAY, Session
+from agent_economy.server.runs.display import MAX_IN_FLIGHT
+from agent_economy.server.runs.session import Session
 from agent_economy.server.transport import ConnectionClosedError
 
 Said = dict[str, Any]
@@ -238,8 +239,8 @@ def test_a_page_that_draws_nothing_gets_no_more_overlays_than_frames(tmp_path: P
         *[({"type": "step", "steps": "bogus"}, -1)] * 50,
     ]
     sent = served(tmp_path, script, draws=False)
-    assert [kind_of(each) for each in sent].count(FRAME) == ON_THE_WAY
-    assert [kind_of(each) for each in sent].count(OVERLAY) == ON_THE_WAY - 1
+    assert [kind_of(each) for each in sent].count(FRAME) == MAX_IN_FLIGHT
+    assert [kind_of(each) for each in sent].count(OVERLAY) == MAX_IN_FLIGHT - 1
 
 
 def test_layers_that_are_none_are_refused_in_words(tmp_path: Path) -> None:

@@ -18,7 +18,7 @@ from test_recording import DRIVE, SCENARIOS, SHORT, short
 import agent_economy as ae
 from agent_economy import InputError
 from agent_economy.recording.file import File
-from agent_economy.recording.summary import glance
+from agent_economy.recording.summary import summarise
 
 JUNK = (
     "",
@@ -74,7 +74,7 @@ def told(path: Path) -> list[str]:
     """Return what is wrong with a file, by all that reads it; nothing but that comes out of it."""
     words = []
     read: Callable[[Path], object]
-    for read in (ae.rerun, glance):
+    for read in (ae.rerun, summarise):
         try:
             read(path)
         except InputError as error:

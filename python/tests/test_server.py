@@ -20,7 +20,8 @@ import agent_economy as ae
 from agent_economy.server import Workspace, app
 from agent_economy.server.app import MAX_SESSIONS
 from agent_economy.server.request_body import MAX_BYTES
-from agent_economy.server.runs.session import ON_THE_WAY, Session
+from agent_economy.server.runs.display import MAX_IN_FLIGHT
+from agent_economy.server.runs.session import Session
 from agent_economy.server.runs.thumbnail import ITEM, ROBOT, WALL
 from agent_economy.server.transport import ConnectionClosedError
 
@@ -423,10 +424,10 @@ def test_a_page_that_draws_nothing_gets_three_frames_and_the_run_goes_on(
             time.sleep(0.02)
             page.say("bogus")
             page.until("refused")
-            waited += len(page.frames) >= ON_THE_WAY
-        assert len(page.frames) == ON_THE_WAY
+            waited += len(page.frames) >= MAX_IN_FLIGHT
+        assert len(page.frames) == MAX_IN_FLIGHT
         page.draws = True
-        page.say("got", frame=ON_THE_WAY)
+        page.say("got", frame=MAX_IN_FLIGHT)
         assert page.until("state")["tick"] > 0
 
 

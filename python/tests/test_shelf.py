@@ -19,7 +19,7 @@ from agent_economy import _core
 from agent_economy.brain import Command
 from agent_economy.server import Workspace
 from agent_economy.server.recordings.store import FOLDER, RecordingStore
-from agent_economy.server.recordings.writer import Saving
+from agent_economy.server.recordings.writer import RecordingWriter
 from agent_economy.server.runs.timeline import Timeline
 from agent_economy.stepped import Change
 
@@ -31,11 +31,11 @@ FOREVER_S = 60.0
 def slowly(monkeypatch: pytest.MonkeyPatch) -> None:
     """Have each step that is saved take so long that there is time to stop."""
 
-    def room_of(_: ae.Simulation) -> int:
+    def size_of_step(_: ae.Simulation) -> int:
         time.sleep(0.01)
         return 1
 
-    monkeypatch.setattr("agent_economy.server.recordings.writer.room_of", room_of)
+    monkeypatch.setattr("agent_economy.server.recordings.writer.size_of_step", size_of_step)
 
 
 def saved(page: Page) -> dict[str, Any]:
@@ -69,7 +69,7 @@ def turning(turn_rate_rad_s: float) -> Command:
 
 def begun(tick: int = 30) -> Timeline:
     timeline = Timeline(ae.Scenario.load("search-beliefs"), 7, 0, [Change(10, COUNT, 6)])
-    assert timeline.toward(tick, FOREVER_S)
+    assert timeline.seek(tick, FOREVER_S)
     return timeline
 
 
@@ -171,10 +171,10 @@ def test_what_came_from_outside_comes_again(tmp_path: Path) -> None:
     which, recorded = RecordingStore(Workspace(tmp_path)).load("outside.mcap")
     timeline = Timeline(which.scenario, which.seed, which.run, recorded=recorded)
     for tick in (23, 5, 23):
-        assert timeline.toward(tick, FOREVER_S)
+        assert timeline.seek(tick, FOREVER_S)
     assert timeline.simulation.hash == expected
-    assert timeline.replay.differs_at is None
-    again = Saving(timeline.course, tmp_path).write()
+    assert timeline.recorded.mismatch_tick is None
+    again = RecordingWriter(timeline.history, tmp_path).write()
     assert again is not None
     assert ae.rerun(again).hash == f"{expected:016x}"
 
@@ -189,8 +189,8 @@ def test_a_run_that_is_not_as_recorded_is_told_with_its_tick(tmp_path: Path) -> 
         recording.step(10)
     which, recorded = RecordingStore(Workspace(tmp_path)).load("behind.mcap")
     timeline = Timeline(which.scenario, which.seed, which.run, recorded=recorded)
-    assert timeline.toward(21, FOREVER_S)
-    assert timeline.replay.differs_at == ae.rerun(path).differs_at
+    assert timeline.seek(21, FOREVER_S)
+    assert timeline.recorded.mismatch_tick == ae.rerun(path).differs_at
 
 
 @pytest.mark.usefixtures("slowly")
@@ -235,13 +235,13 @@ import agent_economy as ae
 from agent_economy.server.recordings import writer
 from agent_economy.server.recordings.history import RunHistory
 
-def room_of(_):
+def size_of_step(_):
     time.sleep(0.05)
     return 1
 
-writer.room_of = room_of
-course = RunHistory(ae.Scenario.load("classic"), 1, 0, (), {}, 100_000)
-writer.Saving(course, Path(sys.argv[1])).write()
+writer.size_of_step = size_of_step
+history = RunHistory(ae.Scenario.load("classic"), 1, 0, (), {}, 100_000)
+writer.RecordingWriter(history, Path(sys.argv[1])).write()
 """
 
 
@@ -273,7 +273,7 @@ def test_what_a_killed_server_left_is_removed_and_what_another_writes_is_not(
         assert not left.exists()
         (written,) = tmp_path.iterdir()
         size = written.stat().st_size
-        file = Saving(begun(5).course, tmp_path).write()
+        file = RecordingWriter(begun(5).history, tmp_path).write()
         assert file is not None
         assert set(tmp_path.iterdir()) == {written, file}
         assert living.poll() is None
@@ -283,7 +283,7 @@ def test_what_a_killed_server_left_is_removed_and_what_another_writes_is_not(
 def test_without_locks_nothing_is_removed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("agent_economy.server.recordings.temporary_files.fcntl", None)
     (left := tmp_path / ".unfinished-1.mcap").touch()
-    file = Saving(begun(5).course, tmp_path).write()
+    file = RecordingWriter(begun(5).history, tmp_path).write()
     assert set(tmp_path.iterdir()) == {left, file}
 
 
@@ -291,14 +291,14 @@ def test_what_only_has_such_a_name_stays(tmp_path: Path) -> None:
     (folder := tmp_path / ".unfinished-folder.mcap").mkdir()
     (link := tmp_path / ".unfinished-link.mcap").symlink_to(tmp_path / "elsewhere")
     (other := tmp_path / ".unfinished-notes.txt").touch()
-    file = Saving(begun(5).course, tmp_path).write()
+    file = RecordingWriter(begun(5).history, tmp_path).write()
     assert set(tmp_path.iterdir()) == {folder, link, other, file}
 
 
 def test_a_run_that_is_too_long_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("agent_economy.server.recordings.writer.MAX_ROBOT_STEPS", 100)
-    with pytest.raises(ae.InputError, match="at most 100 steps of a robot"):
-        Saving(begun(30).course, tmp_path).write()
+    with pytest.raises(ae.InputError, match="maximum is 100 robot steps"):
+        RecordingWriter(begun(30).history, tmp_path).write()
     assert list(tmp_path.iterdir()) == []
 
 
@@ -326,10 +326,10 @@ def test_a_full_disk_is_told_and_leaves_nothing(
         message = "No space left on device"
         raise OSError(28, message)
 
-    course = begun().course
+    history = begun().history
     monkeypatch.setattr("agent_economy.recording.file.Output.flush", full)
     with pytest.raises(ae.InputError, match="cannot be written: No space left"):
-        Saving(course, tmp_path).write()
+        RecordingWriter(history, tmp_path).write()
     assert list(tmp_path.iterdir()) == []
 
 

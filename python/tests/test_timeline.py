@@ -7,7 +7,9 @@ import pytest
 import agent_economy as ae
 from agent_economy import _core, begin
 from agent_economy.recording.reading import Point, Recorded
-from agent_economy.server.runs.timeline import FIRST_EVERY, MAX_KEPT, Timeline
+from agent_economy.server.runs import snapshots
+from agent_economy.server.runs.snapshots import FIRST_INTERVAL, MAX_SNAPSHOTS
+from agent_economy.server.runs.timeline import Timeline
 from agent_economy.stepped import Change
 
 FOREVER_S = 60.0
@@ -20,7 +22,7 @@ def begun(log: tuple[Change, ...] = ()) -> Timeline:
 def hashes(timeline: Timeline, ticks: range | list[int]) -> list[int]:
     told = []
     for tick in ticks:
-        assert timeline.toward(tick, FOREVER_S)
+        assert timeline.seek(tick, FOREVER_S)
         assert timeline.tick == tick
         told.append(timeline.simulation.hash)
     return told
@@ -28,10 +30,10 @@ def hashes(timeline: Timeline, ticks: range | list[int]) -> list[int]:
 
 def test_back_and_forth_gives_the_same_run() -> None:
     timeline = begun()
-    ticks = [0, 1, FIRST_EVERY - 1, FIRST_EVERY, FIRST_EVERY + 1, 120, 200]
+    ticks = [0, 1, FIRST_INTERVAL - 1, FIRST_INTERVAL, FIRST_INTERVAL + 1, 120, 200]
     once = hashes(timeline, ticks)
     assert hashes(timeline, ticks[::-1]) == once[::-1]
-    assert timeline.edge == 200
+    assert timeline.latest_tick == 200
     simulation = ae.Simulation("search-beliefs", 7)
     simulation.step(200)
     assert simulation.hash == once[-1]
@@ -39,12 +41,12 @@ def test_back_and_forth_gives_the_same_run() -> None:
 
 def test_back_and_forth_gives_the_same_classic_run() -> None:
     timeline = Timeline(ae.Scenario.load("classic"), 7)
-    ticks = [0, 1, 11, 12, FIRST_EVERY, 77, 200]
+    ticks = [0, 1, 11, 12, FIRST_INTERVAL, 77, 200]
     once = hashes(timeline, ticks)
     assert hashes(timeline, ticks[::-1]) == once[::-1]
-    timeline.toward(60, FOREVER_S)
+    timeline.seek(60, FOREVER_S)
     timeline.change("robots.wanderer.count", 40)
-    timeline.toward(100, FOREVER_S)
+    timeline.seek(100, FOREVER_S)
     timeline.change("contact", "ahead")
     timeline.undo()
     changed = hashes(timeline, [100, 59, 60, 30, 100])
@@ -55,10 +57,10 @@ def test_back_and_forth_gives_the_same_classic_run() -> None:
 
 def test_a_classic_run_that_is_over_goes_on_after_a_change() -> None:
     timeline = Timeline(ae.Scenario.load("classic").replace("clock.time_limit_s", 5), 7)
-    assert timeline.toward(100_000, FOREVER_S)
+    assert timeline.seek(100_000, FOREVER_S)
     assert timeline.tick == 5 * 56
     timeline.change("clock.time_limit_s", 10)
-    assert timeline.toward(300, FOREVER_S)
+    assert timeline.seek(300, FOREVER_S)
     assert timeline.tick == 300
 
 
@@ -70,16 +72,16 @@ def test_a_classic_run_that_ends_before_its_recording_stands_there_and_is_told()
         points.append(Point(tick, 0, f"{simulation.hash:016x}"))
         simulation.step()
     timeline = Timeline(scenario, 7, recorded=Recorded(points))
-    assert timeline.edge == 100
-    assert timeline.toward(100, FOREVER_S)
-    assert (timeline.tick, timeline.edge, timeline.replay.differs_at) == (56, 56, 57)
+    assert timeline.latest_tick == 100
+    assert timeline.seek(100, FOREVER_S)
+    assert (timeline.tick, timeline.latest_tick, timeline.recorded.mismatch_tick) == (56, 56, 57)
 
 
 def test_a_change_makes_void_what_came_after_it_and_its_log_gives_the_run_again() -> None:
     timeline = begun()
     hashes(timeline, [150, 60])
     timeline.change("robots.rover.count", 6)
-    assert (timeline.edge, timeline.tick) == (60, 60)
+    assert (timeline.latest_tick, timeline.tick) == (60, 60)
     changed = hashes(timeline, [60, 90, 100, 90, 60, 30])
     assert changed[0] == changed[4]
     again = begun(timeline.log)
@@ -92,7 +94,7 @@ def test_before_a_change_the_scenario_is_the_old_one_and_after_it_the_new_one() 
     timeline.change("robots.rover.count", 6)
     counts = []
     for tick in (59, 60, 61, 0):
-        timeline.toward(tick, FOREVER_S)
+        timeline.seek(tick, FOREVER_S)
         counts.append(len(timeline.simulation.robots))
     assert counts == [4, 6, 6, 4]
 
@@ -101,19 +103,19 @@ def test_what_is_put_where_it_is_already_changes_nothing() -> None:
     timeline = begun()
     hashes(timeline, [30, 10])
     timeline.change("robots.rover.count", 4)
-    assert (timeline.edge, timeline.log) == (30, ())
+    assert (timeline.latest_tick, timeline.log) == (30, ())
 
 
 def test_undo_gives_the_run_in_which_nothing_had_been_changed() -> None:
     timeline = begun()
     once = hashes(timeline, [40, 70])
-    timeline.toward(40, FOREVER_S)
+    timeline.seek(40, FOREVER_S)
     # The scenario says nothing of this one: there is no value that could be put back.
     timeline.change("robots.rover.radius_m", 0.3)
     assert hashes(timeline, [70]) != once[1:]
     timeline.undo()
     assert timeline.log == ()
-    assert timeline.tick <= timeline.edge == 40
+    assert timeline.tick <= timeline.latest_tick == 40
     assert hashes(timeline, [40, 70]) == once
 
 
@@ -123,9 +125,9 @@ def test_undo_takes_back_one_change_after_another(tick: int) -> None:
     before = hashes(timeline, [tick])
     for count in (6, 5):
         timeline.change("robots.rover.count", count)
-    timeline.toward(tick + 10, FOREVER_S)
+    timeline.seek(tick + 10, FOREVER_S)
     timeline.undo()
-    timeline.toward(tick + 5, FOREVER_S)
+    timeline.seek(tick + 5, FOREVER_S)
     assert len(timeline.simulation.robots) == 6
     timeline.undo()
     assert hashes(timeline, [tick]) == before
@@ -140,7 +142,7 @@ def test_a_value_instead_of_another_is_as_if_that_had_never_been(tick: int) -> N
         each.change("clock.time_limit_s", 300)
     timeline.change("robots.rover.count", 6)
     for count in (90, 17, 8):
-        timeline.change("robots.rover.count", count, instead=True)
+        timeline.change("robots.rover.count", count, replaces_last=True)
     straight.change("robots.rover.count", 8)
     assert timeline.log == straight.log
     assert hashes(timeline, [tick, tick + 40]) == hashes(straight, [tick, tick + 40])
@@ -155,7 +157,7 @@ def test_a_value_instead_that_is_not_allowed_leaves_the_one_that_is() -> None:
     before = hashes(timeline, [30])
     for count in (-1, 500_000):
         with pytest.raises(ae.InputError):
-            timeline.change("robots.rover.count", count, instead=True)
+            timeline.change("robots.rover.count", count, replaces_last=True)
     assert hashes(timeline, [30]) == before
     assert [change.value for change in timeline.log] == [6]
 
@@ -164,17 +166,17 @@ def test_drawn_back_to_where_it_began_nothing_has_changed() -> None:
     timeline = begun()
     before = hashes(timeline, [30])
     timeline.change("robots.rover.count", 6)
-    timeline.change("robots.rover.count", 4, instead=True)
+    timeline.change("robots.rover.count", 4, replaces_last=True)
     assert timeline.log == ()
     assert hashes(timeline, [30]) == before
 
 
 def test_a_value_instead_stands_beside_those_of_other_paths_and_ticks() -> None:
     timeline = begun()
-    timeline.change("robots.rover.count", 6, instead=True)
-    timeline.change("clock.time_limit_s", 300, instead=True)
-    timeline.toward(1, FOREVER_S)
-    timeline.change("clock.time_limit_s", 200, instead=True)
+    timeline.change("robots.rover.count", 6, replaces_last=True)
+    timeline.change("clock.time_limit_s", 300, replaces_last=True)
+    timeline.seek(1, FOREVER_S)
+    timeline.change("clock.time_limit_s", 200, replaces_last=True)
     assert [change.value for change in timeline.log] == [6, 300, 200]
 
 
@@ -184,7 +186,7 @@ def test_what_was_not_put_there_is_not_what_the_next_value_takes_the_place_of(fi
     timeline.change("robots.rover.count", 6)
     with suppress(ae.InputError):
         timeline.change("robots.rover.count", first)
-    timeline.change("robots.rover.count", 8, instead=True)
+    timeline.change("robots.rover.count", 8, replaces_last=True)
     assert [change.value for change in timeline.log] == [6, 8]
 
 
@@ -193,7 +195,7 @@ def test_a_value_takes_the_place_of_the_last_also_if_the_run_was_elsewhere_meanw
     hashes(timeline, [30])
     timeline.change("robots.rover.count", 6)
     hashes(timeline, [90, 30])
-    timeline.change("robots.rover.count", 8, instead=True)
+    timeline.change("robots.rover.count", 8, replaces_last=True)
     assert timeline.log == (Change(30, "robots.rover.count", 8),)
     straight = begun()
     hashes(straight, [30])
@@ -211,12 +213,12 @@ def test_true_is_no_number_that_is_there_already() -> None:
 def test_however_few_snapshots_there_may_be_the_one_of_before_a_change_is_kept(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(Timeline, "_most", lambda _: 3)
+    monkeypatch.setattr(snapshots, "capacity", lambda _: 3)
     timeline = begun()
     for tick in (10, 20, 30, 40):
-        timeline.toward(tick, FOREVER_S)
+        timeline.seek(tick, FOREVER_S)
         timeline.change("robots.rover.count", tick)
-        timeline.change("robots.rover.count", tick + 1, instead=True)
+        timeline.change("robots.rover.count", tick + 1, replaces_last=True)
     assert [change.value for change in timeline.log] == [11, 21, 31, 41]
 
 
@@ -236,18 +238,18 @@ def test_what_a_robots_model_says_already_changes_nothing() -> None:
 def test_a_run_ends_where_it_is_over_however_fast_it_goes(name: str) -> None:
     scenario = ae.Scenario.load(name)
     timeline = Timeline(scenario, 7)
-    assert timeline.toward(10_000, FOREVER_S)
+    assert timeline.seek(10_000, FOREVER_S)
     simulation = begin.begun(scenario, 7, 0)
     while not simulation.is_over:
         simulation.step()
-    assert timeline.edge == timeline.tick == simulation.tick < 10_000
+    assert timeline.latest_tick == timeline.tick == simulation.tick < 10_000
     assert timeline.simulation.hash == simulation.hash
 
 
 def test_a_long_way_is_gone_in_pieces_of_the_time_that_there_is() -> None:
     timeline = Timeline(ae.Scenario.load("search-beliefs").replace("clock.time_limit_s", 10_000), 1)
     pieces = 0
-    while not timeline.toward(2_000, 0.0):
+    while not timeline.seek(2_000, 0.0):
         pieces += 1
     assert pieces > 1
 
@@ -255,9 +257,9 @@ def test_a_long_way_is_gone_in_pieces_of_the_time_that_there_is() -> None:
 def test_snapshots_are_thinned_out_and_all_moments_can_still_be_gone_to() -> None:
     long = ae.Scenario.load("search").replace("clock.time_limit_s", 10_000).replace("items.mine.count", 0)
     timeline = Timeline(long, 1)
-    end = FIRST_EVERY * (MAX_KEPT + 10)
+    end = FIRST_INTERVAL * (MAX_SNAPSHOTS + 10)
     last = hashes(timeline, [end])
-    assert len(timeline._kept) <= MAX_KEPT
+    assert len(timeline._snapshots._kept) <= MAX_SNAPSHOTS
     assert hashes(timeline, [17, end])[1:] == last
 
 
@@ -265,6 +267,6 @@ def test_a_change_that_has_no_room_is_told_when_its_tick_comes() -> None:
     log = (Change(20, "robots.rover.count", 100_000),)
     timeline = begun(log)
     with pytest.raises(ae.InputError):
-        timeline.toward(30, FOREVER_S)
+        timeline.seek(30, FOREVER_S)
     assert timeline.log == ()
-    assert timeline.toward(30, FOREVER_S)
+    assert timeline.seek(30, FOREVER_S)

@@ -68,7 +68,7 @@ def compared(simulation: Stepped, identity: Identity, recorded: Recorded) -> Rer
     differs_at = None
     for point in recorded.points:
         changes = recorded.changes[: point.changes]
-        for _ in taken_again(simulation, simulation.step, changes, recorded.inputs, point.tick):
+        for _ in replay_steps(simulation, simulation.step, changes, recorded.inputs, point.tick):
             pass
         if differs_at is None and f"{simulation.hash:016x}" != point.hash:
             differs_at = point.tick
@@ -85,7 +85,7 @@ def compared(simulation: Stepped, identity: Identity, recorded: Recorded) -> Rer
     )
 
 
-def taken_again(
+def replay_steps(
     simulation: Stepped,
     step: Callable[..., object],
     changes: Sequence[Change],

@@ -20,7 +20,7 @@ MAGIC = b"\x89MCAP0\r\n"
 
 
 @dataclass(frozen=True)
-class Glance:
+class RecordingSummary:
     """What a recording is of.
 
     Attributes:
@@ -40,7 +40,7 @@ class Glance:
     length_s: float | None
 
 
-def glance(path: Path) -> Glance:
+def summarise(path: Path) -> RecordingSummary:
     """Read what a recording is of, without what is between its ends.
 
     Raises:
@@ -49,7 +49,7 @@ def glance(path: Path) -> Glance:
     with told(path), path.open("rb") as stream:
         run = beginning(stream)
         end = ending(stream)
-        return Glance(
+        return RecordingSummary(
             run.text("scenario"),
             run.whole("seed"),
             run.whole("run"),

@@ -92,7 +92,7 @@ from typing import Any
 from agent_economy import given
 from agent_economy._core import InputError
 from agent_economy.scenario import Given
-from agent_economy.stepped import Change
+from agent_economy.stepped import Change as LoggedChange
 
 MAX_TICK = 2**53
 MAX_STEPS = 1_000_000
@@ -122,7 +122,7 @@ class Open:
     recording: str | None
     seed: int | None
     run: int
-    changes: tuple[Change, ...] | None
+    changes: tuple[LoggedChange, ...] | None
     tick: int
 
 
@@ -146,19 +146,19 @@ class Step:
 
 
 @dataclass(frozen=True)
-class Go:
+class Seek:
     """Go to a tick, and stand."""
 
     tick: int
 
 
 @dataclass(frozen=True)
-class Put:
+class Change:
     """Put a value into the scenario; `instead` of the one put there before, at the same tick."""
 
     path: str
     value: Given
-    instead: bool
+    replaces_last: bool
 
 
 @dataclass(frozen=True)
@@ -197,14 +197,26 @@ class Layers:
 
 
 @dataclass(frozen=True)
-class Got:
+class Acknowledge:
     """A frame has been drawn."""
 
     frame: int
 
 
 Message = (
-    Open | Play | Pause | Step | Go | Put | Undo | Save | Cancel | Export | Select | Layers | Got
+    Open
+    | Play
+    | Pause
+    | Step
+    | Seek
+    | Change
+    | Undo
+    | Save
+    | Cancel
+    | Export
+    | Select
+    | Layers
+    | Acknowledge
 )
 
 
@@ -287,15 +299,15 @@ def member(said: object) -> Member:
     )
 
 
-def change(said: object) -> Change:
+def change(said: object) -> LoggedChange:
     """Return a change of a log."""
     allowed = "[tick, path, value]"
-    is_change = isinstance(said, list) and len(said) == len(Change._fields)
+    is_change = isinstance(said, list) and len(said) == len(LoggedChange._fields)
     given.check(is_change, "open.changes", said, allowed)
     assert isinstance(said, list)  # noqa: S101  (checked above)
     tick, path, value = said
     given.check(given.is_text(path), "open.changes", path, "a path, as a text")
-    return Change(whole("open.changes", tick, MAX_TICK), path, finite("open.changes", value))
+    return LoggedChange(whole("open.changes", tick, MAX_TICK), path, finite("open.changes", value))
 
 
 def play(said: Mapping[str, Any]) -> Play:
@@ -316,14 +328,14 @@ def step(said: Mapping[str, Any]) -> Step:
     return Step(steps)
 
 
-def put(said: Mapping[str, Any]) -> Put:
+def put(said: Mapping[str, Any]) -> Change:
     """Return a `change`."""
     path = said.get("path")
     given.check(given.is_text(path), "change.path", path, "a path, as clock.time_limit_s")
     given.check("value" in said, "change.value", None, "given")
     instead = said.get("instead", False)
     given.check(isinstance(instead, bool), "change.instead", instead, "true or false")
-    return Put(str(path), finite("change.value", said["value"]), instead)
+    return Change(str(path), finite("change.value", said["value"]), instead)
 
 
 def select(said: Mapping[str, Any]) -> Select:
@@ -370,7 +382,7 @@ READERS: dict[str, Callable[[Mapping[str, Any]], Message]] = {
     "play": play,
     "pause": lambda _: Pause(),
     "step": step,
-    "go": lambda said: Go(whole("go.tick", said.get("tick"), MAX_TICK)),
+    "go": lambda said: Seek(whole("go.tick", said.get("tick"), MAX_TICK)),
     "change": put,
     "undo": lambda _: Undo(),
     "save": lambda _: Save(),
@@ -378,5 +390,26 @@ READERS: dict[str, Callable[[Mapping[str, Any]], Message]] = {
     "export": lambda _: Export(),
     "select": select,
     "layers": layers,
-    "got": lambda said: Got(whole("got.frame", said.get("frame"), MAX_TICK)),
+    "got": lambda said: Acknowledge(whole("got.frame", said.get("frame"), MAX_TICK)),
 }
+
+TYPES = {
+    Open: "open",
+    Play: "play",
+    Pause: "pause",
+    Step: "step",
+    Seek: "go",
+    Change: "change",
+    Undo: "undo",
+    Save: "save",
+    Cancel: "cancel",
+    Export: "export",
+    Select: "select",
+    Layers: "layers",
+    Acknowledge: "got",
+}
+
+
+def type_of(message: Message) -> str:
+    """Return the type of a message."""
+    return TYPES[type(message)]

@@ -1,4 +1,4 @@
-"""Saving a page's run while the page goes on: one recording at a time."""
+"""Saves the run of a page while the page goes on, one recording at a time."""
 
 import asyncio
 import contextlib
@@ -8,66 +8,66 @@ from typing import Any
 
 from agent_economy import given
 from agent_economy._core import InputError
-from agent_economy.server.messages import faults_of
+from agent_economy.server.messages import refused
 from agent_economy.server.recordings.history import RunHistory
 from agent_economy.server.recordings.store import RecordingStore
-from agent_economy.server.recordings.writer import Saving
+from agent_economy.server.recordings.writer import RecordingWriter
 
-TOLD_S = 0.25
-"""Between two words of how far it is."""
+PROGRESS_S = 0.25
+"""Time between two progress messages."""
 
-Tell = Callable[[dict[str, Any]], Awaitable[None]]
+Send = Callable[[dict[str, Any]], Awaitable[None]]
 
 
 class Saver:
-    """What saves the runs of one page."""
+    """Saves the runs of one page."""
 
-    def __init__(self, tell: Tell, shelf: RecordingStore, threads: Executor) -> None:
-        """Begin without anything to save."""
-        self._tell, self._shelf, self._threads = tell, shelf, threads
-        self._saving: Saving | None = None
+    def __init__(self, send: Send, store: RecordingStore, threads: Executor) -> None:
+        """Begin with nothing to save."""
+        self._send, self._store, self._threads = send, store, threads
+        self._writer: RecordingWriter | None = None
         self._task: asyncio.Task[None] | None = None
 
-    def begin(self, course: RunHistory) -> None:
+    def begin(self, history: RunHistory) -> None:
         """Save a run.
 
         Raises:
-            InputError: If another is being saved, or there is no place for recordings.
+            InputError: If another recording is being saved, or the folder of recordings is not
+                allowed.
         """
         is_free = self._task is None or self._task.done()
         given.check(
             is_free, "save", None, "one recording at a time: cancel the other, or wait for it"
         )
-        self._saving = Saving(course, self._shelf.folder)
-        self._task = asyncio.create_task(self._save(self._saving))
+        self._writer = RecordingWriter(history, self._store.folder)
+        self._task = asyncio.create_task(self._save(self._writer))
 
     def cancel(self) -> None:
-        """Stop what is being saved, if anything is."""
-        if self._saving is not None:
-            self._saving.stop()
+        """Cancel the recording that is being saved, if there is one."""
+        if self._writer is not None:
+            self._writer.cancel()
 
     async def end(self) -> None:
-        """Stop, as the page has gone."""
+        """Cancel, since the page has disconnected."""
         self.cancel()
         if self._task is not None:
             self._task.cancel()
             with contextlib.suppress(asyncio.CancelledError):
                 await asyncio.gather(self._task, return_exceptions=True)
 
-    async def _save(self, saving: Saving) -> None:
+    async def _save(self, writer: RecordingWriter) -> None:
         loop = asyncio.get_running_loop()
-        work = loop.run_in_executor(self._threads, saving.write)
+        work = loop.run_in_executor(self._threads, writer.write)
         try:
             while not work.done():
-                steps = saving.course.latest_tick
-                await self._tell({"type": "saving", "done": saving.done, "steps": steps})
-                await asyncio.wait({work}, timeout=TOLD_S)
+                steps = writer.history.latest_tick
+                await self._send({"type": "saving", "done": writer.done, "steps": steps})
+                await asyncio.wait({work}, timeout=PROGRESS_S)
             file = work.result()
         except InputError as error:
-            faults = faults_of(error)
-            await self._tell({"type": "refused", "about": "save", "path": None, "faults": faults})
+            await self._send(refused("save", error))
         else:
-            row = None if file is None else await asyncio.to_thread(self._shelf.row, file)
-            await self._tell({"type": "saved", "recording": row})
+            row = None if file is None else await asyncio.to_thread(self._store.row, file)
+            await self._send({"type": "saved", "recording": row})
         finally:
-            saving.stop()
+            writer.cancel()

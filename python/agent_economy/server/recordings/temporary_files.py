@@ -1,4 +1,4 @@
-"""Files on their way, and what killed processes left of such."""
+"""Files that are being written, and those that terminated processes have left behind."""
 
 import os
 from collections.abc import Iterator
@@ -9,47 +9,47 @@ from uuid import uuid4
 
 try:
     import fcntl
-except ImportError:  # not of this system: nobody can tell which files are still written
+except ImportError:  # Without file locks nobody can tell which files are still being written.
     fcntl = None  # type: ignore[assignment]
 
-BEGINNING = ".unfinished-"
-"""Of the names of files until they are whole; hidden ones are never listed."""
+PREFIX = ".unfinished-"
+"""Prefix of the names of files until they are complete; hidden files are never listed."""
 
 
 @contextmanager
-def unfinished(folder: Path, ending: str) -> Iterator[Path]:
-    """Give a new file, and remove it in the end, unless it has another name then."""
-    file, held = claimed(folder, ending)
+def temporary_file(folder: Path, suffix: str) -> Iterator[Path]:
+    """Create a file, and remove it on exit unless it was renamed."""
+    file, lock = locked_file(folder, suffix)
     try:
         yield file
     finally:
-        held.close()
+        lock.close()
         with suppress(OSError):
             file.unlink(missing_ok=True)
 
 
-def claimed(folder: Path, ending: str) -> tuple[Path, IO[bytes]]:
-    """Return a new file, and what holds it until it is closed or the process ends."""
+def locked_file(folder: Path, suffix: str) -> tuple[Path, IO[bytes]]:
+    """Return a new file, and what locks it until it is closed or the process ends."""
     while True:
-        file = folder / f"{BEGINNING}{uuid4().hex}{ending}"
+        file = folder / f"{PREFIX}{uuid4().hex}{suffix}"
         stream = file.open("xb")
         if fcntl is None:
-            stream.close()  # what is open cannot be given another name there
+            stream.close()  # Such systems cannot rename an open file.
             return file, stream
-        with suppress(OSError):  # there are disks on which nothing can be held
+        with suppress(OSError):  # Some file systems have no locks.
             fcntl.flock(stream, fcntl.LOCK_EX)
-        # Whoever clears the folder may have come between the two.
+        # Another process may have cleaned the folder between the two calls.
         if os.fstat(stream.fileno()).st_nlink:
             return file, stream
         stream.close()
 
 
-def clear(folder: Path, ending: str) -> None:
-    """Remove files that nobody writes any more, as whoever did so was killed."""
+def remove_abandoned(folder: Path, suffix: str) -> None:
+    """Remove the temporary files of processes that were killed."""
     if fcntl is None:
         return
-    for file in folder.glob(f"{BEGINNING}*{ending}"):
-        with suppress(OSError):  # someone holds it, or it has gone meanwhile
+    for file in folder.glob(f"{PREFIX}*{suffix}"):
+        with suppress(OSError):  # The file is locked, or has been removed meanwhile.
             if file.is_file() and not file.is_symlink():
                 with file.open("rb") as stream:
                     fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)

@@ -1,4 +1,4 @@
-"""Saving a run: it is taken again from its beginning to its edge, into a recording."""
+"""Writes the recording of a run: the run is replayed from its beginning to its latest tick."""
 
 import hashlib
 import os
@@ -11,103 +11,105 @@ from agent_economy._core import InputError
 from agent_economy.begin import begun
 from agent_economy.recording import Recording, RecordingError
 from agent_economy.recording.recorder import ENDING
-from agent_economy.recording.replayer import taken_again
+from agent_economy.recording.replayer import replay_steps
 from agent_economy.server.recordings.history import RunHistory
-from agent_economy.server.recordings.temporary_files import clear, unfinished
+from agent_economy.server.recordings.temporary_files import remove_abandoned, temporary_file
 from agent_economy.stepped import Stepped
 
 MAX_ROBOT_STEPS = 10_000_000
-"""Steps times robots: half a gigabyte."""
+"""Maximum of steps times robots, about half a gigabyte."""
 
-STEP_ROBOTS = 10
-"""A step takes as much room besides as so many robots."""
+ROBOTS_PER_STEP = 10
+"""A step takes the space of this many robots, in addition to that of the team."""
 
-DIGITS = 12
+DIGEST_DIGITS = 12
 MAX_LETTERS = 60
 
 
-class Saving:
-    """A run on its way into a recording, in a thread of its own; any other can stop it.
+class RecordingWriter:
+    """A recording that is written in a thread of its own, which any other thread can cancel.
 
-    Its name ends in a digest of what is in it: the same run saved once more is the same file.
+    The name of the file ends in a digest of its content: saving a run twice gives one file.
 
     Attributes:
-        course: What is saved.
-        done: Steps that are in the file.
+        history: The run that is recorded.
+        done: Steps that have been written.
     """
 
-    course: RunHistory
+    history: RunHistory
     done: int
 
-    def __init__(self, course: RunHistory, folder: Path) -> None:
+    def __init__(self, history: RunHistory, folder: Path) -> None:
         """Begin with nothing written."""
-        self.course, self._folder = course, folder
-        self.done, self._is_stopped = 0, False
+        self.history, self._folder = history, folder
+        self.done, self._is_cancelled = 0, False
 
-    def stop(self) -> None:
-        """Give up between two steps; nothing is left of the file."""
-        self._is_stopped = True
+    def cancel(self) -> None:
+        """Stop between two steps, and leave no file behind."""
+        self._is_cancelled = True
 
     def write(self) -> Path | None:
-        """Return the file, whole and on the disk; None if this was stopped.
+        """Return the file, complete and on disk; None if it was cancelled.
 
         Raises:
-            InputError: If the run is too long, or the file cannot be written; nothing is left.
+            InputError: If the run is too long, or the file cannot be written; no file is left.
         """
-        course = self.course
-        simulation = begun(course.scenario, course.seed, course.run)
-        see_to_room(course.latest_tick * room_of(simulation))
-        with in_words(self._folder):
+        history = self.history
+        simulation = begun(history.scenario, history.seed, history.run)
+        check_size(history.latest_tick * size_of_step(simulation))
+        with write_errors(self._folder):
             self._folder.mkdir(exist_ok=True)
-            clear(self._folder, ENDING)
-            with unfinished(self._folder, ENDING) as file:
-                is_whole = self._record(simulation, file)
-                return put_away(file, stem(course)) if is_whole else None
+            remove_abandoned(self._folder, ENDING)
+            with temporary_file(self._folder, ENDING) as file:
+                is_complete = self._record(simulation, file)
+                return rename_complete(file, stem(history)) if is_complete else None
 
     def _record(self, simulation: Stepped, file: Path) -> bool:
-        robot_steps, course = 0, self.course
+        robot_steps, history = 0, self.history
         with Recording(simulation, file) as recording:
-            again = (simulation, recording.step, course.log, course.inputs, course.latest_tick)
-            for tick in taken_again(*again):
+            replayed = replay_steps(
+                simulation, recording.step, history.log, history.inputs, history.latest_tick
+            )
+            for tick in replayed:
                 self.done = tick
-                robot_steps += room_of(simulation)
-                see_to_room(robot_steps)
-                if self._is_stopped:
+                robot_steps += size_of_step(simulation)
+                check_size(robot_steps)
+                if self._is_cancelled:
                     return False
         return True
 
 
-def room_of(simulation: Stepped) -> int:
-    """Return what a step takes, in robots."""
-    return len(simulation.robots) + STEP_ROBOTS
+def size_of_step(simulation: Stepped) -> int:
+    """Return the space of a step, in robots."""
+    return len(simulation.robots) + ROBOTS_PER_STEP
 
 
-def see_to_room(robot_steps: int) -> None:
-    """Refuse what is too long.
+def check_size(robot_steps: int) -> None:
+    """Check that a recording is not too large.
 
     Raises:
-        InputError: If so.
+        InputError: If it is.
     """
     if robot_steps > MAX_ROBOT_STEPS:
         message = (
-            f"The run is too long to be saved from here: at most {MAX_ROBOT_STEPS:,} steps of a "
-            f"robot are, and each step counts for {STEP_ROBOTS} more. agent-economy run --record "
-            "FILE --every 10 saves longer ones."
+            f"The run is too long to be saved from the page: the maximum is {MAX_ROBOT_STEPS:,} "
+            f"robot steps, and each step counts as {ROBOTS_PER_STEP} robots more than the team "
+            "has. agent-economy run --record FILE --every 10 saves longer runs."
         )
         raise InputError(message)
 
 
 @contextmanager
-def in_words(folder: Path) -> Iterator[None]:
-    """Say why nothing can be written into a folder.
+def write_errors(folder: Path) -> Iterator[None]:
+    """Name the folder in the errors of writing to it.
 
     Raises:
-        InputError: If so.
+        InputError: If a file cannot be written.
     """
     try:
         yield
     except RecordingError:
-        message = f"{folder}: takes no more, so that the recording is not kept: make room there"
+        message = f"{folder}: the disk is full, and the recording was removed: free some space"
     except OSError as error:
         message = f"{folder}: cannot be written: {error.strerror or error}"
     else:
@@ -115,15 +117,15 @@ def in_words(folder: Path) -> Iterator[None]:
     raise InputError(message)
 
 
-def put_away(unfinished: Path, name: str) -> Path:
-    """Give a file its name, once it is on the disk."""
-    with unfinished.open("rb") as stream:
-        digest = hashlib.file_digest(stream, "sha256").hexdigest()[:DIGITS]
+def rename_complete(file: Path, name: str) -> Path:
+    """Give a file its final name once its content is on disk."""
+    with file.open("rb") as stream:
+        digest = hashlib.file_digest(stream, "sha256").hexdigest()[:DIGEST_DIGITS]
         os.fsync(stream.fileno())
-    return unfinished.replace(unfinished.with_name(f"{name}-{digest}{ENDING}"))
+    return file.replace(file.with_name(f"{name}-{digest}{ENDING}"))
 
 
-def stem(course: RunHistory) -> str:
-    """Return what a name begins with."""
-    name = re.sub(r"[^\w-]+", "-", course.scenario.name)[:MAX_LETTERS]
-    return f"{name}-{course.seed}-{course.run}"
+def stem(history: RunHistory) -> str:
+    """Return the first part of the name of a recording."""
+    name = re.sub(r"[^\w-]+", "-", history.scenario.name)[:MAX_LETTERS]
+    return f"{name}-{history.seed}-{history.run}"

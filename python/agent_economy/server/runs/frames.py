@@ -1,4 +1,4 @@
-"""What a page draws: frames, and the setting that frames are drawn in."""
+"""Frames of a run, and the setting that they are drawn in."""
 
 import struct
 from typing import Any
@@ -9,14 +9,14 @@ from agent_economy.server.runs.timeline import Timeline
 from agent_economy.stepped import Stepped
 
 KIND = 1
-"""The first number of a frame: of another layout it would be another."""
+"""The first number of a frame; a frame of another layout would have another."""
 
 HEADER = struct.Struct("<4Id2I")
 """Kind, generation, tick, robots; time in seconds; items, number of the frame."""
 
 
 def frame(simulation: Stepped, generation: int, number: int) -> bytes:
-    """Return one moment, as `messages` says."""
+    """Return the frame of the current moment, encoded as in `messages`."""
     drawn = engines.of(simulation).drawn(simulation)
     robots = sum(simulation.scenario.robots.values())
     items = len(drawn) - 16 * robots
@@ -25,7 +25,7 @@ def frame(simulation: Stepped, generation: int, number: int) -> bytes:
 
 
 def setting(timeline: Timeline, generation: int) -> dict[str, Any]:
-    """Return all that stays from frame to frame until something is changed."""
+    """Return everything that stays the same from frame to frame until the scenario changes."""
     simulation, log = timeline.simulation, timeline.log
     return {
         "type": "setting",

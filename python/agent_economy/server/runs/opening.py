@@ -1,4 +1,4 @@
-"""Beginning the run that a page asks for."""
+"""Opens the run that a page requests."""
 
 from agent_economy.scenario import Scenario
 from agent_economy.server.messages import Open
@@ -7,25 +7,28 @@ from agent_economy.server.runs.timeline import Timeline
 from agent_economy.server.workspace import Workspace
 
 
-def begun(places: Workspace, said: Open) -> tuple[Timeline, str | None]:
-    """Return a run at its beginning, and the version that recorded it if a recording is asked for.
+def open_timeline(workspace: Workspace, message: Open) -> tuple[Timeline, str | None]:
+    """Return a run at its beginning; of a recorded run also the version that recorded it.
 
     Raises:
-        InputError: If there is no such scenario or recording, it is wrong, or has no room.
+        InputError: If there is no such scenario or recording, it has errors, or the world has no
+            room for the team.
     """
-    if said.recording is not None:
-        which, recorded = RecordingStore(places).load(said.recording)
-        timeline = Timeline(which.scenario, which.seed, which.run, said.changes, recorded)
-        return timeline, which.program
-    scenario, seed = what(places, said)
-    return Timeline(scenario, seed, said.run, said.changes), None
+    if message.recording is not None:
+        identity, recorded = RecordingStore(workspace).load(message.recording)
+        timeline = Timeline(
+            identity.scenario, identity.seed, identity.run, message.changes, recorded
+        )
+        return timeline, identity.program
+    scenario, seed = scenario_and_seed(workspace, message)
+    return Timeline(scenario, seed, message.run, message.changes), None
 
 
-def what(places: Workspace, said: Open) -> tuple[Scenario, int]:
+def scenario_and_seed(workspace: Workspace, message: Open) -> tuple[Scenario, int]:
     """Return the scenario to run, and the seed."""
-    if said.study is not None:
-        scenario, seed = places.member(said.study.id, said.study.configuration)
-        return scenario, seed if said.seed is None else said.seed
-    if said.scenario is not None:
-        return places.load(said.scenario), said.seed or 0
-    return places.read(said.text or ""), said.seed or 0
+    if message.study is not None:
+        scenario, seed = workspace.member(message.study.id, message.study.configuration)
+        return scenario, seed if message.seed is None else message.seed
+    if message.scenario is not None:
+        return workspace.load(message.scenario), message.seed or 0
+    return workspace.read(message.text or ""), message.seed or 0

@@ -1,4 +1,4 @@
-"""What a page draws over a frame besides robots, if it has asked for that."""
+"""Overlays: what a page draws over a frame, of the layers that it has turned on."""
 
 import struct
 
@@ -7,43 +7,44 @@ from agent_economy.server.runs import engines
 from agent_economy.stepped import Stepped
 
 KIND = 2
-"""The first number of an overlay: that of a frame is another."""
+"""The first number of an overlay, which tells it from a frame."""
 
 HEADER = struct.Struct("<3I")
-"""Kind, number of the frame, links."""
+"""Kind, number of the frame, number of links."""
 
 LINK_BYTES = 12
 
 
 class Overlay:
-    """Which layers a page has on, and the robot that it looks at."""
+    """The layers that a page has turned on, and the robot that it has selected."""
 
     def __init__(self) -> None:
-        """Begin with none."""
+        """Begin without layers."""
         self._layers = Layers(links=False, footprints=False)
         self._robot: str | None = None
 
-    def ask(self, layers: Layers) -> None:
-        """Take what frames are to come with from now on."""
+    def set_layers(self, layers: Layers) -> None:
+        """Turn layers on or off."""
         self._layers = layers
 
     def choose(self, robot: str | None) -> None:
-        """Look at a robot, or at none; nothing is told of one that is not there."""
+        """Select a robot, or none; a robot that does not exist has no overlay of its own."""
         self._robot = robot
 
-    def is_asked(self, simulation: Stepped) -> bool:
-        """Return whether a run's frames come with an overlay."""
-        return any(self._drawn(simulation))
+    def is_shown(self, simulation: Stepped) -> bool:
+        """Return whether frames of a run have an overlay."""
+        return any(self._layers_of(simulation))
 
     def over(self, simulation: Stepped, frame: int) -> bytes:
-        """Return what lies over the frame of this moment, as `messages` says."""
-        drawn = self._drawn(simulation)
-        links, footprints = (draw(simulation, self._robot) if draw else b"" for draw in drawn)
+        """Return the overlay of the frame of the current moment, encoded as in `messages`."""
+        links, footprints = (
+            draw(simulation, self._robot) if draw else b"" for draw in self._layers_of(simulation)
+        )
         return HEADER.pack(KIND, frame, len(links) // LINK_BYTES) + links + footprints
 
-    def _drawn(self, simulation: Stepped) -> list[engines.Overlaid | None]:
-        engine, asked = engines.of(simulation), self._layers
+    def _layers_of(self, simulation: Stepped) -> list[engines.Overlaid | None]:
+        engine, layers = engines.of(simulation), self._layers
         return [
-            engine.links if asked.links else None,
-            engine.footprints if asked.footprints else None,
+            engine.links if layers.links else None,
+            engine.footprints if layers.footprints else None,
         ]

@@ -1,56 +1,59 @@
-"""What is said to a run that is on its way somewhere, and is done when it is there."""
+"""Messages that wait until the run arrives at the tick that it is seeking."""
 
 from collections import deque
 from dataclasses import replace
 
-from agent_economy.server.messages import Go, Message, Play, Put, Step, Undo
+from agent_economy.server.messages import Change, Message, Play, Seek, Step, Undo
 
-MOST = 256
-"""So much is kept, at most: a page that says more waits."""
+MAX_PENDING = 256
+"""The number of messages that can wait; a page that sends more is not read until there is room."""
 
 
 class PendingQueue:
-    """Messages that wait, in their order."""
+    """Deferred messages, in the order in which they were received."""
 
     def __init__(self) -> None:
-        """Begin with none."""
-        self._said: deque[Message] = deque()
+        """Begin empty."""
+        self._messages: deque[Message] = deque()
 
     def __bool__(self) -> bool:
-        """Whether any waits."""
-        return bool(self._said)
+        """Whether a message is waiting."""
+        return bool(self._messages)
 
     @property
     def is_full(self) -> bool:
-        """Whether no more can wait."""
-        return len(self._said) >= MOST
+        """Whether no other message can wait."""
+        return len(self._messages) >= MAX_PENDING
 
-    def waits(self, said: Message, *, has_changes: bool) -> bool:
-        """Return whether a message waits for a run that is on its way, before changes or not.
+    def waits(self, message: Message, *, has_changes_ahead: bool) -> bool:
+        """Return whether a message has to wait while the run is seeking.
 
-        A change is made, and the run goes on, where the way leads to. One that is to go elsewhere
-        goes there at once, and the last change is taken back at once, if nothing waits before that.
+        A change is made, and playback continues, at the tick that the run is seeking. Another seek
+        replaces the current one, and the last change is undone at once, unless a message is already
+        waiting.
         """
-        if isinstance(said, Undo):
-            return has_changes or bool(self)
-        return isinstance(said, Put | Play) or (isinstance(said, Step | Go) and bool(self))
+        if isinstance(message, Undo):
+            return has_changes_ahead or bool(self)
+        return isinstance(message, Change | Play) or (
+            isinstance(message, Step | Seek) and bool(self)
+        )
 
-    def put(self, said: Message) -> None:
-        """Have a message wait; of values instead of each other the last is enough."""
-        match (self._said[-1] if self._said else None), said:
-            case Put(path=path, instead=instead), Put(instead=True) if path == said.path:
-                self._said[-1] = replace(said, instead=instead)
+    def put(self, message: Message) -> None:
+        """Add a message; of changes that replace each other only the last is kept."""
+        match (self._messages[-1] if self._messages else None), message:
+            case Change(path=path) as last, Change(replaces_last=True) if path == message.path:
+                self._messages[-1] = replace(message, replaces_last=last.replaces_last)
             case _:
-                self._said.append(said)
+                self._messages.append(message)
 
     def take(self) -> Message:
-        """Return what is done next."""
-        return self._said.popleft()
+        """Remove and return the first message."""
+        return self._messages.popleft()
 
-    def pause(self) -> None:
-        """Have the run not go on after all."""
-        self._said = deque(each for each in self._said if not isinstance(each, Play))
+    def remove_plays(self) -> None:
+        """Remove the requests to play: the run was paused since."""
+        self._messages = deque(each for each in self._messages if not isinstance(each, Play))
 
     def clear(self) -> None:
-        """Forget all."""
-        self._said.clear()
+        """Remove all messages."""
+        self._messages.clear()

@@ -1,77 +1,71 @@
-"""How far a run should have come by now."""
+"""The tick that a run should have reached by now, at the playback speed."""
 
 import math
 from dataclasses import dataclass, field
 
-BEHIND_S = 0.25
-"""What a run is behind by more than so much, by the clock on the wall, is not made up for."""
+MAX_LAG_S = 0.25
+"""A run that is further behind, in wall-clock time, does not catch up the rest."""
 
-REMEMBERED_S = 1.0
-"""The speed that is reached is that of about so long."""
+AVERAGING_S = 1.0
+"""Time constant of the average of the measured speed."""
 
 
 @dataclass
 class PlaybackClock:
-    """The speed that is wanted, and what is reached of it.
+    """The requested playback speed, and the one measured.
 
     Attributes:
-        step_s: Time in the world that a step takes.
-        speed: Times real time; None as fast as it can.
-        is_playing: Whether the run goes on.
-        reached: Times real time that it went of late.
+        step_s: The simulated duration of a step.
+        speed: The requested speed as a multiple of real time; None for as fast as possible.
+        measured_speed: The recent speed as a multiple of real time.
     """
 
     step_s: float
     speed: float | None = 1.0
-    is_playing: bool = False
-    reached: float = 0.0
+    measured_speed: float = 0.0
     _since: tuple[float, int] = field(default=(0.0, 0), repr=False)
     _last: tuple[float, int] = field(default=(0.0, 0), repr=False)
 
-    def play(self, speed: float | None, now_s: float, tick: int) -> None:
-        """Go on from a tick."""
-        if not self.is_playing:
-            self.reached, self._last = 0.0, (now_s, tick)
-        self.speed, self.is_playing = speed, True
+    def play(self, speed: float | None, now_s: float, tick: int, *, is_running: bool) -> None:
+        """Play from a tick on; measure anew unless the run is already playing."""
+        if not is_running:
+            self.measured_speed, self._last = 0.0, (now_s, tick)
+        self.speed = speed
         self._since = (now_s, tick)
 
-    def measure(self, step_s: float, now_s: float, tick: int) -> None:
-        """Go on with steps that take so long."""
+    def set_step(self, step_s: float, now_s: float, tick: int) -> None:
+        """Set the duration of the steps that follow a tick."""
         if step_s != self.step_s:
             self.step_s = step_s
             self._since = self._last = (now_s, tick)
 
-    def pause(self) -> None:
-        """Stand."""
-        self.is_playing = False
-
     def target(self, now_s: float, tick: int) -> int | None:
-        """Return to which tick the run should have come; None if as far as it can."""
+        """Return the tick that the run should have reached; None for as far as possible."""
         if self.speed is None:
             return None
         since_s, first = self._since
         due = first + math.floor((now_s - since_s) * self.speed / self.step_s + 1e-9)
-        most = tick + max(1, math.ceil(BEHIND_S * self.speed / self.step_s))
-        if due > most:
-            self._since = (now_s, most)
-            return most
+        last = tick + max(1, math.ceil(MAX_LAG_S * self.speed / self.step_s))
+        if due > last:
+            self._since = (now_s, last)
+            return last
         return due
 
     def wait_s(self, now_s: float, tick: int) -> float:
-        """Return how long it is until the next step is due."""
+        """Return the time until the next step is due."""
         if self.speed is None:
             return 0.0
         since_s, first = self._since
         due_s = since_s + (tick + 1 - first) * self.step_s / self.speed
         return max(0.0, due_s - now_s)
 
-    def note(self, now_s: float, tick: int) -> None:
-        """Note how far the run has come."""
+    def measure(self, now_s: float, tick: int) -> None:
+        """Update the measured speed."""
         last_s, last = self._last
-        took_s = now_s - last_s
-        if took_s < REMEMBERED_S / 10:
+        elapsed_s = now_s - last_s
+        if elapsed_s < AVERAGING_S / 10:
             return
-        speed = (tick - last) * self.step_s / took_s
-        weight = min(1.0, took_s / REMEMBERED_S) if self.reached else 1.0
-        self.reached += weight * (speed - self.reached)
+        speed = (tick - last) * self.step_s / elapsed_s
+        weight = min(1.0, elapsed_s / AVERAGING_S) if self.measured_speed else 1.0
+        self.measured_speed += weight * (speed - self.measured_speed)
         self._last = (now_s, tick)

@@ -1,0 +1,123 @@
+"""What the page of a run is sent, and when: settings, frames, overlays, states and maps.
+
+A page that draws slowly is sent fewer frames: at most `MAX_IN_FLIGHT` are not acknowledged.
+"""
+
+from collections import deque
+from typing import Any
+
+from agent_economy.server.messages import Layers
+from agent_economy.server.runs import engines
+from agent_economy.server.runs.belief_view import Selected
+from agent_economy.server.runs.frames import frame, setting
+from agent_economy.server.runs.overlay import Overlay
+from agent_economy.server.runs.player import Player
+from agent_economy.server.runs.timeline import Timeline
+
+FRAME_S, STATE_S, MAP_S = 0.03, 0.1, 0.25
+"""Minimum time between two frames, two states, and two maps of a robot. Steps of 1/30 s get a frame
+each."""
+
+MAX_IN_FLIGHT = 3
+"""Frames that the page has not acknowledged."""
+
+Output = dict[str, Any] | bytes
+
+
+class Display:
+    """What a page has been sent of its run, and what it wants to see."""
+
+    def __init__(self) -> None:
+        """Begin with nothing sent."""
+        self._selected: engines.Selection = Selected()
+        self._overlay = Overlay()
+        self._generation = self._number = 0
+        self._sent_setting: object = None
+        self._in_flight: deque[int] = deque()
+        self._has_news = False
+        self._frame_at_s = self._state_at_s = self._map_at_s = 0.0
+
+    def open(self, timeline: Timeline) -> None:
+        """Show another run, with no robot selected."""
+        self._sent_setting = None
+        self._selected = engines.of(timeline.simulation).selected()
+        self._overlay.choose(None)
+
+    def select(self, robot: str | None) -> None:
+        """Show what a robot perceives and believes, or none."""
+        self._selected.choose(robot)
+        self._overlay.choose(robot)
+        self._map_at_s = 0.0
+
+    def set_layers(self, layers: Layers) -> None:
+        """Send frames with these overlays from now on."""
+        self._overlay.set_layers(layers)
+
+    def acknowledge(self, number: int) -> None:
+        """Note that the page has drawn a frame, and all before it."""
+        while self._in_flight and self._in_flight[0] <= number:
+            self._in_flight.popleft()
+
+    def refresh(self) -> None:
+        """Note that the page has not been sent the current moment."""
+        self._has_news = True
+
+    def wait_s(self, now_s: float, *, is_moving: bool) -> float | None:
+        """Return the time until a frame is due; None if none is."""
+        if not self._has_news or len(self._in_flight) >= MAX_IN_FLIGHT:
+            return None
+        return max(0.0, self._frame_at_s + FRAME_S - now_s) if is_moving else 0.0
+
+    def outputs(self, timeline: Timeline, player: Player, now_s: float) -> list[Output]:
+        """Return what is due to be sent, in order."""
+        is_at_rest = not player.is_moving
+        if self.wait_s(now_s, is_moving=player.is_moving) != 0:
+            return []
+        outputs = self._setting(timeline)
+        outputs += self._frame(timeline, now_s)
+        if is_at_rest or now_s - self._state_at_s >= STATE_S:
+            self._state_at_s = now_s
+            outputs.append(self._state(timeline, player))
+        if is_at_rest or now_s - self._map_at_s >= MAP_S:
+            self._map_at_s = now_s
+            if changes := self._selected.map(timeline.simulation):
+                outputs.append(changes)
+        return outputs
+
+    def _setting(self, timeline: Timeline) -> list[Output]:
+        current = timeline.simulation.changes, timeline.log
+        if current == self._sent_setting:
+            return []
+        self._generation += 1
+        self._sent_setting = current
+        return [setting(timeline, self._generation)]
+
+    def _frame(self, timeline: Timeline, now_s: float) -> list[Output]:
+        """Return the next frame, behind its overlay if a layer is on."""
+        self._number += 1
+        self._in_flight.append(self._number)
+        self._frame_at_s, self._has_news = now_s, False
+        simulation = timeline.simulation
+        drawn = frame(simulation, self._generation, self._number)
+        if not self._overlay.is_shown(simulation):
+            return [drawn]
+        return [self._overlay.over(simulation, self._number), drawn]
+
+    def _state(self, timeline: Timeline, player: Player) -> Output:
+        simulation = timeline.simulation
+        return {
+            "type": "state",
+            "tick": simulation.tick,
+            "edge": timeline.latest_tick,
+            "time_s": simulation.time_s,
+            "hash": f"{simulation.hash:016x}",
+            "playing": player.is_playing,
+            "speed": player.clock.speed,
+            "real": player.clock.measured_speed,
+            "aim": player.target_tick,
+            "over": simulation.is_over,
+            "differs_at": timeline.recorded.mismatch_tick,
+            "outcome": simulation.outcome().row,
+            "mind": self._selected.mind(simulation),
+            "robot": self._selected.told(simulation),
+        }

@@ -1,0 +1,75 @@
+"""The snapshots of a run that can be returned to: few enough to fit into memory."""
+
+from bisect import bisect_right
+from typing import Any
+
+from agent_economy.stepped import Change, Stepped
+
+MEMORY_BYTES = 200_000_000
+"""Approximate maximum size of all snapshots together."""
+
+BELIEF_BYTES, BODY_BYTES = 100_000, 1_000
+"""Upper estimate of a robot in a snapshot: with a belief state that has a map, or without."""
+
+MAX_SNAPSHOTS = 128
+FIRST_INTERVAL = 50
+"""Initial steps between snapshots; doubled whenever there are too many of them."""
+
+
+class Snapshots:
+    """Snapshots in the order of their ticks; the first is of the beginning of the run."""
+
+    def __init__(self, simulation: Stepped) -> None:
+        """Begin with a snapshot of the current moment."""
+        self._interval = FIRST_INTERVAL
+        self._ticks: list[int] = []
+        self._kept: list[Any] = []
+        self.add(simulation, simulation.snapshot())
+
+    @property
+    def last_tick(self) -> int:
+        """The tick of the latest snapshot."""
+        return self._ticks[-1]
+
+    @property
+    def next_tick(self) -> int:
+        """The tick at which the next snapshot is due."""
+        return self._ticks[-1] + self._interval
+
+    def before(self, tick: int) -> Any:
+        """Return the latest snapshot that is not after a tick."""
+        return self._kept[bisect_right(self._ticks, tick) - 1]
+
+    def add(self, simulation: Stepped, snapshot: Any) -> None:
+        """Add a snapshot of the current tick; drop every second one when there are too many."""
+        self._ticks.append(simulation.tick)
+        self._kept.append(snapshot)
+        if len(self._kept) > capacity(simulation):
+            self._interval *= 2
+            # The first, and every second one counted from the newest.
+            self._ticks = self._ticks[:1] + self._ticks[:0:-2][::-1]
+            self._kept = self._kept[:1] + self._kept[:0:-2][::-1]
+
+    def discard_after(self, tick: int, log: tuple[Change, ...]) -> None:
+        """Drop the snapshots after a tick and those with other changes, but never the first."""
+        kept = [
+            (at_tick, each)
+            for at_tick, each in zip(self._ticks, self._kept, strict=True)
+            if each is self._kept[0]
+            or (at_tick <= tick and each.changes == log[: len(each.changes)])
+        ]
+        self._ticks, self._kept = [each for each, _ in kept], [snapshot for _, snapshot in kept]
+
+
+def capacity(simulation: Stepped) -> int:
+    """Return the maximum number of snapshots of a run with its present team."""
+    size = sum(
+        count * (BELIEF_BYTES if count and has_beliefs(simulation, kind) else BODY_BYTES)
+        for kind, count in simulation.scenario.robots.items()
+    )
+    return max(3, min(MAX_SNAPSHOTS, MEMORY_BYTES // max(1, size)))
+
+
+def has_beliefs(simulation: Stepped, kind: str) -> bool:
+    """Return whether robots of a kind have a belief state."""
+    return simulation.thoughts(f"{kind}/0") is not None
