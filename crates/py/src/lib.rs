@@ -56,7 +56,7 @@ mod _core {
     #[pymodule_export]
     use crate::scenario::{files_wanted, read_document, read_filled, read_scenario};
     #[pymodule_export]
-    use crate::selection::{Procedure, mean_bounds, mean_exceeds, reference, selection};
+    use crate::selection::{Procedure, equal_allocation, mean_bounds, mean_exceeds, selection};
     #[pymodule_export]
     use crate::simulation::{MetricScenario, Simulation, Snapshot, read_metric};
     #[pymodule_export]

@@ -1,12 +1,11 @@
 //! Rinott's two-stage procedure, and its constant by quadrature.
 
-use super::runs_to_ask;
+use super::normal;
 use super::tally::{Tally, as_f64};
-use crate::normal;
-use crate::procedure::{Elimination, Procedure, Request};
+use select::{Elimination, Procedure, Request};
 
-/// Rinott's procedure: the variances of a first stage say how many runs each configuration needs,
-/// `N_i = max(n0, ceil(h^2 S_i^2 / delta^2))`; the best mean of all runs is chosen.
+/// Rinott's procedure: the variances of a first stage determine how many runs each configuration
+/// needs, `N_i = max(n0, ceil(h^2 S_i^2 / delta^2))`; the best mean of all runs is chosen.
 ///
 /// Guarantee: if merits are normal and independent between configurations, and the best mean is
 /// at least `delta` above every other, it is chosen with at least the stated confidence.
@@ -14,7 +13,7 @@ use crate::procedure::{Elimination, Procedure, Request};
 /// Source: Rinott, *On two-stage selection procedures and related probability-inequalities*,
 /// Communications in Statistics A7 (1978).
 #[derive(Debug, Clone)]
-pub struct Rinott {
+pub(crate) struct Rinott {
     tally: Tally,
     /// `h / delta`.
     scale: f64,
@@ -24,20 +23,11 @@ pub struct Rinott {
 }
 
 impl Rinott {
-    /// For `configurations >= 1`, a `delta > 0` in units of merit, a `confidence` from 0.5 to
-    /// below 1, and `first_runs >= 2` runs of each configuration in the first stage (ten or more
-    /// are wise: fewer make the second stage long).
-    ///
-    /// Cost: a tenth of a second for the constant.
+    /// For `configurations >= 1`, a `delta > 0` in units of merit, the constant `h` of [`rinott_h`],
+    /// and `first_runs >= 2` runs of each configuration in the first stage (ten or more are
+    /// recommended: fewer make the second stage long).
     #[must_use]
-    pub fn new(configurations: usize, delta: f64, confidence: f64, first_runs: u64) -> Self {
-        let h = rinott_h(configurations, first_runs, confidence);
-        Self::with_constant(configurations, delta, h, first_runs)
-    }
-
-    /// The same with the constant `h` of [`rinott_h`], for those who select many times.
-    #[must_use]
-    pub fn with_constant(configurations: usize, delta: f64, h: f64, first_runs: u64) -> Self {
+    pub(crate) fn new(configurations: usize, delta: f64, h: f64, first_runs: u64) -> Self {
         debug_assert!(configurations >= 1 && delta > 0.0 && first_runs >= 2);
         Self {
             tally: Tally::new(configurations),
@@ -59,6 +49,9 @@ impl Rinott {
     }
 }
 
+/// Maximum number of runs of each configuration in one request, so that they fit in memory.
+const MAX_RUNS: usize = 1 << 14;
+
 /// Whole runs that are at least `runs`.
 #[expect(
     clippy::cast_possible_truncation,
@@ -70,7 +63,7 @@ fn runs_from(runs: f64) -> u64 {
 }
 
 impl Procedure for Rinott {
-    /// All that need more runs go on together until the first of them has enough.
+    /// All that need more runs continue together until the first of them has enough.
     fn next(&self) -> Option<Request> {
         let configurations: Vec<usize> = (0..self.needed.len())
             .filter(|&each| self.missing(each) > 0)
@@ -81,14 +74,14 @@ impl Procedure for Rinott {
             .min()?;
         Some(Request {
             first_run: self.tally.runs[configurations[0]],
-            runs: runs_to_ask(missing, configurations.len()),
+            runs: usize::try_from(missing).unwrap_or(usize::MAX).min(MAX_RUNS),
             configurations,
         })
     }
 
-    fn tell(&mut self, merits: &[f64]) {
+    fn record(&mut self, merits: &[f64]) {
         let Some(request) = self.next() else { return };
-        self.tally.take(&request, merits);
+        self.tally.record(&request, merits);
         if self.tally.runs[0] == self.first_runs && request.first_run < self.first_runs {
             self.plan_second_stage();
         }
@@ -120,14 +113,8 @@ impl Procedure for Rinott {
 ///
 /// X and Y chi-square with `v = first_runs - 1` degrees of freedom. For `configurations >= 1`
 /// (k; 0 for one), `first_runs >= 2` and a `confidence` from 0.5 to below 1.
-///
-/// # Example
-/// ```
-/// let h = select::reference::rinott_h(10, 20, 0.95);
-/// assert!((h - 3.875).abs() < 5e-4);
-/// ```
 #[must_use]
-pub fn rinott_h(configurations: usize, first_runs: u64, confidence: f64) -> f64 {
+pub(crate) fn rinott_h(configurations: usize, first_runs: u64, confidence: f64) -> f64 {
     debug_assert!(configurations >= 1 && first_runs >= 2);
     debug_assert!((0.5..1.0).contains(&confidence));
     if configurations == 1 {
@@ -139,7 +126,7 @@ pub fn rinott_h(configurations: usize, first_runs: u64, confidence: f64) -> f64 
     root(|h| chance_of_best(h, rivals, freedom, &nodes) - confidence)
 }
 
-/// A value of a random variable and the probability it stands for.
+/// A value of a random variable and its probability.
 type Node = (f64, f64);
 
 /// Steps of the quadrature to either side of the middle.
@@ -234,8 +221,8 @@ mod tests {
     }
 
     #[test]
-    fn a_noisier_configuration_gets_more_runs_and_a_silent_one_the_first_stage() {
-        let mut procedure = Rinott::new(2, 0.5, 0.95, 10);
+    fn a_noisier_configuration_gets_more_runs_and_one_without_noise_the_first_stage() {
+        let mut procedure = Rinott::new(2, 0.5, rinott_h(2, 10, 0.95), 10);
         while let Some(request) = procedure.next() {
             let row = |&each: &usize| {
                 let numbers = request.first_run..request.first_run + request.runs as u64;
@@ -244,7 +231,7 @@ mod tests {
                     .map(move |run| [1.0, 0.0][each] * noise(run))
                     .collect::<Vec<_>>()
             };
-            procedure.tell(
+            procedure.record(
                 &request
                     .configurations
                     .iter()

@@ -1,17 +1,17 @@
-//! One selection, played to its end.
+//! One selection, from its first run to its last.
 
 use crate::cases::Case;
 use crate::gate::CONFIDENCE;
 use crate::random::Place;
-use select::reference::{Equal, KimNelson, Rinott};
-use select::{Problem, Procedure, Race, Strict};
+use crate::reference::{KimNelson, Rinott};
+use select::{EqualAllocation, Problem, Procedure, Race, Strict};
 
-/// Who selects.
+/// The selection procedure.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Method {
     Race,
     Strict,
-    /// With its constant, which takes longer to compute than a selection.
+    /// With its constant, which takes longer to compute than a selection does.
     Rinott {
         first_runs: u32,
         h: f64,
@@ -36,20 +36,20 @@ impl Method {
     }
 }
 
-/// How many runs are told at a time.
+/// How many runs are recorded at a time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Batches {
-    /// As many as the procedure asks for.
-    Asked,
+    /// As many as the procedure requests.
+    Requested,
     /// One: the procedure may stop after every single run.
     Single,
-    /// From 1 to so many, at random, whatever the procedure asks for.
+    /// A random number from 1 to this one, whatever the procedure requests.
     Random(u32),
 }
 
-/// What a procedure is told of a problem; the gate breaks it on purpose to see whether that shows.
+/// How a procedure is set up for a problem; the gate breaks it on purpose to check that it notices.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Told {
+pub(crate) struct Setup {
     pub(crate) method: Method,
     pub(crate) batches: Batches,
     pub(crate) confidence: f64,
@@ -57,28 +57,28 @@ pub(crate) struct Told {
     pub(crate) deltas: f64,
 }
 
-impl Told {
-    /// What is true, in the batches that the procedure asks for.
-    pub(crate) fn honestly(method: Method) -> Self {
+impl Setup {
+    /// The true confidence and delta, in the batches that the procedure requests.
+    pub(crate) fn correct(method: Method) -> Self {
         Self {
             method,
-            batches: Batches::Asked,
+            batches: Batches::Requested,
             confidence: CONFIDENCE,
             deltas: 1.0,
         }
     }
 }
 
-/// What came out of one macro-replication.
+/// The outcome of one macro-replication.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Played {
+pub(crate) struct Outcome {
     pub(crate) correct: bool,
     pub(crate) runs: u64,
 }
 
-/// Plays the macro-replication at `start` to its end; `right` says what may be selected.
-pub(crate) fn play(case: &dyn Case, right: &[bool], told: Told, start: Place) -> Played {
-    let mut procedure = procedure(case, told);
+/// Runs the macro-replication at `start`; `right` marks the configurations that may be selected.
+pub(crate) fn select(case: &dyn Case, right: &[bool], setup: Setup, start: Place) -> Outcome {
+    let mut procedure = procedure(case, setup);
     let mut sizes = Place {
         run: u64::MAX,
         ..start
@@ -86,10 +86,10 @@ pub(crate) fn play(case: &dyn Case, right: &[bool], told: Told, start: Place) ->
     .shared();
     let mut merits = Vec::new();
     while let Some(request) = procedure.next() {
-        let runs = match told.batches {
-            Batches::Asked => request.runs,
+        let runs = match setup.batches {
+            Batches::Requested => request.runs,
             Batches::Single => 1,
-            Batches::Random(most) => sizes.one_to(most),
+            Batches::Random(max) => sizes.one_to(max),
         };
         merits.clear();
         for &configuration in &request.configurations {
@@ -97,35 +97,35 @@ pub(crate) fn play(case: &dyn Case, right: &[bool], told: Told, start: Place) ->
             let merit = |run| case.sample(Place { run, ..start }, configuration);
             merits.extend(numbers.map(merit));
         }
-        procedure.tell(&merits);
+        procedure.record(&merits);
     }
-    Played {
+    Outcome {
         correct: right[procedure.best()],
         runs: procedure.runs().iter().sum(),
     }
 }
 
-fn procedure(case: &dyn Case, told: Told) -> Box<dyn Procedure> {
+fn procedure(case: &dyn Case, setup: Setup) -> Box<dyn Procedure> {
     let problem = Problem {
         bounds: case.bounds(),
-        delta: case.delta() * told.deltas,
-        confidence: told.confidence,
+        delta: case.delta() * setup.deltas,
+        confidence: setup.confidence,
     };
     let (configurations, delta) = (problem.configurations(), problem.delta);
-    match told.method {
+    match setup.method {
         Method::Race => Box::new(Race::new(problem)),
         Method::Strict => Box::new(Strict::new(problem)),
         Method::Rinott { first_runs, h } => {
             let first_runs = u64::from(first_runs);
-            Box::new(Rinott::with_constant(configurations, delta, h, first_runs))
+            Box::new(Rinott::new(configurations, delta, h, first_runs))
         }
-        Method::Equal { runs } => Box::new(Equal::new(configurations, u64::from(runs))),
+        Method::Equal { runs } => Box::new(EqualAllocation::new(configurations, u64::from(runs))),
         Method::KimNelson { first_runs } => {
             let first_runs = first_runs as usize;
             Box::new(KimNelson::new(
                 configurations,
                 delta,
-                told.confidence,
+                setup.confidence,
                 first_runs,
             ))
         }

@@ -1,10 +1,10 @@
 //! Kim and Nelson's fully sequential procedure, often called KN.
 
 use super::tally::as_f64;
-use crate::procedure::{Elimination, Procedure, Request};
+use select::{Elimination, Procedure, Request};
 
-/// Kim and Nelson's procedure with c = 1: after a first stage, one run of each survivor a stage;
-/// whoever falls behind another by more than a shrinking allowance is out.
+/// Kim and Nelson's procedure with c = 1: after a first stage, one run of each survivor per stage; a
+/// configuration that is behind another by more than a shrinking allowance is eliminated.
 ///
 /// Guarantee: if merits are normal, and the best mean is at least `delta` above every other, it is
 /// chosen with at least the stated confidence. Configurations may share random numbers: the
@@ -13,7 +13,7 @@ use crate::procedure::{Elimination, Procedure, Request};
 /// Source: Kim and Nelson, *A fully sequential procedure for indifference-zone selection in
 /// simulation*, ACM Transactions on Modeling and Computer Simulation 11 (2001).
 #[derive(Debug, Clone)]
-pub struct KimNelson {
+pub(crate) struct KimNelson {
     delta: f64,
     /// `eta / delta` times the sum of squares of a pair's differences is its first allowance.
     eta: f64,
@@ -31,11 +31,16 @@ pub struct KimNelson {
 impl KimNelson {
     /// For `configurations >= 1`, a `delta > 0` in units of merit, a `confidence` from 0.5 to
     /// below 1, and `first_runs >= 2` runs of each configuration in the first stage (ten or more
-    /// are wise).
+    /// are recommended).
     ///
     /// Cost: a number for each pair of configurations, and time for each pair of survivors a run.
     #[must_use]
-    pub fn new(configurations: usize, delta: f64, confidence: f64, first_runs: usize) -> Self {
+    pub(crate) fn new(
+        configurations: usize,
+        delta: f64,
+        confidence: f64,
+        first_runs: usize,
+    ) -> Self {
         debug_assert!(configurations >= 1 && delta > 0.0 && first_runs >= 2);
         debug_assert!((0.5..1.0).contains(&confidence));
         let rivals = as_f64(configurations.max(2) as u64 - 1);
@@ -60,14 +65,14 @@ impl KimNelson {
         self.allowances = rows.iter().flat_map(row).collect();
     }
 
-    /// Puts out everyone who is behind one of those that survived the last stage.
+    /// Eliminates all that are behind one of those that survived the last stage.
     fn screen(&mut self) {
-        let beaten: Vec<(usize, usize)> = self
+        let eliminated: Vec<(usize, usize)> = self
             .survivors
             .iter()
-            .filter_map(|&each| Some((each, self.beater(each)?)))
+            .filter_map(|&each| Some((each, self.winner_over(each)?)))
             .collect();
-        for (configuration, by) in beaten {
+        for (configuration, by) in eliminated {
             self.survivors.retain(|&each| each != configuration);
             self.eliminations.push(Elimination {
                 configuration,
@@ -78,13 +83,13 @@ impl KimNelson {
     }
 
     /// The first survivor that is ahead of `this` by more than their allowance.
-    fn beater(&self, this: usize) -> Option<usize> {
+    fn winner_over(&self, this: usize) -> Option<usize> {
         let shrunk_by = self.delta / 2.0 * as_f64(self.runs[this]);
         let row = &self.allowances[this * self.sums.len()..];
         self.survivors.iter().copied().find(|&other| {
             let allowance = (row[other] - shrunk_by).max(0.0);
             let ahead = self.sums[other] - self.sums[this];
-            // When nothing is allowed any more, the first of equals stays alone.
+            // When the allowance is zero, only the first of equals remains.
             ahead > allowance || (ahead == 0.0 && allowance == 0.0 && other < this)
         })
     }
@@ -116,7 +121,7 @@ impl Procedure for KimNelson {
         })
     }
 
-    fn tell(&mut self, merits: &[f64]) {
+    fn record(&mut self, merits: &[f64]) {
         let Some(request) = self.next() else { return };
         debug_assert_eq!(merits.len(), request.configurations.len() * request.runs);
         let rows: Vec<&[f64]> = merits.chunks_exact(request.runs).collect();
@@ -168,7 +173,7 @@ mod tests {
                 let numbers = request.first_run..request.first_run + request.runs as u64;
                 merits.extend(numbers.map(|run| merit(each, run)));
             }
-            procedure.tell(&merits);
+            procedure.record(&merits);
         }
         procedure
     }

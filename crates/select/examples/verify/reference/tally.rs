@@ -1,6 +1,6 @@
-//! Runs, means and variances of every configuration so far.
+//! Running counts, means and variances of every configuration.
 
-use crate::procedure::Request;
+use select::Request;
 
 /// Running moments of each configuration, by Welford's method.
 ///
@@ -22,8 +22,8 @@ impl Tally {
         }
     }
 
-    /// Takes the merits of `request`, row-major `(configurations, runs)`.
-    pub(super) fn take(&mut self, request: &Request, merits: &[f64]) {
+    /// Adds the merits of `request`, row-major `(configurations, runs)`.
+    pub(super) fn record(&mut self, request: &Request, merits: &[f64]) {
         debug_assert_eq!(merits.len(), request.configurations.len() * request.runs);
         let rows = merits.chunks_exact(request.runs);
         for (&configuration, row) in request.configurations.iter().zip(rows) {
@@ -40,7 +40,7 @@ impl Tally {
         self.squares[configuration] += deviation * (merit - self.means[configuration]);
     }
 
-    /// Unbiased variance of a configuration's merits; it needs two runs.
+    /// Unbiased variance of a configuration's merits; requires two runs.
     pub(super) fn variance(&self, configuration: usize) -> f64 {
         self.squares[configuration] / as_f64(self.runs[configuration] - 1)
     }
@@ -51,7 +51,7 @@ impl Tally {
     }
 }
 
-/// Place of the first of the greatest values; 0 if there is none.
+/// Index of the first of the greatest values; 0 if there is none.
 pub(super) fn first_greatest(values: &[f64]) -> usize {
     (0..values.len()).fold(0, |best, each| {
         if values[each] > values[best] {
@@ -63,7 +63,7 @@ pub(super) fn first_greatest(values: &[f64]) -> usize {
 }
 
 /// A count as a number: exact below 2^53.
-#[expect(clippy::cast_precision_loss, reason = "nobody counts 2^53 runs")]
+#[expect(clippy::cast_precision_loss, reason = "runs are far fewer than 2^53")]
 pub(super) fn as_f64(count: u64) -> f64 {
     count as f64
 }
