@@ -2,7 +2,7 @@ use super::super::{Checked, ScenarioSpec};
 use base::document::Document;
 use base::error::InputErrors;
 
-mod minds;
+mod brains;
 
 const GOOD: &str = r#"
 [clock]
