@@ -6,7 +6,7 @@ use brain::BelievedMap;
 use numpy::{IntoPyArray, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use sim::simulation::{Inspected, Simulation as Run};
+use sim::engine::{self, Watched};
 
 /// Watches a robot from now on, or none.
 #[pyfunction]
@@ -17,7 +17,7 @@ pub(crate) fn watch<'py>(
 ) -> PyResult<()> {
     let mut run = simulation.get().locked(py)?;
     let robot = robot.map(|robot| id_of(run.scenario(), &robot));
-    run.inspect(robot.transpose()?);
+    run.watch(robot.transpose()?);
     Ok(())
 }
 
@@ -30,13 +30,13 @@ pub(crate) fn watched<'py>(
     robot: &Bound<'py, PyAny>,
 ) -> PyResult<Option<Bound<'py, PyDict>>> {
     let mut locked = simulation.get().locked(py)?;
-    let run: &mut Run = &mut locked;
+    let run: &mut engine::Simulation = &mut locked;
     // A change of the run may have given it another number.
-    run.inspect(id_of(run.scenario(), robot).ok());
-    let Some(told) = py.detach(|| run.inspection()) else {
+    run.watch(id_of(run.scenario(), robot).ok());
+    let Some(told) = py.detach(|| run.watched()) else {
         return Ok(None);
     };
-    let Inspected {
+    let Watched {
         tick,
         percept,
         decision,

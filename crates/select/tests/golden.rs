@@ -1,4 +1,4 @@
-//! The same problem gives the same decisions, bit for bit, on every machine and in every version.
+//! The same problem gives the same decisions, bit for bit, on every machine and for ever.
 //!
 //! A golden changes only in a commit that says why: it changes every study.
 
@@ -7,7 +7,10 @@ use select::bounds::mean_bounds;
 use select::{Bounds, Problem, Procedure, Race, Strict};
 
 const TEAMS: usize = 120;
-const UNIT: Bounds = Bounds { min: 0.0, max: 1.0 };
+const UNIT: Bounds = Bounds {
+    least: 0.0,
+    greatest: 1.0,
+};
 
 /// Merits in 0..=1 of a run: the sum of what all share and of what is the configuration's own.
 fn merit(run: u64, configuration: usize) -> f64 {
@@ -28,21 +31,21 @@ fn problem() -> Problem {
     }
 }
 
-/// All decisions of a procedure, and bounds of the means of its merits, as one number (FNV-1a).
+/// Everything that a procedure decides, and bounds of what it saw, as one number (FNV-1a).
 fn fingerprint(mut procedure: impl Procedure) -> u64 {
     let mut seen = vec![Vec::new(); TEAMS];
-    while let Some(request) = procedure.next() {
+    while let Some(asked) = procedure.next() {
         let mut merits = Vec::new();
-        for &each in &request.configurations {
-            let runs = request.first_run..request.first_run + request.runs as u64;
+        for &each in &asked.configurations {
+            let runs = asked.first_run..asked.first_run + asked.runs as u64;
             let row: Vec<f64> = runs.map(|run| merit(run, each)).collect();
             seen[each].extend(&row);
             merits.extend(row);
         }
-        procedure.record(&merits);
+        procedure.tell(&merits);
     }
-    let eliminations = procedure.eliminations().into_iter();
-    let mut numbers: Vec<u64> = eliminations
+    let out = procedure.eliminations().into_iter();
+    let mut numbers: Vec<u64> = out
         .flat_map(|each| [each.configuration as u64, each.by as u64, each.runs])
         .collect();
     numbers.push(procedure.best() as u64);

@@ -9,14 +9,11 @@
     )
 )]
 
-pub mod bodies;
+pub mod body;
 pub mod clock;
+pub mod engine;
 pub mod radio;
-pub mod run;
 pub mod runner;
 pub mod scenario;
-pub(crate) mod schedule;
-pub mod sensors;
-pub mod simulation;
-pub mod step;
+pub mod sensing;
 pub mod world;

@@ -1,8 +1,7 @@
 //! The metric engine behind the seam that studies use.
 
-use crate::run::{Outcome, State};
+use crate::engine::{Outcome, State, Workshop};
 use crate::scenario::{Scenario, ScenarioSpec};
-use crate::step::tick::StepScratch;
 use base::document::Document;
 use base::engine::{BlockOptions, Column, ColumnKind, Runner};
 use base::engine::{Configuration, Engine, Measure, NamedMerit};
@@ -90,8 +89,8 @@ impl Runner for Runs {
             up_to("failed", ColumnKind::Flag, 1.0),
             fixed("robots", ColumnKind::Whole, most.robots),
             fixed("price", ColumnKind::Real, most.price),
-            up_to("found", ColumnKind::Whole, most.targets),
-            up_to("missed", ColumnKind::Whole, most.targets),
+            up_to("found", ColumnKind::Whole, most.target),
+            up_to("missed", ColumnKind::Whole, most.target),
             column("false_alarms", ColumnKind::Whole, 0.0, None),
             up_to("collisions", ColumnKind::Whole, most.collisions),
             up_to("energy_j", ColumnKind::Real, most.energy_j),
@@ -116,10 +115,10 @@ impl Runner for Runs {
 
     fn run_block(&self, seed: u64, runs: Range<u64>, options: BlockOptions) -> Vec<Vec<f64>> {
         let mut columns = vec![Vec::new(); self.columns().len()];
-        let mut scratch = StepScratch::new(&self.0, options.may_share);
+        let mut workshop = Workshop::new(&self.0, options.may_share);
         for run in runs.take_while(|_| !options.is_stopped()) {
             let state = State::new(&self.0, seed, run).ok();
-            let outcome = state.map(|state| self.finish(&mut scratch, state, options));
+            let outcome = state.map(|state| self.finish(&mut workshop, state, options));
             let values = outcome.and_then(|outcome| self.values(&outcome));
             for (number, column) in columns.iter_mut().enumerate() {
                 column.push(values.as_ref().map_or(f64::NAN, |values| values[number]));
@@ -130,16 +129,11 @@ impl Runner for Runs {
 }
 
 impl Runs {
-    fn finish(
-        &self,
-        scratch: &mut StepScratch,
-        mut state: State,
-        options: BlockOptions,
-    ) -> Outcome {
+    fn finish(&self, workshop: &mut Workshop, mut state: State, options: BlockOptions) -> Outcome {
         let scenario = &*self.0;
-        scratch.invalidate();
+        workshop.forget();
         while !state.is_over(scenario) && !options.is_stopped() {
-            scratch.step(scenario, &mut state);
+            workshop.step(scenario, &mut state);
         }
         Outcome::of(scenario, &state)
     }

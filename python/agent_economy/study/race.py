@@ -231,7 +231,13 @@ def procedure_of(plan: Plan) -> _core.Procedure:
             confidence=plan.confidence,
             guarantee=plan.guarantee,
         )
-    return _core.equal_allocation(len(plan.configurations), plan.runs)
+    return _core.reference(
+        "equal",
+        len(plan.configurations),
+        delta=plan.delta,
+        confidence=plan.confidence,
+        runs=plan.runs,
+    )
 
 
 def guarantee_of(plan: Plan, procedure: _core.Procedure) -> str:

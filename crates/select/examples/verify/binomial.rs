@@ -1,6 +1,6 @@
-//! Exact bounds of an observed share.
+//! Exact bounds of a share that was counted.
 
-/// Clopper and Pearson's one-sided lower bound of a share of which `hits` of `trials` were observed;
+/// Clopper and Pearson's one-sided lower bound of a share of which `hits` of `trials` were counted;
 /// it is above the truth with a probability of at most `alpha`.
 pub(crate) fn lower_bound(hits: u32, trials: u32, alpha: f64) -> f64 {
     if hits == 0 {

@@ -1,11 +1,10 @@
 //! Do the selection procedures keep their guarantees? Measured on problems whose answer is known.
 //!
-//! | topic | module |
+//! | to know | read |
 //! |---|---|
-//! | problems whose answer is known | `cases` |
+//! | which problems there are | `cases` |
 //! | what is measured on them | `lines` |
-//! | one selection from its first run to its last | `selection` |
-//! | classical procedures, for comparison | `reference` |
+//! | how one selection is played | `play` |
 //! | what passes | `gate` |
 
 mod arguments;
@@ -14,10 +13,9 @@ mod cases;
 mod coverage;
 mod gate;
 mod lines;
+mod play;
 mod random;
-mod reference;
 mod report;
-mod selection;
 #[cfg(test)]
 mod tests;
 
@@ -46,7 +44,7 @@ fn verify(arguments: &Arguments) -> io::Result<bool> {
     lines.retain(|line| line.is_named(&arguments.only));
     if lines.is_empty() {
         let error = format!(
-            "--only {}: no line has a name that contains these words",
+            "--only {}: no line has these words in its name",
             arguments.only
         );
         return Err(io::Error::new(io::ErrorKind::InvalidInput, error));
@@ -63,7 +61,7 @@ fn verify(arguments: &Arguments) -> io::Result<bool> {
 }
 
 fn end(stream: &mut impl Write, text: &str, code: u8) -> ExitCode {
-    // Nothing can be reported if this fails.
+    // Nobody is left to tell when this fails.
     let _ = writeln!(stream, "{text}");
     ExitCode::from(code)
 }

@@ -2,11 +2,12 @@
 
 mod bounds;
 mod checks;
+pub mod models;
 mod ready;
 
 pub use ready::Scenario;
 
-use crate::bodies::RobotSpec;
+use crate::body::RobotSpec;
 use crate::clock::ClockSpec;
 use crate::world::WorldSpec;
 use crate::world::items::ItemSpec;
@@ -73,7 +74,7 @@ impl ScenarioSpec {
     #[must_use]
     pub fn filled(document: &Document) -> Document {
         let mut filled = document.clone();
-        crate::bodies::models::fill(&mut filled);
+        models::fill(&mut filled);
         filled
     }
 

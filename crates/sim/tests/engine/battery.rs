@@ -2,8 +2,7 @@
 
 use crate::common::{first, go, id, robots, start, told};
 use brain::{Command, Motion, SensorRequest};
-use sim::run::Status;
-use sim::simulation::Simulation;
+use sim::engine::{Simulation, Status};
 
 /// A robot with a battery of these values at the left of a long field, looking along it.
 fn field(battery: &str, more: &str) -> String {

@@ -5,9 +5,8 @@ use base::error::InputErrors;
 use base::geometry::Point;
 use base::random::{Entity, Purpose, Stream, stream, unit};
 use brain::{About, Command, Message, Motion, RobotId, Seen};
-use sim::run::Robot;
+use sim::engine::{Robot, Simulation};
 use sim::scenario::{Scenario, ScenarioSpec};
-use sim::simulation::Simulation;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 

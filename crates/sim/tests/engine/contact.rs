@@ -2,8 +2,7 @@
 
 use crate::common::{Random, go, robots, start, told};
 use base::geometry::{Polygon, Rectangle};
-use sim::run::Robot;
-use sim::simulation::Simulation;
+use sim::engine::{Robot, Simulation};
 use sim::world::obstacles::Solid;
 
 const SIDE_M: f64 = 120.0;

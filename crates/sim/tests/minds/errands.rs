@@ -2,7 +2,7 @@
 
 use crate::{listed, scenario};
 use base::geometry::Point;
-use sim::simulation::Simulation;
+use sim::engine::Simulation;
 
 const WITHIN_M: f64 = 0.3;
 

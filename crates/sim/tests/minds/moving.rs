@@ -2,7 +2,7 @@
 
 use crate::scenario;
 use brain::{BelievedRobot, RobotId};
-use sim::simulation::Simulation;
+use sim::engine::Simulation;
 
 const WATCHER: RobotId = RobotId { kind: 0, index: 0 };
 

@@ -1,2 +1,0 @@
-/** A binary message does not follow the format. */
-export class FrameError extends Error {}
