@@ -10,5 +10,5 @@ export default defineConfig({
   // The large chunk is Vega, which draws the charts of studies and is loaded with the first.
   build: { assetsInlineLimit: 0, modulePreload: { polyfill: false }, chunkSizeWarningLimit: 900 },
   server: { proxy: { "/api": server, "/ws": { target: server, ws: true } } },
-  test: { include: ["src/**/*.test.ts"], environment: "node" },
+  test: { include: ["src/**/*.test.ts", "dev/**/*.test.mjs"], environment: "node" },
 });

@@ -2,8 +2,9 @@
 //! 150 by 150, who see 15 far, for 100 steps from a random start.
 
 use crate::threads::by_turns;
-use sim::engine::{Simulation, State};
+use sim::run::State;
 use sim::scenario::{Scenario, ScenarioSpec};
+use sim::simulation::Simulation;
 use std::sync::Arc;
 
 /// Birds, and the side of the world for a first so many.

@@ -5,8 +5,8 @@
 
 use crate::scenarios::read;
 use crate::threads::by_turns;
-use sim::engine::Simulation;
 use sim::scenario::Scenario;
+use sim::simulation::Simulation;
 use std::sync::Arc;
 
 const ROBOTS: u32 = 100;

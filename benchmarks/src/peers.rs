@@ -3,7 +3,7 @@
 use crate::field::Field;
 use crate::team;
 use serde_json::json;
-use sim::engine::Simulation;
+use sim::simulation::Simulation;
 use std::sync::Arc;
 
 /// Prints where a hundred robots start, and what stands around them; lengths in metres.

@@ -5,9 +5,9 @@ use crate::scenarios::read;
 use crate::threads::by_turns;
 use base::engine::{BlockOptions, Runner};
 use rayon::prelude::*;
-use sim::engine::Simulation;
 use sim::runner::Runs;
 use sim::scenario::Scenario;
+use sim::simulation::Simulation;
 use std::path::Path;
 use std::sync::Arc;
 

@@ -4,7 +4,7 @@ use crate::clock::{median, took};
 use crate::field::Field;
 use crate::speed_of_light::Team;
 use base::geometry::Point;
-use sim::engine::Simulation;
+use sim::simulation::Simulation;
 use std::sync::Arc;
 
 /// Robot-updates in each piece of work: many steps also of the largest team, so that what the other

@@ -3,7 +3,7 @@
 use crate::clock::took_by_both;
 use crate::field::Field;
 use crate::threads::pool;
-use sim::engine::Simulation;
+use sim::simulation::Simulation;
 use std::sync::Arc;
 
 const ROBOTS: u32 = 1_000_000;

@@ -63,7 +63,7 @@ class ErrorDetails(TypedDict):
     file: str | None
     line: int | None
     path: str
-    value: str | None
+    given: str | None
     allowed: str
     suggestion: str | None
     message: str
@@ -97,7 +97,7 @@ class Procedure:
     @property
     def eliminations(self) -> list[tuple[int, int, int]]: ...
     def next(self) -> tuple[NDArray[np.int64], int, int] | None: ...
-    def tell(self, merits: NDArray[np.float64]) -> None: ...
+    def record(self, merits: NDArray[np.float64]) -> None: ...
 
 def selection(
     bounds: NDArray[np.float64],
@@ -106,16 +106,9 @@ def selection(
     confidence: float,
     guarantee: Literal["indifference", "pgs"],
 ) -> Procedure: ...
-def reference(
-    name: Literal["equal", "rinott", "kn"],
-    configurations: int,
-    *,
-    delta: float,
-    confidence: float,
-    runs: int,
-) -> Procedure: ...
+def equal_allocation(configurations: int, runs: int) -> Procedure: ...
 def mean_bounds(
-    values: NDArray[np.float64], least: float, greatest: float, alpha: float
+    values: NDArray[np.float64], min: float, max: float, alpha: float
 ) -> tuple[float, float]: ...
 def mean_exceeds(
     values: NDArray[np.float64], bounds: tuple[float, float], candidate: float, alpha: float

@@ -68,7 +68,6 @@ def answer(**arguments: Any) -> study.Answer:
             lambda: study.select_best(NO, 2, bounds=(0, 1), delta=0.1),
             r"^sampler = 5: must be a function of configurations",
         ),
-        (lambda: study.reference(NO, NO, 2, runs=9), r"^name = 5: must be one of .*\nsampler = 5"),
     ],
 )
 def test_an_argument_of_another_type_is_told_by_its_name(

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from agent_economy import InputError
-from agent_economy.study import reference, select_best
+from agent_economy.study import select_best
 from agent_economy.study.arguments import Floats
 from agent_economy.study.selection import LANE, Integers, Sampler
 
@@ -258,26 +258,3 @@ def test_what_the_sampler_raises_is_passed_on() -> None:
 
     with pytest.raises(ZeroDivisionError):
         select_best(sample, 2, bounds=(0, 1), delta=0.1)
-
-
-def test_classical_procedures_select_among_normal_merits_and_need_what_is_published() -> None:
-    # Slippage of ten with delta = sigma / sqrt(10): 1,848 runs for Rinott, 977 for KN on average.
-    def sample(configurations: Integers, first_run: int, runs: int) -> Floats:
-        rows = [
-            [np.random.default_rng([3, int(each), first_run + run]).normal() for run in range(runs)]
-            for each in configurations
-        ]
-        best = configurations[:, np.newaxis] == 4
-        merits: Floats = np.array(rows) + best * 10**-0.5
-        return merits
-
-    asked: dict[str, Any] = {"runs": 10, "delta": 10**-0.5}
-    rinott, kn, equal = (reference(name, sample, 10, **asked) for name in ("rinott", "kn", "equal"))
-    assert rinott.best == kn.best == 4
-    assert 1200 < rinott.runs.sum() < 2500
-    assert 500 < kn.runs.sum() < 1500
-    assert equal.runs.tolist() == [10] * 10
-    with pytest.raises(InputError, match="runs = 1: must be a whole number from 2"):
-        reference("kn", sample, 10, runs=1)
-    with pytest.raises(InputError, match="k = 30000: must be a whole number from 1 to 2000"):
-        reference("kn", sample, 30_000, runs=10)

@@ -12,14 +12,14 @@ const folder = fileURLToPath(new URL("../../docs/ui", import.meta.url));
 const wide = { width: 1280, height: 800 };
 const phone = { width: 390, height: 780 };
 
-const live = "#/live?scenario=search-beliefs&seed=7&run=0&tick=220";
+const live = "#/run?scenario=search-beliefs&seed=7&run=0&tick=220";
 
 /** Each view: where it is, what must be there before, and what is done before the picture is taken. */
 const views = {
   gallery: { at: "#/", ready: (page) => pictured(page) },
   live: { at: `${live}&robot=rover/0`, ready: (page) => standing(page, "22.0 s") },
   classic: {
-    at: "#/live?scenario=classic&seed=7&run=0&tick=400&robot=wanderer/0",
+    at: "#/run?scenario=classic&seed=7&run=0&tick=400&robot=wanderer/0",
     ready: (page) => standing(page, "7.1 s"),
   },
   parameters: {

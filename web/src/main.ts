@@ -1,8 +1,8 @@
 import { mount } from "svelte";
 import App from "./App.svelte";
-import "./styles/theme.css";
-import "./styles/base.css";
-import "./styles/controls.css";
+import "./shared/styles/theme.css";
+import "./shared/styles/base.css";
+import "./shared/styles/controls.css";
 
 const target = document.getElementById("app");
 if (target) mount(App, { target });

@@ -32,7 +32,7 @@ export const test = base.extend<{ fake: Fake; complaints: string[] }>({
 export { expect };
 
 export function live(fake: Fake, query: string): string {
-  return `${fake.url}/#/live?${query}`;
+  return `${fake.url}/#/run?${query}`;
 }
 
 /** No violation of axe's rules, in light and in dark. */

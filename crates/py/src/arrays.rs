@@ -5,7 +5,7 @@ use brain::{About, Heard, Motion, Percept, Reading, Seen, Stand};
 use numpy::{Element, IntoPyArray, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
-use sim::engine::Asked;
+use sim::step::PendingDecision;
 
 /// Stand in place of an item's kind for what is about a sender, or a place where it wants to be.
 pub(crate) const SENDER: i64 = -1;
@@ -32,7 +32,10 @@ fn seen(entries: &Entries<Heard>) -> PyResult<()> {
 ///
 /// What there is any number of, such as contacts, has an entry each, and in `row` the place of its
 /// robot.
-pub(crate) fn percepts<'py>(py: Python<'py>, asked: &[Asked]) -> PyResult<Bound<'py, PyDict>> {
+pub(crate) fn percepts<'py>(
+    py: Python<'py>,
+    asked: &[PendingDecision],
+) -> PyResult<Bound<'py, PyDict>> {
     let told = Told {
         py,
         asked,
@@ -61,7 +64,7 @@ pub(crate) fn percepts<'py>(py: Python<'py>, asked: &[Asked]) -> PyResult<Bound<
 
 struct Told<'a, 'py> {
     py: Python<'py>,
-    asked: &'a [Asked],
+    asked: &'a [PendingDecision],
     dict: Bound<'py, PyDict>,
 }
 
@@ -161,7 +164,7 @@ fn table<T: Element, const N: usize>(
 }
 
 /// Of each ring `age_s` and `ranges_m`, with a row a robot.
-fn scans<'py>(py: Python<'py>, asked: &[Asked]) -> PyResult<Bound<'py, PyList>> {
+fn scans<'py>(py: Python<'py>, asked: &[PendingDecision]) -> PyResult<Bound<'py, PyList>> {
     let rings = asked.first().map_or(0, |first| first.percept.scans.len());
     let scan = |ring: usize| {
         let scans = || {
@@ -185,14 +188,14 @@ fn scans<'py>(py: Python<'py>, asked: &[Asked]) -> PyResult<Bound<'py, PyList>> 
     PyList::new(py, (0..rings).map(scan).collect::<PyResult<Vec<_>>>()?)
 }
 
-fn looks<'py>(py: Python<'py>, asked: &[Asked]) -> PyResult<Bound<'py, PyDict>> {
+fn looks<'py>(py: Python<'py>, asked: &[PendingDecision]) -> PyResult<Bound<'py, PyDict>> {
     let entries = Entries::new(py, asked, |percept| &percept.looks)?;
     entries.put("sensor", |look| i64::from(look.sensor))?;
     entries.put("age_s", |look| look.age_s)?;
     Ok(entries.dict)
 }
 
-fn contacts<'py>(py: Python<'py>, asked: &[Asked]) -> PyResult<Bound<'py, PyDict>> {
+fn contacts<'py>(py: Python<'py>, asked: &[PendingDecision]) -> PyResult<Bound<'py, PyDict>> {
     let entries = Entries::new(py, asked, |percept| &percept.contacts)?;
     entries.put("kind", |contact| i64::from(contact.kind))?;
     entries.put("sensor", |contact| i64::from(contact.sensor))?;
@@ -202,7 +205,7 @@ fn contacts<'py>(py: Python<'py>, asked: &[Asked]) -> PyResult<Bound<'py, PyDict
     Ok(entries.dict)
 }
 
-fn neighbours<'py>(py: Python<'py>, asked: &[Asked]) -> PyResult<Bound<'py, PyDict>> {
+fn neighbours<'py>(py: Python<'py>, asked: &[PendingDecision]) -> PyResult<Bound<'py, PyDict>> {
     let entries = Entries::new(py, asked, |percept| &percept.neighbours)?;
     entries.put("range_m", |neighbour| neighbour.range_m)?;
     entries.put("bearing_rad", |neighbour| neighbour.bearing_rad)?;
@@ -215,7 +218,7 @@ fn neighbours<'py>(py: Python<'py>, asked: &[Asked]) -> PyResult<Bound<'py, PyDi
     Ok(entries.dict)
 }
 
-fn inbox<'py>(py: Python<'py>, asked: &[Asked]) -> PyResult<Bound<'py, PyDict>> {
+fn inbox<'py>(py: Python<'py>, asked: &[PendingDecision]) -> PyResult<Bound<'py, PyDict>> {
     let entries = Entries::new(py, asked, |percept| &percept.inbox)?;
     entries.put("from_kind", |heard| i64::from(heard.from.kind))?;
     entries.put("from_index", |heard| i64::from(heard.from.index))?;
@@ -264,7 +267,7 @@ struct Entries<'a, 'py, T> {
 impl<'a, 'py, T> Entries<'a, 'py, T> {
     fn new(
         py: Python<'py>,
-        asked: &'a [Asked],
+        asked: &'a [PendingDecision],
         of: impl Fn(&'a Percept) -> &'a Vec<T>,
     ) -> PyResult<Self> {
         let robots = (0..).zip(asked);

@@ -5,7 +5,7 @@ use base::geometry::Point;
 use brain::{About, Message, Motion, Seen, SensorRequest};
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
-use sim::engine::Asked;
+use sim::step::PendingDecision;
 
 /// Arrays as `agent_economy.batch` has checked them; `row` is the place of an entry's robot.
 #[derive(FromPyObject)]
@@ -36,7 +36,7 @@ struct Outbox<'py> {
 
 impl Commands<'_> {
     /// Gives each robot its part.
-    pub(crate) fn give(&self, asked: &mut [Asked]) {
+    pub(crate) fn give(&self, asked: &mut [PendingDecision]) {
         let speeds = self.speed_m_s.as_array();
         let turns = self.turn_rate_rad_s.as_array();
         for (asked, (speed, turn)) in asked.iter_mut().zip(speeds.iter().zip(turns)) {
@@ -51,7 +51,7 @@ impl Commands<'_> {
 }
 
 impl Requests<'_> {
-    fn give(&self, asked: &mut [Asked]) {
+    fn give(&self, asked: &mut [PendingDecision]) {
         let switches = self.sensor.as_array().into_iter().zip(self.on.as_array());
         for (row, (sensor, on)) in self.row.as_array().iter().zip(switches) {
             let request = SensorRequest {
@@ -66,7 +66,7 @@ impl Requests<'_> {
 }
 
 impl Outbox<'_> {
-    fn give(&self, asked: &mut [Asked]) {
+    fn give(&self, asked: &mut [PendingDecision]) {
         let places = self.at.as_array();
         let places = places
             .rows()
@@ -108,6 +108,6 @@ impl Outbox<'_> {
     }
 }
 
-fn at_row(asked: &mut [Asked], row: i64) -> Option<&mut Asked> {
+fn at_row(asked: &mut [PendingDecision], row: i64) -> Option<&mut PendingDecision> {
     asked.get_mut(usize::try_from(row).ok()?)
 }

@@ -10,8 +10,8 @@ use base::document::path_of;
 use base::error::{InputError, InputErrors};
 use brain::Command;
 use pyo3::prelude::*;
-use sim::engine::{Asked, Outside};
 use sim::scenario::Scenario;
+use sim::step::{ExternalInputs, PendingDecision};
 
 /// What decides for the robots of a kind, in Python.
 #[derive(FromPyObject)]
@@ -30,7 +30,7 @@ impl Elsewhere<'_> {
         kind_of(scenario, "brains", &self.kind).ok()
     }
 
-    fn decide(&self, scenario: &Scenario, asked: &mut [Asked]) -> PyResult<()> {
+    fn decide(&self, scenario: &Scenario, asked: &mut [PendingDecision]) -> PyResult<()> {
         if self.is_in_arrays {
             let percepts = arrays::percepts(self.step.py(), asked)?;
             let commands: Commands = self.step.call1((percepts,))?.extract()?;
@@ -42,7 +42,7 @@ impl Elsewhere<'_> {
             .try_for_each(|asked| self.decide_for(scenario, asked))
     }
 
-    fn decide_for(&self, scenario: &Scenario, asked: &mut Asked) -> PyResult<()> {
+    fn decide_for(&self, scenario: &Scenario, asked: &mut PendingDecision) -> PyResult<()> {
         let percept = exchange::write(self.step.py(), &asked.percept)?;
         let command = self.step.call1((asked.robot.index, percept))?;
         let at = path_of("brains", &name_of(scenario, asked.robot));
@@ -56,9 +56,9 @@ impl Elsewhere<'_> {
 pub(crate) fn decide(
     scenario: &Scenario,
     brains: &[Elsewhere],
-    outside: &mut Outside,
+    outside: &mut ExternalInputs,
 ) -> PyResult<()> {
-    let robots = outside.asked();
+    let robots = outside.decisions();
     for asked in robots.chunk_by_mut(|one, other| one.robot.kind == other.robot.kind) {
         let kind = asked.first().map(|first| first.robot.kind);
         let mut of_kind = brains.iter().filter(|brain| brain.kind(scenario) == kind);

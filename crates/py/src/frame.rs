@@ -3,7 +3,8 @@
 use crate::simulation::Simulation;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
-use sim::engine::{self, Robot, Status};
+use sim::run::{Robot, Status};
+use sim::simulation::Simulation as Run;
 
 /// One moment of a run, to be drawn, in little endian: of each robot four 32-bit floats, then of each
 /// item a byte.
@@ -17,12 +18,12 @@ pub(crate) fn frame<'py>(
     simulation: &Bound<'py, Simulation>,
 ) -> PyResult<Bound<'py, PyBytes>> {
     let mut locked = simulation.get().locked(py)?;
-    let run: &mut engine::Simulation = &mut locked;
+    let run: &mut Run = &mut locked;
     let bytes = py.detach(|| drawn(run));
     Ok(PyBytes::new(py, &bytes))
 }
 
-fn drawn(run: &mut engine::Simulation) -> Vec<u8> {
+fn drawn(run: &mut Run) -> Vec<u8> {
     let in_danger = run.in_danger();
     let (state, scenario) = (run.state(), run.scenario());
     let robots = state.each_robot(scenario).zip(in_danger);

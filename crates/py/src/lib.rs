@@ -56,7 +56,7 @@ mod _core {
     #[pymodule_export]
     use crate::scenario::{files_wanted, read_document, read_filled, read_scenario};
     #[pymodule_export]
-    use crate::selection::{Procedure, mean_bounds, mean_exceeds, reference, selection};
+    use crate::selection::{Procedure, equal_allocation, mean_bounds, mean_exceeds, selection};
     #[pymodule_export]
     use crate::simulation::{MetricScenario, Simulation, Snapshot, read_metric};
     #[pymodule_export]
@@ -70,7 +70,7 @@ mod _core {
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
         let none = PyTuple::empty(module.py());
         module.getattr("InputError")?.setattr("errors", none)?;
-        module.add("FIRST_LOOK", select::schedule::next_look(0))?;
+        module.add("FIRST_LOOK", select::looks::next_look(0))?;
         module.add("MAX_IMAGE_BYTES", base::map::MAX_IMAGE_BYTES)?;
         module.add("MAX_RUNS", crate::arguments::MAX_RUNS)?;
         module.add("CONTACTS", Contact::NAMES.map(|(name, _)| name))

@@ -9,8 +9,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
-use sim::engine::Simulation;
 use sim::scenario::Scenario;
+use sim::simulation::Simulation as Run;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Something for each of some robots.
@@ -66,7 +66,7 @@ fn no_robot(team: &[(String, u32)], path: &str, name: &str) -> InputError {
 /// # Errors
 /// Everything that is wrong with them; of each percept and command the first error.
 pub(crate) fn read(
-    run: &Simulation,
+    run: &Run,
     percepts: &Bound<PyDict>,
     commands: &Bound<PyDict>,
     elsewhere: &[u8],
@@ -105,7 +105,7 @@ fn by_robot<T: DeserializeOwned + JsonSchema>(
 
 /// A body outside obeys its own brain: its command is handed out, and none goes in.
 fn commanded_outside(
-    run: &Simulation,
+    run: &Run,
     percepts: &ByRobot<Percept>,
     commands: &ByRobot<Command>,
 ) -> Vec<InputError> {

@@ -5,7 +5,7 @@ use brain::RobotId;
 use numpy::{IntoPyArray, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
-use sim::engine::{self, Footprint, Link, Sensors};
+use sim::simulation::{Footprint, Link, Sensors, Simulation as Run};
 use std::iter;
 
 /// Links of a robot, or of all, shape (links, 3): the number of who is heard, of who hears, and 1
@@ -17,7 +17,7 @@ pub(crate) fn links<'py>(
     robot: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyArray2<u32>>> {
     let mut locked = simulation.get().locked(py)?;
-    let run: &mut engine::Simulation = &mut locked;
+    let run: &mut Run = &mut locked;
     let robot = robot
         .map(|robot| id_of(run.scenario(), &robot))
         .transpose()?;
@@ -34,7 +34,7 @@ pub(crate) fn footprints<'py>(
     robot: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let mut locked = simulation.get().locked(py)?;
-    let run: &mut engine::Simulation = &mut locked;
+    let run: &mut Run = &mut locked;
     let id = id_of(run.scenario(), robot)?;
     let footprints = py
         .detach(|| run.footprints(id, Sensors::All))
@@ -60,7 +60,7 @@ pub(crate) fn drawn_links<'py>(
     most: usize,
 ) -> PyResult<Bound<'py, PyBytes>> {
     let mut locked = simulation.get().locked(py)?;
-    let run: &mut engine::Simulation = &mut locked;
+    let run: &mut Run = &mut locked;
     let selected = selected.and_then(|robot| id_of(run.scenario(), &robot).ok());
     let links = py.detach(|| to_draw(run, selected, everyone, most));
     let numbers = rows(&links).into_iter();
@@ -68,12 +68,7 @@ pub(crate) fn drawn_links<'py>(
     Ok(PyBytes::new(py, &bytes))
 }
 
-fn to_draw(
-    run: &mut engine::Simulation,
-    selected: Option<RobotId>,
-    everyone: bool,
-    most: usize,
-) -> Vec<Link> {
+fn to_draw(run: &mut Run, selected: Option<RobotId>, everyone: bool, most: usize) -> Vec<Link> {
     let mut of = |robot| run.links(robot, most).unwrap_or_default();
     let mut links = match selected {
         _ if everyone => of(None),
@@ -108,13 +103,13 @@ pub(crate) fn drawn_footprints<'py>(
     everyone: bool,
 ) -> PyResult<Bound<'py, PyBytes>> {
     let mut locked = simulation.get().locked(py)?;
-    let run: &mut engine::Simulation = &mut locked;
+    let run: &mut Run = &mut locked;
     let selected = selected.and_then(|robot| id_of(run.scenario(), &robot).ok());
     let bytes = py.detach(|| drawn(run, selected, everyone));
     Ok(PyBytes::new(py, &bytes))
 }
 
-fn drawn(run: &mut engine::Simulation, selected: Option<RobotId>, everyone: bool) -> Vec<u8> {
+fn drawn(run: &mut Run, selected: Option<RobotId>, everyone: bool) -> Vec<u8> {
     let robots = run.state().each_robot(run.scenario());
     let ids = (0..).zip(robots.map(|robot| robot.id));
     let ids: Vec<(u32, RobotId)> = ids

@@ -7,8 +7,8 @@ use base::trig::sin_cos;
 use numpy::{IntoPyArray, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict};
-use sim::body::Layer;
-use sim::engine::Robot;
+use sim::bodies::Layer;
+use sim::run::Robot;
 use sim::scenario::Scenario;
 use sim::world::obstacles::Solid;
 

@@ -4,16 +4,15 @@ use crate::error::InputError;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use select::bounds::{mean_bounds as bounds_of_mean, mean_exceeds as exceeds};
-use select::reference::{Equal, KimNelson, Rinott};
-use select::{Bounds, Problem, Race, Strict};
+use select::{Bounds, EqualAllocation, Problem, Race, Strict};
 use std::sync::{Mutex, PoisonError};
 
-/// Configurations that one selection can compare.
+/// Maximum number of configurations of a selection.
 const MAX_CONFIGURATIONS: usize = 100_000;
 
 /// A selection procedure, between two of its rounds.
 ///
-/// Its callers in Python check what people give; here a wrong argument is an error of ours.
+/// Its callers in Python check what users pass; a wrong argument here is a bug.
 #[pyclass(frozen, module = "agent_economy._core")]
 pub(crate) struct Procedure(Mutex<Box<dyn select::Procedure + Send>>);
 
@@ -24,21 +23,21 @@ impl Procedure {
     }
 }
 
-type Asked<'py> = (Bound<'py, PyArray1<i64>>, u64, usize);
+type Request<'py> = (Bound<'py, PyArray1<i64>>, u64, usize);
 
 #[pymethods]
 impl Procedure {
-    /// Configurations, first run and number of runs that it wants next; None when it has selected.
-    fn next<'py>(&self, py: Python<'py>) -> Option<Asked<'py>> {
-        let asked = self.with(|procedure| procedure.next())?;
-        let configurations = indices(py, asked.configurations);
-        Some((configurations, asked.first_run, asked.runs))
+    /// Configurations, first run and number of runs that it needs next; None when it has selected.
+    fn next<'py>(&self, py: Python<'py>) -> Option<Request<'py>> {
+        let request = self.with(|procedure| procedure.next())?;
+        let configurations = indices(py, request.configurations);
+        Some((configurations, request.first_run, request.runs))
     }
 
-    /// Tells it the merits of what it asked for: shape (configurations, runs).
-    fn tell(&self, py: Python, merits: &Bound<PyArray2<f64>>) -> PyResult<()> {
-        let asked = self.with(|procedure| procedure.next());
-        let rows = asked.map_or(0, |asked| asked.configurations.len());
+    /// Records the merits of what `next` requested: shape (configurations, runs).
+    fn record(&self, py: Python, merits: &Bound<PyArray2<f64>>) -> PyResult<()> {
+        let request = self.with(|procedure| procedure.next());
+        let rows = request.map_or(0, |request| request.configurations.len());
         let shape = merits.shape();
         if shape[0] != rows || shape[1] == 0 {
             let message = format!("merits have shape {shape:?}: must be a row for each of {rows}");
@@ -46,7 +45,7 @@ impl Procedure {
         }
         // Copied, so that the procedure can work without Python's lock.
         let merits: Vec<f64> = merits.readonly().as_array().iter().copied().collect();
-        py.detach(|| self.with(|procedure| procedure.tell(&merits)));
+        py.detach(|| self.with(|procedure| procedure.record(&merits)));
         Ok(())
     }
 
@@ -70,11 +69,12 @@ impl Procedure {
         indices(py, self.with(|procedure| procedure.survivors()))
     }
 
-    /// (configuration, by which, after how many runs) of those that are out, in their order.
+    /// (configuration, by which, after how many runs) of the eliminated ones, in that order.
     #[getter]
     fn eliminations(&self) -> Vec<(usize, usize, u64)> {
-        let out = self.with(|procedure| procedure.eliminations());
-        out.into_iter()
+        let eliminations = self.with(|procedure| procedure.eliminations());
+        eliminations
+            .into_iter()
             .map(|each| (each.configuration, each.by, each.runs))
             .collect()
     }
@@ -128,28 +128,28 @@ fn rows(bounds: &Bound<PyArray2<f64>>) -> PyResult<Vec<Bounds>> {
     let bounds = bounds.readonly();
     let rows = bounds.as_array();
     let rows = rows.rows().into_iter().map(|row| Bounds {
-        least: row[0],
-        greatest: row[1],
+        min: row[0],
+        max: row[1],
     });
     Ok(rows.collect())
 }
 
-/// Lower and upper bound of the mean of values within `least`..`greatest`, at any moment; each is
+/// Lower and upper bound of the mean of values within `min`..`max`, at any moment; each is
 /// wrong with a probability of at most `alpha`.
 #[pyfunction]
 pub(crate) fn mean_bounds(
     py: Python,
     values: &Bound<PyArray1<f64>>,
-    least: f64,
-    greatest: f64,
+    min: f64,
+    max: f64,
     alpha: f64,
 ) -> (f64, f64) {
     let values = values.readonly().as_array().to_vec();
-    py.detach(|| bounds_of_mean(&values, Bounds { least, greatest }, alpha))
+    py.detach(|| bounds_of_mean(&values, Bounds { min, max }, alpha))
 }
 
-/// Whether the mean of values within `least`..`greatest` is above `candidate`, at any moment; a yes
-/// is wrong with a probability of at most `alpha`.
+/// Whether the mean of values within `bounds` is above `candidate`, at any moment; `true` is
+/// wrong with a probability of at most `alpha`.
 #[pyfunction]
 pub(crate) fn mean_exceeds(
     py: Python,
@@ -159,35 +159,13 @@ pub(crate) fn mean_exceeds(
     alpha: f64,
 ) -> bool {
     let values = values.readonly().as_array().to_vec();
-    let (least, greatest) = bounds;
-    py.detach(|| exceeds(&values, Bounds { least, greatest }, candidate, alpha))
+    let (min, max) = bounds;
+    py.detach(|| exceeds(&values, Bounds { min, max }, candidate, alpha))
 }
 
-/// A reference procedure, kept to be measured against: "equal" (`runs` of each configuration),
-/// "rinott" or "kn" (a first stage of `runs` of each).
+/// Equal allocation: `runs` of each configuration, without a guarantee.
 #[pyfunction]
-#[pyo3(signature = (name, configurations, *, delta, confidence, runs))]
-pub(crate) fn reference(
-    name: &str,
-    configurations: usize,
-    delta: f64,
-    confidence: f64,
-    runs: u32,
-) -> PyResult<Procedure> {
-    let procedure: Box<dyn select::Procedure + Send> = match name {
-        "equal" => Box::new(Equal::new(configurations, runs.into())),
-        "rinott" => Box::new(Rinott::new(configurations, delta, confidence, runs.into())),
-        "kn" => Box::new(KimNelson::new(
-            configurations,
-            delta,
-            confidence,
-            runs as usize,
-        )),
-        other => {
-            let message =
-                format!("procedure = {other:?}: must be one of \"equal\", \"rinott\", \"kn\"");
-            return Err(InputError::new_err(message));
-        }
-    };
-    Ok(Procedure(Mutex::new(procedure)))
+pub(crate) fn equal_allocation(configurations: usize, runs: u32) -> Procedure {
+    let procedure = EqualAllocation::new(configurations, runs.into());
+    Procedure(Mutex::new(Box::new(procedure)))
 }

@@ -15,9 +15,11 @@ use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use sim::engine::{self, NoRoom, Outside, Robot};
+use sim::run::{Item as RunItem, NoRoom, Robot};
 use sim::runner::Runs;
 use sim::scenario::{Scenario, ScenarioSpec};
+use sim::simulation::Simulation as Run;
+use sim::step::ExternalInputs;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
 use std::thread::{self, ThreadId};
@@ -44,12 +46,12 @@ pub(crate) fn read_metric(source: Source) -> PyResult<MetricScenario> {
 
 /// A whole run, at one of its moments.
 #[pyclass(frozen, module = "agent_economy._core")]
-pub(crate) struct Snapshot(engine::Simulation);
+pub(crate) struct Snapshot(Run);
 
 /// A run. Threads may share it: one waits until the other is done.
 #[pyclass(frozen, module = "agent_economy._core")]
 pub(crate) struct Simulation {
-    run: Mutex<engine::Simulation>,
+    run: Mutex<Run>,
     threads: Option<usize>,
     /// In which thread brains in Python are asked now.
     asking: Mutex<Option<ThreadId>>,
@@ -75,7 +77,7 @@ impl Simulation {
         let all = (|| Some((seed?, run?, threads?)))();
         let (seed, run, threads) = check.or_errors(all)?;
         let scenario = &scenario.get().0;
-        let begun = py.detach(|| engine::Simulation::new(Arc::clone(scenario), seed, run));
+        let begun = py.detach(|| Run::new(Arc::clone(scenario), seed, run));
         let begun = begun.map_err(|why| no_room(scenario, why))?;
         Ok(Self {
             run: Mutex::new(begun),
@@ -127,11 +129,11 @@ impl Simulation {
         let (percepts, commands) = read.map_err(|errors| input_error(&errors, ""))?;
         let work = robots(&run);
         let begun = self.take(py, &mut run, work, |run, _| {
-            run.ask(percepts, commands, &kinds)
+            run.begin_step(percepts, commands, &kinds)
         })?;
         let mut begun = begun.map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
         self.ask(run.scenario(), &brains, &mut begun)?;
-        let answers = self.take(py, &mut run, work, |run, _| run.answer(begun))?;
+        let answers = self.take(py, &mut run, work, |run, _| run.finish_step(begun))?;
         outside::write(py, run.scenario(), &answers)
     }
 
@@ -139,7 +141,7 @@ impl Simulation {
     #[getter]
     fn decided<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let run = self.locked(py)?;
-        let decided = run.asked().iter();
+        let decided = run.decided().iter();
         let decided = decided.map(|asked| (asked.robot, &asked.command)).collect();
         outside::write(py, run.scenario(), &decided)
     }
@@ -206,7 +208,7 @@ impl Simulation {
             run.state().changed(run.scenario(), to)
         })?;
         // Not before: what Ctrl-C breaks off has changed nothing.
-        run.go_on(Arc::clone(to), changed.map_err(|why| no_room(to, why))?);
+        run.continue_with(Arc::clone(to), changed.map_err(|why| no_room(to, why))?);
         Ok(run.state().tick())
     }
 
@@ -216,11 +218,11 @@ impl Simulation {
 
     fn restore(&self, py: Python, snapshot: &Bound<Snapshot>) -> PyResult<()> {
         let mut run = self.locked(py)?;
-        let (watches, scenario) = (run.watches(), Arc::clone(run.scenario()));
+        let (watches, scenario) = (run.inspected_robot(), Arc::clone(run.scenario()));
         *run = snapshot.get().0.clone();
         // In another scenario robots may have other numbers.
         let is_same = Arc::ptr_eq(&scenario, run.scenario());
-        run.watch(watches.filter(|_| is_same));
+        run.inspect(watches.filter(|_| is_same));
         Ok(())
     }
 
@@ -300,7 +302,7 @@ impl Simulation {
         let names: Vec<&str> = run.scenario().item_kinds().collect();
         let items: Vec<_> = run.state().each_item(run.scenario()).collect();
         let kinds = items.iter().map(|item| names[usize::from(item.kind)]);
-        let numbers = |number: fn(&engine::Item) -> f64| {
+        let numbers = |number: fn(&RunItem) -> f64| {
             let numbers: Vec<f64> = items.iter().map(number).collect();
             numbers.into_pyarray(py)
         };
@@ -316,7 +318,7 @@ impl Simulation {
 impl Simulation {
     /// The run, when no other thread has it. Meanwhile the interpreter is free, since whoever has
     /// it may need that, and Ctrl-C is looked for.
-    pub(crate) fn locked(&self, py: Python) -> PyResult<MutexGuard<'_, engine::Simulation>> {
+    pub(crate) fn locked(&self, py: Python) -> PyResult<MutexGuard<'_, Run>> {
         loop {
             match self.run.try_lock() {
                 Ok(run) => return Ok(run),
@@ -337,7 +339,12 @@ impl Simulation {
     }
 
     /// Asks brains in Python, in this thread: Python hands Ctrl-C to no other.
-    fn ask(&self, scenario: &Scenario, brains: &[Elsewhere], begun: &mut Outside) -> PyResult<()> {
+    fn ask(
+        &self,
+        scenario: &Scenario,
+        brains: &[Elsewhere],
+        begun: &mut ExternalInputs,
+    ) -> PyResult<()> {
         *self.asking() = Some(thread::current().id());
         let decided = elsewhere::decide(scenario, brains, begun);
         *self.asking() = None;
@@ -353,9 +360,9 @@ impl Simulation {
     fn take<T: Send>(
         &self,
         py: Python,
-        run: &mut engine::Simulation,
+        run: &mut Run,
         work: u64,
-        go: impl FnOnce(&mut engine::Simulation, &AtomicBool) -> T + Send,
+        go: impl FnOnce(&mut Run, &AtomicBool) -> T + Send,
     ) -> PyResult<T> {
         if work <= SHORT {
             let stop = AtomicBool::new(false);
@@ -377,7 +384,7 @@ pub(crate) fn id_of(scenario: &Scenario, robot: &Bound<PyAny>) -> PyResult<Robot
     id.map_err(|error| input_error(&InputErrors(vec![error]), ""))
 }
 
-fn robots(run: &engine::Simulation) -> u64 {
+fn robots(run: &Run) -> u64 {
     run.state().robots() as u64
 }
 
@@ -398,7 +405,7 @@ fn unchangeable(from: &Scenario, to: &Scenario) -> Vec<InputError> {
         let shown = |size: base::geometry::Point| format!("[{}, {}]", size.x, size.y);
         errors.push(error("world.size_m", shown(is), shown(was)));
     }
-    let [was, is] = [from, to].map(Scenario::periodic);
+    let [was, is] = [from, to].map(Scenario::is_periodic);
     if was != is {
         errors.push(error("world.periodic", is.to_string(), was.to_string()));
     }

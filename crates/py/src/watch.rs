@@ -6,7 +6,7 @@ use brain::BelievedMap;
 use numpy::{IntoPyArray, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use sim::engine::{self, Watched};
+use sim::simulation::{Inspected, Simulation as Run};
 
 /// Watches a robot from now on, or none.
 #[pyfunction]
@@ -17,7 +17,7 @@ pub(crate) fn watch<'py>(
 ) -> PyResult<()> {
     let mut run = simulation.get().locked(py)?;
     let robot = robot.map(|robot| id_of(run.scenario(), &robot));
-    run.watch(robot.transpose()?);
+    run.inspect(robot.transpose()?);
     Ok(())
 }
 
@@ -30,13 +30,13 @@ pub(crate) fn watched<'py>(
     robot: &Bound<'py, PyAny>,
 ) -> PyResult<Option<Bound<'py, PyDict>>> {
     let mut locked = simulation.get().locked(py)?;
-    let run: &mut engine::Simulation = &mut locked;
+    let run: &mut Run = &mut locked;
     // A change of the run may have given it another number.
-    run.watch(id_of(run.scenario(), robot).ok());
-    let Some(told) = py.detach(|| run.watched()) else {
+    run.inspect(id_of(run.scenario(), robot).ok());
+    let Some(told) = py.detach(|| run.inspection()) else {
         return Ok(None);
     };
-    let Watched {
+    let Inspected {
         tick,
         percept,
         decision,

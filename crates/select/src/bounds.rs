@@ -1,4 +1,4 @@
-//! Bounds of the mean of bounded values that hold at every moment at which one may look.
+//! Bounds of the mean of bounded values (a confidence sequence): they are valid at every moment.
 //!
 //! A candidate for the mean is refuted when gamblers who bet that the mean is higher (for the lower
 //! bound) have made 1 / alpha out of 1; the bound is the highest candidate refuted. Since the
@@ -6,9 +6,9 @@
 //! time (Ville's inequality), the bound holds however the number of values was chosen.
 //!
 //! Ten gamblers share the first 1 equally. With values scaled to 0..1 and a candidate m, each always
-//! stakes the same part of the limit 1 / m: 0.9 of it, a third of that, and so on. Bets that never
-//! change make the order of the values irrelevant, so equal values are counted, not repeated; and
-//! every gambler's wealth falls as m rises, so the bound is found by bisection.
+//! stakes the same part of the limit 1 / m: 0.9 of it, a third of that, and so on. With constant bets
+//! the order of the values is irrelevant, so equal values are counted, not repeated; and every
+//! gambler's wealth falls as m rises, so the bound is found by bisection.
 //!
 //! Source: Waudby-Smith and Ramdas (2024), Estimating means of bounded random variables by betting,
 //! Journal of the Royal Statistical Society B 86, section 4.
@@ -19,50 +19,50 @@ const GAMBLERS: i32 = 10;
 const BOLDEST: f64 = 0.9;
 const STEP: f64 = 3.0;
 
-/// Distinct values that are told apart; where there are more, neighbours count as the one among them
-/// that makes the bound wider.
+/// Maximum number of distinct values; if there are more, neighbours are merged into the one among
+/// them that makes the bound wider.
 const MAX_DISTINCT: usize = 8192;
 
 /// Halvings of the interval in which the bound lies.
 const HALVINGS: u32 = 30;
 
-/// Values that are multiplied before a logarithm is taken: 0.1^16 and 10^16 are far from overflow.
+/// Factors that are multiplied before a logarithm is taken: 0.1^16 and 10^16 are far from overflow.
 const PRODUCT: u64 = 16;
 
 /// The lower and the upper bound of the mean of values that lie within `bounds`; each is wrong with
 /// a probability of at most `alpha`.
 ///
-/// Without values, or when `bounds` leave no room, they are `bounds`.
+/// Without values, or if `bounds` have no width, they are `bounds`.
 #[must_use]
 pub fn mean_bounds(values: &[f64], bounds: Bounds, alpha: f64) -> (f64, f64) {
-    let width = bounds.greatest - bounds.least;
+    let width = bounds.max - bounds.min;
     if values.is_empty() || width <= 0.0 {
-        return (bounds.least, bounds.greatest);
+        return (bounds.min, bounds.max);
     }
-    let up = |value: &f64| ((value - bounds.least) / width).clamp(0.0, 1.0);
-    let down = |value: &f64| ((bounds.greatest - value) / width).clamp(0.0, 1.0);
+    let up = |value: &f64| ((value - bounds.min) / width).clamp(0.0, 1.0);
+    let down = |value: &f64| ((bounds.max - value) / width).clamp(0.0, 1.0);
     let low = Counted::new(values.iter().map(up)).lower_bound(alpha);
     let high = Counted::new(values.iter().map(down)).lower_bound(alpha);
     (
-        (bounds.least + low * width).min(bounds.greatest),
-        (bounds.greatest - high * width).max(bounds.least),
+        (bounds.min + low * width).min(bounds.max),
+        (bounds.max - high * width).max(bounds.min),
     )
 }
 
-/// Whether the mean of values that lie within `bounds` is above `candidate`; a yes is wrong with a
+/// Whether the mean of values that lie within `bounds` is above `candidate`; `true` is wrong with a
 /// probability of at most `alpha`.
 #[must_use]
 pub fn mean_exceeds(values: &[f64], bounds: Bounds, candidate: f64, alpha: f64) -> bool {
-    let width = bounds.greatest - bounds.least;
-    if candidate < bounds.least {
+    let width = bounds.max - bounds.min;
+    if candidate < bounds.min {
         return true;
     }
-    if values.is_empty() || width <= 0.0 || candidate >= bounds.greatest {
+    if values.is_empty() || width <= 0.0 || candidate >= bounds.max {
         return false;
     }
-    let up = |value: &f64| ((value - bounds.least) / width).clamp(0.0, 1.0);
+    let up = |value: &f64| ((value - bounds.min) / width).clamp(0.0, 1.0);
     let counted = Counted::new(values.iter().map(up));
-    counted.refutes((candidate - bounds.least) / width, alpha)
+    counted.refutes((candidate - bounds.min) / width, alpha)
 }
 
 /// Values in 0..=1, each with how often it occurs.
@@ -79,7 +79,7 @@ impl Counted {
                 _ => counted.push((value, 1)),
             }
         }
-        // The lowest of each group stands for it: the wealth is never too high.
+        // Each group counts as its lowest value, so the wealth is never too high.
         let group = counted.len().div_ceil(MAX_DISTINCT).max(1);
         let merged = counted.chunks(group).map(|group| {
             let count = group.iter().map(|(_, count)| count).sum();
@@ -122,7 +122,7 @@ impl Counted {
         wealth >= 1.0
     }
 
-    /// Logarithm of what a gambler makes of 1 who always stakes `part` of the limit.
+    /// Logarithm of the wealth of a gambler who starts with 1 and always stakes `part` of the limit.
     #[expect(clippy::cast_precision_loss, reason = "values are far fewer than 2^53")]
     fn log_wealth(&self, candidate: f64, part: f64) -> f64 {
         let (mut log, mut product, mut factors) = (0.0, 1.0, 0);
@@ -148,10 +148,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    const UNIT: Bounds = Bounds {
-        least: 0.0,
-        greatest: 1.0,
-    };
+    const UNIT: Bounds = Bounds { min: 0.0, max: 1.0 };
 
     #[test]
     fn clean_runs_bound_a_rare_failure() {
@@ -163,12 +160,9 @@ mod tests {
     }
 
     #[test]
-    fn without_values_or_room_nothing_is_claimed() {
+    fn without_values_or_width_nothing_is_claimed() {
         assert_eq!(mean_bounds(&[], UNIT, 0.05), (0.0, 1.0));
-        let point = Bounds {
-            least: 2.0,
-            greatest: 2.0,
-        };
+        let point = Bounds { min: 2.0, max: 2.0 };
         assert_eq!(mean_bounds(&[2.0; 5], point, 0.05), (2.0, 2.0));
         assert!(!mean_exceeds(&[2.0; 5], point, 2.0, 0.05));
         assert!(mean_exceeds(&[], point, 1.0, 0.05));
@@ -192,11 +186,11 @@ mod tests {
             values in prop::collection::vec(0.0..=1.0, 1..200),
             scale in 0.1..100.0f64, shift in -50.0..50.0f64,
         ) {
-            let bounds = Bounds { least: shift, greatest: shift + scale };
+            let bounds = Bounds { min: shift, max: shift + scale };
             let values: Vec<f64> = values.iter().map(|value: &f64| shift + scale * value).collect();
             let mean = values.iter().sum::<f64>() / f64::from(u32::try_from(values.len()).unwrap());
             let (low, high) = mean_bounds(&values, bounds, 0.05);
-            prop_assert!(bounds.least <= low && low <= mean + 1e-9 && mean - 1e-9 <= high && high <= bounds.greatest);
+            prop_assert!(bounds.min <= low && low <= mean + 1e-9 && mean - 1e-9 <= high && high <= bounds.max);
             prop_assert!(mean_exceeds(&values, bounds, low - 1e-6 * scale, 0.05));
             prop_assert!(!mean_exceeds(&values, bounds, low + 1e-6 * scale, 0.05));
         }

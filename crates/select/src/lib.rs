@@ -1,26 +1,26 @@
-//! Which configuration is best, with a stated guarantee: pure functions on numbers, no input or
-//! output, the same bytes on every machine.
+//! Which configuration is best, with a stated guarantee: pure functions on numbers, without input or
+//! output, with the same bytes on every machine.
 //!
-//! | to know | read |
+//! | topic | module |
 //! |---|---|
-//! | how a procedure asks for runs and hears of them | [`procedure`] |
-//! | the evidence that one configuration gathers against another | `duel` |
+//! | how a procedure requests runs and records their merits | [`procedure`] |
+//! | evidence that one configuration gathers against another | `betting_test` |
 //! | the default: the best, if it is better than every other by delta | [`race`] |
-//! | the strict one: within delta of the best, whatever the truth | [`strict`] |
-//! | bounds of a mean that hold at every moment | [`bounds`] |
-//! | the classical procedures, to be measured against | [`mod@reference`] |
+//! | the strict one: within delta of the best in every case | [`strict`] |
+//! | a fixed number of runs of each, without a guarantee | [`equal_allocation`] |
+//! | bounds of a mean that are valid at every moment | [`bounds`] |
 
+mod betting_test;
 pub mod bounds;
-mod duel;
-mod normal;
+pub mod equal_allocation;
+pub mod looks;
 pub mod problem;
 pub mod procedure;
 pub mod race;
-pub mod reference;
 mod samples;
-pub mod schedule;
 pub mod strict;
 
+pub use equal_allocation::EqualAllocation;
 pub use problem::{Bounds, Problem};
 pub use procedure::{Elimination, Procedure, Request};
 pub use race::Race;

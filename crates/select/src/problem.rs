@@ -1,22 +1,22 @@
-//! What a procedure is asked.
+//! What a procedure has to decide.
 
-/// Between which two merits every run of a configuration lies, both included.
+/// The range of the merit of every run of a configuration, both ends included.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bounds {
-    /// The worst that a run can come to.
-    pub least: f64,
-    /// The best; not below `least`.
-    pub greatest: f64,
+    /// The worst merit.
+    pub min: f64,
+    /// The best merit; not below `min`.
+    pub max: f64,
 }
 
-/// A choice among configurations, by their mean merits; higher is better.
+/// A choice among configurations by their mean merits; higher is better.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Problem {
     /// Of each configuration, at least one.
     pub bounds: Vec<Bounds>,
-    /// The difference of mean merits worth finding, above 0.
+    /// The indifference zone: the smallest difference of mean merits that matters, above 0.
     pub delta: f64,
-    /// How sure the selection must be: above 0, below 1.
+    /// The probability of a correct selection: above 0, below 1.
     pub confidence: f64,
 }
 
@@ -28,7 +28,7 @@ impl Problem {
     }
 
     /// The evidence at which a claim about one configuration holds against all its rivals together:
-    /// the number of rivals divided by the error that is allowed.
+    /// the number of rivals divided by the allowed probability of error.
     #[must_use]
     #[expect(
         clippy::cast_precision_loss,

@@ -1,35 +1,35 @@
-//! How a procedure asks for runs and hears of them.
+//! The interface of selection procedures: they request runs and record their merits.
 
-/// Runs that a procedure wants next: a rectangle of configurations and consecutive runs.
+/// Runs that a procedure needs next: consecutive runs of some configurations.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Request {
     /// Which configurations, ascending.
     pub configurations: Vec<usize>,
-    /// The first run's number.
+    /// The number of the first run.
     pub first_run: u64,
     /// How many, at least 1.
     pub runs: usize,
 }
 
-/// A configuration that is out, and who put it out.
+/// An eliminated configuration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Elimination {
     /// Which configuration.
     pub configuration: usize,
-    /// Of those then still in, the one with the most evidence against it.
+    /// Of the configurations remaining then, the one with the most evidence against it.
     pub by: usize,
     /// How many runs it had by then.
     pub runs: u64,
 }
 
-/// A way to select the best of `k` configurations: ask it with `next`, tell it what came out, until
-/// it asks for nothing more.
+/// A way to select the best of `k` configurations: compute what `next` requests and pass it to
+/// `record`, until `next` returns `None`.
 pub trait Procedure {
-    /// What it wants next; `None` when it has selected.
+    /// The runs that it needs next; `None` when it has selected.
     fn next(&self) -> Option<Request>;
 
-    /// Tells the merits of what `next` asked for, a row a configuration.
-    fn tell(&mut self, merits: &[f64]);
+    /// Records the merits of what `next` requested: a row per configuration.
+    fn record(&mut self, merits: &[f64]);
 
     /// The configuration selected, or leading so far.
     fn best(&self) -> usize;
@@ -40,6 +40,6 @@ pub trait Procedure {
     /// The configurations that can still be selected, ascending.
     fn survivors(&self) -> Vec<usize>;
 
-    /// Those that are out, in the order in which they went.
+    /// The eliminated configurations, in the order of their elimination.
     fn eliminations(&self) -> Vec<Elimination>;
 }

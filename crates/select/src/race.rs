@@ -1,24 +1,25 @@
 //! The default procedure: if the best configuration is better than every other by delta, it is
 //! selected with the stated confidence.
 //!
-//! All that are still in run on; every champion duels with every challenger (see `duel`). Against a
-//! best that leads by delta, the claim of each of its duels is true, so the *mean* of its rivals'
-//! evidence is a wealth that cannot be expected to grow; a configuration is out when that mean
-//! reaches 1 / alpha. A mean is never less than what Bonferroni's correction allows (one rival's
-//! evidence at (k - 1) / alpha), and more where several rivals have some. The evidence of a rival
-//! stays when it is out itself, as it was then. A rival that is not asked counts as none, so which
-//! duels are fought is free: all while they are few, else those of the leaders with all others.
-//! A leader that is new to the role has its evidence from the runs that both have had already.
+//! All remaining configurations run on; every champion is tested against every challenger (see
+//! `betting_test`). For a best configuration that leads by delta, the claim of each test against it
+//! is true, so the *mean* of its rivals' evidence is a wealth that cannot be expected to grow; a
+//! configuration is eliminated when that mean reaches 1 / alpha. The mean reaches it no later than
+//! Bonferroni's correction would allow (one rival's evidence at (k - 1) / alpha), and earlier if
+//! several rivals have evidence. The evidence of an eliminated rival is kept as it was at its
+//! elimination. A rival that is not tested counts as zero evidence, so any choice of tests is valid:
+//! all of them while they are few, else those of the leaders against all others. A new leader gains
+//! its evidence from the runs that both already have.
 
-use crate::duel::Duel;
+use crate::betting_test::BettingTest;
+use crate::looks::next_look;
 use crate::problem::Problem;
 use crate::procedure::{Elimination, Procedure, Request};
 use crate::samples::Samples;
-use crate::schedule::next_look;
 use std::collections::BTreeMap;
 
-/// Duels fought at a time: up to a hundred configurations, every pair.
-const MAX_DUELS: usize = 10_000;
+/// Maximum number of simultaneous tests: every pair of up to a hundred configurations.
+const MAX_TESTS: usize = 10_000;
 
 /// The race, between two of its rounds.
 #[derive(Debug, Clone)]
@@ -26,113 +27,113 @@ pub struct Race {
     problem: Problem,
     samples: Samples,
     survivors: Vec<usize>,
-    /// Of each champion, its duels with the survivors, in their order.
-    duels: BTreeMap<usize, Vec<Duel>>,
-    /// Evidence against each configuration of champions that are out.
-    bequeathed: Vec<f64>,
+    /// Of each champion, its tests against the survivors, in their order.
+    tests: BTreeMap<usize, Vec<BettingTest>>,
+    /// Evidence of eliminated champions against each configuration.
+    retained: Vec<f64>,
     eliminations: Vec<Elimination>,
 }
 
 impl Race {
-    /// A race in which nobody has run yet.
+    /// A race without any runs.
     #[must_use]
     pub fn new(problem: Problem) -> Self {
         let configurations = problem.configurations();
         Self {
             samples: Samples::new(&problem),
             survivors: (0..configurations).collect(),
-            duels: BTreeMap::new(),
-            bequeathed: vec![0.0; configurations],
+            tests: BTreeMap::new(),
+            retained: vec![0.0; configurations],
             eliminations: Vec::new(),
             problem,
         }
     }
 
-    /// Adds runs of all survivors, a row each; rounds may have any length.
+    /// Adds runs of all survivors, a row each; the number of runs may be any.
     fn run(&mut self, merits: &[f64]) {
         self.samples.add(&self.survivors, merits);
         self.choose_champions();
-        self.fight();
+        self.update_tests();
         self.eliminate();
     }
 
     fn choose_champions(&mut self) {
-        let count = (MAX_DUELS / self.survivors.len()).max(1);
+        let count = (MAX_TESTS / self.survivors.len()).max(1);
         let mut champions = self.samples.by_mean(&self.survivors);
         champions.truncate(count);
-        self.duels
+        self.tests
             .retain(|champion, _| champions.contains(champion));
         for champion in champions {
             let (bounds, delta) = (&self.problem.bounds, self.problem.delta);
-            let duel = |other: &usize| Duel::new(bounds[champion], bounds[*other], delta);
-            self.duels
+            let test = |other: &usize| BettingTest::new(bounds[champion], bounds[*other], delta);
+            self.tests
                 .entry(champion)
-                .or_insert_with(|| self.survivors.iter().map(duel).collect());
+                .or_insert_with(|| self.survivors.iter().map(test).collect());
         }
     }
 
-    fn fight(&mut self) {
-        for (&champion, duels) in &mut self.duels {
-            for (duel, &challenger) in duels.iter_mut().zip(&self.survivors) {
+    fn update_tests(&mut self) {
+        for (&champion, tests) in &mut self.tests {
+            for (test, &challenger) in tests.iter_mut().zip(&self.survivors) {
                 if challenger != champion {
-                    duel.advance(self.samples.of(champion), self.samples.of(challenger));
+                    test.advance(self.samples.of(champion), self.samples.of(challenger));
                 }
             }
         }
     }
 
-    /// Puts out all against whom there is enough evidence, the most beaten first and of equals the
-    /// worst by mean, but never the last one.
+    /// Eliminates all against which there is enough evidence: first those with the most, of equals
+    /// the one with the lowest mean. One always remains.
     fn eliminate(&mut self) {
-        let mut beaten: Vec<(f64, usize)> = (0..self.survivors.len())
-            .map(|place| (self.evidence(place), self.survivors[place]))
+        let mut refuted: Vec<(f64, usize)> = (0..self.survivors.len())
+            .map(|index| (self.evidence(index), self.survivors[index]))
             .filter(|(evidence, _)| *evidence >= self.problem.threshold())
             .collect();
-        beaten.sort_by(|(more, a), (less, b)| {
+        refuted.sort_by(|(more, a), (less, b)| {
             let by_mean = self.samples.mean(*a).total_cmp(&self.samples.mean(*b));
             less.total_cmp(more).then(by_mean).then(b.cmp(a))
         });
-        beaten.truncate(self.survivors.len() - 1);
-        for (_, challenger) in beaten {
-            self.put_out(challenger);
+        refuted.truncate(self.survivors.len() - 1);
+        for (_, challenger) in refuted {
+            self.remove(challenger);
         }
     }
 
-    /// The evidence of all champions against the survivor in a place.
-    fn evidence(&self, place: usize) -> f64 {
-        let challenger = self.survivors[place];
-        let rivals = self.duels.iter().filter(|(rival, _)| **rival != challenger);
-        let against: f64 = rivals.map(|(_, duels)| duels[place].evidence()).sum();
-        self.bequeathed[challenger] + against
+    /// The evidence of all champions against the survivor at an index.
+    fn evidence(&self, index: usize) -> f64 {
+        let challenger = self.survivors[index];
+        let rivals = self.tests.iter().filter(|(rival, _)| **rival != challenger);
+        let against: f64 = rivals.map(|(_, tests)| tests[index].evidence()).sum();
+        self.retained[challenger] + against
     }
 
-    fn put_out(&mut self, beaten: usize) {
-        let place = self
+    fn remove(&mut self, refuted: usize) {
+        let index = self
             .survivors
-            .partition_point(|survivor| *survivor < beaten);
+            .partition_point(|survivor| *survivor < refuted);
         self.eliminations.push(Elimination {
-            configuration: beaten,
-            by: self.strongest_rival(place),
-            runs: self.samples.runs(beaten) as u64,
+            configuration: refuted,
+            by: self.strongest_rival(index),
+            runs: self.samples.runs(refuted) as u64,
         });
-        self.survivors.remove(place);
-        for duels in self.duels.values_mut() {
-            duels.remove(place);
+        self.survivors.remove(index);
+        for tests in self.tests.values_mut() {
+            tests.remove(index);
         }
-        if let Some(duels) = self.duels.remove(&beaten) {
-            for (duel, &challenger) in duels.iter().zip(&self.survivors) {
-                self.bequeathed[challenger] += duel.evidence();
+        if let Some(tests) = self.tests.remove(&refuted) {
+            for (test, &challenger) in tests.iter().zip(&self.survivors) {
+                self.retained[challenger] += test.evidence();
             }
         }
     }
 
-    /// Of the champions still in, the one with the most evidence against the survivor in a place;
-    /// of equals, the best by mean.
-    fn strongest_rival(&self, place: usize) -> usize {
-        let champions: Vec<usize> = self.duels.keys().copied().collect();
+    /// Of the remaining champions, the one with the most evidence against the survivor at an index;
+    /// of equals, the one with the highest mean.
+    fn strongest_rival(&self, index: usize) -> usize {
+        let champions: Vec<usize> = self.tests.keys().copied().collect();
         let mut rivals = self.samples.by_mean(&champions);
-        rivals.retain(|rival| *rival != self.survivors[place]);
-        let evidence = |rival: &usize| self.duels[rival][place].evidence();
+        rivals.retain(|rival| *rival != self.survivors[index]);
+        let evidence = |rival: &usize| self.tests[rival][index].evidence();
         rivals
             .into_iter()
             .rev()
@@ -151,7 +152,7 @@ impl Procedure for Race {
         })
     }
 
-    fn tell(&mut self, merits: &[f64]) {
+    fn record(&mut self, merits: &[f64]) {
         self.run(merits);
     }
 

@@ -1,11 +1,11 @@
-//! The merits told so far.
+//! The merits recorded so far.
 
 use crate::problem::Problem;
 
 /// The merits of each configuration's runs 0, 1, ..., and the sums of what they are above `base`.
 #[derive(Debug, Clone)]
 pub(crate) struct Samples {
-    /// The least merit that any can have: sums from there keep their figures far from 0.
+    /// The lowest merit that any can have: sums of differences from it keep their precision.
     base: f64,
     merits: Vec<Vec<f64>>,
     sums: Vec<f64>,
@@ -14,9 +14,9 @@ pub(crate) struct Samples {
 impl Samples {
     pub(crate) fn new(problem: &Problem) -> Self {
         let configurations = problem.configurations();
-        let least = problem.bounds.iter().map(|bounds| bounds.least);
+        let min = problem.bounds.iter().map(|bounds| bounds.min);
         Self {
-            base: least.fold(f64::INFINITY, f64::min),
+            base: min.fold(f64::INFINITY, f64::min),
             merits: vec![Vec::new(); configurations],
             sums: vec![0.0; configurations],
         }
@@ -25,10 +25,14 @@ impl Samples {
     /// Adds rows of merits, one for each of `configurations`, all of one length.
     pub(crate) fn add(&mut self, configurations: &[usize], merits: &[f64]) {
         let runs = merits.len() / configurations.len().max(1);
-        debug_assert_eq!(runs * configurations.len(), merits.len(), "not a rectangle");
+        debug_assert_eq!(
+            runs * configurations.len(),
+            merits.len(),
+            "not a row per configuration"
+        );
         for (&configuration, row) in configurations.iter().zip(merits.chunks_exact(runs.max(1))) {
             self.merits[configuration].extend_from_slice(row);
-            // In the order of the runs, so that the sum does not depend on how they were cut.
+            // In the order of the runs, so that the sum does not depend on how they were divided.
             for merit in row {
                 self.sums[configuration] += merit - self.base;
             }

@@ -1,21 +1,21 @@
-//! The strict procedure: whatever the truth, the selected configuration is within delta of the best
-//! with the stated confidence.
+//! The strict procedure: the selected configuration is within delta of the best with the stated
+//! confidence, whatever the true means are.
 //!
 //! The leader by mean must itself refute, against every other configuration, that the other is
-//! better by delta or more (see `duel`), each at alpha / (k - 1). For the true best and a selected
-//! configuration that is worse by delta or more, that claim is true; so a wrong selection needs one
-//! of at most k - 1 duels against the best to go wrong, which happens with a probability of at most
-//! alpha. (The race does not prove this much: there a configuration may be put out by one that is
-//! put out itself, and the two steps add up to two deltas.)
+//! better by delta or more (see `betting_test`), each at alpha / (k - 1). For the true best and a
+//! selected configuration that is worse by delta or more, that claim is true; so a wrong selection
+//! requires an error in one of at most k - 1 tests against the best, which has a probability of at
+//! most alpha. (The race does not prove this much: there a configuration may be eliminated by one
+//! that is eliminated itself, and the two steps add up to two deltas.)
 //!
-//! Only the leader and those it has not refuted yet run on. A new leader duels over the runs that
-//! both have had; those it cannot refute with these come back and run on from where they were.
+//! Only the leader and those that it has not refuted run on. A new leader is tested over the runs
+//! that both already have; those that these do not refute return and run on from where they stopped.
 
-use crate::duel::Duel;
+use crate::betting_test::BettingTest;
+use crate::looks::next_look;
 use crate::problem::{Bounds, Problem};
 use crate::procedure::{Elimination, Procedure, Request};
 use crate::samples::Samples;
-use crate::schedule::next_look;
 
 /// The strict procedure, between two of its rounds.
 #[derive(Debug, Clone)]
@@ -25,12 +25,12 @@ pub struct Strict {
     leader: usize,
     /// Those that the leader has not refuted, ascending.
     challengers: Vec<usize>,
-    /// The leader's duels with all.
-    duels: Vec<Duel>,
+    /// The leader's tests against all.
+    tests: Vec<BettingTest>,
 }
 
 impl Strict {
-    /// A procedure in which nobody has run yet.
+    /// A procedure without any runs.
     #[must_use]
     pub fn new(problem: Problem) -> Self {
         let configurations = problem.configurations();
@@ -38,7 +38,7 @@ impl Strict {
             samples: Samples::new(&problem),
             leader: 0,
             challengers: (1..configurations).collect(),
-            duels: Vec::new(),
+            tests: Vec::new(),
             problem,
         }
     }
@@ -46,24 +46,24 @@ impl Strict {
     fn choose_leader(&mut self) {
         let leader = self.samples.by_mean(&self.survivors()).first().copied();
         let leader = leader.unwrap_or(self.leader);
-        if leader != self.leader || self.duels.is_empty() {
+        if leader != self.leader || self.tests.is_empty() {
             let (bounds, delta) = (&self.problem.bounds, self.problem.delta);
-            let duel = |other: &Bounds| Duel::new(bounds[leader], *other, delta);
-            self.duels = bounds.iter().map(duel).collect();
+            let test = |other: &Bounds| BettingTest::new(bounds[leader], *other, delta);
+            self.tests = bounds.iter().map(test).collect();
             self.leader = leader;
         }
     }
 
-    fn fight(&mut self) {
+    fn update_tests(&mut self) {
         let threshold = self.problem.threshold();
         self.challengers.clear();
-        for (other, duel) in self.duels.iter_mut().enumerate() {
+        for (other, test) in self.tests.iter_mut().enumerate() {
             if other == self.leader {
                 continue;
             }
             let (leader, challenger) = (self.samples.of(self.leader), self.samples.of(other));
-            duel.advance_until(leader, challenger, threshold);
-            if duel.peak() < threshold {
+            test.advance_until(leader, challenger, threshold);
+            if test.peak() < threshold {
                 self.challengers.push(other);
             }
         }
@@ -71,7 +71,7 @@ impl Strict {
 }
 
 impl Procedure for Strict {
-    /// The survivors with the fewest runs go on, so that those that came back catch up.
+    /// The survivors with the fewest runs are next, so that those that returned catch up.
     fn next(&self) -> Option<Request> {
         let survivors = self.survivors();
         let runs = |configuration: &usize| self.samples.runs(*configuration);
@@ -85,11 +85,11 @@ impl Procedure for Strict {
         })
     }
 
-    fn tell(&mut self, merits: &[f64]) {
-        if let Some(asked) = self.next() {
-            self.samples.add(&asked.configurations, merits);
+    fn record(&mut self, merits: &[f64]) {
+        if let Some(request) = self.next() {
+            self.samples.add(&request.configurations, merits);
             self.choose_leader();
-            self.fight();
+            self.update_tests();
         }
     }
 
@@ -109,23 +109,24 @@ impl Procedure for Strict {
         survivors
     }
 
-    /// What the present leader has refuted, and with how many runs of both.
+    /// Those that the current leader has refuted, and with how many runs of both.
     fn eliminations(&self) -> Vec<Elimination> {
         let threshold = self.problem.threshold();
-        let is_out =
-            |(other, duel): &(usize, &Duel)| *other != self.leader && duel.peak() >= threshold;
-        let mut out: Vec<Elimination> = self
-            .duels
+        let is_refuted = |(other, test): &(usize, &BettingTest)| {
+            *other != self.leader && test.peak() >= threshold
+        };
+        let mut eliminations: Vec<Elimination> = self
+            .tests
             .iter()
             .enumerate()
-            .filter(is_out)
-            .map(|(other, duel)| Elimination {
+            .filter(is_refuted)
+            .map(|(other, test)| Elimination {
                 configuration: other,
                 by: self.leader,
-                runs: duel.seen() as u64,
+                runs: test.used() as u64,
             })
             .collect();
-        out.sort_by_key(|elimination| (elimination.runs, elimination.configuration));
-        out
+        eliminations.sort_by_key(|elimination| (elimination.runs, elimination.configuration));
+        eliminations
     }
 }

@@ -1,4 +1,4 @@
-//! The same problem gives the same decisions, bit for bit, on every machine and for ever.
+//! The same problem gives the same decisions, bit for bit, on every machine and in every version.
 //!
 //! A golden changes only in a commit that says why: it changes every study.
 
@@ -7,10 +7,7 @@ use select::bounds::mean_bounds;
 use select::{Bounds, Problem, Procedure, Race, Strict};
 
 const TEAMS: usize = 120;
-const UNIT: Bounds = Bounds {
-    least: 0.0,
-    greatest: 1.0,
-};
+const UNIT: Bounds = Bounds { min: 0.0, max: 1.0 };
 
 /// Merits in 0..=1 of a run: the sum of what all share and of what is the configuration's own.
 fn merit(run: u64, configuration: usize) -> f64 {
@@ -31,21 +28,21 @@ fn problem() -> Problem {
     }
 }
 
-/// Everything that a procedure decides, and bounds of what it saw, as one number (FNV-1a).
+/// All decisions of a procedure, and bounds of the means of its merits, as one number (FNV-1a).
 fn fingerprint(mut procedure: impl Procedure) -> u64 {
     let mut seen = vec![Vec::new(); TEAMS];
-    while let Some(asked) = procedure.next() {
+    while let Some(request) = procedure.next() {
         let mut merits = Vec::new();
-        for &each in &asked.configurations {
-            let runs = asked.first_run..asked.first_run + asked.runs as u64;
+        for &each in &request.configurations {
+            let runs = request.first_run..request.first_run + request.runs as u64;
             let row: Vec<f64> = runs.map(|run| merit(run, each)).collect();
             seen[each].extend(&row);
             merits.extend(row);
         }
-        procedure.tell(&merits);
+        procedure.record(&merits);
     }
-    let out = procedure.eliminations().into_iter();
-    let mut numbers: Vec<u64> = out
+    let eliminations = procedure.eliminations().into_iter();
+    let mut numbers: Vec<u64> = eliminations
         .flat_map(|each| [each.configuration as u64, each.by as u64, each.runs])
         .collect();
     numbers.push(procedure.best() as u64);

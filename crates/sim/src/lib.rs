@@ -9,11 +9,14 @@
     )
 )]
 
-pub mod body;
+pub mod bodies;
 pub mod clock;
-pub mod engine;
 pub mod radio;
+pub mod run;
 pub mod runner;
 pub mod scenario;
-pub mod sensing;
+pub(crate) mod schedule;
+pub mod sensors;
+pub mod simulation;
+pub mod step;
 pub mod world;

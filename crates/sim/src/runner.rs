@@ -1,7 +1,8 @@
 //! The metric engine behind the seam that studies use.
 
-use crate::engine::{Outcome, State, Workshop};
+use crate::run::{Outcome, State};
 use crate::scenario::{Scenario, ScenarioSpec};
+use crate::step::tick::StepScratch;
 use base::document::Document;
 use base::engine::{BlockOptions, Column, ColumnKind, Runner};
 use base::engine::{Configuration, Engine, Measure, NamedMerit};
@@ -89,8 +90,8 @@ impl Runner for Runs {
             up_to("failed", ColumnKind::Flag, 1.0),
             fixed("robots", ColumnKind::Whole, most.robots),
             fixed("price", ColumnKind::Real, most.price),
-            up_to("found", ColumnKind::Whole, most.target),
-            up_to("missed", ColumnKind::Whole, most.target),
+            up_to("found", ColumnKind::Whole, most.targets),
+            up_to("missed", ColumnKind::Whole, most.targets),
             column("false_alarms", ColumnKind::Whole, 0.0, None),
             up_to("collisions", ColumnKind::Whole, most.collisions),
             up_to("energy_j", ColumnKind::Real, most.energy_j),
@@ -115,10 +116,10 @@ impl Runner for Runs {
 
     fn run_block(&self, seed: u64, runs: Range<u64>, options: BlockOptions) -> Vec<Vec<f64>> {
         let mut columns = vec![Vec::new(); self.columns().len()];
-        let mut workshop = Workshop::new(&self.0, options.may_share);
+        let mut scratch = StepScratch::new(&self.0, options.may_share);
         for run in runs.take_while(|_| !options.is_stopped()) {
             let state = State::new(&self.0, seed, run).ok();
-            let outcome = state.map(|state| self.finish(&mut workshop, state, options));
+            let outcome = state.map(|state| self.finish(&mut scratch, state, options));
             let values = outcome.and_then(|outcome| self.values(&outcome));
             for (number, column) in columns.iter_mut().enumerate() {
                 column.push(values.as_ref().map_or(f64::NAN, |values| values[number]));
@@ -129,11 +130,16 @@ impl Runner for Runs {
 }
 
 impl Runs {
-    fn finish(&self, workshop: &mut Workshop, mut state: State, options: BlockOptions) -> Outcome {
+    fn finish(
+        &self,
+        scratch: &mut StepScratch,
+        mut state: State,
+        options: BlockOptions,
+    ) -> Outcome {
         let scenario = &*self.0;
-        workshop.forget();
+        scratch.invalidate();
         while !state.is_over(scenario) && !options.is_stopped() {
-            workshop.step(scenario, &mut state);
+            scratch.step(scenario, &mut state);
         }
         Outcome::of(scenario, &state)
     }

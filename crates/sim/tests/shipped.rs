@@ -3,8 +3,8 @@
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 
 use base::document::{Document, Value};
+use sim::bodies::models::Model;
 use sim::scenario::ScenarioSpec;
-use sim::scenario::models::Model;
 use std::path::PathBuf;
 
 fn root() -> PathBuf {

@@ -8,7 +8,6 @@ the procedure of `selection` asks, `store` looks up, `engine` or `workers` compu
 from agent_economy.study.answer.conclude import Answer
 from agent_economy.study.answer.results import Result
 from agent_economy.study.ask import look, plan_of, pursue, rebuild, resume, run
-from agent_economy.study.classical import Reference, reference
 from agent_economy.study.plan import Plan
 from agent_economy.study.plan import make as make_plan
 from agent_economy.study.progress import Progress
@@ -20,7 +19,6 @@ __all__ = [
     "Answer",
     "Plan",
     "Progress",
-    "Reference",
     "Result",
     "Selection",
     "is_worked_on",
@@ -30,7 +28,6 @@ __all__ = [
     "plan_of",
     "pursue",
     "rebuild",
-    "reference",
     "resume",
     "run",
     "select_best",

@@ -231,13 +231,7 @@ def procedure_of(plan: Plan) -> _core.Procedure:
             confidence=plan.confidence,
             guarantee=plan.guarantee,
         )
-    return _core.reference(
-        "equal",
-        len(plan.configurations),
-        delta=plan.delta,
-        confidence=plan.confidence,
-        runs=plan.runs,
-    )
+    return _core.equal_allocation(len(plan.configurations), plan.runs)
 
 
 def guarantee_of(plan: Plan, procedure: _core.Procedure) -> str:

@@ -139,7 +139,7 @@ def drive(
         if max_runs is not None and total > max_runs:
             return
         merits = ask(configurations, first_run, runs)
-        procedure.tell(merits)
+        procedure.record(merits)
         yield Round(configurations, first_run, runs, merits)
 
 

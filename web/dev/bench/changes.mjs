@@ -33,7 +33,7 @@ function watch() {
 export async function measureChanges(browser, server) {
   const page = await browser.newPage({ viewport: { width: 1280, height: 720 } });
   await page.addInitScript(watch);
-  await page.goto(`${server.url}/#/live?scenario=search-beliefs&seed=7&run=0`);
+  await page.goto(`${server.url}/#/run?scenario=search-beliefs&seed=7&run=0`);
   await page.keyboard.press("Space");
   await page.getByRole("tab", { name: "Parameters" }).click();
   await page.getByRole("slider", { name: /^Count of/ }).focus();

@@ -57,7 +57,7 @@ export async function measureCrowd(browser, server, robots, step_s) {
   await writeFile(join(server.folder, `${name}.toml`), crowd(robots, step_s));
   const page = await browser.newPage({ viewport: { width: 1280, height: 720 } });
   await page.addInitScript(countPictures);
-  await page.goto(`${server.url}/#/live?scenario=${name}.toml&seed=0&run=0`);
+  await page.goto(`${server.url}/#/run?scenario=${name}.toml&seed=0&run=0`);
   await page.getByRole("button", { name: "Play", exact: true }).click();
   const pause = (ms) => new Promise((done) => setTimeout(done, ms));
   await pause(warm_ms);

@@ -40,7 +40,10 @@ const yard = {
 };
 
 export const entries = [
-  entry("search-beliefs", "The search of four items by one to twenty ground robots that map, share and plan."),
+  entry(
+    "search-beliefs",
+    "The search of four items by one to twenty ground robots that map, share and plan.",
+  ),
   entry("search", "Four items on a field of 25 m by 25 m, one to twenty ground robots, 120 seconds."),
   entry(
     "open-field",

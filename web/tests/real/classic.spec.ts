@@ -7,7 +7,7 @@ const hash = async (page: Page) =>
   (await page.getByTitle("Hash of the run's state").getAttribute("title")) ?? "";
 
 async function open(page: Page, server: RealServer, query = ""): Promise<void> {
-  await page.goto(`${server.url}/#/live?scenario=classic&seed=7${query}`);
+  await page.goto(`${server.url}/#/run?scenario=classic&seed=7${query}`);
   await expect(status(page)).toContainText("robots");
 }
 
@@ -100,7 +100,7 @@ test("changes that an address does not hold are saved, and the recording is its 
   server,
 }) => {
   const many = Array.from({ length: 400 }, (_, i) => [0, "robots.wanderer.count", 2 + (i % 7)]);
-  await page.goto(`${server.url}/#/live?scenario=classic&changes=${JSON.stringify(many)}`);
+  await page.goto(`${server.url}/#/run?scenario=classic&changes=${JSON.stringify(many)}`);
   await page.getByRole("tab", { name: "Parameters" }).click();
   await page.getByRole("slider", { name: /^Count of/ }).fill("9");
   await expect.poll(() => page.url(), { timeout: 15_000 }).toContain("recording=recordings/classic-0-0-");

@@ -33,7 +33,7 @@ sensors.camera = { kind = "items", range_m = 3, fov_deg = 90 }
 
 async function open(page: Page, server: RealServer, text: string): Promise<void> {
   await writeFile(join(server.folder, "field.toml"), text);
-  await page.goto(`${server.url}/#/live?scenario=field.toml&seed=1&run=0&robot=rover/0&${opens(view)}`);
+  await page.goto(`${server.url}/#/run?scenario=field.toml&seed=1&run=0&robot=rover/0&${opens(view)}`);
   await expect(page.locator("#status")).toContainText(/[23] robots/);
   await page.getByRole("tab", { name: "Layers" }).click();
   for (const name of ["Trails", "Grid and scale"]) await page.getByRole("checkbox", { name }).uncheck();

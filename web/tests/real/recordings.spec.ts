@@ -5,7 +5,7 @@ test("a run that is saved is the run that is opened, to the bit", async ({ page,
   const status = page.locator("#status");
   const hash = () => page.getByTitle("Hash of the run's state").getAttribute("title");
   const change = encodeURIComponent(JSON.stringify([[10, "robots.rover.count", 7]]));
-  await page.goto(`${server.url}/#/live?scenario=search-beliefs&seed=7&changes=${change}&tick=40`);
+  await page.goto(`${server.url}/#/run?scenario=search-beliefs&seed=7&changes=${change}&tick=40`);
   await expect(status).toContainText("4.0 s, 7 robots");
   const there = await hash();
   await page.locator("summary", { hasText: "Export" }).click();
@@ -23,7 +23,7 @@ test("a run that is saved is the run that is opened, to the bit", async ({ page,
 
 test("the scenario as it is now can be opened as a file", async ({ page, server }) => {
   const change = encodeURIComponent(JSON.stringify([[0, "robots.rover.count", 3]]));
-  await page.goto(`${server.url}/#/live?scenario=search-beliefs&changes=${change}`);
+  await page.goto(`${server.url}/#/run?scenario=search-beliefs&changes=${change}`);
   await expect(page.locator("#status")).toContainText("3 robots");
   await page.locator("summary", { hasText: "Export" }).click();
   const [saved] = await Promise.all([

@@ -1,19 +1,18 @@
-//! Typed reading of a table that collects all errors.
+//! Typed reading of a table, collecting what is wrong.
 
-use super::{Node, Table, Value, as_number, path_of, renamed, unknown_key, written};
-use crate::error::InputError;
+use super::{Node, Table, Value, as_number, path_of, written};
+use crate::error::{InputError, nearest};
 use std::cell::RefCell;
 use std::ops::RangeInclusive;
 
-/// One table of a document. A missing table reads as an empty one, so that each required value in it
-/// is reported as missing.
+/// One table of a document. A missing table reads as an empty one, so that each required value
+/// in it is told as missing.
 #[derive(Debug)]
 pub struct Section<'d> {
     table: Option<&'d Table>,
     origin: &'d str,
     path: String,
-    /// Whether a value that is not a table stands here. That is one error; its contents are not
-    /// reported as missing.
+    /// It is no table, which has been told: nothing in it is told as missing.
     is_invalid: bool,
     errors: &'d RefCell<Vec<InputError>>,
 }
@@ -29,16 +28,12 @@ impl<'d> Section<'d> {
         }
     }
 
-    /// Reports every key that is not among `keys`.
+    /// Tells every key that is not among `keys`, with the nearest that is.
     pub fn only(&self, keys: &[&str]) {
-        for (key, node) in self.table.into_iter().flatten() {
-            if !keys.contains(&key.as_str()) {
-                let value = node.value.to_string();
-                self.report(
-                    key,
-                    unknown_key(&self.path, key, value, keys.iter().copied()),
-                );
-            }
+        for key in self.keys().filter(|key| !keys.contains(key)) {
+            let allowed = format!("one of the known keys here: {}", keys.join(", "));
+            let meant = nearest(key, keys.iter().copied());
+            self.error_for(key, &allowed, meant.map(str::to_owned));
         }
     }
 
@@ -48,13 +43,13 @@ impl<'d> Section<'d> {
         self.node(key).is_some()
     }
 
-    /// The value at `key`, unchecked.
+    /// What stands at `key`, unchecked.
     #[must_use]
     pub fn value(&self, key: &str) -> Option<&'d Value> {
         self.node(key).map(|node| &node.value)
     }
 
-    /// Origin of the value at `key`; without one, that of the table.
+    /// Where what stands at `key` was written, or the table without it.
     #[must_use]
     pub fn origin(&self, key: &str) -> &'d str {
         self.node(key).map_or(self.origin, |node| &node.origin)
@@ -94,7 +89,7 @@ impl<'d> Section<'d> {
             _ => None,
         };
         let (low, high) = range.into_inner();
-        self.checked(value, key, || {
+        self.told(value, key, || {
             format!("a whole number from {low} to {high}")
         })
     }
@@ -104,7 +99,7 @@ impl<'d> Section<'d> {
     pub fn number(&self, key: &str, range: RangeInclusive<f64>) -> Option<f64> {
         let value = self.node(key).and_then(as_number);
         let value = value.filter(|value| range.contains(value));
-        self.checked(value, key, || {
+        self.told(value, key, || {
             let (low, high) = (written(*range.start()), written(*range.end()));
             format!("a number from {low} to {high}")
         })
@@ -115,7 +110,7 @@ impl<'d> Section<'d> {
     pub fn number_if(&self, key: &str, allowed: &str, holds: impl Fn(f64) -> bool) -> Option<f64> {
         let value = self.node(key).and_then(as_number);
         let value = value.filter(|value| value.is_finite() && holds(*value));
-        self.checked(value, key, || allowed.to_owned())
+        self.told(value, key, || allowed.to_owned())
     }
 
     /// The list of numbers at `key`, if it holds at least one and all are in `range`.
@@ -134,30 +129,30 @@ impl<'d> Section<'d> {
             if number.is_none() {
                 let path = format!("{}[{index}]", self.path_of(key));
                 let allowed = format!("a number from {low} to {high}");
-                self.report(
+                self.push(
                     key,
                     InputError::new(path, Some(item.value.to_string()), allowed),
                 );
             }
             number
         };
-        // Check all items before giving up, to report all errors.
+        // All are looked at, so that all errors are told, before the list is given up.
         let numbers: Vec<Option<f64>> = items.iter().enumerate().map(number).collect();
         let numbers: Option<Vec<f64>> = numbers.into_iter().collect();
         numbers.filter(|numbers| !numbers.is_empty())
     }
 
-    /// The string at `key`, if it is a single line: not empty, and without control characters.
+    /// The text at `key`, if it is a line: not empty, and without control characters.
     #[must_use]
     pub fn line(&self, key: &str) -> Option<String> {
         let breaks = |c: char| c.is_control() || matches!(c, '\u{2028}' | '\u{2029}');
-        self.parsed(key, "a non-empty string of one line", |text| {
+        self.parsed(key, "a line of text in quotes", |text| {
             let is_line = !text.trim().is_empty() && !text.contains(breaks);
             is_line.then(|| text.to_owned())
         })
     }
 
-    /// The string at `key` as `parse` reads it; `None` from `parse` means that it is not `allowed`.
+    /// What `parse` makes of the text at `key`, if it makes something; else it must be `allowed`.
     #[must_use]
     pub fn parsed<T>(
         &self,
@@ -169,10 +164,10 @@ impl<'d> Section<'d> {
             Some(Value::Text(value)) => parse(value),
             _ => None,
         };
-        self.checked(value, key, || allowed.to_owned())
+        self.told(value, key, || allowed.to_owned())
     }
 
-    /// The value that the string at `key` names, if it is one of `names`.
+    /// What the text at `key` names, if it is one of `names`.
     #[must_use]
     pub fn choice<T: Copy>(&self, key: &str, names: &[(&str, T)]) -> Option<T> {
         let node = self.node(key);
@@ -182,26 +177,26 @@ impl<'d> Section<'d> {
         };
         let chosen = names.iter().find(|(name, _)| *name == word);
         if chosen.is_none() {
-            let value = node.map(|node| node.value.to_string());
+            let given = node.map(|node| node.value.to_string());
             let names = names.iter().map(|(name, _)| *name);
-            self.report(
+            self.push(
                 key,
-                InputError::not_one_of(self.path_of(key), value, word, names),
+                InputError::not_one_of(self.path_of(key), given, word, names),
             );
         }
         chosen.map(|(_, value)| *value)
     }
 
-    /// Reports that the value at `key` is not what is `allowed`, or missing.
+    /// Tells that what stands at `key` is not what is `allowed` ("must be ...").
     pub fn error(&self, key: &str, allowed: &str) {
         self.error_for(key, allowed, None);
     }
 
-    /// As [`Section::error`], with a suggestion.
+    /// As [`Section::error`], with what was perhaps meant.
     pub fn error_for(&self, key: &str, allowed: &str, suggestion: Option<String>) {
-        let value = self.node(key).map(|node| node.value.to_string());
-        let error = InputError::new(self.path_of(key), value, allowed.to_owned());
-        self.report(
+        let given = self.node(key).map(|node| node.value.to_string());
+        let error = InputError::new(self.path_of(key), given, allowed.to_owned());
+        self.push(
             key,
             InputError {
                 suggestion,
@@ -210,21 +205,15 @@ impl<'d> Section<'d> {
         );
     }
 
-    fn checked<T>(&self, value: Option<T>, key: &str, allowed: impl Fn() -> String) -> Option<T> {
-        if value.is_none() && !self.has_old_name_of(key) {
+    fn told<T>(&self, value: Option<T>, key: &str, allowed: impl Fn() -> String) -> Option<T> {
+        if value.is_none() {
             self.error(key, &allowed());
         }
         value
     }
 
-    /// Whether the value at `key` stands under the key of an earlier version, which is an error of its
-    /// own.
-    fn has_old_name_of(&self, key: &str) -> bool {
-        !self.has(key) && self.keys().any(|old| renamed::key(old, [key]).is_some())
-    }
-
-    /// Records an error of the value at `key`, unless the section as a whole is one.
-    pub(crate) fn report(&self, key: &str, error: InputError) {
+    /// Notes an error of what stands at `key`, unless the section as a whole is one.
+    fn push(&self, key: &str, error: InputError) {
         let origin = self.origin(key);
         if !self.is_invalid {
             self.errors.borrow_mut().push(InputError {
@@ -238,8 +227,7 @@ impl<'d> Section<'d> {
         self.table?.get(key)
     }
 
-    /// The path of `key`.
-    pub(crate) fn path_of(&self, key: &str) -> String {
+    fn path_of(&self, key: &str) -> String {
         path_of(&self.path, key)
     }
 }

@@ -54,7 +54,7 @@ pub use values::Values;
 
 use crate::document::{Document, Section, Value};
 use crate::engine::{Configuration, Engine, Measure};
-use crate::error::{InputError, InputErrors};
+use crate::error::InputErrors;
 
 /// A scenario that has been read and checked.
 pub struct Scenario {
@@ -126,9 +126,8 @@ pub fn read_configuration(
 ) -> Result<Configuration, InputErrors> {
     let engine = engine_of(engines, &document)?;
     let unknown = values.iter().filter_map(|(path, value)| {
-        let error = factors::refusal(engine, path, path.clone(), value)?;
-        let origin = Some(ORIGIN.to_owned());
-        Some(InputError { origin, ..error })
+        let refusal = factors::refusal(engine, path)?;
+        Some(refusal.of(path, value, ORIGIN))
     });
     InputErrors::or(unknown.collect(), Some(()))?;
     for (path, value) in values {

@@ -5,20 +5,20 @@ Do the selection procedures keep their guarantees? Minutes on two cores.
 
 verify [--only WORDS] [--replications N] [--seed N] [--json]
 
-  --only WORDS      only lines whose name has these words in it, such as \"race slippage\"
-  --replications N  macro-replications of every line, for a quick look [each line's own]
-  --seed N          of all random numbers [7]
-  --json            an array of objects instead of a table
-  --help            this
+  --only WORDS      only lines whose name contains these words, such as \"race slippage\"
+  --replications N  macro-replications of every line, for a quick check [depends on the line]
+  --seed N          seed of all random numbers [7]
+  --json            print an array of objects instead of a table
+  --help            print this help
 
 Exit code: 0 if every line passed, 1 if one failed, 2 if the command line is wrong.
 A correct answer is a selection less than delta worse than the best, or bounds that all held at
 every moment. A line passes if the 99% lower bound (Clopper-Pearson) of its share of correct answers
 is at least 0.95, or, for the reference procedures, if its average runs are within 2% of the
-published ones. A line that is unfit or broken on purpose passes if it is found out: if the 99%
-upper bound is below 0.95. So the gate shows that it can fail.";
+published ones. A line that is unfit or broken on purpose passes if the 99% upper bound is below
+0.95, which shows that the gate can fail.";
 
-/// What was asked for.
+/// The options given.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) struct Arguments {
     pub(crate) help: bool,
@@ -30,7 +30,7 @@ pub(crate) struct Arguments {
 
 impl Arguments {
     /// # Errors
-    /// What is wrong with the first wrong word.
+    /// What is wrong with the first invalid word.
     pub(crate) fn parse(mut words: impl Iterator<Item = String>) -> Result<Self, String> {
         let mut arguments = Self {
             help: false,
@@ -43,7 +43,7 @@ impl Arguments {
             match word.as_str() {
                 "--help" | "-h" => arguments.help = true,
                 "--json" => arguments.json = true,
-                "--only" => arguments.only = words.next().ok_or("--only is missing its words")?,
+                "--only" => arguments.only = words.next().ok_or("--only: expected words")?,
                 "--replications" => arguments.replications = Some(number(&word, words.next())?),
                 "--seed" => arguments.seed = number(&word, words.next())?,
                 _ => return Err(format!("{word}: no such option; see --help")),
@@ -57,7 +57,7 @@ impl Arguments {
 }
 
 fn number<T: std::str::FromStr>(option: &str, word: Option<String>) -> Result<T, String> {
-    let word = word.ok_or_else(|| format!("{option} is missing its number"))?;
-    let wrong = |_| format!("{option} {word}: must be a whole number that is not negative");
+    let word = word.ok_or_else(|| format!("{option}: expected a number"))?;
+    let wrong = |_| format!("{option} {word}: must be a whole number of 0 or more");
     word.parse().map_err(wrong)
 }

@@ -1,6 +1,6 @@
-//! Exact bounds of a share that was counted.
+//! Exact bounds of an observed share.
 
-/// Clopper and Pearson's one-sided lower bound of a share of which `hits` of `trials` were counted;
+/// Clopper and Pearson's one-sided lower bound of a share of which `hits` of `trials` were observed;
 /// it is above the truth with a probability of at most `alpha`.
 pub(crate) fn lower_bound(hits: u32, trials: u32, alpha: f64) -> f64 {
     if hits == 0 {

@@ -1,18 +1,18 @@
-//! Whether bounds of means hold at every moment at which one may look.
+//! Whether bounds of means are valid at every moment.
 
 use crate::cases::Case;
-use crate::play::Played;
 use crate::random::Place;
+use crate::selection::Outcome;
 use select::Bounds;
 use select::bounds::mean_exceeds;
-use select::schedule::next_look;
+use select::looks::next_look;
 
-/// So many runs are looked at one by one; after them, as the procedures look.
-const LOOKED_AT_ONE_BY_ONE: usize = 30;
+/// Number of first runs after each of which the bounds are checked; later as the procedures do.
+const CHECKED_SINGLY: usize = 30;
 
-/// Watches the bounds of all means together for `runs` runs of each configuration. Correct: none
-/// was ever wrong, though each may be by its share of `alpha`.
-pub(crate) fn watch(case: &dyn Case, runs: usize, alpha: f64, start: Place) -> Played {
+/// Checks the bounds of all means together over `runs` runs of each configuration. Correct: none
+/// was ever wrong, though each may be with its share of `alpha`.
+pub(crate) fn check(case: &dyn Case, runs: usize, alpha: f64, start: Place) -> Outcome {
     let (means, bounds) = (case.means(), case.bounds());
     let share = alpha / f64::from(2 * u32::try_from(means.len()).unwrap_or(u32::MAX));
     let holds = |configuration: usize| {
@@ -22,7 +22,7 @@ pub(crate) fn watch(case: &dyn Case, runs: usize, alpha: f64, start: Place) -> P
         hold(&merits, bounds, mean, share)
             && hold(&negated(&merits), mirrored(bounds), -mean, share)
     };
-    Played {
+    Outcome {
         correct: (0..means.len()).all(holds),
         runs: (runs * means.len()) as u64,
     }
@@ -31,7 +31,7 @@ pub(crate) fn watch(case: &dyn Case, runs: usize, alpha: f64, start: Place) -> P
 /// Whether the lower bound never was above the mean.
 fn hold(merits: &[f64], bounds: Bounds, mean: f64, alpha: f64) -> bool {
     let after = |runs: &usize| {
-        Some(if *runs < LOOKED_AT_ONE_BY_ONE {
+        Some(if *runs < CHECKED_SINGLY {
             runs + 1
         } else {
             next_look(*runs)
@@ -48,7 +48,7 @@ fn negated(merits: &[f64]) -> Vec<f64> {
 
 fn mirrored(bounds: Bounds) -> Bounds {
     Bounds {
-        least: -bounds.greatest,
-        greatest: -bounds.least,
+        min: -bounds.max,
+        max: -bounds.min,
     }
 }

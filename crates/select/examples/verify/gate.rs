@@ -2,23 +2,23 @@
 
 use crate::binomial::lower_bound;
 use crate::cases::right;
-use crate::coverage::watch;
+use crate::coverage::check;
 use crate::lines::{Line, Question};
-use crate::play::{Played, play};
 use crate::random::Place;
+use crate::selection::{Outcome, select};
 use rayon::prelude::*;
 use std::time::Instant;
 
-/// The confidence that every line is asked to show.
+/// The confidence that every line must reach.
 pub(crate) const CONFIDENCE: f64 = 0.95;
 /// The bound of a share of correct answers is wrong with at most this probability.
 const ALPHA: f64 = 0.01;
 /// How far average runs may be from published ones.
 const TOLERANCE: f64 = 0.02;
-/// Pieces in which progress is told.
-const PIECES: u32 = 50;
+/// Steps in which progress is reported.
+const STEPS: u32 = 50;
 
-/// What a line came to.
+/// The result of a line.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Measured {
     pub(crate) replications: u32,
@@ -39,14 +39,14 @@ impl Measured {
         lower_bound(self.correct, self.replications, ALPHA)
     }
 
-    /// Whether the share is shown to be below the confidence; a yes about a share that is not is
-    /// wrong with a probability of at most `alpha`.
+    /// Whether the share is proved to be below the confidence; `true` is wrong with a probability of
+    /// at most `alpha`.
     pub(crate) fn refutes(&self, alpha: f64) -> bool {
-        // The upper bound of the right is what the lower bound of the wrong leaves.
+        // The upper bound of the correct share is 1 minus the lower bound of the wrong share.
         lower_bound(self.replications - self.correct, self.replications, alpha) > 1.0 - CONFIDENCE
     }
 
-    /// Whether the line keeps what it promises.
+    /// Whether the line passes.
     pub(crate) fn passes(&self, line: &Line) -> bool {
         match line.question {
             Question::Runs { expected, .. } => (self.runs / expected - 1.0).abs() <= TOLERANCE,
@@ -56,29 +56,29 @@ impl Measured {
     }
 }
 
-/// Plays a line; `progress` hears how many macro-replications are done.
+/// Measures a line; `progress` is called with the number of macro-replications done.
 pub(crate) fn measure(
     line: &Line,
     seed: u64,
     replications: u32,
     progress: impl Fn(u32),
 ) -> Measured {
-    let begun = Instant::now();
+    let start = Instant::now();
     let (mut correct, mut runs, mut done) = (0, 0, 0);
     let right = right(&*line.case);
     while done < replications {
         progress(done);
-        let end = replications.min(done + replications.div_ceil(PIECES));
+        let end = replications.min(done + replications.div_ceil(STEPS));
         let place = |replication| Place {
             seed,
             replication,
             run: 0,
         };
-        let played = (done..end)
+        let outcomes = (done..end)
             .into_par_iter()
             .map(|each| answer(line, &right, place(each)));
         let count = |a: (u32, u64), b: (u32, u64)| (a.0 + b.0, a.1 + b.1);
-        let pairs = played.map(|each| (u32::from(each.correct), each.runs));
+        let pairs = outcomes.map(|each| (u32::from(each.correct), each.runs));
         (correct, runs) = count((correct, runs), pairs.reduce(|| (0, 0), count));
         done = end;
     }
@@ -87,16 +87,16 @@ pub(crate) fn measure(
         replications,
         correct,
         runs: average(runs, replications),
-        seconds: begun.elapsed().as_secs_f64(),
+        seconds: start.elapsed().as_secs_f64(),
     }
 }
 
-fn answer(line: &Line, right: &[bool], place: Place) -> Played {
+fn answer(line: &Line, right: &[bool], place: Place) -> Outcome {
     match line.question {
-        Question::Selection(told) | Question::Unfit(told) | Question::Runs { told, .. } => {
-            play(&*line.case, right, told, place)
+        Question::Selection(setup) | Question::Unfit(setup) | Question::Runs { setup, .. } => {
+            select(&*line.case, right, setup, place)
         }
-        Question::Coverage { runs } => watch(&*line.case, runs, 1.0 - CONFIDENCE, place),
+        Question::Coverage { runs } => check(&*line.case, runs, 1.0 - CONFIDENCE, place),
     }
 }
 

@@ -2,18 +2,18 @@
 
 use crate::cases::{Capped, Case, Failures, Hills, Lottery, Normal, Teams};
 use crate::gate::CONFIDENCE;
-use crate::play::{Batches, Method, Told};
-use select::reference::rinott_h;
+use crate::reference::rinott_h;
+use crate::selection::{Batches, Method, Setup};
 
 /// One line of the table.
 pub(crate) struct Line {
-    /// Who answers: `race`, `strict`, `bounds`, `Rinott`, `KN`.
-    pub(crate) who: &'static str,
+    /// What is measured: `race`, `strict`, `bounds`, `Rinott`, `KN`, `equal`.
+    pub(crate) subject: &'static str,
     pub(crate) problem: String,
     pub(crate) case: Box<dyn Case>,
     pub(crate) question: Question,
     pub(crate) replications: u32,
-    /// Average runs measured elsewhere, to compare with.
+    /// Average runs measured elsewhere, for comparison.
     pub(crate) published_runs: Option<f64>,
 }
 
@@ -21,48 +21,49 @@ pub(crate) struct Line {
 #[derive(Clone, Copy)]
 pub(crate) enum Question {
     /// Is the right configuration selected?
-    Selection(Told),
-    /// Do the bounds of all means hold for so many runs of each?
+    Selection(Setup),
+    /// Do the bounds of all means hold for this many runs of each?
     Coverage { runs: usize },
-    /// Is the wrong configuration selected too often? For what is unfit or broken on purpose.
-    Unfit(Told),
+    /// Is a wrong configuration selected too often? For procedures that are unfit or broken on
+    /// purpose.
+    Unfit(Setup),
     /// Does selecting take as many runs as published?
-    Runs { told: Told, expected: f64 },
+    Runs { setup: Setup, expected: f64 },
 }
 
 /// Macro-replications of a line.
 const MANY: u32 = 20_000;
-/// Of one that would take more than a couple of minutes with as many.
+/// Of a line that would take minutes with that many.
 const FEW: u32 = 1000;
 
 impl Line {
-    /// A selection as the procedure wants it.
+    /// A selection with the correct setup.
     pub(crate) fn new(problem: &str, method: Method, case: impl Case + 'static) -> Self {
         Self {
-            who: method.name(),
+            subject: method.name(),
             problem: problem.to_owned(),
             case: Box::new(case),
-            question: Question::Selection(Told::honestly(method)),
+            question: Question::Selection(Setup::correct(method)),
             replications: MANY,
             published_runs: None,
         }
     }
 
     fn in_batches(self, batches: Batches) -> Self {
-        self.breaking(|told| told.batches = batches)
+        self.breaking(|setup| setup.batches = batches)
     }
 
-    /// The same line with something else told to the procedure.
-    pub(crate) fn breaking(mut self, change: impl Fn(&mut Told)) -> Self {
-        if let Question::Selection(told) | Question::Unfit(told) = &mut self.question {
-            change(told);
+    /// The same line with a changed setup.
+    pub(crate) fn breaking(mut self, change: impl Fn(&mut Setup)) -> Self {
+        if let Question::Selection(setup) | Question::Unfit(setup) = &mut self.question {
+            change(setup);
         }
         self
     }
 
     fn unfit(mut self) -> Self {
-        if let Question::Selection(told) = self.question {
-            self.question = Question::Unfit(told);
+        if let Question::Selection(setup) = self.question {
+            self.question = Question::Unfit(setup);
         }
         self
     }
@@ -72,9 +73,9 @@ impl Line {
         self
     }
 
-    /// Whether its name has these words in it.
+    /// Whether its name contains these words.
     pub(crate) fn is_named(&self, words: &str) -> bool {
-        format!("{} {}", self.who, self.problem).contains(words)
+        format!("{} {}", self.subject, self.problem).contains(words)
     }
 }
 
@@ -106,7 +107,7 @@ fn race() -> Vec<Line> {
     lines
 }
 
-/// A procedure on all cases, and on the tightest ones in batches that it does not ask for.
+/// A procedure on all cases, and on the hardest ones in batches that it does not request.
 pub(crate) fn selections(method: Method) -> Vec<Line> {
     let random = Batches::Random(50);
     vec![
@@ -150,7 +151,7 @@ fn two_failures(other: f64) -> Failures {
     }
 }
 
-/// What must be found unfit, or the gate sees nothing.
+/// What must be found unfit; otherwise the gate would not notice errors.
 pub(crate) fn unfit() -> Vec<Line> {
     let kn = Method::KimNelson { first_runs: 24 };
     let published = |runs, line: Line| Line {
@@ -171,8 +172,8 @@ pub(crate) fn unfit() -> Vec<Line> {
     for method in [Method::Race, Method::Strict] {
         let large_alpha = Line::new("ten times alpha", method, failures(0.2)).unfit();
         let large_delta = Line::new("twice delta", method, failures(0.2)).unfit();
-        lines.push(large_alpha.breaking(|told| told.confidence = 0.5));
-        lines.push(large_delta.breaking(|told| told.deltas = 2.0));
+        lines.push(large_alpha.breaking(|setup| setup.confidence = 0.5));
+        lines.push(large_delta.breaking(|setup| setup.deltas = 2.0));
     }
     lines
 }
@@ -180,7 +181,7 @@ pub(crate) fn unfit() -> Vec<Line> {
 /// The bounds of all means of a case together.
 pub(crate) fn coverage() -> Vec<Line> {
     let line = |problem: &str, case| Line {
-        who: "bounds",
+        subject: "bounds",
         problem: problem.to_owned(),
         case,
         question: Question::Coverage { runs: 500 },
@@ -244,10 +245,10 @@ fn reference(
     let name = move |means| format!("k={k} {means} n0={first_runs}{common}");
     let line = move |case: Normal, means, expected| Line {
         question: Question::Runs {
-            told: Told::honestly(method),
+            setup: Setup::correct(method),
             expected,
         },
-        // The average needs no more to be good to half a per cent.
+        // Enough for an average that is accurate to half a percent.
         replications: if k > 10 { FEW } else { MANY / 2 },
         published_runs: Some(expected),
         ..Line::new(&name(means), method, case)

@@ -1,10 +1,11 @@
 //! Do the selection procedures keep their guarantees? Measured on problems whose answer is known.
 //!
-//! | to know | read |
+//! | topic | module |
 //! |---|---|
-//! | which problems there are | `cases` |
+//! | problems whose answer is known | `cases` |
 //! | what is measured on them | `lines` |
-//! | how one selection is played | `play` |
+//! | one selection from its first run to its last | `selection` |
+//! | classical procedures, for comparison | `reference` |
 //! | what passes | `gate` |
 
 mod arguments;
@@ -13,9 +14,10 @@ mod cases;
 mod coverage;
 mod gate;
 mod lines;
-mod play;
 mod random;
+mod reference;
 mod report;
+mod selection;
 #[cfg(test)]
 mod tests;
 
@@ -44,7 +46,7 @@ fn verify(arguments: &Arguments) -> io::Result<bool> {
     lines.retain(|line| line.is_named(&arguments.only));
     if lines.is_empty() {
         let error = format!(
-            "--only {}: no line has these words in its name",
+            "--only {}: no line has a name that contains these words",
             arguments.only
         );
         return Err(io::Error::new(io::ErrorKind::InvalidInput, error));
@@ -61,7 +63,7 @@ fn verify(arguments: &Arguments) -> io::Result<bool> {
 }
 
 fn end(stream: &mut impl Write, text: &str, code: u8) -> ExitCode {
-    // Nobody is left to tell when this fails.
+    // Nothing can be reported if this fails.
     let _ = writeln!(stream, "{text}");
     ExitCode::from(code)
 }

@@ -1,8 +1,8 @@
-//! Random numbers by their place: any macro-replication can be played alone.
+//! Random numbers by their position: any macro-replication can be run alone.
 
 use base::random::Stream;
 
-/// Where a run's random numbers are found.
+/// The position of a run's random numbers.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Place {
     pub(crate) seed: u64,
@@ -15,7 +15,7 @@ const CONFIGURATION_SHIFT: u32 = 8;
 const NOT_OF_A_CONFIGURATION: u128 = (1 << 24) - 1;
 
 impl Place {
-    /// Numbers that only this configuration has in this run.
+    /// Numbers of this configuration alone in this run.
     pub(crate) fn own(self, configuration: usize) -> Random {
         self.random(configuration as u128)
     }
@@ -64,8 +64,8 @@ impl Random {
         (0..4).map(|_| self.uniform()).sum::<f64>() / 4.0
     }
 
-    /// A whole number from 1 to `most`.
-    pub(crate) fn one_to(&mut self, most: u32) -> usize {
-        1 + self.0.bounded(most) as usize
+    /// A whole number from 1 to `max`.
+    pub(crate) fn one_to(&mut self, max: u32) -> usize {
+        1 + self.0.bounded(max) as usize
     }
 }

@@ -5,10 +5,10 @@ use crate::lines::{Line, Question};
 use serde_json::{Value, json};
 use std::io::{self, IsTerminal, Write};
 
-/// Tells lines as they come, and whether all passed.
+/// Prints lines as they are measured, and whether all passed.
 pub(crate) struct Report {
     json: bool,
-    told: Vec<Value>,
+    printed: Vec<Value>,
     failed: usize,
 }
 
@@ -16,7 +16,7 @@ impl Report {
     pub(crate) fn new(json: bool) -> Self {
         Self {
             json,
-            told: Vec::new(),
+            printed: Vec::new(),
             failed: 0,
         }
     }
@@ -28,9 +28,9 @@ impl Report {
         writeln!(
             io::stdout(),
             "{:<7} {:<37} {:>6} {:>8} {:>9} {:>11} {:>9} {:>6}",
-            "who",
+            "subject",
             "problem",
-            "played",
+            "trials",
             "correct",
             "99% lower",
             "average runs",
@@ -43,7 +43,7 @@ impl Report {
         let passes = measured.passes(line);
         self.failed += usize::from(!passes);
         if self.json {
-            self.told.push(object(line, measured));
+            self.printed.push(object(line, measured));
             return Ok(());
         }
         let published = line
@@ -53,7 +53,7 @@ impl Report {
         writeln!(
             io::stdout(),
             "{:<7} {:<37} {:>6} {:>8.4} {:>9.4} {:>12.1} {:>9} {:>6.1} {}",
-            line.who,
+            line.subject,
             line.problem,
             measured.replications,
             measured.share(),
@@ -69,7 +69,7 @@ impl Report {
     pub(crate) fn end(self) -> io::Result<bool> {
         let mut stdout = io::stdout();
         match (self.json, self.failed) {
-            (true, _) => writeln!(stdout, "{:#}", Value::from(self.told))?,
+            (true, _) => writeln!(stdout, "{:#}", Value::from(self.printed))?,
             (false, 0) => writeln!(stdout, "Every line passes.")?,
             (false, failed) => writeln!(stdout, "Lines that fail: {failed}.")?,
         }
@@ -87,7 +87,7 @@ fn verdict(line: &Line, passes: bool) -> &'static str {
 
 fn object(line: &Line, measured: &Measured) -> Value {
     json!({
-        "who": line.who,
+        "subject": line.subject,
         "problem": line.problem,
         "macro_replications": measured.replications,
         "correct": measured.correct,
@@ -99,16 +99,16 @@ fn object(line: &Line, measured: &Measured) -> Value {
     })
 }
 
-/// Says on a terminal how far a line is.
+/// Shows the progress of a line on a terminal.
 pub(crate) fn progress(line: &Line, done: u32, of: u32) {
     let mut stderr = io::stderr();
     if stderr.is_terminal() {
         let end = if done < of { "" } else { "\r\x1b[K" };
-        // Progress that cannot be shown is no reason to stop.
+        // Progress that cannot be shown must not stop the measurement.
         let _ = write!(
             stderr,
             "\r\x1b[K{} {}: {done} of {of}{end}",
-            line.who, line.problem
+            line.subject, line.problem
         );
     }
 }

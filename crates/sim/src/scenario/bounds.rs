@@ -1,8 +1,8 @@
 //! What no run of a scenario goes beyond, and what is the same in all.
 
 use super::Scenario;
-use crate::body::Layer;
-use crate::body::kind::Kind;
+use crate::bodies::Layer;
+use crate::bodies::kind::Kind;
 use crate::world::terrain::{Going, Terrain};
 
 /// Rounding in a sum of many steps, and a step that begins before the cap, must not go beyond.
@@ -13,7 +13,7 @@ const HAIR: f64 = 1.001;
 pub(crate) struct Bounds {
     pub(crate) robots: f64,
     pub(crate) price: f64,
-    pub(crate) target: f64,
+    pub(crate) targets: f64,
     pub(crate) collisions: f64,
     pub(crate) energy_j: f64,
     pub(crate) distance_m: f64,
@@ -33,7 +33,7 @@ impl Scenario {
         Bounds {
             robots: of_team(&|_| 1.0),
             price: of_team(&|kind| kind.price),
-            target: f64::from(self.target()),
+            targets: f64::from(self.targets()),
             collisions: of_team(&|_| steps),
             energy_j: of_team(&|kind| self.most_energy_j(kind, hardest)),
             distance_m: of_team(&|kind| self.most_distance_m(kind, hardest)),

@@ -2,12 +2,11 @@
 
 mod bounds;
 mod checks;
-pub mod models;
 mod ready;
 
 pub use ready::Scenario;
 
-use crate::body::RobotSpec;
+use crate::bodies::RobotSpec;
 use crate::clock::ClockSpec;
 use crate::world::WorldSpec;
 use crate::world::items::ItemSpec;
@@ -74,7 +73,7 @@ impl ScenarioSpec {
     #[must_use]
     pub fn filled(document: &Document) -> Document {
         let mut filled = document.clone();
-        models::fill(&mut filled);
+        crate::bodies::models::fill(&mut filled);
         filled
     }
 

@@ -2,13 +2,13 @@
 //! computed once.
 
 use super::ScenarioSpec;
-use crate::body::Layer;
-use crate::body::kind::{Briefing, Kind};
-use crate::sensing::timing::steps_of;
+use crate::bodies::Layer;
+use crate::bodies::kind::{Briefing, Kind};
+use crate::schedule::steps_of;
 use crate::world::grid::{NearCells, Still};
 use crate::world::items::ItemKind;
 use crate::world::obstacles::Solid;
-use crate::world::still::{Stands, Wall};
+use crate::world::static_geometry::{StaticGeometry, Wall};
 use crate::world::terrain::{Area, Going, Terrain};
 use base::geometry::{Disc, Point, Rectangle, Segment, Torus};
 use base::random::Entity;
@@ -36,8 +36,8 @@ pub struct Scenario {
     solids: Vec<Solid>,
     near_solids: NearCells,
     /// By layer: what rays meet, and what bodies run into.
-    seen: [Stands; 2],
-    touched: [Stands; 2],
+    seen: [StaticGeometry; 2],
+    touched: [StaticGeometry; 2],
     pub(crate) items: Vec<ItemKind>,
     pub(crate) kinds: Vec<Kind>,
     /// Two robots farther apart than this, from centre to centre, cannot touch in one step.
@@ -88,8 +88,8 @@ impl Scenario {
             let (walls, discs) = in_the_way(border, &solids, layer);
             let reach_m = reach_m + skin_m / 2.0;
             match torus {
-                Some(torus) => Stands::on(torus, &walls, &discs, reach_m),
-                None => Stands::new(size_m, &walls, &discs, reach_m),
+                Some(torus) => StaticGeometry::on(torus, &walls, &discs, reach_m),
+                None => StaticGeometry::new(size_m, &walls, &discs, reach_m),
             }
         };
         let layers = [Layer::Ground, Layer::Air];
@@ -143,7 +143,7 @@ impl Scenario {
     }
 
     /// Items that are to be found.
-    pub(crate) fn target(&self) -> u32 {
+    pub(crate) fn targets(&self) -> u32 {
         self.items
             .iter()
             .filter(|kind| kind.is_target)
@@ -176,7 +176,7 @@ impl Scenario {
 
     /// Whether the world goes on at its other side.
     #[must_use]
-    pub fn periodic(&self) -> bool {
+    pub fn is_periodic(&self) -> bool {
         self.torus.is_some()
     }
 
@@ -224,13 +224,13 @@ impl Scenario {
 
     /// What rays meet in a layer.
     #[inline]
-    pub(crate) fn seen(&self, layer: Layer) -> &Stands {
+    pub(crate) fn seen(&self, layer: Layer) -> &StaticGeometry {
         &self.seen[layer as usize]
     }
 
     /// What bodies of a layer run into.
     #[inline]
-    pub(crate) fn touched(&self, layer: Layer) -> &Stands {
+    pub(crate) fn touched(&self, layer: Layer) -> &StaticGeometry {
         &self.touched[layer as usize]
     }
 
@@ -245,7 +245,7 @@ impl Scenario {
 
     /// What hides things of two layers from each other: everything on the ground, unless both fly.
     #[inline]
-    pub(crate) fn hiding(&self, layers: [Layer; 2]) -> &Stands {
+    pub(crate) fn hiding(&self, layers: [Layer; 2]) -> &StaticGeometry {
         let [one, other] = layers;
         self.touched(if one == other { one } else { Layer::Ground })
     }

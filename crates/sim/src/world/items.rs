@@ -1,7 +1,6 @@
 //! What is to be found, and what is taken for it.
 
 use super::buckets::Buckets;
-use crate::scenario::Scenario;
 use base::geometry::{Point, Torus};
 use base::placement::Placement;
 use base::random::{Entity, kind_key};
@@ -102,12 +101,10 @@ impl Items {
     /// Items by the names of their kinds and their place within the kind.
     pub(crate) fn named<'a>(
         &self,
-        scenario: &'a Scenario,
+        kinds: &'a [ItemKind],
     ) -> impl Iterator<Item = ((&'a str, u32), Item)> {
         (0..self.places.len()).map(|number| {
-            let name = scenario.items[usize::from(self.kinds[number])]
-                .name
-                .as_str();
+            let name = kinds[usize::from(self.kinds[number])].name.as_str();
             let item = Item {
                 number,
                 place: self.places[number],

@@ -4,7 +4,7 @@ pub(crate) mod buckets;
 pub(crate) mod grid;
 pub mod items;
 pub mod obstacles;
-pub(crate) mod still;
+pub(crate) mod static_geometry;
 pub mod terrain;
 
 use obstacles::ObstacleSpec;

@@ -13,8 +13,8 @@ use brain::{
     About, Body, Brain, BrainSpec, Command, Contact, Detector, Heard, Look, Message, Neighbour,
     Percept, RangeRing, Reading, RobotId, Scan, Seen,
 };
-use sim::engine::Simulation;
 use sim::scenario::ScenarioSpec;
+use sim::simulation::Simulation;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 

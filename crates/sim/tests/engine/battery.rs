@@ -2,7 +2,8 @@
 
 use crate::common::{first, go, id, robots, start, told};
 use brain::{Command, Motion, SensorRequest};
-use sim::engine::{Simulation, Status};
+use sim::run::Status;
+use sim::simulation::Simulation;
 
 /// A robot with a battery of these values at the left of a long field, looking along it.
 fn field(battery: &str, more: &str) -> String {

@@ -2,7 +2,8 @@
 
 use crate::common::{drive, first, id, message, replaced, robots, say, scenario, start, told};
 use brain::{About, Heard, Percept};
-use sim::engine::{Item, NoRoom, Robot, Simulation, Status};
+use sim::run::{Item, NoRoom, Robot, Status};
+use sim::simulation::Simulation;
 use std::time::{Duration, Instant};
 
 const GROUND: &str = "

@@ -3,7 +3,8 @@
 use crate::common::{self, Random, first, go, id, robots, start, told};
 use base::geometry::Point;
 use base::trig::sin_cos;
-use sim::engine::{Robot, Simulation, Status};
+use sim::run::{Robot, Status};
+use sim::simulation::Simulation;
 use std::f64::consts::FRAC_PI_2;
 
 /// One robot half a metre from the wall that it looks at, at 1 m/s; or two, face to face.

@@ -5,8 +5,9 @@ use base::error::InputErrors;
 use base::geometry::Point;
 use base::random::{Entity, Purpose, Stream, stream, unit};
 use brain::{About, Command, Message, Motion, RobotId, Seen};
-use sim::engine::{Robot, Simulation};
+use sim::run::Robot;
 use sim::scenario::{Scenario, ScenarioSpec};
+use sim::simulation::Simulation;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 

@@ -2,7 +2,8 @@
 
 use crate::common::{Random, go, robots, start, told};
 use base::geometry::{Polygon, Rectangle};
-use sim::engine::{Robot, Simulation};
+use sim::run::Robot;
+use sim::simulation::Simulation;
 use sim::world::obstacles::Solid;
 
 const SIDE_M: f64 = 120.0;

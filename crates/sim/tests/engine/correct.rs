@@ -2,7 +2,7 @@
 
 use crate::common::{first, start};
 use base::geometry::Point;
-use sim::engine::Simulation;
+use sim::simulation::Simulation;
 
 /// One rover at the left that looks along x, with the brain's middle layer as given.
 fn rover(obstacles: &str, start_y_m: f64, correct: &str) -> Simulation {

@@ -1,7 +1,7 @@
 //! Who is about to run into something.
 
 use crate::common::{go, id, start};
-use sim::engine::Simulation;
+use sim::simulation::Simulation;
 use std::collections::BTreeMap;
 
 /// Robots of half a metre across that start at places, each with its course.

@@ -6,9 +6,10 @@ use base::engine::{BlockOptions, Runner};
 use base::geometry::Point;
 use brain::{About, Command, Message, Percept, RobotId, Seen};
 use rayon::ThreadPoolBuilder;
-use sim::engine::{Outcome, Simulation};
+use sim::run::Outcome;
 use sim::runner::Runs;
 use sim::scenario::Scenario;
+use sim::simulation::Simulation;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 

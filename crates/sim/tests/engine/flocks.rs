@@ -4,7 +4,7 @@
 use crate::common::{go, id, robots, scenario, start, told};
 use brain::{Command, RobotId, SensorRequest};
 use rayon::ThreadPoolBuilder;
-use sim::engine::Simulation;
+use sim::simulation::Simulation;
 use std::collections::BTreeMap;
 
 /// Birds by the declared rule of `ABMFrameworksComparison`, in steps of a second.

@@ -3,7 +3,7 @@
 use crate::common::{id, robots, start, told};
 use crate::determinism::{commands, crowd};
 use brain::{Command, SensorRequest};
-use sim::engine::{Footprint, Sensors, Simulation};
+use sim::simulation::{Footprint, Sensors, Simulation};
 use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, PI};
 

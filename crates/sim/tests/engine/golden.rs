@@ -12,8 +12,8 @@
 use crate::common::scenario;
 use crate::determinism::{commands, crowd};
 use base::document::Document;
-use sim::engine::Simulation;
 use sim::scenario::ScenarioSpec;
+use sim::simulation::Simulation;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::PathBuf;

@@ -2,8 +2,9 @@
 
 use crate::common::{go, id, scenario, start, told};
 use base::engine::{BlockOptions, Runner};
-use sim::engine::{Outcome, Simulation};
+use sim::run::Outcome;
 use sim::runner::Runs;
+use sim::simulation::Simulation;
 
 /// A robot that drives along a line with items on it, and sees a metre.
 fn line(time_limit_s: f64, items: &str, sensor: &str) -> String {

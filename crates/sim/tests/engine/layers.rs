@@ -1,7 +1,7 @@
 //! On the ground and in the air: who is in whose way, and sees whom.
 
 use crate::common::{drive, go, id, robots, start, told};
-use sim::engine::Simulation;
+use sim::simulation::Simulation;
 
 /// Rovers and birds on lines along x that a pillar stands on, in a field of 20 m with mud.
 const FIELD: &str = "

@@ -3,7 +3,7 @@
 use crate::common::{id, message, robots, say, start, told};
 use crate::determinism::{commands, crowd};
 use brain::RobotId;
-use sim::engine::{Link, Simulation};
+use sim::simulation::{Link, Simulation};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Robots at places of a field of 40 m with a wall at 30 m, each kind with its radio.

@@ -14,7 +14,6 @@
     reason = "tests count, compare what is exact by construction, write scenarios, and may panic"
 )]
 
-mod asked;
 mod battery;
 mod change;
 mod collisions;
@@ -23,14 +22,16 @@ mod contact;
 mod correct;
 mod danger;
 mod determinism;
+mod external;
+mod external_decisions;
 mod flocks;
 mod footprints;
 mod golden;
+mod inspect;
 mod judge;
 mod layers;
 mod links;
 mod meetings;
-mod outside;
 mod periodic;
 mod radio;
 mod random;
@@ -39,4 +40,3 @@ mod schemas;
 mod sensors;
 mod streams;
 mod waiting;
-mod watch;

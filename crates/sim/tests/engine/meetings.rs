@@ -5,8 +5,8 @@ use base::engine::{BlockOptions, Runner};
 use base::geometry::Point;
 use base::trig::sin_cos;
 use brain::Motion;
-use sim::engine::Simulation;
 use sim::runner::Runs;
+use sim::simulation::Simulation;
 
 /// Tiny steps of one step.
 const TINY: u32 = 10_000;

@@ -3,7 +3,7 @@
 use crate::common::{Random, drive, first, go, id, message, robots, say, start, told};
 use base::geometry::{Point, Torus};
 use brain::Percept;
-use sim::engine::Simulation;
+use sim::simulation::Simulation;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 const SIZE: Torus = Torus {

@@ -2,7 +2,7 @@
 
 use crate::common::{id, message, say, start, told};
 use brain::{About, Heard, Message, RobotId};
-use sim::engine::Simulation;
+use sim::simulation::Simulation;
 
 /// Robots at places on a line through the middle of a field of 40 m, with a wall at 30 m.
 fn line(radio: &str, waypoints_m: &[f64], more: &str) -> String {

@@ -3,7 +3,7 @@
 use crate::common::{first, scenario, start};
 use base::geometry::Point;
 use rayon::prelude::*;
-use sim::engine::Simulation;
+use sim::simulation::Simulation;
 
 /// One rover that wants to the other side of the box, which is 3 m deep and 4 m wide.
 fn canyon(schemas: &str) -> String {

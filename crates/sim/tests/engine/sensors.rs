@@ -2,7 +2,7 @@
 
 use crate::common::{first, go, id, start, told};
 use brain::{Command, Percept, SensorRequest};
-use sim::engine::Simulation;
+use sim::simulation::Simulation;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 const STEP_S: f64 = 0.1;

@@ -3,7 +3,7 @@
 use crate::common::{go, id, message, robots, say, start, told};
 use base::geometry::Point;
 use brain::{Percept, RobotId};
-use sim::engine::Simulation;
+use sim::simulation::Simulation;
 
 const ROVERS: &str = "
 [clock]

@@ -3,7 +3,7 @@
 use crate::scenario;
 use base::geometry::Point;
 use rayon::prelude::*;
-use sim::engine::Simulation;
+use sim::simulation::Simulation;
 
 /// A box 12 m deep, open to the left, in which the robot begins before the closed side.
 const CANYON: &str = "

@@ -4,7 +4,7 @@ use crate::{listed, scenario};
 use base::geometry::Point;
 use base::random::{Entity, Purpose, Stream, stream, unit};
 use rayon::prelude::*;
-use sim::engine::Simulation;
+use sim::simulation::Simulation;
 use std::fmt::Write as _;
 
 /// What robots are; their places follow.

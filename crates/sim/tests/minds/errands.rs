@@ -2,7 +2,7 @@
 
 use crate::{listed, scenario};
 use base::geometry::Point;
-use sim::engine::Simulation;
+use sim::simulation::Simulation;
 
 const WITHIN_M: f64 = 0.3;
 

@@ -2,7 +2,7 @@
 
 use crate::scenario;
 use rayon::prelude::*;
-use sim::engine::Simulation;
+use sim::simulation::Simulation;
 
 /// One that searches a field from its left end, with a battery for a hundred seconds of going.
 fn searcher(search: &str) -> String {

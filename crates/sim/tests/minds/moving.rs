@@ -2,7 +2,7 @@
 
 use crate::scenario;
 use brain::{BelievedRobot, RobotId};
-use sim::engine::Simulation;
+use sim::simulation::Simulation;
 
 const WATCHER: RobotId = RobotId { kind: 0, index: 0 };
 

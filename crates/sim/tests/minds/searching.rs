@@ -2,7 +2,7 @@
 
 use crate::scenario;
 use rayon::prelude::*;
-use sim::engine::Simulation;
+use sim::simulation::Simulation;
 use std::sync::Arc;
 
 /// The shipped scenario.

@@ -5,7 +5,7 @@ use crate::setup::{first_of, list, moving, only, places, run, scenario, time_s};
 use base::document::{Document, Value};
 use base::geometry::Point;
 use brain::Command;
-use sim::engine::Status;
+use sim::run::Status;
 use std::collections::BTreeMap;
 
 const TEXT: &str = include_str!("../../../../docs/validation/battery.toml");

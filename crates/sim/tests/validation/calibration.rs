@@ -5,7 +5,7 @@ use crate::setup::{robots, run, scenario, time_s};
 use base::document::Value;
 use base::geometry::Point;
 use rayon::prelude::*;
-use sim::engine::Simulation;
+use sim::simulation::Simulation;
 
 const TEXT: &str = include_str!("../../../../docs/validation/calibration.toml");
 

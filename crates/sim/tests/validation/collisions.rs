@@ -4,7 +4,7 @@ use crate::rows::{Row, assert_published, assert_right, assert_wrong};
 use crate::setup::{Dice, away, partners, robots, run, scenario, step, whole};
 use base::document::Value;
 use brain::{Command, RobotId};
-use sim::engine::Robot;
+use sim::run::Robot;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 

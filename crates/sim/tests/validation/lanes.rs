@@ -3,7 +3,7 @@
 use crate::rows::{Row, assert_published, assert_right, assert_wrong};
 use crate::setup::{first_of, found, run, scenario, step, turning, width_of_looks};
 use base::document::Value;
-use sim::engine::Simulation;
+use sim::simulation::Simulation;
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
 

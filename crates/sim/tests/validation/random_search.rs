@@ -4,7 +4,7 @@ use crate::rows::{Row, assert_published, assert_right, assert_wrong};
 use crate::setup::{Dice, away, found, robots, run, scenario, step, time_s, whole, width_of_looks};
 use crate::ways::long_ways;
 use base::document::Value;
-use sim::engine::Simulation;
+use sim::simulation::Simulation;
 use std::f64::consts::PI;
 
 const TEXT: &str = include_str!("../../../../docs/validation/random-search.toml");

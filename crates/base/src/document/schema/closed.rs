@@ -1,6 +1,5 @@
 //! A schema brought to the simple form that is followed here.
 
-use super::units::annotate;
 use super::{Object, list};
 use schemars::Schema;
 use schemars::transform::{Transform, transform_subschemas};
@@ -20,9 +19,7 @@ pub(super) fn closed(mut schema: Schema) -> Json {
         _ => Object::new(),
     };
     Close { definitions }.transform(&mut schema);
-    let mut schema = schema.to_value();
-    annotate(&mut schema);
-    schema
+    schema.to_value()
 }
 
 struct Close {

@@ -2,16 +2,16 @@ use super::Case;
 use crate::random::Place;
 use select::Bounds;
 
-/// Times to the end, exponential and cut off at a cap, so that many runs have the very same merit:
+/// Exponential times that are cut off at a limit, so that many runs have exactly the same merit:
 /// ten configurations, of which the last is faster by delta on average.
 pub(crate) struct Capped {
     /// Means of the times before the cut.
     scales: Vec<f64>,
 }
 
-const CAP_S: f64 = 120.0;
-/// No run ends before.
-const LEAST_S: f64 = 10.0;
+const LIMIT_S: f64 = 120.0;
+/// The minimum time of a run.
+const MIN_S: f64 = 10.0;
 const BEST_SCALE_S: f64 = 60.0;
 const DELTA_S: f64 = 6.0;
 
@@ -25,7 +25,7 @@ impl Capped {
 
 /// Mean time after the cut.
 fn mean_s(scale: f64) -> f64 {
-    LEAST_S - scale * libm::expm1(-(CAP_S - LEAST_S) / scale)
+    MIN_S - scale * libm::expm1(-(LIMIT_S - MIN_S) / scale)
 }
 
 /// The scale that gives a mean time, by bisection.
@@ -50,8 +50,8 @@ impl Case for Capped {
     fn bounds(&self) -> Vec<Bounds> {
         vec![
             Bounds {
-                least: -CAP_S,
-                greatest: -LEAST_S
+                min: -LIMIT_S,
+                max: -MIN_S
             };
             self.scales.len()
         ]
@@ -62,7 +62,7 @@ impl Case for Capped {
     }
 
     fn sample(&self, place: Place, configuration: usize) -> f64 {
-        let time = LEAST_S + self.scales[configuration] * place.own(configuration).exponential();
-        -time.min(CAP_S)
+        let time = MIN_S + self.scales[configuration] * place.own(configuration).exponential();
+        -time.min(LIMIT_S)
     }
 }

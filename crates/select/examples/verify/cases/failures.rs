@@ -29,8 +29,8 @@ impl Case for Failures {
     fn bounds(&self) -> Vec<Bounds> {
         vec![
             Bounds {
-                least: -1.0,
-                greatest: 0.0
+                min: -1.0,
+                max: 0.0
             };
             self.configurations
         ]

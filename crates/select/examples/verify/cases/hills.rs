@@ -6,7 +6,7 @@ use select::Bounds;
 /// best last.
 pub(crate) struct Hills {
     means: Vec<f64>,
-    /// Distance between the least and the greatest merit of each.
+    /// Distance between the lowest and the highest merit of each.
     widths: Vec<f64>,
 }
 
@@ -26,7 +26,7 @@ impl Hills {
         )
     }
 
-    /// Each leads the next by a third of delta: three are right, and the rest nearly.
+    /// Each leads the next by a third of delta: three are right, and the others nearly.
     pub(crate) fn crowded() -> Self {
         let leads = [-6., -5., -4., -3., -2., -1., 0., 1., 2.].map(|step| step * DELTA / 3.0);
         Self::new(leads, |_| 0.6)
@@ -37,7 +37,7 @@ impl Hills {
         Self::new([DELTA; 9], |_| 0.8)
     }
 
-    /// The best leads all others by delta and varies most; the others vary from little to much.
+    /// The best leads all others by delta and has the highest variance; the variances of the others differ.
     pub(crate) fn unequal() -> Self {
         Self::new([0.0; 9], |place| 0.09 * f64::from(place + 1))
     }
@@ -58,13 +58,7 @@ impl Case for Hills {
     }
 
     fn bounds(&self) -> Vec<Bounds> {
-        vec![
-            Bounds {
-                least: 0.0,
-                greatest: 1.0
-            };
-            self.means.len()
-        ]
+        vec![Bounds { min: 0.0, max: 1.0 }; self.means.len()]
     }
 
     fn delta(&self) -> f64 {

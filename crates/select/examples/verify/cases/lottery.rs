@@ -2,8 +2,8 @@ use super::Case;
 use crate::random::Place;
 use select::Bounds;
 
-/// The best wins seldom, but much; the others get the same in every run, delta less on average.
-/// Until its first win the best looks worse and worse, and nothing in its runs warns of more.
+/// The best wins rarely, but much; the others have the same merit in every run, delta less on average.
+/// Until its first win the best looks worse and worse, and its runs contain no hint of that win.
 pub(crate) struct Lottery;
 
 const CONFIGURATIONS: usize = 10;
@@ -18,13 +18,7 @@ impl Case for Lottery {
     }
 
     fn bounds(&self) -> Vec<Bounds> {
-        vec![
-            Bounds {
-                least: 0.0,
-                greatest: 1.0
-            };
-            CONFIGURATIONS
-        ]
+        vec![Bounds { min: 0.0, max: 1.0 }; CONFIGURATIONS]
     }
 
     fn delta(&self) -> f64 {

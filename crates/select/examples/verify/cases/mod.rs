@@ -22,10 +22,10 @@ pub(crate) trait Case: Sync {
     /// Mean merit of each configuration.
     fn means(&self) -> Vec<f64>;
 
-    /// Between which merits a configuration's runs lie.
+    /// The range of the merits of each configuration.
     fn bounds(&self) -> Vec<Bounds>;
 
-    /// The difference worth finding.
+    /// The indifference zone.
     fn delta(&self) -> f64;
 
     /// The merit of one run.
@@ -37,6 +37,6 @@ pub(crate) fn right(case: &dyn Case) -> Vec<bool> {
     let means = case.means();
     let best = means.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     // A gap of delta itself is wrong, however it was rounded.
-    let least = best - case.delta() * (1.0 - 1e-9);
-    means.iter().map(|mean| *mean > least).collect()
+    let min = best - case.delta() * (1.0 - 1e-9);
+    means.iter().map(|mean| *mean > min).collect()
 }

@@ -2,7 +2,7 @@ use super::Case;
 use crate::random::Place;
 use select::Bounds;
 
-/// Normal merits of variance 1, for the procedures that suppose them; the best is last.
+/// Normal merits of variance 1, for the procedures that assume them; the best is last.
 pub(crate) struct Normal {
     means: Vec<f64>,
     delta: f64,
@@ -18,7 +18,7 @@ impl Normal {
         })
     }
 
-    /// Each leads the next by as much.
+    /// Each leads the next by delta.
     pub(crate) fn spaced(configurations: u32, first_runs: u32, correlation: f64) -> Self {
         Self::new(configurations, first_runs, correlation, |place| {
             -f64::from(place)
@@ -47,8 +47,8 @@ impl Case for Normal {
     fn bounds(&self) -> Vec<Bounds> {
         vec![
             Bounds {
-                least: f64::NEG_INFINITY,
-                greatest: f64::INFINITY
+                min: f64::NEG_INFINITY,
+                max: f64::INFINITY
             };
             self.means.len()
         ]

@@ -10,18 +10,18 @@ pub(crate) struct Teams {
     common: bool,
 }
 
-/// One team, and what its loss is made of.
+/// One team, and the parameters of its loss.
 struct Team {
     robots: f64,
-    /// No run ends before, in seconds.
-    least_s: f64,
-    /// Mean of what is added to it.
+    /// The minimum time of a run, in seconds.
+    min_s: f64,
+    /// Mean of the time added to it.
     scale_s: f64,
     /// How often a run fails for another reason than time.
     lost: f64,
 }
 
-const CAP_S: f64 = 120.0;
+const LIMIT_S: f64 = 120.0;
 const COST_OF_A_SECOND: f64 = 0.03;
 const COST_OF_A_ROBOT: f64 = 0.2;
 const COST_OF_A_FAILURE: f64 = 5.0;
@@ -44,7 +44,7 @@ impl Team {
     fn new(robots: f64, mix: f64) -> Self {
         Self {
             robots,
-            least_s: 10.0 + 0.4 * mix + 60.0 / robots.sqrt(),
+            min_s: 10.0 + 0.4 * mix + 60.0 / robots.sqrt(),
             scale_s: 260.0 * (1.0 + 0.03 * mix) / robots,
             lost: libm::pow(0.25, robots.min(6.0)),
         }
@@ -54,12 +54,12 @@ impl Team {
         COST_OF_A_SECOND * time_s + COST_OF_A_ROBOT * self.robots + COST_OF_A_FAILURE * failed
     }
 
-    /// A failed run takes the whole time.
+    /// A failed run takes the time limit.
     fn mean_loss(&self) -> f64 {
-        let late = libm::exp(-(CAP_S - self.least_s) / self.scale_s);
-        let time = self.least_s + self.scale_s * (1.0 - late);
+        let late = libm::exp(-(LIMIT_S - self.min_s) / self.scale_s);
+        let time = self.min_s + self.scale_s * (1.0 - late);
         let failed = self.lost + (1.0 - self.lost) * late;
-        self.loss(self.lost * CAP_S + (1.0 - self.lost) * time, failed)
+        self.loss(self.lost * LIMIT_S + (1.0 - self.lost) * time, failed)
     }
 }
 
@@ -70,8 +70,8 @@ impl Case for Teams {
 
     fn bounds(&self) -> Vec<Bounds> {
         let bounds = |team: &Team| Bounds {
-            least: -team.loss(CAP_S, 1.0),
-            greatest: -team.loss(0.0, 0.0),
+            min: -team.loss(LIMIT_S, 1.0),
+            max: -team.loss(0.0, 0.0),
         };
         self.teams.iter().map(bounds).collect()
     }
@@ -87,9 +87,9 @@ impl Case for Teams {
         } else {
             place.own(configuration)
         };
-        let time = team.least_s + team.scale_s * random.exponential();
-        if random.uniform() < team.lost || time > CAP_S {
-            -team.loss(CAP_S, 1.0)
+        let time = team.min_s + team.scale_s * random.exponential();
+        if random.uniform() < team.lost || time > LIMIT_S {
+            -team.loss(LIMIT_S, 1.0)
         } else {
             -team.loss(time, 0.0)
         }

@@ -1,10 +1,10 @@
 //! Detectors that detect items that there are, with probabilities.
 
 use super::ScenarioSpec;
-use crate::sensing::Measures;
-use crate::sensing::items::{Detection, ItemsSpec};
-use crate::sensing::poisson::MAX_MEAN;
-use crate::sensing::timing::Rhythm;
+use crate::schedule::Schedule;
+use crate::sensors::Measures;
+use crate::sensors::items::{Detection, ItemsSpec};
+use crate::sensors::poisson::MAX_MEAN;
 use base::document::Place;
 use base::error::InputError;
 
@@ -21,7 +21,7 @@ pub(super) fn errors(spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
                 Measures::Items(items) => {
                     errors.extend(errors_of(items, &kinds, &at));
                     let step_s = spec.clock.step_s;
-                    let period_s = Rhythm::new(sensor.rate_hz, step_s).period_s(step_s);
+                    let period_s = Schedule::new(sensor.rate_hz, step_s).period_s(step_s);
                     errors.extend(too_many(items, period_s, &at));
                 }
                 Measures::Robots(robots) => {
@@ -41,7 +41,7 @@ fn errors_of(items: &ItemsSpec, kinds: &[&str], at: &Place) -> Vec<InputError> {
     let mut errors = Vec::new();
     let unknown = |kind: &str, at: &Place| {
         let is_known = kinds.contains(&kind);
-        (!is_known).then(|| at.key(kind).unknown_key(kind, kinds.iter().copied()))
+        (!is_known).then(|| at.key(kind).names_none_of(kind, kinds.iter().copied()))
     };
     let detection_probability = at.key("detection_probability");
     for (kind, detection) in items.detection_probability.iter().flatten() {

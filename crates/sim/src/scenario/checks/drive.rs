@@ -1,7 +1,7 @@
 //! A step is short enough for how fast bodies move.
 
 use super::ScenarioSpec;
-use crate::body::drive::DriveSpec;
+use crate::bodies::drive::DriveSpec;
 use base::document::Place;
 use base::error::InputError;
 

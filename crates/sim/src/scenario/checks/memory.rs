@@ -2,14 +2,14 @@
 
 use super::ScenarioSpec;
 use super::ground::rectangle;
-use crate::body::RobotSpec;
-use crate::engine::sizes::{
-    CONTACT_BYTES, GLANCE_BYTES, HEARD_BYTES, LOOK_BYTES, MOST_WAITING, NEIGHBOUR_BYTES, SENT_BYTES,
-};
+use crate::bodies::RobotSpec;
 use crate::radio::RadioSpec;
-use crate::sensing::items::ItemsSpec;
-use crate::sensing::sector::Sector;
-use crate::sensing::{Measures, SensorSpec};
+use crate::sensors::items::ItemsSpec;
+use crate::sensors::memory::{
+    CONTACT_BYTES, GLANCE_BYTES, HEARD_BYTES, LOOK_BYTES, MAX_PENDING, NEIGHBOUR_BYTES, SENT_BYTES,
+};
+use crate::sensors::sector::Sector;
+use crate::sensors::{Measures, SensorSpec};
 use base::document::Place;
 use base::error::InputError;
 use base::geometry::Rectangle;
@@ -198,13 +198,13 @@ fn things_within(view_m2: f64, count: u32, placement: &Placement, spec: &Scenari
     }
 }
 
-/// Of a rhythm that beats so often, or else once a step.
+/// Of a schedule that beats so often, or else once a step.
 fn period_s(rate_hz: Option<f64>, step_s: f64) -> f64 {
     rate_hz.map_or(step_s, |rate_hz| (1.0 / rate_hz).max(step_s))
 }
 
 fn most() -> f64 {
-    size(MOST_WAITING)
+    size(MAX_PENDING)
 }
 
 #[expect(clippy::cast_precision_loss, reason = "some thousands at most")]

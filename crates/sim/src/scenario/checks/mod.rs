@@ -1,11 +1,11 @@
 //! What the parts of a scenario mean together; one thing a file.
 
+mod brains;
 mod clock;
 mod detection;
 mod drive;
 mod ground;
 mod memory;
-mod minds;
 mod names;
 mod periodic;
 mod places;
@@ -31,7 +31,7 @@ const CHECKS: [Check; 7] = [
     rates::errors,
     drive::errors,
     detection::errors,
-    minds::errors,
+    brains::errors,
     memory::errors,
 ];
 

@@ -1,7 +1,7 @@
 //! A world that wraps is large enough for what robots see and touch.
 
 use super::Checked;
-use crate::sensing::Measures;
+use crate::sensors::Measures;
 use base::document::Place;
 use base::error::InputError;
 

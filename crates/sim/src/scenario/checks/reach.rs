@@ -3,8 +3,8 @@
 use super::ground::rectangle;
 use super::room::{lattice, within};
 use super::{Checked, ScenarioSpec};
-use crate::body::{Layer, RobotSpec};
-use crate::sensing::Measures;
+use crate::bodies::{Layer, RobotSpec};
+use crate::sensors::Measures;
 use crate::world::items::ItemSpec;
 use crate::world::obstacles::Solid;
 use base::document::Place;

@@ -2,7 +2,7 @@
 
 use super::ground::rectangle;
 use super::{Checked, Scenario};
-use crate::body::{Layer, RobotSpec};
+use crate::bodies::{Layer, RobotSpec};
 use base::document::Place;
 use base::error::InputError;
 use base::geometry::{Point, Rectangle};

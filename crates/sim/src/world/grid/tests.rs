@@ -1,5 +1,5 @@
 use super::*;
-use crate::world::still::Wall;
+use crate::world::static_geometry::Wall;
 use base::geometry::{Disc, Segment};
 use base::random::{Entity, Purpose, Stream, stream, unit};
 

@@ -1,0 +1,33 @@
+//! What a collision costs.
+
+use crate::schedule::steps_of;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// What happens to a robot that touches something.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default)]
+pub struct CollisionSpec {
+    /// It stands still for so long, in seconds.
+    #[schemars(range(min = 0.0, max = 1e6))]
+    pub stop_duration_s: f64,
+    /// It is broken after so many collisions; left out, it never breaks.
+    #[schemars(range(min = 1))]
+    pub max_collisions: Option<u32>,
+}
+
+/// What a collision costs, as the step needs it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Collision {
+    pub(crate) stop_steps: u64,
+    pub(crate) max_collisions: u32,
+}
+
+impl Collision {
+    pub(crate) fn new(spec: &CollisionSpec, step_s: f64) -> Self {
+        Self {
+            stop_steps: steps_of(spec.stop_duration_s, step_s),
+            max_collisions: spec.max_collisions.unwrap_or(u32::MAX),
+        }
+    }
+}

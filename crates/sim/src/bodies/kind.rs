@@ -1,0 +1,297 @@
+//! A kind of robot, as runs need it.
+
+use super::battery::Battery;
+use super::collision::Collision;
+use super::drive::Drive;
+use super::{Layer, RobotSpec};
+use crate::radio::Radio;
+use crate::schedule::Schedule;
+use crate::sensors::{Measure, Measures, Sensor, SensorSpec};
+use base::geometry::{Point, Rectangle};
+use base::placement::Placement;
+use base::random::kind_key;
+use brain::behaviours::flock::{self, Sums};
+use brain::{Body, Brain, Detector, Dice, Motion, Other, RangeRing};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// What all robots of a kind have in common.
+#[derive(Debug, Clone)]
+pub(crate) struct Kind {
+    pub(crate) name: String,
+    /// Its name in random streams: [`kind_key`].
+    pub(crate) key: u32,
+    pub(crate) count: u32,
+    pub(crate) layer: Layer,
+    pub(crate) radius_m: f64,
+    pub(crate) price: f64,
+    pub(crate) start: Placement,
+    pub(crate) drive: Drive,
+    pub(crate) collision: Collision,
+    pub(crate) battery: Option<Battery>,
+    /// In the order of their names.
+    pub(crate) sensors: Vec<Sensor>,
+    /// No ray goes farther; 0 without rays.
+    pub(crate) rays_m: f64,
+    pub(crate) radio: Option<Radio>,
+    /// Power of its radio and all its sensors.
+    all_on_w: f64,
+    /// When its brain steps.
+    pub(crate) schedule: Schedule,
+    /// As a robot begins with it; clones share what is the same for all.
+    pub(crate) brain: Brain,
+    /// If its robots do nothing but go with the others, in a world where nothing stands.
+    pub(crate) flocking: Option<Flocking>,
+}
+
+/// How robots go with the others that do nothing else, and see all of them at once and exactly.
+#[derive(Debug, Clone)]
+pub(crate) struct Flocking {
+    rule: flock::Ready,
+    /// They see no farther.
+    pub(crate) reach_m: f64,
+    sees_courses: bool,
+}
+
+impl Flocking {
+    /// Of their reach, and of how near is too near.
+    #[inline]
+    pub(crate) fn squares(&self) -> [f64; 2] {
+        [self.reach_m, self.rule.separation_m()].map(|distance_m| distance_m * distance_m)
+    }
+
+    /// What a robot wants that is to turn so fast.
+    #[inline]
+    pub(crate) fn motion(&self, turn_rate_rad_s: f64) -> Motion {
+        Motion {
+            speed_m_s: self.rule.speed_m_s(),
+            turn_rate_rad_s,
+        }
+    }
+
+    /// How fast a robot turns whose course is `front`, given those in range.
+    #[inline]
+    pub(crate) fn turn_rate_rad_s(
+        &self,
+        front: Point,
+        sums: &Sums,
+        dice: impl FnOnce() -> Dice,
+    ) -> f64 {
+        let course = if self.sees_courses {
+            sums.course
+        } else {
+            Point::default()
+        };
+        let sums = Sums { course, ..*sums };
+        self.rule.turn_rate_rad_s(front, &sums, dice)
+    }
+}
+
+/// What all robots are told before the mission.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Briefing<'a> {
+    pub(crate) item_kinds: &'a [String],
+    pub(crate) robots: &'a BTreeMap<String, RobotSpec>,
+    pub(crate) field: Rectangle,
+    pub(crate) step_s: f64,
+}
+
+impl Kind {
+    /// The kind that `spec` describes.
+    pub(crate) fn new(name: &str, spec: &RobotSpec, briefing: &Briefing) -> Self {
+        let Briefing {
+            item_kinds, step_s, ..
+        } = *briefing;
+        let sensors: Vec<Sensor> = spec
+            .sensors
+            .iter()
+            .map(|(name, spec)| Sensor::new(name, spec, item_kinds, step_s))
+            .collect();
+        let schedule = Schedule::new(spec.brain.rate_hz, step_s);
+        let drive = Drive::new(&spec.drive, step_s);
+        let body = Body {
+            radius_m: spec.radius_m,
+            max_speed_m_s: drive.max_speed_m_s,
+            max_reverse_speed_m_s: drive.max_reverse_speed_m_s,
+            max_acceleration_m_s2: drive.max_acceleration_m_s2,
+            max_turn_rate_rad_s: drive.max_turn_rate_rad_s,
+            period_s: schedule.period_s(step_s),
+            sensors: sensors.iter().map(|sensor| sensor.name.clone()).collect(),
+            rings: sensors
+                .iter()
+                .filter_map(|sensor| ring(sensor, step_s))
+                .collect(),
+            detectors: detectors(spec, briefing),
+            position_noise_m: noise(&sensors, |measure| match measure {
+                Measure::Position { noise_m } => Some(*noise_m),
+                _ => None,
+            }),
+            heading_noise_rad: noise(&sensors, |measure| match measure {
+                Measure::Heading { noise_rad } => Some(*noise_rad),
+                _ => None,
+            }),
+            neighbour_noise_m: noise(&sensors, |measure| match measure {
+                Measure::Robots(detector) => Some(detector.noise_m),
+                _ => None,
+            }),
+            item_kinds: item_kinds.to_vec(),
+            others: others(spec.layer, briefing),
+            field: Some(briefing.field),
+        };
+        let mut kind = Self {
+            all_on_w: 0.0,
+            name: name.to_owned(),
+            key: kind_key(name),
+            count: spec.count,
+            layer: spec.layer,
+            radius_m: spec.radius_m,
+            price: spec.price,
+            start: spec.start.clone(),
+            drive,
+            collision: Collision::new(&spec.collision, step_s),
+            battery: spec
+                .battery
+                .as_ref()
+                .map(|battery| Battery::new(battery, (spec.mass_kg, spec.payload_kg))),
+            rays_m: rays_m(&sensors),
+            sensors,
+            radio: spec.radio.as_ref().map(|radio| Radio::new(radio, step_s)),
+            schedule,
+            brain: Brain::new(Arc::new(spec.brain.clone()), Arc::new(body)),
+            flocking: None,
+        };
+        kind.all_on_w = kind.some_on_w(0);
+        kind
+    }
+
+    /// How its robots go with the others in a world where nothing stands, if they do nothing else and
+    /// have what that takes, and no more.
+    pub(crate) fn as_flock(&self) -> Option<Flocking> {
+        let rule = self.brain.flock()?;
+        let [sensor] = self.sensors.as_slice() else {
+            return None;
+        };
+        let Measure::Robots(detector) = &sensor.measure else {
+            return None;
+        };
+        let is_plain = self.schedule.is_each_step()
+            && self.radio.is_none()
+            && sensor.tells_at_once()
+            && sensor.dropout_probability == 0.0
+            && detector.is_exact();
+        is_plain.then(|| Flocking {
+            rule: rule.clone(),
+            reach_m: detector.sector.range_m,
+            sees_courses: detector.tells_courses(),
+        })
+    }
+
+    /// Whether anything that its robots measure or hear can wait for their brains.
+    pub(crate) fn needs_backlog(&self) -> bool {
+        let is_late = |sensor: &Sensor| !sensor.tells_at_once();
+        let is_slow = !self.schedule.is_each_step();
+        is_slow || self.radio.is_some() || self.sensors.iter().any(is_late)
+    }
+
+    /// Power of its radio and of its sensors, without those whose bits are in `off`.
+    #[inline]
+    pub(crate) fn sensing_w(&self, off: u32) -> f64 {
+        if off == 0 {
+            self.all_on_w
+        } else {
+            self.some_on_w(off)
+        }
+    }
+
+    fn some_on_w(&self, off: u32) -> f64 {
+        let sensors = self.sensors.iter().enumerate();
+        let on = sensors.filter(|(number, _)| off & (1 << number) == 0);
+        let radio_w = self.radio.map_or(0.0, |radio| radio.power_w);
+        radio_w + on.map(|(_, sensor)| sensor.power_w).sum::<f64>()
+    }
+
+    /// What is farther from its centre at the start of a step, it does not touch in it; where it
+    /// goes at its greatest speed for `longest_s`.
+    pub(crate) fn touch_m(&self, longest_s: f64) -> f64 {
+        let Drive {
+            max_speed_m_s,
+            max_reverse_speed_m_s,
+            ..
+        } = self.drive;
+        self.radius_m + 1.01 * max_speed_m_s.max(max_reverse_speed_m_s) * longest_s + 1e-3
+    }
+
+    /// It neither recognises robots nor talks to them from farther away.
+    pub(crate) fn robots_reach_m(&self) -> f64 {
+        let sensors = self.sensors.iter();
+        let detectors = sensors.filter_map(|sensor| match &sensor.measure {
+            Measure::Robots(detector) => Some(detector.sector.range_m),
+            _ => None,
+        });
+        let radio = self.radio.map(|radio| radio.range_m);
+        detectors.chain(radio).fold(0.0, f64::max)
+    }
+
+    /// It looks for items no farther.
+    pub(crate) fn items_reach_m(&self) -> f64 {
+        let detectors = self
+            .sensors
+            .iter()
+            .filter_map(|sensor| match &sensor.measure {
+                Measure::Items(detector) => Some(detector.sector.range_m),
+                _ => None,
+            });
+        detectors.fold(0.0, f64::max)
+    }
+}
+
+fn ring(sensor: &Sensor, step_s: f64) -> Option<RangeRing> {
+    let Measure::Range(ring) = &sensor.measure else {
+        return None;
+    };
+    Some(RangeRing {
+        bearings_rad: ring.bearings_rad.clone(),
+        range_m: ring.range_m,
+        period_s: sensor.schedule.period_s(step_s),
+        #[expect(clippy::cast_precision_loss, reason = "steps are at most 1e8")]
+        latency_s: sensor.latency_steps as f64 * step_s,
+    })
+}
+
+/// The greatest error of its sensors of some kind; 0 if it has none.
+fn noise(sensors: &[Sensor], of: impl Fn(&Measure) -> Option<f64>) -> f64 {
+    let noises = sensors.iter().filter_map(|sensor| of(&sensor.measure));
+    noises.fold(0.0, f64::max)
+}
+
+fn others(layer: Layer, briefing: &Briefing) -> Vec<Other> {
+    let other = |spec: &RobotSpec| Other {
+        radius_m: spec.radius_m,
+        max_acceleration_m_s2: Drive::new(&spec.drive, briefing.step_s).max_acceleration_m_s2,
+        is_in_the_way: spec.layer == layer,
+        detectors: detectors(spec, briefing),
+    };
+    briefing.robots.values().map(other).collect()
+}
+
+fn detectors(spec: &RobotSpec, briefing: &Briefing) -> Vec<Detector> {
+    let detector = |(number, sensor): (u16, &SensorSpec)| match &sensor.measures {
+        Measures::Items(items) => {
+            let period_s = Schedule::new(sensor.rate_hz, briefing.step_s).period_s(briefing.step_s);
+            Some(items.detector(number, briefing.item_kinds, period_s))
+        }
+        _ => None,
+    };
+    (0..)
+        .zip(spec.sensors.values())
+        .filter_map(detector)
+        .collect()
+}
+
+fn rays_m(sensors: &[Sensor]) -> f64 {
+    let rings = sensors.iter().filter_map(|sensor| match &sensor.measure {
+        Measure::Range(ring) => Some(ring.range_m),
+        _ => None,
+    });
+    rings.fold(0.0, f64::max)
+}

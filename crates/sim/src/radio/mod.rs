@@ -1,0 +1,63 @@
+//! Who hears what, and when.
+
+pub(crate) mod channel;
+
+use crate::schedule::steps_of;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A radio that sends to every robot in range.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct RadioSpec {
+    /// Who is nearer when it sends can hear it, in metres.
+    #[schemars(range(min = 0.0, max = 1e6))]
+    pub range_m: f64,
+    /// Probability that one receiver misses a message.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub loss_probability: f64,
+    /// Time from sending to hearing, in seconds; a message is heard in the next step at the soonest.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 3600.0))]
+    pub delay_s: f64,
+    /// It sends the first so many messages of a step, and hears at most so many in one.
+    #[serde(default = "four")]
+    #[schemars(range(max = 1000))]
+    pub messages_per_step: u32,
+    /// Whether obstacles silence it.
+    #[serde(default)]
+    pub needs_line_of_sight: bool,
+    /// Power while it is on, in watts.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 1e6))]
+    pub power_w: f64,
+}
+
+fn four() -> u32 {
+    4
+}
+
+/// A radio, as the step needs it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Radio {
+    pub(crate) range_m: f64,
+    pub(crate) loss_probability: f64,
+    /// At least 1.
+    pub(crate) delay_steps: u64,
+    pub(crate) messages_per_step: usize,
+    pub(crate) needs_line_of_sight: bool,
+    pub(crate) power_w: f64,
+}
+
+impl Radio {
+    pub(crate) fn new(spec: &RadioSpec, step_s: f64) -> Self {
+        Self {
+            range_m: spec.range_m,
+            loss_probability: spec.loss_probability,
+            delay_steps: steps_of(spec.delay_s, step_s).max(1),
+            messages_per_step: spec.messages_per_step as usize,
+            needs_line_of_sight: spec.needs_line_of_sight,
+            power_w: spec.power_w,
+        }
+    }
+}

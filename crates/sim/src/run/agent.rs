@@ -1,0 +1,131 @@
+//! A robot's brain, the motion it wants, and what waits for it.
+
+use crate::bodies::kind::Kind;
+use crate::radio::channel::Transmission;
+use crate::sensors::backlog::Backlog;
+use crate::sensors::pending::Pending;
+use brain::{self, Brain, Contact, Motion, Neighbour, Percept, RobotId, SensorRequest};
+use std::collections::BTreeMap;
+
+/// What decides for one robot.
+#[derive(Debug, Clone)]
+pub(crate) struct Agent {
+    pub(crate) brain: Brain,
+    /// What it wants until it steps again.
+    pub(crate) wanted: Motion,
+    /// A bit for each sensor that is switched off.
+    pub(crate) sensors_off: u32,
+    /// What has been measured or heard and has not reached the brain. Most kinds of robots never
+    /// have any.
+    pub(crate) backlog: Option<Box<Backlog>>,
+}
+
+impl Agent {
+    pub(crate) fn new(kind: &Kind) -> Self {
+        Self {
+            brain: kind.brain.clone(),
+            wanted: Motion::default(),
+            sensors_off: 0,
+            backlog: kind
+                .needs_backlog()
+                .then(|| Box::new(Backlog::new(&kind.sensors))),
+        }
+    }
+
+    pub(crate) fn switch(&mut self, request: SensorRequest) {
+        let bit = 1_u32.checked_shl(request.sensor.into()).unwrap_or(0);
+        if request.on {
+            self.sensors_off &= !bit;
+        } else {
+            self.sensors_off |= bit;
+        }
+    }
+
+    /// Takes a message that arrives now, unless the radio has heard enough in this step.
+    pub(crate) fn hear(&mut self, sent: &Transmission, now: u64, most: usize) {
+        let Some(backlog) = &mut self.backlog else {
+            return;
+        };
+        let inbox = &mut backlog.inbox;
+        inbox.forget(now);
+        if inbox
+            .entries
+            .iter()
+            .rev()
+            .take_while(|late| late.due == now)
+            .count()
+            < most
+        {
+            inbox.entries.push(Pending {
+                taken: sent.at,
+                due: now,
+                what: sent.heard,
+            });
+        }
+    }
+
+    /// Adds what others told to a percept from outside.
+    pub(crate) fn tell_messages(&mut self, now: u64, step_s: f64, to: &mut Percept) {
+        if let Some(backlog) = &mut self.backlog {
+            backlog.tell_messages(now, step_s, to);
+        }
+    }
+
+    /// Makes room for what is recognised in a step in which the brain does not step.
+    pub(crate) fn forget(&mut self, now: u64) {
+        if let Some(backlog) = &mut self.backlog {
+            backlog.looks.forget(now);
+            backlog.contacts.forget(now);
+            backlog.neighbours.forget(now);
+        }
+    }
+
+    pub(crate) fn wait_look(&mut self, late: Pending<brain::Look>) {
+        if let Some(backlog) = &mut self.backlog {
+            backlog.looks.entries.push(late);
+        }
+    }
+
+    pub(crate) fn wait_contact(&mut self, late: Pending<(Contact, Option<u32>)>) {
+        if let Some(backlog) = &mut self.backlog {
+            backlog.contacts.entries.push(late);
+        }
+    }
+
+    pub(crate) fn wait_neighbour(&mut self, late: Pending<Neighbour>) {
+        if let Some(backlog) = &mut self.backlog {
+            backlog.neighbours.entries.push(late);
+        }
+    }
+
+    /// Items have other numbers from now on; what was seen of one that is gone is forgotten.
+    pub(crate) fn renumber_items(&mut self, numbers: &BTreeMap<usize, usize>) {
+        if let Some(backlog) = &mut self.backlog {
+            backlog.contacts.entries.retain_mut(|late| {
+                let Some(item) = &mut late.what.1 else {
+                    return true;
+                };
+                let number = numbers.get(&(*item as usize));
+                let number = number.and_then(|number| u32::try_from(*number).ok());
+                number.inspect(|number| *item = *number).is_some()
+            });
+        }
+    }
+
+    /// Robots have other numbers from now on; what was seen and heard of one that is gone is
+    /// forgotten.
+    pub(crate) fn renumber_robots(&mut self, numbers: &BTreeMap<RobotId, RobotId>) {
+        self.brain.renumber(|id| numbers.get(&id).copied());
+        let renumber = |id: &mut RobotId| numbers.get(id).map(|now| *id = *now).is_some();
+        if let Some(backlog) = &mut self.backlog {
+            let neighbours = &mut backlog.neighbours.entries;
+            neighbours.retain_mut(|late| renumber(&mut late.what.id));
+            let inbox = &mut backlog.inbox.entries;
+            inbox.retain_mut(|late| renumber(&mut late.what.from));
+        }
+    }
+
+    pub(crate) fn is_on(&self, sensor: usize) -> bool {
+        self.sensors_off & (1 << sensor) == 0
+    }
+}

@@ -1,0 +1,75 @@
+//! Who is still there when a run goes on with another scenario, and by which number.
+
+use super::state::{BodyState, State};
+use crate::scenario::Scenario;
+use brain::{About, Heard, RobotId};
+use std::collections::BTreeMap;
+
+/// For each robot of `next` the number that it had `before`, by the name of its kind and its index;
+/// `None` for one that comes in.
+pub(super) fn stay(
+    before: &State,
+    from: &Scenario,
+    next: &State,
+    to: &Scenario,
+) -> Vec<Option<usize>> {
+    let old = before.ids.iter().enumerate();
+    let old = old.map(|(robot, id)| ((from.name_of(*id), id.index), robot));
+    let old: BTreeMap<(&str, u32), usize> = old.collect();
+    let was = |id: &RobotId| old.get(&(to.name_of(*id), id.index)).copied();
+    next.ids.iter().map(was).collect()
+}
+
+/// Whether nobody has come in and nobody has gone.
+pub(super) fn is_same_team(before: &State, old: &[Option<usize>]) -> bool {
+    old.len() == before.robots() && old.iter().all(Option::is_some)
+}
+
+/// The body_states of those that go.
+pub(super) fn gone(before: &State, old: &[Option<usize>]) -> Vec<BodyState> {
+    let mut stays = vec![false; before.robots()];
+    old.iter().flatten().for_each(|robot| stays[*robot] = true);
+    let body_states = before.body_states.iter().zip(stays);
+    body_states
+        .filter_map(|(body_state, stays)| (!stays).then_some(*body_state))
+        .collect()
+}
+
+/// What robots that were there and still are were called, and what they are called now: kinds of
+/// robots have other numbers when one before them has come in or gone.
+pub(super) fn ids_of(
+    before: &State,
+    next: &State,
+    old: &[Option<usize>],
+) -> BTreeMap<RobotId, RobotId> {
+    let pairs = old.iter().zip(&next.ids);
+    pairs
+        .filter_map(|(was, id)| Some((before.ids[(*was)?], *id)))
+        .collect()
+}
+
+/// Whether a message on its way still means something, by names: it then has the numbers of now.
+pub(super) fn still_sayable(
+    heard: &mut Heard,
+    ids: &BTreeMap<RobotId, RobotId>,
+    from: &Scenario,
+    to: &Scenario,
+) -> bool {
+    let Some(sender) = ids.get(&heard.from) else {
+        return false;
+    };
+    heard.from = *sender;
+    let About::Item { kind, seen, .. } = &mut heard.message.about else {
+        return true;
+    };
+    let Some(looker) = ids.get(&seen.by) else {
+        return false;
+    };
+    seen.by = *looker;
+    let Some(was) = from.items.get(usize::from(*kind)) else {
+        // Of no kind that there was: so it stays.
+        return usize::from(*kind) >= to.items.len();
+    };
+    let now = (0..).zip(&to.items).find(|(_, now)| now.name == was.name);
+    now.map(|(number, _)| *kind = number).is_some()
+}

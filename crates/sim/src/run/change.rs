@@ -1,0 +1,216 @@
+//! Going on with another scenario in the middle of a run.
+
+use super::agent::Agent;
+use super::carry_over::{gone, ids_of, is_same_team, stay, still_sayable};
+use super::state::{BodyState, NoRoom, State, Status, draws};
+use crate::bodies::Layer;
+use crate::bodies::kind::Kind;
+use crate::scenario::Scenario;
+use crate::world::items::Item;
+use base::placement::{Crowd, NoPlace, NoPlaceFor, Things};
+use std::collections::BTreeMap;
+
+/// Whether a robot stands well where it is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Room {
+    /// It stands where it stood, among what stood there.
+    Same,
+    /// It stays, but it or the world has another shape: the place must still do.
+    Doubtful,
+    /// It comes in, and can start elsewhere.
+    Wanted,
+}
+
+impl State {
+    /// The run as it goes on with another scenario of the same step and the same world's size and
+    /// sides.
+    ///
+    /// Robots and items that are in both, by the names of their kinds and their indices, stay as
+    /// they are; others come in where they would start, or go. A robot whose brain, body or sensors
+    /// are now others begins with a new agent, and is at once no faster than its drive now allows. Of
+    /// a battery with another capacity there is left what has not been used so far.
+    /// Messages on their way are lost if the team changes. What robots have cost that go is still
+    /// part of the outcome.
+    ///
+    /// # Errors
+    /// If there is no room for what comes in, or for what stays where something else now is.
+    pub fn changed(&self, from: &Scenario, to: &Scenario) -> Result<Self, NoRoom> {
+        let mut next = Self::new(to, self.seed, self.run)?;
+        next.tick = self.tick;
+        let old = stay(self, from, &next, to);
+        let ids = ids_of(self, &next, &old);
+        let rooms = next.keep_robots(self, &old, from, to);
+        for agent in &mut next.agents {
+            agent.renumber_robots(&ids);
+        }
+        next.make_room(to, &rooms)?;
+        next.keep_items(self, from, to)?;
+        next.tally = self.tally;
+        next.tally.gone = self.tally.gone.and(gone(self, &old).iter());
+        next.count_targets(to);
+        if is_same_team(self, &old) {
+            // Kinds are in the order of their names, so that those who hear have their numbers still.
+            next.channel = self.channel.clone();
+            next.channel
+                .retain(|heard| still_sayable(heard, &ids, from, to));
+        }
+        Ok(next)
+    }
+
+    /// Takes over robots that were there, each from its `old` number.
+    fn keep_robots(
+        &mut self,
+        before: &Self,
+        old: &[Option<usize>],
+        from: &Scenario,
+        to: &Scenario,
+    ) -> Vec<Room> {
+        let is_same_ground = from.solids() == to.solids();
+        let mut rooms = vec![Room::Wanted; self.robots()];
+        for (robot, room) in rooms.iter_mut().enumerate() {
+            let id = self.ids[robot];
+            let Some(was) = old[robot] else {
+                continue;
+            };
+            let old_kind = &from.kinds[usize::from(before.ids[was].kind)];
+            let kind = &to.kinds[usize::from(id.kind)];
+            self.discs[robot].centre = before.discs[was].centre;
+            self.orientations[robot] = before.orientations[was];
+            self.body_states[robot] = kept_hull(&before.body_states[was], kind, to);
+            self.agents[robot] = kept_mind(&before.agents[was], old_kind, kind);
+            let is_same =
+                kind.radius_m.total_cmp(&old_kind.radius_m).is_eq() && kind.layer == old_kind.layer;
+            let is_placed = self.body_states[robot].is_external || is_same_ground && is_same;
+            *room = if is_placed {
+                Room::Same
+            } else {
+                Room::Doubtful
+            };
+        }
+        rooms
+    }
+
+    /// Puts robots that are new elsewhere where somebody is in their place by now.
+    fn make_room(&mut self, scenario: &Scenario, rooms: &[Room]) -> Result<(), NoRoom> {
+        let draws = draws(scenario, self.seed, self.run, Things::Robots);
+        let mut crowd = self.crowd(scenario);
+        for (robot, room) in rooms.iter().enumerate() {
+            if *room == Room::Same {
+                continue;
+            }
+            let (id, centre) = (self.ids[robot], self.discs[robot].centre);
+            let number = usize::from(id.kind);
+            let kind = &scenario.kinds[number];
+            crowd.remove(number, centre);
+            let is_free = |place| {
+                scenario.is_free(place, kind.radius_m, kind.layer) && !crowd.is_taken(number, place)
+            };
+            let place = match room {
+                _ if is_free(centre) => Ok(centre),
+                Room::Wanted => kind.start.place(&draws, scenario.entity(id), is_free),
+                _ => Err(NoPlace::Taken),
+            };
+            let place = place.map(|place| scenario.home(place));
+            let place = place.map_err(|why| NoPlaceFor {
+                kind: id.kind,
+                index: id.index,
+                why,
+            })?;
+            crowd.add(number, place);
+            self.discs[robot].centre = place;
+        }
+        Ok(())
+    }
+
+    /// Where the robots of each kind stand.
+    fn crowd(&self, scenario: &Scenario) -> Crowd {
+        let kinds = scenario.kinds.iter();
+        let discs = kinds.map(|kind| (kind.layer as u8, kind.radius_m));
+        let mut crowd = Crowd::new(discs, scenario.torus);
+        for (id, disc) in self.ids.iter().zip(&self.discs) {
+            crowd.add(usize::from(id.kind), disc.centre);
+        }
+        crowd
+    }
+
+    /// Takes over items that were there, and what robots are about to be told of them.
+    fn keep_items(&mut self, before: &Self, from: &Scenario, to: &Scenario) -> Result<(), NoRoom> {
+        let old: BTreeMap<_, _> = before.items.named(&from.items).collect();
+        let named = self.items.named(&to.items);
+        let kept = named.filter_map(|(name, item)| Some((item.number, *old.get(&name)?)));
+        let kept: Vec<(usize, Item)> = kept.collect();
+        self.items.keep(&kept);
+        if from.solids() != to.solids() {
+            self.check_items(to)?;
+        }
+        let numbers: BTreeMap<usize, usize> =
+            kept.iter().map(|(now, item)| (item.number, *now)).collect();
+        for agent in &mut self.agents {
+            agent.renumber_items(&numbers);
+        }
+        Ok(())
+    }
+
+    /// Items lie where something else now stands.
+    fn check_items(&self, scenario: &Scenario) -> Result<(), NoRoom> {
+        let mut items = self.items.named(&scenario.items);
+        let is_taken = |item: &Item| !scenario.is_free(item.place, 0.0, Layer::Ground);
+        let taken = items.find(|(_, item)| is_taken(item));
+        taken.map_or(Ok(()), |((name, index), _)| {
+            Err(no_room(scenario, name, index))
+        })
+    }
+
+    /// Counts the sought items that are left.
+    fn count_targets(&mut self, scenario: &Scenario) {
+        let is_target = |kind: u16| scenario.items[usize::from(kind)].is_target;
+        let target = self.items.each().filter(|(kind, _)| is_target(*kind));
+        let found: Vec<Option<u64>> = target.map(|(_, found)| found).collect();
+        let left = found.iter().filter(|found| found.is_none()).count();
+        self.tally.targets_left = u32::try_from(left).unwrap_or(u32::MAX);
+        // What is left out can complete a run, and what comes in can open it again.
+        let last = found.into_iter().flatten().max();
+        self.tally.complete_at = last.filter(|_| left == 0);
+    }
+}
+
+fn no_room(scenario: &Scenario, name: &str, index: u32) -> NoRoom {
+    let kinds = (0..).zip(&scenario.items);
+    let kind = kinds.into_iter().find(|(_, kind)| kind.name == name);
+    NoRoom::Item {
+        kind: kind.map_or(0, |(number, _)| number),
+        index,
+        why: NoPlace::Taken,
+    }
+}
+
+fn kept_hull(body_state: &BodyState, kind: &Kind, to: &Scenario) -> BodyState {
+    let is_used_up = kind
+        .battery
+        .is_some_and(|battery| body_state.energy_j >= battery.capacity_j);
+    let status = match body_state.status {
+        Status::Broken => Status::Broken,
+        status if body_state.is_external => status,
+        _ if is_used_up => Status::Empty,
+        _ => Status::Active,
+    };
+    BodyState {
+        speed_m_s: kind.drive.possible(body_state.speed_m_s, to.fastest()),
+        status,
+        ..*body_state
+    }
+}
+
+fn kept_mind(agent: &Agent, from: &Kind, to: &Kind) -> Agent {
+    let is_same = from.brain.spec() == to.brain.spec()
+        && from.brain.body().is_same_but_for_others(to.brain.body())
+        && from.sensors == to.sensors;
+    if is_same && from.needs_backlog() == to.needs_backlog() {
+        Agent {
+            brain: agent.brain.rebriefed(&to.brain),
+            ..agent.clone()
+        }
+    } else {
+        Agent::new(to)
+    }
+}

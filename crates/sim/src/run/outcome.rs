@@ -1,0 +1,117 @@
+//! What a run gives.
+
+use super::state::State;
+use crate::clock::seconds;
+use crate::scenario::Scenario;
+
+/// What a run gives, by the names of an outcome's columns.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Outcome {
+    /// Until the last sought item was found; the cap if that was not.
+    pub time_s: f64,
+    /// Whether sought items were not found.
+    pub has_failed: bool,
+    /// Items found, by kind.
+    pub found: Vec<u32>,
+    /// Items not found, by kind.
+    pub missed: Vec<u32>,
+    /// Contacts of nothing that robots were told of.
+    pub false_alarms: u64,
+    /// New contacts of two robots, or of a robot with what stands still; in a step at most as many
+    /// as there are robots.
+    pub collisions: u64,
+    /// Of all robots, also those that were taken out of the run.
+    pub energy_j: f64,
+    /// Of all robots, also those that were taken out of the run.
+    pub distance_m: f64,
+    /// Robots that could not go on: empty or broken; those that were taken out of the run so too.
+    pub robots_stopped: u32,
+    /// Whether every robot is somewhere, and looks somewhere.
+    is_placed: bool,
+}
+
+impl Outcome {
+    /// What a run has given so far.
+    #[must_use]
+    pub fn of(scenario: &Scenario, state: &State) -> Self {
+        let mut found = vec![0; scenario.items.len()];
+        let mut missed = vec![0; scenario.items.len()];
+        for (kind, when) in state.items.each() {
+            let counts = if when.is_some() {
+                &mut found
+            } else {
+                &mut missed
+            };
+            counts[usize::from(kind)] += 1;
+        }
+        let complete_s = state
+            .tally
+            .complete_at
+            .map(|tick| seconds(tick, scenario.step_s));
+        let cost = state.tally.gone.and(state.body_states.iter());
+        Self {
+            // The step of the last find may be a rounding error beyond the cap.
+            time_s: complete_s.map_or(scenario.time_limit_s, |time_s| {
+                time_s.min(scenario.time_limit_s)
+            }),
+            has_failed: complete_s.is_none() && scenario.targets() > 0,
+            found,
+            missed,
+            false_alarms: state.tally.false_alarms,
+            collisions: state.tally.collisions,
+            energy_j: cost.energy_j,
+            distance_m: cost.distance_m,
+            robots_stopped: cost.stopped,
+            is_placed: is_placed(state),
+        }
+    }
+
+    /// Whether all its numbers are finite, and the places of the robots from which they came.
+    #[must_use]
+    pub fn is_finite(&self) -> bool {
+        let numbers = [self.time_s, self.energy_j, self.distance_m];
+        self.is_placed && numbers.iter().all(|value| value.is_finite())
+    }
+}
+
+fn is_placed(state: &State) -> bool {
+    let places = state.discs.iter().map(|disc| disc.centre);
+    let places = places.map(|at| at.x + at.y);
+    let headings = state.orientations.iter().map(|course| course.heading_rad);
+    places.chain(headings).all(f64::is_finite)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenario::ScenarioSpec;
+    use base::document::Document;
+
+    const ROVERS: &str = "
+[clock]
+time_limit_s = 60
+[world]
+size_m = [20, 10]
+[robots.rover]
+count = 2
+radius_m = 0.4
+drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
+";
+
+    #[test]
+    fn a_run_with_a_robot_that_is_nowhere_is_not_finite() {
+        let document = Document::parse("t.toml", ROVERS).unwrap();
+        let scenario = ScenarioSpec::read(&document).unwrap().scenario;
+        let state = State::new(&scenario, 1, 0).unwrap();
+        let is_finite = |state: &State| Outcome::of(&scenario, state).is_finite();
+        assert!(is_finite(&state));
+        for nowhere in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            let mut lost = state.clone();
+            lost.discs[1].centre.y = nowhere;
+            assert!(!is_finite(&lost));
+            let mut lost = state.clone();
+            lost.orientations[0].heading_rad = nowhere;
+            assert!(!is_finite(&lost));
+        }
+    }
+}

@@ -1,0 +1,302 @@
+//! Everything that changes in a run.
+
+use super::agent::Agent;
+use crate::bodies::Layer;
+use crate::bodies::kind::Kind;
+use crate::bodies::path::Orientation;
+use crate::radio::channel::RadioChannel;
+use crate::scenario::Scenario;
+use crate::world::items::Items;
+use base::geometry::{Disc, Point};
+use base::hash::Hash;
+use base::noise::Noise;
+use base::placement::{Draws, Group, NoPlace, NoPlaceFor, Things, team};
+use base::random::Entity;
+use brain::{Motion, RobotId};
+
+/// One run, between two steps.
+#[derive(Debug, Clone)]
+pub struct State {
+    pub(crate) seed: u64,
+    pub(crate) run: u64,
+    /// Steps that have been taken.
+    pub(crate) tick: u64,
+    /// Robots in the order of their kinds and indices; each array below has one entry a robot.
+    pub(crate) ids: Vec<RobotId>,
+    /// What each covers.
+    pub(crate) discs: Vec<Disc>,
+    pub(crate) orientations: Vec<Orientation>,
+    pub(crate) body_states: Vec<BodyState>,
+    pub(crate) noises: Vec<Noise>,
+    pub(crate) agents: Vec<Agent>,
+    pub(crate) items: Items,
+    pub(crate) channel: RadioChannel,
+    pub(crate) tally: Tally,
+}
+
+/// A body's state, besides where it is.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct BodyState {
+    pub(crate) speed_m_s: f64,
+    pub(crate) turn_rate_rad_s: f64,
+    /// Taken from the battery so far.
+    pub(crate) energy_j: f64,
+    pub(crate) distance_m: f64,
+    /// It stands still until this step, because of a collision.
+    pub(crate) held_until: u64,
+    pub(crate) collisions: u32,
+    pub(crate) status: Status,
+    /// Its percepts come from outside, and its commands go there.
+    pub(crate) is_external: bool,
+    /// It touched something in the last step, or it has not moved freely since.
+    pub(crate) is_touching: bool,
+    /// Something stopped it in the last step.
+    pub(crate) is_pressed: bool,
+}
+
+impl BodyState {
+    /// Share of its battery that is left, 0 to 1; `None` if it has none that empties.
+    pub(crate) fn charge(&self, kind: &Kind) -> Option<f64> {
+        let capacity_j = kind.battery?.capacity_j;
+        let left = (1.0 - self.energy_j / capacity_j).max(0.0);
+        capacity_j.is_finite().then_some(left)
+    }
+}
+
+/// Whether a robot can go on.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Status {
+    /// It can.
+    #[default]
+    Active,
+    /// Its battery is empty.
+    Empty,
+    /// It has collided too often.
+    Broken,
+}
+
+/// What a run counts, besides what each robot does.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct Tally {
+    pub(crate) false_alarms: u64,
+    pub(crate) collisions: u64,
+    /// Targets that are not found.
+    pub(crate) targets_left: u32,
+    /// The step in which the last of them was found.
+    pub(crate) complete_at: Option<u64>,
+    /// What robots cost that are no longer there.
+    pub(crate) gone: Cost,
+}
+
+/// What some robots have cost together.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct Cost {
+    pub(crate) energy_j: f64,
+    pub(crate) distance_m: f64,
+    pub(crate) stopped: u32,
+}
+
+impl Cost {
+    /// With what other robots have cost.
+    pub(crate) fn and<'a>(self, body_states: impl Iterator<Item = &'a BodyState>) -> Self {
+        body_states.fold(self, |all, body_state| Self {
+            energy_j: all.energy_j + body_state.energy_j,
+            distance_m: all.distance_m + body_state.distance_m,
+            stopped: all.stopped + u32::from(body_state.status != Status::Active),
+        })
+    }
+}
+
+/// Something for which a run has no place.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum NoRoom {
+    /// An item.
+    #[error("item {index} of kind {kind}: {why}")]
+    Item {
+        /// Number of its kind.
+        kind: u8,
+        /// Its place within the kind.
+        index: u32,
+        /// Why.
+        why: NoPlace,
+    },
+    /// A robot.
+    #[error(transparent)]
+    Robot(#[from] NoPlaceFor),
+}
+
+impl State {
+    /// The beginning of a run.
+    ///
+    /// # Errors
+    /// If there is no room for an item or a robot.
+    pub fn new(scenario: &Scenario, seed: u64, run: u64) -> Result<Self, NoRoom> {
+        let items = place_items(scenario, seed, run)?;
+        let mut state = Self {
+            seed,
+            run,
+            tick: 0,
+            ids: Vec::new(),
+            discs: Vec::new(),
+            orientations: Vec::new(),
+            body_states: Vec::new(),
+            noises: Vec::new(),
+            agents: Vec::new(),
+            items,
+            channel: RadioChannel::default(),
+            tally: Tally::default(),
+        };
+        state.place_robots(scenario)?;
+        state.tally.targets_left = scenario.targets();
+        Ok(state)
+    }
+
+    fn place_robots(&mut self, scenario: &Scenario) -> Result<(), NoRoom> {
+        let draws = draws(scenario, self.seed, self.run, Things::Robots);
+        let kinds = (0..).zip(&scenario.kinds);
+        let groups = kinds.map(|(number, kind)| Group {
+            kind: number,
+            key: kind.key,
+            count: kind.count,
+            radius_m: kind.radius_m,
+            layer: kind.layer as u8,
+            placement: &kind.start,
+        });
+        let groups: Vec<Group> = groups.collect();
+        let places = team(&draws, &groups, |group, place| {
+            let layer = scenario.kinds[usize::from(group.kind)].layer;
+            scenario.is_free(place, group.radius_m, layer)
+        })?;
+        for (group, places) in groups.iter().zip(places) {
+            for (index, place) in (0..).zip(places) {
+                let id = RobotId {
+                    kind: group.kind,
+                    index,
+                };
+                let heading_rad = group.placement.heading_rad(&draws, scenario.entity(id));
+                self.add(scenario, id, place, heading_rad);
+            }
+        }
+        Ok(())
+    }
+
+    fn add(&mut self, scenario: &Scenario, id: RobotId, centre: Point, heading_rad: f64) {
+        let kind = &scenario.kinds[usize::from(id.kind)];
+        self.ids.push(id);
+        self.discs.push(Disc {
+            centre: scenario.home(centre),
+            radius_m: kind.radius_m,
+        });
+        self.orientations.push(Orientation::new(heading_rad));
+        self.body_states.push(BodyState::default());
+        self.noises
+            .push(Noise::of(self.seed, self.run, scenario.entity(id)));
+        self.agents.push(Agent::new(kind));
+    }
+
+    /// Notes that a robot was told of an item.
+    pub(crate) fn find(&mut self, scenario: &Scenario, item: u32) {
+        let kind = &scenario.items[usize::from(self.items.kind(item))];
+        if self.items.find(item, self.tick) && kind.is_target {
+            self.tally.targets_left -= 1;
+            if self.tally.targets_left == 0 {
+                self.tally.complete_at = Some(self.tick);
+            }
+        }
+    }
+
+    /// Whether nothing more can come of the run: all is found, time is up, or no robot can move.
+    #[must_use]
+    pub fn is_over(&self, scenario: &Scenario) -> bool {
+        let can_go_on = |body_state: &BodyState| body_state.status == Status::Active;
+        self.tally.complete_at.is_some()
+            || self.tick >= scenario.steps
+            || !self.body_states.iter().any(can_go_on)
+    }
+
+    /// A number that tells runs apart that differ in anything that shows.
+    #[must_use]
+    pub fn hash(&self) -> u64 {
+        let mut hash = Hash::new();
+        hash.add(self.tick);
+        for ((disc, course), (body_state, agent)) in self
+            .discs
+            .iter()
+            .zip(&self.orientations)
+            .zip(self.body_states.iter().zip(&self.agents))
+        {
+            let Motion {
+                speed_m_s,
+                turn_rate_rad_s,
+            } = agent.wanted;
+            let numbers = [
+                disc.centre.x,
+                disc.centre.y,
+                course.heading_rad,
+                body_state.speed_m_s,
+            ];
+            let more = [
+                body_state.energy_j,
+                body_state.distance_m,
+                speed_m_s,
+                turn_rate_rad_s,
+            ];
+            numbers
+                .iter()
+                .chain(&more)
+                .for_each(|number| hash.add(number.to_bits()));
+            hash.add(u64::from(body_state.collisions) << 8 | body_state.status as u64);
+        }
+        for (kind, found) in self.items.each() {
+            hash.add(u64::from(kind) << 48 | found.map_or(0, |tick| tick + 1));
+        }
+        hash.add(self.tally.false_alarms);
+        hash.add(self.tally.collisions);
+        let gone = self.tally.gone;
+        if gone != Cost::default() {
+            hash.add(gone.energy_j.to_bits());
+            hash.add(gone.distance_m.to_bits());
+            hash.add(gone.stopped.into());
+        }
+        hash.value()
+    }
+
+    /// Robots.
+    #[must_use]
+    pub fn robots(&self) -> usize {
+        self.ids.len()
+    }
+}
+
+pub(super) fn draws(scenario: &Scenario, seed: u64, run: u64, things: Things) -> Draws {
+    Draws {
+        seed,
+        run,
+        world: scenario.world,
+        torus: scenario.torus,
+        things,
+    }
+}
+
+fn place_items(scenario: &Scenario, seed: u64, run: u64) -> Result<Items, NoRoom> {
+    let draws = draws(scenario, seed, run, Things::Items);
+    let mut items = Vec::new();
+    for (number, kind) in (0..).zip(&scenario.items) {
+        for index in 0..kind.count {
+            let thing = Entity {
+                kind: kind.key,
+                index,
+            };
+            let is_free = |place| scenario.is_free(place, 0.0, Layer::Ground);
+            let place = kind.placement.place(&draws, thing, is_free);
+            let place = place.map_err(|why| NoRoom::Item {
+                kind: number,
+                index,
+                why,
+            })?;
+            items.push((thing, u16::from(number), scenario.home(place)));
+        }
+    }
+    let world = (scenario.world.size(), scenario.torus);
+    Ok(Items::new(&items, world, scenario.items_reach_m()))
+}

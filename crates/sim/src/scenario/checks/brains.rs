@@ -1,0 +1,189 @@
+//! Minds that can do what they are to do.
+
+use super::ScenarioSpec;
+use super::ground::rectangle;
+use crate::bodies::RobotSpec;
+use crate::sensors::Measures;
+use base::document::Place;
+use base::error::InputError;
+use base::geometry::{Point, Rectangle};
+use brain::behaviours::BehaviourSpec;
+use brain::{Arbitration, BrainSpec};
+
+/// Most items of a kind that a mind may expect.
+const MOST_EXPECTED: f64 = 1e6;
+
+/// Most that a behaviour can count beside others, as a `value`.
+const MOST_GAIN: f64 = 1e6;
+
+pub(super) fn errors(spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
+    let robots = spec.robots.iter();
+    robots
+        .flat_map(|(name, robot)| {
+            let at = at.key("robots").key(name);
+            let mut errors = of_behaviours(robot, spec, &at);
+            errors.extend(of_wrapping(robot, spec, &at.key("brain")));
+            errors.extend(of_gains(&robot.brain, &at.key("brain").key("arbitration")));
+            errors.extend(of_beliefs(robot, spec, &at.key("brain").key("beliefs")));
+            errors
+        })
+        .collect()
+}
+
+/// Behaviours that the robot's sensors are not enough for.
+fn of_behaviours(robot: &RobotSpec, spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
+    let has = |is_it: fn(&Measures) -> bool| {
+        let mut sensors = robot.sensors.values();
+        sensors.any(|sensor| is_it(&sensor.measures))
+    };
+    let has_position = has(|measures| matches!(measures, Measures::Position(_)));
+    let has_heading = has(|measures| matches!(measures, Measures::Heading(_)));
+    let has_robots = has(|measures| matches!(measures, Measures::Robots(_)));
+    let has_detector = has(|measures| matches!(measures, Measures::Items(_)));
+    let mut errors = Vec::new();
+    for (number, behaviour) in robot.brain.behaviours.iter().enumerate() {
+        let at = at.key("brain").key("behaviours").item(number);
+        let name = behaviour.name();
+        let mut needs = |is_needed: bool, has: bool, what: &str| {
+            if is_needed && !has {
+                errors.push(at.key("kind").error(format!(
+                    "of a robot with a sensor that {name} needs, such as {what} under its sensors"
+                )));
+            }
+        };
+        let needs_robots = match behaviour {
+            BehaviourSpec::Flock(_) => true,
+            BehaviourSpec::Follow(_) => robot.radio.is_none(),
+            _ => false,
+        };
+        needs(
+            needs_robots,
+            has_robots,
+            "eye = { kind = \"robots\", range_m = 10 }",
+        );
+        let needs_pose = behaviour.needs_pose();
+        needs(needs_pose, has_position, "gps = { kind = \"position\" }");
+        needs(needs_pose, has_heading, "compass = { kind = \"heading\" }");
+        let eye = "eye = { kind = \"items\", range_m = 3 }";
+        let needs_width = match behaviour {
+            BehaviourSpec::Lawnmower(lanes) => lanes.width_m.is_none(),
+            BehaviourSpec::Spiral(spiral) => spiral.width_m.is_none(),
+            _ => false,
+        };
+        needs(behaviour.needs_detector() || needs_width, has_detector, eye);
+        if let BehaviourSpec::Navigate(navigate) = behaviour
+            && navigate.is_shared_by_team()
+            && robot.radio.is_none()
+        {
+            let allowed =
+                "\"all\" or \"each\", or a robot with a radio, such as radio = { range_m = 100 }";
+            errors.push(at.key("assignment").error(allowed));
+        }
+        errors.extend(of_places(behaviour, spec, &at));
+    }
+    errors
+}
+
+/// A way to nowhere, or out of the world.
+fn of_places(behaviour: &BehaviourSpec, spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
+    let way = |waypoints_m: &[Point]| {
+        let numbered = waypoints_m.iter().enumerate();
+        let listed = numbered.map(|(number, place)| (at.key("waypoints_m").item(number), *place));
+        listed.collect()
+    };
+    let place =
+        |key: &str, at_m: &Option<Point>| at_m.iter().map(|to| (at.key(key), *to)).collect();
+    let places: Vec<(Place, Point)> = match behaviour {
+        BehaviourSpec::Correct(correct) => way(&correct.waypoints_m),
+        BehaviourSpec::Navigate(navigate) => way(&navigate.waypoints_m),
+        BehaviourSpec::HoldPosition(hold) => place("at_m", &hold.at_m),
+        BehaviourSpec::ReturnHome(home) => place("at_m", &home.at_m),
+        BehaviourSpec::Spiral(spiral) => place("around_m", &spiral.around_m),
+        _ => return Vec::new(),
+    };
+    let goes = matches!(
+        behaviour,
+        BehaviourSpec::Correct(_) | BehaviourSpec::Navigate(_)
+    );
+    if goes && places.is_empty() {
+        let allowed = "the places to visit, at least one, as in [[5, 5], [9, 2.5]]";
+        return vec![at.key("waypoints_m").error(allowed)];
+    }
+    let (world, [width, height]) = (rectangle(&spec.world), spec.world.size_m);
+    let allowed = format!(
+        "within the world: from [0, 0] to [{}, {}]",
+        width.0, height.0
+    );
+    let outside = places
+        .into_iter()
+        .filter(|(_, place)| !world.contains(*place));
+    outside.map(|(at, _)| at.error(&allowed)).collect()
+}
+
+/// Gains of behaviours that it has not, or that are none.
+fn of_gains(brain: &BrainSpec, at: &Place) -> Vec<InputError> {
+    let Arbitration::Schemas(schemas) = &brain.arbitration else {
+        return Vec::new();
+    };
+    let kinds: Vec<&str> = brain.behaviours.iter().map(BehaviourSpec::name).collect();
+    let mut errors = Vec::new();
+    for (kind, gain) in &schemas.gains {
+        let at = at.key("gains").key(kind);
+        if !kinds.contains(&kind.as_str()) {
+            errors.push(at.names_none_of(kind, kinds.iter().copied()));
+        } else if !(0.0..=MOST_GAIN).contains(gain) {
+            errors.push(at.error(format!("a number from 0 to {MOST_GAIN}")));
+        }
+    }
+    errors
+}
+
+/// Minds in a world that goes on at its other side: they draw maps, which end.
+fn of_wrapping(robot: &RobotSpec, spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
+    if !spec.world.periodic {
+        return Vec::new();
+    }
+    let behaviours = robot.brain.behaviours.iter().enumerate();
+    let minded = behaviours.filter(|(_, behaviour)| behaviour.needs_beliefs());
+    let at_behaviours = minded.map(|(number, behaviour)| {
+        let at = at.key("behaviours").item(number).key("kind");
+        at.error(format!(
+            "one that needs no map, in a periodic world: {} needs periodic = false",
+            behaviour.name()
+        ))
+    });
+    let beliefs = robot.brain.beliefs.iter().map(|_| {
+        at.key("beliefs")
+            .error("left out in a periodic world: maps need periodic = false")
+    });
+    at_behaviours.chain(beliefs).collect()
+}
+
+/// Beliefs about what there is not.
+fn of_beliefs(robot: &RobotSpec, spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
+    let Some(beliefs) = &robot.brain.beliefs else {
+        return Vec::new();
+    };
+    let kinds: Vec<&str> = spec.items.keys().map(String::as_str).collect();
+    let mut errors = Vec::new();
+    for (kind, expected) in &beliefs.prior_count {
+        let at = at.key("prior_count").key(kind);
+        if !kinds.contains(&kind.as_str()) {
+            errors.push(at.names_none_of(kind, kinds.iter().copied()));
+        } else if !(0.0..=MOST_EXPECTED).contains(expected) {
+            errors.push(at.error(format!("a number from 0 to {MOST_EXPECTED}")));
+        }
+    }
+    let ([width, height], world) = (spec.world.size_m, rectangle(&spec.world));
+    let is_in_it = |area: &Rectangle| {
+        world.contains(area.min()) && world.contains(area.max()) && area.area_m2() > 0.0
+    };
+    if beliefs.area_m.as_ref().is_some_and(|area| !is_in_it(area)) {
+        let allowed = format!(
+            "two opposite corners within [0, 0] and [{}, {}]",
+            width.0, height.0
+        );
+        errors.push(at.key("area_m").error(allowed));
+    }
+    errors
+}

@@ -1,0 +1,98 @@
+//! Readings and messages that have not reached a robot's brain yet.
+
+use super::pending::PendingQueue;
+use super::{Measure, Sensor};
+use brain::{self, Contact, Heard, Neighbour, Percept};
+
+/// What a robot has not been told yet.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Backlog {
+    /// By sensor; empty for one that tells at once.
+    kept: Vec<Vec<Look>>,
+    pub(crate) looks: PendingQueue<brain::Look>,
+    pub(crate) contacts: PendingQueue<(Contact, Option<u32>)>,
+    pub(crate) neighbours: PendingQueue<Neighbour>,
+    pub(crate) inbox: PendingQueue<Heard>,
+}
+
+/// A look of which the newest counts.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Look {
+    /// `None` before the first look, and for one that gave nothing.
+    taken: Option<u64>,
+    values: Vec<f64>,
+}
+
+impl Backlog {
+    pub(crate) fn new(sensors: &[Sensor]) -> Self {
+        Self {
+            kept: sensors.iter().map(looks_to_keep).collect(),
+            ..Self::default()
+        }
+    }
+
+    /// Keeps what the `look`-th look of a sensor gave, if it gave anything.
+    pub(crate) fn keep(&mut self, sensor: usize, look: u64, taken: Option<u64>) -> &mut Vec<f64> {
+        let slots = &mut self.kept[sensor];
+        #[expect(clippy::cast_possible_truncation, reason = "below the number of slots")]
+        let slot = (look % slots.len() as u64) as usize;
+        slots[slot].taken = taken;
+        &mut slots[slot].values
+    }
+
+    /// The newest look of a sensor that the robot has by now, and when it was taken.
+    pub(crate) fn newest(&self, sensor: usize, latency: u64, now: u64) -> Option<(u64, &[f64])> {
+        let have = self.kept[sensor]
+            .iter()
+            .filter_map(|look| Some((look.taken?, &look.values[..])));
+        let have = have.filter(|(taken, _)| taken + latency <= now);
+        have.max_by_key(|(taken, _)| *taken)
+    }
+
+    /// Gives the brain what has come in, and `found` the items of contacts.
+    pub(crate) fn tell(
+        &mut self,
+        now: u64,
+        step_s: f64,
+        to: &mut Percept,
+        mut found: impl FnMut(Option<u32>),
+    ) {
+        self.looks.tell(now, |late| {
+            let age_s = age_s(late.taken, now, step_s);
+            to.looks.push(brain::Look { age_s, ..late.what });
+        });
+        self.contacts.tell(now, |late| {
+            let (contact, item) = late.what;
+            let age_s = age_s(late.taken, now, step_s);
+            to.contacts.push(Contact { age_s, ..contact });
+            found(item);
+        });
+        self.neighbours.tell(now, |late| {
+            let age_s = age_s(late.taken, now, step_s);
+            to.neighbours.push(Neighbour { age_s, ..late.what });
+        });
+        self.tell_messages(now, step_s, to);
+    }
+
+    pub(crate) fn tell_messages(&mut self, now: u64, step_s: f64, to: &mut Percept) {
+        self.inbox.tell(now, |late| {
+            let age_s = age_s(late.taken, now, step_s);
+            to.inbox.push(Heard { age_s, ..late.what });
+        });
+    }
+}
+
+#[expect(clippy::cast_precision_loss, reason = "steps are at most 1e8")]
+pub(crate) fn age_s(taken: u64, now: u64, step_s: f64) -> f64 {
+    (now - taken) as f64 * step_s
+}
+
+/// As many as can be on their way, and one that has come.
+fn looks_to_keep(sensor: &Sensor) -> Vec<Look> {
+    let is_value = !matches!(sensor.measure, Measure::Items(_) | Measure::Robots(_));
+    if sensor.tells_at_once() || !is_value {
+        return Vec::new();
+    }
+    let beats = sensor.schedule.beats_in(sensor.latency_steps);
+    vec![Look::default(); beats + 2]
+}

@@ -1,0 +1,281 @@
+//! A detector of items.
+
+use super::poisson::Poisson;
+use super::sector::{Sector, SectorSpec};
+use super::sensor_frame::{NoisePurpose, SensorFrame, blurred};
+use crate::world::items::Items;
+use base::geometry::Point;
+use base::noise::share;
+use base::random::{Entity, kind_key};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// What detects items within a sector; each look at an item is a draw of its own.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ItemsSpec {
+    /// Where it looks.
+    #[serde(flatten)]
+    pub sector: SectorSpec,
+    /// Probability of detection in one look, for each kind of item that it can recognise; left out,
+    /// it recognises all kinds always.
+    pub detection_probability: Option<BTreeMap<String, Detection>>,
+    /// False contacts a second for each square metre in view, by the kind that they are taken for.
+    #[serde(default)]
+    pub false_alarm_rate_per_m2_s: BTreeMap<String, f64>,
+    /// Standard deviation of where a contact seems to be, along each axis, in metres.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 1000.0))]
+    pub noise_m: f64,
+    /// Whether obstacles hide items.
+    #[serde(default = "yes")]
+    pub needs_line_of_sight: bool,
+}
+
+/// A brain is told of a bell by so many straight parts.
+const CURVE_PARTS: u32 = 16;
+
+/// Probability of detection in one look.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Detection {
+    /// The same at any distance in range.
+    Constant(#[schemars(range(min = 0.0, max = 1.0))] f64),
+    /// Pairs of distance in metres and probability, by growing distance; between two, linear.
+    Table(Vec<[f64; 2]>),
+    /// A bell: best at the robot, half of that at some distance.
+    Curve {
+        /// Probability at no distance.
+        #[schemars(range(min = 0.0, max = 1.0))]
+        peak: f64,
+        /// Where it is half of that, in metres.
+        #[schemars(range(min = 0.001, max = 10_000.0))]
+        half_range_m: f64,
+    },
+}
+
+impl Detection {
+    /// Probability of detection at a distance.
+    pub(super) fn probability(&self, distance_m: f64) -> f64 {
+        match self {
+            Self::Constant(probability) => *probability,
+            Self::Table(pairs) => between(pairs, distance_m),
+            Self::Curve { peak, half_range_m } => {
+                let halves = distance_m / half_range_m;
+                peak * libm::exp2(-halves * halves)
+            }
+        }
+    }
+}
+
+impl Detection {
+    /// Pairs of distance and probability, linear between two, up to `range_m`.
+    fn pairs(&self, range_m: f64) -> Vec<[f64; 2]> {
+        match self {
+            Self::Constant(probability) => vec![[0.0, *probability]],
+            Self::Table(pairs) => pairs.clone(),
+            Self::Curve { .. } => (0..=CURVE_PARTS)
+                .map(|part| range_m * f64::from(part) / f64::from(CURVE_PARTS))
+                .map(|at| [at, self.probability(at)])
+                .collect(),
+        }
+    }
+}
+
+/// The value at `x`, linear between pairs; beyond the ends, that of the end.
+fn between(pairs: &[[f64; 2]], x: f64) -> f64 {
+    let next = pairs.partition_point(|[at, _]| *at <= x);
+    match (next.checked_sub(1).map(|last| pairs[last]), pairs.get(next)) {
+        (Some([x0, y0]), Some([x1, y1])) => y0 + (y1 - y0) * (x - x0) / (x1 - x0),
+        (Some([_, y]), None) | (None, Some(&[_, y])) => y,
+        (None, None) => 0.0,
+    }
+}
+
+pub(super) fn yes() -> bool {
+    true
+}
+
+impl ItemsSpec {
+    /// What brains are told of it: the sensor with this number, which looks every `period_s`.
+    pub(crate) fn detector(
+        &self,
+        sensor: u16,
+        item_kinds: &[String],
+        period_s: f64,
+    ) -> brain::Detector {
+        let sector = &self.sector;
+        let always = Detection::Constant(1.0);
+        let detection_probability =
+            item_kinds
+                .iter()
+                .map(|kind| match &self.detection_probability {
+                    None => always.pairs(sector.range_m),
+                    Some(detection_probability) => detection_probability
+                        .get(kind)
+                        .map_or_else(Vec::new, |detection| detection.pairs(sector.range_m)),
+                });
+        let rates = item_kinds
+            .iter()
+            .map(|kind| self.false_alarm_rate_per_m2_s.get(kind));
+        brain::Detector {
+            sensor,
+            range_m: sector.range_m,
+            width_rad: sector.fov_deg.to_radians(),
+            facing_rad: sector.facing_deg.to_radians(),
+            detection_probability: detection_probability.collect(),
+            false_alarms_per_m2: rates
+                .map(|rate| rate.copied().unwrap_or(0.0) * period_s)
+                .collect(),
+            noise_m: self.noise_m,
+            needs_line_of_sight: self.needs_line_of_sight,
+        }
+    }
+
+    /// False contacts of a kind in one look, on average, if nothing hides any.
+    pub(crate) fn false_alarms_a_look(&self, kind: &str, period_s: f64) -> f64 {
+        let rate = self.false_alarm_rate_per_m2_s.get(kind).copied();
+        rate.unwrap_or(0.0) * Sector::new(&self.sector).area_m2() * period_s
+    }
+}
+
+/// A detector, as looks need it.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct ItemDetector {
+    pub(crate) sector: Sector,
+    /// By the item's kind; `None` is never seen.
+    detection_probability: Vec<Option<Detection>>,
+    /// By the kind that they are taken for; only those that there are.
+    false_alarms: Vec<FalseAlarm>,
+    noise_m: f64,
+    pub(crate) needs_line_of_sight: bool,
+}
+
+/// Contacts of nothing that are taken for one kind of item.
+#[derive(Debug, Clone, PartialEq)]
+struct FalseAlarm {
+    kind: u16,
+    /// Of the kind, in random streams.
+    key: u32,
+    /// How many there are in a look.
+    count: Poisson,
+}
+
+impl ItemDetector {
+    /// For `kinds` of items, by their order; a look is had every `period_s`.
+    pub(crate) fn new(spec: &ItemsSpec, kinds: &[String], period_s: f64) -> Self {
+        let detection = |kind: &String| match &spec.detection_probability {
+            None => Some(Detection::Constant(1.0)),
+            Some(detection_probability) => detection_probability.get(kind).cloned(),
+        };
+        let false_alarm = |(number, kind): (u16, &String)| {
+            let mean = spec.false_alarms_a_look(kind, period_s);
+            (mean > 0.0).then(|| FalseAlarm {
+                kind: number,
+                key: kind_key(kind),
+                count: Poisson::new(mean),
+            })
+        };
+        Self {
+            sector: Sector::new(&spec.sector),
+            detection_probability: kinds.iter().map(detection).collect(),
+            false_alarms: (0..).zip(kinds).filter_map(false_alarm).collect(),
+            noise_m: spec.noise_m,
+            needs_line_of_sight: spec.needs_line_of_sight,
+        }
+    }
+
+    /// What a look gives: contacts, each with the item that it is of, if it is of one.
+    pub(crate) fn look(
+        &self,
+        eye: &SensorFrame,
+        items: &Items,
+        mut give: impl FnMut(Point, u16, Option<u32>),
+    ) {
+        for (place, number) in items.near(eye.at, self.sector.range_m) {
+            let way = eye.own(*place);
+            let kind = items.kind(*number);
+            let Some(detection) = &self.detection_probability[usize::from(kind)] else {
+                continue;
+            };
+            if !self.sector.holds(way) || self.is_hidden(eye, *place) {
+                continue;
+            }
+            let words = eye.words_of(NoisePurpose::Thing, items.thing(*number));
+            if share(words[0]) < detection.probability(way.length()) {
+                give(blurred(way, self.noise_m, words), kind, Some(*number));
+            }
+        }
+        for false_alarm in &self.false_alarms {
+            self.false_contacts(eye, false_alarm, &mut give);
+        }
+    }
+
+    fn false_contacts(
+        &self,
+        eye: &SensorFrame,
+        FalseAlarm { kind, key, count }: &FalseAlarm,
+        give: &mut impl FnMut(Point, u16, Option<u32>),
+    ) {
+        let draw = |index| eye.words_of(NoisePurpose::FalseAlarm, Entity { kind: *key, index });
+        let count = count.draw(share(draw(0)[0]));
+        for number in 1..=count {
+            let words = draw(number);
+            let way = self.sector.place([share(words[0]), share(words[1])]);
+            if !self.is_hidden(eye, eye.world_of(way)) {
+                give(way, *kind, None);
+            }
+        }
+    }
+
+    fn is_hidden(&self, eye: &SensorFrame, place: Point) -> bool {
+        self.needs_line_of_sight && !eye.sees(place)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_detection_table_is_linear_between_its_pairs_and_flat_beyond() {
+        let table = Detection::Table(vec![[1.0, 0.9], [2.0, 0.5], [4.0, 0.1]]);
+        for (distance_m, expected) in [
+            (0.0, 0.9),
+            (1.0, 0.9),
+            (1.5, 0.7),
+            (2.0, 0.5),
+            (3.0, 0.3),
+            (4.0, 0.1),
+            (99.0, 0.1),
+        ] {
+            let probability = table.probability(distance_m);
+            assert!(
+                (probability - expected).abs() < 1e-12,
+                "{distance_m}: {probability}"
+            );
+        }
+        let one = Detection::Table(vec![[1.0, 0.4]]);
+        assert_eq!([0.0, 1.0, 2.0].map(|at| one.probability(at)), [0.4; 3]);
+    }
+
+    #[test]
+    fn a_detection_curve_is_half_where_it_says_and_a_bell() {
+        let curve = Detection::Curve {
+            peak: 0.8,
+            half_range_m: 1.5,
+        };
+        for (distance_m, expected) in [(0.0, 0.8), (1.5, 0.4), (3.0, 0.05), (4.5, 0.8 / 512.0)] {
+            assert!(
+                (curve.probability(distance_m) - expected).abs() < 1e-12,
+                "{distance_m}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_constant_detection_does_not_depend_on_the_distance() {
+        let constant = Detection::Constant(0.3);
+        assert_eq!([0.0, 7.0].map(|at| constant.probability(at)), [0.3; 2]);
+    }
+}

@@ -1,0 +1,124 @@
+//! The sensor manager: a referee between the world and the robots.
+//!
+//! A robot gets what its sensors could recognise, and misses the rest. One file a sensor kind.
+
+pub(crate) mod backlog;
+pub mod heading;
+pub mod items;
+pub(crate) mod memory;
+pub(crate) mod pending;
+pub(crate) mod poisson;
+pub mod position;
+pub mod range;
+pub(crate) mod rays;
+pub mod robots;
+pub mod sector;
+pub(crate) mod sensor_frame;
+
+use crate::schedule::{Schedule, steps_of};
+use heading::HeadingSpec;
+use items::{ItemDetector, ItemsSpec};
+use position::PositionSpec;
+use range::{RangeSpec, Ring};
+use robots::{RobotDetector, RobotsSpec};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A sensor: what it measures, when, and what that costs.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SensorSpec {
+    /// Looks a second; left out, one a step. A look falls on the first step at or after its time.
+    #[schemars(range(min = 0.0001, max = 10_000.0))]
+    pub rate_hz: Option<f64>,
+    /// Time from a look until the robot has it, in seconds.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 3600.0))]
+    pub latency_s: f64,
+    /// Probability that a look gives nothing at all.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub dropout_probability: f64,
+    /// Power while it is on, in watts.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 1e6))]
+    pub power_w: f64,
+    /// What it measures.
+    #[serde(flatten)]
+    pub measures: Measures,
+}
+
+/// What a sensor measures.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+pub enum Measures {
+    /// Distances along rays: sonar, infrared, laser.
+    Range(RangeSpec),
+    /// Items: a camera, a metal detector.
+    Items(ItemsSpec),
+    /// Other robots.
+    Robots(RobotsSpec),
+    /// Where the robot is: a satellite receiver.
+    Position(PositionSpec),
+    /// Where it points: a compass.
+    Heading(HeadingSpec),
+}
+
+/// A sensor, as the step needs it.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Sensor {
+    pub(crate) name: String,
+    pub(crate) schedule: Schedule,
+    /// From a look until the robot has it.
+    pub(crate) latency_steps: u64,
+    pub(crate) dropout_probability: f64,
+    pub(crate) power_w: f64,
+    pub(crate) measure: Measure,
+}
+
+/// What a sensor measures, as looks need it.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Measure {
+    Range(Ring),
+    Items(ItemDetector),
+    Robots(RobotDetector),
+    Position { noise_m: f64 },
+    Heading { noise_rad: f64 },
+}
+
+impl Sensor {
+    /// Whether what it saw in a step is of use in a later one.
+    pub(crate) fn outlasts_a_step(&self) -> bool {
+        let is_event = matches!(self.measure, Measure::Items(_) | Measure::Robots(_));
+        is_event || !self.tells_at_once()
+    }
+
+    /// Whether each look is of the step in which the robot has it.
+    pub(crate) fn tells_at_once(&self) -> bool {
+        self.latency_steps == 0 && self.schedule.is_each_step()
+    }
+
+    pub(crate) fn new(name: &str, spec: &SensorSpec, items: &[String], step_s: f64) -> Self {
+        let schedule = Schedule::new(spec.rate_hz, step_s);
+        let measure = match &spec.measures {
+            Measures::Range(spec) => Measure::Range(Ring::new(spec)),
+            Measures::Items(spec) => {
+                Measure::Items(ItemDetector::new(spec, items, schedule.period_s(step_s)))
+            }
+            Measures::Robots(spec) => Measure::Robots(RobotDetector::new(spec)),
+            Measures::Position(spec) => Measure::Position {
+                noise_m: spec.noise_m,
+            },
+            Measures::Heading(spec) => Measure::Heading {
+                noise_rad: spec.noise_deg.to_radians(),
+            },
+        };
+        Self {
+            name: name.to_owned(),
+            schedule,
+            latency_steps: steps_of(spec.latency_s, step_s),
+            dropout_probability: spec.dropout_probability,
+            power_w: spec.power_w,
+            measure,
+        }
+    }
+}

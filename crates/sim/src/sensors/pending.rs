@@ -1,0 +1,132 @@
+//! What waits for a robot's brain to step.
+
+/// Of what came in before a step, a brain is told no more than the newest so many, and older ones are
+/// forgotten: a brain that hardly ever steps, or never, fills no memory.
+pub(crate) const MAX_PENDING: usize = 1000;
+
+/// What waits for a brain, in the order in which it was taken.
+#[derive(Debug, Clone)]
+pub(crate) struct PendingQueue<T> {
+    pub(crate) entries: Vec<Pending<T>>,
+    /// With so many, it is time to forget old ones.
+    full: usize,
+}
+
+/// Something measured or heard, and when the robot will have it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Pending<T> {
+    pub(crate) taken: u64,
+    pub(crate) due: u64,
+    pub(crate) what: T,
+}
+
+impl<T> Default for PendingQueue<T> {
+    fn default() -> Self {
+        Self {
+            entries: Vec::new(),
+            full: 2 * MAX_PENDING,
+        }
+    }
+}
+
+impl<T: Copy> PendingQueue<T> {
+    /// Takes out what the robot has by now.
+    #[inline]
+    pub(crate) fn tell(&mut self, now: u64, mut give: impl FnMut(Pending<T>)) {
+        let mut surplus = self.surplus(now);
+        self.entries.retain(|late| {
+            let is_due = late.due <= now;
+            if is_due && surplus > 0 {
+                surplus -= 1;
+            } else if is_due {
+                give(*late);
+            }
+            !is_due
+        });
+    }
+
+    /// Forgets what is too old, now and then: what that costs is a share of what came in.
+    #[inline]
+    pub(crate) fn forget(&mut self, now: u64) {
+        if self.entries.len() < self.full {
+            return;
+        }
+        let mut surplus = self.surplus(now);
+        self.entries.retain(|late| {
+            let is_too_old = late.due <= now && surplus > 0;
+            surplus -= usize::from(is_too_old);
+            !is_too_old
+        });
+        // What is still on its way stays, as much as it may be.
+        self.full = 2 * self.entries.len().max(MAX_PENDING);
+    }
+
+    /// How many of those that the robot has by now are too old: never one that came in this step.
+    #[inline]
+    fn surplus(&self, now: u64) -> usize {
+        if self.entries.len() <= MAX_PENDING {
+            return 0;
+        }
+        let due = |by: u64| self.entries.iter().filter(|late| late.due <= by).count();
+        let before = now.checked_sub(1).map_or(0, due);
+        due(now).saturating_sub(MAX_PENDING).min(before)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn wait(waiting: &mut PendingQueue<u64>, taken: u64, latency: u64, count: u64) {
+        waiting.entries.extend((0..count).map(|number| Pending {
+            taken,
+            due: taken + latency,
+            what: 1_000_000 * taken + number,
+        }));
+    }
+
+    fn told(waiting: &mut PendingQueue<u64>, now: u64) -> Vec<u64> {
+        let mut told = Vec::new();
+        waiting.tell(now, |late| told.push(late.what));
+        told
+    }
+
+    #[test]
+    fn the_newest_thousand_are_told_however_long_they_have_waited() {
+        let mut waiting = PendingQueue::default();
+        for now in 0..10_000 {
+            waiting.forget(now);
+            wait(&mut waiting, now, 0, 3);
+            assert!(waiting.entries.len() <= 2 * MAX_PENDING + 3);
+        }
+        let told = told(&mut waiting, 10_000);
+        assert_eq!(told.len(), MAX_PENDING);
+        assert!(told.is_sorted());
+        assert_eq!(told[MAX_PENDING - 1], 9_999_000_002);
+        assert!(waiting.entries.is_empty());
+    }
+
+    #[test]
+    fn what_is_on_its_way_is_never_forgotten() {
+        let mut waiting = PendingQueue::default();
+        for now in 0..8000 {
+            waiting.forget(now);
+            wait(&mut waiting, now, 3000, 2);
+        }
+        // The first 5000 looks have come in, the others are under way.
+        assert_eq!(told(&mut waiting, 7999).len(), MAX_PENDING);
+        assert_eq!(waiting.entries.len(), 2 * 3000);
+        assert_eq!(told(&mut waiting, 8000), [5_000_000_000, 5_000_000_001]);
+    }
+
+    #[test]
+    fn who_is_told_in_each_step_is_told_everything() {
+        let mut waiting = PendingQueue::default();
+        for now in 0..20 {
+            wait(&mut waiting, now, 5, 3000);
+            waiting.forget(now);
+            let expected = if now < 5 { 0 } else { 3000 };
+            assert_eq!(told(&mut waiting, now).len(), expected);
+        }
+    }
+}

@@ -1,0 +1,267 @@
+//! A ring of rays that measure distances.
+
+#![expect(
+    clippy::inline_always,
+    reason = "it is compiled for the vectors of its callers"
+)]
+
+use super::rays::{GROUP, Near, Rays};
+use super::sensor_frame::{NoisePurpose, SensorFrame};
+use base::noise::{HAND, normal_pairs, share_of};
+use base::trig::wrapped;
+use pulp::{Arch, Simd, WithSimd};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::array::from_fn;
+use std::f64::consts::TAU;
+
+/// Rays from the robot's centre, evenly spread over the field of view.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct RangeSpec {
+    /// Rays; a whole circle has the first ahead, a sector one on each edge.
+    #[schemars(range(min = 1, max = 1440))]
+    pub rays: u32,
+    /// Angle that they cover, in degrees.
+    #[serde(default = "whole_circle")]
+    #[schemars(range(min = 0.0, max = 360.0))]
+    pub fov_deg: f64,
+    /// Its middle, in degrees anticlockwise from the robot's front.
+    #[serde(default)]
+    #[schemars(range(min = -180.0, max = 180.0))]
+    pub facing_deg: f64,
+    /// Nothing farther from the robot's centre is measured, in metres.
+    #[schemars(range(min = 0.01, max = 10_000.0))]
+    pub range_m: f64,
+    /// Standard deviation of each distance, in metres.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 1000.0))]
+    pub noise_m: f64,
+    /// More standard deviation, as a share of the distance.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub relative_noise: f64,
+    /// Probability that a ray's echo is lost.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub miss_probability: f64,
+    /// Probability that a ray has an echo of nothing, at any distance up to what is there.
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub spurious_return_probability: f64,
+}
+
+pub(super) fn whole_circle() -> f64 {
+    360.0
+}
+
+/// A ring, as looks need it.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Ring {
+    rays: Rays,
+    pub(crate) bearings_rad: Vec<f64>,
+    pub(crate) width_rad: f64,
+    pub(crate) facing_rad: f64,
+    pub(crate) range_m: f64,
+    noise_m: f64,
+    relative_noise: f64,
+    miss_probability: f64,
+    spurious_return_probability: f64,
+}
+
+impl Ring {
+    pub(crate) fn new(spec: &RangeSpec) -> Self {
+        let bearings_rad = bearings(spec);
+        Self {
+            rays: Rays::new(&bearings_rad),
+            bearings_rad,
+            width_rad: spec.fov_deg.to_radians(),
+            facing_rad: spec.facing_deg.to_radians(),
+            range_m: spec.range_m,
+            noise_m: spec.noise_m,
+            relative_noise: spec.relative_noise,
+            miss_probability: spec.miss_probability,
+            spurious_return_probability: spec.spurious_return_probability,
+        }
+    }
+
+    /// The same without errors, and with a ray along each of other bearings.
+    pub(crate) fn exact(&self, bearings_rad: Vec<f64>) -> Self {
+        Self {
+            rays: Rays::new(&bearings_rad),
+            bearings_rad,
+            noise_m: 0.0,
+            relative_noise: 0.0,
+            miss_probability: 0.0,
+            spurious_return_probability: 0.0,
+            ..*self
+        }
+    }
+
+    /// The distance of each ray's echo, infinite where none comes back.
+    ///
+    /// One pass in the machine's widest vectors.
+    #[inline]
+    pub(crate) fn look(&self, eye: &SensorFrame, room: &mut Room, to: &mut Vec<f64>) {
+        self.look_with(instruction_set(), eye, room, to);
+    }
+
+    #[inline]
+    fn look_with(&self, arch: Arch, eye: &SensorFrame, room: &mut Room, to: &mut Vec<f64>) {
+        to.resize(self.rays.groups() * GROUP, 0.0);
+        room.deviations.resize(self.rays.groups(), [0.0; GROUP]);
+        let (to_groups, _) = to.as_chunks_mut();
+        arch.dispatch(RingLook {
+            ring: self,
+            eye,
+            room,
+            to: to_groups,
+        });
+        to.truncate(self.bearings_rad.len());
+    }
+}
+
+/// What looks of rings need, kept between them so that nothing is allocated.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Room {
+    pub(crate) near: Near,
+    /// Normal deviations of rays.
+    deviations: Vec<[f64; GROUP]>,
+}
+
+/// The widest that this machine has.
+#[cfg(not(test))]
+pub(crate) fn instruction_set() -> Arch {
+    Arch::new()
+}
+
+#[cfg(test)]
+pub(crate) use tests::instruction_set;
+
+/// A ring's look, as one piece of work for vectors.
+struct RingLook<'a> {
+    ring: &'a Ring,
+    eye: &'a SensorFrame<'a>,
+    room: &'a mut Room,
+    to: &'a mut [[f64; GROUP]],
+}
+
+impl WithSimd for RingLook<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Self {
+            ring,
+            eye,
+            room,
+            to,
+        } = self;
+        let Room { near, deviations } = room;
+        // First, since it waits for nothing: the processor goes on with it while rays are cast.
+        if ring.is_noisy() {
+            deviate(eye, deviations);
+        }
+        ring.rays.cast(simd, (eye.front, ring.range_m), near, to);
+        if ring.spurious_return_probability > 0.0 {
+            ring.invent(eye, to);
+        }
+        if ring.miss_probability > 0.0 {
+            ring.lose(eye, to);
+        }
+        for (distances, deviations) in to.iter_mut().zip(deviations) {
+            *distances = from_fn(|lane| ring.measured(distances[lane], deviations[lane]));
+        }
+    }
+}
+
+/// Draws a normal deviation for each ray.
+#[inline(always)]
+fn deviate(eye: &SensorFrame, to: &mut [[f64; GROUP]]) {
+    for (hand, groups) in (0..).zip(to.chunks_mut(GROUPS)) {
+        let words = eye.deal(NoisePurpose::Error, hand);
+        for (pair, words) in groups.chunks_mut(2).zip(words.chunks(2)) {
+            let drawn = normal_pairs([&words[0], &words[1]]);
+            for (deviations, drawn) in pair.iter_mut().zip(drawn) {
+                *deviations = drawn;
+            }
+        }
+    }
+}
+
+/// Random numbers are dealt to hands of four groups of rays.
+const GROUPS: usize = HAND / GROUP;
+
+/// Groups are written as a whole: stores of some lanes would be waited for by the next load.
+impl Ring {
+    #[inline(always)]
+    fn lose(&self, eye: &SensorFrame, to: &mut [[f64; GROUP]]) {
+        for (hand, groups) in (0..).zip(to.chunks_mut(GROUPS)) {
+            let chances = eye.deal(NoisePurpose::Echo, hand);
+            for (distances, chances) in groups.iter_mut().zip(&chances) {
+                *distances = from_fn(|lane| {
+                    let is_lost = share_of(chances[lane]) < self.miss_probability;
+                    if is_lost {
+                        self.range_m
+                    } else {
+                        distances[lane]
+                    }
+                });
+            }
+        }
+    }
+
+    /// A ray's least chances are of a loss, its greatest of a false echo; the loss has its way.
+    #[inline(always)]
+    fn invent(&self, eye: &SensorFrame, to: &mut [[f64; GROUP]]) {
+        for (hand, groups) in (0..).zip(to.chunks_mut(GROUPS)) {
+            let chances = eye.deal(NoisePurpose::Echo, hand);
+            let places = eye.deal(NoisePurpose::EchoPlace, hand);
+            for ((distances, chances), places) in groups.iter_mut().zip(&chances).zip(&places) {
+                *distances = from_fn(|lane| {
+                    let is_false = share_of(chances[lane]) > 1.0 - self.spurious_return_probability;
+                    let before = distances[lane] * share_of(places[lane]);
+                    if is_false { before } else { distances[lane] }
+                });
+            }
+        }
+    }
+
+    fn is_noisy(&self) -> bool {
+        self.noise_m > 0.0 || self.relative_noise > 0.0
+    }
+
+    /// What is out of range stays so, whatever the noise: there is no echo to be measured.
+    #[inline(always)]
+    fn measured(&self, distance: f64, deviation: f64) -> f64 {
+        let spread = self.noise_m + self.relative_noise * distance;
+        let measured = distance + spread * deviation;
+        let measured = if measured > 0.0 { measured } else { 0.0 };
+        let is_echo = (distance < self.range_m) && (measured < self.range_m);
+        if is_echo { measured } else { f64::INFINITY }
+    }
+}
+
+fn bearings(spec: &RangeSpec) -> Vec<f64> {
+    let (width_rad, facing_rad) = (spec.fov_deg.to_radians(), spec.facing_deg.to_radians());
+    spread(spec.rays, width_rad, facing_rad)
+}
+
+/// Bearings of rays: a whole circle has none twice, a sector has one on each edge.
+pub(crate) fn spread(rays: u32, width_rad: f64, facing_rad: f64) -> Vec<f64> {
+    let count = f64::from(rays);
+    let bearing = |ray: u32| {
+        let ray = f64::from(ray);
+        let from_middle = if width_rad >= TAU {
+            ray / count * width_rad
+        } else if rays == 1 {
+            0.0
+        } else {
+            (ray / (count - 1.0) - 0.5) * width_rad
+        };
+        wrapped(facing_rad + from_middle)
+    };
+    (0..rays).map(bearing).collect()
+}
+
+#[cfg(test)]
+pub(crate) mod tests;

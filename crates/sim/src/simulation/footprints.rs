@@ -1,0 +1,181 @@
+//! How far sensors see past what is in their way: for people who watch, and for no brain.
+
+use super::{NoRobot, Simulation};
+use crate::sensors::Measure;
+use crate::sensors::items::ItemDetector;
+use crate::sensors::range::{Ring, Room, spread};
+use crate::step::sense::gather;
+use crate::step::view::View;
+use base::geometry::Point;
+use base::trig::sin_cos;
+use brain::RobotId;
+use std::f64::consts::TAU;
+
+/// A sector is looked at along so many bearings for each radian: one a degree.
+const BEARINGS_PER_RAD: f64 = 360.0 / TAU;
+
+/// An outline is drawn straight where it is so but for this share of the range.
+const STRAIGHT: f64 = 2e-4;
+
+/// Whose footprints are asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Sensors {
+    /// Of the detectors of items.
+    Items,
+    /// Of these and of range rings.
+    All,
+}
+
+/// What a sensor covers now: its sector, as far as nothing hides it.
+///
+/// What hides it is what does so in the run: of a ring all that its rays meet, robots too; of a
+/// detector of items the obstacles, if it needs a line of sight, and nothing if not. A ring of few
+/// rays measures between them nothing: its footprint is what its rays could meet.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Footprint {
+    /// Place of the sensor among the robot's.
+    pub sensor: usize,
+    /// Whether it detects items.
+    pub finds_items: bool,
+    /// As far as it sees at all.
+    pub range_m: f64,
+    /// Angle that it covers, a whole turn at most.
+    pub width_rad: f64,
+    /// The middle of that, from the robot's front.
+    pub facing_rad: f64,
+    /// How far it sees along each of [`Footprint::bearings_rad`].
+    pub ranges_m: Vec<f64>,
+}
+
+impl Simulation {
+    /// The footprints of a robot's sensors that are on, in the order of the sensors; none if it
+    /// cannot go on, or senses outside. To ask changes nothing in the run.
+    ///
+    /// # Errors
+    /// If the robot is not there.
+    pub fn footprints(&mut self, id: RobotId, of: Sensors) -> Result<Vec<Footprint>, NoRobot> {
+        let robot = self.number(id)?;
+        let (view, agents) = self.view();
+        if !view.is_simulated(robot) {
+            return Ok(Vec::new());
+        }
+        let sensors = view.kind(robot).sensors.iter().enumerate();
+        let on = sensors.filter(|(number, _)| agents[robot].is_on(*number));
+        let footprints = on.filter_map(|(number, sensor)| match &sensor.measure {
+            Measure::Items(detector) => Some(view.of_detector(robot, number, detector)),
+            Measure::Range(ring) if of == Sensors::All => Some(view.of_ring(robot, number, ring)),
+            _ => None,
+        });
+        Ok(footprints.collect())
+    }
+}
+
+impl View<'_> {
+    fn of_detector(&self, robot: usize, sensor: usize, detector: &ItemDetector) -> Footprint {
+        let sector = &detector.sector;
+        let mut footprint = Footprint {
+            sensor,
+            finds_items: true,
+            range_m: sector.range_m,
+            width_rad: sector.width_rad,
+            facing_rad: sector.facing_rad,
+            ranges_m: vec![sector.range_m; bearings(sector.width_rad) as usize],
+        };
+        if detector.needs_line_of_sight {
+            let eye = self.sensor_frame(robot, sensor, self.tick);
+            let around = eye.stands.around(eye.at, sector.range_m);
+            let bearings_rad = footprint.bearings_rad();
+            for (range_m, bearing_rad) in footprint.ranges_m.iter_mut().zip(bearings_rad) {
+                let (y, x) = sin_cos(bearing_rad);
+                let end = eye.world_of(Point { x, y }.times(sector.range_m));
+                *range_m *= around.open_share(end);
+            }
+        }
+        footprint
+    }
+
+    fn of_ring(&self, robot: usize, sensor: usize, ring: &Ring) -> Footprint {
+        let mut footprint = Footprint {
+            sensor,
+            finds_items: false,
+            range_m: ring.range_m,
+            width_rad: ring.width_rad,
+            facing_rad: ring.facing_rad,
+            ranges_m: vec![0.0; bearings(ring.width_rad) as usize],
+        };
+        let mut room = Room::default();
+        gather(self, robot, &mut room.near);
+        let eye = self.sensor_frame(robot, sensor, self.tick);
+        let exact = ring.exact(footprint.bearings_rad());
+        exact.look(&eye, &mut room, &mut footprint.ranges_m);
+        let ranges_m = footprint.ranges_m.iter_mut();
+        // What meets nothing has no echo.
+        ranges_m.for_each(|range_m| *range_m = range_m.min(ring.range_m));
+        footprint
+    }
+}
+
+impl Footprint {
+    /// Directions from the robot's front, evenly spread over the sector, from -pi to pi: a whole
+    /// circle has none twice, a sector one on each edge.
+    #[must_use]
+    pub fn bearings_rad(&self) -> Vec<f64> {
+        spread(bearings(self.width_rad), self.width_rad, self.facing_rad)
+    }
+
+    /// Its outline, as bearings from the robot's front, ascending, and distances: between two that
+    /// are at its full range lies an arc, between others a straight line.
+    ///
+    /// A whole circle ends where it begins; a sector is closed by the robot's place.
+    #[must_use]
+    pub fn corners(&self) -> Vec<[f64; 2]> {
+        let is_whole = self.width_rad >= TAU;
+        let count = self.ranges_m.len();
+        let parts = if is_whole { count } else { count - 1 }.max(1);
+        let first_rad = self.facing_rad - if is_whole { 0.0 } else { self.width_rad / 2.0 };
+        #[expect(clippy::cast_precision_loss, reason = "361 at most")]
+        let corner = |place: usize| {
+            let share = place as f64 / parts as f64;
+            [
+                first_rad + share * self.width_rad,
+                self.ranges_m[place % count],
+            ]
+        };
+        let mut last = corner(0);
+        let mut corners = vec![last];
+        for place in 1..parts {
+            let [this, next] = [corner(place), corner(place + 1)];
+            if !self.is_smooth([last, this, next]) {
+                corners.push(this);
+                last = this;
+            }
+        }
+        corners.push(corner(parts));
+        corners
+    }
+
+    /// Whether three corners lie on its arc, or as good as on a line.
+    fn is_smooth(&self, corners: [[f64; 2]; 3]) -> bool {
+        let is_full = corners.map(|[_, range_m]| range_m >= self.range_m);
+        if is_full[0] && is_full[1] {
+            return is_full[2];
+        }
+        let [last, this, next] = corners.map(|[bearing_rad, range_m]| {
+            let (y, x) = sin_cos(bearing_rad);
+            Point { x, y }.times(range_m)
+        });
+        let way = last.to(next);
+        way.cross(last.to(this)).abs() <= STRAIGHT * self.range_m * way.length()
+    }
+}
+
+/// Along how many bearings a sector is looked at.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "360 at most"
+)]
+fn bearings(width_rad: f64) -> u32 {
+    let parts = (width_rad * BEARINGS_PER_RAD).ceil() as u32;
+    if width_rad >= TAU { 360 } else { parts + 1 }
+}

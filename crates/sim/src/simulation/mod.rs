@@ -1,0 +1,248 @@
+//! One run, stepped by its caller.
+
+mod collision_warnings;
+mod footprints;
+mod inspect;
+mod links;
+mod probe;
+
+pub use footprints::{Footprint, Sensors};
+pub use inspect::Inspected;
+pub use links::Link;
+
+use crate::bodies::path::Orientation;
+use crate::clock::seconds;
+use crate::run::agent::Agent;
+use crate::run::outcome::Outcome;
+use crate::run::state::{NoRoom, State};
+use crate::scenario::Scenario;
+use crate::step::external::ExternalInputs;
+use crate::step::neighbours::Neighbours;
+use crate::step::pending_decisions::PendingDecision;
+use crate::step::tick::StepScratch;
+use crate::step::view::View;
+use base::geometry::Point;
+use brain::{Command, Percept, RobotId};
+use probe::Probe;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// A run, and what it needs to continue.
+///
+/// A body can be external: from the first percept that [`Simulation::step_with`] gets for a robot, its
+/// pose comes from its percepts, and the commands of its brain are returned instead of executed. In
+/// a step without a percept it stands still, and its brain does not step. Its damage and battery are
+/// not simulated: it neither breaks nor runs empty, and uses no energy.
+#[derive(Debug, Clone)]
+pub struct Simulation {
+    scenario: Arc<Scenario>,
+    pub(super) state: State,
+    scratch: StepScratch,
+    probe: Probe,
+}
+
+/// There is no such robot in the run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("there is no robot {} of kind {}", .0.index, .0.kind)]
+pub struct NoRobot(pub RobotId);
+
+impl Simulation {
+    /// A new run. Threads share the work of its steps if there are thousands of robots.
+    ///
+    /// # Errors
+    /// If the world has no room for an item or a robot.
+    pub fn new(scenario: Arc<Scenario>, seed: u64, run: u64) -> Result<Self, NoRoom> {
+        let state = State::new(&scenario, seed, run)?;
+        let scratch = StepScratch::new(&scenario, true);
+        Ok(Self {
+            scenario,
+            state,
+            scratch,
+            probe: Probe::default(),
+        })
+    }
+
+    /// Takes one step, also after the run is over.
+    pub fn step(&mut self) {
+        self.record_decision();
+        self.scratch.step(&self.scenario, &mut self.state);
+    }
+
+    /// Takes one step with percepts of external bodies, and with commands that replace the decisions
+    /// of other brains; returns the commands that brains decided for external bodies.
+    ///
+    /// # Errors
+    /// If there is no such robot; then no step is taken.
+    pub fn step_with(
+        &mut self,
+        percepts: BTreeMap<RobotId, Percept>,
+        commands: BTreeMap<RobotId, Command>,
+    ) -> Result<BTreeMap<RobotId, Command>, NoRobot> {
+        let external = self.external_inputs(percepts, commands)?;
+        Ok(self.finish_step(external))
+    }
+
+    /// Begins such a step for a run in which the decisions for the robots of some `kinds` are made
+    /// elsewhere: returns the robots whose brains step in it, with their percepts. Decisions are
+    /// written to them, and [`Simulation::finish_step`] takes the step. Until then nothing has
+    /// changed but the poses of external bodies.
+    ///
+    /// # Errors
+    /// If there is no such robot.
+    pub fn begin_step(
+        &mut self,
+        percepts: BTreeMap<RobotId, Percept>,
+        commands: BTreeMap<RobotId, Command>,
+        kinds: &[u8],
+    ) -> Result<ExternalInputs, NoRobot> {
+        let mut external = self.external_inputs(percepts, commands)?;
+        self.scratch
+            .request_decisions(&self.scenario, &mut self.state, kinds, &mut external);
+        Ok(external)
+    }
+
+    /// Takes the step that [`Simulation::begin_step`] began, which must be the last call on this run;
+    /// returns the commands that brains decided for external bodies.
+    pub fn finish_step(&mut self, mut external: ExternalInputs) -> BTreeMap<RobotId, Command> {
+        external.decisions.settle(&mut self.state.agents);
+        self.probe.forget();
+        self.scratch
+            .tick(&self.scenario, &mut self.state, &external);
+        self.scratch.decisions = external.decisions;
+        let ids = &self.state.ids;
+        self.scratch
+            .external_commands()
+            .map(|(robot, command)| (ids[robot], command))
+            .collect()
+    }
+
+    /// The robots of the last finished step whose decisions were made elsewhere.
+    #[must_use]
+    pub fn decided(&self) -> &[PendingDecision] {
+        self.scratch.decided()
+    }
+
+    /// What a robot will perceive in the next step; `None` if its brain does not step in it, or if
+    /// its body is external or cannot move any more.
+    ///
+    /// # Errors
+    /// If there is no such robot.
+    pub fn percept(&mut self, id: RobotId) -> Result<Option<Percept>, NoRobot> {
+        let robot = self.number(id)?;
+        Ok(self.scratch.percept(&self.scenario, &mut self.state, robot))
+    }
+
+    /// Takes steps until the run is over.
+    pub fn finish(&mut self) -> Outcome {
+        while !self.state.is_over(&self.scenario) {
+            self.step();
+        }
+        self.outcome()
+    }
+
+    /// The outcome so far.
+    #[must_use]
+    pub fn outcome(&self) -> Outcome {
+        Outcome::of(&self.scenario, &self.state)
+    }
+
+    /// Simulated time.
+    #[must_use]
+    pub fn time_s(&self) -> f64 {
+        seconds(self.state.tick(), self.scenario.step_s)
+    }
+
+    /// Its scenario.
+    #[must_use]
+    pub fn scenario(&self) -> &Arc<Scenario> {
+        &self.scenario
+    }
+
+    /// Its state: a copy of it can be kept and restored.
+    #[must_use]
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// Brings the lists of neighbours up to date.
+    pub(super) fn refresh(&mut self) {
+        self.scratch.refresh(&self.scenario, &self.state);
+    }
+
+    /// What robots sense and decide from in the next step, and their agents.
+    pub(super) fn view(&mut self) -> (View<'_>, &mut [Agent]) {
+        self.refresh();
+        self.state.view(&self.scenario, &self.scratch.neighbours)
+    }
+
+    pub(super) fn neighbours(&self) -> &Neighbours {
+        &self.scratch.neighbours
+    }
+
+    /// Returns to a state that was copied from this run.
+    pub fn restore(&mut self, state: State) {
+        self.state = state;
+        self.scratch.invalidate();
+        self.probe.forget();
+    }
+
+    /// Continues with another scenario: see [`State::changed`].
+    ///
+    /// # Errors
+    /// If the world has no room for an item or robot that is added; then nothing has changed.
+    pub fn change(&mut self, scenario: Arc<Scenario>) -> Result<(), NoRoom> {
+        let state = self.state.changed(&self.scenario, &scenario)?;
+        self.continue_with(scenario, state);
+        Ok(())
+    }
+
+    /// Continues with another scenario, from the state that [`State::changed`] returned for it.
+    pub fn continue_with(&mut self, scenario: Arc<Scenario>, state: State) {
+        self.state = state;
+        self.scratch = StepScratch::new(&scenario, true);
+        self.scenario = scenario;
+        self.probe = Probe::default();
+    }
+
+    /// The external inputs of a step; moves external bodies to where their percepts say.
+    fn external_inputs(
+        &mut self,
+        percepts: BTreeMap<RobotId, Percept>,
+        commands: BTreeMap<RobotId, Command>,
+    ) -> Result<ExternalInputs, NoRobot> {
+        let external = ExternalInputs {
+            percepts: self.numbered(percepts)?,
+            commands: self.numbered(commands)?,
+            ..ExternalInputs::default()
+        };
+        for (robot, percept) in &external.percepts {
+            self.place_external(*robot, percept);
+        }
+        Ok(external)
+    }
+
+    /// Marks a body as external and moves it to where its percept says.
+    fn place_external(&mut self, robot: usize, percept: &Percept) {
+        self.state.body_states[robot].is_external = true;
+        let is_finite = |at: &Point| at.x.is_finite() && at.y.is_finite();
+        if let Some(at) = percept.position.map(|read| read.value).filter(is_finite) {
+            self.state.discs[robot].centre = self.scenario.home(at);
+            self.scratch.invalidate();
+        }
+        let heading_rad = percept.heading_rad.map(|read| read.value);
+        if let Some(heading_rad) = heading_rad.filter(|heading_rad| heading_rad.abs() < 1e6) {
+            self.state.orientations[robot] = Orientation::new(heading_rad);
+        }
+    }
+
+    fn numbered<T>(&self, given: BTreeMap<RobotId, T>) -> Result<BTreeMap<usize, T>, NoRobot> {
+        given
+            .into_iter()
+            .map(|(id, what)| Ok((self.number(id)?, what)))
+            .collect()
+    }
+
+    pub(super) fn number(&self, id: RobotId) -> Result<usize, NoRobot> {
+        self.state.ids.binary_search(&id).map_err(|_| NoRobot(id))
+    }
+}

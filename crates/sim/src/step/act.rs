@@ -1,0 +1,176 @@
+//! Act: every body does what it can of what its brain wants, and stops at what it runs into.
+//!
+//! First each plans its path as if it were alone. Then the paths are cut where they meet what stands
+//! still, and where they meet each other, the earliest meeting first: who stops may no longer be in
+//! the way of others, or now be in it. Last, all go. A meeting stops both bodies, but none that leaves
+//! what it touched before; nobody slides or bounces.
+
+use super::encounters::Encounters;
+use super::neighbours::Neighbours;
+use super::parallel::ROBOTS_PER_TASK;
+use super::plan::{Plan, Stop};
+use crate::bodies::kind::Kind;
+use crate::bodies::path::Orientation;
+use crate::run::state::{BodyState, State, Status};
+use crate::scenario::Scenario;
+use base::geometry::Disc;
+use brain::RobotId;
+use rayon::prelude::*;
+
+/// What all robots are about to do, kept between steps so that nothing is allocated.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Moves {
+    plans: Vec<Plan>,
+    encounters: Encounters,
+}
+
+/// What comes of all robots' moves.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct Moved {
+    /// The farthest that one has gone.
+    pub(crate) farthest_m: f64,
+    pub(crate) collisions: u64,
+}
+
+impl Moves {
+    /// Room for the plans of so many robots.
+    pub(crate) fn plans(&mut self, robots: usize) -> &mut [Plan] {
+        self.plans.resize(robots, Plan::REST);
+        &mut self.plans
+    }
+
+    /// Moves all robots as far as their plans say.
+    pub(crate) fn act(
+        &mut self,
+        scenario: &Scenario,
+        state: &mut State,
+        neighbours: &Neighbours,
+        is_shared: bool,
+    ) -> Moved {
+        self.encounters
+            .collect(&self.plans, &state.discs, neighbours, scenario.contact_m);
+        let met = self.encounters.resolve(&mut self.plans, state, neighbours);
+        let moved = go(&self.plans, scenario, state, is_shared);
+        Moved {
+            // Each stops somebody who moves, but for those that begin at the very same time.
+            collisions: (moved.collisions + met).min(state.robots() as u64),
+            ..moved
+        }
+    }
+}
+
+/// Lets all robots go as far as their plans say.
+fn go(plans: &[Plan], scenario: &Scenario, state: &mut State, is_shared: bool) -> Moved {
+    let State {
+        tick,
+        ids,
+        discs,
+        orientations,
+        body_states,
+        ..
+    } = state;
+    let some = |(plans, ids, discs, orientations, body_states): Bodies| {
+        let mut moved = Moved::default();
+        let bodies = discs.iter_mut().zip(orientations).zip(body_states);
+        for ((plan, id), ((disc, course), body_state)) in plans.iter().zip(ids).zip(bodies) {
+            let kind = &scenario.kinds[usize::from(id.kind)];
+            moved.add(body_state.go(plan, kind, scenario.step_s, *tick));
+            plan.carry_out(scenario, kind, disc, course);
+        }
+        moved
+    };
+    if !is_shared {
+        return some((plans, ids, discs, orientations, body_states));
+    }
+    let tasks = (
+        plans.par_chunks(ROBOTS_PER_TASK),
+        ids.par_chunks(ROBOTS_PER_TASK),
+        discs.par_chunks_mut(ROBOTS_PER_TASK),
+        orientations.par_chunks_mut(ROBOTS_PER_TASK),
+        body_states.par_chunks_mut(ROBOTS_PER_TASK),
+    );
+    // A greatest number and a sum of whole ones: the order of the tasks does not matter.
+    tasks
+        .into_par_iter()
+        .map(some)
+        .reduce(Moved::default, Moved::and)
+}
+
+type Bodies<'a> = (
+    &'a [Plan],
+    &'a [RobotId],
+    &'a mut [Disc],
+    &'a mut [Orientation],
+    &'a mut [BodyState],
+);
+
+impl Moved {
+    pub(crate) fn add(&mut self, other: Self) {
+        self.farthest_m = self.farthest_m.max(other.farthest_m);
+        self.collisions += other.collisions;
+    }
+
+    pub(crate) fn and(mut self, other: Self) -> Self {
+        self.add(other);
+        self
+    }
+}
+
+impl BodyState {
+    /// What going its way does to it.
+    #[inline]
+    pub(crate) fn go(&mut self, plan: &Plan, kind: &Kind, step_s: f64, tick: u64) -> Moved {
+        let gone_m = plan.path.length_m.abs() * plan.path.until;
+        let is_stopped = plan.stop > Stop::Pressed;
+        self.speed_m_s = if is_stopped {
+            0.0
+        } else {
+            plan.driven.speed_m_s
+        };
+        self.turn_rate_rad_s = plan.driven.turn_rate_rad_s;
+        self.distance_m += gone_m;
+        let is_collision = is_stopped && !self.is_touching;
+        // Only going freely ends a touch: a robot that turns on the spot is still there.
+        self.is_touching = plan.stop != Stop::Nothing || (self.is_touching && gone_m == 0.0);
+        let stands_pressed = plan.stop == Stop::Pressed && gone_m == 0.0;
+        let stays_pressed = self.is_pressed && tick < self.held_until;
+        self.is_pressed = is_stopped || stands_pressed || stays_pressed;
+        if is_collision {
+            self.collide(kind, tick);
+        }
+        self.drain(plan, kind, gone_m, step_s);
+        Moved {
+            farthest_m: gone_m,
+            collisions: u64::from(is_collision && plan.stop == Stop::Still),
+        }
+    }
+
+    fn collide(&mut self, kind: &Kind, tick: u64) {
+        self.collisions += 1;
+        self.held_until = tick + 1 + kind.collision.stop_steps;
+        let is_too_often = self.collisions >= kind.collision.max_collisions;
+        if is_too_often && self.status == Status::Active && !self.is_external {
+            self.status = Status::Broken;
+        }
+    }
+
+    /// Takes a step's energy from the battery.
+    #[inline]
+    fn drain(&mut self, plan: &Plan, kind: &Kind, gone_m: f64, step_s: f64) {
+        let is_drained = self.status == Status::Active && !self.is_external;
+        let Some(battery) = kind.battery.filter(|_| is_drained) else {
+            return;
+        };
+        let is_moving = gone_m > 0.0 || plan.driven.turn_rate_rad_s != 0.0;
+        let move_w = if is_moving { battery.move_w } else { 0.0 };
+        let moving_j = move_w * step_s + battery.move_j_per_m * gone_m;
+        let standing_w = battery.idle_w + plan.sensing_w;
+        let used_j = self.energy_j;
+        self.energy_j += standing_w * step_s + moving_j * plan.effort;
+        if self.energy_j >= battery.capacity_j {
+            // Nothing that was used is given back.
+            self.energy_j = battery.capacity_j.max(used_j);
+            self.status = Status::Empty;
+        }
+    }
+}

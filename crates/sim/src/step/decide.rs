@@ -1,0 +1,208 @@
+//! Sense, tell and decide, robot by robot: each from the same view, so that order never matters.
+
+use super::external::ExternalInputs;
+use super::flocks::Flocks;
+use super::sense::{Detections, sense};
+use super::view::View;
+use crate::bodies::kind::Kind;
+use crate::radio::channel::Outgoing;
+use crate::run::agent::Agent;
+use crate::run::state::Status;
+use crate::sensors::sensor_frame::NoisePurpose;
+use crate::world::items::RECOGNISED_WITHIN_M;
+use base::geometry::Point;
+use base::trig::sin_cos;
+use brain::{Command, Motion, Percept, Reading, Scan};
+
+/// What all robots decide from in one step.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct StepInputs<'a> {
+    pub(crate) view: &'a View<'a>,
+    pub(crate) external: Option<&'a ExternalInputs>,
+    pub(crate) flocks: &'a Flocks,
+}
+
+/// Buffers of one thread that lets robots decide, and the results. They are reused in each step, so
+/// that nothing is allocated.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct WorkerScratch {
+    pub(crate) percept: Percept,
+    /// Scans that the last robot's percept had no use for.
+    scans: Vec<Scan>,
+    pub(crate) command: Command,
+    pub(crate) detections: Detections,
+    /// Messages that robots send, in their order.
+    pub(crate) outbox: Vec<Outgoing>,
+    /// Commands of brains for external bodies, by the number of the robot.
+    pub(crate) external_commands: Vec<(usize, Command)>,
+}
+
+impl WorkerScratch {
+    pub(crate) fn clear(&mut self) {
+        self.detections.clear();
+        self.outbox.clear();
+        self.external_commands.clear();
+    }
+
+    /// Lets one robot sense, and decide if its brain steps now.
+    #[inline]
+    pub(crate) fn serve(&mut self, inputs: &StepInputs, robot: usize, agent: &mut Agent) {
+        let body_state = &inputs.view.body_states[robot];
+        if body_state.status != Status::Active {
+            agent.wanted = Motion::default();
+        } else if let Some(external) = inputs.external {
+            self.serve_with_inputs(inputs, robot, agent, external);
+        } else if !body_state.is_external {
+            self.serve_simulated(inputs, robot, agent);
+        }
+    }
+
+    #[inline]
+    fn serve_simulated(&mut self, inputs: &StepInputs, robot: usize, agent: &mut Agent) {
+        let view = inputs.view;
+        if let Some(motion) = inputs.flocks.motion(view, robot, agent) {
+            agent.wanted = motion;
+        } else if self.perceive(view, robot, agent) {
+            agent.brain.step_into(&self.percept, &mut self.command);
+            self.obey(view, robot, agent);
+        }
+    }
+
+    /// The same in a step with external inputs.
+    fn serve_with_inputs(
+        &mut self,
+        inputs: &StepInputs,
+        robot: usize,
+        agent: &mut Agent,
+        external: &ExternalInputs,
+    ) {
+        let view = inputs.view;
+        if let Some(command) = external.decisions.decided(robot) {
+            self.take(command);
+        } else if let Some(percept) = external.percepts.get(&robot) {
+            self.percept.clone_from(percept);
+            agent.tell_messages(view.tick, view.scenario.step_s, &mut self.percept);
+            self.recognise(view, robot);
+            agent.brain.step_into(&self.percept, &mut self.command);
+            self.external_commands.push((robot, self.command.clone()));
+        } else if view.body_states[robot].is_external {
+            return;
+        } else {
+            let Some(command) = external.commands.get(&robot) else {
+                self.serve_simulated(inputs, robot, agent);
+                return;
+            };
+            self.perceive(view, robot, agent);
+            self.take(command);
+        }
+        self.obey(view, robot, agent);
+    }
+
+    /// Takes over what was decided elsewhere.
+    fn take(&mut self, command: &Command) {
+        self.command.motion = command.motion;
+        self.command.requests.clone_from(&command.requests);
+        self.command.outbox.clone_from(&command.outbox);
+    }
+
+    /// Notes the items that contacts from outside are of: the nearest of the kind, if it is near.
+    fn recognise(&mut self, view: &View, robot: usize) {
+        let frame = view.sensor_frame(robot, 0, 0);
+        for contact in &self.percept.contacts {
+            let (y, x) = sin_cos(contact.bearing_rad);
+            let place = frame.world_of(Point { x, y }.times(contact.range_m));
+            let place = view.scenario.home(place);
+            let near = view.items.near(place, RECOGNISED_WITHIN_M);
+            let same = near.filter(|(_, item)| view.items.kind(*item) == contact.kind);
+            let distances = same.map(|(at, item)| (place.to(*at).length(), *item));
+            let nearest = distances.min_by(|one, other| one.0.total_cmp(&other.0));
+            let nearest = nearest.filter(|(distance_m, _)| *distance_m <= RECOGNISED_WITHIN_M);
+            self.detections.note(nearest.map(|(_, item)| item));
+        }
+    }
+
+    /// Fills the percept; whether the brain steps now.
+    pub(crate) fn perceive(&mut self, view: &View, robot: usize, agent: &mut Agent) -> bool {
+        let kind = view.kind(robot);
+        let beat = kind.schedule.beat(view.tick);
+        self.clear_percept(kind);
+        let percept = beat.map(|_| &mut self.percept);
+        sense(view, robot, agent, &mut self.detections, percept);
+        if let Some(beat) = beat {
+            self.tell(view, robot, beat);
+        }
+        beat.is_some()
+    }
+
+    /// Empties the percept but for the room that its lists have.
+    #[inline]
+    fn clear_percept(&mut self, kind: &Kind) {
+        let percept = &mut self.percept;
+        percept.position = None;
+        percept.heading_rad = None;
+        percept.looks.clear();
+        percept.contacts.clear();
+        percept.neighbours.clear();
+        percept.inbox.clear();
+        let rings = kind.brain.body().rings.len();
+        // Kinds have more or fewer rings.
+        while percept.scans.len() > rings {
+            self.scans.extend(percept.scans.pop());
+        }
+        while percept.scans.len() < rings {
+            percept.scans.push(self.scans.pop().unwrap_or_default());
+        }
+        for scan in &mut percept.scans {
+            scan.age_s = None;
+            scan.ranges_m.clear();
+        }
+    }
+
+    /// Adds to the percept what the robot knows of itself.
+    fn tell(&mut self, view: &View, robot: usize, beat: u64) {
+        let (body_state, kind) = (&view.body_states[robot], view.kind(robot));
+        let percept = &mut self.percept;
+        percept.time_s = view.time_s();
+        percept.id = view.ids[robot];
+        percept.of_kind = view.kind(robot).count;
+        percept.dice = view.noises[robot].words(NoisePurpose::Dice as u32, beat, 0);
+        percept.touch = now(body_state.is_pressed);
+        percept.motion = now(Motion {
+            speed_m_s: body_state.speed_m_s,
+            turn_rate_rad_s: body_state.turn_rate_rad_s,
+        });
+        percept.battery = body_state.charge(kind).and_then(now);
+    }
+
+    /// Takes from the command what the body is to do.
+    #[inline]
+    fn obey(&mut self, view: &View, robot: usize, agent: &mut Agent) {
+        agent.wanted = self.command.motion;
+        for request in &self.command.requests {
+            agent.switch(*request);
+        }
+        let most = view
+            .kind(robot)
+            .radio
+            .map_or(0, |radio| radio.messages_per_step);
+        let messages = self.command.outbox.iter().take(most);
+        #[expect(
+            clippy::cast_possible_truncation,
+            reason = "robots have 32-bit numbers"
+        )]
+        let outgoing = messages.zip(0..).map(|(message, number)| Outgoing {
+            from: robot as u32,
+            number,
+            message: *message,
+        });
+        self.outbox.extend(outgoing);
+    }
+}
+
+#[expect(
+    clippy::unnecessary_wraps,
+    reason = "a reading that is always there, among those that may not be"
+)]
+fn now<T>(value: T) -> Option<Reading<T>> {
+    Some(Reading { value, age_s: 0.0 })
+}

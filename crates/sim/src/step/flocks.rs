@@ -1,0 +1,131 @@
+//! Robots that do nothing but go with the others, all at once.
+//!
+//! For such a kind a percept would only be added up. So its robots' sums are gathered from where all
+//! are ([`Flock`]), and their brains' rule is asked with these. Which kinds these are the scenario says
+//! alone, never the machine or the number of threads: so a run is the same bytes everywhere.
+
+use super::flock_sums::Flock;
+use super::view::View;
+use crate::bodies::kind::Flocking;
+use crate::bodies::path::Orientation;
+use crate::run::agent::Agent;
+use crate::scenario::Scenario;
+use crate::sensors::sensor_frame::NoisePurpose;
+use base::noise::Noise;
+use brain::behaviours::flock::Sums;
+use brain::{Dice, Motion};
+use rayon::prelude::*;
+
+/// Robots that are taken at once where memory would else be waited for one by one.
+pub(super) const AT_ONCE: usize = 64;
+
+/// Robots that a thread takes at once: as they do little, and all wait for the last, not too many.
+pub(super) const PER_TASK: usize = 4 * AT_ONCE;
+
+/// Squares than which none is less: nobody is in range of who does not go with the others.
+const NOBODY: [f64; 2] = [-1.0; 2];
+
+/// How all robots turn that do nothing but go with the others.
+#[derive(Debug, Clone)]
+pub(crate) struct Flocks {
+    /// `None` if there are no such robots.
+    flock: Option<Flock>,
+    /// In rad/s, in the order in which the flock has sorted them.
+    turn_rates: Vec<f64>,
+}
+
+impl Flocks {
+    pub(crate) fn new(scenario: &Scenario) -> Self {
+        let kinds = scenario.kinds.iter();
+        let reaches = kinds.filter_map(|kind| Some(kind.flocking.as_ref()?.reach_m));
+        let reach_m = reaches.reduce(f64::max);
+        let flock = scenario.torus.zip(reach_m);
+        Self {
+            flock: flock.map(|(torus, reach_m)| Flock::new(torus, reach_m)),
+            turn_rates: Vec::new(),
+        }
+    }
+
+    /// Computes the turn rate of every such robot.
+    pub(crate) fn compute(&mut self, view: &View, is_shared: bool) {
+        let Some(flock) = &mut self.flock else {
+            return;
+        };
+        flock.fill(view.ids, view.discs, view.orientations, is_shared);
+        self.turn_rates.resize(view.discs.len(), 0.0);
+        let flock = &*flock;
+        let compute = |(task, turn_rates): (usize, &mut [f64])| {
+            let firsts = (task * PER_TASK..).step_by(AT_ONCE);
+            for (first, turn_rates) in firsts.zip(turn_rates.chunks_mut(AT_ONCE)) {
+                compute_some(view, flock, first, turn_rates);
+            }
+        };
+        if is_shared {
+            let tasks = self.turn_rates.par_chunks_mut(PER_TASK);
+            tasks.enumerate().for_each(compute);
+        } else {
+            let tasks = self.turn_rates.chunks_mut(PER_TASK);
+            tasks.enumerate().for_each(compute);
+        }
+    }
+
+    /// The motion that a robot wants if it does nothing but flock.
+    #[inline]
+    pub(crate) fn motion(&self, view: &View, robot: usize, agent: &Agent) -> Option<Motion> {
+        let flocking = view.kind(robot).flocking.as_ref()?;
+        let mut turn_rate = [0.0];
+        self.turn_rates_from(robot, &mut turn_rate);
+        let noise = (view.noises[robot], view.tick);
+        Some(flocking.wanted(agent, turn_rate[0], &view.orientations[robot], noise))
+    }
+
+    /// The turn rates of robots, from the `first` on.
+    #[inline]
+    pub(super) fn turn_rates_from(&self, first: usize, turn_rates: &mut [f64]) {
+        if let Some(flock) = &self.flock {
+            let places = &flock.places[first..];
+            for (turn_rate, place) in turn_rates.iter_mut().zip(places) {
+                *turn_rate = self.turn_rates[*place as usize];
+            }
+        }
+    }
+}
+
+/// Asks those that follow each other from the place `first` on.
+fn compute_some(view: &View, flock: &Flock, first: usize, turn_rates: &mut [f64]) {
+    let mut sums = [Sums::default(); AT_ONCE];
+    let kinds = &view.scenario.kinds;
+    let flocking = |kind: u8| kinds[usize::from(kind)].flocking.as_ref();
+    let limits = |kind| flocking(kind).map_or(NOBODY, Flocking::squares);
+    let sums = &mut sums[..turn_rates.len()];
+    flock.sums(first, limits, sums);
+    for ((place, sums), turn_rate) in (first..).zip(sums).zip(turn_rates) {
+        if let Some(flocking) = flocking(flock.kinds[place]) {
+            let dice = || dice(view.noises[flock.robots[place] as usize], view.tick);
+            *turn_rate = flocking.turn_rate_rad_s(flock.course(place), sums, dice);
+        }
+    }
+}
+
+/// What a brain that steps in each step has for dice.
+fn dice(noise: Noise, tick: u64) -> Dice {
+    Dice::new(noise.words(NoisePurpose::Dice as u32, tick, 0))
+}
+
+impl Flocking {
+    /// What a robot wants that turns so fast if its sensor is on.
+    #[inline]
+    pub(super) fn wanted(
+        &self,
+        agent: &Agent,
+        turn_rate_rad_s: f64,
+        course: &Orientation,
+        (noise, tick): (Noise, u64),
+    ) -> Motion {
+        if agent.is_on(0) {
+            return self.motion(turn_rate_rad_s);
+        }
+        let dice = || dice(noise, tick);
+        self.motion(self.turn_rate_rad_s(course.front, &Sums::default(), dice))
+    }
+}

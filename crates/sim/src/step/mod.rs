@@ -1,0 +1,22 @@
+//! One step of a run: sense, tell, decide, act, judge. [`tick`] is the table of contents.
+
+mod act;
+mod decide;
+pub(crate) mod delegated;
+mod encounters;
+pub(crate) mod external;
+mod flock_step;
+mod flock_sums;
+mod flocks;
+mod judge;
+pub(crate) mod neighbours;
+mod parallel;
+pub(crate) mod pending_decisions;
+mod plan;
+pub(crate) mod sense;
+pub(crate) mod tell;
+pub(crate) mod tick;
+pub(crate) mod view;
+
+pub use external::ExternalInputs;
+pub use pending_decisions::PendingDecision;

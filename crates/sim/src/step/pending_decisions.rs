@@ -1,0 +1,45 @@
+//! Robots whose decisions are made outside their brains: what they perceive, and what is decided.
+
+use crate::run::agent::Agent;
+use crate::sensors::backlog::Backlog;
+use brain::{Command, Percept, RobotId};
+
+/// A robot whose brain would step now, and whose decision is made elsewhere.
+#[derive(Debug, Clone, Default)]
+pub struct PendingDecision {
+    /// Which it is.
+    pub robot: RobotId,
+    /// What its brain would get.
+    pub percept: Percept,
+    /// The decision; initially, to stand still.
+    pub command: Command,
+    pub(super) number: usize,
+    /// What waits for it after this percept.
+    pub(super) backlog: Option<Box<Backlog>>,
+}
+
+/// All decisions of one step that are made elsewhere, and what the judge counts of these percepts.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct PendingDecisions {
+    /// In the order of the robots.
+    pub(crate) robots: Vec<PendingDecision>,
+    pub(crate) sightings: Vec<u32>,
+    pub(crate) false_alarms: u64,
+}
+
+impl PendingDecisions {
+    /// The decision for a robot, if it was made elsewhere.
+    pub(crate) fn decided(&self, robot: usize) -> Option<&Command> {
+        let place = self.robots.binary_search_by_key(&robot, |each| each.number);
+        Some(&self.robots[place.ok()?].command)
+    }
+
+    /// Removes from the backlogs of these robots what their percepts contained.
+    pub(crate) fn settle(&mut self, agents: &mut [Agent]) {
+        for robot in &mut self.robots {
+            if let Some(agent) = agents.get_mut(robot.number) {
+                agent.backlog = robot.backlog.take();
+            }
+        }
+    }
+}

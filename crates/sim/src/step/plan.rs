@@ -1,0 +1,159 @@
+//! What each robot is about to do, as if no other robot were in its way.
+
+use super::view::View;
+use crate::bodies::contact::meets_still;
+use crate::bodies::drive::Driven;
+use crate::bodies::kind::Kind;
+use crate::bodies::path::{Orientation, Path};
+use crate::run::agent::Agent;
+use crate::run::state::{BodyState, Status};
+use crate::scenario::Scenario;
+use crate::world::terrain::Going;
+use base::geometry::Disc;
+
+/// What one robot is about to do.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Plan {
+    pub(crate) path: Path,
+    pub(crate) driven: Driven,
+    /// Factor on the energy of moving.
+    pub(crate) effort: f64,
+    /// Power of the radio and of the sensors that are on.
+    pub(crate) sensing_w: f64,
+    /// What stops it, or runs into it.
+    pub(crate) stop: Stop,
+}
+
+/// Why a robot does not go its way to the end; of two reasons, the greater counts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Stop {
+    Nothing,
+    /// It does go on, but another presses against it.
+    Pressed,
+    Robot,
+    Still,
+}
+
+/// A body that is about to move, and what its brain wants of it.
+pub(crate) struct Body<'a> {
+    pub(crate) kind: &'a Kind,
+    pub(crate) body_state: &'a BodyState,
+    pub(crate) disc: &'a Disc,
+    pub(crate) course: &'a Orientation,
+    pub(crate) agent: &'a Agent,
+    /// Whether anything that stands still may be in its way.
+    pub(crate) may_touch: bool,
+}
+
+/// What a robot does if no other is in its way.
+#[inline(always)]
+#[expect(
+    clippy::inline_always,
+    reason = "where nothing can be touched, little of it is left"
+)]
+pub(crate) fn planned(scenario: &Scenario, tick: u64, body: &Body) -> Plan {
+    let Body {
+        kind,
+        body_state,
+        disc,
+        course,
+        agent,
+        ..
+    } = *body;
+    let sensing_w = kind.sensing_w(agent.sensors_off);
+    if !body_state.can_move(tick) {
+        return Plan {
+            path: Path::rest(disc.centre),
+            sensing_w,
+            ..Plan::REST
+        };
+    }
+    let going = scenario.going(disc.centre, kind.layer);
+    let driven = kind.drive.step(
+        body_state.speed_m_s,
+        agent.wanted,
+        going.speed,
+        scenario.step_s,
+    );
+    let turn_rad = driven.turn_rate_rad_s * scenario.step_s;
+    let (front, turn_rad) = if kind.drive.turns_at_once {
+        (course.turned(turn_rad).front, 0.0)
+    } else {
+        (course.front, turn_rad)
+    };
+    let mut path = Path {
+        start: disc.centre,
+        front,
+        length_m: driven.length_m,
+        turn_rad,
+        until: 1.0,
+    };
+    let may_touch = path.length_m != 0.0 && body.may_touch;
+    let meeting = may_touch.then(|| {
+        let stands = scenario.touched(kind.layer);
+        let (walls, discs) = (stands.walls_near(path.start), stands.discs_near(path.start));
+        meets_still(&path, disc.radius_m, &walls, &discs)
+    });
+    let meeting = meeting.flatten();
+    path.until = meeting.unwrap_or(1.0);
+    Plan {
+        path,
+        driven,
+        effort: going.energy,
+        sensing_w,
+        stop: meeting.map_or(Stop::Nothing, |_| Stop::Still),
+    }
+}
+
+impl Plan {
+    pub(crate) const REST: Self = Self {
+        path: Path::rest(base::geometry::Point { x: 0.0, y: 0.0 }),
+        driven: Driven::REST,
+        effort: Going::EASY.energy,
+        sensing_w: 0.0,
+        stop: Stop::Nothing,
+    };
+
+    /// Brings a body where it goes.
+    #[inline]
+    pub(crate) fn carry_out(
+        &self,
+        scenario: &Scenario,
+        kind: &Kind,
+        disc: &mut Disc,
+        course: &mut Orientation,
+    ) {
+        if self.path.length_m != 0.0 {
+            disc.centre = scenario.home(self.path.at(1.0));
+        }
+        let turn_rad = self.driven.turn_rate_rad_s * scenario.step_s;
+        *course = if kind.drive.turns_at_once && turn_rad != 0.0 {
+            course.turned_to(turn_rad, self.path.front)
+        } else {
+            course.turned(turn_rad)
+        };
+    }
+}
+
+impl BodyState {
+    /// Whether its body obeys in this step.
+    #[inline]
+    fn can_move(&self, tick: u64) -> bool {
+        self.status == Status::Active && !self.is_external && tick >= self.held_until
+    }
+}
+
+impl<'a> View<'a> {
+    /// Its body, as it is about to move.
+    #[inline]
+    pub(crate) fn body(&self, robot: usize, agent: &'a Agent) -> Body<'a> {
+        Body {
+            kind: self.kind(robot),
+            body_state: &self.body_states[robot],
+            disc: &self.discs[robot],
+            course: &self.orientations[robot],
+            agent,
+            may_touch: self.neighbours.may_touch(robot),
+        }
+    }
+}

@@ -1,0 +1,190 @@
+//! One step of a run: sense, tell, decide, act, judge.
+
+use super::act::Moves;
+use super::decide::{StepInputs, WorkerScratch};
+use super::external::ExternalInputs;
+use super::flock_step::flock_step;
+use super::flocks::Flocks;
+use super::judge::judge;
+use super::neighbours::Neighbours;
+use super::parallel::is_worth_sharing;
+use super::pending_decisions::{PendingDecision, PendingDecisions};
+use super::plan::{Plan, planned};
+use super::tell;
+use crate::run::agent::Agent;
+use crate::run::state::State;
+use crate::scenario::Scenario;
+use brain::{Command, Percept};
+use rayon::prelude::*;
+
+/// Buffers and lists that steps use besides the state of the run; none of them changes an outcome.
+/// They are kept from step to step, so that only the first steps allocate.
+#[derive(Debug, Clone)]
+pub(crate) struct StepScratch {
+    pub(crate) neighbours: Neighbours,
+    flocks: Flocks,
+    pub(super) workers: Vec<WorkerScratch>,
+    /// The decisions of the last step that were made outside its brains.
+    pub(crate) decisions: PendingDecisions,
+    moves: Moves,
+    /// Whether threads may share the work of one step.
+    may_share: bool,
+    has_beliefs: bool,
+}
+
+/// The part of one thread: its scratch, and the agents and plans of its robots.
+type Chunk<'a> = ((&'a mut WorkerScratch, &'a mut [Agent]), &'a mut [Plan]);
+
+impl StepScratch {
+    pub(crate) fn new(scenario: &Scenario, may_share: bool) -> Self {
+        Self {
+            neighbours: Neighbours::new(scenario),
+            flocks: Flocks::new(scenario),
+            workers: Vec::new(),
+            decisions: PendingDecisions::default(),
+            moves: Moves::default(),
+            may_share,
+            has_beliefs: scenario.kinds.iter().any(|kind| kind.brain.has_mind()),
+        }
+    }
+
+    /// Takes one step without external inputs.
+    pub(crate) fn step(&mut self, scenario: &Scenario, state: &mut State) {
+        self.tick(scenario, state, &ExternalInputs::default());
+    }
+
+    /// Drops what is cached about robots: another run begins, or this one was changed.
+    pub(crate) fn invalidate(&mut self) {
+        self.neighbours.forget();
+    }
+
+    /// Takes one step.
+    pub(crate) fn tick(
+        &mut self,
+        scenario: &Scenario,
+        state: &mut State,
+        external: &ExternalInputs,
+    ) {
+        if scenario.is_of_flocks_of_points() && external.is_empty() {
+            self.flock_step(scenario, state);
+        } else {
+            self.refresh(scenario, state);
+            self.sense_decide_and_plan(scenario, state, external);
+            tell::send(scenario, state, &self.neighbours, &self.workers);
+            judge(scenario, state, &external.decisions, &self.workers);
+            self.act(scenario, state);
+        }
+        state.tick += 1;
+        tell::deliver(scenario, state);
+    }
+
+    fn is_shared(&self, state: &State) -> bool {
+        self.may_share && is_worth_sharing(state.robots(), self.has_beliefs)
+    }
+
+    /// Brings the lists of neighbours up to date.
+    pub(crate) fn refresh(&mut self, scenario: &Scenario, state: &State) {
+        let is_shared = self.is_shared(state);
+        self.neighbours
+            .refresh(scenario, &state.ids, &state.discs, is_shared);
+    }
+
+    /// A step of robots that are never in each other's way, send nothing and find nothing.
+    fn flock_step(&mut self, scenario: &Scenario, state: &mut State) {
+        let is_shared = self.is_shared(state);
+        let (view, _) = state.view(scenario, &self.neighbours);
+        self.flocks.compute(&view, is_shared);
+        let moved = flock_step(scenario, state, &self.flocks, is_shared);
+        self.neighbours.note(moved.farthest_m);
+    }
+
+    /// Clears the scratch of all threads that share the work of a step; returns whether more than one does.
+    pub(super) fn prepare_workers(&mut self, state: &State) -> bool {
+        let is_shared = self.is_shared(state);
+        let workers = if is_shared {
+            4 * rayon::current_num_threads()
+        } else {
+            1
+        };
+        self.workers.resize_with(workers, WorkerScratch::default);
+        self.workers.iter_mut().for_each(WorkerScratch::clear);
+        is_shared
+    }
+
+    /// Lets all robots sense, decide and plan their paths, each from the same view: one robot
+    /// completely before the next, so that its data is read from memory once.
+    fn sense_decide_and_plan(
+        &mut self,
+        scenario: &Scenario,
+        state: &mut State,
+        external: &ExternalInputs,
+    ) {
+        let is_shared = self.prepare_workers(state);
+        let robots = state.robots();
+        let plans = self.moves.plans(robots);
+        let (view, agents) = state.view(scenario, &self.neighbours);
+        self.flocks.compute(&view, is_shared);
+        let inputs = StepInputs {
+            view: &view,
+            external: (!external.is_empty()).then_some(external),
+            flocks: &self.flocks,
+        };
+        let size = robots.div_ceil(self.workers.len()).max(1);
+        let serve = |(number, ((worker, agents), plans)): (usize, Chunk)| {
+            for (place, (agent, plan)) in agents.iter_mut().zip(plans).enumerate() {
+                let robot = number * size + place;
+                worker.serve(&inputs, robot, agent);
+                *plan = planned(scenario, view.tick, &view.body(robot, agent));
+            }
+        };
+        if is_shared {
+            let tasks = self.workers.par_iter_mut();
+            let tasks = tasks.zip(agents.par_chunks_mut(size));
+            let tasks = tasks.zip(plans.par_chunks_mut(size));
+            tasks.enumerate().for_each(serve);
+        } else {
+            let tasks = self.workers.iter_mut().zip(agents.chunks_mut(size));
+            let tasks = tasks.zip(plans.chunks_mut(size));
+            tasks.enumerate().for_each(serve);
+        }
+    }
+
+    /// What a robot will perceive in the next step, if its brain steps in it.
+    pub(crate) fn percept(
+        &mut self,
+        scenario: &Scenario,
+        state: &mut State,
+        robot: usize,
+    ) -> Option<Percept> {
+        self.refresh(scenario, state);
+        let (view, agents) = state.view(scenario, &self.neighbours);
+        if !view.is_due(robot) {
+            return None;
+        }
+        let agent = &mut agents[robot];
+        let backlog = agent.backlog.clone();
+        let mut worker = WorkerScratch::default();
+        worker.perceive(&view, robot, agent);
+        agent.backlog = backlog;
+        Some(worker.percept)
+    }
+
+    /// The robots of the last step for which decisions were made outside their brains.
+    pub(crate) fn decided(&self) -> &[PendingDecision] {
+        &self.decisions.robots
+    }
+
+    /// The commands that brains decided for external bodies, by the number of the robot.
+    pub(crate) fn external_commands(&mut self) -> impl Iterator<Item = (usize, Command)> {
+        self.workers
+            .iter_mut()
+            .flat_map(|worker| worker.external_commands.drain(..))
+    }
+
+    fn act(&mut self, scenario: &Scenario, state: &mut State) {
+        let is_shared = self.is_shared(state);
+        let moved = self.moves.act(scenario, state, &self.neighbours, is_shared);
+        self.neighbours.note(moved.farthest_m);
+        state.tally.collisions += moved.collisions;
+    }
+}

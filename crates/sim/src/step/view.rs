@@ -1,0 +1,101 @@
+//! What every robot senses and decides from: the same moment for all.
+
+use super::neighbours::Neighbours;
+use crate::bodies::Layer;
+use crate::bodies::kind::Kind;
+use crate::bodies::path::Orientation;
+use crate::run::agent::Agent;
+use crate::run::state::{BodyState, State, Status};
+use crate::scenario::Scenario;
+use crate::sensors::sensor_frame::SensorFrame;
+use crate::world::items::Items;
+use base::geometry::Disc;
+use base::noise::Noise;
+use brain::RobotId;
+
+/// The world at the beginning of a step.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct View<'a> {
+    pub(crate) scenario: &'a Scenario,
+    pub(crate) tick: u64,
+    pub(crate) ids: &'a [RobotId],
+    pub(crate) discs: &'a [Disc],
+    pub(crate) orientations: &'a [Orientation],
+    pub(crate) body_states: &'a [BodyState],
+    pub(crate) noises: &'a [Noise],
+    pub(crate) items: &'a Items,
+    pub(crate) neighbours: &'a Neighbours,
+    pub(crate) has_external_bodies: bool,
+}
+
+impl<'a> View<'a> {
+    #[inline]
+    pub(crate) fn kind(&self, robot: usize) -> &'a Kind {
+        &self.scenario.kinds[usize::from(self.ids[robot].kind)]
+    }
+
+    /// Where one sensor of a robot measures from, and the random numbers of one measurement.
+    #[inline]
+    pub(crate) fn sensor_frame(&self, robot: usize, sensor: usize, look: u64) -> SensorFrame<'a> {
+        SensorFrame {
+            at: self.discs[robot].centre,
+            front: self.orientations[robot].front,
+            noise: self.noises[robot],
+            #[expect(clippy::cast_possible_truncation, reason = "a robot has at most 32")]
+            sensor: sensor as u32,
+            look,
+            stands: self
+                .scenario
+                .hiding([self.kind(robot).layer, Layer::Ground]),
+            is_clear: false,
+        }
+    }
+
+    /// Whether its body is simulated, and can go on.
+    pub(crate) fn is_simulated(&self, robot: usize) -> bool {
+        let body_state = &self.body_states[robot];
+        body_state.status == Status::Active && !body_state.is_external
+    }
+
+    /// Whether its brain steps now, and its body is simulated.
+    pub(crate) fn is_due(&self, robot: usize) -> bool {
+        self.is_simulated(robot) && self.kind(robot).schedule.beat(self.tick).is_some()
+    }
+
+    /// Whether it can hear at all.
+    pub(crate) fn is_listening(&self, robot: usize) -> bool {
+        let body_state = &self.body_states[robot];
+        body_state.status == Status::Active && self.kind(robot).radio.is_some()
+    }
+
+    #[expect(clippy::cast_precision_loss, reason = "steps are at most 1e8")]
+    pub(crate) fn time_s(&self) -> f64 {
+        self.tick as f64 * self.scenario.step_s
+    }
+}
+
+impl State {
+    /// What robots sense and decide from, and their agents.
+    pub(crate) fn view<'a>(
+        &'a mut self,
+        scenario: &'a Scenario,
+        neighbours: &'a Neighbours,
+    ) -> (View<'a>, &'a mut [Agent]) {
+        let view = View {
+            scenario,
+            tick: self.tick,
+            ids: &self.ids,
+            discs: &self.discs,
+            orientations: &self.orientations,
+            body_states: &self.body_states,
+            noises: &self.noises,
+            items: &self.items,
+            neighbours,
+            has_external_bodies: self
+                .body_states
+                .iter()
+                .any(|body_state| body_state.is_external),
+        };
+        (view, &mut self.agents)
+    }
+}

@@ -1,0 +1,71 @@
+//! What stands around a place, for many ways from it.
+
+use super::{StaticGeometry, Wall, crossed_at, shifted};
+use crate::world::grid::Still;
+use base::geometry::{Disc, Point, Rectangle};
+
+/// Walls and discs that straight ways from a place can cross.
+#[derive(Debug, Clone)]
+pub(crate) struct Around {
+    place: Point,
+    walls: Vec<Wall>,
+    discs: Vec<Disc>,
+}
+
+impl StaticGeometry {
+    /// What ways from a place can cross that are no longer than `reach_m`.
+    pub(crate) fn around(&self, place: Point, reach_m: f64) -> Around {
+        let mut around = Around {
+            place,
+            walls: Vec::new(),
+            discs: Vec::new(),
+        };
+        around.take(self, Point::default(), reach_m);
+        // Of what is beyond a side of a torus only the nearest is known at the place itself.
+        if let Some(torus) = self.torus {
+            let world = Rectangle::spanned(Point::default(), torus.size_m);
+            for by in torus.shifts() {
+                let [low, high] = corners(place.plus(by), reach_m);
+                if world.overlaps(&Rectangle::spanned(low, high)) {
+                    around.take(self, by, reach_m);
+                }
+            }
+        }
+        around
+    }
+}
+
+impl Around {
+    /// Takes what is about the place's image that is so far from it.
+    fn take(&mut self, stands: &StaticGeometry, by: Point, reach_m: f64) {
+        let (place, back) = (self.place, by.times(-1.0));
+        let [low, high] = corners(place.plus(by), reach_m);
+        let walls = stands.near_walls.within(low, high).into_iter();
+        let walls = walls.map(|number| stands.wall(number).shifted(back));
+        self.walls
+            .extend(walls.filter(|wall| wall.distance(place) < reach_m));
+        let discs = stands.near_discs.within(low, high).into_iter();
+        let discs = discs.map(|number| shifted(stands.disc(number), back));
+        self.discs
+            .extend(discs.filter(|disc| disc.distance(place) < reach_m));
+    }
+
+    /// The share of the straight way from the place to another that comes before all that it
+    /// crosses: 1 if the way is open.
+    pub(crate) fn open_share(&self, to: Point) -> f64 {
+        let way = self.place.to(to);
+        let walls = self.walls.iter();
+        let walls = walls.filter_map(|wall| wall.crossed_at(self.place, way));
+        let discs = self.discs.iter();
+        let discs = discs.filter_map(|disc| crossed_at(disc, self.place, way));
+        walls.chain(discs).fold(1.0, f64::min)
+    }
+}
+
+fn corners(place: Point, reach_m: f64) -> [Point; 2] {
+    let corner = Point {
+        x: reach_m,
+        y: reach_m,
+    };
+    [corner.to(place), place.plus(corner)]
+}

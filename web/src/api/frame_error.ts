@@ -1,0 +1,2 @@
+/** A binary message does not follow the format. */
+export class FrameError extends Error {}

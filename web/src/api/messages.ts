@@ -1,0 +1,29 @@
+import type { Ended, Exported, MapPart, Opened, Refused, Saved, Saving, Setting, State } from "./protocol";
+import type { Studying } from "./study";
+
+export type Message =
+  Opened | Setting | State | MapPart | Refused | Saving | Saved | Exported | Ended | Studying;
+
+const types = [
+  "opened",
+  "setting",
+  "state",
+  "map",
+  "refused",
+  "saving",
+  "saved",
+  "exported",
+  "ended",
+  "studying",
+];
+
+/** The message in a text from the server; null if it is none that this page knows. */
+export function readMessage(text: string): Message | null {
+  try {
+    const message: unknown = JSON.parse(text);
+    if (typeof message !== "object" || message === null || !("type" in message)) return null;
+    return types.includes(String(message.type)) ? (message as Message) : null;
+  } catch {
+    return null;
+  }
+}

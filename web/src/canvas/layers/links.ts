@@ -1,0 +1,43 @@
+import type { Point } from "../../api/protocol";
+import { imagesOf, type Layer, poseOf, type Scene, withinWorld } from "./layer";
+
+/** Who hears whom, as the engine tells: whole lines if both do, dashed if only one does. */
+export const links: Layer = {
+  id: "links",
+  label: "Radio links",
+  switchable: true,
+  on: false,
+  place: "over",
+  only: "metric",
+  active: ({ frame }) => (frame?.overlay?.links.length ?? 0) > 0,
+  draw(pen, scene) {
+    const { context, colours, camera } = pen;
+    const [mutual, single] = [new Path2D(), new Path2D()];
+    const told = scene.frame?.overlay?.links ?? new Uint32Array();
+    for (let i = 0; i < told.length; i += 3) {
+      const [from, to] = [poseOf(scene, told[i] ?? -1), poseOf(scene, told[i + 1] ?? -1)];
+      if (from && to) connect(told[i + 2] === 1 ? mutual : single, scene, from.at, to.at);
+    }
+    withinWorld(pen, scene, () => {
+      context.strokeStyle = colours.link;
+      context.lineWidth = 1 / camera.scale;
+      context.stroke(mutual);
+      context.setLineDash([4 / camera.scale, 4 / camera.scale]);
+      context.stroke(single);
+    });
+  },
+};
+
+/** The short way, which in a world that wraps may leave it at one side and come in at the other. */
+function connect(path: Path2D, scene: Scene, from: Point, to: Point): void {
+  const { size, periodic } = scene.world;
+  const [x, y] = [0, 1].map((axis) => {
+    const way = (to[axis] ?? 0) - (from[axis] ?? 0);
+    const side = size[axis] ?? 1;
+    return periodic ? way - side * Math.round(way / side) : way;
+  }) as Point;
+  for (const [startX, startY] of imagesOf(scene, from, Math.max(Math.abs(x), Math.abs(y)))) {
+    path.moveTo(startX, startY);
+    path.lineTo(startX + x, startY + y);
+  }
+}

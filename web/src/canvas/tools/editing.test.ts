@@ -1,0 +1,93 @@
+import { expect, test } from "vitest";
+import type { Setting } from "../../api/protocol";
+import { worldOf } from "../../shared/world";
+import { itemsEdit, moved, placesOf, thingAt } from "./editing";
+import type { Bench } from "./tool";
+
+const setting: Setting = {
+  type: "setting",
+  generation: 1,
+  step_s: 0.1,
+  world: { size: [20, 20], periodic: false, unit: "m", cell: null },
+  document: {
+    world: {
+      obstacles: [
+        {
+          polygon_m: [
+            [0, 0],
+            [10, 0],
+            [10, 10],
+            [5, 2],
+            [0, 10],
+          ],
+        },
+        { circle: { at_m: [15, 15], radius_m: 2 } },
+      ],
+    },
+    items: { mine: { count: 2, target: true } },
+  },
+  robots: [],
+  kinds: [],
+  items: [
+    { kind: "mine", at: [15, 15], target: true, contact: [] },
+    { kind: "scrap", at: [1, 19], target: false, contact: [] },
+  ],
+  maps: [],
+  item_kinds: ["mine"],
+  changes: [],
+  log: [],
+};
+const bench: Bench = { setting, world: worldOf(setting), reach: 0.5, itemKind: "mine" };
+
+test("an item is found before the obstacle that it lies on", () => {
+  expect(thingAt(bench, [15.2, 15])).toEqual({ item: 0 });
+  expect(thingAt(bench, [16, 16])).toEqual({ obstacle: 1 });
+});
+
+test("the notch of a polygon is not in it", () => {
+  expect(thingAt(bench, [1, 1])).toEqual({ obstacle: 0 });
+  expect(thingAt(bench, [5, 6])).toBeNull();
+});
+
+test("placing by hand fixes all items of the kind where they are, and keeps their other keys", () => {
+  expect(itemsEdit(setting, "mine", [...placesOf(setting, "mine"), [3.00049, 4]])).toEqual({
+    path: "items.mine",
+    value: {
+      count: 2,
+      target: true,
+      placement: {
+        kind: "fixed",
+        at_m: [
+          [15, 15],
+          [3, 4],
+        ],
+      },
+    },
+  });
+});
+
+test("moving moves all corners, and a map stays where it is", () => {
+  expect(
+    moved(
+      {
+        polygon_m: [
+          [0, 0],
+          [1, 0],
+          [0, 1],
+        ],
+      },
+      2,
+      -1,
+    ),
+  ).toEqual({
+    polygon_m: [
+      [2, -1],
+      [3, -1],
+      [2, 0],
+    ],
+  });
+  expect(moved({ circle: { at_m: [1, 1], radius_m: 2 } }, 1, 1)).toEqual({
+    circle: { at_m: [2, 2], radius_m: 2 },
+  });
+  expect(moved({ map: "room.yaml" }, 1, 1)).toEqual({ map: "room.yaml" });
+});

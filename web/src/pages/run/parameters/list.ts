@@ -1,0 +1,144 @@
+import type { Json, KindView, Table } from "../../../api/protocol";
+import { choicesOf, isTable, resolved, type Schema, variantOf } from "./schema";
+
+export type Step = string | number;
+
+/** Something that a slider, a box or a switch can set. */
+export interface Parameter {
+  steps: Step[];
+  /** As faults write it: `robots.rover.brain.behaviours[0].near_m`. */
+  path: string;
+  help: string;
+  type: "number" | "integer" | "boolean" | "choice";
+  choices: string[];
+  minimum: number;
+  maximum: number;
+  value: Json | undefined;
+  /** What holds when the scenario does not say; undefined if that is not known here. */
+  fallback: Json | undefined;
+}
+
+const notOfTheRun = new Set(["engine", "summary", "study", "published"]);
+
+/** All that can be set in a scenario, in the order of its schema. */
+export function parametersOf(root: Schema, document: Table, kinds: KindView[] = []): Parameter[] {
+  const top = Object.entries(root.properties ?? {}).filter(([name]) => !notOfTheRun.has(name));
+  const known = knownOf(kinds);
+  return top.flatMap(([name, schema]) => new Walk(root).at(schema, document[name], known[name], [name]));
+}
+
+export function pathOf(steps: Step[]): string {
+  return steps
+    .map((step, i) => (typeof step === "number" ? `[${step}]` : i > 0 ? `.${step}` : step))
+    .join("");
+}
+
+/** The change that sets a parameter. Paths end at lists, so what is in one is set with the whole list. */
+export function changeOf(document: Table, steps: Step[], value: Json): { path: string; value: Json } {
+  const end = steps.findIndex((step) => typeof step === "number");
+  if (end < 0) return { path: pathOf(steps), value };
+  const outer = steps.slice(0, end);
+  return { path: pathOf(outer), value: replaced(valueAt(document, outer) ?? [], steps.slice(end), value) };
+}
+
+export function valueAt(document: Json | undefined, steps: Step[]): Json | undefined {
+  return steps.reduce<Json | undefined>((value, step) => {
+    if (Array.isArray(value)) return value[Number(step)];
+    return isTable(value) ? value[step] : undefined;
+  }, document);
+}
+
+function replaced(whole: Json, [step, ...rest]: Step[], value: Json): Json {
+  if (step === undefined) return value;
+  if (Array.isArray(whole)) return whole.map((part, i) => (i === step ? replaced(part, rest, value) : part));
+  const table = isTable(whole) ? whole : {};
+  return { ...table, [step]: replaced(table[step] ?? {}, rest, value) };
+}
+
+/** Values of shipped robots, which scenarios leave out: as far as the page is told of them. */
+function knownOf(kinds: KindView[]): Table {
+  const robots = kinds.map((kind): [string, Json] => {
+    const sensors = kind.sensors.map((sensor): [string, Json] => [
+      sensor.name,
+      {
+        kind: sensor.kind,
+        range_m: sensor.range_m,
+        fov_deg: degrees(sensor.width_rad),
+        facing_deg: degrees(sensor.facing_rad),
+      },
+    ]);
+    const radio: Table = kind.radio_range_m === null ? {} : { radio: { range_m: kind.radio_range_m } };
+    const layer = kind.flies ? "air" : "ground";
+    return [kind.name, { layer, radius_m: kind.radius, sensors: Object.fromEntries(sensors), ...radio }];
+  });
+  return { robots: Object.fromEntries(robots) };
+}
+
+function degrees(rad: number): number {
+  return Number(((rad * 180) / Math.PI).toFixed(3));
+}
+
+class Walk {
+  constructor(private readonly root: Schema) {}
+
+  at(given: Schema, value: Json | undefined, known: Json | undefined, steps: Step[]): Parameter[] {
+    const outer = resolved(given, this.root);
+    const choices = choicesOf(outer, this.root);
+    if (choices) return [this.parameter(outer, "choice", choices, value, known, steps)];
+    const schema = variantOf(outer, value ?? known, this.root);
+    if (!schema) return [];
+    const names = choicesOf(schema, this.root);
+    if (names) return [this.parameter(outer, "choice", names, value, known, steps)];
+    const { type } = schema;
+    if (type === "number" || type === "integer" || type === "boolean") {
+      const described = { ...schema, description: outer.description ?? schema.description };
+      return [this.parameter(described, type, [], value, known, steps)];
+    }
+    if (type === "array") return this.list(schema, value, steps);
+    return type === "object" ? this.table(schema, value, known, steps) : [];
+  }
+
+  private table(
+    schema: Schema,
+    value: Json | undefined,
+    known: Json | undefined,
+    steps: Step[],
+  ): Parameter[] {
+    const mine = isTable(value) ? value : {};
+    const told = isTable(known) ? known : {};
+    const names = Object.entries(schema.properties ?? {});
+    const { additionalProperties: named } = schema;
+    if (typeof named === "object") {
+      for (const name of new Set([...Object.keys(mine), ...Object.keys(told)])) names.push([name, named]);
+    }
+    return names.flatMap(([name, child]) => this.at(child, mine[name], told[name], [...steps, name]));
+  }
+
+  private list(schema: Schema, value: Json | undefined, steps: Step[]): Parameter[] {
+    const { items } = schema;
+    if (!Array.isArray(value) || !items) return [];
+    const listsOfLists = resolved(items, this.root).type === "array";
+    return listsOfLists ? [] : value.flatMap((part, i) => this.at(items, part, undefined, [...steps, i]));
+  }
+
+  private parameter(
+    schema: Schema,
+    type: Parameter["type"],
+    choices: string[],
+    value: Json | undefined,
+    known: Json | undefined,
+    steps: Step[],
+  ): Parameter {
+    return {
+      steps,
+      path: pathOf(steps),
+      help: schema.description ?? "",
+      type,
+      choices,
+      minimum: schema.minimum ?? schema.exclusiveMinimum ?? Number.NEGATIVE_INFINITY,
+      maximum: schema.maximum ?? schema.exclusiveMaximum ?? Number.POSITIVE_INFINITY,
+      value,
+      fallback: known ?? schema.default,
+    };
+  }
+}

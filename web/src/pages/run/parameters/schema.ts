@@ -1,0 +1,69 @@
+import type { Json } from "../../../api/protocol";
+
+/** What is used of JSON Schema. */
+export interface Schema {
+  type?: string;
+  description?: string;
+  properties?: Record<string, Schema>;
+  additionalProperties?: boolean | Schema;
+  items?: Schema;
+  anyOf?: Schema[];
+  oneOf?: Schema[];
+  allOf?: Schema[];
+  $ref?: string;
+  enum?: Json[];
+  const?: Json;
+  default?: Json;
+  minimum?: number;
+  maximum?: number;
+  exclusiveMinimum?: number;
+  exclusiveMaximum?: number;
+  required?: string[];
+  minItems?: number;
+  maxItems?: number;
+  definitions?: Record<string, Schema>;
+}
+
+/** The schema with what it refers to in it; what it says itself holds over that. */
+export function resolved(schema: Schema, root: Schema): Schema {
+  const { $ref, allOf, ...own } = schema;
+  const parts = [...(allOf ?? [])];
+  const name = $ref?.replace("#/definitions/", "");
+  const target = name === undefined ? undefined : root.definitions?.[name];
+  if (target) parts.push(target);
+  return Object.assign({}, ...parts.map((part) => resolved(part, root)), own) as Schema;
+}
+
+export function isTable(value: Json | undefined): value is { [key: string]: Json } {
+  return typeof value === "object" && value !== null && !Array.isArray(value);
+}
+
+/** Of a schema's alternatives the one that a value is written in; for none, one that is a single value. */
+export function variantOf(schema: Schema, value: Json | undefined, root: Schema): Schema | null {
+  const alternatives = (schema.anyOf ?? schema.oneOf)?.map((one) => resolved(one, root));
+  if (!alternatives || schema.properties) return schema;
+  if (value === undefined) return alternatives.find(isSingle) ?? null;
+  return alternatives.find((one) => fits(one, value)) ?? null;
+}
+
+/** The names that may stand here, if names are all that may. */
+export function choicesOf(schema: Schema, root: Schema): string[] | null {
+  if (schema.enum) return schema.enum.filter((name): name is string => typeof name === "string");
+  const alternatives = (schema.anyOf ?? schema.oneOf)?.map((one) => resolved(one, root).const);
+  if (!alternatives || alternatives.length === 0) return null;
+  return alternatives.every((name): name is string => typeof name === "string") ? alternatives : null;
+}
+
+function isSingle(schema: Schema): boolean {
+  return schema.type === "number" || schema.type === "integer" || schema.type === "boolean";
+}
+
+function fits(schema: Schema, value: Json): boolean {
+  if (schema.type === "array") return Array.isArray(value);
+  if (schema.type === "number" || schema.type === "integer") return typeof value === "number";
+  if (schema.type !== "object") return schema.type === typeof value;
+  if (!isTable(value)) return false;
+  const kind = schema.properties?.kind?.const;
+  if (kind !== undefined) return value.kind === kind;
+  return (schema.required ?? []).every((name) => name in value);
+}

@@ -1,0 +1,60 @@
+import { expect, test } from "vitest";
+import type { State } from "../../api/protocol";
+import { Series } from "./series";
+
+function state(tick: number, found: number, edge = tick): State {
+  const outcome = { found, status: "running" };
+  return {
+    type: "state",
+    tick,
+    edge,
+    time_s: tick / 10,
+    hash: "",
+    playing: true,
+    speed: 1,
+    real: 1,
+    over: false,
+    aim: null,
+    differs_at: null,
+    outcome,
+    mind: null,
+    robot: null,
+  };
+}
+
+const ticks = (series: Series) => series.rows.map((row) => row.tick);
+
+test("rows stand in the order of ticks, whichever way time is scrubbed", () => {
+  const series = new Series();
+  for (const tick of [0, 10, 20, 5, 15]) series.add(state(tick, 0, 20));
+  expect(ticks(series)).toEqual([0, 5, 10, 15, 20]);
+});
+
+test("a tick seen twice has one row, the later", () => {
+  const series = new Series();
+  series.add(state(10, 1));
+  series.add(state(10, 2));
+  expect(series.rows.map((row) => row.values.found)).toEqual([2]);
+});
+
+test("a future that was discarded leaves no rows", () => {
+  const series = new Series();
+  for (const tick of [0, 10, 20, 30]) series.add(state(tick, 0));
+  series.add(state(12, 0, 12));
+  expect(ticks(series)).toEqual([0, 10, 12]);
+});
+
+test("a CSV has a column a number, and none for words", () => {
+  const series = new Series();
+  series.add(state(0, 0));
+  series.add(state(10, 3));
+  expect(series.csv()).toBe("tick,time_s,found\n0,0,0\n10,1,3\n");
+});
+
+test("where the clock goes otherwise from now on, all times are told by it", () => {
+  const series = new Series();
+  series.add(state(0, 0));
+  series.add(state(10, 3));
+  series.measure(0.5);
+  expect(series.rows.map((row) => row.time_s)).toEqual([0, 5]);
+});

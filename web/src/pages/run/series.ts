@@ -1,0 +1,59 @@
+import type { State } from "../../api/protocol";
+
+/** What came of a run up to a tick. */
+export interface Row {
+  tick: number;
+  time_s: number;
+  values: Record<string, number>;
+}
+
+/** Outcomes by time, as far as they were seen, in the order of ticks. */
+export class Series {
+  rows: Row[] = [];
+
+  /** Takes what a state tells; rows beyond its edge are of a future that is no more. */
+  add(state: State): void {
+    while ((this.rows.at(-1)?.tick ?? -1) > state.edge) this.rows.pop();
+    const row = { tick: state.tick, time_s: state.time_s, values: numbers(state.outcome) };
+    const place = this.placeOf(state.tick);
+    const replaced = this.rows[place]?.tick === state.tick ? 1 : 0;
+    this.rows.splice(place, replaced, row);
+  }
+
+  /** Steps take so long: a clock that goes otherwise is told of all steps, so that time never goes back. */
+  measure(step_s: number): void {
+    this.rows = this.rows.map((row) => ({ ...row, time_s: row.tick * step_s }));
+  }
+
+  /** Names of all values, in the order in which they came. */
+  names(): string[] {
+    return [...new Set(this.rows.flatMap((row) => Object.keys(row.values)))];
+  }
+
+  /** Comma-separated, with a line of names. */
+  csv(): string {
+    const names = this.names().filter((name) => name !== "time_s");
+    const lines = this.rows.map((row) => [
+      row.tick,
+      row.time_s,
+      ...names.map((name) => row.values[name] ?? ""),
+    ]);
+    return [["tick", "time_s", ...names], ...lines].map((line) => `${line.join(",")}\n`).join("");
+  }
+
+  private placeOf(tick: number): number {
+    let [low, high] = [0, this.rows.length];
+    while (low < high) {
+      const middle = (low + high) >> 1;
+      if ((this.rows[middle]?.tick ?? 0) < tick) low = middle + 1;
+      else high = middle;
+    }
+    return low;
+  }
+}
+
+function numbers(outcome: State["outcome"]): Record<string, number> {
+  return Object.fromEntries(
+    Object.entries(outcome).filter((entry): entry is [string, number] => typeof entry[1] === "number"),
+  );
+}

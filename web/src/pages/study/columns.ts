@@ -1,0 +1,33 @@
+import type { Cell, StudyRun } from "../../api/study";
+
+const first = ["merit", "time_s", "failed"];
+const apart = ["run", "quantile"];
+
+/** Columns of runs that have something to show, what is judged first. */
+export function columnsOf(runs: StudyRun[]): string[] {
+  const names = Object.keys(runs[0] ?? {}).filter((name) => !apart.includes(name));
+  const rest = names.filter((name) => !first.includes(name));
+  return [...first.filter((name) => names.includes(name)), ...rest];
+}
+
+export function cellWords(value: Cell): string {
+  if (value === null) return "–";
+  if (typeof value === "boolean") return value ? "yes" : "no";
+  if (typeof value === "string") return value;
+  if (Number.isInteger(value)) return value.toLocaleString("en").replace("-", "−");
+  const digits = Math.abs(value) >= 100 ? 0 : Math.abs(value) >= 10 ? 1 : 2;
+  const figures = { minimumFractionDigits: digits, maximumFractionDigits: digits };
+  return value.toLocaleString("en", figures).replace("-", "−");
+}
+
+/** Whether all cells are numbers, with a range or a unit perhaps; those are set to the right. */
+export function areNumbers(cells: string[]): boolean {
+  return cells.length > 0 && cells.every((cell) => /^([−-]?[\d.,]+( ?%)?( \(.*\))?|[–—])$/.test(cell.trim()));
+}
+
+export function quantileWords(quantile: number): string {
+  if (quantile === 0) return "worst";
+  if (quantile === 1) return "best";
+  if (quantile === 0.5) return "median";
+  return `${Math.round(100 * quantile)}%`;
+}

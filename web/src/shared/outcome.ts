@@ -1,0 +1,50 @@
+import type { Outcome } from "../api/protocol";
+
+export interface OutcomeRow {
+  name: string;
+  value: string;
+  unit: string;
+}
+
+const units: [ending: string, unit: string][] = [
+  ["_j", "J"],
+  ["_s", "s"],
+  ["_m", "m"],
+];
+
+/** Told first, in this order; all else follows as it comes. */
+const first = ["merit", "collisions", "energy_j"];
+
+/** What came of a run, as people read it: found of all, then numbers with their units; not which run it is. */
+export function outcomeRows(outcome: Outcome, target: number): OutcomeRow[] {
+  const { found, missed, run: _, ...rest } = outcome;
+  const rows: OutcomeRow[] = [];
+  if (typeof found === "number") {
+    const all = typeof missed === "number" ? found + missed : target;
+    rows.push({ name: "found", value: `${found} / ${all}`, unit: "" });
+  }
+  const names = [
+    ...first.filter((name) => name in rest),
+    ...Object.keys(rest).filter((name) => !first.includes(name)),
+  ];
+  return [...rows, ...names.flatMap((name) => row(name, rest[name]))];
+}
+
+/** A column's name in words, and the unit that it ends in. */
+export function named(column: string): { words: string; unit: string } {
+  const [ending = "", unit = ""] = units.find(([end]) => column.endsWith(end)) ?? [];
+  return { words: column.slice(0, column.length - ending.length).replaceAll("_", " "), unit };
+}
+
+function row(name: string, value: Outcome[string] | undefined): OutcomeRow[] {
+  if (value === null || value === undefined || typeof value === "object") return [];
+  const { words, unit } = named(name);
+  if (typeof value !== "number") return [{ name: words, value: String(value), unit: "" }];
+  const [number, power] = unit === "J" && Math.abs(value) >= 10_000 ? [value / 1000, "k"] : [value, ""];
+  return [{ name: words, value: readable(number), unit: `${power}${unit}` }];
+}
+
+function readable(value: number): string {
+  if (Number.isInteger(value)) return value.toLocaleString("en");
+  return value.toLocaleString("en", { maximumFractionDigits: Math.abs(value) >= 100 ? 0 : 2 });
+}
