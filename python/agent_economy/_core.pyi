@@ -25,6 +25,7 @@ __all__ = [
     "classic_world",
     "drawn_footprints",
     "drawn_links",
+    "equal_allocation",
     "exhaust",
     "files_wanted",
     "footprints",
@@ -41,7 +42,6 @@ __all__ = [
     "read_scenario",
     "recorded_moment",
     "recorded_setting",
-    "reference",
     "refusal",
     "replicate",
     "run_block",
@@ -108,7 +108,7 @@ def selection(
 ) -> Procedure: ...
 def equal_allocation(configurations: int, runs: int) -> Procedure: ...
 def mean_bounds(
-    values: NDArray[np.float64], min: float, max: float, alpha: float
+    values: NDArray[np.float64], lowest: float, highest: float, alpha: float
 ) -> tuple[float, float]: ...
 def mean_exceeds(
     values: NDArray[np.float64], bounds: tuple[float, float], candidate: float, alpha: float

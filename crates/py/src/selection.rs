@@ -134,18 +134,22 @@ fn rows(bounds: &Bound<PyArray2<f64>>) -> PyResult<Vec<Bounds>> {
     Ok(rows.collect())
 }
 
-/// Lower and upper bound of the mean of values within `min`..`max`, at any moment; each is
+/// Lower and upper bound of the mean of values within `lowest`..`highest`, at any moment; each is
 /// wrong with a probability of at most `alpha`.
 #[pyfunction]
 pub(crate) fn mean_bounds(
     py: Python,
     values: &Bound<PyArray1<f64>>,
-    min: f64,
-    max: f64,
+    lowest: f64,
+    highest: f64,
     alpha: f64,
 ) -> (f64, f64) {
+    let bounds = Bounds {
+        min: lowest,
+        max: highest,
+    };
     let values = values.readonly().as_array().to_vec();
-    py.detach(|| bounds_of_mean(&values, Bounds { min, max }, alpha))
+    py.detach(|| bounds_of_mean(&values, bounds, alpha))
 }
 
 /// Whether the mean of values within `bounds` is above `candidate`, at any moment; `true` is
