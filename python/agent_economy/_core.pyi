@@ -63,7 +63,7 @@ class ErrorDetails(TypedDict):
     file: str | None
     line: int | None
     path: str
-    given: str | None
+    value: str | None
     allowed: str
     suggestion: str | None
     message: str

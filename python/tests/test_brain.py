@@ -116,12 +116,12 @@ HEARD = {"from": {"kind": 0, "index": 0}, "age_s": 0.0}
 @pytest.mark.parametrize(
     ("percept", "told"),
     [
-        ({"scanz": []}, "percept.scanz = []: must be one of the known keys here: time_s, dice, "),
+        ({"scanz": []}, "percept.scanz is not a known key: expected one of time_s, dice, "),
         ({"time_s": "x"}, 'percept.time_s = "x": must be a number'),
         ({"time_s": math.inf}, "percept.time_s = inf: must be a finite number"),
         ({"touch": None, "position": {"value": 3, "age_s": 0}}, "must be a list of 2 numbers"),
         ({"contacts": [CONTACT | {"kind": 7e4}]}, "must be a whole number from 0 to 65535"),
-        ({"contacts": [{}]}, "percept.contacts[0].kind is missing: must be a whole number"),
+        ({"contacts": [{}]}, "percept.contacts[0].kind is missing: expected a whole number"),
         ({"scans": 5}, "percept.scans = 5: must be a list of dicts"),
         ({"heading_rad": 1.0}, "percept.heading_rad = 1.0: must be a dict with value and age_s"),
         (

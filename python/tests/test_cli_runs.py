@@ -112,21 +112,21 @@ def test_a_recording_in_place_of_a_scenario_is_to_be_taken_again(tmp_path: Path)
     [
         (
             ["run", "search", "--set", "robots.rovr.radius_m=3"],
-            "--set robots.rovr.radius_m: robots.rovr.radius_m = 3: must be under one of the names "
-            "in robots: rover; a new one needs count and drive too; did you mean "
+            "--set robots.rovr.radius_m: robots.rovr.radius_m = 3: must be in an existing entry of "
+            "robots: rover; a new entry also needs count and drive; did you mean "
             "robots.rover.radius_m?",
         ),
         (
             ["study", "search", "--vary", "robots.rovr.count=1..3"],
-            '--vary: robots.rovr.count = "1..3": must be under one of the names in robots: rover; '
+            '--vary: robots.rovr.count = "1..3": must be in an existing entry of robots: rover; '
             "did you mean robots.rover.count?",
         ),
         (
             ["study", "search", "--vary", "robots.rover.sensors.camra.range_m=1..3"],
-            "in robots.rover.sensors: camera, compass, gps, lidar; "
+            "entry of robots.rover.sensors: camera, compass, gps, lidar; "
             "did you mean robots.rover.sensors.camera.range_m?",
         ),
-        (["run", "search", "--set", "robots.scout.model=ugv"], "a new one needs count too"),
+        (["run", "search", "--set", "robots.scout.model=ugv"], "a new entry also needs count"),
         (
             ["study", "search", "--vary", "robots.rover.count=1..100000"],
             "must be at most 10000 values; it has 100000",

@@ -142,7 +142,7 @@ def test_values_that_no_configuration_can_have_are_told_at_once(scenario: Scenar
     with pytest.raises(InputError) as caught:
         scenario.configuration({"robots.rover.count": 1})
     assert str(caught.value) == (
-        "study.vary: robots.rover.count = 1: must be one of the known keys here: "
+        "study.vary: robots.rover.count is not a known key: expected one of "
         "robots.wanderer.count, clock.paints_per_s, clock.time_limit_s, contact; did you mean "
         "robots.wanderer.count?"
     )

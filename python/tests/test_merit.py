@@ -90,7 +90,7 @@ def test_bad_weights_are_told_all_at_once(classic_toml: Path) -> None:
     assert len(told) == 3
     assert told[0].endswith("did you mean time?")
     assert told[1] == "replace: merit.failed = inf: must be a number from -1000000 to 1000000"
-    assert "merit.paints = -1: must be given a max in the scenario" in told[2]
+    assert "merit.paints = -1: must be a table with a max, such as" in told[2]
 
 
 def test_a_study_scores_with_weights_of_any_column(classic_toml: Path, tmp_path: Path) -> None:

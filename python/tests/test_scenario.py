@@ -49,9 +49,9 @@ def test_every_fault_is_told_at_once_with_file_line_value_and_what_is_allowed(
         '"within-3", "touch", "ahead"; did you mean "touch"?',
         'my.toml:18: robots.wanderer.count = "four": must be a whole number from 1 to 250',
         "my.toml:15: clock.time_limit_s = -1: must be a number from 0 to 1000000",
-        "my.toml:26: published.chioce = 3: must be one of the known keys here: source, choice, "
+        "my.toml:26: published.chioce is not a known key: expected one of source, choice, "
         "time_limit_s, times_s; did you mean choice?",
-        "my.toml:24: published.choice is missing: must be a whole number from 1 to 250",
+        "my.toml:24: published.choice is missing: expected a whole number from 1 to 250",
     ):
         assert part in lines
 
@@ -177,7 +177,7 @@ def test_values_are_ranges_and_lists(
 @pytest.mark.parametrize("values", ["", "3..1", "1...3", "1,,2", "a b"])
 def test_a_text_that_is_no_values_is_told(classic_toml: Path, values: str) -> None:
     path = ("study", "vary", "robots.wanderer.count")
-    with pytest.raises(InputError, match="--vary: .*must be a text of values"):
+    with pytest.raises(InputError, match="--vary: .*must be a string of values"):
         Scenario.load(classic_toml, (Override(path, values, "--vary"),))
 
 

@@ -84,7 +84,7 @@ async function check(request, answer) {
 
 function faultAt(line, text) {
   const [path, given] = text.split("=").map((part) => part.trim());
-  const message = `robots.rover.${path} = ${given}: must be one of the known keys here: like, count, layer, radius_m; did you mean radius_m?`;
+  const message = `robots.rover.${path} is not a known key: expected one of like, count, layer, radius_m; did you mean radius_m?`;
   return {
     file: null,
     line,

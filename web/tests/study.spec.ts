@@ -68,7 +68,7 @@ test("faults stand beside their fields, and the study cannot be started", async 
   await page.goto(`${fake.url}/#/study/new?scenario=search`);
   const team = page.getByRole("textbox", { name: "Number of rovers" });
   await team.fill("1..4x");
-  await expect(team).toHaveAccessibleDescription(/must be a text of values/);
+  await expect(team).toHaveAccessibleDescription(/must be a string of values/);
   await expect(page.getByRole("button", { name: "Start" })).toBeDisabled();
   await page.getByRole("textbox", { name: "Confidence" }).fill("high");
   await expect(page.getByRole("textbox", { name: "Confidence" })).toHaveAccessibleDescription(

@@ -1,43 +1,91 @@
-//! What is wrong with something a person wrote, in words that tell how to mend it.
+//! Errors of user input: what is wrong, what is allowed, and how to fix it.
 
 use std::borrow::Cow;
 use std::fmt;
 
-/// Characters of a path or a value that a message shows.
-const SHOWN: usize = 100;
+/// Maximum length of a path or a value in a message, in characters.
+const MAX_SHOWN: usize = 100;
 
-/// Characters of an origin that a message shows: a file's path should be whole.
-const SHOWN_OF_ORIGIN: usize = 300;
+/// Maximum length of an origin in a message, in characters: the path of a file should be whole.
+const MAX_SHOWN_ORIGIN: usize = 300;
 
-/// One thing that is wrong: where, what was given, what is allowed.
+/// One error of user input: where it is, the value, and what is allowed.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct InputError {
-    /// Where it stands, when it stands in a file or an option: `scenario.toml:7`, `--contact`.
+    /// The file or option that the value comes from: `scenario.toml:7`, `--contact`.
     pub origin: Option<String>,
     /// Path of the value: `robots.wanderer.count`, `start[2].x`. Empty for a whole document.
     pub path: String,
-    /// What was given, as the person would write it; `None` when it is missing.
-    pub given: Option<String>,
-    /// What is allowed, as the end of "must be ..." ; a whole sentence if `path` is empty.
+    /// What kind of error it is.
+    pub problem: Problem,
+    /// What is allowed, to follow "must be" or "expected"; a whole sentence if `path` is empty.
     pub allowed: String,
-    /// The nearest thing that would be right.
+    /// The closest correct input.
     pub suggestion: Option<String>,
 }
 
+/// What kind of error it is, with the value as the user wrote it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Problem {
+    /// The value is not allowed.
+    NotAllowed(String),
+    /// A required value is missing.
+    Missing,
+    /// The key of this value is not allowed.
+    UnknownKey(String),
+    /// A key, or a value, of an earlier version; `allowed` is its new name.
+    Renamed(Option<String>),
+}
+
 impl InputError {
-    /// What was `given` at `path`, or is missing there, is not what is `allowed`.
+    /// A `value` at `path` that is not `allowed`, or a missing one.
     #[must_use]
-    pub fn new(path: String, given: Option<String>, allowed: String) -> Self {
+    pub fn new(path: String, value: Option<String>, allowed: String) -> Self {
         Self {
             origin: None,
             path,
-            given,
+            problem: value.map_or(Problem::Missing, Problem::NotAllowed),
             allowed,
             suggestion: None,
         }
     }
 
-    /// The file in which it stands, and the line if it is told; `file` is the one that was read.
+    /// The value as the user wrote it; `None` if it is missing.
+    #[must_use]
+    pub fn value(&self) -> Option<&str> {
+        match &self.problem {
+            Problem::NotAllowed(value) | Problem::UnknownKey(value) => Some(value),
+            Problem::Renamed(value) => value.as_deref(),
+            Problem::Missing => None,
+        }
+    }
+
+    /// A key at `path`, with its `value`, that is none of the `known` keys.
+    pub fn unknown_key<'n>(
+        path: String,
+        key: &str,
+        value: String,
+        known: impl Iterator<Item = &'n str> + Clone,
+    ) -> Self {
+        let names: Vec<&str> = known.clone().collect();
+        Self {
+            problem: Problem::UnknownKey(value),
+            suggestion: nearest(key, known).map(str::to_owned),
+            ..Self::new(path, None, format!("one of {}", names.join(", ")))
+        }
+    }
+
+    /// A key or value of an earlier version at `path`, whose `new` name is used now.
+    #[must_use]
+    pub fn renamed(path: String, value: Option<String>, new: String) -> Self {
+        Self {
+            problem: Problem::Renamed(value),
+            ..Self::new(path, None, new)
+        }
+    }
+
+    /// The file of the origin, and the line if there is one; `file` is the one that was read. `None`
+    /// for an option.
     #[must_use]
     pub fn place(&self, file: &str) -> Option<(&str, Option<usize>)> {
         let origin = self.origin.as_deref()?;
@@ -48,17 +96,17 @@ impl InputError {
         line.parse().ok().map(|line| (name, Some(line)))
     }
 
-    /// A name that is none of `names`; `word` is its bare text, to find the one that was meant.
+    /// A name that is none of `names`; `word` is the name without quotes, to find the closest one.
     pub fn not_one_of<'n>(
         path: String,
-        given: Option<String>,
+        value: Option<String>,
         word: &str,
         names: impl Iterator<Item = &'n str> + Clone,
     ) -> Self {
         let quoted: Vec<String> = names.clone().map(|name| format!("{name:?}")).collect();
         Self {
             suggestion: nearest(word, names).map(|name| format!("{name:?}")),
-            ..Self::new(path, given, format!("one of {}", quoted.join(", ")))
+            ..Self::new(path, value, format!("one of {}", quoted.join(", ")))
         }
     }
 }
@@ -66,14 +114,21 @@ impl InputError {
 impl fmt::Display for InputError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(origin) = &self.origin {
-            let origin = cut(origin, SHOWN_OF_ORIGIN);
+            let origin = cut(origin, MAX_SHOWN_ORIGIN);
             write!(f, "{}: ", origin.replace(char::is_control, "?"))?;
         }
         let (path, allowed) = (shortened(&self.path), &self.allowed);
-        match self.given.as_deref().map(shortened) {
+        match &self.problem {
             _ if path.is_empty() => f.write_str(allowed)?,
-            Some(given) => write!(f, "{path} = {given}: must be {allowed}")?,
-            None => write!(f, "{path} is missing: must be {allowed}")?,
+            Problem::NotAllowed(value) => {
+                write!(f, "{path} = {}: must be {allowed}", shortened(value))?;
+            }
+            Problem::Missing => write!(f, "{path} is missing: expected {allowed}")?,
+            Problem::UnknownKey(_) => write!(f, "{path} is not a known key: expected {allowed}")?,
+            Problem::Renamed(None) => write!(f, "{path} was renamed: use {allowed}")?,
+            Problem::Renamed(Some(value)) => {
+                write!(f, "{path} = {value} was renamed: use {allowed}")?;
+            }
         }
         match &self.suggestion {
             Some(suggestion) => write!(f, "; did you mean {}?", shortened(suggestion)),
@@ -85,31 +140,31 @@ impl fmt::Display for InputError {
 /// A path or a value as a message shows it: a long one without its middle.
 #[must_use]
 pub fn shortened(text: &str) -> Cow<'_, str> {
-    cut(text, SHOWN)
+    cut(text, MAX_SHOWN)
 }
 
-/// At most so many characters of a `text`: two thirds of them its first, the others its last.
-fn cut(text: &str, most: usize) -> Cow<'_, str> {
-    if text.chars().nth(most).is_none() {
+/// `text` with at most `max` characters: two thirds from its beginning, the others from its end.
+fn cut(text: &str, max: usize) -> Cow<'_, str> {
+    if text.chars().nth(max).is_none() {
         return text.into();
     }
-    let last = most / 3;
-    let head = text.char_indices().nth(most - last - "...".len());
+    let last = max / 3;
+    let head = text.char_indices().nth(max - last - "...".len());
     let tail = text.char_indices().nth_back(last - 1);
     let [head, tail] = [head, tail].map(|at| at.map_or(0, |(at, _)| at));
     format!("{}...{}", &text[..head], &text[tail..]).into()
 }
 
-/// Everything that is wrong, at least one error; shown one a line.
+/// All errors of an input, at least one; displayed one per line.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
 pub struct InputErrors(pub Vec<InputError>);
 
 impl InputErrors {
-    /// `value` if nothing is wrong, else the errors.
+    /// `value` if there are no errors, otherwise the errors.
     ///
     /// # Errors
-    /// The errors, when there are any or when there is no value.
+    /// The errors, if there are any or if there is no value.
     pub fn or<T>(errors: Vec<InputError>, value: Option<T>) -> Result<T, Self> {
         match value {
             Some(value) if errors.is_empty() => Ok(value),
@@ -118,38 +173,38 @@ impl InputErrors {
     }
 }
 
-/// The candidate spelled most like `word`, if one is near enough to be meant.
+/// The candidate with the most similar spelling to `word`, if any is similar enough.
 ///
-/// One that only goes on where `word` ends is as near as can be: often the unit was left out.
+/// A candidate that begins with `word` counts as one letter away: often only the unit is missing.
 #[must_use]
 pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let word = word.to_lowercase();
     let distance = |candidate: &str| {
-        if word.len() >= LEAST_STEM && candidate.starts_with(&word) {
+        if word.len() >= MIN_STEM && candidate.starts_with(&word) {
             1
         } else {
             strsim::damerau_levenshtein(&word, candidate)
         }
     };
-    // What is so much longer is no slip of it, and a megabyte would take long to compare.
+    // A word that is much longer cannot match, and comparing a megabyte would take long.
     let length = word.chars().count();
-    let is_near = |candidate: &&str| length <= most_slips(candidate) + candidate.len();
+    let is_near = |candidate: &&str| length <= max_distance(candidate) + candidate.len();
     candidates
         .into_iter()
         .filter(is_near)
         .map(|candidate| (distance(&candidate.to_lowercase()), candidate))
-        .filter(|(distance, candidate)| *distance <= most_slips(candidate))
+        .filter(|(distance, candidate)| *distance <= max_distance(candidate))
         .min()
         .map(|(_, candidate)| candidate)
 }
 
-/// Letters in which a word may differ from a candidate that is meant.
-fn most_slips(candidate: &str) -> usize {
+/// Maximum edit distance between a word and a candidate for it.
+fn max_distance(candidate: &str) -> usize {
     1 + candidate.len() / 4
 }
 
-/// Letters from which on a beginning says which word is meant.
-const LEAST_STEM: usize = 3;
+/// Minimum number of letters of a beginning that selects a candidate.
+const MIN_STEM: usize = 3;
 
 #[cfg(test)]
 mod tests {
@@ -174,21 +229,21 @@ mod tests {
     #[test]
     fn a_megabyte_is_shown_by_its_ends() {
         let long = "ö".repeat(1 << 20);
-        let (path, given) = (format!("robots.{long}.count"), format!("\"{long}\""));
+        let (path, value) = (format!("robots.{long}.count"), format!("\"{long}\""));
         let error = InputError {
             origin: Some(format!("--set {path}")),
             suggestion: nearest(&long, ["rover", "ö"]).map(str::to_owned),
-            ..InputError::new(path.clone(), Some(given), "a number".to_owned())
+            ..InputError::new(path.clone(), Some(value), "a number".to_owned())
         };
-        let told = error.to_string();
-        assert!(told.chars().count() < 600, "{told}");
+        let message = error.to_string();
+        assert!(message.chars().count() < 600, "{message}");
         for part in [
             "--set robots.ö",
             "ö...ö",
             "ö.count = \"ö",
             "ö\": must be a number",
         ] {
-            assert!(told.contains(part), "{part}\nnot in\n{told}");
+            assert!(message.contains(part), "{part}\nnot in\n{message}");
         }
         assert_eq!(error.path, path);
         assert_eq!(error.suggestion, None);
@@ -205,9 +260,9 @@ mod tests {
 
     #[test]
     fn what_is_short_is_shown_whole() {
-        let [most, more] = [SHOWN, SHOWN + 1].map(|length| "x".repeat(length));
-        assert_eq!(shortened(&most), most);
-        assert_eq!(shortened(&more).chars().count(), SHOWN);
+        let [whole, long] = [MAX_SHOWN, MAX_SHOWN + 1].map(|length| "x".repeat(length));
+        assert_eq!(shortened(&whole), whole);
+        assert_eq!(shortened(&long).chars().count(), MAX_SHOWN);
     }
 
     #[test]

@@ -54,7 +54,7 @@ fn as_dict<'py>(
     dict.set_item("file", place.map(|(file, _)| file))?;
     dict.set_item("line", place.and_then(|(_, line)| line))?;
     dict.set_item("path", &error.path)?;
-    dict.set_item("given", &error.given)?;
+    dict.set_item("value", error.value())?;
     dict.set_item("allowed", &error.allowed)?;
     dict.set_item("suggestion", &error.suggestion)?;
     dict.set_item("message", error.to_string())?;

@@ -182,7 +182,7 @@ def required(scenario: Path | None, more: float | None) -> Path:
     """Return the scenario, which is needed without --resume."""
     if scenario is None:
         message = (
-            "SCENARIO is missing: must be a TOML file, or a name that agent-economy scenarios lists"
+            "SCENARIO is missing: expected a TOML file, or a name that agent-economy scenarios lists"
         )
         raise InputError(message)
     if more is not None:

@@ -101,7 +101,7 @@ SPEEDS = (0.01, 100_000.0)
 Fault = dict[str, Any]
 """What is wrong, as a page takes it."""
 
-FAULT = ("file", "line", "path", "given", "allowed", "suggestion", "message")
+FAULT = ("file", "line", "path", "value", "allowed", "suggestion", "message")
 
 
 @dataclass(frozen=True)

@@ -116,13 +116,13 @@ function variedIn({ factors }) {
 function valuesOf({ factors }, path, text, faults) {
   const factor = factors.find((one) => one.path === path);
   const at = `study.vary."${path}"`;
-  if (!factor) faults.push(fault(at, text, "must be one of the known keys here"));
+  if (!factor) faults.push(fault(at, text, "is not a known key"));
   const [, first, last] = /^(\d+)\.\.(\d+)$/.exec(text) ?? [];
   if (last !== undefined && Number(first) <= Number(last) && Number(last) < 100_000)
     return Array.from({ length: Number(last) - Number(first) + 1 }, (_, i) => Number(first) + i);
   const list = text.split(",").map((one) => (factor?.values ? one.trim() : Number(one || "?")));
   const isGood = list.every((one) => (factor?.values ? factor.values.includes(one) : Number.isFinite(one)));
-  if (!isGood) faults.push(fault(at, `"${text}"`, 'must be a text of values, such as "1..40" or "1,2,4"'));
+  if (!isGood) faults.push(fault(at, `"${text}"`, 'must be a string of values, such as "1..40" or "1,2,4"'));
   return list;
 }
 
@@ -138,7 +138,7 @@ function* numberFaults({ delta, confidence, runs, max_runs, seed }) {
 export function fault(path, given, allowed) {
   const shown = given === null ? null : String(given);
   const message = shown === null ? `${path} ${allowed}` : `${path} = ${shown}: ${allowed}`;
-  return { file: null, line: null, path, given: shown, allowed, suggestion: null, message };
+  return { file: null, line: null, path, value: shown, allowed, suggestion: null, message };
 }
 
 function hash(text) {

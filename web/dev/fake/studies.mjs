@@ -16,7 +16,7 @@ export class FakeStudies {
 
   "POST /api/factors"(asked) {
     if (asked.scenario === "broken")
-      return refused(fault("robots.rover.count", null, "is missing: must be a whole number"));
+      return refused(fault("robots.rover.count", null, "is missing: expected a whole number"));
     return [200, factorsOf(asked)];
   }
 

@@ -46,7 +46,7 @@ export class Talk {
     const { tick } = said;
     const changes = said.changes ?? recorded.changes;
     if (scenario === "broken") {
-      const message = "robots.rover.count is missing: must be a whole number from 0 to 1000000";
+      const message = "robots.rover.count is missing: expected a whole number from 0 to 1000000";
       return this.say({
         type: "refused",
         about: "open",
@@ -56,7 +56,7 @@ export class Talk {
             file: null,
             line: 7,
             path: "robots.rover.count",
-            given: null,
+            value: null,
             allowed: "",
             suggestion: null,
             message,
@@ -181,7 +181,7 @@ export class Talk {
       about,
       path,
       faults: [
-        { file: null, line: null, path: path ?? "", given: null, allowed: "", suggestion: null, message },
+        { file: null, line: null, path: path ?? "", value: null, allowed: "", suggestion: null, message },
       ],
     });
   }

@@ -20,7 +20,7 @@ export interface Fault {
   file: string | null;
   line: number | null;
   path: string;
-  given: string | null;
+  value: string | null;
   allowed: string;
   suggestion: string | null;
   message: string;

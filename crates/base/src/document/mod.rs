@@ -27,6 +27,7 @@
 
 mod parse;
 mod place;
+pub(crate) mod renamed;
 pub mod schema;
 mod section;
 mod typed;
@@ -107,6 +108,20 @@ pub fn path_of(path: &str, key: &str) -> String {
         key
     } else {
         format!("{path}.{key}")
+    }
+}
+
+/// The error of a `key` in the table at `path` that is none of the `known`: a renamed or an unknown one.
+fn unknown_key<'k>(
+    path: &str,
+    key: &str,
+    value: String,
+    known: impl Iterator<Item = &'k str> + Clone,
+) -> InputError {
+    let at = path_of(path, key);
+    match renamed::key(key, known.clone()) {
+        Some(new) => InputError::renamed(at, None, path_of(path, new)),
+        None => InputError::unknown_key(at, key, value, known),
     }
 }
 

@@ -1,9 +1,9 @@
-//! A place in a document, to tell what is wrong there.
+//! A place in a document, to report errors there.
 
 use super::{Document, Node, Value, path_of};
-use crate::error::{InputError, nearest};
+use crate::error::InputError;
 
-/// A place in a document, whether something stands there or not.
+/// A place in a document, whether or not there is a value.
 ///
 /// ```
 /// use base::document::Document;
@@ -14,21 +14,21 @@ use crate::error::{InputError, nearest};
 ///     "job.toml:3: walls[0].corners = [1, 2]: must be a triangle"
 /// );
 /// assert_eq!(
-///     walls.item(0).key("height").error("above 0").to_string(),
-///     "job.toml:2: walls[0].height is missing: must be above 0"
+///     walls.item(0).key("height").error("a number above 0").to_string(),
+///     "job.toml:2: walls[0].height is missing: expected a number above 0"
 /// );
 /// ```
 #[derive(Debug, Clone)]
 pub struct Place<'d> {
-    /// What stands there, if something does.
+    /// The value there, if any.
     node: Option<&'d Node>,
-    /// Of what stands there, or else of what it should stand in.
+    /// Origin of the value; without one, that of the table or list that should contain it.
     origin: &'d str,
     path: String,
 }
 
 impl Document {
-    /// The root, from which other places are found.
+    /// The root of the document.
     #[must_use]
     pub fn place(&self) -> Place<'_> {
         Place {
@@ -65,32 +65,35 @@ impl<'d> Place<'d> {
         Self { node, origin, path }
     }
 
-    /// What is written here, as an error shows it.
+    /// The value here, as an error shows it.
     #[must_use]
-    pub fn given(&self) -> Option<String> {
+    pub fn value(&self) -> Option<String> {
         self.node.map(|node| node.value.to_string())
     }
 
-    /// What stands here is not what is `allowed` ("must be ...").
+    /// The error that the value here is not what is `allowed`, or missing.
     #[must_use]
     pub fn error(&self, allowed: impl Into<String>) -> InputError {
         InputError {
             origin: Some(self.origin.to_owned()),
-            ..InputError::new(self.path.clone(), self.given(), allowed.into())
+            ..InputError::new(self.path.clone(), self.value(), allowed.into())
         }
     }
 
-    /// The key that leads here, `word`, names none of the `names` that there are.
-    #[must_use]
-    pub fn names_none_of<'n>(
+    /// The error that the key of this place, `key`, is none of the `known` keys.
+    pub fn unknown_key<'n>(
         &self,
-        word: &str,
-        names: impl Iterator<Item = &'n str> + Clone,
+        key: &str,
+        known: impl Iterator<Item = &'n str> + Clone,
     ) -> InputError {
-        let known: Vec<&str> = names.clone().collect();
         InputError {
-            suggestion: nearest(word, names).map(str::to_owned),
-            ..self.error(format!("under one of {}", known.join(", ")))
+            origin: Some(self.origin.to_owned()),
+            ..InputError::unknown_key(
+                self.path.clone(),
+                key,
+                self.value().unwrap_or_default(),
+                known,
+            )
         }
     }
 }

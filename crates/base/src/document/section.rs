@@ -1,18 +1,19 @@
-//! Typed reading of a table, collecting what is wrong.
+//! Typed reading of a table that collects all errors.
 
-use super::{Node, Table, Value, as_number, path_of, written};
-use crate::error::{InputError, nearest};
+use super::{Node, Table, Value, as_number, path_of, renamed, unknown_key, written};
+use crate::error::InputError;
 use std::cell::RefCell;
 use std::ops::RangeInclusive;
 
-/// One table of a document. A missing table reads as an empty one, so that each required value
-/// in it is told as missing.
+/// One table of a document. A missing table reads as an empty one, so that each required value in it
+/// is reported as missing.
 #[derive(Debug)]
 pub struct Section<'d> {
     table: Option<&'d Table>,
     origin: &'d str,
     path: String,
-    /// It is no table, which has been told: nothing in it is told as missing.
+    /// Whether a value that is not a table stands here. That is one error; its contents are not
+    /// reported as missing.
     is_invalid: bool,
     errors: &'d RefCell<Vec<InputError>>,
 }
@@ -28,12 +29,16 @@ impl<'d> Section<'d> {
         }
     }
 
-    /// Tells every key that is not among `keys`, with the nearest that is.
+    /// Reports every key that is not among `keys`.
     pub fn only(&self, keys: &[&str]) {
-        for key in self.keys().filter(|key| !keys.contains(key)) {
-            let allowed = format!("one of the known keys here: {}", keys.join(", "));
-            let meant = nearest(key, keys.iter().copied());
-            self.error_for(key, &allowed, meant.map(str::to_owned));
+        for (key, node) in self.table.into_iter().flatten() {
+            if !keys.contains(&key.as_str()) {
+                let value = node.value.to_string();
+                self.report(
+                    key,
+                    unknown_key(&self.path, key, value, keys.iter().copied()),
+                );
+            }
         }
     }
 
@@ -43,13 +48,13 @@ impl<'d> Section<'d> {
         self.node(key).is_some()
     }
 
-    /// What stands at `key`, unchecked.
+    /// The value at `key`, unchecked.
     #[must_use]
     pub fn value(&self, key: &str) -> Option<&'d Value> {
         self.node(key).map(|node| &node.value)
     }
 
-    /// Where what stands at `key` was written, or the table without it.
+    /// Origin of the value at `key`; without one, that of the table.
     #[must_use]
     pub fn origin(&self, key: &str) -> &'d str {
         self.node(key).map_or(self.origin, |node| &node.origin)
@@ -89,7 +94,7 @@ impl<'d> Section<'d> {
             _ => None,
         };
         let (low, high) = range.into_inner();
-        self.told(value, key, || {
+        self.checked(value, key, || {
             format!("a whole number from {low} to {high}")
         })
     }
@@ -99,7 +104,7 @@ impl<'d> Section<'d> {
     pub fn number(&self, key: &str, range: RangeInclusive<f64>) -> Option<f64> {
         let value = self.node(key).and_then(as_number);
         let value = value.filter(|value| range.contains(value));
-        self.told(value, key, || {
+        self.checked(value, key, || {
             let (low, high) = (written(*range.start()), written(*range.end()));
             format!("a number from {low} to {high}")
         })
@@ -110,7 +115,7 @@ impl<'d> Section<'d> {
     pub fn number_if(&self, key: &str, allowed: &str, holds: impl Fn(f64) -> bool) -> Option<f64> {
         let value = self.node(key).and_then(as_number);
         let value = value.filter(|value| value.is_finite() && holds(*value));
-        self.told(value, key, || allowed.to_owned())
+        self.checked(value, key, || allowed.to_owned())
     }
 
     /// The list of numbers at `key`, if it holds at least one and all are in `range`.
@@ -129,30 +134,30 @@ impl<'d> Section<'d> {
             if number.is_none() {
                 let path = format!("{}[{index}]", self.path_of(key));
                 let allowed = format!("a number from {low} to {high}");
-                self.push(
+                self.report(
                     key,
                     InputError::new(path, Some(item.value.to_string()), allowed),
                 );
             }
             number
         };
-        // All are looked at, so that all errors are told, before the list is given up.
+        // Check all items before giving up, to report all errors.
         let numbers: Vec<Option<f64>> = items.iter().enumerate().map(number).collect();
         let numbers: Option<Vec<f64>> = numbers.into_iter().collect();
         numbers.filter(|numbers| !numbers.is_empty())
     }
 
-    /// The text at `key`, if it is a line: not empty, and without control characters.
+    /// The string at `key`, if it is a single line: not empty, and without control characters.
     #[must_use]
     pub fn line(&self, key: &str) -> Option<String> {
         let breaks = |c: char| c.is_control() || matches!(c, '\u{2028}' | '\u{2029}');
-        self.parsed(key, "a line of text in quotes", |text| {
+        self.parsed(key, "a non-empty string of one line", |text| {
             let is_line = !text.trim().is_empty() && !text.contains(breaks);
             is_line.then(|| text.to_owned())
         })
     }
 
-    /// What `parse` makes of the text at `key`, if it makes something; else it must be `allowed`.
+    /// The string at `key` as `parse` reads it; `None` from `parse` means that it is not `allowed`.
     #[must_use]
     pub fn parsed<T>(
         &self,
@@ -164,10 +169,10 @@ impl<'d> Section<'d> {
             Some(Value::Text(value)) => parse(value),
             _ => None,
         };
-        self.told(value, key, || allowed.to_owned())
+        self.checked(value, key, || allowed.to_owned())
     }
 
-    /// What the text at `key` names, if it is one of `names`.
+    /// The value that the string at `key` names, if it is one of `names`.
     #[must_use]
     pub fn choice<T: Copy>(&self, key: &str, names: &[(&str, T)]) -> Option<T> {
         let node = self.node(key);
@@ -177,26 +182,26 @@ impl<'d> Section<'d> {
         };
         let chosen = names.iter().find(|(name, _)| *name == word);
         if chosen.is_none() {
-            let given = node.map(|node| node.value.to_string());
+            let value = node.map(|node| node.value.to_string());
             let names = names.iter().map(|(name, _)| *name);
-            self.push(
+            self.report(
                 key,
-                InputError::not_one_of(self.path_of(key), given, word, names),
+                InputError::not_one_of(self.path_of(key), value, word, names),
             );
         }
         chosen.map(|(_, value)| *value)
     }
 
-    /// Tells that what stands at `key` is not what is `allowed` ("must be ...").
+    /// Reports that the value at `key` is not what is `allowed`, or missing.
     pub fn error(&self, key: &str, allowed: &str) {
         self.error_for(key, allowed, None);
     }
 
-    /// As [`Section::error`], with what was perhaps meant.
+    /// As [`Section::error`], with a suggestion.
     pub fn error_for(&self, key: &str, allowed: &str, suggestion: Option<String>) {
-        let given = self.node(key).map(|node| node.value.to_string());
-        let error = InputError::new(self.path_of(key), given, allowed.to_owned());
-        self.push(
+        let value = self.node(key).map(|node| node.value.to_string());
+        let error = InputError::new(self.path_of(key), value, allowed.to_owned());
+        self.report(
             key,
             InputError {
                 suggestion,
@@ -205,15 +210,21 @@ impl<'d> Section<'d> {
         );
     }
 
-    fn told<T>(&self, value: Option<T>, key: &str, allowed: impl Fn() -> String) -> Option<T> {
-        if value.is_none() {
+    fn checked<T>(&self, value: Option<T>, key: &str, allowed: impl Fn() -> String) -> Option<T> {
+        if value.is_none() && !self.has_old_name_of(key) {
             self.error(key, &allowed());
         }
         value
     }
 
-    /// Notes an error of what stands at `key`, unless the section as a whole is one.
-    fn push(&self, key: &str, error: InputError) {
+    /// Whether the value at `key` stands under the key of an earlier version, which is an error of its
+    /// own.
+    fn has_old_name_of(&self, key: &str) -> bool {
+        !self.has(key) && self.keys().any(|old| renamed::key(old, [key]).is_some())
+    }
+
+    /// Records an error of the value at `key`, unless the section as a whole is one.
+    pub(crate) fn report(&self, key: &str, error: InputError) {
         let origin = self.origin(key);
         if !self.is_invalid {
             self.errors.borrow_mut().push(InputError {
@@ -227,7 +238,8 @@ impl<'d> Section<'d> {
         self.table?.get(key)
     }
 
-    fn path_of(&self, key: &str) -> String {
+    /// The path of `key`.
+    pub(crate) fn path_of(&self, key: &str) -> String {
         path_of(&self.path, key)
     }
 }

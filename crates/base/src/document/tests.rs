@@ -30,9 +30,9 @@ fn all_errors_are_told_at_once_each_with_its_line() {
             "job.toml:1: engine = \"clasic\": must be one of \"classic\", \"metric\"; \
              did you mean \"classic\"?",
             "job.toml:2: time_limit_s = \"long\": must be a number from 0 to 10",
-            "job.toml:5: robots.rover.cuont = 3: must be one of the known keys here: count; \
+            "job.toml:5: robots.rover.cuont is not a known key: expected one of count; \
              did you mean count?",
-            "job.toml:4: robots.rover.count is missing: must be a whole number from 1 to 9",
+            "job.toml:4: robots.rover.count is missing: expected a whole number from 1 to 9",
         ]
     );
 }
@@ -97,7 +97,7 @@ fn a_line_is_neither_empty_nor_broken() {
         let errors = errors_of(&format!("a = {text}"), |root| root.line("a").map(|_| ()));
         assert_eq!(errors.len(), 1, "{text}");
         assert!(
-            errors[0].ends_with("must be a line of text in quotes"),
+            errors[0].ends_with("must be a non-empty string of one line"),
             "{errors:?}"
         );
     }
@@ -179,7 +179,7 @@ fn a_number_that_does_not_hold_is_told_with_what_is_allowed() {
     }
     assert_eq!(
         read("b = 1"),
-        ["job.toml: a is missing: must be a number above 0"]
+        ["job.toml: a is missing: expected a number above 0"]
     );
 }
 

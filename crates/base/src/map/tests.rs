@@ -179,15 +179,15 @@ fn all_errors_of_the_yaml_are_told_at_once_each_with_its_line() {
                 occupied_tresh: 0.65\nfree_thresh: 1.5\nmode: trinery\n";
     assert_eq!(
         errors(text, b""),
-        "room.yaml:5: occupied_tresh = 0.65: must be one of the known keys here: image, \
+        "room.yaml:5: occupied_tresh is not a known key: expected one of image, \
          resolution, origin, negate, occupied_thresh, free_thresh, mode; \
          did you mean occupied_thresh?\n\
-         room.yaml:1: image = \"\": must be a line of text in quotes\n\
+         room.yaml:1: image = \"\": must be a non-empty string of one line\n\
          room.yaml:2: resolution = -0.05: must be a number from 0.0001 to 100\n\
          room.yaml:3: origin[1] = NaN: must be a number from -1000000 to 1000000\n\
          room.yaml:4: negate = 2: must be 0, 1, false or true\n\
          room.yaml:6: free_thresh = 1.5: must be a number from 0 to 1\n\
-         room.yaml: occupied_thresh is missing: must be a number from 0 to 1\n\
+         room.yaml: occupied_thresh is missing: expected a number from 0 to 1\n\
          room.yaml:7: mode = \"trinery\": must be one of \"trinary\", \"scale\", \"raw\"; \
          did you mean \"trinary\"?"
     );

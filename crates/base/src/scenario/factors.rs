@@ -1,53 +1,49 @@
 //! What a study varies: paths in a scenario, each with its values.
 
 use super::values::{ALLOWED, Values, values};
-use crate::document::{Document, Section, Value};
+use crate::document::{Document, Section, Value, renamed};
 use crate::engine::Engine;
 use crate::error::{InputError, nearest};
 
-/// What is varied, and over what.
+/// A factor of a study: a path with its values.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Factor {
-    /// Keys from the scenario's root, with dots between.
+    /// Keys from the root of the scenario, separated by dots.
     pub path: String,
-    /// At least one.
+    /// At least one value.
     pub values: Values,
 }
 
-/// Why nothing can be varied at a path.
-pub(super) struct Refusal {
-    allowed: String,
-    suggestion: Option<String>,
-}
-
-impl Refusal {
-    /// The error of `value` at `path`.
-    pub(super) fn of(self, path: &str, value: &Value, origin: &str) -> InputError {
-        InputError {
-            origin: Some(origin.to_owned()),
-            suggestion: self.suggestion,
-            ..InputError::new(path.to_owned(), Some(value.to_string()), self.allowed)
-        }
-    }
-}
-
-/// Why an engine's studies cannot vary what stands at `path`, if that is plain from the path alone.
-pub(super) fn refusal(engine: &dyn Engine, path: &str) -> Option<Refusal> {
+/// The error, at `at`, of a `path` that the engine's studies cannot vary, if the path alone shows it.
+pub(super) fn refusal(
+    engine: &dyn Engine,
+    path: &str,
+    at: String,
+    value: &Value,
+) -> Option<InputError> {
+    let value = value.to_string();
     if let Some(listed) = engine.factors() {
-        return (!listed.contains(&path)).then(|| Refusal {
-            allowed: format!("one of the known keys here: {}", listed.join(", ")),
-            suggestion: nearest(path, listed.iter().copied()).map(str::to_owned),
-        });
+        let listed = listed.iter().copied();
+        return match renamed::path(path, listed.clone()) {
+            Some(new) => Some(InputError::renamed(at, None, new.to_owned())),
+            None if listed.clone().any(|known| known == path) => None,
+            None => Some(InputError::unknown_key(at, path, value, listed)),
+        };
     }
-    let keys = engine.keys().iter().copied();
+    let keys = engine.keys();
     let first = path.split('.').next().unwrap_or_default();
-    (!engine.keys().contains(&first)).then(|| Refusal {
-        allowed: format!(
-            "a path that begins with one of {}",
-            engine.keys().join(", ")
-        ),
-        suggestion: nearest(first, keys).map(|key| path.replacen(first, key, 1)),
+    (!keys.contains(&first)).then(|| InputError {
+        suggestion: nearest(first, keys.iter().copied()).map(|key| path.replacen(first, key, 1)),
+        ..InputError::new(
+            at,
+            Some(value),
+            format!("a path that begins with one of {}", keys.join(", ")),
+        )
     })
+}
+
+fn can_be_varied(engine: &dyn Engine, path: &str) -> bool {
+    refusal(engine, path, String::new(), &Value::Bool(true)).is_none()
 }
 
 /// Puts `value` at the keys of `path`.
@@ -59,12 +55,9 @@ pub(super) fn put(document: &mut Document, path: &str, value: &Value, origin: &s
 /// The factors of a study, in the engine's order.
 pub(super) fn factors(vary: &Section, engine: &dyn Engine) -> Option<Vec<Factor>> {
     for path in vary.keys() {
-        if let Some(Refusal {
-            allowed,
-            suggestion,
-        }) = refusal(engine, path)
-        {
-            vary.error_for(path, &allowed, suggestion);
+        let value = vary.value(path).unwrap_or(&Value::Bool(false));
+        if let Some(error) = refusal(engine, path, vary.path_of(path), value) {
+            vary.report(path, error);
         }
     }
     let factor = |path: &str| {
@@ -80,14 +73,12 @@ pub(super) fn factors(vary: &Section, engine: &dyn Engine) -> Option<Vec<Factor>
     factors.into_iter().collect()
 }
 
-/// Those of `paths` that can be varied, in the engine's order, else in theirs.
+/// Those of `paths` that can be varied: in the engine's order if it has one, otherwise in theirs.
 pub(super) fn in_order_of<'p>(
     engine: &dyn Engine,
     paths: impl Iterator<Item = &'p str>,
 ) -> impl Iterator<Item = &'p str> {
-    let mut known: Vec<&str> = paths
-        .filter(|path| refusal(engine, path).is_none())
-        .collect();
+    let mut known: Vec<&str> = paths.filter(|path| can_be_varied(engine, path)).collect();
     let place = |path: &&str| engine.factors()?.iter().position(|each| each == path);
     known.sort_by_key(place);
     known.into_iter()

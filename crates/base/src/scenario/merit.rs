@@ -4,31 +4,31 @@ use crate::document::{Document, Node, Section, Table, Value};
 use crate::engine::{Measure, NamedMerit};
 use std::borrow::Cow;
 
-/// Largest weight, so that no sum overflows and `1e30` is told as the slip that it is.
+/// Maximum absolute weight: no sum overflows, and `1e30` is reported as the typing error that it is.
 pub(super) const MAX_WEIGHT: f64 = 1e6;
 
-/// Largest `max` of a term.
+/// Maximum `max` of a term.
 pub(super) const MAX_MAX: f64 = 1e12;
 
 /// A figure of merit: a weighted sum of columns of a run's outcome; higher is better.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Merit {
-    /// How the scenario names it, if it does.
+    /// Its name, if it is a predefined one.
     pub name: Option<&'static str>,
-    /// In the order of the engine's measures; at least one.
+    /// At least one term, in the order of the engine's measures.
     pub terms: Vec<Term>,
 }
 
-/// One summand.
+/// A term of a figure of merit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Term {
-    /// The measure's name.
+    /// Name of the measure.
     pub name: Cow<'static, str>,
-    /// What it weighs.
+    /// The outcome column that it reads.
     pub column: Cow<'static, str>,
-    /// By how much; not 0.
+    /// Its weight; not 0.
     pub weight: f64,
-    /// A value above this counts as this.
+    /// Cap: a larger value counts as this.
     pub max: Option<f64>,
 }
 
@@ -43,7 +43,7 @@ impl Term {
     }
 }
 
-/// The figure of merit of a name, of the terms that the engine measures.
+/// A predefined figure of merit, reduced to the terms that the engine has.
 fn named(merit: &NamedMerit, measures: &[Measure]) -> Merit {
     let term = |measure: &Measure| {
         let mut weights = merit.weights.iter();
@@ -56,8 +56,8 @@ fn named(merit: &NamedMerit, measures: &[Measure]) -> Merit {
     }
 }
 
-/// Puts a table where the command line gave `time=-0.03,robots=-0.2`. What is wrong with it is told
-/// where the table is read, as for a table in a file.
+/// Replaces the string `time=-0.03,robots=-0.2` of the command line by a table. Its errors are
+/// reported when the table is read, like those of a table in a file.
 pub(super) fn make_table(document: &mut Document) {
     let Some(Node { value, origin }) = document.get(&["merit"]).cloned() else {
         return;
@@ -73,7 +73,7 @@ pub(super) fn make_table(document: &mut Document) {
             value: number(weight.trim()),
             origin: origin.clone(),
         };
-        // A second weight of one term makes a list of both, which is no weight.
+        // A second weight of a term makes a list of both, which is an error later.
         let twice = |first: &mut Node| first.value = Value::List(vec![first.clone(), node.clone()]);
         let entry = table.entry(name.trim().to_owned()).and_modify(twice);
         entry.or_insert_with(|| node.clone());
@@ -118,8 +118,8 @@ fn term(table: &Section, measure: &Measure) -> Option<Term> {
         && max.is_none()
     {
         let allowed = format!(
-            "given a max in the scenario, such as {{ weight = {weight}, max = {usual} }}: {name} \
-             have no bound of their own"
+            "a table with a max, such as {{ weight = {weight}, max = {usual} }}: {name} has no \
+             natural bound"
         );
         table.error(name, &allowed);
         return None;
@@ -205,14 +205,14 @@ mod tests {
         let text = "{ tiem = 1, robots = 1e7, failed = nan, found = { max = -1 }, paints = -1 }";
         let errors = read(text).unwrap_err();
         for expected in [
-            "t.toml:1: merit.tiem = 1: must be one of the known keys here: time, robots",
+            "t.toml:1: merit.tiem is not a known key: expected one of time, robots",
             "did you mean time?",
             "merit.robots = 10000000.0: must be a number from -1000000 to 1000000",
             "merit.failed = NaN: must be a number from",
-            "merit.found.weight is missing: must be a number",
+            "merit.found.weight is missing: expected a number",
             "merit.found.max = -1: must be a number from 0 to 1000000000000",
-            "merit.paints = -1: must be given a max in the scenario, such as { weight = -1, max = \
-             6720 }: paints have no bound",
+            "merit.paints = -1: must be a table with a max, such as { weight = -1, max = 6720 }: \
+             paints has no natural bound",
         ] {
             assert!(errors.contains(expected), "{expected}\nnot in\n{errors}");
         }
@@ -223,12 +223,18 @@ mod tests {
         for (text, expected) in [
             ("\"time=fast\"", "merit.time = \"fast\": must be a number"),
             ("\"time=1,time=2\"", "merit.time = [1, 2]: must be a number"),
-            ("\"time=1,\"", "merit.\"\" = \"\": must be one of the known"),
+            (
+                "\"time=1,\"",
+                "merit.\"\" is not a known key: expected one of",
+            ),
             ("\"time\"", "merit = \"time\": must be one of \"equation"),
             ("\"time=0\"", "merit = {...}: must be a table with a weight"),
             ("{}", "merit = {...}: must be a table with a weight"),
             ("3", "merit = 3: must be one of \"equation-5.2\""),
-            ("\"paints=1\"", "merit.paints = 1: must be given a max"),
+            (
+                "\"paints=1\"",
+                "merit.paints = 1: must be a table with a max",
+            ),
         ] {
             let errors = read(text).unwrap_err();
             assert!(errors.contains(expected), "{expected}\nnot in\n{errors}");

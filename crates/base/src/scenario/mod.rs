@@ -54,7 +54,7 @@ pub use values::Values;
 
 use crate::document::{Document, Section, Value};
 use crate::engine::{Configuration, Engine, Measure};
-use crate::error::InputErrors;
+use crate::error::{InputError, InputErrors};
 
 /// A scenario that has been read and checked.
 pub struct Scenario {
@@ -126,8 +126,9 @@ pub fn read_configuration(
 ) -> Result<Configuration, InputErrors> {
     let engine = engine_of(engines, &document)?;
     let unknown = values.iter().filter_map(|(path, value)| {
-        let refusal = factors::refusal(engine, path)?;
-        Some(refusal.of(path, value, ORIGIN))
+        let error = factors::refusal(engine, path, path.clone(), value)?;
+        let origin = Some(ORIGIN.to_owned());
+        Some(InputError { origin, ..error })
     });
     InputErrors::or(unknown.collect(), Some(()))?;
     for (path, value) in values {

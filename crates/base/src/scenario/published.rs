@@ -1,18 +1,18 @@
-//! Results of others, to show beside ours.
+//! Published results, shown beside those of a study.
 
 use crate::document::Section;
 use crate::engine::MAX_CAP_S;
 
-/// Results of others, to show beside ours.
+/// Published results, shown beside those of a study.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Published {
-    /// Where they stand.
+    /// Source of the results.
     pub source: String,
-    /// The team size that they recommend.
+    /// The team size that the source recommends.
     pub choice: u32,
-    /// Where they stopped; a time of this much is a failed run.
+    /// Time limit of the published runs, in seconds; a run with this time failed.
     pub time_limit_s: f64,
-    /// Team size and the times of its runs.
+    /// Times of the runs, in seconds, by team size.
     pub times_s: Vec<(u32, Vec<f64>)>,
 }
 
@@ -37,14 +37,17 @@ fn times_s(teams: &Section, max_s: f64, max_robots: u32) -> Option<Vec<(u32, Vec
             .parse()
             .ok()
             .filter(|robots| (1..=max_robots).contains(robots));
-        // "01" is a team size to a parser, but would be a second one of 1.
+        // "01" parses as a team size too, but would be a second entry for 1.
         let Some(robots) = robots.filter(|robots: &u32| robots.to_string() == key) else {
-            teams.error(key, &format!("under a team size from 1 to {max_robots}"));
+            teams.error(
+                key,
+                &format!("listed under a team size from 1 to {max_robots}"),
+            );
             return None;
         };
         let times_s = teams.numbers(key, 0.0..=max_s)?;
         if times_s.len() < 2 {
-            teams.error(key, "two times or more: one has no interval");
+            teams.error(key, "a list of at least two times: an interval needs them");
             return None;
         }
         Some((robots, times_s))

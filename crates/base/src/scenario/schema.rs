@@ -1,19 +1,20 @@
-//! The JSON Schema of the question's keys, for editors and the reference page.
+//! The JSON Schema of the common keys, for editors and the reference page.
 //!
-//! Their errors are told by the sections that read them, which know what else there is: what can be
-//! varied, and what a figure of merit can weigh.
+//! Errors are reported by the functions that read the keys, which also know what can be varied and
+//! what a figure of merit can weigh.
 
 use super::merit::{MAX_MAX, MAX_WEIGHT};
 use super::study::CONFIDENCE;
 use crate::document::Document;
+use crate::document::schema::units::annotate;
 use crate::engine::{Engine, MAX_CAP_S, Measure};
 use serde_json::{Map, Value as Json, json};
 
-/// What a scenario of `engine` may say under the question's keys; what can be weighed may depend on
-/// the `document`.
+/// The common keys of a scenario of `engine`. The terms of a figure of merit may depend on the
+/// `document`.
 #[must_use]
 pub fn schema(engine: &dyn Engine, document: &Document) -> Json {
-    json!({
+    let mut schema = json!({
         "type": "object",
         "properties": {
             "engine": {
@@ -21,7 +22,7 @@ pub fn schema(engine: &dyn Engine, document: &Document) -> Json {
                 "const": engine.name(),
             },
             "summary": {
-                "description": "One line for people: what is done, by whom, for how long.",
+                "description": "One line of description: the task, the robots and the time limit.",
                 "type": "string",
                 "minLength": 1,
             },
@@ -32,7 +33,9 @@ pub fn schema(engine: &dyn Engine, document: &Document) -> Json {
         "required": ["engine", "summary", "merit"],
         "additionalProperties": false,
         "definitions": { "Term": term() },
-    })
+    });
+    annotate(&mut schema);
+    schema
 }
 
 fn merit(engine: &dyn Engine, document: &Document) -> Json {
@@ -41,8 +44,8 @@ fn merit(engine: &dyn Engine, document: &Document) -> Json {
     let term = |measure: Measure| (measure.name.into_owned(), to_term.clone());
     let terms: Map<String, Json> = engine.measures(document).into_iter().map(term).collect();
     json!({
-        "description": "What a run is scored by; higher is better. A name, or weights of your own: \
-                        what a second, a robot and so on is worth, such as \
+        "description": "Figure of merit of a run; higher is better. A predefined name, or a table of \
+                        weights on its outcome, such as \
                         `{ time = -0.03, robots = -0.2, failed = -5 }`.",
         "anyOf": [
             { "type": "string", "enum": names },
@@ -53,7 +56,7 @@ fn merit(engine: &dyn Engine, document: &Document) -> Json {
 
 fn term() -> Json {
     let weight = json!({
-        "description": "The weight; below 0 for what is better small.",
+        "description": "Weight of the term; negative if smaller values are better.",
         "type": "number",
         "minimum": -MAX_WEIGHT,
         "maximum": MAX_WEIGHT,
@@ -63,8 +66,8 @@ fn term() -> Json {
         "properties": {
             "weight": weight,
             "max": {
-                "description": "A value above this counts as this; a term without a bound of its \
-                                own needs it.",
+                "description": "Cap: a larger value counts as this. Required for a term without a \
+                                natural bound.",
                 "type": "number",
                 "minimum": 0,
                 "maximum": MAX_MAX,
@@ -74,45 +77,45 @@ fn term() -> Json {
         "additionalProperties": false,
     });
     json!({
-        "description": "What a value of a run weighs.",
+        "description": "Weight of this outcome in the sum.",
         "anyOf": [weight, capped],
     })
 }
 
 fn study() -> Json {
     json!({
-        "description": "What a study does.",
+        "description": "Settings of a study.",
         "type": "object",
         "properties": {
             "vary": {
-                "description": "What is varied: the path of a value in this file, such as \
-                                `\"robots.rover.count\"`, and a text of its values.",
+                "description": "Factors to vary: the path of a key in this file, such as \
+                                `\"robots.rover.count\"`, and a string of its values.",
                 "type": "object",
                 "additionalProperties": {
-                    "description": "`1..40` for whole numbers, both ends included; `1,2,4` or \
-                                    `0.5,1.0` or `ground,air` for these; `0.5..1.5` for any number \
-                                    of the range, for the designs `lhs:` and `sobol:` only.",
+                    "description": "`1..40` for whole numbers, both ends included; `1,2,4`, \
+                                    `0.5,1.0` or `ground,air` for a list; `0.5..1.5` for any number \
+                                    in the range, with the designs `lhs:` and `sobol:` only.",
                     "type": "string",
                     "minLength": 1,
                 },
                 "default": {},
             },
             "design": {
-                "description": "Which configurations are compared: `factorial` for each value with \
-                                each of every other; `lhs:200` or `sobol:256` for so many points \
-                                that fill the space, for `sobol` a power of two.",
+                "description": "Configurations to compare: `factorial` for all combinations of \
+                                values; `lhs:200` or `sobol:256` for a space-filling design with \
+                                that number of points (a power of two for `sobol`).",
                 "type": "string",
                 "pattern": "^(factorial|lhs:[0-9]+|sobol:[0-9]+)$",
                 "default": "factorial",
             },
             "delta": {
-                "description": "A difference of merit that is worth finding; left out, 2% of the \
-                                range of merits.",
+                "description": "Indifference zone: the smallest difference in merit that matters. \
+                                Without it, 2% of the range of merits.",
                 "type": "number",
                 "exclusiveMinimum": 0,
             },
             "confidence": {
-                "description": "How often the answer is to be right.",
+                "description": "Probability that the answer is right.",
                 "type": "number",
                 "exclusiveMinimum": 0.5,
                 "exclusiveMaximum": 1,
@@ -125,27 +128,27 @@ fn study() -> Json {
 
 fn published() -> Json {
     json!({
-        "description": "Results of others, to show beside those of a study.",
+        "description": "Published results, shown beside those of a study.",
         "type": "object",
         "properties": {
             "source": {
-                "description": "Where they stand.",
+                "description": "Source of the results.",
                 "type": "string",
                 "minLength": 1,
             },
             "choice": {
-                "description": "The team size that they recommend.",
+                "description": "The team size that the source recommends.",
                 "type": "integer",
                 "minimum": 1,
             },
             "time_limit_s": {
-                "description": "Where they stopped, in seconds; a time of this much is a failed run.",
+                "description": "Time limit of the published runs; a run with this time failed.",
                 "type": "number",
                 "minimum": 0,
                 "maximum": MAX_CAP_S,
             },
             "times_s": {
-                "description": "Under each team size the times of its runs, in seconds.",
+                "description": "Times of the runs, by team size.",
                 "type": "object",
                 "additionalProperties": {
                     "type": "array",

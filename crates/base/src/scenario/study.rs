@@ -1,4 +1,4 @@
-//! What a study does.
+//! Settings of a study.
 
 use super::factors::{Factor, factors};
 use super::values::Values;
@@ -8,30 +8,30 @@ use std::fmt;
 
 const MAX_POINTS: u32 = 100_000;
 
-/// How often a study's answer is to be right, if the scenario does not say.
+/// Default probability that the answer of a study is right.
 pub(super) const CONFIDENCE: f64 = 0.95;
 
-/// What a study does.
+/// Settings of a study.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Study {
-    /// What is varied; nothing, if one configuration is to be run.
+    /// The factors; empty to run a single configuration.
     pub factors: Vec<Factor>,
-    /// Which configurations are compared.
+    /// The configurations to compare.
     pub design: Design,
-    /// A difference of merit that is worth knowing; above 0.
+    /// Indifference zone: the smallest difference in merit that matters; above 0.
     pub delta: Option<f64>,
-    /// How often the answer is to be right; above 0.5 and below 1.
+    /// Probability that the answer is right; above 0.5 and below 1.
     pub confidence: f64,
 }
 
-/// Which configurations are compared.
+/// The configurations to compare.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Design {
-    /// Each value of each factor with each of every other.
+    /// All combinations of values.
     Factorial,
-    /// So many points of a Latin hypercube.
+    /// A Latin hypercube of this number of points.
     LatinHypercube(u32),
-    /// So many points of a Sobol' sequence; a power of two.
+    /// This number of points of a Sobol' sequence; a power of two.
     Sobol(u32),
 }
 
@@ -67,8 +67,8 @@ pub(super) fn study(section: &Section, engine: &dyn Engine) -> Option<Study> {
     let factors = factors(&vary, engine);
     let design = if_given(section, "design", || {
         let allowed = format!(
-            "\"factorial\", \"lhs:200\" or \"sobol:256\", of 1 to {MAX_POINTS} points (for sobol a \
-             power of two)"
+            "\"factorial\", or \"lhs:200\" or \"sobol:256\" with 1 to {MAX_POINTS} points (a power of \
+             two for sobol)"
         );
         section.parsed("design", &allowed, Design::parse)
     });
@@ -80,7 +80,7 @@ pub(super) fn study(section: &Section, engine: &dyn Engine) -> Option<Study> {
         section.number_if("confidence", allowed, |share| share > 0.5 && share < 1.0)
     });
     let design = design.map(|design| design.unwrap_or(Design::Factorial));
-    let is_listed = tell_ranges_without_points(&vary, factors.as_deref()?, design?);
+    let is_listed = check_ranges(&vary, factors.as_deref()?, design?);
     is_listed.then_some(Study {
         factors: factors?,
         design: design?,
@@ -89,8 +89,8 @@ pub(super) fn study(section: &Section, engine: &dyn Engine) -> Option<Study> {
     })
 }
 
-/// `None` for an error, `Some(None)` for a key that is not there.
-#[expect(clippy::option_option, reason = "an error, nothing, and a value")]
+/// `None` for an error, `Some(None)` for a key that is missing.
+#[expect(clippy::option_option, reason = "an error, a missing key, and a value")]
 fn if_given<T>(section: &Section, key: &str, read: impl Fn() -> Option<T>) -> Option<Option<T>> {
     if section.has(key) {
         read().map(Some)
@@ -99,16 +99,16 @@ fn if_given<T>(section: &Section, key: &str, read: impl Fn() -> Option<T>) -> Op
     }
 }
 
-/// Only a space-filling design can choose from all the numbers of a range.
-fn tell_ranges_without_points(vary: &Section, factors: &[Factor], design: Design) -> bool {
+/// Only a space-filling design can choose from all numbers of a range.
+fn check_ranges(vary: &Section, factors: &[Factor], design: Design) -> bool {
     let is_range = |factor: &&Factor| matches!(factor.values, Values::Between(..));
     let mut ranges = factors.iter().filter(is_range).peekable();
     if design != Design::Factorial || ranges.peek().is_none() {
         return true;
     }
     for factor in ranges {
-        let allowed = "a list of values where the design is \"factorial\"; design = \"lhs:200\" or \
-                       \"sobol:256\" takes points from a range of any numbers";
+        let allowed = "a list of values with the design \"factorial\"; a range of numbers needs a \
+                       space-filling design, such as design = \"lhs:200\" or \"sobol:256\"";
         vary.error(&factor.path, allowed);
     }
     false

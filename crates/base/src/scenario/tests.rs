@@ -144,11 +144,11 @@ fn both_parts_are_told_of_at_once() {
         .replace("[study]", "[stduy]\n[study]");
     let errors = read(&text).err().unwrap().to_string();
     for part in [
-        "stduy = {...}: must be one of the known keys here: engine, summary, robots, merit, study, \
+        "stduy is not a known key: expected one of engine, summary, robots, merit, study, \
          published; did you mean study?",
-        "robots.rover.cuont = 3: must be one of the known keys",
+        "robots.rover.cuont is not a known key",
         "robots.rover.count = 0: must be a whole number from 1 to 9",
-        "merit.tiem = 1: must be one of the known keys here: time, robots; did you mean time?",
+        "merit.tiem is not a known key: expected one of time, robots; did you mean time?",
         "study.delta = -1: must be a number above 0",
     ] {
         assert!(errors.contains(part), "{part}\nnot in\n{errors}");
@@ -197,7 +197,7 @@ fn an_unknown_path_is_told_once_with_the_nearest() {
     assert_eq!(
         errors_with(r#""robots.rover.cuont" = "1..8""#),
         [
-            "t.toml:9: robots.rover.cuont = 1: must be one of the known keys here: count, loud, \
+            "t.toml:9: robots.rover.cuont is not a known key: expected one of count, loud, \
              mode, speed; did you mean count?",
             "t.toml:9: 7 more values of robots.rover.cuont are not allowed either",
         ]
@@ -217,7 +217,7 @@ fn a_misspelt_kind_is_told_and_not_made() {
     assert_eq!(
         errors_with(r#""robots.rovr.count" = "1""#),
         [
-            "t.toml:9: robots.rovr.count = \"1\": must be under one of the names in robots: rover; \
+            "t.toml:9: robots.rovr.count = \"1\": must be in an existing entry of robots: rover; \
              did you mean robots.rover.count?"
         ]
     );
@@ -229,11 +229,11 @@ fn a_kind_that_is_not_there_suggests_the_nearest_one_and_is_told_once() {
         let told = errors_with(&format!("\"robots.{vary}\" = \"0..2\""));
         assert_eq!(told.len(), 1, "{told:?}");
         let meant = vary.replace(kind, "rover");
-        let expected = format!("robots: rover; did you mean robots.{meant}?");
+        let expected = format!("entry of robots: rover; did you mean robots.{meant}?");
         assert!(told[0].ends_with(&expected), "{told:?}");
     }
     let told = errors_with(r#""robots.zeppelin.speed" = "1""#);
-    assert!(told[0].ends_with("names in robots: rover"), "{told:?}");
+    assert!(told[0].ends_with("entry of robots: rover"), "{told:?}");
 }
 
 fn errors_with_set(sets: &[(&str, Value)]) -> String {
@@ -251,8 +251,8 @@ fn errors_with_set(sets: &[(&str, Value)]) -> String {
 fn a_value_of_a_kind_that_is_not_there_tells_the_kinds_and_what_a_new_one_needs() {
     assert_eq!(
         errors_with_set(&[("robots.rovr.speed", Value::Integer(1))]),
-        "--set: robots.rovr.speed = 1: must be under one of the names in robots: rover; a new one \
-         needs count too; did you mean robots.rover.speed?"
+        "--set: robots.rovr.speed = 1: must be in an existing entry of robots: rover; a new entry also \
+         needs count; did you mean robots.rover.speed?"
     );
 }
 

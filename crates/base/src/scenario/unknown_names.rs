@@ -1,20 +1,21 @@
-//! Paths through a name that the scenario does not have: most often a slip, sometimes a new thing.
+//! Paths through a name that the scenario does not have: usually a typing error, sometimes a new
+//! entry.
 
 use crate::document::{Document, Node, Value, path_of};
 use crate::engine::{Configuration, Engine};
-use crate::error::{InputError, InputErrors, nearest, shortened};
+use crate::error::{InputError, InputErrors, Problem, nearest, shortened};
 
-/// A name on a path, in a table of things under names, that the scenario does not have.
+/// A name on a path, in a table whose keys are names, that the scenario does not have.
 pub(super) struct Unknown<'p> {
     path: &'p [&'p str],
-    /// Which key of the path it is.
+    /// Index of the name among the keys of the path.
     place: usize,
-    /// The names that there are.
+    /// The existing names.
     names: Vec<String>,
 }
 
 impl<'p> Unknown<'p> {
-    /// The first on a path, but not its end: what stands there says what it is.
+    /// The first unknown name on a path, except for its last key, which defines the entry.
     pub(super) fn on(
         path: &'p [&'p str],
         engine: &dyn Engine,
@@ -27,7 +28,7 @@ impl<'p> Unknown<'p> {
         })
     }
 
-    /// The one at a place of a path for which a table was made.
+    /// The name for which an option created a table.
     fn made(
         path: &'p [&'p str],
         place: usize,
@@ -39,23 +40,25 @@ impl<'p> Unknown<'p> {
         Some(Self { path, place, names })
     }
 
-    /// `errors`, with one of the `node` at the path in place of those of what is missing.
-    fn told_in(&self, errors: Vec<InputError>, node: &Node) -> Vec<InputError> {
+    /// `errors`, with those about missing keys of the new entry replaced by one of the `node` at the
+    /// path.
+    fn summarised(&self, errors: Vec<InputError>, node: &Node) -> Vec<InputError> {
         let thing = format!("{}.", joined(&self.path[..=self.place]));
-        let is_missing =
-            |error: &InputError| error.given.is_none() && error.path.starts_with(&thing);
-        let (missing, mut told): (Vec<_>, Vec<_>) = errors.into_iter().partition(is_missing);
+        let is_missing = |error: &InputError| {
+            error.problem == Problem::Missing && error.path.starts_with(&thing)
+        };
+        let (missing, mut others): (Vec<_>, Vec<_>) = errors.into_iter().partition(is_missing);
         let missing: Vec<&str> = missing
             .iter()
             .map(|error| &error.path[thing.len()..])
             .collect();
         if !missing.is_empty() {
-            told.push(self.error(&node.value, &node.origin, &missing));
+            others.push(self.error(&node.value, &node.origin, &missing));
         }
-        told
+        others
     }
 
-    /// The error of `value` at the path; a new thing under this name would need all of `missing`.
+    /// The error of `value` at the path; a new entry of this name would need all `missing` keys.
     pub(super) fn error(&self, value: &Value, origin: &str, missing: &[&str]) -> InputError {
         let near = nearest(self.path[self.place], self.names.iter().map(String::as_str));
         InputError {
@@ -71,17 +74,19 @@ impl<'p> Unknown<'p> {
 
     fn allowed(&self, missing: &[&str]) -> String {
         let names = match &self.names[..] {
-            [] => ", of which there is none".to_owned(),
+            [] => ", which is empty".to_owned(),
             names => format!(": {}", names.join(", ")),
         };
         let table = joined(&self.path[..self.place]);
         let one_more = match missing {
             [] => String::new(),
-            [one] => format!("; a new one needs {one} too"),
-            [first @ .., last] => format!("; a new one needs {} and {last} too", first.join(", ")),
+            [one] => format!("; a new entry also needs {one}"),
+            [first @ .., last] => {
+                format!("; a new entry also needs {} and {last}", first.join(", "))
+            }
         };
         format!(
-            "under one of the names in {}{names}{one_more}",
+            "in an existing entry of {}{names}{one_more}",
             shortened(&table)
         )
     }
@@ -93,8 +98,8 @@ impl<'p> Unknown<'p> {
     }
 }
 
-/// What an engine reads of a document; what a thing lacks that is there only because an option has
-/// a value for it is told in one, with the names that there are besides.
+/// Reads the configuration of a document. If an option sets a value of an entry that does not exist,
+/// its missing keys are reported as one error, with the existing names.
 ///
 /// # Errors
 /// Everything that is wrong there.
@@ -104,7 +109,7 @@ pub(super) fn read(engine: &dyn Engine, document: &Document) -> Result<Configura
             let path: Vec<&str> = made.path.iter().map(String::as_str).collect();
             let unknown = Unknown::made(&path, made.place, engine, document);
             if let Some((unknown, node)) = unknown.zip(document.get(&path)) {
-                errors = unknown.told_in(errors, node);
+                errors = unknown.summarised(errors, node);
             }
         }
         InputErrors(errors)

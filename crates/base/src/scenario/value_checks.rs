@@ -1,58 +1,59 @@
-//! Whether each value of each factor is allowed: it is put into the scenario, which is read.
+//! Checks each value of each factor: puts it into the scenario and reads that.
 
 use super::factors::{in_order_of, put};
 use super::unknown_names::{Unknown, read};
 use super::values::{Values, values};
 use crate::document::{Document, Node, Value};
 use crate::engine::{Configuration, Engine};
-use crate::error::{InputError, InputErrors, shortened};
+use crate::error::{InputError, InputErrors, Problem, shortened};
 
-/// Bad values of one factor that are told one by one.
-const TOLD: usize = 3;
+/// Maximum number of values of one factor that are reported one by one.
+const MAX_REPORTED: usize = 3;
 
-/// What is wrong with single values: each is put into the document, which is read. `given` is what
-/// the engine reads without it, and `known` what is wrong without it.
+/// The errors of single values. `base` is the configuration without any of them, and `known` are its
+/// errors.
 pub(super) fn errors_of_values(
     engine: &dyn Engine,
     document: &Document,
-    given: Option<&Configuration>,
+    base: Option<&Configuration>,
     known: &[InputError],
 ) -> Vec<InputError> {
     let Some(Value::Table(vary)) = document.get(&["study", "vary"]).map(|node| &node.value) else {
         return Vec::new();
     };
-    // Where a section is no table, a value in it would make it one, and its other keys be missing.
+    // In place of a value that is not a table, a factor's value would create a table that lacks its
+    // other keys.
     let is_readable = |path: &&str| {
         let below = |error: &InputError| path.strip_prefix(error.path.as_str());
         let mut below = known.iter().filter_map(below);
         !below.any(|rest| rest.starts_with('.'))
     };
     let paths = in_order_of(engine, vary.keys().map(String::as_str)).filter(is_readable);
-    let trial = Trial {
+    let check = ValueCheck {
         engine,
         document,
-        given,
+        base,
         known,
     };
     paths
-        .filter_map(|path| Some(trial.errors(path, vary.get(path)?)))
+        .filter_map(|path| Some(check.errors(path, vary.get(path)?)))
         .flatten()
         .collect()
 }
 
-/// A scenario in which values are tried.
-struct Trial<'t> {
+/// A scenario into which values are put.
+struct ValueCheck<'t> {
     engine: &'t dyn Engine,
     document: &'t Document,
-    given: Option<&'t Configuration>,
+    base: Option<&'t Configuration>,
     known: &'t [InputError],
 }
 
-impl Trial<'_> {
-    /// What is wrong with the values of one factor.
+impl ValueCheck<'_> {
+    /// The errors of the values of one factor.
     fn errors(&self, path: &str, node: &Node) -> Vec<InputError> {
-        let (given, origin) = (&node.value, &node.origin);
-        let values = match given {
+        let (listed, origin) = (&node.value, &node.origin);
+        let values = match listed {
             Value::Text(text) => values(text).ok(),
             _ => None,
         };
@@ -70,12 +71,12 @@ impl Trial<'_> {
         let keys: Vec<&str> = path.split('.').collect();
         let unknown = Unknown::on(&keys, self.engine, self.document);
         if let Some(unknown) = unknown.filter(|_| !errors.is_empty()) {
-            return vec![unknown.error(given, origin, &[])];
+            return vec![unknown.error(listed, origin, &[])];
         }
         self.shortened(errors, path, origin)
     }
 
-    /// What is wrong with a value that has been put into a document.
+    /// The error of a value that has been put into a document.
     fn error(
         &self,
         path: &str,
@@ -84,12 +85,12 @@ impl Trial<'_> {
         varied: &Document,
     ) -> Option<InputError> {
         match read(self.engine, varied) {
-            Err(InputErrors(told)) => {
-                let new = told.into_iter().find(|error| !self.known.contains(error));
+            Err(InputErrors(errors)) => {
+                let new = errors.into_iter().find(|error| !self.known.contains(error));
                 new.map(|error| about(path, value, origin, error))
             }
-            Ok(read) => self.given.filter(|given| !is_alike(given, &read)).map(|_| {
-                let allowed = "of a robot, an item or another thing that the scenario has";
+            Ok(read) => self.base.filter(|base| !is_alike(base, &read)).map(|_| {
+                let allowed = "a value of an existing robot, item or other entry of the scenario";
                 InputError {
                     origin: Some(origin.to_owned()),
                     ..InputError::new(path.to_owned(), Some(value.to_string()), allowed.to_owned())
@@ -98,15 +99,21 @@ impl Trial<'_> {
         }
     }
 
-    /// The first errors, and how many more there are. Of a path that the scenario does not have one
-    /// will do: the path itself may be wrong.
+    /// The first errors, and the number of others. Only the first if the scenario lacks the path: the
+    /// path itself may be wrong.
     fn shortened(&self, mut errors: Vec<InputError>, path: &str, origin: &str) -> Vec<InputError> {
         let keys: Vec<&str> = path.split('.').collect();
+        if let Some(renamed) = errors
+            .iter()
+            .find(|error| matches!(error.problem, Problem::Renamed(_)))
+        {
+            return vec![renamed.clone()];
+        }
         let is_there = self.document.get(&keys).is_some();
-        let told = if is_there { TOLD } else { 1 };
-        let more = errors.len().saturating_sub(told);
+        let max_reported = if is_there { MAX_REPORTED } else { 1 };
+        let more = errors.len().saturating_sub(max_reported);
         if more > 0 {
-            errors.truncate(told);
+            errors.truncate(max_reported);
             let path = shortened(path);
             let sentence = format!("{more} more values of {path} are not allowed either");
             errors.push(InputError {
@@ -118,8 +125,8 @@ impl Trial<'_> {
     }
 }
 
-/// Whether two configurations have the same kinds of robots, and tell the same columns: with a
-/// misspelt name a value would make a kind of its own.
+/// Whether two configurations have the same kinds of robots and the same columns: with a misspelt
+/// name, a value would create a new kind.
 fn is_alike(one: &Configuration, other: &Configuration) -> bool {
     let kinds = |of: &Configuration| -> Vec<String> {
         of.robots.iter().map(|(kind, _)| kind.clone()).collect()
@@ -131,14 +138,14 @@ fn is_alike(one: &Configuration, other: &Configuration) -> bool {
     kinds(one) == kinds(other) && names(one) == names(other)
 }
 
-/// A value's error as the factor's: one that is told elsewhere, as of a cap that is too many paints
-/// at a varied rate, would not name what to change.
+/// The error of a value, at the path of its factor. An error elsewhere (a time limit that is too long
+/// at a varied rate, say) would not name what to change.
 fn about(path: &str, value: &Value, origin: &str, error: InputError) -> InputError {
     if error.path == path {
         return error;
     }
     let other = shortened(&error.path);
-    let allowed = format!("one with which {other} is {}", error.allowed);
+    let allowed = format!("a value with which {other} is {}", error.allowed);
     InputError {
         origin: Some(origin.to_owned()),
         ..InputError::new(path.to_owned(), Some(value.to_string()), allowed)

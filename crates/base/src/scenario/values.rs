@@ -1,27 +1,27 @@
-//! The values that one factor takes, as a text.
+//! The values of a factor, from a string such as `1..40`.
 
 use crate::document::Value;
 
-/// Values that one factor may have.
+/// Maximum number of values of one factor.
 const MAX_VALUES: i128 = 10_000;
 
-/// What a text of values must be.
-pub(super) const ALLOWED: &str = "a text of values, such as \"1..40\" (both ends included), \"1,2,4\", \"0.5,1.0\" or \
-     \"touch,ahead\", or of a range of any numbers, such as \"41.0..57.0\"";
+/// What is allowed as a string of values.
+pub(super) const ALLOWED: &str = "a string of values, such as \"1..40\" (both ends included), \"1,2,4\", \"0.5,1.0\" or \
+     \"touch,ahead\", or a range of numbers, such as \"41.0..57.0\"";
 
-/// What a factor takes.
+/// The values of a factor.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Values {
-    /// These: numbers in ascending order, else in the order given, each once.
+    /// A list, each value once: numbers in ascending order, others in the given order.
     Listed(Vec<Value>),
-    /// Any number from the first to the second.
+    /// Any number from the first to the second, both included.
     Between(f64, f64),
 }
 
-/// The values of a text.
+/// Parses a string of values.
 ///
 /// # Errors
-/// What is allowed, if it is none.
+/// What is allowed.
 pub(super) fn values(text: &str) -> Result<Values, String> {
     if let Some(between) = between(text) {
         return Ok(between);
@@ -45,7 +45,7 @@ fn between(text: &str) -> Option<Values> {
     (has_point && low < high).then_some(Values::Between(low, high))
 }
 
-/// What stands between two commas.
+/// A part of the string, between commas.
 enum Part {
     One(Value),
     /// Whole numbers from the first to the second, both included.
@@ -80,7 +80,7 @@ impl Part {
     }
 }
 
-/// A finite number that begins with a digit or a sign: `.3` is a slip of `1...3`.
+/// A finite number that begins with a digit or a sign: `.3` comes from the typing error `1...3`.
 fn number(text: &str) -> Option<Value> {
     let text = text.trim();
     let unsigned = text.strip_prefix(['-', '+']).unwrap_or(text);
@@ -103,7 +103,7 @@ fn word(text: &str) -> Option<Value> {
     })
 }
 
-/// Each once; all numbers ascending, anything else as it came.
+/// Each value once: numbers in ascending order, others in the given order.
 fn in_order(values: Vec<Value>) -> Vec<Value> {
     let numbers: Option<Vec<f64>> = values.iter().map(as_f64).collect();
     if let Some(numbers) = numbers {
@@ -123,7 +123,7 @@ fn in_order(values: Vec<Value>) -> Vec<Value> {
 
 #[expect(
     clippy::cast_precision_loss,
-    reason = "numbers that no factor can take are told when they are tried"
+    reason = "numbers that no factor can take are reported when they are checked"
 )]
 fn as_f64(value: &Value) -> Option<f64> {
     match value {

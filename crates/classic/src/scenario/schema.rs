@@ -3,6 +3,7 @@
 use super::{Classic, MAX_ROBOTS, clock};
 use crate::contact::Contact;
 use base::document::Document;
+use base::document::schema::units::annotate;
 use base::scenario as common;
 use serde_json::{Value as Json, json};
 
@@ -17,14 +18,15 @@ pub fn schema() -> Json {
     schema["properties"]["clock"] = clock();
     schema["properties"]["robots"] = table("Robots by kind.", &json!({ "wanderer": wanderer() }));
     schema["required"] = json!(["engine", "summary", "merit", "contact", "clock", "robots"]);
+    annotate(&mut schema);
     schema
 }
 
 fn contact() -> Json {
     let names = Contact::NAMES.map(|(name, _)| name);
     json!({
-        "description": "What counts as finding an item: its distance in cells, that it lies ahead, \
-                        or that the drawn robot touches it.",
+        "description": "What counts as finding an item: its distance in cells, that it is straight \
+                        ahead, or that the drawn robot touches it.",
         "type": "string",
         "enum": names,
     })

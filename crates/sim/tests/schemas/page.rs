@@ -17,7 +17,7 @@ pub(crate) fn reference() -> String {
     let common = Schema::closed(crate::common().try_into().unwrap());
     let mut page = Page {
         schema: &common,
-        text: String::from("\n## Every key\n\n### At the top\n\n"),
+        text: String::from("\n## Every key\n\n### Top level\n\n"),
     };
     page.section(common.json(), "");
     page.shared();
@@ -38,7 +38,7 @@ struct Page<'s> {
 type Object = Map<String, Json>;
 
 impl<'s> Page<'s> {
-    /// The sections of what several keys share.
+    /// The sections of the definitions that several keys share.
     fn shared(&mut self) {
         for (name, heading) in SHARED {
             let definitions = &self.schema.json()["definitions"];
@@ -49,7 +49,7 @@ impl<'s> Page<'s> {
         }
     }
 
-    /// What has a section of its own at `path`, if it is no plain value, and the heading of that.
+    /// The table at `path` that has a section of its own, with the heading of that section.
     fn own_section(&self, part: &'s Json, path: &str) -> Option<(&'s Json, String)> {
         let keywords = self.schema.keywords(part).unwrap();
         let (inner, heading) = match (keywords.get("additionalProperties"), keywords.get("items")) {
@@ -61,7 +61,7 @@ impl<'s> Page<'s> {
         is_own.then_some((inner, heading))
     }
 
-    /// The section of what stands at `path`, if it has one.
+    /// Writes the section of the table at `path`, if it has one.
     fn inner(&mut self, part: &'s Json, path: &str) {
         if let Some((inner, heading)) = self.own_section(part, path) {
             self.head(&heading, part, inner);
@@ -90,7 +90,7 @@ impl<'s> Page<'s> {
             || forms(keywords).iter().any(|form| self.is_table(form))
     }
 
-    /// The keys of a table, and the sections of those that are tables themselves.
+    /// Writes the keys of a table, then the sections of the tables in it.
     fn section(&mut self, part: &'s Json, path: &str) {
         let keywords = self.schema.keywords(part).unwrap();
         let forms = forms(keywords);
@@ -119,7 +119,7 @@ impl<'s> Page<'s> {
             .flatten()
     }
 
-    /// One form after the other, and before them what they have in common.
+    /// Writes one form after the other, then the keys that all forms share.
     fn forms(&mut self, forms: &'s [Json], path: &str) {
         let is_common = |key: &str| {
             let of = |form| self.properties(form).find(|(name, _)| *name == key);
@@ -141,7 +141,7 @@ impl<'s> Page<'s> {
                 .properties(form)
                 .find_map(|(_, part)| part["const"].as_str());
             let name = kind.map_or_else(
-                || self.schema.words(form),
+                || self.schema.expected(form),
                 |kind| format!("`kind = \"{kind}\"`"),
             );
             let line = format!("**{}.** {about}", capital(&name));
@@ -151,28 +151,28 @@ impl<'s> Page<'s> {
             });
         }
         if !common.is_empty() {
-            self.text.push_str("**Of every kind:**\n\n");
+            self.text.push_str("**Common to every kind:**\n\n");
             let keywords = self.schema.keywords(&forms[0]).unwrap();
             self.rows(keywords, path, &|key| common.iter().any(|each| each == key));
         }
     }
 
-    /// A table of the keys that are `wanted`.
+    /// Writes a table of the `wanted` keys.
     fn rows(&mut self, keywords: &'s Object, path: &str, wanted: &dyn Fn(&str) -> bool) {
         let required = keywords.get("required").and_then(Json::as_array);
         let is_required =
             |key: &str| required.is_some_and(|keys| keys.iter().any(|each| each == key));
         let properties = keywords.get("properties").and_then(Json::as_object);
         let properties = properties.into_iter().flatten();
-        let is_told = |(key, part): &(&String, &Json)| {
+        let is_shown = |(key, part): &(&String, &Json)| {
             wanted(key) && part.get("const").is_none_or(|_| *key == "engine")
         };
-        let rows: Vec<_> = properties.filter(is_told).collect();
+        let rows: Vec<_> = properties.filter(is_shown).collect();
         if rows.is_empty() {
             return;
         }
         self.text
-            .push_str("| key | what it is | must be | if left out |\n|---|---|---|---|\n");
+            .push_str("| key | description | allowed values | default |\n|---|---|---|---|\n");
         for (key, part) in rows {
             let keywords = self.schema.keywords(part).unwrap();
             let about = part.get("description").or(keywords.get("description"));
@@ -181,30 +181,29 @@ impl<'s> Page<'s> {
                 .unwrap_or_default()
                 .replace("\n\n", " ");
             let own = self.own_section(part, &joined(path, key));
-            let left_out = match part.get("default").or(keywords.get("default")) {
-                Some(_) if own.is_some() => String::new(),
+            let default = match part.get("default").or(keywords.get("default")) {
+                Some(default) if own.is_some() && !is_plain(default) => "see there".to_owned(),
                 Some(default) => format!("`{}`", toml(default)),
-                None if is_required(key) => "an error".to_owned(),
-                None => String::new(),
+                None if is_required(key) => "required".to_owned(),
+                None => "none".to_owned(),
             };
             let allowed =
                 own.map_or_else(|| self.allowed(part), |(_, heading)| link("see", &heading));
-            writeln!(self.text, "| `{key}` | {about} | {allowed} | {left_out} |").unwrap();
+            writeln!(self.text, "| `{key}` | {about} | {allowed} | {default} |").unwrap();
         }
         self.text.push('\n');
     }
 
-    /// What a value must be; its unit stands in its name and in what it is.
+    /// The allowed values of a key.
     fn allowed(&self, part: &Json) -> String {
         if let Some(heading) = shared(part) {
             return link("", heading);
         }
         let keywords = self.schema.keywords(part).unwrap();
         if let Some(each @ Json::Object(_)) = keywords.get("additionalProperties") {
-            return format!("a table, under each name {}", self.allowed(each));
+            return format!("for each name, {}", self.allowed(each));
         }
-        let words = self.schema.words(part);
-        words.split(", in ").next().unwrap().to_owned()
+        self.schema.expected(part)
     }
 }
 
@@ -242,6 +241,11 @@ fn shared(part: &Json) -> Option<&'static str> {
         .iter()
         .find(|(name, _)| *name == target)
         .map(|(_, heading)| *heading)
+}
+
+/// Whether a default is short enough for the table of keys.
+fn is_plain(default: &Json) -> bool {
+    toml(default).len() <= 40
 }
 
 /// A value as TOML has it in one line.

@@ -24,7 +24,7 @@ const known: Factors = {
 const of: Asked = { scenario: "classic", text: null };
 const asked = (change: Partial<Draft>) => askOf(of, { ...draftOf(known), ...change }, known.factors);
 const fault = (path: string, message: string): Fault => {
-  return { file: null, line: null, path, given: null, allowed: "", suggestion: null, message };
+  return { file: null, line: null, path, value: null, allowed: "", suggestion: null, message };
 };
 
 test("the sizes of all teams are offered, those that the scenario varies filled in", () => {

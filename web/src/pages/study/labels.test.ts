@@ -60,7 +60,7 @@ test("merits have so many decimals that delta has two figures", () => {
 });
 
 test("a refusal is told in the server's words, and a server that is gone in ours", () => {
-  const fault = { file: null, line: null, path: "id", given: null, allowed: "", suggestion: null };
+  const fault = { file: null, line: null, path: "id", value: null, allowed: "", suggestion: null };
   expect(troubleOf(new Refusal([{ ...fault, message: "id is no study" }]))).toBe("id is no study");
   expect(troubleOf(new TypeError("Failed to fetch"))).toBe("The server does not answer.");
 });

@@ -1,10 +1,12 @@
-//! Walks a document along its schema and collects what is wrong.
+//! Checks a document against its schema and collects the errors.
 
-use super::words::{choices, words};
+use super::expected::expected;
+use super::forms::{choices, forms, likeness, name_at, tag};
 use super::{Object, Schema, alternatives, list};
-use crate::document::{Node, Table, Value, as_number, path_of};
-use crate::error::{InputError, nearest};
+use crate::document::{Node, Table, Value, as_number, path_of, renamed, unknown_key};
+use crate::error::InputError;
 use serde_json::Value as Json;
+use std::cmp::Reverse;
 
 pub(super) struct Check<'s> {
     pub(super) schema: &'s Schema,
@@ -19,7 +21,7 @@ impl<'s> Check<'s> {
         }
     }
 
-    /// Tells what is wrong with `node`, which stands at `path`, and with all in it.
+    /// Checks `node`, which is at `path`, and everything in it.
     pub(super) fn value(&mut self, schema: &'s Json, node: &Node, path: &str) {
         let Some(keywords) = self.schema.keywords(schema) else {
             return;
@@ -52,6 +54,12 @@ impl<'s> Check<'s> {
                 None => {}
             }
         }
+        // A key under its old name may be what is missing, or make up for it as `model` does.
+        let names = || known.into_iter().flat_map(Object::keys).map(String::as_str);
+        let is_old = |key: &String| renamed::key(key, names()).is_some();
+        if table.keys().any(is_old) {
+            return;
+        }
         for key in list(keywords, "required").iter().filter_map(Json::as_str) {
             if !table.contains_key(key) {
                 let schema = known.and_then(|known| known.get(key));
@@ -82,54 +90,98 @@ impl<'s> Check<'s> {
         }
     }
 
-    /// Tells if `node` is none of the `names`.
-    pub(super) fn choice(&mut self, names: &[&str], node: &Node, path: &str) {
+    /// Checks `node` against the alternative of `schema` that it resembles most, so that the errors are
+    /// those of the intended form.
+    fn union(&mut self, schema: &'s Json, node: &Node, path: &str) {
+        let forms = forms(self.schema, schema);
+        if let (Value::Table(table), Some(tag)) = (&node.value, tag(self.schema, &forms)) {
+            return self.tagged(&forms, (tag, table), (node, path));
+        }
+        let errors_as = |form: &'s Json| {
+            let mut check = Check::new(self.schema);
+            check.value(form, node, path);
+            check.errors
+        };
+        let alike = forms.into_iter().filter_map(|form| {
+            let likeness = likeness(self.schema, form, node)?;
+            Some((likeness, errors_as(form)))
+        });
+        let meant = alike.min_by_key(|(likeness, errors)| {
+            (!errors.is_empty(), Reverse(*likeness), errors.len())
+        });
+        match meant {
+            Some((likeness, errors)) if likeness > 0 || errors.is_empty() => {
+                self.errors.extend(errors);
+            }
+            _ => self.error(schema, node, path),
+        }
+    }
+
+    /// Checks a table whose key `tag` names its form.
+    fn tagged(
+        &mut self,
+        forms: &[&'s Json],
+        (tag, table): (&str, &Table),
+        (node, path): (&Node, &str),
+    ) {
+        let name_of = |form: &&'s Json| name_at(self.schema, form, tag);
+        let names: Vec<&str> = forms.iter().filter_map(name_of).collect();
+        let path_of_tag = path_of(path, tag);
+        let Some(kind) = table.get(tag) else {
+            let error = InputError::not_one_of(path_of_tag, None, "", names.into_iter());
+            return self.push(node, error);
+        };
+        let is_meant = |form: &&&'s Json| {
+            name_of(form).is_some_and(|name| kind.value == Value::Text(name.to_owned()))
+        };
+        match forms.iter().find(is_meant) {
+            Some(form) => self.value(form, node, path),
+            None => self.choice(&names, kind, &path_of_tag),
+        }
+    }
+
+    /// Checks that `node` is one of the `names`.
+    fn choice(&mut self, names: &[&str], node: &Node, path: &str) {
         let word = match &node.value {
             Value::Text(text) => text.as_str(),
             _ => "",
         };
         if !names.contains(&word) {
-            let given = Some(node.value.to_string());
+            let (path, value) = (path.to_owned(), Some(node.value.to_string()));
             let names = names.iter().copied();
-            let error = InputError::not_one_of(path.to_owned(), given, word, names);
+            let error = match renamed::value(word, names.clone()) {
+                Some(new) => InputError::renamed(path, value, format!("{new:?}")),
+                None => InputError::not_one_of(path, value, word, names),
+            };
             self.push(node, error);
         }
     }
 
-    /// Tells that `node` is not what `schema` allows.
-    pub(super) fn error(&mut self, schema: &Json, node: &Node, path: &str) {
-        let allowed = words(self.schema, schema);
+    /// Reports that `node` is not what `schema` allows.
+    fn error(&mut self, schema: &Json, node: &Node, path: &str) {
+        let allowed = expected(self.schema, schema);
         let error = InputError::new(path.to_owned(), Some(node.value.to_string()), allowed);
         self.push(node, error);
     }
 
-    /// Tells that the table `node` at `path` lacks `key`.
-    pub(super) fn missing(&mut self, schema: &Json, (key, node): (&str, &Node), path: &str) {
-        let allowed = words(self.schema, schema);
+    /// Reports that the table `node` at `path` lacks `key`.
+    fn missing(&mut self, schema: &Json, (key, node): (&str, &Node), path: &str) {
+        let allowed = expected(self.schema, schema);
         self.push(node, InputError::new(path_of(path, key), None, allowed));
     }
 
-    /// Tells that the table at `path` has a `key` that is none of the `known`.
+    /// Reports that the table at `path` has a `key` that is none of the `known`.
     fn unknown_key<'k>(
         &mut self,
         known: impl Iterator<Item = &'k str> + Clone,
-        (key, value): (&str, &Node),
+        (key, node): (&str, &Node),
         path: &str,
     ) {
-        let names: Vec<&str> = known.clone().collect();
-        let allowed = format!("one of the known keys here: {}", names.join(", "));
-        let error = InputError::new(path_of(path, key), Some(value.value.to_string()), allowed);
-        let suggestion = nearest(key, known).map(str::to_owned);
-        self.push(
-            value,
-            InputError {
-                suggestion,
-                ..error
-            },
-        );
+        let value = node.value.to_string();
+        self.push(node, unknown_key(path, key, value, known));
     }
 
-    pub(super) fn push(&mut self, node: &Node, error: InputError) {
+    fn push(&mut self, node: &Node, error: InputError) {
         let origin = Some(node.origin.clone());
         self.errors.push(InputError { origin, ..error });
     }
@@ -140,8 +192,8 @@ fn is_plain(name: &str, keywords: &Object, node: &Node) -> bool {
     match (name, &node.value) {
         ("boolean", Value::Bool(_)) => true,
         ("string", Value::Text(text)) => {
-            let least = keywords.get("minLength").and_then(Json::as_u64);
-            text.chars().count() as u64 >= least.unwrap_or(0)
+            let min = keywords.get("minLength").and_then(Json::as_u64);
+            text.chars().count() as u64 >= min.unwrap_or(0)
         }
         ("integer", Value::Integer(_)) | ("number", Value::Integer(_) | Value::Float(_)) => {
             as_number(node).is_some_and(|number| is_in_range(keywords, number))

@@ -1,5 +1,6 @@
 //! A schema brought to the simple form that is followed here.
 
+use super::units::annotate;
 use super::{Object, list};
 use schemars::Schema;
 use schemars::transform::{Transform, transform_subschemas};
@@ -19,7 +20,9 @@ pub(super) fn closed(mut schema: Schema) -> Json {
         _ => Object::new(),
     };
     Close { definitions }.transform(&mut schema);
-    schema.to_value()
+    let mut schema = schema.to_value();
+    annotate(&mut schema);
+    schema
 }
 
 struct Close {

@@ -21,18 +21,19 @@
 //! let job = Document::parse("job.toml", "time_limit_s = -1\ncuont = 3")?.typed::<Job>(&schema);
 //! assert_eq!(
 //!     job.unwrap_err().to_string(),
-//!     "job.toml:2: cuont = 3: must be one of the known keys here: time_limit_s, count; \
+//!     "job.toml:2: cuont is not a known key: expected one of time_limit_s, count; \
 //!      did you mean count?\n\
-//!      job.toml:1: time_limit_s = -1: must be a number from 0 to 1000000, in seconds\n\
-//!      job.toml: count is missing: must be a whole number from 0 to 255"
+//!      job.toml:1: time_limit_s = -1: must be a number from 0 to 1000000 (seconds)\n\
+//!      job.toml: count is missing: expected a whole number from 0 to 255"
 //! );
 //! # Ok::<(), base::error::InputErrors>(())
 //! ```
 
 mod check;
 mod closed;
-mod union;
-mod words;
+mod expected;
+mod forms;
+pub mod units;
 
 use super::Document;
 use crate::error::InputError;
@@ -93,10 +94,10 @@ impl Schema {
         check.errors
     }
 
-    /// What `part` of the schema allows, as the end of "must be ...".
+    /// What `part` of the schema allows, as a noun phrase: "a number from 0 to 100 (metres)".
     #[must_use]
-    pub fn words(&self, part: &Json) -> String {
-        words::words(self, part)
+    pub fn expected(&self, part: &Json) -> String {
+        expected::expected(self, part)
     }
 
     /// Whether a table at `path` has things under names of a person's choice.

@@ -136,14 +136,14 @@ fn a_range_is_told_with_its_unit_and_nan_is_in_none() {
     for bad in ["nan", "inf", "-1", "100.5", "\"1\"", "true", "[1]"] {
         let given = if bad == "nan" { "NaN" } else { bad };
         let expected =
-            format!("t:1: time_limit_s = {given}: must be a number from 0 to 100, in seconds");
+            format!("t:1: time_limit_s = {given}: must be a number from 0 to 100 (seconds)");
         assert_eq!(
             read(&format!("time_limit_s = {bad}")).unwrap_err(),
             [expected]
         );
     }
     let given = "shapes = [{ circle = { radius_m = inf } }]";
-    let expected = "t:2: shapes[0].circle.radius_m = inf: must be a number of at least 0";
+    let expected = "t:2: shapes[0].circle.radius_m = inf: must be a number of at least 0 (metres)";
     assert_eq!(errors(given), [expected]);
 }
 
@@ -164,8 +164,8 @@ fn what_is_missing_is_told_where_it_should_stand() {
     assert_eq!(
         read("shapes = [{ circle = {} }]").unwrap_err(),
         [
-            "t:1: shapes[0].circle.radius_m is missing: must be a number of at least 0",
-            "t: time_limit_s is missing: must be a number from 0 to 100, in seconds",
+            "t:1: shapes[0].circle.radius_m is missing: expected a number of at least 0 (metres)",
+            "t: time_limit_s is missing: expected a number from 0 to 100 (seconds)",
         ]
     );
 }
@@ -175,7 +175,7 @@ fn a_name_is_one_of_the_known_and_a_slip_is_recognised() {
     assert_eq!(
         errors("kind = \"iar\"\nkidn = 3"),
         [
-            "t:3: kidn = 3: must be one of the known keys here: time_limit_s, kind, shapes, sensors, \
+            "t:3: kidn is not a known key: expected one of time_limit_s, kind, shapes, sensors, \
              workers, pair, chance; did you mean kind?",
             "t:2: kind = \"iar\": must be one of \"ground\", \"air\"; did you mean \"air\"?",
         ]
@@ -191,11 +191,11 @@ fn of_tagged_forms_the_one_that_its_tag_names_is_meant() {
     assert_eq!(
         told,
         [
-            "t:5: sensors.a.fov = 3: must be one of the known keys here: kind, rays, on",
+            "t:5: sensors.a.fov is not a known key: expected one of kind, rays, on",
             "t:4: sensors.a.rays = 10: must be a whole number from 0 to 9",
             "t:7: sensors.b.kind = \"heding\": must be one of \"range\", \"heading\"; did you mean \
              \"heading\"?",
-            "t:8: sensors.c.kind is missing: must be one of \"range\", \"heading\"",
+            "t:8: sensors.c.kind is missing: expected one of \"range\", \"heading\"",
             "t:11: sensors.d = 3: must be a table with kind = \"range\" or \"heading\"",
         ]
     );
@@ -210,15 +210,15 @@ fn of_untagged_forms_the_one_whose_keys_are_there_is_meant() {
     assert_eq!(
         told,
         [
-            "t:3: shapes[0].polygn_m = []: must be one of the known keys here: polygon_m; did you \
+            "t:3: shapes[0].polygn_m is not a known key: expected one of polygon_m; did you \
              mean polygon_m?",
-            "t:3: shapes[0].polygon_m is missing: must be a list of at least 3 lists of 2 numbers",
+            "t:3: shapes[0].polygon_m is missing: expected a list of at least 3 lists of 2 numbers (metres)",
             "t:4: shapes[1].circle = 3: must be a table with radius_m",
             "t:5: shapes[2] = {...}: must be a table with polygon_m or a table with circle",
             "t:6: shapes[3].polygon_m = [[0, 0], [1]]: must be a list of at least 3 lists of 2 \
-             numbers",
+             numbers (metres)",
             "t:6: shapes[3].polygon_m[1] = [1]: must be a list of 2 numbers",
-            "t:7: shapes[4].polygon_m = 2: must be one of the known keys here: circle",
+            "t:7: shapes[4].polygon_m is not a known key: expected one of circle",
         ]
     );
 }
@@ -226,7 +226,8 @@ fn of_untagged_forms_the_one_whose_keys_are_there_is_meant() {
 #[test]
 fn of_forms_of_other_types_the_one_of_its_type_is_meant() {
     let told = |given: &str| errors(&format!("chance = {given}")).join("\n");
-    let all = "a number from 0 to 1, a list of lists of 2 numbers or a table with best and half_m";
+    let all =
+        "a number from 0 to 1, a list of lists of 2 numbers or a table with peak and half_range_m";
     assert_eq!(told("2"), "t:2: chance = 2: must be a number from 0 to 1");
     assert_eq!(
         told("[3]"),
@@ -234,7 +235,7 @@ fn of_forms_of_other_types_the_one_of_its_type_is_meant() {
     );
     assert_eq!(
         told("{ peak = 1 }"),
-        "t:2: chance.half_range_m is missing: must be a number"
+        "t:2: chance.half_range_m is missing: expected a number (metres)"
     );
     assert_eq!(
         told("{ x = 1 }"),
@@ -260,7 +261,7 @@ fn only_tables_without_keys_of_their_own_have_names_of_a_persons_choice() {
 #[test]
 fn each_place_of_a_pair_has_its_own_type() {
     let told = |given: &str| errors(&format!("pair = {given}")).join("\n");
-    assert_eq!(told("[1, 2]"), "t:2: pair[1] = 2: must be a text in quotes");
+    assert_eq!(told("[1, 2]"), "t:2: pair[1] = 2: must be a string");
     assert_eq!(
         told("[300, \"a\"]"),
         "t:2: pair[0] = 300: must be a whole number from 0 to 255"

@@ -130,7 +130,7 @@ fn of_gains(brain: &BrainSpec, at: &Place) -> Vec<InputError> {
     for (kind, gain) in &schemas.gains {
         let at = at.key("gains").key(kind);
         if !kinds.contains(&kind.as_str()) {
-            errors.push(at.names_none_of(kind, kinds.iter().copied()));
+            errors.push(at.unknown_key(kind, kinds.iter().copied()));
         } else if !(0.0..=MOST_GAIN).contains(gain) {
             errors.push(at.error(format!("a number from 0 to {MOST_GAIN}")));
         }
@@ -169,7 +169,7 @@ fn of_beliefs(robot: &RobotSpec, spec: &ScenarioSpec, at: &Place) -> Vec<InputEr
     for (kind, expected) in &beliefs.prior_count {
         let at = at.key("prior_count").key(kind);
         if !kinds.contains(&kind.as_str()) {
-            errors.push(at.names_none_of(kind, kinds.iter().copied()));
+            errors.push(at.unknown_key(kind, kinds.iter().copied()));
         } else if !(0.0..=MOST_EXPECTED).contains(expected) {
             errors.push(at.error(format!("a number from 0 to {MOST_EXPECTED}")));
         }

@@ -41,7 +41,7 @@ fn errors_of(items: &ItemsSpec, kinds: &[&str], at: &Place) -> Vec<InputError> {
     let mut errors = Vec::new();
     let unknown = |kind: &str, at: &Place| {
         let is_known = kinds.contains(&kind);
-        (!is_known).then(|| at.key(kind).names_none_of(kind, kinds.iter().copied()))
+        (!is_known).then(|| at.key(kind).unknown_key(kind, kinds.iter().copied()))
     };
     let detection_probability = at.key("detection_probability");
     for (kind, detection) in items.detection_probability.iter().flatten() {

@@ -3,6 +3,7 @@ use base::document::Document;
 use base::error::InputErrors;
 
 mod brains;
+mod renamed;
 
 const GOOD: &str = r#"
 [clock]
@@ -91,8 +92,8 @@ fn errors_of_every_part_are_told_at_once_with_their_lines() {
     let told = read(&bad).unwrap_err().to_string();
     let expected = "t:4: clock.time_limit_s = 10000000.0: must be at most 1000000: a run has at most \
                     100000000 steps, here of 0.01 s\n\
-                    t:30: robots.rover.sensors.eye.detection_probability.mien = [[0, 1], [3, 0.5]]: must be under \
-                    one of mine; did you mean mine?\n\
+                    t:30: robots.rover.sensors.eye.detection_probability.mien is not a known key: \
+                    expected one of mine; did you mean mine?\n\
                     t:10: world.obstacles[0].polygon_m = [[0, 0], [4, 0], [-1, 2], [0, 4]]: must be a \
                     polygon that does not cross or touch itself; its edges from vertices 1 and 3 do";
     assert_eq!(told, expected);
@@ -102,7 +103,7 @@ fn errors_of_every_part_are_told_at_once_with_their_lines() {
 fn a_types_error_is_told_before_what_values_mean_together() {
     assert_eq!(
         errors("radius_m = 0.5", "radius_m = nan"),
-        ["robots.rover.radius_m = NaN: must be a number from 0 to 100, in metres"]
+        ["robots.rover.radius_m = NaN: must be a number from 0 to 100 (metres)"]
     );
 }
 
@@ -204,7 +205,7 @@ fn a_detection_table_ascends_and_has_probabilities() {
     assert!(told.ends_with("false_alarm_rate_per_m2_s.mine = -1: must be a number from 0 to 1000"));
     assert_eq!(
         error("mine = 0.01", "cow = 1"),
-        "robots.rover.sensors.eye.false_alarm_rate_per_m2_s.cow = 1: must be under one of mine"
+        "robots.rover.sensors.eye.false_alarm_rate_per_m2_s.cow is not a known key: expected one of mine"
     );
 }
 

@@ -34,7 +34,7 @@ fn behaviours_need_sensors_and_places() {
         needs("gps = { kind = \"position\" }"),
         needs("compass = { kind = \"heading\" }"),
         format!(
-            "{at}.waypoints_m is missing: must be the places to visit, at least one, as in [[5, 5], [9, 2.5]]"
+            "{at}.waypoints_m is missing: expected the places to visit, at least one, as in [[5, 5], [9, 2.5]]"
         ),
     ];
     assert_eq!(told, expected);
@@ -104,13 +104,15 @@ fn gains_are_those_of_its_behaviours() {
         errors_of_brain(&brain("cruse = 2, avoid = -1")),
         [
             format!("{at}.avoid = -1: must be a number from 0 to 1000000"),
-            format!("{at}.cruse = 2: must be under one of cruise, avoid; did you mean cruise?"),
+            format!(
+                "{at}.cruse is not a known key: expected one of cruise, avoid; did you mean cruise?"
+            ),
         ]
     );
     let slip = brain("").replace("gains", "gain");
     let told = errors_of_brain(&slip).concat();
     assert!(
-        told.contains("must be one of the known keys here: kind, gains, influence_m"),
+        told.contains("is not a known key: expected one of kind, gains, influence_m"),
         "{told}"
     );
 }

@@ -1,12 +1,13 @@
-//! What a schema allows, as the end of "must be ...".
+//! What a schema allows, as text for error messages and the reference.
 
-use super::union::{forms, name_at, tag};
+use super::forms::{choices, forms, name_at, tag};
+use super::units::unit;
 use super::{Object, Schema, alternatives, list};
 use crate::document::written;
 use serde_json::Value as Json;
 
-/// What `schema` allows.
-pub(super) fn words(schema: &Schema, part: &Json) -> String {
+/// What `part` of the schema allows, as a noun phrase: "a number from 0 to 100 (metres)".
+pub(super) fn expected(schema: &Schema, part: &Json) -> String {
     if let Some(names) = choices(schema, part) {
         let names = quoted(&names);
         return match &names[..] {
@@ -22,33 +23,14 @@ pub(super) fn words(schema: &Schema, part: &Json) -> String {
     }
     match keywords.get("type").and_then(Json::as_str) {
         Some("object") => table(keywords),
-        Some("array") => list_words(schema, keywords),
+        Some("array") => list_words(schema, keywords) + &unit(part, keywords),
         Some("boolean") => "true or false".to_owned(),
-        Some("string") if keywords.contains_key("minLength") => {
-            "a text in quotes, not empty".to_owned()
-        }
-        Some("string") => "a text in quotes".to_owned(),
+        Some("string") if keywords.contains_key("minLength") => "a non-empty string".to_owned(),
+        Some("string") => "a string".to_owned(),
         Some("integer") => format!("a whole number{}", range(keywords)) + &unit(part, keywords),
         Some("number") => format!("a number{}", range(keywords)) + &unit(part, keywords),
         _ => "a value".to_owned(),
     }
-}
-
-/// The texts that `part` allows, if it allows nothing else.
-pub(super) fn choices<'s>(schema: &'s Schema, part: &'s Json) -> Option<Vec<&'s str>> {
-    let keywords = schema.keywords(part)?;
-    if let Some(only) = keywords.get("const") {
-        return Some(vec![only.as_str()?]);
-    }
-    let names = list(keywords, "enum");
-    if !names.is_empty() {
-        return names.iter().map(Json::as_str).collect();
-    }
-    let parts = alternatives(keywords);
-    let names: Option<Vec<_>> = parts.iter().map(|part| choices(schema, part)).collect();
-    names
-        .filter(|names| !names.is_empty())
-        .map(|names| names.concat())
 }
 
 fn union<'s>(schema: &'s Schema, part: &'s Json) -> String {
@@ -58,7 +40,7 @@ fn union<'s>(schema: &'s Schema, part: &'s Json) -> String {
     let names: Vec<&str> = forms.iter().filter_map(name_of).collect();
     let mut all: Vec<String> = Vec::new();
     for form in forms.iter().filter(|form| name_of(form).is_none()) {
-        all.push(words(schema, form));
+        all.push(expected(schema, form));
     }
     if let Some(tag) = tag {
         all.push(format!("a table with {tag} = {}", or(&quoted(&names))));
@@ -96,9 +78,9 @@ fn plural(schema: &Schema, part: &Json) -> String {
         Some("number") => format!("numbers{}", range(keywords)),
         Some("integer") => format!("whole numbers{}", range(keywords)),
         Some("array") => list_words(schema, keywords).replacen("a list", "lists", 1),
-        Some("string") => "texts in quotes".to_owned(),
+        Some("string") => "strings".to_owned(),
         Some("object") => table(keywords).replacen("a table", "tables", 1),
-        _ => format!("values, each {}", words(schema, part)),
+        _ => format!("values, each {}", expected(schema, part)),
     }
 }
 
@@ -117,15 +99,6 @@ fn range(keywords: &Object) -> String {
         }
         (None, None) => String::new(),
     }
-}
-
-/// What a description says after a comma of the unit: "At most so fast ahead, in m/s."
-fn unit(part: &Json, keywords: &Object) -> String {
-    let description = part.get("description").or(keywords.get("description"));
-    let text = description.and_then(Json::as_str).unwrap_or_default();
-    let after = text.split_once(", in ").map(|(_, after)| after);
-    let unit = after.and_then(|after| after.split([',', ';', '.']).next());
-    unit.map_or(String::new(), |unit| format!(", in {unit}"))
 }
 
 fn quoted(names: &[&str]) -> Vec<String> {
