@@ -1,12 +1,12 @@
 //! Brains, for whoever has percepts of their own: live robots, other simulators, learning.
 
-use crate::elsewhere::kind_of;
+use crate::convert::{self, below};
 use crate::error::input_error;
-use crate::exchange::{self, below};
-use crate::fit::fitting;
-use crate::refused::as_in_python;
+use crate::metric_scenario::{MetricScenario, kind_of};
+use crate::percept_check::fitting;
 use crate::scenario::value_without_none;
-use crate::simulation::MetricScenario;
+use crate::serde_error::as_in_python;
+
 use base::document::Document;
 use base::document::schema::Schema;
 use base::error::{InputError, InputErrors};
@@ -50,19 +50,19 @@ impl Brain {
 
     /// The command for a percept; both are dicts.
     fn step<'py>(&self, percept: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
-        let read = exchange::read("percept", percept);
+        let read = convert::read("percept", percept);
         let fitting = |read| self.with(|brain| fitting("percept", read, brain.body()));
         let read = read.and_then(fitting);
         let read: Percept = read.map_err(|error| input_error(&InputErrors(vec![error]), ""))?;
         let command = self.with(|brain| brain.step(&read));
-        exchange::write(percept.py(), &command)
+        convert::write(percept.py(), &command)
     }
 
     /// What it believes and wants; None if it has no mind.
     fn thoughts<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
         let thoughts = self.with(|brain| brain.thoughts());
         thoughts
-            .map(|thoughts| exchange::write(py, &thoughts))
+            .map(|thoughts| convert::write(py, &thoughts))
             .transpose()
     }
 
@@ -81,7 +81,7 @@ impl Brain {
             ("Command", schema_for!(Command)),
             ("Thoughts", schema_for!(Thoughts)),
         ];
-        exchange::write(py, &schemas.into_iter().collect::<BTreeMap<_, _>>())
+        convert::write(py, &schemas.into_iter().collect::<BTreeMap<_, _>>())
     }
 }
 

@@ -9,21 +9,22 @@ mod classic_simulation;
 mod classic_trace;
 mod commands;
 mod configuration;
-mod elsewhere;
+mod convert;
 mod engines;
 mod error;
-mod exchange;
-mod fit;
+mod external;
 mod frame;
+mod inspect;
 mod long_work;
-mod outside;
+mod metric_scenario;
 mod overlay;
+mod percept_check;
+mod python_brain;
 mod recording;
-mod refused;
 mod scenario;
 mod selection;
+mod serde_error;
 mod simulation;
-mod watch;
 
 use pyo3::prelude::*;
 
@@ -44,11 +45,13 @@ mod _core {
     #[pymodule_export]
     use crate::configuration::{Configuration, read_configuration, run_block, run_one};
     #[pymodule_export]
-    use crate::elsewhere::body;
-    #[pymodule_export]
     use crate::error::{InputError, NoRoomError};
     #[pymodule_export]
     use crate::frame::frame;
+    #[pymodule_export]
+    use crate::inspect::{believed_map, watch, watched};
+    #[pymodule_export]
+    use crate::metric_scenario::{MetricScenario, body, read_metric};
     #[pymodule_export]
     use crate::overlay::{drawn_footprints, drawn_links, footprints, links};
     #[pymodule_export]
@@ -58,9 +61,7 @@ mod _core {
     #[pymodule_export]
     use crate::selection::{Procedure, equal_allocation, mean_bounds, mean_exceeds, selection};
     #[pymodule_export]
-    use crate::simulation::{MetricScenario, Simulation, Snapshot, read_metric};
-    #[pymodule_export]
-    use crate::watch::{believed_map, watch, watched};
+    use crate::simulation::{Simulation, Snapshot};
 
     use classic::Contact;
     use pyo3::prelude::*;

@@ -1,6 +1,7 @@
 //! Who hears whom, and what sensors cover: for whoever watches a run.
 
-use crate::simulation::{Simulation, id_of};
+use crate::metric_scenario::id_of;
+use crate::simulation::Simulation;
 use brain::RobotId;
 use numpy::{IntoPyArray, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;

@@ -1,6 +1,6 @@
 //! What recordings hold of a run.
 
-use crate::exchange;
+use crate::convert;
 use crate::simulation::Simulation;
 use base::map::OccupancyMap;
 use base::trig::sin_cos;
@@ -117,7 +117,7 @@ fn bodies<'py>(py: Python<'py>, scenario: &Scenario) -> PyResult<Bound<'py, PyDi
     let dict = PyDict::new(py);
     for (number, kind) in (0..).zip(scenario.robot_kinds()) {
         if let Some(brain) = scenario.brain(number) {
-            dict.set_item(kind, exchange::write(py, brain.body())?)?;
+            dict.set_item(kind, convert::write(py, brain.body())?)?;
         }
     }
     Ok(dict)

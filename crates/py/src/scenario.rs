@@ -1,8 +1,8 @@
 //! Scenarios of every engine.
 
+use crate::convert::{MAX_DEPTH, too_deep};
 use crate::engines::ENGINES;
 use crate::error::input_error;
-use crate::exchange::{MAX_DEPTH, too_deep};
 use base::document::{Document, Node, Override, Table, Value};
 use base::error::{InputError, InputErrors};
 use base::scenario::{Factor, Merit, Published, Scenario, Values};

@@ -2,22 +2,21 @@
 
 use crate::arguments::Arguments;
 use crate::configuration::{ColumnTuple, as_tuple};
-use crate::elsewhere::{self, Elsewhere};
+use crate::convert;
 use crate::error::{input_error, no_room_error};
-use crate::exchange;
+use crate::external;
 use crate::long_work::interruptible;
-use crate::outside;
-use crate::scenario::Source;
+use crate::metric_scenario::{MetricScenario, id_of, name_of};
+use crate::python_brain::{self, PythonBrain};
 use base::engine::Runner;
 use base::error::{InputError, InputErrors};
-use brain::RobotId;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use sim::run::{Item as RunItem, NoRoom, Robot};
 use sim::runner::Runs;
-use sim::scenario::{Scenario, ScenarioSpec};
+use sim::scenario::Scenario;
 use sim::simulation::Simulation as Run;
 use sim::step::ExternalInputs;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -30,19 +29,6 @@ const SHORT: u64 = 1024;
 
 /// Time between two looks at whether another thread is done.
 const BETWEEN_LOOKS: Duration = Duration::from_millis(1);
-
-/// A scenario of the metric engine, as its runs need it.
-#[pyclass(frozen, module = "agent_economy._core")]
-pub(crate) struct MetricScenario(pub(crate) Arc<Scenario>);
-
-/// What a run of a source depends on.
-#[pyfunction]
-pub(crate) fn read_metric(source: Source) -> PyResult<MetricScenario> {
-    let file = source.file.clone();
-    let read = ScenarioSpec::read(&source.document()?);
-    let checked = read.map_err(|errors| input_error(&errors, &file))?;
-    Ok(MetricScenario(Arc::new(checked.scenario)))
-}
 
 /// A whole run, at one of its moments.
 #[pyclass(frozen, module = "agent_economy._core")]
@@ -120,12 +106,12 @@ impl Simulation {
         py: Python<'py>,
         percepts: &Bound<'py, PyDict>,
         commands: &Bound<'py, PyDict>,
-        brains: Vec<Elsewhere<'py>>,
+        brains: Vec<PythonBrain<'py>>,
     ) -> PyResult<Bound<'py, PyDict>> {
         let mut run = self.locked(py)?;
         let kinds = brains.iter().filter_map(|brain| brain.kind(run.scenario()));
         let kinds: Vec<u8> = kinds.collect();
-        let read = outside::read(&run, percepts, commands, &kinds);
+        let read = external::read(&run, percepts, commands, &kinds);
         let (percepts, commands) = read.map_err(|errors| input_error(&errors, ""))?;
         let work = robots(&run);
         let begun = self.take(py, &mut run, work, |run, _| {
@@ -134,7 +120,7 @@ impl Simulation {
         let mut begun = begun.map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
         self.ask(run.scenario(), &brains, &mut begun)?;
         let answers = self.take(py, &mut run, work, |run, _| run.finish_step(begun))?;
-        outside::write(py, run.scenario(), &answers)
+        external::write(py, run.scenario(), &answers)
     }
 
     /// What brains in Python decided in the last step, by robot.
@@ -143,7 +129,7 @@ impl Simulation {
         let run = self.locked(py)?;
         let decided = run.decided().iter();
         let decided = decided.map(|asked| (asked.robot, &asked.command)).collect();
-        outside::write(py, run.scenario(), &decided)
+        external::write(py, run.scenario(), &decided)
     }
 
     /// What a robot will perceive in the next step; None if its brain does not step in it.
@@ -158,7 +144,7 @@ impl Simulation {
         let percept = self.take(py, &mut run, work, |run, _| run.percept(id))?;
         let percept = percept.map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
         percept
-            .map(|percept| exchange::write(py, &percept))
+            .map(|percept| convert::write(py, &percept))
             .transpose()
     }
 
@@ -171,7 +157,7 @@ impl Simulation {
         let run = self.locked(py)?;
         let thoughts = run.state().thoughts(id_of(run.scenario(), robot)?);
         thoughts
-            .map(|thoughts| exchange::write(py, &thoughts))
+            .map(|thoughts| convert::write(py, &thoughts))
             .transpose()
     }
 
@@ -259,7 +245,7 @@ impl Simulation {
         let run = self.locked(py)?;
         let robots = run.state().each_robot(run.scenario());
         Ok(robots
-            .map(|robot| outside::name_of(run.scenario(), robot.id))
+            .map(|robot| name_of(run.scenario(), robot.id))
             .collect())
     }
 
@@ -342,11 +328,11 @@ impl Simulation {
     fn ask(
         &self,
         scenario: &Scenario,
-        brains: &[Elsewhere],
+        brains: &[PythonBrain],
         begun: &mut ExternalInputs,
     ) -> PyResult<()> {
         *self.asking() = Some(thread::current().id());
-        let decided = elsewhere::decide(scenario, brains, begun);
+        let decided = python_brain::decide(scenario, brains, begun);
         *self.asking() = None;
         decided
     }
@@ -377,11 +363,6 @@ impl Simulation {
         let robots = run.state().each_robot(run.scenario());
         Ok(robots.map(|robot| of(&robot)).collect())
     }
-}
-
-pub(crate) fn id_of(scenario: &Scenario, robot: &Bound<PyAny>) -> PyResult<RobotId> {
-    let id = outside::robot_of(scenario, "robot", &exchange::text(robot));
-    id.map_err(|error| input_error(&InputErrors(vec![error]), ""))
 }
 
 fn robots(run: &Run) -> u64 {

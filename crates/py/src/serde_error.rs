@@ -17,7 +17,7 @@ pub(crate) fn error<T: JsonSchema>(json: &Json, path: &Path) -> InputError {
     let mut document = Document::default();
     document.set(&[], value(json), "");
     let errors = Schema::of::<T>().errors(&document).into_iter();
-    // Elsewhere the schema refuses what a percept may say: None for what is not there.
+    // PythonBrain the schema refuses what a percept may say: None for what is not there.
     let mut here =
         errors.filter(|error| error.path.starts_with(&at) || at.starts_with(&error.path));
     let error = here.next();

@@ -1,7 +1,8 @@
 //! What one robot of a run perceives, decides and believes, for whoever watches it.
 
-use crate::exchange;
-use crate::simulation::{Simulation, id_of};
+use crate::convert;
+use crate::metric_scenario::id_of;
+use crate::simulation::Simulation;
 use brain::BelievedMap;
 use numpy::{IntoPyArray, PyArrayMethods};
 use pyo3::prelude::*;
@@ -44,11 +45,11 @@ pub(crate) fn watched<'py>(
     } = told;
     let dict = PyDict::new(py);
     dict.set_item("tick", tick)?;
-    dict.set_item("percept", exchange::write(py, &percept)?)?;
-    dict.set_item("command", exchange::write(py, &decision.command)?)?;
+    dict.set_item("percept", convert::write(py, &percept)?)?;
+    dict.set_item("command", convert::write(py, &decision.command)?)?;
     dict.set_item("leading", decision.leading)?;
     dict.set_item("holds_s", decision.holds_s)?;
-    dict.set_item("thoughts", exchange::write(py, &decision.thoughts)?)?;
+    dict.set_item("thoughts", convert::write(py, &decision.thoughts)?)?;
     Ok(Some(dict))
 }
 

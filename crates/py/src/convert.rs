@@ -2,7 +2,7 @@
 //!
 //! It comes many times a second, so it is read without a schema, up to its first error.
 
-use crate::refused;
+use crate::serde_error;
 use base::document::path_of;
 use base::error::InputError;
 use pyo3::IntoPyObjectExt;
@@ -34,7 +34,7 @@ pub(crate) fn read<T: DeserializeOwned + JsonSchema>(
         return Err(mismatch(at, json.to_string(), "a dict"));
     }
     serde_path_to_error::deserialize(&json).map_err(|refusal| {
-        let error = refused::error::<T>(&json, refusal.path());
+        let error = serde_error::error::<T>(&json, refusal.path());
         let path = below(at, &error.path);
         // It is null too, where it may not stand.
         if is_infinite(given, refusal.path()) {

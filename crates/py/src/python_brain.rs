@@ -2,12 +2,11 @@
 
 use crate::arrays;
 use crate::commands::Commands;
+use crate::convert;
 use crate::error::input_error;
-use crate::exchange;
-use crate::outside::name_of;
-use crate::simulation::MetricScenario;
+use crate::metric_scenario::{kind_of, name_of};
 use base::document::path_of;
-use base::error::{InputError, InputErrors};
+use base::error::InputErrors;
 use brain::Command;
 use pyo3::prelude::*;
 use sim::scenario::Scenario;
@@ -15,7 +14,7 @@ use sim::step::{ExternalInputs, PendingDecision};
 
 /// What decides for the robots of a kind, in Python.
 #[derive(FromPyObject)]
-pub(crate) struct Elsewhere<'py> {
+pub(crate) struct PythonBrain<'py> {
     /// Name of the kind.
     kind: String,
     /// Whether `step` takes the percepts of all robots as arrays, and returns their commands, or
@@ -24,7 +23,7 @@ pub(crate) struct Elsewhere<'py> {
     step: Bound<'py, PyAny>,
 }
 
-impl Elsewhere<'_> {
+impl PythonBrain<'_> {
     /// The number of its kind, if the scenario has robots of it.
     pub(crate) fn kind(&self, scenario: &Scenario) -> Option<u8> {
         kind_of(scenario, "brains", &self.kind).ok()
@@ -43,10 +42,10 @@ impl Elsewhere<'_> {
     }
 
     fn decide_for(&self, scenario: &Scenario, asked: &mut PendingDecision) -> PyResult<()> {
-        let percept = exchange::write(self.step.py(), &asked.percept)?;
+        let percept = convert::write(self.step.py(), &asked.percept)?;
         let command = self.step.call1((asked.robot.index, percept))?;
         let at = path_of("brains", &name_of(scenario, asked.robot));
-        let read = exchange::read::<Command>(&format!("{at}.step()"), &command);
+        let read = convert::read::<Command>(&format!("{at}.step()"), &command);
         asked.command = read.map_err(|error| input_error(&InputErrors(vec![error]), ""))?;
         Ok(())
     }
@@ -55,7 +54,7 @@ impl Elsewhere<'_> {
 /// Asks brains in Python what the robots of a step are to do.
 pub(crate) fn decide(
     scenario: &Scenario,
-    brains: &[Elsewhere],
+    brains: &[PythonBrain],
     outside: &mut ExternalInputs,
 ) -> PyResult<()> {
     let robots = outside.decisions();
@@ -67,29 +66,4 @@ pub(crate) fn decide(
         }
     }
     Ok(())
-}
-
-/// The number of a kind of robots; `path` is what an error names.
-pub(crate) fn kind_of(scenario: &Scenario, path: &str, kind: &str) -> Result<u8, InputError> {
-    let kinds: Vec<&str> = scenario.robot_kinds().collect();
-    let place = kinds.iter().position(|known| *known == kind);
-    let number = place.and_then(|place| u8::try_from(place).ok());
-    number.ok_or_else(|| {
-        let given = Some(format!("{kind:?}"));
-        InputError::not_one_of(path.to_owned(), given, kind, kinds.iter().copied())
-    })
-}
-
-/// What brains know of their bodies that are robots of a kind; `path` is what an error names.
-#[pyfunction]
-pub(crate) fn body<'py>(
-    scenario: &Bound<'py, MetricScenario>,
-    path: &str,
-    kind: &str,
-) -> PyResult<Bound<'py, PyAny>> {
-    let py = scenario.py();
-    let scenario = &scenario.get().0;
-    let number = kind_of(scenario, path, kind);
-    let number = number.map_err(|error| input_error(&InputErrors(vec![error]), ""))?;
-    exchange::write(py, &scenario.brain(number).map(brain::Brain::body))
 }

@@ -1,9 +1,10 @@
 //! What comes into a run from outside and goes there, by robots' names: KIND/INDEX.
 
-use crate::exchange;
-use crate::fit::fitting;
+use crate::convert;
+use crate::metric_scenario::{name_of, robot_of};
+use crate::percept_check::fitting;
 use base::document::path_of;
-use base::error::{InputError, InputErrors, nearest};
+use base::error::{InputError, InputErrors};
 use brain::{Command, Percept, RobotId};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -15,51 +16,6 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// Something for each of some robots.
 pub(crate) type ByRobot<T> = BTreeMap<RobotId, T>;
-
-/// A robot's name.
-pub(crate) fn name_of(scenario: &Scenario, id: RobotId) -> String {
-    let kind = scenario.robot_kinds().nth(id.kind.into());
-    format!("{}/{}", kind.unwrap_or_default(), id.index)
-}
-
-/// The robot of a name; `path` is what an error names.
-pub(crate) fn robot_of(scenario: &Scenario, path: &str, name: &str) -> Result<RobotId, InputError> {
-    let (kind, index) = name.rsplit_once('/').unwrap_or((name, ""));
-    let team = scenario.team();
-    let place = team.iter().position(|(known, _)| known == kind);
-    let id = place.zip(index.parse().ok()).and_then(|(place, index)| {
-        let is_there = index < team[place].1 && name == format!("{kind}/{index}");
-        let kind = u8::try_from(place).ok()?;
-        is_there.then_some(RobotId { kind, index })
-    });
-    id.ok_or_else(|| no_robot(&team, path, name))
-}
-
-fn no_robot(team: &[(String, u32)], path: &str, name: &str) -> InputError {
-    let there = team.iter().filter(|(_, count)| *count > 0);
-    let (kind, index) = name.rsplit_once('/').unwrap_or((name, "0"));
-    let kinds = there.clone().map(|(kind, _)| kind.as_str());
-    let suggestion = nearest(kind, kinds).map(|near| match index.parse::<u32>() {
-        Ok(index)
-            if there
-                .clone()
-                .any(|(kind, count)| kind == near && index < *count) =>
-        {
-            format!("{near}/{index}")
-        }
-        _ => format!("{near}/0"),
-    });
-    let names = there.map(|(kind, count)| match count {
-        1 => format!("{kind}/0"),
-        _ => format!("{kind}/0 to {kind}/{}", count - 1),
-    });
-    let names: Vec<String> = names.collect();
-    let allowed = format!("one of the run's robots: {}", names.join(", "));
-    InputError {
-        suggestion,
-        ..InputError::new(path.to_owned(), Some(format!("{name:?}")), allowed)
-    }
-}
 
 /// The percepts and commands of a step; the brains of some kinds are `elsewhere`.
 ///
@@ -92,10 +48,10 @@ fn by_robot<T: DeserializeOwned + JsonSchema>(
     errors: &mut Vec<InputError>,
 ) -> ByRobot<T> {
     let entry = |(name, given): (Bound<PyAny>, Bound<PyAny>)| {
-        let name = exchange::text(&name);
+        let name = convert::text(&name);
         let id = robot_of(scenario, argument, &name)?;
         let at = path_of(argument, &name);
-        Ok((id, fits(&at, id, exchange::read(&at, &given)?)?))
+        Ok((id, fits(&at, id, convert::read(&at, &given)?)?))
     };
     let entries = given.iter().map(entry);
     entries
@@ -148,7 +104,7 @@ pub(crate) fn write<'py, T: serde::Serialize>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let dict = PyDict::new(py);
     for (id, told) in told {
-        dict.set_item(name_of(scenario, *id), exchange::write(py, told)?)?;
+        dict.set_item(name_of(scenario, *id), convert::write(py, told)?)?;
     }
     Ok(dict)
 }

@@ -1,0 +1,99 @@
+//! Scenarios of the metric engine, and the robots and kinds in them by name.
+
+use crate::convert;
+use crate::error::input_error;
+use crate::scenario::Source;
+use base::error::{InputError, InputErrors, nearest};
+use brain::RobotId;
+use pyo3::prelude::*;
+use sim::scenario::{Scenario, ScenarioSpec};
+use std::sync::Arc;
+
+/// A scenario of the metric engine, ready to run.
+#[pyclass(frozen, module = "agent_economy._core")]
+pub(crate) struct MetricScenario(pub(crate) Arc<Scenario>);
+
+/// Reads the parts of a source that a run depends on.
+#[pyfunction]
+pub(crate) fn read_metric(source: Source) -> PyResult<MetricScenario> {
+    let file = source.file.clone();
+    let read = ScenarioSpec::read(&source.document()?);
+    let checked = read.map_err(|errors| input_error(&errors, &file))?;
+    Ok(MetricScenario(Arc::new(checked.scenario)))
+}
+
+/// A robot's name: KIND/INDEX.
+pub(crate) fn name_of(scenario: &Scenario, id: RobotId) -> String {
+    let kind = scenario.robot_kinds().nth(id.kind.into());
+    format!("{}/{}", kind.unwrap_or_default(), id.index)
+}
+
+/// The robot of a name; `path` is the path of errors.
+pub(crate) fn robot_of(scenario: &Scenario, path: &str, name: &str) -> Result<RobotId, InputError> {
+    let (kind, index) = name.rsplit_once('/').unwrap_or((name, ""));
+    let team = scenario.team();
+    let place = team.iter().position(|(known, _)| known == kind);
+    let id = place.zip(index.parse().ok()).and_then(|(place, index)| {
+        let is_there = index < team[place].1 && name == format!("{kind}/{index}");
+        let kind = u8::try_from(place).ok()?;
+        is_there.then_some(RobotId { kind, index })
+    });
+    id.ok_or_else(|| no_robot(&team, path, name))
+}
+
+fn no_robot(team: &[(String, u32)], path: &str, name: &str) -> InputError {
+    let there = team.iter().filter(|(_, count)| *count > 0);
+    let (kind, index) = name.rsplit_once('/').unwrap_or((name, "0"));
+    let kinds = there.clone().map(|(kind, _)| kind.as_str());
+    let suggestion = nearest(kind, kinds).map(|near| match index.parse::<u32>() {
+        Ok(index)
+            if there
+                .clone()
+                .any(|(kind, count)| kind == near && index < *count) =>
+        {
+            format!("{near}/{index}")
+        }
+        _ => format!("{near}/0"),
+    });
+    let names = there.map(|(kind, count)| match count {
+        1 => format!("{kind}/0"),
+        _ => format!("{kind}/0 to {kind}/{}", count - 1),
+    });
+    let names: Vec<String> = names.collect();
+    let allowed = format!("one of the run's robots: {}", names.join(", "));
+    InputError {
+        suggestion,
+        ..InputError::new(path.to_owned(), Some(format!("{name:?}")), allowed)
+    }
+}
+
+/// The robot that a Python string names.
+pub(crate) fn id_of(scenario: &Scenario, robot: &Bound<PyAny>) -> PyResult<RobotId> {
+    let id = robot_of(scenario, "robot", &convert::text(robot));
+    id.map_err(|error| input_error(&InputErrors(vec![error]), ""))
+}
+
+/// The index of a robot kind; `path` is the path of errors.
+pub(crate) fn kind_of(scenario: &Scenario, path: &str, kind: &str) -> Result<u8, InputError> {
+    let kinds: Vec<&str> = scenario.robot_kinds().collect();
+    let place = kinds.iter().position(|known| *known == kind);
+    let number = place.and_then(|place| u8::try_from(place).ok());
+    number.ok_or_else(|| {
+        let given = Some(format!("{kind:?}"));
+        InputError::not_one_of(path.to_owned(), given, kind, kinds.iter().copied())
+    })
+}
+
+/// The body of a robot kind as its brain knows it; `path` is the path of errors.
+#[pyfunction]
+pub(crate) fn body<'py>(
+    scenario: &Bound<'py, MetricScenario>,
+    path: &str,
+    kind: &str,
+) -> PyResult<Bound<'py, PyAny>> {
+    let py = scenario.py();
+    let scenario = &scenario.get().0;
+    let number = kind_of(scenario, path, kind);
+    let number = number.map_err(|error| input_error(&InputErrors(vec![error]), ""))?;
+    convert::write(py, &scenario.brain(number).map(brain::Brain::body))
+}
