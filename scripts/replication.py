@@ -134,14 +134,14 @@ def log_likelihood(paints: dict[int, Counted], rate: float) -> float:
     for robots, (values, counts) in paints.items():
         shares = counts / counts.sum()
         observed = np.array(published()[robots])
-        at_cap = observed >= SCENARIO.time_limit_s
-        gaps = observed[~at_cap, np.newaxis] - values / rate
+        at_time_limit = observed >= SCENARIO.time_limit_s
+        gaps = observed[~at_time_limit, np.newaxis] - values / rate
         density = stats.norm.pdf(gaps, scale=HAND_TIMING_S) @ shares
         beyond = shares[values / rate >= SCENARIO.time_limit_s].sum()
         # A time that no run took is as likely as half a run makes it, not impossible.
         least = 0.5 / counts.sum()
         total += float(np.sum(np.log(np.maximum(density, least))))
-        total += float(np.sum(at_cap) * np.log(max(beyond, least)))
+        total += float(np.sum(at_time_limit) * np.log(max(beyond, least)))
     return total
 
 

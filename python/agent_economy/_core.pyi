@@ -277,7 +277,7 @@ def replicate(
     runs: int,
     *,
     contact: str,
-    cap_paints: int,
+    time_limit_paints: int,
     seed: int,
     first_run: int,
     threads: int | None,

@@ -86,7 +86,7 @@ def replicate(
         robots,
         runs,
         contact=contact,
-        cap_paints=CAP_PAINTS,
+        time_limit_paints=CAP_PAINTS,
         seed=seed,
         first_run=0,
         threads=threads,

@@ -34,7 +34,7 @@ def test_start_gives_the_team_that_replicate_runs() -> None:
     # With a cap of 0 paints, what is found is what the start is near to, which is told by hand.
     items = [(3, 17), (9, 5), (14, 22), (21, 8)]
     _, found, _ = _core.replicate(
-        3, 300, contact="within-3", cap_paints=0, seed=4, first_run=0, threads=None
+        3, 300, contact="within-3", time_limit_paints=0, seed=4, first_run=0, threads=None
     )
     near = []
     for run in range(300):

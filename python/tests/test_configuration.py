@@ -52,7 +52,7 @@ def test_a_block_is_what_replicate_gives_team_by_team(scenario: Scenario) -> Non
     assert list(given) == COLUMNS
     for index, size in enumerate(sizes):
         paints, found, collisions = _core.replicate(
-            size, 100, contact="touch", cap_paints=6720, seed=9, first_run=70, threads=1
+            size, 100, contact="touch", time_limit_paints=6720, seed=9, first_run=70, threads=1
         )
         failed = (paints < 0) | (paints > 6720)
         expected = {

@@ -17,7 +17,7 @@ def test_the_shipped_scenario_is_the_2003_experiment(classic_toml: Path) -> None
     assert scenario.robots == {"wanderer": 4}
     assert scenario.facts == (
         ("contact", "touch"),
-        ("clock", "56 paints per second, cap 120 s"),
+        ("clock", "56 paints per second, time limit 120 s"),
     )
     (teams,) = scenario.factors
     assert (teams.path, teams.values) == ("robots.wanderer.count", (1, 2, 3, 4, 5, 6, 7, 8))

@@ -39,7 +39,7 @@ fn fast_form(criterion: &mut Criterion) {
     ] {
         let task = Task {
             contact,
-            cap_paints: 6720,
+            time_limit_paints: 6720,
         };
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
@@ -56,7 +56,7 @@ fn fast_form(criterion: &mut Criterion) {
 fn plain_form(criterion: &mut Criterion) {
     let task = Task {
         contact: Contact::Neighbour,
-        cap_paints: 6720,
+        time_limit_paints: 6720,
     };
     let runs = 200;
     let mut group = criterion.benchmark_group("plain form");

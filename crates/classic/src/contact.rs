@@ -1,4 +1,4 @@
-//! What counts as finding an item. The original was timed by eye; these are six definitions of it.
+//! Six definitions of finding an item. In the original experiment, a person judged it by eye.
 
 use crate::heading::Heading;
 use crate::world::{self, Cell, ITEMS};
@@ -8,22 +8,22 @@ use std::sync::LazyLock;
 /// What counts as contact between a robot and an item.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Contact {
-    /// The item is on one of the eight cells round the robot's, or on its own.
+    /// The item is on one of the eight cells around the robot, or on its own cell.
     Neighbour,
-    /// The item is on a diagonal neighbour or on the robot's own cell: what colours a robot.
+    /// The item is on a diagonal neighbour or on the robot's own cell, as for a robot's colour.
     Diagonal,
     /// At most two columns and two rows away.
     Within2,
     /// At most three columns and three rows away.
     Within3,
-    /// The drawn robot touches the drawn item, judged at every paint.
+    /// The drawn robot touches the drawn item; judged at every paint.
     Touch,
-    /// The item is on one of the three cells of the robot's near look.
+    /// The item is on one of the three neighbouring cells at which the robot looks.
     Ahead,
 }
 
 impl Contact {
-    /// Every definition, with the name that scenarios give it.
+    /// Every definition with its name in scenarios.
     pub const NAMES: [(&'static str, Self); 6] = [
         ("neighbour", Self::Neighbour),
         ("diagonal", Self::Diagonal),
@@ -33,13 +33,13 @@ impl Contact {
         ("ahead", Self::Ahead),
     ];
 
-    /// Whether it is judged at every paint, and not only at decisions.
+    /// Whether it is judged at every paint instead of at decisions only.
     pub(crate) fn is_by_paint(self) -> bool {
         self == Self::Touch
     }
 
-    /// The cells on which a robot can be in contact with `item`, whichever way it looks; none where
-    /// it is judged by what is drawn.
+    /// The cells on which a robot can be in contact with `item`, for any heading; empty for
+    /// [`Contact::Touch`].
     #[must_use]
     pub fn cells(self, item: Cell) -> Vec<Cell> {
         let holds =
@@ -47,10 +47,10 @@ impl Contact {
         world::cells().filter(holds).collect()
     }
 
-    /// Whether a robot on `cell` that looks along `looking` is in contact with `item`.
+    /// Whether a robot on `cell` with the heading `looking` is in contact with `item`.
     ///
-    /// `looking` is the heading before the decision's turn. [`Contact::Touch`] has no meaning on
-    /// cells: see [`Pose::touches`].
+    /// `looking` is the heading before the decision's turn. [`Contact::Touch`] is not
+    /// defined on cells: see [`Pose::touches`].
     pub(crate) fn holds(self, cell: Cell, looking: Heading, item: Cell) -> bool {
         let (dx, dy) = cell.gaps(item);
         match self {
@@ -58,7 +58,7 @@ impl Contact {
             Self::Diagonal => dx == dy && dx <= 1,
             Self::Within2 => dx.max(dy) <= 2,
             Self::Within3 => dx.max(dy) <= 3,
-            // A robot on the frame or outside takes no near look.
+            // A robot on the frame or outside does not look at its neighbouring cells.
             Self::Ahead => {
                 let looks = looking.looks().map(|step| cell.ahead(step, 1));
                 cell.is_inside(1) && looks.contains(&item)
@@ -68,7 +68,7 @@ impl Contact {
     }
 }
 
-/// Which of the four items have been found: one bit each.
+/// The items that have been found, one bit each.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) struct Found(pub(crate) u8);
 
@@ -99,10 +99,10 @@ impl std::ops::BitOrAssign for Found {
     }
 }
 
-/// Where a robot is drawn, in 64-bit floats.
+/// The pose in which a robot is drawn, in 64-bit floats.
 ///
-/// The tiny sideways drift of the original's 32-bit moves is left out: 64 bits are judged from
-/// the cell of the last decision.
+/// It starts from the cell of the last decision, and leaves out the tiny sideways drift of the
+/// original's 32-bit moves.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Pose {
     x_px: f64,
@@ -111,7 +111,7 @@ pub(crate) struct Pose {
     back: (f64, f64),
 }
 
-/// Sine of the eight octants, exact: a platform's sine is not the same on every machine.
+/// Sines of the eight octants. The sine of the platform differs between machines.
 const SINES: [f64; 8] = [
     0.0,
     FRAC_1_SQRT_2,
@@ -143,7 +143,7 @@ static CHEVRON: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| {
 });
 
 impl Pose {
-    /// A robot that was at these pixels at its last decision, `paints` ago.
+    /// The pose of a robot `paints` after a decision at these pixels.
     pub(crate) fn new(px: (f64, f64), heading: Heading, speed: u8, paints: u8) -> Self {
         let octant = heading.octant();
         let (sine, cosine) = (SINES[octant], SINES[(octant + 2) % 8]);

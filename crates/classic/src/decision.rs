@@ -7,8 +7,8 @@
 //! | move | left slow | left fast | ahead slow | ahead fast | right slow | right fast | stop |
 //!
 //! The original clears the scores from index 1 on, so a robot's left-slow score begins at the
-//! *carry*: the final left-slow score of the robot handled before it. This slip is what makes the
-//! robots wander; without it they circle.
+//! *carry*: the final left-slow score of the previous robot. This programming error makes the robots
+//! wander; without it they circle.
 
 use crate::heading::Turn;
 use crate::robot::{Robot, Speed};
@@ -65,8 +65,8 @@ fn look_far(robot: &Robot, grid: &Grid, scores: &mut Scores) {
     }
 }
 
-/// After five turns one way, its scores are overwritten (even those of filled cells, which the
-/// penalty so raises); until then they get 1 more.
+/// After five turns in one direction, its scores are overwritten (which raises those of filled cells);
+/// until then they increase by 1.
 fn penalise_circling(turns: &mut i16, scores: &mut Scores, slow: usize) {
     if *turns > 4 {
         scores[slow] = -(*turns / 2);

@@ -9,7 +9,7 @@ use std::f32::consts::SQRT_2;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Heading(u16);
 
-/// What a robot does with its heading at a decision.
+/// A robot's turn at a decision.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Turn {
     Left,
@@ -17,8 +17,8 @@ pub(crate) enum Turn {
     Right,
 }
 
-/// One 32-bit move per octant at speed 1, in pixels a paint, exactly as the original's sine and
-/// cosine gave them (hence the tiny values, which show only while a coordinate is 0).
+/// One 32-bit move per octant at speed 1, in pixels per paint, exactly as computed by the original's
+/// sine and cosine (hence the tiny values, which only matter while a coordinate is 0).
 const MOVES_PX: [(f32, f32); 8] = [
     (1.224_646_9e-16, -2.0),
     (SQRT_2, -SQRT_2),
@@ -50,7 +50,7 @@ impl Heading {
         (degrees <= 360 && degrees % 45 == 0).then_some(Self(degrees))
     }
 
-    /// The heading of an octant, 0 (up) to 7, clockwise; larger numbers wrap round.
+    /// The heading of an octant, 0 (up) to 7, clockwise; larger numbers wrap around.
     #[must_use]
     #[expect(clippy::cast_possible_truncation, reason = "the remainder is below 8")]
     pub fn of_octant(octant: usize) -> Self {
@@ -63,7 +63,7 @@ impl Heading {
         self.0
     }
 
-    /// Which of the eight directions, 0 (up) to 7, clockwise.
+    /// The direction as an octant, 0 (up) to 7, clockwise.
     #[must_use]
     pub fn octant(self) -> usize {
         usize::from(self.0 / 45 % 8)

@@ -1,15 +1,15 @@
 //! The grid simulator of M. Z. Williams, *Agent-Based Simulation of Robotic Systems* (Naval
-//! Postgraduate School, Monterey, June 2003): bit-exact, and a fast form of it for studies.
+//! Postgraduate School, Monterey, June 2003): a bit-exact form, and a fast form for studies.
 //!
-//! | to know | read |
+//! | topic | modules |
 //! |---|---|
-//! | what the world is | [`world`], [`heading`], [`clock`] |
-//! | what a robot does | [`robot`], `decision`, [`simulation`]: the *plain form*, rule by rule |
-//! | when a run is over | [`contact`], [`search`](mod@search) |
-//! | how a page steps and changes a run | [`run`] |
-//! | how studies run it | [`fast`] (the same outcomes, tested), [`start`], [`replicate`](mod@replicate), [`runner`] |
-//! | what scenarios say of it | [`scenario`] |
-//! | what a trace holds | [`trace`](mod@trace) |
+//! | the world and time | [`world`], [`heading`], [`clock`] |
+//! | the rules of a robot | [`robot`], `decision`, [`simulation`]: the *plain form* |
+//! | finds and the end of a run | [`contact`], [`search`](mod@search) |
+//! | runs that are stepped and changed | [`run`] |
+//! | blocks of runs for studies | [`fast`] (tested to give the same outcomes), [`start`], [`replicate`](mod@replicate), [`runner`] |
+//! | scenarios | [`scenario`] |
+//! | traces | [`trace`](mod@trace) |
 
 pub mod clock;
 pub mod contact;

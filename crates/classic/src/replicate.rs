@@ -1,4 +1,4 @@
-//! Many runs at once: random starts, or every start there is.
+//! Many runs at once, with random starts or with every possible start.
 
 use crate::fast::FastSearch;
 use crate::search::{Outcome, Task};
@@ -7,14 +7,14 @@ use crate::world::Cell;
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Runs that one task takes from the pool: long enough to hide its cost, short enough to share. It
-/// is the most and the least: left to itself, rayon makes pieces of a quarter of the work for two
-/// threads, and one of them then waits for the other's last.
+/// Runs per task of the thread pool: enough to hide the cost of a task, few enough to balance. It is both
+/// minimum and maximum: by default, rayon splits the work of two threads into quarters, and one thread
+/// waits for the other's last quarter.
 const RUNS_PER_TASK: usize = 64;
 
-/// The outcomes of `runs` (numbers, not a count) of a team with random starts, in their order.
+/// The outcomes of `runs` (run numbers, not a count) of a team with random starts, in their order.
 ///
-/// The same for any number of threads; they are those of the rayon pool this is called in.
+/// It uses the threads of the current rayon pool; the outcomes are the same for any number of them.
 #[must_use]
 pub fn replicate(robots: u32, runs: Range<u64>, seed: u64, task: Task) -> Vec<Outcome> {
     in_parallel(runs, task, |search, run| run_of(search, robots, seed, run))
@@ -25,14 +25,14 @@ pub(crate) fn run_of(search: &mut FastSearch, robots: u32, seed: u64, run: u64) 
     search.run((0..robots).map(|index| random_cell(seed, run, index)))
 }
 
-/// Starts that a team of `robots` can have: 289 for each robot.
+/// Number of possible starts of a team: 289 for each robot.
 #[must_use]
 pub fn number_of_starts(robots: u32) -> Option<u64> {
     (u64::from(START_CELLS) * u64::from(START_CELLS)).checked_pow(robots)
 }
 
-/// The cells of a start, by its number: the first robot's column varies slowest, the last robot's
-/// row fastest.
+/// The cells of a start, by its number. The column of the first robot varies slowest, the row of the last
+/// robot fastest.
 #[must_use]
 pub fn start_cells(robots: u32, start: u64) -> Vec<Cell> {
     let mut rest = start;

@@ -1,12 +1,12 @@
-//! A robot of the plain form, and where it starts.
+//! A robot of the plain form, and its start.
 
 use crate::heading::{Heading, Turn};
 use crate::world::{CELL_PX, Cell};
 
-/// What a robot's surroundings were at its last decision.
+/// The surroundings of a robot at its last decision.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Colour {
-    /// Nothing near.
+    /// Nothing is near.
     Blue,
     /// Something on a diagonal neighbour: about to collide.
     Yellow,
@@ -14,14 +14,14 @@ pub enum Colour {
     Red,
 }
 
-/// Speed in cells a decision. The original never starts a robot at anything but 1.
+/// Speed in cells per decision. The original starts every robot at 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Speed {
     /// Standing.
     Stopped = 0,
-    /// One cell a decision, 2 px a paint.
+    /// One cell per decision, 2 px per paint.
     Slow = 1,
-    /// Two cells a decision, 4 px a paint. No robot ever reaches it from the others.
+    /// Two cells per decision, 4 px per paint. No robot ever reaches it from the other speeds.
     Fast = 2,
 }
 
@@ -33,43 +33,43 @@ impl Speed {
     }
 }
 
-/// Where a robot starts.
+/// The start of a robot.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Start {
     /// Pixels to the right.
     pub x_px: f32,
     /// Pixels down.
     pub y_px: f32,
-    /// Where it heads.
+    /// Heading.
     pub heading: Heading,
-    /// How fast it goes.
+    /// Speed.
     pub speed: Speed,
 }
 
 impl Start {
-    /// The cell it stands on.
+    /// The cell that it occupies.
     #[must_use]
     pub fn cell(&self) -> Cell {
         cell_of(self.x_px, self.y_px)
     }
 }
 
-/// A robot of the plain form: exactly the original's state.
+/// A robot of the plain form, with exactly the state of the original.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Robot {
     /// Pixels to the right, a 32-bit float as in the original.
     pub x_px: f32,
     /// Pixels down.
     pub y_px: f32,
-    /// Where it heads.
+    /// Heading.
     pub heading: Heading,
-    /// How fast it goes.
+    /// Speed.
     pub speed: Speed,
-    /// Left turns, less what the circling penalty took off.
+    /// Left turns, reduced by the circling penalty.
     pub left_turns: i16,
-    /// Right turns, less what the circling penalty took off.
+    /// Right turns, reduced by the circling penalty.
     pub right_turns: i16,
-    /// What its surroundings were at the last decision.
+    /// Its surroundings at the last decision.
     pub colour: Colour,
     /// Chosen in phase A of a decision, made in phase B.
     pub(crate) turn: Turn,
@@ -89,14 +89,14 @@ impl Robot {
         }
     }
 
-    /// The cell it stands on.
+    /// The cell that it occupies.
     #[must_use]
     pub fn cell(&self) -> Cell {
         cell_of(self.x_px, self.y_px)
     }
 
-    /// The cells of the grid that it would look at if it decided now: left, ahead and right, near
-    /// and far.
+    /// The grid cells that it would look at in a decision now: left, ahead and right, at distances 1
+    /// and 2.
     pub fn looks(&self) -> impl Iterator<Item = Cell> + use<> {
         let (cell, looks) = (self.cell(), self.heading.looks());
         let at = move |steps| looks.map(|step| cell.ahead(step, steps)).into_iter();
@@ -104,7 +104,7 @@ impl Robot {
         near.chain(at(2).filter(move |_| cell.is_inside(2)))
     }
 
-    /// All of it that shows, for a hash.
+    /// Everything visible of it, for a hash.
     pub(crate) fn words(&self) -> [u64; 3] {
         let [x, y] = [self.x_px, self.y_px].map(|px| u64::from(px.to_bits()));
         let [left, right] = [self.left_turns, self.right_turns].map(i16::cast_unsigned);
@@ -116,7 +116,7 @@ impl Robot {
         ]
     }
 
-    /// One paint's move.
+    /// Moves by one paint.
     pub(crate) fn advance(&mut self) {
         let (x_px, y_px) = self.heading.move_px();
         let speed = f32::from(self.speed.number());
@@ -126,7 +126,7 @@ impl Robot {
         }
     }
 
-    /// Puts it exactly on its cell.
+    /// Moves it exactly onto its cell.
     #[expect(clippy::cast_precision_loss, reason = "cells are small whole numbers")]
     pub(crate) fn snap(&mut self) {
         let cell = self.cell();
@@ -134,7 +134,7 @@ impl Robot {
         self.y_px = cell.y as f32 * CELL_PX;
     }
 
-    /// Makes the turn that was chosen, and counts it.
+    /// Makes the chosen turn and counts it.
     pub(crate) fn make_turn(&mut self) {
         self.heading = self.heading.turned(self.turn);
         match self.turn {

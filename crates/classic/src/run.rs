@@ -1,4 +1,4 @@
-//! One run of a scenario, stepped by hand and changed on the way: paint by paint what studies run.
+//! A run of a scenario that is stepped paint by paint and can be changed while it runs.
 
 use crate::runner::Configuration;
 use crate::search::Search;
@@ -13,7 +13,7 @@ pub struct Run {
     seed: u64,
     number: u64,
     search: Search,
-    /// What it comes to, once that has been asked for.
+    /// Cache of [`Run::values`].
     values: OnceLock<[f64; 6]>,
 }
 
@@ -31,25 +31,25 @@ impl Run {
         }
     }
 
-    /// What it depends on.
+    /// Its configuration.
     #[must_use]
     pub fn configuration(&self) -> &Configuration {
         &self.configuration
     }
 
-    /// The robots, what they have found, and whether that is all.
+    /// The robots and their finds.
     #[must_use]
     pub fn search(&self) -> &Search {
         &self.search
     }
 
-    /// Paints so far.
+    /// Number of paints so far.
     #[must_use]
     pub fn paint(&self) -> u64 {
         self.search.simulation().paint()
     }
 
-    /// One paint; a run that is over stays as it is.
+    /// Advances by one paint. A run that is over does not change.
     pub fn step(&mut self) {
         if !self.search.is_over() {
             self.search.step();
@@ -57,8 +57,8 @@ impl Run {
         }
     }
 
-    /// Goes on with another configuration. The robots with the highest numbers leave, or more come
-    /// in where they would have started in this run.
+    /// Continues with another configuration. The robots with the highest indices leave, or new ones enter
+    /// at the starts that they have in this run.
     pub fn change(&mut self, to: Configuration) {
         let starts = random_team(to.robots, self.seed, self.number);
         self.search.change(to.task, &starts);
@@ -66,8 +66,8 @@ impl Run {
         self.values = OnceLock::new();
     }
 
-    /// What it has given so far, in the order of the [`Configuration`]'s columns; once it is over,
-    /// what studies are told of it.
+    /// The outcome so far, in the order of the columns of [`Configuration`]; after the run is over, the
+    /// outcome that a study stores.
     #[must_use]
     pub fn values(&self) -> [f64; 6] {
         *self.values.get_or_init(|| {
@@ -81,14 +81,14 @@ impl Run {
         })
     }
 
-    /// Seconds that so many paints are.
+    /// Converts paints to seconds.
     #[must_use]
     #[expect(clippy::cast_precision_loss, reason = "paints below 2^53")]
     pub fn seconds(&self, paints: u64) -> f64 {
         paints as f64 / self.configuration.clock.paints_per_s
     }
 
-    /// When each item was found, in seconds, if it was.
+    /// The time at which each item was found, in seconds; `None` if it has not been found.
     #[must_use]
     pub fn found_s(&self) -> [Option<f64>; ITEMS.len()] {
         let found_at = self.search.found_at();

@@ -1,22 +1,21 @@
-//! The classic engine behind the seam that studies use.
+//! Configurations of the classic engine, as studies run them.
 
-use crate::clock::{DECISION_PERIOD, FIRST_DECISION};
+use crate::clock::{Clock, DECISION_PERIOD, FIRST_DECISION};
 use crate::fast::FastSearch;
 use crate::replicate::run_of;
-use crate::scenario::Clock;
 use crate::search::{Outcome, Task};
 use crate::world::ITEMS;
 use base::engine::{BlockOptions, Column, ColumnKind, Runner};
 use std::ops::Range;
 
-/// All that a run depends on, besides its seed and its number.
+/// Everything that a run depends on, apart from its seed and its number.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Configuration {
     /// Team size.
     pub robots: u32,
-    /// What counts as a find, and until when.
+    /// What counts as a find, and the time limit.
     pub task: Task,
-    /// How paints are seconds.
+    /// Conversion of paints to seconds.
     pub clock: Clock,
 }
 
@@ -24,7 +23,7 @@ impl Runner for Configuration {
     #[expect(clippy::cast_precision_loss, reason = "whole numbers below 1e8")]
     fn columns(&self) -> Vec<Column> {
         let robots = f64::from(self.robots);
-        let collisions = u64::from(self.robots) * decisions_until(self.task.cap_paints);
+        let collisions = u64::from(self.robots) * decisions_until(self.task.time_limit_paints);
         let column = |name: &'static str, kind, min, max| Column {
             name: name.into(),
             kind,
@@ -65,14 +64,16 @@ impl Runner for Configuration {
 }
 
 impl Configuration {
-    /// In the order of the columns.
+    /// The values of an outcome, in the order of the columns.
     #[expect(
         clippy::cast_precision_loss,
         reason = "collisions are bounded; paints beyond 2^53 take years to compute"
     )]
     pub(crate) fn values(&self, outcome: Outcome) -> [f64; 6] {
-        let in_time = outcome.paints.filter(|at| *at <= self.task.cap_paints);
-        // The last paint within the cap may be a rounding error beyond it: see `whole_paints`.
+        let in_time = outcome
+            .paints
+            .filter(|at| *at <= self.task.time_limit_paints);
+        // The last paint within the time limit may exceed it by a rounding error: see `whole_paints`.
         let time_s =
             in_time.map(|at| (at as f64 / self.clock.paints_per_s).min(self.clock.time_limit_s));
         [
@@ -86,7 +87,7 @@ impl Configuration {
     }
 }
 
-/// Decisions that a team takes until a paint, that one included.
+/// Number of decisions of a team up to and including a paint.
 fn decisions_until(paint: u64) -> u64 {
     paint
         .checked_sub(FIRST_DECISION)
@@ -99,17 +100,17 @@ mod tests {
     use crate::contact::Contact;
     use crate::replicate::replicate;
 
-    fn configuration(robots: u32, contact: Contact, cap_paints: u64) -> Configuration {
+    fn configuration(robots: u32, contact: Contact, time_limit_paints: u64) -> Configuration {
         Configuration {
             robots,
             task: Task {
                 contact,
-                cap_paints,
+                time_limit_paints,
             },
             clock: Clock {
                 paints_per_s: 50.0,
-                time_limit_s: f64::from(u32::try_from(cap_paints).unwrap()) / 50.0,
-                cap_paints,
+                time_limit_s: f64::from(u32::try_from(time_limit_paints).unwrap()) / 50.0,
+                time_limit_paints,
             },
         }
     }
@@ -133,8 +134,10 @@ mod tests {
 
     #[test]
     fn every_run_is_within_the_columns_bounds() {
-        for (robots, cap_paints) in [(1, 0), (2, 11), (5, 12), (100, 23), (250, 300), (3, 6720)] {
-            let configuration = configuration(robots, Contact::Touch, cap_paints);
+        for (robots, time_limit_paints) in
+            [(1, 0), (2, 11), (5, 12), (100, 23), (250, 300), (3, 6720)]
+        {
+            let configuration = configuration(robots, Contact::Touch, time_limit_paints);
             let block = configuration.run_block(1, 0..200, BlockOptions::ALONE);
             for (column, values) in configuration.columns().iter().zip(block) {
                 let min = column.min.unwrap_or(f64::NEG_INFINITY);
@@ -148,7 +151,7 @@ mod tests {
     }
 
     #[test]
-    fn a_search_that_never_ends_has_failed_at_the_cap_after_infinite_paints() {
+    fn a_search_that_never_ends_has_failed_at_the_time_limit_after_infinite_paints() {
         let outcome = Outcome {
             paints: None,
             found: 3,
@@ -161,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn a_search_that_ends_beyond_the_cap_has_failed_and_its_paints_are_told() {
+    fn a_search_that_ends_beyond_the_time_limit_has_failed_and_its_paints_are_reported() {
         let outcome = Outcome {
             paints: Some(6001),
             found: 3,
@@ -174,7 +177,7 @@ mod tests {
     }
 
     #[test]
-    fn a_time_is_never_beyond_a_cap_that_floats_cannot_hold() {
+    fn a_time_is_never_beyond_a_limit_that_floats_cannot_hold() {
         let mut rounded = configuration(1, Contact::Touch, 435);
         rounded.clock.paints_per_s = 100.0;
         rounded.clock.time_limit_s = 4.35 - 1e-9;

@@ -1,4 +1,4 @@
-//! A run of the plain form, paint by paint, and what comes of it: items found, collisions, an end.
+//! A run of the plain form, paint by paint, and its outcome: items found, collisions, the end.
 
 use crate::contact::{Contact, Pose};
 use crate::heading::Heading;
@@ -7,38 +7,39 @@ use crate::simulation::{Simulation, State};
 use crate::world::{Cell, ITEMS};
 use base::hash::Hash;
 
-/// What is asked of a run.
+/// What counts as a find, and the time limit of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Task {
     /// What counts as finding an item.
     pub contact: Contact,
-    /// Finds and collisions are counted to this paint, if the run is not complete before.
-    pub cap_paints: u64,
+    /// Finds and collisions are counted up to this paint, unless the run is complete earlier.
+    pub time_limit_paints: u64,
 }
 
-/// What a run gave.
+/// The outcome of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Outcome {
-    /// The paint at which the last item was found, capped or not; `None` = proven never.
+    /// The paint at which the last item was found, within the time limit or not; `None` if it is proven
+    /// that some item is never found.
     pub paints: Option<u64>,
-    /// Items found until completion or the cap.
+    /// Items found until completion or the time limit.
     pub found: u8,
-    /// Robot-decisions spent on a cell with something else on it, until completion or the cap.
+    /// Robot-decisions spent on a cell with something else on it, until completion or the time limit.
     pub collisions: u64,
 }
 
-/// Runs the plain form from `starts`. The reference for [`crate::fast`]: slow and obvious.
+/// Runs the plain form from `starts`. It is slow, and the reference for [`crate::fast`].
 #[must_use]
 pub fn search(starts: &[Start], task: Task) -> Outcome {
     Search::new(starts, task).concluded()
 }
 
-/// A run of the plain form, and what has come of it.
+/// A run of the plain form, with its finds and collisions so far.
 #[derive(Debug, Clone)]
 pub struct Search {
     simulation: Simulation,
     task: Task,
-    /// One a robot.
+    /// One per robot.
     marks: Vec<Mark>,
     /// The paint at which each item was found.
     found_at: [Option<u64>; ITEMS.len()],
@@ -46,17 +47,17 @@ pub struct Search {
     recurrence: Recurrence,
 }
 
-/// A robot at its last decision, or as it started if it has not decided yet.
+/// A robot at its last decision; before the first decision, as it started.
 #[derive(Debug, Clone, Copy)]
 struct Mark {
     px: (f32, f32),
-    /// The heading with which it looked.
+    /// The heading in which it looked.
     looked: Heading,
     paints_since: u8,
 }
 
-/// Whether a state has come again, which is found by Brent's method: the states of decisions 1, 2,
-/// 4, 8, ... are kept, and every later one is compared with the last of them.
+/// Detects a recurring state by Brent's method: the states of decisions 1, 2, 4, 8, ... are kept, and
+/// every later state is compared with the last one kept.
 #[derive(Debug, Clone, Default)]
 struct Recurrence {
     decisions: u64,
@@ -81,29 +82,29 @@ impl Search {
         search
     }
 
-    /// The original's run.
+    /// The underlying run of the original program.
     #[must_use]
     pub fn simulation(&self) -> &Simulation {
         &self.simulation
     }
 
-    /// The paint at which each item was found, if it was.
+    /// The paint at which each item was found; `None` if it has not been found.
     #[must_use]
     pub fn found_at(&self) -> [Option<u64>; ITEMS.len()] {
         self.found_at
     }
 
-    /// Whether nothing more is counted: all is found, the cap is reached, or a state has come again,
-    /// so that what is not found never will be.
+    /// Whether the run is over: all items are found, the time limit is reached, or a state has recurred,
+    /// so that the other items will never be found.
     #[must_use]
     pub fn is_over(&self) -> bool {
-        let is_capped = self.simulation.paint >= self.task.cap_paints;
-        self.is_complete() || self.recurrence.is_proven || is_capped
+        let is_out_of_time = self.simulation.paint >= self.task.time_limit_paints;
+        self.is_complete() || self.recurrence.is_proven || is_out_of_time
     }
 
-    /// One paint, also after the run is over.
+    /// Advances by one paint, also after the run is over.
     pub fn step(&mut self) {
-        let is_counted = !self.is_complete() && self.simulation.paint < self.task.cap_paints;
+        let is_counted = !self.is_complete() && self.simulation.paint < self.task.time_limit_paints;
         let looked = self.simulation.robots.iter().map(|robot| robot.heading);
         let looked: Vec<Heading> = looked.collect();
         self.marks
@@ -122,11 +123,11 @@ impl Search {
         self.judge();
     }
 
-    /// Goes on with another task, and with a team of as many robots as there are starts: the last
-    /// ones leave, or more come in at theirs.
+    /// Continues with another task and with one robot per start: robots at the end of the list leave, or
+    /// new ones enter at their starts.
     pub fn change(&mut self, task: Task, starts: &[Start]) {
         let robots = &mut self.simulation.robots;
-        // What is proven is so for this team and this contact.
+        // A proof holds for one team and one contact definition only.
         if robots.len() != starts.len() || task.contact != self.task.contact {
             self.recurrence = Recurrence::default();
         }
@@ -136,19 +137,19 @@ impl Search {
         self.marks.truncate(robots.len());
         self.marks
             .extend(robots.iter().skip(self.marks.len()).map(Mark::new));
-        // As it was refreshed at the last decision, had these been the robots.
+        // The grid of the last decision, with the present robots.
         self.simulation
             .grid
             .refresh(self.marks.iter().map(Mark::cell));
         self.judge();
     }
 
-    /// What has come of it so far: nothing is said of when the last item is found before it is.
+    /// The outcome so far; `paints` is `None` until all items are found.
     #[must_use]
     pub fn outcome(&self) -> Outcome {
-        let cap_paints = self.task.cap_paints;
+        let time_limit_paints = self.task.time_limit_paints;
         let finds = self.found_at.iter().flatten();
-        let in_time = finds.clone().filter(|at| **at <= cap_paints);
+        let in_time = finds.clone().filter(|at| **at <= time_limit_paints);
         Outcome {
             paints: finds.max().copied().filter(|_| self.is_complete()),
             found: in_time.map(|_| 1).sum(),
@@ -156,7 +157,7 @@ impl Search {
         }
     }
 
-    /// What comes of it in the end, if it goes on without change.
+    /// The final outcome, if the run continues unchanged.
     #[must_use]
     pub fn concluded(&self) -> Outcome {
         let mut rest = self.clone();
@@ -166,7 +167,7 @@ impl Search {
         rest.outcome()
     }
 
-    /// A number that tells runs apart that differ in anything that shows, or will.
+    /// A hash of everything that is visible or affects the future of the run.
     #[must_use]
     pub fn hash(&self) -> u64 {
         let mut hash = Hash::new();
@@ -189,8 +190,8 @@ impl Search {
     }
 
     fn is_concluded(&self) -> bool {
-        let is_capped = self.simulation.paint >= self.task.cap_paints;
-        self.is_complete() || (self.recurrence.is_proven && is_capped)
+        let is_out_of_time = self.simulation.paint >= self.task.time_limit_paints;
+        self.is_complete() || (self.recurrence.is_proven && is_out_of_time)
     }
 
     fn judge(&mut self) {
@@ -217,7 +218,7 @@ impl Search {
         }
     }
 
-    /// Robots on a cell with something else on it.
+    /// Number of robots that share their cell with something else.
     fn collided(&self) -> u64 {
         let robots = self.simulation.robots.iter();
         robots.filter(|robot| robot.colour == Colour::Red).count() as u64
@@ -225,7 +226,7 @@ impl Search {
 }
 
 impl Mark {
-    /// Of a robot that stands where it has just decided, or where it starts.
+    /// The mark of a robot that has just decided, or is at its start.
     fn new(robot: &Robot) -> Self {
         Self {
             px: (robot.x_px, robot.y_px),
@@ -265,7 +266,7 @@ mod tests {
         let starts = team_on(&[Cell { x: 4, y: 16 }]);
         let task = Task {
             contact: Contact::Neighbour,
-            cap_paints: 0,
+            time_limit_paints: 0,
         };
         assert_eq!(search(&starts, task).found, 1);
     }

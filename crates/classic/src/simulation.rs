@@ -8,19 +8,19 @@ use crate::world::Grid;
 
 const DIAGONALS: [(i32, i32); 4] = [(1, 1), (1, -1), (-1, 1), (-1, -1)];
 
-/// A run of the plain form: everything the original program held, paint by paint.
+/// A run of the plain form, with the complete state of the original program.
 #[derive(Debug, Clone)]
 pub struct Simulation {
     pub(crate) robots: Vec<Robot>,
-    /// What the robots see at the next decision: where everyone stood at the last.
+    /// What the robots see at the next decision: the positions at the last decision.
     pub(crate) grid: Grid,
     /// The left-slow score of the robot that decided last; see [`crate::decision`].
     pub(crate) carry: i16,
     pub(crate) paint: u64,
 }
 
-/// What decides the whole future between two decisions. Pixels are left out: at a decision every
-/// robot stands exactly on its cell. So a state that comes again will come again for ever.
+/// The state that determines the future of a run, at a decision. Every robot is then exactly on its
+/// cell, so pixels are left out. A state that recurs once recurs forever.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct State {
     carry: i16,
@@ -42,19 +42,19 @@ impl Simulation {
         }
     }
 
-    /// Paints so far.
+    /// Number of paints so far.
     #[must_use]
     pub fn paint(&self) -> u64 {
         self.paint
     }
 
-    /// Paints until the team decides next.
+    /// Number of paints until the next decision.
     #[must_use]
     pub fn decides_in(&self) -> u64 {
         clock::decides_in(self.paint)
     }
 
-    /// The left-slow score that the robot which decided last has left to the next.
+    /// The left-slow score that the last robot to decide passes to the next one.
     #[must_use]
     pub fn carry(&self) -> i16 {
         self.carry
@@ -66,7 +66,8 @@ impl Simulation {
         &self.robots
     }
 
-    /// One paint: every robot moves; on some paints the team then decides. Says whether it did.
+    /// Advances by one paint: every robot moves, and on some paints the team then decides. Returns whether
+    /// it decided.
     pub fn step(&mut self) -> bool {
         self.paint += 1;
         self.robots.iter_mut().for_each(Robot::advance);
@@ -79,7 +80,7 @@ impl Simulation {
         is_decision
     }
 
-    /// Phase A. All look at the same grid, the one of the last decision.
+    /// Phase A. All robots look at the same grid, that of the last decision.
     fn choose(&mut self) {
         for robot in &mut self.robots {
             self.carry = decide(robot, &self.grid, self.carry);
@@ -92,7 +93,7 @@ impl Simulation {
         self.grid.refresh(self.robots.iter().map(Robot::cell));
     }
 
-    /// Phase C. Orthogonal neighbours do not count; outside the grid nothing does.
+    /// Phase C. Orthogonal neighbours and cells outside the grid do not count.
     fn colour(&mut self) {
         for robot in &mut self.robots {
             let cell = robot.cell();

@@ -1,21 +1,21 @@
-//! Where the robots of a run start.
+//! Random starts of the robots of a run.
 
 use crate::heading::Heading;
 use crate::robot::{Speed, Start};
 use crate::world::{CELL_PX, Cell};
 use base::random::{Entity, Purpose, stream};
 
-/// Robots that a team may have: what a grid cell of the fast form can count.
+/// Maximum team size: the largest count of a grid cell in the fast form.
 pub const MAX_ROBOTS: u32 = 250;
 
-/// First of the columns (and rows) on which a robot may start.
+/// First column (and row) on which a robot may start.
 pub const FIRST_CELL: u8 = 4;
 
-/// How many columns (and rows) those are: 4 to 20.
+/// Number of these columns (and rows): 4 to 20.
 pub const START_CELLS: u8 = 17;
 
-/// Where robot `index` stands at the start of a run: it depends on nothing else than these three,
-/// so that teams of different size share their robots' starts.
+/// The start cell of robot `index` in a run. It depends on these three arguments only, so that teams of
+/// different sizes share the starts of their robots.
 #[must_use]
 #[inline]
 pub fn random_cell(seed: u64, run: u64, index: u32) -> Cell {
@@ -34,7 +34,7 @@ pub fn random_team(robots: u32, seed: u64, run: u64) -> Vec<Start> {
     team_on(&cells.collect::<Vec<_>>())
 }
 
-/// A team on these cells, as the original starts it: speed 1, robot i heading 45 degrees x i.
+/// A team on these cells, as in the original: speed 1, and heading 45 degrees x i for robot i.
 #[must_use]
 #[expect(clippy::cast_precision_loss, reason = "cells are small whole numbers")]
 pub fn team_on(cells: &[Cell]) -> Vec<Start> {

@@ -1,9 +1,9 @@
-//! Everything that can be seen of a run, for comparison with the original's traces.
+//! The visible state of a run, for comparison with traces of the original.
 
 use crate::robot::{Robot, Start};
 use crate::simulation::Simulation;
 
-/// How many paints a trace shows one by one.
+/// Number of paints that a trace records one by one.
 pub const TRACED_PAINTS: u64 = 34;
 
 /// A run as the golden traces record it.
@@ -20,7 +20,7 @@ pub struct Trace {
 /// The team after one decision.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Decided {
-    /// The left-slow score handed on to the next robot that decides.
+    /// The left-slow score that is passed to the next robot.
     pub carry: i16,
     /// Hash of the grid.
     pub grid: String,

@@ -1,9 +1,9 @@
-//! The 25 x 25 world of 2003: frame, obstacles, items, and the grid that counts what is where.
+//! The world of 25 x 25 cells: frame, obstacles, items, and a grid that counts the contents of cells.
 
-/// Cells along each side; a cell's indices are 0..25, x to the right and y down.
+/// Number of cells along each side; cells are indexed 0..25, x to the right and y down.
 pub const SIZE: i32 = 25;
 
-/// Pixels along a cell's side.
+/// Side length of a cell, in pixels.
 pub const CELL_PX: f32 = 20.0;
 
 /// The four items to find.
@@ -22,7 +22,7 @@ const OBSTACLES: [[i32; 4]; 4] = [
     [12, 19, 14, 19],
 ];
 
-/// A cell, possibly outside the grid (a robot may leave it).
+/// A cell, possibly outside the grid: a robot may leave it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Cell {
     /// Columns to the right.
@@ -67,7 +67,7 @@ pub fn cells() -> impl Iterator<Item = Cell> {
     (0..SIZE).flat_map(|x| (0..SIZE).map(move |y| Cell { x, y }))
 }
 
-/// How many things stand on each cell: static content counts 1, each robot 1.
+/// Contents of each cell: 1 for static content, plus 1 for each robot.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Grid {
     counts: Vec<u32>,
@@ -89,12 +89,12 @@ impl Grid {
         }
     }
 
-    /// What stands on a cell; `None` outside the grid.
+    /// The count of a cell; `None` outside the grid.
     pub(crate) fn count(&self, cell: Cell) -> Option<u32> {
         index(cell).map(|index| self.counts[index])
     }
 
-    /// Whether anything stands on a cell; nothing stands outside the grid.
+    /// Whether a cell is occupied. Cells outside the grid are not.
     pub(crate) fn is_filled(&self, cell: Cell) -> bool {
         self.count(cell).is_some_and(|count| count > 0)
     }

@@ -1,4 +1,4 @@
-//! The fast form gives the outcomes of the plain form, for every contact, team size and cap.
+//! The fast form gives the outcomes of the plain form, for every contact, team size and time limit.
 
 use classic::start::{MAX_ROBOTS, random_cell, random_team};
 use classic::{Contact, FastSearch, Outcome, Task, search};
@@ -6,17 +6,22 @@ use classic::{Contact, FastSearch, Outcome, Task, search};
 const SEED: u64 = 2003;
 
 /// The outcome of a run, which both forms must give.
-fn agreed(robots: u32, run: u64, (name, contact): (&str, Contact), cap_paints: u64) -> Outcome {
+fn agreed(
+    robots: u32,
+    run: u64,
+    (name, contact): (&str, Contact),
+    time_limit_paints: u64,
+) -> Outcome {
     let task = Task {
         contact,
-        cap_paints,
+        time_limit_paints,
     };
     let cells = (0..robots).map(|index| random_cell(SEED, run, index));
     let fast = FastSearch::new(task).run(cells);
     let plain = search(&random_team(robots, SEED, run), task);
     assert_eq!(
         plain, fast,
-        "{name}, {robots} robots, run {run}, cap {cap_paints}"
+        "{name}, {robots} robots, run {run}, time limit {time_limit_paints}"
     );
     plain
 }
@@ -45,7 +50,7 @@ fn fast_and_plain_agree_on_the_largest_team() {
 }
 
 #[test]
-fn fast_and_plain_agree_on_where_a_cap_cuts_the_counts() {
+fn fast_and_plain_agree_on_where_a_time_limit_cuts_the_counts() {
     for contact in Contact::NAMES {
         for run in 0..400 {
             agreed(3, run, contact, run * 7 % 1000);

@@ -8,7 +8,7 @@ use classic::{Contact, Outcome, Task, replicate, search};
 
 const TASK: Task = Task {
     contact: Contact::Touch,
-    cap_paints: 6720,
+    time_limit_paints: 6720,
 };
 
 fn on_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
@@ -65,7 +65,7 @@ fn every_start_of_one_robot_ends_as_in_the_plain_form() {
     for (name, contact) in Contact::NAMES {
         let task = Task {
             contact,
-            cap_paints: 0,
+            time_limit_paints: 0,
         };
         let outcomes = exhaust(1, 0..289, task);
         for (start, outcome) in (0..).zip(&outcomes) {
@@ -86,7 +86,7 @@ fn starts_are_numbered_by_the_first_robots_column_first() {
 
 #[test]
 fn more_robots_find_all_items_sooner() {
-    // Means of 2,000 runs under a cap of 6,720 paints differ by over twenty standard errors.
+    // Means of 2,000 runs with a time limit of 6,720 paints differ by over twenty standard errors.
     let mean = |robots: u32| {
         let outcomes = replicate(robots, 0..2000, 5, TASK);
         let paints = |outcome: &Outcome| outcome.paints.unwrap_or(6720).min(6720);

@@ -1,22 +1,22 @@
 //! A run that is stepped by hand is the run that studies compute, and a changed one can be taken again.
 
 use base::engine::{BlockOptions, Runner};
-use classic::scenario::Clock;
+use classic::clock::Clock;
 use classic::{Configuration, Contact, Run, Task};
 
 const SEED: u64 = 2003;
 
-fn configuration(robots: u32, contact: Contact, cap_paints: u32) -> Configuration {
+fn configuration(robots: u32, contact: Contact, time_limit_paints: u32) -> Configuration {
     Configuration {
         robots,
         task: Task {
             contact,
-            cap_paints: cap_paints.into(),
+            time_limit_paints: time_limit_paints.into(),
         },
         clock: Clock {
             paints_per_s: 50.0,
-            time_limit_s: f64::from(cap_paints) / 50.0,
-            cap_paints: cap_paints.into(),
+            time_limit_s: f64::from(time_limit_paints) / 50.0,
+            time_limit_paints: time_limit_paints.into(),
         },
     }
 }
@@ -38,8 +38,8 @@ fn finished(mut run: Run) -> Run {
 fn a_finished_run_gives_what_studies_are_told_of_it() {
     for (robots, runs) in [(1, 60), (2, 60), (3, 40), (8, 20), (250, 1)] {
         for (_, contact) in Contact::NAMES {
-            for cap_paints in [0, 12, 700, 6720] {
-                let configuration = configuration(robots, contact, cap_paints);
+            for time_limit_paints in [0, 12, 700, 6720] {
+                let configuration = configuration(robots, contact, time_limit_paints);
                 let columns = configuration.run_block(SEED, 0..runs, BlockOptions::ALONE);
                 for (run, number) in (0..runs).enumerate() {
                     let values = finished(Run::new(configuration, SEED, number)).values();
@@ -85,9 +85,9 @@ fn changes_at_the_same_paints_give_the_same_run() {
             (12, 5, Contact::Ahead, 300),
             (200, 5, Contact::Neighbour, 9000),
         ];
-        for (paints, robots, contact, cap_paints) in changes {
+        for (paints, robots, contact, time_limit_paints) in changes {
             stepped(&mut run, paints);
-            run.change(configuration(robots, contact, cap_paints));
+            run.change(configuration(robots, contact, time_limit_paints));
             hashes.push(run.search().hash());
         }
         hashes.push(finished(run).search().hash());
@@ -119,7 +119,7 @@ fn what_was_found_by_those_who_left_stays_found() {
 }
 
 #[test]
-fn a_run_without_hope_is_over_before_its_cap_and_a_changed_team_gives_it_hope_again() {
+fn a_run_that_cannot_complete_is_over_early_and_a_changed_team_can_complete_it() {
     let runs =
         (0..200).map(|number| Run::new(configuration(1, Contact::Touch, 900_000), SEED, number));
     let stuck = runs.map(finished).find(|run| run.values()[5].is_infinite());

@@ -97,7 +97,7 @@ fn assert_same_when_judged(case: &Value) {
     let starts: Vec<Start> = starts.map(start).collect();
     let task = Task {
         contact: Contact::Touch,
-        cap_paints: 0,
+        time_limit_paints: 0,
     };
     let mut search = Search::new(&starts, task);
     for decided in case["decisions"].as_array().unwrap() {

@@ -2,8 +2,8 @@
 
 use crate::arguments::Arguments;
 use crate::long_work::in_blocks;
+use classic::clock::MAX_TIME_LIMIT_PAINTS;
 use classic::replicate::{number_of_starts, start_cells};
-use classic::scenario::MAX_CAP_PAINTS;
 use classic::start::MAX_ROBOTS;
 use classic::{Outcome, Task};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
@@ -18,7 +18,7 @@ const MAX_RUNS: u64 = 10_000_000;
 /// Outcomes of runs with random starts: arrays (runs,) of paints (-1 = proven never), found and
 /// collisions.
 #[pyfunction]
-#[pyo3(signature = (robots, runs, *, contact, cap_paints, seed, first_run, threads))]
+#[pyo3(signature = (robots, runs, *, contact, time_limit_paints, seed, first_run, threads))]
 #[expect(
     clippy::too_many_arguments,
     reason = "Python's keywords arrive one by one"
@@ -28,7 +28,7 @@ pub(crate) fn replicate<'py>(
     robots: &Bound<'py, PyAny>,
     runs: &Bound<'py, PyAny>,
     contact: &Bound<'py, PyAny>,
-    cap_paints: &Bound<'py, PyAny>,
+    time_limit_paints: &Bound<'py, PyAny>,
     seed: &Bound<'py, PyAny>,
     first_run: &Bound<'py, PyAny>,
     threads: &Bound<'py, PyAny>,
@@ -37,14 +37,20 @@ pub(crate) fn replicate<'py>(
     let robots = check.robots(robots, MAX_ROBOTS);
     let runs = check.integer("runs", runs, 0..=MAX_RUNS);
     let contact = check.contact(contact);
-    let cap_paints = check.integer("cap_paints", cap_paints, 0..=MAX_CAP_PAINTS);
+    let time_limit_paints = check.integer(
+        "time_limit_paints",
+        time_limit_paints,
+        0..=MAX_TIME_LIMIT_PAINTS,
+    );
     let seed = check.integer("seed", seed, 0..=u64::MAX);
     let first_run = check.integer("first_run", first_run, 0..=u64::MAX - MAX_RUNS);
     let threads = check.threads(threads);
-    let task = contact.zip(cap_paints).map(|(contact, cap_paints)| Task {
-        contact,
-        cap_paints,
-    });
+    let task = contact
+        .zip(time_limit_paints)
+        .map(|(contact, time_limit_paints)| Task {
+            contact,
+            time_limit_paints,
+        });
     let all = (|| Some((robots?, runs?, task?, seed?, first_run?, threads?)))();
     let (robots, runs, task, seed, first_run, threads) = check.or_errors(all)?;
     let outcomes = in_blocks(py, first_run..first_run + runs, threads, |runs| {
@@ -72,7 +78,7 @@ pub(crate) fn exhaust<'py>(
     let starts = number_of_starts(robots).unwrap_or_default();
     let task = Task {
         contact,
-        cap_paints: 0,
+        time_limit_paints: 0,
     };
     let outcomes = in_blocks(py, 0..starts, threads, |starts| {
         classic::replicate::exhaust(robots, starts, task)

@@ -13,7 +13,7 @@ use crate::error::InputErrors;
 use std::borrow::Cow;
 
 /// Largest time limit of a run, in seconds.
-pub const MAX_CAP_S: f64 = 1e6;
+pub const MAX_TIME_LIMIT_S: f64 = 1e6;
 
 /// A simulator, as scenarios see it.
 ///

@@ -1,7 +1,7 @@
 //! Published results, shown beside those of a study.
 
 use crate::document::Section;
-use crate::engine::MAX_CAP_S;
+use crate::engine::MAX_TIME_LIMIT_S;
 
 /// Published results, shown beside those of a study.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,8 +20,8 @@ pub(super) fn published(section: &Section, max_robots: u32) -> Option<Published>
     section.only(&["source", "choice", "time_limit_s", "times_s"]);
     let source = section.line("source");
     let choice = section.integer("choice", 1..=max_robots.into());
-    let time_limit_s = section.number("time_limit_s", 0.0..=MAX_CAP_S);
-    let max_s = time_limit_s.unwrap_or(MAX_CAP_S);
+    let time_limit_s = section.number("time_limit_s", 0.0..=MAX_TIME_LIMIT_S);
+    let max_s = time_limit_s.unwrap_or(MAX_TIME_LIMIT_S);
     let times_s = times_s(&section.section("times_s"), max_s, max_robots);
     Some(Published {
         source: source?,

@@ -7,7 +7,7 @@ use super::merit::{MAX_MAX, MAX_WEIGHT};
 use super::study::CONFIDENCE;
 use crate::document::Document;
 use crate::document::schema::units::annotate;
-use crate::engine::{Engine, MAX_CAP_S, Measure};
+use crate::engine::{Engine, MAX_TIME_LIMIT_S, Measure};
 use serde_json::{Map, Value as Json, json};
 
 /// The common keys of a scenario of `engine`. The terms of a figure of merit may depend on the
@@ -145,14 +145,14 @@ fn published() -> Json {
                 "description": "Time limit of the published runs; a run with this time failed.",
                 "type": "number",
                 "minimum": 0,
-                "maximum": MAX_CAP_S,
+                "maximum": MAX_TIME_LIMIT_S,
             },
             "times_s": {
                 "description": "Times of the runs, by team size.",
                 "type": "object",
                 "additionalProperties": {
                     "type": "array",
-                    "items": { "type": "number", "minimum": 0, "maximum": MAX_CAP_S },
+                    "items": { "type": "number", "minimum": 0, "maximum": MAX_TIME_LIMIT_S },
                     "minItems": 2,
                 },
             },

@@ -1,17 +1,17 @@
 //! The fast form: the same run as [`crate::search`], for studies.
 //!
 //! A team that starts on cells with speed 1 (see [`crate::start`]) moves by exactly one cell a
-//! period, so pixels need not be kept. What a robot does then depends on the three cells it looks
+//! period, so pixels need not be stored. What a robot does then depends on the three cells it looks
 //! at, on whether it has been circling, and on the carry only through one comparison: its
 //! left-slow score against the best of its other scores. Sixty-four [`tables::Rule`]s hold that,
 //! and a robot is one [`word`] to which the chosen rule adds.
 //!
-//! Cost of a robot-decision: five small loads to see, one rule, one addition, one update of the
-//! grid, and no branch that depends on what happens. The carry is the only chain from robot to
-//! robot (an and and an addition), so the processor overlaps the robots of a team.
+//! Cost of a robot-decision: five small loads, one rule, one addition, one update of the grid, and no
+//! data-dependent branch. The carry is the only dependency between robots (a bitwise AND and an
+//! addition), so the processor can overlap the robots of a team.
 //!
-//! "Never" is proven as in the plain form by a state that comes again, found by Brent's method:
-//! the state is kept at decisions 1, 2, 4, 8, ... and every later one is compared with it.
+//! As in the plain form, a recurring state proves that the run never ends. Brent's method finds it: the
+//! state is kept at decisions 1, 2, 4, 8, ... and compared with every later one.
 
 mod tables;
 mod word;
@@ -24,14 +24,13 @@ use crate::world::{Cell, ITEMS};
 use tables::{ContactTables, Grid, TABLES, Tables};
 use word::Word;
 
-/// A runner of the fast form; it keeps its memory from run to run.
+/// A runner of the fast form, which reuses its memory between runs.
 pub struct FastSearch {
     tables: &'static Tables,
     contacts: &'static ContactTables,
     task: Task,
     grid: Grid,
-    /// Where the robots stood at the last decision, where they stand after this one, and a state
-    /// to compare with.
+    /// The robots at the last decision, after the present one, and in the state that is compared with.
     robots: Vec<Word>,
     next: Vec<Word>,
     kept: Vec<Word>,
@@ -39,12 +38,12 @@ pub struct FastSearch {
     kept_carry: i32,
 }
 
-/// How far a run is, and what has been counted.
+/// The progress of a run.
 #[derive(Clone, Copy)]
 struct Tally {
     decision: u64,
     found: Found,
-    /// Without what the robots find at this decision and in the period after it.
+    /// `found` without the finds at this decision and in the period after it.
     found_before: Found,
     collisions: u64,
 }
@@ -100,16 +99,18 @@ impl FastSearch {
 
     fn search<const AFTER_TURN: bool>(&mut self) -> Outcome {
         let mut tally = self.tally_of_start();
-        let mut at_cap: Option<(Found, u64)> = None;
+        let mut at_time_limit: Option<(Found, u64)> = None;
         let mut is_never = false;
         let mut keep_at = 1;
         loop {
-            if at_cap.is_none() && clock::paint_of(tally.decision + 1) > self.task.cap_paints {
-                at_cap = Some((self.found_by_cap(&tally), tally.collisions));
+            if at_time_limit.is_none()
+                && clock::paint_of(tally.decision + 1) > self.task.time_limit_paints
+            {
+                at_time_limit = Some((self.found_in_time(&tally), tally.collisions));
             }
             let is_complete = tally.found == Found::ALL;
-            if is_complete || (is_never && at_cap.is_some()) {
-                let (found, collisions) = at_cap.unwrap_or((tally.found, tally.collisions));
+            if is_complete || (is_never && at_time_limit.is_some()) {
+                let (found, collisions) = at_time_limit.unwrap_or((tally.found, tally.collisions));
                 return Outcome {
                     paints: is_complete.then(|| self.completion_paint(&tally)),
                     found: found.count(),
@@ -140,11 +141,11 @@ impl FastSearch {
         }
     }
 
-    /// One period: every robot moves, looks at where all stood before, chooses and turns.
+    /// One period: every robot moves, looks at the previous positions, chooses and turns.
     ///
-    /// `AFTER_TURN`: contact is judged with the new heading, as [`Contact::Touch`] wants, which is
-    /// judged while the robot moves on; [`Contact::Ahead`] wants the old one, and definitions on
-    /// cells do not care.
+    /// `AFTER_TURN`: contact is judged with the new heading, as [`Contact::Touch`] needs, which is judged
+    /// while the robot moves on. [`Contact::Ahead`] needs the old heading; the other definitions do not
+    /// depend on it.
     fn decide<const AFTER_TURN: bool>(&mut self, tally: &mut Tally) {
         let Tables {
             motions,
@@ -181,7 +182,7 @@ impl FastSearch {
     }
 
     fn has_recurred(&self) -> bool {
-        // The first robot alone settles nearly every comparison.
+        // Nearly every comparison is decided by the first robot.
         self.robots.first() == self.kept.first()
             && self.carry == self.kept_carry
             && self.robots == self.kept
@@ -192,12 +193,12 @@ impl FastSearch {
         self.kept_carry = self.carry;
     }
 
-    /// What is found by the cap, which lies in the period after the tally's decision.
-    fn found_by_cap(&self, tally: &Tally) -> Found {
+    /// The finds up to the time limit, which is in the period after the tally's decision.
+    fn found_in_time(&self, tally: &Tally) -> Found {
         if !self.task.contact.is_by_paint() {
             return tally.found;
         }
-        let paints = self.task.cap_paints - clock::paint_of(tally.decision) + 1;
+        let paints = self.task.time_limit_paints - clock::paint_of(tally.decision) + 1;
         let mut found = tally.found_before;
         found |= Found::of(|item| self.first_find(item, paints).is_some());
         found

@@ -1,10 +1,10 @@
-//! What the fast form looks up instead of computing, all derived from the plain form's rules.
+//! The lookup tables of the fast form, all derived from the rules of the plain form.
 //!
-//! Two of the rules fall away, because a robot that starts at speed 0 or 1 never gets speed 2:
+//! Two of the rules are not needed, because a robot that starts at speed 0 or 1 never reaches speed 2:
 //! a fast score is at most its slow one when both begin equal and the current speed is not 2, it
 //! comes later in the order, and where the circling penalty lifts it above (left: -2 and -1) the
-//! stop's 0 is higher still. So the far look, which changes fast scores only, never decides; what
-//! is left of it is the bonus for going on at speed 1, on the cells where it is taken.
+//! stop's 0 is higher still. So the look at distance 2, which only changes fast scores, never decides;
+//! only its bonus for continuing at speed 1 remains, on the cells where it applies.
 
 use super::word::{self, LEFT_TURN, OCTANT, POSITIONS, RIGHT_TURN, SPEED, STRIDE, Word};
 use crate::clock::{DECISION_PERIOD, FIRST_DECISION};
@@ -24,7 +24,7 @@ pub(super) struct Motion {
     pub(super) looks: [u16; 3],
 }
 
-/// What a robot does, given what it sees and has done; see [`Tables::rules`].
+/// A robot's action, given its view and its past turns; see [`Tables::rules`].
 #[derive(Clone, Copy, Default)]
 pub(super) struct Rule {
     /// The next carry is `(carry & keep) + add`: the left-slow score.
@@ -33,17 +33,17 @@ pub(super) struct Rule {
     pub(super) add: i32,
     /// The robot goes left if its left-slow score is at least this, the best of the others.
     pub(super) threshold: i32,
-    /// What is added to the robot's word: if it does not go left, and if it does.
+    /// Added to the robot's word: if it does not go left, and if it does.
     pub(super) change: [Word; 2],
 }
 
-/// Everything that no contact definition changes.
+/// The tables that do not depend on the contact definition.
 pub(super) struct Tables {
-    /// Static content; beyond the 25 x 25 cells nothing.
+    /// Static content; empty outside the 25 x 25 cells.
     pub(super) grid: Grid,
     /// By [`word::motion`].
     pub(super) motions: [Motion; 16],
-    /// 1 where the far look is taken: at least two cells from the edge.
+    /// 1 where the robot looks at distance 2: at least two cells from the edge.
     pub(super) is_inner: [u8; POSITIONS],
     /// By filled cells (left 1, ahead 2, right 4), [`word::circling`] (from bit 3) and bonus (bit 5).
     pub(super) rules: [Rule; 64],
@@ -122,11 +122,11 @@ fn rule(index: usize) -> Rule {
     }
 }
 
-/// Which items are found by a robot at a position with a motion: at the decision, or for
-/// [`Contact::Touch`] in the whole period that follows it.
+/// The items that a robot finds, by its motion and position: at the decision, or for
+/// [`Contact::Touch`] in the period that follows it.
 pub(super) type Finds = [[u8; POSITIONS]; 16];
 
-/// One definition's finds.
+/// The finds of one contact definition.
 pub(super) struct ContactTables {
     /// At a decision.
     pub(super) decision: Finds,
@@ -134,7 +134,7 @@ pub(super) struct ContactTables {
     pub(super) start: Finds,
 }
 
-/// The tables of a definition; made once.
+/// The tables of a definition, computed once.
 pub(super) fn contact_tables(contact: Contact) -> &'static ContactTables {
     static ALL: [OnceLock<ContactTables>; Contact::NAMES.len()] =
         [const { OnceLock::new() }; Contact::NAMES.len()];

@@ -3,7 +3,7 @@ use crate::robot::Robot;
 use crate::simulation::Simulation;
 use crate::start::{random_cell, team_on};
 
-/// What a word says, as the plain form says it; 0 and 360 degrees are one octant.
+/// The state in a word, in terms of the plain form; 0 and 360 degrees are one octant.
 fn described(word: Word) -> (Cell, usize, usize, u32, u32) {
     let field = |shift: u32| (word >> shift & 0xf) - 3;
     (
@@ -30,7 +30,7 @@ fn plain(robot: &Robot) -> (Cell, usize, usize, u32, u32) {
 fn every_robot_is_in_the_same_state_after_every_decision_as_in_the_plain_form() {
     let task = Task {
         contact: Contact::Neighbour,
-        cap_paints: 0,
+        time_limit_paints: 0,
     };
     let mut compared = 0;
     let sizes = [1, 2, 3, 4, 6, 9, 16, 40].into_iter().cycle();

@@ -1,5 +1,4 @@
-//! A robot of the fast form, packed in one word so that a decision is one table look-up and one
-//! addition.
+//! A robot of the fast form, packed into one word: a decision is one table lookup and one addition.
 //!
 //! ```text
 //! bits 31..29   28     27..24   23..20           19..16          15..10   9..0
@@ -7,9 +6,9 @@
 //! ```
 //!
 //! * Position is `x * 32 + y`.
-//! * Turns are kept 3 higher, so that bit 3 of the field says "more than four".
-//! * The octant is on top, so that adding and subtracting one wraps round by itself.
-//! * Speed is 0 or 1: from those no robot ever gets 2 (see [`super::tables`]).
+//! * Turns are stored with an offset of 3, so that bit 3 of the field means "more than four".
+//! * The octant is on top, so that adding and subtracting one wraps around.
+//! * Speed is 0 or 1: from these, no robot reaches 2 (see [`super::tables`]).
 
 use crate::world::Cell;
 

@@ -1,4 +1,4 @@
-//! A scenario of the classic engine: what a run of the 2003 experiment is told in a TOML file.
+//! Scenarios of the classic engine, in TOML.
 //!
 //! ```toml
 //! engine = "classic"
@@ -9,46 +9,45 @@
 //! time_limit_s = 120
 //!
 //! [robots.wanderer]
-//! count = 4                               # of a single run; a study varies it
+//! count = 4                               # in a single run; a study varies it
 //! ```
 //!
 //! The keys that all engines share are in [`base::scenario`]. **What can be varied** is
-//! `robots.wanderer.count`, `clock.paints_per_s`, `clock.time_limit_s` and `contact`. **What a figure of
-//! merit can weigh**:
+//! `robots.wanderer.count`, `clock.paints_per_s`, `clock.time_limit_s` and `contact`. **The terms of a
+//! figure of merit**:
 //!
-//! | term | of a run |
+//! | term | meaning |
 //! |---|---|
 //! | `time` | seconds until the last find, at most `time_limit_s` |
 //! | `robots` | team size |
 //! | `failed` | 1 if it took longer than `time_limit_s`, else 0 |
-//! | `found` | items found until the cap, 0 to 4 |
-//! | `collisions` | robot-decisions spent on a shared cell, until completion or the cap |
-//! | `paints` | paints until the last find; infinite if it never comes, so it needs a `max` |
+//! | `found` | items found within the time limit, 0 to 4 |
+//! | `collisions` | robot-decisions spent on a shared cell, until completion or the time limit |
+//! | `paints` | paints until the last find; infinite if there is none, so it needs a `max` |
 
-mod clock;
 mod schema;
 
-pub use clock::{Clock, MAX_CAP_PAINTS};
 pub use schema::schema;
 
+use crate::clock::{Clock, MAX_TIME_LIMIT_PAINTS, PAINTS_PER_S};
 use crate::contact::Contact;
 use crate::runner::Configuration;
 use crate::search::Task;
 use crate::start::MAX_ROBOTS;
 use base::document::{Document, Section};
-use base::engine::{Engine, Measure, NamedMerit};
+use base::engine::{Engine, MAX_TIME_LIMIT_S, Measure, NamedMerit};
 use base::error::InputErrors;
 
-/// The sheet in the thesis's appendix, which forgets to divide the time by ten.
+/// The worksheet in the thesis's appendix, which does not divide the time by ten.
 const APPENDIX: NamedMerit = NamedMerit {
     name: "appendix",
     weights: &[("time", -0.3), ("robots", -0.2), ("failed", -5.0)],
 };
 
-/// A `max` for paints: the experiment's 120 s.
+/// A typical `max` for paints: the 120 s of the experiment.
 const USUAL_PAINTS: f64 = 6720.0;
 
-/// The classic engine, as scenarios name it.
+/// The classic engine.
 #[derive(Debug, Clone, Copy)]
 pub struct Classic;
 
@@ -109,10 +108,10 @@ impl Engine for Classic {
 }
 
 impl Configuration {
-    /// What a run depends on, of a document that says how it is configured.
+    /// Reads the configuration from a scenario document.
     ///
     /// # Errors
-    /// Everything that is wrong with that.
+    /// Everything that is wrong with the engine's own keys.
     pub fn read(document: &Document) -> Result<Self, InputErrors> {
         document.read(configuration)
     }
@@ -120,17 +119,31 @@ impl Configuration {
 
 fn configuration(root: &Section) -> Option<Configuration> {
     let contact = root.choice("contact", &Contact::NAMES);
-    let clock = clock::clock(&root.section("clock"));
+    let clock = clock(&root.section("clock"));
     let robots = robots(&root.section("robots"));
     let clock = clock?;
     Some(Configuration {
         robots: robots?,
         task: Task {
             contact: contact?,
-            cap_paints: clock.cap_paints,
+            time_limit_paints: clock.time_limit_paints,
         },
         clock,
     })
+}
+
+fn clock(section: &Section) -> Option<Clock> {
+    section.only(&["paints_per_s", "time_limit_s"]);
+    let paints_per_s = section.number("paints_per_s", PAINTS_PER_S);
+    let time_limit_s = section.number("time_limit_s", 0.0..=MAX_TIME_LIMIT_S);
+    let paints_per_s = paints_per_s?;
+    let clock = Clock::new(paints_per_s, time_limit_s?);
+    if clock.is_none() {
+        let allowed =
+            format!("at most {MAX_TIME_LIMIT_PAINTS} paints at {paints_per_s} paints per second");
+        section.error("time_limit_s", &allowed);
+    }
+    clock
 }
 
 fn robots(section: &Section) -> Option<u32> {
@@ -150,7 +163,7 @@ fn facts(read: &Configuration) -> Vec<(String, String)> {
     let names = Contact::NAMES.iter();
     let contact = names.filter(|(_, each)| *each == read.task.contact);
     let contact = contact.map(|(name, _)| ("contact".to_owned(), (*name).to_owned()));
-    let clock = format!("{paints_per_s} paints per second, cap {time_limit_s} s");
+    let clock = format!("{paints_per_s} paints per second, time limit {time_limit_s} s");
     contact.chain([("clock".to_owned(), clock)]).collect()
 }
 
@@ -199,7 +212,7 @@ times_s = { 10 = [120, 120], 2 = [4, 5.5] }
         let scenario = good(GOOD);
         let facts = [
             ("contact", "touch"),
-            ("clock", "56 paints per second, cap 120 s"),
+            ("clock", "56 paints per second, time limit 120 s"),
         ];
         let facts = facts.map(|(name, text)| (name.to_owned(), text.to_owned()));
         assert_eq!(scenario.configuration.facts, facts);
@@ -236,7 +249,7 @@ times_s = { 10 = [120, 120], 2 = [4, 5.5] }
         let read = document.read(configuration).unwrap();
         assert_eq!(read.robots, 9);
         assert_eq!(
-            (read.task.contact, read.task.cap_paints),
+            (read.task.contact, read.task.time_limit_paints),
             (Contact::Ahead, 415)
         );
     }
@@ -249,7 +262,7 @@ times_s = { 10 = [120, 120], 2 = [4, 5.5] }
     }
 
     #[test]
-    fn each_value_is_checked_and_the_first_bad_ones_are_told() {
+    fn each_value_is_checked_and_the_first_bad_ones_are_reported() {
         let text = GOOD.replace(
             r#""robots.wanderer.count" = "1..3, 8""#,
             r#""robots.wanderer.count" = "0..3, 249..260", "contact" = "touch,aheda,3",
@@ -296,7 +309,7 @@ times_s = { 10 = [120, 120], 2 = [4, 5.5] }
     }
 
     #[test]
-    fn a_studys_bad_keys_are_told_at_once() {
+    fn a_studys_bad_keys_are_reported_at_once() {
         let more = "delta = 0\nconfidence = 1\ndesign = \"sobol:200\"\nvary = ";
         let errors = errors(&GOOD.replace("delta = 0.05\nvary = ", more));
         for expected in [
@@ -322,7 +335,7 @@ times_s = { 10 = [120, 120], 2 = [4, 5.5] }
     }
 
     #[test]
-    fn every_error_of_a_bad_scenario_is_told_at_once() {
+    fn every_error_of_a_bad_scenario_is_reported_at_once() {
         let text = GOOD
             .replace("\"touch\"", "\"tuoch\"")
             .replace("count = 4", "count = 0")
@@ -344,7 +357,7 @@ times_s = { 10 = [120, 120], 2 = [4, 5.5] }
     }
 
     #[test]
-    fn a_cap_too_long_to_compute_is_told() {
+    fn a_time_limit_too_long_to_compute_is_an_error() {
         let text = GOOD.replace("time_limit_s = 120", "time_limit_s = 100000");
         assert!(
             errors(&text)

@@ -1,13 +1,15 @@
 //! The JSON Schema of a whole scenario file of the classic engine, for editors and pages.
 
-use super::{Classic, MAX_ROBOTS, clock};
+use super::{Classic, MAX_ROBOTS};
+use crate::clock::PAINTS_PER_S;
 use crate::contact::Contact;
 use base::document::Document;
 use base::document::schema::units::annotate;
+use base::engine::MAX_TIME_LIMIT_S;
 use base::scenario as common;
 use serde_json::{Value as Json, json};
 
-/// What a scenario may say. JSON Schema of draft 7.
+/// The schema of a scenario. JSON Schema of draft 7.
 #[must_use]
 pub fn schema() -> Json {
     let mut schema = common::schema(&Classic, &Document::default());
@@ -33,27 +35,33 @@ fn contact() -> Json {
 }
 
 fn clock() -> Json {
-    let number = |description: &str, (least, most): (f64, f64)| json!({ "description": description, "type": "number", "minimum": least, "maximum": most });
-    let paints = "Paints of the original's window that make a second.";
-    let cap = "A run that takes longer has failed, and counts as this long.";
+    let number = |description: &str, (min, max): (f64, f64)| json!({ "description": description, "type": "number", "minimum": min, "maximum": max });
+    let paints = "Repaints of the original's window per second.";
+    let limit = "A run that takes longer has failed, and counts as this long.";
     let bounds = json!({
-        "paints_per_s": number(paints, clock::PAINTS_PER_S.into_inner()),
-        "time_limit_s": number(cap, clock::CAP_S.into_inner()),
+        "paints_per_s": number(paints, PAINTS_PER_S.into_inner()),
+        "time_limit_s": number(limit, (0.0, MAX_TIME_LIMIT_S)),
     });
-    table("Seconds and paints.", &bounds)
+    table(
+        "Conversion of paints to seconds, and the time limit.",
+        &bounds,
+    )
 }
 
 fn wanderer() -> Json {
     let count = json!({
-        "description": "How many there are in a single run.",
+        "description": "Number of robots in a single run.",
         "type": "integer",
         "minimum": 1,
         "maximum": MAX_ROBOTS,
     });
-    table("The robots of 2003.", &json!({ "count": count }))
+    table(
+        "The robots of the 2003 experiment.",
+        &json!({ "count": count }),
+    )
 }
 
-/// A table that has all these keys and no others.
+/// A table with exactly these keys.
 fn table(description: &str, properties: &Json) -> Json {
     let keys: Vec<&String> = properties
         .as_object()
