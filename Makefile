@@ -65,8 +65,7 @@ endif
 endif
 
 bench: ## Speed of both simulators and the brain
-	cargo bench -p agent-economy-classic
-	cargo bench -p agent-economy-brain
+	cargo bench --locked -p agent-economy-benchmarks --bench classic --bench brain
 	cargo run --release --locked -p agent-economy-benchmarks
 
 bench-peers: ## Speed of other simulators beside ours (installs them in benchmarks/.venv)

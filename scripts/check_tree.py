@@ -15,7 +15,12 @@ ROOT = Path(__file__).resolve().parent.parent
 
 CRATE_USES = {
     "agent-economy-base": set[str](),
-    "agent-economy-benchmarks": {"agent-economy-base", "agent-economy-sim"},
+    "agent-economy-benchmarks": {
+        "agent-economy-base",
+        "agent-economy-brain",
+        "agent-economy-classic",
+        "agent-economy-sim",
+    },
     "agent-economy-brain": {"agent-economy-base"},
     "agent-economy-classic": {"agent-economy-base"},
     "agent-economy-py": {
@@ -38,6 +43,7 @@ NO_STD = "#![cfg_attr(not(test), no_std)]"
 
 CODE = {
     "benchmarks/peers": ["*.py", "*.rs"],
+    "benchmarks/benches": ["*.rs"],
     "benchmarks/src": ["*.rs"],
     "crates": ["*.rs"],
     "examples": ["*.py", "*.rs"],

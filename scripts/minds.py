@@ -76,7 +76,10 @@ STEPS = {
     "bouncing, not wandering": (Mind("wanderers", "alone"), Mind("random_bounce", "alone")),
     "memory: frontier, not bouncing": (Mind("random_bounce", "alone"), Mind("frontier", "alone")),
     "telling: frontier with radio": (Mind("frontier", "alone"), Mind("frontier", "radio")),
-    "telling: seek with radio": (Mind("bayesian_search", "alone"), Mind("bayesian_search", "radio")),
+    "telling: seek with radio": (
+        Mind("bayesian_search", "alone"),
+        Mind("bayesian_search", "radio"),
+    ),
     "rate: seek, not frontier": (Mind("frontier", "radio"), Mind("bayesian_search", "radio")),
     "beliefs: seek, not lanes": (Mind("lawnmower", "radio"), Mind("bayesian_search", "radio")),
 }

@@ -1,6 +1,6 @@
 //! Robot-decisions per second of the fast form, beside a program that does much less.
 //!
-//! `cargo bench -p agent-economy-classic`. Criterion's "elem/s" are robot-decisions per second:
+//! `cargo bench -p agent-economy-benchmarks --bench classic`. Criterion's "elem/s" are robot-decisions per second:
 //! starts, contact and proofs of "never" are included in the time and not in the count.
 //!
 //! *Speed of light*: robots that wander on the same grid, look at the same three cells and turn

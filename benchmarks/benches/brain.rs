@@ -1,6 +1,6 @@
 //! Time of one step of one brain: 16 rays, the three behaviours of the default brain.
 //!
-//! `cargo bench -p agent-economy-brain`. Each pass lets 1000 robots of a kind think once, of the
+//! `cargo bench -p agent-economy-benchmarks --bench brain`. Each pass lets 1000 robots of a kind think once, of the
 //! same percept, as a simulator does that fills one percept after the other.
 
 use brain::{Body, Brain, BrainSpec, Command, Percept, RangeRing, Reading, Scan};
