@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 import agent_economy as ae
-from agent_economy.batch import Commands, Percepts
+from agent_economy.runs.batch import Commands, Percepts
 from brain_in_python import LONGEST_TURN_S, LOOKS_RAD, NEAR_M, Wanderer
 
 

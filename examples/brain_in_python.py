@@ -5,7 +5,7 @@ more than that would.
 """
 
 import agent_economy as ae
-from agent_economy.brain import Body, Command, Percept
+from agent_economy.runs.brain import Body, Command, Percept
 
 NEAR_M = 0.8
 LOOKS_RAD = 0.6

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from agent_economy import Batch, Scenario, Simulation
-from agent_economy.batch import Commands, Percepts
-from agent_economy.brain import Body, Command, Percept
+from agent_economy.runs.batch import Commands, Percepts
+from agent_economy.runs.brain import Body, Command, Percept
 
 FIELD = """
 engine = "metric"

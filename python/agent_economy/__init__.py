@@ -10,14 +10,14 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from agent_economy import classic, study
     from agent_economy._core import InputError
-    from agent_economy.batch import Batch
-    from agent_economy.brain import Brain
-    from agent_economy.classic_simulation import ClassicSimulation
-    from agent_economy.outcome import Outcome
+    from agent_economy.api import replicate, run
     from agent_economy.recording import Recording, Rerun, rerun
-    from agent_economy.runs import replicate, run
+    from agent_economy.runs.batch import Batch
+    from agent_economy.runs.brain import Brain
+    from agent_economy.runs.classic_simulation import ClassicSimulation
+    from agent_economy.runs.outcome import Outcome
+    from agent_economy.runs.simulation import Simulation
     from agent_economy.scenario import Scenario
-    from agent_economy.simulation import Simulation
     from agent_economy.study.errors import StudyError
 
     __version__: str
@@ -42,19 +42,19 @@ __all__ = [
 ]
 
 _HOMES = {
-    "Batch": "agent_economy.batch",
-    "Brain": "agent_economy.brain",
-    "ClassicSimulation": "agent_economy.classic_simulation",
+    "Batch": "agent_economy.runs.batch",
+    "Brain": "agent_economy.runs.brain",
+    "ClassicSimulation": "agent_economy.runs.classic_simulation",
     "InputError": "agent_economy._core",
-    "Outcome": "agent_economy.outcome",
+    "Outcome": "agent_economy.runs.outcome",
     "Recording": "agent_economy.recording",
     "Rerun": "agent_economy.recording",
     "Scenario": "agent_economy.scenario",
-    "Simulation": "agent_economy.simulation",
+    "Simulation": "agent_economy.runs.simulation",
     "StudyError": "agent_economy.study.errors",
-    "replicate": "agent_economy.runs",
+    "replicate": "agent_economy.api",
     "rerun": "agent_economy.recording",
-    "run": "agent_economy.runs",
+    "run": "agent_economy.api",
 }
 
 

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from agent_economy.brain import Body, Command, Percept
+from agent_economy.runs.brain import Body, Command, Percept
 
 SMALL = """
 engine = "metric"

@@ -11,9 +11,10 @@ from bumpers import SMALL, Ahead, Talker
 from metric import ENDLESS, search
 
 import agent_economy as ae
-from agent_economy import Batch, InputError, Scenario, Simulation, batch
-from agent_economy.batch import Commands, Percepts
-from agent_economy.brain import Body, Command, Percept
+from agent_economy import Batch, InputError, Scenario, Simulation
+from agent_economy.runs import batch
+from agent_economy.runs.batch import Commands, Percepts
+from agent_economy.runs.brain import Body, Command, Percept
 
 
 class Shy(Ahead):
@@ -285,7 +286,9 @@ def test_only_the_sender_itself_has_a_course() -> None:
         outbox = {"row": rows, "confidence": 1.0, "item_kind": [-1, 0], "at": [3, 4]}
         return {"motion": STAND, "outbox": {**outbox, "heading_rad": 0.5}}  # type: ignore[typeddict-item]
 
-    simulation = Simulation(Scenario.loads(SMALL).replace("robots.bumper.radio.loss_probability", 0.0))
+    simulation = Simulation(
+        Scenario.loads(SMALL).replace("robots.bumper.radio.loss_probability", 0.0)
+    )
     simulation = Simulation(simulation.scenario, brains={"bumper": Batch(tell)})
     simulation.step(40)
     courses = [told["heading_rad"].tolist() for told in heard if len(told["row"])]

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import agent_economy as ae
-from agent_economy import brain, thoughts
-from agent_economy.brain import Body, Percept
+from agent_economy.runs import belief_state, brain
+from agent_economy.runs.brain import Body, Percept
 
 ROVER: Body = {
     "radius_m": 0.25,
@@ -194,7 +194,7 @@ def test_the_types_have_the_names_of_the_rust_types(name: str) -> None:
         if "properties" not in here:
             continue
         python_name = "Reading" if each.startswith("Reading") else each
-        python_type = getattr(brain, python_name, None) or getattr(thoughts, python_name)
+        python_type = getattr(brain, python_name, None) or getattr(belief_state, python_name)
         assert names(here) == set(python_type.__annotations__), each
 
 

@@ -217,7 +217,10 @@ def test_a_folder_without_a_study_is_told(command: list[str], tmp_path: Path) ->
     [
         (["--set", "contact=nose"], '--set contact: contact = "nose": must be one of "neighbour"'),
         (["--set", "contact='nose'"], '--set contact: contact = "nose": must be one of'),
-        (["--set", "clock.time_limit_s=-5"], "--set clock.time_limit_s: clock.time_limit_s = -5: must be a number"),
+        (
+            ["--set", "clock.time_limit_s=-5"],
+            "--set clock.time_limit_s: clock.time_limit_s = -5: must be a number",
+        ),
         (["--set", "clock.time_limit_s={a=1}"], "clock.time_limit_s = {...}: must be a number"),
         (["--set", "clock.caps=5"], "clock.caps is not a known key: expected one of"),
         (["--set", "clock.time_limit_s"], "--set = 'clock.time_limit_s': must be PATH=VALUE"),

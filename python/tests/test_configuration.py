@@ -115,12 +115,18 @@ def test_no_runs_are_a_block_too(scenario: Scenario) -> None:
 def test_replace_gives_the_scenario_with_another_value(scenario: Scenario) -> None:
     changed = scenario.replace("clock.time_limit_s", 60).replace("contact", "ahead")
     changed = changed.replace("study.vary.clock.paints_per_s", "50,41.5")
-    assert (changed.time_limit_s, changed.facts[0], scenario.time_limit_s) == (60, ("contact", "ahead"), 120)
+    assert (changed.time_limit_s, changed.facts[0], scenario.time_limit_s) == (
+        60,
+        ("contact", "ahead"),
+        120,
+    )
     rates = [factor.values for factor in changed.factors]
     assert rates == [(1, 2, 3, 4, 5, 6, 7, 8), (41.5, 50)]
     assert changed.configuration({}).columns[0] == ("time_s", "real", 0.0, 60.0)
     assert changed.replace("clock.time_limit_s", 90).time_limit_s == 90
-    with pytest.raises(InputError, match="^replace: clock.time_limit_s = -1: must be a number from 0"):
+    with pytest.raises(
+        InputError, match="^replace: clock.time_limit_s = -1: must be a number from 0"
+    ):
         scenario.replace("clock.time_limit_s", -1)
 
 

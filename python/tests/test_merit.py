@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from agent_economy import InputError, Scenario, study
-from agent_economy.merit import Merit, Term
+from agent_economy.scenario.merit import Merit, Term
 
 numbers = st.floats(-1e9, 1e9)
 

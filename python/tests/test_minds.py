@@ -14,7 +14,7 @@ from metric import ENDLESS, FULL, search
 
 import agent_economy as ae
 from agent_economy import Brain, InputError, Scenario, Simulation
-from agent_economy.brain import Body, Command, Percept
+from agent_economy.runs.brain import Body, Command, Percept
 
 
 def shipped(scenario: Scenario) -> dict[str, Any]:

@@ -8,8 +8,8 @@ import pytest
 from metric import search
 
 from agent_economy import Brain, InputError, Scenario, Simulation
-from agent_economy.brain import Command, Percept
 from agent_economy.recording.metric_writer import moment_of
+from agent_economy.runs.brain import Command, Percept
 
 STOP: Command = {"motion": {"speed_m_s": 0.0, "turn_rate_rad_s": 0.0}, "requests": [], "outbox": []}
 

@@ -22,7 +22,7 @@ from test_cli import run
 
 import agent_economy as ae
 from agent_economy import InputError, Scenario
-from agent_economy.brain import Command, Percept
+from agent_economy.runs.brain import Command, Percept
 
 SCENARIOS = ROOT / "scenarios"
 
@@ -261,7 +261,9 @@ def test_each_find_is_written_some_twenty_times_a_topic_and_not_all_items(tmp_pa
 
 
 def test_what_happens_to_robots_is_in_the_log_and_in_their_colours(tmp_path: Path) -> None:
-    crowded = search({"robots.rover.count": 20, "robots.rover.collision.max_collisions": 1, **SHORT})
+    crowded = search(
+        {"robots.rover.count": 20, "robots.rover.collision.max_collisions": 1, **SHORT}
+    )
     path = tmp_path / "run.mcap"
     outcome = ae.run(crowded.replace("world.size_m", [26, 25]), 1, record=path)
     topics = contents(path).topics

@@ -138,7 +138,9 @@ def test_any_kind_of_value_reaches_the_check(classic_toml: Path) -> None:
         with pytest.raises(InputError) as caught:
             scenario.replace("clock.time_limit_s", value)
         assert f"replace: clock.time_limit_s = {shown}: must be a number" in str(caught.value)
-    with pytest.raises(InputError, match="replace: clock.time_limit_s.a = None: must be a text, a number"):
+    with pytest.raises(
+        InputError, match="replace: clock.time_limit_s.a = None: must be a text, a number"
+    ):
         scenario.replace("clock.time_limit_s", {"a": None})
 
 

@@ -7,8 +7,9 @@ from pathlib import Path
 import pytest
 
 import agent_economy as ae
-from agent_economy import _core, scenario, study
-from agent_economy.shipped import find
+from agent_economy import _core, study
+from agent_economy.scenario import source
+from agent_economy.scenario.bundled import find
 
 YAML = """image: room.pgm
 resolution: 1
@@ -111,17 +112,21 @@ def test_a_map_may_be_as_large_as_its_reader_takes(
     monkeypatch.setattr(_core, "MAX_IMAGE_BYTES", size)
     assert ae.Scenario.load(room).source.files
     monkeypatch.setattr(_core, "MAX_IMAGE_BYTES", size - 1)
-    with pytest.raises(ae.InputError, match=rf"room.toml:6: .* more than the {size - 1} bytes"):
+    with pytest.raises(
+        ae.InputError, match=rf"room.toml:6: .* larger than the limit of {size - 1} bytes"
+    ):
         ae.Scenario.load(room)
 
 
 def test_a_file_that_is_too_large_for_a_scenario_is_not_read_to_its_end(tmp_path: Path) -> None:
     with (tmp_path / "large.toml").open("wb") as large:
         large.truncate(2**40)
-    with pytest.raises(ae.InputError, match=f"large.toml: .* more than the {scenario.MAX_BYTES:,}"):
+    with pytest.raises(
+        ae.InputError, match=f"large.toml: .* larger than the limit of {source.MAX_BYTES:,}"
+    ):
         ae.Scenario.load(tmp_path / "large.toml")
     with (tmp_path / "large.toml").open("r+b") as large:
-        large.write(scenario.RECORDING)
+        large.write(source.RECORDING_MAGIC)
     with pytest.raises(ae.InputError, match="is a recording"):
         ae.Scenario.load(tmp_path / "large.toml")
 

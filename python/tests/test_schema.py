@@ -9,11 +9,11 @@ from typing import Any
 import pytest
 from jsonschema import Draft7Validator
 
-from agent_economy import shipped
+from agent_economy.scenario import bundled
 
-SCHEMAS = Path(shipped.__file__).parent / "schemas"
+SCHEMAS = Path(bundled.__file__).parent / "schemas"
 
-METRIC = [file for file in shipped.scenarios().values() if 'engine = "metric"' in file.read_text()]
+METRIC = [file for file in bundled.scenarios().values() if 'engine = "metric"' in file.read_text()]
 
 
 @pytest.fixture(scope="module")
@@ -51,7 +51,7 @@ SPOILED = [
 
 @pytest.mark.parametrize(("good", "bad"), SPOILED)
 def test_spoiled_scenarios_are_not_valid(good: str, bad: str, validator: Draft7Validator) -> None:
-    text = shipped.scenarios()["search"].read_text(encoding="utf-8")
+    text = bundled.scenarios()["search"].read_text(encoding="utf-8")
     assert good in text
     assert not validator.is_valid(tomllib.loads(text.replace(good, bad)))
 

@@ -9,9 +9,10 @@ from typing import Any
 import pytest
 from jsonschema import Draft7Validator
 
-from agent_economy import InputError, Scenario, _core, shipped
+from agent_economy import InputError, Scenario, _core
+from agent_economy.scenario import bundled
 
-TEXT = shipped.scenarios()["classic"].read_text(encoding="utf-8")
+TEXT = bundled.scenarios()["classic"].read_text(encoding="utf-8")
 
 NUMBERS = {
     "robots.wanderer.count": ("robots", "wanderer", "count"),
@@ -23,7 +24,7 @@ NUMBERS = {
 
 @pytest.fixture(scope="module")
 def schema() -> dict[str, Any]:
-    file = Path(shipped.__file__).parent / "schemas" / "classic.schema.json"
+    file = Path(bundled.__file__).parent / "schemas" / "classic.schema.json"
     read: dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
     Draft7Validator.check_schema(read)
     return read

@@ -91,7 +91,9 @@ def test_a_map_outside_of_the_folder_is_not_read(client: TestClient) -> None:
 def test_faults_of_a_text_are_told_with_their_lines(client: TestClient) -> None:
     text = ae.Scenario.load("search").source.text
     assert client.post("/api/check", content=text).json()["engine"] == "metric"
-    wrong = text.replace("time_limit_s = 120", "time_limit_s = -1").replace("count = 4", "cuont = 4", 1)
+    wrong = text.replace("time_limit_s = 120", "time_limit_s = -1").replace(
+        "count = 4", "cuont = 4", 1
+    )
     faults = client.post("/api/check", content=wrong).json()["faults"]
     told = {fault["path"].split(".")[-1]: fault for fault in faults}
     line = 1 + wrong[: wrong.index("time_limit_s = -1")].count("\n")

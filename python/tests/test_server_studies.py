@@ -567,7 +567,11 @@ def test_what_can_be_varied_is_told_with_its_bounds(folder: Folder) -> None:
         "values": None,
         "varied": "1..8",
     }
-    assert {each["path"] for each in others} == {"clock.paints_per_s", "clock.time_limit_s", "contact"}
+    assert {each["path"] for each in others} == {
+        "clock.paints_per_s",
+        "clock.time_limit_s",
+        "contact",
+    }
     text = Scenario.load("search").source.text
     told = folder.post("/api/factors", text=text)
     speed = next(each for each in told["factors"] if each["path"].endswith("max_speed_m_s"))

@@ -16,12 +16,12 @@ from watching import WS, Page
 
 import agent_economy as ae
 from agent_economy import _core
-from agent_economy.brain import Command
+from agent_economy.runs.brain import Command
+from agent_economy.runs.stepped import Change
 from agent_economy.server import Workspace
 from agent_economy.server.recordings.store import FOLDER, RecordingStore
 from agent_economy.server.recordings.writer import RecordingWriter
 from agent_economy.server.runs.timeline import Timeline
-from agent_economy.stepped import Change
 
 COUNT = "robots.rover.count"
 FOREVER_S = 60.0

@@ -5,12 +5,13 @@ from contextlib import suppress
 import pytest
 
 import agent_economy as ae
-from agent_economy import _core, begin
+from agent_economy import _core
 from agent_economy.recording.reading import Point, Recorded
+from agent_economy.runs import factory
+from agent_economy.runs.stepped import Change
 from agent_economy.server.runs import snapshots
 from agent_economy.server.runs.snapshots import FIRST_INTERVAL, MAX_SNAPSHOTS
 from agent_economy.server.runs.timeline import Timeline
-from agent_economy.stepped import Change
 
 FOREVER_S = 60.0
 
@@ -239,7 +240,7 @@ def test_a_run_ends_where_it_is_over_however_fast_it_goes(name: str) -> None:
     scenario = ae.Scenario.load(name)
     timeline = Timeline(scenario, 7)
     assert timeline.seek(10_000, FOREVER_S)
-    simulation = begin.begun(scenario, 7, 0)
+    simulation = factory.create(scenario, 7, 0)
     while not simulation.is_over:
         simulation.step()
     assert timeline.latest_tick == timeline.tick == simulation.tick < 10_000
@@ -255,7 +256,11 @@ def test_a_long_way_is_gone_in_pieces_of_the_time_that_there_is() -> None:
 
 
 def test_snapshots_are_thinned_out_and_all_moments_can_still_be_gone_to() -> None:
-    long = ae.Scenario.load("search").replace("clock.time_limit_s", 10_000).replace("items.mine.count", 0)
+    long = (
+        ae.Scenario.load("search")
+        .replace("clock.time_limit_s", 10_000)
+        .replace("items.mine.count", 0)
+    )
     timeline = Timeline(long, 1)
     end = FIRST_INTERVAL * (MAX_SNAPSHOTS + 10)
     last = hashes(timeline, [end])

@@ -7,7 +7,7 @@ use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use sim::step::PendingDecision;
 
-/// Arrays as `agent_economy.batch` has checked them; `row` is the place of an entry's robot.
+/// Arrays as `agent_economy.runs.batch` has checked them; `row` is the place of an entry's robot.
 #[derive(FromPyObject)]
 pub(crate) struct Commands<'py> {
     speed_m_s: PyReadonlyArray1<'py, f64>,

@@ -6,8 +6,8 @@ from typing import Annotated, Any
 import typer
 
 from agent_economy._core import InputError
-from agent_economy.given import check
 from agent_economy.scenario import Override
+from agent_economy.scenario.validation import check
 
 Sets = Annotated[
     list[str] | None,

@@ -18,7 +18,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from agent_economy import runs
+from agent_economy import api
 from agent_economy._core import InputError
 from agent_economy.cli.gauge import gauge
 from agent_economy.cli.given import Seed, Sets, overrides
@@ -127,7 +127,7 @@ def watched(scenario: Scenario, count: int, seed: int, threads: int | None) -> p
         while done < count:
             tell(done)
             part = min(part, count - done)
-            tables.append(runs.replicate(scenario, part, seed, threads, first_run=done))
+            tables.append(api.replicate(scenario, part, seed, threads, first_run=done))
             done += part
             rate = done / max(time.monotonic() - begin, 1e-9)
             part = max(least, int(rate * PART_S))

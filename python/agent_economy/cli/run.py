@@ -11,16 +11,16 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from agent_economy import runs
+from agent_economy import api
 from agent_economy._core import InputError
-from agent_economy.begin import begun
 from agent_economy.cli.gauge import gauge
 from agent_economy.cli.given import Seed, Sets, overrides
 from agent_economy.cli.told import FAILED, faults_told
-from agent_economy.outcome import Outcome
+from agent_economy.runs import factory
+from agent_economy.runs.outcome import Outcome
+from agent_economy.runs.simulation import Simulation
+from agent_economy.runs.stepped import Stepped
 from agent_economy.scenario import Scenario
-from agent_economy.simulation import Simulation
-from agent_economy.stepped import Stepped
 
 
 def run(  # noqa: PLR0913  (typer's options are arguments)
@@ -72,7 +72,9 @@ def run(  # noqa: PLR0913  (typer's options are arguments)
         if record is None:
             outcome = watched(given, seed, number)
         else:
-            outcome = recorded(begun(given, seed, number), record, every or 1, percepts or [])
+            outcome = recorded(
+                factory.create(given, seed, number), record, every or 1, percepts or []
+            )
     if as_json:
         typer.echo(json.dumps({"seed": seed, "status": outcome.status, **outcome.row}, indent=2))
     else:
@@ -93,12 +95,12 @@ def of_recordings_only(options: Mapping[str, object]) -> None:
 def watched(scenario: Scenario, seed: int, number: int) -> Outcome:
     """Run once, and show how far it is if that takes long."""
     if scenario.engine != "metric":
-        return runs.run(scenario, seed, number)
+        return api.run(scenario, seed, number)
     try:
         simulation = Simulation(scenario, seed, number)
     except InputError as no_room:
         # A run that cannot begin is quarantined, as in a table of runs; what is not allowed is not.
-        outcome = runs.run(scenario, seed, number)
+        outcome = api.run(scenario, seed, number)
         typer.echo(str(no_room), err=True)
         return outcome
     return shown(simulation, simulation.step)

@@ -5,9 +5,8 @@ from typing import Annotated
 
 import typer
 
-from agent_economy import shipped
 from agent_economy.cli.told import faults_told
-from agent_economy.scenario import Scenario
+from agent_economy.scenario import Scenario, bundled
 
 
 def scenarios(
@@ -28,7 +27,7 @@ def scenarios(
                 "summary": scenario.summary,
                 "file": str(file),
             }
-            for name, file in shipped.scenarios().items()
+            for name, file in bundled.scenarios().items()
             for scenario in [Scenario.load(file)]
         ]
     if as_json:

@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 
 from agent_economy import _core
-from agent_economy.brain import Command, Percept
 from agent_economy.recording import schemas
 from agent_economy.recording.file import File, strict
 from agent_economy.recording.foxglove import SECOND_NS, scan
-from agent_economy.simulation import Simulation
+from agent_economy.runs.brain import Command, Percept
+from agent_economy.runs.simulation import Simulation
 
 
 class Minds:

@@ -8,10 +8,6 @@ import numpy as np
 import pyarrow as pa
 from foxglove_schemas_protobuf.SceneEntity_pb2 import SceneEntity
 
-from agent_economy import given
-from agent_economy.brain import Command, Percept
-from agent_economy.classic_simulation import COLOURS, ClassicSimulation
-from agent_economy.classic_world import CELL_PX, CELLS, RADIUS, WORLD, middle
 from agent_economy.recording import schemas
 from agent_economy.recording.file import File
 from agent_economy.recording.foxglove import WORLD as FRAME
@@ -19,6 +15,10 @@ from agent_economy.recording.foxglove import color, cube, scene
 from agent_economy.recording.item_scene import Floats, Items
 from agent_economy.recording.robot_scene import BLUE, RED, YELLOW, Frames, robot
 from agent_economy.recording.static_scene import OBSTACLE, WALL_M, half_turn_of
+from agent_economy.runs.brain import Command, Percept
+from agent_economy.runs.classic_simulation import COLOURS, ClassicSimulation
+from agent_economy.runs.classic_world import CELL_PX, CELLS, RADIUS, WORLD, middle
+from agent_economy.scenario import validation
 
 TOPICS = {
     "/run": schemas.CLASSIC_RUN,
@@ -83,7 +83,7 @@ class ClassicMoments:
             InputError: If there are percepts or commands.
         """
         for name, each in {"percepts": percepts, "commands": commands}.items():
-            given.check(each is None, name, each, MINDLESS)
+            validation.check(each is None, name, each, MINDLESS)
         self._simulation.step(steps)
         return {}
 
@@ -114,7 +114,7 @@ class ClassicMoments:
 
 def faults(_: ClassicSimulation, percepts: Sequence[str]) -> list[str]:
     """Return what is wrong with the names of robots whose percepts are to be recorded."""
-    return given.fault(not percepts, "percepts", list(percepts), MINDLESS)
+    return validation.errors_unless(not percepts, "percepts", list(percepts), MINDLESS)
 
 
 def walls() -> SceneEntity:

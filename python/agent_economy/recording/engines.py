@@ -3,13 +3,13 @@
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple, Protocol
 
-from agent_economy.brain import Command, Percept
-from agent_economy.classic_simulation import ClassicSimulation
 from agent_economy.recording import classic_writer, metric_writer
 from agent_economy.recording.classic_writer import ClassicMoments
 from agent_economy.recording.file import File
 from agent_economy.recording.metric_writer import MetricMoments
-from agent_economy.simulation import Simulation
+from agent_economy.runs.brain import Command, Percept
+from agent_economy.runs.classic_simulation import ClassicSimulation
+from agent_economy.runs.simulation import Simulation
 
 
 class Moments(Protocol):

@@ -4,8 +4,8 @@ import json
 from collections.abc import Mapping
 from typing import Any, NoReturn
 
-from agent_economy import given
 from agent_economy._core import InputError
+from agent_economy.scenario import validation
 
 DIGITS = 20
 """Of 2^64, and no number of a recording is larger."""
@@ -35,7 +35,9 @@ class Entries:
             InputError: If there is none.
         """
         value = self._of(name)
-        return value if given.is_text(value) else self.refuse(f"{name} = {shown(value)}, no text")
+        return (
+            value if validation.is_text(value) else self.refuse(f"{name} = {shown(value)}, no text")
+        )
 
     def whole(self, name: str) -> int:
         """Return a whole number, 0 or more; metadata has such as texts.
@@ -46,7 +48,7 @@ class Entries:
         value = self._of(name)
         if isinstance(value, str) and value.isascii() and value.isdigit() and len(value) <= DIGITS:
             return int(value)
-        is_whole = given.is_whole(value, 0)
+        is_whole = validation.is_whole(value, 0)
         return int(value) if is_whole else self.refuse(f"{name} = {shown(value)}, no whole number")
 
     def json(self, name: str) -> Any:

@@ -5,12 +5,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from agent_economy import __version__, _core, given
+from agent_economy import __version__, _core
 from agent_economy._core import InputError
 from agent_economy.recording.fields import Entries
 from agent_economy.recording.file import File, strict
-from agent_economy.scenario import Override, Scenario, Source
-from agent_economy.stepped import Change, Stepped
+from agent_economy.runs.stepped import Change, Stepped
+from agent_economy.scenario import Override, Scenario, Source, validation
 
 FORMAT = "1"
 
@@ -133,7 +133,7 @@ def is_override(row: object) -> bool:
     """Return whether something is a path, as keys, and a value."""
     match row:
         case [[_, *_] as keys, _]:
-            return all(map(given.is_text, keys))
+            return all(map(validation.is_text, keys))
         case _:
             return False
 

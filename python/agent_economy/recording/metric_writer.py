@@ -7,7 +7,6 @@ import numpy as np
 from foxglove_schemas_protobuf.Log_pb2 import Log
 
 from agent_economy import _core
-from agent_economy.brain import Command, Percept
 from agent_economy.recording import schemas
 from agent_economy.recording.brain_topics import Minds
 from agent_economy.recording.file import File
@@ -15,7 +14,8 @@ from agent_economy.recording.foxglove import log, scene
 from agent_economy.recording.item_scene import Items
 from agent_economy.recording.robot_scene import BLUE, RED, YELLOW, Frames, robot
 from agent_economy.recording.static_scene import grid, still
-from agent_economy.simulation import STATUSES, Simulation
+from agent_economy.runs.brain import Command, Percept
+from agent_economy.runs.simulation import STATUSES, Simulation
 
 Moment = Mapping[str, Any]
 """What changes in a run: see `recorded_moment` of the compiled part."""

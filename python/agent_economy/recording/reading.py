@@ -15,7 +15,7 @@ from mcap.stream_reader import StreamReader
 from agent_economy._core import InputError
 from agent_economy.recording.fields import Entries
 from agent_economy.recording.identity import CHANGE, RUN, Identity, read_change, read_identity
-from agent_economy.stepped import Change
+from agent_economy.runs.stepped import Change
 
 MAX_BYTES = 2**30
 """Of one record: an attached map and some more."""

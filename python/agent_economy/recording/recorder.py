@@ -6,17 +6,16 @@ from typing import Self
 
 from foxglove_schemas_protobuf.Log_pb2 import Log
 
-from agent_economy import given
 from agent_economy._core import InputError
-from agent_economy.brain import Command, Percept
-from agent_economy.outcome import Outcome
 from agent_economy.recording import engines
 from agent_economy.recording.clock import Clock
 from agent_economy.recording.file import File
 from agent_economy.recording.foxglove import SECOND_NS, log
 from agent_economy.recording.identity import write_change, write_end, write_files, write_identity
-from agent_economy.scenario import Source
-from agent_economy.stepped import Stepped
+from agent_economy.runs.brain import Command, Percept
+from agent_economy.runs.outcome import Outcome
+from agent_economy.runs.stepped import Stepped
+from agent_economy.scenario import Source, validation
 
 ENDING = ".mcap"
 """Of the names of recordings."""
@@ -60,8 +59,8 @@ class Recording:
         Raises:
             InputError: If an argument is not allowed, or the file cannot be written.
         """
-        chosen = given.texts("percepts", percepts, "a list of robots' names")
-        path = given.path("path", path)
+        chosen = validation.texts("percepts", percepts, "a list of robots' names")
+        path = validation.path("path", path)
         self._engine = check(simulation, path, every, chosen)
         self.simulation = simulation
         self._every, self._chosen = every, chosen
@@ -94,7 +93,7 @@ class Recording:
         self._keep_up()
         if percepts is not None or commands is not None:
             return self._step(steps, percepts, commands)
-        given.check(given.is_whole(steps, 0), "steps", steps, "a whole number, 0 or more")
+        validation.check(validation.is_whole(steps, 0), "steps", steps, "a whole number, 0 or more")
         for _ in range(steps):
             tick = self.simulation.tick
             self._step(1, None, None)
@@ -204,8 +203,10 @@ def check(simulation: Stepped, path: Path, every: int, percepts: Sequence[str]) 
     if engine:
         faults += engine.faults(simulation, percepts)
     runs = "a Simulation or a ClassicSimulation"
-    faults += given.fault(engine is not None, "simulation", simulation, runs)
-    faults += given.fault(given.is_whole(every, 1), "every", every, "a whole number, 1 or more")
+    faults += validation.errors_unless(engine is not None, "simulation", simulation, runs)
+    faults += validation.errors_unless(
+        validation.is_whole(every, 1), "every", every, "a whole number, 1 or more"
+    )
     if faults or engine is None:
         raise InputError("\n".join(faults))
     return engine

@@ -5,13 +5,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from agent_economy import given
-from agent_economy.begin import begun
-from agent_economy.outcome import Outcome
 from agent_economy.recording.identity import Identity
 from agent_economy.recording.reading import Recorded, named, read
-from agent_economy.scenario import Scenario
-from agent_economy.stepped import Change, Stepped
+from agent_economy.runs import factory
+from agent_economy.runs.outcome import Outcome
+from agent_economy.runs.stepped import Change, Stepped
+from agent_economy.scenario import Scenario, validation
 
 
 @dataclass(frozen=True)
@@ -56,10 +55,10 @@ def rerun(path: str | Path) -> Rerun:
         InputError: If the file cannot be read, is damaged, is no recording of a run, or this
             version does not take its scenario any more.
     """
-    path = given.path("path", path)
+    path = validation.path("path", path)
     identity, recorded = read(path)
     with named(path):
-        simulation = begun(identity.scenario, identity.seed, identity.run)
+        simulation = factory.create(identity.scenario, identity.seed, identity.run)
         return compared(simulation, identity, recorded)
 
 

@@ -89,10 +89,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from agent_economy import given
 from agent_economy._core import InputError
-from agent_economy.scenario import Given
-from agent_economy.stepped import Change as LoggedChange
+from agent_economy.runs.stepped import Change as LoggedChange
+from agent_economy.scenario import TomlValue, validation
 
 MAX_TICK = 2**53
 MAX_STEPS = 1_000_000
@@ -157,7 +156,7 @@ class Change:
     """Put a value into the scenario; `instead` of the one put there before, at the same tick."""
 
     path: str
-    value: Given
+    value: TomlValue
     replaces_last: bool
 
 
@@ -230,10 +229,10 @@ def read(text: str) -> Message:
         said = json.loads(text)
     except (ValueError, RecursionError):
         said = text[:80]
-    given.of_kind("message", said, dict, "an object with a type, in JSON")
+    validation.of_kind("message", said, dict, "an object with a type, in JSON")
     kind = said.get("type")
     is_known = isinstance(kind, str) and kind in READERS
-    given.check(is_known, "message.type", kind, f"one of {', '.join(READERS)}")
+    validation.check(is_known, "message.type", kind, f"one of {', '.join(READERS)}")
     return READERS[kind](said)
 
 
@@ -253,15 +252,15 @@ def opened(said: Mapping[str, Any]) -> Open:
     """Return an `open`."""
     study = None if said.get("study") is None else member(said["study"])
     recording = said.get("recording")
-    given.check(
-        recording is None or given.is_text(recording), "open.recording", recording, "a text"
+    validation.check(
+        recording is None or validation.is_text(recording), "open.recording", recording, "a text"
     )
     is_named = study is not None or recording is not None
     scenario, text = (None, None) if is_named else source_of("open", said)
     seed = said.get("seed", None if study else "0")
     log = said.get("changes")
     if log is not None:
-        given.of_kind("open.changes", log, list, "a list of [tick, path, value]")
+        validation.of_kind("open.changes", log, list, "a list of [tick, path, value]")
     return Open(
         scenario,
         text,
@@ -282,18 +281,18 @@ def source_of(about: str, said: Mapping[str, Any]) -> tuple[str | None, str | No
     """
     scenario, text = said.get("scenario"), said.get("text")
     is_one = (scenario is None) != (text is None)
-    given.check(is_one, about, [scenario, text], "with either a scenario or a text")
+    validation.check(is_one, about, [scenario, text], "with either a scenario or a text")
     each = scenario if text is None else text
-    given.check(given.is_text(each), about, each, "a text")
+    validation.check(validation.is_text(each), about, each, "a text")
     return scenario, text
 
 
 def member(said: object) -> Member:
     """Return a configuration of a study."""
     allowed = "an object with an id and a configuration"
-    given.of_kind("open.study", said, dict, allowed)
+    validation.of_kind("open.study", said, dict, allowed)
     assert isinstance(said, dict)  # noqa: S101  (checked above)
-    given.check(given.is_text(said.get("id")), "open.study.id", said.get("id"), "a text")
+    validation.check(validation.is_text(said.get("id")), "open.study.id", said.get("id"), "a text")
     return Member(
         said["id"], whole("open.study.configuration", said.get("configuration"), MAX_TICK)
     )
@@ -303,10 +302,10 @@ def change(said: object) -> LoggedChange:
     """Return a change of a log."""
     allowed = "[tick, path, value]"
     is_change = isinstance(said, list) and len(said) == len(LoggedChange._fields)
-    given.check(is_change, "open.changes", said, allowed)
+    validation.check(is_change, "open.changes", said, allowed)
     assert isinstance(said, list)  # noqa: S101  (checked above)
     tick, path, value = said
-    given.check(given.is_text(path), "open.changes", path, "a path, as a text")
+    validation.check(validation.is_text(path), "open.changes", path, "a path, as a text")
     return LoggedChange(whole("open.changes", tick, MAX_TICK), path, finite("open.changes", value))
 
 
@@ -316,56 +315,60 @@ def play(said: Mapping[str, Any]) -> Play:
     least, most = SPEEDS
     is_number = isinstance(speed, int | float) and not isinstance(speed, bool)
     is_allowed = speed is None or (is_number and least <= speed <= most)
-    given.check(is_allowed, "play.speed", speed, f"from {least} to {most}, or null")
+    validation.check(is_allowed, "play.speed", speed, f"from {least} to {most}, or null")
     return Play(speed)
 
 
 def step(said: Mapping[str, Any]) -> Step:
     """Return a `step`."""
     steps = said.get("steps", 1)
-    is_allowed = given.is_whole(steps, -MAX_TICK, MAX_STEPS)
-    given.check(is_allowed, "step.steps", steps, f"a whole number, {MAX_STEPS:,} at most")
+    is_allowed = validation.is_whole(steps, -MAX_TICK, MAX_STEPS)
+    validation.check(is_allowed, "step.steps", steps, f"a whole number, {MAX_STEPS:,} at most")
     return Step(steps)
 
 
 def put(said: Mapping[str, Any]) -> Change:
     """Return a `change`."""
     path = said.get("path")
-    given.check(given.is_text(path), "change.path", path, "a path, as clock.time_limit_s")
-    given.check("value" in said, "change.value", None, "given")
+    validation.check(validation.is_text(path), "change.path", path, "a path, as clock.time_limit_s")
+    validation.check("value" in said, "change.value", None, "given")
     instead = said.get("instead", False)
-    given.check(isinstance(instead, bool), "change.instead", instead, "true or false")
+    validation.check(isinstance(instead, bool), "change.instead", instead, "true or false")
     return Change(str(path), finite("change.value", said["value"]), instead)
 
 
 def select(said: Mapping[str, Any]) -> Select:
     """Return a `select`."""
     robot = said.get("robot")
-    given.check(robot is None or given.is_text(robot), "select.robot", robot, "a name, or null")
+    validation.check(
+        robot is None or validation.is_text(robot), "select.robot", robot, "a name, or null"
+    )
     return Select(robot)
 
 
 def layers(said: Mapping[str, Any]) -> Layers:
     """Return a `layers`."""
     for layer in ("links", "footprints"):
-        given.of_kind(f"layers.{layer}", said.get(layer), bool, "true or false")
+        validation.of_kind(f"layers.{layer}", said.get(layer), bool, "true or false")
     return Layers(links=said["links"], footprints=said["footprints"])
 
 
 def number(name: str, said: object) -> int:
     """Return a whole number that comes as a text; who uses it says how great it may be."""
     is_number = isinstance(said, str) and said.isascii() and said.isdigit() and len(said) <= 20  # noqa: PLR2004
-    given.check(is_number, name, said, 'a whole number as a text, as "7"')
+    validation.check(is_number, name, said, 'a whole number as a text, as "7"')
     return int(str(said))
 
 
 def whole(name: str, said: Any, most: int) -> int:
     """Return a whole number from 0."""
-    given.check(given.is_whole(said, 0, most), name, said, f"a whole number from 0 to {most}")
+    validation.check(
+        validation.is_whole(said, 0, most), name, said, f"a whole number from 0 to {most}"
+    )
     return int(said)
 
 
-def finite(name: str, said: Any) -> Given:
+def finite(name: str, said: Any) -> TomlValue:
     """Return a value of a scenario; JSON's null, and numbers that are none, are no values."""
     parts = (
         list(said.values()) if isinstance(said, dict) else said if isinstance(said, list) else []
@@ -373,7 +376,7 @@ def finite(name: str, said: Any) -> Given:
     for part in parts:
         finite(name, part)
     is_number = not isinstance(said, float) or math.isfinite(said)
-    given.check(said is not None and is_number, name, said, "a value that a scenario can have")
+    validation.check(said is not None and is_number, name, said, "a value that a scenario can have")
     return said  # type: ignore[no-any-return]
 
 

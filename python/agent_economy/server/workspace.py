@@ -8,9 +8,10 @@ from itertools import islice
 from pathlib import Path
 from typing import Any
 
-from agent_economy import _core, given, shipped
+from agent_economy import _core
 from agent_economy._core import InputError
-from agent_economy.scenario import MAX_BYTES, Scenario, Source, content
+from agent_economy.scenario import Scenario, Source, bundled, validation
+from agent_economy.scenario.source import MAX_BYTES, read_file
 from agent_economy.study import plan_of
 from agent_economy.study.store.folder import ASKED
 
@@ -28,7 +29,7 @@ class Workspace:
 
     def listed(self) -> list[dict[str, Any]]:
         """Return all that say that they are scenarios, those that ship first."""
-        ships = ((name, file, "shipped") for name, file in shipped.scenarios().items())
+        ships = ((name, file, "shipped") for name, file in bundled.scenarios().items())
         files = islice(self.files(".toml"), MAX_FILES)
         mine = ((str(file.relative_to(self.folder)), file, "folder") for file in files)
         rows = (described(name, file, where) for name, file, where in (*ships, *mine))
@@ -40,7 +41,7 @@ class Workspace:
         Raises:
             InputError: If there is none, it is outside of the folder, or wrong.
         """
-        ships = shipped.scenarios().get(name)
+        ships = bundled.scenarios().get(name)
         return Scenario.load(ships) if ships else self.read(self.text(name), name)
 
     def text(self, name: str) -> str:
@@ -49,10 +50,10 @@ class Workspace:
         Raises:
             InputError: If there is none, it is outside of the folder, or cannot be read.
         """
-        ships, mine = shipped.scenarios().get(name), self.folder / name
+        ships, mine = bundled.scenarios().get(name), self.folder / name
         is_here = ships is not None or (self.has(mine) and mine.suffix == ".toml")
-        given.check(is_here, "scenario", name, "one of the gallery")
-        data = content(ships or mine, MAX_BYTES)
+        validation.check(is_here, "scenario", name, "one of the gallery")
+        data = read_file(ships or mine, MAX_BYTES)
         if isinstance(data, str):
             message = f"{name}: cannot be read: {data}"
             raise InputError(message)
@@ -80,7 +81,7 @@ class Workspace:
         folder = self.folder / name
         is_plain = name == folder_id(folder, self.folder) and ".." not in folder.parts
         is_here = is_plain and self.has(folder / ASKED) and is_study(folder)
-        given.check(is_here, "study", name, "the id of a study in the list")
+        validation.check(is_here, "study", name, "the id of a study in the list")
         return folder
 
     def studies(self) -> Iterator[tuple[str, Path]]:
@@ -94,7 +95,9 @@ class Workspace:
         Raises:
             InputError: If it would be outside of the folder.
         """
-        given.check(self.has(folder), "study", str(folder), "below the server's folder: no link")
+        validation.check(
+            self.has(folder), "study", str(folder), "below the server's folder: no link"
+        )
         return folder_id(folder, self.folder)
 
     def member(self, name: str, configuration: int) -> tuple[Scenario, int]:
@@ -107,7 +110,7 @@ class Workspace:
         return plan.alone(configuration), plan.seed
 
     def _content(self, file: Path) -> bytes | str:
-        return content(file, _core.MAX_IMAGE_BYTES) if self.has(file) else OUTSIDE
+        return read_file(file, _core.MAX_IMAGE_BYTES) if self.has(file) else OUTSIDE
 
     def has(self, file: Path) -> bool:
         """Return whether a file is below the folder, whatever links there are on the way."""
@@ -137,7 +140,7 @@ def described(name: str, file: Path, where: str) -> dict[str, Any] | None:
     Returns:
         None if the file does not say which engine it is for.
     """
-    data = content(file, MAX_BYTES)
+    data = read_file(file, MAX_BYTES)
     if isinstance(data, str):
         return None
     try:

@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from agent_economy import _core
 from agent_economy._core import InputError
-from agent_economy.given import fault, is_whole
+from agent_economy.scenario.validation import errors_unless, is_whole
 
 Guarantee = Literal["indifference", "pgs"]
 Floats = NDArray[np.float64]
@@ -37,16 +37,18 @@ def checked_arguments(  # noqa: PLR0913, PLR0917  (the arguments of select_best)
     least = FIRST_LOOK * k if whole_k else 1
     limits = limits_of(k, bounds) if whole_k else None
     faults = [
-        *fault(whole_k, "k", k, f"a whole number from 1 to {MAX_CONFIGURATIONS}"),
+        *errors_unless(whole_k, "k", k, f"a whole number from 1 to {MAX_CONFIGURATIONS}"),
         *question_faults(delta, confidence, guarantee),
-        *fault(is_whole(seed, 0, 2**31 - 1), "seed", seed, "a whole number from 0 to 2147483647"),
-        *fault(
+        *errors_unless(
+            is_whole(seed, 0, 2**31 - 1), "seed", seed, "a whole number from 0 to 2147483647"
+        ),
+        *errors_unless(
             max_runs is None or is_whole(max_runs, least, 2**62),
             "max_runs",
             max_runs,
             f"None or a whole number of {least} (10 k) or more",
         ),
-        *fault(
+        *errors_unless(
             not whole_k or limits is not None,
             "bounds",
             bounds,
@@ -62,14 +64,16 @@ def question_faults(delta: object, confidence: object, guarantee: object) -> lis
     """Return what is wrong with a question."""
     names = get_args(Guarantee)
     return [
-        *fault(is_between(delta, 0, math.inf), "delta", delta, "a number above 0"),
-        *fault(
+        *errors_unless(is_between(delta, 0, math.inf), "delta", delta, "a number above 0"),
+        *errors_unless(
             is_between(confidence, np.nextafter(LEAST_CONFIDENCE, 0), 1),
             "confidence",
             confidence,
             "a number from 0.5 to below 1",
         ),
-        *fault(guarantee in names, "guarantee", guarantee, "one of " + ", ".join(map(repr, names))),
+        *errors_unless(
+            guarantee in names, "guarantee", guarantee, "one of " + ", ".join(map(repr, names))
+        ),
     ]
 
 

@@ -5,9 +5,9 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
-from agent_economy import given
 from agent_economy._core import InputError
-from agent_economy.scenario import Override, Scenario, Value, of_path
+from agent_economy.scenario import Override, Scenario, Value, validation
+from agent_economy.scenario.source import check_path
 from agent_economy.study import files
 from agent_economy.study import plan as plans
 from agent_economy.study.answer.conclude import Answer
@@ -60,8 +60,8 @@ def run(  # noqa: PLR0913  (keywords with defaults)
         InputError: If anything is not allowed; or the folder holds another study, is damaged, or
             cannot be written.
     """
-    given.of_kind("scenario", scenario, Scenario, "a Scenario")
-    given.of_kind("vary", vary, Mapping | None, "a dict of values by their paths")
+    validation.of_kind("scenario", scenario, Scenario, "a Scenario")
+    validation.of_kind("vary", vary, Mapping | None, "a dict of values by their paths")
     changes = [varied(path, values) for path, values in (vary or {}).items()]
     if design is not None:
         changes.append(Override(("study", "design"), design, "design"))
@@ -75,7 +75,7 @@ def run(  # noqa: PLR0913  (keywords with defaults)
         max_runs=max_runs,
     )
     if out is not None:
-        return pursue(asked, given.path("out", out), compute=compute, on_progress=on_progress)
+        return pursue(asked, validation.path("out", out), compute=compute, on_progress=on_progress)
     with tempfile.TemporaryDirectory() as folder:
         return hold(asked, Path(folder), compute, on_progress)[0]
 
@@ -136,8 +136,8 @@ def pursue(
     Raises:
         InputError: As in `run`.
     """
-    given.of_kind("asked", asked, Plan, "a Plan, as make_plan returns")
-    place = given.path("folder", folder)
+    validation.of_kind("asked", asked, Plan, "a Plan, as make_plan returns")
+    place = validation.path("folder", folder)
     with ChartScript() as script:
 
         def finish(answer: Answer, evidence: Evidence) -> None:
@@ -153,8 +153,10 @@ def varied(path: str, values: str | Iterable[Value]) -> Override:
     Raises:
         InputError: If the path is no text, or the values are no list.
     """
-    of_path("vary", path)
-    given.of_kind(f"vary: {path}", values, Iterable, 'a list of values or a text, such as "1..40"')
+    check_path("vary", path)
+    validation.of_kind(
+        f"vary: {path}", values, Iterable, 'a list of values or a text, such as "1..40"'
+    )
     return Override(("study", "vary", path), written(values), "vary")
 
 

@@ -17,8 +17,8 @@ from typing import Any
 import tomli_w
 
 from agent_economy._core import InputError
-from agent_economy.given import check, fault, is_whole, of_kind
 from agent_economy.scenario import Override, Scenario, Source
+from agent_economy.scenario.validation import check, errors_unless, is_whole, of_kind
 from agent_economy.study import design
 from agent_economy.study.arguments import (
     FIRST_LOOK,
@@ -220,9 +220,9 @@ def check_question(
     """
     sure = LEAST_CONFIDENCE if confidence is None else confidence
     faults = question_faults(1.0 if delta is None else delta, sure, guarantee)
-    faults += fault(is_whole(seed, 0, MAX_SEED), "seed", seed, f"0 to {MAX_SEED}")
+    faults += errors_unless(is_whole(seed, 0, MAX_SEED), "seed", seed, f"0 to {MAX_SEED}")
     is_fixed = runs is None or is_whole(runs, 2, MAX_RUNS)
-    faults += fault(is_fixed, "runs", runs, f"a whole number from 2 to {MAX_RUNS}")
+    faults += errors_unless(is_fixed, "runs", runs, f"a whole number from 2 to {MAX_RUNS}")
     if faults:
         raise InputError("\n".join(faults))
 

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from agent_economy import _core
-from agent_economy.given import check
+from agent_economy.scenario.validation import check
 from agent_economy.study.answer.conclude import Answer, conclude
 from agent_economy.study.answer.effort import remaining
 from agent_economy.study.answer.evidence import Evidence, Sample

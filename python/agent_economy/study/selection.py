@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from agent_economy import _core
 from agent_economy._core import InputError
-from agent_economy.given import check
+from agent_economy.scenario.validation import check
 from agent_economy.study.arguments import Floats, Guarantee, checked_arguments
 
 Integers = NDArray[np.int64]

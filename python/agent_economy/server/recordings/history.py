@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 from typing import Any
 
+from agent_economy.runs.stepped import Change
 from agent_economy.scenario import Scenario
-from agent_economy.stepped import Change
 
 
 @dataclass(frozen=True)

@@ -6,8 +6,8 @@ from collections.abc import Awaitable, Callable
 from concurrent.futures import Executor
 from typing import Any
 
-from agent_economy import given
 from agent_economy._core import InputError
+from agent_economy.scenario import validation
 from agent_economy.server.messages import refused
 from agent_economy.server.recordings.history import RunHistory
 from agent_economy.server.recordings.store import RecordingStore
@@ -36,7 +36,7 @@ class Saver:
                 allowed.
         """
         is_free = self._task is None or self._task.done()
-        given.check(
+        validation.check(
             is_free, "save", None, "one recording at a time: cancel the other, or wait for it"
         )
         self._writer = RecordingWriter(history, self._store.folder)

@@ -5,12 +5,12 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from agent_economy import given
 from agent_economy._core import InputError
 from agent_economy.recording.identity import Identity
 from agent_economy.recording.reading import Recorded, read
 from agent_economy.recording.recorder import ENDING
 from agent_economy.recording.summary import summarise
+from agent_economy.scenario import validation
 from agent_economy.server.workspace import OUTSIDE, Workspace, is_file
 
 FOLDER = "recordings"
@@ -37,7 +37,9 @@ class RecordingStore:
             InputError: If it is a link that leads out of the server's folder.
         """
         folder = self.workspace.folder / FOLDER
-        given.check(self.workspace.has(folder), "save", FOLDER, f"a folder here, and {OUTSIDE}")
+        validation.check(
+            self.workspace.has(folder), "save", FOLDER, f"a folder here, and {OUTSIDE}"
+        )
         return folder
 
     def listed(self) -> list[dict[str, Any]]:
@@ -75,7 +77,7 @@ class RecordingStore:
         """
         file = self.workspace.folder / name
         is_here = self.workspace.has(file) and file.suffix == ENDING and is_file(file)
-        given.check(is_here, "recording", name, "one below the folder of the server")
+        validation.check(is_here, "recording", name, "one below the folder of the server")
         return file
 
     def load(self, name: str) -> tuple[Identity, Recorded]:
@@ -87,5 +89,5 @@ class RecordingStore:
         file = self.find(name)
         size = file.stat().st_size
         allowed = f"at most {MAX_BYTES:,} bytes; agent-economy replay reads larger recordings"
-        given.check(size <= MAX_BYTES, "recording", f"{name} ({size:,} bytes)", allowed)
+        validation.check(size <= MAX_BYTES, "recording", f"{name} ({size:,} bytes)", allowed)
         return read(file)

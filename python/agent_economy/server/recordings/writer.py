@@ -8,13 +8,13 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from agent_economy._core import InputError
-from agent_economy.begin import begun
 from agent_economy.recording import Recording, RecordingError
 from agent_economy.recording.recorder import ENDING
 from agent_economy.recording.replayer import replay_steps
+from agent_economy.runs import factory
+from agent_economy.runs.stepped import Stepped
 from agent_economy.server.recordings.history import RunHistory
 from agent_economy.server.recordings.temporary_files import remove_abandoned, temporary_file
-from agent_economy.stepped import Stepped
 
 MAX_ROBOT_STEPS = 10_000_000
 """Maximum of steps times robots, about half a gigabyte."""
@@ -55,7 +55,7 @@ class RecordingWriter:
             InputError: If the run is too long, or the file cannot be written; no file is left.
         """
         history = self.history
-        simulation = begun(history.scenario, history.seed, history.run)
+        simulation = factory.create(history.scenario, history.seed, history.run)
         check_size(history.latest_tick * size_of_step(simulation))
         with write_errors(self._folder):
             self._folder.mkdir(exist_ok=True)

@@ -7,9 +7,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from agent_economy._core import InputError
-from agent_economy.brain import Watched
-from agent_economy.simulation import Simulation
-from agent_economy.thoughts import BelievedMap
+from agent_economy.runs.belief_state import BelievedMap
+from agent_economy.runs.brain import Watched
+from agent_economy.runs.simulation import Simulation
 
 
 class Selected:

@@ -7,9 +7,9 @@ square that is drawn of that cell; it has left the cell when it is nearer to ano
 import base64
 from typing import Any
 
-from agent_economy import classic_world
-from agent_economy.classic_simulation import KIND, ClassicSimulation
-from agent_economy.classic_world import CELL_PX, CELLS, RADIUS, WORLD, Cell, Place
+from agent_economy.runs import classic_world
+from agent_economy.runs.classic_simulation import KIND, ClassicSimulation
+from agent_economy.runs.classic_world import CELL_PX, CELLS, RADIUS, WORLD, Cell, Place
 
 SIDE_PX = CELLS * CELL_PX
 RADIUS_PX = RADIUS * CELL_PX

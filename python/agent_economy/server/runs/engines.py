@@ -3,8 +3,8 @@
 from collections.abc import Callable
 from typing import Any, NamedTuple, Protocol
 
+from agent_economy.runs.stepped import Stepped
 from agent_economy.server.runs import belief_view, classic_view, metric_overlay, metric_view
-from agent_economy.stepped import Stepped
 
 
 class Selection(Protocol):

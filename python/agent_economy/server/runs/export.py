@@ -2,7 +2,7 @@
 
 import tomli_w
 
-from agent_economy.stepped import Stepped
+from agent_economy.runs.stepped import Stepped
 
 
 def as_toml(simulation: Stepped) -> str:

@@ -4,9 +4,9 @@ import struct
 from typing import Any
 
 from agent_economy import _core
+from agent_economy.runs.stepped import Stepped
 from agent_economy.server.runs import engines
 from agent_economy.server.runs.timeline import Timeline
-from agent_economy.stepped import Stepped
 
 KIND = 1
 """The first number of a frame; a frame of another layout would have another."""

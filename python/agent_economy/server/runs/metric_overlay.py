@@ -1,7 +1,7 @@
 """What a page draws over a moment of the metric engine: who hears whom, and what sensors cover."""
 
 from agent_economy import _core
-from agent_economy.simulation import Simulation
+from agent_economy.runs.simulation import Simulation
 
 MAX_ROBOTS = 300
 """Of more robots only what is the selected one's is drawn: a picture full of it says nothing."""

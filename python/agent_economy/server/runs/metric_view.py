@@ -7,7 +7,7 @@ from typing import Any
 
 from agent_economy import _core
 from agent_economy.recording.static_scene import states
-from agent_economy.simulation import Simulation
+from agent_economy.runs.simulation import Simulation
 
 
 def drawn(simulation: Simulation) -> bytes:

@@ -2,9 +2,9 @@
 
 import struct
 
+from agent_economy.runs.stepped import Stepped
 from agent_economy.server.messages import Layers
 from agent_economy.server.runs import engines
-from agent_economy.stepped import Stepped
 
 KIND = 2
 """The first number of an overlay, which tells it from a frame."""

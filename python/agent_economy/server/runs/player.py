@@ -10,8 +10,7 @@ run between `target` and `advanced`.
 from dataclasses import dataclass
 from typing import Protocol
 
-from agent_economy import given
-from agent_economy.scenario import Given
+from agent_economy.scenario import TomlValue, validation
 from agent_economy.server.messages import MAX_TICK, Change, Message, Pause, Play, Seek, Step, Undo
 from agent_economy.server.runs.pending import PendingQueue
 from agent_economy.server.runs.playback_clock import PlaybackClock
@@ -40,7 +39,7 @@ class Run(Protocol):
     def has_changes_ahead(self) -> bool:
         """Whether the log contains changes that are made after the current tick."""
 
-    def change(self, path: str, value: Given, *, replaces_last: bool = False) -> None:
+    def change(self, path: str, value: TomlValue, *, replaces_last: bool = False) -> None:
         """Set a value of the scenario from now on."""
 
     def undo(self) -> None:
@@ -100,7 +99,7 @@ class Player:
         Raises:
             InputError: If no run is open.
         """
-        given.check(self._run is not None, "message", None, "after an open")
+        validation.check(self._run is not None, "message", None, "after an open")
         assert self._run is not None  # noqa: S101  (checked above)
         return self._run
 

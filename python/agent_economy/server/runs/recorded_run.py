@@ -7,7 +7,7 @@ from itertools import zip_longest
 from typing import Any
 
 from agent_economy.recording.reading import Recorded
-from agent_economy.stepped import Change, Stepped
+from agent_economy.runs.stepped import Change, Stepped
 
 
 class RecordedRun:

@@ -3,7 +3,7 @@
 from bisect import bisect_right
 from typing import Any
 
-from agent_economy.stepped import Change, Stepped
+from agent_economy.runs.stepped import Change, Stepped
 
 MEMORY_BYTES = 200_000_000
 """Approximate maximum size of all snapshots together."""

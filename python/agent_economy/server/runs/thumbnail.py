@@ -5,10 +5,10 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from agent_economy import classic
-from agent_economy.classic_world import CELL_PX, WORLD
+from agent_economy.runs.classic_world import CELL_PX, WORLD
+from agent_economy.runs.simulation import Simulation
 from agent_economy.scenario import Scenario
 from agent_economy.server.runs import classic_view
-from agent_economy.simulation import Simulation
 
 STEPS = 100
 """The picture shows the run after so many steps."""

@@ -4,14 +4,14 @@ import time
 from collections.abc import Iterable
 from typing import Any, cast
 
-from agent_economy import _core, given
-from agent_economy.begin import begun
+from agent_economy import _core
 from agent_economy.recording.reading import Recorded
-from agent_economy.scenario import Given, Scenario
+from agent_economy.runs import factory
+from agent_economy.runs.stepped import Change
+from agent_economy.scenario import Scenario, TomlValue, validation
 from agent_economy.server.recordings.history import RunHistory
 from agent_economy.server.runs.recorded_run import RecordedRun
 from agent_economy.server.runs.snapshots import Snapshots
-from agent_economy.stepped import Change
 
 SLICE_S = 0.004
 """Steps are taken together for this long before the clock is read again."""
@@ -53,7 +53,7 @@ class Timeline:
         Raises:
             InputError: If the world has no room for the team.
         """
-        self.simulation = begun(scenario, seed, run)
+        self.simulation = factory.create(scenario, seed, run)
         self._first = scenario
         self._is_recording = recorded is not None
         self.recorded = RecordedRun(recorded or Recorded())
@@ -129,7 +129,7 @@ class Timeline:
                 break
         return self.tick >= tick or self.is_finished
 
-    def change(self, path: str, value: Given, *, replaces_last: bool = False) -> None:
+    def change(self, path: str, value: TomlValue, *, replaces_last: bool = False) -> None:
         """Set a value of the scenario from now on; everything after the current tick is discarded.
 
         Args:
@@ -167,7 +167,7 @@ class Timeline:
             InputError: If there is no change.
         """
         made = self.simulation.changes
-        given.check(bool(made), "undo", None, "after a change")
+        validation.check(bool(made), "undo", None, "after a change")
         self.log, tick = made[:-1], made[-1].tick
         self.latest_tick = max(tick, self.recorded.latest_tick)
         self._snapshots.discard_after(tick, self.log)
@@ -181,7 +181,7 @@ class Timeline:
         is_last = tick == self.tick and made[:-1] == before.changes and len(made) > 0
         return before if is_last and made[-1].path == path else None
 
-    def _is_current(self, path: str, value: Given) -> bool:
+    def _is_current(self, path: str, value: TomlValue) -> bool:
         current = value_at(_core.read_filled(self.simulation.scenario.source), path)
         # In Python True == 1.
         return bool(current == value) and isinstance(current, bool) == isinstance(value, bool)

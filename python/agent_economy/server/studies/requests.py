@@ -3,9 +3,10 @@
 from collections.abc import Callable, Mapping
 from typing import Any, TypeVar
 
-from agent_economy import given, study
+from agent_economy import study
 from agent_economy._core import InputError
-from agent_economy.scenario import Override, Scenario, of_path
+from agent_economy.scenario import Override, Scenario, validation
+from agent_economy.scenario.source import check_path
 from agent_economy.server.messages import Fault, faults_of, number, source_of
 from agent_economy.server.workspace import Workspace
 from agent_economy.study import Plan
@@ -61,7 +62,7 @@ def plan(said: Any, places: Workspace) -> Plan:
         StudyRequestError: If anything is not allowed; all faults at once.
         InputError: If it is no object.
     """
-    given.of_kind("ask", said, dict, "an object")
+    validation.of_kind("ask", said, dict, "an object")
     faults = Faults()
     scenario = faults.gather(lambda: scenario_of(said, places))
     changed = faults.gather(lambda: scenario.changed(changes(said))) if scenario else None
@@ -95,13 +96,13 @@ def changes(said: Mapping[str, Any]) -> tuple[Override, ...]:
         InputError: If something cannot be.
     """
     vary = said.get("vary") or {}
-    given.of_kind("vary", vary, dict, "an object of values by their paths")
+    validation.of_kind("vary", vary, dict, "an object of values by their paths")
     for path, values in vary.items():
-        of_path("vary", path)
-        given.check(given.is_text(values), f"vary.{path}", values, 'a text, as "1..40"')
+        check_path("vary", path)
+        validation.check(validation.is_text(values), f"vary.{path}", values, 'a text, as "1..40"')
     texts = {("merit",): said.get("merit"), ("study", "design"): said.get("design")}
     for path, text in texts.items():
-        given.check(text is None or given.is_text(text), path[-1], text, "a text")
+        validation.check(text is None or validation.is_text(text), path[-1], text, "a text")
     # Together they are all that is varied: what the scenario varies besides stays as it is.
     varied = [Override(("study", "vary"), vary, "vary")] if vary else []
     told = [Override(path, text, path[-1]) for path, text in texts.items() if text is not None]

@@ -10,10 +10,9 @@ from starlette.requests import Request
 from starlette.responses import FileResponse, JSONResponse, Response
 from starlette.routing import Route
 
-from agent_economy import shipped
 from agent_economy._core import InputError
-from agent_economy.given import check
-from agent_economy.scenario import Scenario
+from agent_economy.scenario import Scenario, bundled
+from agent_economy.scenario.validation import check
 from agent_economy.server.messages import faults_of, number
 from agent_economy.server.request_body import RequestBodyError, asked, refused
 from agent_economy.server.studies import requests, run_rows
@@ -129,7 +128,7 @@ def gallery_id(scenario: Scenario, places: Workspace) -> str | None:
     A study keeps the text of its scenario, and the name of its file: no folder.
     """
     file = Path(scenario.source.file)
-    shipping = [scenario.name] if scenario.name in shipped.scenarios() else []
+    shipping = [scenario.name] if scenario.name in bundled.scenarios() else []
     for name in (*shipping, file.name):
         try:
             if places.text(name) == scenario.source.text:

@@ -9,8 +9,8 @@ import pyarrow as pa
 from numpy.typing import NDArray
 
 from agent_economy import study
-from agent_economy.given import check, is_whole
-from agent_economy.merit import Merit
+from agent_economy.scenario.merit import Merit
+from agent_economy.scenario.validation import check, is_whole
 from agent_economy.study import Plan
 from agent_economy.study.answer.labels import label
 

@@ -42,7 +42,9 @@ def results(scenario: Scenario) -> tuple[PublishedResult, ...]:
     )
 
 
-def result(scenario: Scenario, time_limit_s: float, robots: int, times_s: list[float]) -> PublishedResult:
+def result(
+    scenario: Scenario, time_limit_s: float, robots: int, times_s: list[float]
+) -> PublishedResult:
     """Return one published team, scored; a time at the cap is a failed run."""
     times = np.array(times_s)
     failed = times >= time_limit_s

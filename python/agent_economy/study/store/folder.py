@@ -10,8 +10,8 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 
-from agent_economy import given
 from agent_economy._core import InputError
+from agent_economy.scenario import validation
 from agent_economy.study.errors import StoreError
 
 ASKED = "study.toml"
@@ -93,7 +93,7 @@ def is_worked_on(folder: str | Path) -> bool:
     Raises:
         InputError: If it is no path.
     """
-    place = given.path("folder", folder)
+    place = validation.path("folder", folder)
     try:
         descriptor = os.open(place / LOCK, os.O_RDONLY | os.O_CLOEXEC)
     except OSError:

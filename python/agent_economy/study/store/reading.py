@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from agent_economy import given
 from agent_economy._core import InputError
+from agent_economy.scenario import validation
 from agent_economy.study.errors import StoreError
 from agent_economy.study.rectangle import Columns, Compute, Rectangle
 from agent_economy.study.store import folder as files
@@ -135,7 +135,7 @@ def read(folder: str | Path) -> ReadStore:
     Raises:
         InputError: If it holds no study.
     """
-    folder = given.path("folder", folder)
+    folder = validation.path("folder", folder)
     asked = files.read_bytes(folder / files.ASKED)
     if asked is None:
         message = f"{folder}: holds no study ({files.ASKED} is not there)"

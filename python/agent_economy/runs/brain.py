@@ -18,10 +18,10 @@ from typing import (
     cast,
 )
 
-from agent_economy import _core, given
-from agent_economy.robots import Point, RobotId
-from agent_economy.scenario import Scenario, loaded
-from agent_economy.thoughts import Thoughts
+from agent_economy import _core
+from agent_economy.runs.belief_state import Thoughts
+from agent_economy.runs.robots import Point, RobotId
+from agent_economy.scenario import Scenario, as_scenario, validation
 
 T = TypeVar("T")
 
@@ -50,8 +50,8 @@ class Detector(TypedDict):
         range_m: It looks no farther from the robot's centre.
         width_rad: Angle that it covers.
         facing_rad: Its middle, from the robot's front.
-        detection_probability: For each kind of item, pairs of distance and probability of detection in one look;
-            empty if it never recognises that kind.
+        detection_probability: For each kind of item, pairs of a distance and the probability of
+            detection in one scan; empty if the sensor never recognises that kind.
         false_alarms_per_m2: False contacts of each kind in one look, for each square metre in view.
         noise_m: Standard deviation of where a contact seems to be, along each axis.
         needs_line_of_sight: Whether obstacles hide items from it.
@@ -357,9 +357,9 @@ class Brain:
         Raises:
             InputError: If the scenario is wrong or of another engine, or has no such kind.
         """
-        given.of_kind("kind", kind, str, "the name of a kind of robots")
+        validation.of_kind("kind", kind, str, "the name of a kind of robots")
         brain = cls.__new__(cls)
-        vars(brain)["_mind"] = _core.Brain.of(loaded(scenario).metric(), kind)
+        vars(brain)["_mind"] = _core.Brain.of(as_scenario(scenario).metric(), kind)
         return brain
 
     def step(self, percept: Percept) -> Command:

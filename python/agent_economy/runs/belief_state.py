@@ -5,7 +5,7 @@ from typing import Literal, TypedDict
 import numpy as np
 from numpy.typing import NDArray
 
-from agent_economy.robots import Point, RobotId
+from agent_economy.runs.robots import Point, RobotId
 
 
 class Pose(TypedDict):

@@ -4,10 +4,11 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar, Protocol, TypeAlias, cast
 
-from agent_economy import _core, given
-from agent_economy.batch import Batch, Percepts
-from agent_economy.brain import Body, Command, Percept
-from agent_economy.commands import Commands, commands
+from agent_economy import _core
+from agent_economy.runs.batch import Batch, Percepts
+from agent_economy.runs.brain import Body, Command, Percept
+from agent_economy.runs.commands import Commands, commands
+from agent_economy.scenario import validation
 
 BY_KIND = "a dict by the names of kinds of robots"
 MAKES = "a Batch, or a class or function that makes a robot's brain when it is called with its body"
@@ -64,7 +65,7 @@ class Each:
             error.add_note(f"when the brain of {self.kind}/{index} was made of its body")
             raise
         is_brain = callable(getattr(brain, "step", None))
-        given.check(is_brain, f"brains.{self.kind}", brain, "what makes objects with a step")
+        validation.check(is_brain, f"brains.{self.kind}", brain, "what makes objects with a step")
         return brain
 
 
@@ -115,16 +116,16 @@ def minds(
     """
     if brains is None:
         return []
-    given.of_kind("brains", brains, Mapping, BY_KIND)
+    validation.of_kind("brains", brains, Mapping, BY_KIND)
     return changed_minds([mind(*each) for each in brains.items()], metric, robots)
 
 
 def mind(kind: str, make: Make | Batch) -> Mind:
     """Return what decides for the robots of a kind, before there are any."""
-    given.of_kind("brains", kind, str, BY_KIND)
+    validation.of_kind("brains", kind, str, BY_KIND)
     if isinstance(make, Batch):
         return All(kind, make)
-    given.check(callable(make), f"brains.{kind}", make, MAKES)
+    validation.check(callable(make), f"brains.{kind}", make, MAKES)
     return Each(kind, make)
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pyarrow as pa
 from numpy.typing import NDArray
 
-from agent_economy.merit import Merit
+from agent_economy.scenario.merit import Merit
 
 Status = Literal["complete", "incomplete", "quarantined", "running"]
 

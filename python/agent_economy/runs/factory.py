@@ -1,11 +1,11 @@
-"""Beginning a run, of whatever engine, that is stepped by hand."""
+"""Creates the stepped run of a scenario, for any engine."""
 
 from collections.abc import Callable
 
-from agent_economy.classic_simulation import ClassicSimulation
+from agent_economy.runs.classic_simulation import ClassicSimulation
+from agent_economy.runs.simulation import Simulation
+from agent_economy.runs.stepped import Stepped
 from agent_economy.scenario import Scenario
-from agent_economy.simulation import Simulation
-from agent_economy.stepped import Stepped
 
 ENGINES: dict[str, Callable[[Scenario, int, int], Stepped]] = {
     "metric": Simulation,
@@ -13,8 +13,8 @@ ENGINES: dict[str, Callable[[Scenario, int, int], Stepped]] = {
 }
 
 
-def begun(scenario: Scenario, seed: int, run: int) -> Stepped:
-    """Begin a run of a scenario's engine.
+def create(scenario: Scenario, seed: int, run: int) -> Stepped:
+    """Create a run of a scenario's engine, at its first step.
 
     Raises:
         InputError: If an argument is out of range, or the world has no room for the team or the

@@ -6,10 +6,10 @@ from pathlib import Path
 import numpy as np
 import pyarrow as pa
 
-from agent_economy import _core, given
-from agent_economy.outcome import Outcome
-from agent_economy.scenario import Given, Override, Scenario, loaded
-from agent_economy.stepped import Change, Stepped
+from agent_economy import _core
+from agent_economy.runs.outcome import Outcome
+from agent_economy.runs.stepped import Change, Stepped
+from agent_economy.scenario import Override, Scenario, TomlValue, as_scenario, validation
 
 COLOURS = np.array(["blue", "yellow", "red"])
 """What a robot can look like, by the compiled part's numbers."""
@@ -55,7 +55,7 @@ class ClassicSimulation(Stepped):
         Raises:
             InputError: If the scenario is wrong or of another engine, or an argument out of range.
         """
-        super().__init__(loaded(scenario), seed, run)
+        super().__init__(as_scenario(scenario), seed, run)
         self._run = _core.ClassicSimulation(self.scenario.classic(), seed=seed, run=run)
 
     def step(self, steps: int = 1) -> None:
@@ -72,7 +72,7 @@ class ClassicSimulation(Stepped):
             self._run.step(10_000)
         return self.outcome()
 
-    def change(self, path: str, value: Given) -> None:
+    def change(self, path: str, value: TomlValue) -> None:
         """Put a value into the scenario, and go on with that.
 
         Robots that are in both teams stay as they are; those with the highest numbers leave, or
@@ -104,7 +104,7 @@ class ClassicSimulation(Stepped):
         Raises:
             InputError: If it is no `ClassicSnapshot`.
         """
-        given.of_kind("snapshot", snapshot, ClassicSnapshot, "what snapshot() returned")
+        validation.of_kind("snapshot", snapshot, ClassicSnapshot, "what snapshot() returned")
         with self._lock:
             self._run.restore(snapshot._inside)  # noqa: SLF001  (ours)
             self.scenario, self._changes = snapshot.scenario, snapshot.changes
@@ -128,7 +128,7 @@ class ClassicSimulation(Stepped):
 
     def _number(self, robot: str) -> int:
         allowed = f"one of {KIND}/0 to {KIND}/{len(self.robots) - 1}"
-        given.check(robot in self.robots, "robot", robot, allowed)
+        validation.check(robot in self.robots, "robot", robot, allowed)
         return self.robots.index(robot)
 
     @property

@@ -10,13 +10,13 @@ import numpy as np
 import pyarrow as pa
 from numpy.typing import NDArray
 
-from agent_economy import _core, given
-from agent_economy.brain import Command, Percept, Watched
-from agent_economy.minds import Brains, changed_minds, minds
-from agent_economy.outcome import Outcome
-from agent_economy.scenario import Given, Override, Scenario, loaded
-from agent_economy.stepped import Change, Stepped
-from agent_economy.thoughts import BelievedMap, Thoughts
+from agent_economy import _core
+from agent_economy.runs.belief_state import BelievedMap, Thoughts
+from agent_economy.runs.brain import Command, Percept, Watched
+from agent_economy.runs.outcome import Outcome
+from agent_economy.runs.python_brains import Brains, changed_minds, minds
+from agent_economy.runs.stepped import Change, Stepped
+from agent_economy.scenario import Override, Scenario, TomlValue, as_scenario, validation
 
 Floats = NDArray[np.float64]
 
@@ -93,7 +93,7 @@ class Simulation(Stepped):
             InputError: If the scenario is wrong or of another engine, an argument out of range, or
                 the world has no room for the team or the items.
         """
-        super().__init__(loaded(scenario), seed, run)
+        super().__init__(as_scenario(scenario), seed, run)
         metric = self.scenario.metric()
         self._run = _core.Simulation(metric, seed=seed, run=run, threads=threads)
         self._minds = minds(brains, metric, self.scenario.robots)
@@ -132,7 +132,7 @@ class Simulation(Stepped):
             self._step(steps)
             return {}
         is_one = isinstance(steps, Integral) and steps == 1
-        given.check(is_one, "steps", steps, "1 with percepts or commands")
+        validation.check(is_one, "steps", steps, "1 with percepts or commands")
         both = as_dict("percepts", percepts), as_dict("commands", commands)
         return cast("dict[str, Command]", self._run.step_with(*both, self._minds))
 
@@ -140,7 +140,7 @@ class Simulation(Stepped):
         if not self._minds:
             self._run.step(steps)
             return
-        given.check(given.is_whole(steps, 0), "steps", steps, "a whole number, 0 or more")
+        validation.check(validation.is_whole(steps, 0), "steps", steps, "a whole number, 0 or more")
         for _ in range(steps):
             self._run.step_with({}, {}, self._minds)
 
@@ -266,7 +266,7 @@ class Simulation(Stepped):
         self._run.finish()
         return self.outcome()
 
-    def change(self, path: str, value: Given) -> None:
+    def change(self, path: str, value: TomlValue) -> None:
         """Put a value into the scenario, and go on with that.
 
         Robots and items that are in both scenarios, by kind and index, stay as they are; others
@@ -285,7 +285,7 @@ class Simulation(Stepped):
         """
         override = Override.at(path, value, "change")
         stays = path in FIXED
-        given.check(not stays, f"change: {path}", value, "as it was when the run began")
+        validation.check(not stays, f"change: {path}", value, "as it was when the run began")
         with self._lock:
             changed = self.scenario.changed((override,))
             metric = changed.metric()
@@ -312,7 +312,7 @@ class Simulation(Stepped):
             InputError: If it is no `Snapshot`, or the run has brains in Python.
         """
         self._have_no_minds("restore")
-        given.of_kind("snapshot", snapshot, Snapshot, "what snapshot() returned")
+        validation.of_kind("snapshot", snapshot, Snapshot, "what snapshot() returned")
         with self._lock:
             self._run.restore(snapshot._inside)  # noqa: SLF001  (ours)
             self.scenario, self._changes = snapshot.scenario, snapshot.changes
@@ -321,7 +321,7 @@ class Simulation(Stepped):
     def _have_no_minds(self, what: str) -> None:
         kinds = [mind.kind for mind in self._minds]
         allowed = "none: what brains in Python remember is in no snapshot; begin the run again"
-        given.check(not kinds, f"{what}: brains", kinds, allowed)
+        validation.check(not kinds, f"{what}: brains", kinds, allowed)
 
     @property
     def robots(self) -> tuple[str, ...]:
@@ -381,5 +381,5 @@ def as_dict(name: str, mapping: Mapping[str, Any] | None) -> dict[str, Any]:
     """
     if mapping is None:
         return {}
-    given.of_kind(name, mapping, Mapping, "a dict by the names of robots")
+    validation.of_kind(name, mapping, Mapping, "a dict by the names of robots")
     return dict(mapping)

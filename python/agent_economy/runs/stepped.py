@@ -5,9 +5,9 @@ from collections.abc import Mapping
 from threading import RLock
 from typing import Any, NamedTuple, Protocol
 
-from agent_economy.outcome import Columns, Outcome, so_far
-from agent_economy.scenario import Given, Scenario
-from agent_economy.thoughts import Thoughts
+from agent_economy.runs.belief_state import Thoughts
+from agent_economy.runs.outcome import Columns, Outcome, so_far
+from agent_economy.scenario import Scenario, TomlValue
 
 
 class Change(NamedTuple):
@@ -21,7 +21,7 @@ class Change(NamedTuple):
 
     tick: int
     path: str
-    value: Given
+    value: TomlValue
 
 
 class Inside(Protocol):
@@ -79,7 +79,7 @@ class Stepped(ABC):
         """Take steps."""
 
     @abstractmethod
-    def change(self, path: str, value: Given) -> None:
+    def change(self, path: str, value: TomlValue) -> None:
         """Put a value into the scenario, and go on with that."""
 
     @abstractmethod

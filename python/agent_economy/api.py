@@ -7,13 +7,13 @@ from pathlib import Path
 import numpy as np
 import pyarrow as pa
 
-from agent_economy import _core, given
-from agent_economy.begin import begun
-from agent_economy.minds import Brains
-from agent_economy.outcome import Outcome, table
-from agent_economy.scenario import Scenario, loaded
-from agent_economy.simulation import Simulation
-from agent_economy.stepped import Stepped
+from agent_economy import _core
+from agent_economy.runs import factory
+from agent_economy.runs.outcome import Outcome, table
+from agent_economy.runs.python_brains import Brains
+from agent_economy.runs.simulation import Simulation
+from agent_economy.runs.stepped import Stepped
+from agent_economy.scenario import Scenario, as_scenario, validation
 
 
 def run(
@@ -39,11 +39,11 @@ def run(
         InputError: If the scenario is wrong, or an argument out of range; all faults at once. If
             the file cannot be written, or a run to be recorded has no room for its team or items.
     """
-    scenario = loaded(scenario)
+    scenario = as_scenario(scenario)
     if record is not None:
-        path = given.path("record", record)
+        path = validation.path("record", record)
         if brains is None:
-            return recorded(begun(scenario, seed, run), path)
+            return recorded(factory.create(scenario, seed, run), path)
         return recorded(Simulation(scenario, seed, run, brains=brains), path)
     if brains is not None:
         row = replicate(scenario, 1, seed, first_run=run, brains=brains)
@@ -85,7 +85,7 @@ def replicate(  # noqa: PLR0913  (keywords with defaults)
     Raises:
         InputError: If the scenario is wrong, or an argument out of range; all faults at once.
     """
-    scenario = loaded(scenario)
+    scenario = as_scenario(scenario)
     configuration = scenario.configuration({})
     if brains is not None:
         begin = partial(Simulation, scenario, seed, threads=threads, brains=brains)
@@ -105,8 +105,12 @@ def one_by_one(
 ) -> list[dict[str, float]]:
     """Return what each run gives, by column; nothing of one that is quarantined."""
     most = _core.MAX_RUNS
-    given.check(given.is_whole(runs, 0, most), "runs", runs, f"a whole number from 0 to {most}")
-    given.check(given.is_whole(first_run, 0), "first_run", first_run, "a whole number, 0 or more")
+    validation.check(
+        validation.is_whole(runs, 0, most), "runs", runs, f"a whole number from 0 to {most}"
+    )
+    validation.check(
+        validation.is_whole(first_run, 0), "first_run", first_run, "a whole number, 0 or more"
+    )
     return [told_by(begin, first_run + number) for number in range(runs)]
 
 

@@ -7,8 +7,10 @@ from typing import TypeAlias, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from agent_economy import _core, batch, given
-from agent_economy.batch import Floats, Truths, Whole
+from agent_economy import _core
+from agent_economy.runs import batch
+from agent_economy.runs.batch import Floats, Truths, Whole
+from agent_economy.scenario import validation
 
 S = TypeVar("S", bound=np.generic)
 Shape: TypeAlias = tuple[int, ...]
@@ -73,7 +75,9 @@ class Table:
         if not isinstance(told, Mapping):
             raise _core.refusal(path, told, f"a dict with {known}")
         for name in told:
-            given.check(name in names, f"{path}.{name}", told[name], f"one of the known: {known}")
+            validation.check(
+                name in names, f"{path}.{name}", told[name], f"one of the known: {known}"
+            )
         self.path, self.told = path, told
 
     def __contains__(self, name: str) -> bool:
@@ -109,7 +113,7 @@ class Table:
         if 0 in shape and told is None:
             return np.zeros(shape, kind)
         path, allowed = f"{self.path}.{name}", f"one value for all, or an array of shape {shape}"
-        given.check(told is not None, path, told, allowed)
+        validation.check(told is not None, path, told, allowed)
         try:
             return np.broadcast_to(np.asarray(told, dtype=kind), shape)
         except (OverflowError, TypeError, ValueError):

@@ -1,8 +1,8 @@
 """A brain for all robots of a kind at once: a function on arrays.
 
-Arrays have the names, the units and the order of what a single brain gets and gives (see
-`agent_economy.brain`), with an entry for each robot whose brain steps now. What is missing is NaN,
-or False, and its age is NaN. Of a ray that meets nothing the range is `math.inf`.
+Arrays have the names, units and order of a single brain's percept and command (see
+`agent_economy.runs.brain`), with an entry for each robot whose brain steps now. Missing values are
+NaN or False, and their age is NaN. The range of a ray that meets nothing is `math.inf`.
 """
 
 from collections.abc import Callable
@@ -12,8 +12,8 @@ from typing import Any, Generic, NotRequired, TypeAlias, TypedDict, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from agent_economy import given
-from agent_economy.brain import Body
+from agent_economy.runs.brain import Body
+from agent_economy.scenario import validation
 
 T = TypeVar("T")
 Floats: TypeAlias = NDArray[np.float64]
@@ -211,4 +211,4 @@ class Batch:
         Raises:
             InputError: If not.
         """
-        given.check(callable(self.function), "Batch", self.function, "a function on arrays")
+        validation.check(callable(self.function), "Batch", self.function, "a function on arrays")

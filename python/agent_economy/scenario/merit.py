@@ -94,6 +94,6 @@ def shortest(number: float) -> str:
     return repr(float(number)).removesuffix(".0")
 
 
-def in_words(name: str | None, terms: tuple[Term, ...]) -> str:
+def display_name(name: str | None, terms: tuple[Term, ...]) -> str:
     """Return a figure of merit's name, or its terms where it has none."""
     return name or ",".join(str(term) for term in terms)

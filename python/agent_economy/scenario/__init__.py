@@ -1,0 +1,20 @@
+"""Scenarios: what a job is, read from TOML and checked as a whole.
+
+`scenario` is the object that everything else takes, `source` the text and files it was read from,
+`merit` its figure of merit, `bundled` the scenarios that ship with the package, and `validation`
+checks the arguments of public functions.
+"""
+
+from agent_economy.scenario.scenario import Factor, Published, Scenario, as_scenario
+from agent_economy.scenario.source import Override, Source, TomlValue, Value
+
+__all__ = [
+    "Factor",
+    "Override",
+    "Published",
+    "Scenario",
+    "Source",
+    "TomlValue",
+    "Value",
+    "as_scenario",
+]

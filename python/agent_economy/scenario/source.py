@@ -1,0 +1,160 @@
+"""What a scenario is read from: its text, the values set over it, and the files that it names."""
+
+import stat
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+from agent_economy import _core
+from agent_economy.scenario import validation
+
+Value = str | int | float
+"""A value of a factor. Booleans are integers in Python."""
+
+TomlValue = Value | Sequence[Any] | Mapping[str, Any]
+"""What a scenario file can hold at a path: a value, a list or a table."""
+
+RECORDING_MAGIC = b"\x89MCAP"
+"""The first bytes of a recording."""
+
+VARY = "study.vary."
+
+MAX_BYTES = 2**24
+"""Maximum size of a scenario file: enough for half a million obstacle corners."""
+
+MAX_KEYS = 32
+"""Maximum depth of a path in a scenario."""
+
+
+@dataclass(frozen=True)
+class Override:
+    """A value that replaces what the file has at a path.
+
+    Attributes:
+        path: Keys from the scenario's root.
+        value: The value, as the file could have it.
+        origin: How errors name it, such as --merit.
+    """
+
+    path: tuple[str, ...]
+    value: TomlValue
+    origin: str
+
+    @classmethod
+    def at(cls, path: str, value: TomlValue, origin: str) -> "Override":
+        """Return an override of a dotted path.
+
+        A factor of a study is a single key with dots in it: study.vary.robots.wanderer.count.
+
+        Raises:
+            InputError: If the path is not a string or has too many keys.
+        """
+        check_path(origin, path)
+        factor = path.removeprefix(VARY)
+        keys = ("study", "vary", factor) if factor != path else tuple(path.split("."))
+        return cls(keys, value, origin)
+
+
+@dataclass(frozen=True)
+class Source:
+    """Everything that is needed to read a scenario again, also on another machine.
+
+    Attributes:
+        file: How errors name the text.
+        text: TOML.
+        overrides: Values that replace those of the text.
+        files: The files that it names, such as maps, by name: their bytes, or the reason that they
+            cannot be read.
+    """
+
+    file: str
+    text: str = field(repr=False)
+    overrides: tuple[Override, ...]
+    files: Mapping[str, bytes | str] = field(default_factory=dict, repr=False)
+
+    def __post_init__(self) -> None:
+        """Check the argument types.
+
+        Raises:
+            InputError: If the text or the file name is not a string.
+        """
+        validation.check(validation.is_text(self.file), "file", self.file, "a file name")
+        validation.check(validation.is_text(self.text), "text", self.text, "a string of TOML")
+
+    @property
+    def changes(self) -> list[tuple[list[str], TomlValue, str]]:
+        """The overrides in the form that the Rust core reads."""
+        return [(list(each.path), each.value, each.origin) for each in self.overrides]
+
+    def complete(self) -> "Source":
+        """Return the source with all files that it names, read relative to its own folder."""
+        source = self
+        while wanted := _core.files_wanted(source):
+            folder, limit = Path(self.file).parent, _core.MAX_IMAGE_BYTES
+            found = {name: read_file(folder / name, limit) for name in wanted}
+            source = replace(source, files={**source.files, **found})
+        return source
+
+
+def read_file(path: Path, max_bytes: int) -> bytes | str:
+    """Return the bytes of a file, or the reason that it cannot be read."""
+    try:
+        mode = path.stat().st_mode
+        # A pipe or a device may never end, or never begin. Opening a folder raises its own error.
+        if not (stat.S_ISREG(mode) or stat.S_ISDIR(mode)):
+            return "it is a pipe or a device; save its output to a file and pass that"
+        with path.open("rb") as stream:
+            data = stream.read(max_bytes + 1)
+    except OSError as error:
+        return error.strerror or str(error)
+    except ValueError as error:  # a name that no file can have
+        return str(error)
+    # A recording passed by mistake gets an error of its own, whatever its size.
+    if len(data) > max_bytes and not data.startswith(RECORDING_MAGIC):
+        return f"it is larger than the limit of {max_bytes:,} bytes"
+    return data
+
+
+def check_path(origin: str, path: object) -> None:
+    """Check that an argument can be a path in a scenario.
+
+    Raises:
+        InputError: If it is not a string or has too many keys.
+    """
+    allowed = f"keys from the root, such as clock.time_limit_s; at most {MAX_KEYS}"
+    is_path = validation.is_text(path) and path.count(".") < MAX_KEYS
+    validation.check(is_path, f"{origin}: path", path, allowed)
+
+
+def check_overrides(overrides: tuple[Override, ...]) -> tuple[Override, ...]:
+    """Return an argument `overrides` as a tuple.
+
+    Raises:
+        InputError: If it is not a sequence of `Override`.
+    """
+    allowed = "a tuple of Override"
+    validation.of_kind("overrides", overrides, tuple | list, allowed)
+    for each in overrides:
+        validation.of_kind("overrides", each, Override, allowed)
+    return tuple(overrides)
+
+
+def decode(file: Path, data: bytes) -> str:
+    """Return the text of a scenario file, with line feeds as line endings.
+
+    Raises:
+        ValueError: If the bytes are not UTF-8; the message says what they are instead.
+    """
+    try:
+        return data.decode().replace("\r\n", "\n").replace("\r", "\n")
+    except UnicodeDecodeError as error:
+        raise ValueError(not_text(file, error)) from None
+
+
+def not_text(file: Path, error: UnicodeDecodeError) -> str:
+    """Return what is wrong with a file that is not UTF-8 text."""
+    if error.object.startswith(RECORDING_MAGIC):
+        command = f"agent-economy replay {file}"
+        return f"{file}: expected a scenario, got a recording; to replay it: {command}"
+    return f"{file}: is not UTF-8 text: byte {error.start} is {error.object[error.start]:#x}"
