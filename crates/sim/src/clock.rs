@@ -3,14 +3,15 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// How time passes.
+/// Time step and time limit.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ClockSpec {
-    /// Time of a step, in seconds.
+    /// Length of a time step, in seconds.
     #[serde(default = "tenth")]
     #[schemars(range(min = 0.001, max = 10.0))]
     pub step_s: f64,
-    /// A run ends here, in seconds; a search that has not found all by then has failed.
+    /// A run ends at this time at the latest, in seconds. A search that has not found all targets
+    /// by then has failed.
     #[schemars(range(min = 0.0, max = 1e7))]
     pub time_limit_s: f64,
 }
@@ -19,11 +20,11 @@ fn tenth() -> f64 {
     0.1
 }
 
-/// Parts of a second to which times are told.
+/// Parts of a second to which times are rounded.
 const PARTS_PER_S: f64 = 1e9;
 
-/// The time of so many steps, as results tell it: 564 steps of 0.1 s are 56.4 s, where the product
-/// of the two is 56.400000000000006.
+/// The time of a number of steps, rounded for results: 564 steps of 0.1 s are 56.4 s, whereas the
+/// product is 56.400000000000006.
 #[expect(clippy::cast_precision_loss, reason = "steps are at most 1e8")]
 pub(crate) fn seconds(tick: u64, step_s: f64) -> f64 {
     (tick as f64 * step_s * PARTS_PER_S).round() / PARTS_PER_S

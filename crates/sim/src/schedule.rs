@@ -1,9 +1,9 @@
-//! When a sensor looks, or a brain steps.
+//! When a sensor measures, or a brain steps.
 
-/// Rounding of a rate times a step must not skip a look.
+/// Rounding of a rate times a step must not skip a measurement.
 const HAIR: f64 = 1e-9;
 
-/// A schedule in steps: the n-th beat is on the first step at or after its time.
+/// A schedule in steps: the n-th beat is in the first step at or after its time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Schedule {
     /// At most 1.
@@ -11,13 +11,13 @@ pub(crate) struct Schedule {
 }
 
 impl Schedule {
-    /// `rate_hz` beats a second, at most one a step; without a rate, one a step.
+    /// `rate_hz` beats per second, at most one per step; without a rate, one per step.
     pub(crate) fn new(rate_hz: Option<f64>, step_s: f64) -> Self {
         let beats_per_step = rate_hz.map_or(1.0, |rate_hz| (rate_hz * step_s).min(1.0));
         Self { beats_per_step }
     }
 
-    /// The number of the beat that is on this step, from 0.
+    /// The number of the beat in this step, from 0.
     #[inline]
     pub(crate) fn beat(self, tick: u64) -> Option<u64> {
         if self.is_each_step() {
@@ -36,12 +36,12 @@ impl Schedule {
         step_s / self.beats_per_step
     }
 
-    /// Beats that fall into so many steps, at most.
+    /// Maximum number of beats in a number of steps.
     pub(crate) fn beats_in(self, steps: u64) -> usize {
         usize::try_from(self.beats_until(steps)).unwrap_or(usize::MAX - 2) + 1
     }
 
-    /// Beats after the one on step 0, until this step.
+    /// Beats after the one in step 0, up to this step.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_precision_loss,
@@ -53,7 +53,7 @@ impl Schedule {
     }
 }
 
-/// Steps that a time lasts, rounded up.
+/// Number of steps of a duration, rounded up.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,

@@ -1,36 +1,37 @@
-//! What a battery holds, and what drains it.
+//! Battery capacity and power draw.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A battery and what the body takes from it; sensors and radio take more.
+/// A battery and the power that the body draws; sensors and radio draw more.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct BatterySpec {
-    /// Energy when full, in joules; left out, it never empties and is only counted.
+    /// Capacity, in joules. Without it the battery never runs empty and energy is only counted.
     #[schemars(range(min = 0.001, max = 1e12))]
     pub capacity_j: Option<f64>,
-    /// Power of the computer and all else that is always on, in watts.
+    /// Constant power of the computer and other electronics, in watts.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1e6))]
     pub idle_w: f64,
-    /// More power while it moves or turns, in watts.
+    /// Additional power while the robot moves or turns, in watts.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1e6))]
     pub move_w: f64,
-    /// More energy for each metre without payload, in joules; a payload adds its share of the mass.
+    /// Additional energy per metre without payload, in joules; a payload raises it in proportion to
+    /// the total mass.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1e6))]
     pub move_j_per_m: f64,
 }
 
-/// A battery, as the step needs it.
+/// A battery, converted for the step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Battery {
-    /// Infinite if it never empties.
+    /// Infinite if it never runs empty.
     pub(crate) capacity_j: f64,
     pub(crate) idle_w: f64,
     pub(crate) move_w: f64,
-    /// With its payload.
+    /// Including the payload.
     pub(crate) move_j_per_m: f64,
 }
 

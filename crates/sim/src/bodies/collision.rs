@@ -1,22 +1,22 @@
-//! What a collision costs.
+//! Consequences of a collision.
 
 use crate::schedule::steps_of;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What happens to a robot that touches something.
+/// Consequences of a collision for a robot.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default)]
 pub struct CollisionSpec {
-    /// It stands still for so long, in seconds.
+    /// The robot stands still for this long after a collision, in seconds.
     #[schemars(range(min = 0.0, max = 1e6))]
     pub stop_duration_s: f64,
-    /// It is broken after so many collisions; left out, it never breaks.
+    /// The robot breaks down after this number of collisions. Without it, never.
     #[schemars(range(min = 1))]
     pub max_collisions: Option<u32>,
 }
 
-/// What a collision costs, as the step needs it.
+/// Consequences of a collision, converted for the step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Collision {
     pub(crate) stop_steps: u64,

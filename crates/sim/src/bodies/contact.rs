@@ -1,29 +1,29 @@
-//! When moving bodies touch, without letting any slip through.
+//! Continuous collision detection between moving bodies: none passes through another.
 //!
-//! Paths are followed chord by chord, and along a chord the moment of contact is the root of a
-//! quadratic: so a body of any speed meets what is in its way. Bodies that touch already (rounding
-//! may even let them overlap by a hair) are held only if they would come closer.
+//! Paths are followed chord by chord, and along a chord the time of contact is the root of a
+//! quadratic, so a body of any speed meets what is in its way. Bodies that already touch (rounding
+//! may even make them overlap by a hair) are stopped only if they would approach each other.
 
 use super::path::Path;
 use crate::world::static_geometry::Wall;
 use base::geometry::{Disc, Point};
 
-/// How far a point may pass beside a wall's end and still meet it, in metres: none slips through
-/// where two walls meet.
+/// A point that passes the end of a wall at up to this distance still meets it, in metres: nothing
+/// slips through where two walls meet.
 const CRACK_M: f64 = 1e-9;
 
-/// The sine of the greatest angle off a tangent, squared, that is rounding: who goes along something
-/// round leaves it.
+/// Squared sine of the largest angle to a tangent that counts as rounding: a body that moves along
+/// something round can leave it.
 const ALONG: f64 = 1e-24;
 
-/// Whether `way` leads a point at `from` closer to the origin.
+/// Whether `way` brings a point at `from` closer to the origin.
 #[inline]
 fn is_closing(from: Point, way: Point) -> bool {
     let closing = -from.dot(way);
     closing > 0.0 && closing * closing > ALONG * from.length_squared() * way.length_squared()
 }
 
-/// The share of `way` after which a point at `from` comes within `radius_m` of the origin.
+/// The fraction of `way` after which a point at `from` comes within `radius_m` of the origin.
 #[inline]
 fn meets_origin(from: Point, way: Point, radius_m: f64) -> Option<f64> {
     if !is_closing(from, way) {
@@ -42,13 +42,13 @@ fn meets_origin(from: Point, way: Point, radius_m: f64) -> Option<f64> {
     (share <= 1.0).then_some(share)
 }
 
-/// The share of `way` after which a body at `from` touches a wall.
+/// The fraction of `way` after which a body at `from` touches a wall.
 #[inline]
 fn meets_wall(from: Point, way: Point, radius_m: f64, wall: &Wall) -> Option<f64> {
     let offset = wall.start.to(from);
     let closing = way.cross(wall.along);
     let gap = wall.along.cross(offset) - radius_m;
-    // From behind, a wall is open: nothing gets there but by being placed there.
+    // A wall is open from behind: a body is there only if it was placed there.
     let on_face = (closing > 0.0 && gap > -2.0 * radius_m - 1e-9)
         .then(|| (gap / closing).max(0.0))
         .filter(|share| {
@@ -64,7 +64,7 @@ fn earliest<const N: usize>(shares: [Option<f64>; N]) -> Option<f64> {
     shares.into_iter().flatten().min_by(f64::total_cmp)
 }
 
-/// The share of the step after which a body meets the first of these walls and discs.
+/// The fraction of the step after which a body meets the first of these walls and discs.
 #[inline]
 pub(crate) fn meets_still<'a>(
     path: &Path,
@@ -90,13 +90,13 @@ pub(crate) fn meets_still<'a>(
 /// How two bodies meet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Encounter {
-    /// Share of the step after which they touch.
+    /// Fraction of the step after which they touch.
     pub(crate) share: f64,
-    /// Which of them goes towards the other then.
+    /// Which of them approaches the other then.
     pub(crate) comes: [bool; 2],
 }
 
-/// How two bodies come within `reach_m` of each other after a share `since` of the step.
+/// How two bodies come within `reach_m` of each other after a fraction `since` of the step.
 pub(crate) fn meets_moving(
     [one, other]: [&Path; 2],
     reach_m: f64,
@@ -107,7 +107,7 @@ pub(crate) fn meets_moving(
     let mut before = since;
     let mut from = other.at(since).to(one.at(since));
     for end in ends.filter(|end| *end > since) {
-        // A body that stops on the way does so between two straight pieces.
+        // A body that stops on the way stops between two straight pieces.
         for after in pieces(before, end, one.until, other.until) {
             let next = other.at(after).to(one.at(after));
             let way = from.to(next);
@@ -124,10 +124,11 @@ pub(crate) fn meets_moving(
     None
 }
 
-/// Which of two bodies that meet goes towards the other, by the way from the other to the one.
+/// Which of two bodies that meet approaches the other, given the vector from the second to the
+/// first.
 fn comes(apart: Point, [one, other]: [Point; 2]) -> [bool; 2] {
     let comes = [is_closing(apart, one), is_closing(apart.times(-1.0), other)];
-    // They do meet: where rounding says that neither does it, both do.
+    // They do meet: where rounding says that neither approaches, both do.
     if comes == [false; 2] {
         [true; 2]
     } else {

@@ -1,43 +1,43 @@
-//! How a body moves: a differential drive with limits, along exact arcs.
+//! Differential drive with limits, along exact arcs.
 
 use brain::Motion;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What a body's drive can do.
+/// Limits of a differential drive.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct DriveSpec {
-    /// At most so fast ahead, in m/s.
+    /// Maximum forward speed, in m/s.
     #[schemars(range(min = 0.0, max = 100.0))]
     pub max_speed_m_s: f64,
-    /// At most so fast backwards, in m/s; 0 if it cannot.
+    /// Maximum reverse speed, in m/s; 0 if the robot cannot reverse.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub max_reverse_speed_m_s: f64,
-    /// It gains and loses speed at most so fast, in m/s²; left out, speed changes at once.
+    /// Maximum acceleration and deceleration, in m/s². Without it, speed changes instantly.
     #[schemars(range(min = 0.001, max = 1000.0))]
     pub max_acceleration_m_s2: Option<f64>,
-    /// It turns at most so fast, in degrees a second; left out, it first turns at once, as far as it
-    /// wants, and then goes straight.
+    /// Maximum turn rate, in degrees per second. Without it, the robot first turns instantly by any
+    /// angle and then drives straight.
     #[schemars(range(min = 0.0, max = 3600.0))]
     pub max_turn_rate_deg_s: Option<f64>,
 }
 
-/// A drive's limits, as the step needs them.
+/// Limits of a drive, converted for the step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Drive {
     pub(crate) max_speed_m_s: f64,
     pub(crate) max_reverse_speed_m_s: f64,
-    /// Infinite if speed changes at once.
+    /// Infinite if speed changes instantly.
     pub(crate) max_acceleration_m_s2: f64,
     pub(crate) max_turn_rate_rad_s: f64,
-    /// Whether a step's turn is at its beginning.
+    /// Whether the turn of a step happens at its beginning.
     pub(crate) turns_at_once: bool,
 }
 
 impl Drive {
     pub(crate) fn new(spec: &DriveSpec, step_s: f64) -> Self {
-        // No course is farther off than half a turn.
+        // No heading differs by more than half a turn.
         let at_once_rad_s = std::f64::consts::PI / step_s;
         let turn_rate = spec.max_turn_rate_deg_s.map(f64::to_radians);
         Self {
@@ -49,11 +49,11 @@ impl Drive {
         }
     }
 
-    /// What the body does of what is wanted: the speed after the step, how far it goes in it, and
-    /// its rate of turn.
+    /// The motion of the body in one step, given the motion that the brain wants: the speed at the
+    /// end of the step, the distance, and the turn rate.
     ///
-    /// The speed changes as fast as it may until it is as wanted, and then stays; `terrain` is a
-    /// factor on the greatest speeds. Nothing that is not a number is wanted.
+    /// The speed changes at the maximum acceleration until it is the wanted one, and then stays
+    /// constant. `terrain` scales the maximum speeds. Non-finite values count as 0.
     #[inline]
     pub(crate) fn step(&self, speed_m_s: f64, wanted: Motion, terrain: f64, step_s: f64) -> Driven {
         let after = self.possible(or_zero(wanted.speed_m_s), terrain);
@@ -64,7 +64,7 @@ impl Drive {
         let change = after - speed_m_s;
         let change_s = change.abs() / self.max_acceleration_m_s2;
         if change_s <= step_s {
-            // On average the speed is half way for the time of the change.
+            // While the speed changes, its mean is half way between both.
             let length_m = after * step_s - change * change_s / 2.0;
             return Driven {
                 speed_m_s: after,
@@ -82,7 +82,7 @@ impl Drive {
 }
 
 impl Drive {
-    /// The nearest speed that it has where `terrain` is a factor on the greatest.
+    /// The nearest possible speed where `terrain` scales the maximum speeds.
     #[inline]
     pub(crate) fn possible(&self, speed_m_s: f64, terrain: f64) -> f64 {
         let least = -self.max_reverse_speed_m_s * terrain;
@@ -91,13 +91,13 @@ impl Drive {
     }
 }
 
-/// How a body drives in a step.
+/// The motion of a body in one step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Driven {
     /// At the end of the step.
     pub(crate) speed_m_s: f64,
     pub(crate) turn_rate_rad_s: f64,
-    /// Ahead; negative is backwards.
+    /// Forward; negative is reverse.
     pub(crate) length_m: f64,
 }
 
@@ -133,7 +133,7 @@ mod tests {
         }
     }
 
-    /// Distance gone with so many steps until the body stands.
+    /// Distance covered in a number of steps until the body stands still.
     fn stopping_m(drive: &Drive, speed_m_s: f64, step_s: f64) -> f64 {
         let (mut speed, mut way) = (speed_m_s, 0.0);
         while speed != 0.0 {
@@ -146,7 +146,7 @@ mod tests {
     #[test]
     fn the_stopping_distance_is_that_of_the_closed_form_for_any_step() {
         for step_s in [0.001, 0.07, 0.1, 0.3, 2.0] {
-            // v^2 / (2 a), ahead and backwards.
+            // v^2 / (2 a), forward and in reverse.
             assert!(
                 (stopping_m(&ROVER, 2.0, step_s) - 0.5).abs() < 1e-12,
                 "{step_s}"

@@ -1,4 +1,4 @@
-//! A kind of robot, as runs need it.
+//! A kind of robot, converted for runs.
 
 use super::battery::Battery;
 use super::collision::Collision;
@@ -29,38 +29,38 @@ pub(crate) struct Kind {
     pub(crate) drive: Drive,
     pub(crate) collision: Collision,
     pub(crate) battery: Option<Battery>,
-    /// In the order of their names.
+    /// Sorted by name.
     pub(crate) sensors: Vec<Sensor>,
-    /// No ray goes farther; 0 without rays.
+    /// Maximum range of its rays; 0 without rays.
     pub(crate) rays_m: f64,
     pub(crate) radio: Option<Radio>,
     /// Power of its radio and all its sensors.
     all_on_w: f64,
     /// When its brain steps.
     pub(crate) schedule: Schedule,
-    /// As a robot begins with it; clones share what is the same for all.
+    /// The brain that each robot starts with; clones share what is the same for all.
     pub(crate) brain: Brain,
-    /// If its robots do nothing but go with the others, in a world where nothing stands.
+    /// If its robots only flock, in a world without obstacles.
     pub(crate) flocking: Option<Flocking>,
 }
 
-/// How robots go with the others that do nothing else, and see all of them at once and exactly.
+/// How robots that only flock, and detect all others at once and exactly, move.
 #[derive(Debug, Clone)]
 pub(crate) struct Flocking {
     rule: flock::Ready,
-    /// They see no farther.
+    /// Maximum range at which they detect others.
     pub(crate) reach_m: f64,
     sees_courses: bool,
 }
 
 impl Flocking {
-    /// Of their reach, and of how near is too near.
+    /// Squares of their range and of the separation distance.
     #[inline]
     pub(crate) fn squares(&self) -> [f64; 2] {
         [self.reach_m, self.rule.separation_m()].map(|distance_m| distance_m * distance_m)
     }
 
-    /// What a robot wants that is to turn so fast.
+    /// The motion that a robot wants, given its turn rate.
     #[inline]
     pub(crate) fn motion(&self, turn_rate_rad_s: f64) -> Motion {
         Motion {
@@ -69,7 +69,7 @@ impl Flocking {
         }
     }
 
-    /// How fast a robot turns whose course is `front`, given those in range.
+    /// The turn rate of a robot with the heading `front`, given the sums over its neighbours.
     #[inline]
     pub(crate) fn turn_rate_rad_s(
         &self,
@@ -87,7 +87,7 @@ impl Flocking {
     }
 }
 
-/// What all robots are told before the mission.
+/// What all robots know before the mission.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Briefing<'a> {
     pub(crate) item_kinds: &'a [String],
@@ -164,8 +164,8 @@ impl Kind {
         kind
     }
 
-    /// How its robots go with the others in a world where nothing stands, if they do nothing else and
-    /// have what that takes, and no more.
+    /// The flocking rule of its robots in a world without obstacles, if they do nothing else, and
+    /// have the sensors for it and no others.
     pub(crate) fn as_flock(&self) -> Option<Flocking> {
         let rule = self.brain.flock()?;
         let [sensor] = self.sensors.as_slice() else {
@@ -186,14 +186,14 @@ impl Kind {
         })
     }
 
-    /// Whether anything that its robots measure or hear can wait for their brains.
+    /// Whether anything that its robots measure or receive can wait for their brains.
     pub(crate) fn needs_backlog(&self) -> bool {
         let is_late = |sensor: &Sensor| !sensor.tells_at_once();
         let is_slow = !self.schedule.is_each_step();
         is_slow || self.radio.is_some() || self.sensors.iter().any(is_late)
     }
 
-    /// Power of its radio and of its sensors, without those whose bits are in `off`.
+    /// Power of its radio and of its sensors, except the sensors whose bits are set in `off`.
     #[inline]
     pub(crate) fn sensing_w(&self, off: u32) -> f64 {
         if off == 0 {
@@ -210,8 +210,8 @@ impl Kind {
         radio_w + on.map(|(_, sensor)| sensor.power_w).sum::<f64>()
     }
 
-    /// What is farther from its centre at the start of a step, it does not touch in it; where it
-    /// goes at its greatest speed for `longest_s`.
+    /// Maximum distance from its centre at the start of a step at which it can touch something in
+    /// that step, where it drives at its maximum speed for `longest_s`.
     pub(crate) fn touch_m(&self, longest_s: f64) -> f64 {
         let Drive {
             max_speed_m_s,
@@ -221,7 +221,7 @@ impl Kind {
         self.radius_m + 1.01 * max_speed_m_s.max(max_reverse_speed_m_s) * longest_s + 1e-3
     }
 
-    /// It neither recognises robots nor talks to them from farther away.
+    /// Maximum distance at which it detects robots or communicates with them.
     pub(crate) fn robots_reach_m(&self) -> f64 {
         let sensors = self.sensors.iter();
         let detectors = sensors.filter_map(|sensor| match &sensor.measure {
@@ -232,7 +232,7 @@ impl Kind {
         detectors.chain(radio).fold(0.0, f64::max)
     }
 
-    /// It looks for items no farther.
+    /// Maximum distance at which it detects items.
     pub(crate) fn items_reach_m(&self) -> f64 {
         let detectors = self
             .sensors
@@ -258,7 +258,7 @@ fn ring(sensor: &Sensor, step_s: f64) -> Option<RangeRing> {
     })
 }
 
-/// The greatest error of its sensors of some kind; 0 if it has none.
+/// The largest error of its sensors of one kind; 0 without any.
 fn noise(sensors: &[Sensor], of: impl Fn(&Measure) -> Option<f64>) -> f64 {
     let noises = sensors.iter().filter_map(|sensor| of(&sensor.measure));
     noises.fold(0.0, f64::max)

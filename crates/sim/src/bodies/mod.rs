@@ -1,4 +1,4 @@
-//! The robots' bodies: how they move, what they run into, and what drains them.
+//! The bodies of robots: how they move, what they collide with, and their energy.
 
 pub mod battery;
 pub mod collision;
@@ -20,21 +20,21 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// A kind of robot, and how many of it there are.
+/// A kind of robot, and the number of these robots.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RobotSpec {
-    /// A shipped robot whose values stand for all that is left out here.
+    /// A bundled robot model. Its values replace all keys that are not set here.
     pub model: Option<Model>,
-    /// Robots of this kind in the team.
+    /// Number of robots of this kind in the team.
     #[schemars(range(max = 1_000_000))]
     pub count: u32,
-    /// What it moves through.
+    /// The layer in which the robot moves.
     #[serde(default)]
     pub layer: Layer,
-    /// Of the disc that it covers, in metres.
+    /// Radius of the robot's disc-shaped footprint, in metres.
     #[schemars(range(min = 0.0, max = 100.0))]
     pub radius_m: f64,
-    /// What one costs, in any unit; the merit's term `price` sums it over the team.
+    /// Price of one robot, in any currency. The merit term `price` sums it over the team.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1e12))]
     pub price: f64,
@@ -42,38 +42,38 @@ pub struct RobotSpec {
     #[serde(default = "one")]
     #[schemars(range(min = 0.001, max = 1e6))]
     pub mass_kg: f64,
-    /// Mass that it carries, in kg; each metre takes energy in proportion to the whole mass.
+    /// Mass of the payload, in kg. The energy per metre is proportional to the total mass.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1e6))]
     pub payload_kg: f64,
-    /// Where robots start.
+    /// Where the robots start.
     #[serde(default)]
     pub start: Placement,
-    /// How it moves.
+    /// How the robot moves.
     pub drive: DriveSpec,
-    /// What a collision costs.
+    /// Consequences of a collision.
     #[serde(default)]
     pub collision: CollisionSpec,
-    /// Its battery; left out, energy is not counted.
+    /// The battery. Without it, energy is not counted.
     pub battery: Option<BatterySpec>,
-    /// Its sensors, each under a name of your choice.
+    /// The sensors, each under a name of your choice.
     #[serde(default)]
     pub sensors: BTreeMap<String, SensorSpec>,
-    /// Its radio; left out, it neither sends nor hears.
+    /// The radio. Without it, the robot neither sends nor receives.
     pub radio: Option<RadioSpec>,
-    /// Its agent.
+    /// What the robot does: its behaviours, and how they are combined.
     #[serde(default)]
     pub brain: BrainSpec,
 }
 
-/// What a body moves through.
+/// The layer in which a body moves.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Layer {
     /// On the ground: obstacles and other ground robots are in its way.
     #[default]
     Ground,
-    /// In the air: only other air robots and the world's border are in its way.
+    /// In the air: only other air robots and the border of the world are in its way.
     Air,
 }
 

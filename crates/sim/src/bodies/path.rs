@@ -1,25 +1,25 @@
-//! Where a body goes in one step: along the chords of a circular arc.
+//! The path of a body in one step: the chords of a circular arc.
 //!
-//! The corners of the chords are on the arc, exactly, and so is where a step ends; in between a body
-//! is on the chord. So where it meets something on a chord it also comes to stand there, and no
-//! bulge of the arc carries it through a wall.
+//! The corners of the chords lie exactly on the arc, and so does the end of a step; between them
+//! the body is on the chord. So it stops where it meets something on a chord, and no bulge of the
+//! arc carries it through a wall.
 
 use base::geometry::Point;
 use base::trig::{sin_cos, wrapped};
 
-/// How far a chord may be from its arc, in metres.
+/// Maximum distance of a chord from its arc, in metres.
 const MAX_SAGITTA_M: f64 = 2e-4;
 
-/// Chords that an arc is cut into at most. Half a turn at 100 m/s for a step of 10 s, over ground
-/// that makes ten times as fast, needs no more.
+/// Maximum number of chords of an arc. Half a turn at 100 m/s for a step of 10 s, on terrain that
+/// makes the robot ten times as fast, needs no more.
 const MAX_CHORDS: f64 = 8192.0;
 
-/// A direction, with its cosine and sine.
+/// A heading, with its cosine and sine.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Orientation {
     /// 0 along x, anticlockwise, from -pi to pi.
     pub(crate) heading_rad: f64,
-    /// Of length 1.
+    /// Unit vector.
     pub(crate) front: Point,
 }
 
@@ -52,21 +52,21 @@ impl Orientation {
     }
 }
 
-/// The arc of a step, of which a body may go a part only.
+/// The arc of a step, of which a body may complete only a part.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Path {
     pub(crate) start: Point,
     pub(crate) front: Point,
-    /// Ahead; negative is backwards.
+    /// Forward; negative is reverse.
     pub(crate) length_m: f64,
     /// Anticlockwise.
     pub(crate) turn_rad: f64,
-    /// Share of the arc after which the body stands, 0 to 1.
+    /// Fraction of the arc after which the body stops, 0 to 1.
     pub(crate) until: f64,
 }
 
 impl Path {
-    /// That of a body that stands.
+    /// The path of a body that stands still.
     pub(crate) const fn rest(at: Point) -> Self {
         Self {
             start: at,
@@ -77,7 +77,7 @@ impl Path {
         }
     }
 
-    /// Where the body is after a share of the step, 0 to 1.
+    /// Where the body is after a fraction of the step, 0 to 1.
     #[inline]
     pub(crate) fn at(&self, share: f64) -> Point {
         let share = share.min(self.until);
@@ -123,8 +123,8 @@ impl Path {
         }
     }
 
-    /// Chords that follow the arc closely: a power of two, so that of two paths the corners of one
-    /// are among those of the other.
+    /// Number of chords that follow the arc closely: a power of two, so that of two paths the
+    /// corners of one are among those of the other.
     #[inline]
     #[expect(
         clippy::cast_possible_truncation,
@@ -135,7 +135,8 @@ impl Path {
         if self.turn_rad == 0.0 {
             return 1;
         }
-        // The sagitta of one chord for the whole is length * turn / 8; it shrinks with their square.
+        // The sagitta of one chord for the whole is length * turn / 8; it shrinks with the square
+        // of their number.
         let sagitta = (self.length_m * self.turn_rad).abs() / 8.0;
         let chords = (sagitta / MAX_SAGITTA_M).sqrt().ceil();
         (chords.clamp(1.0, MAX_CHORDS) as u32).next_power_of_two()
@@ -159,8 +160,8 @@ mod tests {
     }
 
     proptest! {
-        /// With heading h, and a turn by a along the length s: the centre of the circle of radius
-        /// s / a is to the left, and the body is across it from where the heading h + a points.
+        /// With heading h, and a turn by a along the length s: the centre of the circle of radius s
+        /// / a is to the left, and the body is opposite to where the heading h + a points.
         #[test]
         fn a_step_ends_on_the_arc_of_the_closed_form(
             length in -50.0_f64..50.0, turn in 0.01_f64..PI, is_left: bool, heading in -PI..PI,
@@ -207,7 +208,7 @@ mod tests {
 
     #[test]
     fn the_longest_arc_of_a_scenario_is_followed_closely_enough() {
-        // 100 m/s for 10 s, ten times as fast on some ground, half a turn.
+        // 100 m/s for 10 s, ten times as fast on some terrain, half a turn.
         let path = path(10_000.0, PI, 0.0);
         let sagitta_m = path.length_m * PI / 8.0 / f64::from(path.chords()).powi(2);
         assert!(sagitta_m <= MAX_SAGITTA_M, "{sagitta_m}");

@@ -1,20 +1,20 @@
-//! Messages on their way.
+//! Messages in transit.
 
 use brain::{Heard, Message};
 use std::collections::VecDeque;
 
-/// Messages on their way, by the step in which they are heard.
+/// Messages in transit, by the step in which they arrive.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct RadioChannel {
     /// The next step first.
     due: VecDeque<Vec<Transmission>>,
-    /// Emptied lists, to be used again.
+    /// Emptied lists, for reuse.
     spare: Vec<Vec<Transmission>>,
     /// Receivers of a message; kept so that nothing is allocated.
     receivers: Vec<u32>,
 }
 
-/// A message on its way to one robot.
+/// A message in transit to one robot.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Transmission {
     pub(crate) to: u32,
@@ -22,7 +22,7 @@ pub(crate) struct Transmission {
     pub(crate) heard: Heard,
 }
 
-/// A message that a robot sends, and its place among those that it sends in this step.
+/// A message that a robot sends, and its number among those that it sends in this step.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Outgoing {
     pub(crate) from: u32,
@@ -31,12 +31,12 @@ pub(crate) struct Outgoing {
 }
 
 impl RadioChannel {
-    /// What is heard in this step, in the order in which it was sent.
+    /// The messages that arrive in this step, in the order in which they were sent.
     pub(crate) fn arrive(&mut self) -> Vec<Transmission> {
         self.due.pop_front().unwrap_or_default()
     }
 
-    /// Takes back a list that `arrive` gave.
+    /// Takes back a list that `arrive` returned.
     pub(crate) fn reuse(&mut self, mut list: Vec<Transmission>) {
         list.clear();
         if list.capacity() > 0 {
@@ -44,14 +44,15 @@ impl RadioChannel {
         }
     }
 
-    /// Keeps what `is_kept`, which may change it.
+    /// Keeps the messages for which `is_kept` returns true; it may change them.
     pub(crate) fn retain(&mut self, mut is_kept: impl FnMut(&mut Heard) -> bool) {
         for list in &mut self.due {
             list.retain_mut(|sent| is_kept(&mut sent.heard));
         }
     }
 
-    /// Sends a message to the robots that `receivers` yields; it arrives `delay_steps` later, at least 1.
+    /// Sends a message to the robots that `receivers` yields; it arrives `delay_steps` later, at
+    /// least 1.
     pub(crate) fn send(
         &mut self,
         sent: Heard,

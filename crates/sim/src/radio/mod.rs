@@ -1,4 +1,4 @@
-//! Who hears what, and when.
+//! Radios: range, loss and delay.
 
 pub(crate) mod channel;
 
@@ -6,28 +6,29 @@ use crate::schedule::steps_of;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A radio that sends to every robot in range.
+/// A radio that broadcasts to every robot in range.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RadioSpec {
-    /// Who is nearer when it sends can hear it, in metres.
+    /// Range within which other robots receive its messages, in metres.
     #[schemars(range(min = 0.0, max = 1e6))]
     pub range_m: f64,
     /// Probability that one receiver misses a message.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub loss_probability: f64,
-    /// Time from sending to hearing, in seconds; a message is heard in the next step at the soonest.
+    /// Delay from sending to receiving, in seconds; at least one step.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 3600.0))]
     pub delay_s: f64,
-    /// It sends the first so many messages of a step, and hears at most so many in one.
+    /// Maximum number of messages that the radio sends in one step, and that it receives in one
+    /// step.
     #[serde(default = "four")]
     #[schemars(range(max = 1000))]
     pub messages_per_step: u32,
-    /// Whether obstacles silence it.
+    /// Whether obstacles block its messages.
     #[serde(default)]
     pub needs_line_of_sight: bool,
-    /// Power while it is on, in watts.
+    /// Power while the robot is active, in watts.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1e6))]
     pub power_w: f64,
@@ -37,7 +38,7 @@ fn four() -> u32 {
     4
 }
 
-/// A radio, as the step needs it.
+/// A radio, converted for the step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Radio {
     pub(crate) range_m: f64,

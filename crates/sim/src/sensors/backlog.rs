@@ -1,13 +1,13 @@
-//! Readings and messages that have not reached a robot's brain yet.
+//! Readings and messages that have not reached the brain of a robot yet.
 
 use super::pending::PendingQueue;
 use super::{Measure, Sensor};
 use brain::{self, Contact, Heard, Neighbour, Percept};
 
-/// What a robot has not been told yet.
+/// Readings and messages that have not reached the brain yet.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Backlog {
-    /// By sensor; empty for one that tells at once.
+    /// By sensor; empty for one without delay.
     kept: Vec<Vec<Look>>,
     pub(crate) looks: PendingQueue<brain::Look>,
     pub(crate) contacts: PendingQueue<(Contact, Option<u32>)>,
@@ -15,10 +15,10 @@ pub(crate) struct Backlog {
     pub(crate) inbox: PendingQueue<Heard>,
 }
 
-/// A look of which the newest counts.
+/// A measurement that the next one replaces.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Look {
-    /// `None` before the first look, and for one that gave nothing.
+    /// `None` before the first measurement, and for a dropout.
     taken: Option<u64>,
     values: Vec<f64>,
 }
@@ -31,7 +31,7 @@ impl Backlog {
         }
     }
 
-    /// Keeps what the `look`-th look of a sensor gave, if it gave anything.
+    /// Keeps the result of the `look`-th measurement of a sensor, if there was one.
     pub(crate) fn keep(&mut self, sensor: usize, look: u64, taken: Option<u64>) -> &mut Vec<f64> {
         let slots = &mut self.kept[sensor];
         #[expect(clippy::cast_possible_truncation, reason = "below the number of slots")]
@@ -40,7 +40,7 @@ impl Backlog {
         &mut slots[slot].values
     }
 
-    /// The newest look of a sensor that the robot has by now, and when it was taken.
+    /// The newest measurement of a sensor that has arrived by now, and when it was taken.
     pub(crate) fn newest(&self, sensor: usize, latency: u64, now: u64) -> Option<(u64, &[f64])> {
         let have = self.kept[sensor]
             .iter()
@@ -49,7 +49,8 @@ impl Backlog {
         have.max_by_key(|(taken, _)| *taken)
     }
 
-    /// Gives the brain what has come in, and `found` the items of contacts.
+    /// Moves everything that has arrived into a percept; calls `found` with the item of each
+    /// contact.
     pub(crate) fn tell(
         &mut self,
         now: u64,
@@ -87,7 +88,7 @@ pub(crate) fn age_s(taken: u64, now: u64, step_s: f64) -> f64 {
     (now - taken) as f64 * step_s
 }
 
-/// As many as can be on their way, and one that has come.
+/// As many as can be in transit, and one that has arrived.
 fn looks_to_keep(sensor: &Sensor) -> Vec<Look> {
     let is_value = !matches!(sensor.measure, Measure::Items(_) | Measure::Robots(_));
     if sensor.tells_at_once() || !is_value {

@@ -1,9 +1,9 @@
-//! Where the robot points.
+//! Heading sensor: a compass.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A course in the world's coordinates.
+/// A heading in world coordinates.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct HeadingSpec {
     /// Standard deviation, in degrees.

@@ -1,4 +1,4 @@
-//! A detector of items.
+//! Item detector.
 
 use super::poisson::Poisson;
 use super::sector::{Sector, SectorSpec};
@@ -11,19 +11,20 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// What detects items within a sector; each look at an item is a draw of its own.
+/// A detector of items within a sector; each measurement of each item is an independent draw.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ItemsSpec {
-    /// Where it looks.
+    /// The field of view.
     #[serde(flatten)]
     pub sector: SectorSpec,
-    /// Probability of detection in one look, for each kind of item that it can recognise; left out,
-    /// it recognises all kinds always.
+    /// Probability of detection per measurement, for each kind of item that the sensor can detect.
+    /// Without it, the sensor always detects all kinds.
     pub detection_probability: Option<BTreeMap<String, Detection>>,
-    /// False contacts a second for each square metre in view, by the kind that they are taken for.
+    /// False alarms per second and square metre in view, by the kind of item that they are taken
+    /// for.
     #[serde(default)]
     pub false_alarm_rate_per_m2_s: BTreeMap<String, f64>,
-    /// Standard deviation of where a contact seems to be, along each axis, in metres.
+    /// Standard deviation of the measured position of a contact, along each axis, in metres.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1000.0))]
     pub noise_m: f64,
@@ -32,23 +33,23 @@ pub struct ItemsSpec {
     pub needs_line_of_sight: bool,
 }
 
-/// A brain is told of a bell by so many straight parts.
+/// A brain gets a bell curve as this number of straight pieces.
 const CURVE_PARTS: u32 = 16;
 
-/// Probability of detection in one look.
+/// Probability of detection per measurement.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Detection {
     /// The same at any distance in range.
     Constant(#[schemars(range(min = 0.0, max = 1.0))] f64),
-    /// Pairs of distance in metres and probability, by growing distance; between two, linear.
+    /// Pairs of distance (metres) and probability, by increasing distance; linear in between.
     Table(Vec<[f64; 2]>),
-    /// A bell: best at the robot, half of that at some distance.
+    /// A bell curve: `peak` at distance 0, half of that at `half_range_m`.
     Curve {
-        /// Probability at no distance.
+        /// Probability at distance 0.
         #[schemars(range(min = 0.0, max = 1.0))]
         peak: f64,
-        /// Where it is half of that, in metres.
+        /// Distance at which the probability is half the peak, in metres.
         #[schemars(range(min = 0.001, max = 10_000.0))]
         half_range_m: f64,
     },
@@ -69,7 +70,7 @@ impl Detection {
 }
 
 impl Detection {
-    /// Pairs of distance and probability, linear between two, up to `range_m`.
+    /// Pairs of distance and probability, linear in between, up to `range_m`.
     fn pairs(&self, range_m: f64) -> Vec<[f64; 2]> {
         match self {
             Self::Constant(probability) => vec![[0.0, *probability]],
@@ -97,7 +98,7 @@ pub(super) fn yes() -> bool {
 }
 
 impl ItemsSpec {
-    /// What brains are told of it: the sensor with this number, which looks every `period_s`.
+    /// What brains know of it: the sensor with this number, which measures every `period_s`.
     pub(crate) fn detector(
         &self,
         sensor: u16,
@@ -132,37 +133,37 @@ impl ItemsSpec {
         }
     }
 
-    /// False contacts of a kind in one look, on average, if nothing hides any.
+    /// Mean number of false alarms of a kind per measurement, if no obstacle hides any.
     pub(crate) fn false_alarms_a_look(&self, kind: &str, period_s: f64) -> f64 {
         let rate = self.false_alarm_rate_per_m2_s.get(kind).copied();
         rate.unwrap_or(0.0) * Sector::new(&self.sector).area_m2() * period_s
     }
 }
 
-/// A detector, as looks need it.
+/// A detector, converted for measurements.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct ItemDetector {
     pub(crate) sector: Sector,
-    /// By the item's kind; `None` is never seen.
+    /// By the kind of item; `None` is never detected.
     detection_probability: Vec<Option<Detection>>,
-    /// By the kind that they are taken for; only those that there are.
+    /// By the kind that they are taken for; only those with a rate above 0.
     false_alarms: Vec<FalseAlarm>,
     noise_m: f64,
     pub(crate) needs_line_of_sight: bool,
 }
 
-/// Contacts of nothing that are taken for one kind of item.
+/// False alarms that are taken for one kind of item.
 #[derive(Debug, Clone, PartialEq)]
 struct FalseAlarm {
     kind: u16,
-    /// Of the kind, in random streams.
+    /// Key of the kind, in random streams.
     key: u32,
-    /// How many there are in a look.
+    /// Distribution of their number per measurement.
     count: Poisson,
 }
 
 impl ItemDetector {
-    /// For `kinds` of items, by their order; a look is had every `period_s`.
+    /// For `kinds` of items, in their order, and a measurement every `period_s`.
     pub(crate) fn new(spec: &ItemsSpec, kinds: &[String], period_s: f64) -> Self {
         let detection = |kind: &String| match &spec.detection_probability {
             None => Some(Detection::Constant(1.0)),
@@ -185,7 +186,7 @@ impl ItemDetector {
         }
     }
 
-    /// What a look gives: contacts, each with the item that it is of, if it is of one.
+    /// The contacts of one measurement, each with its item, or none for a false alarm.
     pub(crate) fn look(
         &self,
         eye: &SensorFrame,

@@ -1,6 +1,6 @@
 //! The sensor manager: a referee between the world and the robots.
 //!
-//! A robot gets what its sensors could recognise, and misses the rest. One file a sensor kind.
+//! A robot gets what its sensors can detect, and misses the rest. One file per sensor kind.
 
 pub(crate) mod backlog;
 pub mod heading;
@@ -24,17 +24,18 @@ use robots::{RobotDetector, RobotsSpec};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A sensor: what it measures, when, and what that costs.
+/// A sensor: what it measures, when, and the power it takes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SensorSpec {
-    /// Looks a second; left out, one a step. A look falls on the first step at or after its time.
+    /// Measurements per second; without it, one per time step. A measurement falls on the first
+    /// step at or after its time.
     #[schemars(range(min = 0.0001, max = 10_000.0))]
     pub rate_hz: Option<f64>,
-    /// Time from a look until the robot has it, in seconds.
+    /// Delay from a measurement until the robot has it, in seconds.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 3600.0))]
     pub latency_s: f64,
-    /// Probability that a look gives nothing at all.
+    /// Probability that a measurement yields nothing at all.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub dropout_probability: f64,
@@ -51,31 +52,31 @@ pub struct SensorSpec {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum Measures {
-    /// Distances along rays: sonar, infrared, laser.
+    /// Distances along rays: sonar, infrared, laser scanner.
     Range(RangeSpec),
     /// Items: a camera, a metal detector.
     Items(ItemsSpec),
     /// Other robots.
     Robots(RobotsSpec),
-    /// Where the robot is: a satellite receiver.
+    /// The position of the robot: a satellite receiver.
     Position(PositionSpec),
-    /// Where it points: a compass.
+    /// The heading of the robot: a compass.
     Heading(HeadingSpec),
 }
 
-/// A sensor, as the step needs it.
+/// A sensor, converted for the step.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Sensor {
     pub(crate) name: String,
     pub(crate) schedule: Schedule,
-    /// From a look until the robot has it.
+    /// From a measurement until the robot has it.
     pub(crate) latency_steps: u64,
     pub(crate) dropout_probability: f64,
     pub(crate) power_w: f64,
     pub(crate) measure: Measure,
 }
 
-/// What a sensor measures, as looks need it.
+/// What a sensor measures, converted for measurements.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Measure {
     Range(Ring),
@@ -86,13 +87,13 @@ pub(crate) enum Measure {
 }
 
 impl Sensor {
-    /// Whether what it saw in a step is of use in a later one.
+    /// Whether a measurement of one step is of use in a later one.
     pub(crate) fn outlasts_a_step(&self) -> bool {
         let is_event = matches!(self.measure, Measure::Items(_) | Measure::Robots(_));
         is_event || !self.tells_at_once()
     }
 
-    /// Whether each look is of the step in which the robot has it.
+    /// Whether each measurement is of the step in which the robot has it.
     pub(crate) fn tells_at_once(&self) -> bool {
         self.latency_steps == 0 && self.schedule.is_each_step()
     }

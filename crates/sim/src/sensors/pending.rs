@@ -1,18 +1,18 @@
-//! What waits for a robot's brain to step.
+//! Queues of readings and messages that wait until the brain of a robot steps.
 
-/// Of what came in before a step, a brain is told no more than the newest so many, and older ones are
-/// forgotten: a brain that hardly ever steps, or never, fills no memory.
+/// A brain gets at most this number of the entries that arrived before a step; older ones are
+/// dropped. So a brain that hardly ever steps, or never, fills no memory.
 pub(crate) const MAX_PENDING: usize = 1000;
 
-/// What waits for a brain, in the order in which it was taken.
+/// A queue for a brain, in the order of measurement.
 #[derive(Debug, Clone)]
 pub(crate) struct PendingQueue<T> {
     pub(crate) entries: Vec<Pending<T>>,
-    /// With so many, it is time to forget old ones.
+    /// At this length, old entries are dropped.
     full: usize,
 }
 
-/// Something measured or heard, and when the robot will have it.
+/// A reading or message, and the step in which the robot has it.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Pending<T> {
     pub(crate) taken: u64,
@@ -30,7 +30,7 @@ impl<T> Default for PendingQueue<T> {
 }
 
 impl<T: Copy> PendingQueue<T> {
-    /// Takes out what the robot has by now.
+    /// Removes the entries that have arrived by now, and passes them to `give`.
     #[inline]
     pub(crate) fn tell(&mut self, now: u64, mut give: impl FnMut(Pending<T>)) {
         let mut surplus = self.surplus(now);
@@ -45,7 +45,7 @@ impl<T: Copy> PendingQueue<T> {
         });
     }
 
-    /// Forgets what is too old, now and then: what that costs is a share of what came in.
+    /// Drops entries that are too old, from time to time: the cost is proportional to what arrived.
     #[inline]
     pub(crate) fn forget(&mut self, now: u64) {
         if self.entries.len() < self.full {
@@ -57,11 +57,11 @@ impl<T: Copy> PendingQueue<T> {
             surplus -= usize::from(is_too_old);
             !is_too_old
         });
-        // What is still on its way stays, as much as it may be.
+        // Entries in transit stay, however many they are.
         self.full = 2 * self.entries.len().max(MAX_PENDING);
     }
 
-    /// How many of those that the robot has by now are too old: never one that came in this step.
+    /// Number of arrived entries that are too old: never one that arrived in this step.
     #[inline]
     fn surplus(&self, now: u64) -> usize {
         if self.entries.len() <= MAX_PENDING {
@@ -113,7 +113,7 @@ mod tests {
             waiting.forget(now);
             wait(&mut waiting, now, 3000, 2);
         }
-        // The first 5000 looks have come in, the others are under way.
+        // The first 5000 measurements have arrived, the others are in transit.
         assert_eq!(told(&mut waiting, 7999).len(), MAX_PENDING);
         assert_eq!(waiting.entries.len(), 2 * 3000);
         assert_eq!(told(&mut waiting, 8000), [5_000_000_000, 5_000_000_001]);

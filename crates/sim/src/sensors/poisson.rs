@@ -1,9 +1,9 @@
-//! How often something rare happens.
+//! Poisson distribution: how often something rare happens.
 
-/// Greatest mean that scenarios may ask for: below e^-700 a probability would be 0.
+/// Maximum mean that scenarios may set: below e^-700 a probability would be 0.
 pub(crate) const MAX_MEAN: f64 = 500.0;
 
-/// Counts above this are cut; means that scenarios allow are far below.
+/// Larger counts are cut off; means that scenarios allow are far below.
 const MOST: u32 = 10_000;
 
 /// A Poisson distribution.
@@ -44,8 +44,8 @@ impl Poisson {
 mod tests {
     use super::*;
 
-    /// A draw is the inverse of the distribution: the share of counts above `count` is what the
-    /// closed form says, to the fineness of the shares.
+    /// A draw inverts the distribution: the fraction of counts above `count` is that of the closed
+    /// form, up to the resolution of the shares.
     #[test]
     fn draws_have_the_distribution_of_the_closed_form() {
         for mean in [1e-3, 0.3, 4.0, 50.0, 500.0_f64] {

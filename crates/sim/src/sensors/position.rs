@@ -1,9 +1,9 @@
-//! Where the robot is.
+//! Position sensor: a satellite receiver.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A position in the world's coordinates.
+/// A position in world coordinates.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PositionSpec {
     /// Standard deviation along each axis, in metres.

@@ -15,36 +15,38 @@ use serde::{Deserialize, Serialize};
 use std::array::from_fn;
 use std::f64::consts::TAU;
 
-/// Rays from the robot's centre, evenly spread over the field of view.
+/// Rays from the centre of the robot, evenly spaced over the field of view.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RangeSpec {
-    /// Rays; a whole circle has the first ahead, a sector one on each edge.
+    /// Number of rays. On a full circle the first one points forward; in a sector there is one on
+    /// each edge.
     #[schemars(range(min = 1, max = 1440))]
     pub rays: u32,
-    /// Angle that they cover, in degrees.
+    /// Field of view, in degrees.
     #[serde(default = "whole_circle")]
     #[schemars(range(min = 0.0, max = 360.0))]
     pub fov_deg: f64,
-    /// Its middle, in degrees anticlockwise from the robot's front.
+    /// Direction of its centre, in degrees anticlockwise from the robot's front.
     #[serde(default)]
     #[schemars(range(min = -180.0, max = 180.0))]
     pub facing_deg: f64,
-    /// Nothing farther from the robot's centre is measured, in metres.
+    /// Maximum range from the centre of the robot, in metres.
     #[schemars(range(min = 0.01, max = 10_000.0))]
     pub range_m: f64,
     /// Standard deviation of each distance, in metres.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1000.0))]
     pub noise_m: f64,
-    /// More standard deviation, as a share of the distance.
+    /// Additional standard deviation, as a fraction of the distance.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub relative_noise: f64,
-    /// Probability that a ray's echo is lost.
+    /// Probability that the return of a ray is lost.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub miss_probability: f64,
-    /// Probability that a ray has an echo of nothing, at any distance up to what is there.
+    /// Probability that a ray has a spurious return, at a uniformly distributed distance up to the
+    /// real obstacle.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub spurious_return_probability: f64,
@@ -54,7 +56,7 @@ pub(super) fn whole_circle() -> f64 {
     360.0
 }
 
-/// A ring, as looks need it.
+/// A ring, converted for measurements.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Ring {
     rays: Rays,
@@ -84,7 +86,7 @@ impl Ring {
         }
     }
 
-    /// The same without errors, and with a ray along each of other bearings.
+    /// The same without errors, and with a ray along each of the other bearings.
     pub(crate) fn exact(&self, bearings_rad: Vec<f64>) -> Self {
         Self {
             rays: Rays::new(&bearings_rad),
@@ -97,9 +99,9 @@ impl Ring {
         }
     }
 
-    /// The distance of each ray's echo, infinite where none comes back.
+    /// The distance of each ray's return, infinite without one.
     ///
-    /// One pass in the machine's widest vectors.
+    /// One pass in the widest vectors of the machine.
     #[inline]
     pub(crate) fn look(&self, eye: &SensorFrame, room: &mut Room, to: &mut Vec<f64>) {
         self.look_with(instruction_set(), eye, room, to);
@@ -120,15 +122,15 @@ impl Ring {
     }
 }
 
-/// What looks of rings need, kept between them so that nothing is allocated.
+/// Buffers for measurements of rings, kept so that nothing is allocated.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Room {
     pub(crate) near: Near,
-    /// Normal deviations of rays.
+    /// Normal deviates of the rays.
     deviations: Vec<[f64; GROUP]>,
 }
 
-/// The widest that this machine has.
+/// The widest instruction set of this machine.
 #[cfg(not(test))]
 pub(crate) fn instruction_set() -> Arch {
     Arch::new()
@@ -137,7 +139,7 @@ pub(crate) fn instruction_set() -> Arch {
 #[cfg(test)]
 pub(crate) use tests::instruction_set;
 
-/// A ring's look, as one piece of work for vectors.
+/// One measurement of a ring, as one piece of work for vectors.
 struct RingLook<'a> {
     ring: &'a Ring,
     eye: &'a SensorFrame<'a>,
@@ -157,7 +159,7 @@ impl WithSimd for RingLook<'_> {
             to,
         } = self;
         let Room { near, deviations } = room;
-        // First, since it waits for nothing: the processor goes on with it while rays are cast.
+        // First, because it waits for nothing: the processor continues with it while rays are cast.
         if ring.is_noisy() {
             deviate(eye, deviations);
         }
@@ -174,7 +176,7 @@ impl WithSimd for RingLook<'_> {
     }
 }
 
-/// Draws a normal deviation for each ray.
+/// Draws a normal deviate for each ray.
 #[inline(always)]
 fn deviate(eye: &SensorFrame, to: &mut [[f64; GROUP]]) {
     for (hand, groups) in (0..).zip(to.chunks_mut(GROUPS)) {
@@ -188,10 +190,10 @@ fn deviate(eye: &SensorFrame, to: &mut [[f64; GROUP]]) {
     }
 }
 
-/// Random numbers are dealt to hands of four groups of rays.
+/// Random numbers are dealt in hands of four groups of rays.
 const GROUPS: usize = HAND / GROUP;
 
-/// Groups are written as a whole: stores of some lanes would be waited for by the next load.
+/// Groups are written as a whole: stores of single lanes would delay the next load.
 impl Ring {
     #[inline(always)]
     fn lose(&self, eye: &SensorFrame, to: &mut [[f64; GROUP]]) {
@@ -210,7 +212,8 @@ impl Ring {
         }
     }
 
-    /// A ray's least chances are of a loss, its greatest of a false echo; the loss has its way.
+    /// The lowest random numbers of a ray mean a loss, the highest a spurious return; a loss takes
+    /// precedence.
     #[inline(always)]
     fn invent(&self, eye: &SensorFrame, to: &mut [[f64; GROUP]]) {
         for (hand, groups) in (0..).zip(to.chunks_mut(GROUPS)) {
@@ -230,7 +233,7 @@ impl Ring {
         self.noise_m > 0.0 || self.relative_noise > 0.0
     }
 
-    /// What is out of range stays so, whatever the noise: there is no echo to be measured.
+    /// What is out of range stays out of range, whatever the noise: there is no return to measure.
     #[inline(always)]
     fn measured(&self, distance: f64, deviation: f64) -> f64 {
         let spread = self.noise_m + self.relative_noise * distance;
@@ -246,7 +249,7 @@ fn bearings(spec: &RangeSpec) -> Vec<f64> {
     spread(spec.rays, width_rad, facing_rad)
 }
 
-/// Bearings of rays: a whole circle has none twice, a sector has one on each edge.
+/// Bearings of rays: a full circle has none twice, a sector has one on each edge.
 pub(crate) fn spread(rays: u32, width_rad: f64, facing_rad: f64) -> Vec<f64> {
     let count = f64::from(rays);
     let bearing = |ray: u32| {

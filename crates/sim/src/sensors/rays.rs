@@ -1,13 +1,14 @@
-//! Exact rays: how far a ring's rays go before they meet something.
+//! Exact ray casting: the distance at which the rays of a ring meet something.
 //!
-//! This is where a run's time goes. What is near has been gathered ([`Near`]), relative to the
-//! robot; here each vector of rays is held against it, piece by piece. Whether a piece meets any ray
-//! of a vector is as good as random, so there is no branch; and a root or a quotient takes as long
-//! as three of these tests, so which piece is met first is found without, and one is taken of it.
+//! Most of the time of a run is spent here. Nearby geometry has been gathered ([`Near`]), relative
+//! to the robot; here each vector of rays is tested against it, piece by piece. Whether a piece
+//! meets any ray of a vector is as good as random, so there is no branch; and a root or a quotient
+//! takes as long as three of these tests, so the first piece is determined without one, and one is
+//! computed for it.
 //!
 //! The result is a minimum over pieces, so their order changes nothing but the last bit where two
-//! are as near, and it is made of additions, multiplications, quotients and roots only, without
-//! fused ones: so all instruction sets give the same bits.
+//! are equally near, and it uses only additions, multiplications, quotients and roots, none of them
+//! fused: all instruction sets give the same bits.
 
 #![expect(
     clippy::inline_always,
@@ -19,11 +20,11 @@ use base::geometry::{Disc, Point};
 use pulp::Simd;
 use std::array::from_fn;
 
-/// Rays are handled in groups of so many; the widest vector there is holds that many.
+/// Rays are processed in groups of this size, that of the widest vector.
 pub(crate) const GROUP: usize = base::philox::LANES;
 
-/// How far a ray may pass beside a wall's end and still meet it, in metres: no ray slips through
-/// where two walls meet.
+/// A ray that passes the end of a wall at up to this distance still meets it, in metres: no ray
+/// slips through where two walls meet.
 const CRACK_M: f64 = 1e-9;
 
 /// What rays can meet, relative to a robot.
@@ -31,14 +32,15 @@ const CRACK_M: f64 = 1e-9;
 pub(crate) struct Near {
     at: Point,
     range_m: f64,
-    /// Discs that overlap no other: of two, a ray meets that whose centre is less far along it.
+    /// Discs that overlap no other: of two, a ray first meets the one whose centre is less far
+    /// along it.
     apart: Few<NearDisc>,
     /// Discs that may overlap each other.
     overlapping: Few<NearDisc>,
     walls: Few<NearWall>,
 }
 
-/// The first so many of a list that never shrinks.
+/// The first entries of a list that never shrinks.
 #[derive(Debug, Clone, Default)]
 struct Few<T> {
     all: Vec<T>,
@@ -48,7 +50,7 @@ struct Few<T> {
 #[derive(Debug, Clone, Copy, Default)]
 struct NearDisc {
     centre: Point,
-    /// Square of the distance to the centre, less the square of the radius; 0 for one in the disc.
+    /// Squared distance to the centre minus the squared radius; 0 for a robot inside the disc.
     power: f64,
 }
 
@@ -62,10 +64,10 @@ struct NearWall {
 }
 
 impl<T: Copy + Default> Few<T> {
-    /// Takes those that `near` says are.
+    /// Keeps the pieces for which `near` is true.
     ///
-    /// That is as good as random: each is written down in any case, and then written over if it was
-    /// not, which is faster than a branch that is mispredicted.
+    /// That is as good as random: each piece is written in any case, and overwritten if it is not
+    /// near, which is faster than a mispredicted branch.
     #[inline]
     fn take<U>(&mut self, from: impl ExactSizeIterator<Item = U>, near: impl Fn(U) -> (T, bool)) {
         let most = self.count + from.len();
@@ -97,7 +99,8 @@ impl Near {
         (self.apart.count, self.overlapping.count, self.walls.count) = (0, 0, 0);
     }
 
-    /// Takes what of these discs a ray can meet, and maybe some more; they overlap no others.
+    /// Gathers those of these discs that a ray can meet, and possibly some more; they overlap no
+    /// others.
     #[inline]
     pub(crate) fn take_apart(&mut self, discs: impl ExactSizeIterator<Item = Disc>) {
         let (at, range_m) = (self.at, self.range_m);
@@ -105,7 +108,7 @@ impl Near {
             .take(discs, |disc| NearDisc::of(&disc, at, range_m));
     }
 
-    /// The same of discs that may overlap each other.
+    /// The same for discs that may overlap each other.
     #[inline]
     pub(crate) fn take_overlapping(&mut self, discs: impl ExactSizeIterator<Item = Disc>) {
         let (at, range_m) = (self.at, self.range_m);
@@ -113,7 +116,7 @@ impl Near {
             .take(discs, |disc| NearDisc::of(&disc, at, range_m));
     }
 
-    /// The same of walls.
+    /// The same for walls.
     #[inline]
     pub(crate) fn take_walls<'a>(&mut self, walls: impl ExactSizeIterator<Item = &'a Wall>) {
         let (at, range_m) = (self.at, self.range_m);
@@ -147,10 +150,10 @@ impl NearWall {
     }
 }
 
-/// Directions of a ring's rays, from the robot's front.
+/// Directions of a ring's rays, relative to the robot's front.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Rays {
-    /// The last direction repeated until the groups are full.
+    /// The last direction is repeated to fill the groups.
     cosines: Vec<[f64; GROUP]>,
     sines: Vec<[f64; GROUP]>,
 }
@@ -179,7 +182,7 @@ impl Rays {
 
     /// The distance at which each ray meets what is near, `range_m` where it meets nothing.
     ///
-    /// `front` is the direction of the robot's front, of length 1.
+    /// `front` is the unit vector of the robot's heading.
     #[inline(always)]
     pub(crate) fn cast<S: Simd>(
         &self,
@@ -219,11 +222,11 @@ struct Beam<S: Simd> {
 }
 
 impl<S: Simd> Beam<S> {
-    /// The distance to the first of the walls, `range_m` at most.
+    /// The distance to the nearest wall, at most `range_m`.
     ///
-    /// A ray passes between a wall's ends if it leaves the start to its right and the end to its
-    /// left. The distance is the wall's area by its span across the ray; of two walls that with the
-    /// lesser quotient is nearer, for which products tell.
+    /// A ray passes between the ends of a wall if it has the start on its right and the end on its
+    /// left. The distance is the wall's area divided by its span across the ray; of two walls, the
+    /// one with the smaller quotient is nearer, which products decide.
     #[inline(always)]
     fn to_walls(self, walls: &[NearWall], range_m: f64) -> S::f64s {
         let Self { simd, .. } = self;
@@ -251,8 +254,8 @@ impl<S: Simd> Beam<S> {
 
     /// The distance to the first of some discs that do not overlap, infinite if there is none.
     ///
-    /// The first is that whose centre is ahead and least far. Taken for whole numbers, all distances
-    /// behind are greater than those ahead, so one comparison tells both.
+    /// The first is the one whose centre is ahead and least far. Interpreted as integers, all
+    /// distances behind are greater than those ahead, so one comparison decides both.
     #[inline(always)]
     fn to_discs_apart(self, discs: &[NearDisc]) -> S::f64s {
         let Self { simd, .. } = self;
@@ -273,7 +276,7 @@ impl<S: Simd> Beam<S> {
         simd.sub_f64s(nearest[0], simd.sqrt_f64s(nearest[1]))
     }
 
-    /// The distance to the first of any discs, `nearest` at most.
+    /// The distance to the first of any discs, at most `nearest`.
     #[inline(always)]
     fn to_discs(self, discs: &[NearDisc], mut nearest: S::f64s) -> S::f64s {
         let Self { simd, .. } = self;
@@ -291,10 +294,10 @@ impl<S: Simd> Beam<S> {
         nearest
     }
 
-    /// How far along the rays a disc's centre is, and the square of half of what they cut out of it;
-    /// less than 0 if they pass it by.
+    /// The distance of a disc's centre along the rays, and the squared half chord that they cut out
+    /// of it; less than 0 if they miss it.
     ///
-    /// A ray of direction u meets the disc about c at the lesser root of t^2 - 2 (u.c) t + power.
+    /// A ray of direction u meets the disc about c at the smaller root of t^2 - 2 (u.c) t + power.
     #[inline(always)]
     fn chord(self, disc: &NearDisc) -> [S::f64s; 2] {
         let Self { simd, x, y } = self;
@@ -306,7 +309,7 @@ impl<S: Simd> Beam<S> {
         [ahead, square]
     }
 
-    /// How far a place is to the left of each ray.
+    /// The distance of a place to the left of each ray.
     #[inline(always)]
     fn across(self, place: Point) -> S::f64s {
         let Self { simd, x, y } = self;

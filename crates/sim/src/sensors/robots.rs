@@ -1,4 +1,4 @@
-//! A detector of other robots.
+//! Robot detector.
 
 use super::items::{Detection, yes};
 use super::sector::{Sector, SectorSpec};
@@ -10,20 +10,20 @@ use base::trig::wrapped;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What recognises other robots within a sector, and tells which they are.
+/// A detector of other robots within a sector, which identifies each of them.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RobotsSpec {
-    /// Where it looks.
+    /// The field of view.
     #[serde(flatten)]
     pub sector: SectorSpec,
-    /// Probability of detection in one look; left out, always.
+    /// Probability of detection per measurement. Without it, 1.
     pub detection_probability: Option<Detection>,
-    /// Standard deviation of where a robot seems to be, along each axis, in metres.
+    /// Standard deviation of the measured position of a robot, along each axis, in metres.
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1000.0))]
     pub noise_m: f64,
-    /// Standard deviation of the course that it tells of each robot, in degrees; left out, it tells
-    /// none.
+    /// Standard deviation of the measured heading of a robot, in degrees. Without it, headings are
+    /// not measured.
     #[schemars(range(min = 0.0, max = 180.0))]
     pub course_noise_deg: Option<f64>,
     /// Whether obstacles hide robots.
@@ -31,7 +31,7 @@ pub struct RobotsSpec {
     pub needs_line_of_sight: bool,
 }
 
-/// A detector, as looks need it.
+/// A detector, converted for measurements.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct RobotDetector {
     pub(crate) sector: Sector,
@@ -39,7 +39,8 @@ pub(crate) struct RobotDetector {
     pub(crate) noise_m: f64,
     course_noise_rad: Option<f64>,
     needs_line_of_sight: bool,
-    /// Whether what it can see it sees, and where that is: then nothing is left to chance.
+    /// Whether it detects everything in view, at its exact position: then no random number is
+    /// drawn.
     is_sure: bool,
 }
 
@@ -59,7 +60,8 @@ impl RobotDetector {
         }
     }
 
-    /// Whether it recognises all robots in range, exactly where they are, unless something hides them.
+    /// Whether it detects all robots in range at their exact positions, unless an obstacle hides
+    /// them.
     pub(crate) fn is_exact(&self) -> bool {
         self.sector.width_rad >= std::f64::consts::TAU
             && self.is_sure
@@ -70,7 +72,7 @@ impl RobotDetector {
         self.course_noise_rad.is_some()
     }
 
-    /// Where a robot at `place` seems to be, if the look recognises it.
+    /// The measured position of a robot at `place`, if it is detected.
     pub(crate) fn look(&self, eye: &SensorFrame, place: Point, robot: Entity) -> Option<Point> {
         let way = eye.own(place);
         if !self.sector.holds(way) || (self.needs_line_of_sight && !eye.sees(place)) {
@@ -84,7 +86,8 @@ impl RobotDetector {
         is_seen.then(|| blurred(way, self.noise_m, words))
     }
 
-    /// The course of a robot that goes `course_rad` to the left of the one that looks, if it is told.
+    /// The measured heading of a robot that heads `course_rad` to the left of the observer, if
+    /// headings are measured.
     pub(crate) fn course_rad(
         &self,
         eye: &SensorFrame,

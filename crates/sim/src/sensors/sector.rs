@@ -1,4 +1,4 @@
-//! A field of view.
+//! Field of view.
 
 use super::range::whole_circle;
 use base::geometry::Point;
@@ -9,26 +9,26 @@ use serde::{Deserialize, Serialize};
 /// A field of view.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SectorSpec {
-    /// It looks no farther from the robot's centre, in metres.
+    /// Maximum range from the centre of the robot, in metres.
     #[schemars(range(min = 0.0, max = 10_000.0))]
     pub range_m: f64,
-    /// Angle that it covers, in degrees.
+    /// Field of view, in degrees.
     #[serde(default = "whole_circle")]
     #[schemars(range(min = 0.0, max = 360.0))]
     pub fov_deg: f64,
-    /// Its middle, in degrees anticlockwise from the robot's front.
+    /// Direction of its centre, in degrees anticlockwise from the robot's front.
     #[serde(default)]
     #[schemars(range(min = -180.0, max = 180.0))]
     pub facing_deg: f64,
 }
 
-/// What is within some distance and angle of a direction.
+/// Everything within some distance and angle of a direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Sector {
     pub(crate) range_m: f64,
     pub(crate) width_rad: f64,
     pub(crate) facing_rad: f64,
-    /// Of length 1, from the robot's front.
+    /// Unit vector, relative to the robot's front.
     facing: Point,
     /// Cosine of half the width.
     edge: f64,
@@ -47,7 +47,7 @@ impl Sector {
         }
     }
 
-    /// Whether it holds what is at `way` from the robot's front.
+    /// Whether it contains the vector `way`, relative to the robot's front.
     #[inline]
     pub(crate) fn holds(&self, way: Point) -> bool {
         let square = way.length_squared();
@@ -61,7 +61,7 @@ impl Sector {
         self.width_rad / 2.0 * self.range_m * self.range_m
     }
 
-    /// A place in it, uniformly, from two numbers from 0 to 1.
+    /// A uniformly distributed place in it, from two numbers from 0 to 1.
     pub(crate) fn place(&self, [one, other]: [f64; 2]) -> Point {
         let range_m = self.range_m * one.sqrt();
         let (y, x) = sin_cos(self.facing_rad + (other - 0.5) * self.width_rad);

@@ -1,4 +1,4 @@
-//! Where a look is from, and its random numbers.
+//! The pose from which a sensor measures, and its random numbers.
 
 use crate::world::static_geometry::StaticGeometry;
 use base::geometry::Point;
@@ -6,31 +6,31 @@ use base::noise::{Noise, normal_pair};
 use base::philox::Blocks;
 use base::random::Entity;
 
-/// What a look draws random numbers for. The numbers stay: a change changes every result.
+/// The purpose of a random number. The values are fixed: a change changes every result.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(u32)]
 pub(crate) enum NoisePurpose {
-    /// Whether the look gives anything.
+    /// Whether a measurement yields anything.
     Dropout = 0,
-    /// The error of a value; the normal deviations of rays.
+    /// The error of a value; the normal deviates of rays.
     Error = 1,
-    /// A thing that may be detected, by its number.
+    /// Something that may be detected, by its number.
     Thing = 2,
-    /// Things that are not there.
+    /// False alarms.
     FalseAlarm = 3,
-    /// Whether a ray's echo is lost or false.
+    /// Whether the return of a ray is lost or spurious.
     Echo = 4,
-    /// What a brain has for dice; not a sensor's.
+    /// The random words of a percept; not a sensor's.
     Dice = 5,
-    /// A message that may be lost; not a sensor's.
+    /// Whether a message is lost; not a sensor's.
     Radio = 6,
-    /// How far away a false echo is.
+    /// The distance of a spurious return.
     EchoPlace = 7,
-    /// The error of a course that is told.
+    /// The error of a measured heading.
     Orientation = 8,
 }
 
-/// Uses of one sensor are numbered on from here.
+/// Purposes of one sensor are numbered from here.
 const USES: u32 = 16;
 
 impl NoisePurpose {
@@ -41,20 +41,20 @@ impl NoisePurpose {
     }
 }
 
-/// One robot's look with one sensor.
+/// One measurement of one sensor of one robot.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct SensorFrame<'a> {
     pub(crate) at: Point,
-    /// Direction of the robot's front, of length 1.
+    /// Unit vector of the robot's heading.
     pub(crate) front: Point,
     pub(crate) noise: Noise,
-    /// Place of the sensor among the robot's.
+    /// Index of the sensor on the robot.
     pub(crate) sensor: u32,
-    /// Number of the look.
+    /// Number of the measurement.
     pub(crate) look: u64,
-    /// What can be in the way.
+    /// What can block the view.
     pub(crate) stands: &'a StaticGeometry,
-    /// Whether it is known to be in no way.
+    /// Whether it is known that nothing does.
     pub(crate) is_clear: bool,
 }
 
@@ -65,16 +65,16 @@ impl SensorFrame<'_> {
             .words(used.of_sensor(self.sensor), self.look, index)
     }
 
-    /// The words for one thing of a kind.
+    /// The random words for one thing of a kind.
     #[inline]
     pub(crate) fn words_of(&self, used: NoisePurpose, thing: Entity) -> [u32; 4] {
-        // Looks are at most 1e8: the kind is in the half of their number that is free.
+        // Measurements number at most 1e8: the kind is in the unused half of their number.
         let time = u64::from(thing.kind) << 32 | self.look;
         self.noise
             .words(used.of_sensor(self.sensor), time, thing.index)
     }
 
-    /// A word for each thing of a hand: see [`Noise::deal`].
+    /// A random word for each thing of a hand: see [`Noise::deal`].
     #[inline(always)]
     #[expect(
         clippy::inline_always,
@@ -85,7 +85,7 @@ impl SensorFrame<'_> {
             .deal(used.of_sensor(self.sensor), self.look, hand)
     }
 
-    /// The way to a place of the world, from the robot's front.
+    /// The vector to a place of the world, relative to the robot's front.
     #[inline]
     pub(crate) fn own(&self, place: Point) -> Point {
         let way = self.at.to(place);
@@ -95,7 +95,7 @@ impl SensorFrame<'_> {
         }
     }
 
-    /// The place of the world at a way from the robot's front.
+    /// The place in the world at a vector relative to the robot's front.
     pub(crate) fn world_of(&self, way: Point) -> Point {
         Point {
             x: self.at.x + self.front.x * way.x - self.front.y * way.y,
@@ -103,13 +103,13 @@ impl SensorFrame<'_> {
         }
     }
 
-    /// Whether nothing that stands still hides a place.
+    /// Whether no static geometry hides a place.
     pub(crate) fn sees(&self, place: Point) -> bool {
         self.is_clear || self.stands.is_open(self.at, place)
     }
 }
 
-/// A place with a normal error along each axis, from the last three of a draw's words.
+/// A place with a normal error along each axis, from the last three words of a draw.
 #[inline]
 pub(crate) fn blurred(way: Point, noise_m: f64, words: [u32; 4]) -> Point {
     if noise_m == 0.0 {

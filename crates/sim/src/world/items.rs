@@ -1,4 +1,4 @@
-//! What is to be found, and what is taken for it.
+//! Items: targets, and clutter that is taken for them.
 
 use super::buckets::Buckets;
 use base::geometry::{Point, Torus};
@@ -7,20 +7,21 @@ use base::random::{Entity, kind_key};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A contact from outside is of an item that is not farther from where it seems to be, in metres.
+/// A contact from an external body belongs to an item at up to this distance from its measured
+/// position, in metres.
 pub(crate) const RECOGNISED_WITHIN_M: f64 = 1.0;
 
 /// A kind of item.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ItemSpec {
-    /// Items of this kind.
+    /// Number of items of this kind.
     #[schemars(range(max = 1_000_000))]
     pub count: u32,
-    /// Whether they are to be found; false for clutter. A run is complete when all that are sought
+    /// Whether these items are to be found; false for clutter. A run is complete when all targets
     /// are found.
     #[serde(default = "yes")]
     pub target: bool,
-    /// Where they are.
+    /// Where the items are.
     #[serde(default)]
     pub placement: Placement,
 }
@@ -29,7 +30,7 @@ fn yes() -> bool {
     true
 }
 
-/// A kind of item, as runs need it.
+/// A kind of item, converted for runs.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct ItemKind {
     pub(crate) name: String,
@@ -65,9 +66,9 @@ pub(crate) struct Item {
 pub(crate) struct Items {
     places: Vec<Point>,
     kinds: Vec<u16>,
-    /// Whose draw a look at it is.
+    /// The key of each item in random streams.
     things: Vec<Entity>,
-    /// The step at which it was found.
+    /// The step in which it was found.
     found: Vec<Option<u64>>,
     buckets: Buckets,
 }
@@ -91,14 +92,14 @@ impl Items {
         }
     }
 
-    /// All items within a distance of a place, with their numbers, and maybe some more; on a torus
-    /// as their images there.
+    /// All items within a distance of a place, with their numbers, and possibly some more; in a
+    /// periodic world as their images there.
     #[inline]
     pub(crate) fn near(&self, place: Point, radius_m: f64) -> impl Iterator<Item = &(Point, u32)> {
         self.buckets.near(place, radius_m)
     }
 
-    /// Items by the names of their kinds and their place within the kind.
+    /// Items by the names of their kinds and their index within the kind.
     pub(crate) fn named<'a>(
         &self,
         kinds: &'a [ItemKind],
@@ -114,7 +115,7 @@ impl Items {
         })
     }
 
-    /// Puts items, by their numbers, where others were, found if these were.
+    /// Replaces the place and the find of items, by their numbers.
     pub(crate) fn keep(&mut self, kept: &[(usize, Item)]) {
         for (number, item) in kept {
             self.places[*number] = item.place;
@@ -123,19 +124,19 @@ impl Items {
         self.buckets.fill(self.places.iter().copied());
     }
 
-    /// The kind of each item, and the step at which it was found.
+    /// The kind of each item, and the step in which it was found.
     pub(crate) fn each(&self) -> impl Iterator<Item = (u16, Option<u64>)> {
         self.kinds.iter().copied().zip(self.found.iter().copied())
     }
 
-    /// The kind and the place of each item, and the step at which it was found.
+    /// The kind and the place of each item, and the step in which it was found.
     pub(crate) fn each_place(&self) -> impl Iterator<Item = (u16, Point, Option<u64>)> {
         self.each()
             .zip(&self.places)
             .map(|((kind, found), at)| (kind, *at, found))
     }
 
-    /// Marks an item as found; whether it was not before.
+    /// Marks an item as found; returns whether it was not found before.
     pub(crate) fn find(&mut self, number: u32, tick: u64) -> bool {
         let found = &mut self.found[number as usize];
         let is_new = found.is_none();
@@ -143,7 +144,7 @@ impl Items {
         is_new
     }
 
-    /// What a look at an item draws for: the same whatever items of other kinds there are.
+    /// The random-stream key of an item: independent of the items of other kinds.
     #[inline]
     pub(crate) fn thing(&self, number: u32) -> Entity {
         self.things[number as usize]

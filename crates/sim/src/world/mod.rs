@@ -1,4 +1,4 @@
-//! What stands still: borders, obstacles, terrain, and the items to be found.
+//! Everything static: borders, obstacles, terrain, and items.
 
 pub(crate) mod buckets;
 pub(crate) mod grid;
@@ -11,16 +11,16 @@ use obstacles::ObstacleSpec;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A rectangle and what stands in it.
+/// A rectangle and the obstacles in it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct WorldSpec {
     /// Width and height, in metres; x runs from 0 to the width, y from 0 to the height.
     pub size_m: [Length; 2],
-    /// Whether it goes on at its other side: who leaves on one side comes in on the opposite one, and
-    /// all distances are to the nearest image. Left out, it has a wall around it.
+    /// Whether the world is periodic: a robot that leaves on one side enters on the opposite one,
+    /// and all distances are to the nearest image. Otherwise it has a wall around it.
     #[serde(default)]
     pub periodic: bool,
-    /// What is in the way on the ground.
+    /// Obstacles on the ground.
     #[serde(default)]
     pub obstacles: Vec<ObstacleSpec>,
 }

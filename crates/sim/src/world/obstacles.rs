@@ -1,4 +1,4 @@
-//! What is in the way on the ground.
+//! Obstacles on the ground.
 
 use super::grid::Still;
 use base::geometry::{Disc, Point, Polygon, Rectangle};
@@ -6,7 +6,7 @@ use base::map::OccupancyMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Something solid; obstacles may overlap each other and reach over the border.
+/// An obstacle; obstacles may overlap each other and extend beyond the border.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum ObstacleSpec {
@@ -17,14 +17,14 @@ pub enum ObstacleSpec {
     },
     /// A disc.
     Circle {
-        /// Where it is.
+        /// Its centre and radius.
         circle: CircleSpec,
     },
-    /// A map as ROS's `map_server` reads it.
+    /// A map as read by ROS `map_server`.
     Map {
-        /// The map's YAML file, relative to the scenario's file.
+        /// YAML file of the map, relative to the scenario file.
         map: String,
-        /// Whether cells of which the map knows nothing are solid.
+        /// Whether unknown cells of the map are occupied.
         #[serde(default)]
         unknown_is_occupied: bool,
     },
@@ -40,14 +40,14 @@ pub struct CircleSpec {
     pub radius_m: f64,
 }
 
-/// Something solid on the ground, checked.
+/// An obstacle on the ground, checked.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Solid {
     /// A polygon.
     Polygon(Polygon),
     /// A disc.
     Disc(Disc),
-    /// A map's solid cells.
+    /// The occupied cells of a map.
     Map(OccupancyMap),
 }
 
@@ -75,7 +75,7 @@ impl Still for Solid {
         match self {
             Self::Polygon(polygon) => polygon.distance_m(from),
             Self::Disc(disc) => disc.distance_m(from),
-            // At most: its walls are looked up one by one.
+            // Upper limit: its walls are searched linearly.
             Self::Map(map) => map.bounds().distance_m(from),
         }
     }

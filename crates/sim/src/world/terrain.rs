@@ -1,18 +1,18 @@
-//! What the ground is like.
+//! Terrain.
 
 use super::grid::{NearCells, Still};
 use base::geometry::{Point, Polygon};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A class of ground, for ground robots; where two overlap, the one last by name holds.
+/// A class of terrain, for ground robots. Where two overlap, the one whose name sorts last applies.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct TerrainSpec {
-    /// Factor on the greatest speed.
+    /// Factor on the maximum speed.
     #[serde(default = "one")]
     #[schemars(range(min = 0.0, max = 10.0))]
     pub speed: f64,
-    /// Factor on the energy of moving.
+    /// Factor on the energy of motion.
     #[serde(default = "one")]
     #[schemars(range(min = 0.0, max = 1000.0))]
     pub energy: f64,
@@ -24,12 +24,12 @@ fn one() -> f64 {
     1.0
 }
 
-/// What the ground does to a robot on it.
+/// The effect of the terrain on a robot.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Going {
-    /// Factor on the greatest speed.
+    /// Factor on the maximum speed.
     pub(crate) speed: f64,
-    /// Factor on the energy of moving.
+    /// Factor on the energy of motion.
     pub(crate) energy: f64,
 }
 
@@ -40,7 +40,7 @@ impl Going {
     };
 }
 
-/// A polygon of one class of ground.
+/// A polygon of one class of terrain.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Area {
     polygon: Polygon,
@@ -82,7 +82,7 @@ pub(crate) struct Terrain {
 }
 
 impl Terrain {
-    /// `areas` in the order in which later ones hold over earlier ones.
+    /// `areas`, ordered so that later ones override earlier ones.
     pub(crate) fn new(size_m: Point, areas: Vec<Area>) -> Self {
         // A place is within no more than the areas that its cell touches.
         const CELL_M: f64 = 1.0;
@@ -92,7 +92,7 @@ impl Terrain {
         }
     }
 
-    /// The greatest factors that there are, and at least 1.
+    /// The largest factors anywhere, at least 1.
     pub(crate) fn most(&self) -> Going {
         let most = |most: Going, area: &Area| Going {
             speed: most.speed.max(area.going.speed),

@@ -1,31 +1,31 @@
-//! The shipped robots, of which a scenario's robots can be the `model` of one; docs/robots.md has the
-//! source of every figure.
+//! The bundled robot models, selected by the key `model`; docs/robots.md has the source of every
+//! figure.
 
 use base::document::{Document, Value};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A shipped robot.
+/// A bundled robot model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Model {
     /// A small tracked robot of about 2003 with sonars and a metal detector.
     Tracked,
-    /// A modern small ground vehicle on four wheels with a laser scanner and a camera.
+    /// A modern small four-wheeled ground vehicle with a laser scanner and a camera.
     Ugv,
-    /// A small quadrotor that looks down with a camera.
+    /// A small quadrotor with a downward camera.
     Quadrotor,
 }
 
 impl Model {
-    /// Every shipped robot and its name.
+    /// All bundled models and their names.
     pub const NAMES: [(&str, Self); 3] = [
         ("tracked", Self::Tracked),
         ("ugv", Self::Ugv),
         ("quadrotor", Self::Quadrotor),
     ];
 
-    /// Its TOML, which a robot kind's table is filled in with.
+    /// Its TOML, with which the table of a robot kind is completed.
     #[must_use]
     pub fn text(self) -> &'static str {
         match self {
@@ -36,8 +36,8 @@ impl Model {
     }
 }
 
-/// Puts under each robot kind of `document` what the model that it is `like` says; what is wrong
-/// with the name of a model is told where that is read.
+/// Completes each robot kind of `document` with the values of its `model`. A wrong name of a model
+/// is reported where that key is read.
 pub(crate) fn fill(document: &mut Document) {
     let Some(Value::Table(kinds)) = document.get(&["robots"]).map(|node| &node.value) else {
         return;
@@ -45,7 +45,8 @@ pub(crate) fn fill(document: &mut Document) {
     let names: Vec<String> = kinds.keys().cloned().collect();
     for name in names {
         let model = document.get(&["robots", &name, "model"]);
-        // One whose model is unknown is not told to lack what the model has.
+        // A kind whose model is unknown does not also get errors for keys that the model would
+        // have.
         let model = model.map(|model| named(&model.value).unwrap_or(Model::Ugv));
         if let Some(model) = model {
             fill_with(document, &name, model);
@@ -62,7 +63,7 @@ fn named(name: &Value) -> Option<Model> {
 fn fill_with(document: &mut Document, name: &str, model: Model) {
     let found = Model::NAMES.iter().find(|(_, each)| *each == model);
     let origin = found.map_or(String::new(), |(name, _)| format!("shipped model {name}"));
-    // That each is TOML is a test's claim.
+    // A test checks that each is valid TOML.
     if let Ok(defaults) = Document::parse(&origin, model.text()) {
         document.fill(&["robots", name], &defaults);
     }
