@@ -1,4 +1,4 @@
-//! The metric simulator: metres, seconds, joules, and sensors that miss.
+//! The metric simulator: metres, seconds, joules, and imperfect sensors.
 
 #![cfg_attr(
     test,

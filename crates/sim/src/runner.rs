@@ -1,4 +1,4 @@
-//! The metric engine behind the seam that studies use.
+//! The metric engine as studies see it.
 
 use crate::run::{Outcome, State};
 use crate::scenario::{Scenario, ScenarioSpec};
@@ -144,8 +144,8 @@ impl Runs {
         Outcome::of(scenario, &state)
     }
 
-    /// What a run of the scenario gave, in the order of the columns; `None` if it is not finite, so
-    /// that the run is quarantined.
+    /// The outcome of a run, in the order of the columns; `None` if a value is not finite, so that
+    /// the run is quarantined.
     #[must_use]
     #[expect(clippy::cast_precision_loss, reason = "counts below 2^53")]
     pub fn values(&self, outcome: &Outcome) -> Option<Vec<f64>> {

@@ -1,4 +1,4 @@
-//! A robot's brain, the motion it wants, and what waits for it.
+//! The deciding part of a robot: its brain, the motion it wants, and what waits for it.
 
 use crate::bodies::kind::Kind;
 use crate::radio::channel::Transmission;
@@ -7,16 +7,15 @@ use crate::sensors::pending::Pending;
 use brain::{self, Brain, Contact, Motion, Neighbour, Percept, RobotId, SensorRequest};
 use std::collections::BTreeMap;
 
-/// What decides for one robot.
+/// The deciding part of one robot.
 #[derive(Debug, Clone)]
 pub(crate) struct Agent {
     pub(crate) brain: Brain,
-    /// What it wants until it steps again.
+    /// The motion that it wants until it steps again.
     pub(crate) wanted: Motion,
     /// A bit for each sensor that is switched off.
     pub(crate) sensors_off: u32,
-    /// What has been measured or heard and has not reached the brain. Most kinds of robots never
-    /// have any.
+    /// Readings and messages that have not reached the brain. Most kinds of robots never have any.
     pub(crate) backlog: Option<Box<Backlog>>,
 }
 
@@ -41,7 +40,7 @@ impl Agent {
         }
     }
 
-    /// Takes a message that arrives now, unless the radio has heard enough in this step.
+    /// Takes a message that arrives now, unless the radio has received its maximum in this step.
     pub(crate) fn hear(&mut self, sent: &Transmission, now: u64, most: usize) {
         let Some(backlog) = &mut self.backlog else {
             return;
@@ -64,14 +63,14 @@ impl Agent {
         }
     }
 
-    /// Adds what others told to a percept from outside.
+    /// Adds received messages to an external percept.
     pub(crate) fn tell_messages(&mut self, now: u64, step_s: f64, to: &mut Percept) {
         if let Some(backlog) = &mut self.backlog {
             backlog.tell_messages(now, step_s, to);
         }
     }
 
-    /// Makes room for what is recognised in a step in which the brain does not step.
+    /// Makes room for detections of a step in which the brain does not step.
     pub(crate) fn forget(&mut self, now: u64) {
         if let Some(backlog) = &mut self.backlog {
             backlog.looks.forget(now);
@@ -98,7 +97,7 @@ impl Agent {
         }
     }
 
-    /// Items have other numbers from now on; what was seen of one that is gone is forgotten.
+    /// Renumbers items; detections of items that were removed are dropped.
     pub(crate) fn renumber_items(&mut self, numbers: &BTreeMap<usize, usize>) {
         if let Some(backlog) = &mut self.backlog {
             backlog.contacts.entries.retain_mut(|late| {
@@ -112,8 +111,7 @@ impl Agent {
         }
     }
 
-    /// Robots have other numbers from now on; what was seen and heard of one that is gone is
-    /// forgotten.
+    /// Renumbers robots; detections and messages of robots that were removed are dropped.
     pub(crate) fn renumber_robots(&mut self, numbers: &BTreeMap<RobotId, RobotId>) {
         self.brain.renumber(|id| numbers.get(&id).copied());
         let renumber = |id: &mut RobotId| numbers.get(id).map(|now| *id = *now).is_some();

@@ -1,12 +1,12 @@
-//! Who is still there when a run goes on with another scenario, and by which number.
+//! Which robots stay when a run continues with another scenario, and their new numbers.
 
 use super::state::{BodyState, State};
 use crate::scenario::Scenario;
 use brain::{About, Heard, RobotId};
 use std::collections::BTreeMap;
 
-/// For each robot of `next` the number that it had `before`, by the name of its kind and its index;
-/// `None` for one that comes in.
+/// For each robot of `next` its number in `before`, by the name of its kind and its index; `None`
+/// for one that is added.
 pub(super) fn stay(
     before: &State,
     from: &Scenario,
@@ -20,12 +20,12 @@ pub(super) fn stay(
     next.ids.iter().map(was).collect()
 }
 
-/// Whether nobody has come in and nobody has gone.
+/// Whether no robot was added or removed.
 pub(super) fn is_same_team(before: &State, old: &[Option<usize>]) -> bool {
     old.len() == before.robots() && old.iter().all(Option::is_some)
 }
 
-/// The body_states of those that go.
+/// The body states of the robots that are removed.
 pub(super) fn gone(before: &State, old: &[Option<usize>]) -> Vec<BodyState> {
     let mut stays = vec![false; before.robots()];
     old.iter().flatten().for_each(|robot| stays[*robot] = true);
@@ -35,8 +35,8 @@ pub(super) fn gone(before: &State, old: &[Option<usize>]) -> Vec<BodyState> {
         .collect()
 }
 
-/// What robots that were there and still are were called, and what they are called now: kinds of
-/// robots have other numbers when one before them has come in or gone.
+/// Old and new ids of the robots that stay: kinds of robots are renumbered when a kind before them
+/// is added or removed.
 pub(super) fn ids_of(
     before: &State,
     next: &State,
@@ -48,7 +48,7 @@ pub(super) fn ids_of(
         .collect()
 }
 
-/// Whether a message on its way still means something, by names: it then has the numbers of now.
+/// Whether a message in transit still has a meaning, by names; it then gets the new numbers.
 pub(super) fn still_sayable(
     heard: &mut Heard,
     ids: &BTreeMap<RobotId, RobotId>,
@@ -67,7 +67,7 @@ pub(super) fn still_sayable(
     };
     seen.by = *looker;
     let Some(was) = from.items.get(usize::from(*kind)) else {
-        // Of no kind that there was: so it stays.
+        // It names no kind that existed: it stays as it is.
         return usize::from(*kind) >= to.items.len();
     };
     let now = (0..).zip(&to.items).find(|(_, now)| now.name == was.name);

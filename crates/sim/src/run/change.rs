@@ -1,4 +1,4 @@
-//! Going on with another scenario in the middle of a run.
+//! Continuing a run with another scenario.
 
 use super::agent::Agent;
 use super::carry_over::{gone, ids_of, is_same_team, stay, still_sayable};
@@ -10,30 +10,30 @@ use crate::world::items::Item;
 use base::placement::{Crowd, NoPlace, NoPlaceFor, Things};
 use std::collections::BTreeMap;
 
-/// Whether a robot stands well where it is.
+/// Whether the place of a robot is still valid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Room {
-    /// It stands where it stood, among what stood there.
+    /// It stays where it was, with the same geometry.
     Same,
-    /// It stays, but it or the world has another shape: the place must still do.
+    /// It stays, but its shape or that of the world changed: the place must still be free.
     Doubtful,
-    /// It comes in, and can start elsewhere.
+    /// It is added, and can start elsewhere.
     Wanted,
 }
 
 impl State {
-    /// The run as it goes on with another scenario of the same step and the same world's size and
-    /// sides.
+    /// The run as it continues with another scenario of the same step and the same size and sides
+    /// of the world.
     ///
     /// Robots and items that are in both, by the names of their kinds and their indices, stay as
-    /// they are; others come in where they would start, or go. A robot whose brain, body or sensors
-    /// are now others begins with a new agent, and is at once no faster than its drive now allows. Of
-    /// a battery with another capacity there is left what has not been used so far.
-    /// Messages on their way are lost if the team changes. What robots have cost that go is still
-    /// part of the outcome.
+    /// they are; others are added where they would start, or removed. A robot whose brain, body or
+    /// sensors changed gets a new agent, and its speed is limited at once to what its drive now
+    /// allows. Of a battery with another capacity, what was not used so far is left. Messages in
+    /// transit are lost if the team changes. The cost of robots that are removed stays part of the
+    /// outcome.
     ///
     /// # Errors
-    /// If there is no room for what comes in, or for what stays where something else now is.
+    /// If there is no room for what is added, or for what stays where something else is now.
     pub fn changed(&self, from: &Scenario, to: &Scenario) -> Result<Self, NoRoom> {
         let mut next = Self::new(to, self.seed, self.run)?;
         next.tick = self.tick;
@@ -49,7 +49,7 @@ impl State {
         next.tally.gone = self.tally.gone.and(gone(self, &old).iter());
         next.count_targets(to);
         if is_same_team(self, &old) {
-            // Kinds are in the order of their names, so that those who hear have their numbers still.
+            // Kinds are sorted by name, so that receivers keep their numbers.
             next.channel = self.channel.clone();
             next.channel
                 .retain(|heard| still_sayable(heard, &ids, from, to));
@@ -57,7 +57,7 @@ impl State {
         Ok(next)
     }
 
-    /// Takes over robots that were there, each from its `old` number.
+    /// Takes over robots that stay, each from its `old` number.
     fn keep_robots(
         &mut self,
         before: &Self,
@@ -90,7 +90,7 @@ impl State {
         rooms
     }
 
-    /// Puts robots that are new elsewhere where somebody is in their place by now.
+    /// Moves added robots elsewhere if their place is taken by now.
     fn make_room(&mut self, scenario: &Scenario, rooms: &[Room]) -> Result<(), NoRoom> {
         let draws = draws(scenario, self.seed, self.run, Things::Robots);
         let mut crowd = self.crowd(scenario);
@@ -122,7 +122,7 @@ impl State {
         Ok(())
     }
 
-    /// Where the robots of each kind stand.
+    /// Where the robots of each kind are.
     fn crowd(&self, scenario: &Scenario) -> Crowd {
         let kinds = scenario.kinds.iter();
         let discs = kinds.map(|kind| (kind.layer as u8, kind.radius_m));
@@ -133,7 +133,7 @@ impl State {
         crowd
     }
 
-    /// Takes over items that were there, and what robots are about to be told of them.
+    /// Takes over items that stay, and the detections of them in transit.
     fn keep_items(&mut self, before: &Self, from: &Scenario, to: &Scenario) -> Result<(), NoRoom> {
         let old: BTreeMap<_, _> = before.items.named(&from.items).collect();
         let named = self.items.named(&to.items);
@@ -151,7 +151,7 @@ impl State {
         Ok(())
     }
 
-    /// Items lie where something else now stands.
+    /// Items lie where something else is now.
     fn check_items(&self, scenario: &Scenario) -> Result<(), NoRoom> {
         let mut items = self.items.named(&scenario.items);
         let is_taken = |item: &Item| !scenario.is_free(item.place, 0.0, Layer::Ground);
@@ -161,14 +161,14 @@ impl State {
         })
     }
 
-    /// Counts the sought items that are left.
+    /// Counts the targets that are left.
     fn count_targets(&mut self, scenario: &Scenario) {
         let is_target = |kind: u16| scenario.items[usize::from(kind)].is_target;
         let target = self.items.each().filter(|(kind, _)| is_target(*kind));
         let found: Vec<Option<u64>> = target.map(|(_, found)| found).collect();
         let left = found.iter().filter(|found| found.is_none()).count();
         self.tally.targets_left = u32::try_from(left).unwrap_or(u32::MAX);
-        // What is left out can complete a run, and what comes in can open it again.
+        // Removing targets can complete a run, and adding some can reopen it.
         let last = found.into_iter().flatten().max();
         self.tally.complete_at = last.filter(|_| left == 0);
     }

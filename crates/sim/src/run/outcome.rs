@@ -1,37 +1,37 @@
-//! What a run gives.
+//! The outcome of a run.
 
 use super::state::State;
 use crate::clock::seconds;
 use crate::scenario::Scenario;
 
-/// What a run gives, by the names of an outcome's columns.
+/// The outcome of a run, named like the columns of results.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outcome {
-    /// Until the last sought item was found; the cap if that was not.
+    /// Time until the last target was found; the time limit if it was not.
     pub time_s: f64,
-    /// Whether sought items were not found.
+    /// Whether targets were not found.
     pub has_failed: bool,
     /// Items found, by kind.
     pub found: Vec<u32>,
     /// Items not found, by kind.
     pub missed: Vec<u32>,
-    /// Contacts of nothing that robots were told of.
+    /// Contacts that are no item.
     pub false_alarms: u64,
-    /// New contacts of two robots, or of a robot with what stands still; in a step at most as many
-    /// as there are robots.
+    /// New contacts of two robots, or of a robot with static geometry; per step at most as many as
+    /// there are robots.
     pub collisions: u64,
-    /// Of all robots, also those that were taken out of the run.
+    /// Of all robots, including those that were removed during the run.
     pub energy_j: f64,
-    /// Of all robots, also those that were taken out of the run.
+    /// Of all robots, including those that were removed during the run.
     pub distance_m: f64,
-    /// Robots that could not go on: empty or broken; those that were taken out of the run so too.
+    /// Robots that are empty or broken, including those that were removed in that state.
     pub robots_stopped: u32,
-    /// Whether every robot is somewhere, and looks somewhere.
+    /// Whether every robot has a finite pose.
     is_placed: bool,
 }
 
 impl Outcome {
-    /// What a run has given so far.
+    /// The outcome so far.
     #[must_use]
     pub fn of(scenario: &Scenario, state: &State) -> Self {
         let mut found = vec![0; scenario.items.len()];
@@ -50,7 +50,7 @@ impl Outcome {
             .map(|tick| seconds(tick, scenario.step_s));
         let cost = state.tally.gone.and(state.body_states.iter());
         Self {
-            // The step of the last find may be a rounding error beyond the cap.
+            // The step of the last find may exceed the time limit by a rounding error.
             time_s: complete_s.map_or(scenario.time_limit_s, |time_s| {
                 time_s.min(scenario.time_limit_s)
             }),
@@ -66,7 +66,7 @@ impl Outcome {
         }
     }
 
-    /// Whether all its numbers are finite, and the places of the robots from which they came.
+    /// Whether all its numbers are finite, and the poses of the robots from which they come.
     #[must_use]
     pub fn is_finite(&self) -> bool {
         let numbers = [self.time_s, self.energy_j, self.distance_m];

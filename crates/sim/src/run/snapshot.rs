@@ -1,4 +1,4 @@
-//! What can be seen of a run from outside: where everything is, and how it fares.
+//! What can be observed of a run: poses, items and states.
 
 use super::state::{State, Status};
 use crate::bodies::Layer;
@@ -10,62 +10,63 @@ use brain::{BelievedMap, Motion, RobotId, Thoughts};
 /// A robot of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Robot {
-    /// Which it is.
+    /// Its id.
     pub id: RobotId,
-    /// Where its centre is.
+    /// Position of its centre.
     pub at: Point,
-    /// Of the disc that it covers.
+    /// Radius of its footprint.
     pub radius_m: f64,
     /// On the ground or in the air.
     pub layer: Layer,
-    /// Its course: 0 along x, anticlockwise, from -pi to pi.
+    /// Its heading: 0 along x, anticlockwise, from -pi to pi.
     pub heading_rad: f64,
-    /// Ahead.
+    /// Forward speed.
     pub speed_m_s: f64,
-    /// What its brain wants.
+    /// The motion that its brain wants.
     pub wanted: Motion,
-    /// Whether it can go on.
+    /// Whether it can still move.
     pub status: Status,
-    /// Whether its body is outside.
+    /// Whether its body is external.
     pub is_external: bool,
     /// Whether something stopped it in the last step.
     pub is_touching: bool,
-    /// Taken from its battery.
+    /// Energy taken from its battery.
     pub energy_j: f64,
-    /// Share of its battery that is left; `None` if it has none that empties.
+    /// Remaining fraction of its battery; `None` if it never runs empty.
     pub battery: Option<f64>,
-    /// How far it has gone.
+    /// Distance covered.
     pub distance_m: f64,
-    /// New contacts that it has had.
+    /// Number of new contacts.
     pub collisions: u32,
 }
 
 /// An item of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Item {
-    /// Place of its kind in the scenario.
+    /// Index of its kind in the scenario.
     pub kind: u16,
-    /// Where it is.
+    /// Its position.
     pub at: Point,
     /// When it was found, if it was.
     pub found_s: Option<f64>,
 }
 
 impl State {
-    /// Steps that have been taken.
+    /// Number of steps taken.
     #[must_use]
     pub fn tick(&self) -> u64 {
         self.tick
     }
 
-    /// What a robot believes and wants; `None` if there is no such robot, or it has no agent.
+    /// What a robot believes and wants; `None` if there is no such robot, or its brain has no
+    /// beliefs.
     #[must_use]
     pub fn thoughts(&self, id: RobotId) -> Option<Thoughts> {
         let robot = self.ids.binary_search(&id).ok()?;
         self.agents[robot].brain.thoughts()
     }
 
-    /// The map in a robot's agent; `None` if there is no such robot, or it has none.
+    /// The map of a robot; `None` if there is no such robot, or it has none.
     #[must_use]
     pub fn map(&self, id: RobotId) -> Option<BelievedMap> {
         let robot = self.ids.binary_search(&id).ok()?;

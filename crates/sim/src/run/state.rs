@@ -19,11 +19,11 @@ use brain::{Motion, RobotId};
 pub struct State {
     pub(crate) seed: u64,
     pub(crate) run: u64,
-    /// Steps that have been taken.
+    /// Number of steps taken.
     pub(crate) tick: u64,
-    /// Robots in the order of their kinds and indices; each array below has one entry a robot.
+    /// Robots in the order of their kinds and indices; each array below has one entry per robot.
     pub(crate) ids: Vec<RobotId>,
-    /// What each covers.
+    /// Their footprints.
     pub(crate) discs: Vec<Disc>,
     pub(crate) orientations: Vec<Orientation>,
     pub(crate) body_states: Vec<BodyState>,
@@ -34,19 +34,19 @@ pub struct State {
     pub(crate) tally: Tally,
 }
 
-/// A body's state, besides where it is.
+/// The state of a body, besides its pose.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct BodyState {
     pub(crate) speed_m_s: f64,
     pub(crate) turn_rate_rad_s: f64,
-    /// Taken from the battery so far.
+    /// Energy taken from the battery so far.
     pub(crate) energy_j: f64,
     pub(crate) distance_m: f64,
     /// It stands still until this step, because of a collision.
     pub(crate) held_until: u64,
     pub(crate) collisions: u32,
     pub(crate) status: Status,
-    /// Its percepts come from outside, and its commands go there.
+    /// Its percepts come from outside the simulation, and its commands are returned there.
     pub(crate) is_external: bool,
     /// It touched something in the last step, or it has not moved freely since.
     pub(crate) is_touching: bool,
@@ -55,7 +55,7 @@ pub(crate) struct BodyState {
 }
 
 impl BodyState {
-    /// Share of its battery that is left, 0 to 1; `None` if it has none that empties.
+    /// Remaining fraction of its battery, 0 to 1; `None` if it never runs empty.
     pub(crate) fn charge(&self, kind: &Kind) -> Option<f64> {
         let capacity_j = kind.battery?.capacity_j;
         let left = (1.0 - self.energy_j / capacity_j).max(0.0);
@@ -63,7 +63,7 @@ impl BodyState {
     }
 }
 
-/// Whether a robot can go on.
+/// Whether a robot can still move.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Status {
     /// It can.
@@ -75,20 +75,20 @@ pub enum Status {
     Broken,
 }
 
-/// What a run counts, besides what each robot does.
+/// Counts of a run, besides those of each robot.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct Tally {
     pub(crate) false_alarms: u64,
     pub(crate) collisions: u64,
     /// Targets that are not found.
     pub(crate) targets_left: u32,
-    /// The step in which the last of them was found.
+    /// The step in which the last target was found.
     pub(crate) complete_at: Option<u64>,
-    /// What robots cost that are no longer there.
+    /// The cost of robots that were removed.
     pub(crate) gone: Cost,
 }
 
-/// What some robots have cost together.
+/// The total cost of some robots.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct Cost {
     pub(crate) energy_j: f64,
@@ -97,7 +97,7 @@ pub(crate) struct Cost {
 }
 
 impl Cost {
-    /// With what other robots have cost.
+    /// Adds the cost of other robots.
     pub(crate) fn and<'a>(self, body_states: impl Iterator<Item = &'a BodyState>) -> Self {
         body_states.fold(self, |all, body_state| Self {
             energy_j: all.energy_j + body_state.energy_j,
@@ -107,7 +107,7 @@ impl Cost {
     }
 }
 
-/// Something for which a run has no place.
+/// A robot or an item for which a run has no room.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum NoRoom {
     /// An item.
@@ -115,9 +115,9 @@ pub enum NoRoom {
     Item {
         /// Number of its kind.
         kind: u8,
-        /// Its place within the kind.
+        /// Its index within the kind.
         index: u32,
-        /// Why.
+        /// The reason.
         why: NoPlace,
     },
     /// A robot.
@@ -126,7 +126,7 @@ pub enum NoRoom {
 }
 
 impl State {
-    /// The beginning of a run.
+    /// A new run.
     ///
     /// # Errors
     /// If there is no room for an item or a robot.
@@ -194,7 +194,7 @@ impl State {
         self.agents.push(Agent::new(kind));
     }
 
-    /// Notes that a robot was told of an item.
+    /// Notes that a robot detected an item.
     pub(crate) fn find(&mut self, scenario: &Scenario, item: u32) {
         let kind = &scenario.items[usize::from(self.items.kind(item))];
         if self.items.find(item, self.tick) && kind.is_target {
@@ -205,7 +205,7 @@ impl State {
         }
     }
 
-    /// Whether nothing more can come of the run: all is found, time is up, or no robot can move.
+    /// Whether the run is over: all targets are found, time is up, or no robot can move.
     #[must_use]
     pub fn is_over(&self, scenario: &Scenario) -> bool {
         let can_go_on = |body_state: &BodyState| body_state.status == Status::Active;
@@ -214,7 +214,7 @@ impl State {
             || !self.body_states.iter().any(can_go_on)
     }
 
-    /// A number that tells runs apart that differ in anything that shows.
+    /// A hash that differs between runs that differ in anything observable.
     #[must_use]
     pub fn hash(&self) -> u64 {
         let mut hash = Hash::new();
@@ -261,7 +261,7 @@ impl State {
         hash.value()
     }
 
-    /// Robots.
+    /// Number of robots.
     #[must_use]
     pub fn robots(&self) -> usize {
         self.ids.len()

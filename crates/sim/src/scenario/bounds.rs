@@ -1,14 +1,15 @@
-//! What no run of a scenario goes beyond, and what is the same in all.
+//! Bounds of what runs of a scenario can yield, and what is the same in all runs.
 
 use super::Scenario;
 use crate::bodies::Layer;
 use crate::bodies::kind::Kind;
 use crate::world::terrain::{Going, Terrain};
 
-/// Rounding in a sum of many steps, and a step that begins before the cap, must not go beyond.
+/// Rounding in a sum of many steps, and a step that begins before the time limit, must not exceed
+/// the bound.
 const HAIR: f64 = 1.001;
 
-/// The most that runs can give, of what has bounds.
+/// Upper bounds of the bounded quantities of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Bounds {
     pub(crate) robots: f64,
@@ -73,7 +74,7 @@ impl Scenario {
         spent_j.min(battery.capacity_j)
     }
 
-    /// Robots of each kind, in the order in which ids count them.
+    /// Number of robots of each kind, in the order in which ids count them.
     #[must_use]
     pub fn team(&self) -> Vec<(String, u32)> {
         self.kinds
@@ -82,7 +83,7 @@ impl Scenario {
             .collect()
     }
 
-    /// What is the same in all runs, for people.
+    /// What is the same in all runs, as text.
     pub(crate) fn facts(&self) -> Vec<(String, String)> {
         let size = self.world.size();
         let world = format!(

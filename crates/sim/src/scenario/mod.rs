@@ -19,14 +19,14 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
-/// What a run depends on, as it is written.
+/// A scenario as it is written.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ScenarioSpec {
-    /// How time passes.
+    /// Time step and time limit.
     pub clock: ClockSpec,
     /// The world.
     pub world: WorldSpec,
-    /// Classes of ground, each under a name of your choice.
+    /// Classes of terrain, each under a name of your choice.
     #[serde(default)]
     pub terrain: BTreeMap<String, TerrainSpec>,
     /// Kinds of items, each under a name of your choice.
@@ -36,12 +36,12 @@ pub struct ScenarioSpec {
     pub robots: BTreeMap<String, RobotSpec>,
 }
 
-/// A scenario in which nothing is wrong.
+/// A valid scenario.
 #[derive(Debug, Clone)]
 pub struct Checked {
-    /// As it is written; what is left out has its default, or its model's value.
+    /// As it is written; omitted keys have their defaults, or the values of the robot model.
     pub spec: ScenarioSpec,
-    /// As runs need it.
+    /// Converted for runs.
     pub scenario: Scenario,
 }
 
@@ -49,19 +49,19 @@ pub struct Checked {
 static SCHEMA: LazyLock<Schema> = LazyLock::new(|| Schema::of::<ScenarioSpec>().open());
 
 impl ScenarioSpec {
-    /// The keys at the root of a document that it is read from.
+    /// The keys at the root of a document that this type reads.
     pub const KEYS: [&str; 5] = ["clock", "world", "terrain", "items", "robots"];
 
-    /// What may stand under [`ScenarioSpec::KEYS`], once every robot kind says what its model says.
+    /// The schema of [`ScenarioSpec::KEYS`], once every robot kind is completed from its model.
     #[must_use]
     pub fn schema() -> &'static Schema {
         &SCHEMA
     }
 
-    /// Reads what stands under [`ScenarioSpec::KEYS`], and nothing else.
+    /// Reads [`ScenarioSpec::KEYS`], and nothing else.
     ///
     /// # Errors
-    /// Everything that is wrong there: keys and values first, and if these are right, what they mean
+    /// Everything that is wrong there: keys and values first and, if these are valid, their meaning
     /// together.
     pub fn read(document: &Document) -> Result<Checked, InputErrors> {
         let document = Self::filled(document);
@@ -69,7 +69,7 @@ impl ScenarioSpec {
         checks::checked(spec, &document.place(), &|name| document.open(name))
     }
 
-    /// A document in which every robot kind says what the model says that it is like.
+    /// A document in which every robot kind is completed from its model.
     #[must_use]
     pub fn filled(document: &Document) -> Document {
         let mut filled = document.clone();
@@ -77,8 +77,8 @@ impl ScenarioSpec {
         filled
     }
 
-    /// The same of a document whose files `open` reads: it gives the bytes of one by its name, or
-    /// says why it cannot.
+    /// The same for a document whose files `open` reads: it returns the bytes of a file by its
+    /// name, or the reason why it cannot.
     ///
     /// # Errors
     /// As [`ScenarioSpec::read`].
@@ -88,7 +88,7 @@ impl ScenarioSpec {
     ) -> Result<Checked, InputErrors> {
         let mut document = document.clone();
         let mut files = Files::new();
-        // What has been read may name more.
+        // What has been read may name more files.
         loop {
             let wanted = Self::files(&document);
             if wanted.is_empty() {
@@ -99,8 +99,8 @@ impl ScenarioSpec {
         }
     }
 
-    /// The names in the table at `path` of a document, those of a robot's model among them, if it is
-    /// one of things under names of a person's choice.
+    /// The names in the table at `path` of a document, including those of a robot's model, if the
+    /// keys of that table are names chosen by the user.
     pub(crate) fn names(document: &Document, path: &[&str]) -> Option<Vec<String>> {
         if !SCHEMA.has_names_at(path) {
             return None;

@@ -1,5 +1,5 @@
-//! A scenario as runs need it: checked, in SI units and radians, and with what never changes
-//! computed once.
+//! A scenario converted for runs: checked, in SI units and radians, and with constants computed
+//! once.
 
 use super::ScenarioSpec;
 use crate::bodies::Layer;
@@ -14,9 +14,8 @@ use base::geometry::{Disc, Point, Rectangle, Segment, Torus};
 use base::random::Entity;
 use brain::{Brain, RobotId};
 
-/// What is near a robot is looked up with more reach than is needed: by this share of what rays
-/// reach, but by no less and no more than so many metres. That holds until a robot has gone half of
-/// it.
+/// Neighbour lists reach farther than necessary: by this fraction of the range of rays, but within
+/// these limits in metres. They stay valid until a robot has moved half of it.
 const SKIN: f64 = 0.2;
 const LEAST_SKIN_M: f64 = 0.6;
 const MOST_SKIN_M: f64 = 2.0;
@@ -26,32 +25,32 @@ const MOST_SKIN_M: f64 = 2.0;
 pub struct Scenario {
     pub(crate) step_s: f64,
     pub(crate) time_limit_s: f64,
-    /// Steps until the cap.
+    /// Steps until the time limit.
     pub(crate) steps: u64,
     pub(crate) world: Rectangle,
-    /// How the world goes on at its sides; `None` if it has a wall around it.
+    /// The sides of a periodic world; `None` if it has a wall around it.
     pub(crate) torus: Option<Torus>,
     pub(crate) terrain: Option<Terrain>,
-    /// What is solid, and what of it is near.
+    /// Obstacles, and what is near them.
     solids: Vec<Solid>,
     near_solids: NearCells,
-    /// By layer: what rays meet, and what bodies run into.
+    /// By layer: what rays meet, and what bodies collide with.
     seen: [StaticGeometry; 2],
     touched: [StaticGeometry; 2],
     pub(crate) items: Vec<ItemKind>,
     pub(crate) kinds: Vec<Kind>,
     /// Two robots farther apart than this, from centre to centre, cannot touch in one step.
     pub(crate) contact_m: f64,
-    /// What is near a robot is looked up with so much more reach than is needed.
+    /// Additional reach of neighbour lists.
     pub(crate) skin_m: f64,
 }
 
 impl Scenario {
-    /// What is nearer to something than its radius by less, in metres, touches it by rounding.
+    /// A gap smaller than this, in metres, is a contact by rounding.
     pub(crate) const TOLERANCE_M: f64 = 1e-9;
 
-    /// The scenario that a checked spec describes, with its obstacles and areas of terrain as they
-    /// were read; later areas hold over earlier ones.
+    /// The scenario that a checked spec describes, with its obstacles and terrain areas as they
+    /// were read; later areas override earlier ones.
     #[must_use]
     pub fn new(spec: &ScenarioSpec, solids: Vec<Solid>, areas: Vec<Area>) -> Self {
         let step_s = spec.clock.step_s;
@@ -111,13 +110,13 @@ impl Scenario {
         }
     }
 
-    /// What is solid on the ground.
+    /// The obstacles on the ground.
     #[must_use]
     pub fn solids(&self) -> &[Solid] {
         &self.solids
     }
 
-    /// Robots of all kinds together.
+    /// Number of robots of all kinds.
     #[must_use]
     pub fn robots(&self) -> usize {
         self.kinds.iter().map(|kind| kind.count as usize).sum()
@@ -127,8 +126,7 @@ impl Scenario {
         greatest(&self.kinds, |kind| kind.radius_m)
     }
 
-    /// Whether nothing can be touched, and nobody looks for what is near: all robots are points that
-    /// do nothing but go with the others.
+    /// Whether nothing can be touched or detected: all robots are points that only flock.
     pub(crate) fn is_of_flocks_of_points(&self) -> bool {
         let is_one = |kind: &Kind| kind.flocking.is_some() && kind.radius_m == 0.0;
         self.kinds.iter().all(is_one)
@@ -142,7 +140,7 @@ impl Scenario {
             .all(|pair| pair[0].layer == pair[1].layer)
     }
 
-    /// Items that are to be found.
+    /// Number of targets.
     pub(crate) fn targets(&self) -> u32 {
         self.items
             .iter()
@@ -151,18 +149,18 @@ impl Scenario {
             .sum()
     }
 
-    /// Nobody looks for items farther away.
+    /// The largest range of any item detector.
     pub(crate) fn items_reach_m(&self) -> f64 {
         greatest(&self.kinds, Kind::items_reach_m)
     }
 
-    /// Time of a step.
+    /// Length of a time step.
     #[must_use]
     pub fn step_s(&self) -> f64 {
         self.step_s
     }
 
-    /// A run ends here at the latest.
+    /// The time limit of a run.
     #[must_use]
     pub fn time_limit_s(&self) -> f64 {
         self.time_limit_s
@@ -174,7 +172,7 @@ impl Scenario {
         self.world
     }
 
-    /// Whether the world goes on at its other side.
+    /// Whether the world is periodic.
     #[must_use]
     pub fn is_periodic(&self) -> bool {
         self.torus.is_some()
@@ -190,26 +188,26 @@ impl Scenario {
         self.items.iter().map(|kind| kind.name.as_str())
     }
 
-    /// The brain with which robots of a kind begin.
+    /// The brain with which robots of a kind start.
     #[must_use]
     pub fn brain(&self, kind: u8) -> Option<&Brain> {
         self.kinds.get(usize::from(kind)).map(|kind| &kind.brain)
     }
 
-    /// How far the radio of a kind's robots reaches, if they have one.
+    /// The radio range of a kind of robots, if they have a radio.
     #[must_use]
     pub fn radio_m(&self, kind: u8) -> Option<f64> {
         let kind = self.kinds.get(usize::from(kind))?;
         kind.radio.map(|radio| radio.range_m)
     }
 
-    /// Whether robots of a kind go on the ground or fly; none if there is no such kind.
+    /// The layer of a kind of robots; none if there is no such kind.
     #[must_use]
     pub fn layer(&self, kind: u8) -> Option<Layer> {
         Some(self.kinds.get(usize::from(kind))?.layer)
     }
 
-    /// Whose random numbers a robot has.
+    /// The key of a robot in random streams.
     pub(crate) fn entity(&self, id: RobotId) -> Entity {
         Entity {
             kind: self.kinds[usize::from(id.kind)].key,
@@ -228,13 +226,13 @@ impl Scenario {
         &self.seen[layer as usize]
     }
 
-    /// What bodies of a layer run into.
+    /// What bodies of a layer collide with.
     #[inline]
     pub(crate) fn touched(&self, layer: Layer) -> &StaticGeometry {
         &self.touched[layer as usize]
     }
 
-    /// What the ground does to a robot of a layer.
+    /// The effect of the terrain on a robot of a layer.
     #[inline]
     pub(crate) fn going(&self, place: Point, layer: Layer) -> Going {
         match &self.terrain {
@@ -250,25 +248,25 @@ impl Scenario {
         self.touched(if one == other { one } else { Layer::Ground })
     }
 
-    /// The greatest factor on speed that there is, at least 1.
+    /// The largest factor on speed anywhere, at least 1.
     pub(crate) fn fastest(&self) -> f64 {
         let terrain = self.terrain.as_ref();
         terrain.map_or(1.0, |terrain| terrain.most().speed)
     }
 
-    /// Where a place is in the world: where a robot comes in that leaves a world that wraps.
+    /// A place in the world: in a periodic world, where a robot that leaves it enters again.
     #[inline]
     pub(crate) fn home(&self, place: Point) -> Point {
         self.torus.map_or(place, |torus| torus.home(place))
     }
 
-    /// A place as it is seen from another: its nearest image, if the world wraps.
+    /// A place as seen from another: its nearest image, in a periodic world.
     #[inline]
     pub(crate) fn image(&self, from: Point, place: Point) -> Point {
         self.torus.map_or(place, |torus| torus.image(from, place))
     }
 
-    /// No robot touches, sees or hears another whose nearest image is farther away.
+    /// No robot touches, detects or receives another whose nearest image is farther away.
     pub(crate) fn farthest_m(&self) -> f64 {
         let rays_m = greatest(&self.kinds, |kind| kind.rays_m) + self.biggest_radius_m();
         let told_m = greatest(&self.kinds, Kind::robots_reach_m);

@@ -1,19 +1,19 @@
-//! Who is about to run into something: for people who watch, and for no brain.
+//! Warnings of imminent collisions, for display only: no brain uses them.
 
 use super::Simulation;
 use crate::bodies::path::Orientation;
 use crate::run::state::BodyState;
 use base::geometry::Point;
 
-/// It is about to if it would touch something within so long, in seconds.
+/// A warning is given for a contact within this time, in seconds.
 const WITHIN_S: f64 = 1.0;
 
 impl Simulation {
-    /// Whether each robot would touch something within a second if it and all others went straight on
-    /// as fast as they go now.
+    /// Whether each robot would touch something within a second if it and all others continued
+    /// straight at their current speed.
     ///
-    /// Of what stands, what lies only between the middle of its way and the way of its body_state's sides is
-    /// not seen: a post thinner than the robot's radius.
+    /// Static geometry between the path of its centre and those of its sides is not checked: a post
+    /// thinner than the robot's radius may be missed.
     pub fn in_danger(&mut self) -> Vec<bool> {
         let robots = self.state().robots();
         if self.scenario().is_of_flocks_of_points() {
@@ -79,7 +79,8 @@ fn velocity(body_state: &BodyState, course: &Orientation) -> Point {
     course.front.times(body_state.speed_m_s)
 }
 
-/// Whether what is at a place, and goes on from there, comes nearer than `near_m` within a second.
+/// Whether something at a place, moving at a constant velocity, comes nearer than `near_m` within a
+/// second.
 fn will_touch(at: Point, velocity: Point, near_m: f64) -> bool {
     let speed = velocity.length_squared();
     let nearing = -at.dot(velocity);

@@ -1,4 +1,4 @@
-//! How far sensors see past what is in their way: for people who watch, and for no brain.
+//! Sensor footprints: how far sensors see past obstacles. For display only, no brain uses them.
 
 use super::{NoRobot, Simulation};
 use crate::sensors::Measure;
@@ -11,48 +11,48 @@ use base::trig::sin_cos;
 use brain::RobotId;
 use std::f64::consts::TAU;
 
-/// A sector is looked at along so many bearings for each radian: one a degree.
+/// Bearings per radian along which a sector is evaluated: one per degree.
 const BEARINGS_PER_RAD: f64 = 360.0 / TAU;
 
-/// An outline is drawn straight where it is so but for this share of the range.
+/// An outline is drawn straight within this fraction of the range.
 const STRAIGHT: f64 = 2e-4;
 
-/// Whose footprints are asked for.
+/// The sensors whose footprints are requested.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sensors {
-    /// Of the detectors of items.
+    /// Item detectors.
     Items,
-    /// Of these and of range rings.
+    /// Item detectors and range rings.
     All,
 }
 
-/// What a sensor covers now: its sector, as far as nothing hides it.
+/// The area that a sensor covers now: its sector, as far as nothing blocks it.
 ///
-/// What hides it is what does so in the run: of a ring all that its rays meet, robots too; of a
-/// detector of items the obstacles, if it needs a line of sight, and nothing if not. A ring of few
-/// rays measures between them nothing: its footprint is what its rays could meet.
+/// It is blocked as in the run: a ring by everything that its rays meet, robots included; an item
+/// detector by obstacles, if it needs a line of sight, and otherwise by nothing. A ring of few rays
+/// measures nothing between them: its footprint is what its rays could meet.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Footprint {
-    /// Place of the sensor among the robot's.
+    /// Index of the sensor on the robot.
     pub sensor: usize,
     /// Whether it detects items.
     pub finds_items: bool,
-    /// As far as it sees at all.
+    /// Maximum range.
     pub range_m: f64,
-    /// Angle that it covers, a whole turn at most.
+    /// Field of view, at most a full turn.
     pub width_rad: f64,
-    /// The middle of that, from the robot's front.
+    /// Direction of its centre, relative to the robot's front.
     pub facing_rad: f64,
-    /// How far it sees along each of [`Footprint::bearings_rad`].
+    /// Range along each of [`Footprint::bearings_rad`].
     pub ranges_m: Vec<f64>,
 }
 
 impl Simulation {
-    /// The footprints of a robot's sensors that are on, in the order of the sensors; none if it
-    /// cannot go on, or senses outside. To ask changes nothing in the run.
+    /// The footprints of a robot's sensors that are on, in the order of the sensors; none if it can
+    /// no longer move, or if its body is external. The run does not change.
     ///
     /// # Errors
-    /// If the robot is not there.
+    /// If there is no such robot.
     pub fn footprints(&mut self, id: RobotId, of: Sensors) -> Result<Vec<Footprint>, NoRobot> {
         let robot = self.number(id)?;
         let (view, agents) = self.view();
@@ -109,24 +109,24 @@ impl View<'_> {
         let exact = ring.exact(footprint.bearings_rad());
         exact.look(&eye, &mut room, &mut footprint.ranges_m);
         let ranges_m = footprint.ranges_m.iter_mut();
-        // What meets nothing has no echo.
+        // A ray that meets nothing has no return.
         ranges_m.for_each(|range_m| *range_m = range_m.min(ring.range_m));
         footprint
     }
 }
 
 impl Footprint {
-    /// Directions from the robot's front, evenly spread over the sector, from -pi to pi: a whole
-    /// circle has none twice, a sector one on each edge.
+    /// Directions relative to the robot's front, evenly spaced over the sector, from -pi to pi: a
+    /// full circle has none twice, a sector has one on each edge.
     #[must_use]
     pub fn bearings_rad(&self) -> Vec<f64> {
         spread(bearings(self.width_rad), self.width_rad, self.facing_rad)
     }
 
-    /// Its outline, as bearings from the robot's front, ascending, and distances: between two that
-    /// are at its full range lies an arc, between others a straight line.
+    /// Its outline, as ascending bearings relative to the robot's front, and distances: between two
+    /// at full range lies an arc, between others a straight line.
     ///
-    /// A whole circle ends where it begins; a sector is closed by the robot's place.
+    /// A full circle ends where it begins; a sector is closed by the robot's position.
     #[must_use]
     pub fn corners(&self) -> Vec<[f64; 2]> {
         let is_whole = self.width_rad >= TAU;
@@ -154,7 +154,7 @@ impl Footprint {
         corners
     }
 
-    /// Whether three corners lie on its arc, or as good as on a line.
+    /// Whether three corners lie on its arc, or nearly on a line.
     fn is_smooth(&self, corners: [[f64; 2]; 3]) -> bool {
         let is_full = corners.map(|[_, range_m]| range_m >= self.range_m);
         if is_full[0] && is_full[1] {
@@ -169,7 +169,7 @@ impl Footprint {
     }
 }
 
-/// Along how many bearings a sector is looked at.
+/// Number of bearings along which a sector is evaluated.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,

@@ -1,23 +1,23 @@
-//! Probe of a robot: what its brain perceives, decides, and why.
+//! Inspection of a robot: what its brain perceives, decides, and why.
 //!
-//! Probe does not change the run: a copy of the brain from before its last step is kept, and takes that
-//! step again when its decision is requested.
+//! Inspection does not change the run: a copy of the brain from before its last step is kept, and
+//! takes that step again when its decision is requested.
 
 use super::Simulation;
 use super::probe::{Last, Probe};
 use crate::run::state::Status;
 use brain::{Decision, Percept, RobotId};
 
-/// What a robot perceived, and what its brain decided.
+/// A percept of a robot, and the decision of its brain.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Inspected {
-    /// Which robot.
+    /// The robot.
     pub robot: RobotId,
     /// Number of the step in which it decided.
     pub tick: u64,
-    /// What it perceived.
+    /// The percept.
     pub percept: Percept,
-    /// What it decided, and why.
+    /// The decision, and its reasons.
     pub decision: Decision,
 }
 

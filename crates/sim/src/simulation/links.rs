@@ -1,28 +1,28 @@
-//! Who hears whom: for people who watch, and for no brain.
+//! Radio links between robots, for display only: no brain uses them.
 
 use super::{NoRobot, Simulation};
 use crate::step::view::View;
 use brain::RobotId;
 
-/// Two robots of which at least one hears the other, unless a message is lost by chance.
+/// Two robots of which at least one receives the other's messages, unless they are lost by chance.
 ///
-/// Robots are numbers in the order of [`State::each_robot`](super::State::each_robot).
+/// Robots are numbered in the order of [`State::each_robot`](super::State::each_robot).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Link {
-    /// Who is heard; the lesser number if both are.
+    /// The sender; the lower number if the link is mutual.
     pub from: u32,
-    /// Who hears.
+    /// The receiver.
     pub to: u32,
-    /// Whether each hears the other.
+    /// Whether each receives the other.
     pub is_mutual: bool,
 }
 
 impl Simulation {
-    /// The links that there are now, `most` at most: of one robot, or of all; ordered by the robots'
-    /// numbers, the lesser first. To ask changes nothing in the run.
+    /// The current links, at most `most`: of one robot, or of all; ordered by the numbers of the
+    /// robots, the lower one first. The run does not change.
     ///
     /// # Errors
-    /// If the robot is not there.
+    /// If there is no such robot.
     pub fn links(&mut self, of: Option<RobotId>, most: usize) -> Result<Vec<Link>, NoRobot> {
         let of = of.map(|id| self.number(id)).transpose()?;
         let radios = self.scenario().kinds.iter().filter_map(|kind| kind.radio);
@@ -37,7 +37,7 @@ impl Simulation {
                 other > robot || (of.is_some() && other != robot)
             };
             let mut others: Vec<u32> = about.filter(is_asked).collect();
-            // Lists of near robots have no order of their own.
+            // Lists of near robots have no particular order.
             others.sort_unstable();
             let view = &view;
             let links = others.into_iter();
@@ -65,14 +65,14 @@ impl View<'_> {
         (forth || back).then_some(link)
     }
 
-    /// Whether a robot's messages come to another, if it has any to send.
+    /// Whether messages of a robot reach another, if it sends any.
     fn is_heard(&self, from: usize, to: usize) -> bool {
         let radio = self.kind(from).radio.as_ref();
         let radio = radio.filter(|radio| self.is_on_air(from) && radio.loss_probability < 1.0);
         radio.is_some_and(|radio| self.is_on_air(to) && self.reaches(from, to, radio))
     }
 
-    /// Whether its radio is on, and lets anything through.
+    /// Whether its radio is on, and sends and receives anything.
     fn is_on_air(&self, robot: usize) -> bool {
         let radio = self.kind(robot).radio;
         self.is_listening(robot) && radio.is_some_and(|radio| radio.messages_per_step > 0)

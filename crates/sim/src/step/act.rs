@@ -1,9 +1,9 @@
-//! Act: every body does what it can of what its brain wants, and stops at what it runs into.
+//! Act: every body executes what its brain wants as far as it can, and stops at obstacles.
 //!
-//! First each plans its path as if it were alone. Then the paths are cut where they meet what stands
-//! still, and where they meet each other, the earliest meeting first: who stops may no longer be in
-//! the way of others, or now be in it. Last, all go. A meeting stops both bodies, but none that leaves
-//! what it touched before; nobody slides or bounces.
+//! First each robot plans its path as if it were alone. Then the paths are cut where they meet
+//! static geometry and where they meet each other, the earliest encounter first: a robot that stops
+//! may no longer be in the way of others, or may now be in it. Last, all move. An encounter stops
+//! both bodies, unless they leave what they touched before; bodies do not slide or bounce.
 
 use super::encounters::Encounters;
 use super::neighbours::Neighbours;
@@ -17,23 +17,23 @@ use base::geometry::Disc;
 use brain::RobotId;
 use rayon::prelude::*;
 
-/// What all robots are about to do, kept between steps so that nothing is allocated.
+/// The plans of all robots, kept between steps so that nothing is allocated.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Moves {
     plans: Vec<Plan>,
     encounters: Encounters,
 }
 
-/// What comes of all robots' moves.
+/// The result of all moves.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct Moved {
-    /// The farthest that one has gone.
+    /// The farthest that one robot has moved.
     pub(crate) farthest_m: f64,
     pub(crate) collisions: u64,
 }
 
 impl Moves {
-    /// Room for the plans of so many robots.
+    /// Room for the plans of all robots.
     pub(crate) fn plans(&mut self, robots: usize) -> &mut [Plan] {
         self.plans.resize(robots, Plan::REST);
         &mut self.plans
@@ -52,14 +52,14 @@ impl Moves {
         let met = self.encounters.resolve(&mut self.plans, state, neighbours);
         let moved = go(&self.plans, scenario, state, is_shared);
         Moved {
-            // Each stops somebody who moves, but for those that begin at the very same time.
+            // Each stops a robot that moves, except for those that begin at the very same time.
             collisions: (moved.collisions + met).min(state.robots() as u64),
             ..moved
         }
     }
 }
 
-/// Lets all robots go as far as their plans say.
+/// Moves all robots as far as their plans say.
 fn go(plans: &[Plan], scenario: &Scenario, state: &mut State, is_shared: bool) -> Moved {
     let State {
         tick,
@@ -89,7 +89,7 @@ fn go(plans: &[Plan], scenario: &Scenario, state: &mut State, is_shared: bool) -
         orientations.par_chunks_mut(ROBOTS_PER_TASK),
         body_states.par_chunks_mut(ROBOTS_PER_TASK),
     );
-    // A greatest number and a sum of whole ones: the order of the tasks does not matter.
+    // A maximum and a sum of integers: the order of the tasks does not matter.
     tasks
         .into_par_iter()
         .map(some)
@@ -117,7 +117,7 @@ impl Moved {
 }
 
 impl BodyState {
-    /// What going its way does to it.
+    /// Updates the state of the body after its move.
     #[inline]
     pub(crate) fn go(&mut self, plan: &Plan, kind: &Kind, step_s: f64, tick: u64) -> Moved {
         let gone_m = plan.path.length_m.abs() * plan.path.until;
@@ -130,7 +130,7 @@ impl BodyState {
         self.turn_rate_rad_s = plan.driven.turn_rate_rad_s;
         self.distance_m += gone_m;
         let is_collision = is_stopped && !self.is_touching;
-        // Only going freely ends a touch: a robot that turns on the spot is still there.
+        // Only free motion ends a contact: a robot that turns on the spot is still there.
         self.is_touching = plan.stop != Stop::Nothing || (self.is_touching && gone_m == 0.0);
         let stands_pressed = plan.stop == Stop::Pressed && gone_m == 0.0;
         let stays_pressed = self.is_pressed && tick < self.held_until;
@@ -154,7 +154,7 @@ impl BodyState {
         }
     }
 
-    /// Takes a step's energy from the battery.
+    /// Takes the energy of a step from the battery.
     #[inline]
     fn drain(&mut self, plan: &Plan, kind: &Kind, gone_m: f64, step_s: f64) {
         let is_drained = self.status == Status::Active && !self.is_external;
@@ -168,7 +168,7 @@ impl BodyState {
         let used_j = self.energy_j;
         self.energy_j += standing_w * step_s + moving_j * plan.effort;
         if self.energy_j >= battery.capacity_j {
-            // Nothing that was used is given back.
+            // Energy that was used is never returned.
             self.energy_j = battery.capacity_j.max(used_j);
             self.status = Status::Empty;
         }

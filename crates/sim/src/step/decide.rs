@@ -1,4 +1,4 @@
-//! Sense, tell and decide, robot by robot: each from the same view, so that order never matters.
+//! Sense and decide, robot by robot: each from the same view, so that order never matters.
 
 use super::external::ExternalInputs;
 use super::flocks::Flocks;
@@ -27,7 +27,7 @@ pub(crate) struct StepInputs<'a> {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct WorkerScratch {
     pub(crate) percept: Percept,
-    /// Scans that the last robot's percept had no use for.
+    /// Scans that the percept of the last robot did not need.
     scans: Vec<Scan>,
     pub(crate) command: Command,
     pub(crate) detections: Detections,
@@ -98,14 +98,14 @@ impl WorkerScratch {
         self.obey(view, robot, agent);
     }
 
-    /// Takes over what was decided elsewhere.
+    /// Takes over a decision that was made elsewhere.
     fn take(&mut self, command: &Command) {
         self.command.motion = command.motion;
         self.command.requests.clone_from(&command.requests);
         self.command.outbox.clone_from(&command.outbox);
     }
 
-    /// Notes the items that contacts from outside are of: the nearest of the kind, if it is near.
+    /// Notes the items of external contacts: the nearest item of the kind, if it is near.
     fn recognise(&mut self, view: &View, robot: usize) {
         let frame = view.sensor_frame(robot, 0, 0);
         for contact in &self.percept.contacts {
@@ -121,7 +121,7 @@ impl WorkerScratch {
         }
     }
 
-    /// Fills the percept; whether the brain steps now.
+    /// Fills the percept; returns whether the brain steps now.
     pub(crate) fn perceive(&mut self, view: &View, robot: usize, agent: &mut Agent) -> bool {
         let kind = view.kind(robot);
         let beat = kind.schedule.beat(view.tick);
@@ -134,7 +134,7 @@ impl WorkerScratch {
         beat.is_some()
     }
 
-    /// Empties the percept but for the room that its lists have.
+    /// Empties the percept but keeps the capacity of its lists.
     #[inline]
     fn clear_percept(&mut self, kind: &Kind) {
         let percept = &mut self.percept;
@@ -145,7 +145,7 @@ impl WorkerScratch {
         percept.neighbours.clear();
         percept.inbox.clear();
         let rings = kind.brain.body().rings.len();
-        // Kinds have more or fewer rings.
+        // Kinds have different numbers of rings.
         while percept.scans.len() > rings {
             self.scans.extend(percept.scans.pop());
         }
@@ -158,7 +158,7 @@ impl WorkerScratch {
         }
     }
 
-    /// Adds to the percept what the robot knows of itself.
+    /// Adds the robot's own state to the percept.
     fn tell(&mut self, view: &View, robot: usize, beat: u64) {
         let (body_state, kind) = (&view.body_states[robot], view.kind(robot));
         let percept = &mut self.percept;
@@ -174,7 +174,7 @@ impl WorkerScratch {
         percept.battery = body_state.charge(kind).and_then(now);
     }
 
-    /// Takes from the command what the body is to do.
+    /// Applies the command to the agent.
     #[inline]
     fn obey(&mut self, view: &View, robot: usize, agent: &mut Agent) {
         agent.wanted = self.command.motion;

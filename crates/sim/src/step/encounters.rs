@@ -1,7 +1,7 @@
-//! Where the paths of robots meet in one step, resolved in the order of time.
+//! Encounters of robots in one step, resolved in the order of time.
 //!
-//! Two robots that meet are both stopped. Of two that touch already, only who would come closer is:
-//! nobody is held by another who presses against it.
+//! Two robots that meet are both stopped. Of two that already touch, only the one that would move
+//! closer is stopped: no robot is held by another that presses against it.
 
 use super::neighbours::Neighbours;
 use super::plan::{Plan, Stop};
@@ -15,7 +15,7 @@ use std::collections::BinaryHeap;
 /// Pairs of robots that may meet, and when; kept between steps so that nothing is allocated.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Encounters {
-    /// Ascending; the lesser robot first.
+    /// Ascending; the robot with the lower number first.
     pairs: Vec<Pair>,
     queue: BinaryHeap<Reverse<Meeting>>,
 }
@@ -24,13 +24,13 @@ pub(crate) struct Encounters {
 struct Pair {
     robots: [u32; 2],
     reach_m: f64,
-    /// From the other to its image that is nearest to the one.
+    /// From the second to its image that is nearest to the first.
     shift: Point,
-    /// Share of the step after which they meet, as far as is known; infinite if they do not.
+    /// Fraction of the step after which they meet, as far as is known; infinite if they do not.
     share: f64,
-    /// Which of them goes towards the other then.
+    /// Which of them approaches the other then.
     comes: [bool; 2],
-    /// Share of the step from which on they are still to be looked at; infinite if both stand.
+    /// Fraction of the step from which they are still to be checked; infinite if both stand.
     since: f64,
 }
 
@@ -76,7 +76,7 @@ impl Encounters {
         }
     }
 
-    /// Adds a pair of which the other is seen where its `image` is.
+    /// Adds a pair of which the second is seen at its `image`.
     fn add(&mut self, plans: &[Plan], [one, other]: [&Disc; 2], image: Point, robots: [u32; 2]) {
         let reach_m = one.radius_m + other.radius_m;
         let goes_m = |robot: u32| plans[robot as usize].path.length_m.abs();
@@ -95,7 +95,7 @@ impl Encounters {
         }
     }
 
-    /// Stops robots where they meet; returns how many new contacts there are.
+    /// Stops robots where they meet; returns the number of new contacts.
     pub(crate) fn resolve(
         &mut self,
         plans: &mut [Plan],
@@ -107,7 +107,7 @@ impl Encounters {
             self.predict(plans, pair);
         }
         while let Some(Reverse(Meeting { share, pair })) = self.queue.pop() {
-            // What was predicted before one of them was stopped does not hold.
+            // A prediction from before one of them was stopped is void.
             if self.pairs[pair].share.to_bits() != share.to_bits() {
                 continue;
             }
@@ -150,7 +150,7 @@ impl Encounters {
         }
     }
 
-    /// Finds when a pair will meet.
+    /// Predicts when a pair will meet.
     fn predict(&mut self, plans: &[Plan], number: usize) {
         let pair = &mut self.pairs[number];
         pair.share = f64::INFINITY;

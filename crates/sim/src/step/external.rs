@@ -74,7 +74,7 @@ radio = { range_m = 5 }
         }
     }
 
-    /// One step in which the first robot speaks and the other is outside, at a place.
+    /// One step in which the first robot sends and the other is external, at a place.
     fn speak(simulation: &mut Simulation, x: f64) {
         let command = saying(1);
         let percept = Percept {
@@ -100,7 +100,7 @@ radio = { range_m = 5 }
         let mut simulation = start();
         speak(&mut simulation, 12.0);
         assert_eq!(waiting(&simulation), 1);
-        // Its next percept takes that message to its brain; out of range it hears no more.
+        // Its next percept takes that message to its brain; out of range it receives no more.
         speak(&mut simulation, 39.0);
         assert_eq!(waiting(&simulation), 0);
         speak(&mut simulation, 6.0);

@@ -1,7 +1,7 @@
-//! How points go that do nothing but go with the others.
+//! A step of point robots that only flock.
 //!
-//! None is ever in another's way, so each goes as soon as it has decided: what is known of it is read
-//! from memory and written there once.
+//! None is ever in another's way, so each moves as soon as it has decided: its data is read from
+//! memory and written there once.
 
 use super::act::Moved;
 use super::flocks::{AT_ONCE, Flocks, PER_TASK};
@@ -15,7 +15,7 @@ use base::noise::Noise;
 use brain::{Motion, RobotId};
 use rayon::prelude::*;
 
-/// Some points that follow each other, from the first on.
+/// Consecutive point robots, from the first on.
 type Points<'a> = (
     usize,
     (
@@ -25,7 +25,7 @@ type Points<'a> = (
     ),
 );
 
-/// Lets all points decide and go, once the flocks have been asked.
+/// Lets all point robots decide and move, once the flocks have been computed.
 pub(crate) fn flock_step(
     scenario: &Scenario,
     state: &mut State,
@@ -49,7 +49,7 @@ pub(crate) fn flock_step(
     let rest = state.body_states.par_chunks_mut(PER_TASK);
     let rest = rest.zip(state.agents.par_chunks_mut(PER_TASK));
     let tasks = (known, places, rest).into_par_iter().enumerate();
-    // A greatest number and a sum of whole ones: the order of the tasks does not matter.
+    // A maximum and a sum of integers: the order of the tasks does not matter.
     tasks
         .map(|(task, points)| some((task * PER_TASK, points)))
         .reduce(Moved::default, Moved::and)

@@ -1,11 +1,11 @@
-//! Sums over all robots in range of each, which is all that a flock needs to know.
+//! Sums over all robots in range of each robot, which is all that flocking needs.
 //!
-//! A list of neighbours with ranges and bearings costs ten times what is made of it, so these are
-//! gathered from places alone. Robots are sorted by square cells as wide as the reach, strip by strip
-//! and row by row: who is in range of a robot is in three runs of the sorted list, the cells beside its
-//! own in its row and in those above and below; more where a strip ends or the torus goes on at its
-//! other side. Strips are so narrow that three rows of
-//! one stay in the processor's nearest memory.
+//! A list of neighbours with ranges and bearings costs ten times as much as the rule that uses it,
+//! so the sums are computed from places alone. Robots are sorted by square cells as wide as the
+//! range, strip by strip and row by row: the robots in range of one are in three runs of the sorted
+//! list, the cells beside its own in its row and in those above and below; more where a strip ends
+//! or where the world is periodic. Strips are so narrow that three rows of one fit into the fastest
+//! cache.
 
 mod gather;
 
@@ -15,7 +15,7 @@ use base::geometry::{Disc, Point, Torus};
 use brain::RobotId;
 use rayon::prelude::*;
 
-/// Robots of a torus, sorted by cells.
+/// Robots of a periodic world, sorted by cells.
 #[derive(Debug, Clone)]
 pub(crate) struct Flock {
     torus: Torus,
@@ -24,7 +24,7 @@ pub(crate) struct Flock {
     rows: usize,
     /// Where the robots of each cell start, row by row, and the end.
     starts: Vec<u32>,
-    /// Which robot is in each place of the list, of which kind, and the other way round.
+    /// The robot at each place of the list, its kind, and the inverse.
     pub(crate) robots: Vec<u32>,
     pub(crate) kinds: Vec<u8>,
     pub(crate) places: Vec<u32>,
@@ -35,10 +35,10 @@ pub(crate) struct Flock {
     course_y: Vec<f64>,
 }
 
-/// Robots that a thread takes at once.
+/// Robots per task of a thread.
 const TOGETHER: usize = 1024;
 
-/// Some robots, and where their places and their orientations go.
+/// Some robots, and where their places and orientations are written.
 type Copied<'a> = (
     (&'a [u32], (&'a mut [f64], &'a mut [f64])),
     (&'a mut [f64], &'a mut [f64]),
@@ -47,7 +47,7 @@ type Copied<'a> = (
 /// Columns of a strip.
 const STRIP: usize = 32;
 
-/// Robots that follow each other in the list, and by how much their images are elsewhere.
+/// Consecutive robots in the list, and the offset of their images.
 #[derive(Debug, Clone, Copy, Default)]
 struct Run {
     start: usize,
@@ -55,8 +55,7 @@ struct Run {
     shift: Point,
 }
 
-/// The runs in which all are that can be in range of those of a cell: up to three in each of three
-/// rows.
+/// The runs that contain all robots in range of those of a cell: up to three in each of three rows.
 #[derive(Debug, Clone, Copy, Default)]
 struct Runs {
     all: [Run; 9],
@@ -64,7 +63,7 @@ struct Runs {
 }
 
 impl Flock {
-    /// For robots that see no farther than `reach_m`, at most half of the torus.
+    /// For robots with a range of at most `reach_m`, at most half of the world.
     pub(crate) fn new(torus: Torus, reach_m: f64) -> Self {
         Self {
             torus,
@@ -82,7 +81,7 @@ impl Flock {
         }
     }
 
-    /// Sorts robots by where they are; threads may share the work.
+    /// Sorts robots by place; threads may share the work.
     pub(crate) fn fill(
         &mut self,
         ids: &[RobotId],
@@ -107,7 +106,7 @@ impl Flock {
         self.copy(discs, orientations, is_shared);
     }
 
-    /// Copies where robots are in the order of the list.
+    /// Copies the places of robots in the order of the list.
     fn copy(&mut self, discs: &[Disc], orientations: &[Orientation], is_shared: bool) {
         let robots = &self.robots[..];
         let values = [
@@ -140,7 +139,7 @@ impl Flock {
         tasks.for_each(some);
     }
 
-    /// Cells that are as wide as the reach, but hardly more of them than robots.
+    /// Cells that are as wide as the range, but hardly more of them than robots.
     fn lay_out(&mut self, robots: usize) {
         let Point { x, y } = self.torus.size_m;
         #[expect(clippy::cast_precision_loss, reason = "at most millions")]
@@ -154,7 +153,7 @@ impl Flock {
         (self.columns, self.rows) = (cells(x), cells(y));
     }
 
-    /// Where each cell's robots will start, and, for now, which cell each is in.
+    /// Where the robots of each cell will start and, for now, the cell of each robot.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_precision_loss,
@@ -192,7 +191,7 @@ impl Flock {
 }
 
 impl Flock {
-    /// The course of the robot in a place.
+    /// The orientation of the robot at a place of the list.
     pub(crate) fn course(&self, place: usize) -> Point {
         Point {
             x: self.course_x[place],
@@ -222,7 +221,7 @@ impl Flock {
 }
 
 impl Runs {
-    /// Adds a run, to the last one if it goes on with that.
+    /// Adds a run, merged with the last one if it continues it.
     fn add(&mut self, run: Run) {
         let last = self.count.checked_sub(1).map(|last| &mut self.all[last]);
         match last {
@@ -235,7 +234,7 @@ impl Runs {
     }
 }
 
-/// The number of a cell, of so many columns and rows: strip by strip, and row by row.
+/// The number of a cell in a grid of columns and rows: strip by strip, and row by row.
 #[inline]
 fn cell(column: usize, row: usize, [columns, rows]: [usize; 2]) -> usize {
     let first = column / STRIP * STRIP;
@@ -251,8 +250,7 @@ fn place(cell: usize, [columns, rows]: [usize; 2]) -> [usize; 2] {
     [first + rest % width, rest / width]
 }
 
-/// The cells before, at and after one of so many around a torus, and by how much their images are
-/// elsewhere.
+/// The cells before, at and after one on a periodic axis, and the offset of their images.
 fn beside(cell: usize, cells: usize, size_m: f64) -> [(usize, f64); 3] {
     let before = cell.checked_sub(1).map(|before| (before, 0.0));
     let after = (cell + 1 < cells).then_some((cell + 1, 0.0));

@@ -1,8 +1,9 @@
-//! Robots that do nothing but go with the others, all at once.
+//! Robots that only flock, computed all at once.
 //!
-//! For such a kind a percept would only be added up. So its robots' sums are gathered from where all
-//! are ([`Flock`]), and their brains' rule is asked with these. Which kinds these are the scenario says
-//! alone, never the machine or the number of threads: so a run is the same bytes everywhere.
+//! For such a kind a percept would only be summed up. So the sums are computed from the poses of
+//! all robots ([`Flock`]), and the flocking rule of their brains is evaluated with these. Which
+//! kinds these are depends on the scenario alone, never on the machine or the number of threads: a
+//! run is the same bytes everywhere.
 
 use super::flock_sums::Flock;
 use super::view::View;
@@ -16,21 +17,21 @@ use brain::behaviours::flock::Sums;
 use brain::{Dice, Motion};
 use rayon::prelude::*;
 
-/// Robots that are taken at once where memory would else be waited for one by one.
+/// Robots per batch, where each one's data would otherwise be waited for.
 pub(super) const AT_ONCE: usize = 64;
 
-/// Robots that a thread takes at once: as they do little, and all wait for the last, not too many.
+/// Robots per task of a thread: they need little time each, and all tasks wait for the last one.
 pub(super) const PER_TASK: usize = 4 * AT_ONCE;
 
-/// Squares than which none is less: nobody is in range of who does not go with the others.
+/// Squared ranges below any distance: no robot is in range of one that does not flock.
 const NOBODY: [f64; 2] = [-1.0; 2];
 
-/// How all robots turn that do nothing but go with the others.
+/// The turn rates of all robots that only flock.
 #[derive(Debug, Clone)]
 pub(crate) struct Flocks {
-    /// `None` if there are no such robots.
+    /// `None` without such robots.
     flock: Option<Flock>,
-    /// In rad/s, in the order in which the flock has sorted them.
+    /// In rad/s, in the order of the sorted list.
     turn_rates: Vec<f64>,
 }
 
@@ -91,7 +92,7 @@ impl Flocks {
     }
 }
 
-/// Asks those that follow each other from the place `first` on.
+/// Computes a batch from the place `first` on.
 fn compute_some(view: &View, flock: &Flock, first: usize, turn_rates: &mut [f64]) {
     let mut sums = [Sums::default(); AT_ONCE];
     let kinds = &view.scenario.kinds;
@@ -107,13 +108,13 @@ fn compute_some(view: &View, flock: &Flock, first: usize, turn_rates: &mut [f64]
     }
 }
 
-/// What a brain that steps in each step has for dice.
+/// The random words of a brain that steps in each step.
 fn dice(noise: Noise, tick: u64) -> Dice {
     Dice::new(noise.words(NoisePurpose::Dice as u32, tick, 0))
 }
 
 impl Flocking {
-    /// What a robot wants that turns so fast if its sensor is on.
+    /// The motion that a robot wants, given its turn rate if its sensor is on.
     #[inline]
     pub(super) fn wanted(
         &self,

@@ -5,7 +5,7 @@ use super::pending_decisions::PendingDecisions;
 use crate::run::state::State;
 use crate::scenario::Scenario;
 
-/// Marks the items that robots were shown in this step as found.
+/// Marks the items that robots detected in this step as found.
 pub(crate) fn judge(
     scenario: &Scenario,
     state: &mut State,

@@ -1,9 +1,9 @@
-//! What is near each robot.
+//! Neighbour lists.
 //!
-//! Each robot has a list of the robots of its layer that are within its reach and a skin, and of
-//! what stands still there; it holds until some robot has gone half the skin (L. Verlet, *Computer
-//! "experiments" on classical fluids*, Physical Review 159, 1967). The lists only say where to look:
-//! what is made of them does not depend on their age, so they are no part of a run's state.
+//! Each robot has a list of the robots of its layer within its range plus a skin, and of the static
+//! geometry there; it stays valid until some robot has moved half the skin (L. Verlet, *Computer
+//! "experiments" on classical fluids*, Physical Review 159, 1967). The lists only say where to
+//! look: results do not depend on their age, so they are not part of the state of a run.
 
 use crate::scenario::Scenario;
 use crate::world::buckets::Buckets;
@@ -13,7 +13,7 @@ use base::geometry::{Disc, Point, Torus};
 use brain::RobotId;
 use rayon::prelude::*;
 
-/// Robots whose lists are in one piece: a task for a thread.
+/// Robots whose lists are stored together: a task for a thread.
 const ROBOTS_PER_PIECE: usize = 1024;
 
 /// Lists of near robots.
@@ -21,7 +21,7 @@ const ROBOTS_PER_PIECE: usize = 1024;
 pub(crate) struct Neighbours {
     buckets: Buckets,
     pieces: Vec<Piece>,
-    /// The farthest that any robot can have gone since the lists were made; infinite before.
+    /// The farthest that any robot can have moved since the lists were built; infinite before.
     gone_m: f64,
     /// By kind.
     reach_m: Vec<f64>,
@@ -29,24 +29,24 @@ pub(crate) struct Neighbours {
     torus: Option<Torus>,
 }
 
-/// The lists of some robots that follow each other.
+/// The lists of some consecutive robots.
 #[derive(Debug, Clone, Default)]
 struct Piece {
-    /// Where each robot's lists end: of robots, of discs apart, of discs that overlap, of walls. They
-    /// follow each other.
+    /// Where the lists of each robot end: of robots, of separate discs, of overlapping discs, of
+    /// walls. They are stored one after the other.
     ends: Vec<[u32; 4]>,
     things: Vec<u32>,
-    /// Whether a robot may touch something that stands still in the next step.
+    /// Whether a robot may touch static geometry in the next step.
     may_touch: Vec<bool>,
-    /// Robots that may touch each other in the next step, the lesser first; ascending.
+    /// Robots that may touch each other in the next step, the lower number first; ascending.
     pairs: Vec<[u32; 2]>,
 }
 
-/// What may be near a robot, in no order.
+/// What may be near a robot, in no particular order.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Vicinity<'a> {
     pub(crate) robots: &'a [u32],
-    /// What rays can meet of what stands still: discs that overlap no other, others, and walls.
+    /// Static geometry that rays can meet: discs that overlap no other, other discs, and walls.
     pub(crate) discs_apart: &'a [u32],
     pub(crate) discs_overlapping: &'a [u32],
     pub(crate) walls: &'a [u32],
@@ -65,7 +65,7 @@ impl Neighbours {
             rays_m.max(scenario.contact_m)
         });
         let reach_m: Vec<f64> = reach_m.collect();
-        // Half as wide as the reach: fewer are looked at in vain.
+        // Half as wide as the range: fewer robots are checked in vain.
         let cell_m = f64::midpoint(reach_m.iter().copied().fold(0.0, f64::max), scenario.skin_m);
         Self {
             buckets: Buckets::new(scenario.world.size(), cell_m)
@@ -78,17 +78,17 @@ impl Neighbours {
         }
     }
 
-    /// Notes that no robot has gone farther than this since the last note.
+    /// Notes that no robot has moved farther than this since the last note.
     pub(crate) fn note(&mut self, gone_m: f64) {
         self.gone_m += gone_m;
     }
 
-    /// Makes the lists anew at the next refresh: robots have come, gone, or been put elsewhere.
+    /// Rebuilds the lists at the next refresh: robots were added, removed or moved.
     pub(crate) fn forget(&mut self) {
         self.gone_m = f64::INFINITY;
     }
 
-    /// Sees to it that the lists hold now.
+    /// Rebuilds the lists if they are no longer valid.
     pub(crate) fn refresh(
         &mut self,
         scenario: &Scenario,
@@ -119,7 +119,7 @@ impl Neighbours {
         }
     }
 
-    /// What is in reach of a robot, and maybe some more.
+    /// What is in range of a robot, and possibly some more.
     #[inline]
     pub(crate) fn of(&self, robot: usize) -> Vicinity<'_> {
         let piece = &self.pieces[robot / ROBOTS_PER_PIECE];
@@ -137,27 +137,29 @@ impl Neighbours {
         }
     }
 
-    /// Whether a robot may touch something that stands still in the next step.
+    /// Whether a robot may touch static geometry in the next step.
     #[inline]
     pub(crate) fn may_touch(&self, robot: usize) -> bool {
         self.pieces[robot / ROBOTS_PER_PIECE].may_touch[robot % ROBOTS_PER_PIECE]
     }
 
-    /// Robots that may touch each other in the next step, the lesser first; ascending.
+    /// Robots that may touch each other in the next step, the lower number first; ascending.
     pub(crate) fn pairs(&self) -> impl Iterator<Item = &[u32; 2]> {
         self.pieces.iter().flat_map(|piece| &piece.pairs)
     }
 
-    /// A robot's place as it is seen from another's: its nearest image, if the world wraps.
+    /// The place of a robot as seen from another: its nearest image, in a periodic world.
     #[inline]
     pub(crate) fn image(&self, from: Point, place: Point) -> Point {
         self.torus.map_or(place, |torus| torus.image(from, place))
     }
 
-    /// Robots of any layer within a distance of a place, and maybe some more; not in any order.
+    /// Robots of any layer within a distance of a place, and possibly some more; in no particular
+    /// order.
     pub(crate) fn about(&self, place: Point, radius_m: f64) -> impl Iterator<Item = u32> {
         let near = self.buckets.near(place, radius_m + self.skin_m);
-        // Of a robot's images the nearest was so when the lists were made, but for the farthest.
+        // The image of a robot that was nearest when the lists were built, except for the farthest
+        // ones.
         let near = near.filter(move |(image, _)| {
             let torus = self.torus.as_ref();
             torus.is_none_or(|torus| torus.is_nearest(place, *image))
@@ -206,8 +208,8 @@ impl Piece {
         self.may_touch.push(nearest_m < touch_m);
     }
 
-    /// Adds what rays can meet of what stands still to a robot that has its robots; returns how far
-    /// the nearest is.
+    /// Adds the static geometry that rays can meet to a robot that has its list of robots; returns
+    /// the distance of the nearest piece.
     fn add_seen(
         &mut self,
         stands: &StaticGeometry,
@@ -231,9 +233,9 @@ impl Piece {
         nearest_m
     }
 
-    /// Adds the robots of a layer that are near one, of those whose square distance is given.
+    /// Adds the near robots of a layer, given their squared distances.
     ///
-    /// Whether one is near is as good as random: it is written down in any case.
+    /// Whether one is near is as good as random: it is written in any case.
     fn add_robots(
         &mut self,
         near: impl Iterator<Item = (f64, u32)>,
@@ -271,7 +273,7 @@ impl Piece {
     }
 }
 
-/// How far the nearest is of what stands still near a place.
+/// Distance of the nearest static geometry from a place.
 fn nearest_m(stands: &StaticGeometry, place: Point) -> f64 {
     let walls = stands.walls_near(place).map(|wall| wall.distance(place));
     let discs = stands.discs_near(place).map(|disc| disc.distance_m(place));

@@ -1,15 +1,15 @@
-//! Work for each robot, shared out over threads where that pays.
+//! Sharing the work of a step between threads where that pays off.
 
-/// Robots that a thread takes at once: long enough to hide what that costs.
+/// Robots per task of a thread: enough to outweigh the overhead.
 pub(crate) const ROBOTS_PER_TASK: usize = 1024;
 
-/// Worlds of fewer robots are left to one thread.
+/// Worlds with fewer robots are computed by one thread.
 const FEW: usize = 2 * ROBOTS_PER_TASK;
 
-/// One with a agent takes as long as so many without.
+/// A robot with beliefs takes as long as this number of robots without.
 const MIND: usize = 32;
 
-/// Whether threads should share the work of so many robots, if any of them has a agent or none.
+/// Whether threads should share the work of this number of robots.
 pub(crate) fn is_worth_sharing(robots: usize, has_beliefs: bool) -> bool {
     let weight = if has_beliefs { MIND } else { 1 };
     robots * weight >= FEW && rayon::current_num_threads() > 1

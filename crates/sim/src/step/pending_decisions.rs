@@ -7,9 +7,9 @@ use brain::{Command, Percept, RobotId};
 /// A robot whose brain would step now, and whose decision is made elsewhere.
 #[derive(Debug, Clone, Default)]
 pub struct PendingDecision {
-    /// Which it is.
+    /// The robot.
     pub robot: RobotId,
-    /// What its brain would get.
+    /// The percept of its brain.
     pub percept: Percept,
     /// The decision; initially, to stand still.
     pub command: Command,

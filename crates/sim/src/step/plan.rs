@@ -16,7 +16,7 @@ use base::geometry::Disc;
 pub(crate) struct Plan {
     pub(crate) path: Path,
     pub(crate) driven: Driven,
-    /// Factor on the energy of moving.
+    /// Factor on the energy of motion.
     pub(crate) effort: f64,
     /// Power of the radio and of the sensors that are on.
     pub(crate) sensing_w: f64,
@@ -24,28 +24,28 @@ pub(crate) struct Plan {
     pub(crate) stop: Stop,
 }
 
-/// Why a robot does not go its way to the end; of two reasons, the greater counts.
+/// Why a robot does not complete its path; of two reasons, the greater one counts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Stop {
     Nothing,
-    /// It does go on, but another presses against it.
+    /// It continues, but another robot presses against it.
     Pressed,
     Robot,
     Still,
 }
 
-/// A body that is about to move, and what its brain wants of it.
+/// A body that is about to move, and what its brain wants.
 pub(crate) struct Body<'a> {
     pub(crate) kind: &'a Kind,
     pub(crate) body_state: &'a BodyState,
     pub(crate) disc: &'a Disc,
     pub(crate) course: &'a Orientation,
     pub(crate) agent: &'a Agent,
-    /// Whether anything that stands still may be in its way.
+    /// Whether static geometry may be in its way.
     pub(crate) may_touch: bool,
 }
 
-/// What a robot does if no other is in its way.
+/// The plan of a robot if no other robot is in its way.
 #[inline(always)]
 #[expect(
     clippy::inline_always,
@@ -114,7 +114,7 @@ impl Plan {
         stop: Stop::Nothing,
     };
 
-    /// Brings a body where it goes.
+    /// Moves a body along its path.
     #[inline]
     pub(crate) fn carry_out(
         &self,
@@ -136,7 +136,7 @@ impl Plan {
 }
 
 impl BodyState {
-    /// Whether its body obeys in this step.
+    /// Whether its body moves in this step.
     #[inline]
     fn can_move(&self, tick: u64) -> bool {
         self.status == Status::Active && !self.is_external && tick >= self.held_until

@@ -1,8 +1,8 @@
-//! The sensor manager at work: the looks of one robot in one step.
+//! The sensor manager at work: the measurements of one robot in one step.
 //!
-//! A sensor that looks in each step and has no latency tells at once: its look goes into the
-//! percept if the brain steps now. Everything else goes into the robot's backlog, from which the
-//! brain is told when it steps.
+//! A sensor that measures in each step and has no latency writes directly into the percept if the
+//! brain steps now. Everything else goes into the backlog of the robot, from which the brain gets
+//! it when it steps.
 
 use super::view::View;
 use crate::run::agent::Agent;
@@ -19,18 +19,18 @@ use base::noise::{normal_pair, share};
 use base::trig::wrapped;
 use brain::{self, Contact, Neighbour, Percept, Reading};
 
-/// What looks need to be taken, and what the judge needs to know of them.
+/// Buffers for measurements, and what the judge counts of them.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Detections {
-    /// With what rays of the robot can meet, once one of its rings has looked.
+    /// With what the rays of the robot can meet, once one of its rings has measured.
     room: Room,
     is_near_known: bool,
     values: Vec<f64>,
-    /// Robots that one may see.
+    /// Robots that may be detected.
     others: Vec<u32>,
-    /// Items that robots were told of, in the order of the robots.
+    /// Items that robots detected, in the order of the robots.
     pub(crate) sightings: Vec<u32>,
-    /// Contacts that robots were told of and that are of nothing.
+    /// False alarms in the percepts of robots.
     pub(crate) false_alarms: u64,
 }
 
@@ -40,7 +40,7 @@ impl Detections {
         self.false_alarms = 0;
     }
 
-    /// Notes what a contact that a robot is told of is of.
+    /// Notes the item of a contact in a percept, or none for a false alarm.
     pub(crate) fn note(&mut self, item: Option<u32>) {
         match item {
             Some(item) => self.sightings.push(item),
@@ -49,18 +49,18 @@ impl Detections {
     }
 }
 
-/// One look, and where it belongs.
+/// One measurement.
 struct Look<'a> {
     view: &'a View<'a>,
     robot: usize,
     sensor: &'a Sensor,
     frame: SensorFrame<'a>,
-    /// Place of the sensor among the robot's, and of a ring among its rings.
+    /// Index of the sensor on the robot, and of a ring among its rings.
     number: usize,
     ring: usize,
 }
 
-/// Takes the looks that a robot takes in this step; `percept` is there if its brain steps.
+/// Takes the measurements of a robot in this step; `percept` is given if its brain steps.
 pub(crate) fn sense(
     view: &View,
     robot: usize,
@@ -98,7 +98,7 @@ pub(crate) fn sense(
     }
 }
 
-/// Tells of the looks that come late.
+/// Moves delayed measurements into the percept.
 fn tell_kept(
     view: &View,
     robot: usize,
@@ -125,7 +125,7 @@ fn tell_kept(
     backlog.tell(now, step_s, percept, |item| detections.note(item));
 }
 
-/// Writes what a sensor measured into the percept.
+/// Writes a measurement into the percept.
 fn put(percept: &mut Percept, measure: &Measure, ring: usize, age_s: f64, values: &mut Vec<f64>) {
     match (measure, values.as_slice()) {
         (Measure::Range(_), _) => {
@@ -237,7 +237,7 @@ impl Look<'_> {
             None => agent.wait_look(self.late(look)),
         }
         detector.look(&self.frame, self.view.items, |way, kind, item| {
-            // Beyond the border there is nothing to be taken for anything.
+            // Beyond the border there are no false alarms.
             if item.is_none() && !is_there(self.frame.world_of(way)) {
                 return;
             }
@@ -274,7 +274,7 @@ impl Look<'_> {
             .about(self.frame.at, detector.sector.range_m);
         others.clear();
         others.extend(about.filter(|other| *other as usize != self.robot));
-        // Lists of near robots have no order of their own.
+        // Lists of near robots have no particular order.
         others.sort_unstable();
         let is_clear = self.is_clear(detector, others);
         for other in others.iter() {
@@ -309,7 +309,7 @@ impl Look<'_> {
         }
     }
 
-    /// Whether nothing that stands hides any of the others.
+    /// Whether static geometry hides none of the others.
     fn is_clear(&self, detector: &RobotDetector, others: &[u32]) -> bool {
         let scenario = self.view.scenario;
         let Some(first) = others.first().filter(|_| scenario.is_one_layer()) else {
@@ -320,7 +320,7 @@ impl Look<'_> {
         stands.is_clear(self.frame.at, detector.sector.range_m)
     }
 
-    /// Place of the sensor, as brains count it.
+    /// Index of the sensor, as brains count it.
     fn place(&self) -> u16 {
         #[expect(clippy::cast_possible_truncation, reason = "a robot has at most 32")]
         let place = self.number as u16;
@@ -341,7 +341,7 @@ fn polar(way: Point) -> (f64, f64) {
     (way.length(), libm::atan2(way.y, way.x))
 }
 
-/// Two standard normal deviations for the error of a look.
+/// Two standard normal deviates for the error of a measurement.
 fn deviations(frame: &SensorFrame) -> [f64; 2] {
     let [a, b, ..] = frame.words(NoisePurpose::Error, 0);
     normal_pair([a, b])
@@ -363,7 +363,7 @@ pub(crate) fn gather<'v>(view: &View<'v>, robot: usize, near: &mut Near) {
             ..body
         }
     });
-    // A body outside may be where another is; simulated ones never are.
+    // An external body may be where another robot is; simulated ones never are.
     if view.has_external_bodies {
         near.take_overlapping(bodies);
     } else {

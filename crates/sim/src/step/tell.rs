@@ -1,4 +1,4 @@
-//! Tell: what robots send goes over the radio, and what arrives waits for their brains.
+//! Tell: messages are sent by radio, and those that arrive wait for the brains of their receivers.
 
 use super::decide::WorkerScratch;
 use super::neighbours::Neighbours;
@@ -11,7 +11,7 @@ use crate::sensors::sensor_frame::NoisePurpose;
 use base::noise::share;
 use brain::Heard;
 
-/// Sends the messages that robots want to send, each to the robots that receive it.
+/// Sends the messages of all robots, each to the robots that receive it.
 pub(crate) fn send(
     scenario: &Scenario,
     state: &mut State,
@@ -38,7 +38,7 @@ pub(crate) fn send(
     state.channel = channel;
 }
 
-/// Hands the messages that arrive now to the robots that receive them.
+/// Delivers the messages that arrive now.
 pub(crate) fn deliver(scenario: &Scenario, state: &mut State) {
     let arrived = state.channel.arrive();
     for sent in &arrived {
@@ -83,7 +83,7 @@ impl View<'_> {
         }
         let sender = self.scenario.entity(self.ids[outgoing.from as usize]);
         let used = NoisePurpose::Radio as u32 | outgoing.number << 16;
-        // Steps are at most 1e8: the sender's kind is in the half of their number that is free.
+        // Steps are at most 1e8: the kind of the sender is in the unused half of their number.
         let time = u64::from(sender.kind) << 32 | self.tick;
         let words = self.noises[to].words(used, time, sender.index);
         share(words[0]) < radio.loss_probability

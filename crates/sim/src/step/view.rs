@@ -51,7 +51,7 @@ impl<'a> View<'a> {
         }
     }
 
-    /// Whether its body is simulated, and can go on.
+    /// Whether its body is simulated, and can still move.
     pub(crate) fn is_simulated(&self, robot: usize) -> bool {
         let body_state = &self.body_states[robot];
         body_state.status == Status::Active && !body_state.is_external
@@ -62,7 +62,7 @@ impl<'a> View<'a> {
         self.is_simulated(robot) && self.kind(robot).schedule.beat(self.tick).is_some()
     }
 
-    /// Whether it can hear at all.
+    /// Whether it can receive messages at all.
     pub(crate) fn is_listening(&self, robot: usize) -> bool {
         let body_state = &self.body_states[robot];
         body_state.status == Status::Active && self.kind(robot).radio.is_some()
@@ -75,7 +75,7 @@ impl<'a> View<'a> {
 }
 
 impl State {
-    /// What robots sense and decide from, and their agents.
+    /// The view from which robots sense and decide, and their agents.
     pub(crate) fn view<'a>(
         &'a mut self,
         scenario: &'a Scenario,

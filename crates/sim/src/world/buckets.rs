@@ -3,12 +3,12 @@
 use super::grid::Grid;
 use base::geometry::{Point, Torus};
 
-/// Points of so small a number are looked through one by one.
+/// Up to this number of points are searched linearly.
 const FEW: usize = 16;
 
-/// Where many things are, so that those near a place are found without looking at all.
+/// An index of points, so that those near a place are found without checking all.
 ///
-/// It is filled anew without allocating, as long as it does not grow.
+/// It is refilled without allocating, as long as it does not grow.
 #[derive(Debug, Clone)]
 pub(crate) struct Buckets {
     size_m: Point,
@@ -20,7 +20,7 @@ pub(crate) struct Buckets {
     images: Option<Images>,
 }
 
-/// Points of a torus, and their images that are near its rectangle.
+/// Points of a periodic world, and their images near its rectangle.
 #[derive(Debug, Clone)]
 struct Images {
     torus: Torus,
@@ -29,7 +29,7 @@ struct Images {
 }
 
 impl Buckets {
-    /// For questions about places some `reach_m` away.
+    /// For queries of about `reach_m`.
     pub(crate) fn new(size_m: Point, reach_m: f64) -> Self {
         let reach_m = reach_m.max(0.1);
         Self {
@@ -43,8 +43,7 @@ impl Buckets {
         }
     }
 
-    /// With all images of points for questions about places at most `farthest_m` away, if the world
-    /// is a torus.
+    /// With all images of points for queries of at most `farthest_m`, if the world is periodic.
     pub(crate) fn on(mut self, torus: Option<Torus>, farthest_m: f64) -> Self {
         self.images = torus.map(|torus| Images {
             torus,
@@ -54,7 +53,7 @@ impl Buckets {
         self
     }
 
-    /// Takes the points; each is known by its place in their order.
+    /// Takes the points; each is identified by its index.
     pub(crate) fn fill(&mut self, points: impl ExactSizeIterator<Item = Point> + Clone) {
         let Some(mut images) = self.images.take() else {
             return self.sort(points.len(), points.zip(0..));
@@ -83,7 +82,7 @@ impl Buckets {
         self.starts[0] = 0;
     }
 
-    /// Where each cell's points will start, and which cell each point is in.
+    /// Where the points of each cell will start, and the cell of each point.
     #[expect(
         clippy::cast_possible_truncation,
         reason = "cells are at most some millions"
@@ -103,8 +102,8 @@ impl Buckets {
         }
     }
 
-    /// All points within `radius_m` of a place with their numbers, and maybe some more; on a torus
-    /// as their images there.
+    /// All points within `radius_m` of a place with their numbers, and possibly some more; in a
+    /// periodic world as their images there.
     #[inline]
     pub(crate) fn near(&self, place: Point, radius_m: f64) -> impl Iterator<Item = &(Point, u32)> {
         let few = self.sorted.len() <= FEW;

@@ -3,15 +3,15 @@
 use base::geometry::Point;
 use std::ops::Range;
 
-/// Cells that a grid has at most: lists for more would fill the memory of a small machine.
+/// Maximum number of cells of a grid: lists for more would fill the memory of a small machine.
 const MAX_CELLS: f64 = 4e6;
 
-/// Cells that a grid over a few things has at most, and how many more for each of them: a large world
-/// in which little stands needs little memory.
+/// Maximum number of cells of a grid over a few things, and of additional cells for each of them: a
+/// large, sparse world needs little memory.
 const CELLS: f64 = 4096.0;
 const CELLS_PER_THING: f64 = 64.0;
 
-/// Entries that the lists of a grid should have at most.
+/// Target for the number of entries in the lists of a grid.
 const MAX_ENTRIES: usize = 1 << 24;
 
 /// Square cells over a rectangle with a corner at the origin.
@@ -28,7 +28,7 @@ impl Grid {
         Self::of_at_most(MAX_CELLS, size_m, cell_m)
     }
 
-    /// The same for so many things that are to be found by place.
+    /// The same for a number of things that are searched by place.
     #[expect(clippy::cast_precision_loss, reason = "at most millions")]
     pub(crate) fn over(things: usize, size_m: Point, cell_m: f64) -> Self {
         let most = CELLS + CELLS_PER_THING * things as f64;
@@ -59,7 +59,7 @@ impl Grid {
         1.0 / self.cells_per_m
     }
 
-    /// The column and row of a point; of one outside, the nearest.
+    /// The column and row of a point; for a point outside, the nearest ones.
     #[inline]
     #[expect(
         clippy::cast_possible_truncation,
@@ -78,7 +78,7 @@ impl Grid {
         row * self.columns + column
     }
 
-    /// The number of the cell that a point is in.
+    /// The number of the cell that contains a point.
     #[inline]
     pub(crate) fn cell(&self, point: Point) -> usize {
         self.number(self.place(point))
@@ -92,7 +92,7 @@ impl Grid {
         (bottom..=top).map(move |row| grid.number([left, row])..grid.number([right, row]) + 1)
     }
 
-    /// The numbers of cells that hold every point between two places, and maybe some more.
+    /// The numbers of cells that contain every point between two places, and possibly some more.
     pub(crate) fn on_the_way(&self, from: Point, to: Point) -> impl Iterator<Item = usize> {
         let grid = *self;
         let [[_, first], [_, last]] = [grid.place(from), grid.place(to)];
@@ -103,17 +103,18 @@ impl Grid {
         })
     }
 
-    /// The first and last column of the cells that a way crosses in a row.
+    /// The first and last column of the cells that a segment crosses in a row.
     #[expect(clippy::cast_precision_loss, reason = "at most MAX_CELLS")]
     fn crossed_in_row(&self, row: usize, from: Point, to: Point) -> [usize; 2] {
         let way = from.to(to);
         let x_at = |y: f64| {
             let share = (y - from.y) / way.y;
-            // Along a row, and by rounding, the share may be anything: then the whole way counts.
+            // Along a row, and by rounding, the fraction may be anything: then the whole segment
+            // counts.
             from.x + way.x * share.clamp(0.0, 1.0)
         };
         let (mut low, mut high) = (row as f64 * self.cell_m(), (row + 1) as f64 * self.cell_m());
-        // What is outside is in the nearest cell.
+        // A point outside belongs to the nearest cell.
         if row == 0 {
             low = f64::NEG_INFINITY;
         }
@@ -125,7 +126,7 @@ impl Grid {
         } else {
             [x_at(low), x_at(high)]
         };
-        // A hair more on either side, for what rounding does.
+        // A small margin on either side, for rounding.
         let hair = 1e-6 * self.cell_m();
         let column = |x: f64| self.place(Point { x, y: 0.0 })[0];
         [
@@ -134,7 +135,7 @@ impl Grid {
         ]
     }
 
-    /// The middle of the cell with a number.
+    /// The centre of the cell with a number.
     #[expect(clippy::cast_precision_loss, reason = "at most MAX_CELLS")]
     pub(crate) fn middle(&self, cell: usize) -> Point {
         let (column, row) = (cell % self.columns, cell / self.columns);
@@ -145,12 +146,12 @@ impl Grid {
     }
 }
 
-/// Something that stands still, as grids need to know it.
+/// Something static, as grids need to know it.
 pub(crate) trait Still {
-    /// Its least and its greatest coordinates.
+    /// Its minimum and maximum coordinates.
     fn bounds(&self) -> [Point; 2];
 
-    /// How far it is from a point; 0 within.
+    /// Its distance from a point; 0 inside.
     fn distance(&self, from: Point) -> f64;
 }
 
@@ -163,7 +164,7 @@ pub(crate) struct NearCells {
 }
 
 impl NearCells {
-    /// With cells as small as is of use, as far as memory allows.
+    /// With cells as small as is useful, as far as memory allows.
     pub(crate) fn new<T: Still>(size_m: Point, things: &[T], reach_m: f64) -> Self {
         let mut grid = Grid::over(things.len(), size_m, (reach_m / 2.0).max(0.25));
         loop {

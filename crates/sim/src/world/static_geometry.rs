@@ -1,21 +1,21 @@
-//! What stands in the way in one layer, found by place.
+//! The static geometry of one layer, indexed by place.
 
 mod around;
 
 use super::grid::{NearCells, Still};
 use base::geometry::{Disc, Point, Rectangle, Segment, Torus};
 
-/// So few are looked at one by one sooner than by what is near.
+/// Up to this number, a linear search is faster than an index.
 const FEW: usize = 12;
 
-/// What is nearer to a wall than this share of a way to it is on the wall.
+/// A point nearer to a wall than this fraction of the segment to it is on the wall.
 const HAIR: f64 = 1e-9;
 
 /// A straight side of something solid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Wall {
     pub(crate) start: Point,
-    /// Of length 1, with free space to its left.
+    /// Unit vector, with free space to its left.
     pub(crate) along: Point,
     pub(crate) length: f64,
 }
@@ -76,7 +76,7 @@ impl Still for Disc {
     }
 }
 
-/// Walls and discs, by what is near.
+/// Walls and discs, indexed by place.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct StaticGeometry {
     walls: Vec<Wall>,
@@ -89,7 +89,7 @@ pub(crate) struct StaticGeometry {
 }
 
 impl StaticGeometry {
-    /// For questions about places at most `reach_m` away.
+    /// For queries of at most `reach_m`.
     pub(crate) fn new(size_m: Point, walls: &[Wall], discs: &[Disc], reach_m: f64) -> Self {
         let overlaps = overlaps(discs);
         let those = |overlap: bool| {
@@ -108,7 +108,7 @@ impl StaticGeometry {
         }
     }
 
-    /// The same on a torus, within whose rectangle they all are: with the images that are near it.
+    /// The same in a periodic world that contains them all: with the images near it.
     pub(crate) fn on(torus: Torus, walls: &[Wall], discs: &[Disc], reach_m: f64) -> Self {
         let (walls, discs) = (
             with_images(torus, walls, reach_m, Wall::shifted),
@@ -120,14 +120,14 @@ impl StaticGeometry {
         }
     }
 
-    /// All walls that are within reach of a place, and maybe some more.
+    /// All walls that are within reach of a place, and possibly some more.
     #[inline]
     pub(crate) fn walls_near(&self, place: Point) -> impl Iterator<Item = &Wall> + Clone {
         let numbers = self.near_walls.at(place).iter();
         numbers.map(|number| &self.walls[*number as usize])
     }
 
-    /// All discs that are within reach of a place, and maybe some more.
+    /// All discs that are within reach of a place, and possibly some more.
     #[inline]
     pub(crate) fn discs_near(&self, place: Point) -> impl Iterator<Item = &Disc> + Clone {
         let numbers = self.near_discs.at(place).iter();
@@ -154,11 +154,11 @@ impl StaticGeometry {
         })
     }
 
-    /// All walls within `radius_m` of a place of which some place no farther away than `gone_m` sees
-    /// the face, their numbers and distances.
+    /// All walls within `radius_m` of a place whose face is visible from some place at most
+    /// `gone_m` away, their numbers and distances.
     ///
-    /// What is outside of something solid faces at least one of the walls that are nearest to it: so
-    /// these also tell what may be touched.
+    /// A point outside of something solid faces at least one of its nearest walls: so these also
+    /// determine what may be touched.
     #[inline]
     pub(crate) fn faces_within(
         &self,
@@ -185,10 +185,10 @@ impl StaticGeometry {
         &self.walls[number as usize]
     }
 
-    /// Whether the straight way between two places crosses nothing.
+    /// Whether the straight segment between two places crosses nothing.
     pub(crate) fn is_open(&self, from: Point, to: Point) -> bool {
-        // Of what is beyond a side of a torus only the nearest is known here: there the way is looked
-        // at where it comes in again.
+        // Beyond a side of a periodic world only the nearest image is known here: there the segment
+        // is checked from where it enters again.
         let images = self.torus.into_iter().flat_map(|torus| {
             let world = Rectangle::spanned(Point::default(), torus.size_m);
             let images = torus
@@ -199,7 +199,7 @@ impl StaticGeometry {
         self.is_open_here(from, to) && { images }.all(|[from, to]| self.is_open_here(from, to))
     }
 
-    /// Whether nothing hides any place within `reach_m` of one, as far as that is told soon.
+    /// Whether nothing hides any place within `reach_m` of one, as far as a quick check can tell.
     pub(crate) fn is_clear(&self, place: Point, reach_m: f64) -> bool {
         self.torus.is_none()
             && self.walls.len() + self.discs.len() <= FEW
@@ -237,8 +237,8 @@ impl StaticGeometry {
 }
 
 impl Wall {
-    /// At which share of a way from `from` that goes through the wall, from either side; a way that
-    /// begins or ends on it does not.
+    /// The fraction of a segment from `from` at which it crosses the wall, from either side; a
+    /// segment that begins or ends on it does not.
     #[inline]
     fn crossed_at(&self, from: Point, way: Point) -> Option<f64> {
         let offset = from.to(self.start);
@@ -261,7 +261,7 @@ fn shifted(disc: &Disc, by: Point) -> Disc {
     }
 }
 
-/// Things on a torus, and their images that are within reach of its rectangle.
+/// Things in a periodic world, and their images within reach of its rectangle.
 fn with_images<T: Still + Clone>(
     torus: Torus,
     things: &[T],
@@ -307,7 +307,7 @@ fn overlaps(discs: &[Disc]) -> Vec<bool> {
     overlaps
 }
 
-/// At which share of a way from `from` that goes through a disc.
+/// The fraction of a segment from `from` at which it enters a disc.
 #[inline]
 fn crossed_at(disc: &Disc, from: Point, way: Point) -> Option<f64> {
     let to_centre = from.to(disc.centre);
@@ -320,7 +320,7 @@ fn crossed_at(disc: &Disc, from: Point, way: Point) -> Option<f64> {
     } else {
         across * across < square_m2 * all
     };
-    // Of a way that begins in the disc nothing comes before it.
+    // Nothing precedes the beginning of a segment that starts in the disc.
     let half_chord = || (square_m2 * all - across * across).max(0.0).sqrt();
     is_crossed.then(|| ((along - half_chord()) / all.max(f64::MIN_POSITIVE)).clamp(0.0, 1.0))
 }

@@ -1,4 +1,4 @@
-//! Minds that can do what they are to do.
+//! Checks that behaviours have what they need.
 
 use super::ScenarioSpec;
 use super::ground::rectangle;
@@ -10,10 +10,10 @@ use base::geometry::{Point, Rectangle};
 use brain::behaviours::BehaviourSpec;
 use brain::{Arbitration, BrainSpec};
 
-/// Most items of a kind that a mind may expect.
+/// Maximum of `prior_count` for a kind of item.
 const MOST_EXPECTED: f64 = 1e6;
 
-/// Most that a behaviour can count beside others, as a `value`.
+/// Maximum `value` of a behaviour, and maximum gain.
 const MOST_GAIN: f64 = 1e6;
 
 pub(super) fn errors(spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
@@ -30,7 +30,7 @@ pub(super) fn errors(spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
         .collect()
 }
 
-/// Behaviours that the robot's sensors are not enough for.
+/// Behaviours that need sensors or a radio that the robot does not have.
 fn of_behaviours(robot: &RobotSpec, spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
     let has = |is_it: fn(&Measures) -> bool| {
         let mut sensors = robot.sensors.values();
@@ -84,7 +84,7 @@ fn of_behaviours(robot: &RobotSpec, spec: &ScenarioSpec, at: &Place) -> Vec<Inpu
     errors
 }
 
-/// A way to nowhere, or out of the world.
+/// Waypoints that do not exist, or are outside the world.
 fn of_places(behaviour: &BehaviourSpec, spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
     let way = |waypoints_m: &[Point]| {
         let numbered = waypoints_m.iter().enumerate();
@@ -120,7 +120,7 @@ fn of_places(behaviour: &BehaviourSpec, spec: &ScenarioSpec, at: &Place) -> Vec<
     outside.map(|(at, _)| at.error(&allowed)).collect()
 }
 
-/// Gains of behaviours that it has not, or that are none.
+/// Gains of behaviours that the robot does not have, or that are not numbers.
 fn of_gains(brain: &BrainSpec, at: &Place) -> Vec<InputError> {
     let Arbitration::Schemas(schemas) = &brain.arbitration else {
         return Vec::new();
@@ -138,7 +138,7 @@ fn of_gains(brain: &BrainSpec, at: &Place) -> Vec<InputError> {
     errors
 }
 
-/// Minds in a world that goes on at its other side: they draw maps, which end.
+/// Maps in a periodic world: beliefs draw maps, which end.
 fn of_wrapping(robot: &RobotSpec, spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
     if !spec.world.periodic {
         return Vec::new();
@@ -159,7 +159,7 @@ fn of_wrapping(robot: &RobotSpec, spec: &ScenarioSpec, at: &Place) -> Vec<InputE
     at_behaviours.chain(beliefs).collect()
 }
 
-/// Beliefs about what there is not.
+/// Priors for kinds of items that do not exist.
 fn of_beliefs(robot: &RobotSpec, spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
     let Some(beliefs) = &robot.brain.beliefs else {
         return Vec::new();

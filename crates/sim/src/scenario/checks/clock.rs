@@ -1,10 +1,10 @@
-//! A run has an end that can be waited for.
+//! Checks that a run ends within a reasonable number of steps.
 
 use super::ScenarioSpec;
 use base::document::Place;
 use base::error::InputError;
 
-/// Most steps of a run.
+/// Maximum number of steps of a run.
 const MAX_STEPS: f64 = 1e8;
 
 pub(super) fn errors(spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {

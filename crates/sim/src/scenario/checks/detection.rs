@@ -1,4 +1,4 @@
-//! Detectors that detect items that there are, with probabilities.
+//! Checks that detectors detect existing items, with valid probabilities.
 
 use super::ScenarioSpec;
 use crate::schedule::Schedule;
@@ -8,7 +8,7 @@ use crate::sensors::poisson::MAX_MEAN;
 use base::document::Place;
 use base::error::InputError;
 
-/// Most false contacts that a scenario may ask for, so that a slip is told and not simulated.
+/// Maximum false alarm rate, so that a typing error is reported instead of simulated.
 const MAX_FALSE_ALARMS: f64 = 1000.0;
 
 pub(super) fn errors(spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
@@ -59,7 +59,7 @@ fn errors_of(items: &ItemsSpec, kinds: &[&str], at: &Place) -> Vec<InputError> {
     errors
 }
 
-/// False contacts beyond what one look can give.
+/// More false alarms than one measurement can yield.
 fn too_many(items: &ItemsSpec, period_s: f64, at: &Place) -> Vec<InputError> {
     let rates = items.false_alarm_rate_per_m2_s.iter();
     let rates = rates.filter(|(_, rate)| (0.0..=MAX_FALSE_ALARMS).contains(*rate));

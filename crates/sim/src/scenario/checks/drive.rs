@@ -1,11 +1,11 @@
-//! A step is short enough for how fast bodies move.
+//! Checks that a step is short enough for how fast bodies move.
 
 use super::ScenarioSpec;
 use crate::bodies::drive::DriveSpec;
 use base::document::Place;
 use base::error::InputError;
 
-/// Beyond half a turn a step, a robot could as well turn the other way.
+/// Beyond half a turn per step, a robot could as well turn the other way.
 const MAX_TURN_DEG: f64 = 180.0;
 
 pub(super) fn errors(spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {

@@ -1,4 +1,4 @@
-//! Obstacles and areas that have an inside.
+//! Checks of obstacles and terrain areas.
 
 use super::Open;
 use crate::world::WorldSpec;
@@ -11,7 +11,7 @@ use base::geometry::{Disc, Point, Polygon, Rectangle};
 use base::map::{self, OccupancyMap, Unknown};
 use std::collections::BTreeMap;
 
-/// The obstacles that are right; what is wrong with others, or outside, is told.
+/// The valid obstacles; reports those that are invalid, or outside the world.
 pub(super) fn solids(
     world: &WorldSpec,
     at: &Place,
@@ -42,7 +42,7 @@ pub(super) fn solids(
     solids
 }
 
-/// Where a world is.
+/// The rectangle of a world.
 pub(super) fn rectangle(world: &WorldSpec) -> Rectangle {
     let [width, height] = world.size_m;
     let corner = Point {
@@ -60,7 +60,7 @@ fn where_obstacles_are(world: &WorldSpec) -> String {
     }
 }
 
-/// Where a world is, in words.
+/// The rectangle of a world, in words.
 pub(super) fn words(world: &WorldSpec) -> String {
     let [width, height] = world.size_m;
     format!("the world, from [0, 0] to [{}, {}]", width.0, height.0)
@@ -88,7 +88,7 @@ fn solid(obstacle: &ObstacleSpec, at: &Place, open: Open) -> Result<Solid, Vec<I
     }
 }
 
-/// The map in a YAML file; the image that this names is beside it.
+/// The map in a YAML file; the image that it names is beside it.
 fn read_map(
     file: &str,
     unknown: Unknown,
@@ -106,7 +106,7 @@ fn read_map(
     map::read(file, &text, unknown, beside).map_err(|errors| errors.0)
 }
 
-/// The areas of all classes of ground.
+/// The areas of all classes of terrain.
 pub(super) fn areas(
     classes: &BTreeMap<String, TerrainSpec>,
     at: &Place,

@@ -1,4 +1,4 @@
-//! A run fits into memory.
+//! Checks that a run fits into memory.
 
 use super::ScenarioSpec;
 use super::ground::rectangle;
@@ -16,24 +16,25 @@ use base::geometry::Rectangle;
 use base::placement::Placement;
 use brain::behaviours::BehaviourSpec;
 
-/// Most bytes of a run, about: as many runs as there are processor cores are made at once.
+/// Approximate limit in bytes per run: as many runs as there are processor cores are computed at
+/// once.
 const MAX_BYTES: f64 = 4e9;
 
-/// A robot's state, its brain and its share of the indices, about.
+/// Approximate bytes of a robot's state, its brain and its share of the indices.
 const ROBOT_BYTES: f64 = 2_000.0;
 
-/// What a mind takes besides its maps, about, and a cell of those.
+/// Approximate bytes of a robot's beliefs besides its maps, and of one cell of those.
 const MIND_BYTES: f64 = 30_000.0;
 const CELL_BYTES: f64 = 20.0;
 
-/// A number that was measured.
+/// One measured number.
 const VALUE_BYTES: f64 = 8.0;
 
-/// What a list takes besides its values, and of how many it has room at least.
+/// Bytes of a list besides its values, and its minimum capacity.
 const LIST_BYTES: f64 = 16.0;
 const LEAST_VALUES: f64 = 4.0;
 
-/// An item, about.
+/// Approximate bytes of an item.
 const ITEM_BYTES: f64 = 64.0;
 
 pub(super) fn errors(spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
@@ -61,8 +62,8 @@ pub(super) fn errors(spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
     told.into_iter().collect()
 }
 
-/// With all that its sensors and its radio have under way, by the means of what comes by chance, if
-/// everything is where it is put and each robot sends as much as it may.
+/// With everything that its sensors and its radio have in transit, in the mean over random events,
+/// with everything at its given place and each robot sending at its maximum.
 fn bytes_of(robot: &RobotSpec, spec: &ScenarioSpec) -> f64 {
     let sensors = robot.sensors.values();
     let sensors: f64 = sensors
@@ -73,7 +74,7 @@ fn bytes_of(robot: &RobotSpec, spec: &ScenarioSpec) -> f64 {
     ROBOT_BYTES + sensors + radio + bytes_of_mind(robot)
 }
 
-/// What it believes, about.
+/// Approximate bytes of its beliefs.
 fn bytes_of_mind(robot: &RobotSpec) -> f64 {
     let brain = &robot.brain;
     let mut behaviours = brain.behaviours.iter();
@@ -84,7 +85,7 @@ fn bytes_of_mind(robot: &RobotSpec) -> f64 {
     MIND_BYTES + f64::from(cells) * CELL_BYTES
 }
 
-/// What its messages take on their way to all who can hear them, and those that it has heard.
+/// Bytes of its messages in transit to all receivers, and of those that it has received.
 fn bytes_of_radio(radio: &RadioSpec, robot: &RobotSpec, spec: &ScenarioSpec) -> f64 {
     let step_s = spec.clock.step_s;
     let a_step = f64::from(radio.messages_per_step);
@@ -94,7 +95,7 @@ fn bytes_of_radio(radio: &RadioSpec, robot: &RobotSpec, spec: &ScenarioSpec) -> 
     a_step * delay * hearers * size(SENT_BYTES) + waiting * size(HEARD_BYTES)
 }
 
-/// What the looks take that are still under way, or wait for the brain.
+/// Bytes of measurements that are in transit, or wait for the brain.
 fn bytes_of_sensor(sensor: &SensorSpec, robot: &RobotSpec, spec: &ScenarioSpec) -> f64 {
     let step_s = spec.clock.step_s;
     let looks = Looks {
@@ -117,18 +118,18 @@ fn bytes_of_sensor(sensor: &SensorSpec, robot: &RobotSpec, spec: &ScenarioSpec) 
     }
 }
 
-/// How many looks of a sensor there are at a time.
+/// How many measurements of a sensor exist at a time.
 struct Looks {
-    /// On their way to the robot.
+    /// In transit to the robot.
     late: f64,
     /// From one step of the brain to the next.
     a_thought: f64,
-    /// Whether the brain is told of each in the step in which it is taken.
+    /// Whether the brain gets each in the step in which it is taken.
     is_told_at_once: bool,
 }
 
 impl Looks {
-    /// Of a sensor of which the newest look counts.
+    /// Of a sensor of which the newest measurement replaces the others.
     fn bytes_kept(&self, values: f64, sensor: &SensorSpec) -> f64 {
         if sensor.latency_s == 0.0 && sensor.rate_hz.is_none() {
             return values * VALUE_BYTES;
@@ -137,18 +138,18 @@ impl Looks {
         (self.late + 2.0) * (size(LOOK_BYTES) + list_bytes)
     }
 
-    /// What waits if each look gives so much of which all counts.
+    /// What waits if each measurement yields this number of entries that all count.
     fn waiting(&self, a_look: f64) -> f64 {
         if self.is_told_at_once {
             return 0.0;
         }
         let late = a_look * self.late;
-        // What is too old is forgotten once there is twice as much as need be.
+        // Entries that are too old are dropped once there are twice as many as the limit.
         late + (a_look * self.a_thought.max(1.0)).min(late + most() + a_look)
     }
 }
 
-/// Contacts that a look gives, on average: of nothing, and of items.
+/// Mean number of contacts per measurement: false alarms and items.
 fn contacts_a_look(sensor: &ItemsSpec, period_s: f64, spec: &ScenarioSpec) -> f64 {
     let view_m2 = Sector::new(&sensor.sector).area_m2();
     let contacts = spec.items.iter().map(|(name, kind)| {
@@ -164,7 +165,7 @@ fn contacts_a_look(sensor: &ItemsSpec, period_s: f64, spec: &ScenarioSpec) -> f6
     contacts.sum()
 }
 
-/// Robots that are in range, on average where they start; no more than have room beside each other.
+/// Mean number of robots in range where they start; at most as many as have room beside each other.
 fn robots_within(range_m: f64, spec: &ScenarioSpec, counts: impl Fn(&RobotSpec) -> bool) -> f64 {
     let view_m2 = std::f64::consts::PI * range_m * range_m;
     let robots = spec.robots.values().filter(|robot| counts(robot));
@@ -181,8 +182,8 @@ fn robots_within(range_m: f64, spec: &ScenarioSpec, counts: impl Fn(&RobotSpec) 
     within.sum()
 }
 
-/// Of so many things those in such an area: on average, but all that lie at given places and all of
-/// a cluster.
+/// The mean number of these things in such an area, but all that lie at given places and all of a
+/// cluster.
 fn things_within(view_m2: f64, count: u32, placement: &Placement, spec: &ScenarioSpec) -> f64 {
     let count = f64::from(count);
     let anywhere = |within_m: &Option<Rectangle>| {
@@ -198,7 +199,7 @@ fn things_within(view_m2: f64, count: u32, placement: &Placement, spec: &Scenari
     }
 }
 
-/// Of a schedule that beats so often, or else once a step.
+/// Period of a schedule, or one step.
 fn period_s(rate_hz: Option<f64>, step_s: f64) -> f64 {
     rate_hz.map_or(step_s, |rate_hz| (1.0 / rate_hz).max(step_s))
 }
@@ -217,7 +218,7 @@ mod tests {
     use super::*;
     use base::document::Document;
 
-    /// About what a run of so many robots takes, in megabytes, besides the robots themselves.
+    /// Approximate megabytes of a run with this number of robots, besides the robots themselves.
     fn megabytes(step_s: f64, count: u32, robot: &str) -> f64 {
         let text = format!(
             "[clock]\nstep_s = {step_s}\ntime_limit_s = 60\n[world]\nsize_m = [100, 100]\n\
@@ -241,7 +242,7 @@ mod tests {
     fn a_look_that_is_kept_counts_with_its_list() {
         let sonar =
             "sensors = { a = { kind = \"range\", rays = 1, range_m = 1, latency_s = 3600 } }";
-        // 3,600,000 looks of 40 bytes, each with a list of four numbers of 16 bytes more.
+        // 3,600,000 measurements of 40 bytes, each with a list of four numbers of 16 bytes more.
         assert_about(3.0 * 3.6 * (40.0 + 16.0 + 32.0), megabytes(0.001, 3, sonar));
     }
 

@@ -1,4 +1,4 @@
-//! What the parts of a scenario mean together; one thing a file.
+//! Checks of what the parts of a scenario mean together; one topic per file.
 
 mod brains;
 mod clock;
@@ -19,10 +19,10 @@ use base::error::{InputError, InputErrors};
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 
-/// Gives the bytes of a file that a scenario names, or says why it cannot.
+/// Returns the bytes of a file that a scenario names, or the reason why it cannot.
 type Open<'o> = &'o dyn Fn(&str) -> Result<Vec<u8>, String>;
 
-/// A check: what is wrong with a scenario that stands `at` the root of a document.
+/// A check: the errors of a scenario at the place `at` in a document.
 type Check = fn(&ScenarioSpec, &Place) -> Vec<InputError>;
 
 const CHECKS: [Check; 7] = [
@@ -35,7 +35,7 @@ const CHECKS: [Check; 7] = [
     memory::errors,
 ];
 
-/// A check of what stands where, in a world of the obstacles that are right.
+/// A check of positions, in a world with the valid obstacles.
 type CheckOfPlaces = fn(&Checked, &Place) -> Vec<InputError>;
 
 const CHECKS_OF_PLACES: [CheckOfPlaces; 4] = [
@@ -45,7 +45,7 @@ const CHECKS_OF_PLACES: [CheckOfPlaces; 4] = [
     reach::errors,
 ];
 
-/// `spec`, which stands `at` the root of a document, if nothing is wrong with it.
+/// The scenario of `spec`, at the place `at` in a document, if it has no errors.
 pub(super) fn checked(spec: ScenarioSpec, at: &Place, open: Open) -> Result<Checked, InputErrors> {
     let errors: Vec<InputError> = CHECKS.iter().flat_map(|check| check(&spec, at)).collect();
     let mut of_places = Vec::new();
@@ -56,7 +56,7 @@ pub(super) fn checked(spec: ScenarioSpec, at: &Place, open: Open) -> Result<Chec
     }
     let scenario = Scenario::new(&spec, solids, areas);
     let checked = Checked { spec, scenario };
-    // What is wrong in a world without the obstacles that are wrong is wrong with them too.
+    // An error in a world without the invalid obstacles is an error with them too.
     for check in CHECKS_OF_PLACES {
         let told: BTreeSet<String> = of_places.iter().map(|error| error.path.clone()).collect();
         let more = check(&checked, at).into_iter();

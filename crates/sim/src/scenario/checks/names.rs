@@ -1,4 +1,4 @@
-//! Names that columns, paths and options can hold.
+//! Checks of names: they appear in columns, paths and options.
 
 use super::ScenarioSpec;
 use base::document::Place;
@@ -6,13 +6,13 @@ use base::error::InputError;
 use base::random::kind_key;
 use std::collections::BTreeMap;
 
-/// Robots' kinds are counted in a byte of their ids.
+/// Kinds of robots are counted in one byte of their ids.
 const MAX_KINDS: usize = 255;
 
-/// Most sensors of a robot: which are off is a bit for each.
+/// Maximum number of sensors of a robot: a bit for each says whether it is off.
 const MAX_SENSORS: usize = 32;
 
-/// Most characters of a name.
+/// Maximum length of a name.
 const MAX_LENGTH: usize = 64;
 
 pub(super) fn errors(spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
@@ -59,7 +59,7 @@ fn errors_of(names: &[&str], least: usize, most: usize, at: &Place) -> Vec<Input
     errors
 }
 
-/// Kinds that would have the random numbers of another.
+/// Kinds that would have the random numbers of another kind.
 fn twins(names: &[&str], at: &Place) -> Vec<InputError> {
     let mut known = BTreeMap::new();
     let twins = names.iter().filter_map(|name| {

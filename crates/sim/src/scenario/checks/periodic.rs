@@ -1,12 +1,12 @@
-//! A world that wraps is large enough for what robots see and touch.
+//! Checks that a periodic world is large enough for what robots detect and touch.
 
 use super::Checked;
 use crate::sensors::Measures;
 use base::document::Place;
 use base::error::InputError;
 
-/// Of all images of a thing only the nearest is ever in reach. A radio may reach farther: who hears is
-/// told by the nearest image alone.
+/// Of all images of a thing only the nearest is ever in range. A radio may reach farther: only the
+/// nearest image receives.
 pub(super) fn errors(checked: &Checked, at: &Place) -> Vec<InputError> {
     let (spec, scenario) = (&checked.spec, &checked.scenario);
     let Some(torus) = scenario.torus else {

@@ -1,4 +1,4 @@
-//! Given places that are free.
+//! Checks that given places are free.
 
 use super::ground::{rectangle, words};
 use super::{Checked, ScenarioSpec};
@@ -8,7 +8,7 @@ use base::error::InputError;
 use base::geometry::{Point, Rectangle, Torus};
 use base::placement::Placement;
 
-/// Robots that come nearer to each other than this, in metres, overlap; less is rounding.
+/// Robots nearer to each other than this, in metres, overlap; less is rounding.
 const TOLERANCE_M: f64 = 1e-9;
 
 pub(super) fn errors(checked: &Checked, at: &Place) -> Vec<InputError> {
@@ -52,7 +52,7 @@ fn not_free(kind: &RobotSpec, spec: &ScenarioSpec) -> String {
     format!("in {world}, at least radius_m = {radius_m} from its border{obstacles}")
 }
 
-/// The places that are given to those that there are.
+/// The places that are given to existing robots or items.
 fn given<'d>(placement: &Placement, count: u32, at: &Place<'d>) -> Vec<(Point, Place<'d>)> {
     let places = match placement {
         Placement::Fixed { at_m, .. } => at_m.as_slice(),
@@ -112,11 +112,11 @@ struct Standing<'d> {
     radius_m: f64,
     layer: Layer,
     at: Place<'d>,
-    /// Where it is seen to stand too, in a periodic world.
+    /// Where its image is, in a periodic world.
     is_image: bool,
 }
 
-/// Given places at which one robot would stand in another.
+/// Given places at which robots would overlap.
 fn overlaps(spec: &ScenarioSpec, torus: Option<Torus>, at: &Place) -> Vec<InputError> {
     let standing = spec.robots.iter().flat_map(|(name, kind)| {
         let at = at.key("robots").key(name).key("start");
@@ -135,7 +135,7 @@ fn overlaps(spec: &ScenarioSpec, torus: Option<Torus>, at: &Place) -> Vec<InputE
         let images: Vec<Standing> = standing.iter().flat_map(|one| images(one, torus)).collect();
         standing.extend(images);
     }
-    // By x, only those that begin before one ends can overlap it.
+    // Sorted by x, only those that begin before one ends can overlap it.
     standing.sort_by(|one, other| left(one).total_cmp(&left(other)));
     let first_overlap = |(index, one): (usize, &Standing)| {
         let right = one.place.x + one.radius_m;

@@ -1,10 +1,10 @@
-//! Nothing happens twice a step.
+//! Checks that no rate exceeds one per step.
 
 use super::ScenarioSpec;
 use base::document::Place;
 use base::error::InputError;
 
-/// 10 a second are once a step of 0.1 s, though the product of the floats may be a little more.
+/// 10 per second are one per step of 0.1 s, though the product of the floats may be slightly more.
 const ROUNDING: f64 = 1e-9;
 
 pub(super) fn errors(spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {

@@ -1,4 +1,4 @@
-//! Items that a robot can find.
+//! Checks that robots can reach the items.
 
 use super::ground::rectangle;
 use super::room::{lattice, within};
@@ -13,7 +13,7 @@ use base::geometry::{Point, Rectangle};
 use base::placement::Placement;
 use base::reachability::{self, Reachability};
 
-/// Whatever its number of robots, which a study may vary, a kind counts.
+/// A kind counts whatever its number of robots, which a study may vary.
 pub(super) fn errors(checked: &Checked, at: &Place) -> Vec<InputError> {
     let mut errors = Vec::new();
     let target = checked
@@ -29,7 +29,7 @@ pub(super) fn errors(checked: &Checked, at: &Place) -> Vec<InputError> {
                            clutter, say target = false";
             errors.push(at.error(allowed));
         }
-        // Which ways there are through a periodic world is not looked into.
+        // Paths through a periodic world are not examined.
         if !finders.is_empty() && !checked.spec.world.periodic {
             errors.extend(out_of_reach(checked, kind, &finders, &at));
             errors.extend(all_out_of_reach(checked, kind, &finders, &at));
@@ -38,7 +38,7 @@ pub(super) fn errors(checked: &Checked, at: &Place) -> Vec<InputError> {
     errors
 }
 
-/// A kind of robot that recognises an item from so far.
+/// A kind of robot that detects an item at this distance.
 struct Finder<'s> {
     robot: &'s RobotSpec,
     range_m: f64,
@@ -64,7 +64,7 @@ fn finders<'s>(spec: &'s ScenarioSpec, item: &str) -> Vec<Finder<'s>> {
     spec.robots.values().filter_map(finder).collect()
 }
 
-/// The given places to which no finder comes near enough.
+/// The given places that no robot can come near enough to.
 fn out_of_reach(
     checked: &Checked,
     kind: &ItemSpec,
@@ -94,7 +94,7 @@ fn out_of_reach(
         .collect()
 }
 
-/// Items that are put anywhere in an area, if no finder comes near enough to any place of it.
+/// Randomly placed items, if no robot can come near enough to any place of their area.
 fn all_out_of_reach(
     checked: &Checked,
     kind: &ItemSpec,
@@ -105,7 +105,7 @@ fn all_out_of_reach(
     let within = within(&kind.placement, &world)?;
     let is_free = |place: &Point| checked.scenario.is_free(*place, 0.0, Layer::Ground);
     let places = || lattice(within).filter(is_free);
-    // Where there is no place at all, there is no room, which is told elsewhere.
+    // Where there is no free place at all, another check reports it.
     let is_fine = places().next().is_none()
         || finders
             .iter()
@@ -126,8 +126,8 @@ fn all_out_of_reach(
     (!is_fine).then(|| at.error(allowed))
 }
 
-/// Whether a robot may start upon one of these places: mostly so, and sooner seen than where it may
-/// come to.
+/// Whether a robot may start on one of these places: mostly so, and faster to see than where it may
+/// move.
 fn starts_at_one(
     checked: &Checked,
     robot: &RobotSpec,
@@ -142,7 +142,7 @@ fn starts_at_one(
     })
 }
 
-/// Where robots of a kind may come to.
+/// Where robots of a kind may move.
 fn reach(checked: &Checked, robot: &RobotSpec) -> Reachability {
     let world = rectangle(&checked.spec.world);
     let starts = match &robot.start {

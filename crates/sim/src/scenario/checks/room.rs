@@ -1,4 +1,4 @@
-//! Room for all that is put anywhere.
+//! Checks that there is room for everything that is placed at random.
 
 use super::ground::rectangle;
 use super::{Checked, Scenario};
@@ -9,11 +9,11 @@ use base::geometry::{Point, Rectangle};
 use base::placement::Placement;
 use std::f64::consts::PI;
 
-/// Places that are looked at along each side of a rectangle.
+/// Places that are examined along each side of a rectangle.
 const SIDE: u32 = 128;
 
-/// Discs of one size that are put down one by one, anywhere, jam when they cover 0.547 of the plane
-/// (Feder, *Random sequential adsorption*, 1980); long before, a free place is hard to find.
+/// Discs of one size that are placed one by one at random jam when they cover 0.547 of the plane
+/// (Feder, *Random sequential adsorption*, 1980); long before that, a free place is hard to find.
 const MAX_SHARE: f64 = 0.5;
 
 /// The places of a lattice over a rectangle.
@@ -30,7 +30,7 @@ pub(super) fn lattice(within: Rectangle) -> impl Iterator<Item = Point> {
     places.map(place)
 }
 
-/// The share of a rectangle that is free for discs, of the places of a lattice.
+/// The fraction of a rectangle that is free for discs, of the places of a lattice.
 fn share(scenario: &Scenario, within: &Rectangle, radius_m: f64, layer: Layer) -> f64 {
     let free = lattice(*within).filter(|place| scenario.is_free(*place, radius_m, layer));
     #[expect(clippy::cast_precision_loss, reason = "at most SIDE squared")]
@@ -68,7 +68,7 @@ pub(super) fn errors(checked: &Checked, at: &Place) -> Vec<InputError> {
     errors
 }
 
-/// Where those are put that have no given place.
+/// The areas of those without given places.
 pub(super) fn within(placement: &Placement, world: &Rectangle) -> Option<Rectangle> {
     match placement {
         Placement::Fixed { .. } => None,

@@ -48,7 +48,7 @@ fn read(text: &str) -> Result<Checked, InputErrors> {
     ScenarioSpec::read(&document)
 }
 
-/// The errors of the good scenario with this in place of that, without their lines.
+/// The errors of the valid scenario with one text replaced by another, without their lines.
 fn errors(this: &str, that: &str) -> Vec<String> {
     assert!(GOOD.contains(this), "{this}");
     let errors = read(&GOOD.replace(this, that)).unwrap_err().0;
@@ -124,7 +124,7 @@ fn names_can_stand_in_a_column_and_a_path() {
 
 #[test]
 fn two_kinds_never_have_the_same_random_numbers() {
-    // Words that FNV-1a does not tell apart.
+    // Words with the same FNV-1a hash.
     for what in ["items", "robots"] {
         let rest = if what == "items" {
             "count = 0"
@@ -390,7 +390,7 @@ fn points_can_be_many_in_a_small_place() {
     assert!(read(&GOOD.replace("count = 1\nradius_m = 0.3", many)).is_ok());
 }
 
-/// A map of 2 m by 1 m of which the left half is solid, in a folder beside the scenario.
+/// A map of 2 m by 1 m whose left half is occupied, in a folder beside the scenario.
 fn open(file: &str) -> Result<Vec<u8>, String> {
     let yaml = "image: room.pgm\nresolution: 1\norigin: [8, 4, 0]\nnegate: 0\n\
                 occupied_thresh: 0.65\nfree_thresh: 0.196\n";
@@ -470,7 +470,7 @@ fn a_given_place_behind_walls_is_out_of_reach() {
     assert!(read(&GOOD.replace("{ circle", &gap)).is_ok());
 }
 
-/// The good scenario with a ring of walls, the last of which ends here, in which mines are, and a
+/// The valid scenario with a ring of walls, the last of which ends here, with mines inside, and a
 /// camera that does not see through it.
 fn ring(last_to: f64, placement: &str) -> String {
     let wall = |low: [f64; 2], high: [f64; 2]| {
@@ -505,8 +505,8 @@ fn items_anywhere_in_a_closed_ring_are_out_of_reach() {
         assert_eq!(errors.len(), 1, "{errors:?}");
         assert_eq!(errors[0].path, "items.mine.placement.within_m");
         assert!(errors[0].to_string().contains("can come into its range"));
-        // With a gap, or a robot that starts within, or that sees or flies over the walls, they are
-        // not.
+        // With a gap, or a robot that starts inside, or that sees or flies over the walls, they can
+        // be reached.
         assert!(read(&ring(4.8, &placement)).is_ok());
         let closed = ring(6.5, &placement);
         for (this, that) in [
@@ -522,7 +522,7 @@ fn items_anywhere_in_a_closed_ring_are_out_of_reach() {
     assert!(read(&ring(6.5, somewhere)).is_ok());
 }
 
-/// The walls of a ring and a world as large as there can be cells for it.
+/// The walls of a ring and a world with the maximum number of cells.
 #[test]
 fn looking_for_a_place_in_reach_is_done_within_seconds() {
     let text = ring(

@@ -1,9 +1,9 @@
-//! Sums over runs of robots, in the machine's widest vectors.
+//! Sums over runs of robots, in the widest vectors of the machine.
 //!
-//! Each run is taken in blocks of [`GROUP`] robots. **The order of each sum is fixed**: one sum for each
-//! lane of a block, over the blocks in their order, and then of the lanes in pairs. It is made of
-//! additions and products only, without fused ones; a narrower vector takes the lanes part by part. So
-//! all instruction sets give the same bits.
+//! Each run is processed in blocks of [`GROUP`] robots. **The order of each sum is fixed**: one sum
+//! for each lane of a block, over the blocks in their order, and then over the lanes in pairs. It
+//! uses only additions and products, none of them fused; a narrower vector processes the lanes part
+//! by part. So all instruction sets give the same bits.
 
 #![expect(
     clippy::inline_always,
@@ -18,12 +18,13 @@ use brain::behaviours::flock::Sums;
 use pulp::{Simd, WithSimd};
 use std::array::from_fn;
 
-/// Quantities that are added up: how many, ways, orientations and ways to those too near.
+/// Quantities that are summed: count, offsets, orientations, and offsets to those that are too
+/// near.
 const QUANTITIES: usize = 7;
 
 impl Flock {
-    /// Adds up who is in range of each of the robots from place `first` on. For each kind `limits` gives
-    /// the squares of its reach and of the distance at which others are too near.
+    /// Sums over the robots in range of each of the robots from place `first` on. For each kind
+    /// `limits` gives the squares of its range and of the separation distance.
     pub(crate) fn sums(&self, first: usize, limits: impl Fn(u8) -> [f64; 2], to: &mut [Sums]) {
         instruction_set().dispatch(Gather {
             flock: self,
@@ -34,7 +35,7 @@ impl Flock {
     }
 }
 
-/// From where others are looked at, how far, and with which part of each block.
+/// The place to measure from, the limits, and the part of each block.
 struct Look {
     at: Point,
     limits: [f64; 2],
@@ -74,7 +75,7 @@ impl<L: Fn(u8) -> [f64; 2]> WithSimd for Gather<'_, L> {
 }
 
 impl Flock {
-    /// What is in range of the robot in a place, but for itself.
+    /// The robots in range of the robot at a place, except itself.
     #[inline(always)]
     fn sums_of<S: Simd>(&self, simd: S, place: usize, runs: &[Run], limits: [f64; 2]) -> Sums {
         let mut lanes = [[0.0; GROUP]; QUANTITIES];

@@ -7,7 +7,7 @@ use pulp::Arch;
 
 const SIDE_M: f64 = 40.0;
 
-/// By kind: squares of the reach and of how near is too near.
+/// By kind: squares of the range and of the separation distance.
 const LIMITS: [[f64; 2]; 3] = [[25.0, 1.0], [9.0, 16.0], [-1.0, -1.0]];
 
 /// Robots of three kinds anywhere on a square.
@@ -45,7 +45,7 @@ fn sums(robots: u32, seed: u64, side_m: f64) -> Vec<Sums> {
     let mut flock = Flock::new(torus, 5.0);
     flock.fill(&ids, &discs, &orientations, false);
     let mut sorted = vec![Sums::default(); ids.len()];
-    // In pieces, as threads take them.
+    // In chunks, as threads process them.
     for (piece, sums) in sorted.chunks_mut(7).enumerate() {
         flock.sums(7 * piece, |kind| LIMITS[usize::from(kind)], sums);
     }
@@ -83,7 +83,7 @@ proptest! {
         let (found, expected) = (sums(robots, seed, side_m), plain_sums(robots, seed, side_m));
         for (robot, (found, expected)) in found.iter().zip(&expected).enumerate() {
             if robot % 3 == 2 {
-                // Nobody asks for those of who does not go with the others.
+                // Nobody asks for the sums of a robot that does not flock.
                 continue;
             }
             let off_m = [

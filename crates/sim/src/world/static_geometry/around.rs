@@ -1,10 +1,10 @@
-//! What stands around a place, for many ways from it.
+//! Static geometry around a place, for many segments from it.
 
 use super::{StaticGeometry, Wall, crossed_at, shifted};
 use crate::world::grid::Still;
 use base::geometry::{Disc, Point, Rectangle};
 
-/// Walls and discs that straight ways from a place can cross.
+/// Walls and discs that straight segments from a place can cross.
 #[derive(Debug, Clone)]
 pub(crate) struct Around {
     place: Point,
@@ -13,7 +13,7 @@ pub(crate) struct Around {
 }
 
 impl StaticGeometry {
-    /// What ways from a place can cross that are no longer than `reach_m`.
+    /// What segments from a place of at most `reach_m` can cross.
     pub(crate) fn around(&self, place: Point, reach_m: f64) -> Around {
         let mut around = Around {
             place,
@@ -21,7 +21,7 @@ impl StaticGeometry {
             discs: Vec::new(),
         };
         around.take(self, Point::default(), reach_m);
-        // Of what is beyond a side of a torus only the nearest is known at the place itself.
+        // Beyond a side of a periodic world only the nearest image is known at the place itself.
         if let Some(torus) = self.torus {
             let world = Rectangle::spanned(Point::default(), torus.size_m);
             for by in torus.shifts() {
@@ -36,7 +36,7 @@ impl StaticGeometry {
 }
 
 impl Around {
-    /// Takes what is about the place's image that is so far from it.
+    /// Adds what is around the image of the place with this offset.
     fn take(&mut self, stands: &StaticGeometry, by: Point, reach_m: f64) {
         let (place, back) = (self.place, by.times(-1.0));
         let [low, high] = corners(place.plus(by), reach_m);
@@ -50,8 +50,8 @@ impl Around {
             .extend(discs.filter(|disc| disc.distance(place) < reach_m));
     }
 
-    /// The share of the straight way from the place to another that comes before all that it
-    /// crosses: 1 if the way is open.
+    /// The fraction of the straight segment from the place to another before everything that it
+    /// crosses: 1 if it is free.
     pub(crate) fn open_share(&self, to: Point) -> f64 {
         let way = self.place.to(to);
         let walls = self.walls.iter();

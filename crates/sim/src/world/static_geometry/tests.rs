@@ -43,7 +43,7 @@ impl Scene {
         StaticGeometry::new(self.size, &walls, &self.discs, reach_m)
     }
 
-    /// Whether a way is open, by looking at everything; `None` where a hair decides.
+    /// Whether a segment is free, by checking everything; `None` where rounding decides.
     fn plain(&self, from: Point, to: Point) -> Option<bool> {
         let hair = 1e-9 * self.size.x * self.size.x;
         let side = |a: Point, b: Point, c: Point| a.to(b).cross(a.to(c));
@@ -95,7 +95,7 @@ fn a_way_is_open_if_nothing_at_all_crosses_it() {
                 0 => to.x = from.x,
                 1 => to.y = from.y,
                 2 => to = from.plus(from.to(to).times(0.05)),
-                // One is outside, as bodies from outside can be: the border is between.
+                // One is outside, as external bodies can be: the border is between.
                 3 => {
                     to = to.plus(Point {
                         x: 1.5 * scene.size.x,
@@ -242,7 +242,7 @@ fn on_a_torus_what_is_around_a_place_tells_which_ways_from_it_are_open() {
         let mut random = random(number);
         let scene = Scene::new(&mut random);
         let torus = Torus { size_m: scene.size };
-        // Without the border, which a torus has not.
+        // Without the border, which a periodic world does not have.
         let walls: Vec<Wall> = scene.walls[4..].iter().filter_map(Wall::of).collect();
         let stands = StaticGeometry::on(torus, &walls, &scene.discs, 0.1);
         for _ in 0..50 {
