@@ -176,7 +176,7 @@ impl Kind {
         };
         let is_plain = self.schedule.is_each_step()
             && self.radio.is_none()
-            && sensor.tells_at_once()
+            && sensor.is_immediate()
             && sensor.dropout_probability == 0.0
             && detector.is_exact();
         is_plain.then(|| Flocking {
@@ -188,7 +188,7 @@ impl Kind {
 
     /// Whether anything that its robots measure or receive can wait for their brains.
     pub(crate) fn needs_backlog(&self) -> bool {
-        let is_late = |sensor: &Sensor| !sensor.tells_at_once();
+        let is_late = |sensor: &Sensor| !sensor.is_immediate();
         let is_slow = !self.schedule.is_each_step();
         is_slow || self.radio.is_some() || self.sensors.iter().any(is_late)
     }

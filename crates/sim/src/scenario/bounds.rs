@@ -92,7 +92,7 @@ impl Scenario {
             size.y,
             self.solids().len()
         );
-        let clock = format!("{} s a step, cap {} s", self.step_s, self.time_limit_s);
+        let clock = format!("step {} s, time limit {} s", self.step_s, self.time_limit_s);
         let items = self.items.iter().map(|kind| {
             let clutter = if kind.is_target { "" } else { " (not target)" };
             (

@@ -17,8 +17,8 @@ use brain::{Brain, RobotId};
 /// Neighbour lists reach farther than necessary: by this fraction of the range of rays, but within
 /// these limits in metres. They stay valid until a robot has moved half of it.
 const SKIN: f64 = 0.2;
-const LEAST_SKIN_M: f64 = 0.6;
-const MOST_SKIN_M: f64 = 2.0;
+const MIN_SKIN_M: f64 = 0.6;
+const MAX_SKIN_M: f64 = 2.0;
 
 /// Everything that does not change in a run. Runs share it.
 #[derive(Debug, Clone)]
@@ -80,7 +80,7 @@ impl Scenario {
         let fastest = areas.iter().map(Area::speed).fold(1.0, f64::max);
         let touch_m = greatest(&kinds, |kind| kind.touch_m(fastest * step_s));
         let rays_m = greatest(&kinds, |kind| kind.rays_m);
-        let skin_m = (SKIN * rays_m).clamp(LEAST_SKIN_M, MOST_SKIN_M);
+        let skin_m = (SKIN * rays_m).clamp(MIN_SKIN_M, MAX_SKIN_M);
         let torus = spec.world.periodic.then_some(Torus { size_m });
         let stands = |layer, reach_m| {
             let border = torus.is_none().then_some(&world);

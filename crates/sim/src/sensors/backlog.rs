@@ -91,7 +91,7 @@ pub(crate) fn age_s(taken: u64, now: u64, step_s: f64) -> f64 {
 /// As many as can be in transit, and one that has arrived.
 fn looks_to_keep(sensor: &Sensor) -> Vec<Look> {
     let is_value = !matches!(sensor.measure, Measure::Items(_) | Measure::Robots(_));
-    if sensor.tells_at_once() || !is_value {
+    if sensor.is_immediate() || !is_value {
         return Vec::new();
     }
     let beats = sensor.schedule.beats_in(sensor.latency_steps);

@@ -10,19 +10,19 @@ use brain::{Contact, Heard, Neighbour};
 pub(crate) const CONTACT_BYTES: usize = size_of::<Pending<(Contact, Option<u32>)>>();
 
 /// A measurement of an item detector in the queue of a brain, without its contacts.
-pub(crate) const GLANCE_BYTES: usize = size_of::<Pending<brain::Look>>();
+pub(crate) const OBSERVATION_BYTES: usize = size_of::<Pending<brain::Look>>();
 
 /// A detected robot in the queue of a brain.
 pub(crate) const NEIGHBOUR_BYTES: usize = size_of::<Pending<Neighbour>>();
 
 /// A message in the queue of a brain.
-pub(crate) const HEARD_BYTES: usize = size_of::<Pending<Heard>>();
+pub(crate) const MESSAGE_BYTES: usize = size_of::<Pending<Heard>>();
 
 /// A message in transit to one robot.
 pub(crate) const SENT_BYTES: usize = size_of::<Transmission>();
 
 /// A stored measurement, without its values.
-pub(crate) const LOOK_BYTES: usize = size_of::<backlog::Look>();
+pub(crate) const MEASUREMENT_BYTES: usize = size_of::<backlog::Look>();
 
 /// Maximum length of a queue, besides what is in transit and what arrived last.
 pub(crate) const MAX_PENDING: usize = 2 * pending::MAX_PENDING;

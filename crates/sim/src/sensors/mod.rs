@@ -90,11 +90,11 @@ impl Sensor {
     /// Whether a measurement of one step is of use in a later one.
     pub(crate) fn outlasts_a_step(&self) -> bool {
         let is_event = matches!(self.measure, Measure::Items(_) | Measure::Robots(_));
-        is_event || !self.tells_at_once()
+        is_event || !self.is_immediate()
     }
 
     /// Whether each measurement is of the step in which the robot has it.
-    pub(crate) fn tells_at_once(&self) -> bool {
+    pub(crate) fn is_immediate(&self) -> bool {
         self.latency_steps == 0 && self.schedule.is_each_step()
     }
 

@@ -24,7 +24,7 @@ pub(super) const AT_ONCE: usize = 64;
 pub(super) const PER_TASK: usize = 4 * AT_ONCE;
 
 /// Squared ranges below any distance: no robot is in range of one that does not flock.
-const NOBODY: [f64; 2] = [-1.0; 2];
+const NO_RANGE: [f64; 2] = [-1.0; 2];
 
 /// The turn rates of all robots that only flock.
 #[derive(Debug, Clone)]
@@ -97,7 +97,7 @@ fn compute_some(view: &View, flock: &Flock, first: usize, turn_rates: &mut [f64]
     let mut sums = [Sums::default(); AT_ONCE];
     let kinds = &view.scenario.kinds;
     let flocking = |kind: u8| kinds[usize::from(kind)].flocking.as_ref();
-    let limits = |kind| flocking(kind).map_or(NOBODY, Flocking::squares);
+    let limits = |kind| flocking(kind).map_or(NO_RANGE, Flocking::squares);
     let sums = &mut sums[..turn_rates.len()];
     flock.sums(first, limits, sums);
     for ((place, sums), turn_rate) in (first..).zip(sums).zip(turn_rates) {

@@ -200,7 +200,7 @@ impl Look<'_> {
         detections: &mut Detections,
         percept: Option<&mut Percept>,
     ) {
-        if self.sensor.tells_at_once() {
+        if self.sensor.is_immediate() {
             if let Some(percept) = percept.filter(|_| !is_lost) {
                 put(
                     percept,
@@ -226,8 +226,8 @@ impl Look<'_> {
     ) {
         let scenario = self.view.scenario;
         let is_there = |place| scenario.torus.is_some() || scenario.world.contains(place);
-        let is_told_now = self.sensor.latency_steps == 0;
-        let mut percept = percept.filter(|_| is_told_now);
+        let is_immediate = self.sensor.latency_steps == 0;
+        let mut percept = percept.filter(|_| is_immediate);
         let look = brain::Look {
             sensor: self.place(),
             age_s: 0.0,
@@ -267,8 +267,8 @@ impl Look<'_> {
         percept: Option<&mut Percept>,
     ) {
         let view = self.view;
-        let is_told_now = self.sensor.latency_steps == 0;
-        let mut percept = percept.filter(|_| is_told_now);
+        let is_immediate = self.sensor.latency_steps == 0;
+        let mut percept = percept.filter(|_| is_immediate);
         let about = view
             .neighbours
             .about(self.frame.at, detector.sector.range_m);

@@ -62,7 +62,7 @@ fn named(name: &Value) -> Option<Model> {
 
 fn fill_with(document: &mut Document, name: &str, model: Model) {
     let found = Model::NAMES.iter().find(|(_, each)| *each == model);
-    let origin = found.map_or(String::new(), |(name, _)| format!("shipped model {name}"));
+    let origin = found.map_or(String::new(), |(name, _)| format!("bundled model {name}"));
     // A test checks that each is valid TOML.
     if let Ok(defaults) = Document::parse(&origin, model.text()) {
         document.fill(&["robots", name], &defaults);
@@ -131,8 +131,8 @@ mod tests {
             .replace("time_limit_s = 9", "time_limit_s = 9\nstep_s = 1");
         let document = Document::parse("t.toml", &document).unwrap();
         let told = ScenarioSpec::read(&document).unwrap_err();
-        let expected = "shipped model ugv:12: robots.r.drive.max_turn_rate_deg_s = 229: must be at \
-                        most 180, half a turn in a step of 1 s";
+        let expected = "bundled model ugv:12: robots.r.drive.max_turn_rate_deg_s = 229: must be at \
+                        most 180, half a turn in one step of 1 s";
         assert!(told.to_string().contains(expected), "{told}");
     }
 }

@@ -11,10 +11,10 @@ use brain::behaviours::BehaviourSpec;
 use brain::{Arbitration, BrainSpec};
 
 /// Maximum of `prior_count` for a kind of item.
-const MOST_EXPECTED: f64 = 1e6;
+const MAX_PRIOR_COUNT: f64 = 1e6;
 
 /// Maximum `value` of a behaviour, and maximum gain.
-const MOST_GAIN: f64 = 1e6;
+const MAX_GAIN: f64 = 1e6;
 
 pub(super) fn errors(spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
     let robots = spec.robots.iter();
@@ -47,7 +47,7 @@ fn of_behaviours(robot: &RobotSpec, spec: &ScenarioSpec, at: &Place) -> Vec<Inpu
         let mut needs = |is_needed: bool, has: bool, what: &str| {
             if is_needed && !has {
                 errors.push(at.key("kind").error(format!(
-                    "of a robot with a sensor that {name} needs, such as {what} under its sensors"
+                    "a behaviour whose sensors the robot has: {name} needs, for example, {what} under its sensors"
                 )));
             }
         };
@@ -75,8 +75,7 @@ fn of_behaviours(robot: &RobotSpec, spec: &ScenarioSpec, at: &Place) -> Vec<Inpu
             && navigate.is_shared_by_team()
             && robot.radio.is_none()
         {
-            let allowed =
-                "\"all\" or \"each\", or a robot with a radio, such as radio = { range_m = 100 }";
+            let allowed = "\"all\" or \"one_each\"; \"shared\" needs a radio, such as radio = { range_m = 100 }";
             errors.push(at.key("assignment").error(allowed));
         }
         errors.extend(of_places(behaviour, spec, &at));
@@ -131,8 +130,8 @@ fn of_gains(brain: &BrainSpec, at: &Place) -> Vec<InputError> {
         let at = at.key("gains").key(kind);
         if !kinds.contains(&kind.as_str()) {
             errors.push(at.unknown_key(kind, kinds.iter().copied()));
-        } else if !(0.0..=MOST_GAIN).contains(gain) {
-            errors.push(at.error(format!("a number from 0 to {MOST_GAIN}")));
+        } else if !(0.0..=MAX_GAIN).contains(gain) {
+            errors.push(at.error(format!("a number from 0 to {MAX_GAIN}")));
         }
     }
     errors
@@ -148,13 +147,13 @@ fn of_wrapping(robot: &RobotSpec, spec: &ScenarioSpec, at: &Place) -> Vec<InputE
     let at_behaviours = minded.map(|(number, behaviour)| {
         let at = at.key("behaviours").item(number).key("kind");
         at.error(format!(
-            "one that needs no map, in a periodic world: {} needs periodic = false",
+            "a behaviour that needs no map in a periodic world: {} needs periodic = false",
             behaviour.name()
         ))
     });
     let beliefs = robot.brain.beliefs.iter().map(|_| {
         at.key("beliefs")
-            .error("left out in a periodic world: maps need periodic = false")
+            .error("omitted in a periodic world: maps need periodic = false")
     });
     at_behaviours.chain(beliefs).collect()
 }
@@ -170,8 +169,8 @@ fn of_beliefs(robot: &RobotSpec, spec: &ScenarioSpec, at: &Place) -> Vec<InputEr
         let at = at.key("prior_count").key(kind);
         if !kinds.contains(&kind.as_str()) {
             errors.push(at.unknown_key(kind, kinds.iter().copied()));
-        } else if !(0.0..=MOST_EXPECTED).contains(expected) {
-            errors.push(at.error(format!("a number from 0 to {MOST_EXPECTED}")));
+        } else if !(0.0..=MAX_PRIOR_COUNT).contains(expected) {
+            errors.push(at.error(format!("a number from 0 to {MAX_PRIOR_COUNT}")));
         }
     }
     let ([width, height], world) = (spec.world.size_m, rectangle(&spec.world));

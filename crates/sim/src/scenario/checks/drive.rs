@@ -29,7 +29,7 @@ fn errors_of(drive: &DriveSpec, (step_s, across_m): (f64, f64), at: &Place) -> V
     ] {
         if speed * step_s > across_m {
             errors.push(at.key(key).error(format!(
-                "at most {}, with which it is across the world in a step of {step_s} s",
+                "at most {}, at which it crosses the world in one step of {step_s} s",
                 across_m / step_s
             )));
         }
@@ -37,7 +37,7 @@ fn errors_of(drive: &DriveSpec, (step_s, across_m): (f64, f64), at: &Place) -> V
     let turn_rate = drive.max_turn_rate_deg_s;
     if turn_rate.is_some_and(|turn_rate| turn_rate * step_s > MAX_TURN_DEG) {
         errors.push(at.key("max_turn_rate_deg_s").error(format!(
-            "at most {}, half a turn in a step of {step_s} s",
+            "at most {}, half a turn in one step of {step_s} s",
             MAX_TURN_DEG / step_s
         )));
     }

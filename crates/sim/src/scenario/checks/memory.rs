@@ -6,7 +6,8 @@ use crate::bodies::RobotSpec;
 use crate::radio::RadioSpec;
 use crate::sensors::items::ItemsSpec;
 use crate::sensors::memory::{
-    CONTACT_BYTES, GLANCE_BYTES, HEARD_BYTES, LOOK_BYTES, MAX_PENDING, NEIGHBOUR_BYTES, SENT_BYTES,
+    CONTACT_BYTES, MAX_PENDING, MEASUREMENT_BYTES, MESSAGE_BYTES, NEIGHBOUR_BYTES,
+    OBSERVATION_BYTES, SENT_BYTES,
 };
 use crate::sensors::sector::Sector;
 use crate::sensors::{Measures, SensorSpec};
@@ -92,7 +93,7 @@ fn bytes_of_radio(radio: &RadioSpec, robot: &RobotSpec, spec: &ScenarioSpec) -> 
     let hearers = robots_within(radio.range_m, spec, |robot| robot.radio.is_some());
     let delay = (radio.delay_s / step_s).max(1.0);
     let waiting = (a_step * period_s(robot.brain.rate_hz, step_s) / step_s).min(most() + a_step);
-    a_step * delay * hearers * size(SENT_BYTES) + waiting * size(HEARD_BYTES)
+    a_step * delay * hearers * size(SENT_BYTES) + waiting * size(MESSAGE_BYTES)
 }
 
 /// Bytes of measurements that are in transit, or wait for the brain.
@@ -109,7 +110,8 @@ fn bytes_of_sensor(sensor: &SensorSpec, robot: &RobotSpec, spec: &ScenarioSpec) 
         Measures::Heading(_) => looks.bytes_kept(1.0, sensor),
         Measures::Items(items) => {
             let a_look = contacts_a_look(items, period_s(sensor.rate_hz, step_s), spec);
-            looks.waiting(a_look) * size(CONTACT_BYTES) + looks.waiting(1.0) * size(GLANCE_BYTES)
+            looks.waiting(a_look) * size(CONTACT_BYTES)
+                + looks.waiting(1.0) * size(OBSERVATION_BYTES)
         }
         Measures::Robots(robots) => {
             let a_look = robots_within(robots.sector.range_m, spec, |_| true);
@@ -135,7 +137,7 @@ impl Looks {
             return values * VALUE_BYTES;
         }
         let list_bytes = LIST_BYTES + values.max(LEAST_VALUES) * VALUE_BYTES;
-        (self.late + 2.0) * (size(LOOK_BYTES) + list_bytes)
+        (self.late + 2.0) * (size(MEASUREMENT_BYTES) + list_bytes)
     }
 
     /// What waits if each measurement yields this number of entries that all count.
@@ -253,7 +255,7 @@ mod tests {
             megabytes(0.1, 10, &format!("sensors = {{ a = {{ {eye}, {more} }} }}"))
         };
         let looks = 10.0 * 1001.0 / 1e6;
-        let (contact, glance) = (size(CONTACT_BYTES), size(GLANCE_BYTES));
+        let (contact, glance) = (size(CONTACT_BYTES), size(OBSERVATION_BYTES));
         let area_m2 = std::f64::consts::PI * 100.0;
         assert_about(
             looks * (contact * area_m2 / 100.0 + glance),

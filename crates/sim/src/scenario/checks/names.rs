@@ -66,7 +66,7 @@ fn twins(names: &[&str], at: &Place) -> Vec<InputError> {
         let other = *known.entry(kind_key(name)).or_insert(*name);
         (other != *name).then(|| {
             at.key(name).error(format!(
-                "under another name: random numbers go by a hash of it, which is that of {other} too"
+                "a different name: the hash that keys its random numbers equals that of {other}"
             ))
         })
     });

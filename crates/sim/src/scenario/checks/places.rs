@@ -82,7 +82,7 @@ fn errors_of_list(placement: &Placement, count: u32, at: &Place) -> Vec<InputErr
         .as_ref()
         .is_some_and(|given| given.len() != at_m.len())
     {
-        let allowed = format!("a list of {} directions, one for each place", at_m.len());
+        let allowed = format!("a list of {} headings, one for each place", at_m.len());
         errors.push(at.key("heading_deg").error(allowed));
     }
     errors

@@ -20,7 +20,7 @@ pub(super) fn errors(spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
             let too_fast = rate_hz.is_some_and(|rate| rate * spec.clock.step_s > 1.0 + ROUNDING);
             if too_fast {
                 errors.push(at.error(format!(
-                    "at most {}, which is once in a step of {} s",
+                    "at most {}, once per step of {} s",
                     1.0 / spec.clock.step_s,
                     spec.clock.step_s
                 )));

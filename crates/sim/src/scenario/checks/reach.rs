@@ -25,8 +25,8 @@ pub(super) fn errors(checked: &Checked, at: &Place) -> Vec<InputError> {
         let at = at.key("items").key(name);
         let finders: Vec<Finder> = finders(&checked.spec, name);
         if finders.is_empty() {
-            let allowed = "recognised by a robot: none has a sensor of kind \"items\" for these; of \
-                           clutter, say target = false";
+            let allowed = "a kind of item that a robot can detect: none has a sensor of kind \"items\" for \
+                           it; for clutter, set target = false";
             errors.push(at.error(allowed));
         }
         // Paths through a periodic world are not examined.
@@ -89,7 +89,7 @@ fn out_of_reach(
         .filter(|(_, place)| !is_found(**place))
         .map(|(index, _)| {
             at.item(index)
-                .error("where a robot that recognises it can come into its range")
+                .error("a place that a robot with a sensor for it can reach within range")
         })
         .collect()
 }
@@ -121,8 +121,8 @@ fn all_out_of_reach(
         } => at.key("placement").key("within_m"),
         _ => at.key("placement"),
     };
-    let allowed = "where a robot that recognises one can come into its range: there is no such place \
-                   among those that are free";
+    let allowed = "an area with a free place that a robot with a sensor for these items can reach within range: \
+                   it has none";
     (!is_fine).then(|| at.error(allowed))
 }
 

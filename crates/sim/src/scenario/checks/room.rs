@@ -47,7 +47,7 @@ pub(super) fn errors(checked: &Checked, at: &Place) -> Vec<InputError> {
         let within = within.filter(|_| kind.count > 0);
         if within.is_some_and(|within| share(scenario, &within, 0.0, Layer::Ground) == 0.0) {
             let at = at.key("items").key(name).key("count");
-            errors.push(at.error("0: there is no free place where these are to be"));
+            errors.push(at.error("0: their area has no free place"));
         }
     }
     let mut is_fine = true;
@@ -86,7 +86,7 @@ fn error_of(kind: &RobotSpec, checked: &Checked, at: &Place) -> Option<InputErro
     has_none.then(|| {
         let radius_m = kind.radius_m;
         at.key("count").error(format!(
-            "0: of {} places where one of radius_m = {radius_m} is to start, none is free",
+            "0: none of {} examined start places is free for radius_m = {radius_m}",
             SIDE * SIDE
         ))
     })
@@ -111,8 +111,8 @@ fn crowd(checked: &Checked, layer: Layer, at: &Place) -> Option<InputError> {
     let (area_m2, name, _) = largest.filter(|_| total_m2 > MAX_SHARE * free_m2)?;
     let share = MAX_SHARE * 100.0;
     let allowed = format!(
-        "fewer: robots that are put down anywhere can cover {share} % of the {free_m2:.0} m2 that are \
-         free, and all {} robots would cover {total_m2:.0} m2, {area_m2:.0} m2 these",
+        "fewer: randomly placed robots can cover {share} % of the {free_m2:.0} m2 of free area, but all {} \
+         robots would cover {total_m2:.0} m2, these alone {area_m2:.0} m2",
         match layer {
             Layer::Ground => "ground",
             Layer::Air => "air",

@@ -136,8 +136,8 @@ fn two_kinds_never_have_the_same_random_numbers() {
         let told = read(&format!("{GOOD}{both}")).unwrap_err().to_string();
         assert!(
             told.contains(&format!(
-                "{what}.liquid = {{...}}: must be under another name: random numbers go by a hash of \
-                 it, which is that of costarring too"
+                "{what}.liquid = {{...}}: must be a different name: the hash that keys its random \
+                 numbers equals that of costarring"
             )),
             "{told}"
         );
@@ -163,8 +163,7 @@ fn there_are_one_to_255_kinds_of_robots() {
 fn rates_are_at_most_one_a_step() {
     assert_eq!(
         error("range_m = 3", "range_m = 3\nrate_hz = 10.1"),
-        "robots.rover.sensors.eye.rate_hz = 10.1: must be at most 10, which is once in a step of 0.1 \
-         s"
+        "robots.rover.sensors.eye.rate_hz = 10.1: must be at most 10, once per step of 0.1 s"
     );
     assert!(read(&GOOD.replace("range_m = 3", "range_m = 3\nrate_hz = 10")).is_ok());
     let brain = "radius_m = 0.3\nbrain = { rate_hz = 20 }";
@@ -176,11 +175,11 @@ fn a_step_is_short_enough_for_what_moves() {
     assert_eq!(
         errors("step_s = 0.1", "step_s = 3"),
         [
-            "robots.bird.drive.max_speed_m_s = 5: must be at most 3.3333333333333335, with which it \
-             is across the world in a step of 3 s",
-            "robots.bird.drive.max_turn_rate_deg_s = 90: must be at most 60, half a turn in a step of \
+            "robots.bird.drive.max_speed_m_s = 5: must be at most 3.3333333333333335, at which it \
+             crosses the world in one step of 3 s",
+            "robots.bird.drive.max_turn_rate_deg_s = 90: must be at most 60, half a turn in one step of \
              3 s",
-            "robots.rover.drive.max_turn_rate_deg_s = 90: must be at most 60, half a turn in a step \
+            "robots.rover.drive.max_turn_rate_deg_s = 90: must be at most 60, half a turn in one step \
              of 3 s",
         ]
     );
@@ -314,7 +313,7 @@ fn given_places_are_enough_and_free() {
 fn each_given_place_has_a_heading_or_none_has() {
     assert_eq!(
         error("[0, 90]", "[0]"),
-        "robots.rover.start.heading_deg = [0]: must be a list of 2 directions, one for each place"
+        "robots.rover.start.heading_deg = [0]: must be a list of 2 headings, one for each place"
     );
 }
 
@@ -341,13 +340,13 @@ fn robots_that_start_anywhere_have_room() {
     let told = bird("1", "5.1");
     assert_eq!(
         told,
-        "robots.bird.count = 1: must be 0: of 16384 places where one of radius_m = 5.1 is to start, \
-         none is free"
+        "robots.bird.count = 1: must be 0: none of 16384 examined start places is free for \
+         radius_m = 5.1"
     );
     let told = bird("400", "0.3");
-    assert!(told.starts_with("robots.bird.count = 400: must be fewer: robots that are put down"));
+    assert!(told.starts_with("robots.bird.count = 400: must be fewer: randomly placed robots"));
     assert!(
-        told.contains("50 % of the 200 m2 that are free, and all air robots would cover 113 m2")
+        told.contains("50 % of the 200 m2 of free area, but all air robots would cover 113 m2")
     );
 }
 
@@ -360,7 +359,7 @@ fn items_that_are_anywhere_have_room() {
     );
     assert_eq!(
         told,
-        "items.mine.count = 2: must be 0: there is no free place where these are to be"
+        "items.mine.count = 2: must be 0: their area has no free place"
     );
     let outside = anywhere.replace("[3, 3]", "[3, 13]");
     let told = error(
@@ -446,8 +445,8 @@ fn what_is_sought_can_be_recognised_by_a_robot() {
     let clutter = "[items.cow]\ncount = 1\n[items.mine]";
     assert_eq!(
         error("[items.mine]", clutter),
-        "items.cow = {...}: must be recognised by a robot: none has a sensor of kind \"items\" for \
-         these; of clutter, say target = false"
+        "items.cow = {...}: must be a kind of item that a robot can detect: none has a sensor of kind \"items\" for it; for \
+         clutter, set target = false"
     );
     assert!(
         read(&GOOD.replace(
@@ -463,8 +462,8 @@ fn a_given_place_behind_walls_is_out_of_reach() {
     let wall = "{ polygon_m = [[13, 0], [13.5, 0], [13.5, 10], [13, 10]] },\n{ circle";
     assert_eq!(
         error("{ circle", wall),
-        "items.mine.placement.at_m[1] = [19, 9]: must be where a robot that recognises it can come into \
-         its range"
+        "items.mine.placement.at_m[1] = [19, 9]: must be a place that a robot with a sensor for it can reach \
+         within range"
     );
     let gap = wall.replace("[13.5, 10], [13, 10]", "[13.5, 8.9], [13, 8.9]");
     assert!(read(&GOOD.replace("{ circle", &gap)).is_ok());
@@ -504,7 +503,7 @@ fn items_anywhere_in_a_closed_ring_are_out_of_reach() {
         let errors = read(&ring(6.5, &placement)).unwrap_err().0;
         assert_eq!(errors.len(), 1, "{errors:?}");
         assert_eq!(errors[0].path, "items.mine.placement.within_m");
-        assert!(errors[0].to_string().contains("can come into its range"));
+        assert!(errors[0].to_string().contains("can reach within range"));
         // With a gap, or a robot that starts inside, or that sees or flies over the walls, they can
         // be reached.
         assert!(read(&ring(4.8, &placement)).is_ok());

@@ -26,8 +26,8 @@ fn behaviours_need_sensors_and_places() {
     let at = "robots.bird.brain.behaviours[0]";
     let needs = |what: &str| {
         format!(
-            "{at}.kind = \"correct\": must be of a robot with a sensor that correct needs, such as \
-             {what} under its sensors"
+            "{at}.kind = \"correct\": must be a behaviour whose sensors the robot has: correct needs, for \
+             example, {what} under its sensors"
         )
     };
     let expected = [
@@ -57,7 +57,7 @@ fn behaviours_with_others_need_to_know_of_them_and_sweeps_how_wide_they_see() {
         (1, "kind", "kind = \"robots\""),
         (2, "kind", "kind = \"items\""),
         (3, "kind", "kind = \"items\""),
-        (4, "assignment", "a robot with a radio"),
+        (4, "assignment", "needs a radio"),
     ] {
         assert!(lacks(number, key, what), "{number}: {told:?}");
     }
