@@ -1,9 +1,9 @@
-import { expect, expectAccessible, live, test } from "./page";
+import { expect, expectAccessible, runAt, test } from "./page";
 
 const faulty = 'engine = "metric"\n[robots.rover]\nraduis_m = 0.25\n';
 const file = (text: string) => ({ name: "my.toml", mimeType: "application/toml", buffer: Buffer.from(text) });
 
-test("the gallery shows each scenario with its picture, and opens it", async ({ page, fake }) => {
+test("the gallery lists each scenario with its picture, and opens it", async ({ page, fake }) => {
   await page.goto(fake.url);
   const card = page.getByRole("link", { name: /^search-beliefs/ });
   await expect(card).toContainText("map, share and plan");
@@ -15,16 +15,16 @@ test("the gallery shows each scenario with its picture, and opens it", async ({ 
   await expect(page.getByRole("heading", { name: "search-beliefs" })).toBeVisible();
 });
 
-test("the faults of a file are listed beside its text, with those lines marked", async ({ page, fake }) => {
+test("the errors of a file are listed beside its text, with their lines marked", async ({ page, fake }) => {
   await page.goto(fake.url);
   await page.locator("input[type=file]").setInputFiles(file(faulty));
-  await expect(page.getByRole("heading", { name: "my.toml has 1 fault" })).toBeVisible();
+  await expect(page.getByRole("heading", { name: "my.toml has 1 error" })).toBeVisible();
   await expect(page.getByRole("button", { name: "Line 3" })).toBeVisible();
   await expect(page.locator(".marked")).toContainText("raduis_m = 0.25");
   await expectAccessible(page);
 });
 
-test("a file without faults opens, and its address holds it", async ({ page, fake }) => {
+test("a valid file opens, and its address contains it", async ({ page, fake }) => {
   await page.goto(fake.url);
   await page.locator("input[type=file]").setInputFiles(file('engine = "metric"\n'));
   await expect(page.getByRole("status", { name: "" }).filter({ hasText: "4 robots" })).toBeVisible();
@@ -32,7 +32,7 @@ test("a file without faults opens, and its address holds it", async ({ page, fak
   await expect(page.locator("#status")).toContainText("4 robots");
 });
 
-test("a dropped file is opened like a chosen one", async ({ page, fake }) => {
+test("a dropped file is opened like a selected one", async ({ page, fake }) => {
   await page.goto(fake.url);
   const transfer = await page.evaluateHandle((text) => {
     const data = new DataTransfer();
@@ -40,11 +40,11 @@ test("a dropped file is opened like a chosen one", async ({ page, fake }) => {
     return data;
   }, faulty);
   await page.dispatchEvent("main", "drop", { dataTransfer: transfer });
-  await expect(page.getByRole("heading", { name: "my.toml has 1 fault" })).toBeVisible();
+  await expect(page.getByRole("heading", { name: "my.toml has 1 error" })).toBeVisible();
 });
 
-test("a scenario that cannot be opened says why", async ({ page, fake }) => {
-  await page.goto(live(fake, "scenario=broken"));
+test("the error of a scenario that cannot be opened is displayed", async ({ page, fake }) => {
+  await page.goto(runAt(fake, "scenario=broken"));
   await expect(page.getByText("count is missing")).toBeVisible();
   await expectAccessible(page);
 });

@@ -1,10 +1,10 @@
 import { inkAt, opens, type View } from "./ink";
-import { expect, expectAccessible, live, test } from "./page";
+import { expect, expectAccessible, runAt, test } from "./page";
 
 const view: View = [30, 20, 12];
 const scenario = `scenario=search-beliefs&seed=7&run=2&${opens(view)}`;
 
-test("links are asked for once their layer is on, and drawn as they are told", async ({ page, fake }) => {
+test("radio links are requested while their layer is on, and drawn as received", async ({ page, fake }) => {
   const asked: string[] = [];
   const told: Buffer[] = [];
   page.on("websocket", (line) => {
@@ -15,10 +15,10 @@ test("links are asked for once their layer is on, and drawn as they are told", a
       if (Buffer.isBuffer(payload)) told.push(payload);
     });
   });
-  await page.goto(live(fake, scenario));
+  await page.goto(runAt(fake, scenario));
   await expect(page.locator("#status")).toContainText("4 robots");
   await page.getByRole("tab", { name: "Layers" }).click();
-  for (const name of ["Sensing", "Trails", "Beliefs and goals", "Worth of places"]) {
+  for (const name of ["Sensor coverage", "Trails", "Beliefs and goals", "Heading options"]) {
     await page.getByRole("checkbox", { name }).uncheck();
   }
   const frame = told.at(-1);
@@ -41,15 +41,15 @@ test("links are asked for once their layer is on, and drawn as they are told", a
     [true, false],
     [false, false],
   ]);
-  // With both off, frames come alone.
+  // With both layers off, frames come without overlays.
   const before = told.length;
   await page.keyboard.press(".");
   await expect.poll(() => told.length).toBeGreaterThan(before);
   expect(told.slice(before).map((bytes) => bytes.readUInt32LE(0))).not.toContain(2);
 });
 
-test("the layers with their legend are accessible", async ({ page, fake }) => {
-  await page.goto(live(fake, scenario));
+test("layers and legend pass axe", async ({ page, fake }) => {
+  await page.goto(runAt(fake, scenario));
   await page.getByRole("tab", { name: "Layers" }).click();
   await page.getByRole("checkbox", { name: "Radio links" }).check();
   await expectAccessible(page);

@@ -1,13 +1,13 @@
 import type { Page } from "@playwright/test";
-import { expect, live, test } from "./page";
+import { expect, runAt, test } from "./page";
 
-/** Pictures that are drawn of robots, and frames that came for them, while a run plays. */
+/** Counts the pictures drawn of robots, and the frames received, while a run plays. */
 async function play(page: Page, url: string): Promise<() => Promise<[pictures: number, frames: number]>> {
   await page.addInitScript(() => {
     const draw = WebGL2RenderingContext.prototype.drawElements;
     Object.assign(globalThis, { pictures: 0 });
     WebGL2RenderingContext.prototype.drawElements = function (...given) {
-      // Of all robots at once, and marks are drawn besides.
+      // Only calls that draw all robots; marks are drawn by other calls.
       if (given[3] === 0 && given[1] === 6 * 4) (globalThis as unknown as { pictures: number }).pictures += 1;
       return draw.apply(this, given);
     };
@@ -24,8 +24,8 @@ async function play(page: Page, url: string): Promise<() => Promise<[pictures: n
   return async () => [Number(await page.evaluate("pictures")) - begun.pictures, frames - begun.frames];
 }
 
-test("between two steps robots are drawn on their way", async ({ page, fake }) => {
-  const drawn = await play(page, live(fake, "scenario=search-beliefs&seed=7"));
+test("motion between two steps is interpolated", async ({ page, fake }) => {
+  const drawn = await play(page, runAt(fake, "scenario=search-beliefs&seed=7"));
   await expect
     .poll(async () => {
       const [pictures, frames] = await drawn();
@@ -34,11 +34,11 @@ test("between two steps robots are drawn on their way", async ({ page, fake }) =
     .toBe(true);
 });
 
-test("who wants no motion sees each step as it is", async ({ page, fake }) => {
+test("with reduced motion each step is drawn as received", async ({ page, fake }) => {
   await page.emulateMedia({ reducedMotion: "reduce" });
-  const drawn = await play(page, live(fake, "scenario=search-beliefs&seed=7"));
+  const drawn = await play(page, runAt(fake, "scenario=search-beliefs&seed=7"));
   await expect.poll(async () => (await drawn())[1]).toBeGreaterThan(10);
   const [pictures, frames] = await drawn();
-  // A word of the server has the picture drawn once more.
+  // A state message causes one more redraw.
   expect(pictures).toBeLessThan(1.3 * frames + 3);
 });

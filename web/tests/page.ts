@@ -7,23 +7,23 @@ interface Fake {
   drop(): void;
 }
 
-/** A page beside a fake server of its own; whatever the browser complains of fails the test. */
-export const test = base.extend<{ fake: Fake; complaints: string[] }>({
+/** A page with a fake server of its own. Errors in the browser console fail the test. */
+export const test = base.extend<{ fake: Fake; consoleErrors: string[] }>({
   fake: async ({}, use) => {
     const server = await serve(0);
     await use(server);
     server.stop();
   },
-  complaints: [
+  consoleErrors: [
     async ({ page }, use) => {
-      const complaints: string[] = [];
-      page.on("pageerror", (error) => complaints.push(error.message));
+      const consoleErrors: string[] = [];
+      page.on("pageerror", (error) => consoleErrors.push(error.message));
       page.on("console", (message) => {
         if (message.type() === "error" && !/422|ERR_(CONNECTION|INTERNET)/.test(message.text()))
-          complaints.push(message.text());
+          consoleErrors.push(message.text());
       });
-      await use(complaints);
-      expect(complaints).toEqual([]);
+      await use(consoleErrors);
+      expect(consoleErrors).toEqual([]);
     },
     { auto: true },
   ],
@@ -31,7 +31,7 @@ export const test = base.extend<{ fake: Fake; complaints: string[] }>({
 
 export { expect };
 
-export function live(fake: Fake, query: string): string {
+export function runAt(fake: Fake, query: string): string {
   return `${fake.url}/#/run?${query}`;
 }
 

@@ -1,6 +1,6 @@
 import { readFile } from "node:fs/promises";
 import type { Page } from "@playwright/test";
-import { expect, expectAccessible, live, test } from "./page";
+import { expect, expectAccessible, runAt, test } from "./page";
 
 const scenario = "scenario=search-beliefs&seed=7&run=2";
 
@@ -9,8 +9,8 @@ async function choose(page: Page, name: string): Promise<void> {
   await page.getByRole("button", { name }).click();
 }
 
-test("a run is saved, and its recording opened as that run", async ({ page, fake }) => {
-  await page.goto(live(fake, `${scenario}&changes=[[5,%22robots.rover.count%22,6]]&tick=20`));
+test("a run is saved, and its recording opens as that run", async ({ page, fake }) => {
+  await page.goto(runAt(fake, `${scenario}&changes=[[5,%22robots.rover.count%22,6]]&tick=20`));
   await expect(page.locator("#status")).toContainText("6 robots");
   await choose(page, "Save recording");
   await expect(page.getByRole("progressbar", { name: "Saving the run" })).toBeVisible();
@@ -25,22 +25,22 @@ test("a run is saved, and its recording opened as that run", async ({ page, fake
   await expect.poll(() => page.url()).toMatch(/recording=recordings\/search-beliefs-7-2-1.mcap&tick=20/);
 });
 
-test("what is being saved can be cancelled", async ({ page, fake }) => {
-  await page.goto(live(fake, scenario));
+test("saving can be cancelled", async ({ page, fake }) => {
+  await page.goto(runAt(fake, scenario));
   await choose(page, "Save recording");
   await page.getByRole("button", { name: "Cancel" }).click();
   await expect(page.getByRole("progressbar")).toHaveCount(0);
   await expect(page.getByText("Saved as")).toHaveCount(0);
 });
 
-test("why a run cannot be saved is said", async ({ page, fake }) => {
-  await page.goto(live(fake, "scenario=flock"));
+test("the error of a failed save is displayed", async ({ page, fake }) => {
+  await page.goto(runAt(fake, "scenario=flock"));
   await choose(page, "Save recording");
   await expect(page.getByRole("alert")).toContainText("takes no more");
   await expectAccessible(page);
 });
 
-test("the recordings are listed, and opened and downloaded from there", async ({ page, fake }) => {
+test("recordings are listed, opened and downloaded", async ({ page, fake }) => {
   await page.goto(fake.url);
   await page.getByRole("link", { name: "Recordings" }).click();
   await expect(page.getByRole("cell", { name: /Cannot be opened: it is no MCAP file/ })).toBeVisible();
@@ -54,7 +54,7 @@ test("the recordings are listed, and opened and downloaded from there", async ({
   await expect(page.getByText("seed 3, run 0, recorded")).toBeVisible();
 });
 
-test("the list of recordings is of use on a phone", async ({ page, fake }) => {
+test("the list of recordings is usable on a phone", async ({ page, fake }) => {
   await page.setViewportSize({ width: 360, height: 740 });
   await page.goto(`${fake.url}/#/recordings`);
   await expect(page.getByRole("link", { name: "field.mcap", exact: true })).toBeVisible();
@@ -62,14 +62,14 @@ test("the list of recordings is of use on a phone", async ({ page, fake }) => {
   await expectAccessible(page);
 });
 
-test("changes that an address does not hold are saved, and the recording is its name", async ({
+test("changes that do not fit into an address are saved, and the address names the recording", async ({
   page,
   fake,
   context,
 }) => {
   const areas = Array.from({ length: 900 }, (_, i) => [i, i]);
   await page.goto(
-    live(fake, `${scenario}&tick=3&changes=${JSON.stringify([[1, "terrain.mud", { areas_m: [areas] }]])}`),
+    runAt(fake, `${scenario}&tick=3&changes=${JSON.stringify([[1, "terrain.mud", { areas_m: [areas] }]])}`),
   );
   await expect(page.locator("#status")).toContainText("0.3 s");
   await expect
@@ -80,7 +80,7 @@ test("changes that an address does not hold are saved, and the recording is its 
   await expect(other.locator("#status")).toContainText("0.3 s");
 });
 
-test("a large file of one's own is saved, so that its address is of use elsewhere", async ({
+test("a large file of the user's own is saved, so that its address works elsewhere", async ({
   page,
   fake,
   context,
@@ -100,8 +100,8 @@ test("a large file of one's own is saved, so that its address is of use elsewher
   await expect(other.locator("#status")).toContainText("0.1 s, 4 robots");
 });
 
-test("a change in a recorded run makes it another, whose address has all changes", async ({ page, fake }) => {
-  await page.goto(live(fake, "recording=field.mcap&tick=30"));
+test("a change in a recorded run makes a new run, whose address has all changes", async ({ page, fake }) => {
+  await page.goto(runAt(fake, "recording=field.mcap&tick=30"));
   await expect(page.locator("#status")).toContainText("3.0 s, 6 robots");
   await page.getByRole("tab", { name: "Parameters" }).click();
   await page.getByRole("spinbutton", { name: "Count of rover" }).fill("2");
@@ -111,21 +111,21 @@ test("a change in a recorded run makes it another, whose address has all changes
     .poll(() => decodeURIComponent(page.url()))
     .toContain('changes=[[20,"robots.rover.count",6],[30,"robots.rover.count",2]]');
   await page.getByRole("button", { name: "New run" }).click();
-  await expect(page.getByText("the recording's scenario as it is now")).toBeVisible();
-  await page.getByRole("button", { name: "Begin" }).click();
+  await expect(page.getByText("the recording's scenario, including all changes")).toBeVisible();
+  await page.getByRole("button", { name: "Start" }).click();
   await expect.poll(() => page.url()).toMatch(/text=z.*&seed=3&run=1/);
 });
 
-test("a recording that is not there is told", async ({ page, fake }) => {
-  await page.goto(live(fake, "recording=gone.mcap"));
+test("a missing recording is reported", async ({ page, fake }) => {
+  await page.goto(runAt(fake, "recording=gone.mcap"));
   await expect(page.getByText("there is no such recording")).toBeVisible();
   await expectAccessible(page);
 });
 
-test("the scenario as it is now is saved as a file", async ({ page, fake }) => {
-  await page.goto(live(fake, `${scenario}&tick=20`));
+test("the scenario with its changes is saved as a file", async ({ page, fake }) => {
+  await page.goto(runAt(fake, `${scenario}&tick=20`));
   await expect(page.locator("#status")).toContainText("2.0 s");
-  const [saved] = await Promise.all([page.waitForEvent("download"), choose(page, "Scenario as it is now")]);
+  const [saved] = await Promise.all([page.waitForEvent("download"), choose(page, "Scenario with changes")]);
   expect(saved.suggestedFilename()).toBe("search-beliefs-20.toml");
   expect(await readFile(await saved.path(), "utf8")).toContain("# From 20");
 });

@@ -1,52 +1,49 @@
-import { expect, expectAccessible, live, test } from "./page";
+import { expect, expectAccessible, runAt, test } from "./page";
 
 const scenario = "scenario=search-beliefs&seed=7&robot=rover/1";
-const sections = ["Command", "Percept", "Goals", "Reach", "Items", "Map"];
+const sections = ["Command", "Percept", "Goals", "Headings", "Items", "Map"];
 
-test("of a selected robot is told what it perceives, decides, wants and believes", async ({ page, fake }) => {
-  await page.goto(live(fake, scenario));
+test("percept, command, goals and beliefs of the selected robot are displayed", async ({ page, fake }) => {
+  await page.goto(runAt(fake, scenario));
   const panel = page.getByRole("tabpanel");
-  await expect(panel.getByRole("row", { name: /bayesian_search has its way/ })).toBeVisible();
-  await expect(panel.getByRole("row", { name: /avoid holds for 1.5 s/ })).toBeVisible();
+  await expect(panel.getByRole("row", { name: /bayesian_search active/ })).toBeVisible();
+  await expect(panel.getByRole("row", { name: /avoid held for 1.5 s/ })).toBeVisible();
   await expect(panel.getByText("0.80 m/s").first()).toBeVisible();
-  await expect(panel.getByText("1 about itself")).toBeVisible();
-  await expect(panel.getByRole("img", { name: /perceives around it/ })).toBeVisible();
+  await expect(panel.getByText("1 about the sender")).toBeVisible();
+  await expect(panel.getByRole("img", { name: /^Percept around the robot/ })).toBeVisible();
   await expect(panel.getByRole("row", { name: /Item: mine 2\.0 m, 23° left 0\.00$/ })).toBeVisible();
   await expect(panel.getByRole("row", { name: /Touch no reading/ })).toBeVisible();
-  await expect(panel.getByText(/Goes there now: 4\.2 m left/)).toBeVisible();
-  await expect(panel.getByText(/no nearer for 6 s/)).toBeVisible();
+  await expect(panel.getByText(/Pursued: 4\.2 m left/)).toBeVisible();
+  await expect(panel.getByText(/no progress for 6 s/)).toBeVisible();
 });
 
-test("sections open by keyboard, and stay so for the next robot", async ({ page, fake }) => {
-  await page.goto(live(fake, scenario));
-  const reach = page.getByRole("region", { name: "Worth of all courses" });
-  await expect(page.locator("summary", { hasText: "Reach" })).toBeVisible();
+test("sections open by keyboard, and stay open for the next robot", async ({ page, fake }) => {
+  await page.goto(runAt(fake, scenario));
+  const reach = page.getByRole("region", { name: "Utility of all headings" });
+  await expect(page.locator("summary", { hasText: "Headings" })).toBeVisible();
   await expect(reach).toBeHidden();
-  await page.locator("summary", { hasText: "Reach" }).focus();
+  await page.locator("summary", { hasText: "Headings" }).focus();
   await page.keyboard.press("Enter");
   await expect(reach.getByRole("row")).toHaveCount(41);
-  await expect(reach.getByRole("row", { name: /taken/ })).toHaveCount(1);
+  await expect(reach.getByRole("row", { name: /chosen/ })).toHaveCount(1);
   await page.locator("summary", { hasText: "Percept" }).click();
   await page.getByRole("button", { name: "Next" }).click();
   await expect.poll(() => page.url()).toContain("robot=rover/2");
   await expect(reach).toBeVisible();
-  await expect(page.getByRole("img", { name: /perceives around it/ })).toBeHidden();
+  await expect(page.getByRole("img", { name: /^Percept around the robot/ })).toBeHidden();
 });
 
-test("its map is told in numbers too", async ({ page, fake }) => {
-  await page.goto(live(fake, scenario));
+test("its map is summarised in numbers", async ({ page, fake }) => {
+  await page.goto(runAt(fake, scenario));
   await page.locator("summary", { hasText: "Map" }).click();
   await expect(page.getByText("25 × 25 of 1.00 m")).toBeVisible();
-  const part = page.getByRole("row", { name: /Unknown, hatched/ });
+  const part = page.getByRole("row", { name: /Unknown \(hatched\)/ });
   await expect(part).toHaveText(/[1-9]\d%$/);
 });
 
-test("a robot that is followed stays in the middle until the picture is moved by hand", async ({
-  page,
-  fake,
-}) => {
-  await page.goto(live(fake, scenario));
-  const box = page.getByRole("checkbox", { name: "Keep it in the middle" });
+test("a followed robot stays in the centre until the view is panned", async ({ page, fake }) => {
+  await page.goto(runAt(fake, scenario));
+  const box = page.getByRole("checkbox", { name: "Follow" });
   await expect(box).not.toBeChecked();
   await page.keyboard.press("f");
   await expect(box).toBeChecked();
@@ -57,7 +54,7 @@ test("a robot that is followed stays in the middle until the picture is moved by
   const picture = page.getByRole("application");
   const frame = await picture.boundingBox();
   if (!frame) throw new Error("there is no picture");
-  // The one in the middle is the one that is followed.
+  // The robot in the centre is the followed one.
   await page
     .getByRole("textbox", { name: "Robot" })
     .or(page.getByRole("combobox", { name: "Robot" }))
@@ -70,16 +67,16 @@ test("a robot that is followed stays in the middle until the picture is moved by
   await expect(box).not.toBeChecked();
 });
 
-test("a robot without a mind has a percept and a command", async ({ page, fake }) => {
-  await page.goto(live(fake, "scenario=crowd-5&robot=rover/1"));
-  await expect(page.getByText("It has no mind")).toBeVisible();
+test("a robot with a reactive brain has a percept and a command", async ({ page, fake }) => {
+  await page.goto(runAt(fake, "scenario=crowd-5&robot=rover/1"));
+  await expect(page.getByText("reactive brain")).toBeVisible();
   await expect(page.getByText("0.80 m/s").first()).toBeVisible();
   await expect(page.locator("summary")).not.toContainText(["Goals"]);
   await expectAccessible(page);
 });
 
-test("the panel has no fault that axe finds, all of it open, also on a phone", async ({ page, fake }) => {
-  await page.goto(live(fake, scenario));
+test("the panel passes axe with all sections open, also on a phone", async ({ page, fake }) => {
+  await page.goto(runAt(fake, scenario));
   for (const name of sections) {
     const section = page.locator("details", { hasText: name }).first();
     if ((await section.getAttribute("open")) === null) await section.locator("summary").click();

@@ -1,13 +1,13 @@
-import { expect, expectAccessible, live, test } from "./page";
+import { expect, expectAccessible, runAt, test } from "./page";
 
 const scenario = "scenario=search-beliefs&seed=7&run=2";
 
-test("a run plays, pauses and steps, and says so in words", async ({ page, fake }) => {
-  await page.goto(live(fake, scenario));
+test("a run plays, pauses and steps, and the status follows", async ({ page, fake }) => {
+  await page.goto(runAt(fake, scenario));
   const status = page.locator("#status");
   await expect(status).toHaveText(/^0\.0 s, 4 robots: .*; 0 of 4 items found; paused\.$/);
   await page.keyboard.press("Space");
-  await expect(status).toContainText("running at 1 times real time");
+  await expect(status).toContainText("running at 1 × real time");
   await page.keyboard.press("Space");
   await expect(status).toContainText("paused");
   const words = (await status.textContent()) ?? "";
@@ -22,7 +22,7 @@ test("the address opens the same run at the same tick with the same changes and 
   fake,
   context,
 }) => {
-  await page.goto(live(fake, scenario));
+  await page.goto(runAt(fake, scenario));
   await page.getByRole("tab", { name: "Parameters" }).click();
   await page.getByRole("spinbutton", { name: "Count of rover" }).fill("9");
   await page.keyboard.press("Enter");
@@ -36,21 +36,24 @@ test("the address opens the same run at the same tick with the same changes and 
   await expect.poll(() => other.url()).toBe(page.url());
 });
 
-test("a refusal is told beside the switch, which stays as it was", async ({ page, fake }) => {
-  await page.goto(live(fake, scenario));
+test("the error of a refused change is displayed beside its switch, which stays unchanged", async ({
+  page,
+  fake,
+}) => {
+  await page.goto(runAt(fake, scenario));
   await page.getByRole("tab", { name: "Parameters" }).click();
-  const swarm = page.getByRole("checkbox", { name: "Swarm" });
-  await swarm.click();
+  const flock = page.getByRole("checkbox", { name: "Flock" });
+  await flock.click();
   await expect(page.getByText("flock needs a sensor of kind robots").first()).toBeVisible();
-  await expect(swarm).not.toBeChecked();
-  await expect(swarm).toBeDisabled();
+  await expect(flock).not.toBeChecked();
+  await expect(flock).toBeDisabled();
   await page.getByRole("checkbox", { name: "Follow" }).click();
   await expect(page.getByRole("checkbox", { name: "Follow" })).toBeChecked();
-  await expect(swarm).toBeEnabled();
+  await expect(flock).toBeEnabled();
 });
 
 test("each parameter of the schema can be found and changed, and undone", async ({ page, fake }) => {
-  await page.goto(live(fake, scenario));
+  await page.goto(runAt(fake, scenario));
   await page.getByRole("tab", { name: "Parameters" }).click();
   await page.getByRole("searchbox").fill("camera range_m");
   const box = page.getByRole("spinbutton", { name: "robots.rover.sensors.camera.range_m" });
@@ -59,11 +62,11 @@ test("each parameter of the schema can be found and changed, and undone", async 
   await page.getByRole("tab", { name: "Changes" }).click();
   await expect(page.getByRole("cell", { name: "robots.rover.sensors.camera.range_m" })).toBeVisible();
   await page.keyboard.press("Control+z");
-  await expect(page.getByText("Nothing has been changed")).toBeVisible();
+  await expect(page.getByText("No changes yet")).toBeVisible();
 });
 
-test("a robot is selected by pointer and by keyboard, and its mind is told", async ({ page, fake }) => {
-  await page.goto(live(fake, `${scenario}&robot=rover/1`));
+test("a robot is selected by address and by button, and its brain is displayed", async ({ page, fake }) => {
+  await page.goto(runAt(fake, `${scenario}&robot=rover/1`));
   await expect(page.getByRole("combobox", { name: "Robot", exact: true })).toHaveValue("rover/1");
   await expect(page.getByRole("cell", { name: "bayesian_search" }).first()).toBeVisible();
   await page.getByRole("button", { name: "Next" }).click();
@@ -71,8 +74,8 @@ test("a robot is selected by pointer and by keyboard, and its mind is told", asy
   await expectAccessible(page);
 });
 
-test("obstacles are added by hand, and taken out of the list", async ({ page, fake }) => {
-  await page.goto(live(fake, scenario));
+test("obstacles are added on the canvas, and removed in the list", async ({ page, fake }) => {
+  await page.goto(runAt(fake, scenario));
   await page.getByRole("tab", { name: "Edit" }).click();
   await page.getByRole("button", { name: "Add circle" }).click();
   await page.mouse.move(300, 200);
@@ -86,8 +89,11 @@ test("obstacles are added by hand, and taken out of the list", async ({ page, fa
   await expect(added).toHaveCount(2);
 });
 
-test("a lost line is told at once, and the run goes on where it was", async ({ page, fake }) => {
-  await page.goto(live(fake, `${scenario}&tick=50`));
+test("a lost connection is reported at once, and the run continues from the same point", async ({
+  page,
+  fake,
+}) => {
+  await page.goto(runAt(fake, `${scenario}&tick=50`));
   await expect(page.locator("#status")).toContainText("5.0 s");
   await page.keyboard.press("Space");
   await expect(page.locator("#status")).toContainText("running");
@@ -99,15 +105,15 @@ test("a lost line is told at once, and the run goes on where it was", async ({ p
   await expect(page.locator("#status")).toHaveText(/^([5-9]|\d\d)\.\d s/);
 });
 
-test("a full server says so, and offers another try", async ({ page, fake }) => {
-  await page.goto(live(fake, "scenario=full"));
+test("a full server is reported, and the run can be reopened", async ({ page, fake }) => {
+  await page.goto(runAt(fake, "scenario=full"));
   await expect(page.getByRole("alert")).toContainText("As many runs are open");
   await expectAccessible(page);
 });
 
 for (const tab of ["Results", "Robot", "Parameters", "Layers", "Edit", "Changes"]) {
-  test(`the panel ${tab} has no fault that axe finds`, async ({ page, fake }) => {
-    await page.goto(live(fake, `${scenario}&changes=[[0,%22robots.rover.count%22,6]]`));
+  test(`the panel ${tab} passes axe`, async ({ page, fake }) => {
+    await page.goto(runAt(fake, `${scenario}&changes=[[0,%22robots.rover.count%22,6]]`));
     await page.getByRole("tab", { name: tab }).click();
     if (tab === "Parameters") await page.getByRole("searchbox").fill("rover");
     if (tab === "Results") await page.getByRole("button", { name: "Table" }).click();
@@ -115,9 +121,9 @@ for (const tab of ["Results", "Robot", "Parameters", "Layers", "Edit", "Changes"
   });
 }
 
-test("the page is of use on a phone", async ({ page, fake }) => {
+test("the page is usable on a phone", async ({ page, fake }) => {
   await page.setViewportSize({ width: 360, height: 740 });
-  await page.goto(live(fake, scenario));
+  await page.goto(runAt(fake, scenario));
   await expect(page.locator("#status")).toContainText("4 robots");
   expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBe(360);
   await page.getByRole("button", { name: "Panels", exact: true }).click();
@@ -127,25 +133,25 @@ test("the page is of use on a phone", async ({ page, fake }) => {
   await expect(page.getByRole("tab", { name: "Results" })).toBeHidden();
 });
 
-test("dialogs open by key and close by Escape", async ({ page, fake }) => {
-  await page.goto(live(fake, scenario));
+test("dialogs open with a key and close with Escape", async ({ page, fake }) => {
+  await page.goto(runAt(fake, scenario));
   await page.keyboard.press("?");
-  await expect(page.getByRole("dialog", { name: "Keys" })).toBeVisible();
+  await expect(page.getByRole("dialog", { name: "Keyboard shortcuts" })).toBeVisible();
   await expectAccessible(page);
   await page.keyboard.press("Escape");
   await page.getByRole("button", { name: "New run" }).click();
   await expectAccessible(page);
   await page.getByRole("textbox", { name: "Seed" }).fill("12");
-  await page.getByRole("button", { name: "Begin" }).click();
+  await page.getByRole("button", { name: "Start" }).click();
   await expect.poll(() => page.url()).toContain("seed=12&run=3");
 });
 
-test("a picture and the series can be saved", async ({ page, fake }) => {
-  await page.goto(live(fake, `${scenario}&tick=20`));
+test("the picture and the time series can be saved", async ({ page, fake }) => {
+  await page.goto(runAt(fake, `${scenario}&tick=20`));
   await expect(page.locator("#status")).toContainText("2.0 s");
   for (const [name, file] of [
     ["Picture", "search-beliefs-20.png"],
-    ["Series", "search-beliefs-20.csv"],
+    ["Time series", "search-beliefs-20.csv"],
   ] as const) {
     await page.locator("summary", { hasText: "Export" }).click();
     const [saved] = await Promise.all([
@@ -156,7 +162,7 @@ test("a picture and the series can be saved", async ({ page, fake }) => {
   }
 });
 
-test("without WebGL2 the robots are drawn all the same", async ({ page, fake }) => {
+test("robots are drawn without WebGL2", async ({ page, fake }) => {
   await page.addInitScript(() => {
     const get = HTMLCanvasElement.prototype.getContext;
     // @ts-expect-error one signature stands for all
@@ -164,7 +170,7 @@ test("without WebGL2 the robots are drawn all the same", async ({ page, fake }) 
       return kind === "webgl2" ? null : get.call(this, kind, options);
     };
   });
-  await page.goto(live(fake, "scenario=flock"));
+  await page.goto(runAt(fake, "scenario=flock"));
   await expect(page.locator("#status")).toContainText("400 robots");
   const blue = await page
     .locator("canvas")

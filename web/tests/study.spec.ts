@@ -1,5 +1,5 @@
 import type { APIRequestContext, Page } from "@playwright/test";
-import { expect, expectAccessible, live, test } from "./page";
+import { expect, expectAccessible, runAt, test } from "./page";
 
 const plain = {
   scenario: "search",
@@ -14,7 +14,7 @@ const plain = {
   max_runs: null,
   seed: "0",
 };
-/** Ends by no means meanwhile: mines more or fewer make no difference to the fake server's robots. */
+/** Does not end during a test: the number of mines makes no difference to the fake server's robots. */
 const long = {
   ...plain,
   vary: { "robots.rover.count": "1..9", "items.mine.count": "4,5" },
@@ -38,17 +38,17 @@ async function answered(page: Page, fake: At) {
   await expect(sentence(page)).toBeVisible({ timeout: 10_000 });
 }
 
-test("without studies the page says what one is and how to start", async ({ page, fake }) => {
+test("without studies the page explains what a study is and how to start one", async ({ page, fake }) => {
   await page.goto(fake.url);
   await page.getByRole("link", { name: "Studies" }).click();
-  await expect(page.getByRole("heading", { name: "No studies here yet" })).toBeVisible();
+  await expect(page.getByRole("heading", { name: "No studies yet" })).toBeVisible();
   await expectAccessible(page);
   await page.getByRole("link", { name: "New study" }).click();
   await expect(page.getByRole("link", { name: /^search Four items/ })).toBeVisible();
   await expectAccessible(page);
 });
 
-test("a study is asked, raced and answered by keyboard alone", async ({ page, fake }) => {
+test("a study is defined, started and answered by keyboard alone", async ({ page, fake }) => {
   await page.goto(fake.url);
   await page.getByRole("link", { name: "Study search", exact: true }).focus();
   await page.keyboard.press("Enter");
@@ -59,12 +59,12 @@ test("a study is asked, raced and answered by keyboard alone", async ({ page, fa
   await page.keyboard.type("1..6");
   await expect(page.getByText("factorial: 6 configurations")).toBeVisible();
   await page.keyboard.press("Enter");
-  await expect(page.getByRole("heading", { name: "Still in" })).toBeVisible();
+  await expect(page.getByRole("heading", { name: "Remaining" })).toBeVisible();
   await expect(page.getByText(/^\d of 6$/)).toBeVisible();
   await expect(sentence(page)).toBeVisible({ timeout: 10_000 });
 });
 
-test("faults stand beside their fields, and the study cannot be started", async ({ page, fake }) => {
+test("errors are displayed beside their fields, and the study cannot be started", async ({ page, fake }) => {
   await page.goto(`${fake.url}/#/study/new?scenario=search`);
   const team = page.getByRole("textbox", { name: "Number of rovers" });
   await team.fill("1..4x");
@@ -77,22 +77,22 @@ test("faults stand beside their fields, and the study cannot be started", async 
   await expectAccessible(page);
   await page.getByRole("textbox", { name: "Confidence" }).fill("");
   await team.fill("");
-  await expect(page.getByText("Nothing is varied yet")).toBeVisible();
+  await expect(page.getByText("No factor is varied")).toBeVisible();
   await team.fill("1..4");
   await expect(page.getByRole("button", { name: "Start" })).toBeEnabled();
 });
 
-test("a fault under More opens it", async ({ page, fake }) => {
+test("an error under More options opens that section", async ({ page, fake }) => {
   await page.goto(`${fake.url}/#/study/new?scenario=search`);
-  await page.getByText("More", { exact: true }).click();
+  await page.getByText("More options", { exact: true }).click();
   await page.getByRole("textbox", { name: "Seed" }).fill("minus one");
   await expect(page.getByRole("textbox", { name: "Seed" })).toHaveAccessibleDescription(/whole number/);
   await expectAccessible(page);
 });
 
-test("what else is varied is found by its name, added and removed", async ({ page, fake }) => {
+test("further factors are found by name, added and removed", async ({ page, fake }) => {
   await page.goto(`${fake.url}/#/study/new?scenario=search`);
-  await page.getByText("Vary something else").click();
+  await page.getByText("Add a factor").click();
   await page.getByRole("searchbox").fill("camera range");
   await expect(page.getByText("1 parameter", { exact: true })).toBeVisible();
   await page.getByRole("button", { name: "Vary robots.rover.sensors.camera.range_m" }).click();
@@ -100,7 +100,7 @@ test("what else is varied is found by its name, added and removed", async ({ pag
   await expect(range).toBeFocused();
   await range.fill("2,4");
   await expect(page.getByText("factorial: 18 configurations")).toBeVisible();
-  await page.getByText("Vary something else").click();
+  await page.getByText("Add a factor").click();
   await page.getByRole("button", { name: /^Vary .*arbitration.kind/ }).click();
   await page.getByRole("checkbox", { name: "goals" }).check();
   await page.getByRole("checkbox", { name: "schemas" }).check();
@@ -110,18 +110,18 @@ test("what else is varied is found by its name, added and removed", async ({ pag
   await expect(page.getByText("factorial: 18 configurations")).toBeVisible();
 });
 
-test("a scenario with faults is no study, in the server's words", async ({ page, fake }) => {
+test("an invalid scenario cannot be studied, with the server's message", async ({ page, fake }) => {
   await page.goto(`${fake.url}/#/study/new?scenario=broken`);
   await expect(page.getByRole("alert")).toContainText("robots.rover.count is missing");
   await expectAccessible(page);
 });
 
-test("the race is told in words and as a table, stops, and goes on", async ({ page, fake }) => {
+test("the race is displayed as text and as a table, stops and resumes", async ({ page, fake }) => {
   await page.goto(at(fake, await start(page.request, fake, long)));
   await expect(
     page.getByRole("status").filter({ hasText: /^Running: \d+ configurations of 18/ }),
   ).toHaveCount(1);
-  await expect(page.getByText(/put out by \d rovers?, count \d after \d+ runs/).first()).toBeVisible();
+  await expect(page.getByText(/eliminated by \d rovers?, count \d after \d+ runs/).first()).toBeVisible();
   await page.getByRole("button", { name: "Table" }).click();
   await expect(page.getByRole("columnheader", { name: "merit" })).toBeVisible();
   await page.getByRole("button", { name: "Stop" }).click();
@@ -129,22 +129,22 @@ test("the race is told in words and as a table, stops, and goes on", async ({ pa
   await expectAccessible(page);
   await page.getByRole("button", { name: "Chart" }).click();
   await expectAccessible(page);
-  await page.getByRole("button", { name: "Go on" }).click();
+  await page.getByRole("button", { name: "Resume" }).click();
   await expect(page.getByRole("button", { name: "Stop" })).toBeVisible();
-  await expect(page.getByText("runs a second")).toBeVisible();
+  await expect(page.getByText("runs per second")).toBeVisible();
 });
 
-test("a study that is opened is asked for once", async ({ page, fake }) => {
+test("a study is loaded once when it is opened", async ({ page, fake }) => {
   const id = await start(page.request, fake, long);
   let asked = 0;
   page.on("request", (request) => (asked += Number(request.url().includes("api/study?"))));
   await page.goto(at(fake, id));
-  await expect(page.getByText("runs a second")).toBeVisible();
-  await expect(page.getByText(/put out by/).first()).toBeVisible();
+  await expect(page.getByText("runs per second")).toBeVisible();
+  await expect(page.getByText(/eliminated by/).first()).toBeVisible();
   expect(asked).toBe(1);
 });
 
-test("a study that is answered just as it is stopped shows its answer", async ({ page, fake }) => {
+test("a study that is answered while it is being stopped displays its answer", async ({ page, fake }) => {
   await page.route("**/api/studies/stop", async (route) => {
     const { studies } = await (await page.request.get(`${fake.url}/api/studies`)).json();
     await route.fulfill({ json: { ...studies[0], state: "answered" } });
@@ -154,29 +154,29 @@ test("a study that is answered just as it is stopped shows its answer", async ({
   await expect(sentence(page)).toBeVisible({ timeout: 10_000 });
 });
 
-test("a study that another page made go on is seen by who wants it to", async ({ page, fake }) => {
+test("a study that another page resumed is displayed as running", async ({ page, fake }) => {
   const id = await start(page.request, fake, long);
   await page.goto(at(fake, id));
   await page.getByRole("button", { name: "Stop" }).click();
-  await expect(page.getByRole("button", { name: "Go on" })).toBeVisible();
+  await expect(page.getByRole("button", { name: "Resume" })).toBeVisible();
   await page.request.post(`${fake.url}/api/studies/resume`, { data: { id, confidence: null } });
   await page.route("**/api/studies/resume", (route) => route.fulfill({ status: 422, json: { faults: [] } }));
-  await page.getByRole("button", { name: "Go on" }).click();
+  await page.getByRole("button", { name: "Resume" }).click();
   await expect(page.getByRole("button", { name: "Stop" })).toBeVisible();
 });
 
-test("a study that cannot be read says so, under a heading", async ({ page, fake }) => {
+test("an unreadable study is reported under a heading", async ({ page, fake }) => {
   await page.route("**/api/study?*", (route) => route.abort("connectionfailed"));
   await page.goto(at(fake, await start(page.request, fake, long)));
   await expect(page.getByRole("heading", { name: "studies/" })).toBeVisible();
-  await expect(page.getByText("The server does not answer.")).toBeVisible();
+  await expect(page.getByText("The server is not responding.")).toBeVisible();
   await expectAccessible(page);
 });
 
-test("the race has no fault that axe finds", async ({ page, fake }) => {
+test("the race passes axe", async ({ page, fake }) => {
   await page.emulateMedia({ reducedMotion: "reduce" });
   await page.goto(at(fake, await start(page.request, fake, long)));
-  await expect(page.getByRole("heading", { name: "Still in" })).toBeVisible();
+  await expect(page.getByRole("heading", { name: "Remaining" })).toBeVisible();
   await expectAccessible(page);
 });
 
@@ -187,7 +187,7 @@ test("an answer has its sentence, guarantee, charts with tables, and files", asy
     page.getByRole("img", { name: /^Figure of merit with its range/ }).locator("svg"),
   ).toBeVisible();
   await expect(page.getByRole("row", { name: /^4 rovers/ }).first()).toBeVisible();
-  await page.getByText("The numbers as a table").first().click();
+  await page.getByText("Table of values").first().click();
   await expect(page.getByRole("columnheader", { name: "mean time, s" })).toBeVisible();
   await expectAccessible(page);
   const [saved] = await Promise.all([
@@ -197,10 +197,7 @@ test("an answer has its sentence, guarantee, charts with tables, and files", asy
   expect(saved.suggestedFilename()).toBe("search-report.html");
 });
 
-test("charts are drawn anew in the colours of the theme and the width of the window", async ({
-  page,
-  fake,
-}) => {
+test("charts follow the theme and the width of the window", async ({ page, fake }) => {
   await answered(page, fake);
   const chart = page.getByRole("img", { name: /^Figure of merit with its range/ });
   const width = () =>
@@ -221,7 +218,7 @@ test("charts are drawn anew in the colours of the theme and the width of the win
   await expect.poll(ink).not.toBe(before);
 });
 
-test("a click on a chart's point leads to that configuration's runs, and on to that run in live", async ({
+test("a click on a point of a chart opens the runs of its configuration, and from there a run", async ({
   page,
   fake,
 }) => {
@@ -243,7 +240,7 @@ test("a click on a chart's point leads to that configuration's runs, and on to t
   await expect(dialog).toBeHidden();
   await expect(sentence(page)).toBeVisible();
   await expect.poll(() => page.url()).not.toContain("configuration");
-  // To where one was before, not to the runs that were closed.
+  // Back to the run, not to the dialog that was closed.
   await page.goBack();
   await expect(page.getByRole("heading", { name: `Run ${run} of search, 4 rovers` })).toBeVisible();
   await expect(dialog).toBeHidden();
@@ -253,29 +250,32 @@ test("all runs of a configuration can be paged through", async ({ page, fake }) 
   await answered(page, fake);
   await page.getByRole("link", { name: "3 rovers" }).first().click();
   await page.getByText("All runs").click();
-  await expect(page.getByText(/^1 to 50 of [\d,]+, in their order/)).toBeVisible();
+  await expect(page.getByText(/^1 to 50 of [\d,]+, in order/)).toBeVisible();
   await page.getByRole("button", { name: "Next" }).click();
   await expect(page.getByText(/^51 to 100 of/)).toBeVisible();
   await expect(page.getByRole("link", { name: "Watch run 50", exact: true })).toBeVisible();
-  await page.getByRole("button", { name: "Before" }).click();
+  await page.getByRole("button", { name: "Previous" }).click();
   await expect(page.getByText(/^1 to 50 of/)).toBeVisible();
 });
 
-test("an answer is tightened, and what is not allowed is said beside the box", async ({ page, fake }) => {
+test("the confidence of an answer is raised, and an invalid value is reported beside the field", async ({
+  page,
+  fake,
+}) => {
   await answered(page, fake);
-  const box = page.getByRole("textbox", { name: /^Surer/ });
+  const box = page.getByRole("textbox", { name: /^Raise confidence/ });
   await expect(box).toHaveValue("0.99");
   await box.fill("0.5");
-  await page.getByRole("button", { name: "Tighten" }).click();
+  await page.getByRole("button", { name: "Raise" }).click();
   await expect(page.getByText("must be greater than 0.95")).toBeVisible();
   await expectAccessible(page);
   await box.fill("0.99");
   await box.press("Enter");
-  // The few runs that this takes may be over before anybody sees them go on.
+  // The few additional runs may finish before the page displays them.
   await expect(page.getByText("selected one with 99% confidence")).toBeVisible({ timeout: 10_000 });
 });
 
-test("studies are listed with their state, newest first, and the list goes along", async ({ page, fake }) => {
+test("studies are listed with their state, newest first, and the list is updated", async ({ page, fake }) => {
   await start(page.request, fake, { ...plain, seed: "13" });
   await expect(async () => {
     const { studies } = await (await page.request.get(`${fake.url}/api/studies`)).json();
@@ -293,14 +293,14 @@ test("studies are listed with their state, newest first, and the list goes along
   });
 });
 
-test("a study that met trouble says so, and offers to go on", async ({ page, fake }) => {
+test("a study that failed displays its error and can be resumed", async ({ page, fake }) => {
   await page.goto(at(fake, await start(page.request, fake, { ...plain, seed: "13" })));
   await expect(page.getByRole("alert")).toContainText("The disk is full");
-  await expect(page.getByRole("button", { name: "Go on" })).toBeVisible();
+  await expect(page.getByRole("button", { name: "Resume" })).toBeVisible();
   await expectAccessible(page);
 });
 
-test("a study that is not there or is damaged is said in the server's words", async ({ page, fake }) => {
+test("missing and damaged studies are reported with the server's message", async ({ page, fake }) => {
   await page.goto(at(fake, "studies/none"));
   await expect(page.getByRole("alert")).toContainText("must be the id of a study in the list");
   await expectAccessible(page);
@@ -311,7 +311,7 @@ test("a study that is not there or is damaged is said in the server's words", as
   await expectAccessible(page);
 });
 
-test("a study that may not start now is refused in words, and can be started later", async ({
+test("a study that cannot start now is refused with a reason, and can be started later", async ({
   page,
   fake,
 }) => {
@@ -323,15 +323,15 @@ test("a study that may not start now is refused in words, and can be started lat
   await expectAccessible(page);
   await page.request.post(`${fake.url}/api/studies/stop`, { data: { id: first } });
   await page.getByRole("button", { name: "Start" }).click();
-  await expect(page.getByRole("heading", { name: "Still in" })).toBeVisible();
+  await expect(page.getByRole("heading", { name: "Remaining" })).toBeVisible();
 });
 
-test("a lost line is told at once, and the race goes on where it is", async ({ page, fake }) => {
+test("a lost connection is reported at once, and the race continues", async ({ page, fake }) => {
   await page.goto(at(fake, await start(page.request, fake, long)));
-  await expect(page.getByText("runs a second")).toBeVisible();
+  await expect(page.getByText("runs per second")).toBeVisible();
   fake.drop();
   await expect(page.getByText("The connection is lost.")).toBeVisible();
-  await expect(page.getByText("runs a second")).toBeVisible();
+  await expect(page.getByText("runs per second")).toBeVisible();
   await expectAccessible(page);
   await expect(page.getByText("The connection is lost.")).toBeHidden();
   const runs = () =>
@@ -343,7 +343,7 @@ test("a lost line is told at once, and the race goes on where it is", async ({ p
   await expect.poll(runs).not.toBe(before);
 });
 
-test("a server that is gone is said on lists and forms, which mend themselves", async ({
+test("a missing server is reported on lists and forms, which recover by themselves", async ({
   page,
   fake,
   context,
@@ -352,23 +352,23 @@ test("a server that is gone is said on lists and forms, which mend themselves", 
   await page.goto(`${fake.url}/#/studies`);
   await expect(page.getByRole("listitem")).toHaveCount(1);
   await context.setOffline(true);
-  await expect(page.getByText("The server does not answer.")).toBeVisible();
+  await expect(page.getByText("The server is not responding.")).toBeVisible();
   await expect(page.getByRole("listitem")).toHaveCount(1);
   await expectAccessible(page);
   await context.setOffline(false);
-  await expect(page.getByText("The server does not answer.")).toBeHidden();
+  await expect(page.getByText("The server is not responding.")).toBeHidden();
   await page.goto(`${fake.url}/#/study/new?scenario=search`);
   const team = page.getByRole("textbox", { name: "Number of rovers" });
   await expect(team).toBeVisible();
   await context.setOffline(true);
   await team.fill("1..5");
-  await expect(page.getByText("The server does not answer. It is asked again.")).toBeVisible();
+  await expect(page.getByText("The server is not responding. Retrying.")).toBeVisible();
   await context.setOffline(false);
   await expect(page.getByText("factorial: 5 configurations")).toBeVisible();
 });
 
-test("a scenario that is watched can be studied, also one that was dropped", async ({ page, fake }) => {
-  await page.goto(live(fake, "scenario=search&seed=7"));
+test("a scenario can be studied from its run, also a dropped one", async ({ page, fake }) => {
+  await page.goto(runAt(fake, "scenario=search&seed=7"));
   await page.getByRole("link", { name: "Study this scenario" }).click();
   await expect(page.getByRole("heading", { name: "New study of search" })).toBeVisible();
   await page.goto(fake.url);
@@ -378,7 +378,7 @@ test("a scenario that is watched can be studied, also one that was dropped", asy
   await expect(page.getByRole("heading", { name: "New study of my scenario" })).toBeVisible();
 });
 
-test("studies are of use on a phone", async ({ page, fake }) => {
+test("studies are usable on a phone", async ({ page, fake }) => {
   await page.setViewportSize({ width: 360, height: 740 });
   const fits = async () =>
     expect(
@@ -389,7 +389,7 @@ test("studies are of use on a phone", async ({ page, fake }) => {
   await fits();
   await expectAccessible(page);
   await page.getByRole("button", { name: "Start" }).click();
-  await expect(page.getByRole("heading", { name: "Still in" })).toBeVisible();
+  await expect(page.getByRole("heading", { name: "Remaining" })).toBeVisible();
   await fits();
   await expect(sentence(page)).toBeVisible({ timeout: 10_000 });
   await expect(page.getByRole("img", { name: /^Runs of each/ }).locator("svg")).toBeVisible();

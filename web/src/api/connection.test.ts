@@ -19,7 +19,7 @@ class FakeSocket implements Socket {
 
 let sockets: FakeSocket[];
 let waits: { ms: number; action: () => void; cancelled: boolean }[];
-let heard: string[];
+let events: string[];
 let connection: Connection;
 
 const last = () => sockets[sockets.length - 1] as FakeSocket;
@@ -29,13 +29,13 @@ const waited = () => waits[waits.length - 1]?.action();
 beforeEach(() => {
   sockets = [];
   waits = [];
-  heard = [];
+  events = [];
   connection = new Connection(
     {
-      ready: () => heard.push("ready"),
-      lost: () => heard.push("lost"),
-      message: (message: Message) => heard.push(message.type),
-      frame: (frame) => heard.push(`frame ${frame.number}`),
+      ready: () => events.push("ready"),
+      lost: () => events.push("lost"),
+      message: (message: Message) => events.push(message.type),
+      frame: (frame) => events.push(`frame ${frame.number}`),
     },
     {
       connect: () => {
@@ -54,25 +54,25 @@ beforeEach(() => {
   connection.start();
 });
 
-test("a line that opens says so, and carries commands", () => {
+test("an open connection is reported and sends commands", () => {
   expect(connection.send({ type: "pause" })).toBe(false);
   last().onopen?.();
   expect(connection.send({ type: "pause" })).toBe(true);
-  expect(heard).toEqual(["ready"]);
+  expect(events).toEqual(["ready"]);
   expect(last().sent).toEqual(['{"type":"pause"}']);
 });
 
-test("a line that is lost is said at once and comes back", () => {
+test("a lost connection is reported at once and restored", () => {
   last().onopen?.();
   drop();
-  expect(heard).toEqual(["ready", "lost"]);
+  expect(events).toEqual(["ready", "lost"]);
   expect(connection.send({ type: "pause" })).toBe(false);
   waited();
   last().onopen?.();
-  expect(heard).toEqual(["ready", "lost", "ready"]);
+  expect(events).toEqual(["ready", "lost", "ready"]);
 });
 
-test("waits double up to ten seconds", () => {
+test("waiting times double up to ten seconds", () => {
   for (let i = 0; i < 7; i++) {
     drop();
     waited();
@@ -80,7 +80,7 @@ test("waits double up to ten seconds", () => {
   expect(waits.map((wait) => wait.ms)).toEqual([500, 1000, 2000, 4000, 8000, 10000, 10000]);
 });
 
-test("waits begin anew once a run was opened", () => {
+test("waiting times start again after a run was opened", () => {
   drop();
   waited();
   drop();
@@ -91,7 +91,7 @@ test("waits begin anew once a run was opened", () => {
   expect(waits.map((wait) => wait.ms)).toEqual([500, 1000, 500]);
 });
 
-test("a line that was closed on purpose stays closed", () => {
+test("a closed connection stays closed", () => {
   const socket = last();
   connection.close();
   expect(socket.closed).toBe(true);
@@ -99,22 +99,22 @@ test("a line that was closed on purpose stays closed", () => {
   expect(waits).toEqual([]);
 });
 
-test("starting while a wait is under way cancels that", () => {
+test("starting cancels a pending attempt", () => {
   drop();
   connection.start();
   expect(waits[0]?.cancelled).toBe(true);
   expect(sockets.length).toBe(2);
 });
 
-test("text that is no message is passed over", () => {
+test("text that is not a message is ignored", () => {
   for (const data of ["", "{", "null", "[1]", '{"type":"other"}', "17"]) last().onmessage?.({ data });
-  expect(heard).toEqual([]);
+  expect(events).toEqual([]);
 });
 
-test("a frame that cannot be read ends the line, and a new one is tried", () => {
+test("an unreadable frame closes the connection, which is then restored", () => {
   last().onopen?.();
   last().onmessage?.({ data: new ArrayBuffer(5) });
   expect(last().closed).toBe(true);
-  expect(heard).toEqual(["ready", "lost"]);
+  expect(events).toEqual(["ready", "lost"]);
   expect(waits.length).toBe(1);
 });

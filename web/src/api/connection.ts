@@ -1,10 +1,10 @@
 import { FrameError } from "./frame_error";
 import { type Frame, readFrame } from "./frames";
-import { overlayKind, readOverlay, type Told } from "./overlay";
+import { overlayKind, readOverlay, type OverlayData } from "./overlay";
 import { type Message, readMessage } from "./messages";
 import type { Command } from "./protocol";
 
-/** What of a WebSocket is used; tests put something else in its place. */
+/** The part of `WebSocket` that is used; tests substitute it. */
 export interface Socket {
   binaryType: string;
   onopen: (() => void) | null;
@@ -14,42 +14,42 @@ export interface Socket {
   close(): void;
 }
 
-export interface Wires {
+export interface Transport {
   connect(): Socket;
-  /** Calls `action` after so many milliseconds; gives what cancels that. */
+  /** Calls `action` after `ms` milliseconds; returns a function that cancels it. */
   after(ms: number, action: () => void): () => void;
 }
 
 export interface Listener {
-  /** The line is there: time to say what to open. */
+  /** The connection is open: time to send the first command. */
   ready(): void;
-  /** The line is gone; it is tried again in so many milliseconds. */
-  lost(again_ms: number): void;
+  /** The connection is lost; the next attempt is in `retry_ms` milliseconds. */
+  lost(retry_ms: number): void;
   message(message: Message): void;
   frame(frame: Frame): void;
 }
 
-const firstWait_ms = 500;
-const longestWait_ms = 10_000;
+const minWait_ms = 500;
+const maxWait_ms = 10_000;
 
-/** A line to the server that comes back by itself until it is closed. */
+/** A connection to the server that reconnects until it is closed. */
 export class Connection {
   private socket: Socket | null = null;
   private isOpen = false;
   private failures = 0;
   private cancel = () => {};
-  /** Lies over the next frame. */
-  private overlay: Told | null = null;
+  /** The overlay of the next frame. */
+  private overlay: OverlayData | null = null;
 
   constructor(
     private readonly listener: Listener,
-    private readonly wires: Wires = browserWires("ws"),
+    private readonly transport: Transport = browserTransport("ws"),
   ) {}
 
-  /** Connects now, whatever wait is under way. */
+  /** Connects now and cancels any pending attempt. */
   start(): void {
     this.close();
-    const socket = this.wires.connect();
+    const socket = this.transport.connect();
     this.socket = socket;
     socket.binaryType = "arraybuffer";
     this.overlay = null;
@@ -61,14 +61,14 @@ export class Connection {
     socket.onclose = () => this.dropped();
   }
 
-  /** Says something; false if there is no line. */
+  /** Sends a command; false if the connection is not open. */
   send(command: Command): boolean {
     if (!this.isOpen || !this.socket) return false;
     this.socket.send(JSON.stringify(command));
     return true;
   }
 
-  /** Hangs up for good. */
+  /** Closes the connection permanently. */
   close(): void {
     this.cancel();
     this.isOpen = false;
@@ -94,9 +94,9 @@ export class Connection {
   private receivedFrame(data: ArrayBuffer): void {
     try {
       this.readBytes(data);
-    } catch (fault) {
-      if (!(fault instanceof FrameError)) throw fault;
-      // Its number is unknown, so it cannot be acknowledged: only a new line goes on.
+    } catch (error) {
+      if (!(error instanceof FrameError)) throw error;
+      // The frame number is unknown, so the frame cannot be acknowledged: only a new connection helps.
       this.close();
       this.dropped();
     }
@@ -109,22 +109,22 @@ export class Connection {
     }
     const [frame, { overlay }] = [readFrame(data), this];
     this.overlay = null;
-    const isOfIt = overlay?.frame === frame.number;
-    this.listener.frame(isOfIt ? { ...frame, overlay: { ...overlay, robots: frame.robots } } : frame);
+    const isSameFrame = overlay?.frame === frame.number;
+    this.listener.frame(isSameFrame ? { ...frame, overlay: { ...overlay, robots: frame.robots } } : frame);
   }
 
   private dropped(): void {
     this.isOpen = false;
     this.socket = null;
-    const wait = Math.min(longestWait_ms, firstWait_ms * 2 ** this.failures);
+    const wait = Math.min(maxWait_ms, minWait_ms * 2 ** this.failures);
     this.failures += 1;
-    this.cancel = this.wires.after(wait, () => this.start());
+    this.cancel = this.transport.after(wait, () => this.start());
     this.listener.lost(wait);
   }
 }
 
-/** The browser's own, to an address of the server. */
-export function browserWires(address: string): Wires {
+/** WebSockets of the browser, to an address of the server. */
+export function browserTransport(address: string): Transport {
   return {
     connect: () => new WebSocket(new URL(address, location.href)) as unknown as Socket,
     after: (ms, action) => {

@@ -14,7 +14,7 @@ function frame(robots: number[][], items: number[]): ArrayBuffer {
   return buffer;
 }
 
-test("a frame gives what was put in", () => {
+test("a frame survives a round trip", () => {
   const read = readFrame(
     frame(
       [
@@ -34,11 +34,11 @@ test("a frame is not copied", () => {
   expect(readFrame(buffer).robots.buffer).toBe(buffer);
 });
 
-test("a frame of no robots and no items is one", () => {
+test("a frame may have no robots and no items", () => {
   expect(readFrame(frame([], [])).count).toBe(0);
 });
 
-test("a frame cut anywhere is refused", () => {
+test("a truncated frame is refused", () => {
   const whole = frame(
     [
       [1, 2, 3, 0],
@@ -57,7 +57,7 @@ test("a frame with bytes after its end is refused", () => {
   expect(() => readFrame(longer.buffer)).toThrow(FrameError);
 });
 
-test("garbage and other versions are refused", () => {
+test("noise and other versions are refused", () => {
   const noise = Uint8Array.from({ length: 64 }, (_, i) => (i * 73 + 41) % 256);
   expect(() => readFrame(noise.buffer)).toThrow(FrameError);
   const other = frame([], []);
@@ -65,7 +65,7 @@ test("garbage and other versions are refused", () => {
   expect(() => readFrame(other)).toThrow(FrameError);
 });
 
-test("numbers of robots that no buffer can hold are refused", () => {
+test("robot counts that no buffer can hold are refused", () => {
   const huge = frame([], []);
   new DataView(huge).setUint32(12, 0xffffffff, true);
   expect(() => readFrame(huge)).toThrow(FrameError);

@@ -1,4 +1,4 @@
-/** Frames: what moves, at one tick. Nothing is copied: the arrays look into the buffer received. */
+/** Frames: the moving objects at one tick. The arrays are views of the received buffer, not copies. */
 import { FrameError } from "./frame_error";
 import type { Overlay } from "./overlay";
 
@@ -20,15 +20,15 @@ export interface Frame {
   generation: number;
   tick: number;
   time_s: number;
-  /** Number for `got`. */
+  /** Number to acknowledge with `got`. */
   number: number;
-  /** Robots. */
+  /** Number of robots. */
   count: number;
   /** (count, 4): x and y in the unit of the world, heading in rad, state. */
   robots: Float32Array;
-  /** One state an item. */
+  /** One state per item. */
   items: Uint8Array;
-  /** What lies over it, if layers were asked for. */
+  /** Present if layers were requested. */
   overlay?: Overlay | undefined;
 }
 
@@ -36,11 +36,11 @@ const version = 1;
 const headBytes = 32;
 const robotBytes = 16;
 
-/** The frame in a message; throws `FrameError` for what is none. */
+/** Decodes a frame. Throws `FrameError` if the message is not a frame. */
 export function readFrame(buffer: ArrayBuffer): Frame {
   if (buffer.byteLength < headBytes) throw new FrameError(`only ${buffer.byteLength} bytes`);
   const head = new DataView(buffer, 0, headBytes);
-  if (head.getUint32(0, true) !== version) throw new FrameError("another version");
+  if (head.getUint32(0, true) !== version) throw new FrameError("unsupported version");
   const count = head.getUint32(12, true);
   const items = head.getUint32(24, true);
   const robotsEnd = headBytes + robotBytes * count;

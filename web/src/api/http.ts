@@ -1,12 +1,12 @@
-import type { Checked, Engine, Fault, RecordingEntry, ScenarioEntry } from "./protocol";
-import { Refusal } from "./study";
+import type { ScenarioSummary, Engine, InputError, RecordingEntry, ScenarioEntry } from "./protocol";
+import { RequestError } from "./study";
 
 export async function scenarios(): Promise<ScenarioEntry[]> {
-  return (await asked("api/scenarios")).json() as Promise<ScenarioEntry[]>;
+  return (await request("api/scenarios")).json() as Promise<ScenarioEntry[]>;
 }
 
 export async function recordings(): Promise<RecordingEntry[]> {
-  return (await asked("api/recordings")).json() as Promise<RecordingEntry[]>;
+  return (await request("api/recordings")).json() as Promise<RecordingEntry[]>;
 }
 
 /** The address of a recording's file. */
@@ -16,32 +16,32 @@ export function recordingFile(id: string): string {
 
 /** The schema of an engine's scenarios. */
 export async function schema(engine: Engine): Promise<unknown> {
-  return (await asked(`api/schema?engine=${engine}`)).json();
+  return (await request(`api/schema?engine=${engine}`)).json();
 }
 
 export function picture(scenario: string): string {
   return `api/pictures?scenario=${encodeURIComponent(scenario)}`;
 }
 
-export type Verdict = { scenario: Checked } | { faults: Fault[] };
+export type CheckResult = { scenario: ScenarioSummary } | { faults: InputError[] };
 
-/** What the server says of a scenario's text. */
-export async function check(text: string): Promise<Verdict> {
-  const answer = await fetch("api/check", {
+/** Checks the text of a scenario. */
+export async function check(text: string): Promise<CheckResult> {
+  const response = await fetch("api/check", {
     method: "POST",
     headers: { "Content-Type": "application/toml" },
     body: text,
   });
-  if (answer.status === 422) return (await answer.json()) as { faults: Fault[] };
-  if (!answer.ok) throw new Error(`The server answered ${answer.status} ${answer.statusText}.`);
-  return { scenario: (await answer.json()) as Checked };
+  if (response.status === 422) return (await response.json()) as { faults: InputError[] };
+  if (!response.ok) throw new Error(`The server responded ${response.status} ${response.statusText}.`);
+  return { scenario: (await response.json()) as ScenarioSummary };
 }
 
-/** The server's answer; throws a `Refusal` with the server's words where it gives any. */
-export async function asked(path: string, request: RequestInit = {}): Promise<Response> {
-  const answer = await fetch(path, request);
-  if (answer.ok) return answer;
-  const said = (await answer.json().catch(() => null)) as { faults?: Fault[] } | null;
-  if (said?.faults) throw new Refusal(said.faults);
-  throw new Error(`The server answered ${answer.status} ${answer.statusText}.`);
+/** The server's response. Throws a `RequestError` with the server's messages if it sends any. */
+export async function request(path: string, options: RequestInit = {}): Promise<Response> {
+  const response = await fetch(path, options);
+  if (response.ok) return response;
+  const body = (await response.json().catch(() => null)) as { faults?: InputError[] } | null;
+  if (body?.faults) throw new RequestError(body.faults);
+  throw new Error(`The server responded ${response.status} ${response.statusText}.`);
 }

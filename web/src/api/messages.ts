@@ -1,8 +1,8 @@
 import type { Ended, Exported, MapPart, Opened, Refused, Saved, Saving, Setting, State } from "./protocol";
-import type { Studying } from "./study";
+import type { StudyProgress } from "./study";
 
 export type Message =
-  Opened | Setting | State | MapPart | Refused | Saving | Saved | Exported | Ended | Studying;
+  Opened | Setting | State | MapPart | Refused | Saving | Saved | Exported | Ended | StudyProgress;
 
 const types = [
   "opened",
@@ -17,7 +17,7 @@ const types = [
   "studying",
 ];
 
-/** The message in a text from the server; null if it is none that this page knows. */
+/** Decodes a message of the server; null if its type is unknown. */
 export function readMessage(text: string): Message | null {
   try {
     const message: unknown = JSON.parse(text);

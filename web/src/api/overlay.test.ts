@@ -2,7 +2,7 @@ import { expect, test } from "vitest";
 import { FrameError } from "./frame_error";
 import { readOverlay } from "./overlay";
 
-/** Numbers of 32 bits; those with a fraction are floats. */
+/** A message of 32-bit integers and floats. */
 function overlay(whole: number[], ...footprints: [number[], number[]][]): ArrayBuffer {
   const numbers = footprints.flatMap(([head, floats]) => [
     ...head.map((value) => ({ value, isFloat: false })),
@@ -30,7 +30,7 @@ const full = () =>
     ],
   );
 
-test("an overlay gives what was put in", () => {
+test("an overlay survives a round trip", () => {
   const { frame, links, footprints } = readOverlay(full());
   expect(frame).toBe(17);
   expect([...links]).toEqual([0, 1, 1, 3, 0, 0]);
@@ -44,11 +44,11 @@ test("an overlay gives what was put in", () => {
   ]);
 });
 
-test("an overlay without anything is one", () => {
+test("an overlay may be empty", () => {
   expect(readOverlay(overlay([2, 1, 0]))).toMatchObject({ frame: 1, footprints: [] });
 });
 
-test("an overlay cut within a part, and what is none, are refused", () => {
+test("truncated overlays and other messages are refused", () => {
   const whole = full();
   const ends = [36, 68];
   for (let bytes = 0; bytes < whole.byteLength; bytes += 4) {

@@ -1,47 +1,47 @@
-/** Overlays: what lies over a frame besides robots, at the same tick, of the layers that were asked for. */
+/** Overlays: sensor footprints and radio links at the tick of a frame, for the requested layers. */
 import { FrameError } from "./frame_error";
 
-/** What a sensor covers: its sector, as far as nothing hides it. */
+/** The area that a sensor covers: its sector, cut by occlusions. */
 export interface Footprint {
   /** Number of the robot. */
   robot: number;
   findsItems: boolean;
-  /** As far as it sees at all. */
+  /** The maximum range of the sensor. */
   range_m: number;
   /**
-   * (corners, 2): of its outline, bearing from the robot's front in rad, ascending, and distance. Between two at
-   * full range lies an arc, between others a straight line.
+   * (corners, 2): bearing in the robot's frame in rad, ascending, and distance. Two corners at full range are
+   * joined by an arc, others by a straight line.
    */
   corners: Float32Array;
 }
 
-export interface Overlay extends Told {
-  /** The robots of the frame that it lies over: those in the picture may be on their way to the next. */
+export interface Overlay extends OverlayData {
+  /** The robots of its frame. Drawn robots may be between this frame and the next. */
   robots: Float32Array;
 }
 
-/** An overlay as it comes. */
-export interface Told {
-  /** Number of the frame that it lies over. */
+/** An overlay as received. */
+export interface OverlayData {
+  /** Number of the frame that it belongs to. */
   frame: number;
-  /** (links, 3): the robot that is heard, the one that hears, and 1 if both hear each other. */
+  /** (links, 3): sender, receiver, and 1 if the link is two-way. */
   links: Uint32Array;
   footprints: Footprint[];
 }
 
-/** If there are more links than this, those of the selected robot are told, and some others. */
-export const mostLinks = 4000;
+/** Above this number of links, the server sends those of the selected robot and a part of the others. */
+export const maxLinks = 4000;
 export const overlayKind = 2;
 const headBytes = 12;
 const linkBytes = 12;
 const footprintBytes = 16;
 const cornerBytes = 8;
 
-/** The overlay in a message; throws `FrameError` for what is none. */
-export function readOverlay(buffer: ArrayBuffer): Told {
+/** Decodes an overlay. Throws `FrameError` if the message is not an overlay. */
+export function readOverlay(buffer: ArrayBuffer): OverlayData {
   if (buffer.byteLength < headBytes) throw new FrameError(`only ${buffer.byteLength} bytes`);
   const [kind, frame = 0, count = 0] = new Uint32Array(buffer, 0, 3);
-  if (kind !== overlayKind) throw new FrameError("no overlay");
+  if (kind !== overlayKind) throw new FrameError("not an overlay");
   const linksEnd = headBytes + linkBytes * count;
   if (buffer.byteLength < linksEnd) throw new FrameError(`${buffer.byteLength} bytes for ${count} links`);
   const links = new Uint32Array(buffer, headBytes, 3 * count);

@@ -1,4 +1,4 @@
-/** What page and server say to each other; names and shapes are those of the server. */
+/** Messages about runs. Names and shapes are those of the server. */
 export type Json = null | boolean | number | string | Json[] | { [key: string]: Json };
 export type Table = { [key: string]: Json };
 export type Point = [number, number];
@@ -16,7 +16,7 @@ export interface ScenarioEntry {
   where: "shipped" | "folder";
 }
 
-export interface Fault {
+export interface InputError {
   file: string | null;
   line: number | null;
   path: string;
@@ -26,7 +26,7 @@ export interface Fault {
   message: string;
 }
 
-export interface Checked {
+export interface ScenarioSummary {
   name: string;
   engine: Engine;
   summary: string;
@@ -35,46 +35,46 @@ export interface Checked {
 export interface RecordingEntry {
   id: string;
   bytes: number;
-  /** When, in seconds since 1970. */
+  /** Time of saving, in seconds since 1970. */
   saved_s: number;
-  /** Null if `fault` says what is wrong with it. */
+  /** Null if the file cannot be opened; `fault` gives the reason. */
   of: {
     scenario: string;
     seed: string;
     run: string;
     program: string;
-    /** Null if the file is cut. */
+    /** Null if the file is truncated. */
     steps: number | null;
     length_s: number | null;
   } | null;
   fault: string | null;
 }
 
-// From the page.
+// Page to server.
 
 /** A configuration of a study. */
-export interface OfStudy {
+export interface StudyConfiguration {
   id: string;
   configuration: number;
 }
 
-/** One of `scenario`, `text` and `study` says what runs. */
+/** Exactly one of `scenario`, `text`, `study` and `recording` is given. */
 export interface Open {
   type: "open";
   scenario: string | null;
   text: string | null;
-  study: OfStudy | null;
+  study: StudyConfiguration | null;
   recording: string | null;
-  /** Decimal, as it can be up to 2^64 - 1; left out for that of the study; a recording has its own. */
+  /** Decimal, 0 to 2^64 - 1. Left out for the study's own seed; ignored for a recording. */
   seed?: string;
   run: string;
-  /** Null for those of the recording. */
+  /** Null: the recording's changes. */
   changes: Change[] | null;
   tick: number;
 }
 
-/** What frames are to come with. */
-export interface Asked {
+/** The overlays that frames come with. */
+export interface OverlayRequest {
   links: boolean;
   footprints: boolean;
 }
@@ -93,10 +93,10 @@ export type Command =
   | { type: "cancel" }
   | { type: "export" }
   | { type: "select"; robot: string | null }
-  | ({ type: "layers" } & Asked)
+  | ({ type: "layers" } & OverlayRequest)
   | { type: "got"; frame: number };
 
-// From the server.
+// Server to page.
 
 export interface Opened {
   type: "opened";
@@ -109,7 +109,7 @@ export interface Opened {
   };
   seed: string;
   run: string;
-  /** Where the run comes from, and the version that recorded it. */
+  /** The recording that is replayed, and the version that made it. */
   recording: { id: string; program: string } | null;
 }
 
@@ -129,12 +129,12 @@ export interface RingView {
 export interface KindView {
   name: string;
   count: number;
-  /** As all of a setting's places, in the unit of its world. */
+  /** In the unit of the world, as all lengths of a setting. */
   radius: number;
   flies: boolean;
   radio_range_m: number | null;
   sensors: SensorView[];
-  /** The rays of its range sensors, in the order in which percepts have their scans. */
+  /** Rays of the range sensors, in the order of the scans in percepts. */
   rings: RingView[];
 }
 
@@ -142,7 +142,7 @@ export interface ItemView {
   kind: string;
   at: Point;
   target: boolean;
-  /** Outlines of where robots must be to find it, if there are such. */
+  /** Outlines of the areas in which robots find it, where the engine has them. */
   contact: Point[][];
 }
 
@@ -150,7 +150,7 @@ export interface MapView {
   corners: [Point, Point, Point, Point];
   columns: number;
   rows: number;
-  /** Base64 of a byte a cell; row 0 lies at the side from corner 0 to corner 1. */
+  /** Base64, one byte per cell; row 0 is the edge from corner 0 to corner 1. */
   cells: string;
 }
 
@@ -158,26 +158,26 @@ export interface WorldView {
   size: Point;
   periodic: boolean;
   unit: "m" | "px";
-  /** How wide its cells are; null where there are none. */
+  /** Cell width; null for a world without cells. */
   cell: number | null;
 }
 
 export interface Setting {
   type: "setting";
   generation: number;
-  /** Time in the world that a step takes. */
+  /** Simulated time per step. */
   step_s: number;
   world: WorldView;
   document: Table;
   robots: string[];
   kinds: KindView[];
   items: ItemView[];
-  /** In the order of the numbers that minds know them by. */
+  /** In the order of the kind numbers in beliefs. */
   item_kinds: string[];
   maps: MapView[];
-  /** Those made by now. */
+  /** Changes up to the current tick. */
   changes: Change[];
-  /** Those up to the edge; null if they are the recording's. */
+  /** Changes up to the last computed tick; null: the recording's changes. */
   log: Change[] | null;
 }
 
@@ -219,28 +219,28 @@ export interface Goal {
   is_pursued: boolean;
 }
 
-export interface Course {
+export interface HeadingOption {
   bearing_rad: number;
   free_m: number;
-  /** The place that it would get to, from the robot's front. */
+  /** The point that it leads to, in the robot's frame. */
   at: Point;
   utility: number;
 }
 
-export interface Reach {
-  /** The next place on its way, from the robot's front. */
+export interface HeadingOptions {
+  /** The next waypoint, in the robot's frame. */
   to: Point;
-  /** Which of the courses it took. */
+  /** Index of the chosen option. */
   taken: number;
-  courses: Course[];
+  courses: HeadingOption[];
 }
 
-export interface Thoughts {
+export interface BeliefState {
   pose: Pose | null;
   items: BelievedItem[];
   robots: BelievedRobot[];
   goals: Goal[];
-  reach: Reach | null;
+  reach: HeadingOptions | null;
 }
 
 export interface Reading<T> {
@@ -279,34 +279,34 @@ export interface Percept {
   looks: { sensor: number; age_s: number }[];
   contacts: Contact[];
   neighbours: Neighbour[];
-  inbox: { age_s: number; message: Said }[];
+  inbox: { age_s: number; message: RobotMessage }[];
 }
 
-/** A message between robots: what it is about is its only key. */
-export interface Said {
+/** A message between robots; the only key of `about` is its subject. */
+export interface RobotMessage {
   about: { [about: string]: Json };
   confidence: number;
 }
 
-export interface Decided {
+export interface RobotCommand {
   motion: Motion;
   requests: { sensor: number; on: boolean }[];
-  outbox: Said[];
+  outbox: RobotMessage[];
 }
 
-/** What a robot perceived and decided in one step of its brain; null if it has not, but for `thoughts`. */
-export interface Mind {
+/** One step of a robot's brain. Fields other than the beliefs are null before its first step. */
+export interface Inspection {
   robot: string;
   tick: number | null;
   percept: Percept | null;
-  command: Decided | null;
-  /** Place of the behaviour that has its way; null if none has, or all count together. */
+  command: RobotCommand | null;
+  /** Index of the active behaviour; null if none is active, or if the output blends all. */
   leading: number | null;
   holds_s: number[] | null;
-  thoughts: Thoughts | null;
+  thoughts: BeliefState | null;
 }
 
-/** What a robot believes of its field: the cells of a rectangle, the others are as they were. */
+/** A rectangle of a robot's believed map; other cells are unchanged. */
 export interface MapPart {
   type: "map";
   robot: string;
@@ -316,17 +316,17 @@ export interface MapPart {
   rows: number;
   from: [column: number, row: number];
   size: [columns: number, rows: number];
-  /** Base64 of a byte a cell, the lowest row first: 0 to 100 percent filled, 255 unknown. */
+  /** Base64, one byte per cell, bottom row first: 0 to 100 percent occupied, 255 unknown. */
   occupancy: string;
-  /** The same: 0 to 100 percent that an item there would not have been seen. */
+  /** Likewise: probability in percent that an item in the cell was not detected. */
   unseen: string;
 }
 
-/** What an engine tells of the selected robot, besides its mind. */
+/** What the engine reports about the selected robot besides the inspection. */
 export interface RobotView {
   name: string;
   facts: [name: string, text: string][];
-  /** Outlines of the cells that it would look at if it decided now. */
+  /** Outlines of the cells that its next decision would observe. */
   looks: Point[][];
 }
 
@@ -340,27 +340,27 @@ export interface State {
   hash: string;
   playing: boolean;
   speed: Speed;
-  /** Times real time that is reached. */
+  /** Actual speed, in multiples of real time. */
   real: number;
-  /** The tick that it is on its way to; null if it stands or plays. */
+  /** The tick that the run is computing towards; null if it is paused or playing. */
   aim: number | null;
   over: boolean;
-  /** The tick at which the run was found not to be as recorded. */
+  /** The first tick at which the run differs from the recording. */
   differs_at: number | null;
   outcome: Outcome;
-  mind: Mind | null;
+  mind: Inspection | null;
   robot: RobotView | null;
 }
 
 export interface Refused {
   type: "refused";
   about: string;
-  /** Of the change that was refused. */
+  /** Path of the refused change. */
   path: string | null;
-  faults: Fault[];
+  faults: InputError[];
 }
 
-/** How far a recording is. */
+/** Progress of saving a recording. */
 export interface Saving {
   type: "saving";
   done: number;

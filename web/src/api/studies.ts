@@ -1,29 +1,37 @@
-import { asked } from "./http";
-import type { Ask, Asked, Factors, Listed, Planned, Study, StudyRuns } from "./study";
+import { request } from "./http";
+import type {
+  Factors,
+  ScenarioSource,
+  Study,
+  StudyPlan,
+  StudyRequest,
+  StudyRuns,
+  StudySummary,
+} from "./study";
 
-export function factors(of: Asked): Promise<Factors> {
-  return post("api/factors", of);
+export function factors(source: ScenarioSource): Promise<Factors> {
+  return post("api/factors", source);
 }
 
-export function plan(ask: Ask, signal?: AbortSignal): Promise<Planned> {
-  return post("api/plan", ask, signal);
+export function plan(study: StudyRequest, signal?: AbortSignal): Promise<StudyPlan> {
+  return post("api/plan", study, signal);
 }
 
-export async function studies(): Promise<Listed[]> {
-  const { studies } = await get<{ studies: Listed[] }>("api/studies");
+export async function studies(): Promise<StudySummary[]> {
+  const { studies } = await get<{ studies: StudySummary[] }>("api/studies");
   return studies;
 }
 
-export function start(ask: Ask): Promise<Listed> {
-  return post("api/studies", ask);
+export function start(study: StudyRequest): Promise<StudySummary> {
+  return post("api/studies", study);
 }
 
-export function stop(id: string): Promise<Listed> {
+export function stop(id: string): Promise<StudySummary> {
   return post("api/studies/stop", { id });
 }
 
-/** Goes on with a study; with a confidence it is tightened to that. */
-export function resume(id: string, confidence: number | null): Promise<Listed> {
+/** Resumes a study, with a higher confidence if given. */
+export function resume(id: string, confidence: number | null): Promise<StudySummary> {
   return post("api/studies/resume", { id, confidence });
 }
 
@@ -35,7 +43,7 @@ export function runsOf(id: string, configuration: number, first: number, count: 
   return get(runsAt(id, configuration, { first, count }));
 }
 
-/** Runs from the worst to the best, at evenly spaced quantiles of their merits. */
+/** Runs at evenly spaced quantiles of their merit, from worst to best. */
 export function sampleOf(id: string, configuration: number, sample: number): Promise<StudyRuns> {
   return get(runsAt(id, configuration, { sample }));
 }
@@ -49,17 +57,17 @@ function runsAt(id: string, configuration: number, more: Record<string, number>)
   return `api/study/runs?${new URLSearchParams([["id", id], ...numbers])}`;
 }
 
-async function get<Answer>(path: string): Promise<Answer> {
-  return (await asked(path)).json() as Promise<Answer>;
+async function get<Response>(path: string): Promise<Response> {
+  return (await request(path)).json() as Promise<Response>;
 }
 
-async function post<Answer>(path: string, body: object, signal?: AbortSignal): Promise<Answer> {
+async function post<Response>(path: string, body: object, signal?: AbortSignal): Promise<Response> {
   const headers = { "Content-Type": "application/json" };
-  const answer = await asked(path, {
+  const response = await request(path, {
     method: "POST",
     headers,
     body: JSON.stringify(body),
     ...(signal ? { signal } : {}),
   });
-  return answer.json() as Promise<Answer>;
+  return response.json() as Promise<Response>;
 }

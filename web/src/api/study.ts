@@ -1,23 +1,23 @@
-/** What page and server say to each other of studies; names and shapes are those of the server. */
-import type { Engine, Fault } from "./protocol";
+/** Messages about studies. Names and shapes are those of the server. */
+import type { Engine, InputError } from "./protocol";
 
 export type StudyState = "running" | "answered" | "stopped" | "damaged";
 export type Value = number | string | boolean;
 export type Guarantee = "indifference" | "pgs";
 
-/** A scenario of the server's by its id, or the text of one: exactly one of them. */
-export type Asked = { scenario: string; text: null } | { scenario: null; text: string };
+/** A scenario of the server by id, or the text of one: exactly one of the two. */
+export type ScenarioSource = { scenario: string; text: null } | { scenario: null; text: string };
 
 export interface Factor {
   path: string;
-  /** Null if the scenario does not say. */
+  /** Null if the scenario does not set it. */
   value: Value | null;
   low: number | null;
   high: number | null;
   whole: boolean;
-  /** What there is to choose from, if it is no number. */
+  /** The choices, if it is not a number. */
   values: Value[] | null;
-  /** How the scenario varies it itself, such as `1..8`. */
+  /** The scenario's own range, such as `1..8`. */
   varied: string | null;
 }
 
@@ -33,7 +33,7 @@ export interface Factors {
   confidence: number;
 }
 
-export type Ask = Asked & {
+export type StudyRequest = ScenarioSource & {
   vary: Record<string, string>;
   design: string | null;
   delta: number | null;
@@ -45,24 +45,24 @@ export type Ask = Asked & {
   seed: string;
 };
 
-export interface Planned {
+export interface StudyPlan {
   id: string;
   name: string;
   configurations: number;
-  /** Of the first configurations. */
+  /** Labels of the first configurations. */
   labels: string[];
   words: string;
   delta: number;
   confidence: number;
   guarantee: Guarantee;
   merit: string;
-  /** Of each either values or a range. */
+  /** Each has either values or a range. */
   factors: { path: string; values: Value[]; range: [low: number, high: number] | null }[];
-  /** Of the study that is in this folder already. */
+  /** State of the study that exists in this folder; null if there is none. */
   state: StudyState | null;
 }
 
-export interface Listed {
+export interface StudySummary {
   id: string;
   name: string;
   engine: Engine;
@@ -92,7 +92,7 @@ export interface StudySection {
   title: string;
   words: string[];
   charts: string[];
-  /** What each chart shows, in words. */
+  /** The caption of each chart. */
   captions: Record<string, string>;
   tables: StudyTable[];
   folded: boolean;
@@ -120,8 +120,8 @@ export interface StudyAnswer {
   results: Result[];
 }
 
-export interface Study extends Listed {
-  planned: Planned;
+export interface Study extends StudySummary {
+  planned: StudyPlan;
   source: { scenario: string | null };
   answer: StudyAnswer | null;
 }
@@ -150,8 +150,8 @@ export type Standing = [
 ];
 export type Elimination = [configuration: number, by: number, runs: number];
 
-/** How a study stands; comes at most five times a second. */
-export interface Studying {
+/** Progress of a study, at most five times per second. */
+export interface StudyProgress {
   type: "studying";
   state: StudyState;
   message: string | null;
@@ -163,17 +163,17 @@ export interface Studying {
   survivors: number;
   left_runs: number | null;
   left_s: number | null;
-  /** Those still in, best first, 50 at most. */
+  /** The remaining configurations, best first, at most 50. */
   standings: Standing[];
-  /** All so far, in their order. */
+  /** All so far, in order. */
   eliminated: Elimination[];
-  /** Of all configurations; in the first message only. */
+  /** Labels of all configurations; in the first message only. */
   labels: string[] | null;
 }
 
-/** Why the server did not do what it was asked. */
-export class Refusal extends Error {
-  constructor(readonly faults: Fault[]) {
-    super(faults.map((fault) => fault.message).join(" "));
+/** The server refused a request. */
+export class RequestError extends Error {
+  constructor(readonly errors: InputError[]) {
+    super(errors.map((error) => error.message).join(" "));
   }
 }

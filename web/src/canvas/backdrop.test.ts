@@ -14,11 +14,11 @@ function picture(width: number, height: number, spots: [number, number][]) {
   return { width, height, data };
 }
 
-test("a picture of nothing but plain colours needs no tile", () => {
+test("a picture of plain colours needs no tiles", () => {
   expect(stripsOf(picture(96, 64, []), ground, white, grey)).toEqual([]);
 });
 
-test("each pixel of another colour is in a tile, and neighbours make one box", () => {
+test("each pixel of another colour is in a tile, and adjacent tiles are merged", () => {
   const spots: [number, number][] = [
     [20, 20],
     [24, 21],
@@ -32,16 +32,16 @@ test("each pixel of another colour is in a tile, and neighbours make one box", (
   ]);
 });
 
-test("a line across the whole picture is one box, whichever way it goes", () => {
+test("a line across the whole picture is one box", () => {
   const line = Array.from({ length: 64 }, (_, y): [number, number] => [40, y]);
   expect(stripsOf(picture(96, 64, line), ground, white, grey)).toEqual([[40, 0, 4, 64]]);
 });
 
-test("tiles that cross the ground's edge are drawn, as they have two colours", () => {
+test("tiles that cross the edge of the ground are drawn", () => {
   const crossing: Box = [14, 16, 66, 32];
   expect(stripsOf(picture(96, 64, []), crossing, white, grey)).toEqual([[12, 16, 4, 32]]);
 });
 
-test("tiles at the edge are as small as what is left of the picture", () => {
+test("tiles at the edge are cut to the picture", () => {
   expect(stripsOf(picture(90, 50, [[89, 49]]), ground, white, grey)).toEqual([[88, 48, 2, 2]]);
 });

@@ -14,10 +14,10 @@ precision highp float; uniform highp sampler2D still; uniform vec2 size; out vec
 void main() { shown = texelFetch(still, ivec2(gl_FragCoord.x, size.y - gl_FragCoord.y), 0); }`;
 
 /**
- * What stands still, beneath the robots on the same canvas. Without a graphics card a picture of it under
- * a transparent canvas costs ten milliseconds a frame, as every pixel is blended. So the two plain colours,
- * of the ground and of what is outside, are wiped in, which costs next to nothing, and of the picture only
- * those tiles are drawn that show anything else.
+ * Draws the still layers below the robots on the same canvas. Without a graphics card, a second canvas below
+ * a transparent one costs 10 ms per frame, as every pixel is blended. So the two plain colours, of the ground
+ * and outside it, are drawn by clearing, which is nearly free, and only tiles with other colours are drawn
+ * from the picture.
  */
 export class Backdrop {
   private readonly program: WebGLProgram;
@@ -43,7 +43,7 @@ export class Backdrop {
     gl.activeTexture(gl.TEXTURE0);
   }
 
-  /** Takes a picture whose plain parts have the colours given, red to blue, 0 to 1. */
+  /** Sets the picture and its two plain colours (red, green, blue; 0 to 1). */
   set(picture: ImageData, ground: Box, groundColour: number[], outsideColour: number[]): void {
     const { gl } = this;
     this.ground = ground;
@@ -63,10 +63,10 @@ export class Backdrop {
     const [width, height] = [gl.drawingBufferWidth, gl.drawingBufferHeight];
     const [left, top, wide, high] = this.ground;
     gl.viewport(0, 0, width, height);
-    this.wipe(this.plain[1]);
+    this.clear(this.plain[1]);
     gl.enable(gl.SCISSOR_TEST);
     gl.scissor(left, height - top - high, wide, high);
-    this.wipe(this.plain[0]);
+    this.clear(this.plain[0]);
     gl.disable(gl.SCISSOR_TEST);
     if (this.count === 0) return;
     gl.useProgram(this.program);
@@ -76,13 +76,13 @@ export class Backdrop {
     gl.disableVertexAttribArray(1);
   }
 
-  private wipe([red = 0, green = 0, blue = 0]: number[]): void {
+  private clear([red = 0, green = 0, blue = 0]: number[]): void {
     this.gl.clearColor(red, green, blue, 1);
     this.gl.clear(this.gl.COLOR_BUFFER_BIT);
   }
 }
 
-/** Boxes of tiles that show something else than the plain colour of where they are. */
+/** Boxes of tiles that differ from the plain colour at their position. */
 export function stripsOf(
   { width, height, data }: Pick<ImageData, "width" | "height" | "data">,
   ground: Box,
@@ -91,7 +91,7 @@ export function stripsOf(
 ): Box[] {
   const pixels = new Uint32Array(data.buffer, data.byteOffset, width * height);
   const strips: Box[] = [];
-  /** Where in `strips` those of the row above are, by their left side and width. */
+  /** Index in `strips` of the strips that end in the row above, by left side and width. */
   let above = new Map<string, number>();
   for (let top = 0; top < height; top += tile_px) {
     const high = Math.min(tile_px, height - top);
@@ -110,7 +110,7 @@ export function stripsOf(
   return strips;
 }
 
-/** Of a row of tiles the runs of those that have to be drawn. */
+/** The runs of tiles in a row that must be drawn. */
 function runsOf(
   pixels: Uint32Array,
   width: number,
@@ -120,20 +120,20 @@ function runsOf(
   outsideColour: number,
 ): Box[] {
   const runs: Box[] = [];
-  let goesOn = false;
+  let isRun = false;
   for (let left = 0; left < width; left += tile_px) {
     const tile: Box = [left, top, Math.min(tile_px, width - left), high];
     const last = runs.at(-1);
-    const isDrawn = !isAsWiped(pixels, width, tile, ground, groundColour, outsideColour);
-    if (isDrawn && goesOn && last) last[2] += tile[2];
+    const isDrawn = !isCleared(pixels, width, tile, ground, groundColour, outsideColour);
+    if (isDrawn && isRun && last) last[2] += tile[2];
     else if (isDrawn) runs.push(tile);
-    goesOn = isDrawn;
+    isRun = isDrawn;
   }
   return runs;
 }
 
-/** Whether a tile shows nothing but the plain colour that is wiped in where it lies. */
-function isAsWiped(
+/** Whether a tile has only the plain colour that clearing gives it. */
+function isCleared(
   pixels: Uint32Array,
   width: number,
   tile: Box,
@@ -169,7 +169,7 @@ function cornersOf(strips: Box[]): Float32Array {
   return corners;
 }
 
-/** As a pixel of an `ImageData` reads in one go, on machines that store low bytes first: all there are. */
+/** A pixel of an `ImageData` as one integer (little-endian, as on all current machines). */
 export function packed([red = 0, green = 0, blue = 0]: number[]): number {
   const byte = (value: number) => Math.round(255 * value);
   return ((255 << 24) | (byte(blue) << 16) | (byte(green) << 8) | byte(red)) >>> 0;

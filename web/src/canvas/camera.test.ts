@@ -3,7 +3,7 @@ import { type Camera, fitTo, pan, toScreen, toWorld, zoomAt } from "./camera";
 
 const camera: Camera = { x: 12, y: 7, scale: 20, width: 640, height: 480 };
 
-test("screen and world are each other's inverse", () => {
+test("screen and world coordinates are inverses", () => {
   const [px, py] = toScreen(camera, 3.5, 9.25);
   const [x, y] = toWorld(camera, px, py);
   expect(x).toBeCloseTo(3.5, 10);
@@ -19,14 +19,14 @@ test.each([
   [600, 470, 0.2],
   [0, 0, 1e6],
   [320, 240, 1e-9],
-])("zooming at (%d, %d) by %d keeps the point of the world under the pointer", (px, py, factor) => {
+])("zooming at (%d, %d) by %d keeps the point under the pointer", (px, py, factor) => {
   const before = toWorld(camera, px, py);
   const after = toWorld(zoomAt(camera, px, py, factor), px, py);
   expect(after[0]).toBeCloseTo(before[0], 8);
   expect(after[1]).toBeCloseTo(before[1], 8);
 });
 
-test("panning moves a point by as many pixels as the pointer", () => {
+test("panning moves a point with the pointer", () => {
   const before = toScreen(camera, 1, 2);
   const after = toScreen(pan(camera, 15, -40), 1, 2);
   expect(after[0] - before[0]).toBeCloseTo(15, 8);

@@ -1,6 +1,6 @@
 import type { Point } from "../api/protocol";
 
-/** What of the world is seen: its centre, pixels a metre (or whatever its unit is), and the picture's size in pixels. */
+/** The view of the world: centre, scale in pixels per unit of the world, and size in pixels. */
 export interface Camera {
   x: number;
   y: number;
@@ -9,12 +9,12 @@ export interface Camera {
   height: number;
 }
 
-const leastScale = 1e-3;
-const greatestScale = 5000;
+const minScale = 1e-3;
+const maxScale = 5000;
 const marginPx = 24;
 
 export function clampScale(scale: number): number {
-  return Math.min(greatestScale, Math.max(leastScale, scale));
+  return Math.min(maxScale, Math.max(minScale, scale));
 }
 
 export function toScreen(camera: Camera, x: number, y: number): Point {
@@ -37,7 +37,7 @@ export function fitTo(world: Point, width: number, height: number): Camera {
   return { x: world[0] / 2, y: world[1] / 2, scale: clampScale(scale), width, height };
 }
 
-/** Nearer by `factor`; what is under the pixel stays there. */
+/** Zooms by `factor`, keeping the point under the pixel fixed. */
 export function zoomAt(camera: Camera, px: number, py: number, factor: number): Camera {
   const [x, y] = toWorld(camera, px, py);
   const scale = clampScale(camera.scale * factor);
@@ -49,12 +49,12 @@ export function zoomAt(camera: Camera, px: number, py: number, factor: number): 
   };
 }
 
-/** The picture moves by so many pixels. */
+/** Moves the view by a number of pixels. */
 export function pan(camera: Camera, dx: number, dy: number): Camera {
   return { ...camera, x: camera.x - dx / camera.scale, y: camera.y + dy / camera.scale };
 }
 
-/** The same centre in a picture of another size. */
+/** The same centre in a view of another size. */
 export function resize(camera: Camera, width: number, height: number): Camera {
   return { ...camera, width, height };
 }

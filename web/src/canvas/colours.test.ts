@@ -1,10 +1,10 @@
 import { expect, test } from "vitest";
-import { inFull, rgb } from "./colours";
+import { expandHex, rgb } from "./colours";
 
-test("colours that were shortened are the same colours", () => {
-  expect(inFull("#fff")).toBe("#ffffff");
-  expect(inFull("#1a5")).toBe("#11aa55");
-  expect(inFull("#1a5fd0")).toBe("#1a5fd0");
+test("shortened colours are expanded", () => {
+  expect(expandHex("#fff")).toBe("#ffffff");
+  expect(expandHex("#1a5")).toBe("#11aa55");
+  expect(expandHex("#1a5fd0")).toBe("#1a5fd0");
 });
 
 test("a colour is split into red, green and blue", () => {

@@ -1,4 +1,4 @@
-/** Colours of the canvases, which are those of the style sheet (`styles/theme.css`). */
+/** Colours of the canvases, read from the style sheet (`shared/styles/theme.css`). */
 const names = [
   "ground",
   "outside",
@@ -43,12 +43,12 @@ export const robotColours: ColourName[] = [
 
 export function readColours(): Colours {
   const style = getComputedStyle(document.documentElement);
-  const named = names.map((name) => [name, inFull(style.getPropertyValue(`--${name}`).trim())]);
+  const named = names.map((name) => [name, expandHex(style.getPropertyValue(`--${name}`).trim())]);
   return Object.fromEntries(named) as Colours;
 }
 
-/** What builds the page shortens colours, `#ffffff` to `#fff`. */
-export function inFull(colour: string): string {
+/** The build shortens colours, `#ffffff` to `#fff`. */
+export function expandHex(colour: string): string {
   const short = /^#([0-9a-f])([0-9a-f])([0-9a-f])$/i.exec(colour);
   return short
     ? `#${short
@@ -64,7 +64,7 @@ export function rgb(colour: string): [number, number, number] {
   return [(value >> 16) / 255, ((value >> 8) & 255) / 255, (value & 255) / 255];
 }
 
-/** Calls when the system goes from light to dark or back; gives what stops that. */
+/** Calls `action` when the theme changes; returns a function that stops this. */
 export function onThemeChange(action: () => void): () => void {
   const dark = matchMedia("(prefers-color-scheme: dark)");
   dark.addEventListener("change", action);

@@ -14,10 +14,10 @@ export interface Canvases {
   over: HTMLCanvasElement;
 }
 
-/** Which layers are shown, by their names. */
+/** Whether each layer is shown, by id. */
 export type Shown = Record<string, boolean>;
 
-/** The two canvases of the picture, of which is drawn anew what has to be. */
+/** Draws a scene on two canvases and redraws only what has changed. */
 export class Drawing {
   private readonly still = new Surface(document.createElement("canvas"), true);
   private readonly over: Surface;
@@ -39,25 +39,25 @@ export class Drawing {
     });
   }
 
-  /** What stands still is to be drawn anew. */
-  stale(): void {
+  /** Marks the still layers as out of date. */
+  invalidate(): void {
     this.isStale = true;
   }
 
   recolour(): void {
     this.colours = readColours();
     this.painter.setColours(this.colours);
-    this.forget();
+    this.reset();
   }
 
   resize(width: number, height: number): void {
     const { robots, over } = this.canvases;
     for (const canvas of [this.still.canvas, robots, over]) sizeTo(canvas, width, height);
-    this.forget();
+    this.reset();
   }
 
   draw(scene: Scene, camera: Camera, shown: Shown): void {
-    if (scene.frame !== this.drawn) this.lookAtItems(scene.frame);
+    if (scene.frame !== this.drawn) this.checkItems(scene.frame);
     if (this.isStale) this.drawStill(scene, camera, shown);
     this.isStale = false;
     this.painter.paint(scene.frame, rangesOf(scene.setting), camera, scene.frame !== this.drawn);
@@ -65,8 +65,8 @@ export class Drawing {
     this.drawOver(scene, camera, shown);
   }
 
-  /** Both canvases in one, as drawn just now: WebGL keeps no picture once it was shown. */
-  flat(): HTMLCanvasElement {
+  /** Both canvases in one. Must follow a draw in the same task, as WebGL discards its buffer afterwards. */
+  snapshot(): HTMLCanvasElement {
     const { robots, over } = this.canvases;
     const whole = new Surface(document.createElement("canvas"));
     [whole.canvas.width, whole.canvas.height] = [robots.width, robots.height];
@@ -75,7 +75,7 @@ export class Drawing {
     return whole.canvas;
   }
 
-  private forget(): void {
+  private reset(): void {
     this.isStale = true;
     this.drawn = null;
   }
@@ -108,8 +108,8 @@ export class Drawing {
     }
   }
 
-  /** Items stand still until they are found. */
-  private lookAtItems(frame: Frame | null): void {
+  /** Items belong to the still layers; their state changes only when they are found. */
+  private checkItems(frame: Frame | null): void {
     const items = frame?.items.join("") ?? "";
     if (items !== this.items) this.isStale = true;
     this.items = items;
@@ -120,13 +120,13 @@ function isShown(layer: Layer, place: Layer["place"], scene: Scene, shown: Shown
   return layer.place === place && shown[layer.id] === true && layer.active(scene);
 }
 
-/** The pixels that are all ground: where it ends within one, that one is not. */
+/** The pixels that are entirely ground; partly covered ones are excluded. */
 function groundBox(camera: Camera, { world }: Scene): Box {
   const ratio = pixelRatio();
-  const inside = (value: number, most: number) => Math.min(most, Math.max(0, value));
+  const clamp = (value: number, max: number) => Math.min(max, Math.max(0, value));
   const [left, top] = toScreen(camera, 0, world.size[1]).map((value) => Math.ceil(value * ratio));
   const [right, bottom] = toScreen(camera, world.size[0], 0).map((value) => Math.floor(value * ratio));
   const [width, height] = [camera.width * ratio, camera.height * ratio];
-  const [x, y] = [inside(left ?? 0, width), inside(top ?? 0, height)];
-  return [x, y, Math.max(0, inside(right ?? 0, width) - x), Math.max(0, inside(bottom ?? 0, height) - y)];
+  const [x, y] = [clamp(left ?? 0, width), clamp(top ?? 0, height)];
+  return [x, y, Math.max(0, clamp(right ?? 0, width) - x), Math.max(0, clamp(bottom ?? 0, height) - y)];
 }

@@ -14,7 +14,7 @@ function frame(number: number, generation = 1): Frame {
   };
 }
 
-test("of frames that come faster than they are drawn the latest is taken, and acknowledged for all", () => {
+test("of several waiting frames the latest is taken, and acknowledged for all", () => {
   const acknowledged: number[] = [];
   const frames = new FrameQueue((number) => acknowledged.push(number));
   for (const number of [1, 2, 3]) frames.put(frame(number));
@@ -26,7 +26,7 @@ test("of frames that come faster than they are drawn the latest is taken, and ac
   expect(frames.take(1)).toBeNull();
 });
 
-test("a frame of another generation is acknowledged and not shown", () => {
+test("a frame of another generation is acknowledged and not drawn", () => {
   const acknowledged: number[] = [];
   const frames = new FrameQueue((number) => acknowledged.push(number));
   frames.put(frame(1, 2));

@@ -1,11 +1,11 @@
 import type { Frame } from "../api/frames";
 
 /**
- * Frames on their way to the screen: only the latest is drawn, and its acknowledgement is one of all before it.
- * So a page that draws slowly, or is not seen, is sent no more than it draws.
+ * Frames that wait to be drawn: only the latest is drawn, and its acknowledgement covers all before it.
+ * So a page that draws slowly, or is hidden, receives no more frames than it draws.
  */
 export class FrameQueue {
-  /** The last one that was taken to be drawn. */
+  /** The last frame that was taken. */
   shown: Frame | null = null;
   private waiting: Frame | null = null;
 
@@ -15,7 +15,7 @@ export class FrameQueue {
     this.waiting = frame;
   }
 
-  /** The frame to draw now; null if there is nothing new. It is acknowledged by `drawn`. */
+  /** The frame to draw; null if there is none. `drawn` acknowledges it. */
   take(generation: number): Frame | null {
     const frame = this.waiting;
     this.waiting = null;
@@ -28,7 +28,7 @@ export class FrameQueue {
     this.acknowledge(frame.number);
   }
 
-  /** Forgets what was of another line. */
+  /** Drops the frame of a previous connection. */
   clear(): void {
     this.waiting = null;
   }

@@ -1,6 +1,6 @@
-/** What all WebGL2 programs of the page need. */
+/** Helpers for WebGL2 programs. */
 
-export class GlFault extends Error {}
+export class GlError extends Error {}
 
 export function programOf(gl: WebGL2RenderingContext, vertex: string, fragment: string): WebGLProgram {
   const program = gl.createProgram();
@@ -8,32 +8,32 @@ export function programOf(gl: WebGL2RenderingContext, vertex: string, fragment: 
   gl.attachShader(program, shader(gl, gl.FRAGMENT_SHADER, fragment));
   gl.linkProgram(program);
   if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost()) {
-    throw new GlFault(gl.getProgramInfoLog(program) ?? "does not link");
+    throw new GlError(gl.getProgramInfoLog(program) ?? "does not link");
   }
   return program;
 }
 
-/** Whether the processor does a graphics card's work, as far as the browser tells. */
+/** Whether WebGL is rendered by the CPU, as far as the browser reports it. */
 export function isSoftware(gl: WebGL2RenderingContext): boolean {
-  const told = gl.getExtension("WEBGL_debug_renderer_info");
-  const name = String(gl.getParameter(told ? told.UNMASKED_RENDERER_WEBGL : gl.RENDERER));
+  const info = gl.getExtension("WEBGL_debug_renderer_info");
+  const name = String(gl.getParameter(info ? info.UNMASKED_RENDERER_WEBGL : gl.RENDERER));
   return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
 }
 
 function shader(gl: WebGL2RenderingContext, type: number, source: string): WebGLShader {
   const made = gl.createShader(type);
-  if (!made) throw new GlFault("no shader");
+  if (!made) throw new GlError("no shader");
   gl.shaderSource(made, source);
   gl.compileShader(made);
   if (!gl.getShaderParameter(made, gl.COMPILE_STATUS) && !gl.isContextLost()) {
-    throw new GlFault(gl.getShaderInfoLog(made) ?? "does not compile");
+    throw new GlError(gl.getShaderInfoLog(made) ?? "does not compile");
   }
   return made;
 }
 
 /**
- * Numbers of the corners of quads, two triangles each, 4 corners a quad: named so, each corner is computed
- * once, not for either triangle.
+ * Indices of quads, two triangles and four corners each: with indices, each corner is computed once, not for
+ * both triangles.
  */
 export class QuadIndices {
   private readonly buffer: WebGLBuffer;
@@ -49,7 +49,7 @@ export class QuadIndices {
     gl.drawElements(gl.TRIANGLES, 6 * count, gl.UNSIGNED_INT, 6 * first * Uint32Array.BYTES_PER_ELEMENT);
   }
 
-  /** Has room for so many. */
+  /** Makes room for a number of quads. */
   grow(quads: number): void {
     if (quads <= this.quads) return;
     this.quads = quads;
@@ -62,7 +62,7 @@ export class QuadIndices {
 
 export const rowTexels = 1024;
 
-/** A texture of a frame's floats as they are: a texel a robot, 1024 a row. */
+/** A texture of a frame's floats: one texel per robot, 1024 per row. */
 export class RobotTexture {
   private readonly texture: WebGLTexture;
   private rows = 0;
@@ -75,7 +75,7 @@ export class RobotTexture {
     }
   }
 
-  /** Whole rows, then what is left of one: so nothing need be copied to fill it up. */
+  /** Whole rows first, then a partial row, so that no padded copy is needed. */
   put(robots: Float32Array, count: number): void {
     this.grow(Math.ceil(count / rowTexels));
     const whole = Math.floor(count / rowTexels);

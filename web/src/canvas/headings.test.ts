@@ -1,8 +1,8 @@
 import { expect, test } from "vitest";
-import type { Reach } from "../api/protocol";
-import { mixed, placeOf, worths } from "./headings";
+import type { HeadingOptions } from "../api/protocol";
+import { mixColours, relativeUtilities, toWorldFrame } from "./headings";
 
-function told(...utilities: number[]): Reach {
+function options(...utilities: number[]): HeadingOptions {
   const courses = utilities.map((utility) => ({
     bearing_rad: 0,
     free_m: 1,
@@ -12,12 +12,12 @@ function told(...utilities: number[]): Reach {
   return { to: [3, 0], taken: 0, courses };
 }
 
-test("the best course is worth 1, the worst 0, and equal ones the same", () => {
-  expect(worths(told(-1, -5, -3))).toEqual([1, 0, 0.5]);
-  expect(worths(told(-2, -2))).toEqual([1, 1]);
+test("utilities are scaled from 0 to 1, and equal ones are 1", () => {
+  expect(relativeUtilities(options(-1, -5, -3))).toEqual([1, 0, 0.5]);
+  expect(relativeUtilities(options(-2, -2))).toEqual([1, 1]);
 });
 
-test("a place before a robot's front lies in the world where the robot looks", () => {
+test("a point ahead of a robot lies in its heading direction", () => {
   const pose = {
     at: [10, 5] as [number, number],
     heading_rad: Math.PI / 2,
@@ -25,12 +25,12 @@ test("a place before a robot's front lies in the world where the robot looks", (
     deviation_rad: 0,
     age_s: 0,
   };
-  const [x, y] = placeOf(pose, [2, 1]);
+  const [x, y] = toWorldFrame(pose, [2, 1]);
   expect(x).toBeCloseTo(9);
   expect(y).toBeCloseTo(7);
 });
 
-test("colours are mixed by shares", () => {
-  expect(mixed("#000000", "#ff8000", 0.5)).toBe("rgb(128 64 0)");
-  expect(mixed("#102030", "#ffffff", 0)).toBe("rgb(16 32 48)");
+test("colours are interpolated", () => {
+  expect(mixColours("#000000", "#ff8000", 0.5)).toBe("rgb(128 64 0)");
+  expect(mixColours("#102030", "#ffffff", 0)).toBe("rgb(16 32 48)");
 });

@@ -1,21 +1,21 @@
-import type { Point, Pose, Reach } from "../api/protocol";
+import type { HeadingOptions, Point, Pose } from "../api/protocol";
 import { rgb } from "./colours";
 
-/** The utility of each course, from 0 for the worst of them to 1 for the best. */
-export function worths({ courses }: Reach): number[] {
+/** The utility of each heading option, scaled from 0 (lowest) to 1 (highest). */
+export function relativeUtilities({ courses }: HeadingOptions): number[] {
   const utilities = courses.map((course) => course.utility);
-  const [least, most] = [Math.min(...utilities), Math.max(...utilities)];
-  return utilities.map((utility) => (most > least ? (utility - least) / (most - least) : 1));
+  const [min, max] = [Math.min(...utilities), Math.max(...utilities)];
+  return utilities.map((utility) => (max > min ? (utility - min) / (max - min) : 1));
 }
 
-/** Where in the world a place is that a robot has before its front. */
-export function placeOf({ at, heading_rad }: Pose, [ahead, left]: Point): Point {
+/** Transforms a point from the robot's frame to the world. */
+export function toWorldFrame({ at, heading_rad }: Pose, [ahead, left]: Point): Point {
   const [cos, sin] = [Math.cos(heading_rad), Math.sin(heading_rad)];
   return [at[0] + cos * ahead - sin * left, at[1] + sin * ahead + cos * left];
 }
 
-/** A colour so far from one to another. */
-export function mixed(from: string, to: string, share: number): string {
+/** Interpolates between two colours. */
+export function mixColours(from: string, to: string, share: number): string {
   const [start, end] = [rgb(from), rgb(to)];
   const parts = start.map((value, i) => Math.round(255 * (value + share * ((end[i] ?? 0) - value))));
   return `rgb(${parts.join(" ")})`;

@@ -2,64 +2,66 @@ import type { Frame } from "../api/frames";
 import type { Json, Setting } from "../api/protocol";
 import { tableOf } from "../shared/world";
 
-/** Frames that come in turn come so far apart; closer ones are drawn as they come. */
-const [least_ms, most_ms] = [45, 1500];
+/** Interval between frames in which motion is interpolated; other frames are drawn as received. */
+const [minInterval_ms, maxInterval_ms] = [45, 1500];
 const slack = 1.5;
 
-/** How far robots can come, in the unit of the world: what is farther from where it was has jumped, as from edge to edge of a world. */
-export interface Reach {
-  /** A second. */
+/** The distance that robots can move. A robot that moved farther has jumped, as across a periodic border. */
+export interface MotionLimit {
+  /** In units of the world per second. */
   speed: number;
-  most: number;
+  /** In units of the world. */
+  distance: number;
 }
 
 /**
- * Robots on their way from one frame to the next: drawn late by as long as a frame takes to come, between what
- * has been told and never beyond it. The next frame is set out for from wherever they are drawn by then.
+ * Interpolates robot poses between frames, one frame interval late and never beyond the latest frame. After
+ * each frame, motion continues from the poses that are drawn at that time.
  */
-export class Motion {
+export class Interpolation {
   private to: Frame | null = null;
   private from = new Float32Array(0);
   private fromTime_s = 0;
-  /** Of the moment that robots have come to last: what lies over them until they come to the next. */
+  /** The overlay of the last frame that was reached; it applies until the next is reached. */
   private overlay: Frame["overlay"];
   private drawn: Frame | null = null;
-  private came_ms = 0;
-  private lasts_ms = 0;
+  private receivedAt_ms = 0;
+  private duration_ms = 0;
 
-  /** A frame has come. */
-  put(frame: Frame, now_ms: number, reach: Reach): void {
+  /** Adds a frame. */
+  put(frame: Frame, now_ms: number, limit: MotionLimit): void {
     const { drawn } = this;
-    const apart_ms = now_ms - this.came_ms;
+    const interval_ms = now_ms - this.receivedAt_ms;
     const isNext = drawn?.generation === frame.generation && drawn.count === frame.count;
-    const isInTurn = isNext && frame.time_s > drawn.time_s && apart_ms >= least_ms && apart_ms <= most_ms;
-    this.lasts_ms = isInTurn ? apart_ms : 0;
-    if (isInTurn) this.setOut(drawn, frame, reach);
+    const isInTurn =
+      isNext && frame.time_s > drawn.time_s && interval_ms >= minInterval_ms && interval_ms <= maxInterval_ms;
+    this.duration_ms = isInTurn ? interval_ms : 0;
+    if (isInTurn) this.start(drawn, frame, limit);
     this.overlay = this.to?.overlay;
     this.to = frame;
-    this.came_ms = now_ms;
+    this.receivedAt_ms = now_ms;
   }
 
-  /** What is to be drawn; if nothing `moves`, where all robots have been told to be. */
+  /** The frame to draw; unless `moves`, the latest frame itself. */
   at(now_ms: number, moves: boolean): Frame | null {
-    const part = this.lasts_ms > 0 ? (now_ms - this.came_ms) / this.lasts_ms : 1;
-    if (!moves || part >= 1) this.lasts_ms = 0;
-    this.drawn = this.lasts_ms > 0 && this.to ? this.between(this.to, Math.max(0, part)) : this.to;
+    const part = this.duration_ms > 0 ? (now_ms - this.receivedAt_ms) / this.duration_ms : 1;
+    if (!moves || part >= 1) this.duration_ms = 0;
+    this.drawn = this.duration_ms > 0 && this.to ? this.between(this.to, Math.max(0, part)) : this.to;
     return this.drawn;
   }
 
-  /** Whether what is to be drawn will be another thing soon, even if nothing comes. */
-  get isUnderWay(): boolean {
-    return this.lasts_ms > 0;
+  /** Whether the drawn frame changes without a new frame. */
+  get isMoving(): boolean {
+    return this.duration_ms > 0;
   }
 
-  /** Robots set out from where they are drawn; those that jumped are there at once. */
-  private setOut(drawn: Frame, to: Frame, reach: Reach): void {
-    const most = Math.min(reach.most, slack * reach.speed * (to.time_s - drawn.time_s));
+  /** Starts from the drawn poses; robots that jumped are moved at once. */
+  private start(drawn: Frame, to: Frame, limit: MotionLimit): void {
+    const max = Math.min(limit.distance, slack * limit.speed * (to.time_s - drawn.time_s));
     const from = drawn.robots.slice();
     for (let i = 0; i < from.length; i += 4) {
       const [x, y] = [(to.robots[i] ?? 0) - (from[i] ?? 0), (to.robots[i + 1] ?? 0) - (from[i + 1] ?? 0)];
-      if (x * x + y * y > most * most) from.set(to.robots.subarray(i, i + 4), i);
+      if (x * x + y * y > max * max) from.set(to.robots.subarray(i, i + 4), i);
     }
     this.from = from;
     this.fromTime_s = drawn.time_s;
@@ -78,19 +80,19 @@ export class Motion {
   }
 }
 
-/** The shortest way to turn by so much. */
+/** The equivalent angle in (-pi, pi]. */
 function turn(angle_rad: number): number {
   return angle_rad - 2 * Math.PI * Math.round(angle_rad / (2 * Math.PI));
 }
 
-const reaches = new WeakMap<Setting, Reach>();
+const limits = new WeakMap<Setting, MotionLimit>();
 
-export function reachOf(setting: Setting): Reach {
-  const found = reaches.get(setting) ?? {
+export function motionLimitOf(setting: Setting): MotionLimit {
+  const found = limits.get(setting) ?? {
     speed: Math.max(0, ...Object.values(tableOf(setting.document.robots)).map(speedOf_m_s)),
-    most: Math.min(...setting.world.size) / 2,
+    distance: Math.min(...setting.world.size) / 2,
   };
-  reaches.set(setting, found);
+  limits.set(setting, found);
   return found;
 }
 

@@ -6,21 +6,21 @@ import type { Colours } from "./colours";
 
 /** Draws all robots of a frame. */
 export interface Painter {
-  /** Whether there is no graphics card: what is drawn on canvases is best kept in memory then. */
+  /** Whether there is no graphics card; 2D canvases are faster in main memory then. */
   readonly isSoftware: boolean;
   setColours(colours: Colours): void;
-  /** What is beneath the robots, and where in it the plain ground is. */
+  /** Sets the picture below the robots, and the box of plain ground in it. */
   setStill(still: CanvasRenderingContext2D, ground: Box): void;
-  /** `fresh`: the frame is another one than last time; without one, only what stands still. */
+  /** Draws a frame, or only the still picture without one. `fresh`: the frame has changed. */
   paint(frame: Frame | null, ranges: Range[], camera: Camera, fresh: boolean): void;
 }
 
-/** Half the length at least, in pixels, at which robots are drawn; a few can be larger than a crowd. */
-export function leastRadius_px(robots: number): number {
+/** Minimum radius of a drawn robot in pixels: larger for few robots than for many. */
+export function minRadius_px(robots: number): number {
   return robots <= 200 ? 5 : 3;
 }
 
 /** The radius at which a robot is drawn, in the unit of the world. */
 export function drawnRadius(radius: number, camera: Camera, robots: number): number {
-  return Math.max(radius, leastRadius_px(robots) / camera.scale);
+  return Math.max(radius, minRadius_px(robots) / camera.scale);
 }

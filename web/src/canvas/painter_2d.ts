@@ -2,9 +2,9 @@ import type { Frame } from "../api/frames";
 import type { Range } from "../shared/robots";
 import { type Camera, toScreen } from "./camera";
 import { type Colours, robotColours } from "./colours";
-import { leastRadius_px, type Painter } from "./painter";
+import { minRadius_px, type Painter } from "./painter";
 
-/** Robots by Canvas2D, where there is no WebGL2: the same shapes, some thousands of them. */
+/** Draws robots with Canvas 2D where WebGL2 is missing: the same shapes, up to some thousands. */
 export class Painter2d implements Painter {
   readonly isSoftware = true;
   private readonly context: CanvasRenderingContext2D | null;
@@ -29,7 +29,7 @@ export class Painter2d implements Painter {
     if (!frame || !context || !colours) return;
     const ratio = this.canvas.width / camera.width;
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
-    // A path a state: setting a colour for each robot would cost more than all the lines.
+    // One path per state: a colour per robot would cost more than all the lines.
     robotColours.forEach((name, state) => {
       const [body, mark] = [new Path2D(), new Path2D()];
       this.gather(frame, ranges, camera, state, body, mark);
@@ -52,7 +52,7 @@ export class Painter2d implements Painter {
     mark: Path2D,
   ): void {
     for (const { kind, first, count: size } of ranges) {
-      const radius = Math.max(leastRadius_px(count), kind.radius * camera.scale);
+      const radius = Math.max(minRadius_px(count), kind.radius * camera.scale);
       for (let i = first; i < Math.min(first + size, count); i++) {
         if (robots[4 * i + 3] !== state) continue;
         const [x, y] = toScreen(camera, robots[4 * i] ?? 0, robots[4 * i + 1] ?? 0);
@@ -63,7 +63,7 @@ export class Painter2d implements Painter {
   }
 }
 
-/** On a screen, where y goes down. */
+/** In screen coordinates, y down. */
 export function chevron(
   path: Path2D | CanvasRenderingContext2D,
   x: number,

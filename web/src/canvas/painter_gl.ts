@@ -7,11 +7,11 @@ import { isSoftware, programOf, QuadIndices, RobotTexture } from "./gl";
 import { drawnRadius, type Painter } from "./painter";
 import { bodyVertex, flatFragment, markFragment, markVertex } from "./shaders";
 
-/** In smaller robots nobody sees the notch between the tails, and one triangle does instead of two. */
+/** Below this size the notch is not visible, and one triangle suffices. */
 const notched_px = 4;
 
-/** Where a program has what all of them are given. */
-interface Places {
+/** Locations of the uniforms that all programs have. */
+interface Locations {
   program: WebGLProgram;
   view: WebGLUniformLocation | null;
   radius: WebGLUniformLocation | null;
@@ -19,14 +19,14 @@ interface Places {
 }
 
 /**
- * Robots by WebGL2: two triangles each whose four corners are made up from their number, so that the frame's
- * floats go to the processor of the picture as they came. Those that are not clear get a mark more.
+ * Draws robots with WebGL2: two triangles each. The shader computes the corners from the vertex number, so
+ * that a frame's floats are uploaded as received. Robots that are not clear get a mark in addition.
  */
 export class PainterGl implements Painter {
   readonly isSoftware: boolean;
-  private readonly body: Places;
+  private readonly body: Locations;
   private readonly corners: WebGLUniformLocation | null;
-  private readonly marks: Places;
+  private readonly marks: Locations;
   private readonly texture: RobotTexture;
   private readonly marked: WebGLBuffer;
   private readonly backdrop: Backdrop;
@@ -37,9 +37,9 @@ export class PainterGl implements Painter {
 
   constructor(private readonly gl: WebGL2RenderingContext) {
     this.isSoftware = isSoftware(gl);
-    this.body = this.places(bodyVertex, flatFragment);
+    this.body = this.locations(bodyVertex, flatFragment);
     this.corners = gl.getUniformLocation(this.body.program, "corners");
-    this.marks = this.places(markVertex, markFragment);
+    this.marks = this.locations(markVertex, markFragment);
     this.texture = new RobotTexture(gl);
     this.backdrop = new Backdrop(gl);
     this.quads = new QuadIndices(gl);
@@ -56,7 +56,7 @@ export class PainterGl implements Painter {
     gl.useProgram(this.body.program);
     gl.uniform3fv(this.body.palette, palette);
     gl.useProgram(this.marks.program);
-    // The hollow of an empty robot is the ground seen through it; a broken one's frame must show on any.
+    // An empty robot is hollow, in the colour of the ground; a broken one's frame must contrast with it.
     const marks = [0, 1, 2].flatMap((i) => palette.slice(3 * i, 3 * i + 3));
     gl.uniform3fv(this.marks.palette, [...marks, ...rgb(colours.ground), ...rgb(colours["robot-mark"])]);
   }
@@ -111,28 +111,31 @@ export class PainterGl implements Painter {
     gl.enableVertexAttribArray(0);
     gl.enable(gl.BLEND);
     this.setView(marks, camera);
-    // Marked robots of all kinds in one go: as large as the largest kind's.
-    const greatest = Math.max(0, ...ranges.filter((range) => range.count > 0).map(({ kind }) => kind.radius));
-    const radius = drawnRadius(greatest, camera, robots);
+    // Marks of all kinds in one call, with the size of the largest kind.
+    const maxRadius = Math.max(
+      0,
+      ...ranges.filter((range) => range.count > 0).map(({ kind }) => kind.radius),
+    );
+    const radius = drawnRadius(maxRadius, camera, robots);
     gl.uniform1f(marks.radius, radius);
     gl.uniform1f(gl.getUniformLocation(marks.program, "pixel"), 1 / (radius * camera.scale));
     this.quads.draw(0, this.markCount);
     gl.disable(gl.BLEND);
   }
 
-  private setView({ view }: Places, { x, y, scale, width, height }: Camera): void {
+  private setView({ view }: Locations, { x, y, scale, width, height }: Camera): void {
     const [sx, sy] = [(2 * scale) / width, (2 * scale) / height];
     this.gl.uniform4f(view, sx, sy, -x * sx, -y * sy);
   }
 
-  private places(vertex: string, fragment: string): Places {
+  private locations(vertex: string, fragment: string): Locations {
     const program = programOf(this.gl, vertex, fragment);
     const at = (name: string) => this.gl.getUniformLocation(program, name);
     return { program, view: at("view"), radius: at("radius"), palette: at("palette") };
   }
 }
 
-/** Puts the number of each robot that is not clear four times, once a corner; gives how many those are. */
+/** Writes the number of each robot that is not clear, once per corner. Returns the number of these robots. */
 function markedOf({ robots, count }: Frame, numbers: Uint32Array): number {
   let marked = 0;
   for (let i = 0; i < count; i++) {

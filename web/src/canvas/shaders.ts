@@ -3,7 +3,7 @@ precision highp float; precision highp int;
 uniform highp sampler2D robots; uniform vec4 view; uniform float radius; uniform vec3 palette[5];
 `;
 
-/** A chevron: front at (1, 0), two tails, a notch between them, which is left out of small ones: three corners. */
+/** A chevron: front at (1, 0), two tails and a notch between them; small robots have three corners, no notch. */
 export const bodyVertex = `${head}
 uniform int corners;
 flat out vec3 colour;
@@ -22,7 +22,7 @@ export const flatFragment = `#version 300 es
 precision mediump float; flat in vec3 colour; out vec4 shown;
 void main() { shown = vec4(colour, 1); }`;
 
-/** A square about each marked robot, turned with it; the fragments draw the mark of its state. */
+/** A rotated square around each marked robot; the fragment shader draws the mark of its state. */
 export const markVertex = `${head}
 layout(location = 0) in uint number;
 flat out vec3 colour; flat out int state; out vec2 at;
@@ -37,7 +37,7 @@ void main() {
   colour = palette[state];
 }`;
 
-/** `at` is in radii; `pixel` is how many radii a pixel is, for lines that can be seen at any size. */
+/** `at` is in radii; `pixel` is the size of a pixel in radii, so that lines stay visible at any size. */
 export const markFragment = `#version 300 es
 precision highp float;
 flat in vec3 colour; flat in int state; in vec2 at; out vec4 shown; uniform float pixel;

@@ -8,30 +8,30 @@ import type { Host } from "./host";
 import { type Canvases, Drawing } from "./drawing";
 import { poseOf, type Scene } from "./layers/layer";
 import { Trails } from "./layers/trail_store";
-import { Motion, reachOf } from "./interpolation";
+import { Interpolation, motionLimitOf } from "./interpolation";
 import { ToolController } from "./tools/controller";
 
-const tapReach_px = 14;
-/** More robots than this are drawn on their way only after a pause: some thirty times a second. */
-const crowd = 1000;
-const crowdPause_ms = 28;
-const isStill = matchMedia("(prefers-reduced-motion: reduce)");
+const tapTolerance_px = 14;
+/** With more robots than this, interpolated frames are limited to about 30 per second. */
+const manyRobots = 1000;
+const manyRobotsPause_ms = 28;
+const prefersReducedMotion = matchMedia("(prefers-reduced-motion: reduce)");
 
-/** The picture of the world: what is seen of it, when it is drawn, and what hands do on it. */
+/** The view of the world: camera, drawing schedule, and pointer input. */
 export class Stage {
   private camera: Camera = { x: 0, y: 0, scale: 1, width: 1, height: 1 };
   private readonly drawing: Drawing;
   private readonly trails = new Trails();
-  private readonly motion = new Motion();
+  private readonly interpolation = new Interpolation();
   private pause: ReturnType<typeof setTimeout> | undefined;
   private readonly controller: ToolController;
   private world: World | null = null;
-  private worldIsOf: unknown = null;
-  private isAwaited = false;
-  private isFramed = false;
-  private readonly endings: (() => void)[] = [];
-  /** What is in controller. */
-  ghost: Path2D | null = null;
+  private worldSetting: unknown = null;
+  private isScheduled = false;
+  private hasView = false;
+  private readonly cleanups: (() => void)[] = [];
+  /** The shape that the current tool would place. */
+  preview: Path2D | null = null;
 
   constructor(
     private readonly element: HTMLElement,
@@ -44,20 +44,20 @@ export class Stage {
   }
 
   close(): void {
-    for (const end of this.endings) end();
+    for (const end of this.cleanups) end();
   }
 
-  /** Draws soon; `still` too what only changes with view, setting or colours. */
+  /** Schedules a redraw; with `still`, also of the layers that change only with view, setting or colours. */
   redraw(still = true): void {
-    if (still) this.drawing.stale();
-    if (this.isAwaited) return;
-    this.isAwaited = true;
+    if (still) this.drawing.invalidate();
+    if (this.isScheduled) return;
+    this.isScheduled = true;
     requestAnimationFrame(() => this.draw());
   }
 
   look(camera: Camera): void {
     this.camera = camera;
-    this.isFramed = true;
+    this.hasView = true;
     this.host.camera = camera;
     this.redraw();
   }
@@ -77,29 +77,29 @@ export class Stage {
     this.look(pan(this.camera, dx, dy));
   }
 
-  /** Lets go of what is in controller; true if there was something. */
-  drop(): boolean {
-    return this.controller.drop();
+  /** Cancels the current edit; false if there is none. */
+  cancelEdit(): boolean {
+    return this.controller.cancel();
   }
 
-  /** What is seen, drawn just now. */
-  flat(): HTMLCanvasElement {
+  /** Draws the view and returns it as one canvas. */
+  snapshot(): HTMLCanvasElement {
     this.draw();
-    return this.drawing.flat();
+    return this.drawing.snapshot();
   }
 
-  /** Where in the world a pixel is, and how far a pointer reaches there. */
-  place(at: Point): { at: Point; reach: number } {
-    return { at: toWorld(this.camera, ...at), reach: tapReach_px / this.camera.scale };
+  /** The point of the world at a pixel, and the pointer's tolerance there. */
+  place(at: Point): { at: Point; tolerance: number } {
+    return { at: toWorld(this.camera, ...at), tolerance: tapTolerance_px / this.camera.scale };
   }
 
-  /** Chooses the robot at a pixel, or none. */
+  /** Selects the robot at a pixel, or none. */
   private tap(at: Point): void {
     const { session } = this.host;
     const { shown } = session.frames;
     if (!session.setting || !shown) return;
-    const { at: place, reach } = this.place(at);
-    const robot = robotAt(shown, session.setting, ...place, reach);
+    const { at: place, tolerance } = this.place(at);
+    const robot = robotAt(shown, session.setting, ...place, tolerance);
     session.select(session.setting.robots[robot] ?? null);
   }
 
@@ -120,7 +120,7 @@ export class Stage {
       this.drawing.recolour();
       this.redraw();
     });
-    this.endings.push(() => observer.disconnect(), stop);
+    this.cleanups.push(() => observer.disconnect(), stop);
   }
 
   private resized(): void {
@@ -128,70 +128,73 @@ export class Stage {
     if (width === 0 || height === 0) return;
     this.drawing.resize(width, height);
     this.camera = resize(this.camera, width, height);
-    // Not `redraw`: a canvas is wiped by its new size, and must not be seen so.
+    // Drawn at once, as resizing clears the canvas.
     this.draw();
   }
 
   private draw(): void {
-    this.isAwaited = false;
+    this.isScheduled = false;
     const { setting, frames } = this.host.session;
     if (!setting || this.camera.width <= 1) return;
     const fresh = frames.take(setting.generation);
-    if (fresh) this.motion.put(fresh, performance.now(), reachOf(setting));
+    if (fresh) this.interpolation.put(fresh, performance.now(), motionLimitOf(setting));
     const scene = this.scene();
     if (!scene) return;
     if (scene.frame) this.trails.put(scene.frame, scene.selected);
-    this.frameView(scene.world);
+    this.initView(scene.world);
     if (this.host.follows) this.follow(scene);
     this.drawing.draw(scene, this.camera, this.host.layers);
-    if (this.motion.isUnderWay) this.goOn(setting.robots.length);
+    if (this.interpolation.isMoving) this.scheduleNext(setting.robots.length);
     if (!fresh) return;
     frames.drawn(fresh);
     this.host.session.drew();
   }
 
-  /** Draws robots on their way. */
-  private goOn(robots: number): void {
+  /** Schedules the next interpolated frame. */
+  private scheduleNext(robots: number): void {
     clearTimeout(this.pause);
-    if (robots <= crowd) this.redraw(false);
-    else this.pause = setTimeout(() => this.redraw(false), crowdPause_ms);
+    if (robots <= manyRobots) this.redraw(false);
+    else this.pause = setTimeout(() => this.redraw(false), manyRobotsPause_ms);
   }
 
-  /** Moves the view with the selected robot. */
+  /** Centres the view on the selected robot. */
   private follow(scene: Scene): void {
     const [x, y] = poseOf(scene, scene.selected)?.at ?? [];
     if (x === undefined || y === undefined || (x === this.camera.x && y === this.camera.y)) return;
     this.camera = { ...this.camera, x, y };
     this.host.camera = this.camera;
-    this.drawing.stale();
+    this.drawing.invalidate();
   }
 
   private scene(): Scene | null {
     const { setting, state, map, selected } = this.host.session;
     if (!setting) return null;
-    const frame = this.motion.at(performance.now(), state?.playing === true && !isStill.matches);
-    if (this.worldIsOf !== setting) {
+    const frame = this.interpolation.at(
+      performance.now(),
+      state?.playing === true && !prefersReducedMotion.matches,
+    );
+    if (this.worldSetting !== setting) {
       this.world = worldOf(setting);
-      this.worldIsOf = setting;
-      this.drawing.stale();
+      this.worldSetting = setting;
+      this.drawing.invalidate();
     }
     return {
       setting,
       world: this.world ?? worldOf(setting),
       frame: frame?.generation === setting.generation ? frame : null,
-      mind: state?.mind ?? null,
+      inspection: state?.mind ?? null,
       map,
-      told: state?.robot ?? null,
+      robot: state?.robot ?? null,
       selected: selected === null ? -1 : setting.robots.indexOf(selected),
       trails: this.trails,
-      ghost: this.ghost,
+      preview: this.preview,
     };
   }
 
-  /** The view that the address asks for, or all of the world. */
-  private frameView({ size }: World): void {
-    if (this.isFramed) return;
-    this.isFramed = true;
+  /** Sets the initial view: that of the address, or the whole world. */
+  private initView({ size }: World): void {
+    if (this.hasView) return;
+    this.hasView = true;
     const { width, height } = this.camera;
     const { view } = this.host.link;
     this.camera = view

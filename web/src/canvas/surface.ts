@@ -1,18 +1,18 @@
-/** A canvas with as many pixels as the screen has where it lies. */
+/** A canvas at the resolution of the screen. */
 export class Surface {
   readonly context: CanvasRenderingContext2D;
 
-  /** `inMemory`: its pixels need not be where the picture is put together. */
+  /** `inMemory`: keep the pixels in main memory, not on the graphics card. */
   constructor(
     readonly canvas: HTMLCanvasElement,
     inMemory = false,
   ) {
     const context = canvas.getContext("2d", { willReadFrequently: inMemory });
-    if (!context) throw new Error("This browser draws no pictures (no Canvas2D).");
+    if (!context) throw new Error("This browser does not support Canvas 2D.");
     this.context = context;
   }
 
-  /** Wipes it, and draws in CSS pixels. */
+  /** Clears the canvas and draws in CSS pixels. */
   draw(ratio: number, paint: (context: CanvasRenderingContext2D) => void): void {
     const { context, canvas } = this;
     context.setTransform(1, 0, 0, 1, 0, 0);
@@ -21,17 +21,17 @@ export class Surface {
     paint(context);
   }
 
-  /** A hidden canvas costs nothing when the page is put together. */
+  /** A hidden canvas costs nothing in compositing. */
   show(shown: boolean): void {
     if (this.canvas.hidden === shown) this.canvas.hidden = !shown;
   }
 }
 
-/** More pixels than this a CSS pixel cannot be told apart, and cost time. */
-const mostRatio = 2;
+/** Higher ratios are not visible and cost time. */
+const maxRatio = 2;
 
 export function pixelRatio(): number {
-  return Math.min(mostRatio, globalThis.devicePixelRatio || 1);
+  return Math.min(maxRatio, globalThis.devicePixelRatio || 1);
 }
 
 export function sizeTo(canvas: HTMLCanvasElement, width: number, height: number): void {

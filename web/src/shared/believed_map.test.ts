@@ -31,19 +31,19 @@ test("a part changes its own cells and no others", () => {
   expect(after).not.toBe(whole);
 });
 
-test("of another map nothing is left", () => {
+test("a part of another map replaces all cells", () => {
   const whole = BelievedMap.with(null, part({}));
   const other = part({ columns: 2, rows: 1, size: [1, 1], occupancy: packed(9), unseen: packed(1) });
   expect([...BelievedMap.with(whole, other).occupancy]).toEqual([9, unknown]);
 });
 
-test("shares tell free, filled and unknown cells apart", () => {
-  const { free, filled, unknown: dark, unseen } = BelievedMap.with(null, part({})).shares();
-  expect([free, filled, dark]).toEqual([2 / 6, 2 / 6, 2 / 6]);
+test("fractions of free, occupied and unknown cells", () => {
+  const { free, occupied, unknown: dark, unseen } = BelievedMap.with(null, part({})).shares();
+  expect([free, occupied, dark]).toEqual([2 / 6, 2 / 6, 2 / 6]);
   expect(unseen).toBeCloseTo(250 / 600);
 });
 
-test("runs hold each cell that counts once, and end with their row", () => {
+test("runs contain each counted cell once, and end with their row", () => {
   const cells = Uint8Array.from([1, 1, 0, 0, 1, 1, 1, 0, 1]);
   expect(runs(cells, 3, (value) => value === 1)).toEqual([
     [0, 0, 2],

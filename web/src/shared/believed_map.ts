@@ -1,10 +1,10 @@
 import type { MapPart, Point } from "../api/protocol";
 
 export const unknown = 255;
-/** From so many percent on a cell counts as filled for the robot. */
-export const filled = 73;
+/** At and above this percentage the robot treats a cell as occupied. */
+export const occupied = 73;
 
-/** What a robot believes of its field: a byte a cell, the lowest row first. */
+/** A robot's map: one byte per cell, bottom row first. */
 export class BelievedMap {
   private constructor(
     readonly corner: Point,
@@ -15,7 +15,7 @@ export class BelievedMap {
     readonly unseen: Uint8Array,
   ) {}
 
-  /** The map with a part of it as it is now; another object, so that who shows it sees the change. */
+  /** The map with a part updated. A new object, so that components notice the change. */
   static with(before: BelievedMap | null, part: MapPart): BelievedMap {
     const { corner, cell_m, columns, rows } = part;
     const isSame = before?.columns === columns && before.rows === rows;
@@ -27,15 +27,15 @@ export class BelievedMap {
     return new BelievedMap(corner, cell_m, columns, rows, occupancy, unseen);
   }
 
-  /** Shares of all cells: unknown, free, filled; what is in between is neither. */
-  shares(): { unknown: number; free: number; filled: number; unseen: number } {
+  /** Fractions of cells that are unknown, free and occupied (cells between are neither), and mean `unseen`. */
+  shares(): { unknown: number; free: number; occupied: number; unseen: number } {
     const cells = this.occupancy.length;
     const share = (counts: (percent: number) => boolean) =>
       this.occupancy.reduce((sum, percent) => sum + (counts(percent) ? 1 : 0), 0) / cells;
     return {
       unknown: share((percent) => percent === unknown),
       free: share((percent) => percent < 50),
-      filled: share((percent) => percent >= filled && percent !== unknown),
+      occupied: share((percent) => percent >= occupied && percent !== unknown),
       unseen: this.unseen.reduce((sum, percent) => sum + percent, 0) / (100 * cells),
     };
   }
@@ -50,7 +50,7 @@ function put(cells: Uint8Array, packed: string, { columns, from, size }: MapPart
   }
 }
 
-/** Rectangles [column, row, columns] that hold all cells of a map that count, row by row. */
+/** Runs [column, row, columns] of the cells for which `counts` is true, row by row. */
 export function runs(
   cells: Uint8Array,
   columns: number,

@@ -29,28 +29,28 @@ test.each([
   ["of a study", { ...emptyLink, study: { id: "studies/mine & yours", configuration: 12 }, run: "7" }],
   ["of a recording", { ...emptyLink, recording: "recordings/a b.mcap", changes: null, tick: 3 }],
   ["of a recording with other changes", { ...emptyLink, recording: "a.mcap", changes: [] }],
-])("a link that is %s comes back as it was", (_, link) => expect(read(writeLink(link))).toEqual(link));
+])("a link that is %s survives a round trip", (_, link) => expect(read(writeLink(link))).toEqual(link));
 
-test("what an address says wrongly is left out", () => {
+test("invalid parts of an address are ignored", () => {
   const hash =
     "#/run?scenario=a&seed=-1&run=x&tick=1.5&view=1,2&changes=[[1],[2,3,4],[-1,%22p%22,0],[5,%22p%22,0]]";
   expect(read(hash)).toEqual({ ...emptyLink, scenario: "a", changes: [[5, "p", 0]] });
   expect(read("#/run?changes={not json").changes).toEqual([]);
 });
 
-test("a study without a number of a configuration is no source of a run", () => {
+test("a study without a configuration number does not define a run", () => {
   expect(read("#/run?study=studies/a").study).toBeNull();
   expect(read("#/run?study=studies/a&configuration=-1").study).toBeNull();
 });
 
-test("the address of a study holds its folder as it is read", () => {
+test("the address of a study shows its folder unescaped", () => {
   expect(studyLink("studies/classic-12", 3)).toBe("#/study?id=studies/classic-12&configuration=3");
   expect(newStudyLink({ scenario: "mine/hall.toml", text: null })).toBe(
     "#/study/new?scenario=mine/hall.toml",
   );
 });
 
-test("changes come to the last of a path at a tick, and those of other ticks all", () => {
+test("of several changes of a path at one tick the last remains", () => {
   expect(
     shortened([
       [1, "a", 1],
@@ -65,7 +65,7 @@ test("changes come to the last of a path at a tick, and those of other ticks all
   ]);
 });
 
-test("a change of a part goes when the whole is replaced later at the same tick", () => {
+test("a change of a part is dropped if the whole is replaced later at the same tick", () => {
   expect(
     shortened([
       [1, "items.mine.count", 1],
@@ -74,7 +74,7 @@ test("a change of a part goes when the whole is replaced later at the same tick"
   ).toEqual([[1, "items.mine", { count: 2 }]]);
 });
 
-test("an address has all changes of a tick, as robots that left for a moment come back as new ones", () => {
+test("an address keeps all changes of a tick: robots that were removed and added again are new ones", () => {
   const changes: Change[] = [0, 12].map((count) => [7, "robots.rover.count", count]);
   expect(read(writeLink({ ...full, changes })).changes).toEqual(changes);
 });

@@ -1,27 +1,27 @@
-import type { Change, Json, OfStudy } from "../api/protocol";
+import type { Change, Json, StudyConfiguration } from "../api/protocol";
 
-/** What an address says of a run, so that opening it gives the same run at the same tick. */
+/** A run in an address: opening it gives the same run at the same step. */
 export interface Link {
   scenario: string | null;
-  /** Text of a scenario of one's own, packed (`packed.ts`). */
+  /** Text of the user's own scenario, packed (`packed_text.ts`). */
   text: string | null;
   /** A configuration of a study, in place of a scenario. */
-  study: OfStudy | null;
-  /** A recording by its name: it has a scenario, a seed and a run, and changes unless others are given. */
+  study: StudyConfiguration | null;
+  /** A recording by name. It contains scenario, seed and run, and the changes unless others are given. */
   recording: string | null;
-  /** Null for that of the study. */
+  /** Null: the study's seed. */
   seed: string | null;
   run: string;
-  /** Null for those of the recording. */
+  /** Null: the recording's changes. */
   changes: Change[] | null;
   tick: number;
-  /** Centre, and pixels a metre (or whatever the world's unit is). */
+  /** Centre x and y, and pixels per unit of the world. */
   view: [number, number, number] | null;
   robot: string | null;
 }
 
-/** Longer addresses get lost in some programs. */
-export const longestLink = 8000;
+/** Some programs truncate longer addresses. */
+export const maxLinkLength = 8000;
 
 export const emptyLink: Link = {
   scenario: null,
@@ -36,7 +36,7 @@ export const emptyLink: Link = {
   robot: null,
 };
 
-/** The hash of an address, such as `#/run?scenario=search&seed=7`. */
+/** The hash of the address of a run, such as `#/run?scenario=search&seed=7`. */
 export function writeLink(link: Link): string {
   const query = new URLSearchParams();
   if (link.scenario !== null) query.set("scenario", link.scenario);
@@ -56,10 +56,10 @@ export function writeLink(link: Link): string {
   if (link.tick > 0) query.set("tick", String(link.tick));
   if (link.view) query.set("view", link.view.map((value) => Number(value.toPrecision(5))).join(","));
   if (link.robot !== null) query.set("robot", link.robot);
-  return `#/run?${readable(query.toString())}`;
+  return `#/run?${unescapeReadable(query.toString())}`;
 }
 
-/** What the query of an address says; what it says wrongly is left out. */
+/** The link in the query of an address. Invalid parts are ignored. */
 export function readLink(query: URLSearchParams): Link {
   const study = readStudy(query.get("study"), query.get("configuration"));
   const recording = query.get("recording");
@@ -78,20 +78,20 @@ export function readLink(query: URLSearchParams): Link {
   };
 }
 
-/** The address of a study; with a configuration, of its runs there. */
+/** The address of a study, or of the runs of one of its configurations. */
 export function studyLink(id: string, configuration?: number): string {
   const query = new URLSearchParams({ id });
   if (configuration !== undefined) query.set("configuration", String(configuration));
-  return `#/study?${readable(query.toString())}`;
+  return `#/study?${unescapeReadable(query.toString())}`;
 }
 
-/** Where a new study of what a link runs is asked. */
+/** The address of the form for a new study of a link's scenario. */
 export function newStudyLink({ scenario, text }: Pick<Link, "scenario" | "text">): string {
   const query: Record<string, string> = text === null ? { scenario: scenario ?? "" } : { text };
-  return `#/study/new?${readable(new URLSearchParams(query).toString())}`;
+  return `#/study/new?${unescapeReadable(new URLSearchParams(query).toString())}`;
 }
 
-/** What changes come to: of those of one path at one tick the last. A run that had all may still be another. */
+/** The last change of each path at each tick. A run with all changes may still differ from one with these. */
 export function shortened(changes: Change[]): Change[] {
   return changes.filter(
     ([tick, path], i) => !changes.some(([t, p], j) => j > i && t === tick && overrides(p, path)),
@@ -103,8 +103,8 @@ function overrides(outer: string, inner: string): boolean {
   return inner === outer || inner.startsWith(`${outer}.`);
 }
 
-/** Signs that need no escape after a `#` and make up most of a list of changes. */
-function readable(query: string): string {
+/** Restores characters that need no escape after `#` and are frequent in lists of changes. */
+function unescapeReadable(query: string): string {
   return query
     .replaceAll("%2F", "/")
     .replaceAll("%2C", ",")
@@ -117,12 +117,12 @@ function whole(text: string | null): string {
   return text !== null && /^\d{1,20}$/.test(text) ? text : "0";
 }
 
-/** Number of a configuration; null if it is none. */
+/** The number of a configuration; null if the text is not a number. */
 export function readConfiguration(text: string | null): number | null {
   return text !== null && /^\d{1,9}$/.test(text) ? Number(text) : null;
 }
 
-function readStudy(id: string | null, given: string | null): OfStudy | null {
+function readStudy(id: string | null, given: string | null): StudyConfiguration | null {
   const configuration = readConfiguration(given);
   return id === null || configuration === null ? null : { id, configuration };
 }

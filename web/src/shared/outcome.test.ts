@@ -1,7 +1,7 @@
 import { expect, test } from "vitest";
 import { outcomeRows } from "./outcome";
 
-test("found is told of all, and what is weighed comes first, with units", () => {
+test("found is given out of all, and the terms of the merit come first, with units", () => {
   const rows = outcomeRows(
     {
       run: 7,
@@ -23,12 +23,12 @@ test("found is told of all, and what is weighed comes first, with units", () => 
   ]);
 });
 
-test("what is not known yet is left out, and words are shown as they are", () => {
+test("unknown values are left out, and text is unchanged", () => {
   expect(outcomeRows({ merit: null, status: "running" }, 4)).toEqual([
     { name: "status", value: "running", unit: "" },
   ]);
 });
 
-test("where an engine does not tell what was missed, all is what is target", () => {
+test("without a count of missed items, all targets are counted", () => {
   expect(outcomeRows({ found: 1 }, 4)[0]?.value).toBe("1 / 4");
 });

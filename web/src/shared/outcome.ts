@@ -12,10 +12,10 @@ const units: [ending: string, unit: string][] = [
   ["_m", "m"],
 ];
 
-/** Told first, in this order; all else follows as it comes. */
+/** Displayed first, in this order; the others follow in the server's order. */
 const first = ["merit", "collisions", "energy_j"];
 
-/** What came of a run, as people read it: found of all, then numbers with their units; not which run it is. */
+/** The rows of an outcome: found out of all targets, then values with units. The run number is left out. */
 export function outcomeRows(outcome: Outcome, target: number): OutcomeRow[] {
   const { found, missed, run: _, ...rest } = outcome;
   const rows: OutcomeRow[] = [];
@@ -30,7 +30,7 @@ export function outcomeRows(outcome: Outcome, target: number): OutcomeRow[] {
   return [...rows, ...names.flatMap((name) => row(name, rest[name]))];
 }
 
-/** A column's name in words, and the unit that it ends in. */
+/** The words and the unit of a column name. */
 export function named(column: string): { words: string; unit: string } {
   const [ending = "", unit = ""] = units.find(([end]) => column.endsWith(end)) ?? [];
   return { words: column.slice(0, column.length - ending.length).replaceAll("_", " "), unit };

@@ -1,7 +1,7 @@
 import { expect, test } from "vitest";
 import { pack, unpack } from "./packed_text";
 
-test("a text comes back as it was, and takes no escapes", async () => {
+test("text survives a round trip and needs no escapes", async () => {
   const text = '# Räume\n[world]\nsize_m = [20, 12] # "a" \u{1F916}\n'.repeat(40);
   const packed = await pack(text);
   expect(packed).toMatch(/^z[\w-]+$/);
@@ -9,7 +9,7 @@ test("a text comes back as it was, and takes no escapes", async () => {
   expect(await unpack(packed)).toBe(text);
 });
 
-test("what was never packed gives nothing", async () => {
+test("text that was not packed gives null", async () => {
   expect(await unpack("z!!")).toBeNull();
   expect(await unpack("zAAAA")).toBeNull();
 });

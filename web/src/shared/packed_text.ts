@@ -1,30 +1,30 @@
-/** Texts in addresses: deflated, in base64 without the signs that addresses escape. */
+/** Text in addresses: deflated, in base64url. */
 
-/** Packed texts up to this length go into the address; others are kept by the browser's tab. */
-const longest = 5000;
+/** Longer packed texts do not go into the address; the browser tab stores them. */
+const maxLength = 5000;
 
 export async function pack(text: string): Promise<string> {
   const packed = `z${base64(await through(new CompressionStream("deflate-raw"), new TextEncoder().encode(text)))}`;
-  return packed.length <= longest ? packed : keep(text);
+  return packed.length <= maxLength ? packed : storeInTab(text);
 }
 
-/** Whether a packed text is of use in this tab of this browser only. */
-export function isKept(packed: string | null): boolean {
+/** Whether only this browser tab can unpack the text. */
+export function isStoredInTab(packed: string | null): boolean {
   return packed?.startsWith("k") ?? false;
 }
 
-/** The text; null if it is not (or no longer) to be had. */
+/** The text; null if it is unavailable. */
 export async function unpack(packed: string): Promise<string | null> {
-  if (isKept(packed)) return sessionStorage.getItem(packed);
+  if (isStoredInTab(packed)) return sessionStorage.getItem(packed);
   try {
-    const bytes = Uint8Array.from(atob(unescaped(packed.slice(1))), (sign) => sign.charCodeAt(0));
+    const bytes = Uint8Array.from(atob(unescaped(packed.slice(1))), (character) => character.charCodeAt(0));
     return new TextDecoder().decode(await through(new DecompressionStream("deflate-raw"), bytes));
   } catch {
     return null;
   }
 }
 
-function keep(text: string): string {
+function storeInTab(text: string): string {
   const key = `k${Date.now().toString(36)}`;
   sessionStorage.setItem(key, text);
   return key;

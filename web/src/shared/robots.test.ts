@@ -1,12 +1,12 @@
 import { expect, test } from "vitest";
-import { mostLinks } from "../api/overlay";
-import { heardBy } from "./robots";
+import { maxLinks } from "../api/overlay";
+import { sendersOf } from "./robots";
 
-test("a robot hears those whose links come to it, and those that it is linked with both ways", () => {
+test("a robot receives over links towards it and over two-way links", () => {
   const links = Uint32Array.from([0, 1, 1, 2, 0, 0, 0, 3, 0]);
-  expect([0, 1, 2, 3, 4].map((robot) => heardBy(links, robot))).toEqual([2, 1, 0, 1, 0]);
+  expect([0, 1, 2, 3, 4].map((robot) => sendersOf(links, robot))).toEqual([2, 1, 0, 1, 0]);
 });
 
-test("of more links than are told nobody knows how many there are", () => {
-  expect(heardBy(new Uint32Array(3 * mostLinks), 0)).toBeNull();
+test("the number of senders is unknown if links may be missing", () => {
+  expect(sendersOf(new Uint32Array(3 * maxLinks), 0)).toBeNull();
 });

@@ -1,16 +1,16 @@
 import type { Frame } from "../api/frames";
-import { mostLinks } from "../api/overlay";
+import { maxLinks } from "../api/overlay";
 import type { KindView, Setting } from "../api/protocol";
 
-/** The robots of one kind: those with numbers from `first` on. */
+/** The robots of one kind have the numbers `first` to `first + count - 1`. */
 export interface Range {
   kind: KindView;
   first: number;
   count: number;
 }
 
-/** Words for the states of robots, by their number in frames. */
-export const stateWords = ["clear", "in danger", "collided", "battery empty", "broken"];
+/** Labels of robot states, indexed by the number in frames. */
+export const stateLabels = ["clear", "in danger", "collided", "battery empty", "broken"];
 
 const ranges = new WeakMap<Setting, Range[]>();
 
@@ -32,20 +32,20 @@ export function kindOf(setting: Setting, robot: number): KindView | null {
   return rangesOf(setting).find(({ first, count }) => robot >= first && robot < first + count)?.kind ?? null;
 }
 
-/** How many others a robot hears, given links with all of its own; null if some of these may not be told. */
-export function heardBy(links: Uint32Array, robot: number): number | null {
-  let [own, heard] = [0, 0];
+/** The number of robots that a robot receives from; null if its links may be incomplete (`maxLinks`). */
+export function sendersOf(links: Uint32Array, robot: number): number | null {
+  let [own, senders] = [0, 0];
   for (let i = 0; i < links.length; i += 3) {
     if (links[i] !== robot && links[i + 1] !== robot) continue;
     own += 1;
-    if (links[i + 1] === robot || links[i + 2] === 1) heard += 1;
+    if (links[i + 1] === robot || links[i + 2] === 1) senders += 1;
   }
-  return own < mostLinks ? heard : null;
+  return own < maxLinks ? senders : null;
 }
 
-/** How many robots are in each state. */
+/** The number of robots in each state. */
 export function countStates(frame: Frame | null): number[] {
-  const counts = stateWords.map(() => 0);
+  const counts = stateLabels.map(() => 0);
   if (!frame) return counts;
   for (let i = 3; i < frame.robots.length; i += 4) {
     const state = frame.robots[i] ?? 0;
@@ -54,11 +54,11 @@ export function countStates(frame: Frame | null): number[] {
   return counts;
 }
 
-/** The robot nearest to a place, if one is within `reach` of it or covers it; else -1. */
-export function robotAt(frame: Frame, setting: Setting, x: number, y: number, reach: number): number {
+/** Number of the nearest robot within `tolerance` of a point, or covering it; -1 if there is none. */
+export function robotAt(frame: Frame, setting: Setting, x: number, y: number, tolerance: number): number {
   let [best, nearest] = [-1, Number.POSITIVE_INFINITY];
   for (const { kind, first, count } of rangesOf(setting)) {
-    const covered = Math.max(reach, kind.radius);
+    const covered = Math.max(tolerance, kind.radius);
     for (let i = first; i < Math.min(first + count, frame.count); i++) {
       const distance = Math.hypot((frame.robots[4 * i] ?? 0) - x, (frame.robots[4 * i + 1] ?? 0) - y);
       if (distance <= covered && distance < nearest) [best, nearest] = [i, distance];

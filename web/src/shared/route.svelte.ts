@@ -1,4 +1,4 @@
-/** Where in the page one is: what stands behind `#` in its address. */
+/** The current route: the part of the address after `#`. */
 export class Route {
   hash = $state(location.hash);
 
@@ -22,7 +22,7 @@ export function goTo(hash: string): void {
   location.hash = hash;
 }
 
-/** Goes on from what is closed by that: the way back leads past it. */
-export function goOn(hash: string): void {
+/** Replaces the current route, so that going back skips it. */
+export function replaceRoute(hash: string): void {
   location.replace(hash);
 }

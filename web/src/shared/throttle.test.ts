@@ -1,25 +1,25 @@
 import { expect, test } from "vitest";
 import { Throttle } from "./throttle";
 
-function throttled(joined = (_: number, latest: number) => latest) {
+function throttled(merge = (_: number, latest: number) => latest) {
   const sent: [string, number][] = [];
   const waits: (() => void)[] = [];
   const throttle = new Throttle<number>(
     50,
     (key, value) => sent.push([key, value]),
-    joined,
+    merge,
     (_, action) => waits.push(action),
   );
   return { throttle, sent, tick: () => waits.shift()?.() };
 }
 
-test("the first value goes at once", () => {
+test("the first value is sent at once", () => {
   const { throttle, sent } = throttled();
   throttle.put("a", 1);
   expect(sent).toEqual([["a", 1]]);
 });
 
-test("of what comes while waiting the latest goes, and nothing is lost at the end", () => {
+test("while waiting, the latest value is kept and sent", () => {
   const { throttle, sent, tick } = throttled();
   for (const value of [1, 2, 3, 4]) throttle.put("a", value);
   tick();
@@ -30,7 +30,7 @@ test("of what comes while waiting the latest goes, and nothing is lost at the en
   ]);
 });
 
-test("what was passed by is joined with what goes", () => {
+test("skipped values are merged into the latest one", () => {
   const { throttle, sent, tick } = throttled((waiting, latest) => waiting + latest);
   for (const value of [1, 2, 3, 4]) throttle.put("a", value);
   tick();
@@ -40,7 +40,7 @@ test("what was passed by is joined with what goes", () => {
   ]);
 });
 
-test("keys do not push each other out", () => {
+test("keys do not displace each other", () => {
   const { throttle, sent, tick } = throttled();
   throttle.put("a", 1);
   throttle.put("b", 2);

@@ -1,4 +1,7 @@
-/** Hands on the latest value of each key, joined with those that it passed by, at most one in `interval_ms`. */
+/**
+ * Sends the latest value of each key, at most one value per `interval_ms`. Values that were skipped are
+ * merged into the latest one.
+ */
 export class Throttle<Value> {
   private readonly waiting = new Map<string, Value>();
   private busy = false;
@@ -6,15 +9,15 @@ export class Throttle<Value> {
   constructor(
     private readonly interval_ms: number,
     private readonly send: (key: string, value: Value) => void,
-    private readonly joined: (waiting: Value, latest: Value) => Value,
+    private readonly merge: (waiting: Value, latest: Value) => Value,
     private readonly after: (ms: number, action: () => void) => void = later,
   ) {}
 
   put(key: string, value: Value): void {
-    const passed = this.waiting.get(key);
-    // A key that comes again goes to the end, so that what is sent is in the order in which it was put.
+    const skipped = this.waiting.get(key);
+    // A repeated key moves to the end, so that values are sent in the order of the last `put`.
     this.waiting.delete(key);
-    this.waiting.set(key, passed === undefined ? value : this.joined(passed, value));
+    this.waiting.set(key, skipped === undefined ? value : this.merge(skipped, value));
     if (!this.busy) this.next();
   }
 

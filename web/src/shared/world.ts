@@ -7,7 +7,7 @@ export interface Terrain {
 
 export type Obstacle = { [key: string]: Json };
 
-/** The world of a setting, and what stands in it. */
+/** The world of a setting, with obstacles and terrain. */
 export interface World extends WorldView {
   obstacles: Obstacle[];
   terrain: Terrain[];

@@ -11,16 +11,16 @@ async function open(page: Page, server: RealServer, query = ""): Promise<void> {
   await expect(status(page)).toContainText("robots");
 }
 
-test("the experiment of 2003 opens from the gallery and runs until all is found", async ({
+test("the experiment of 2003 opens from the gallery and runs until all items are found", async ({
   page,
   server,
 }) => {
   await page.goto(server.url);
   await page.getByRole("link", { name: /^classic/ }).click();
   await expect(status(page)).toHaveText("0.0 s, 4 robots: all clear; 1 of 4 items found; paused.");
-  await page.getByRole("combobox", { name: "Speed" }).selectOption({ label: "as fast as it can" });
+  await page.getByRole("combobox", { name: "Speed" }).selectOption({ label: "Maximum" });
   await page.keyboard.press("Space");
-  await expect(status(page)).toContainText("4 of 4 items found; the run is over");
+  await expect(status(page)).toContainText("4 of 4 items found; finished");
 });
 
 test("a step is a paint, and steps back lead to the same state", async ({ page, server }) => {
@@ -37,7 +37,7 @@ test("a step is a paint, and steps back lead to the same state", async ({ page, 
   await expect.poll(() => hash(page)).toBe(there);
 });
 
-test("team and contact change in mid-run, and the address gives the same run", async ({
+test("team and contact change during a run, and the address gives the same run", async ({
   page,
   server,
   context,
@@ -60,24 +60,24 @@ test("team and contact change in mid-run, and the address gives the same run", a
   await expect.poll(() => hash(other)).toBe(await hash(page));
 });
 
-test("what 2003 had not is not offered", async ({ page, server }) => {
+test("features that the classic engine lacks are not offered", async ({ page, server }) => {
   await open(page, server);
   await expect(page.getByRole("tab", { name: "Edit" })).toHaveCount(0);
   await page.getByRole("tab", { name: "Layers" }).click();
-  await expect(page.getByRole("checkbox", { name: "Cells looked at" })).toBeVisible();
+  await expect(page.getByRole("checkbox", { name: "Observed cells" })).toBeVisible();
   await expect(page.getByRole("checkbox", { name: "Radio links" })).toHaveCount(0);
   await expect(page.getByText("battery empty")).toHaveCount(0);
 });
 
 for (const tab of ["Results", "Robot", "Parameters", "Layers", "Changes"]) {
-  test(`of a classic run the panel ${tab} has no fault that axe finds`, async ({ page, server }) => {
+  test(`the panel ${tab} of a classic run passes axe`, async ({ page, server }) => {
     await open(page, server, "&tick=60&changes=[[0,%22contact%22,%22ahead%22]]&robot=wanderer/0");
     await page.getByRole("tab", { name: tab }).click();
     await expectAccessible(page);
   });
 }
 
-test("a run is saved, listed, and opened as the run that it was", async ({ page, server }) => {
+test("a run is saved, listed, and opened as the same run", async ({ page, server }) => {
   await open(page, server, `&tick=90&changes=[[30,"robots.wanderer.count",7],[60,"contact","ahead"]]`);
   await expect(status(page)).toContainText("1.6 s, 7 robots");
   const there = await hash(page);
@@ -95,7 +95,7 @@ test("a run is saved, listed, and opened as the run that it was", async ({ page,
   await expect.poll(() => page.url()).toMatch(/recording=recordings.*tick=90/);
 });
 
-test("changes that an address does not hold are saved, and the recording is its name", async ({
+test("changes that do not fit into an address are saved, and the address names the recording", async ({
   page,
   server,
 }) => {

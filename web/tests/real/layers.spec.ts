@@ -6,7 +6,7 @@ import { expect, type RealServer, test } from "./server";
 
 const view: View = [5, 5, 60];
 
-/** Robots that stand and look along x, and what else is in their world. */
+/** A scenario with robots that stand still and face along x. */
 function field(places: [number, number][], world: string): string {
   return `
 engine = "metric"
@@ -41,7 +41,7 @@ async function open(page: Page, server: RealServer, text: string): Promise<void>
 
 const link = (page: Page) => page.getByRole("checkbox", { name: "Radio links" });
 
-test("walls cut what robots see, and who hears whom", async ({ page, server }) => {
+test("walls cut sensor coverage and radio links", async ({ page, server }) => {
   const wall = "obstacles = [{ polygon_m = [[5.5, 3], [6, 3], [6, 7], [5.5, 7]] }]";
   await open(
     page,
@@ -55,7 +55,7 @@ test("walls cut what robots see, and who hears whom", async ({ page, server }) =
       wall,
     ),
   );
-  // The first robot sees up to the wall, and hears the third only.
+  // The first robot sees up to the wall, and receives from the third only.
   await expect.poll(() => inkAt(page, view, [5, 5])).toBe(true);
   expect(await inkAt(page, view, [6.6, 5])).toBe(false);
   await link(page).check();
@@ -65,7 +65,7 @@ test("walls cut what robots see, and who hears whom", async ({ page, server }) =
   await expect(page.getByText("1 robot", { exact: true })).toBeVisible();
 });
 
-test("without walls they see as far as they can, and hear each other", async ({ page, server }) => {
+test("without walls, coverage and links extend to their full range", async ({ page, server }) => {
   await open(
     page,
     server,
@@ -83,7 +83,7 @@ test("without walls they see as far as they can, and hear each other", async ({ 
   await expect.poll(() => inkAt(page, view, [7.5, 5])).toBe(true);
 });
 
-test("in a world that periodic links and views go on at the other side", async ({ page, server }) => {
+test("in a periodic world, coverage and links continue at the other side", async ({ page, server }) => {
   await open(
     page,
     server,
@@ -95,9 +95,9 @@ test("in a world that periodic links and views go on at the other side", async (
       "periodic = true",
     ),
   );
-  // What the second robot sees beyond the right side comes in at the left one, behind the first.
+  // The coverage of the second robot beyond the right side continues at the left, behind the first.
   await expect.poll(() => inkAt(page, view, [0.4, 5])).toBe(true);
-  await page.getByRole("checkbox", { name: "Sensing" }).uncheck();
+  await page.getByRole("checkbox", { name: "Sensor coverage" }).uncheck();
   await expect.poll(() => inkAt(page, view, [0.4, 5])).toBe(false);
   await link(page).check();
   await expect.poll(() => inkAt(page, view, [0.4, 5])).toBe(true);

@@ -1,7 +1,7 @@
 import { readFile } from "node:fs/promises";
 import { expect, test } from "./server";
 
-test("a run that is saved is the run that is opened, to the bit", async ({ page, server }) => {
+test("a saved run opens as the same run, to the bit", async ({ page, server }) => {
   const status = page.locator("#status");
   const hash = () => page.getByTitle("Hash of the run's state").getAttribute("title");
   const change = encodeURIComponent(JSON.stringify([[10, "robots.rover.count", 7]]));
@@ -21,14 +21,14 @@ test("a run that is saved is the run that is opened, to the bit", async ({ page,
   await expect.poll(() => page.url()).toMatch(/recording=recordings.*tick=40/);
 });
 
-test("the scenario as it is now can be opened as a file", async ({ page, server }) => {
+test("the scenario with its changes can be opened as a file", async ({ page, server }) => {
   const change = encodeURIComponent(JSON.stringify([[0, "robots.rover.count", 3]]));
   await page.goto(`${server.url}/#/run?scenario=search-beliefs&changes=${change}`);
   await expect(page.locator("#status")).toContainText("3 robots");
   await page.locator("summary", { hasText: "Export" }).click();
   const [saved] = await Promise.all([
     page.waitForEvent("download"),
-    page.getByRole("button", { name: "Scenario as it is now" }).click(),
+    page.getByRole("button", { name: "Scenario with changes" }).click(),
   ]);
   const buffer = await readFile(await saved.path());
   await page.goto(server.url);

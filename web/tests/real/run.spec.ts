@@ -18,12 +18,12 @@ test("a scenario of the gallery becomes a run, and then another", async ({ page,
   const first = await hash(page);
   await page.getByRole("button", { name: "New run" }).click();
   await page.getByRole("textbox", { name: "Seed" }).fill("12345678901234567890");
-  await page.getByRole("button", { name: "Begin" }).click();
+  await page.getByRole("button", { name: "Start" }).click();
   await expect.poll(() => page.url()).toContain("seed=12345678901234567890&run=1");
   await expect.poll(() => hash(page)).not.toBe(first);
 });
 
-test("the slider changes the team in mid-run", async ({ page, server }) => {
+test("the slider changes the team during a run", async ({ page, server }) => {
   await open(page, server, "scenario=search&seed=3&tick=40");
   await expect(status(page)).toContainText("4.0 s");
   await page.keyboard.press("Space");
@@ -36,7 +36,7 @@ test("the slider changes the team in mid-run", async ({ page, server }) => {
   expect(await time_s(page)).toBeGreaterThanOrEqual(4);
 });
 
-test("a slider that is drawn while the run stands is one change, which one undo takes back", async ({
+test("dragging a slider while the run is paused is one change, which one undo reverts", async ({
   page,
   server,
 }) => {
@@ -63,10 +63,7 @@ test("a slider that is drawn while the run stands is one change, which one undo 
   await expect.poll(() => hash(page)).toBe(before);
 });
 
-test("a page that is loaded anew while it is on its way to a moment comes there", async ({
-  page,
-  server,
-}) => {
+test("a page that is reloaded while computing towards a tick reaches it", async ({ page, server }) => {
   const changes = encodeURIComponent(
     JSON.stringify([
       [0, "clock.time_limit_s", 100_000],
@@ -76,14 +73,14 @@ test("a page that is loaded anew while it is on its way to a moment comes there"
   );
   await open(page, server, `scenario=search-beliefs&seed=3&changes=${changes}&tick=3000`);
   await expect.poll(() => time_s(page)).toBeGreaterThan(2);
-  // Written anew meanwhile: the page adds its view.
+  // The address has been updated: the page adds its view.
   await expect.poll(() => page.url()).toContain("view=");
   expect(page.url()).toContain("tick=3000");
   await page.reload();
   await expect(status(page)).toContainText("300.0 s", { timeout: 40_000 });
 });
 
-test("a run plays, stands, steps, and goes back to the same bytes", async ({ page, server }) => {
+test("a run plays, pauses, steps, and returns to the same state", async ({ page, server }) => {
   await open(page, server, "scenario=search-beliefs&seed=7");
   await page.keyboard.press("Space");
   await expect.poll(() => time_s(page)).toBeGreaterThan(1);
@@ -101,7 +98,7 @@ test("a run plays, stands, steps, and goes back to the same bytes", async ({ pag
   await expect.poll(() => hash(page)).toBe(there);
 });
 
-test("a parameter changes in mid-run, what is not allowed is refused, and both can be undone", async ({
+test("a parameter changes during a run, an invalid value is refused, and the change can be undone", async ({
   page,
   server,
 }) => {
@@ -121,7 +118,7 @@ test("a parameter changes in mid-run, what is not allowed is refused, and both c
   await expect(box).toHaveValue(before);
 });
 
-test("an address reproduces the run, tick for tick, in another tab and beside it", async ({
+test("an address reproduces the run in another tab, which is independent", async ({
   page,
   server,
   context,
@@ -142,13 +139,16 @@ test("an address reproduces the run, tick for tick, in another tab and beside it
   const other = await context.newPage();
   await other.goto(page.url());
   await expect.poll(() => hash(other)).toBe(there);
-  // What one tab does is nothing to the other.
+  // The tabs are independent.
   await other.keyboard.press(".");
   await expect.poll(() => hash(other)).not.toBe(there);
   expect(await hash(page)).toBe(there);
 });
 
-test("a bad file is told with its lines, and a good one opens", async ({ page, server }) => {
+test("the errors of an invalid file are listed with lines, and a valid file opens", async ({
+  page,
+  server,
+}) => {
   const file = (text: string) => ({
     name: "my.toml",
     mimeType: "application/toml",
@@ -157,7 +157,7 @@ test("a bad file is told with its lines, and a good one opens", async ({ page, s
   await page.goto(server.url);
   const input = page.locator("input[type=file]");
   await input.setInputFiles(file('engine = "metric"\nsumary = "x"\n[clock]\nstep_s = -1\n'));
-  await expect(page.getByRole("heading", { name: /my.toml has \d faults/ })).toBeVisible();
+  await expect(page.getByRole("heading", { name: /my.toml has \d errors/ })).toBeVisible();
   await expect(page.getByRole("button", { name: "Line 2" })).toBeVisible();
   await expect(page.getByRole("button", { name: "Line 4" })).toBeVisible();
   await page.goto(server.url);
@@ -172,7 +172,7 @@ test("a bad file is told with its lines, and a good one opens", async ({ page, s
   await expect(status(page)).toContainText("3 robots");
 });
 
-test("a server that was killed is missed at once, and nothing is lost when it is back", async ({
+test("a killed server is reported at once, and the run is restored when it is back", async ({
   page,
   server,
 }) => {
@@ -189,7 +189,7 @@ test("a server that was killed is missed at once, and nothing is lost when it is
   await expect.poll(() => hash(page)).toBe(there);
 });
 
-test("a run that played when its server was killed plays on from there", async ({ page, server }) => {
+test("a run that was playing when its server was killed continues playing", async ({ page, server }) => {
   const changes = encodeURIComponent(
     JSON.stringify([
       [0, "clock.time_limit_s", 100_000],
@@ -208,7 +208,7 @@ test("a run that played when its server was killed plays on from there", async (
   expect(await time_s(page)).toBeGreaterThanOrEqual(there);
 });
 
-test("all of a run is done by keyboard alone", async ({ page, server }) => {
+test("a run is operated by keyboard alone", async ({ page, server }) => {
   await page.goto(server.url);
   const card = page.getByRole("link", { name: /^search-beliefs/ });
   for (let i = 0; i < 60 && !(await card.evaluate((link) => link === document.activeElement)); i += 1)

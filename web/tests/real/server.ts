@@ -1,7 +1,7 @@
 import { RealServer } from "../../dev/real-server.mjs";
 import { expect, test as page } from "../page";
 
-/** A page beside a server of this test's own. */
+/** A page with a real server. */
 export const test = page.extend<{ server: RealServer }>({
   server: async ({}, use) => {
     const server = new RealServer();

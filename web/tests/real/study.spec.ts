@@ -1,6 +1,6 @@
 import { expect, test } from "./server";
 
-test("a study goes from a click to its answer, and from a point to that very run", async ({
+test("a study is started and answered, and a point of its chart opens a run of it", async ({
   page,
   server,
 }) => {
@@ -10,7 +10,7 @@ test("a study goes from a click to its answer, and from a point to that very run
   await page.getByRole("textbox", { name: "Delta" }).fill("0.5");
   await expect(page.getByText("factorial: 4 configurations; delta 0.5")).toBeVisible();
   await page.getByRole("button", { name: "Start" }).click();
-  await expect(page.getByRole("heading", { name: "Still in" })).toBeVisible();
+  await expect(page.getByRole("heading", { name: "Remaining" })).toBeVisible();
   await expect(page.getByText(/^Send \d rovers?: a run takes/)).toBeVisible({ timeout: 60_000 });
 
   const chart = page.getByRole("img", { name: /^Figure of merit with its range/ });
@@ -23,32 +23,32 @@ test("a study goes from a click to its answer, and from a point to that very run
   await expect(page.getByRole("heading", { name: `Run ${run} of search, 1 rover` })).toBeVisible();
   await page.getByRole("combobox", { name: /[Ss]peed/ }).selectOption({ index: 6 });
   await page.getByRole("button", { name: "Play", exact: true }).click();
-  await expect(page.locator("#status")).toContainText("the run is over", { timeout: 30_000 });
+  await expect(page.locator("#status")).toContainText("finished", { timeout: 30_000 });
   const ended_s = Number.parseFloat((await page.locator("#status").textContent()) ?? "");
   expect(Math.abs(ended_s - time_s)).toBeLessThan(0.2);
   await page.getByRole("link", { name: "Back to the study" }).click();
   await expect(dialog).toBeVisible();
 });
 
-test("a study that is stopped goes on, and is in the list all the while", async ({ page, server }) => {
+test("a stopped study is resumed, and stays in the list", async ({ page, server }) => {
   await page.goto(`${server.url}/#/study/new?scenario=search`);
   await page.getByRole("button", { name: "Start" }).click();
-  await expect(page.getByText("runs a second")).toBeVisible();
+  await expect(page.getByText("runs per second")).toBeVisible();
   await page.getByRole("button", { name: "Stop" }).click();
-  await expect(page.getByRole("button", { name: "Go on" })).toBeVisible();
+  await expect(page.getByRole("button", { name: "Resume" })).toBeVisible();
   await page.getByRole("link", { name: "Studies", exact: true }).click();
   await page.getByRole("link", { name: /^Stopped search/ }).click();
-  await page.getByRole("button", { name: "Go on" }).click();
+  await page.getByRole("button", { name: "Resume" }).click();
   await expect(page.getByRole("button", { name: "Stop" })).toBeVisible();
 });
 
-test("a server that is killed is missed at once, and the study goes on from its folder", async ({
+test("a killed server is reported at once, and the study is read from its folder", async ({
   page,
   server,
 }) => {
   await page.goto(`${server.url}/#/study/new?scenario=search`);
   await page.getByRole("button", { name: "Start" }).click();
-  await expect(page.getByText("runs a second")).toBeVisible();
+  await expect(page.getByText("runs per second")).toBeVisible();
   await server.kill();
   await expect(page.getByText("The connection is lost.")).toBeVisible();
   await server.start();

@@ -2,18 +2,18 @@ import { type BelievedMap, runs, unknown } from "../../shared/believed_map";
 import { type Colours, rgb } from "../colours";
 import { inWorld, type Layer, type Pen } from "./layer";
 
-/** What was made of a map: each map is drawn many times. */
-interface Made {
+/** Rasters of a map, cached because each map is drawn many times. */
+interface Rasters {
   colours: Colours;
-  filled: HTMLCanvasElement;
+  occupied: HTMLCanvasElement;
   unseen: HTMLCanvasElement;
-  /** Cells of which nothing is known, in cells from the corner. */
+  /** Unknown cells, in units of cells from the corner. */
   dark: Path2D;
 }
 
-const made = new WeakMap<BelievedMap, Made>();
+const cache = new WeakMap<BelievedMap, Rasters>();
 
-/** The selected robot's map over the truth: hatched is unknown, filled cells are full, free ones clear. */
+/** The selected robot's map over the true world: unknown cells are hatched, occupied ones filled, free ones clear. */
 export const beliefMap: Layer = {
   id: "belief-map",
   label: "Believed map",
@@ -24,41 +24,41 @@ export const beliefMap: Layer = {
   active: ({ map, selected }) => map !== null && selected >= 0,
   draw(pen, { map }) {
     if (!map) return;
-    const { filled, dark } = madeOf(map, pen.colours);
+    const { occupied, dark } = rastersOf(map, pen.colours);
     hatch(pen, map, dark);
-    picture(pen, map, filled);
+    picture(pen, map, occupied);
   },
 };
 
-/** Where the selected robot has not looked well enough to know that nothing is there. */
+/** Where the selected robot may have missed an item. */
 export const unseen: Layer = {
   id: "unseen",
-  label: "Not yet searched",
+  label: "Unsearched area",
   switchable: true,
   on: false,
   place: "over",
   only: "metric",
   active: ({ map, selected }) => map !== null && selected >= 0,
   draw(pen, { map }) {
-    if (map) picture(pen, map, madeOf(map, pen.colours).unseen);
+    if (map) picture(pen, map, rastersOf(map, pen.colours).unseen);
   },
 };
 
-function madeOf(map: BelievedMap, colours: Colours): Made {
-  const known = made.get(map);
+function rastersOf(map: BelievedMap, colours: Colours): Rasters {
+  const known = cache.get(map);
   if (known?.colours === colours) return known;
   const dark = new Path2D();
   for (const [column, row, length] of runs(map.occupancy, map.columns, (percent) => percent === unknown))
     dark.rect(column, row, length, 1);
-  const filled = raster(map, map.occupancy, colours.belief, filledAlpha);
+  const occupied = raster(map, map.occupancy, colours.belief, occupiedAlpha);
   const notSeen = raster(map, map.unseen, colours["item-hidden"], (percent) => 0.22 * (percent / 100));
-  const all = { colours, filled, unseen: notSeen, dark };
-  made.set(map, all);
+  const all = { colours, occupied, unseen: notSeen, dark };
+  cache.set(map, all);
   return all;
 }
 
-/** What is rather filled than free is the fuller the surer it is. */
-function filledAlpha(percent: number): number {
+/** Cells that are probably occupied: the higher the probability, the more opaque. */
+function occupiedAlpha(percent: number): number {
   return percent === unknown || percent <= 50 ? 0 : 0.15 + (0.5 * (percent - 50)) / 50;
 }
 
@@ -87,7 +87,7 @@ function picture(pen: Pen, { corner, cell_m }: BelievedMap, cells: HTMLCanvasEle
   });
 }
 
-/** Lines as far from each other at every zoom. */
+/** Hatching with the same spacing at every zoom. */
 function hatch({ context, camera, colours }: Pen, { corner, cell_m }: BelievedMap, cells: Path2D): void {
   const { x, y, scale, width, height } = camera;
   const size = cell_m * scale;
@@ -103,7 +103,7 @@ function hatch({ context, camera, colours }: Pen, { corner, cell_m }: BelievedMa
 const tiles = new WeakMap<Colours, HTMLCanvasElement>();
 const tile_px = 8;
 
-/** A square with lines from corner to corner, which go on in the next. */
+/** A tile with diagonal lines that continue in the next. */
 function tile(colours: Colours): HTMLCanvasElement {
   const known = tiles.get(colours);
   if (known) return known;

@@ -3,34 +3,34 @@ import { type Camera, toScreen } from "../camera";
 import { chevron } from "../painter_2d";
 import { type Layer, type Pen, poseOf } from "./layer";
 
-const leastDeviation_px = 8;
+const minDeviation_px = 8;
 
-/** What the selected robot believes and wants, dashed, as none of it need be so. */
-export const mind: Layer = {
-  id: "mind",
+/** Beliefs and goals of the selected robot, dashed because they may differ from the truth. */
+export const beliefs: Layer = {
+  id: "beliefs",
   label: "Beliefs and goals",
   switchable: true,
   on: true,
   place: "over",
   only: "metric",
-  active: (scene) => !!scene.mind?.thoughts && scene.selected >= 0,
+  active: (scene) => !!scene.inspection?.thoughts && scene.selected >= 0,
   draw(pen, scene) {
-    const isOfSelected = scene.mind?.robot === scene.setting.robots[scene.selected];
-    const thoughts = isOfSelected ? scene.mind?.thoughts : null;
+    const isOfSelected = scene.inspection?.robot === scene.setting.robots[scene.selected];
+    const beliefState = isOfSelected ? scene.inspection?.thoughts : null;
     const pose = poseOf(scene, scene.selected);
-    if (!thoughts || !pose) return;
+    if (!beliefState || !pose) return;
     const { context, colours } = pen;
     context.strokeStyle = context.fillStyle = colours.belief;
     context.lineWidth = 1.5;
     context.font = "11px system-ui, sans-serif";
-    goals(pen, thoughts.goals, toScreen(pen.camera, ...pose.at));
-    for (const item of thoughts.items) believed(pen, item);
-    if (thoughts.pose) self(pen, thoughts.pose);
+    drawGoals(pen, beliefState.goals, toScreen(pen.camera, ...pose.at));
+    for (const item of beliefState.items) drawItem(pen, item);
+    if (beliefState.pose) drawPose(pen, beliefState.pose);
   },
 };
 
-function goals({ context, camera }: Pen, wanted: Goal[], from: [number, number]): void {
-  wanted.forEach((goal: Goal, i) => {
+function drawGoals({ context, camera }: Pen, goals: Goal[], from: [number, number]): void {
+  goals.forEach((goal: Goal, i) => {
     const [x, y] = toScreen(camera, ...goal.to);
     context.globalAlpha = goal.is_pursued ? 1 : 0.5;
     context.setLineDash(goal.is_pursued ? [] : [4, 4]);
@@ -46,7 +46,7 @@ function goals({ context, camera }: Pen, wanted: Goal[], from: [number, number])
   context.setLineDash([]);
 }
 
-function believed({ context, camera }: Pen, item: BelievedItem): void {
+function drawItem({ context, camera }: Pen, item: BelievedItem): void {
   const [x, y] = toScreen(camera, ...item.at);
   deviation(context, camera, x, y, item.deviation_m);
   context.globalAlpha = 0.25 + 0.75 * item.confidence;
@@ -55,7 +55,7 @@ function believed({ context, camera }: Pen, item: BelievedItem): void {
   context.fillText(`${Math.round(100 * item.confidence)}%`, x + 7, y - 7);
 }
 
-function self({ context, camera }: Pen, pose: Pose): void {
+function drawPose({ context, camera }: Pen, pose: Pose): void {
   const [x, y] = toScreen(camera, ...pose.at);
   deviation(context, camera, x, y, pose.deviation_m);
   context.beginPath();
@@ -73,7 +73,7 @@ function deviation(
 ) {
   context.setLineDash([3, 3]);
   context.beginPath();
-  context.arc(x, y, Math.max(leastDeviation_px, 2 * deviation_m * scale), 0, 2 * Math.PI);
+  context.arc(x, y, Math.max(minDeviation_px, 2 * deviation_m * scale), 0, 2 * Math.PI);
   context.stroke();
   context.setLineDash([]);
 }

@@ -1,7 +1,7 @@
 import { toScreen } from "../camera";
 import type { Layer, Pen, Scene } from "./layer";
 
-/** The world's ground. */
+/** The ground of the world. */
 export const ground: Layer = {
   id: "ground",
   label: "World",
@@ -15,7 +15,7 @@ export const ground: Layer = {
   },
 };
 
-/** The wall around it; dashed where the world goes on at its other side. */
+/** The border of the world; dashed if the world is periodic. */
 export const border: Layer = {
   id: "border",
   label: "Border",

@@ -1,9 +1,9 @@
 import { inWorld, type Layer, outline } from "./layer";
 
-/** Where robots must be to find items. */
+/** The areas in which robots find items. */
 export const contact: Layer = {
   id: "contact",
-  label: "Where items are found",
+  label: "Detection areas",
   switchable: true,
   on: true,
   place: "still",

@@ -2,10 +2,10 @@ import type { Footprint } from "../../api/overlay";
 import type { Point } from "../../api/protocol";
 import { imagesOf, type Layer, type Pen, poseIn, type Scene, withinWorld } from "./layer";
 
-/** What sensors cover, as the engine tells: filled for those that find items, outlined for all others. */
+/** Sensor coverage as reported by the engine: filled for item sensors, outlined for others. */
 export const footprints: Layer = {
   id: "footprints",
-  label: "Sensing",
+  label: "Sensor coverage",
   switchable: true,
   on: true,
   place: "over",
@@ -15,7 +15,7 @@ export const footprints: Layer = {
     const [filled, outlined] = [new Path2D(), new Path2D()];
     const overlay = scene.frame?.overlay;
     for (const footprint of overlay?.footprints ?? []) {
-      // Where the sensors looked: from where robots are drawn on their way, walls would be elsewhere.
+      // The pose at which the sensors measured: from an interpolated pose, occlusions would not match.
       const pose = poseIn(overlay?.robots ?? none, footprint.robot);
       if (!pose) continue;
       for (const at of imagesOf(scene, pose.at, footprint.range_m)) {
@@ -48,7 +48,7 @@ const whole_rad = 2 * Math.PI - 1e-6;
 
 function outline(path: Path2D, { corners, range_m }: Footprint, at: Point, heading_rad: number): void {
   const [first = 0, last = 0] = [corners[0], corners.at(-2)];
-  // The place of the robot closes a sector.
+  // A sector is closed at the robot's position.
   if (last - first < whole_rad) path.moveTo(...at);
   else path.moveTo(...placeOf(at, heading_rad + first, corners[1] ?? 0));
   for (let i = 0; i < corners.length; i += 2) {

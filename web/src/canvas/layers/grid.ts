@@ -1,11 +1,11 @@
 import { toScreen } from "../camera";
 import type { Layer, Pen, Scene } from "./layer";
 
-const least_px = 64;
+const minSpacing_px = 64;
 
-/** From one mark to the next, in the unit of the world: 1, 2 or 5 times a power of ten, so that lines are not too near. */
+/** Grid spacing in the unit of the world: 1, 2 or 5 times a power of ten, at least `minSpacing_px` wide. */
 export function spacing(scale: number): number {
-  const wanted = least_px / scale;
+  const wanted = minSpacing_px / scale;
   const power = 10 ** Math.floor(Math.log10(wanted));
   return ([1, 2, 5, 10].find((factor) => factor * power >= wanted) ?? 10) * power;
 }

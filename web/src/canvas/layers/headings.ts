@@ -1,33 +1,33 @@
-import type { Pose, Reach } from "../../api/protocol";
-import { mixed, placeOf, worths } from "../headings";
+import type { HeadingOptions, Pose } from "../../api/protocol";
+import { mixColours, relativeUtilities, toWorldFrame } from "../headings";
 import { toScreen } from "../camera";
 import { type Layer, type Pen } from "./layer";
 
-/** What the places that the selected robot can get to are worth to it, and which way it takes. */
-export const reach: Layer = {
-  id: "reach",
-  label: "Worth of places",
+/** The heading options of the selected robot, coloured by utility, with the chosen one marked. */
+export const headings: Layer = {
+  id: "headings",
+  label: "Heading options",
   switchable: true,
   on: true,
   place: "over",
   only: "metric",
-  active: ({ mind, selected }) => selected >= 0 && !!mind?.thoughts?.reach,
-  draw(pen, { mind, setting, selected }) {
-    const thoughts = mind?.robot === setting.robots[selected] ? mind?.thoughts : null;
-    if (thoughts?.pose && thoughts.reach) courses(pen, thoughts.pose, thoughts.reach);
+  active: ({ inspection, selected }) => selected >= 0 && !!inspection?.thoughts?.reach,
+  draw(pen, { inspection, setting, selected }) {
+    const thoughts = inspection?.robot === setting.robots[selected] ? inspection?.thoughts : null;
+    if (thoughts?.pose && thoughts.reach) drawOptions(pen, thoughts.pose, thoughts.reach);
   },
 };
 
-/** Better places are stronger in colour and greater, so that neither has to be told from the other alone. */
-function courses({ context, camera, colours }: Pen, pose: Pose, told: Reach): void {
-  const shares = worths(told);
+/** Higher utility has both a stronger colour and a larger dot, so that neither is needed alone. */
+function drawOptions({ context, camera, colours }: Pen, pose: Pose, options: HeadingOptions): void {
+  const shares = relativeUtilities(options);
   const from = toScreen(camera, ...pose.at);
-  told.courses.forEach((course, i) => {
+  options.courses.forEach((option, i) => {
     const share = shares[i] ?? 0;
-    const to = toScreen(camera, ...placeOf(pose, course.at));
-    const isTaken = i === told.taken;
-    context.strokeStyle = context.fillStyle = mixed(colours["reach-low"], colours["reach-high"], share);
-    context.lineWidth = isTaken ? 3 : 1;
+    const to = toScreen(camera, ...toWorldFrame(pose, option.at));
+    const isChosen = i === options.taken;
+    context.strokeStyle = context.fillStyle = mixColours(colours["reach-low"], colours["reach-high"], share);
+    context.lineWidth = isChosen ? 3 : 1;
     context.beginPath();
     context.moveTo(...from);
     context.lineTo(...to);
@@ -35,7 +35,7 @@ function courses({ context, camera, colours }: Pen, pose: Pose, told: Reach): vo
     context.beginPath();
     context.arc(...to, 1.5 + 2.5 * share, 0, 2 * Math.PI);
     context.fill();
-    if (!isTaken) return;
+    if (!isChosen) return;
     context.strokeStyle = colours.text;
     context.lineWidth = 1.5;
     context.beginPath();

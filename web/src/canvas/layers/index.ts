@@ -1,22 +1,22 @@
 import { beliefMap, unseen } from "./belief_map";
+import { beliefs } from "./beliefs";
 import { border, ground } from "./border";
 import { contact } from "./contact";
 import { footprints } from "./footprints";
-import { ghost } from "./preview";
 import { grid } from "./grid";
+import { headings } from "./headings";
 import { items } from "./items";
 import type { Layer } from "./layer";
 import { links } from "./links";
-import { looks } from "./observed_cells";
 import { maps } from "./maps";
-import { mind } from "./beliefs";
+import { observedCells } from "./observed_cells";
 import { obstacles } from "./obstacles";
-import { reach } from "./headings";
+import { preview } from "./preview";
 import { selection } from "./selection";
 import { terrain } from "./terrain";
 import { trails } from "./trails";
 
-/** From the lowest to the highest, within their places. */
+/** From bottom to top, within each place. */
 export const layers: Layer[] = [
   ground,
   terrain,
@@ -29,11 +29,11 @@ export const layers: Layer[] = [
   beliefMap,
   unseen,
   footprints,
-  looks,
+  observedCells,
   links,
   trails,
-  reach,
-  mind,
+  headings,
+  beliefs,
   selection,
-  ghost,
+  preview,
 ];

@@ -5,7 +5,7 @@ import type { Layer, Pen } from "./layer";
 
 const half_px = 6;
 
-/** Items: a hollow diamond until found, then a disc with a tick; a struck diamond if missed; clutter a plus. */
+/** Items: a hollow diamond until found, then a disc with a tick; a crossed diamond if missed; clutter is a plus. */
 export const items: Layer = {
   id: "items",
   label: "Items",
@@ -13,11 +13,11 @@ export const items: Layer = {
   on: true,
   place: "still",
   active: ({ setting }) => setting.items.length > 0,
-  draw(pen, { setting, frame, ghost }) {
+  draw(pen, { setting, frame, preview }) {
     const states = frame?.items;
     setting.items.forEach(({ at, target }, i) => {
       const [x, y] = toScreen(pen.camera, ...at);
-      pen.context.globalAlpha = ghost ? 0.6 : 1;
+      pen.context.globalAlpha = preview ? 0.6 : 1;
       if (!target) plus(pen, x, y);
       else if (states?.[i] === ItemState.Found) found(pen, x, y);
       else diamond(pen, x, y, states?.[i] === ItemState.Missed);

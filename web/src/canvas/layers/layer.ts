@@ -1,26 +1,26 @@
 import type { Frame } from "../../api/frames";
-import type { Engine, Mind, Point, RobotView, Setting } from "../../api/protocol";
+import type { Engine, Inspection, Point, RobotView, Setting } from "../../api/protocol";
 import type { BelievedMap } from "../../shared/believed_map";
 import type { World } from "../../shared/world";
 import type { Camera } from "../camera";
 import type { Colours } from "../colours";
 import type { Trails } from "./trail_store";
 
-/** All that layers draw. */
+/** The data that layers draw. */
 export interface Scene {
   setting: Setting;
   world: World;
   frame: Frame | null;
-  mind: Mind | null;
-  /** What the selected robot believes of its field. */
+  inspection: Inspection | null;
+  /** The believed map of the selected robot. */
   map: BelievedMap | null;
-  /** What else is told of the selected robot. */
-  told: RobotView | null;
+  /** The engine's report about the selected robot. */
+  robot: RobotView | null;
   /** Number of the selected robot; -1 for none. */
   selected: number;
   trails: Trails;
-  /** What is being put somewhere by hand, drawn above all. */
-  ghost: Path2D | null;
+  /** The shape that the current tool would place, drawn on top. */
+  preview: Path2D | null;
 }
 
 export interface Pen {
@@ -30,24 +30,24 @@ export interface Pen {
 }
 
 /**
- * Something to draw. `still` layers, beneath the robots, are drawn anew only when view, setting or items
- * change; those `over` the robots with each frame.
+ * A layer of the drawing. `still` layers, below the robots, are redrawn only when view, setting or items
+ * change; layers `over` the robots with each frame.
  */
 export interface Layer {
   id: string;
   label: string;
-  /** Whether people can switch it, and how it begins. */
+  /** Whether users can switch it, and its initial state. */
   switchable: boolean;
   on: boolean;
   place: "still" | "over";
-  /** The engine that alone has such things; left out: all have. */
+  /** The only engine that has this layer; left out: both. */
   only?: Engine;
-  /** Whether there is anything to draw; a canvas with nothing on it costs nothing. */
+  /** Whether there is anything to draw; an empty canvas is hidden, which costs nothing. */
   active(scene: Scene): boolean;
   draw(pen: Pen, scene: Scene): void;
 }
 
-/** Draws in the world's unit, y up, in which a line of a pixel is `1 / camera.scale` wide. */
+/** Draws in world coordinates, y up; one pixel is `1 / camera.scale`. */
 export function inWorld({ context, camera }: Pen, draw: () => void): void {
   const { x, y, scale, width, height } = camera;
   context.save();
@@ -56,7 +56,7 @@ export function inWorld({ context, camera }: Pen, draw: () => void): void {
   context.restore();
 }
 
-/** The same, and nothing beyond the border: nothing is there, or it is at the other side of a world that wraps. */
+/** Likewise, clipped to the world. In a periodic world, what crosses the border is drawn at the other side. */
 export function withinWorld(pen: Pen, { world: { size } }: Scene, draw: () => void): void {
   inWorld(pen, () => {
     pen.context.beginPath();
@@ -66,7 +66,7 @@ export function withinWorld(pen: Pen, { world: { size } }: Scene, draw: () => vo
   });
 }
 
-/** Where a place is, and in a world that wraps its images that are within `reach` of the world too. */
+/** A point and, in a periodic world, its images within `reach` of the world. */
 export function imagesOf({ world }: Scene, [x, y]: Point, reach: number): Point[] {
   if (!world.periodic) return [[x, y]];
   const [xs, ys] = [along(x, world.size[0], reach), along(y, world.size[1], reach)];
@@ -95,12 +95,12 @@ export interface Pose {
   heading_rad: number;
 }
 
-/** Where a robot is; null if there is no such robot. */
+/** The pose of a robot; null if there is no such robot. */
 export function poseOf({ frame }: Scene, robot: number): Pose | null {
   return frame && poseIn(frame.robots, robot);
 }
 
-/** The same of robots as a frame has them. */
+/** Likewise, from the robots of a frame. */
 export function poseIn(robots: Float32Array, robot: number): Pose | null {
   const [x, y, heading_rad] = robot < 0 ? [] : robots.subarray(4 * robot, 4 * robot + 3);
   return x === undefined || y === undefined || heading_rad === undefined ? null : { at: [x, y], heading_rad };

@@ -1,7 +1,7 @@
 import type { Point } from "../../api/protocol";
 import { imagesOf, type Layer, poseOf, type Scene, withinWorld } from "./layer";
 
-/** Who hears whom, as the engine tells: whole lines if both do, dashed if only one does. */
+/** Radio links as reported by the engine: solid if two-way, dashed if one-way. */
 export const links: Layer = {
   id: "links",
   label: "Radio links",
@@ -13,10 +13,10 @@ export const links: Layer = {
   draw(pen, scene) {
     const { context, colours, camera } = pen;
     const [mutual, single] = [new Path2D(), new Path2D()];
-    const told = scene.frame?.overlay?.links ?? new Uint32Array();
-    for (let i = 0; i < told.length; i += 3) {
-      const [from, to] = [poseOf(scene, told[i] ?? -1), poseOf(scene, told[i + 1] ?? -1)];
-      if (from && to) connect(told[i + 2] === 1 ? mutual : single, scene, from.at, to.at);
+    const links = scene.frame?.overlay?.links ?? new Uint32Array();
+    for (let i = 0; i < links.length; i += 3) {
+      const [from, to] = [poseOf(scene, links[i] ?? -1), poseOf(scene, links[i + 1] ?? -1)];
+      if (from && to) connect(links[i + 2] === 1 ? mutual : single, scene, from.at, to.at);
     }
     withinWorld(pen, scene, () => {
       context.strokeStyle = colours.link;
@@ -28,7 +28,7 @@ export const links: Layer = {
   },
 };
 
-/** The short way, which in a world that wraps may leave it at one side and come in at the other. */
+/** The shortest line, which may cross the border of a periodic world. */
 function connect(path: Path2D, scene: Scene, from: Point, to: Point): void {
   const { size, periodic } = scene.world;
   const [x, y] = [0, 1].map((axis) => {

@@ -4,7 +4,7 @@ import { inWorld, type Layer, type Pen } from "./layer";
 
 const pictures = new WeakMap<MapView, { colours: Colours; picture: HTMLCanvasElement }>();
 
-/** Maps as robots drew them, cell by cell. */
+/** Occupancy grid maps of the scenario, cell by cell. */
 export const maps: Layer = {
   id: "maps",
   label: "Maps",

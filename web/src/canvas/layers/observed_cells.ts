@@ -1,19 +1,19 @@
 import { inWorld, type Layer, outline } from "./layer";
 
-/** The cells that the selected robot would look at if it decided now. */
-export const looks: Layer = {
-  id: "looks",
-  label: "Cells looked at",
+/** The cells that the selected robot's next decision would observe. */
+export const observedCells: Layer = {
+  id: "observed-cells",
+  label: "Observed cells",
   switchable: true,
   on: true,
   place: "over",
   only: "classic",
-  active: ({ told }) => (told?.looks.length ?? 0) > 0,
-  draw(pen, { told, setting, selected }) {
-    if (!told || told.name !== setting.robots[selected]) return;
+  active: ({ robot }) => (robot?.looks.length ?? 0) > 0,
+  draw(pen, { robot, setting, selected }) {
+    if (!robot || robot.name !== setting.robots[selected]) return;
     const { context, colours, camera } = pen;
     const path = new Path2D();
-    for (const cell of told.looks) outline(path, cell);
+    for (const cell of robot.looks) outline(path, cell);
     inWorld(pen, () => {
       context.globalAlpha = 0.16;
       context.fillStyle = context.strokeStyle = colours["sense-items"];

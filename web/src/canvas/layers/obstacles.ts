@@ -1,7 +1,7 @@
 import { circleOf, polygonOf } from "../../shared/world";
 import { inWorld, type Layer, outline, ring } from "./layer";
 
-/** Polygons and circles; maps have a layer of their own. */
+/** Polygons and circles; the layer `maps` draws maps. */
 export const obstacles: Layer = {
   id: "obstacles",
   label: "Obstacles",

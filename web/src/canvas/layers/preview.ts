@@ -1,14 +1,14 @@
 import { inWorld, type Layer } from "./layer";
 
-/** What is being put somewhere by hand. */
-export const ghost: Layer = {
-  id: "ghost",
+/** The shape that the current tool would place. */
+export const preview: Layer = {
+  id: "preview",
   label: "Editing",
   switchable: false,
   on: true,
   place: "over",
-  active: (scene) => scene.ghost !== null,
-  draw(pen, { ghost: path }) {
+  active: (scene) => scene.preview !== null,
+  draw(pen, { preview: path }) {
     if (!path) return;
     const { context, colours, camera } = pen;
     inWorld(pen, () => {

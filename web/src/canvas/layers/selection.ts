@@ -3,7 +3,7 @@ import { toScreen } from "../camera";
 import { drawnRadius } from "../painter";
 import { type Layer, poseOf } from "./layer";
 
-/** Four corners about the selected robot, so that it is not taken for one in danger. */
+/** Four corners around the selected robot, to be distinct from the mark of a robot in danger. */
 export const selection: Layer = {
   id: "selection",
   label: "Selection",

@@ -1,10 +1,10 @@
 import { toScreen } from "../camera";
 import { inWorld, type Layer, outline } from "./layer";
 
-/** Kinds of ground, with their names. */
+/** Terrain classes with their names. */
 export const terrain: Layer = {
   id: "terrain",
-  label: "Ground",
+  label: "Terrain",
   switchable: true,
   on: true,
   place: "still",

@@ -9,7 +9,7 @@ function frame(time_s: number, xs: number[]): Frame {
 
 const places = (trails: Trails) => trails.inOrder().map((sample) => [sample.time_s, sample.places[0]]);
 
-test("a trail goes from the oldest place to the newest", () => {
+test("a trail is ordered from oldest to newest", () => {
   const trails = new Trails();
   for (const time of [0, 1, 2]) trails.put(frame(time, [time * 10]), -1);
   expect(places(trails)).toEqual([
@@ -19,7 +19,7 @@ test("a trail goes from the oldest place to the newest", () => {
   ]);
 });
 
-test("places older than the span fade out of it, however long it runs", () => {
+test("positions older than the span are dropped", () => {
   const trails = new Trails();
   for (let time = 0; time < 200; time += 0.25) trails.put(frame(time, [time]), -1);
   const kept = places(trails);
@@ -27,13 +27,13 @@ test("places older than the span fade out of it, however long it runs", () => {
   expect(kept[0]?.[0]).toBe(188);
 });
 
-test("going back in time begins a new trail", () => {
+test("going back in time starts a new trail", () => {
   const trails = new Trails();
   for (const time of [0, 1, 2, 0.5]) trails.put(frame(time, [time]), -1);
   expect(places(trails)).toEqual([[0.5, 0.5]]);
 });
 
-test("of a great many robots only the selected one has a trail", () => {
+test("with many robots only the selected one has a trail", () => {
   const trails = new Trails();
   const many = (time: number) =>
     frame(

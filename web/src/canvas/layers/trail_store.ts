@@ -1,27 +1,27 @@
 import type { Frame } from "../../api/frames";
 
-/** Of more robots than this only the selected one leaves a trail. */
-const mostRobots = 300;
+/** With more robots than this, only the selected one leaves a trail. */
+const maxRobots = 300;
 const samples = 48;
 const span_s = 12;
 
 interface Sample {
   time_s: number;
-  /** x, y a robot. */
+  /** x and y of each robot. */
   places: Float32Array;
 }
 
-/** Where robots were in the last seconds: a ring of samples, of which the oldest is written over. */
+/** Robot positions of the last seconds, in a ring buffer of samples. */
 export class Trails {
   private readonly ring: Sample[] = [];
   private next = 0;
   private robots = -1;
-  /** The robot whose trail is kept when there are many; -1: all are. */
+  /** The only robot with a trail; -1: all robots. */
   only = -1;
 
   put(frame: Frame, selected: number): void {
-    const only = frame.count > mostRobots ? selected : -1;
-    const kept = frame.count > mostRobots ? Math.min(1, selected + 1) : frame.count;
+    const only = frame.count > maxRobots ? selected : -1;
+    const kept = frame.count > maxRobots ? Math.min(1, selected + 1) : frame.count;
     if (kept !== this.robots || only !== this.only) this.clear(kept, only);
     const last = this.newest();
     if (last && frame.time_s < last.time_s) this.clear(kept, only);

@@ -2,7 +2,7 @@ import { inWorld, type Layer } from "./layer";
 
 const bands = 4;
 
-/** Where robots were in the last seconds, fading with age. */
+/** Robot positions of the last seconds, fading with age. */
 export const trails: Layer = {
   id: "trails",
   label: "Trails",

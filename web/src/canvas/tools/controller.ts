@@ -2,60 +2,60 @@ import type { Point } from "../../api/protocol";
 import { worldOf } from "../../shared/world";
 import type { Host } from "../host";
 import { toolOf } from ".";
-import type { Bench, Tool } from "./tool";
+import type { EditContext, Tool } from "./tool";
 
-/** The picture, as far as tools need it. */
-interface Picture {
-  ghost: Path2D | null;
-  place(at: Point): { at: Point; reach: number };
+/** The part of the stage that tools need. */
+interface ToolStage {
+  preview: Path2D | null;
+  place(at: Point): { at: Point; tolerance: number };
   redraw(still?: boolean): void;
 }
 
-/** Carries out with the chosen tool what the pointer does. */
+/** Passes pointer events to the chosen tool and sends its edits. */
 export class ToolController {
-  private grip: { tool: Tool; bench: Bench; from: Point } | null = null;
+  private current: { tool: Tool; context: EditContext; from: Point } | null = null;
 
   constructor(
     private readonly host: Host,
-    private readonly picture: Picture,
+    private readonly stage: ToolStage,
   ) {}
 
   press(at: Point): boolean {
     const { setting } = this.host.session;
     const tool = toolOf(this.host.tool);
     if (!tool || !setting) return false;
-    const { at: from, reach } = this.picture.place(at);
-    const bench = { setting, world: worldOf(setting), reach, itemKind: this.host.itemKind };
-    this.grip = tool.grips(bench, from) ? { tool, bench, from } : null;
-    if (this.grip) this.drag(at);
-    return this.grip !== null;
+    const { at: from, tolerance } = this.stage.place(at);
+    const context = { setting, world: worldOf(setting), tolerance, itemKind: this.host.itemKind };
+    this.current = tool.canStart(context, from) ? { tool, context, from } : null;
+    if (this.current) this.drag(at);
+    return this.current !== null;
   }
 
   drag(at: Point): void {
-    if (!this.grip) return;
-    const { tool, bench, from } = this.grip;
-    this.show(tool.ghost(bench, from, this.picture.place(at).at));
+    if (!this.current) return;
+    const { tool, context, from } = this.current;
+    this.show(tool.preview(context, from, this.stage.place(at).at));
   }
 
   release(at: Point): void {
-    if (!this.grip) return;
-    const { tool, bench, from } = this.grip;
-    this.grip = null;
+    if (!this.current) return;
+    const { tool, context, from } = this.current;
+    this.current = null;
     this.show(null);
-    const edit = tool.edit(bench, from, this.picture.place(at).at);
+    const edit = tool.edit(context, from, this.stage.place(at).at);
     if (edit) this.host.session.change(edit.path, edit.value);
   }
 
-  /** Lets go without doing anything; true if there was something in hand. */
-  drop(): boolean {
-    const held = this.grip !== null;
-    this.grip = null;
+  /** Cancels the current edit; false if there is none. */
+  cancel(): boolean {
+    const isEditing = this.current !== null;
+    this.current = null;
     this.show(null);
-    return held;
+    return isEditing;
   }
 
-  private show(ghost: Path2D | null): void {
-    this.picture.ghost = ghost;
-    this.picture.redraw(false);
+  private show(preview: Path2D | null): void {
+    this.stage.preview = preview;
+    this.stage.redraw(false);
   }
 }

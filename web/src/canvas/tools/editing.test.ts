@@ -1,8 +1,8 @@
 import { expect, test } from "vitest";
 import type { Setting } from "../../api/protocol";
 import { worldOf } from "../../shared/world";
-import { itemsEdit, moved, placesOf, thingAt } from "./editing";
-import type { Bench } from "./tool";
+import { itemsEdit, moved, positionsOf, objectAt } from "./editing";
+import type { EditContext } from "./tool";
 
 const setting: Setting = {
   type: "setting",
@@ -37,20 +37,20 @@ const setting: Setting = {
   changes: [],
   log: [],
 };
-const bench: Bench = { setting, world: worldOf(setting), reach: 0.5, itemKind: "mine" };
+const context: EditContext = { setting, world: worldOf(setting), tolerance: 0.5, itemKind: "mine" };
 
-test("an item is found before the obstacle that it lies on", () => {
-  expect(thingAt(bench, [15.2, 15])).toEqual({ item: 0 });
-  expect(thingAt(bench, [16, 16])).toEqual({ obstacle: 1 });
+test("an item takes precedence over the obstacle below it", () => {
+  expect(objectAt(context, [15.2, 15])).toEqual({ item: 0 });
+  expect(objectAt(context, [16, 16])).toEqual({ obstacle: 1 });
 });
 
-test("the notch of a polygon is not in it", () => {
-  expect(thingAt(bench, [1, 1])).toEqual({ obstacle: 0 });
-  expect(thingAt(bench, [5, 6])).toBeNull();
+test("the notch of a polygon is outside it", () => {
+  expect(objectAt(context, [1, 1])).toEqual({ obstacle: 0 });
+  expect(objectAt(context, [5, 6])).toBeNull();
 });
 
-test("placing by hand fixes all items of the kind where they are, and keeps their other keys", () => {
-  expect(itemsEdit(setting, "mine", [...placesOf(setting, "mine"), [3.00049, 4]])).toEqual({
+test("placing an item fixes all items of its kind, and keeps their other keys", () => {
+  expect(itemsEdit(setting, "mine", [...positionsOf(setting, "mine"), [3.00049, 4]])).toEqual({
     path: "items.mine",
     value: {
       count: 2,
@@ -66,7 +66,7 @@ test("placing by hand fixes all items of the kind where they are, and keeps thei
   });
 });
 
-test("moving moves all corners, and a map stays where it is", () => {
+test("moving shifts all corners, and a map stays in place", () => {
   expect(
     moved(
       {

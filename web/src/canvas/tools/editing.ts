@@ -1,21 +1,21 @@
 import type { ItemView, Json, Point, Setting } from "../../api/protocol";
 import { circleOf, type Obstacle, polygonOf, tableOf, type World } from "../../shared/world";
 import { outline, ring } from "../layers/layer";
-import type { Bench, Edit } from "./tool";
+import type { EditContext, Edit } from "./tool";
 
-/** Something that can be moved or removed: the place of an obstacle or item in its list. */
-export type Thing = { obstacle: number } | { item: number };
+/** An object that can be moved or removed: the index of an obstacle or item. */
+export type WorldObject = { obstacle: number } | { item: number };
 
-/** Finer than this nobody places by hand. */
+/** The precision of editing by hand. */
 const millimetre = (value: number) => Math.round(value * 1000) / 1000;
 
-export function tidy([x, y]: Point): Point {
+export function rounded([x, y]: Point): Point {
   return [millimetre(x), millimetre(y)];
 }
 
-/** The thing at a place: an item before an obstacle, as items are small. */
-export function thingAt({ setting, world, reach }: Bench, at: Point): Thing | null {
-  const item = setting.items.findIndex((each) => distance(each.at, at) <= reach);
+/** The object at a point: items take precedence over obstacles, as they are small. */
+export function objectAt({ setting, world, tolerance }: EditContext, at: Point): WorldObject | null {
+  const item = setting.items.findIndex((each) => distance(each.at, at) <= tolerance);
   if (item >= 0) return { item };
   const obstacle = world.obstacles.findLastIndex((one) => covers(one, at));
   return obstacle >= 0 ? { obstacle } : null;
@@ -25,33 +25,33 @@ export function obstaclesEdit(list: Obstacle[]): Edit {
   return { path: "world.obstacles", value: list };
 }
 
-/** Puts all items of a kind at given places, from now on. */
+/** Fixes all items of a kind at given positions. */
 export function itemsEdit(setting: Setting, kind: string, places: Point[]): Edit {
   const before = tableOf(tableOf(setting.document.items)[kind]);
-  const placement: Json = { kind: "fixed", at_m: places.map(tidy) };
-  // Count and places in one change: apart, one of them would be refused.
+  const placement: Json = { kind: "fixed", at_m: places.map(rounded) };
+  // Count and positions must change together; one alone would be invalid.
   return { path: `items.${kind}`, value: { ...before, count: places.length, placement } };
 }
 
-export function placesOf(setting: Setting, kind: string, but: ItemView | null = null): Point[] {
+export function positionsOf(setting: Setting, kind: string, but: ItemView | null = null): Point[] {
   return setting.items.filter((item) => item.kind === kind && item !== but).map((item) => item.at);
 }
 
 export function moved(obstacle: Obstacle, dx: number, dy: number): Obstacle {
-  const shift = ([x, y]: Point) => tidy([x + dx, y + dy]);
+  const shift = ([x, y]: Point) => rounded([x + dx, y + dy]);
   const [polygon, circle] = [polygonOf(obstacle), circleOf(obstacle)];
   if (polygon) return { ...obstacle, polygon_m: polygon.map(shift) };
   return circle ? { ...obstacle, circle: { ...circle, at_m: shift(circle.at_m) } } : obstacle;
 }
 
-export function pathOf(world: World, { items }: Setting, thing: Thing, reach: number): Path2D {
+export function outlineOf(world: World, { items }: Setting, object: WorldObject, tolerance: number): Path2D {
   const path = new Path2D();
-  if ("item" in thing) {
-    const item = items[thing.item];
-    if (item) ring(path, item.at, reach * 0.6);
+  if ("item" in object) {
+    const item = items[object.item];
+    if (item) ring(path, item.at, tolerance * 0.6);
     return path;
   }
-  addObstacle(path, world.obstacles[thing.obstacle] ?? {});
+  addObstacle(path, world.obstacles[object.obstacle] ?? {});
   return path;
 }
 
@@ -62,10 +62,10 @@ export function addObstacle(path: Path2D, obstacle: Obstacle): void {
 }
 
 /** Such as `circle at 8, 16`. */
-export function obstacleWords(obstacle: Obstacle): string {
+export function obstacleLabel(obstacle: Obstacle): string {
   const [polygon, circle] = [polygonOf(obstacle), circleOf(obstacle)];
   if (circle) return `circle at ${circle.at_m.join(", ")}`;
-  if (polygon) return `polygon at ${polygon[0]?.join(", ") ?? "no place"}`;
+  if (polygon) return `polygon at ${polygon[0]?.join(", ") ?? "–"}`;
   return `map ${String(obstacle.map ?? "")}`;
 }
 
@@ -78,7 +78,7 @@ function covers(obstacle: Obstacle, at: Point): boolean {
   return circle ? distance(circle.at_m, at) <= circle.radius_m : polygon !== null && inside(polygon, at);
 }
 
-/** Whether a ray from a place crosses the outline an odd number of times. */
+/** Ray casting: whether a ray from the point crosses the outline an odd number of times. */
 function inside(polygon: Point[], [x, y]: Point): boolean {
   let odd = false;
   polygon.forEach(([ax, ay], i) => {

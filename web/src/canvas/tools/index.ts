@@ -5,7 +5,7 @@ import { rectangle } from "./rectangle";
 import { remove } from "./remove";
 import type { Tool } from "./tool";
 
-/** Ways to change the world by hand; `select` is none of them: it chooses robots and moves the picture. */
+/** The editing tools. `select` is not one of them: it selects robots and pans the view. */
 export const tools = { move, circle, rectangle, item, remove } satisfies Record<string, Tool>;
 
 export type ToolId = keyof typeof tools | "select";

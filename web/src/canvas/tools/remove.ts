@@ -1,22 +1,25 @@
-import { itemsEdit, obstaclesEdit, pathOf, placesOf, type Thing, thingAt } from "./editing";
-import type { Bench, Edit, Tool } from "./tool";
+import { itemsEdit, obstaclesEdit, outlineOf, positionsOf, type WorldObject, objectAt } from "./editing";
+import type { EditContext, Edit, Tool } from "./tool";
 
 export const remove: Tool = {
   label: "Remove",
-  help: "Press on an obstacle or item.",
-  grips: (bench, at) => thingAt(bench, at) !== null,
-  ghost(bench, from) {
-    const thing = thingAt(bench, from);
-    return thing ? pathOf(bench.world, bench.setting, thing, bench.reach) : null;
+  help: "Click an obstacle or item.",
+  canStart: (context, at) => objectAt(context, at) !== null,
+  preview(context, from) {
+    const object = objectAt(context, from);
+    return object ? outlineOf(context.world, context.setting, object, context.tolerance) : null;
   },
-  edit(bench, from) {
-    const thing = thingAt(bench, from);
-    return thing ? removal(bench, thing) : null;
+  edit(context, from) {
+    const object = objectAt(context, from);
+    return object ? removal(context, object) : null;
   },
 };
 
-export function removal({ setting, world }: Pick<Bench, "setting" | "world">, thing: Thing): Edit | null {
-  if ("obstacle" in thing) return obstaclesEdit(world.obstacles.filter((_, i) => i !== thing.obstacle));
-  const chosen = setting.items[thing.item];
-  return chosen ? itemsEdit(setting, chosen.kind, placesOf(setting, chosen.kind, chosen)) : null;
+export function removal(
+  { setting, world }: Pick<EditContext, "setting" | "world">,
+  object: WorldObject,
+): Edit | null {
+  if ("obstacle" in object) return obstaclesEdit(world.obstacles.filter((_, i) => i !== object.obstacle));
+  const chosen = setting.items[object.item];
+  return chosen ? itemsEdit(setting, chosen.kind, positionsOf(setting, chosen.kind, chosen)) : null;
 }

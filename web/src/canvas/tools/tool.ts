@@ -1,29 +1,29 @@
 import type { Json, Point, Setting } from "../../api/protocol";
 import type { World } from "../../shared/world";
 
-/** What a tool works on. */
-export interface Bench {
+/** The data that a tool works on. */
+export interface EditContext {
   setting: Setting;
   world: World;
-  /** Within this of a thing a pointer is at it. */
-  reach: number;
-  /** The kind that is placed. */
+  /** Maximum distance from the pointer at which an object is hit. */
+  tolerance: number;
+  /** The item kind to place. */
   itemKind: string;
 }
 
-/** What is to be sent. */
+/** A change to send. */
 export interface Edit {
   path: string;
   value: Json;
 }
 
-/** A way to change the world by hand: it is pressed somewhere, drawn along, and let go. */
+/** An editing tool, used by pressing, dragging and releasing. */
 export interface Tool {
   label: string;
   help: string;
-  /** Whether there is something to be done here; else the picture is moved. */
-  grips(bench: Bench, at: Point): boolean;
-  /** What it would look like, in metres. */
-  ghost(bench: Bench, from: Point, to: Point): Path2D | null;
-  edit(bench: Bench, from: Point, to: Point): Edit | null;
+  /** Whether the tool can start here; otherwise a drag pans the view. */
+  canStart(context: EditContext, at: Point): boolean;
+  /** The shape that the tool would place, in metres. */
+  preview(context: EditContext, from: Point, to: Point): Path2D | null;
+  edit(context: EditContext, from: Point, to: Point): Edit | null;
 }

@@ -1,6 +1,6 @@
 import type { Stage } from "../../canvas/stage";
 
-/** Has the browser save something under a name. */
+/** Downloads a file under a name. */
 export function save(name: string, blob: Blob): void {
   const url = URL.createObjectURL(blob);
   const link = document.createElement("a");
@@ -10,8 +10,8 @@ export function save(name: string, blob: Blob): void {
   setTimeout(() => URL.revokeObjectURL(url), 1000);
 }
 
-/** What is seen, as a PNG; null if nothing is. */
+/** The current view as a PNG; null before anything is drawn. */
 export function picture(stage: Stage | null): Promise<Blob | null> {
-  const canvas = stage?.flat();
+  const canvas = stage?.snapshot();
   return new Promise((done) => (canvas ? canvas.toBlob(done, "image/png") : done(null)));
 }

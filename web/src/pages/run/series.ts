@@ -1,17 +1,17 @@
 import type { State } from "../../api/protocol";
 
-/** What came of a run up to a tick. */
+/** The outcome of a run up to a tick. */
 export interface Row {
   tick: number;
   time_s: number;
   values: Record<string, number>;
 }
 
-/** Outcomes by time, as far as they were seen, in the order of ticks. */
+/** The outcomes received so far, ordered by tick. */
 export class Series {
   rows: Row[] = [];
 
-  /** Takes what a state tells; rows beyond its edge are of a future that is no more. */
+  /** Adds the outcome of a state. Rows beyond its edge are removed: a change has discarded that future. */
   add(state: State): void {
     while ((this.rows.at(-1)?.tick ?? -1) > state.edge) this.rows.pop();
     const row = { tick: state.tick, time_s: state.time_s, values: numbers(state.outcome) };
@@ -20,17 +20,17 @@ export class Series {
     this.rows.splice(place, replaced, row);
   }
 
-  /** Steps take so long: a clock that goes otherwise is told of all steps, so that time never goes back. */
-  measure(step_s: number): void {
+  /** Sets the step length of all rows, so that time is monotonic after a change of the clock. */
+  setStep(step_s: number): void {
     this.rows = this.rows.map((row) => ({ ...row, time_s: row.tick * step_s }));
   }
 
-  /** Names of all values, in the order in which they came. */
+  /** The names of all values, in the order of their first appearance. */
   names(): string[] {
     return [...new Set(this.rows.flatMap((row) => Object.keys(row.values)))];
   }
 
-  /** Comma-separated, with a line of names. */
+  /** CSV with a header line. */
   csv(): string {
     const names = this.names().filter((name) => name !== "time_s");
     const lines = this.rows.map((row) => [

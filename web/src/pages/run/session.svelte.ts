@@ -2,14 +2,14 @@ import { Connection, type Listener } from "../../api/connection";
 import type { Frame } from "../../api/frames";
 import type { Message } from "../../api/messages";
 import type {
-  Asked,
   Change,
   Command,
   Ended,
-  Fault,
+  InputError,
   Json,
   MapPart,
   Opened,
+  OverlayRequest,
   RecordingEntry,
   Refused,
   Saving,
@@ -23,50 +23,50 @@ import type { Link } from "../../shared/link";
 import { Series } from "./series";
 import { Throttle } from "../../shared/throttle";
 
-/** `opening` until the server has said what runs; `lost` while it is called again. */
+/** `opening` until the server confirms the run; `lost` while reconnecting. */
 export type Phase = "opening" | "open" | "lost" | "refused" | "ended";
 
-/** What is to be run: of an address, with the text unpacked. */
+/** The run of an address, with its text unpacked. */
 export type Source = Omit<Link, "text" | "view"> & { text: string | null };
 
-/** A value on its way into the scenario. */
-interface Put {
+/** A change that has not been sent yet. */
+interface PendingChange {
   value: Json;
-  /** Whether it takes the place of the one that was put there before, if the run has not gone on. */
+  /** Whether it replaces the previous change of this path, if the run has not advanced since. */
   instead: boolean;
 }
 
 const changes_ms = 50;
-/** Numbers that change more often are hard to read, and each time the page is put together anew. */
-const words_ms = 180;
+/** Numbers that change more often are hard to read, and each update lays out the page again. */
+const text_ms = 180;
 const states_ms = 180;
 
-/** A run as the page knows it, and the commands to it. */
+/** A run on the page, and the commands to it. */
 export class Session implements Listener {
   phase = $state<Phase>("opening");
   opened = $state.raw<Opened | null>(null);
   setting = $state.raw<Setting | null>(null);
   state = $state.raw<State | null>(null);
   /** Why the run could not be opened. */
-  faults = $state.raw<Fault[]>([]);
+  errors = $state.raw<InputError[]>([]);
   ended = $state.raw<Ended | null>(null);
-  /** What was refused last, under the path of the change (or what else it was about). */
+  /** The latest error of each refused change, by path, or of another command, by name. */
   refusals = $state.raw<Record<string, string>>({});
   selected = $state.raw<string | null>(null);
-  /** What the selected robot believes of its field. */
+  /** The believed map of the selected robot. */
   map = $state.raw<BelievedMap | null>(null);
-  /** What frames come with. */
-  asked = $state.raw<Asked | null>(null);
-  /** How far the recording is that is being saved. */
+  /** The overlays that frames come with. */
+  overlays = $state.raw<OverlayRequest | null>(null);
+  /** Progress of the recording that is being saved. */
   saving = $state.raw<Pick<Saving, "done" | "steps"> | null>(null);
-  /** What was saved last, and of which changes. */
+  /** The recording that was saved last, and the changes in it. */
   saved = $state.raw<{ recording: RecordingEntry; changes: string } | null>(null);
-  /** Milliseconds until the line is tried again. */
-  again_ms = $state(0);
-  /** How often `series` has got something new. */
-  grown = $state(0);
-  /** How often there was something new in the picture to put into words: five times a second at most. */
-  seen = $state(0);
+  /** Milliseconds until the next attempt to connect. */
+  retry_ms = $state(0);
+  /** Incremented when `series` changes. */
+  seriesVersion = $state(0);
+  /** Incremented when a new frame has been drawn, at most five times per second. */
+  drawnVersion = $state(0);
   series = new Series();
 
   readonly frames = new FrameQueue((frame) => this.send({ type: "got", frame }));
@@ -74,17 +74,17 @@ export class Session implements Listener {
   onFrame = () => {};
 
   private readonly connection = new Connection(this);
-  private readonly changes = new Throttle<Put>(
+  private readonly changes = new Throttle<PendingChange>(
     changes_ms,
     (path, put) => this.send({ type: "change", path, ...put }),
     (passed, latest) => ({ ...latest, instead: passed.instead }),
   );
-  private saw = 0;
-  private toldAt = 0;
+  private drawnAt_ms = 0;
+  private stateAt_ms = 0;
   private savedChanges = "";
-  private takeExported: ((text: string) => void) | null = null;
-  /** Speed to go on with once the run is opened again; undefined if it stood. */
-  private goOn: Speed | undefined;
+  private resolveExport: ((text: string) => void) | null = null;
+  /** Speed to continue with after reconnecting; undefined if the run was paused. */
+  private resumeSpeed: Speed | undefined;
 
   constructor(private readonly source: Source) {
     this.selected = source.robot;
@@ -98,28 +98,28 @@ export class Session implements Listener {
     this.connection.close();
   }
 
-  /** Opens an ended run once more. */
-  again(): void {
+  /** Reopens an ended run. */
+  reopen(): void {
     this.phase = "opening";
     this.start();
   }
 
-  /** The text that is run, if it is not one of the server's scenarios. */
+  /** The text of the scenario, if it is not one of the server's. */
   get text(): string | null {
     return this.source.text;
   }
 
-  /** Where the run stands, or is on its way to. */
+  /** The tick that is displayed, or that the run is computing towards. */
   get tick(): number {
     return this.state?.aim ?? this.state?.tick ?? this.source.tick;
   }
 
-  /** Whether it goes on by itself: plays, or is on its way to a moment. */
-  get isGoing(): boolean {
+  /** Whether the run is playing or computing towards a tick. */
+  get isAdvancing(): boolean {
     return this.state !== null && (this.state.playing || this.state.aim !== null);
   }
 
-  /** The classic engine has robots of its own kind, and a world that nobody changes. */
+  /** The classic engine has robots of its own and a world that cannot be edited. */
   get isClassic(): boolean {
     return this.opened?.scenario.engine === "classic";
   }
@@ -142,7 +142,7 @@ export class Session implements Listener {
     this.send({ type: "go", tick });
   }
 
-  /** Changes the scenario, `instead` for what is but one more value of a slider that is being drawn. */
+  /** Changes the scenario; `instead` replaces the previous value of the same drag. */
   change(path: string, value: Json, instead = false): void {
     this.changes.put(path, { value, instead });
   }
@@ -151,7 +151,7 @@ export class Session implements Listener {
     this.send({ type: "undo" });
   }
 
-  /** Makes a recording of the run, unless one is being made. */
+  /** Saves a recording of the run, unless one is being saved. */
   save(): void {
     if (this.saving) return;
     this.saving = { done: 0, steps: 0 };
@@ -163,16 +163,16 @@ export class Session implements Listener {
     this.send({ type: "cancel" });
   }
 
-  /** What tells the changes of this run from others. */
+  /** A text that identifies the changes of this run. */
   get changesKey(): string {
     return JSON.stringify(this.setting?.log ?? null);
   }
 
-  /** The scenario as it is now, as a TOML file has it. */
+  /** The scenario with all changes, as TOML. */
   exported(): Promise<string> {
     this.send({ type: "export" });
-    return new Promise((take) => {
-      this.takeExported = take;
+    return new Promise((resolve) => {
+      this.resolveExport = resolve;
     });
   }
 
@@ -182,29 +182,29 @@ export class Session implements Listener {
     this.send({ type: "select", robot });
   }
 
-  /** What frames are to come with from now on. */
-  ask(asked: Asked): void {
-    this.asked = asked;
-    this.send({ type: "layers", ...asked });
+  /** Requests the overlays that frames come with from now on. */
+  requestOverlays(overlays: OverlayRequest): void {
+    this.overlays = overlays;
+    this.send({ type: "layers", ...overlays });
   }
 
-  // What the line tells.
+  // Events of the connection.
 
   ready(): void {
     this.frames.clear();
-    if (this.asked) this.ask(this.asked);
+    if (this.overlays) this.requestOverlays(this.overlays);
     this.send(this.opening());
   }
 
-  lost(again_ms: number): void {
+  lost(retry_ms: number): void {
     if (this.phase === "ended" || this.phase === "refused") {
       this.connection.close();
       return;
     }
     this.saving = null;
-    if (this.phase === "open") this.goOn = this.state?.playing ? this.state.speed : undefined;
+    if (this.phase === "open") this.resumeSpeed = this.state?.playing ? this.state.speed : undefined;
     this.phase = "lost";
-    this.again_ms = again_ms;
+    this.retry_ms = retry_ms;
   }
 
   frame(frame: Frame): void {
@@ -213,87 +213,87 @@ export class Session implements Listener {
   }
 
   message(message: Message): void {
-    if (message.type === "opened") this.begin(message);
-    else if (message.type === "setting") this.set(message);
-    else if (message.type === "state") this.told(message);
-    else if (message.type === "map") this.mapped(message);
-    else if (message.type === "refused") this.refuse(message);
+    if (message.type === "opened") this.receiveOpened(message);
+    else if (message.type === "setting") this.receiveSetting(message);
+    else if (message.type === "state") this.receiveState(message);
+    else if (message.type === "map") this.receiveMap(message);
+    else if (message.type === "refused") this.receiveRefusal(message);
     else if (message.type === "saving") this.saving = message;
-    else if (message.type === "saved") this.keep(message.recording);
-    else if (message.type === "exported") this.takeExported?.(message.text);
-    else if (message.type === "ended") this.end(message);
+    else if (message.type === "saved") this.receiveSaved(message.recording);
+    else if (message.type === "exported") this.resolveExport?.(message.text);
+    else if (message.type === "ended") this.receiveEnd(message);
   }
 
-  /** The latest frame is in the picture. */
+  /** The latest frame has been drawn. */
   drew(): void {
     const now = performance.now();
-    if (this.state?.playing && now - this.saw < words_ms) return;
-    this.saw = now;
-    this.seen += 1;
+    if (this.state?.playing && now - this.drawnAt_ms < text_ms) return;
+    this.drawnAt_ms = now;
+    this.drawnVersion += 1;
   }
 
-  private begin(opened: Opened): void {
+  private receiveOpened(opened: Opened): void {
     this.opened = opened;
     this.phase = "open";
     this.map = null;
     if (this.selected !== null) this.send({ type: "select", robot: this.selected });
-    if (this.goOn !== undefined) this.play(this.goOn);
-    this.goOn = undefined;
+    if (this.resumeSpeed !== undefined) this.play(this.resumeSpeed);
+    this.resumeSpeed = undefined;
   }
 
-  private set(setting: Setting): void {
-    if (this.setting && this.setting.step_s !== setting.step_s) this.series.measure(setting.step_s);
+  private receiveSetting(setting: Setting): void {
+    if (this.setting && this.setting.step_s !== setting.step_s) this.series.setStep(setting.step_s);
     this.setting = setting;
     this.refusals = {};
     this.onFrame();
   }
 
-  private told(state: State): void {
+  private receiveState(state: State): void {
     this.series.add(state);
     const now = performance.now();
-    // The next one comes soon while it runs; what has just begun or stopped is shown at once.
-    if (state.playing && this.state?.playing && now - this.toldAt < states_ms) return;
-    this.toldAt = now;
+    // While playing, the next state follows soon; starts and stops are displayed at once.
+    if (state.playing && this.state?.playing && now - this.stateAt_ms < states_ms) return;
+    this.stateAt_ms = now;
     this.state = state;
-    this.grown += 1;
+    this.seriesVersion += 1;
   }
 
-  private mapped(part: MapPart): void {
+  private receiveMap(part: MapPart): void {
     if (part.robot !== this.selected) return;
     this.map = BelievedMap.with(this.map, part);
     this.onFrame();
   }
 
-  private keep(recording: RecordingEntry | null): void {
+  private receiveSaved(recording: RecordingEntry | null): void {
     this.saving = null;
     if (recording) this.saved = { recording, changes: this.savedChanges };
   }
 
-  private refuse({ about, path, faults }: Refused): void {
+  private receiveRefusal({ about, path, faults }: Refused): void {
     if (about === "save") this.saving = null;
     if (about === "open") {
-      this.faults = faults;
+      this.errors = faults;
       this.phase = "refused";
       this.connection.close();
       return;
     }
-    const words = faults.map((fault) => fault.message).join(" ");
-    this.refusals = { ...this.refusals, [path ?? about]: words };
+    const text = faults.map((error) => error.message).join(" ");
+    this.refusals = { ...this.refusals, [path ?? about]: text };
   }
 
-  private end(ended: Ended): void {
+  private receiveEnd(ended: Ended): void {
     this.ended = ended;
     this.phase = "ended";
     this.connection.close();
   }
 
-  /** The run as it stands, so that a line that was lost goes on where it was. */
+  /** Opens the run at its current state, so that it continues after reconnecting. */
   private opening(): Command {
     const { scenario, text, study, recording, seed, run } = this.source;
     const changes: Change[] | null = this.setting ? this.setting.log : this.source.changes;
     const { tick } = this;
-    const chance = seed === null ? {} : { seed };
-    return { type: "open", scenario, text, study, recording, ...chance, run, changes, tick };
+    const seedField = seed === null ? {} : { seed };
+    return { type: "open", scenario, text, study, recording, ...seedField, run, changes, tick };
   }
 
   private send(command: Command): void {

@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 import type { State } from "../../api/protocol";
-import { statusWords } from "./status";
+import { statusText } from "./status";
 
 const state: State = {
   type: "state",
@@ -19,18 +19,18 @@ const state: State = {
   robot: null,
 };
 
-test("the status says in words what the picture shows", () => {
-  expect(statusWords(state, [3, 1, 0, 0, 0], 4, "open")).toBe(
-    "12.3 s, 4 robots: 1 in danger; 2 of 4 items found; running at 3.1 times real time.",
+test("the status summarises the run in one sentence", () => {
+  expect(statusText(state, [3, 1, 0, 0, 0], 4, "open")).toBe(
+    "12.3 s, 4 robots: 1 in danger; 2 of 4 items found; running at 3.1 × real time.",
   );
 });
 
-test("nothing is said of items where there are none, nor of robots that are not there", () => {
+test("items and robot states are left out where there are none", () => {
   const paused = { ...state, playing: false };
-  expect(statusWords(paused, [0, 0, 0, 0, 0], 0, "open")).toBe("12.3 s, 0 robots; paused.");
-  expect(statusWords(paused, [1, 0, 0, 0, 0], 0, "open")).toBe("12.3 s, 1 robot: all clear; paused.");
+  expect(statusText(paused, [0, 0, 0, 0, 0], 0, "open")).toBe("12.3 s, 0 robots; paused.");
+  expect(statusText(paused, [1, 0, 0, 0, 0], 0, "open")).toBe("12.3 s, 1 robot: all clear; paused.");
 });
 
-test("a lost line is said before all else", () => {
-  expect(statusWords(state, [4], 4, "lost")).toBe("The connection is lost.");
+test("a lost connection takes precedence", () => {
+  expect(statusText(state, [4], 4, "lost")).toBe("The connection is lost.");
 });

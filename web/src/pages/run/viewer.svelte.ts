@@ -1,4 +1,4 @@
-import type { OfStudy } from "../../api/protocol";
+import type { StudyConfiguration } from "../../api/protocol";
 import { runsOf } from "../../api/studies";
 import type { Link } from "../../shared/link";
 import { Session } from "./session.svelte";
@@ -10,22 +10,22 @@ import type { ToolId } from "../../canvas/tools";
 
 export const speeds = [0.1, 0.5, 1, 2, 10, 100, null] as const;
 
-/** What lies on the viewer of one who watches a run: the run itself, and how it is looked at. */
+/** A run on the page, and how it is displayed. */
 export class Viewer implements Host {
   readonly session: Session;
   layers = $state<Record<string, boolean>>(Object.fromEntries(layers.map((layer) => [layer.id, layer.on])));
   tool = $state<ToolId>("select");
   /** The kind that the item tool places. */
   itemKind = $state("");
-  /** Which sections of the robot's panel are open. */
-  sections = $state({ command: true, percept: true, goals: true, reach: false, items: true, map: false });
-  /** Speed of the next play. */
+  /** Whether each section of the robot panel is open. */
+  sections = $state({ command: true, percept: true, goals: true, headings: false, items: true, map: false });
+  /** Playback speed; null for the maximum. */
   speed = $state<number | null>(1);
-  /** Whether the selected robot stays in the middle of the picture. */
+  /** Whether the view follows the selected robot. */
   follows = $state(false);
   camera = $state.raw<Camera | null>(null);
   stage: Stage | null = null;
-  /** What the configuration of a study is called, once the server has said so. */
+  /** The label of the study's configuration, once it is loaded. */
   private label = $state("");
 
   constructor(
@@ -33,11 +33,11 @@ export class Viewer implements Host {
     text: string | null,
   ) {
     this.session = new Session({ ...link, text });
-    if (link.study) void this.ask(link.study);
+    if (link.study) void this.loadLabel(link.study);
   }
 
-  /** Such as `Run 12 of classic, 3 wanderers`; null if the run is of no study. */
-  get studied(): string | null {
+  /** Such as `Run 12 of classic, 3 wanderers`; null if the run does not belong to a study. */
+  get studyTitle(): string | null {
     const { study, run } = this.link;
     if (!study) return null;
     const name = study.id.split("/").at(-1) ?? study.id;
@@ -46,7 +46,7 @@ export class Viewer implements Host {
 
   toggle(): void {
     const { session } = this;
-    if (session.isGoing) session.pause();
+    if (session.isAdvancing) session.pause();
     else session.play(this.speed);
   }
 
@@ -55,26 +55,26 @@ export class Viewer implements Host {
     if (this.session.state?.playing) this.session.play(speed);
   }
 
-  private async ask({ id, configuration }: OfStudy): Promise<void> {
-    // Without an answer the number of the configuration stands; that the server is gone is said by the line.
-    const said = await runsOf(id, configuration, 0, 1).catch(() => null);
-    if (said) this.label = said.label;
+  private async loadLabel({ id, configuration }: StudyConfiguration): Promise<void> {
+    // If this fails, the title shows the configuration's number; the connection reports a missing server.
+    const runs = await runsOf(id, configuration, 0, 1).catch(() => null);
+    if (runs) this.label = runs.label;
   }
 
-  /** Of all chance in the run; null until the server has told that of the study. */
+  /** The seed; null until the server has sent the study's seed. */
   get seed(): string | null {
     return this.session.opened?.seed ?? this.link.seed;
   }
 
-  /** Which run it is, for people; that of a study is in the title. */
-  get which(): string {
+  /** Seed and run number; for a study, the run number is in the title. */
+  get subtitle(): string {
     const { study, recording } = this.link;
     const { run } = this.session.opened ?? this.link;
     return `seed ${this.seed ?? "…"}${study ? "" : `, run ${run}`}${recording === null ? "" : ", recorded"}`;
   }
 
-  /** The address of what is seen now. */
-  get now(): Link {
+  /** The link of the current view. */
+  get currentLink(): Link {
     const { setting, tick, selected } = this.session;
     const { camera, link } = this;
     const round = (value: number) => Number(value.toFixed(3));

@@ -3,11 +3,11 @@ import { expressionInterpreter } from "vega-interpreter";
 import "./chart.css";
 import type { Spec } from "../../api/study";
 
-/** A chart of the report, drawn again whenever it gets another width. */
+/** A chart of the report, redrawn when its width changes. */
 export class Chart {
   private drawn: Result | null = null;
   private width_px = 0;
-  /** Drawings follow each other: one begins when the last is done. */
+  /** Serialises drawing: each starts after the previous one. */
   private last: Promise<void> = Promise.resolve();
   private readonly observer: ResizeObserver;
 
@@ -23,10 +23,10 @@ export class Chart {
     this.observer.observe(element);
   }
 
-  /** Draws it in the colours that hold now. */
+  /** Draws the chart with the current theme's colours. */
   draw(): void {
     this.width_px = this.element.clientWidth;
-    this.last = this.last.then(() => this.again());
+    this.last = this.last.then(() => this.redraw());
   }
 
   close(): void {
@@ -34,7 +34,7 @@ export class Chart {
     void this.last.then(() => this.drawn?.finalize());
   }
 
-  private async again(): Promise<void> {
+  private async redraw(): Promise<void> {
     this.drawn?.finalize();
     this.drawn = await embed(this.element, this.spec as VisualizationSpec, this.options());
     this.drawn.view.addEventListener("click", (_, item) => {
@@ -48,7 +48,7 @@ export class Chart {
     return {
       actions: false,
       renderer: "svg" as const,
-      // Expressions are interpreted: the page's policy allows no code made at run time, and no styles.
+      // The content security policy forbids generated code and inline styles, so expressions are interpreted.
       ast: true,
       expr: expressionInterpreter,
       defaultStyle: false,

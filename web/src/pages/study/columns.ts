@@ -3,14 +3,14 @@ import type { Cell, StudyRun } from "../../api/study";
 const first = ["merit", "time_s", "failed"];
 const apart = ["run", "quantile"];
 
-/** Columns of runs that have something to show, what is judged first. */
+/** The columns of runs, those of the merit first. */
 export function columnsOf(runs: StudyRun[]): string[] {
   const names = Object.keys(runs[0] ?? {}).filter((name) => !apart.includes(name));
   const rest = names.filter((name) => !first.includes(name));
   return [...first.filter((name) => names.includes(name)), ...rest];
 }
 
-export function cellWords(value: Cell): string {
+export function cellText(value: Cell): string {
   if (value === null) return "–";
   if (typeof value === "boolean") return value ? "yes" : "no";
   if (typeof value === "string") return value;
@@ -20,12 +20,12 @@ export function cellWords(value: Cell): string {
   return value.toLocaleString("en", figures).replace("-", "−");
 }
 
-/** Whether all cells are numbers, with a range or a unit perhaps; those are set to the right. */
+/** Whether all cells are numbers, with or without a range or unit; such columns are right-aligned. */
 export function areNumbers(cells: string[]): boolean {
   return cells.length > 0 && cells.every((cell) => /^([−-]?[\d.,]+( ?%)?( \(.*\))?|[–—])$/.test(cell.trim()));
 }
 
-export function quantileWords(quantile: number): string {
+export function quantileText(quantile: number): string {
   if (quantile === 0) return "worst";
   if (quantile === 1) return "best";
   if (quantile === 0.5) return "median";

@@ -1,9 +1,9 @@
-import type { Ask, Asked, Factor, Factors, Guarantee } from "../../api/study";
-import type { Fault } from "../../api/protocol";
+import type { Factor, Factors, Guarantee, ScenarioSource, StudyRequest } from "../../api/study";
+import type { InputError } from "../../api/protocol";
 
-/** A study as it is being typed: texts, empty where the scenario's or the usual value holds. */
+/** The text fields of the study form; empty fields use the scenario's value or the default. */
 export interface Draft {
-  /** Of all factors that are offered in the form; empty for those that are not varied. */
+  /** By path, for all factors in the form; empty: not varied. */
   vary: Record<string, string>;
   design: string;
   delta: string;
@@ -15,14 +15,14 @@ export interface Draft {
   seed: string;
 }
 
-/** What is wrong, in words, by field; all that belongs to none is under "". */
-export type Wrongs = Record<string, string>;
+/** Error messages by field; general ones under "". */
+export type FieldErrors = Record<string, string>;
 
 const numbers = ["delta", "confidence", "runs", "max_runs"] as const;
-const usualGuarantee: Guarantee = "indifference";
+const defaultGuarantee: Guarantee = "indifference";
 const teamPath = /^robots\.([^.]+)\.count$/;
 
-/** What the scenario asks, with the sizes of all its teams to begin with. */
+/** A draft with the scenario's own factors and the counts of all robot kinds. */
 export function draftOf({ factors }: Factors): Draft {
   const offered = factors.filter(({ path, varied }) => varied !== null || teamPath.test(path));
   return {
@@ -30,7 +30,7 @@ export function draftOf({ factors }: Factors): Draft {
     design: "",
     delta: "",
     confidence: "",
-    guarantee: usualGuarantee,
+    guarantee: defaultGuarantee,
     merit: "",
     runs: "",
     max_runs: "",
@@ -38,63 +38,67 @@ export function draftOf({ factors }: Factors): Draft {
   };
 }
 
-/** What the server is asked, or what in the draft cannot be said to it. */
-export function askOf(of: Asked, draft: Draft, factors: Factor[]): { ask: Ask } | { wrongs: Wrongs } {
-  const wrongs: Wrongs = {};
+/** The request for a draft, or the errors that prevent it. */
+export function requestOf(
+  source: ScenarioSource,
+  draft: Draft,
+  factors: Factor[],
+): { request: StudyRequest } | { errors: FieldErrors } {
+  const errors: FieldErrors = {};
   for (const name of numbers) {
     const text = draft[name].trim();
-    if (text !== "" && !Number.isFinite(Number(text))) wrongs[name] = `"${text}" must be a number`;
+    if (text !== "" && !Number.isFinite(Number(text))) errors[name] = `"${text}" must be a number`;
   }
   if (Object.values(draft.vary).every((text) => text.trim() === ""))
-    wrongs[""] = "Nothing is varied yet: give at least one range, such as 1..8.";
-  if (Object.keys(wrongs).length > 0) return { wrongs };
+    errors[""] = "No factor is varied: enter at least one range, such as 1..8.";
+  if (Object.keys(errors).length > 0) return { errors };
   const [delta, confidence, runs, max_runs] = numbers.map((name) => numberOf(draft[name]));
-  const ask = {
-    ...of,
+  const request = {
+    ...source,
     vary: variedOf(draft, factors),
     design: draft.design.trim() || null,
     delta: delta ?? null,
     confidence: confidence ?? null,
-    guarantee: draft.guarantee === usualGuarantee ? null : draft.guarantee,
+    guarantee: draft.guarantee === defaultGuarantee ? null : draft.guarantee,
     merit: draft.merit.trim() || null,
     runs: runs ?? null,
     max_runs: max_runs ?? null,
     seed: draft.seed.trim() || "0",
   };
-  return { ask };
+  return { request };
 }
 
-/** Faults under the fields of `draft` that they are about. */
-export function wrongsOf(faults: Fault[], draft: Draft): Wrongs {
-  const wrongs: Wrongs = {};
-  for (const { path, message } of faults) {
+/** The messages of input errors, by the field of `draft` that they refer to. */
+export function fieldErrors(inputErrors: InputError[], draft: Draft): FieldErrors {
+  const errors: FieldErrors = {};
+  for (const { path, message } of inputErrors) {
     const field = fieldOf(path);
     const place = field in draft.vary || (field in draft && field !== "vary") ? field : "";
-    wrongs[place] = [wrongs[place], message].filter(Boolean).join(" ");
+    errors[place] = [errors[place], message].filter(Boolean).join(" ");
   }
-  return wrongs;
+  return errors;
 }
 
-/** What holds for a factor now, in words. */
-export function valueWords({ value }: Factor): string {
-  return value === null ? "the model's own" : String(value);
+/** The current value of a factor. */
+export function valueText({ value }: Factor): string {
+  return value === null ? "model default" : String(value);
 }
 
-/** The kind of robots whose number stands at a path; null if it is another path. */
+/** The robot kind whose count is at a path; null for other paths. */
 export function teamOf(path: string): string | null {
   return teamPath.exec(path)?.[1] ?? null;
 }
 
-/** What may be given for a factor, in words. */
-export function rangeWords({ low, high, whole, values }: Factor): string {
+/** The allowed values of a factor. */
+export function rangeText({ low, high, whole, values }: Factor): string {
   if (values) return values.map(String).join(", ");
   const kind = whole ? "whole numbers" : "numbers";
-  if (low !== null && high !== null) return `${kind} from ${read(low)} to ${read(high)}`;
-  if (low !== null) return `${kind} from ${read(low)}`;
-  return high === null ? kind : `${kind} up to ${read(high)}`;
+  if (low !== null && high !== null) return `${kind} from ${numberText(low)} to ${numberText(high)}`;
+  if (low !== null) return `${kind} from ${numberText(low)}`;
+  return high === null ? kind : `${kind} up to ${numberText(high)}`;
 }
 
-function read(value: number): string {
+function numberText(value: number): string {
   return value.toLocaleString("en", { maximumSignificantDigits: 6 });
 }
 
@@ -102,7 +106,7 @@ function numberOf(text: string): number | null {
   return text.trim() === "" ? null : Number(text);
 }
 
-/** `study.vary."robots.rover.count"` is about `robots.rover.count`. */
+/** `study.vary."robots.rover.count"` refers to `robots.rover.count`. */
 function fieldOf(path: string): string {
   return path
     .replace(/^study\./, "")
@@ -110,7 +114,7 @@ function fieldOf(path: string): string {
     .replaceAll('"', "");
 }
 
-/** All that is varied; nothing where it is just what the scenario varies itself. */
+/** The varied factors; empty if they are exactly those that the scenario varies. */
 function variedOf({ vary }: Draft, factors: Factor[]): Record<string, string> {
   const own = factors.filter((factor) => factor.varied !== null);
   const given = Object.entries(vary).filter(([, text]) => text.trim() !== "");

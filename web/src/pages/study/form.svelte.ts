@@ -1,83 +1,90 @@
 import { plan, start } from "../../api/studies";
-import { type Ask, type Asked, type Factors, type Listed, type Planned, Refusal } from "../../api/study";
-import { askOf, type Draft, draftOf, type Wrongs, wrongsOf } from "./draft";
-import { troubleOf } from "./labels";
+import {
+  type Factors,
+  RequestError,
+  type ScenarioSource,
+  type StudyPlan,
+  type StudyRequest,
+  type StudySummary,
+} from "../../api/study";
+import { requestOf, type Draft, draftOf, type FieldErrors, fieldErrors } from "./draft";
+import { errorText } from "./labels";
 
-const rest_ms = 250;
-const again_ms = 2000;
+const debounce_ms = 250;
+const retry_ms = 2000;
 
-/** A study as it is being asked: what is typed, and what the server makes of it. */
-export class Asking {
+/** The study form: its fields, and the server's plan for them. */
+export class FormState {
   draft = $state<Draft>() as Draft;
-  planned = $state.raw<Planned | null>(null);
-  wrongs = $state.raw<Wrongs>({});
-  /** Why the server said nothing. */
-  trouble = $state("");
+  planned = $state.raw<StudyPlan | null>(null);
+  errors = $state.raw<FieldErrors>({});
+  /** Why there is no answer from the server. */
+  failure = $state("");
   isStarting = $state(false);
 
   private timer: ReturnType<typeof setTimeout> | undefined;
-  private asking: AbortController | null = null;
+  private pending: AbortController | null = null;
 
   constructor(
-    private readonly of: Asked,
+    private readonly source: ScenarioSource,
     readonly factors: Factors,
   ) {
     this.draft = draftOf(factors);
   }
 
-  /** Asks for the plan of the draft, once it rests. */
-  changed(wait_ms = rest_ms): void {
+  /** Requests the plan of the draft, once typing pauses. */
+  changed(wait_ms = debounce_ms): void {
     clearTimeout(this.timer);
-    this.asking?.abort();
-    const ask = this.ask();
-    if (ask) this.timer = setTimeout(() => void this.look(ask), wait_ms);
+    this.pending?.abort();
+    const request = this.request();
+    if (request) this.timer = setTimeout(() => void this.loadPlan(request), wait_ms);
   }
 
   close(): void {
     clearTimeout(this.timer);
-    this.asking?.abort();
+    this.pending?.abort();
   }
 
-  /** Starts the study; gives it, or null if that was refused. */
-  async start(): Promise<Listed | null> {
-    const ask = this.ask();
-    if (!ask || this.isStarting) return null;
+  /** Starts the study; null if the server refuses. */
+  async start(): Promise<StudySummary | null> {
+    const request = this.request();
+    if (!request || this.isStarting) return null;
     this.isStarting = true;
     try {
-      return await start(ask);
-    } catch (fault) {
-      this.refused(fault);
+      return await start(request);
+    } catch (error) {
+      this.failed(error);
       return null;
     } finally {
       this.isStarting = false;
     }
   }
 
-  private ask(): Ask | null {
-    const said = askOf(this.of, this.draft, this.factors.factors);
-    if ("ask" in said) return said.ask;
-    this.wrongs = said.wrongs;
+  private request(): StudyRequest | null {
+    const result = requestOf(this.source, this.draft, this.factors.factors);
+    if ("request" in result) return result.request;
+    this.errors = result.errors;
     this.planned = null;
     return null;
   }
 
-  private async look(ask: Ask): Promise<void> {
-    const asking = new AbortController();
-    this.asking = asking;
+  private async loadPlan(request: StudyRequest): Promise<void> {
+    const pending = new AbortController();
+    this.pending = pending;
     try {
-      this.planned = await plan(ask, asking.signal);
-      this.wrongs = {};
-      this.trouble = "";
-    } catch (fault) {
-      if (asking.signal.aborted) return;
+      this.planned = await plan(request, pending.signal);
+      this.errors = {};
+      this.failure = "";
+    } catch (error) {
+      if (pending.signal.aborted) return;
       this.planned = null;
-      this.refused(fault);
+      this.failed(error);
     }
   }
 
-  private refused(fault: unknown): void {
-    this.wrongs = fault instanceof Refusal ? wrongsOf(fault.faults, this.draft) : {};
-    this.trouble = fault instanceof Refusal ? "" : troubleOf(fault);
-    if (this.trouble) this.changed(again_ms);
+  private failed(error: unknown): void {
+    this.errors = error instanceof RequestError ? fieldErrors(error.errors, this.draft) : {};
+    this.failure = error instanceof RequestError ? "" : errorText(error);
+    if (this.failure) this.changed(retry_ms);
   }
 }

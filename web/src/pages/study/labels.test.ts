@@ -1,9 +1,9 @@
 import { expect, test } from "vitest";
-import { type Interval, Refusal, type Studying } from "../../api/study";
-import { ago, decimal, duration, figuresOf, places, raceWords, troubleOf } from "./labels";
+import { type Interval, RequestError, type StudyProgress } from "../../api/study";
+import { ago, decimal, duration, raceFigures, places, raceSummary, errorText } from "./labels";
 
 const bounds: Interval = [-1.66, -1.7, -1.6];
-const race: Studying = {
+const race: StudyProgress = {
   type: "studying",
   state: "running",
   message: null,
@@ -21,30 +21,30 @@ const race: Studying = {
 };
 const labels = ["1 wanderer", "2 wanderers", "3 wanderers", "4 wanderers"];
 
-test("the race is told in a sentence", () => {
-  expect(raceWords(race, 8, labels)).toBe(
-    "Running: 3 configurations of 8 still in, 2,031 runs, about 3 s left. In front: 4 wanderers.",
+test("the race is summarised in a sentence", () => {
+  expect(raceSummary(race, 8, labels)).toBe(
+    "Running: 3 configurations of 8 remaining, 2,031 runs, about 3 s left. Leading: 4 wanderers.",
   );
 });
 
-test("a race that stands has no speed and no time left", () => {
-  const words = figuresOf({ ...race, state: "stopped" }, 8).map(([value, name]) => `${value} ${name}`);
-  expect(words).toEqual(["3 of 8 still in", "2,031 runs", "36 round", "12 s taken"]);
+test("a stopped race has no speed and no time left", () => {
+  const words = raceFigures({ ...race, state: "stopped" }, 8).map(([value, name]) => `${value} ${name}`);
+  expect(words).toEqual(["3 of 8 remaining", "2,031 runs", "36 round", "12 s elapsed"]);
 });
 
 test("a race in another process has no known speed", () => {
-  const words = figuresOf({ ...race, seconds: 0, runs_per_s: 0, left_s: null }, 8);
+  const words = raceFigures({ ...race, seconds: 0, runs_per_s: 0, left_s: null }, 8);
   expect(words.slice(3)).toEqual([
-    ["–", "runs a second"],
-    ["–", "left, about"],
+    ["–", "runs per second"],
+    ["–", "time left (estimate)"],
   ]);
 });
 
-test("durations are as long as people say them", () => {
+test("durations are rounded for reading", () => {
   expect([0.2, 42, 180, 7500].map(duration)).toEqual(["1 s", "42 s", "3 min", "2 h 5 min"]);
 });
 
-test("times past are told from now", () => {
+test("past times are relative to now", () => {
   const at = 1_800_000_000;
   expect([5, 70, 7300, 200_000].map((past) => ago(at - past, at))).toEqual([
     "just now",
@@ -54,13 +54,15 @@ test("times past are told from now", () => {
   ]);
 });
 
-test("merits have so many decimals that delta has two figures", () => {
+test("merits are rounded so that delta has two significant digits", () => {
   expect([0.01, 0.05, 0.2, 3, 40].map(places)).toEqual([3, 3, 2, 1, 0]);
   expect([decimal(-1.655, 2), decimal(null, 2)]).toEqual(["−1.66", "–"]);
 });
 
-test("a refusal is told in the server's words, and a server that is gone in ours", () => {
-  const fault = { file: null, line: null, path: "id", value: null, allowed: "", suggestion: null };
-  expect(troubleOf(new Refusal([{ ...fault, message: "id is no study" }]))).toBe("id is no study");
-  expect(troubleOf(new TypeError("Failed to fetch"))).toBe("The server does not answer.");
+test("a request error has the server's message, and a missing server has ours", () => {
+  const inputError = { file: null, line: null, path: "id", value: null, allowed: "", suggestion: null };
+  expect(errorText(new RequestError([{ ...inputError, message: "id must name a study" }]))).toBe(
+    "id must name a study",
+  );
+  expect(errorText(new TypeError("Failed to fetch"))).toBe("The server is not responding.");
 });

@@ -1,35 +1,36 @@
-import type { StudyState, Studying } from "../../api/study";
+import type { StudyState, StudyProgress } from "../../api/study";
 import { plural } from "../../shared/format";
 
-export const stateWords: Record<StudyState, string> = {
+export const stateLabels: Record<StudyState, string> = {
   running: "Running",
   answered: "Answered",
   stopped: "Stopped",
   damaged: "Damaged",
 };
 
-/** What the picture of the race says. */
-export function raceWords(race: Studying, total: number, labels: string[]): string {
-  const parts = [`${plural(race.survivors, "configuration")} of ${count(total)} still in`];
+/** The state of the race in one sentence, for screen readers. */
+export function raceSummary(race: StudyProgress, total: number, labels: string[]): string {
+  const parts = [`${plural(race.survivors, "configuration")} of ${count(total)} remaining`];
   parts.push(plural(race.runs, "run"));
   if (race.left_s !== null) parts.push(`about ${duration(race.left_s)} left`);
   const [best] = race.standings;
-  const leads = best ? ` In front: ${nameOf(labels, best[0])}.` : "";
-  return `${stateWords[race.state]}: ${parts.join(", ")}.${leads}`;
+  const leads = best ? ` Leading: ${nameOf(labels, best[0])}.` : "";
+  return `${stateLabels[race.state]}: ${parts.join(", ")}.${leads}`;
 }
 
-/** The numbers of a race, each with what it is. */
-export function figuresOf(race: Studying, total: number): [value: string, words: string][] {
+/** The key figures of a race, with labels. */
+export function raceFigures(race: StudyProgress, total: number): [value: string, label: string][] {
   const first: [string, string][] = [
-    [`${count(race.survivors)} of ${count(total)}`, "still in"],
+    [`${count(race.survivors)} of ${count(total)}`, "remaining"],
     [count(race.runs), "runs"],
     [count(race.round), "round"],
   ];
-  if (race.state !== "running") return [...first, [race.seconds > 0 ? duration(race.seconds) : "–", "taken"]];
+  if (race.state !== "running")
+    return [...first, [race.seconds > 0 ? duration(race.seconds) : "–", "elapsed"]];
   const left = race.left_s === null ? "–" : duration(race.left_s);
-  // Of one in another process nobody knows.
+  // Unknown if another process computes the runs.
   const rate = race.seconds > 0 ? count(race.runs_per_s) : "–";
-  return [...first, [rate, "runs a second"], [left, "left, about"]];
+  return [...first, [rate, "runs per second"], [left, "time left (estimate)"]];
 }
 
 export function nameOf(labels: string[], configuration: number): string {
@@ -48,17 +49,17 @@ export function duration(time_s: number): string {
   return `${Math.floor(minutes / 60)} h ${minutes % 60} min`;
 }
 
-/** How long ago, such as `3 minutes ago`. */
+/** Time since a change, such as `3 minutes ago`. */
 export function ago(changed_s: number, now_s: number): string {
-  const words = new Intl.RelativeTimeFormat("en", { numeric: "auto" });
+  const format = new Intl.RelativeTimeFormat("en", { numeric: "auto" });
   const past = Math.max(0, now_s - changed_s);
   if (past < 60) return "just now";
-  if (past < 3600) return words.format(-Math.floor(past / 60), "minute");
-  if (past < 86_400) return words.format(-Math.floor(past / 3600), "hour");
-  return words.format(-Math.floor(past / 86_400), "day");
+  if (past < 3600) return format.format(-Math.floor(past / 60), "minute");
+  if (past < 86_400) return format.format(-Math.floor(past / 3600), "hour");
+  return format.format(-Math.floor(past / 86_400), "day");
 }
 
-/** Decimals of merits, so that `delta` has two figures. */
+/** Decimal places of merits, so that `delta` has two significant digits. */
 export function places(delta: number): number {
   return Math.max(0, Math.min(6, 1 - Math.floor(Math.log10(delta))));
 }
@@ -71,9 +72,9 @@ export function percent(share: number): string {
   return `${Number((100 * share).toFixed(6))}%`;
 }
 
-/** What went wrong, for people. */
-export function troubleOf(fault: unknown): string {
-  // `fetch` throws TypeErrors of the browser's own words where there is no server.
-  if (fault instanceof TypeError || !(fault instanceof Error)) return "The server does not answer.";
-  return fault.message;
+/** The message of an error, for display. */
+export function errorText(error: unknown): string {
+  // Without a server, `fetch` throws a TypeError with a message of the browser's.
+  if (error instanceof TypeError || !(error instanceof Error)) return "The server is not responding.";
+  return error.message;
 }

@@ -1,13 +1,13 @@
 import { studies } from "../../api/studies";
-import type { Listed } from "../../api/study";
-import { troubleOf } from "./labels";
+import type { StudySummary } from "../../api/study";
+import { errorText } from "./labels";
 
-const again_ms = 2000;
+const poll_ms = 2000;
 
-/** The studies that there are: looked at again while any runs, or while the server does not answer. */
+/** The list of studies, polled while a study is running or the server is not responding. */
 export class StudyList {
-  listed = $state.raw<Listed[] | null>(null);
-  trouble = $state("");
+  listed = $state.raw<StudySummary[] | null>(null);
+  failure = $state("");
 
   private timer: ReturnType<typeof setTimeout> | undefined;
   private isClosed = false;
@@ -17,15 +17,15 @@ export class StudyList {
     clearTimeout(this.timer);
   }
 
-  async look(): Promise<void> {
+  async refresh(): Promise<void> {
     clearTimeout(this.timer);
     try {
       this.listed = await studies();
-      this.trouble = "";
-    } catch (fault) {
-      this.trouble = troubleOf(fault);
+      this.failure = "";
+    } catch (error) {
+      this.failure = errorText(error);
     }
-    const isMoving = this.trouble !== "" || this.listed?.some(({ state }) => state === "running");
-    if (isMoving && !this.isClosed) this.timer = setTimeout(() => void this.look(), again_ms);
+    const isChanging = this.failure !== "" || this.listed?.some(({ state }) => state === "running");
+    if (isChanging && !this.isClosed) this.timer = setTimeout(() => void this.refresh(), poll_ms);
   }
 }

@@ -1,17 +1,18 @@
 import { expect, test } from "vitest";
-import type { Standing, Studying } from "../../api/study";
-import { following, hasRanges } from "./standings";
+import type { Standing, StudyProgress } from "../../api/study";
+import { updatedRace, hasRanges } from "./standings";
 
 const ranged: Standing[] = [[3, 40, -1.5, -1.7, -1.3]];
 const bare: Standing[] = [[3, 40, -1.5, null, null]];
-const race = (state: Studying["state"], standings: Standing[]) => ({ state, standings }) as Studying;
+const race = (state: StudyProgress["state"], standings: Standing[]) =>
+  ({ state, standings }) as StudyProgress;
 
-test("ranges that were seen stay when the study is stopped", () => {
-  expect(following(race("running", ranged), race("stopped", bare)).standings).toBe(ranged);
+test("a stopped study keeps its last ranges", () => {
+  expect(updatedRace(race("running", ranged), race("stopped", bare)).standings).toBe(ranged);
 });
 
-test("a study that runs is shown as it is told, also without ranges", () => {
-  expect(following(race("running", ranged), race("running", bare)).standings).toBe(bare);
-  expect(following(null, race("stopped", bare)).standings).toBe(bare);
+test("a running study follows each message, also without ranges", () => {
+  expect(updatedRace(race("running", ranged), race("running", bare)).standings).toBe(bare);
+  expect(updatedRace(null, race("stopped", bare)).standings).toBe(bare);
   expect(hasRanges(bare)).toBe(false);
 });

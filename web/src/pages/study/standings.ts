@@ -1,12 +1,12 @@
-import type { Standing, Studying } from "../../api/study";
+import type { Standing, StudyProgress } from "../../api/study";
 
-/** Whether the server has computed any ranges: of a study that stands it has none. */
+/** Whether the standings have ranges; those of a stopped study have none. */
 export function hasRanges(standings: Standing[]): boolean {
   return standings.some(([, , , low, high]) => low !== null && high !== null);
 }
 
-/** What is known of a race after a message: the ranges that were seen last hold on while it stands. */
-export function following(before: Studying | null, message: Studying): Studying {
-  const stays = before !== null && message.state !== "running" && !hasRanges(message.standings);
-  return stays ? { ...message, standings: before.standings } : message;
+/** The race after a message. A stopped race keeps the last ranges. */
+export function updatedRace(before: StudyProgress | null, message: StudyProgress): StudyProgress {
+  const keepsRanges = before !== null && message.state !== "running" && !hasRanges(message.standings);
+  return keepsRanges ? { ...message, standings: before.standings } : message;
 }

@@ -4,7 +4,7 @@ import type { Series } from "../series";
 
 const height_px = 220;
 
-/** Found and collisions by time. */
+/** Items found and collisions over time. */
 export class Chart {
   private plot: uPlot;
   private shown = -1;
@@ -19,14 +19,14 @@ export class Chart {
     this.observer.observe(element);
   }
 
-  /** Draws anew if the series has grown since. */
+  /** Redraws if the series has grown since the last call. */
   update(grown: number): void {
     if (grown === this.shown) return;
     this.shown = grown;
     this.plot.setData(this.data());
   }
 
-  /** In the colours that hold now. */
+  /** Redraws with the current theme's colours. */
   rebuild(): void {
     this.plot.destroy();
     this.plot = this.build();

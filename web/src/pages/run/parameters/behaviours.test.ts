@@ -1,13 +1,5 @@
 import { expect, test } from "vitest";
-import {
-  type Behaviour,
-  behavioursOf,
-  isOn,
-  type Switch,
-  switched,
-  switches,
-  wantsGoals,
-} from "./behaviours";
+import { type Behaviour, behavioursOf, isOn, type Switch, switched, switches, usesGoals } from "./behaviours";
 
 const named = (name: string) => switches.find((one) => one.name === name) as Switch;
 const kinds = (list: { kind: string }[]) => list.map((one) => one.kind);
@@ -17,11 +9,11 @@ const seekers: Behaviour[] = [
   { kind: "avoid" },
 ];
 
-test("a robot whose scenario does not say searches by bouncing", () => {
+test("a robot kind without behaviours searches by random bounce", () => {
   const behaviours = behavioursOf({ robots: { rover: { count: 1 } } }, "rover");
   expect(kinds(behaviours)).toEqual(["cruise", "random_bounce", "avoid"]);
   expect(isOn(behaviours, named("Search"))).toBe(true);
-  expect(isOn(behaviours, named("Swarm"))).toBe(false);
+  expect(isOn(behaviours, named("Flock"))).toBe(false);
 });
 
 test("switching off and on again gives the behaviour back with its values, below the reflexes", () => {
@@ -30,15 +22,15 @@ test("switching off and on again gives the behaviour back with its values, below
   expect(switched(off, named("Search"), [{ kind: "bayesian_search", value: 2 }], true)).toEqual(seekers);
 });
 
-test("what is switched on first is what the brain can do", () => {
+test("a switch adds a behaviour that the brain supports", () => {
   const off = [{ kind: "avoid" }];
   expect(kinds(switched(off, named("Search"), [], true))).toEqual(["bayesian_search", "avoid"]);
   expect(kinds(switched(off, named("Search"), [], false))).toEqual(["random_bounce", "avoid"]);
-  expect(kinds(switched(off, named("Swarm"), [], false))).toEqual(["flock", "avoid"]);
+  expect(kinds(switched(off, named("Flock"), [], false))).toEqual(["flock", "avoid"]);
 });
 
-test("brains that go for goals are known by their arbitration", () => {
+test("brains that select goals are known by their arbitration", () => {
   const brain = { arbitration: { kind: "goals" } };
-  expect(wantsGoals({ robots: { rover: { brain } } }, "rover")).toBe(true);
-  expect(wantsGoals({ robots: { rover: {} } }, "rover")).toBe(false);
+  expect(usesGoals({ robots: { rover: { brain } } }, "rover")).toBe(true);
+  expect(usesGoals({ robots: { rover: {} } }, "rover")).toBe(false);
 });

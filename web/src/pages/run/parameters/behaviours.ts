@@ -7,7 +7,7 @@ export interface Behaviour {
   [key: string]: Json;
 }
 
-/** A switch of the page, and the behaviours that it stands for. */
+/** A switch of the page, and the behaviours that it turns on and off. */
 export interface Switch {
   name: string;
   help: string;
@@ -17,22 +17,22 @@ export interface Switch {
 export const switches: Switch[] = [
   {
     name: "Search",
-    help: "looks for items",
+    help: "Searches for items",
     kinds: ["bayesian_search", "frontier", "lawnmower", "spiral", "random_bounce"],
   },
-  { name: "Follow", help: "goes behind the robot before it", kinds: ["follow"] },
-  { name: "Swarm", help: "goes with the others", kinds: ["flock"] },
+  { name: "Follow", help: "Follows the robot ahead", kinds: ["follow"] },
+  { name: "Flock", help: "Moves with neighbouring robots", kinds: ["flock"] },
 ];
 
-/** What a robot does whose scenario does not say. */
-const usual: Behaviour[] = [{ kind: "cruise" }, { kind: "random_bounce" }, { kind: "avoid" }];
+/** Behaviours of a robot kind that lists none. */
+const defaultBehaviours: Behaviour[] = [{ kind: "cruise" }, { kind: "random_bounce" }, { kind: "avoid" }];
 
-/** These have their way before all others. */
+/** Reflexes have priority over all other behaviours. */
 const reflexes = new Set(["avoid", "return_home"]);
 
 export function behavioursOf(document: Table, robotKind: string): Behaviour[] {
   const given = valueAt(document, ["robots", robotKind, "brain", "behaviours"]);
-  return Array.isArray(given) ? given.filter(isBehaviour) : usual;
+  return Array.isArray(given) ? given.filter(isBehaviour) : defaultBehaviours;
 }
 
 export function behavioursPath(robotKind: string): string {
@@ -43,22 +43,22 @@ export function isOn(behaviours: Behaviour[], { kinds }: Switch): boolean {
   return behaviours.some((behaviour) => kinds.includes(behaviour.kind));
 }
 
-/** The list without a switch's behaviours, or with what it had of them; otherwise with one that fits. */
+/** Removes a switch's behaviours, or restores those it removed, or adds the first that the brain supports. */
 export function switched(
   behaviours: Behaviour[],
   toggle: Switch,
   removed: Behaviour[],
-  wantsGoals: boolean,
+  usesGoals: boolean,
 ): Behaviour[] {
   if (isOn(behaviours, toggle)) return behaviours.filter((one) => !toggle.kinds.includes(one.kind));
-  const added = removed.length > 0 ? removed : [{ kind: firstKind(toggle, wantsGoals) }];
+  const added = removed.length > 0 ? removed : [{ kind: firstKind(toggle, usesGoals) }];
   const reflex = behaviours.findIndex((one) => reflexes.has(one.kind));
   const place = reflex < 0 ? behaviours.length : reflex;
   return [...behaviours.slice(0, place), ...added, ...behaviours.slice(place)];
 }
 
-/** Whether a kind's robots go for goals; those that do not search by bouncing. */
-export function wantsGoals(document: Table, robotKind: string): boolean {
+/** Whether the brain of a robot kind selects goals. */
+export function usesGoals(document: Table, robotKind: string): boolean {
   const arbitration = valueAt(document, ["robots", robotKind, "brain", "arbitration"]);
   return isTable(arbitration) && arbitration.kind === "goals";
 }

@@ -36,7 +36,7 @@ const rover: KindView = {
 const all = parametersOf(schema, document, [rover]);
 const at = (path: string) => all.find((parameter) => parameter.path === path);
 
-test("numbers have their bounds, their words and their value from schema and scenario", () => {
+test("numbers have bounds, help and value from schema and scenario", () => {
   expect(at("robots.rover.count")).toMatchObject({
     type: "integer",
     minimum: 0,
@@ -46,12 +46,12 @@ test("numbers have their bounds, their words and their value from schema and sce
   });
 });
 
-test("what a scenario leaves out is listed with its default", () => {
+test("parameters that a scenario leaves out are listed with their default", () => {
   expect(at("clock.step_s")).toMatchObject({ value: undefined, fallback: 0.1 });
   expect(at("world.periodic")).toMatchObject({ type: "boolean", fallback: false });
 });
 
-test("what a shipped robot brings is listed as what holds", () => {
+test("values of a bundled robot model are listed as defaults", () => {
   expect(at("robots.rover.radius_m")?.fallback).toBe(0.27);
   expect(at("robots.rover.sensors.camera.range_m")?.fallback).toBe(3);
   expect(at("robots.rover.sensors.camera.fov_deg")?.fallback).toBe(90);
@@ -66,7 +66,7 @@ test("names to choose from are choices", () => {
   expect(at("robots.rover.layer")).toMatchObject({ choices: ["ground", "air"], fallback: "ground" });
 });
 
-test("entries of lists are listed by what they are", () => {
+test("entries of lists are listed by their kind", () => {
   expect(at("robots.rover.brain.behaviours[1].near_m")?.value).toBe(0.3);
   expect(at("robots.rover.brain.behaviours[0].value")?.help).toMatch(/searching is worth/);
   expect(at("robots.rover.brain.behaviours[0].near_m")).toBeUndefined();
@@ -74,13 +74,13 @@ test("entries of lists are listed by what they are", () => {
   expect(at("world.size_m[1]")?.value).toBe(20);
 });
 
-test("alternatives are taken as the scenario has them", () => {
+test("alternatives follow the scenario", () => {
   expect(at("merit.time")?.value).toBe(-0.03);
   expect(at("merit.energy.weight")?.value).toBe(-1);
   expect(at("merit.found")?.value).toBeUndefined();
 });
 
-test("the study and texts are not listed, and no path twice", () => {
+test("study and texts are not listed, and no path twice", () => {
   expect(all.filter((parameter) => /^(study|published|summary|engine)/.test(parameter.path))).toEqual([]);
   expect(new Set(all.map((parameter) => parameter.path)).size).toBe(all.length);
 });

@@ -3,10 +3,10 @@ import { choicesOf, isTable, resolved, type Schema, variantOf } from "./schema";
 
 export type Step = string | number;
 
-/** Something that a slider, a box or a switch can set. */
+/** A value that a slider, number box or switch can set. */
 export interface Parameter {
   steps: Step[];
-  /** As faults write it: `robots.rover.brain.behaviours[0].near_m`. */
+  /** As error messages write it: `robots.rover.brain.behaviours[0].near_m`. */
   path: string;
   help: string;
   type: "number" | "integer" | "boolean" | "choice";
@@ -14,17 +14,19 @@ export interface Parameter {
   minimum: number;
   maximum: number;
   value: Json | undefined;
-  /** What holds when the scenario does not say; undefined if that is not known here. */
+  /** The default; undefined if the page does not know it. */
   fallback: Json | undefined;
 }
 
-const notOfTheRun = new Set(["engine", "summary", "study", "published"]);
+const notOfRun = new Set(["engine", "summary", "study", "published"]);
 
-/** All that can be set in a scenario, in the order of its schema. */
+/** All parameters of a scenario, in the order of its schema. */
 export function parametersOf(root: Schema, document: Table, kinds: KindView[] = []): Parameter[] {
-  const top = Object.entries(root.properties ?? {}).filter(([name]) => !notOfTheRun.has(name));
+  const top = Object.entries(root.properties ?? {}).filter(([name]) => !notOfRun.has(name));
   const known = knownOf(kinds);
-  return top.flatMap(([name, schema]) => new Walk(root).at(schema, document[name], known[name], [name]));
+  return top.flatMap(([name, schema]) =>
+    new SchemaWalk(root).at(schema, document[name], known[name], [name]),
+  );
 }
 
 export function pathOf(steps: Step[]): string {
@@ -33,7 +35,7 @@ export function pathOf(steps: Step[]): string {
     .join("");
 }
 
-/** The change that sets a parameter. Paths end at lists, so what is in one is set with the whole list. */
+/** The change that sets a parameter. Paths end at lists: a value inside a list is set with the whole list. */
 export function changeOf(document: Table, steps: Step[], value: Json): { path: string; value: Json } {
   const end = steps.findIndex((step) => typeof step === "number");
   if (end < 0) return { path: pathOf(steps), value };
@@ -55,7 +57,7 @@ function replaced(whole: Json, [step, ...rest]: Step[], value: Json): Json {
   return { ...table, [step]: replaced(table[step] ?? {}, rest, value) };
 }
 
-/** Values of shipped robots, which scenarios leave out: as far as the page is told of them. */
+/** Values that bundled robot models supply and scenarios leave out, as far as the setting contains them. */
 function knownOf(kinds: KindView[]): Table {
   const robots = kinds.map((kind): [string, Json] => {
     const sensors = kind.sensors.map((sensor): [string, Json] => [
@@ -78,7 +80,7 @@ function degrees(rad: number): number {
   return Number(((rad * 180) / Math.PI).toFixed(3));
 }
 
-class Walk {
+class SchemaWalk {
   constructor(private readonly root: Schema) {}
 
   at(given: Schema, value: Json | undefined, known: Json | undefined, steps: Step[]): Parameter[] {
@@ -104,14 +106,15 @@ class Walk {
     known: Json | undefined,
     steps: Step[],
   ): Parameter[] {
-    const mine = isTable(value) ? value : {};
-    const told = isTable(known) ? known : {};
+    const given = isTable(value) ? value : {};
+    const supplied = isTable(known) ? known : {};
     const names = Object.entries(schema.properties ?? {});
     const { additionalProperties: named } = schema;
     if (typeof named === "object") {
-      for (const name of new Set([...Object.keys(mine), ...Object.keys(told)])) names.push([name, named]);
+      for (const name of new Set([...Object.keys(given), ...Object.keys(supplied)]))
+        names.push([name, named]);
     }
-    return names.flatMap(([name, child]) => this.at(child, mine[name], told[name], [...steps, name]));
+    return names.flatMap(([name, child]) => this.at(child, given[name], supplied[name], [...steps, name]));
   }
 
   private list(schema: Schema, value: Json | undefined, steps: Step[]): Parameter[] {

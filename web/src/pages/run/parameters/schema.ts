@@ -1,6 +1,6 @@
 import type { Json } from "../../../api/protocol";
 
-/** What is used of JSON Schema. */
+/** The part of JSON Schema that the page uses. */
 export interface Schema {
   type?: string;
   description?: string;
@@ -24,7 +24,7 @@ export interface Schema {
   definitions?: Record<string, Schema>;
 }
 
-/** The schema with what it refers to in it; what it says itself holds over that. */
+/** The schema with its references inlined; its own keys take precedence. */
 export function resolved(schema: Schema, root: Schema): Schema {
   const { $ref, allOf, ...own } = schema;
   const parts = [...(allOf ?? [])];
@@ -38,7 +38,7 @@ export function isTable(value: Json | undefined): value is { [key: string]: Json
   return typeof value === "object" && value !== null && !Array.isArray(value);
 }
 
-/** Of a schema's alternatives the one that a value is written in; for none, one that is a single value. */
+/** The alternative of a schema that a value matches; without a value, the one that is a scalar. */
 export function variantOf(schema: Schema, value: Json | undefined, root: Schema): Schema | null {
   const alternatives = (schema.anyOf ?? schema.oneOf)?.map((one) => resolved(one, root));
   if (!alternatives || schema.properties) return schema;
@@ -46,7 +46,7 @@ export function variantOf(schema: Schema, value: Json | undefined, root: Schema)
   return alternatives.find((one) => fits(one, value)) ?? null;
 }
 
-/** The names that may stand here, if names are all that may. */
+/** The allowed names, if the schema allows only names. */
 export function choicesOf(schema: Schema, root: Schema): string[] | null {
   if (schema.enum) return schema.enum.filter((name): name is string => typeof name === "string");
   const alternatives = (schema.anyOf ?? schema.oneOf)?.map((one) => resolved(one, root).const);

@@ -1,11 +1,11 @@
 import type { Parameter } from "./list";
 
-/** A slider up to here is one in which a hand can find a value. */
-const mostUseful = 1000;
+/** Up to this end, values can still be set by hand. */
+const maxUseful = 1000;
 
 /**
- * Where a parameter's slider ends: at its bound if that is near; else at some round number well above what
- * it is, as on one to 10,000 m nobody could set 3 m.
+ * The upper end of a parameter's slider: its bound if that is near, else a round number well above its value.
+ * On a slider to 10,000 m, 3 m could not be set.
  */
 export function sliderEnd({
   maximum,
@@ -14,7 +14,7 @@ export function sliderEnd({
 }: Pick<Parameter, "maximum" | "value" | "fallback">): number {
   const now = Math.abs(Number(value ?? fallback ?? 1)) || 1;
   const near = now * 4;
-  if (maximum <= Math.max(1, near) || maximum <= mostUseful / 10) return maximum;
+  if (maximum <= Math.max(1, near) || maximum <= maxUseful / 10) return maximum;
   const power = 10 ** Math.floor(Math.log10(near));
   return Math.min(maximum, ([1, 2, 5, 10].find((factor) => factor * power >= near) ?? 10) * power);
 }
