@@ -218,7 +218,7 @@ def check_file(path: str, rules: Rules) -> list[Finding]:
 
 
 def check_text(text: str, path: str, rules: Rules) -> list[Finding]:
-    """Return what the rules forbid in a text; the path says its language."""
+    """Return what the rules forbid in the text of a path."""
     spans = list(prose_spans(text, language(path)))
     prose, code = masked(text, spans)
     found = [*phrase_findings(prose, rules), *name_findings(code, rules)]
@@ -229,7 +229,7 @@ def check_text(text: str, path: str, rules: Rules) -> list[Finding]:
 
 
 def masked(text: str, spans: list[tuple[int, int]]) -> tuple[str, str]:
-    """Return the prose of a text and its code, each with white space for the other."""
+    """Return prose and code, each with white space for the other."""
     prose, code, end = [], [], 0
     for start, stop in spans:
         prose += [blank(text[end:start]), text[start:stop]]
@@ -241,12 +241,12 @@ def masked(text: str, spans: list[tuple[int, int]]) -> tuple[str, str]:
 
 
 def blank(text: str) -> str:
-    """Return white space with the lines of a text, which no phrase spans."""
+    """Return white space with the same lines, which no phrase spans."""
     return re.sub(r"\S", "\x00", text)
 
 
 def prose_spans(text: str, kind: str) -> Iterator[tuple[int, int]]:
-    """Yield where a text is prose, in order."""
+    """Yield the start and end of all prose, in order."""
     if kind == "markdown":
         yield from without(text, MARKDOWN_CODE, 0, len(text))
     elif kind == "svelte":

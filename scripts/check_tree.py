@@ -36,7 +36,7 @@ CRATE_USES = {
 """Which of our crates each may use; a new crate is added here on purpose."""
 
 BRAIN_USES = {"agent-economy-base", "libm", "schemars", "serde"}
-"""All that the crate brain may use: nothing with a clock, a file, a thread or chance of its own."""
+"""All that the crate brain may use: nothing with a clock, a file, a thread or a random stream."""
 
 NO_STD = "#![cfg_attr(not(test), no_std)]"
 """What keeps the standard library, and with it the outside world, out of the crate brain."""
@@ -56,41 +56,41 @@ MAX_LINES = 600
 
 
 def main() -> None:
-    """Print every fault and exit with 1 if there is one."""
-    faults = [*crate_faults(), *brain_faults(), *length_faults(), *document_faults()]
-    for fault in faults:
-        print(fault)
-    print(f"check_tree: {len(faults)} faults")
-    sys.exit(bool(faults))
+    """Print every error and exit with 1 if there is one."""
+    errors = [*crate_errors(), *brain_errors(), *length_errors(), *document_errors()]
+    for error in errors:
+        print(error)
+    print(f"check_tree: {len(errors)} errors")
+    sys.exit(bool(errors))
 
 
-def crate_faults() -> list[str]:
+def crate_errors() -> list[str]:
     """Return uses of one crate by another that the layers do not allow."""
-    faults = []
+    errors = []
     for package in packages():
         name = package["name"]
         if name not in CRATE_USES:
-            faults.append(f"crate {name} has no place among the layers in {__file__}")
+            errors.append(f"crate {name} has no place among the layers in {__file__}")
             continue
         used = {each["name"] for each in package["dependencies"]} & CRATE_USES.keys()
-        faults += [f"crate {name} must not use {each}" for each in used - CRATE_USES[name]]
-    return faults
+        errors += [f"crate {name} must not use {each}" for each in used - CRATE_USES[name]]
+    return errors
 
 
-def brain_faults() -> list[str]:
+def brain_errors() -> list[str]:
     """Return ways by which more than percepts could enter a brain."""
-    faults = []
+    errors = []
     library = ROOT / "crates/brain/src/lib.rs"
     if NO_STD not in library.read_text(encoding="utf-8"):
-        faults.append(f"crate brain must have {NO_STD}")
-    faults += [
+        errors.append(f"crate brain must have {NO_STD}")
+    errors += [
         f"{file.relative_to(ROOT)}: a brain must not use std"
         for file in library.parent.rglob("*.rs")
         if re.search(r"\bextern crate std\b", file.read_text(encoding="utf-8"))
     ]
     brain = next(each for each in packages() if each["name"] == "agent-economy-brain")
     used = {each["name"] for each in brain["dependencies"] if each["kind"] != "dev"}
-    return faults + [f"crate brain must not use {each}" for each in used - BRAIN_USES]
+    return errors + [f"crate brain must not use {each}" for each in used - BRAIN_USES]
 
 
 @cache
@@ -102,7 +102,7 @@ def packages() -> list[dict[str, Any]]:
     return found
 
 
-def length_faults() -> list[str]:
+def length_errors() -> list[str]:
     """Return code files that have grown too long."""
     files = [file for top in CODE for kind in CODE[top] for file in (ROOT / top).rglob(kind)]
     lengths = {file: len(file.read_text(encoding="utf-8").splitlines()) for file in files}
@@ -113,22 +113,22 @@ def length_faults() -> list[str]:
     ]
 
 
-def document_faults() -> list[str]:
+def document_errors() -> list[str]:
     """Return paths of this tree that a document names or links and that do not exist."""
     named = re.compile(
         r"`((?:benchmarks|crates|examples|packaging|python|scenarios|scripts|docs|web)/[^`\s*<>]*)`"
     )
     linked = re.compile(r"\]\((?!https?:|#)([^)\s#]+)")
-    faults = []
+    errors = []
     for file in [*ROOT.glob("*.md"), *ROOT.glob("docs/*.md"), *ROOT.glob("examples/*.md")]:
         text = file.read_text(encoding="utf-8")
         paths = [ROOT / path for path in named.findall(text)]
         paths += [file.parent / path for path in linked.findall(text)]
         name = file.relative_to(ROOT)
-        faults += [
+        errors += [
             f"{name} names {path}, which is not there" for path in paths if not path.exists()
         ]
-    return faults
+    return errors
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 """Which module of a Rust crate uses which: `use` items and paths, resolved to what defines a name.
 
-A parent that declares or re-exports its children does not use them; whoever takes a name from the
-parent uses the child that defines it. Test modules are left out.
+A parent that declares or re-exports its children does not use them; a module that takes a name from
+the parent uses the child that defines it. Test modules are left out.
 """
 
 import re
@@ -26,7 +26,7 @@ ITEM = re.compile(
 
 @dataclass
 class Source:
-    """What the file of a module says."""
+    """What the file of a module contains."""
 
     code: str
     items: set[str] = field(default_factory=set)
