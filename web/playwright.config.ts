@@ -5,8 +5,10 @@ export default defineConfig({
   testDir: "tests",
   workers: 2,
   fullyParallel: true,
-  timeout: 30_000,
-  // On a busy machine; what passes only then is listed as flaky.
+  // Generous, for busy machines: a passing test does not wait for them.
+  timeout: 90_000,
+  expect: { timeout: 20_000 },
+  // A test that passes only at the second attempt is listed as flaky.
   retries: process.env.CI ? 1 : 0,
   reporter: [["list"]],
   use: { viewport: { width: 1280, height: 800 }, launchOptions },

@@ -1,2 +1,2 @@
-/** What checks in a browser use of it. */
+/** The browser for tests, benchmark and pictures. */
 export const launchOptions: { executablePath: string; args: string[] };

@@ -1,4 +1,4 @@
-/** The page as one works on it, beside the fake server. With SERVER=no only the page: the real one runs. */
+/** The page for development, with the fake server; with SERVER=no, for a real server that is running. */
 import { createServer } from "vite";
 import { serve } from "./fake-server.mjs";
 

@@ -1,7 +1,7 @@
-/** What checks in a browser use of the fake server. */
+/** The part of the fake server that tests use. */
 export function serve(port?: number): Promise<{
   url: string;
-  /** Cuts all lines. */
+  /** Drops all connections. */
   drop(): void;
   stop(): void;
 }>;

@@ -1,7 +1,7 @@
 /**
- * Speaks as the real server does, without a simulator: for work on the page, its checks in a browser and
- * its benchmark. Run it with a port; scenario `crowd-N` has N robots, `broken` and `full` are refused,
- * and a study with seed 13 meets a full disk, one with seed 14 is damaged.
+ * Implements the interface of the real server without a simulator, for development and browser tests. Run it
+ * with a port. Scenario `crowd-N` has N robots; `broken` and `full` are refused. A study with seed 13 fails
+ * with a full disk; one with seed 14 is damaged.
  */
 import { readFile } from "node:fs/promises";
 import { createServer } from "node:http";
@@ -10,25 +10,27 @@ import { fileURLToPath } from "node:url";
 import { WebSocketServer } from "ws";
 import { pictureOf } from "./fake/run.mjs";
 import { documentOf, entries } from "./fake/scenarios.mjs";
-import { Shelf } from "./fake/shelf.mjs";
+import { FakeRecordings } from "./fake/recordings.mjs";
 import { FakeStudies } from "./fake/studies.mjs";
-import { Talk } from "./fake/talk.mjs";
+import { FakeRunConnection } from "./fake/run_connection.mjs";
 
 const here = fileURLToPath(new URL("..", import.meta.url));
 const kinds = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml" };
 const policy = "default-src 'self'; img-src 'self' data:; style-src 'self'";
 
-/** Starts it; gives its address, and what cuts its lines and stops it. */
+/** Starts the server. Returns its address and functions that drop its connections and stop it. */
 export async function serve(port = 0) {
   const studies = new FakeStudies();
-  const shelf = new Shelf();
+  const recordings = new FakeRecordings();
   const server = createServer((request, answer) =>
-    handle(request, answer, { studies, shelf }).catch(() => send(answer, 404, "text/plain", "no such thing")),
+    handle(request, answer, { studies, recordings }).catch(() =>
+      send(answer, 404, "text/plain", "not found"),
+    ),
   );
   const sockets = new WebSocketServer({ server, path: "/ws", perMessageDeflate: false });
   sockets.on("connection", (socket, request) => {
     const study = new URL(request.url, "http://localhost").searchParams.get("study");
-    if (study === null) new Talk(socket, { studies, shelf });
+    if (study === null) new FakeRunConnection(socket, { studies, recordings });
     else studies.follow(study, socket);
   });
   await new Promise((ready) => server.listen(port, "127.0.0.1", ready));
@@ -43,17 +45,17 @@ export async function serve(port = 0) {
   return { url: `http://127.0.0.1:${server.address().port}`, drop, stop };
 }
 
-async function handle(request, answer, { studies, shelf }) {
+async function handle(request, answer, { studies, recordings }) {
   const { pathname, searchParams } = new URL(request.url, "http://localhost");
   if (/^\/api\/(factors|plan|stud)/.test(pathname)) {
     const body = request.method === "POST" ? JSON.parse(await bodyOf(request)) : null;
-    const [status, said, name] = studies.answer(request.method, pathname, searchParams, body);
+    const [status, reply, name] = studies.answer(request.method, pathname, searchParams, body);
     if (name) answer.setHeader("Content-Disposition", `attachment; filename="${name}"`);
-    return send(answer, status, "application/json", JSON.stringify(said));
+    return send(answer, status, "application/json", JSON.stringify(reply));
   }
   if (pathname === "/api/scenarios") return send(answer, 200, "application/json", JSON.stringify(entries));
   if (pathname === "/api/recordings")
-    return send(answer, 200, "application/json", JSON.stringify(shelf.listed()));
+    return send(answer, 200, "application/json", JSON.stringify(recordings.listed()));
   if (pathname === "/api/recordings/file") return send(answer, 200, "application/octet-stream", "MCAP");
   if (pathname === "/api/pictures")
     return send(answer, 200, "image/svg+xml", pictureOf(documentOf(searchParams.get("scenario"))));
@@ -72,17 +74,17 @@ async function bodyOf(request) {
 
 async function check(request, answer) {
   const lines = (await bodyOf(request)).split("\n");
-  const faults = lines.flatMap((line, i) => (/raduis|-3/.test(line) ? [faultAt(i + 1, line)] : []));
+  const errors = lines.flatMap((line, i) => (/raduis|-3/.test(line) ? [errorAt(i + 1, line)] : []));
   const good = { name: "my scenario", engine: "metric", summary: "A scenario." };
   send(
     answer,
-    faults.length > 0 ? 422 : 200,
+    errors.length > 0 ? 422 : 200,
     "application/json",
-    JSON.stringify(faults.length > 0 ? { faults } : good),
+    JSON.stringify(errors.length > 0 ? { faults: errors } : good),
   );
 }
 
-function faultAt(line, text) {
+function errorAt(line, text) {
   const [path, given] = text.split("=").map((part) => part.trim());
   const message = `robots.rover.${path} is not a known key: expected one of like, count, layer, radius_m; did you mean radius_m?`;
   return {

@@ -1,6 +1,6 @@
 /**
- * Takes the pictures of docs/ui: each view, in light and in dark, beside the real server. Needs the page
- * built (`make web`) and `agent-economy` on the PATH. Names as arguments: only those.
+ * Takes the pictures of docs/ui: each view in the light and the dark theme, with the real server. Needs the
+ * page built (`make web`) and `agent-economy` on the PATH. Arguments: names of views, to take only those.
  */
 import { mkdir } from "node:fs/promises";
 import { fileURLToPath } from "node:url";
@@ -12,31 +12,31 @@ const folder = fileURLToPath(new URL("../../docs/ui", import.meta.url));
 const wide = { width: 1280, height: 800 };
 const phone = { width: 390, height: 780 };
 
-const live = "#/run?scenario=search-beliefs&seed=7&run=0&tick=220";
+const run = "#/run?scenario=search-beliefs&seed=7&run=0&tick=220";
 
-/** Each view: where it is, what must be there before, and what is done before the picture is taken. */
+/** The views: address, preparation of the server, and what to wait for before the picture is taken. */
 const views = {
   gallery: { at: "#/", ready: (page) => pictured(page) },
-  live: { at: `${live}&robot=rover/0`, ready: (page) => standing(page, "22.0 s") },
+  run: { at: `${run}&robot=rover/0`, ready: (page) => paused(page, "22.0 s") },
   classic: {
     at: "#/run?scenario=classic&seed=7&run=0&tick=400&robot=wanderer/0",
-    ready: (page) => standing(page, "7.1 s"),
+    ready: (page) => paused(page, "7.1 s"),
   },
   parameters: {
-    at: live,
+    at: run,
     ready: async (page) => {
-      await standing(page, "22.0 s");
+      await paused(page, "22.0 s");
       await page.getByRole("tab", { name: "Parameters" }).click();
     },
   },
   studies: { at: "#/studies", before: answered, ready: (page) => page.getByText("Send").first().waitFor() },
-  ask: {
+  form: {
     at: "#/study/new?scenario=search",
     ready: (page) => page.getByText("20 configurations").first().waitFor(),
   },
   race: {
     at: "#/study?id=studies/search",
-    before: (server) => ask(server, { scenario: "search", delta: 0.002 }),
+    before: (server) => startStudy(server, { scenario: "search", delta: 0.002 }),
     ready: (page) => page.waitForTimeout(6000),
   },
   answer: {
@@ -48,20 +48,20 @@ const views = {
       await page.waitForTimeout(1500);
     },
   },
-  phone: { at: live, size: phone, ready: (page) => standing(page, "22.0 s") },
+  phone: { at: run, size: phone, ready: (page) => paused(page, "22.0 s") },
 };
 
-/** Begins a study, unless there is one already. */
-async function ask({ url }, wanted) {
-  const asked = { scenario: null, text: null, vary: {}, design: null, delta: null, confidence: null };
+/** Starts a study, unless it exists already. */
+async function startStudy({ url }, wanted) {
+  const defaults = { scenario: null, text: null, vary: {}, design: null, delta: null, confidence: null };
   const rest = { guarantee: null, merit: null, runs: null, max_runs: null, seed: "0" };
-  const body = JSON.stringify({ ...asked, ...rest, ...wanted });
+  const body = JSON.stringify({ ...defaults, ...rest, ...wanted });
   const headers = { "content-type": "application/json" };
   await fetch(`${url}/api/studies`, { method: "POST", headers, body });
 }
 
 async function answered(server) {
-  await ask(server, { scenario: "classic" });
+  await startStudy(server, { scenario: "classic" });
   const isAnswered = async () => {
     const { studies } = await (await fetch(`${server.url}/api/studies`)).json();
     return studies.some(({ name, state }) => name === "classic" && state === "answered");
@@ -69,13 +69,13 @@ async function answered(server) {
   while (!(await isAnswered())) await new Promise((done) => setTimeout(done, 200));
 }
 
-/** All pictures of the gallery are there. */
+/** Waits until the gallery has loaded its pictures. */
 async function pictured(page) {
   await page.getByRole("link", { name: /^search-beliefs/ }).waitFor();
   await page.waitForLoadState("networkidle");
 }
 
-async function standing(page, time) {
+async function paused(page, time) {
   await page.locator("#status", { hasText: time }).waitFor();
   await page.waitForTimeout(300);
 }

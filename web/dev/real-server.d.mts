@@ -1,4 +1,4 @@
-/** What checks in a browser use of the real server. */
+/** The part of the real server that tests use. */
 export class RealServer {
   url: string;
   folder: string;

@@ -1,4 +1,4 @@
-/** The real server, for the page's checks in a browser, its benchmark and its pictures. */
+/** The real server, for browser tests, benchmark and pictures. */
 import { spawn } from "node:child_process";
 import { mkdtemp, rm } from "node:fs/promises";
 import { tmpdir } from "node:os";
@@ -8,13 +8,13 @@ import { createInterface } from "node:readline";
 const program = process.env.AGENT_ECONOMY ?? "agent-economy";
 const start_ms = 30_000;
 
-/** What `agent-economy ui` starts, in an empty folder of its own. */
+/** The process `agent-economy ui`, in an empty folder of its own. */
 export class RealServer {
   url = "";
   folder = "";
   process = null;
 
-  /** Starts it; once more at the same port, if it has been there before. */
+  /** Starts the server, at the same port as before if it ran already. */
   async start() {
     this.folder ||= await mkdtemp(join(tmpdir(), "agent-economy-"));
     const port = this.url ? new URL(this.url).port : "0";
@@ -25,7 +25,7 @@ export class RealServer {
     this.url = await addressFrom(this.process);
   }
 
-  /** Ends it as a power cut would. */
+  /** Kills the server without a clean shutdown. */
   async kill() {
     const { process: running } = this;
     if (running?.exitCode !== null || running.signalCode !== null) return;
@@ -34,19 +34,19 @@ export class RealServer {
     await gone;
   }
 
-  /** Ends it, and takes its folder away. */
+  /** Ends the server and removes its folder. */
   async end() {
     await this.kill();
     await rm(this.folder, { recursive: true });
   }
 }
 
-/** The address that the program prints first. */
+/** The address that the program prints in its first line. */
 async function addressFrom(running) {
   const failed = new Promise((_, fail) => {
     running.once("error", fail);
     running.once("exit", (code) => fail(new Error(`${program} ui ended with ${code}`)));
-    setTimeout(() => fail(new Error(`${program} ui says nothing`)), start_ms).unref();
+    setTimeout(() => fail(new Error(`${program} ui printed no address`)), start_ms).unref();
   });
   failed.catch(() => {});
   const first = createInterface(running.stdout)[Symbol.asyncIterator]().next();

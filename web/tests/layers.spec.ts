@@ -5,14 +5,14 @@ const view: View = [30, 20, 12];
 const scenario = `scenario=search-beliefs&seed=7&run=2&${opens(view)}`;
 
 test("radio links are requested while their layer is on, and drawn as received", async ({ page, fake }) => {
-  const asked: string[] = [];
-  const told: Buffer[] = [];
+  const requested: string[] = [];
+  const received: Buffer[] = [];
   page.on("websocket", (line) => {
     line.on("framesent", ({ payload }) => {
-      if (String(payload).includes('"layers"')) asked.push(String(payload));
+      if (String(payload).includes('"layers"')) requested.push(String(payload));
     });
     line.on("framereceived", ({ payload }) => {
-      if (Buffer.isBuffer(payload)) told.push(payload);
+      if (Buffer.isBuffer(payload)) received.push(payload);
     });
   });
   await page.goto(runAt(fake, scenario));
@@ -21,7 +21,7 @@ test("radio links are requested while their layer is on, and drawn as received",
   for (const name of ["Sensor coverage", "Trails", "Beliefs and goals", "Heading options"]) {
     await page.getByRole("checkbox", { name }).uncheck();
   }
-  const frame = told.at(-1);
+  const frame = received.at(-1);
   if (!frame) throw new Error("no frame has come");
   const robot = (i: number) => [0, 1].map((axis) => frame.readFloatLE(32 + 16 * i + 4 * axis));
   const [first = [], second = [], third = []] = [robot(0), robot(1), robot(2)];
@@ -35,17 +35,19 @@ test("radio links are requested while their layer is on, and drawn as received",
   expect(await inkAt(page, view, middle(second, third))).toBe(false);
   await page.getByRole("checkbox", { name: "Radio links" }).uncheck();
   await expect.poll(() => inkAt(page, view, middle(first, second))).toBe(false);
-  expect(asked.map((text) => JSON.parse(text)).map(({ links, footprints }) => [links, footprints])).toEqual([
+  expect(
+    requested.map((text) => JSON.parse(text)).map(({ links, footprints }) => [links, footprints]),
+  ).toEqual([
     [false, true],
     [false, false],
     [true, false],
     [false, false],
   ]);
   // With both layers off, frames come without overlays.
-  const before = told.length;
+  const before = received.length;
   await page.keyboard.press(".");
-  await expect.poll(() => told.length).toBeGreaterThan(before);
-  expect(told.slice(before).map((bytes) => bytes.readUInt32LE(0))).not.toContain(2);
+  await expect.poll(() => received.length).toBeGreaterThan(before);
+  expect(received.slice(before).map((bytes) => bytes.readUInt32LE(0))).not.toContain(2);
 });
 
 test("layers and legend pass axe", async ({ page, fake }) => {

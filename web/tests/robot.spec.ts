@@ -48,7 +48,8 @@ test("a followed robot stays in the centre until the view is panned", async ({ p
   await page.keyboard.press("f");
   await expect(box).toBeChecked();
   await page.keyboard.press("Space");
-  await page.waitForTimeout(500);
+  await expect(page.locator("#status")).toContainText("running");
+  await expect(page.locator("#status")).not.toHaveText(/^0\.0 s/);
   await page.keyboard.press("Space");
   await expect(page.locator("#status")).toContainText("paused");
   const picture = page.getByRole("application");

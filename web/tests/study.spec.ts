@@ -136,12 +136,12 @@ test("the race is displayed as text and as a table, stops and resumes", async ({
 
 test("a study is loaded once when it is opened", async ({ page, fake }) => {
   const id = await start(page.request, fake, long);
-  let asked = 0;
-  page.on("request", (request) => (asked += Number(request.url().includes("api/study?"))));
+  let requests = 0;
+  page.on("request", (request) => (requests += Number(request.url().includes("api/study?"))));
   await page.goto(at(fake, id));
   await expect(page.getByText("runs per second")).toBeVisible();
   await expect(page.getByText(/eliminated by/).first()).toBeVisible();
-  expect(asked).toBe(1);
+  expect(requests).toBe(1);
 });
 
 test("a study that is answered while it is being stopped displays its answer", async ({ page, fake }) => {

@@ -1,22 +1,22 @@
-/** From the key that changes a parameter to the picture that shows the change. */
+/** Time from the key press that changes a parameter to the picture with the change. */
 
 const times = 30;
 const rest_ms = 500;
 
-/** Notes, in the page, when a key was pressed and when the first picture of another setting was drawn. */
+/** Records, in the page, the time from each key press to the first picture of the new setting. */
 function watch() {
-  const seen = { at: 0, isAwaited: false, isNew: false, took_ms: [] };
+  const seen = { at: 0, isPending: false, isNew: false, took_ms: [] };
   Object.assign(window, { seen });
   addEventListener(
     "keydown",
-    () => Object.assign(seen, { at: performance.now(), isAwaited: true, isNew: false }),
+    () => Object.assign(seen, { at: performance.now(), isPending: true, isNew: false }),
     true,
   );
   const { send } = WebSocket.prototype;
   WebSocket.prototype.send = function (data) {
-    if (seen.isAwaited && seen.isNew && String(data).includes('"got"')) {
+    if (seen.isPending && seen.isNew && String(data).includes('"got"')) {
       seen.took_ms.push(performance.now() - seen.at);
-      seen.isAwaited = false;
+      seen.isPending = false;
     }
     return send.call(this, data);
   };
@@ -44,5 +44,5 @@ export async function measureChanges(browser, server) {
   const took_ms = (await page.evaluate(() => window.seen.took_ms)).sort((a, b) => a - b);
   await page.close();
   const part = (share) => took_ms[Math.floor(share * (times - 1))].toFixed(0);
-  return `a parameter changed in mid-run is in the picture after ${part(0.5)} ms (median of ${times}), ${part(0.9)} ms (nine of ten), ${part(1)} ms (worst)`;
+  return `a parameter change during a run is drawn after ${part(0.5)} ms (median of ${times}), ${part(0.9)} ms (nine of ten), ${part(1)} ms (worst)`;
 }

@@ -1,4 +1,4 @@
-/** Frames a second of many robots, and what browser and server take of the processor for one. */
+/** Frames per second with many robots, and the processor time per frame of browser and server. */
 import { writeFile } from "node:fs/promises";
 import { join } from "node:path";
 import { usedBelow_ms, usedBy_ms } from "./processor.mjs";
@@ -7,7 +7,7 @@ const warm_ms = 4000;
 const measured_ms = 10_000;
 const metersEach = 5;
 
-/** Robots that go straight on over a field without edges. */
+/** Robots that drive straight ahead in a periodic world. */
 const crowd = (robots, step_s) => {
   const side_m = Math.ceil(Math.sqrt(robots)) * metersEach;
   return `engine = "metric"
@@ -32,7 +32,7 @@ cohesion = 0.03
 `;
 };
 
-/** Counts how often robots are drawn: between what the server tells, too. */
+/** Counts how often robots are drawn, interpolated frames included. */
 function countPictures() {
   let isDrawn = false;
   globalThis.pictures = 0;
@@ -72,6 +72,6 @@ export async function measureCrowd(browser, server, robots, step_s) {
   await pause(measured_ms);
   const [frames, browser_ms, server_ms, time_ms] = (await now()).map((value, i) => value - before[i]);
   await page.close();
-  const a = (ms) => (ms / frames).toFixed(1);
-  return `${robots} robots, steps of ${step_s} s: ${((1000 * frames) / time_ms).toFixed(1)} frames/s; of the processor a frame: browser ${a(browser_ms)} ms, server with its simulation ${a(server_ms)} ms`;
+  const perFrame = (ms) => (ms / frames).toFixed(1);
+  return `${robots} robots, steps of ${step_s} s: ${((1000 * frames) / time_ms).toFixed(1)} frames/s; processor time per frame: browser ${perFrame(browser_ms)} ms, server with simulation ${perFrame(server_ms)} ms`;
 }

@@ -1,6 +1,6 @@
 /**
- * What the page costs beside the real server, in Chromium without a graphics card. Needs the page built
- * (`make web`) and `agent-economy` on the PATH; on Linux. Numbers as arguments: crowds of so many robots.
+ * Measures the page with the real server, in Chromium without a graphics card, on Linux. Needs the page built
+ * (`make web`) and `agent-economy` on the PATH. Arguments: numbers of robots to measure instead of the default.
  */
 import { chromium } from "@playwright/test";
 import { launchOptions } from "../chromium.mjs";
@@ -9,7 +9,7 @@ import { measureChanges } from "./changes.mjs";
 import { measureCrowd } from "./crowd.mjs";
 import { measureLoad } from "./load.mjs";
 
-/** As often as pictures are drawn, and so that robots are drawn on their way between steps. */
+/** Step lengths at the display rate, and above it, so that motion between steps is interpolated. */
 const steps_s = [0.0333, 0.1];
 
 const given = process.argv.slice(2).map(Number);

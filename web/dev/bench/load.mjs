@@ -1,4 +1,4 @@
-/** How much the page loads at first, and how soon it can be used. */
+/** Size of the first load, and time until the page is usable. */
 import { gzipSync } from "node:zlib";
 
 const times = 9;
@@ -21,5 +21,5 @@ export async function measureLoad(browser, server) {
     await context.close();
   }
   const ready_ms = loads.sort((a, b) => a - b)[Math.floor(times / 2)];
-  return `first load: ${(bytes / 1000).toFixed(1)} kB by gzip; scenarios can be chosen after ${ready_ms.toFixed(0)} ms (median of ${times})`;
+  return `first load: ${(bytes / 1000).toFixed(1)} kB compressed (gzip); scenarios can be opened after ${ready_ms.toFixed(0)} ms (median of ${times})`;
 }

@@ -1,4 +1,4 @@
-/** What processes have used of the processor, as Linux tells it. */
+/** Processor time of processes, from Linux's /proc. */
 import { readdirSync, readFileSync } from "node:fs";
 
 const tick_ms = 10; // of /proc/PID/stat
@@ -8,16 +8,16 @@ function stat(pid) {
     const fields = readFileSync(`/proc/${pid}/stat`, "utf8").split(") ")[1].split(" ");
     return { parent: Number(fields[1]), used_ms: tick_ms * (Number(fields[11]) + Number(fields[12])) };
   } catch {
-    return null; // it has ended meanwhile
+    return null; // the process has ended
   }
 }
 
-/** Milliseconds that a process has used: all its threads. */
+/** Processor time of a process with all its threads, in milliseconds. */
 export function usedBy_ms(pid) {
   return stat(pid)?.used_ms ?? 0;
 }
 
-/** Milliseconds that all processes below this one have used, but for one and what is below it. */
+/** Processor time of all descendants of this process, except one and its descendants, in milliseconds. */
 export function usedBelow_ms(without) {
   const all = new Map(
     readdirSync("/proc")

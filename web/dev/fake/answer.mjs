@@ -1,4 +1,4 @@
-/** The answer of a fake study, with charts as the real report has them. */
+/** The answer of a fake study, with charts as in the real report. */
 import { readFileSync } from "node:fs";
 
 const templates = JSON.parse(readFileSync(new URL("charts.json", import.meta.url), "utf8"));
@@ -137,7 +137,7 @@ function chartsOf(results, { points, planned }) {
   };
 }
 
-/** How a configuration stands, as charts and tables say it. */
+/** The verdict on a configuration, as in charts and tables. */
 function standing({ verdict }) {
   return verdict === "best" ? "selected" : verdict;
 }
@@ -159,7 +159,7 @@ function filled(name, rows, meaning) {
   return spec;
 }
 
-/** With the factor's name at its x axis. */
+/** The chart with the factor's name on its x axis. */
 function named(spec, title) {
   for (const { encoding } of spec.layer) encoding.x.title = title;
   return spec;

@@ -1,10 +1,10 @@
-/** What lies over a frame of a fake run: every other robot and the next hear each other, the last hears the first. */
-const mostRobots = 300;
+/** Overlays of a fake run. Robots 0 and 1, 2 and 3 and so on have two-way links; the last receives from the first. */
+const maxRobots = 300;
 
-/** Bytes as the real server sends them, of the layers that a page has asked for; null if it has for none. */
+/** An overlay of the requested layers, encoded as by the real server; null if none is requested. */
 export function overlayOf(run, number, { links, footprints }, selected) {
   if (!links && !footprints) return null;
-  const shown = (robot) => run.count <= mostRobots || robot === selected;
+  const shown = (robot) => run.count <= maxRobots || robot === selected;
   const pairs = links ? linksOf(run).filter(([from, to]) => shown(from) || shown(to)) : [];
   const robots = Array.from({ length: run.count }, (_, robot) => robot).filter(shown);
   const seen = footprints ? robots.flatMap((robot) => footprintsOf(run, robot, robot === selected)) : [];
@@ -19,7 +19,7 @@ function linksOf({ count }) {
   return pairs;
 }
 
-/** Something hides the left half of what cameras see, from half way on. */
+/** The left half of each camera's sector is occluded from half its range on. */
 function footprintsOf(run, robot, isSelected) {
   const sensors = run.kindOf(robot).sensors.filter(({ kind }) => kind === "items" || isSelected);
   return sensors.map(({ kind, range_m, width_rad, facing_rad }) => {

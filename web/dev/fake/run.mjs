@@ -1,5 +1,5 @@
-/** A run that looks like one: robots wander, find what they pass, and now and then are in trouble. */
-import { dice } from "./dice.mjs";
+/** A fake run: robots wander, find items that they pass, and collide now and then. */
+import { randomNumbers } from "./random.mjs";
 
 const tau = 2 * Math.PI;
 
@@ -134,7 +134,7 @@ export class FakeRun {
     };
   }
 
-  /** A map of which a strip, as wide as the robot has come far, is known; walls at its edges. */
+  /** A map with a known strip, as wide as the robot's distance travelled, and walls at its edges. */
   map(robot) {
     const i = this.nameOf().indexOf(robot);
     if (i < 0 || !this.mind(robot).thoughts) return null;
@@ -169,7 +169,7 @@ function goal(behaviour, to, precedence, verdict) {
   return { behaviour, to, precedence, verdict, ...numbers, stuck_s: 0, rests_s: 0, is_pursued: true };
 }
 
-/** Courses all around, of which the one nearest to a place before the front is taken. */
+/** Heading options all around; the one nearest to a point ahead is chosen. */
 function reachTo(to) {
   const courses = Array.from({ length: 40 }, (_, i) => {
     const bearing_rad = (tau * (i > 20 ? i - 40 : i)) / 40;
@@ -236,7 +236,7 @@ function itemsOf(document, seed) {
   );
 }
 
-/** A picture of a document for the gallery. */
+/** A picture of a scenario for the gallery. */
 export function pictureOf(document) {
   const run = new FakeRun(document, 0);
   const [w, h] = run.size;

@@ -1,4 +1,4 @@
-/** Scenarios that the fake server has: documents as the real one would send them. */
+/** The scenarios of the fake server, as the real one would send them. */
 
 const yard = {
   engine: "metric",
@@ -57,7 +57,7 @@ function entry(id, summary) {
   return { id, name: id.replace(/^.*\/|\.toml$/g, ""), engine: "metric", summary, where: "shipped" };
 }
 
-/** The document of a scenario; `crowd-N` is one of N robots. */
+/** The document of a scenario; `crowd-N` has N robots. */
 export function documentOf(id) {
   const crowd = /^crowd-(\d+)$/.exec(id ?? "");
   if (crowd) return crowded(Number(crowd[1]));

@@ -1,28 +1,28 @@
-/** The fake server's studies, and what it answers of them. */
-import { factorsOf, fault, planOf } from "./asking.mjs";
+/** The studies of the fake server, and its HTTP interface to them. */
+import { factorsOf, inputError, planOf } from "./study_form.mjs";
 import { FakeStudy } from "./study.mjs";
 
-const mostRunning = 2;
+const maxRunning = 2;
 
 export class FakeStudies {
   constructor() {
     this.all = new Map();
   }
 
-  /** Status and body of an answer, and its name as a file if it is one. */
+  /** The status and the body of a response, and the file name of a download. */
   answer(method, path, query, body) {
     return this[`${method} ${path}`](method === "POST" ? body : query);
   }
 
-  "POST /api/factors"(asked) {
-    if (asked.scenario === "broken")
-      return refused(fault("robots.rover.count", null, "is missing: expected a whole number"));
-    return [200, factorsOf(asked)];
+  "POST /api/factors"(source) {
+    if (source.scenario === "broken")
+      return refused(inputError("robots.rover.count", null, "is missing: expected a whole number"));
+    return [200, factorsOf(source)];
   }
 
   "POST /api/plan"(ask) {
-    const { faults, planned } = planOf(ask);
-    if (faults) return [422, { faults }];
+    const { errors, planned } = planOf(ask);
+    if (errors) return [422, { faults: errors }];
     return [200, { ...planned, state: this.all.get(planned.id)?.state ?? null }];
   }
 
@@ -32,12 +32,12 @@ export class FakeStudies {
   }
 
   "POST /api/studies"(ask) {
-    const { faults, planned } = planOf(ask);
-    if (faults) return [422, { faults }];
+    const { errors, planned } = planOf(ask);
+    if (errors) return [422, { faults: errors }];
     const running = [...this.all].filter(([id, one]) => one.state === "running" && id !== planned.id);
-    if (running.length >= mostRunning)
+    if (running.length >= maxRunning)
       return refused(
-        fault("studies", null, `that run already are two: ${running.map(([id]) => id).join(", ")}`),
+        inputError("studies", null, `that run already are two: ${running.map(([id]) => id).join(", ")}`),
       );
     if (!this.all.has(planned.id)) this.all.set(planned.id, new FakeStudy(planned, ask));
     const study = this.all.get(planned.id);
@@ -55,7 +55,7 @@ export class FakeStudies {
   "POST /api/studies/resume"({ id, confidence }) {
     const known = this.all.get(id)?.planned.confidence ?? 0;
     if (confidence !== null && !(confidence > known && confidence < 1))
-      return refused(fault("confidence", confidence, `must be greater than ${known}, and less than 1`));
+      return refused(inputError("confidence", confidence, `must be greater than ${known}, and less than 1`));
     return this.with(id, (study) => {
       study.run(confidence);
       return study.listed();
@@ -64,7 +64,7 @@ export class FakeStudies {
 
   "GET /api/study"(query) {
     const damaged = this.all.get(query.get("id"));
-    if (damaged?.state === "damaged") return refused(fault("study", null, damaged.message));
+    if (damaged?.state === "damaged") return refused(inputError("study", null, damaged.message));
     return this.with(query.get("id"), (study) => study.whole());
   }
 
@@ -96,10 +96,10 @@ export class FakeStudies {
   with(id, give) {
     const study = this.all.get(id);
     if (study) return [200, give(study)];
-    return refused(fault("study", `"${id}"`, "must be the id of a study in the list"));
+    return refused(inputError("study", `"${id}"`, "must be the id of a study in the list"));
   }
 }
 
-function refused(...faults) {
-  return [422, { faults }];
+function refused(...errors) {
+  return [422, { faults: errors }];
 }

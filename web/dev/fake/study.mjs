@@ -1,15 +1,15 @@
-/** A small study that is really run: runs are drawn from dice, and the worse are put out as it is proved. */
+/** A small study with random outcomes, in which configurations that are proven worse are eliminated. */
 import { answerOf } from "./answer.mjs";
-import { namesOf, pointsOf } from "./asking.mjs";
-import { dice } from "./dice.mjs";
+import { namesOf, pointsOf } from "./study_form.mjs";
+import { randomNumbers } from "./random.mjs";
 
 const round_ms = 100;
 const time_limit_s = 120;
-/** Runs that a configuration gets in a round. */
-const mostMore = 20_000;
-/** What becomes of studies with these seeds, and why. */
-const unlucky = {
-  13: ["stopped", "The disk is full: the study goes on once there is room."],
+/** Maximum number of additional runs per configuration and round. */
+const maxMore = 20_000;
+/** Final state and message of studies with these seeds. */
+const failures = {
+  13: ["stopped", "The disk is full. Free some space, then resume the study."],
   14: ["damaged", "studies/search: ledger.sqlite is damaged: a block of runs is missing"],
 };
 
@@ -23,7 +23,7 @@ export class FakeStudy {
       eliminated: [],
       round: 0,
       seconds: 0,
-      told: new Set(),
+      followers: new Set(),
       changed_s: Date.now() / 1000,
     });
   }
@@ -33,10 +33,10 @@ export class FakeStudy {
     if (confidence !== null) this.planned.confidence = confidence;
     if (confidence !== null) this.reopen();
     Object.assign(this, { state: "running", answer: null, message: null });
-    this.timer = setInterval(() => this.beat(), round_ms);
+    this.timer = setInterval(() => this.runRound(), round_ms);
   }
 
-  /** With a higher confidence those that were put out have to be judged anew. */
+  /** A higher confidence invalidates all eliminations. */
   reopen() {
     this.eliminated = [];
     for (const arm of this.arms) arm.out = null;
@@ -51,11 +51,11 @@ export class FakeStudy {
     this.changed_s = Date.now() / 1000;
     if (state === "answered") this.answer = answerOf(this);
     this.state = state;
-    this.tell();
-    for (const socket of this.told) socket.close(1000);
+    this.publish();
+    for (const socket of this.followers) socket.close(1000);
   }
 
-  get in() {
+  get remaining() {
     return this.arms.filter((arm) => arm.out === null);
   }
 
@@ -63,20 +63,20 @@ export class FakeStudy {
     return this.arms.reduce((sum, arm) => sum + arm.runs, 0);
   }
 
-  beat() {
+  runRound() {
     this.round += 1;
     this.seconds += round_ms / 1000;
-    const most = Math.max(...this.arms.map((arm) => arm.runs));
-    const target = Math.min(Math.ceil(most * 1.35) + 6, most + mostMore);
-    for (const arm of this.in) this.extend(arm, Math.min(target, this.ask.runs ?? target));
-    if (!this.ask.runs) this.putOut();
-    if (this.ask.seed in unlucky && this.round > 5) {
-      const [state, message] = unlucky[this.ask.seed];
+    const maxRuns = Math.max(...this.arms.map((arm) => arm.runs));
+    const target = Math.min(Math.ceil(maxRuns * 1.35) + 6, maxRuns + maxMore);
+    for (const arm of this.remaining) this.extend(arm, Math.min(target, this.ask.runs ?? target));
+    if (!this.ask.runs) this.eliminate();
+    if (this.ask.seed in failures && this.round > 5) {
+      const [state, message] = failures[this.ask.seed];
       this.message = message;
       return this.end(state);
     }
     if (this.isDecided()) this.end("answered");
-    else if (this.round % 2 === 0) this.tell();
+    else if (this.round % 2 === 0) this.publish();
   }
 
   extend(arm, target) {
@@ -88,9 +88,9 @@ export class FakeStudy {
     }
   }
 
-  putOut() {
+  eliminate() {
     const [best] = this.ranked();
-    for (const arm of this.in) {
+    for (const arm of this.remaining) {
       if (arm === best || this.interval(arm)[2] >= this.interval(best)[1]) continue;
       arm.out = { by: best.number, runs: arm.runs };
       this.eliminated.push([arm.number, best.number, arm.runs]);
@@ -99,17 +99,21 @@ export class FakeStudy {
 
   isDecided() {
     const { runs, max_runs } = this.ask;
-    if (runs) return this.in.every((arm) => arm.runs >= runs);
+    if (runs) return this.remaining.every((arm) => arm.runs >= runs);
     const [best] = this.ranked();
     const [, low, high] = this.interval(best);
-    return this.in.length === 1 || high - low < 4 * this.planned.delta || (max_runs && this.runs >= max_runs);
+    return (
+      this.remaining.length === 1 ||
+      high - low < 4 * this.planned.delta ||
+      (max_runs && this.runs >= max_runs)
+    );
   }
 
   ranked() {
-    return this.in.toSorted((a, b) => b.sum / b.runs - a.sum / a.runs);
+    return this.remaining.toSorted((a, b) => b.sum / b.runs - a.sum / a.runs);
   }
 
-  /** Mean merit and its bounds, which hold for all configurations at any moment. */
+  /** Mean merit with an anytime-valid interval, simultaneous for all configurations. */
   interval({ runs, sum, squares }) {
     if (runs === 0) return [null, null, null];
     const mean = sum / runs;
@@ -119,9 +123,11 @@ export class FakeStudy {
     return [mean, mean - half, mean + half];
   }
 
-  /** A run's outcome, the same whenever it is asked for. */
+  /** The outcome of a run, the same at each call. */
   outcome(configuration, run) {
-    const random = dice(Number(BigInt(this.ask.seed) % 999983n) * 31 + configuration * 1000003 + run * 7919);
+    const random = randomNumbers(
+      Number(BigInt(this.ask.seed) % 999983n) * 31 + configuration * 1000003 + run * 7919,
+    );
     const [team] = this.points[configuration];
     const time_s = 6 + (70 / Math.max(1, team)) * -Math.log(1 - random()) * (0.6 + 0.8 * random());
     const failed = time_s > time_limit_s || team === 0;
@@ -163,17 +169,17 @@ export class FakeStudy {
     return { ...this.listed(), planned: { ...this.planned, state: this.state }, source, answer: this.answer };
   }
 
-  /** Tells a page how it stands, now and from now on. */
+  /** Sends the progress to a page, now and in future. */
   follow(socket) {
-    this.told.add(socket);
-    socket.on("close", () => this.told.delete(socket));
+    this.followers.add(socket);
+    socket.on("close", () => this.followers.delete(socket));
     socket.send(JSON.stringify({ ...this.standing(), labels: this.labels }));
     if (this.state !== "running") socket.close(1000);
   }
 
-  tell() {
+  publish() {
     const text = JSON.stringify({ ...this.standing(), labels: null });
-    for (const socket of this.told) socket.send(text);
+    for (const socket of this.followers) socket.send(text);
   }
 
   standing() {
@@ -189,7 +195,7 @@ export class FakeStudy {
       computed: runs,
       seconds,
       runs_per_s: Math.round(runs / Math.max(0.1, seconds)),
-      survivors: this.in.length,
+      survivors: this.remaining.length,
       left_runs: null,
       left_s: state === "running" && left_s > 0 ? left_s : null,
       standings: survivors.slice(0, 50).map((arm) => [arm.number, arm.runs, ...this.interval(arm)]),

@@ -318,7 +318,7 @@ export interface MapPart {
   size: [columns: number, rows: number];
   /** Base64, one byte per cell, bottom row first: 0 to 100 percent occupied, 255 unknown. */
   occupancy: string;
-  /** Likewise: probability in percent that an item in the cell was not detected. */
+  /** As `occupancy`: probability in percent that an item in the cell was not detected. */
   unseen: string;
 }
 

@@ -174,36 +174,36 @@ test("the errors of an invalid file are listed with lines, and a valid file open
 
 test("a killed server is reported at once, and the run is restored when it is back", async ({
   page,
-  server,
+  ownServer,
 }) => {
-  await open(page, server, "scenario=search-beliefs&seed=7&tick=20");
+  await open(page, ownServer, "scenario=search-beliefs&seed=7&tick=20");
   await page.getByRole("tab", { name: "Parameters" }).click();
   await page.getByRole("spinbutton", { name: "Count of rover" }).fill("6");
   await page.keyboard.press("Enter");
   await expect(status(page)).toContainText("2.0 s, 6 robots");
   const there = await hash(page);
-  await server.kill();
+  await ownServer.kill();
   await expect(page.getByText("The connection is lost.").first()).toBeVisible({ timeout: 1500 });
-  await server.start();
+  await ownServer.start();
   await expect(status(page)).toContainText("2.0 s, 6 robots", { timeout: 20_000 });
   await expect.poll(() => hash(page)).toBe(there);
 });
 
-test("a run that was playing when its server was killed continues playing", async ({ page, server }) => {
+test("a run that was playing when its server was killed continues playing", async ({ page, ownServer }) => {
   const changes = encodeURIComponent(
     JSON.stringify([
       [0, "clock.time_limit_s", 100_000],
       [0, "items.mine.count", 0],
     ]),
   );
-  await open(page, server, `scenario=search-beliefs&seed=7&changes=${changes}&tick=200`);
+  await open(page, ownServer, `scenario=search-beliefs&seed=7&changes=${changes}&tick=200`);
   await expect(status(page)).toContainText("20.0 s");
   await page.keyboard.press("Space");
   await expect.poll(() => time_s(page)).toBeGreaterThan(21);
   const there = await time_s(page);
-  await server.kill();
+  await ownServer.kill();
   await expect(page.getByText("The connection is lost.").first()).toBeVisible({ timeout: 1500 });
-  await server.start();
+  await ownServer.start();
   await expect(status(page)).toContainText("running", { timeout: 20_000 });
   expect(await time_s(page)).toBeGreaterThanOrEqual(there);
 });

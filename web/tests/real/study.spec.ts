@@ -30,8 +30,8 @@ test("a study is started and answered, and a point of its chart opens a run of i
   await expect(dialog).toBeVisible();
 });
 
-test("a stopped study is resumed, and stays in the list", async ({ page, server }) => {
-  await page.goto(`${server.url}/#/study/new?scenario=search`);
+test("a stopped study is resumed, and stays in the list", async ({ page, ownServer }) => {
+  await page.goto(`${ownServer.url}/#/study/new?scenario=search`);
   await page.getByRole("button", { name: "Start" }).click();
   await expect(page.getByText("runs per second")).toBeVisible();
   await page.getByRole("button", { name: "Stop" }).click();
@@ -44,14 +44,14 @@ test("a stopped study is resumed, and stays in the list", async ({ page, server 
 
 test("a killed server is reported at once, and the study is read from its folder", async ({
   page,
-  server,
+  ownServer,
 }) => {
-  await page.goto(`${server.url}/#/study/new?scenario=search`);
+  await page.goto(`${ownServer.url}/#/study/new?scenario=search`);
   await page.getByRole("button", { name: "Start" }).click();
   await expect(page.getByText("runs per second")).toBeVisible();
-  await server.kill();
+  await ownServer.kill();
   await expect(page.getByText("The connection is lost.")).toBeVisible();
-  await server.start();
+  await ownServer.start();
   await expect(page.getByText("The connection is lost.")).toBeHidden({ timeout: 15_000 });
   await expect(page.getByText(/^(Running|Stopped)$/)).toBeVisible();
 });

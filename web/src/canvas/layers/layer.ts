@@ -56,7 +56,7 @@ export function inWorld({ context, camera }: Pen, draw: () => void): void {
   context.restore();
 }
 
-/** Likewise, clipped to the world. In a periodic world, what crosses the border is drawn at the other side. */
+/** As `inWorld`, clipped to the world. In a periodic world, what crosses the border is drawn at the other side. */
 export function withinWorld(pen: Pen, { world: { size } }: Scene, draw: () => void): void {
   inWorld(pen, () => {
     pen.context.beginPath();
@@ -100,7 +100,7 @@ export function poseOf({ frame }: Scene, robot: number): Pose | null {
   return frame && poseIn(frame.robots, robot);
 }
 
-/** Likewise, from the robots of a frame. */
+/** As `poseOf`, from the robots of a frame. */
 export function poseIn(robots: Float32Array, robot: number): Pose | null {
   const [x, y, heading_rad] = robot < 0 ? [] : robots.subarray(4 * robot, 4 * robot + 3);
   return x === undefined || y === undefined || heading_rad === undefined ? null : { at: [x, y], heading_rad };

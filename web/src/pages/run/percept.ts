@@ -12,9 +12,9 @@ export function pointAt(range_m: number, bearing_rad: number): Point {
 }
 
 /** Messages counted by subject: "3 about items, 1 about the sender". */
-export function messageCounts(said: RobotMessage[]): string {
+export function messageCounts(messages: RobotMessage[]): string {
   const counts = new Map<string, number>();
-  for (const { about } of said) {
+  for (const { about } of messages) {
     const kind = Object.keys(about)[0] ?? "nothing";
     counts.set(kind, (counts.get(kind) ?? 0) + 1);
   }

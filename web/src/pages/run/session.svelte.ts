@@ -163,7 +163,7 @@ export class Session implements Listener {
     this.send({ type: "cancel" });
   }
 
-  /** A text that identifies the changes of this run. */
+  /** Identifies the changes of this run. */
   get changesKey(): string {
     return JSON.stringify(this.setting?.log ?? null);
   }

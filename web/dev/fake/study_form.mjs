@@ -1,7 +1,7 @@
-/** What the fake server says of a study before it runs: what can be varied, what a range means, faults. */
+/** The fake server's part of the study form: factors, plans and input errors. */
 import { documentOf, entryOf } from "./scenarios.mjs";
 
-const mostConfigurations = 10_000;
+const maxConfigurations = 10_000;
 const others = [
   { path: "clock.time_limit_s", value: 120, low: 0.1, high: 100_000, whole: false },
   { path: "items.mine.count", value: 4, low: 0, high: 10_000, whole: true },
@@ -43,22 +43,26 @@ export function factorsOf({ scenario }) {
   };
 }
 
-/** The plan of what is asked, or its faults. */
+/** The plan of a study request, or its input errors. */
 export function planOf(ask) {
   const known = factorsOf(ask);
   const varied = Object.keys(ask.vary).length > 0 ? ask.vary : variedIn(known);
-  const faults = [...numberFaults(ask)];
+  const errors = [...numberErrors(ask)];
   const factors = Object.entries(varied).map(([path, text]) => ({
     path,
-    values: valuesOf(known, path, text, faults),
+    values: valuesOf(known, path, text, errors),
     range: null,
   }));
   const configurations = factors.reduce((product, { values }) => product * values.length, 1);
-  if (configurations > mostConfigurations)
-    faults.push(
-      fault("study.vary", configurations, `gives ${configurations} configurations; 10000 are the most`),
+  if (configurations > maxConfigurations)
+    errors.push(
+      inputError(
+        "study.vary",
+        configurations,
+        `gives ${configurations} configurations; the maximum is 10000`,
+      ),
     );
-  if (faults.length > 0) return { faults };
+  if (errors.length > 0) return { errors };
   return { planned: planned(ask, known, factors, configurations) };
 }
 
@@ -82,14 +86,14 @@ function planned(ask, known, factors, configurations) {
   };
 }
 
-/** Whether it is asked just what the scenario asks. */
+/** Whether the request is the scenario's own study. */
 function isPlain({ scenario: _, text: __, vary, seed, ...rest }) {
   return (
     Object.keys(vary).length === 0 && seed === "0" && Object.values(rest).every((value) => value === null)
   );
 }
 
-/** All combinations, in words: "3 rovers, range_m 2". */
+/** Labels of all combinations, such as "3 rovers, range_m 2". */
 export function namesOf(factors) {
   return pointsOf(factors).map((values) =>
     values
@@ -113,29 +117,31 @@ function variedIn({ factors }) {
   return Object.fromEntries(factors.flatMap(({ path, varied }) => (varied ? [[path, varied]] : [])));
 }
 
-function valuesOf({ factors }, path, text, faults) {
+function valuesOf({ factors }, path, text, errors) {
   const factor = factors.find((one) => one.path === path);
   const at = `study.vary."${path}"`;
-  if (!factor) faults.push(fault(at, text, "is not a known key"));
+  if (!factor) errors.push(inputError(at, text, "is not a known key"));
   const [, first, last] = /^(\d+)\.\.(\d+)$/.exec(text) ?? [];
   if (last !== undefined && Number(first) <= Number(last) && Number(last) < 100_000)
     return Array.from({ length: Number(last) - Number(first) + 1 }, (_, i) => Number(first) + i);
   const list = text.split(",").map((one) => (factor?.values ? one.trim() : Number(one || "?")));
   const isGood = list.every((one) => (factor?.values ? factor.values.includes(one) : Number.isFinite(one)));
-  if (!isGood) faults.push(fault(at, `"${text}"`, 'must be a string of values, such as "1..40" or "1,2,4"'));
+  if (!isGood)
+    errors.push(inputError(at, `"${text}"`, 'must be a string of values, such as "1..40" or "1,2,4"'));
   return list;
 }
 
-function* numberFaults({ delta, confidence, runs, max_runs, seed }) {
-  if (delta !== null && !(delta > 0)) yield fault("delta", delta, "must be a number greater than 0");
+function* numberErrors({ delta, confidence, runs, max_runs, seed }) {
+  if (delta !== null && !(delta > 0)) yield inputError("delta", delta, "must be a number greater than 0");
   if (confidence !== null && !(confidence > 0 && confidence < 1))
-    yield fault("confidence", confidence, "must be a number between 0 and 1");
+    yield inputError("confidence", confidence, "must be a number between 0 and 1");
   if (runs !== null && max_runs !== null)
-    yield fault("max_runs", max_runs, "must be left out where runs is given");
-  if (!/^\d{1,20}$/.test(seed)) yield fault("seed", `"${seed}"`, "must be a whole number from 0 to 2^64 - 1");
+    yield inputError("max_runs", max_runs, "must be left out where runs is given");
+  if (!/^\d{1,20}$/.test(seed))
+    yield inputError("seed", `"${seed}"`, "must be a whole number from 0 to 2^64 - 1");
 }
 
-export function fault(path, given, allowed) {
+export function inputError(path, given, allowed) {
   const shown = given === null ? null : String(given);
   const message = shown === null ? `${path} ${allowed}` : `${path} = ${shown}: ${allowed}`;
   return { file: null, line: null, path, value: shown, allowed, suggestion: null, message };

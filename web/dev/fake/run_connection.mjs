@@ -4,10 +4,10 @@ import { documentOf, entryOf } from "./scenarios.mjs";
 
 const mostUnseen = 3;
 
-/** One page's run: what the real server's end of a socket does, without a simulator. */
-export class Talk {
-  constructor(socket, { studies, shelf }) {
-    this.shelf = shelf;
+/** The run of one page: the server side of its WebSocket, without a simulator. */
+export class FakeRunConnection {
+  constructor(socket, { studies, recordings }) {
+    this.recordings = recordings;
     this.socket = socket;
     this.studies = studies;
     this.unseen = 0;
@@ -37,7 +37,7 @@ export class Talk {
   }
 
   open(said) {
-    const recorded = this.shelf.find(said.recording);
+    const recorded = this.recordings.find(said.recording);
     if (said.recording !== null && !recorded) return this.refuse("open", "there is no such recording");
     const { text, study, run } = { study: null, ...(recorded ?? said) };
     const held = study ? this.studies.all.get(study.id) : null;
@@ -164,7 +164,7 @@ export class Talk {
       const run = { ...this.source, changes: this.changes, edge: steps };
       const { name } = entryOf(run.scenario);
       const id = `recordings/${name}-${run.seed}-${run.run}-${this.changes.length}.mcap`;
-      this.say({ type: "saved", recording: this.shelf.put(id, run) });
+      this.say({ type: "saved", recording: this.recordings.put(id, run) });
     }, 400);
   }
   hear_cancel() {
@@ -224,7 +224,7 @@ export class Talk {
     if (map) this.say(map);
   }
 
-  /** As the real one: what has been sent is not sent again. */
+  /** As in the real server: a map part is sent once. */
   show() {
     const { layers, selected } = this;
     const moment = this.run && JSON.stringify([this.generation, this.run.tick, layers, selected]);
@@ -237,7 +237,7 @@ export class Talk {
     this.socket.send(this.run.frame(this.generation, this.number));
   }
 
-  /** One is told for all before it. */
+  /** An acknowledgement covers all frames before it. */
   got(frame) {
     this.unseen = this.number - frame;
   }

@@ -1,5 +1,5 @@
-/** Numbers that look random, the same for the same seed (mulberry32). */
-export function dice(seed) {
+/** Pseudo-random numbers from a seed (mulberry32). */
+export function randomNumbers(seed) {
   let state = seed >>> 0;
   return () => {
     state = (state + 0x6d2b79f5) | 0;

@@ -1,5 +1,5 @@
-/** Recordings that the fake server has, and those that pages save on it. */
-export class Shelf {
+/** The recordings of the fake server, including those that pages save. */
+export class FakeRecordings {
   constructor() {
     this.runs = new Map();
     this.damaged = {
