@@ -15,7 +15,7 @@ export class FakeRun {
   }
 
   restart() {
-    this.random = dice(this.seed * 7919 + 1);
+    this.random = randomNumbers(this.seed * 7919 + 1);
     this.tick = 0;
     this.collisions = 0;
     this.count = this.kinds.reduce((sum, kind) => sum + kind.count, 0);
@@ -224,7 +224,7 @@ function kindsOf(document) {
 }
 
 function itemsOf(document, seed) {
-  const random = dice(seed + 5);
+  const random = randomNumbers(seed + 5);
   const [width, height] = document.world.size_m;
   return Object.entries(document.items ?? {}).flatMap(([kind, { count, target = true, placement }]) =>
     Array.from({ length: count }, (_, i) => ({
