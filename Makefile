@@ -10,7 +10,7 @@ RUST := $(shell find crates/*/src crates/*/Cargo.toml) Cargo.toml Cargo.lock
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 
 .PHONY: help study test bench bench-brains bench-peers bench-store verify-selection fuzz golden schemas \
-	picture page-pictures bench-page examples replication validation minds web lint quick \
+	picture page-pictures bench-page examples replication validation brain-comparison web lint quick \
 	rust-lint python-lint wasm rust-build rust-test python-test page-packages page-check page-browser page-test clean
 
 help: ## List the targets
@@ -106,8 +106,8 @@ validation: .venv/installed ## Regenerate docs/validation.md and its charts
 	RENEW_VALIDATION=1 cargo test --locked -p agent-economy-sim --test validation
 	$(BIN)/python scripts/validation.py
 
-minds: .venv/installed ## Regenerate docs/minds.md and its charts (takes minutes)
-	$(BIN)/python scripts/minds.py
+brain-comparison: .venv/installed ## Regenerate docs/brain-comparison.md and its charts (takes minutes)
+	$(BIN)/python scripts/brain_comparison.py
 
 golden: ## Check that an unoptimised and a release build give the same runs, byte for byte
 	cargo test --locked --profile unoptimised -p agent-economy-sim --test engine golden

@@ -26,8 +26,8 @@ def test_the_validation_page_and_its_pictures_are_drawn_from_what_was_measured()
     assert given.returncode == 0, given.stderr
 
 
-def test_the_page_of_minds_and_its_pictures_are_drawn_from_what_was_measured() -> None:
-    command = [sys.executable, str(ROOT / "scripts/minds.py"), "--check"]
+def test_the_brain_comparison_page_and_its_pictures_are_drawn_from_what_was_measured() -> None:
+    command = [sys.executable, str(ROOT / "scripts/brain_comparison.py"), "--check"]
     given = subprocess.run(command, capture_output=True, text=True, check=False, timeout=300)
     assert given.returncode == 0, given.stderr
 

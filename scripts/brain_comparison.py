@@ -1,11 +1,11 @@
-"""Measure and draw docs/minds.md: how five minds search, with and without radio, in teams.
+"""Measure and draw docs/brain-comparison.md: how five brains search, with and without radio.
 
-What was measured stands in docs/minds/*.csv; tables stand in the page between `<!-- NAME -->` and
-`<!-- end -->`. Examples:
+The measurements are in docs/brain-comparison/*.csv; the tables of the page are between
+`<!-- NAME -->` and `<!-- end -->`. Examples:
 
-    python scripts/minds.py            run everything anew, write CSVs, pictures and page
-    python scripts/minds.py --draw     only pictures and page, from the CSVs
-    python scripts/minds.py --check    exit with 1 if they are not what would be drawn from the CSVs
+    python scripts/brain_comparison.py          run everything; write CSVs, pictures and page
+    python scripts/brain_comparison.py --draw   only pictures and page, from the CSVs
+    python scripts/brain_comparison.py --check  exit with 1 if pictures or page are stale
 """
 
 import csv
@@ -23,11 +23,11 @@ from plots import Z95, Axes, Row, Spec, line, page_of, panel, points, side_by_si
 
 import agent_economy as ae
 
-PAGE = Page("minds")
+PAGE = Page("brain-comparison")
 
 TEAMS = (1, 2, 3, 4, 6, 8, 12, 16, 20)
 RUNS = 400
-"""Of each mind with each team; all in the same worlds."""
+"""Of each brain with each team size; all in the same worlds."""
 
 SEED = 0
 
@@ -37,25 +37,25 @@ RADIO = "robots.rover.radio.range_m"
 
 WANDERERS = [{"kind": "cruise"}, {"kind": "avoid"}]
 PLANS = ("lawnmower", "frontier", "bayesian_search")
-"""What minds search by; the first behaviour of scenarios/search-beliefs.toml."""
+"""Search behaviours; each replaces the first behaviour of scenarios/search-beliefs.toml."""
 
 Kind = TypeVar("Kind")
 
 Column = NDArray[np.float64]
 Runs = dict[str, Column]
-"""What each run of a team gave, by column."""
+"""Outcomes of the runs of a team size, by column."""
 
 
 @dataclass(frozen=True)
-class Mind:
-    """A kind of mind, alone or with radio."""
+class SearchBrain:
+    """A brain, alone or with radio."""
 
     name: str
     radio: str
 
     @property
     def scenario(self) -> ae.Scenario:
-        """Return the search by robots with this mind."""
+        """Return the search by robots with this brain."""
         if self.name in PLANS:
             scenario = ae.Scenario.load(ROOT / "scenarios" / "search-beliefs.toml")
             plan = [{"kind": self.name}, {"kind": "return_home"}, {"kind": "avoid"}]
@@ -67,30 +67,42 @@ class Mind:
         return scenario if self.radio == "radio" else scenario.replace(RADIO, 0)
 
 
-ALONE = [Mind(name, "alone") for name in ("wanderers", "random_bounce", *PLANS)]
-TOLD = [Mind(name, "radio") for name in PLANS]
-MINDS = [*ALONE, *TOLD]
-"""Wanderers and bouncing robots tell nothing, so a radio changes nothing for them."""
+ALONE = [SearchBrain(name, "alone") for name in ("wanderers", "random_bounce", *PLANS)]
+WITH_RADIO = [SearchBrain(name, "radio") for name in PLANS]
+BRAINS = [*ALONE, *WITH_RADIO]
+"""Wanderers and random_bounce send no messages, so radio makes no difference for them."""
 
 STEPS = {
-    "bouncing, not wandering": (Mind("wanderers", "alone"), Mind("random_bounce", "alone")),
-    "memory: frontier, not bouncing": (Mind("random_bounce", "alone"), Mind("frontier", "alone")),
-    "telling: frontier with radio": (Mind("frontier", "alone"), Mind("frontier", "radio")),
-    "telling: seek with radio": (
-        Mind("bayesian_search", "alone"),
-        Mind("bayesian_search", "radio"),
+    "random_bounce vs wanderers": (
+        SearchBrain("wanderers", "alone"),
+        SearchBrain("random_bounce", "alone"),
     ),
-    "rate: seek, not frontier": (Mind("frontier", "radio"), Mind("bayesian_search", "radio")),
-    "beliefs: seek, not lanes": (Mind("lawnmower", "radio"), Mind("bayesian_search", "radio")),
+    "memory: frontier vs random_bounce": (
+        SearchBrain("random_bounce", "alone"),
+        SearchBrain("frontier", "alone"),
+    ),
+    "radio: frontier": (SearchBrain("frontier", "alone"), SearchBrain("frontier", "radio")),
+    "radio: bayesian_search": (
+        SearchBrain("bayesian_search", "alone"),
+        SearchBrain("bayesian_search", "radio"),
+    ),
+    "rate: bayesian_search vs frontier": (
+        SearchBrain("frontier", "radio"),
+        SearchBrain("bayesian_search", "radio"),
+    ),
+    "beliefs: bayesian_search vs lawnmower": (
+        SearchBrain("lawnmower", "radio"),
+        SearchBrain("bayesian_search", "radio"),
+    ),
 }
-"""What each part buys: from which mind to which."""
+"""The effect of each part: the brains before and after."""
 
 
 @dataclass(frozen=True)
 class Team:
-    """What a team gave: means, each with its standard error."""
+    """Results of a team size: means, each with its standard error."""
 
-    mind: str
+    brain: str
     radio: str
     robots: int
     runs: int
@@ -106,7 +118,7 @@ class Team:
 
 @dataclass(frozen=True)
 class Step:
-    """By how much one mind is sooner than another in the same worlds."""
+    """How much sooner one brain is than another in the same worlds."""
 
     step: str
     robots: int
@@ -116,9 +128,9 @@ class Step:
 
 @dataclass(frozen=True)
 class Answered:
-    """What a study of a mind's team size says."""
+    """The answer of a study of a brain's team size."""
 
-    mind: str
+    brain: str
     radio: str
     best: str
     time_s: float
@@ -145,21 +157,23 @@ def main() -> None:
 def measure() -> None:
     """Run everything, and write what it gave."""
     PAGE.folder.mkdir(exist_ok=True)
-    given = {mind: {robots: runs(mind, robots) for robots in TEAMS} for mind in MINDS}
-    write("teams", Team, [team(mind, robots, given[mind][robots]) for mind, robots in each_team()])
+    given = {brain: {robots: runs(brain, robots) for robots in TEAMS} for brain in BRAINS}
+    write(
+        "teams", Team, [team(brain, robots, given[brain][robots]) for brain, robots in each_team()]
+    )
     write("steps", Step, [step(name, n, given) for name in STEPS for n in TEAMS])
-    write("studies", Answered, map(answered, MINDS))
+    write("studies", Answered, map(answered, BRAINS))
 
 
-def each_team() -> Iterator[tuple[Mind, int]]:
-    """Yield each mind with each team."""
-    return ((mind, robots) for mind in MINDS for robots in TEAMS)
+def each_team() -> Iterator[tuple[SearchBrain, int]]:
+    """Yield each brain with each team."""
+    return ((brain, robots) for brain in BRAINS for robots in TEAMS)
 
 
-def runs(mind: Mind, robots: int) -> Runs:
+def runs(brain: SearchBrain, robots: int) -> Runs:
     """Return what each run of a team gave."""
-    print(f"{mind.name} {mind.radio}: {robots}", flush=True)
-    given = ae.replicate(mind.scenario.replace(COUNT, robots), RUNS, SEED)
+    print(f"{brain.name} {brain.radio}: {robots}", flush=True)
+    given = ae.replicate(brain.scenario.replace(COUNT, robots), RUNS, SEED)
     return {
         "time_s": given["time_s"].to_numpy().astype(np.float64),
         "failed": 1.0 - given["complete"].to_numpy().astype(np.float64),
@@ -168,27 +182,27 @@ def runs(mind: Mind, robots: int) -> Runs:
     }
 
 
-def team(mind: Mind, robots: int, given: Runs) -> Team:
+def team(brain: SearchBrain, robots: int, given: Runs) -> Team:
     """Return the means of a team's runs."""
     numbers = (part for column in given.values() for part in (mean(column), error(column)))
-    return Team(mind.name, mind.radio, robots, RUNS, *numbers)
+    return Team(brain.name, brain.radio, robots, RUNS, *numbers)
 
 
-def step(name: str, robots: int, given: dict[Mind, dict[int, Runs]]) -> Step:
-    """Return by how much one mind is sooner than another, world by world."""
+def step(name: str, robots: int, given: dict[SearchBrain, dict[int, Runs]]) -> Step:
+    """Return by how much one brain is sooner than another, world by world."""
     before, after = STEPS[name]
     sooner = given[before][robots]["time_s"] - given[after][robots]["time_s"]
     return Step(name, robots, mean(sooner), error(sooner))
 
 
-def answered(mind: Mind) -> Answered:
-    """Return how many robots with a mind to send."""
-    print(f"{mind.name} {mind.radio}: study", flush=True)
-    answer = ae.study.run(mind.scenario, seed=SEED)
+def answered(brain: SearchBrain) -> Answered:
+    """Return how many robots with a brain to send."""
+    print(f"{brain.name} {brain.radio}: study", flush=True)
+    answer = ae.study.run(brain.scenario, seed=SEED)
     best = answer.results[answer.best]
     return Answered(
-        mind=mind.name,
-        radio=mind.radio,
+        brain=brain.name,
+        radio=brain.radio,
         best=str(best.values[COUNT]),
         time_s=short(best.time_s.value),
         failed=short(best.failed.value),
@@ -243,22 +257,22 @@ def read(name: str, kind: Callable[..., Kind]) -> tuple[Kind, ...]:
 
 @cache
 def teams() -> tuple[Team, ...]:
-    """Return what teams gave."""
+    """Return the results of all team sizes."""
     return read("teams", Team)
 
 
 def of_teams(cell: Callable[[Team], str]) -> str:
-    """Return a table with a line for each mind and a column for each team."""
+    """Return a table with a row for each brain and a column for each team."""
     lines = []
-    for mind in MINDS:
-        own = [each for each in teams() if (each.mind, each.radio) == (mind.name, mind.radio)]
-        lines.append([label(mind), *map(cell, own)])
+    for brain in BRAINS:
+        own = [each for each in teams() if (each.brain, each.radio) == (brain.name, brain.radio)]
+        lines.append([label(brain), *map(cell, own)])
     return table(["robots", *map(str, TEAMS)], lines)
 
 
-def label(mind: Mind) -> str:
-    """Return what the page calls a mind."""
-    return f"{mind.name}, radio" if mind.radio == "radio" else mind.name
+def label(brain: SearchBrain) -> str:
+    """Return what the page calls a brain."""
+    return f"{brain.name}, radio" if brain.radio == "radio" else brain.name
 
 
 def interval(value: float, error: float, digits: int = 1) -> str:
@@ -277,7 +291,7 @@ def failures(each: Team) -> str:
 
 
 def steps() -> str:
-    """Return what each part buys, in seconds."""
+    """Return the effect of each part, in seconds."""
     lines = []
     for name in STEPS:
         own = [each for each in read("steps", Step) if each.step == name]
@@ -286,20 +300,20 @@ def steps() -> str:
 
 
 def studies() -> str:
-    """Return the best team of each mind."""
+    """Return the best team of each brain."""
     header = ["", "send", "time, s", "failed", "merit, with all intervals at once at 95%"]
     header += ["runs"]
     lines = []
     for each in read("studies", Answered):
         merit = f"{each.merit:.2f} ({each.merit_low:.2f} to {each.merit_high:.2f})"
-        mind = label(Mind(each.mind, each.radio))
+        brain = label(SearchBrain(each.brain, each.radio))
         numbers = [each.best, f"{each.time_s:.1f}", f"{each.failed:.1%}", merit]
-        lines.append([mind, *numbers, f"{each.runs:,}"])
+        lines.append([brain, *numbers, f"{each.runs:,}"])
     return table(header, lines)
 
 
 def guarantees() -> str:
-    """Return what is guaranteed of the best teams."""
+    """Return the guarantees of the studies."""
     said = dict.fromkeys(each.guarantee for each in read("studies", Answered))
     return "\n\n".join(f"> {guarantee}" for guarantee in said)
 
@@ -337,12 +351,12 @@ def by_radio(
     """Return a number by the team's size: alone on the left, with radio on the right."""
     panels = []
     for words, radio in (("alone", "alone"), ("with radio", "radio")):
-        # In this order a mind has the same colour on both sides.
+        # In this order a brain has the same colour on both sides.
         names = (*PLANS, "wanderers", "random_bounce")
         own = [
-            each for name in names for each in teams() if (each.mind, each.radio) == (name, radio)
+            each for name in names for each in teams() if (each.brain, each.radio) == (name, radio)
         ]
-        some = [Row(each.mind, each.robots, *number(each), None) for each in own]
+        some = [Row(each.brain, each.robots, *number(each), None) for each in own]
         layers = [{**line(), "data": {"values": [values(row) for row in some]}}, *points(some)]
         axes = Axes("log", x_ticks=TEAMS, y_domain=domain, y_format="~r")
         panels.append(panel(layers, f"robots, {words}", title, width=300, axes=axes))
