@@ -1,7 +1,8 @@
 """Which module of a Rust crate uses which: `use` items and paths, resolved to what defines a name.
 
 A parent that declares or re-exports its children does not use them; a module that takes a name from
-the parent uses the child that defines it. Test modules are left out.
+the parent uses the child that defines it. What a folder's mod.rs defines is part of each module
+below it: that use is not counted. Test modules are left out.
 """
 
 import re
@@ -62,7 +63,10 @@ class Crate:
             source.items = {each[1] for each in ITEM.finditer(source.code)}
             for statement in USE.finditer(source.code):
                 self._bind(module, source, statement[2])
-        return {module: set(self._used(module)) - {module} for module in self.sources}
+        return {
+            module: {used for used in self._used(module) if module[: len(used)] != used}
+            for module in self.sources
+        }
 
     def _bind(self, module: Module, source: Source, tree: str) -> None:
         """Bind the names of a `use` item."""

@@ -65,6 +65,12 @@ def test_a_name_of_a_folder_is_that_of_the_file_which_defines_it(tmp_path: Path)
     assert found[("folder", "b")] == {("a",)}
 
 
+def test_what_the_mod_rs_of_its_own_folder_defines_is_part_of_a_module(tmp_path: Path) -> None:
+    code = "pub struct B; fn f(a: super::Shared) {}"
+    found = uses(tmp_path, lib="mod a; struct Shared; fn g(b: a::B) {}", a=code)
+    assert found == {(): {("a",)}, ("a",): set()}
+
+
 def test_a_circle_is_found_through_others_and_apart_from_what_only_uses_it() -> None:
     graph = {"a": {"b"}, "b": {"c"}, "c": {"a", "d"}, "d": set[str](), "e": {"a"}, "f": {"f"}}
     assert list(cycles(graph)) == [["a", "b", "c"], ["f"]]

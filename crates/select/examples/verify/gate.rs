@@ -5,12 +5,10 @@ use crate::cases::right;
 use crate::coverage::check;
 use crate::lines::{Line, Question};
 use crate::random::Place;
-use crate::selection::{Outcome, select};
+use crate::selection::{CONFIDENCE, Outcome, select};
 use rayon::prelude::*;
 use std::time::Instant;
 
-/// The confidence that every line must reach.
-pub(crate) const CONFIDENCE: f64 = 0.95;
 /// The bound of a share of correct answers is wrong with at most this probability.
 const ALPHA: f64 = 0.01;
 /// How far average runs may be from published ones.

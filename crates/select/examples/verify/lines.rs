@@ -1,9 +1,8 @@
 //! What is measured.
 
 use crate::cases::{Capped, Case, Failures, Hills, Lottery, Normal, Teams};
-use crate::gate::CONFIDENCE;
 use crate::reference::rinott_h;
-use crate::selection::{Batches, Method, Setup};
+use crate::selection::{Batches, CONFIDENCE, Method, Setup};
 
 /// One line of the table.
 pub(crate) struct Line {

@@ -1,10 +1,12 @@
 //! One selection, from its first run to its last.
 
 use crate::cases::Case;
-use crate::gate::CONFIDENCE;
 use crate::random::Place;
 use crate::reference::{KimNelson, Rinott};
 use select::{EqualAllocation, Problem, Procedure, Race, Strict};
+
+/// The confidence that every line must reach.
+pub(crate) const CONFIDENCE: f64 = 0.95;
 
 /// The selection procedure.
 #[derive(Debug, Clone, Copy, PartialEq)]
