@@ -4,11 +4,11 @@
 //! and what a robot remembers for it (`Memory`). `docs/brains.md` says where it goes.
 
 use super::turn::Turn;
-use crate::body::Body;
-use crate::command::Motion;
-use crate::senses::Senses;
-use crate::subsumption::Behaviour;
-use crate::wish::Wish;
+use crate::behaviours::behaviour::Behaviour;
+use crate::goals::proposal::Proposal;
+use crate::io::body::Body;
+use crate::io::command::Motion;
+use crate::perception::situation::Situation;
 use alloc::boxed::Box;
 use core::f64::consts::FRAC_PI_2;
 use schemars::JsonSchema;
@@ -69,15 +69,15 @@ impl Behaviour for Ready {
     }
 
     /// What it wishes now; `None` would leave the robot to the behaviours below.
-    fn triggered(&self, memory: &mut Memory, senses: &Senses) -> Option<Wish> {
+    fn triggered(&self, memory: &mut Memory, situation: &Situation) -> Option<Proposal> {
         if let Some(turn) = &mut memory.turn {
-            if let Some(motion) = turn.go_on(senses) {
+            if let Some(motion) = turn.go_on(situation) {
                 return Some(motion.into());
             }
             (memory.turn, memory.straight_s) = (None, 0.0);
         }
         if f64::from(memory.straight_s) < self.straight_s {
-            memory.straight_s += senses.period_s();
+            memory.straight_s += situation.period_s();
             return Some(self.ahead.into());
         }
         memory.turned_left = !memory.turned_left;
@@ -86,7 +86,7 @@ impl Behaviour for Ready {
         } else {
             -FRAC_PI_2
         };
-        let (turn, motion) = Turn::by(angle_rad, senses.body);
+        let (turn, motion) = Turn::by(angle_rad, situation.body);
         memory.turn = Some(turn);
         Some(motion.into())
     }

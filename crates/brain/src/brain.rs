@@ -1,21 +1,21 @@
 //! The brain of one robot.
 
 use crate::arbitration::Arbitration;
+use crate::arbitration::goal_selection::{BeliefBrain, GoalSelection};
+use crate::arbitration::motor_schemas::{Noise, Sum};
+use crate::arbitration::subsumption::{Layer, arbitrate, layers, proposals};
 use crate::behaviours::{BehaviourSpec, Memory, Ready, flock};
-use crate::believed_map::BelievedMap;
-use crate::body::{Body, RobotId};
-use crate::command::{Command, Motion};
-use crate::decision::Decision;
-use crate::mind::{Mind, Wants};
-use crate::percept::Percept;
-use crate::reckoning::Reckoning;
-use crate::schemas::{Noise, Sum};
-use crate::senses::Senses;
-use crate::sight::Sight;
+use crate::goals::proposal::Proposal;
+use crate::inspect::BeliefState;
+use crate::inspect::BelievedMap;
+use crate::inspect::Decision;
+use crate::io::body::{Body, RobotId};
+use crate::io::command::{Command, Motion};
+use crate::io::percept::Percept;
+use crate::navigation::speed_governor::SpeedGovernor;
+use crate::perception::dead_reckoning::DeadReckoning;
+use crate::perception::situation::Situation;
 use crate::spec::BrainSpec;
-use crate::subsumption::{Layer, arbitrate, layers, wishes};
-use crate::thoughts::Thoughts;
-use crate::wish::Wish;
 use alloc::boxed::Box;
 use alloc::sync::Arc;
 use alloc::vec::Vec;
@@ -28,9 +28,9 @@ use alloc::vec::Vec;
 #[derive(Debug, Clone)]
 pub struct Brain {
     kind: Arc<Kind>,
-    moved: Reckoning,
+    moved: DeadReckoning,
     layers: Box<[Layer<Memory>]>,
-    mind: Option<Box<Mind>>,
+    mind: Option<Box<BeliefBrain>>,
     /// If what behaviours want is summed.
     noise: Option<Box<Noise>>,
 }
@@ -40,7 +40,7 @@ pub struct Brain {
 struct Kind {
     spec: Arc<BrainSpec>,
     body: Arc<Body>,
-    sight: Sight,
+    sight: SpeedGovernor,
     behaviours: Vec<Ready>,
     /// If what behaviours want is summed.
     sum: Option<Sum>,
@@ -54,12 +54,12 @@ impl Brain {
         let behaviours: Vec<Ready> = ready.collect();
         let sum = sum(&spec);
         Self {
-            moved: Reckoning::default(),
+            moved: DeadReckoning::default(),
             layers: layers(&behaviours),
             mind: mind(&spec, &body),
             noise: sum.is_some().then(Box::default),
             kind: Arc::new(Kind {
-                sight: Sight::new(&body),
+                sight: SpeedGovernor::new(&body),
                 spec,
                 body,
                 behaviours,
@@ -98,8 +98,8 @@ impl Brain {
 
     /// What it believes and wants; `None` if it has no mind.
     #[must_use]
-    pub fn thoughts(&self) -> Option<Thoughts> {
-        self.mind.as_deref().map(Thoughts::of)
+    pub fn thoughts(&self) -> Option<BeliefState> {
+        self.mind.as_deref().map(BeliefState::of)
     }
 
     /// The map in its mind; `None` if it has none.
@@ -188,10 +188,10 @@ impl Brain {
             mind.beliefs.take_in(percept, body, &sight.rings, moved);
         }
         let (beliefs, mut wants) = match self.mind.as_deref_mut() {
-            Some(Mind { beliefs, wants }) => (Some(&*beliefs), Some(wants)),
+            Some(BeliefBrain { beliefs, wants }) => (Some(&*beliefs), Some(wants)),
             None => (None, None),
         };
-        let senses = Senses {
+        let situation = Situation {
             percept,
             body,
             beliefs,
@@ -202,15 +202,15 @@ impl Brain {
         };
         let (leading, wanted) = match (sum.as_ref().zip(self.noise.as_deref_mut()), &mut wants) {
             (Some((sum, noise)), _) => {
-                let motion = sum.motion(behaviours, &mut self.layers, noise, &senses);
+                let motion = sum.motion(behaviours, &mut self.layers, noise, &situation);
                 (None, motion)
             }
-            (None, None) => moved(arbitrate(behaviours, &mut self.layers, &senses)),
-            (None, Some(wants)) => chosen(spec, behaviours, (&mut self.layers, wants), &senses),
+            (None, None) => moved(arbitrate(behaviours, &mut self.layers, &situation)),
+            (None, Some(wants)) => chosen(spec, behaviours, (&mut self.layers, wants), &situation),
         };
         let mut motion = possible(wanted, body);
         if spec.limit_speed_to_stopping_distance {
-            motion = sight.limited(motion, &senses, &self.moved);
+            motion = sight.limited(motion, &situation, &self.moved);
         }
         if let (Some(beliefs), Some(wants)) = (beliefs, wants) {
             let traffic = &mut wants.way.traffic;
@@ -222,9 +222,9 @@ impl Brain {
 }
 
 /// What one without a mind does, and the behaviour that wants it: it cannot be somewhere on purpose.
-fn moved(wanted: Option<(usize, Wish)>) -> (Option<usize>, Motion) {
+fn moved(wanted: Option<(usize, Proposal)>) -> (Option<usize>, Motion) {
     match wanted {
-        Some((behaviour, Wish::Motion(motion))) => (Some(behaviour), motion),
+        Some((behaviour, Proposal::Motion(motion))) => (Some(behaviour), motion),
         _ => (None, Motion::default()),
     }
 }
@@ -233,16 +233,16 @@ fn moved(wanted: Option<(usize, Wish)>) -> (Option<usize>, Motion) {
 fn chosen(
     spec: &BrainSpec,
     behaviours: &[Ready],
-    (layers, wants): (&mut [Layer<Memory>], &mut Wants),
-    senses: &Senses,
+    (layers, wants): (&mut [Layer<Memory>], &mut GoalSelection),
+    situation: &Situation,
 ) -> (Option<usize>, Motion) {
-    let mut all = core::mem::take(&mut wants.wishes);
+    let mut all = core::mem::take(&mut wants.proposals);
     wants.way.turned_to = None;
     match spec.arbitration {
-        Arbitration::Goals => wishes(behaviours, layers, senses, &mut all),
+        Arbitration::Goals => proposals(behaviours, layers, situation, &mut all),
         Arbitration::Subsumption | Arbitration::Schemas(_) => {
             all.clear();
-            all.extend(arbitrate(behaviours, layers, senses));
+            all.extend(arbitrate(behaviours, layers, situation));
         }
     }
     // The highest comes first: a motion there is a reflex, and one further down what is left to do.
@@ -251,16 +251,16 @@ fn chosen(
             wants.keep_below(0);
             (None, Motion::default())
         }
-        Some((behaviour, Wish::Motion(motion))) => {
+        Some((behaviour, Proposal::Motion(motion))) => {
             wants.keep_below(*behaviour);
             (Some(*behaviour), *motion)
         }
-        Some((_, Wish::Aim(_))) => {
-            let motion = wants.serve(&all, behaviours, layers, senses);
+        Some((_, Proposal::Destination(_))) => {
+            let motion = wants.serve(&all, behaviours, layers, situation);
             (wants.pursued(), motion)
         }
     };
-    wants.wishes = all;
+    wants.proposals = all;
     decided
 }
 
@@ -274,11 +274,11 @@ fn sum(spec: &BrainSpec) -> Option<Sum> {
 }
 
 /// A mind, if the scenario asks for one or a behaviour needs it.
-fn mind(spec: &BrainSpec, body: &Body) -> Option<Box<Mind>> {
+fn mind(spec: &BrainSpec, body: &Body) -> Option<Box<BeliefBrain>> {
     let mut behaviours = spec.behaviours.iter();
     let is_needed = spec.beliefs.is_some() || behaviours.any(BehaviourSpec::needs_beliefs);
     let beliefs = spec.beliefs.clone().unwrap_or_default();
-    is_needed.then(|| Box::new(Mind::new(&beliefs, body)))
+    is_needed.then(|| Box::new(BeliefBrain::new(&beliefs, body)))
 }
 
 /// Within the body's limits; nonsense is 0.

@@ -2,7 +2,7 @@
 
 use crate::arbitration::Arbitration;
 use crate::behaviours::{Avoid, BehaviourSpec, Cruise, RandomBounce};
-use crate::beliefs::BeliefsSpec;
+use crate::perception::beliefs::BeliefsSpec;
 use alloc::vec;
 use alloc::vec::Vec;
 use schemars::JsonSchema;

@@ -1,9 +1,9 @@
 //! For tests: a disc that obeys its commands exactly, among walls that its rays measure exactly.
 
-use crate::body::{Body, RangeRing, RobotId};
 use crate::brain::Brain;
-use crate::command::{Command, Motion};
-use crate::percept::{Look, Neighbour, Percept, Reading, Scan};
+use crate::io::body::{Body, RangeRing, RobotId};
+use crate::io::command::{Command, Motion};
+use crate::io::percept::{Look, Neighbour, Percept, Reading, Scan};
 use base::geometry::{Point, Segment};
 use base::random::{Entity, Purpose, Stream, stream};
 use base::trig::{sin_cos, wrapped};

@@ -6,9 +6,9 @@ use brain::behaviours::{
     Navigate, RandomBounce, ReturnHome, Spiral,
 };
 use brain::{
-    About, Arbitration, BeliefsSpec, Body, Brain, BrainSpec, Command, Contact, Detector, Heard,
-    Look, Message, Motion, Neighbour, Other, Percept, RangeRing, Reading, RobotId, Scan, Seen,
-    SensorRequest, Stand,
+    About, Arbitration, BeliefsSpec, Body, Brain, BrainSpec, Command, CommitmentStatus, Contact,
+    Detector, Heard, Look, Message, Motion, Neighbour, Other, Percept, Provenance, RangeRing,
+    Reading, RobotId, Scan, SensorRequest,
 };
 use proptest::prelude::*;
 use std::sync::Arc;
@@ -167,7 +167,7 @@ fn robot() -> impl Strategy<Value = RobotId> {
 
 fn message(number: Numbers) -> impl Strategy<Value = Message> {
     let seen = (known_robot(), any::<u32>(), any::<u32>());
-    let seen = seen.prop_map(|(by, mark, looks)| Seen { by, mark, looks });
+    let seen = seen.prop_map(|(by, mark, looks)| Provenance { by, mark, looks });
     let item = (any::<u16>(), point(number), seen).prop_map(|(kind, at, seen)| About::Item {
         kind,
         at,
@@ -181,7 +181,11 @@ fn message(number: Numbers) -> impl Strategy<Value = Message> {
                 looks,
             }
         });
-    let stands = [Stand::Going, Stand::Done, Stand::Left];
+    let stands = [
+        CommitmentStatus::Going,
+        CommitmentStatus::Done,
+        CommitmentStatus::Left,
+    ];
     let goal = (point(number), 0_usize..2).prop_map(move |(at, stand)| About::Goal {
         at,
         stand: stands[stand],

@@ -2,8 +2,8 @@
 
 use base::geometry::{Point, Rectangle};
 use brain::{
-    About, Body, Brain, BrainSpec, Detector, Heard, Look, Message, Motion, Other, Percept, Reading,
-    RobotId, Seen, Stand,
+    About, Body, Brain, BrainSpec, CommitmentStatus, Detector, Heard, Look, Message, Motion, Other,
+    Percept, Provenance, Reading, RobotId,
 };
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -62,7 +62,7 @@ const fn now<T>(value: T) -> Reading<T> {
 }
 
 /// A step at (10, 10); returns what is told of goals.
-fn step(brain: &mut Brain, inbox: Vec<Heard>) -> Vec<(Point, Stand)> {
+fn step(brain: &mut Brain, inbox: Vec<Heard>) -> Vec<(Point, CommitmentStatus)> {
     let percept = Percept {
         id: ME,
         of_kind: 8,
@@ -87,7 +87,7 @@ fn step(brain: &mut Brain, inbox: Vec<Heard>) -> Vec<(Point, Stand)> {
 /// Whether it says within some seconds that it goes to a place.
 fn goes_to(brain: &mut Brain, to: Point, within_s: u32) -> bool {
     let mut steps = 0..10 * within_s;
-    steps.any(|_| step(brain, Vec::new()).contains(&(to, Stand::Going)))
+    steps.any(|_| step(brain, Vec::new()).contains(&(to, CommitmentStatus::Going)))
 }
 
 /// Whether it goes anywhere in four seconds.
@@ -95,7 +95,9 @@ fn goes_anywhere(brain: &mut Brain) -> bool {
     let mut steps = 0..40;
     steps.any(|_| {
         let goals = step(brain, Vec::new());
-        goals.iter().any(|(_, stand)| *stand == Stand::Going)
+        goals
+            .iter()
+            .any(|(_, stand)| *stand == CommitmentStatus::Going)
     })
 }
 
@@ -129,7 +131,7 @@ const PLACE: Point = Point { x: 15.0, y: 10.0 };
 const ERRAND: &str = r#"{"kind": "navigate", "assignment": "shared", "waypoints_m": [[15, 10]]}"#;
 
 fn done(confidence: f64) -> Heard {
-    let (at, stand) = (PLACE, Stand::Done);
+    let (at, stand) = (PLACE, CommitmentStatus::Done);
     heard(LEADER, About::Goal { at, stand }, [0.0, confidence])
 }
 
@@ -155,7 +157,7 @@ fn who_said_once_where_it_goes_and_tells_only_where_it_is_holds_no_place() {
     let mut brain = brain(ERRAND, "");
     let about = About::Goal {
         at: PLACE,
-        stand: Stand::Going,
+        stand: CommitmentStatus::Going,
     };
     let here = Point { x: 3.0, y: 3.0 };
     let told = vec![heard(LEADER, about, [0.0, 1.0])];
@@ -164,7 +166,7 @@ fn who_said_once_where_it_goes_and_tells_only_where_it_is_holds_no_place() {
         let mut steps = 0..steps;
         steps.all(|_| {
             let where_it_is = heard(LEADER, sender(here, 1), [0.0, 1.0]);
-            !step(&mut brain, vec![where_it_is]).contains(&(PLACE, Stand::Going))
+            !step(&mut brain, vec![where_it_is]).contains(&(PLACE, CommitmentStatus::Going))
         })
     };
     assert!(waits(95), "it is still on its way");
@@ -183,7 +185,7 @@ fn what_was_said_long_ago_or_has_no_age_holds_no_place() {
         let mut brain = brain(ERRAND, "");
         let about = About::Goal {
             at: PLACE,
-            stand: Stand::Going,
+            stand: CommitmentStatus::Going,
         };
         step(&mut brain, vec![heard(LEADER, about, [age_s, 1.0])]);
         assert_eq!(!goes_to(&mut brain, PLACE, 3), is_held, "{age_s}");
@@ -240,7 +242,7 @@ fn believes_3_after_lies_of_7(by: RobotId) -> bool {
             x: 10.0 + 2.0 * away.1,
             y: 10.0 + 2.0 * away.0,
         };
-        let seen = Seen { by, mark, looks: 5 };
+        let seen = Provenance { by, mark, looks: 5 };
         let lie = About::Item { kind: 0, at, seen };
         step(&mut brain, vec![heard(LIAR, lie, [0.0, 1.0])]);
         (0..9).for_each(|_| drop(step(&mut brain, Vec::new())));

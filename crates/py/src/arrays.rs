@@ -1,26 +1,30 @@
 //! What the robots of a kind perceive together: an array for each thing, with an entry a robot.
 
 use base::geometry::Point;
-use brain::{About, Heard, Motion, Percept, Reading, Seen, Stand};
+use brain::{About, CommitmentStatus, Heard, Motion, Percept, Provenance, Reading};
 use numpy::{Element, IntoPyArray, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use sim::step::PendingDecision;
 
-/// Stand in place of an item's kind for what is about a sender, or a place where it wants to be.
+/// The status of a commitment, in the column of an item's kind.
 pub(crate) const SENDER: i64 = -1;
 pub(crate) const GOAL: i64 = -2;
 
 /// What has become of a goal, by its number.
-pub(crate) const STANDS: [Stand; 3] = [Stand::Going, Stand::Done, Stand::Left];
+pub(crate) const STANDS: [CommitmentStatus; 3] = [
+    CommitmentStatus::Going,
+    CommitmentStatus::Done,
+    CommitmentStatus::Left,
+];
 
 /// Whose looks messages tell of; what is about no item is by its sender.
 fn seen(entries: &Entries<Heard>) -> PyResult<()> {
     let of = |heard: &Heard| match heard.message.about {
         About::Item { seen, .. } => seen,
-        _ => Seen {
+        _ => Provenance {
             by: heard.from,
-            ..Seen::default()
+            ..Provenance::default()
         },
     };
     entries.put("by_kind", |heard| i64::from(of(heard).by.kind))?;

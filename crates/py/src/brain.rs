@@ -10,7 +10,7 @@ use crate::serde_error::as_in_python;
 use base::document::Document;
 use base::document::schema::Schema;
 use base::error::{InputError, InputErrors};
-use brain::{Body, BrainSpec, Command, Percept, Thoughts};
+use brain::{BeliefState, Body, BrainSpec, Command, Percept};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use schemars::{JsonSchema, schema_for};
@@ -79,7 +79,7 @@ impl Brain {
             ("Body", schema_for!(Body)),
             ("Percept", schema_for!(Percept)),
             ("Command", schema_for!(Command)),
-            ("Thoughts", schema_for!(Thoughts)),
+            ("BeliefState", schema_for!(BeliefState)),
         ];
         convert::write(py, &schemas.into_iter().collect::<BTreeMap<_, _>>())
     }

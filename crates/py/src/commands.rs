@@ -2,7 +2,7 @@
 
 use crate::arrays::{GOAL, STANDS};
 use base::geometry::Point;
-use brain::{About, Message, Motion, Seen, SensorRequest};
+use brain::{About, Message, Motion, Provenance, SensorRequest};
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use sim::step::PendingDecision;
@@ -82,7 +82,7 @@ impl Outbox<'_> {
                 Ok(kind) => About::Item {
                     kind,
                     at,
-                    seen: Seen::default(),
+                    seen: Provenance::default(),
                 },
                 Err(_) if *kind == GOAL => About::Goal {
                     at,

@@ -1,12 +1,12 @@
 //! Getting out of the way of what is too near.
 
-use super::{ahead, half_sight_m};
-use crate::body::{Body, RangeRing};
-use crate::command::Motion;
-use crate::rays::sensible_m;
-use crate::senses::Senses;
-use crate::subsumption::Behaviour;
-use crate::wish::Wish;
+use super::common::{ahead, half_sight_m};
+use crate::behaviours::behaviour::Behaviour;
+use crate::goals::proposal::Proposal;
+use crate::io::body::{Body, RangeRing};
+use crate::io::command::Motion;
+use crate::perception::rays::sensible_m;
+use crate::perception::situation::Situation;
 use alloc::vec::Vec;
 use core::f64::consts::{FRAC_PI_4, PI, TAU};
 use schemars::JsonSchema;
@@ -155,8 +155,8 @@ impl Behaviour for Ready {
     }
 
     #[inline]
-    fn triggered(&self, memory: &mut Memory, senses: &Senses) -> Option<Wish> {
-        self.go_on(memory, senses).map(Wish::Motion)
+    fn triggered(&self, memory: &mut Memory, situation: &Situation) -> Option<Proposal> {
+        self.go_on(memory, situation).map(Proposal::Motion)
     }
 
     fn held(&self) -> Motion {
@@ -171,25 +171,25 @@ impl Behaviour for Ready {
 
 impl Ready {
     #[inline]
-    fn go_on(&self, memory: &mut Memory, senses: &Senses) -> Option<Motion> {
-        let period_s = senses.period_s();
+    fn go_on(&self, memory: &mut Memory, situation: &Situation) -> Option<Motion> {
+        let period_s = situation.period_s();
         match memory {
             Memory::Clear { since_s } => {
                 let clear_s = f64::from(*since_s);
                 *since_s += period_s;
-                self.look(memory, clear_s, senses)
+                self.look(memory, clear_s, situation)
             }
-            Memory::Backing { .. } => Some(self.go_on_backing(memory, senses)),
-            Memory::Turning { .. } => self.go_on_turning(memory, senses),
+            Memory::Backing { .. } => Some(self.go_on_backing(memory, situation)),
+            Memory::Turning { .. } => self.go_on_turning(memory, situation),
         }
     }
 
     #[inline]
     #[expect(clippy::cast_possible_truncation, reason = "kept short")]
-    fn look(&self, memory: &mut Memory, clear_s: f64, senses: &Senses) -> Option<Motion> {
-        if senses.touches(clear_s) {
+    fn look(&self, memory: &mut Memory, clear_s: f64, situation: &Situation) -> Option<Motion> {
+        if situation.touches(clear_s) {
             if self.backing_s <= 0.0 {
-                return Some(self.turn_from_touch(memory, senses));
+                return Some(self.turn_from_touch(memory, situation));
             }
             *memory = Memory::Backing {
                 left_s: self.backing_s as f32,
@@ -197,32 +197,32 @@ impl Ready {
             };
             return Some(self.back);
         }
-        let [left_m, right_m] = self.nearest_m(senses);
+        let [left_m, right_m] = self.nearest_m(situation);
         let is_near = left_m.min(right_m) < self.near_m;
-        is_near.then(|| self.turn(memory, [left_m, right_m], 0.0, senses))
+        is_near.then(|| self.turn(memory, [left_m, right_m], 0.0, situation))
     }
 
-    fn go_on_backing(&self, memory: &mut Memory, senses: &Senses) -> Motion {
+    fn go_on_backing(&self, memory: &mut Memory, situation: &Situation) -> Motion {
         let Memory::Backing { left_s, patience_s } = memory else {
             return Motion::default();
         };
-        if !senses.is_held() {
-            *left_s -= senses.period_s();
+        if !situation.is_held() {
+            *left_s -= situation.period_s();
         }
-        *patience_s -= senses.period_s();
-        if left_s.min(*patience_s) > senses.period_s() / 2.0 {
+        *patience_s -= situation.period_s();
+        if left_s.min(*patience_s) > situation.period_s() / 2.0 {
             self.back
         } else {
-            self.turn_from_touch(memory, senses)
+            self.turn_from_touch(memory, situation)
         }
     }
 
-    fn turn_from_touch(&self, memory: &mut Memory, senses: &Senses) -> Motion {
-        let mut dice = senses.dice();
+    fn turn_from_touch(&self, memory: &mut Memory, situation: &Situation) -> Motion {
+        let mut dice = situation.dice();
         // The first number is for the side.
         dice.unit();
         let least_rad = dice.between(FRAC_PI_4, PI);
-        self.turn(memory, self.nearest_m(senses), least_rad, senses)
+        self.turn(memory, self.nearest_m(situation), least_rad, situation)
     }
 
     #[expect(clippy::cast_possible_truncation, reason = "kept short")]
@@ -231,14 +231,14 @@ impl Ready {
         memory: &mut Memory,
         [left_m, right_m]: [f64; 2],
         least_rad: f64,
-        senses: &Senses,
+        situation: &Situation,
     ) -> Motion {
         // Not a number if nothing is seen on both.
         let differs = (left_m - right_m).abs() >= SAME_M;
         let is_left = if differs {
             left_m > right_m
         } else {
-            senses.dice().below(2) == 0
+            situation.dice().below(2) == 0
         };
         *memory = Memory::Turning {
             is_left,
@@ -249,7 +249,7 @@ impl Ready {
     }
 
     #[expect(clippy::cast_possible_truncation, reason = "kept short")]
-    fn go_on_turning(&self, memory: &mut Memory, senses: &Senses) -> Option<Motion> {
+    fn go_on_turning(&self, memory: &mut Memory, situation: &Situation) -> Option<Motion> {
         let Memory::Turning {
             is_left,
             since_s,
@@ -259,13 +259,13 @@ impl Ready {
             return None;
         };
         let is_left = *is_left;
-        if !senses.is_held() {
-            *since_s += senses.period_s();
+        if !situation.is_held() {
+            *since_s += situation.period_s();
         }
-        *least_rad -= senses.turned_rad.abs() as f32;
+        *least_rad -= situation.turned_rad.abs() as f32;
         let has_turned = *least_rad <= 0.0 || *since_s >= PATIENCE_S;
         let is_round = f64::from(*since_s) * self.turn_rate_rad_s > TAU;
-        let [left_m, right_m] = self.nearest_m(senses);
+        let [left_m, right_m] = self.nearest_m(situation);
         // Where nothing is clear, somewhere is the least near.
         let clear_m = if is_round { self.near_m } else { self.clear_m };
         if has_turned && left_m.min(right_m) >= clear_m {
@@ -285,13 +285,13 @@ impl Ready {
 
     /// From the hull to the nearest on the left and on the right; infinite if nothing is seen.
     #[inline]
-    fn nearest_m(&self, senses: &Senses) -> [f64; 2] {
+    fn nearest_m(&self, situation: &Situation) -> [f64; 2] {
         let mut nearest_m = [f64::INFINITY; 2];
-        for (ranges_m, [left, right]) in senses.scans_with(&self.sides) {
+        for (ranges_m, [left, right]) in situation.scans_with(&self.sides) {
             nearest_m[0] = shortest_m(ranges_m, left).min(nearest_m[0]);
             nearest_m[1] = shortest_m(ranges_m, right).min(nearest_m[1]);
         }
-        nearest_m.map(|nearest_m| nearest_m - senses.body.radius_m)
+        nearest_m.map(|nearest_m| nearest_m - situation.body.radius_m)
     }
 }
 

@@ -3,14 +3,14 @@
 use super::outlook::Outlook;
 use super::part::Part;
 use super::survey::{Survey, aim};
-use crate::beliefs::pose::Pose;
-use crate::beliefs::{Beliefs, Map};
-use crate::body::Body;
-use crate::command::Motion;
+use crate::behaviours::behaviour::Behaviour;
 use crate::goals::Verdict;
-use crate::senses::Senses;
-use crate::subsumption::Behaviour;
-use crate::wish::{Aim, Wish};
+use crate::goals::proposal::{Destination, Proposal};
+use crate::io::body::Body;
+use crate::io::command::Motion;
+use crate::perception::beliefs::pose::Pose;
+use crate::perception::beliefs::{Beliefs, Map};
+use crate::perception::situation::Situation;
 use alloc::boxed::Box;
 use base::geometry::Point;
 use schemars::JsonSchema;
@@ -62,7 +62,7 @@ impl Default for BayesianSearch {
 /// [`BayesianSearch`] in a body.
 #[derive(Debug, Clone)]
 pub(crate) struct Ready {
-    aim: Aim,
+    aim: Destination,
     outlook: Outlook,
 }
 
@@ -84,18 +84,18 @@ impl Ready {
     }
 
     /// The place that promises most a second.
-    fn best(&self, search: &mut Search, senses: &Senses, known: &Known) -> Option<Point> {
+    fn best(&self, search: &mut Search, situation: &Situation, known: &Known) -> Option<Point> {
         let Known { map, pose, beliefs } = known;
         let (Search { survey, part, .. }, outlook) = (search, &self.outlook);
         part.renew(beliefs, map);
         let stop_duration_s = STOP_S + outlook.looks(LOOKED) * beliefs.look_s();
         let time_s = |way_m: f64| stop_duration_s + way_m / self.aim.speed_m_s.max(1e-6);
-        let apart = apart(senses.body, map);
+        let apart = apart(situation.body, map);
         let worth = |cell: usize, way_m: f64, least: f64| {
             let [column, row] = map.field.column_and_row_of(cell);
             let share = part.share(&map.field, cell);
             let place = map.field.centre(cell);
-            let fits = map.field.edge_m(place) >= senses.body.radius_m;
+            let fits = map.field.edge_m(place) >= situation.body.radius_m;
             let is_place = fits && (column + row) % apart == 0;
             if !is_place || share * outlook.most <= least * time_s(way_m) {
                 return 0.0;
@@ -108,7 +108,7 @@ impl Ready {
             }
             rate * outlook.promises(map, place, way, pose.blur_m())
         };
-        survey.best((map, senses.body), pose.at, worth, |way_m| {
+        survey.best((map, situation.body), pose.at, worth, |way_m| {
             outlook.most / time_s(way_m)
         })
     }
@@ -136,8 +136,8 @@ struct Known<'k> {
 }
 
 impl<'k> Known<'k> {
-    fn new(senses: &Senses<'k>) -> Option<Self> {
-        let beliefs = senses.beliefs?;
+    fn new(situation: &Situation<'k>) -> Option<Self> {
+        let beliefs = situation.beliefs?;
         Some(Self {
             beliefs,
             map: beliefs.map.as_ref()?,
@@ -162,10 +162,10 @@ impl Behaviour for Ready {
         None
     }
 
-    fn triggered(&self, memory: &mut Self::Memory, senses: &Senses) -> Option<Wish> {
-        let known = Known::new(senses)?;
+    fn triggered(&self, memory: &mut Self::Memory, situation: &Situation) -> Option<Proposal> {
+        let known = Known::new(situation)?;
         let search = memory.get_or_insert_default();
-        let going = search.survey.still_going(senses.body.period_s);
+        let going = search.survey.still_going(situation.body.period_s);
         let is_there = |to: Point| known.pose.at.to(to).length() <= self.aim.within_m;
         if going.is_some_and(is_there) {
             // What it promised and has not been seen on the way cannot be seen from there.
@@ -176,12 +176,12 @@ impl Behaviour for Ready {
         let to = if let Some(to) = going.filter(|to| !is_there(*to) && is_on(to)) {
             to
         } else {
-            let to = self.best(search, senses, &known)?;
+            let to = self.best(search, situation, &known)?;
             search.was = known.promises(&self.outlook, to);
             search.survey.going = Some((to, 0.0));
             to
         };
-        Some(Wish::Aim(Aim { to, ..self.aim }))
+        Some(Proposal::Destination(Destination { to, ..self.aim }))
     }
 
     fn judged(&self, memory: &mut Self::Memory, _verdict: Verdict) {

@@ -1,12 +1,12 @@
 //! Turning to the course to a place.
 
 use super::turn::Turn;
-use crate::body::Body;
-use crate::command::Motion;
-use crate::percept::{Percept, Reading};
-use crate::senses::Senses;
-use crate::subsumption::Behaviour;
-use crate::wish::Wish;
+use crate::behaviours::behaviour::Behaviour;
+use crate::goals::proposal::Proposal;
+use crate::io::body::Body;
+use crate::io::command::Motion;
+use crate::io::percept::{Percept, Reading};
+use crate::perception::situation::Situation;
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 use base::geometry::Point;
@@ -96,19 +96,19 @@ impl Ready {
         }
     }
 
-    fn look(&self, progress: &mut Progress, senses: &Senses) -> Option<Motion> {
+    fn look(&self, progress: &mut Progress, situation: &Situation) -> Option<Motion> {
         // Half a step, so that rounding adds none.
-        if progress.wait_s > senses.period_s() / 2.0 {
-            progress.wait_s -= senses.period_s();
+        if progress.wait_s > situation.period_s() / 2.0 {
+            progress.wait_s -= situation.period_s();
             return None;
         }
-        let at = position(senses.percept)?;
+        let at = position(situation.percept)?;
         let to = self.next(progress, at)?;
-        let heading_rad = heading_rad(senses.percept, f64::from(progress.straight_s))?;
+        let heading_rad = heading_rad(situation.percept, f64::from(progress.straight_s))?;
         let way = at.to(to);
         let off_rad = wrapped(libm::atan2(way.y, way.x) - heading_rad);
         (off_rad.abs() > self.most_off_rad).then(|| {
-            let (turn, motion) = Turn::by(off_rad, senses.body);
+            let (turn, motion) = Turn::by(off_rad, situation.body);
             progress.turn = Some(turn);
             motion
         })
@@ -142,18 +142,18 @@ impl Behaviour for Ready {
         None
     }
 
-    fn triggered(&self, memory: &mut Memory, senses: &Senses) -> Option<Wish> {
+    fn triggered(&self, memory: &mut Memory, situation: &Situation) -> Option<Proposal> {
         let progress = &mut **memory.get_or_insert_default();
         if let Some(turn) = &mut progress.turn {
-            let motion = turn.go_on(senses);
+            let motion = turn.go_on(situation);
             if motion.is_some() {
-                return motion.map(Wish::Motion);
+                return motion.map(Proposal::Motion);
             }
             (progress.turn, progress.straight_s) = (None, 0.0);
         }
-        let motion = self.look(progress, senses);
-        progress.straight_s += senses.period_s();
-        motion.map(Wish::Motion)
+        let motion = self.look(progress, situation);
+        progress.straight_s += situation.period_s();
+        motion.map(Proposal::Motion)
     }
 
     fn held(&self) -> Motion {

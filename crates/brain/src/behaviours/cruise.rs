@@ -1,11 +1,11 @@
 //! Going ahead.
 
-use super::ahead;
-use crate::body::Body;
-use crate::command::Motion;
-use crate::senses::Senses;
-use crate::subsumption::Behaviour;
-use crate::wish::Wish;
+use super::common::ahead;
+use crate::behaviours::behaviour::Behaviour;
+use crate::goals::proposal::Proposal;
+use crate::io::body::Body;
+use crate::io::command::Motion;
+use crate::perception::situation::Situation;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -39,7 +39,7 @@ impl Behaviour for Ready {
     fn memory(&self) {}
 
     #[inline]
-    fn triggered(&self, (): &mut (), _senses: &Senses) -> Option<Wish> {
+    fn triggered(&self, (): &mut (), _senses: &Situation) -> Option<Proposal> {
         Some(self.motion.into())
     }
 

@@ -6,8 +6,8 @@
 //! the same, the one with the lower number goes on. What a robot cannot get to it leaves to others, and
 //! what one was to visit that has not been heard of for some time is free again.
 
-use crate::beliefs::peers::Peers;
-use crate::body::RobotId;
+use crate::io::body::RobotId;
+use crate::perception::beliefs::peers::Peers;
 use alloc::vec::Vec;
 use base::geometry::Point;
 
@@ -102,7 +102,7 @@ impl Errands {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::command::Stand;
+    use crate::io::message::CommitmentStatus;
 
     const fn at(x: f64) -> Point {
         Point { x, y: 0.0 }
@@ -127,7 +127,7 @@ mod tests {
     fn each_goes_to_the_nearest_place_that_nobody_else_goes_to() {
         let (mut errands, mut mates) = (all(), Peers::default());
         assert_eq!(next(&mut errands, 1, 2.0, &mates), Some(3.0));
-        mates.goes(robot(0), at(3.0), Stand::Going, 0.0);
+        mates.goes(robot(0), at(3.0), CommitmentStatus::Going, 0.0);
         assert_eq!(next(&mut errands, 1, 2.0, &mates), Some(0.0));
     }
 
@@ -135,7 +135,7 @@ mod tests {
     fn of_two_who_go_to_the_same_place_the_first_goes_on() {
         let (mut errands, mut mates) = (all(), Peers::default());
         assert_eq!(next(&mut errands, 1, 2.0, &mates), Some(3.0));
-        mates.goes(robot(2), at(3.0), Stand::Going, 0.0);
+        mates.goes(robot(2), at(3.0), CommitmentStatus::Going, 0.0);
         assert_eq!(next(&mut errands, 1, 2.0, &mates), Some(3.0));
     }
 
@@ -149,7 +149,7 @@ mod tests {
             (0.0, Some(9.0)),
             (9.0, None),
         ] {
-            mates.goes(robot(2), at(x), Stand::Done, 0.0);
+            mates.goes(robot(2), at(x), CommitmentStatus::Done, 0.0);
             assert_eq!(next(&mut errands, 1, 2.0, &mates), then);
         }
     }
@@ -168,7 +168,7 @@ mod tests {
     #[test]
     fn who_is_not_heard_of_any_more_leaves_its_place_to_others() {
         let (mut errands, mut mates) = (Errands::new(vec![1]), Peers::default());
-        mates.goes(robot(0), at(3.0), Stand::Going, 0.0);
+        mates.goes(robot(0), at(3.0), CommitmentStatus::Going, 0.0);
         assert_eq!(next(&mut errands, 1, 2.0, &mates), None);
         mates.pass(11.0);
         assert_eq!(next(&mut errands, 1, 2.0, &mates), Some(3.0));

@@ -21,9 +21,9 @@ behaviours! {
 
 mod tests {
     use super::*;
-    use crate::reckoning::Reckoning;
-    use crate::sight::Sight;
-    use crate::subsumption::{arbitrate, layers};
+    use crate::arbitration::subsumption::{arbitrate, layers};
+    use crate::navigation::speed_governor::SpeedGovernor;
+    use crate::perception::dead_reckoning::DeadReckoning;
     use crate::world_of_walls::{Walk, room, rover};
     use base::geometry::Point;
     use core::f64::consts::FRAC_PI_2;
@@ -37,14 +37,14 @@ mod tests {
         let body = rover();
         let behaviours = [zigzag(), BehaviourSpec::Avoid(Avoid::default())];
         let behaviours = behaviours.map(|each| each.ready(&body));
-        let (mut layers, mut moved) = (layers(&behaviours), Reckoning::default());
-        let sight = Sight::new(&body);
+        let (mut layers, mut moved) = (layers(&behaviours), DeadReckoning::default());
+        let sight = SpeedGovernor::new(&body);
         let mut walk = Walk::new(body.clone(), room(size_m, size_m), [2.0, 2.0], 0.0);
         let step = |_| {
             let percept = walk.percept();
             let turned_rad = moved.take_in(&percept, &body);
             let now_m_s = moved.now_m_s(&percept, &body);
-            let senses = Senses {
+            let situation = Situation {
                 percept: &percept,
                 body: &body,
                 beliefs: None,
@@ -53,8 +53,8 @@ mod tests {
                 turned_rad,
                 now_m_s,
             };
-            let mut motion = match arbitrate(&behaviours, &mut layers, &senses) {
-                Some((_, Wish::Motion(motion))) => motion,
+            let mut motion = match arbitrate(&behaviours, &mut layers, &situation) {
+                Some((_, Proposal::Motion(motion))) => motion,
                 _ => Motion::default(),
             };
             let most = body.max_turn_rate_rad_s;

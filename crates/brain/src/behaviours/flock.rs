@@ -1,14 +1,14 @@
 //! Going with the others.
 
-use super::ahead;
-use crate::body::Body;
-use crate::command::Motion;
-use crate::dice::Dice;
-use crate::percept::Neighbour;
-use crate::sector::direction;
-use crate::senses::Senses;
-use crate::subsumption::Behaviour;
-use crate::wish::Wish;
+use super::common::ahead;
+use crate::behaviours::behaviour::Behaviour;
+use crate::goals::proposal::Proposal;
+use crate::io::body::Body;
+use crate::io::command::Motion;
+use crate::io::percept::Neighbour;
+use crate::io::random_words::RandomWords;
+use crate::perception::sector::direction;
+use crate::perception::situation::Situation;
 use base::geometry::Point;
 use base::trig::wrapped;
 use schemars::JsonSchema;
@@ -139,7 +139,12 @@ impl Ready {
     /// How fast a robot turns whose course is `front`, of length 1, given those near it, in rad/s;
     /// `dice` gives it its chance, if it takes any.
     #[inline]
-    pub fn turn_rate_rad_s(&self, front: Point, sums: &Sums, dice: impl FnOnce() -> Dice) -> f64 {
+    pub fn turn_rate_rad_s(
+        &self,
+        front: Point,
+        sums: &Sums,
+        dice: impl FnOnce() -> RandomWords,
+    ) -> f64 {
         let course = front.plus(self.steering(sums));
         let turn_rad = libm::atan2(front.cross(course), front.dot(course));
         let turn_rad = if self.noise_rad > 0.0 {
@@ -159,16 +164,16 @@ impl Ready {
         } else {
             1.0
         };
-        let wishes = [
+        let proposals = [
             sums.way_to_near.times(-self.separation * share),
             sums.course.times(self.alignment * share),
             sums.way.times(self.cohesion * share),
         ];
         let (mut steering, mut left) = (Point::default(), self.steering_limit);
-        for wish in wishes {
-            let length = wish.length();
+        for proposal in proposals {
+            let length = proposal.length();
             let granted = if length <= left { 1.0 } else { left / length };
-            steering = steering.plus(wish.times(granted));
+            steering = steering.plus(proposal.times(granted));
             left = (left - length).max(0.0);
         }
         steering
@@ -210,12 +215,12 @@ impl Behaviour for Ready {
 
     fn memory(&self) {}
 
-    fn triggered(&self, (): &mut (), senses: &Senses) -> Option<Wish> {
-        let sums = self.sums(&senses.percept.neighbours);
+    fn triggered(&self, (): &mut (), situation: &Situation) -> Option<Proposal> {
+        let sums = self.sums(&situation.percept.neighbours);
         let front = Point { x: 1.0, y: 0.0 };
         let motion = Motion {
             speed_m_s: self.speed_m_s,
-            turn_rate_rad_s: self.turn_rate_rad_s(front, &sums, || senses.dice()),
+            turn_rate_rad_s: self.turn_rate_rad_s(front, &sums, || situation.dice()),
         };
         Some(motion.into())
     }

@@ -1,10 +1,10 @@
 //! Following another robot.
 
-use crate::body::{Body, RobotId};
-use crate::command::Motion;
-use crate::senses::Senses;
-use crate::subsumption::Behaviour;
-use crate::wish::{Aim, Wish};
+use crate::behaviours::behaviour::Behaviour;
+use crate::goals::proposal::{Destination, Proposal};
+use crate::io::body::{Body, RobotId};
+use crate::io::command::Motion;
+use crate::perception::situation::Situation;
 use alloc::boxed::Box;
 use base::geometry::Point;
 use schemars::JsonSchema;
@@ -77,10 +77,10 @@ impl Behaviour for Ready {
         None
     }
 
-    fn triggered(&self, memory: &mut Self::Memory, senses: &Senses) -> Option<Wish> {
-        let beliefs = senses.beliefs?;
+    fn triggered(&self, memory: &mut Self::Memory, situation: &Situation) -> Option<Proposal> {
+        let beliefs = situation.beliefs?;
         let pose = beliefs.pose()?;
-        let leader = self.leader(senses.percept.id)?;
+        let leader = self.leader(situation.percept.id)?;
         let at: Point = beliefs.whereabouts(leader)?;
         let way = at.to(pose.at);
         let away_m = way.length();
@@ -92,7 +92,7 @@ impl Behaviour for Ready {
         if to.to(beside).length() >= SAME_M {
             **to = beside;
         }
-        Some(Wish::Aim(Aim {
+        Some(Proposal::Destination(Destination {
             to: **to,
             within_m: 0.1,
             speed_m_s: self.speed_m_s,

@@ -1,13 +1,13 @@
 //! Searching where the looked-at ends.
 
 use super::survey::{Survey, aim, share};
-use crate::beliefs::{Beliefs, Map};
-use crate::body::Body;
-use crate::command::Motion;
+use crate::behaviours::behaviour::Behaviour;
 use crate::goals::Verdict;
-use crate::senses::Senses;
-use crate::subsumption::Behaviour;
-use crate::wish::{Aim, Wish};
+use crate::goals::proposal::{Destination, Proposal};
+use crate::io::body::Body;
+use crate::io::command::Motion;
+use crate::perception::beliefs::{Beliefs, Map};
+use crate::perception::situation::Situation;
 use alloc::boxed::Box;
 use base::geometry::Point;
 use schemars::JsonSchema;
@@ -43,7 +43,7 @@ impl Default for Frontier {
 /// [`Frontier`] in a body.
 #[derive(Debug, Clone)]
 pub(crate) struct Ready {
-    aim: Aim,
+    aim: Destination,
 }
 
 impl Ready {
@@ -55,7 +55,12 @@ impl Ready {
 }
 
 /// The nearest place that has not been looked at; what others go for counts as ten times as far.
-fn nearest(survey: &mut Survey, senses: &Senses, beliefs: &Beliefs, map: &Map) -> Option<Point> {
+fn nearest(
+    survey: &mut Survey,
+    situation: &Situation,
+    beliefs: &Beliefs,
+    map: &Map,
+) -> Option<Point> {
     let (at, near_m) = (beliefs.pose()?.at, 4.0 * map.field.cell_m);
     let nearness = |way_m: f64| 1.0 / way_m.max(map.field.cell_m);
     let worth = |cell, way_m, _| {
@@ -65,7 +70,7 @@ fn nearest(survey: &mut Survey, senses: &Senses, beliefs: &Beliefs, map: &Map) -
             0.0
         }
     };
-    survey.best((map, senses.body), at, worth, nearness)
+    survey.best((map, situation.body), at, worth, nearness)
 }
 
 fn is_unseen(map: &Map, place: Point) -> bool {
@@ -82,20 +87,20 @@ impl Behaviour for Ready {
         None
     }
 
-    fn triggered(&self, memory: &mut Self::Memory, senses: &Senses) -> Option<Wish> {
-        let beliefs = senses.beliefs?;
+    fn triggered(&self, memory: &mut Self::Memory, situation: &Situation) -> Option<Proposal> {
+        let beliefs = situation.beliefs?;
         let map = beliefs.map.as_ref()?;
         let survey = memory.get_or_insert_default();
-        let going = survey.still_going(senses.body.period_s);
+        let going = survey.still_going(situation.body.period_s);
         let going = going.filter(|to| is_unseen(map, *to));
         let to = if let Some(to) = going {
             to
         } else {
-            let to = nearest(survey, senses, beliefs, map)?;
+            let to = nearest(survey, situation, beliefs, map)?;
             survey.going = Some((to, 0.0));
             to
         };
-        Some(Wish::Aim(Aim { to, ..self.aim }))
+        Some(Proposal::Destination(Destination { to, ..self.aim }))
     }
 
     fn judged(&self, memory: &mut Self::Memory, _verdict: Verdict) {

@@ -1,11 +1,11 @@
 //! Staying somewhere.
 
-use crate::beliefs::Beliefs;
-use crate::body::Body;
-use crate::command::Motion;
-use crate::senses::Senses;
-use crate::subsumption::Behaviour;
-use crate::wish::{Aim, Wish};
+use crate::behaviours::behaviour::Behaviour;
+use crate::goals::proposal::{Destination, Proposal};
+use crate::io::body::Body;
+use crate::io::command::Motion;
+use crate::perception::beliefs::Beliefs;
+use crate::perception::situation::Situation;
 use alloc::boxed::Box;
 use base::geometry::Point;
 use schemars::JsonSchema;
@@ -40,7 +40,7 @@ impl Default for HoldPosition {
 #[derive(Debug, Clone)]
 pub(crate) struct Ready {
     at: Option<Point>,
-    aim: Aim,
+    aim: Destination,
 }
 
 /// Where it stays, once it knows.
@@ -50,7 +50,7 @@ impl Ready {
     pub(super) fn new(spec: &HoldPosition, body: &Body) -> Self {
         Self {
             at: spec.at_m,
-            aim: Aim {
+            aim: Destination {
                 to: Point::default(),
                 within_m: spec.within_m,
                 speed_m_s: body.max_speed_m_s,
@@ -69,8 +69,8 @@ impl Behaviour for Ready {
         None
     }
 
-    fn triggered(&self, memory: &mut Memory, senses: &Senses) -> Option<Wish> {
-        let Some(pose) = senses.beliefs.and_then(Beliefs::pose) else {
+    fn triggered(&self, memory: &mut Memory, situation: &Situation) -> Option<Proposal> {
+        let Some(pose) = situation.beliefs.and_then(Beliefs::pose) else {
             return Some(Motion::default().into());
         };
         let to = **memory.get_or_insert_with(|| Box::new(self.at.unwrap_or(pose.at)));
@@ -78,7 +78,7 @@ impl Behaviour for Ready {
         Some(if is_there {
             Motion::default().into()
         } else {
-            Wish::Aim(Aim { to, ..self.aim })
+            Proposal::Destination(Destination { to, ..self.aim })
         })
     }
 

@@ -1,12 +1,12 @@
 //! Searching lane by lane.
 
-use crate::beliefs::field::Field;
-use crate::body::Body;
-use crate::command::Motion;
+use crate::behaviours::behaviour::Behaviour;
 use crate::goals::Verdict;
-use crate::senses::Senses;
-use crate::subsumption::Behaviour;
-use crate::wish::{Aim, Wish};
+use crate::goals::proposal::{Destination, Proposal};
+use crate::io::body::Body;
+use crate::io::command::Motion;
+use crate::perception::beliefs::field::Field;
+use crate::perception::situation::Situation;
 use alloc::boxed::Box;
 use base::geometry::Point;
 use core::f64::consts::FRAC_PI_2;
@@ -52,7 +52,7 @@ const MOST_CORNERS: usize = 100_000;
 pub(crate) struct Ready {
     width_m: f64,
     inset_m: f64,
-    aim: Aim,
+    aim: Destination,
 }
 
 /// Where it is on its way; `None` before it begins.
@@ -78,7 +78,7 @@ impl Ready {
         Self {
             width_m: width_m.max(2.0 * body.radius_m),
             inset_m: (range_m / 2.0).min(width_m / 2.0).max(1.5 * body.radius_m),
-            aim: Aim {
+            aim: Destination {
                 to: Point::default(),
                 within_m: (0.1 * width_m).clamp(0.2, 2.0),
                 speed_m_s: spec.speed_m_s.unwrap_or(body.max_speed_m_s),
@@ -128,7 +128,7 @@ impl Ready {
 pub(super) fn swath_m(body: &Body) -> (f64, f64) {
     let strips = body.detectors.iter().map(|detector| {
         let half_rad = (detector.width_rad / 2.0).min(FRAC_PI_2);
-        let half_m = detector.range_m * crate::sector::direction(half_rad).y;
+        let half_m = detector.range_m * crate::perception::sector::direction(half_rad).y;
         (2.0 * half_m, detector.range_m)
     });
     let widest = strips.fold(
@@ -232,12 +232,12 @@ impl Behaviour for Ready {
         None
     }
 
-    fn triggered(&self, memory: &mut Memory, senses: &Senses) -> Option<Wish> {
-        let beliefs = senses.beliefs?;
+    fn triggered(&self, memory: &mut Memory, situation: &Situation) -> Option<Proposal> {
+        let beliefs = situation.beliefs?;
         let pose = beliefs.pose()?;
         let field = &beliefs.map.as_ref()?.field;
-        let robots = senses.percept.of_kind.max(1);
-        let part = [senses.percept.id.index % robots, robots];
+        let robots = situation.percept.of_kind.max(1);
+        let part = [situation.percept.id.index % robots, robots];
         let progress = memory.get_or_insert_with(|| Box::new(Progress::of(part)));
         if progress.part != part {
             **progress = Progress::of(part);
@@ -247,7 +247,7 @@ impl Behaviour for Ready {
             progress.go_on();
         }
         let to = self.place(progress, field)?;
-        Some(Wish::Aim(Aim { to, ..self.aim }))
+        Some(Proposal::Destination(Destination { to, ..self.aim }))
     }
 
     fn judged(&self, memory: &mut Memory, verdict: Verdict) {

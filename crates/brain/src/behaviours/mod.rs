@@ -3,6 +3,8 @@
 
 mod avoid;
 mod bayesian_search;
+pub(crate) mod behaviour;
+mod common;
 mod correct;
 mod cruise;
 mod errands;
@@ -34,12 +36,12 @@ pub use random_bounce::RandomBounce;
 pub use return_home::ReturnHome;
 pub use spiral::Spiral;
 
-use crate::body::Body;
-use crate::command::Motion;
+use crate::behaviours::behaviour::Behaviour;
 use crate::goals::Verdict;
-use crate::senses::Senses;
-use crate::subsumption::Behaviour;
-use crate::wish::Wish;
+use crate::goals::proposal::Proposal;
+use crate::io::body::Body;
+use crate::io::command::Motion;
+use crate::perception::situation::Situation;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -123,10 +125,10 @@ macro_rules! behaviours {
             }
 
             #[inline]
-            fn triggered(&self, memory: &mut Memory, senses: &Senses) -> Option<Wish> {
+            fn triggered(&self, memory: &mut Memory, situation: &Situation) -> Option<Proposal> {
                 match (self, memory) {
                     $((Self::$kind(ready), Memory::$kind(memory)) => {
-                        ready.triggered(memory, senses)
+                        ready.triggered(memory, situation)
                     })+
                     // A robot's memories are made of its behaviours, in their order.
                     _ => None,
@@ -187,21 +189,6 @@ behaviours! {
     Avoid in avoid;
     /// Goes with the others: keeps apart from them, takes their course, and stays with them.
     Flock in flock;
-}
-
-/// Straight ahead at a speed, or else as fast as the body can.
-fn ahead(speed_m_s: Option<f64>, body: &Body) -> Motion {
-    Motion {
-        speed_m_s: speed_m_s.unwrap_or(body.max_speed_m_s),
-        turn_rate_rad_s: 0.0,
-    }
-}
-
-/// Half as far from the hull as all range rings see: nearer than that a lost echo is no obstacle.
-fn half_sight_m(body: &Body) -> f64 {
-    let ranges_m = body.rings.iter().map(|ring| ring.range_m);
-    let least_m = ranges_m.fold(f64::INFINITY, f64::min);
-    (least_m - body.radius_m).max(0.0) / 2.0
 }
 
 #[cfg(test)]

@@ -1,12 +1,12 @@
 //! Visiting places.
 
 use super::errands::Errands;
-use crate::body::Body;
-use crate::command::Motion;
+use crate::behaviours::behaviour::Behaviour;
 use crate::goals::Verdict;
-use crate::senses::Senses;
-use crate::subsumption::Behaviour;
-use crate::wish::{Aim, Wish};
+use crate::goals::proposal::{Destination, Proposal};
+use crate::io::body::Body;
+use crate::io::command::Motion;
+use crate::perception::situation::Situation;
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 use base::geometry::Point;
@@ -90,24 +90,24 @@ impl Ready {
 
     /// All places of a robot, the next one last.
     #[expect(clippy::cast_possible_truncation, reason = "ten thousand at most")]
-    fn errands(&self, senses: &Senses) -> Errands {
+    fn errands(&self, situation: &Situation) -> Errands {
         let count = self.spec.waypoints_m.len() as u32;
         Errands::new(match self.spec.assignment {
             Assignment::All | Assignment::Shared => (0..count).rev().collect(),
             Assignment::OneEach => {
-                let own = senses.percept.id.index.checked_rem(count);
+                let own = situation.percept.id.index.checked_rem(count);
                 own.into_iter().collect()
             }
         })
     }
 
-    fn next(&self, errands: &mut Errands, at: Point, senses: &Senses) -> Option<Point> {
+    fn next(&self, errands: &mut Errands, at: Point, situation: &Situation) -> Option<Point> {
         let places = &self.spec.waypoints_m;
         match self.spec.assignment {
             Assignment::All | Assignment::OneEach => errands.next(places),
             Assignment::Shared => {
-                let mates = &senses.beliefs?.peers;
-                errands.next_of_team(places, (senses.percept.id, at), mates)
+                let mates = &situation.beliefs?.peers;
+                errands.next_of_team(places, (situation.percept.id, at), mates)
             }
         }
     }
@@ -122,15 +122,15 @@ impl Behaviour for Ready {
         None
     }
 
-    fn triggered(&self, memory: &mut Memory, senses: &Senses) -> Option<Wish> {
-        let at = senses.beliefs?.pose()?.at;
-        let errands = memory.get_or_insert_with(|| Box::new(self.errands(senses)));
-        let mut to = self.next(errands, at, senses)?;
+    fn triggered(&self, memory: &mut Memory, situation: &Situation) -> Option<Proposal> {
+        let at = situation.beliefs?.pose()?.at;
+        let errands = memory.get_or_insert_with(|| Box::new(self.errands(situation)));
+        let mut to = self.next(errands, at, situation)?;
         if at.to(to).length() <= self.spec.within_m {
             errands.pop();
-            to = self.next(errands, at, senses)?;
+            to = self.next(errands, at, situation)?;
         }
-        Some(Wish::Aim(Aim {
+        Some(Proposal::Destination(Destination {
             to,
             within_m: self.spec.within_m,
             speed_m_s: self.speed_m_s,

@@ -1,10 +1,10 @@
 //! What a look from a place promises.
 
-use crate::beliefs::Map;
-use crate::beliefs::pose::turned;
-use crate::beliefs::unseen::{SUREST, View};
-use crate::body::Detector;
-use crate::sector::direction;
+use crate::io::body::Detector;
+use crate::perception::beliefs::Map;
+use crate::perception::beliefs::coverage_map::{SUREST, View};
+use crate::perception::beliefs::pose::turned;
+use crate::perception::sector::direction;
 use alloc::vec::Vec;
 use base::geometry::Point;
 
@@ -107,10 +107,10 @@ fn samples(detector: &Detector) -> impl Iterator<Item = Sample> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::beliefs::BeliefsSpec;
-    use crate::beliefs::occupancy::Ray;
-    use crate::beliefs::unseen::Glance;
-    use crate::beliefs::unseen::tests::{detector, map};
+    use crate::perception::beliefs::BeliefsSpec;
+    use crate::perception::beliefs::coverage_map::Glance;
+    use crate::perception::beliefs::coverage_map::tests::{detector, map};
+    use crate::perception::beliefs::occupancy::Ray;
     use base::geometry::{Rectangle, Segment};
 
     const HERE: Point = Point { x: 10.1, y: 10.1 };

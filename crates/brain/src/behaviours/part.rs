@@ -5,9 +5,9 @@
 //! 1982; for robots Cortes, Martinez, Karatas and Bullo, *Coverage control for mobile sensing networks*,
 //! 2004).
 
-use crate::beliefs::field::Field;
-use crate::beliefs::peers::Peer;
-use crate::beliefs::{Beliefs, Map};
+use crate::perception::beliefs::field::Field;
+use crate::perception::beliefs::peers::Peer;
+use crate::perception::beliefs::{Beliefs, Map};
 use alloc::vec::Vec;
 use base::geometry::Point;
 
@@ -112,7 +112,7 @@ impl Part {
 }
 
 /// A robot and all the team mates that it remembers.
-const MOST: usize = 1 + crate::beliefs::peers::MOST;
+const MOST: usize = 1 + crate::perception::beliefs::peers::MOST;
 
 #[inline]
 fn block_of(field: &Field, cell: usize) -> usize {

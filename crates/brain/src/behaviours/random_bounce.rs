@@ -1,13 +1,13 @@
 //! Searching by random bounces.
 
+use super::common::{ahead, half_sight_m};
 use super::turn::Turn;
-use super::{ahead, half_sight_m};
-use crate::body::Body;
-use crate::command::Motion;
-use crate::rays::Ring;
-use crate::senses::Senses;
-use crate::subsumption::Behaviour;
-use crate::wish::Wish;
+use crate::behaviours::behaviour::Behaviour;
+use crate::goals::proposal::Proposal;
+use crate::io::body::Body;
+use crate::io::command::Motion;
+use crate::perception::rays::Ring;
+use crate::perception::situation::Situation;
 use base::trig::wrapped;
 use core::f64::consts::{FRAC_PI_4, TAU};
 use schemars::JsonSchema;
@@ -94,8 +94,8 @@ impl Behaviour for Ready {
     }
 
     #[inline]
-    fn triggered(&self, memory: &mut Memory, senses: &Senses) -> Option<Wish> {
-        self.go_on(memory, senses).map(Wish::Motion)
+    fn triggered(&self, memory: &mut Memory, situation: &Situation) -> Option<Proposal> {
+        self.go_on(memory, situation).map(Proposal::Motion)
     }
 
     fn held(&self) -> Motion {
@@ -110,18 +110,18 @@ impl Behaviour for Ready {
 
 impl Ready {
     #[inline]
-    fn go_on(&self, memory: &mut Memory, senses: &Senses) -> Option<Motion> {
+    fn go_on(&self, memory: &mut Memory, situation: &Situation) -> Option<Motion> {
         match memory {
             Memory::Going { since_s } => {
                 let straight_s = f64::from(*since_s);
-                *since_s += senses.period_s();
-                let near_m = (self.turn_at_m + senses.stopping_m()).min(self.half_sight_m);
+                *since_s += situation.period_s();
+                let near_m = (self.turn_at_m + situation.stopping_m()).min(self.half_sight_m);
                 let is_stopped =
-                    senses.stands_ahead(near_m, straight_s) || senses.touches(straight_s);
-                is_stopped.then(|| self.turn(memory, senses))
+                    situation.stands_ahead(near_m, straight_s) || situation.touches(straight_s);
+                is_stopped.then(|| self.turn(memory, situation))
             }
             Memory::Turning(turn) => {
-                let motion = turn.go_on(senses);
+                let motion = turn.go_on(situation);
                 if motion.is_none() {
                     *memory = GOING;
                 }
@@ -130,21 +130,25 @@ impl Ready {
         }
     }
 
-    fn turn(&self, memory: &mut Memory, senses: &Senses) -> Motion {
-        let (turn, motion) = Turn::by(self.new_course_rad(senses), senses.body);
+    fn turn(&self, memory: &mut Memory, situation: &Situation) -> Motion {
+        let (turn, motion) = Turn::by(self.new_course_rad(situation), situation.body);
         *memory = Memory::Turning(turn);
         motion
     }
 
     /// The angle to a new course, from -pi to pi: that of a ray that is free for longer than it
     /// turns at, or else of the longest, and up to half way to the next ray.
-    fn new_course_rad(&self, senses: &Senses) -> f64 {
-        let mut dice = senses.dice();
-        let free_m = senses.body.radius_m + self.turn_at_m;
+    fn new_course_rad(&self, situation: &Situation) -> f64 {
+        let mut dice = situation.dice();
+        let free_m = situation.body.radius_m + self.turn_at_m;
         let is_free = |(_, _, range_m): &(&Ring, usize, f64)| *range_m > free_m;
-        let count = rays(senses).filter(is_free).fold(0, |count, _| count + 1);
-        let chosen = rays(senses).filter(is_free).nth(dice.below(count) as usize);
-        let longest = || rays(senses).max_by(|a, b| a.2.total_cmp(&b.2));
+        let count = rays(situation)
+            .filter(is_free)
+            .fold(0, |count, _| count + 1);
+        let chosen = rays(situation)
+            .filter(is_free)
+            .nth(dice.below(count) as usize);
+        let longest = || rays(situation).max_by(|a, b| a.2.total_cmp(&b.2));
         let angle_rad = match chosen.or_else(longest) {
             Some((ring, ray, _)) => ring.about_rad(ray, dice.between(-0.5, 0.5)),
             None => dice.between(LEAST_BLIND_RAD, TAU - LEAST_BLIND_RAD),
@@ -154,8 +158,8 @@ impl Ready {
 }
 
 /// Each ray of each fresh scan: its ring, its place there, and its range.
-fn rays<'s>(senses: &'s Senses) -> impl Iterator<Item = (&'s Ring, usize, f64)> {
-    senses.scans().flat_map(|(ring, ranges_m)| {
+fn rays<'s>(situation: &'s Situation) -> impl Iterator<Item = (&'s Ring, usize, f64)> {
+    situation.scans().flat_map(|(ring, ranges_m)| {
         let rays = 0..ranges_m.len();
         rays.map(move |ray| (ring, ray, ring.ray_m(ranges_m, ray)))
     })

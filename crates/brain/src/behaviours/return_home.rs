@@ -1,11 +1,11 @@
 //! Going home before the battery is empty.
 
-use crate::beliefs::Beliefs;
-use crate::body::Body;
-use crate::command::Motion;
-use crate::senses::Senses;
-use crate::subsumption::Behaviour;
-use crate::wish::{Aim, Wish};
+use crate::behaviours::behaviour::Behaviour;
+use crate::goals::proposal::{Destination, Proposal};
+use crate::io::body::Body;
+use crate::io::command::Motion;
+use crate::perception::beliefs::Beliefs;
+use crate::perception::situation::Situation;
 use alloc::boxed::Box;
 use base::geometry::Point;
 use schemars::JsonSchema;
@@ -53,7 +53,7 @@ const FULL: f64 = 0.95;
 #[derive(Debug, Clone)]
 pub(crate) struct Ready {
     spec: ReturnHome,
-    aim: Aim,
+    aim: Destination,
 }
 
 /// Where home is, once it knows, and if it is on its way there, the least that was left since.
@@ -63,7 +63,7 @@ impl Ready {
     pub(super) fn new(spec: &ReturnHome, body: &Body) -> Self {
         Self {
             spec: spec.clone(),
-            aim: Aim {
+            aim: Destination {
                 to: Point::default(),
                 within_m: spec.within_m,
                 speed_m_s: body.max_speed_m_s,
@@ -95,8 +95,8 @@ impl Behaviour for Ready {
         None
     }
 
-    fn triggered(&self, memory: &mut Memory, senses: &Senses) -> Option<Wish> {
-        let beliefs = senses.beliefs?;
+    fn triggered(&self, memory: &mut Memory, situation: &Situation) -> Option<Proposal> {
+        let beliefs = situation.beliefs?;
         let at = beliefs.pose()?.at;
         let begin = || Box::new((self.spec.at_m.unwrap_or(at), None));
         let (to, low) = &mut **memory.get_or_insert_with(begin);
@@ -106,7 +106,7 @@ impl Behaviour for Ready {
             if way_m <= self.spec.within_m {
                 Motion::default().into()
             } else {
-                Wish::Aim(Aim {
+                Proposal::Destination(Destination {
                     to: *to,
                     ..self.aim
                 })

@@ -1,13 +1,13 @@
 //! Searching in a spiral.
 
 use super::lawnmower::swath_m;
-use crate::body::Body;
-use crate::command::Motion;
+use crate::behaviours::behaviour::Behaviour;
 use crate::goals::Verdict;
-use crate::sector::direction;
-use crate::senses::Senses;
-use crate::subsumption::Behaviour;
-use crate::wish::{Aim, Wish};
+use crate::goals::proposal::{Destination, Proposal};
+use crate::io::body::Body;
+use crate::io::command::Motion;
+use crate::perception::sector::direction;
+use crate::perception::situation::Situation;
 use alloc::boxed::Box;
 use base::geometry::Point;
 use core::f64::consts::TAU;
@@ -52,7 +52,7 @@ impl Default for Spiral {
 pub(crate) struct Ready {
     around: Option<Point>,
     width_m: f64,
-    aim: Aim,
+    aim: Destination,
 }
 
 /// Its middle, and how far along the spiral it is, in metres; `None` before it begins.
@@ -66,7 +66,7 @@ impl Ready {
         Self {
             around: spec.around_m,
             width_m,
-            aim: Aim {
+            aim: Destination {
                 to: Point::default(),
                 within_m: width_m / 4.0,
                 speed_m_s: spec.speed_m_s.unwrap_or(body.max_speed_m_s),
@@ -84,8 +84,8 @@ impl Ready {
     }
 
     /// The next place within the field that is not here.
-    fn next(&self, (middle, along_m): &mut (Point, f64), senses: &Senses) -> Option<Point> {
-        let beliefs = senses.beliefs?;
+    fn next(&self, (middle, along_m): &mut (Point, f64), situation: &Situation) -> Option<Point> {
+        let beliefs = situation.beliefs?;
         let (at, field) = (beliefs.pose()?.at, &beliefs.map.as_ref()?.field);
         let size = field.size();
         for _ in 0..100_000 {
@@ -114,12 +114,12 @@ impl Behaviour for Ready {
         None
     }
 
-    fn triggered(&self, memory: &mut Memory, senses: &Senses) -> Option<Wish> {
-        let at = senses.beliefs?.pose()?.at;
+    fn triggered(&self, memory: &mut Memory, situation: &Situation) -> Option<Proposal> {
+        let at = situation.beliefs?.pose()?.at;
         let middle = self.around.unwrap_or(at);
         let spiral = memory.get_or_insert_with(|| Box::new((middle, 0.0)));
-        let to = self.next(spiral, senses)?;
-        Some(Wish::Aim(Aim { to, ..self.aim }))
+        let to = self.next(spiral, situation)?;
+        Some(Proposal::Destination(Destination { to, ..self.aim }))
     }
 
     fn judged(&self, memory: &mut Memory, verdict: Verdict) {

@@ -1,10 +1,10 @@
 //! What searches that follow beliefs have in common: where nobody has looked, and how far that is.
 
-use crate::beliefs::peers::Peer;
-use crate::beliefs::{Beliefs, Map};
-use crate::body::Body;
-use crate::way::path::Wave;
-use crate::wish::Aim;
+use crate::goals::proposal::Destination;
+use crate::io::body::Body;
+use crate::navigation::path::Wave;
+use crate::perception::beliefs::peers::Peer;
+use crate::perception::beliefs::{Beliefs, Map};
 use alloc::vec::Vec;
 use base::geometry::Point;
 
@@ -138,8 +138,8 @@ pub(crate) fn share(beliefs: &Beliefs, at: Point, place: Point, near_m: f64) -> 
 }
 
 /// How a search goes to a place.
-pub(crate) fn aim(speed_m_s: Option<f64>, value: f64, body: &Body) -> Aim {
-    Aim {
+pub(crate) fn aim(speed_m_s: Option<f64>, value: f64, body: &Body) -> Destination {
+    Destination {
         to: Point::default(),
         within_m: 0.3,
         speed_m_s: speed_m_s.unwrap_or(body.max_speed_m_s),

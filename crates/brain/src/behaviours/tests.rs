@@ -2,9 +2,9 @@
 
 use super::*;
 use crate::arbitration::Arbitration;
-use crate::beliefs::unseen::tests::detector;
-use crate::body::{Detector, RobotId};
 use crate::brain::Brain;
+use crate::io::body::{Detector, RobotId};
+use crate::perception::beliefs::coverage_map::tests::detector;
 use crate::spec::BrainSpec;
 use crate::world_of_walls::{Walk, Wiring, outline, room, rover};
 use base::geometry::{Point, Rectangle, Segment};

@@ -1,8 +1,8 @@
 //! A turn on the spot.
 
-use crate::body::Body;
-use crate::command::Motion;
-use crate::senses::Senses;
+use crate::io::body::Body;
+use crate::io::command::Motion;
+use crate::perception::situation::Situation;
 
 /// A turn that is done but for this is done.
 const DONE_RAD: f32 = 0.02;
@@ -35,13 +35,13 @@ impl Turn {
 
     /// How it goes on; `None` if it is done, or has lost patience.
     #[expect(clippy::cast_possible_truncation, reason = "kept short")]
-    pub(super) fn go_on(&mut self, senses: &Senses) -> Option<Motion> {
-        self.left_rad -= senses.turned_rad as f32;
-        if !senses.is_held() {
-            self.patience_s -= senses.period_s();
+    pub(super) fn go_on(&mut self, situation: &Situation) -> Option<Motion> {
+        self.left_rad -= situation.turned_rad as f32;
+        if !situation.is_held() {
+            self.patience_s -= situation.period_s();
         }
         let is_done = self.left_rad.abs() <= DONE_RAD || self.patience_s <= 0.0;
-        (!is_done).then(|| on_the_spot(f64::from(self.left_rad), senses.body))
+        (!is_done).then(|| on_the_spot(f64::from(self.left_rad), situation.body))
     }
 }
 

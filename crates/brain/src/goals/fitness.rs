@@ -1,6 +1,6 @@
 //! Whether a goal is being reached.
 
-use crate::wish::Aim;
+use crate::goals::proposal::Destination;
 use base::geometry::Point;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -92,7 +92,7 @@ impl Fitness {
     /// receding      not nearer for 4 s
     /// approaching   else
     /// ```
-    pub(crate) fn judge(&mut self, aim: &Aim, step: &Step) -> Verdict {
+    pub(crate) fn judge(&mut self, aim: &Destination, step: &Step) -> Verdict {
         if self.rests() {
             self.rests_s -= step.period_s;
             if !self.rests() {
@@ -115,7 +115,7 @@ impl Fitness {
     }
 
     /// Notes the way left.
-    fn note(&mut self, left_m: f64, aim: &Aim, step: &Step) {
+    fn note(&mut self, left_m: f64, aim: &Destination, step: &Step) {
         // Nobody goes so far in a step: the way that it knew is closed, or a shorter one was found.
         let most_m = aim.speed_m_s * step.period_s + NEARER_M;
         let is_another_way = (left_m - self.last_m).abs() > most_m;
@@ -134,7 +134,7 @@ impl Fitness {
 mod tests {
     use super::*;
 
-    const AIM: Aim = Aim {
+    const AIM: Destination = Destination {
         to: Point { x: 9.0, y: 0.0 },
         within_m: 0.5,
         speed_m_s: 1.0,

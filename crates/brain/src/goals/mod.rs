@@ -9,12 +9,13 @@
 //!   to wait for [ten seconds](fitness), in which other goals have their turn;
 //! * *approaching*: nothing is to be done;
 //! * *receding*: the behaviour is told; searches choose another place. What fills the way is looked over in
-//!   [each second](crate::way) anyhow.
+//!   [each second](crate::navigation::navigator) anyhow.
 
 pub(crate) mod fitness;
 pub(crate) mod precedence;
+pub(crate) mod proposal;
 
-use crate::wish::Aim;
+use crate::goals::proposal::Destination;
 use alloc::vec::Vec;
 use base::geometry::Point;
 pub use fitness::Verdict;
@@ -32,7 +33,7 @@ const SAME_M: f64 = 1.0;
 pub(crate) struct Goal {
     /// Place of the behaviour in the brain's list.
     pub(crate) behaviour: usize,
-    pub(crate) aim: Aim,
+    pub(crate) aim: Destination,
     pub(crate) precedence: f64,
     pub(crate) verdict: Verdict,
     pub(crate) fitness: Fitness,
@@ -86,7 +87,7 @@ impl Lead {
 
 impl Goals {
     /// Renews the goals from what behaviours aim at, given what is known of this step.
-    pub(crate) fn renew(&mut self, aims: impl Iterator<Item = (usize, Aim)>, step: &Step) {
+    pub(crate) fn renew(&mut self, aims: impl Iterator<Item = (usize, Destination)>, step: &Step) {
         let before = core::mem::take(&mut self.goals);
         self.goals.extend(aims.map(|(behaviour, aim)| {
             let mut known = before.iter();
@@ -159,8 +160,8 @@ impl Goals {
 mod tests {
     use super::*;
 
-    fn aim(x: f64, y: f64, value: f64) -> Aim {
-        Aim {
+    fn aim(x: f64, y: f64, value: f64) -> Destination {
+        Destination {
             to: Point { x, y },
             within_m: 0.5,
             speed_m_s: 1.0,
@@ -178,7 +179,7 @@ mod tests {
         }
     }
 
-    fn goals(aims: &[Aim], at: Point) -> Goals {
+    fn goals(aims: &[Destination], at: Point) -> Goals {
         let mut goals = Goals::default();
         goals.renew(aims.iter().copied().enumerate(), &step(at));
         goals
@@ -234,7 +235,7 @@ mod tests {
     }
 
     /// Two that conflict, and the way to the first is closed.
-    fn closed() -> ([Aim; 2], Goals) {
+    fn closed() -> ([Destination; 2], Goals) {
         let aims = [aim(10.0, 0.0, 5.0), aim(0.0, 5.0, 0.1)];
         let closed = Step {
             closed: Some(aims[0].to),

@@ -1,6 +1,6 @@
 //! How much a goal is worth going for now: its utility.
 
-use crate::wish::Aim;
+use crate::goals::proposal::Destination;
 
 /// What is so many seconds away is worth half of what is here.
 const HALF_S: f64 = 10.0;
@@ -17,7 +17,7 @@ const MARGIN: f64 = 1.5;
 ///
 /// The nearer and the likelier a goal is, the higher it stands; one that is worth nothing, or cannot
 /// be reached, comes last.
-pub(crate) fn precedence(aim: &Aim, time_s: f64, battery_s: f64) -> f64 {
+pub(crate) fn precedence(aim: &Destination, time_s: f64, battery_s: f64) -> f64 {
     let precedence = aim.value * likely(time_s, battery_s) / (1.0 + time_s / HALF_S);
     if precedence.is_finite() {
         precedence
@@ -38,7 +38,7 @@ pub(crate) fn likely(time_s: f64, battery_s: f64) -> f64 {
 }
 
 /// Time that a way takes.
-pub(crate) fn time_s(way_m: f64, aim: &Aim) -> f64 {
+pub(crate) fn time_s(way_m: f64, aim: &Destination) -> f64 {
     if way_m <= aim.within_m {
         0.0
     } else {
@@ -51,7 +51,7 @@ mod tests {
     use super::*;
     use base::geometry::Point;
 
-    const AIM: Aim = Aim {
+    const AIM: Destination = Destination {
         to: Point { x: 0.0, y: 0.0 },
         within_m: 0.5,
         speed_m_s: 2.0,
@@ -74,7 +74,7 @@ mod tests {
     #[test]
     fn nonsense_has_no_precedence() {
         assert!(precedence(&AIM, f64::NAN, 1.0) == 0.0);
-        let endless = Aim {
+        let endless = Destination {
             value: f64::INFINITY,
             ..AIM
         };

@@ -11,7 +11,7 @@ use base::geometry::{Point, Rectangle};
 use base::placement::Placement;
 use base::random::kind_key;
 use brain::behaviours::flock::{self, Sums};
-use brain::{Body, Brain, Detector, Dice, Motion, Other, RangeRing};
+use brain::{Body, Brain, Detector, Motion, Other, RandomWords, RangeRing};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -75,7 +75,7 @@ impl Flocking {
         &self,
         front: Point,
         sums: &Sums,
-        dice: impl FnOnce() -> Dice,
+        dice: impl FnOnce() -> RandomWords,
     ) -> f64 {
         let course = if self.sees_courses {
             sums.course

@@ -5,7 +5,7 @@ use crate::bodies::Layer;
 use crate::clock::seconds;
 use crate::scenario::Scenario;
 use base::geometry::Point;
-use brain::{BelievedMap, Motion, RobotId, Thoughts};
+use brain::{BeliefState, BelievedMap, Motion, RobotId};
 
 /// A robot of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -61,7 +61,7 @@ impl State {
     /// What a robot believes and wants; `None` if there is no such robot, or its brain has no
     /// beliefs.
     #[must_use]
-    pub fn thoughts(&self, id: RobotId) -> Option<Thoughts> {
+    pub fn thoughts(&self, id: RobotId) -> Option<BeliefState> {
         let robot = self.ids.binary_search(&id).ok()?;
         self.agents[robot].brain.thoughts()
     }

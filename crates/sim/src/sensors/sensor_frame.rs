@@ -21,7 +21,7 @@ pub(crate) enum NoisePurpose {
     /// Whether the return of a ray is lost or spurious.
     Echo = 4,
     /// The random words of a percept; not a sensor's.
-    Dice = 5,
+    RandomWords = 5,
     /// Whether a message is lost; not a sensor's.
     Radio = 6,
     /// The distance of a spurious return.

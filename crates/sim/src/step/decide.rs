@@ -165,7 +165,7 @@ impl WorkerScratch {
         percept.time_s = view.time_s();
         percept.id = view.ids[robot];
         percept.of_kind = view.kind(robot).count;
-        percept.dice = view.noises[robot].words(NoisePurpose::Dice as u32, beat, 0);
+        percept.dice = view.noises[robot].words(NoisePurpose::RandomWords as u32, beat, 0);
         percept.touch = now(body_state.is_pressed);
         percept.motion = now(Motion {
             speed_m_s: body_state.speed_m_s,

@@ -34,7 +34,7 @@ mod tests {
     use crate::simulation::Simulation;
     use base::document::Document;
     use base::geometry::Point;
-    use brain::{About, Message, RobotId, Seen};
+    use brain::{About, Message, Provenance, RobotId};
     use std::sync::Arc;
 
     const TWO: &str = "
@@ -64,7 +64,7 @@ radio = { range_m = 5 }
             about: About::Item {
                 kind: 0,
                 at: Point::default(),
-                seen: Seen::default(),
+                seen: Provenance::default(),
             },
             confidence: 1.0,
         };

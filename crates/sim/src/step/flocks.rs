@@ -14,7 +14,7 @@ use crate::scenario::Scenario;
 use crate::sensors::sensor_frame::NoisePurpose;
 use base::noise::Noise;
 use brain::behaviours::flock::Sums;
-use brain::{Dice, Motion};
+use brain::{Motion, RandomWords};
 use rayon::prelude::*;
 
 /// Robots per batch, where each one's data would otherwise be waited for.
@@ -109,8 +109,8 @@ fn compute_some(view: &View, flock: &Flock, first: usize, turn_rates: &mut [f64]
 }
 
 /// The random words of a brain that steps in each step.
-fn dice(noise: Noise, tick: u64) -> Dice {
-    Dice::new(noise.words(NoisePurpose::Dice as u32, tick, 0))
+fn dice(noise: Noise, tick: u64) -> RandomWords {
+    RandomWords::new(noise.words(NoisePurpose::RandomWords as u32, tick, 0))
 }
 
 impl Flocking {

@@ -11,7 +11,7 @@ use base::document::Document;
 use base::geometry::Point;
 use brain::{
     About, Body, Brain, BrainSpec, Command, Contact, Detector, Heard, Look, Message, Neighbour,
-    Percept, RangeRing, Reading, RobotId, Scan, Seen,
+    Percept, Provenance, RangeRing, Reading, RobotId, Scan,
 };
 use sim::scenario::ScenarioSpec;
 use sim::simulation::Simulation;
@@ -59,7 +59,7 @@ fn commands(messages: usize) -> BTreeMap<RobotId, Command> {
         about: About::Item {
             kind: 0,
             at: Point::default(),
-            seen: Seen::default(),
+            seen: Provenance::default(),
         },
         confidence: 0.5,
     };
@@ -160,7 +160,7 @@ fn throng(step: u32, rays: u32) -> Percept {
                 About::Item {
                     kind: 0,
                     at: place(number),
-                    seen: Seen {
+                    seen: Provenance {
                         by: id(number),
                         mark: number,
                         looks: step + 1,

@@ -4,7 +4,7 @@ use base::document::Document;
 use base::error::InputErrors;
 use base::geometry::Point;
 use base::random::{Entity, Purpose, Stream, stream, unit};
-use brain::{About, Command, Message, Motion, RobotId, Seen};
+use brain::{About, Command, Message, Motion, Provenance, RobotId};
 use sim::run::Robot;
 use sim::scenario::{Scenario, ScenarioSpec};
 use sim::simulation::Simulation;
@@ -73,7 +73,7 @@ pub(crate) fn message(number: f64) -> Message {
         about: About::Item {
             kind: 0,
             at,
-            seen: Seen::default(),
+            seen: Provenance::default(),
         },
         confidence: 0.5,
     }

@@ -4,7 +4,7 @@ use crate::common::{Random, id, read, robots, scenario, start};
 use crate::random;
 use base::engine::{BlockOptions, Runner};
 use base::geometry::Point;
-use brain::{About, Command, Message, Percept, RobotId, Seen};
+use brain::{About, Command, Message, Percept, Provenance, RobotId};
 use rayon::ThreadPoolBuilder;
 use sim::run::Outcome;
 use sim::runner::Runs;
@@ -47,7 +47,7 @@ pub(crate) fn commands(simulation: &Simulation, step: u32) -> BTreeMap<RobotId, 
                     about: About::Item {
                         kind: 0,
                         at: Point::default(),
-                        seen: Seen::default(),
+                        seen: Provenance::default(),
                     },
                     confidence: f64::from(number),
                 };

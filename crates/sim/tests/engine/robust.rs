@@ -4,7 +4,7 @@ use crate::common::{Random, motion, read, robots};
 use crate::random;
 use base::engine::{BlockOptions, ColumnKind, Runner};
 use base::geometry::Point;
-use brain::{About, Command, Message, Seen, SensorRequest};
+use brain::{About, Command, Message, Provenance, SensorRequest};
 use sim::run::{State, Status};
 use sim::runner::Runs;
 use sim::scenario::Scenario;
@@ -37,7 +37,7 @@ fn command(random: &mut Random) -> Command {
         0 => About::Item {
             kind: 3,
             at,
-            seen: Seen::default(),
+            seen: Provenance::default(),
         },
         _ => About::Sender {
             at,

@@ -4,7 +4,7 @@ use crate::rows::{Row, assert_published, assert_right, assert_wrong};
 use crate::setup::{circle, places, run, scenario, whole};
 use base::document::Value;
 use base::geometry::Point;
-use brain::{About, Command, Heard, Message, RobotId, Seen};
+use brain::{About, Command, Heard, Message, Provenance, RobotId};
 use std::collections::BTreeMap;
 
 const TEXT: &str = include_str!("../../../../docs/validation/radio.toml");
@@ -67,7 +67,7 @@ fn hello() -> Message {
     let about = About::Item {
         kind: 0,
         at: CALLER,
-        seen: Seen::default(),
+        seen: Provenance::default(),
     };
     Message {
         about,

@@ -1,0 +1,75 @@
+//! The map that a robot has in its mind, for whoever looks at it.
+
+use crate::perception::beliefs::Map;
+use alloc::vec::Vec;
+use base::geometry::Point;
+
+/// What a robot believes to fill its mission's field, and where it has not looked: cells row by row from
+/// the least corner.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BelievedMap {
+    /// Where the first cell's least corner is, in the world.
+    pub corner: Point,
+    /// Width of a cell.
+    pub cell_m: f64,
+    /// Cells in a row.
+    pub columns: usize,
+    /// How many rows there are.
+    pub rows: usize,
+    /// How likely each cell is filled, in percent; -1 where nothing says either.
+    pub occupancy: Vec<i8>,
+    /// How likely an item in each cell would not have been seen, in percent.
+    pub unseen: Vec<u8>,
+}
+
+impl BelievedMap {
+    pub(crate) fn of(map: &Map) -> Self {
+        Self {
+            corner: map.field.corner(),
+            cell_m: map.field.cell_m,
+            columns: map.field.columns,
+            rows: map.field.rows,
+            occupancy: map.filled.percent().collect(),
+            unseen: map.unseen.percent().collect(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::perception::beliefs::BeliefsSpec;
+    use crate::perception::beliefs::occupancy::Ray;
+    use base::geometry::{Rectangle, Segment};
+
+    #[test]
+    fn a_map_tells_of_each_cell_what_is_believed() {
+        let corner = Point { x: -2.0, y: 1.0 };
+        let area = Rectangle::spanned(corner, Point { x: 8.0, y: 6.0 });
+        let mut map = Map::new(&BeliefsSpec::default(), &area);
+        let way = Segment {
+            from: Point { x: 0.0, y: 3.1 },
+            to: Point { x: 5.0, y: 3.1 },
+        };
+        let ray = Ray {
+            way,
+            hit: Some(way.to),
+        };
+        (0..3).for_each(|_| {
+            map.filled.begin_scan();
+            map.filled.take_in(&map.field, &ray);
+        });
+        let told = BelievedMap::of(&map);
+        assert_eq!((told.corner, told.cell_m), (corner, 0.25));
+        assert_eq!(told.occupancy.len(), told.columns * told.rows);
+        let percent = |at| told.occupancy[map.field.cell(at).unwrap()];
+        // Three times four and minus one quarter nats.
+        assert_eq!(percent(way.to), 95);
+        assert_eq!(percent(Point { x: 3.0, y: 3.1 }), 32);
+        assert_eq!(percent(Point { x: 3.0, y: 5.1 }), -1);
+        for (cell, percent) in told.occupancy.iter().enumerate() {
+            assert_eq!(map.filled.is_filled(cell), *percent >= 73);
+        }
+        assert!(told.unseen.iter().all(|percent| *percent == 100));
+    }
+}

@@ -1,0 +1,8 @@
+//! The interface of a brain: what it receives, and what it returns.
+
+pub(crate) mod body;
+pub(crate) mod command;
+pub(crate) mod infinite;
+pub(crate) mod message;
+pub(crate) mod percept;
+pub(crate) mod random_words;

@@ -1,0 +1,566 @@
+use super::*;
+use crate::io::message::{About, Message};
+use crate::perception::beliefs::BeliefsSpec;
+use crate::perception::beliefs::coverage_map::Glance;
+use crate::perception::beliefs::coverage_map::tests::detector;
+use crate::perception::beliefs::trust::{Trust, TrustSpec};
+use base::geometry::Rectangle;
+use base::noise::normal_pair;
+use base::random::{Entity, Purpose, Stream, stream, unit};
+use core::f64::consts::TAU;
+use proptest::prelude::*;
+
+const ME: RobotId = RobotId { kind: 0, index: 0 };
+const PLACE: Point = Point { x: 3.0, y: 0.0 };
+
+/// Items and false contacts in a square metre.
+const PER_M2: f64 = 0.01;
+const FALSE_PER_M2: f64 = 0.02;
+
+/// Recognises 70% all around, as far as 5 m.
+fn eye() -> Detector {
+    Detector {
+        false_alarms_per_m2: vec![FALSE_PER_M2],
+        noise_m: 0.1,
+        ..detector(5.0, 7.0, 0.7)
+    }
+}
+
+fn pose(at: Point) -> Pose {
+    Pose {
+        at,
+        heading_rad: 0.0,
+        deviation_m: 0.0,
+        deviation_rad: 0.0,
+        age_s: 0.0,
+    }
+}
+
+fn contact(from: Point, at: Point) -> Contact {
+    let way = from.to(at);
+    Contact {
+        kind: 0,
+        sensor: 0,
+        range_m: way.length(),
+        bearing_rad: libm::atan2(way.y, way.x),
+        age_s: 0.0,
+    }
+}
+
+fn look(items: &mut Items, by: RobotId, from: Point, contacts: &[Contact]) {
+    look_with(items, by, from, (contacts, None));
+}
+
+fn look_with(
+    items: &mut Items,
+    by: RobotId,
+    from: Point,
+    (contacts, map): (&[Contact], Option<&Map>),
+) {
+    let look = OwnLook {
+        by,
+        detector: &eye(),
+        pose: pose(from),
+        per_m2: &[PER_M2],
+    };
+    items.look(&look, contacts.iter(), map);
+}
+
+fn hit(items: &mut Items, by: RobotId) {
+    look(
+        items,
+        by,
+        Point::default(),
+        &[contact(Point::default(), PLACE)],
+    );
+}
+
+fn miss(items: &mut Items, by: RobotId) {
+    look(items, by, Point::default(), &[]);
+}
+
+fn confidence(items: &Items, own: RobotId) -> f64 {
+    confidence_of(&items.tracks[0], own)
+}
+
+fn told(items: &mut Items) -> Vec<Report> {
+    let mut outbox = Vec::new();
+    trusting(ME, |ears| items.tell(ears, &mut outbox, 100));
+    let report = |message: Message| match message.about {
+        About::Item { kind, at, seen } => Some(Report {
+            kind,
+            at,
+            seen,
+            confidence: message.confidence,
+            from: seen.by,
+        }),
+        _ => None,
+    };
+    outbox.into_iter().filter_map(report).collect()
+}
+
+/// What one robot has come to after nine lies of another.
+fn distrust_of(liar: RobotId) -> (Trust, TrustSpec) {
+    let (mut trust, spec) = (Trust::default(), TrustSpec::default());
+    (0..9).for_each(|_| trust.learn(liar, false, &spec));
+    (trust, spec)
+}
+
+/// Who trusts everybody as one does at first.
+fn trusting<T>(own: RobotId, then: impl FnOnce(&Reception) -> T) -> T {
+    let (trust, spec) = (&Trust::default(), &TrustSpec::default());
+    then(&Reception { own, trust, spec })
+}
+
+fn hear(items: &mut Items, own: RobotId, report: &Report) {
+    trusting(own, |ears| items.hear(ears, report, 0.01, &[PER_M2]));
+}
+
+fn robot(index: u32) -> RobotId {
+    RobotId { kind: 0, index }
+}
+
+fn report(by: u32, confidence: f64) -> Report {
+    Report {
+        kind: 0,
+        at: PLACE,
+        seen: Provenance {
+            by: robot(by),
+            mark: 1,
+            looks: 1,
+        },
+        confidence,
+        from: robot(by),
+    }
+}
+
+fn random(run: u64) -> Stream {
+    stream(3, run, Entity { kind: 0, index: 0 }, Purpose::Item)
+}
+
+#[test]
+fn a_contact_counts_as_bayes_says() {
+    let mut items = Items::default();
+    hit(&mut items, ME);
+    // Of contacts at one place, 0.7 x 0.01 a square metre are items, and 0.02 are not.
+    let odds = 0.7 * PER_M2 / FALSE_PER_M2 / (1.0 - TAU * 0.01 * PER_M2);
+    assert!((confidence(&items, ME) - odds / (1.0 + odds)).abs() < 1e-9);
+    hit(&mut items, ME);
+    // A second one at the same place: both err by 0.1 along each axis.
+    let odds = odds * 0.7 / (TAU * 0.02 * FALSE_PER_M2);
+    assert!((confidence(&items, ME) - odds / (1.0 + odds)).abs() < 1e-9);
+    miss(&mut items, ME);
+    let odds = odds * 0.3;
+    assert!((confidence(&items, ME) - odds / (1.0 + odds)).abs() < 1e-9);
+    assert_eq!(items.tracks.len(), 1);
+}
+
+#[test]
+fn what_is_seen_again_and_again_without_false_contacts_is_there_however_rare_it_is() {
+    let sure = Detector {
+        false_alarms_per_m2: vec![0.0],
+        ..eye()
+    };
+    let look = OwnLook {
+        by: ME,
+        detector: &sure,
+        pose: pose(Point::default()),
+        per_m2: &[1e-7],
+    };
+    let mut items = Items::default();
+    (0..5).for_each(|_| items.look(&look, [contact(Point::default(), PLACE)].iter(), None));
+    assert!(confidence(&items, ME) > 0.99, "{}", confidence(&items, ME));
+}
+
+#[test]
+fn a_contact_raises_confidence_and_a_miss_lowers_it() {
+    let mut items = Items::default();
+    let mut before = 0.0;
+    for _ in 0..4 {
+        hit(&mut items, ME);
+        assert!(confidence(&items, ME) > before);
+        before = confidence(&items, ME);
+    }
+    for _ in 0..15 {
+        miss(&mut items, ME);
+        assert!(confidence(&items, ME) < before);
+        before = confidence(&items, ME);
+    }
+    assert!(before < 0.1);
+}
+
+#[test]
+fn what_was_out_of_view_was_not_missed() {
+    let mut items = Items::default();
+    hit(&mut items, ME);
+    let before = confidence(&items, ME);
+    look(&mut items, ME, Point { x: -3.0, y: 0.0 }, &[]);
+    assert!((confidence(&items, ME) - before).abs() < 1e-12);
+}
+
+#[test]
+fn a_report_counts_as_much_as_its_sender_is_trusted() {
+    let mut items = Items::default();
+    hear(&mut items, ME, &report(1, 0.8));
+    let before = TAU * 0.01 * PER_M2;
+    assert!((confidence(&items, ME) - (0.9 * 0.8 + 0.1 * before)).abs() < 1e-9);
+}
+
+#[test]
+fn a_report_of_anothers_looks_counts_as_both_are_trusted() {
+    let mut items = Items::default();
+    let relayed = Report {
+        from: robot(2),
+        ..report(1, 0.8)
+    };
+    hear(&mut items, ME, &relayed);
+    let before = TAU * 0.01 * PER_M2;
+    assert!((confidence(&items, ME) - (0.81 * 0.8 + 0.19 * before)).abs() < 1e-9);
+    hear(&mut items, ME, &report(1, 0.8));
+    assert!((confidence(&items, ME) - (0.9 * 0.8 + 0.1 * before)).abs() < 1e-9);
+}
+
+#[test]
+fn whomever_one_names_he_is_believed_no_more_than_he_is_trusted() {
+    let mut items = Items::default();
+    for by in 1..6 {
+        let from = robot(7);
+        hear(
+            &mut items,
+            ME,
+            &Report {
+                from,
+                ..report(by, 0.99)
+            },
+        );
+    }
+    assert!(items.tracks[0].count == 5 && confidence(&items, ME) < 0.901);
+}
+
+#[test]
+fn what_one_says_himself_holds_against_what_others_say_of_him() {
+    let mut items = Items::default();
+    let more = |from: u32| Report {
+        from: robot(from),
+        seen: Provenance {
+            looks: 9,
+            ..report(1, 0.5).seen
+        },
+        ..report(1, 1e-3)
+    };
+    let (trust, spec) = distrust_of(robot(7));
+    let ears = Reception {
+        own: ME,
+        trust: &trust,
+        spec: &spec,
+    };
+    let mut hear = |report: &Report| {
+        items.hear(&ears, report, 0.01, &[PER_M2]);
+        items.tracks[0].confidence(&ears)
+    };
+    let told = hear(&report(1, 0.9));
+    assert!((hear(&more(7)) - told).abs() < 1e-12, "a liar is not heard");
+    assert!(hear(&more(2)) < 0.1, "one who is trusted knows more");
+    assert!(
+        (hear(&report(1, 0.9)) - told).abs() < 1e-12,
+        "it says so again"
+    );
+}
+
+#[test]
+fn who_is_not_trusted_is_not_passed_on() {
+    let mut items = Items::default();
+    let (trust, spec) = distrust_of(robot(7));
+    let ears = Reception {
+        own: ME,
+        trust: &trust,
+        spec: &spec,
+    };
+    for (mark, from, by) in [(1, 7, 1), (2, 1, 7), (3, 1, 2)] {
+        let seen = Provenance {
+            mark,
+            ..report(by, 0.9).seen
+        };
+        let told = Report {
+            from: robot(from),
+            seen,
+            ..report(by, 0.9)
+        };
+        items.hear(&ears, &told, 0.01, &[PER_M2]);
+    }
+    let mut outbox = Vec::new();
+    items.tell(&ears, &mut outbox, 100);
+    let is_of_2 = |message: &Message| matches!(message.about, About::Item { seen, .. } if seen.by == robot(2));
+    assert!(
+        outbox.len() == 1 && outbox.iter().all(is_of_2),
+        "{outbox:?}"
+    );
+}
+
+#[test]
+fn of_two_robots_that_contradict_each_other_neither_has_it_all_his_way() {
+    let mut items = Items::default();
+    hear(&mut items, ME, &report(1, 0.9));
+    let alone = confidence(&items, ME);
+    hear(&mut items, ME, &report(2, 1e-4));
+    let both = confidence(&items, ME);
+    assert!(both < alone && both > 0.01, "{alone} {both}");
+    hear(&mut items, ME, &report(3, 0.9));
+    assert!(confidence(&items, ME) > both);
+}
+
+#[test]
+fn own_looks_that_others_tell_of_change_nothing() {
+    let (mut mine, mut theirs) = (Items::default(), Items::default());
+    hit(&mut mine, ME);
+    for report in told(&mut mine) {
+        hear(&mut theirs, robot(1), &report);
+    }
+    let before = mine.clone().tracks;
+    for report in told(&mut theirs) {
+        hear(&mut mine, ME, &report);
+    }
+    assert_eq!(mine.tracks, before);
+}
+
+#[test]
+fn what_a_crowd_tells_of_one_item_ends_and_leaves_own_looks_alone() {
+    let mut items = Items::default();
+    hit(&mut items, ME);
+    let reports: Vec<Report> = (1..20)
+        .map(|by| report(by, 0.3 + 0.03 * f64::from(by)))
+        .collect();
+    for _ in 0..10 {
+        for report in &reports {
+            hear(&mut items, ME, report);
+        }
+    }
+    assert!(items.tracks.len() == 1 && items.tracks[0].has_looked(ME));
+    told(&mut items);
+    for _ in 0..10 {
+        for report in &reports {
+            hear(&mut items, ME, report);
+        }
+        assert!(told(&mut items).is_empty());
+    }
+}
+
+#[test]
+fn who_comes_into_reach_later_hears_of_all_items_in_time() {
+    let (mut items, mut later) = (Items::default(), Items::default());
+    for number in 0..20 {
+        let at = Point {
+            x: f64::from(number),
+            y: 0.0,
+        };
+        look(&mut items, ME, at, &[contact(at, at)]);
+        told(&mut items);
+    }
+    for _ in 0..20 {
+        assert!(told(&mut items).is_empty());
+        items.tell_again();
+        for report in told(&mut items) {
+            hear(&mut later, robot(1), &report);
+        }
+    }
+    assert_eq!(later.tracks.len(), 20);
+}
+
+#[test]
+fn a_thousand_contacts_take_bounded_memory() {
+    let (mut items, mut random) = (Items::default(), random(1));
+    for number in 0..1000 {
+        let at = Point {
+            x: 200.0 * unit(&mut random),
+            y: 200.0 * unit(&mut random),
+        };
+        look(
+            &mut items,
+            ME,
+            at,
+            &[contact(at, at), contact(at, at.plus(PLACE))],
+        );
+        hear(
+            &mut items,
+            ME,
+            &Report {
+                at,
+                ..report(number, 0.4)
+            },
+        );
+    }
+    assert_eq!(items.tracks.len(), MOST);
+    let mut outbox = Vec::new();
+    trusting(ME, |ears| items.tell(ears, &mut outbox, 2));
+    assert_eq!(outbox.len(), 2);
+}
+
+/// Three robots look at an item and gossip: in each step one of them looks, tells, or hears any message
+/// that any of them ever sent. Returns them, and the last that each told of its own looks.
+fn gossip(seed: u64, steps: u32) -> (Vec<Items>, Vec<Report>) {
+    let mut random = random(seed);
+    let mut team = vec![Items::default(); 3];
+    let mut air: Vec<Report> = Vec::new();
+    for (items, by) in team.iter_mut().zip(0..) {
+        hit(items, robot(by));
+    }
+    for _ in 0..steps {
+        let by = random.bounded(3);
+        let items = &mut team[by as usize];
+        match random.bounded(6) {
+            0 => hit(items, robot(by)),
+            1 => miss(items, robot(by)),
+            2 => {
+                let from = robot(by);
+                let told = told(items).into_iter();
+                air.extend(told.map(|report| Report { from, ..report }));
+            }
+            _ if air.is_empty() => {}
+            _ => {
+                let any = random.bounded(u32::try_from(air.len()).unwrap()) as usize;
+                hear(items, robot(by), &air[any]);
+            }
+        }
+    }
+    let last = |by: u32| {
+        let is_own = |report: &&Report| [report.seen.by, report.from] == [robot(by); 2];
+        let own = air.iter().filter(is_own);
+        own.max_by_key(|report| report.seen.looks).copied()
+    };
+    (team, (0..3).filter_map(last).collect())
+}
+
+proptest! {
+    #[test]
+    fn however_often_and_over_whomever_a_look_is_told_of_it_counts_once(
+        seed: u64, steps in 1_u32..300,
+    ) {
+        let (mut team, last) = gossip(seed, steps);
+        for (items, own) in team.iter_mut().zip((0..).map(robot)) {
+            for report in &last {
+                hear(items, own, report);
+            }
+            prop_assert_eq!(items.tracks.len(), 1);
+            let track = &items.tracks[0];
+            let looks = &track.sources[track.place_by(own)];
+            let reports = last.iter().filter(|report| report.seen.by != own);
+            let said = reports.map(|report| {
+                let before = track.sources[track.place_by(report.seen.by)].before;
+                log_odds(0.9 * report.confidence + 0.1 * probability(before)) - before
+            });
+            let expected = probability(track.before + looks.odds + said.sum::<f64>());
+            prop_assert!((confidence(items, own) - expected).abs() < 1e-6, "{}", expected);
+        }
+    }
+}
+
+/// A number of the Poisson distribution (Knuth, *Seminumerical algorithms*, 3.4.1).
+fn poisson(mean: f64, random: &mut Stream) -> u32 {
+    let (least, mut product, mut number) = (libm::exp(-mean), unit(random), 0);
+    while product > least {
+        product *= unit(random);
+        number += 1;
+    }
+    number
+}
+
+/// A look at a world as the detector is said to be.
+fn honest_look(
+    (items, map): (&mut Items, &mut Map),
+    world: &[Point],
+    from: Point,
+    random: &mut Stream,
+) {
+    let eye = eye();
+    let mut contacts = Vec::new();
+    for at in world {
+        let [x, y] = normal_pair([random.next_u32(), random.next_u32()]).map(|z| z * eye.noise_m);
+        if from.to(*at).length() <= eye.range_m && unit(random) < 0.7 {
+            contacts.push(contact(from, at.plus(Point { x, y })));
+        }
+    }
+    for _ in 0..poisson(FALSE_PER_M2 * PI * eye.range_m * eye.range_m, random) {
+        let away_m = eye.range_m * libm::sqrt(unit(random));
+        let at = from.plus(direction(TAU * unit(random)).times(away_m));
+        contacts.push(contact(from, at));
+    }
+    look_with(items, ME, from, (&contacts, Some(map)));
+    let glance = Glance {
+        detector: &eye,
+        at: from,
+        heading_rad: 0.0,
+        trust: 1.0,
+        looks: 1.0,
+        blur_m: 0.0,
+    };
+    map.unseen.take_in(&map.field, &map.filled, &glance);
+}
+
+/// From -8 to 8 both ways, in cells of half a metre.
+fn field() -> Map {
+    let corners = [Point { x: -8.0, y: -8.0 }, Point { x: 8.0, y: 8.0 }];
+    let spec = BeliefsSpec {
+        cell_m: 0.5,
+        ..BeliefsSpec::default()
+    };
+    Map::new(&spec, &Rectangle::spanned(corners[0], corners[1]))
+}
+
+/// Confidences after some looks at many worlds, each with whether an item is there.
+fn believed(worlds: u64) -> Vec<(f64, bool)> {
+    let mut all = Vec::new();
+    for number in 0..worlds {
+        let mut random = random(number);
+        let count = poisson(PER_M2 * 256.0, &mut random);
+        let mut anywhere = |half_m: f64| Point {
+            x: half_m * (2.0 * unit(&mut random) - 1.0),
+            y: half_m * (2.0 * unit(&mut random) - 1.0),
+        };
+        let world: Vec<Point> = (0..count).map(|_| anywhere(8.0)).collect();
+        let stands: Vec<Point> = (0..=number % 5).map(|_| anywhere(2.0)).collect();
+        let (mut items, mut map) = (Items::default(), field());
+        for from in stands {
+            honest_look((&mut items, &mut map), &world, from, &mut random);
+        }
+        all.extend(items.tracks.iter().map(|track| {
+            let is_there = world.iter().any(|at| at.to(track.at).length() < 0.35);
+            (confidence_of(track, ME), is_there)
+        }));
+    }
+    all
+}
+
+fn confidence_of(track: &Track, own: RobotId) -> f64 {
+    trusting(own, |ears| track.confidence(ears))
+}
+
+#[test]
+fn of_what_is_believed_with_a_confidence_that_share_is_there() {
+    let believed = believed(4000);
+    for tenth in 0..10 {
+        let low = 0.1 * f64::from(tenth);
+        let within = |confidence: f64| (low..low + 0.1).contains(&confidence);
+        let bin = believed
+            .iter()
+            .filter(|(confidence, _)| within(*confidence));
+        let expected: f64 = bin.clone().map(|(confidence, _)| confidence).sum();
+        let variance: f64 = bin.clone().map(|(c, _)| c * (1.0 - c)).sum();
+        let there: f64 = bin
+            .map(|(_, is_there)| f64::from(u8::from(*is_there)))
+            .sum();
+        // 99% of all times.
+        let most = 2.58 * libm::sqrt(variance);
+        assert!(variance > 1.0, "{low:.1}: too few to tell");
+        assert!(
+            (there - expected).abs() < most,
+            "{low:.1}: {there} {expected}"
+        );
+    }
+}
+
+impl Track {
+    fn place_by(&self, own: RobotId) -> usize {
+        let mut sources = self.sources[..self.count].iter();
+        sources.position(|source| source.seen.by == own).unwrap()
+    }
+}

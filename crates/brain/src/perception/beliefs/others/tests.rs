@@ -1,0 +1,179 @@
+use super::*;
+use crate::io::body::Other;
+use crate::io::body::RobotId;
+use crate::perception::beliefs::Beliefs;
+use crate::perception::beliefs::BeliefsSpec;
+use crate::world_of_walls::rover;
+use base::trig::wrapped;
+use proptest::prelude::*;
+
+const OTHER: RobotId = RobotId { kind: 0, index: 7 };
+
+fn neighbour(id: RobotId, at: Point) -> Neighbour {
+    Neighbour {
+        course_rad: None,
+        range_m: at.length(),
+        bearing_rad: libm::atan2(at.y, at.x),
+        age_s: 0.0,
+        id,
+    }
+}
+
+fn percept(neighbours: Vec<Neighbour>) -> Percept {
+    Percept {
+        neighbours,
+        ..Percept::default()
+    }
+}
+
+/// Looks once, standing.
+fn seen(others: &mut Others, neighbours: Vec<Neighbour>) {
+    others.take_in(&percept(neighbours), &rover(), Point::default(), 0.0);
+}
+
+/// What a robot that goes and turns believes of another that goes straight on, after some steps in each
+/// of which it sees exactly where he is; and his true velocity from its front then.
+fn followed([speed, rate]: [f64; 2], velocity: Point, steps: u32) -> (Mover, Point) {
+    let mut others = Others::default();
+    let (mut at, mut heading_rad) = (Point::default(), 0.3);
+    let mut other = Point { x: 3.0, y: -1.0 };
+    let turned_rad = rate * 0.1;
+    let own_way = direction(turned_rad / 2.0).times(speed * 0.1);
+    for step in 0..steps {
+        if step > 0 {
+            at = at.plus(turned(own_way, direction(heading_rad)));
+            heading_rad = wrapped(heading_rad + turned_rad);
+            other = other.plus(velocity.times(0.1));
+        }
+        let seen = turned(at.to(other), direction(-heading_rad));
+        let way = if step > 0 { own_way } else { Point::default() };
+        let percept = percept(vec![neighbour(OTHER, seen)]);
+        others.take_in(
+            &percept,
+            &rover(),
+            way,
+            if step > 0 { turned_rad } else { 0.0 },
+        );
+    }
+    (others.movers[0], turned(velocity, direction(-heading_rad)))
+}
+
+proptest! {
+    #[test]
+    fn two_exact_looks_tell_how_another_moves_however_one_moves_oneself(
+        own in [-1.0_f64..1.0, -1.5_f64..1.5], vx in -2.0_f64..2.0, vy in -2.0_f64..2.0,
+        steps in 2_u32..20,
+    ) {
+        let (mover, velocity) = followed(own, Point { x: vx, y: vy }, steps);
+        prop_assert!(mover.velocity_m_s.to(velocity).length() < 1e-6, "{mover:?} {velocity:?}");
+        prop_assert_eq!(mover.looks, steps);
+    }
+}
+
+#[test]
+fn after_one_look_nobody_knows_how_another_moves() {
+    let (mover, _) = followed([1.0, 0.5], Point { x: 1.0, y: 0.0 }, 1);
+    assert!(mover.speed_m_s() < 1e-12 && mover.looks == 1);
+}
+
+#[test]
+fn who_is_out_of_sight_goes_on_in_mind_for_a_second() {
+    let mut others = Others::default();
+    for x in [2.0, 2.1] {
+        seen(&mut others, vec![neighbour(OTHER, Point { x, y: 0.0 })]);
+    }
+    for _ in 0..9 {
+        seen(&mut others, Vec::new());
+    }
+    assert!((others.movers[0].at.x - 3.0).abs() < 1e-9);
+    seen(&mut others, Vec::new());
+    seen(&mut others, Vec::new());
+    assert!(others.movers.is_empty());
+}
+
+#[test]
+fn a_late_look_is_carried_on() {
+    let mut others = Others::default();
+    for step in 0..4 {
+        let late = Neighbour {
+            age_s: 0.05,
+            ..neighbour(
+                OTHER,
+                Point {
+                    x: 2.0 + 0.1 * f64::from(step),
+                    y: 0.0,
+                },
+            )
+        };
+        seen(&mut others, vec![late]);
+    }
+    let mover = others.movers[0];
+    assert!((mover.velocity_m_s.x - 1.0).abs() < 1e-9 && (mover.at.x - 2.35).abs() < 1e-9);
+}
+
+#[test]
+fn nonsense_and_who_flies_above_is_in_nobodys_way() {
+    let mut body = rover();
+    body.others = vec![Other::default()];
+    let near = neighbour(OTHER, Point { x: 1.0, y: 0.0 });
+    let mut others = Others::default();
+    others.take_in(&percept(vec![near]), &body, Point::default(), 0.0);
+    for bad in [f64::NAN, f64::INFINITY, -1.0] {
+        let off = [
+            Neighbour {
+                range_m: bad,
+                ..near
+            },
+            Neighbour {
+                bearing_rad: 11.0 * bad,
+                course_rad: None,
+                ..near
+            },
+            Neighbour { age_s: bad, ..near },
+        ];
+        seen(&mut others, off.into());
+    }
+    assert!(others.movers.is_empty());
+}
+
+#[test]
+fn of_a_crowd_those_are_kept_that_it_could_soonest_run_into() {
+    let mut others = Others::default();
+    let robot = |index| RobotId { kind: 0, index };
+    let step = |number: u32| {
+        let place = |index: u32| direction(f64::from(index)).times(1.0 + 0.02 * f64::from(index));
+        let still = (0..20).map(|index| neighbour(robot(index), place(index)));
+        let x = 4.0 - 0.3 * f64::from(number);
+        let rushing = neighbour(robot(99), Point { x, y: 0.0 });
+        still.chain([rushing]).collect::<Vec<_>>()
+    };
+    // Alone at first, so that it is known how he goes.
+    seen(&mut others, step(0).split_off(20));
+    (1..4).for_each(|number| seen(&mut others, step(number)));
+    let ids: Vec<RobotId> = others.movers.iter().filter_map(|mover| mover.id).collect();
+    assert_eq!(ids.len(), MOST);
+    assert!(ids.contains(&robot(99)) && ids.contains(&robot(0)) && !ids.contains(&robot(19)));
+}
+
+#[test]
+fn who_has_another_number_is_the_same_and_who_is_gone_is_forgotten() {
+    let body = rover();
+    let mut beliefs = Beliefs::new(&BeliefsSpec::default(), &body);
+    let robot = |index| RobotId { kind: 0, index };
+    let both = |first| {
+        let place = |y| Point { x: 2.0, y };
+        percept(vec![
+            neighbour(robot(first), place(0.0)),
+            neighbour(robot(5), place(1.0)),
+        ])
+    };
+    beliefs.take_in(&both(3), &body, &[], [0.0, 0.0]);
+    beliefs.renumber(&|id: RobotId| (id.index == 3).then_some(robot(1)));
+    let movers = &beliefs.others.movers;
+    assert_eq!(
+        movers.iter().map(|mover| mover.id).collect::<Vec<_>>(),
+        [Some(robot(1))]
+    );
+    beliefs.take_in(&both(1), &body, &[], [0.0, 0.0]);
+    assert_eq!(beliefs.others.movers[0].looks, 2);
+}

@@ -1,0 +1,435 @@
+//! What the rays of a ring leave free.
+//!
+//! Between two neighbouring rays nothing was measured. So what counts as free is the polygon through
+//! the ends of the rays: a flat wall that two of them meet is exactly its side, and where nothing
+//! came back it ends where the sensor does. An obstacle thinner than the gap may be inside.
+
+use crate::io::body::RangeRing;
+use crate::io::percept::Scan;
+use crate::perception::sector::{Sector, direction};
+use alloc::vec::Vec;
+use base::geometry::{Point, Segment};
+use base::trig::{sin_cos, wrapped};
+use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
+
+/// Rays farther from each other than this are no neighbours: an eighth of a turn, and a bit.
+const NEIGHBOURS_RAD: f64 = FRAC_PI_4 + 1e-9;
+
+/// A ring looks where it has a ray this near.
+const LOOKS_RAD: f64 = FRAC_PI_4 + 1e-9;
+
+/// A scan is forgotten when so many should have come since.
+const FRESH_SCANS: f64 = 3.0;
+
+/// A range ring, with what can be said of it once for all.
+#[derive(Debug, Clone)]
+pub(crate) struct Ring {
+    range_m: f64,
+    latency_s: f64,
+    fresh_s: f64,
+    bearings_rad: Vec<f64>,
+    directions: Vec<Point>,
+    /// Between the two nearest rays.
+    gap_rad: f64,
+    chords: Vec<Chord>,
+    /// No chord is nearer than this share of the shortest ray.
+    nearest_share: f64,
+    /// So many of the first chords are all that can lie ahead.
+    ahead: usize,
+    /// The way straight ahead.
+    lane: Sector,
+    /// Whether it has rays about its front, and about its back.
+    pub(crate) looks_ahead: bool,
+    pub(crate) looks_behind: bool,
+}
+
+/// Two neighbouring rays, or twice the same if it has no neighbours on one side.
+#[derive(Debug, Clone, Copy)]
+struct Chord {
+    rays: [usize; 2],
+    directions: [Point; 2],
+    /// A chord between rays of at least some length is nowhere nearer than this share of it.
+    nearest_share: f64,
+    /// Where both rays are longer than this, the whole chord is beside the way straight ahead.
+    beside_m: [f64; 2],
+    /// Of the ray nearest to the front.
+    off_front_rad: f64,
+    gap_rad: f64,
+}
+
+/// One ray of a ring.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Ray {
+    /// From the robot's front.
+    pub(crate) bearing_rad: f64,
+    /// The same, of length 1.
+    pub(crate) direction: Point,
+    /// Where it ends.
+    pub(crate) range_m: f64,
+}
+
+impl Ray {
+    #[cfg(test)]
+    pub(crate) fn new(bearing_rad: f64, range_m: f64) -> Self {
+        Self {
+            bearing_rad,
+            direction: direction(bearing_rad),
+            range_m,
+        }
+    }
+
+    /// Where it ends, from the robot's front.
+    #[inline]
+    pub(crate) fn end(&self) -> Point {
+        self.direction.times(self.range_m)
+    }
+}
+
+/// How far each ray and its neighbours on both sides go.
+///
+/// A ray that passes a wall at a small angle goes through cells that the wall fills in part, of which
+/// the ray beside it says so.
+pub(crate) fn frees_m(ranges_m: &[f64]) -> impl Iterator<Item = f64> {
+    let at = |ray: usize| ranges_m.get(ray).copied().unwrap_or(f64::INFINITY);
+    (0..ranges_m.len()).map(move |ray| {
+        let before_m = ray.checked_sub(1).map_or(f64::INFINITY, at);
+        at(ray).min(before_m).min(at(ray + 1))
+    })
+}
+
+impl Ring {
+    /// On a body of this half width, with a brain of this period.
+    pub(crate) fn new(ring: &RangeRing, half_width_m: f64, period_s: f64) -> Self {
+        let mut chords = chords(&ring.bearings_rad);
+        for chord in &mut chords {
+            chord.beside_m = chord.beside_m(half_width_m, ring.range_m);
+        }
+        chords.sort_by(|a, b| a.off_front_rad.total_cmp(&b.off_front_rad));
+        let looks = |towards_rad: f64| {
+            let off = |bearing: &f64| wrapped(bearing - towards_rad).abs();
+            ring.bearings_rad
+                .iter()
+                .any(|bearing| off(bearing) <= LOOKS_RAD)
+        };
+        Self {
+            range_m: ring.range_m,
+            latency_s: ring.latency_s.max(0.0),
+            fresh_s: ring.latency_s + FRESH_SCANS * ring.period_s + period_s,
+            bearings_rad: ring.bearings_rad.clone(),
+            directions: ring.bearings_rad.iter().copied().map(direction).collect(),
+            gap_rad: chords
+                .iter()
+                .map(|chord| chord.gap_rad)
+                .fold(LOOKS_RAD, f64::min),
+            ahead: chords.partition_point(|chord| chord.off_front_rad < FRAC_PI_2),
+            nearest_share: chords
+                .iter()
+                .map(|chord| chord.nearest_share)
+                .fold(1.0, f64::min),
+            chords,
+            lane: Sector::new(0.0, 0.0, half_width_m),
+            looks_ahead: looks(0.0),
+            looks_behind: looks(PI),
+        }
+    }
+
+    /// Age of the scan, and its ranges, if it is whole and not too old.
+    #[inline]
+    pub(crate) fn fresh<'p>(&self, scan: Option<&'p Scan>) -> Option<(f64, &'p [f64])> {
+        let scan = scan?;
+        let age_s = scan.age_s.filter(|age_s| *age_s >= 0.0)?;
+        let age_s = age_s.max(self.latency_s);
+        let is_whole = scan.ranges_m.len() == self.bearings_rad.len();
+        (is_whole && age_s <= self.fresh_s).then_some((age_s, &scan.ranges_m))
+    }
+
+    /// All rays, at most as long as the sensor sees.
+    #[inline]
+    pub(crate) fn rays(&self, ranges_m: &[f64]) -> impl Iterator<Item = Ray> {
+        let bearings = self.bearings_rad.iter().zip(&self.directions);
+        let rays = bearings.zip(ranges_m);
+        rays.map(|((bearing_rad, direction), range_m)| Ray {
+            bearing_rad: *bearing_rad,
+            direction: *direction,
+            range_m: lesser(sensible_m(*range_m), self.range_m),
+        })
+    }
+
+    /// Whether the first ray is the neighbour of the last.
+    pub(crate) fn is_round(&self) -> bool {
+        let ends = self.bearings_rad.first().zip(self.bearings_rad.last());
+        ends.is_some_and(|(first, last)| wrapped(first - last).abs() <= 1.5 * self.gap_rad)
+    }
+
+    /// Time from a scan until the brain has it.
+    pub(crate) fn latency_s(&self) -> f64 {
+        self.latency_s
+    }
+
+    /// Nothing farther is seen.
+    pub(crate) fn range_m(&self) -> f64 {
+        self.range_m
+    }
+
+    /// A ray's range, at most what the sensor sees.
+    #[inline]
+    pub(crate) fn ray_m(&self, ranges_m: &[f64], ray: usize) -> f64 {
+        let measured_m = ranges_m.get(ray).copied().unwrap_or_default();
+        lesser(sensible_m(measured_m), self.range_m)
+    }
+
+    /// A bearing off a ray, by a share of the angle to the next.
+    pub(crate) fn about_rad(&self, ray: usize, share: f64) -> f64 {
+        let bearing_rad = self.bearings_rad.get(ray).copied().unwrap_or_default();
+        bearing_rad + share * self.gap_rad
+    }
+
+    /// Distance from the robot's centre to the nearest that it sees, and maybe less.
+    #[inline]
+    pub(crate) fn nearest_m(&self, ranges_m: &[f64]) -> f64 {
+        let nearest_m = ranges_m.iter().fold(self.range_m, |nearest_m, range_m| {
+            lesser(sensible_m(*range_m), nearest_m)
+        });
+        nearest_m * self.nearest_share
+    }
+
+    /// Distance from the robot's centre to what is not known to be free, straight ahead.
+    ///
+    /// It is asked at each step, so chords beside the way are left out at once, and beyond half its
+    /// sight a chord counts as being as near as its rays allow. Whether one is nearer than that is
+    /// as good as random: a branch would cost more than all the rest, so it is first decided for
+    /// all, and then near ones are looked at in turn.
+    #[inline]
+    pub(crate) fn free_ahead_m(&self, ranges_m: &[f64]) -> f64 {
+        let mut nearest = Nearest::new(self.range_m);
+        let chords = self.chords.get(..self.ahead).unwrap_or_default();
+        for chords in chords.chunks(64) {
+            let mut near = self.look_roughly(chords, ranges_m, &mut nearest);
+            while let Some(chord) = chords.get(near.trailing_zeros() as usize) {
+                let ends_m = chord.rays.map(|ray| self.ray_m(ranges_m, ray));
+                nearest.look(chord, ends_m, &self.lane);
+                near &= near - 1;
+            }
+        }
+        nearest.m()
+    }
+
+    /// Looks at chords that are far away; returns those that are near, as bits.
+    #[inline]
+    #[expect(
+        clippy::needless_bitwise_bool,
+        reason = "a branch would be mispredicted"
+    )]
+    fn look_roughly(&self, chords: &[Chord], ranges_m: &[f64], nearest: &mut Nearest) -> u64 {
+        let far_m = self.range_m / 2.0;
+        let mut near = 0;
+        for (number, chord) in chords.iter().enumerate() {
+            let [from, to] = chord.rays.map(|ray| ranges_m.get(ray).copied());
+            let (Some(from), Some(to)) = (from, to) else {
+                continue;
+            };
+            if from > chord.beside_m[0] && to > chord.beside_m[1] {
+                continue;
+            }
+            let is_far = (from > far_m) & (to > far_m);
+            let least_m = lesser(lesser(from, to), self.range_m) * chord.nearest_share;
+            let squared_m2 = if is_far {
+                least_m * least_m
+            } else {
+                f64::INFINITY
+            };
+            nearest.squared_m2 = lesser(squared_m2, nearest.squared_m2);
+            near |= u64::from(!is_far) << number;
+        }
+        near
+    }
+
+    /// Distance from the robot's centre to what is not known to be free within a sector.
+    pub(crate) fn free_m(&self, ranges_m: &[f64], sector: &Sector) -> f64 {
+        let mut nearest = Nearest::new(self.range_m);
+        for chord in &self.chords {
+            let ends_m = chord.rays.map(|ray| self.ray_m(ranges_m, ray));
+            nearest.look(chord, ends_m, sector);
+        }
+        nearest.m()
+    }
+}
+
+/// The range that counts: a ray that measured nonsense sees something right here, since nobody
+/// knows better.
+#[inline]
+pub(crate) fn sensible_m(measured_m: f64) -> f64 {
+    if measured_m > 0.0 { measured_m } else { 0.0 }
+}
+
+/// Of two numbers; unlike `min` it need not know of what is none.
+#[inline]
+fn lesser(one: f64, other: f64) -> f64 {
+    if one < other { one } else { other }
+}
+
+/// Square of the distance to the nearest so far.
+struct Nearest {
+    squared_m2: f64,
+}
+
+impl Nearest {
+    fn new(range_m: f64) -> Self {
+        Self {
+            squared_m2: range_m * range_m,
+        }
+    }
+
+    #[inline]
+    fn look(&mut self, chord: &Chord, ends_m: [f64; 2], sector: &Sector) {
+        let least_m = ends_m[0].min(ends_m[1]) * chord.nearest_share;
+        if least_m * least_m >= self.squared_m2 {
+            return;
+        }
+        let [from, to] = chord.directions;
+        let part = sector.part(Segment {
+            from: from.times(ends_m[0]),
+            to: to.times(ends_m[1]),
+        });
+        if let Some(part) = part {
+            let nearest = part.nearest(Point::default());
+            self.squared_m2 = self.squared_m2.min(nearest.length_squared());
+        }
+    }
+
+    fn m(&self) -> f64 {
+        libm::sqrt(self.squared_m2)
+    }
+}
+
+/// The chords of neighbouring rays, and the rays without neighbours.
+fn chords(bearings_rad: &[f64]) -> Vec<Chord> {
+    let mut rays: Vec<usize> = (0..bearings_rad.len()).collect();
+    rays.sort_by(|a, b| bearings_rad[*a].total_cmp(&bearings_rad[*b]));
+    let next = rays.iter().cycle().skip(1);
+    let pairs = rays.iter().zip(next);
+    let chords = pairs.flat_map(|(from, to)| {
+        let gap_rad = anticlockwise(bearings_rad[*to] - bearings_rad[*from]);
+        if gap_rad <= NEIGHBOURS_RAD {
+            [Some([*from, *to]), None]
+        } else {
+            [Some([*from, *from]), Some([*to, *to])]
+        }
+    });
+    let chords = chords.flatten();
+    chords.map(|rays| Chord::new(rays, bearings_rad)).collect()
+}
+
+/// The same angle, from 0 to a turn.
+fn anticlockwise(angle_rad: f64) -> f64 {
+    let near = wrapped(angle_rad);
+    if near < 0.0 { near + TAU } else { near }
+}
+
+impl Chord {
+    fn new(rays: [usize; 2], bearings_rad: &[f64]) -> Self {
+        let bearings = rays.map(|ray| bearings_rad[ray]);
+        let gap_rad = wrapped(bearings[1] - bearings[0]);
+        let [from, to] = bearings.map(|bearing| wrapped(bearing).abs());
+        Self {
+            rays,
+            directions: bearings.map(direction),
+            beside_m: [f64::INFINITY; 2],
+            nearest_share: sin_cos(gap_rad / 2.0).1,
+            off_front_rad: from.min(to),
+            gap_rad,
+        }
+    }
+
+    /// Infinite where that cannot be told from the lengths, or the rays are never so long.
+    fn beside_m(&self, half_width_m: f64, range_m: f64) -> [f64; 2] {
+        let asides = self.directions.map(|direction| direction.y);
+        let is_one_side = asides[0] * asides[1] > 0.0;
+        asides.map(|aside| {
+            let beside_m = half_width_m / aside.abs();
+            if is_one_side && beside_m < range_m {
+                beside_m
+            } else {
+                f64::INFINITY
+            }
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::world_of_walls::ring;
+    use proptest::prelude::*;
+
+    const AHEAD: (f64, f64) = (0.0, 0.0);
+
+    fn free_m(ring: &RangeRing, ranges_m: &[f64], (from, to): (f64, f64)) -> f64 {
+        Ring::new(ring, 0.25, 0.1).free_m(ranges_m, &Sector::new(from, to, 0.25))
+    }
+
+    #[test]
+    fn a_wall_ahead_is_as_far_as_its_ray_says() {
+        let mut ranges = [f64::INFINITY; 16];
+        ranges[0] = 1.0;
+        assert!((free_m(&ring(16, 3.0), &ranges, AHEAD) - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_wall_behind_is_not_seen_ahead() {
+        let mut ranges = [f64::INFINITY; 16];
+        ranges[5..=11].fill(0.3);
+        let ring = ring(16, 3.0);
+        assert!(free_m(&ring, &ranges, AHEAD) > 2.9);
+        assert!((free_m(&ring, &ranges, (PI, PI)) - 0.3 * (PI / 16.0).cos()).abs() < 1e-12);
+    }
+
+    #[test]
+    fn walls_beside_a_lane_wider_than_the_body_are_not_in_its_way() {
+        let lane = |half_width: f64| -> Vec<f64> {
+            let bearings = ring(64, 30.0).bearings_rad;
+            let ranges = bearings
+                .iter()
+                .map(|bearing| half_width / bearing.sin().abs());
+            ranges.collect()
+        };
+        assert!(free_m(&ring(64, 30.0), &lane(0.26), AHEAD) > 2.0);
+        assert!(free_m(&ring(64, 30.0), &lane(0.24), AHEAD) < 0.25);
+    }
+
+    #[test]
+    fn nothing_is_free_beyond_the_sensors_range() {
+        for rays in [1, 4, 8, 16, 360] {
+            let ranges = vec![f64::INFINITY; rays];
+            let free = free_m(&ring(rays, 3.0), &ranges, AHEAD);
+            assert!((2.7..=3.0).contains(&free), "{rays} rays: {free}");
+        }
+    }
+
+    #[test]
+    fn a_curve_to_the_left_sees_what_is_on_the_left() {
+        let mut ranges = [f64::INFINITY; 16];
+        ranges[3] = 1.0;
+        let ring = ring(16, 3.0);
+        assert!(free_m(&ring, &ranges, AHEAD) > 2.0);
+        assert!((free_m(&ring, &ranges, (0.0, FRAC_PI_2)) - 1.0).abs() < 0.1);
+        assert!(free_m(&ring, &ranges, (-FRAC_PI_2, 0.0)) > 2.0);
+    }
+
+    proptest! {
+        #[test]
+        fn the_free_way_towards_a_flat_wall_is_never_too_long(
+            wall_m in 0.3..3.0_f64, normal_rad in -1.5..1.5_f64, rays in 8_usize..64,
+        ) {
+            let ring = ring(rays, 4.0);
+            let range = |bearing: &f64| {
+                let towards = (bearing - normal_rad).cos();
+                if towards > 0.0 && wall_m / towards < 4.0 { wall_m / towards } else { f64::INFINITY }
+            };
+            let ranges: Vec<f64> = ring.bearings_rad.iter().map(range).collect();
+            // The disc touches when its centre is its radius from the wall.
+            let way_m = (wall_m - 0.25) / normal_rad.cos();
+            prop_assert!(free_m(&ring, &ranges, AHEAD) - 0.25 <= way_m + 1e-9);
+        }
+    }
+}
