@@ -24,7 +24,7 @@ from agent_economy.server.recordings.store import RecordingStore
 from agent_economy.server.request_body import RequestBodyError, refused, text
 from agent_economy.server.runs.engines import ENGINES
 from agent_economy.server.runs.session import Session
-from agent_economy.server.runs.thumbnail import picture
+from agent_economy.server.runs.thumbnail import thumbnail
 from agent_economy.server.studies.factors import schema
 from agent_economy.server.studies.manager import StudyManager
 from agent_economy.server.studies.progress import watch
@@ -105,7 +105,7 @@ class Server:
         """Return the picture of a scenario, as SVG."""
         name = request.query_params.get("scenario", "")
         try:
-            svg = await asyncio.to_thread(lambda: picture(self.places.load(name)))
+            svg = await asyncio.to_thread(lambda: thumbnail(self.places.load(name)))
         except InputError as error:
             return refused(faults_of(error), 404)
         return Response(svg, media_type="image/svg+xml")

@@ -1,8 +1,8 @@
-"""Who may speak to the server: pages that it has served itself, from where it may be reached.
+"""Which requests reach the server: those of its own pages.
 
-A page of another site could ask a server on this machine for anything. Browsers say where a request
-comes from (`Origin`) and to whom it goes (`Host`, which gives away a name that was bound anew to
-this machine), so both are looked at. From other machines a token is needed besides.
+Without this check, pages of other sites could send requests to a server on this machine. Browsers
+send the origin of a request (`Origin`) and its destination (`Host`, which reveals DNS rebinding);
+both are checked. Other machines also need a token.
 """
 
 import hmac
@@ -29,12 +29,12 @@ HEADERS = {
 
 @dataclass(frozen=True)
 class Guard:
-    """An application that only those reach who may.
+    """An application that rejects requests of other sites, and those without the token.
 
     Attributes:
-        app: What is guarded.
-        host: The name or address that was bound.
-        token: What others must show; None if only this machine can reach it.
+        app: The guarded application.
+        host: The host name or address that the server is bound to.
+        token: The token that other machines need; None if only this machine can connect.
     """
 
     app: ASGIApp
@@ -42,7 +42,7 @@ class Guard:
     token: str | None
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Let a request in, or say why not."""
+        """Forward a request to the application, or reject it."""
         if scope["type"] not in ("http", "websocket"):
             await self.app(scope, receive, send)
             return
@@ -55,21 +55,21 @@ class Guard:
             await PlainTextResponse(why, 403)(scope, receive, send)
 
     def refusal(self, scope: Scope) -> str | None:
-        """Return why a request may not come in, if so."""
+        """Return why a request is rejected; None if it is not."""
         headers = Headers(scope=scope)
         host = headers.get("host", "")
         if not self._is_own(host):
-            return f"This server does not go by the name {host!r}."
+            return f"{host!r} is not a name of this server."
         origin = headers.get("origin")
         if origin is not None and place_of(origin) != host:
-            return f"Pages of {origin} may not speak to this server."
+            return f"Pages of {origin} may not use this server."
         if (
             scope["type"] == "websocket"
             and origin is None
             and headers.get("user-agent", "").startswith("Mozilla")
         ):
-            return "A browser says where it comes from."
-        if self.token is not None and not self._shows_token(scope, headers):
+            return "Requests of browsers need an Origin header."
+        if self.token is not None and not self._has_token(scope, headers):
             return "Open the link with the token that was printed when the server was started."
         return None
 
@@ -78,15 +78,15 @@ class Guard:
             name = urlsplit(f"//{host}").hostname or ""
         except ValueError:
             return False
-        # A name can be bound to any address; an address stands for itself.
-        is_asked_for = self.token is not None and address_of(name) is not None
-        return is_loopback(name) or name == self.host.lower() or is_asked_for
+        # A name can be rebound to another address; an address cannot.
+        is_address = self.token is not None and address_of(name) is not None
+        return is_loopback(name) or name == self.host.lower() or is_address
 
-    def _shows_token(self, scope: Scope, headers: Headers) -> bool:
+    def _has_token(self, scope: Scope, headers: Headers) -> bool:
         query = parse_qs(scope.get("query_string", b"").decode("latin-1"))
-        shown = [*query.get("token", []), cookie(headers)]
+        tokens = [*query.get("token", []), cookie(headers)]
         wanted = (self.token or "").encode()
-        return any(hmac.compare_digest(each.encode(), wanted) for each in shown)
+        return any(hmac.compare_digest(each.encode(), wanted) for each in tokens)
 
     def _with_headers(self, scope: Scope, send: Send) -> Send:
         query = parse_qs(scope.get("query_string", b"").decode("latin-1"))
@@ -104,13 +104,13 @@ class Guard:
 
 
 def is_loopback(host: str) -> bool:
-    """Return whether only this machine can reach a name or address."""
+    """Return whether a host name or address is that of this machine only."""
     address = address_of(host)
     return host == "localhost" if address is None else address.is_loopback
 
 
 def address_of(name: str) -> IPv4Address | IPv6Address | None:
-    """Return the address that a text is, if it is one."""
+    """Return a text as an address; None if it is not one."""
     try:
         return ip_address(name)
     except ValueError:
@@ -126,7 +126,7 @@ def place_of(origin: str) -> str | None:
 
 
 def cookie(headers: Headers) -> str:
-    """Return the token that a browser has kept, or nothing."""
+    """Return the token in the cookie of a request; empty if there is none."""
     try:
         kept = SimpleCookie(headers.get("cookie", ""))
     except CookieError:

@@ -1,4 +1,4 @@
-"""Where scenarios and studies are: what ships, and what is in the server's folder."""
+"""The scenarios and studies of a server: the bundled ones, and those below its folder."""
 
 import tomllib
 from collections import deque
@@ -15,37 +15,37 @@ from agent_economy.scenario.source import MAX_BYTES, read_file
 from agent_economy.study import plan_of
 from agent_economy.study.store.folder import ASKED
 
-DEEP, MAX_FOLDERS, MAX_FILES = 4, 1000, 200
-"""So many of the folder's files are looked at, in so many folders, so many below each other."""
+MAX_DEPTH, MAX_FOLDERS, MAX_FILES = 4, 1000, 200
+"""Limits of the search for files: depth of folders, number of folders, number of files."""
 
 OUTSIDE = "it is not below the folder in which the server was started"
 
 
 @dataclass(frozen=True)
 class Workspace:
-    """The folder below which files are opened, and no others but those that ship."""
+    """The server's folder: no file outside of it is opened, except the bundled scenarios."""
 
     folder: Path
 
     def listed(self) -> list[dict[str, Any]]:
-        """Return all that say that they are scenarios, those that ship first."""
-        ships = ((name, file, "shipped") for name, file in bundled.scenarios().items())
+        """Return all files that declare an engine, the bundled scenarios first."""
+        builtin = ((name, file, "shipped") for name, file in bundled.scenarios().items())
         files = islice(self.files(".toml"), MAX_FILES)
         mine = ((str(file.relative_to(self.folder)), file, "folder") for file in files)
-        rows = (described(name, file, where) for name, file, where in (*ships, *mine))
+        rows = (described(name, file, where) for name, file, where in (*builtin, *mine))
         return [row for row in rows if row]
 
     def load(self, name: str) -> Scenario:
         """Return a scenario by its id.
 
         Raises:
-            InputError: If there is none, it is outside of the folder, or wrong.
+            InputError: If there is none, it is outside of the folder, or it has errors.
         """
         ships = bundled.scenarios().get(name)
         return Scenario.load(ships) if ships else self.read(self.text(name), name)
 
     def text(self, name: str) -> str:
-        """Return the text of a scenario by its id, whatever is wrong in it.
+        """Return the text of a scenario by its id, without checking it.
 
         Raises:
             InputError: If there is none, it is outside of the folder, or cannot be read.
@@ -60,10 +60,10 @@ class Workspace:
         return lines(data.decode(errors="replace"))
 
     def read(self, text: str, name: str = "scenario.toml") -> Scenario:
-        """Return the scenario of a text; files that it names are looked for in the folder.
+        """Return the scenario of a text; the files that it names are read from the folder.
 
         Raises:
-            InputError: If anything in it is wrong, or a file is outside of the folder.
+            InputError: If it has errors, or a file is outside of the folder.
         """
         source = Source(name, lines(text), ())
         beside = (self.folder / name).parent
@@ -89,14 +89,14 @@ class Workspace:
         for folder in filter(is_study, self._folders()):
             yield folder_id(folder, self.folder), folder
 
-    def for_study(self, folder: Path) -> str:
-        """Return the id that a study in a folder would have.
+    def id_of_study(self, folder: Path) -> str:
+        """Return the id of a study in a folder.
 
         Raises:
-            InputError: If it would be outside of the folder.
+            InputError: If that is outside of the server's folder.
         """
         validation.check(
-            self.has(folder), "study", str(folder), "below the server's folder: no link"
+            self.has(folder), "study", str(folder), "below the server's folder, and not a link"
         )
         return folder_id(folder, self.folder)
 
@@ -113,32 +113,32 @@ class Workspace:
         return read_file(file, _core.MAX_IMAGE_BYTES) if self.has(file) else OUTSIDE
 
     def has(self, file: Path) -> bool:
-        """Return whether a file is below the folder, whatever links there are on the way."""
+        """Return whether a file is below the folder, with all links resolved."""
         try:
             return file.resolve().is_relative_to(self.folder.resolve())
         except (OSError, ValueError):
             return False
 
     def _folders(self) -> Iterator[Path]:
-        return islice(folders_of(self.folder, DEEP), MAX_FOLDERS)
+        return islice(folders_of(self.folder, MAX_DEPTH), MAX_FOLDERS)
 
     def files(self, ending: str) -> Iterator[Path]:
-        """Yield the folder's files of a kind, but not hidden ones, nor those of studies."""
+        """Yield the files with a suffix, without hidden ones and those of studies."""
         folders = (folder for folder in self._folders() if not is_study(folder))
         files = (file for folder in folders for file in sorted(folder.glob(f"*{ending}")))
         yield from (file for file in files if self.has(file) and not file.name.startswith("."))
 
 
 def lines(text: str) -> str:
-    """Return a text whose lines end as ours do."""
+    """Return a text with Unix line endings."""
     return text.replace("\r\n", "\n")
 
 
 def described(name: str, file: Path, where: str) -> dict[str, Any] | None:
-    """Return what the gallery tells of a scenario; what is wrong in it is told who opens it.
+    """Return the entry of a scenario in the gallery; its errors are reported when it is opened.
 
     Returns:
-        None if the file does not say which engine it is for.
+        None if the file does not declare an engine.
     """
     data = read_file(file, MAX_BYTES)
     if isinstance(data, str):
@@ -149,22 +149,22 @@ def described(name: str, file: Path, where: str) -> dict[str, Any] | None:
         return None
     if not isinstance(document.get("engine"), str):
         return None
-    told = {key: str(document.get(key, "")) for key in ("engine", "summary")}
-    return {"id": name, "name": file.stem, **told, "where": where}
+    texts = {key: str(document.get(key, "")) for key in ("engine", "summary")}
+    return {"id": name, "name": file.stem, **texts, "where": where}
 
 
-def folders_of(folder: Path, deep: int) -> Iterator[Path]:
-    """Yield a folder and those in it, but no hidden ones, links or a study's; the nearest first."""
-    waiting = deque([(folder, deep)])
+def folders_of(folder: Path, depth: int) -> Iterator[Path]:
+    """Yield a folder and its subfolders, breadth first, without hidden ones, links and studies."""
+    waiting = deque([(folder, depth)])
     while waiting:
         each, left = waiting.popleft()
         yield each
         if left and not is_study(each):
-            waiting += [(inner, left - 1) for inner in inside(each)]
+            waiting += [(inner, left - 1) for inner in subfolders(each)]
 
 
-def inside(folder: Path) -> list[Path]:
-    """Return the folders in one, but not hidden ones and links."""
+def subfolders(folder: Path) -> list[Path]:
+    """Return the subfolders of a folder, without hidden ones and links."""
     try:
         found = sorted(folder.iterdir())
     except OSError:
@@ -177,17 +177,17 @@ def inside(folder: Path) -> list[Path]:
 
 
 def folder_id(folder: Path, below: Path) -> str:
-    """Return the id of a study: where its folder is below another; nothing if it is not."""
+    """Return the id of a study: the path of its folder below another; empty if it is not below."""
     return folder.relative_to(below).as_posix() if folder.is_relative_to(below) else ""
 
 
 def is_study(folder: Path) -> bool:
-    """Return whether a folder holds a study."""
+    """Return whether a folder contains a study."""
     return is_file(folder / ASKED)
 
 
 def is_file(path: Path) -> bool:
-    """Return whether there is a file; of a name that no file can have there is none."""
+    """Return whether a file exists; False for a name that no file can have."""
     try:
         return path.is_file()
     except (OSError, ValueError):

@@ -1,4 +1,4 @@
-"""Small pictures of scenarios, for the gallery."""
+"""Thumbnails of scenarios, for the gallery."""
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
@@ -11,27 +11,27 @@ from agent_economy.scenario import Scenario
 from agent_economy.server.runs import classic_view
 
 STEPS = 100
-"""The picture shows the run after so many steps."""
+"""The thumbnail shows the run after this number of steps."""
 
 MAX_ROBOTS = 400
-"""Of more robots only so many are drawn."""
+"""Maximum number of robots that are drawn."""
 
 FREE, WALL, GROUND, ROBOT, ITEM = "#f4f6fa", "#7b8494", "#e6d3b3", "#2563eb", "#dc2626"
 
 Place = Sequence[float]
 
 
-def picture(scenario: Scenario) -> str:
-    """Return a scenario's world with its robots and items as SVG, y upwards.
+def thumbnail(scenario: Scenario) -> str:
+    """Return the world of a scenario with its robots and items as SVG, y upwards.
 
     Raises:
-        InputError: If there is no room for them.
+        InputError: If the world has no room for them.
     """
     return metric(scenario) if scenario.engine == "metric" else grid(scenario)
 
 
 def metric(scenario: Scenario) -> str:
-    """Return the world of the metric engine."""
+    """Return the world of a scenario of the metric engine."""
     simulation = Simulation(scenario, threads=1)
     simulation.step(STEPS)
     document = scenario.to_dict()
@@ -53,7 +53,7 @@ def metric(scenario: Scenario) -> str:
 
 
 def grid(scenario: Scenario) -> str:
-    """Return the grid of 2003, with robots where they start."""
+    """Return the grid of 2003, with the robots at their starting positions."""
     side = classic_view.SIDE_PX
     team = classic.start(sum(scenario.robots.values()))
     poses = [(each["x"], side - each["y"], math.radians(90 - each["heading"])) for each in team]
@@ -66,7 +66,7 @@ def grid(scenario: Scenario) -> str:
 
 
 def squares(cells: Iterable[tuple[int, int]], colour: str) -> str:
-    """Return cells of the grid in one path, so that no seams are between them."""
+    """Return cells of the grid in one path: separate squares would show seams."""
     size = CELL_PX
     corners = (classic_view.outline(cell)[0] for cell in cells)
     parts = (f"M{x:g},{y:g}h{size:g}v{size:g}h{-size:g}z" for x, y in corners)
@@ -74,7 +74,7 @@ def squares(cells: Iterable[tuple[int, int]], colour: str) -> str:
 
 
 def svg(width: float, height: float, shapes: Iterable[str]) -> str:
-    """Return shapes on light ground, y upwards."""
+    """Return shapes on a light background, y upwards."""
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:g} {height:g}">'
         f'<rect width="{width:g}" height="{height:g}" fill="{FREE}"/>'
@@ -83,7 +83,7 @@ def svg(width: float, height: float, shapes: Iterable[str]) -> str:
 
 
 def obstacle(given: Mapping[str, Any]) -> str:
-    """Return an obstacle; maps are left out."""
+    """Return an obstacle; maps are not drawn."""
     if "polygon_m" in given:
         return polygon(given["polygon_m"], WALL)
     if "circle" in given:

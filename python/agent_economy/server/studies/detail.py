@@ -1,4 +1,4 @@
-"""The answer of a study as a page takes it: the report's sections, tables and charts."""
+"""The answer of a study as the page takes it: sections, tables and charts of the report."""
 
 import hashlib
 import math
@@ -14,22 +14,22 @@ from agent_economy.study.answer.evidence import Evidence, Interval
 from agent_economy.study.report import Section, Table, View
 from agent_economy.study.store.folder import ANSWER, read_bytes
 
-MAX_KEPT = 8
+CACHE_SIZE = 8
 """AnswerCache that are kept ready."""
 
-Shown = dict[str, Any]
+Detail = dict[str, Any]
 
 
 class AnswerCache:
     """AnswerCache of finished studies; each is made once for what its folder holds."""
 
     def __init__(self) -> None:
-        """Begin with none."""
-        self._kept: OrderedDict[tuple[Path, str], Shown] = OrderedDict()
-        # One at a time: what two pages ask for is made once, and the runs of one study are held.
+        """Begin empty."""
+        self._kept: OrderedDict[tuple[Path, str], Detail] = OrderedDict()
+        # One at a time: pages share the work, and only one study's runs are in memory.
         self._lock = threading.Lock()
 
-    def of(self, folder: Path) -> Shown | None:
+    def of(self, folder: Path) -> Detail | None:
         """Return a study's answer; None if it has none.
 
         Raises:
@@ -41,15 +41,15 @@ class AnswerCache:
         key = folder, hashlib.sha256(data).hexdigest()
         with self._lock:
             if key not in self._kept:
-                self._kept[key] = shown(*study.look(folder))
+                self._kept[key] = detail(*study.look(folder))
             self._kept.move_to_end(key)
-            while len(self._kept) > MAX_KEPT:
+            while len(self._kept) > CACHE_SIZE:
                 self._kept.popitem(last=False)
             return self._kept[key]
 
 
-def shown(answer: Answer, evidence: Evidence) -> Shown:
-    """Return an answer with the report's own sections and charts."""
+def detail(answer: Answer, evidence: Evidence) -> Detail:
+    """Return an answer with the sections and charts of the report."""
     view = View(answer, evidence)
     return {
         "sentence": answer.sentence,
@@ -62,7 +62,7 @@ def shown(answer: Answer, evidence: Evidence) -> Shown:
     }
 
 
-def section(given: Section) -> Shown:
+def section(given: Section) -> Detail:
     """Return a section of the report."""
     return {
         "id": re.sub(r"[^a-z0-9]+", "-", given.heading.lower()).strip("-"),
@@ -75,8 +75,8 @@ def section(given: Section) -> Shown:
     }
 
 
-def table(given: Table) -> Shown:
-    """Return a table of the report; a range stands after its number."""
+def table(given: Table) -> Detail:
+    """Return a table of the report; an interval follows its number."""
     return {
         "caption": given.caption,
         "head": given.heads,
@@ -88,8 +88,8 @@ def table(given: Table) -> Shown:
     }
 
 
-def result(index: int, given: Result) -> Shown:
-    """Return what a configuration's runs came to."""
+def result(index: int, given: Result) -> Detail:
+    """Return the results of a configuration."""
     return {
         "configuration": index,
         "label": given.label,
@@ -104,6 +104,6 @@ def result(index: int, given: Result) -> Shown:
 
 
 def numbers(interval: Interval) -> list[float | None]:
-    """Return an interval as JSON can hold it."""
+    """Return an interval with null for numbers that are not finite."""
     each = (interval.value, interval.low, interval.high)
     return [number if math.isfinite(number) else None for number in each]

@@ -1,4 +1,4 @@
-"""What of a scenario a study can vary, and between which values: read from the engine's schema."""
+"""The factors of a scenario that a study can vary, with their bounds from the engine's schema."""
 
 import json
 from collections.abc import Iterator, Mapping, Sequence
@@ -11,13 +11,13 @@ from agent_economy.study.answer.labels import robot_kind
 from agent_economy.study.plan import WITHOUT_RUNS
 
 Part = dict[str, Any]
-"""Of a schema."""
+"""A part of a schema."""
 
 MISSING: Any = object()
 
 
 def described(scenario: Scenario) -> dict[str, Any]:
-    """Return what a page needs to ask a study of a scenario."""
+    """Return what the page needs to request a study of a scenario."""
     return {
         "name": scenario.name,
         "engine": scenario.engine,
@@ -32,7 +32,7 @@ def described(scenario: Scenario) -> dict[str, Any]:
 
 
 def factors(scenario: Scenario) -> list[dict[str, Any]]:
-    """Return all numbers and choices that a study can vary, those of teams first."""
+    """Return all numbers and choices that a study can vary, team sizes first."""
     document = scenario.to_dict()
     varied = document.get("study", {}).get("vary", {})
     own = {key: part for key, part in document.items() if key not in {*WITHOUT_RUNS, "engine"}}
@@ -47,7 +47,7 @@ def factors(scenario: Scenario) -> list[dict[str, Any]]:
 
 
 def merits(engine: str) -> list[str]:
-    """Return the figures of merit that have names."""
+    """Return the names of the built-in figures of merit."""
     root = schema(engine)
     parts = branches(root, root["properties"]["merit"], MISSING)
     return [name for part in parts for name in part.get("enum", ())]
@@ -64,7 +64,7 @@ def schema(engine: str) -> Part:
 def leaves(
     part: Mapping[str, Any], keys: tuple[str, ...] = ()
 ) -> Iterator[tuple[tuple[str, ...], Any]]:
-    """Yield the numbers and names of a document that a path with dots leads to."""
+    """Yield the numbers and strings of a document that a path with dots can name."""
     for key, value in part.items():
         if "." in key or isinstance(value, list):
             continue
@@ -75,7 +75,7 @@ def leaves(
 
 
 def allowed_at(root: Part, document: Any, keys: Sequence[str]) -> dict[str, Any] | None:
-    """Return what a number or a choice may be at a path; None if there is neither."""
+    """Return the bounds or choices of a value at a path; None if it has neither."""
     parts, value = [root], document
     for key in keys:
         inside = [each for part in parts for each in branches(root, part, value)]
@@ -85,14 +85,14 @@ def allowed_at(root: Part, document: Any, keys: Sequence[str]) -> dict[str, Any]
 
 
 def below(part: Part, key: str) -> Part | None:
-    """Return what stands under a key, or under any name."""
+    """Return the schema of a key, or that of any key."""
     any_name = part.get("additionalProperties")
     found: Part | None = part.get("properties", {}).get(key)
     return found or (any_name if isinstance(any_name, dict) else None)
 
 
 def branches(root: Part, part: Part, value: Any) -> Iterator[Part]:
-    """Yield a part of a schema with all that it refers to, but what is of another kind of value."""
+    """Yield a part of a schema and its alternatives, without those of another kind than a value."""
     if "$ref" in part:
         part = root["definitions"][part["$ref"].rsplit("/", 1)[-1]]
     if is_of_another_kind(part, value):
@@ -104,7 +104,7 @@ def branches(root: Part, part: Part, value: Any) -> Iterator[Part]:
 
 
 def is_of_another_kind(part: Part, value: Any) -> bool:
-    """Return whether a table says by a key, such as `kind`, that a part is not of it."""
+    """Return whether a key of a table, such as `kind`, excludes a part."""
     if not isinstance(value, dict):
         return False
     properties = part.get("properties", {})
@@ -116,7 +116,7 @@ def is_of_another_kind(part: Part, value: Any) -> bool:
 
 
 def allowed(parts: Sequence[Part]) -> dict[str, Any] | None:
-    """Return between which numbers, or of which choices, a value is that parts describe."""
+    """Return the bounds or choices of the values that parts describe."""
     kinds = {part.get("type") for part in parts}
     if kinds & {"number", "integer"}:
         return {
@@ -134,7 +134,7 @@ def allowed(parts: Sequence[Part]) -> dict[str, Any] | None:
 
 
 def bound(parts: Sequence[Part], *words: str) -> float | None:
-    """Return the first bound that parts have under some words."""
+    """Return the first bound that parts have under one of some keywords."""
     return next((part[word] for part in parts for word in words if word in part), None)
 
 

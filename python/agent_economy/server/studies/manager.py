@@ -82,7 +82,7 @@ class StudyManager:
             InputError: If that is outside of the server's folder, or cannot be read.
         """
         with told(self._places.folder, "read"):
-            return self._places.for_study(usual_folder(plan, self._places.folder))
+            return self._places.id_of_study(usual_folder(plan, self._places.folder))
 
     def state(self, name: str) -> str | None:
         """Return the state of the study that has an id, None if there is none."""

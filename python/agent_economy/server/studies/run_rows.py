@@ -1,4 +1,4 @@
-"""Single runs of a study, as a page lists them: some in a row, or from the worst to the best."""
+"""Single runs of a study: consecutive ones, or a sample from the worst to the best."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -14,11 +14,11 @@ from agent_economy.scenario.validation import check, is_whole
 from agent_economy.study import Plan
 from agent_economy.study.answer.labels import label
 
-MOST = 1000
-"""Runs that are told at a time."""
+MAX_ROWS = 1000
+"""Maximum number of runs in a response."""
 
 OWN = ("configuration", "quarantined")
-"""Columns that say nothing of an outcome."""
+"""Columns that are not outcomes."""
 
 Floats = NDArray[np.float64]
 
@@ -27,36 +27,36 @@ def listed(plan: Plan, folder: Path, configuration: int, first: int, count: int)
     """Return consecutive runs of a configuration.
 
     Raises:
-        InputError: If something is not allowed, or the study is damaged.
+        InputError: If an argument is not allowed, or the study is damaged.
     """
     check(is_whole(first, 0), "first", first, "a whole number from 0")
-    check(is_whole(count, 1, MOST), "count", count, f"a whole number from 1 to {MOST}")
+    check(is_whole(count, 1, MAX_ROWS), "count", count, f"a whole number from 1 to {MAX_ROWS}")
     runs = rows(plan, folder, configuration)
     found = runs.order("run").limit(count, first).to_arrow_table()
-    return told(plan, configuration, counted(runs), found)
+    return response(plan, configuration, counted(runs), found)
 
 
 def sampled(plan: Plan, folder: Path, configuration: int, count: int) -> dict[str, Any]:
-    """Return runs of a configuration at even distances from the worst to the best.
+    """Return runs of a configuration at evenly spaced quantiles from the worst to the best.
 
     Raises:
-        InputError: If something is not allowed, or the study is damaged.
+        InputError: If an argument is not allowed, or the study is damaged.
     """
-    check(is_whole(count, 1, MOST), "sample", count, f"a whole number from 1 to {MOST}")
+    check(is_whole(count, 1, MAX_ROWS), "sample", count, f"a whole number from 1 to {MAX_ROWS}")
     found = rows(plan, folder, configuration).order("run").to_arrow_table()
     merits = scores(plan.scenario.merit, found)
-    # Without a merit a run counts as the worst there is.
+    # A run without a merit is the worst.
     order = np.argsort(np.nan_to_num(merits, nan=-np.inf), kind="stable")
     quantiles = np.linspace(0, 1, min(count, len(order)))
     places = np.rint(quantiles * (len(order) - 1)).astype(int)
-    answer = told(plan, configuration, len(found), found.take(order[places]))
+    answer = response(plan, configuration, len(found), found.take(order[places]))
     for run, quantile in zip(answer["runs"], quantiles.tolist(), strict=True):
         run["quantile"] = quantile
     return answer
 
 
 def rows(plan: Plan, folder: Path, configuration: int) -> Any:
-    """Return a configuration's runs, to ask in SQL.
+    """Return the runs of a configuration as a relation of DuckDB.
 
     Raises:
         InputError: If there is no such configuration, or the study is damaged.
@@ -68,12 +68,12 @@ def rows(plan: Plan, folder: Path, configuration: int) -> Any:
 
 
 def counted(runs: Any) -> int:
-    """Return how many runs there are."""
+    """Return the number of runs."""
     return int(runs.aggregate("count(*)").fetchall()[0][0])
 
 
-def told(plan: Plan, configuration: int, total: int, found: pa.Table) -> dict[str, Any]:
-    """Return runs as a page takes them."""
+def response(plan: Plan, configuration: int, total: int, found: pa.Table) -> dict[str, Any]:
+    """Return runs as the page takes them."""
     merits = scores(plan.scenario.merit, found).tolist()
     columns = [name for name in found.column_names if name not in OWN]
     runs = found.select(columns).to_pylist()
@@ -89,7 +89,7 @@ def told(plan: Plan, configuration: int, total: int, found: pa.Table) -> dict[st
 
 
 def scores(merit: Merit, found: pa.Table) -> Floats:
-    """Return the merit of each run; NaN where it has none."""
+    """Return the merit of each run; NaN if it has none."""
     quarantined = found["quarantined"].to_numpy()
     columns = {name: floats(found[name], quarantined) for name in merit.columns}
     score: Floats = merit.score(columns)
@@ -97,7 +97,7 @@ def scores(merit: Merit, found: pa.Table) -> Floats:
 
 
 def floats(column: Any, quarantined: Sequence[bool]) -> Floats:
-    """Return a column of the store: null is never, or no number where a run is quarantined."""
+    """Return a column of the store; null becomes infinity, or NaN in a quarantined run."""
     values = column.cast(pa.float64()).to_numpy(zero_copy_only=False)
     absent = np.where(quarantined, np.nan, np.inf)
     return np.where(np.isnan(values), absent, values)

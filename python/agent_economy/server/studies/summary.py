@@ -1,4 +1,4 @@
-"""What a study's folder says of it at a glance: nothing is computed, few files are read."""
+"""The summary of a study, from few files of its folder and without computation."""
 
 import json
 import tomllib
@@ -19,17 +19,17 @@ State = str
 
 @dataclass(frozen=True)
 class Summary:
-    """A study at a glance.
+    """The summary of a study.
 
     Attributes:
         state: "answered", "stopped" or "damaged".
-        name: Of its scenario.
-        engine: The simulator.
-        question: What it compares; None if it is damaged.
-        runs: So far.
-        sentence: Its answer.
+        name: The name of its scenario.
+        engine: The simulator that runs it.
+        question: What it compares; None if the study is damaged.
+        runs: The number of runs so far.
+        sentence: The answer in one sentence.
         message: What is wrong.
-        changed_s: When it was last written to, in Unix time.
+        changed_s: The time of the last change, in seconds since 1970.
     """
 
     state: State
@@ -42,7 +42,7 @@ class Summary:
     changed_s: float
 
     def listed(self, name: str) -> dict[str, Any]:
-        """Return it as a page takes it; `name` is its id."""
+        """Return the row of the study in the list; `name` is its id."""
         question = self.question
         return {
             "id": name,
@@ -61,10 +61,10 @@ class Summary:
 
 
 class Summaries:
-    """Summaries of folders; each is read again when its files have changed."""
+    """Cached summaries of folders; each is read again when its files have changed."""
 
     def __init__(self) -> None:
-        """Begin with none."""
+        """Begin empty."""
         self._kept: dict[Path, tuple[object, Summary]] = {}
 
     def of(self, folder: Path) -> Summary:
@@ -77,7 +77,7 @@ class Summaries:
 
 
 def stamp(folder: Path) -> list[tuple[float, int]]:
-    """Return when the files of a study were written, and how long they are."""
+    """Return the modification times and sizes of the files of a study."""
     found = []
     for name in (ASKED, ANSWER, LEDGER, f"{LEDGER}-wal"):
         try:
@@ -85,13 +85,13 @@ def stamp(folder: Path) -> list[tuple[float, int]]:
         except OSError:
             found.append((0.0, 0))
         else:
-            # Readers of a ledger may leave an empty file beside it.
+            # Readers of a ledger may leave an empty file next to it.
             found.append((about.st_mtime if about.st_size else 0.0, about.st_size))
     return found
 
 
 def summary(folder: Path, changed_s: float) -> Summary:
-    """Return what a study's folder says."""
+    """Return the summary of a study's folder."""
     try:
         answer = read_answer(folder)
         if answer is not None:
@@ -112,7 +112,7 @@ def answered(folder: Path, answer: Mapping[str, Any], changed_s: float) -> Summa
     """Return the summary of a study that has an answer.
 
     Raises:
-        InputError: If its study.toml is none.
+        InputError: If its study.toml is damaged.
     """
     scenario = answer["scenario"]
     try:
@@ -144,10 +144,10 @@ def answered(folder: Path, answer: Mapping[str, Any], changed_s: float) -> Summa
 
 
 def read_answer(folder: Path) -> dict[str, Any] | None:
-    """Return a study's answer as it was written; None if there is none.
+    """Return the answer in a study's folder; None if there is none.
 
     Raises:
-        InputError: If what is there is none.
+        InputError: If the file is damaged.
     """
     file = folder / ANSWER
     data = read_bytes(file)
@@ -160,12 +160,12 @@ def read_answer(folder: Path) -> dict[str, Any] | None:
         is_answer = False
     if is_answer:
         return answer
-    message = f"{file}: is damaged: remove it, and go on with the study"
+    message = f"{file}: is damaged: remove it, and resume the study"
     raise InputError(message)
 
 
 def runs_so_far(folder: Path) -> int:
-    """Return how many runs a study had after its last round.
+    """Return the number of runs of a study after its last round.
 
     Raises:
         InputError: If its ledger is damaged.
