@@ -1,20 +1,22 @@
-//! How one motion is made of what all behaviours want.
+//! How one motion results from the behaviours.
 
 use crate::arbitration::motor_schemas::Schemas;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// How one motion is made of what all behaviours want.
+/// How one motion results from the behaviours.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum Arbitration {
-    /// The highest behaviour with something to do has its way, for at least its hold time.
+    /// The highest behaviour with something to do is active, at least for its hold time.
     #[default]
     Subsumption,
-    /// Behaviours that want to be somewhere have goals, which are served by their precedence, together
-    /// where they do not conflict; behaviours that want a motion keep their places among them.
+    /// Behaviours that propose a destination have goals, which are served in order of precedence,
+    /// and together where they do not conflict. Behaviours that propose a motion keep their places
+    /// in the list.
     Goals,
-    /// What all behaviours want is summed as vectors, with what obstacles repel and some noise (motor
-    /// schemas: Arkin, *Motor schema-based mobile robot navigation*, 1989). None waits for another.
+    /// The proposals of all behaviours are summed as vectors, together with the repulsion of
+    /// obstacles and some noise (motor schemas: Arkin, *Motor schema-based mobile robot
+    /// navigation*, 1989). No behaviour waits for another.
     Schemas(Schemas),
 }

@@ -1,4 +1,4 @@
-//! Getting out of the way of what is too near.
+//! Avoiding what is too near.
 
 use super::common::{ahead, half_sight_m};
 use crate::behaviours::behaviour::Behaviour;
@@ -21,32 +21,32 @@ const PATIENCE_S: f32 = 10.0;
 /// For one who cannot turn.
 const LEAST_TURN_RATE_RAD_S: f64 = 1e-3;
 
-/// Gets out of the way of what is too near: it turns on the spot, to the freer side, until it is
-/// clear. If it touches something it first backs off, if the body can, and turns by at least an
-/// eighth of a turn.
+/// Avoids what is too near: turns on the spot, to the freer side, until the way is clear. After a
+/// contact it first reverses, if the body can, and turns by at least an eighth of a turn.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 #[schemars(inline)]
 pub struct Avoid {
-    /// What is nearer to its hull than this is too near, in metres; at most half as far as its range
-    /// sensors see.
+    /// What is nearer to the robot's footprint than this is too near, in metres; at most half the
+    /// range of its range sensors.
     #[schemars(range(min = 0.0, max = 1000.0))]
     pub near_m: f64,
-    /// It is clear when everything is farther than `near_m` by this, in metres; at most by as much.
+    /// The way is clear when everything is farther than `near_m` by this, in metres; at most
+    /// `near_m`.
     #[schemars(range(min = 0.0, max = 1000.0))]
     pub clearance_hysteresis_m: f64,
-    /// Angle about the front in which it looks, in degrees.
+    /// Angle about the front that is checked, in degrees.
     #[schemars(range(min = 0.0, max = 360.0))]
     pub sector_deg: f64,
-    /// It backs off so far from what it touches, in metres.
+    /// Distance to reverse from what the robot touches, in metres.
     #[schemars(range(min = 0.0, max = 100.0))]
     pub reverse_distance_m: f64,
-    /// Time that it goes straight on once it is clear before lower behaviours have their way, in
-    /// seconds. Without it a robot with a goal locks in front of a large obstacle: it turns away,
-    /// and at once back to its goal.
+    /// Time to move straight on once the way is clear, before lower behaviours are active again, in
+    /// seconds. Without it a robot with a goal can be trapped in front of a large obstacle: it
+    /// turns away, and at once back to its goal.
     #[schemars(range(min = 0.0, max = 3600.0))]
     pub hold_s: f64,
-    /// Its speed while it goes straight on, in m/s; left out, the most that the body can.
+    /// Speed while it moves straight on, in m/s. Without it, the maximum speed of the body.
     #[schemars(range(min = 0.0, max = 100.0))]
     pub speed_m_s: Option<f64>,
 }

@@ -1,4 +1,4 @@
-//! Searching where beliefs say most is to be found.
+//! Searching where the expected rate of detection is highest.
 
 use super::outlook::Outlook;
 use super::part::Part;
@@ -31,21 +31,23 @@ const DONE: f64 = 0.5;
 /// Places to go to are so many to the range of its detectors: nearer ones promise the same.
 const PLACES: f64 = 3.0;
 
-/// Searches by going where a look promises most per second: the items that it would see there, if one were in
-/// each cell as likely as nobody has seen it, by the time for the way, for turning and for looking. What is in
-/// others' parts hardly counts. It never ends: who has looked at all looks again.
+/// Searches where a measurement promises most per second: the number of items that would be
+/// detected there, given how likely each cell holds an undetected one, divided by the time for the
+/// path, for turning and for measuring. What is in the parts of other robots hardly counts. It
+/// never ends: a robot that has seen everything searches again.
 ///
-/// Greedy in the sense of Stone, *Theory of optimal search*, 1975: the rate of detection is maximised. To value
-/// places by what is seen from them, after Gonzalez-Banos and Latombe, *Navigation strategies for exploring
-/// indoor environments*, 2002: what cannot be seen from anywhere, as the inside of obstacles, draws nobody.
+/// Greedy in the sense of Stone, *Theory of optimal search*, 1975: the rate of detection is
+/// maximised. Valuing places by what is visible from them is after Gonzalez-Banos and Latombe,
+/// *Navigation strategies for exploring indoor environments*, 2002: what is visible from nowhere,
+/// such as the inside of obstacles, attracts no robot.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 #[schemars(inline)]
 pub struct BayesianSearch {
-    /// Its speed, in m/s; left out, the most that the body can.
+    /// Speed, in m/s. Without it, the maximum speed of the body.
     #[schemars(range(min = 0.0, max = 100.0))]
     pub speed_m_s: Option<f64>,
-    /// What searching is worth, beside what other behaviours want.
+    /// Value of searching, relative to other behaviours.
     #[schemars(range(min = 0.0, max = 1e6))]
     pub value: f64,
 }

@@ -1,4 +1,4 @@
-//! Turning to the course to a place.
+//! Turning towards a waypoint.
 
 use super::turn::Turn;
 use crate::behaviours::behaviour::Behaviour;
@@ -21,25 +21,25 @@ const OLDEST_S: f64 = 5.0;
 const FARTHEST_M: f64 = 1e7;
 const MOST_RAD: f64 = 1e4;
 
-/// Turns on the spot to the course to a place when it is off that course, one place after the other;
-/// then it has nothing more to do. Between *cruise*, which goes there, and *avoid* it is the middle
-/// layer of Bender (Williams 2003). It needs to know where it is and where it points, and no mind.
+/// Turns on the spot towards a waypoint when the heading is off, one waypoint after the other; then
+/// it has nothing more to do. Between *cruise*, which moves there, and *avoid* it is the middle
+/// layer of Bender (Williams 2003). It needs a position and a heading, but no beliefs.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 #[schemars(inline)]
 pub struct Correct {
-    /// The places, in metres.
+    /// The waypoints, in metres.
     #[schemars(length(max = 10_000))]
     pub waypoints_m: Vec<Point>,
-    /// It is at a place that is no farther, in metres.
+    /// A waypoint within this distance is reached, in metres.
     #[schemars(range(min = 0.01, max = 1000.0))]
     pub within_m: f64,
-    /// It turns when its course is off by more, in degrees.
+    /// It turns when the heading is off by more than this, in degrees.
     #[schemars(range(min = 0.1, max = 180.0))]
     pub course_error_deg: f64,
-    /// Time that it waits after a behaviour above it has had its way, in seconds. Without it a robot
-    /// locks in front of a large obstacle: it turns away, and at once back; with it, it gets around
-    /// what it can pass in this time.
+    /// Time to wait after a higher behaviour was active, in seconds. Without it a robot can be
+    /// trapped in front of a large obstacle: it turns away, and at once back. With it, it gets
+    /// around what it can pass in this time.
     #[schemars(range(min = 0.0, max = 3600.0))]
     pub wait_s: f64,
 }

@@ -1,4 +1,4 @@
-//! Going ahead.
+//! Moving straight ahead.
 
 use super::common::ahead;
 use crate::behaviours::behaviour::Behaviour;
@@ -9,12 +9,12 @@ use crate::perception::situation::Situation;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Goes ahead, always; whatever stands above it has its way first.
+/// Moves straight ahead, always; every behaviour above it takes precedence.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 #[schemars(inline)]
 pub struct Cruise {
-    /// Its speed, in m/s; left out, the most that the body can.
+    /// Speed, in m/s. Without it, the maximum speed of the body.
     #[schemars(range(min = 0.0, max = 100.0))]
     pub speed_m_s: Option<f64>,
 }

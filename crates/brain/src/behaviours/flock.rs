@@ -1,4 +1,4 @@
-//! Going with the others.
+//! Flocking.
 
 use super::common::ahead;
 use crate::behaviours::behaviour::Behaviour;
@@ -21,44 +21,43 @@ const OLDEST_S: f64 = 1.0;
 const MOST_RANGE_M: f64 = 1e6;
 const MOST_ANGLE_RAD: f64 = 1e4;
 
-/// Goes with the others that its sensors recognise: keeps apart from those too near, takes their
-/// course, and stays with them. What each of the three asks for is added to its own course, of length
-/// 1, separation first, until they together have come to the limit of steering (C. Reynolds, *Flocks,
-/// herds, and schools: a distributed behavioral model*, 1987). It turns to the course that comes out,
-/// and to a random one beside it.
+/// Flocks with the robots that its sensors detect: separation from those too near, alignment with
+/// their headings, and cohesion. The three requests are added to the robot's own unit heading,
+/// separation first, until they reach the steering limit (C. Reynolds, *Flocks, herds, and schools:
+/// a distributed behavioral model*, 1987). The robot turns to the resulting heading, plus noise.
 ///
-/// Courses need a sensor that tells them. Who is seen twice counts twice.
+/// Alignment needs a sensor that measures headings. A robot that is detected twice counts twice.
 ///
-/// With `averages = false`, `alignment = 1`, a `steering_limit` that is never reached and the others
-/// 0, each takes the mean course of all in range, itself among them (T. Vicsek et al., *Novel type of
-/// phase transition in a system of self-driven particles*, 1995).
+/// With `averages = false`, `alignment = 1`, a `steering_limit` that is never reached and the other
+/// weights 0, each robot takes the mean heading of all in range, itself included (T. Vicsek et al.,
+/// *Novel type of phase transition in a system of self-driven particles*, 1995).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 #[schemars(inline)]
 pub struct Flock {
-    /// Who is nearer than this, from centre to centre, is too near, in metres.
+    /// Robots nearer than this, from centre to centre, are too near, in metres.
     #[schemars(range(min = 0.0, max = 10_000.0))]
     pub separation_m: f64,
-    /// Weight of the way away from those too near, for each metre.
+    /// Weight of the vector away from robots that are too near, per metre.
     #[schemars(range(min = 0.0, max = 1000.0))]
     pub separation: f64,
-    /// Weight of the others' courses, each of length 1.
+    /// Weight of the unit headings of the others.
     #[schemars(range(min = 0.0, max = 1000.0))]
     pub alignment: f64,
-    /// Weight of the way to the others, for each metre.
+    /// Weight of the vector towards the others, per metre.
     #[schemars(range(min = 0.0, max = 1000.0))]
     pub cohesion: f64,
-    /// Whether each of these is of the mean over all others in range; else of their sum, so that each
-    /// of them counts as much as the robot itself.
+    /// Whether each of these is the mean over all others in range. Otherwise it is their sum, so
+    /// that each of them counts as much as the robot itself.
     pub averages: bool,
-    /// What the three ask for together is no longer than this.
+    /// Maximum length of the sum of the three.
     #[schemars(range(min = 0.0, max = 1e9))]
     pub steering_limit: f64,
-    /// Width of the range of angles, about the course that comes out, of which it draws one in each of
-    /// its steps, in degrees.
+    /// Width of the interval about the resulting heading from which each step draws one, in
+    /// degrees.
     #[schemars(range(min = 0.0, max = 360.0))]
     pub noise_deg: f64,
-    /// Its speed, in m/s; left out, the most that the body can.
+    /// Speed, in m/s. Without it, the maximum speed of the body.
     #[schemars(range(min = 0.0, max = 100.0))]
     pub speed_m_s: Option<f64>,
 }

@@ -10,19 +10,19 @@ use base::geometry::Point;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Follows another robot of its kind at a distance, as far as it sees it or is told where it is. The
-/// one that all follow has nothing to do here.
+/// Follows another robot of its kind at a distance, as long as it detects it or receives its
+/// position. The leader of all has nothing to do here.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 #[schemars(inline)]
 pub struct Follow {
-    /// Which one, by its index within the kind; left out, the one before it, so that all go in a row
-    /// behind the first.
+    /// Index of the robot to follow, within the kind. Without it, the one before it, so that all
+    /// robots form a column behind the first.
     pub robot: Option<u32>,
-    /// It stays so far behind, from hull to hull, in metres.
+    /// Distance to keep, between the footprints, in metres.
     #[schemars(range(min = 0.0, max = 1000.0))]
     pub distance_m: f64,
-    /// What following is worth, beside what other behaviours want.
+    /// Value of following, relative to other behaviours.
     #[schemars(range(min = 0.0, max = 1e6))]
     pub value: f64,
 }

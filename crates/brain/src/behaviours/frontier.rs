@@ -1,4 +1,4 @@
-//! Searching where the looked-at ends.
+//! Searching at the frontier of what has been observed.
 
 use super::survey::{Survey, aim, share};
 use crate::behaviours::behaviour::Behaviour;
@@ -16,17 +16,17 @@ use serde::{Deserialize, Serialize};
 /// A cell in which an item would have been missed with more than this has not been looked at.
 const UNSEEN: f64 = 0.5;
 
-/// Searches by going to the nearest place that nobody has looked at: along the frontier between what was
-/// looked at and what was not (Yamauchi, *A frontier-based approach for autonomous exploration*, 1997).
-/// When all has been looked at, it has nothing to do.
+/// Searches at the nearest place that no robot has observed: along the frontier between what was
+/// observed and what was not (Yamauchi, *A frontier-based approach for autonomous exploration*,
+/// 1997). When everything has been observed, it has nothing to do.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 #[schemars(inline)]
 pub struct Frontier {
-    /// Its speed, in m/s; left out, the most that the body can.
+    /// Speed, in m/s. Without it, the maximum speed of the body.
     #[schemars(range(min = 0.0, max = 100.0))]
     pub speed_m_s: Option<f64>,
-    /// What searching is worth, beside what other behaviours want.
+    /// Value of searching, relative to other behaviours.
     #[schemars(range(min = 0.0, max = 1e6))]
     pub value: f64,
 }

@@ -1,4 +1,4 @@
-//! Staying somewhere.
+//! Holding a position.
 
 use crate::behaviours::behaviour::Behaviour;
 use crate::goals::proposal::{Destination, Proposal};
@@ -11,17 +11,17 @@ use base::geometry::Point;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Stays where it is, or at a given place, and comes back if something moves it away.
+/// Stays where it is, or at a given position, and returns if something moves it away.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 #[schemars(inline)]
 pub struct HoldPosition {
-    /// The place, in metres; left out, where it is when it first has its way.
+    /// The position, in metres. Without it, where the robot is when this behaviour is first active.
     pub at_m: Option<Point>,
-    /// It is at a place that is no farther, in metres.
+    /// The position is reached within this distance, in metres.
     #[schemars(range(min = 0.01, max = 1000.0))]
     pub within_m: f64,
-    /// What staying is worth, beside what other behaviours want.
+    /// Value of staying, relative to other behaviours.
     #[schemars(range(min = 0.0, max = 1e6))]
     pub value: f64,
 }

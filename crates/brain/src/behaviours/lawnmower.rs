@@ -16,20 +16,21 @@ use serde::{Deserialize, Serialize};
 /// Neighbouring lanes overlap by this share of what is seen from them.
 const OVERLAP: f64 = 0.1;
 
-/// Searches lane by lane, there and back, as one mows a lawn. Robots of its kind share all lanes
-/// alike: each takes an equal part of the whole way. At the end it goes over it again, with lanes across
-/// those before: what they missed, others may not.
+/// Searches lane by lane, back and forth, like mowing a lawn. Robots of its kind share the lanes:
+/// each takes an equal part of the whole path. At the end it starts again, with lanes across the
+/// previous ones: what they missed, the others may detect.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 #[schemars(inline)]
 pub struct Lawnmower {
-    /// From one lane to the next, in metres; left out, as wide as its detector sees, less a tenth.
+    /// Distance between lanes, in metres. Without it, the width that the detector sees, less a
+    /// tenth.
     #[schemars(range(min = 0.1, max = 10_000.0))]
     pub width_m: Option<f64>,
-    /// Its speed, in m/s; left out, the most that the body can.
+    /// Speed, in m/s. Without it, the maximum speed of the body.
     #[schemars(range(min = 0.0, max = 100.0))]
     pub speed_m_s: Option<f64>,
-    /// What searching is worth, beside what other behaviours want.
+    /// Value of searching, relative to other behaviours.
     #[schemars(range(min = 0.0, max = 1e6))]
     pub value: f64,
 }

@@ -1,5 +1,5 @@
-//! The behaviours, one a file: what a scenario says of it, what that comes to in a body, and what a
-//! robot remembers for it.
+//! The behaviours, one per file: the keys in a scenario, the behaviour in a body, and what a robot
+//! remembers for it.
 
 mod avoid;
 mod bayesian_search;
@@ -45,8 +45,8 @@ use crate::perception::situation::Situation;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Each behaviour: its name in scenarios, its file, and what it is for. In the file are the type
-/// that scenarios read, `Ready` with its `new`, and `Memory`.
+/// All behaviours: name in scenarios, file, and purpose. Each file has the type that scenarios
+/// read, `Ready` with its `new`, and `Memory`.
 macro_rules! behaviours {
     ($($(#[doc = $purpose:literal])+ $kind:ident in $file:ident;)+) => {
         /// A behaviour of a brain, and its parameters.
@@ -65,7 +65,7 @@ macro_rules! behaviours {
                 }
             }
 
-            /// Whether it is of use only to a robot with a mind.
+            /// Whether it needs a robot with beliefs.
             #[must_use]
             pub fn needs_beliefs(&self) -> bool {
                 match self {
@@ -73,7 +73,7 @@ macro_rules! behaviours {
                 }
             }
 
-            /// Whether it is of use only to a robot that has a position sensor and a compass.
+            /// Whether it needs a robot with a position sensor and a compass.
             #[must_use]
             pub fn needs_pose(&self) -> bool {
                 match self {
@@ -81,7 +81,7 @@ macro_rules! behaviours {
                 }
             }
 
-            /// Whether it is of use only to a robot that recognises items.
+            /// Whether it needs a robot with an item detector.
             #[must_use]
             pub fn needs_detector(&self) -> bool {
                 match self {
@@ -130,7 +130,7 @@ macro_rules! behaviours {
                     $((Self::$kind(ready), Memory::$kind(memory)) => {
                         ready.triggered(memory, situation)
                     })+
-                    // A robot's memories are made of its behaviours, in their order.
+                    // A robot's memories are created from its behaviours, in their order.
                     _ => None,
                 }
             }
@@ -163,31 +163,32 @@ macro_rules! behaviours {
 }
 
 behaviours! {
-    /// Goes ahead, always.
+    /// Moves straight ahead, always.
     Cruise in cruise;
-    /// Turns to the course to the next of some places, when it is off it.
+    /// Turns towards the next waypoint when the heading is off.
     Correct in correct;
-    /// Searches by random bounces: straight on, and at an obstacle to a random free course.
+    /// Searches by random bounces: moves straight on, and at an obstacle turns to a random free
+    /// heading.
     RandomBounce in random_bounce;
-    /// Searches lane by lane, which the team shares.
+    /// Searches lane by lane; the team shares the lanes.
     Lawnmower in lawnmower;
     /// Searches in a spiral.
     Spiral in spiral;
-    /// Searches at the nearest place that nobody has looked at.
+    /// Searches at the nearest place that has not been observed.
     Frontier in frontier;
-    /// Searches where beliefs say most is to be found a second.
+    /// Searches where the expected rate of detection is highest.
     BayesianSearch in bayesian_search;
     /// Follows another robot.
     Follow in follow;
-    /// Stays at a place.
+    /// Holds a position.
     HoldPosition in hold_position;
-    /// Goes home before the battery is empty.
+    /// Returns to base before the battery is empty.
     ReturnHome in return_home;
-    /// Visits places, around what is known to be in the way.
+    /// Visits waypoints, around known obstacles.
     Navigate in navigate;
-    /// Gets out of the way of what is too near.
+    /// Avoids what is too near.
     Avoid in avoid;
-    /// Goes with the others: keeps apart from them, takes their course, and stays with them.
+    /// Flocks: separation, alignment and cohesion.
     Flock in flock;
 }
 

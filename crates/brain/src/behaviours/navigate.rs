@@ -1,4 +1,4 @@
-//! Visiting places.
+//! Visiting waypoints.
 
 use super::errands::Errands;
 use crate::behaviours::behaviour::Behaviour;
@@ -13,45 +13,45 @@ use base::geometry::Point;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Visits places one after the other, around what is known to be in the way; then it has nothing more
-/// to do. It needs to know where it is and where it points.
+/// Visits waypoints one after the other, around known obstacles; then it has nothing more to do. It
+/// needs a position and a heading.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 #[schemars(inline)]
 pub struct Navigate {
-    /// The places, in metres.
+    /// The waypoints, in metres.
     #[schemars(length(max = 10_000))]
     pub waypoints_m: Vec<Point>,
-    /// Who visits which.
+    /// Which robot visits which waypoints.
     pub assignment: Assignment,
-    /// It is at a place that is no farther, in metres.
+    /// A waypoint within this distance is reached, in metres.
     #[schemars(range(min = 0.01, max = 1000.0))]
     pub within_m: f64,
-    /// Its speed, in m/s; left out, the most that the body can.
+    /// Speed, in m/s. Without it, the maximum speed of the body.
     #[schemars(range(min = 0.0, max = 100.0))]
     pub speed_m_s: Option<f64>,
-    /// What being at the next place is worth, beside what other behaviours want.
+    /// Value of being at the next waypoint, relative to other behaviours.
     #[schemars(range(min = 0.0, max = 1e6))]
     pub value: f64,
 }
 
-/// Who visits which places.
+/// Which robot visits which waypoints.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Assignment {
-    /// Every robot all of them.
+    /// Every robot visits all of them.
     #[default]
     All,
-    /// Each robot one: the first of its kind the first, and so on, from the beginning again if there are
-    /// fewer places than robots.
+    /// Each robot visits one: the first of its kind the first, and so on, starting again if there
+    /// are fewer waypoints than robots.
     OneEach,
-    /// The team all of them, each by whoever comes first: by radio they tell where they go and have been, and
-    /// what one cannot get to others visit.
+    /// The team visits all of them, each by the robot that gets there first: robots report by radio
+    /// where they go and have been, and others visit what one cannot reach.
     Shared,
 }
 
 impl Navigate {
-    /// Whether robots share the places by what they tell each other.
+    /// Whether robots share the waypoints by messages.
     #[must_use]
     pub fn is_shared_by_team(&self) -> bool {
         self.assignment == Assignment::Shared

@@ -16,24 +16,23 @@ use serde::{Deserialize, Serialize};
 /// Who sees nothing turns by at least this.
 const LEAST_BLIND_RAD: f64 = FRAC_PI_4;
 
-/// Searches by random bounces: it goes straight on until something stands in its way or touches it,
-/// turns on the spot to a course drawn at random among those that look free, and goes on. A robot
+/// Searches by random bounces: moves straight on until something is in its way or touches it, turns
+/// on the spot to a heading drawn at random among those that look free, and continues. A robot
 /// without range sensors turns by any angle but a small one.
 ///
-/// Needs no compass: it turns for as long as the angle takes, and better if it has one.
+/// Needs no compass: the turn lasts for as long as the angle takes, and is more accurate with one.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 #[schemars(inline)]
 pub struct RandomBounce {
-    /// It turns so far before what stands ahead, from its hull, in metres, and brakes in time for
-    /// that; at most half as far as its range sensors see.
+    /// Distance from its footprint to an obstacle ahead at which it turns, in metres; it brakes in
+    /// time for that. At most half the range of its range sensors.
     #[schemars(range(min = 0.0, max = 1000.0))]
     pub turn_at_m: f64,
-    /// Time that it goes straight on after a turn before lower behaviours have their way, in
-    /// seconds.
+    /// Time to move straight on after a turn before lower behaviours are active again, in seconds.
     #[schemars(range(min = 0.0, max = 3600.0))]
     pub hold_s: f64,
-    /// Its speed while it goes straight on, in m/s; left out, the most that the body can.
+    /// Speed while it moves straight on, in m/s. Without it, the maximum speed of the body.
     #[schemars(range(min = 0.0, max = 100.0))]
     pub speed_m_s: Option<f64>,
 }

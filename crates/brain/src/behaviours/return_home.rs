@@ -1,4 +1,4 @@
-//! Going home before the battery is empty.
+//! Returning to base before the battery is empty.
 
 use crate::behaviours::behaviour::Behaviour;
 use crate::goals::proposal::{Destination, Proposal};
@@ -11,24 +11,24 @@ use base::geometry::Point;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Goes back to base when the battery is low, and stays there until it is charged: low is what is written
-/// here, or less than the way home may take, whichever comes first.
+/// Returns to base when the battery is low, and stays there until it is charged. Low is the given
+/// fraction, or less than the way back may take, whichever comes first.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 #[schemars(inline)]
 pub struct ReturnHome {
-    /// The base, in metres; left out, where the robot was first switched on.
+    /// The base, in metres. Without it, where the robot was first switched on.
     pub at_m: Option<Point>,
-    /// Share of the battery at which it goes home in any case.
+    /// Remaining fraction of the battery at which it returns in any case.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub min_charge: f64,
-    /// It goes home when the battery lasts for no more than so many times the straight way.
+    /// It returns when the battery lasts for at most this multiple of the straight way.
     #[schemars(range(min = 1.0, max = 100.0))]
     pub reserve_factor: f64,
-    /// It is at a place that is no farther, in metres.
+    /// The base is reached within this distance, in metres.
     #[schemars(range(min = 0.01, max = 1000.0))]
     pub within_m: f64,
-    /// What being home is worth then, beside what other behaviours want.
+    /// Value of being at the base then, relative to other behaviours.
     #[schemars(range(min = 0.0, max = 1e6))]
     pub value: f64,
 }

@@ -17,21 +17,22 @@ use serde::{Deserialize, Serialize};
 /// Neighbouring turns overlap by this share of what is seen from them.
 const OVERLAP: f64 = 0.1;
 
-/// Searches in a spiral around where it began, or around a given place, until nothing of the field is
-/// left outside; then again from the middle. What lies outside the field is left out.
+/// Searches in a spiral around where it began, or around a given position, until nothing of the
+/// field is left outside; then again from the centre. Parts outside the field are skipped.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 #[schemars(inline)]
 pub struct Spiral {
-    /// Its middle, in metres; left out, where the robot is when it begins.
+    /// Centre, in metres. Without it, where the robot is when it begins.
     pub around_m: Option<Point>,
-    /// From one turn to the next, in metres; left out, as wide as its detector sees, less a tenth.
+    /// Distance between turns, in metres. Without it, the width that the detector sees, less a
+    /// tenth.
     #[schemars(range(min = 0.1, max = 10_000.0))]
     pub width_m: Option<f64>,
-    /// Its speed, in m/s; left out, the most that the body can.
+    /// Speed, in m/s. Without it, the maximum speed of the body.
     #[schemars(range(min = 0.0, max = 100.0))]
     pub speed_m_s: Option<f64>,
-    /// What searching is worth, beside what other behaviours want.
+    /// Value of searching, relative to other behaviours.
     #[schemars(range(min = 0.0, max = 1e6))]
     pub value: f64,
 }

@@ -1,4 +1,4 @@
-//! What a robot believes and wants, for whoever looks at it: pages, tests, people.
+//! What a robot believes and wants.
 
 use super::heading_options::HeadingOptions;
 use crate::arbitration::goal_selection::{BeliefBrain, GoalSelection};
@@ -12,49 +12,49 @@ use base::geometry::Point;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What a mind believes and wants at one moment.
+/// What a robot believes and wants at one moment.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct BeliefState {
-    /// Where it believes itself to be, once it knows.
+    /// Its believed pose, once it is known.
     pub pose: Option<Pose>,
-    /// Items that it believes in, in the order in which it came to.
+    /// Believed items, in the order of their first observation.
     pub items: Vec<BelievedItem>,
-    /// Robots, and what else moves, nearby.
+    /// Robots and other moving things nearby.
     pub robots: Vec<BelievedRobot>,
-    /// What it wants, by precedence.
+    /// Its goals, by precedence.
     pub goals: Vec<GoalState>,
-    /// What the places around it were worth; none if it took no way in its last step.
+    /// The utility of the headings around it; none if it did not navigate in its last step.
     pub reach: Option<HeadingOptions>,
 }
 
 /// A goal.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct GoalState {
-    /// Place of the behaviour that wants it in the brain's list.
+    /// Index of its behaviour in the brain's list.
     pub behaviour: u32,
-    /// Where in the world.
+    /// Its position in the world.
     pub to: Point,
-    /// Its utility now: value x likely / (1 + time / 10 s).
+    /// Its current utility: value x likely / (1 + time / 10 s).
     pub precedence: f64,
-    /// What it is worth to be there.
+    /// Value of being there.
     pub value: f64,
-    /// How likely the battery lasts for it, 0 to 1.
+    /// Probability that the battery lasts, 0 to 1.
     pub likely: f64,
-    /// Time that the straight way there takes.
+    /// Time for the straight way.
     pub time_s: f64,
-    /// Nearer than this it is there.
+    /// It is reached within this distance.
     pub within_m: f64,
-    /// What has become of it.
+    /// Its fitness verdict.
     pub verdict: Verdict,
-    /// The way left in the last step, and the least so far.
+    /// Remaining path length in the last step, and the minimum so far.
     pub left_m: f64,
     /// See `left_m`.
     pub best_m: f64,
-    /// It has not come nearer for so long.
+    /// Time without coming nearer.
     pub stuck_s: f64,
-    /// It counts as impossible for so long, so that others have their turn.
+    /// Time for which it still counts as impossible, so that other goals are served.
     pub rests_s: f64,
-    /// Whether the robot goes there now.
+    /// Whether the robot pursues it now.
     pub is_pursued: bool,
 }
 

@@ -1,24 +1,24 @@
-//! The map that a robot has in its mind, for whoever looks at it.
+//! The map of a robot.
 
 use crate::perception::beliefs::Map;
 use alloc::vec::Vec;
 use base::geometry::Point;
 
-/// What a robot believes to fill its mission's field, and where it has not looked: cells row by row from
-/// the least corner.
+/// The believed occupancy of the mission area, and where no item was observed: cells row by row
+/// from the lower left corner.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BelievedMap {
-    /// Where the first cell's least corner is, in the world.
+    /// Lower left corner of the first cell, in the world.
     pub corner: Point,
     /// Width of a cell.
     pub cell_m: f64,
     /// Cells in a row.
     pub columns: usize,
-    /// How many rows there are.
+    /// Number of rows.
     pub rows: usize,
-    /// How likely each cell is filled, in percent; -1 where nothing says either.
+    /// Probability that each cell is occupied, in percent; -1 if unknown.
     pub occupancy: Vec<i8>,
-    /// How likely an item in each cell would not have been seen, in percent.
+    /// Probability that an item in each cell would not have been detected, in percent.
     pub unseen: Vec<u8>,
 }
 

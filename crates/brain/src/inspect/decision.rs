@@ -1,4 +1,4 @@
-//! What a brain decides in one step, and why, for whoever looks at it.
+//! The decision of a brain in one step, and its reasons.
 
 use super::belief_state::BeliefState;
 use crate::io::command::Command;
@@ -6,16 +6,16 @@ use alloc::vec::Vec;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What a brain decides in one step, and why.
+/// The decision of a brain in one step, and its reasons.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Decision {
-    /// What the robot is to do.
+    /// The command.
     pub command: Command,
-    /// Place in the brain's list of the behaviour that has its way; none if nothing is to be done, or all
-    /// count together.
+    /// Index of the active behaviour in the brain's list; none if there is nothing to do, or if all
+    /// are blended.
     pub leading: Option<u32>,
-    /// For so long each behaviour keeps control though it has nothing to do.
+    /// Remaining hold time of each behaviour.
     pub holds_s: Vec<f64>,
-    /// What it believes and wants; none if it has no mind.
+    /// What it believes and wants; none without beliefs.
     pub thoughts: Option<BeliefState>,
 }

@@ -1,4 +1,4 @@
-//! What every place that can be reached is worth to a robot, for whoever looks at it.
+//! The utility of the headings around a robot.
 
 use crate::navigation::navigator::Navigator;
 use crate::navigation::reachable::{COURSES, bearing_rad, utility};
@@ -7,32 +7,33 @@ use base::geometry::Point;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// The courses that a robot looked along, and which of them it took.
+/// The headings that a robot considered, and which of them it took.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct HeadingOptions {
-    /// The next place on its way, from the robot's front.
+    /// The next place on its path, relative to the robot's front.
     pub to: Point,
-    /// Place in `courses` of the one that it took.
+    /// Index in `courses` of the one that it took.
     pub taken: u32,
-    /// All around, the first ahead, anticlockwise.
+    /// All around, the first straight ahead, anticlockwise.
     pub courses: Vec<HeadingOption>,
 }
 
-/// A course, and what it is worth.
+/// A heading, and its utility.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct HeadingOption {
-    /// From the robot's front, from -pi to pi.
+    /// Relative to the robot's front, from -pi to pi.
     pub bearing_rad: f64,
-    /// It is free so far, as far as the robot looks ahead.
+    /// Free distance, as far as the robot looks ahead.
     pub free_m: f64,
-    /// The place that it would get to, from the robot's front.
+    /// The place that it would reach, relative to the robot's front.
     pub at: Point,
-    /// Of that place: minus the distance left from there, minus the cost of turning there, in metres.
+    /// Utility of that place: minus the distance left from there, minus the cost of turning there,
+    /// in metres.
     pub utility: f64,
 }
 
 impl HeadingOptions {
-    /// As of the last step; `None` if the robot took no course in it.
+    /// Of the last step; `None` if the robot did not navigate in it.
     pub(crate) fn of(way: &Navigator) -> Option<Self> {
         let [aim_rad, away_m] = way.turned_to?;
         let to = crate::perception::sector::direction(aim_rad).times(away_m);

@@ -1,4 +1,4 @@
-//! What a brain knows of the body that it is in.
+//! What a brain knows of its body.
 
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -6,7 +6,7 @@ use base::geometry::Rectangle;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Which robot: the `index`-th of its kind, both counted from 0.
+/// The id of a robot: the `index`-th of its kind, both counted from 0.
 #[derive(
     Debug,
     Clone,
@@ -23,31 +23,31 @@ use serde::{Deserialize, Serialize};
 )]
 #[serde(deny_unknown_fields)]
 pub struct RobotId {
-    /// Place of the robot's kind in the scenario.
+    /// Index of the kind in the scenario.
     pub kind: u8,
-    /// Place within the kind.
+    /// Index within the kind.
     pub index: u32,
 }
 
-/// What a brain knows of its body, the same for every robot of a kind.
+/// What a brain knows of its body, the same for all robots of a kind.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Body {
-    /// Of the disc that it covers.
+    /// Radius of its footprint.
     #[schemars(range(min = 0.0))]
     pub radius_m: f64,
-    /// At most so fast ahead.
+    /// Maximum forward speed.
     #[schemars(range(min = 0.0))]
     pub max_speed_m_s: f64,
-    /// At most so fast backwards; 0 if it cannot.
+    /// Maximum reverse speed; 0 if it cannot reverse.
     #[serde(default)]
     #[schemars(range(min = 0.0))]
     pub max_reverse_speed_m_s: f64,
-    /// It gains and loses speed at most so fast; infinite if at once (`null` in JSON).
+    /// Maximum acceleration and deceleration; infinite if speed changes instantly (`null` in JSON).
     #[serde(default = "at_once", with = "crate::io::infinite::number")]
     #[schemars(with = "Option<f64>", range(min = 0.0))]
     pub max_acceleration_m_s2: f64,
-    /// It turns at most so fast, either way.
+    /// Maximum turn rate, in either direction.
     #[schemars(range(min = 0.0))]
     pub max_turn_rate_rad_s: f64,
     /// Time between two steps of the brain.
@@ -56,13 +56,13 @@ pub struct Body {
     /// Names of its sensors, in the order in which requests count them.
     #[serde(default)]
     pub sensors: Vec<String>,
-    /// Its range rings, in the order in which percepts have their scans.
+    /// Its range rings, in the order of the scans of percepts.
     #[serde(default)]
     pub rings: Vec<RangeRing>,
-    /// What recognises items, in the order of its sensors.
+    /// Its item detectors, in the order of its sensors.
     #[serde(default)]
     pub detectors: Vec<Detector>,
-    /// Standard deviation of its position sensor along each axis.
+    /// Standard deviation of its position sensor, along each axis.
     #[serde(default)]
     #[schemars(range(min = 0.0))]
     pub position_noise_m: f64,
@@ -70,22 +70,22 @@ pub struct Body {
     #[serde(default)]
     #[schemars(range(min = 0.0))]
     pub heading_noise_rad: f64,
-    /// Standard deviation of where other robots seem to be, along each axis.
+    /// Standard deviation of the measured positions of other robots, along each axis.
     #[serde(default)]
     #[schemars(range(min = 0.0))]
     pub neighbour_noise_m: f64,
-    /// Names of the kinds of items that there are.
+    /// Names of all kinds of items.
     #[serde(default)]
     pub item_kinds: Vec<String>,
-    /// Bodies of all kinds of robots that there are, in the order in which ids count them.
+    /// Bodies of all kinds of robots, in the order in which ids count them.
     #[serde(default)]
     pub others: Vec<Other>,
-    /// Where its mission is; left out, it is not told.
+    /// The area of its mission; without it, unknown.
     pub field: Option<Rectangle>,
 }
 
 impl Body {
-    /// Whether it is the same body, though it may be told of other robots.
+    /// Whether it is the same body, except for what it knows of other robots.
     #[must_use]
     pub fn is_same_but_for_others(&self, body: &Self) -> bool {
         let others = self.others.clone();
@@ -101,43 +101,43 @@ impl Body {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Other {
-    /// Of the disc that it covers.
+    /// Radius of its footprint.
     #[schemars(range(min = 0.0))]
     pub radius_m: f64,
-    /// It gains and loses speed at most so fast; infinite if at once (`null` in JSON).
+    /// Maximum acceleration and deceleration; infinite if speed changes instantly (`null` in JSON).
     #[serde(default = "at_once", with = "crate::io::infinite::number")]
     #[schemars(with = "Option<f64>", range(min = 0.0))]
     pub max_acceleration_m_s2: f64,
-    /// Whether the two can run into each other: not if one of them flies.
+    /// Whether the two kinds can collide: not if one of them flies.
     pub is_in_the_way: bool,
-    /// What it recognises items with.
+    /// Its item detectors.
     #[serde(default)]
     pub detectors: Vec<Detector>,
 }
 
-/// A sensor that recognises items.
+/// An item detector.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Detector {
-    /// Its place in [`Body::sensors`].
+    /// Its index in [`Body::sensors`].
     pub sensor: u16,
-    /// It looks no farther from the robot's centre.
+    /// Maximum range from the centre of the robot.
     #[schemars(range(min = 0.0))]
     pub range_m: f64,
-    /// Angle that it covers.
+    /// Field of view.
     #[schemars(range(min = 0.0))]
     pub width_rad: f64,
-    /// Its middle, from the robot's front.
+    /// Direction of its centre, relative to the robot's front.
     pub facing_rad: f64,
-    /// For each kind of item, pairs of distance in metres and probability of detection in one look,
-    /// by growing distance, linear between two; none if it never recognises that kind.
+    /// For each kind of item, pairs of distance in metres and probability of detection per
+    /// measurement, by increasing distance, linear in between; none if it never detects that kind.
     pub detection_probability: Vec<Vec<[f64; 2]>>,
-    /// False contacts of each kind in one look, for each square metre in view.
+    /// False alarms of each kind per measurement and square metre in view.
     pub false_alarms_per_m2: Vec<f64>,
-    /// Standard deviation of where a contact seems to be, along each axis.
+    /// Standard deviation of the measured position of a contact, along each axis.
     #[schemars(range(min = 0.0))]
     pub noise_m: f64,
-    /// Whether obstacles hide items from it.
+    /// Whether obstacles hide items.
     pub needs_line_of_sight: bool,
 }
 
@@ -145,15 +145,15 @@ pub struct Detector {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RangeRing {
-    /// Direction of each ray from the robot's front, anticlockwise; above -pi, up to pi.
+    /// Direction of each ray relative to the robot's front, anticlockwise; above -pi, up to pi.
     pub bearings_rad: Vec<f64>,
-    /// Nothing farther from the robot's centre is measured.
+    /// Maximum range from the centre of the robot.
     #[schemars(range(min = 0.0))]
     pub range_m: f64,
     /// Time between two scans.
     #[schemars(range(min = 0.0))]
     pub period_s: f64,
-    /// Time from a scan until the brain has it.
+    /// Delay from a scan until the brain has it.
     #[schemars(range(min = 0.0))]
     pub latency_s: f64,
 }

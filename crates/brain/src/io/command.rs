@@ -5,34 +5,34 @@ use alloc::vec::Vec;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// All that a brain wants of its body in this step.
+/// The output of a brain in one step.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Command {
-    /// How to move; the body does what it can of it.
+    /// The motion that the brain wants; the body executes it as far as it can.
     pub motion: Motion,
-    /// Sensors to switch; each stays so until it is switched again. All are on at first.
+    /// Sensors to switch on or off; each stays so until it is switched again. Initially all are on.
     pub requests: Vec<SensorRequest>,
-    /// What to tell other robots.
+    /// Messages to other robots.
     pub outbox: Vec<Message>,
 }
 
-/// A speed and a rate of turn.
+/// A speed and a turn rate.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Motion {
-    /// Ahead; negative is backwards.
+    /// Forward; negative is reverse.
     pub speed_m_s: f64,
     /// Anticlockwise.
     pub turn_rate_rad_s: f64,
 }
 
-/// A sensor to be switched on or off.
+/// A request to switch a sensor on or off.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SensorRequest {
-    /// Place of the sensor in [`Body::sensors`](crate::Body::sensors).
+    /// Index of the sensor in [`Body::sensors`](crate::Body::sensors).
     pub sensor: u16,
-    /// Whether it is to measure.
+    /// Whether it measures.
     pub on: bool,
 }

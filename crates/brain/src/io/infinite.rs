@@ -1,4 +1,4 @@
-//! Infinity as `null`, since JSON has no word for it.
+//! Infinity as `null`, because JSON has no infinity.
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 

@@ -5,71 +5,72 @@ use base::geometry::Point;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What one robot tells others.
+/// A message from one robot to others.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Message {
-    /// What it is about.
+    /// Its content.
     pub about: About,
-    /// How sure the sender is, 0 to 1.
+    /// Confidence of the sender, 0 to 1.
     pub confidence: f64,
 }
 
-/// What a message can be about.
+/// The content of a message.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum About {
     /// An item.
     Item {
-        /// Place of its kind in [`Body::item_kinds`](crate::Body::item_kinds).
+        /// Index of its kind in [`Body::item_kinds`](crate::Body::item_kinds).
         kind: u16,
-        /// Where it is in the world.
+        /// Its position in the world.
         at: Point,
-        /// Whose looks say so.
+        /// The observations behind the report.
         #[serde(default)]
         seen: Provenance,
     },
     /// The sender itself.
     Sender {
-        /// Where it is in the world.
+        /// Its position in the world.
         at: Point,
-        /// Its course: 0 along x, anticlockwise.
+        /// Its heading: 0 along x, anticlockwise.
         heading_rad: f64,
-        /// How often it has looked for items so far, on its way here.
+        /// Number of measurements of its item detectors so far on its way here.
         #[serde(default)]
         looks: u32,
     },
-    /// A place where the sender wants to be.
+    /// A destination of the sender.
     Goal {
-        /// Where in the world.
+        /// Its position in the world.
         at: Point,
-        /// What has become of it.
+        /// The status of the commitment.
         stand: CommitmentStatus,
     },
 }
 
-/// The looks of one robot at one item: what counts once, whoever tells of it, and however often.
+/// The observations of one item by one robot: they count once, whichever robot reports them, and
+/// however often.
 #[derive(
     Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema,
 )]
 #[serde(deny_unknown_fields)]
 pub struct Provenance {
-    /// Who looked.
+    /// The observer.
     pub by: RobotId,
-    /// The looker's own number for the item.
+    /// The observer's own number for the item.
     pub mark: u32,
-    /// How often it looked: of two reports with the same mark, the one with more looks holds.
+    /// Number of observations: of two reports with the same mark, the one with more counts.
     pub looks: u32,
 }
 
-/// What has become of a goal.
+/// The status of a commitment to a destination.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum CommitmentStatus {
-    /// The sender is on its way: nobody else needs to go.
+    /// The sender is on its way: no other robot needs to go.
     Going,
-    /// The sender has been there: nobody else needs to go.
+    /// The sender has been there: no other robot needs to go.
     Done,
-    /// The sender no longer goes, and has not been there: others may.
+    /// The sender gave it up without having been there: other robots may go.
     Left,
 }

@@ -16,17 +16,17 @@ impl RandomWords {
         Self { words, drawn: 0 }
     }
 
-    /// From 0 up to, but not, 1.
+    /// From 0 up to, but not including, 1.
     pub fn unit(&mut self) -> f64 {
         f64::from(self.word()) / 4_294_967_296.0
     }
 
-    /// From `low` up to, but not, `high`.
+    /// From `low` up to, but not including, `high`.
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.unit()
     }
 
-    /// A whole number below `end`; 0 if that is 0.
+    /// An integer below `end`; 0 if that is 0.
     pub fn below(&mut self, end: u32) -> u32 {
         let product = u64::from(self.word()) * u64::from(end);
         u32::try_from(product >> 32).unwrap_or_default()

@@ -34,35 +34,36 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use wanted::{GoalState, along};
 
-/// What of vectors can be set.
+/// Parameters of motor schemas.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 #[schemars(inline)]
 pub struct Schemas {
-    /// How much what a behaviour wants counts beside what others want, by the behaviour's kind; left
-    /// out, its `value`, or 1 if it has none.
+    /// Weight of a behaviour, by its kind. Without it, its `value`, or 1 if it has none.
     pub gains: BTreeMap<String, f64>,
-    /// Obstacles that are nearer to its hull repel it, more the nearer they are, in metres.
+    /// Obstacles nearer to the robot's footprint than this repel it, in metres; the nearer, the
+    /// more.
     #[schemars(range(min = 0.0, max = 1000.0))]
     pub influence_m: f64,
-    /// How much an obstacle repels it at contact, beside 1 for what all behaviours want together.
+    /// Weight of an obstacle at contact, relative to 1 for all behaviours together.
     #[schemars(range(min = 0.0, max = 1000.0))]
     pub repulsion: f64,
-    /// How much a random direction counts, beside 1 for what all behaviours want together.
+    /// Weight of a random direction, relative to 1 for all behaviours together.
     #[schemars(range(min = 0.0, max = 1000.0))]
     pub noise: f64,
-    /// While it is blocked, `noise` grows to this, and then falls again; at most `noise`: it never grows.
+    /// While the robot is blocked, `noise` grows to this, and then falls again. Without effect if
+    /// not above `noise`.
     #[schemars(range(min = 0.0, max = 1000.0))]
     pub max_noise: f64,
-    /// A random direction is kept for so long, in seconds.
+    /// A random direction is kept for this long, in seconds.
     #[schemars(range(min = 0.0, max = 3600.0))]
     pub noise_s: f64,
-    /// It is blocked when it wants to move and has not left a circle of this radius, in metres, for
-    /// `blocked_after_s`.
+    /// The robot is blocked when it wants to move and has not left a circle of this radius, in
+    /// metres, for `blocked_after_s`.
     #[schemars(range(min = 0.01, max = 1000.0))]
     pub blocked_within_m: f64,
-    /// The time after which it is blocked, in seconds; the noise takes as long to grow, and four times
-    /// as long to fall.
+    /// Time after which the robot is blocked, in seconds. The noise takes as long to grow, and four
+    /// times as long to fall.
     #[schemars(range(min = 0.1, max = 3600.0))]
     pub blocked_after_s: f64,
 }
