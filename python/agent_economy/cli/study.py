@@ -181,7 +181,9 @@ def one_executor(workers: int | None, dask: str | None) -> None:
 def required(scenario: Path | None, more: float | None) -> Path:
     """Return the scenario, which is needed without --resume."""
     if scenario is None:
-        message = "SCENARIO is missing: expected a TOML file, or a name that agent-economy scenarios lists"
+        message = (
+            "SCENARIO is missing: expected a TOML file or a name from `agent-economy scenarios`"
+        )
         raise InputError(message)
     if more is not None:
         message = f"--more = {more:g}: must come with --resume FOLDER; else use --confidence"
