@@ -1,20 +1,16 @@
-//! An entity's own random numbers: a draw is a function of what it is for and when.
+//! Random numbers of an entity, as a function of their use and of the time.
 //!
-//! Unlike a stream that is drawn from in turn, this gives the words of any look of any sensor at
-//! once, so that what one sensor draws changes nothing for another, and skipping a look nothing for
-//! the next. The generator is Philox4x32-10 (see [`crate::random`]), with a key for each entity.
+//! Unlike a sequential stream, this returns the words of any measurement of any sensor directly: the
+//! draws of one sensor do not affect another, and a skipped measurement does not affect the next. The generator is Philox4x32-10 (see [`crate::random`]), with a key for each entity.
 
-#![expect(
-    clippy::inline_always,
-    reason = "it is compiled for the vectors of its callers"
-)]
+#![expect(clippy::inline_always, reason = "it is vectorised in its callers")]
 
 use crate::philox::{Blocks, LANES, Words, blocks};
 use crate::random::{Entity, Purpose, stream};
 use rand_philox::philox4x32_10;
 use std::f32::consts::{FRAC_PI_2, LN_2};
 
-/// Things that are dealt words together: one for each word of so many blocks.
+/// Number of entities that receive words together: one for each word of the blocks.
 pub const HAND: usize = 4 * LANES;
 
 /// 2^-32.
@@ -24,8 +20,8 @@ const WORD: f64 = 1.0 / 4_294_967_296.0;
 const HALF_WORD: f32 = 1.0 / 2_147_483_648.0;
 const QUARTER: f32 = 1.0 / 1_073_741_824.0;
 
-/// The last bits of this number, as a float, hold a whole number below 2^52: so one is converted
-/// that is known to be that small, on every machine in the same few instructions.
+/// The low bits of this float can hold a whole number below 2^52, which converts such a number in the
+/// same few instructions on every machine.
 const WHOLE_BITS: u64 = 0x4330_0000_0000_0000;
 const WHOLE: f64 = 4_503_599_627_370_496.0;
 
@@ -39,7 +35,7 @@ pub struct Noise {
 }
 
 impl Noise {
-    /// Those of an entity.
+    /// The random numbers of an entity.
     #[must_use]
     pub fn of(seed: u64, run: u64, entity: Entity) -> Self {
         let mut stream = stream(seed, run, entity, Purpose::Noise);
@@ -48,7 +44,7 @@ impl Noise {
         }
     }
 
-    /// Four words for one use, at one time, for the `index`-th thing.
+    /// Four words for a use, a time and an index.
     #[must_use]
     #[inline]
     pub fn words(self, use_of: u32, time: u64, index: u32) -> [u32; 4] {
@@ -57,10 +53,10 @@ impl Noise {
         philox4x32_10([index, use_of, low, high], self.key)
     }
 
-    /// A word for each of [`HAND`] things, the `hand`-th so many: for the thing `lane` of row `row`
-    /// that of number `LANES * row + lane`.
+    /// A word for each of the `hand`-th group of [`HAND`] entities: row `row` and lane `lane` hold that
+    /// of entity `LANES * row + lane` of the group.
     ///
-    /// This is for loops: it is compiled for the instructions of the function that it is in.
+    /// For loops: it is inlined and compiled for the instruction set of its caller.
     #[must_use]
     #[inline(always)]
     pub fn deal(self, use_of: u32, time: u64, hand: u32) -> Blocks {
@@ -70,22 +66,22 @@ impl Noise {
     }
 }
 
-/// A number from 0 to 1, neither included.
+/// A uniform number from 0 to 1, both excluded.
 #[must_use]
 #[inline(always)]
 pub fn share(word: u32) -> f64 {
     share_of(u64::from(word))
 }
 
-/// The same of the lower half of a number.
+/// The same, from the lower half of a 64-bit number.
 #[must_use]
 #[inline(always)]
 pub fn share_of(word: u64) -> f64 {
     (whole(word & LOW) + 0.5) * WORD
 }
 
-/// Two independent numbers of the standard normal distribution, at most 6.7 from 0, as finely as
-/// short floats tell them apart: nothing measures better than to a millionth of its error.
+/// Two independent standard normal numbers, at most 6.7 from 0, with the precision of 32-bit floats:
+/// no sensor is more precise than a millionth of its error.
 ///
 /// Source: G. E. P. Box and M. E. Muller, *A note on the generation of random normal deviates*,
 /// Annals of Mathematical Statistics 29 (1958).
@@ -96,7 +92,7 @@ pub fn normal_pair(words: [u32; 2]) -> [f64; 2] {
     on_circle(words[1]).map(|part| f64::from(radius * part))
 }
 
-/// Two for each lane: see [`normal_pair`].
+/// [`normal_pair`] for each lane.
 #[must_use]
 #[inline(always)]
 pub fn normal_pairs(words: [&Words; 2]) -> [[f64; LANES]; 2] {
@@ -110,14 +106,14 @@ pub fn normal_pairs(words: [&Words; 2]) -> [[f64; LANES]; 2] {
     pairs
 }
 
-/// A point of the circle of radius 1, each as likely, within 2e-7; without branches.
+/// A uniform point of the unit circle, within 2e-7; without branches.
 ///
-/// The first two bits are the quarter that it is in, the others its place there.
+/// The first two bits select the quadrant, the others the position in it.
 #[inline(always)]
 fn on_circle(word: u32) -> [f32; 2] {
     let x = ((short(word & (u32::MAX >> 2)) + 0.5) * QUARTER - 0.5) * FRAC_PI_2;
     let q = x * x;
-    // Sums of pairs of terms, and of pairs of those: the last is known sooner than by Horner's rule.
+    // Pairwise sums (Estrin's scheme) have shorter dependency chains than Horner's rule.
     let last = -1.0 / 5_040.0 + q * (1.0 / 362_880.0);
     let sine = x + x * (q * ((-1.0 / 6.0 + q * (1.0 / 120.0)) + (q * q) * last));
     let last = 1.0 / 24.0 - q * (1.0 / 720.0);
@@ -135,7 +131,7 @@ fn on_circle(word: u32) -> [f32; 2] {
     ]
 }
 
-/// The natural logarithm of a word's share of all words, within a millionth; without branches.
+/// The natural logarithm of a word divided by 2^32, within a millionth; without branches.
 #[inline(always)]
 fn ln_of_share(word: u32) -> f32 {
     // x = m 2^e with m from sqrt(1/2) to sqrt(2); ln m = 2 artanh((m - 1) / (m + 1)).
@@ -155,12 +151,12 @@ fn ln_of_share(word: u32) -> f32 {
     2.0 * z * (first + (q * q) * last) + exponent * LN_2
 }
 
-/// A number below 2^31 as a short float: as a signed one, which all machines convert at once.
+/// A number below 2^31 as a 32-bit float, by way of a signed integer, which all machines convert directly.
 #[inline(always)]
 #[expect(
     clippy::cast_possible_wrap,
     clippy::cast_precision_loss,
-    reason = "below 2^31; as finely as short floats can"
+    reason = "below 2^31; within the precision of 32-bit floats"
 )]
 fn short(number: u32) -> f32 {
     number as i32 as f32

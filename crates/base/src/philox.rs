@@ -1,21 +1,18 @@
 //! Several blocks of Philox4x32-10 at once, for loops that are compiled for wide vectors.
 //!
-//! The crate `rand_philox` takes sixteen blocks to be faster than one by one, in the instructions
-//! that every machine has. A ring of sixteen rays needs four blocks, and its loop is compiled for
-//! the machine's own instructions: in eight 64-bit lanes each round is six of them.
+//! The crate `rand_philox` is faster for sixteen blocks or more, with the instructions that every
+//! machine has. A ring of sixteen rays needs four blocks, and its loop is compiled for the
+//! instruction set of the machine: with eight 64-bit lanes, each round takes six instructions.
 
-#![expect(
-    clippy::inline_always,
-    reason = "it is compiled for the vectors of its callers"
-)]
+#![expect(clippy::inline_always, reason = "it is vectorised in its callers")]
 
-/// Blocks that are made together.
+/// Number of blocks that are computed together.
 pub const LANES: usize = 8;
 
-/// A word of each block, in the lower half of a number; what is in the upper half is nothing.
+/// A word of each block, in the lower half of a number; the upper half is undefined.
 pub type Words = [u64; LANES];
 
-/// The words of some blocks: first the first word of each, then the second of each, ...
+/// The words of several blocks: the first word of each, then the second word of each, ...
 pub type Blocks = [Words; 4];
 
 const MULTIPLIERS: [u64; 2] = [0xD251_1F53, 0xCD9E_8D57];

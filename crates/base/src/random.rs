@@ -1,9 +1,9 @@
-//! Random streams that depend on what they are for, never on when they are asked.
+//! Counter-based random streams, keyed by their use.
 //!
-//! A draw is a pure function of (seed, run, entity, purpose, position in the stream). So any run
-//! can be computed alone, on any thread, in any order; adding a robot, or a kind of robots, changes
-//! nobody else's stream; and two teams compared under one run number meet the same world (common
-//! random numbers): the configuration is not part of the key.
+//! A draw is a pure function of (seed, run, entity, purpose, position in the stream). So any run can be
+//! computed alone, on any thread, in any order; adding a robot, or a kind of robots, changes no other
+//! stream; and two teams that are compared under one run number meet the same world (common random
+//! numbers), because the configuration is not part of the key.
 //!
 //! Generator: Philox4x32-10 (Salmon, Moraes, Dror and Shaw, *Parallel random numbers: as easy as
 //! 1, 2, 3*, SC'11). The 128-bit counter is laid out as
@@ -13,26 +13,26 @@
 //!     run (64)          kind (8)   index (20)  purpose (8)  block (28)
 //! ```
 //!
-//! and the 64-bit key is the seed, whose highest 24 bits are crossed (exclusive or) with the highest
-//! 24 of the kind's 32: for seeds below 2^40 no two streams have the same key and counter. A stream
+//! and the 64-bit key is the seed, whose highest 24 bits are XORed with the highest 24 of the
+//! kind's 32: for seeds below 2^40 no two streams have the same key and counter. A stream
 //! holds 2^28 blocks of four 32-bit words.
 
 pub use rand_philox::Philox as Stream;
 
-/// Robots of one kind that can have streams of their own: indices are below this.
+/// Maximum number of entities of one kind: indices are below this.
 pub const MAX_INDEX: u32 = 1 << 20;
 
-/// Whose stream it is: the `index`-th robot (or item, ...) of a kind.
+/// The owner of a stream: the `index`-th robot (or item, ...) of a kind.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Entity {
-    /// What tells the kind from others: of a kind with a name, its [`kind_key`].
+    /// Identifies the kind: the [`kind_key`] of its name, if it has one.
     pub kind: u32,
-    /// Place within the kind, below [`MAX_INDEX`].
+    /// Index within the kind, below [`MAX_INDEX`].
     pub index: u32,
 }
 
-/// What tells a kind from others in random streams: a hash of its name, so that it is the same
-/// whatever other kinds there are. Two names may have the same, one pair in 2^32.
+/// Identifies a kind in random streams: a hash of its name, which does not depend on other kinds. Two
+/// names have the same hash with a probability of 2^-32.
 ///
 /// FNV-1a (G. Fowler, L. C. Noll, K.-P. Vo and D. Eastlake, *The FNV non-cryptographic hash
 /// algorithm*).
@@ -42,25 +42,25 @@ pub fn kind_key(name: &str) -> u32 {
     name.bytes().fold(0x811c_9dc5, hashed)
 }
 
-/// What a stream is used for. A purpose keeps its number for ever: a change changes every result.
+/// The use of a stream. A purpose keeps its number forever: changing it changes every result.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[repr(u8)]
 pub enum Purpose {
-    /// Where an entity starts.
+    /// Start position of a robot.
     Start = 1,
-    /// Where a cluster of starts has its centre; the index is the cluster's.
+    /// Centre of a cluster of starts; the index is that of the cluster.
     StartCluster = 2,
-    /// Which way an entity looks at its start.
+    /// Heading of a robot at its start.
     StartHeading = 3,
-    /// Where an item lies.
+    /// Position of an item.
     Item = 4,
-    /// Where a cluster of items has its centre; the index is the cluster's.
+    /// Centre of a cluster of items; the index is that of the cluster.
     ItemCluster = 5,
-    /// The key of its own random numbers in a run: [`crate::noise`].
+    /// Key of the random numbers of an entity during a run: [`crate::noise`].
     Noise = 6,
 }
 
-/// The stream of one entity for one purpose in one run, at its first draw.
+/// The stream of an entity for a purpose in a run, before its first draw.
 ///
 /// # Example
 /// ```
@@ -87,7 +87,7 @@ pub fn stream(seed: u64, run: u64, entity: Entity, purpose: Purpose) -> Stream {
     Stream::new(key, (u128::from(run) << 64) | u128::from(place))
 }
 
-/// A number from 0 up to 1, exclusive: any multiple of 2^-53, each as likely.
+/// A uniform number from 0 (included) to 1 (excluded), a multiple of 2^-53.
 #[must_use]
 #[inline]
 #[expect(clippy::cast_precision_loss, reason = "53 bits are exact")]

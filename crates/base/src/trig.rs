@@ -1,12 +1,12 @@
-//! Sines and cosines that are the same bits on every machine.
+//! Sines and cosines that return the same bits on every machine.
 //!
-//! The platform's differ from one C library to the next, and the crate `libm`'s cost four times as
-//! much. Here the angle is brought to within an eighth of a turn of 0 and the series is summed, by
-//! additions and multiplications only, without branches: compilers can do several at once.
+//! The functions of the platform differ between C libraries, and those of the crate `libm` take four
+//! times as long. Here, the angle is reduced to within an eighth of a turn of 0, and the series is
+//! summed with additions and multiplications only, without branches, which compilers vectorise.
 
 use std::f64::consts::FRAC_2_PI;
 
-/// Adding and subtracting it rounds a number below 2^51 to the nearest whole one.
+/// Adding and subtracting this number rounds a number below 2^51 to the nearest whole number.
 const ROUNDER: f64 = 6_755_399_441_055_744.0;
 
 /// A quarter of a turn in three parts: multiples of the first two, up to 2^20, are exact.
@@ -16,7 +16,7 @@ const QUARTER: [f64; 3] = [
     2.022_266_248_795_950_6e-21,
 ];
 
-/// 1/3!, 1/5!, ...: those of the sine.
+/// Coefficients of the sine: 1/3!, 1/5!, ...
 const SINE: [f64; 8] = [
     -1.0 / 6.0,
     1.0 / 120.0,
@@ -28,7 +28,7 @@ const SINE: [f64; 8] = [
     1.0 / 355_687_428_096_000.0,
 ];
 
-/// 1/2!, 1/4!, ...: those of the cosine.
+/// Coefficients of the cosine: 1/2!, 1/4!, ...
 const COSINE: [f64; 8] = [
     -1.0 / 2.0,
     1.0 / 24.0,

@@ -1,9 +1,10 @@
-//! A document read against what is allowed, every error at once, each with its line: TOML, and the
-//! plain YAML of maps.
+//! Documents in TOML, and in the plain YAML of maps, that are checked as a whole: all errors are
+//! reported at once, each with its line.
 //!
-//! serde stops at the first error and forgets the line. Here the text becomes a tree of [`Node`]s
-//! that know where they came from ([`parse`]), options of the command line replace nodes
-//! ([`Document::set`]), and a [`Section`] reads typed values and collects what is wrong.
+//! serde stops at the first error and does not keep lines. Here, the text becomes a tree of [`Node`]s
+//! with their origins ([`parse`]), command-line options replace nodes ([`Document::set`]), and a
+//! [`Section`] reads typed values and collects errors. [`schema`] checks a document against a JSON
+//! Schema instead.
 //!
 //! ```
 //! use base::document::{Document, Section, Value};
@@ -41,10 +42,10 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::fmt;
 
-/// Keys and values of a table, in the order of the keys.
+/// A table, sorted by key.
 pub type Table = BTreeMap<String, Node>;
 
-/// A value and where it was written.
+/// A value and its origin.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Node {
     /// The value.
@@ -53,7 +54,7 @@ pub struct Node {
     pub origin: String,
 }
 
-/// What a document can hold. Dates are in TOML, and are allowed nowhere here.
+/// A value in a document. TOML has dates; no scenario allows them.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Value {
     /// `true` or `false`.
@@ -89,7 +90,7 @@ impl fmt::Display for Value {
     }
 }
 
-/// An end of a range as a person writes it: `120` and not `120.0`, `1e308` and not 300 digits.
+/// A bound of a range in its shortest form: `120` instead of `120.0`, `1e308` instead of 300 digits.
 pub(crate) fn written(value: f64) -> String {
     let shortest = format!("{value:?}");
     shortest.strip_suffix(".0").unwrap_or(&shortest).to_owned()
@@ -127,7 +128,7 @@ fn unknown_key<'k>(
 
 #[expect(
     clippy::cast_precision_loss,
-    reason = "a number that a person wrote; beyond 2^53 it is rounded, as TOML readers do"
+    reason = "beyond 2^53 it is rounded, as other TOML readers do"
 )]
 fn as_number(node: &Node) -> Option<f64> {
     match node.value {
@@ -137,18 +138,18 @@ fn as_number(node: &Node) -> Option<f64> {
     }
 }
 
-/// A value put over what a file says, and how errors should name where it comes from.
+/// A value that replaces one of the file, with its origin for errors.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Override {
     /// Keys from the root.
     pub path: Vec<String>,
     /// The new value.
     pub value: Value,
-    /// For example `--set clock.time_limit_s`.
+    /// Origin in errors, such as `--set clock.time_limit_s`.
     pub origin: String,
 }
 
-/// A whole document, and the files that it names, as far as they have been read.
+/// A document, and those of the files that it refers to that have been read.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Document {
     root: Node,
@@ -156,20 +157,20 @@ pub struct Document {
     made: Vec<Made>,
 }
 
-/// A table that was not there and was made for a value in it.
+/// A table that was created for a value in it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Made {
-    /// Of the value.
+    /// Path of the value.
     pub path: Vec<String>,
-    /// Which key of the path leads to the table, from 0.
+    /// Index in the path of the key of the table.
     pub place: usize,
 }
 
-/// Files by the names by which a document calls them: their bytes, or why they cannot be read.
+/// Files by their names in the document: their bytes, or the reason why they cannot be read.
 pub type Files = BTreeMap<String, Result<Vec<u8>, String>>;
 
 impl Default for Document {
-    /// An empty one.
+    /// An empty document.
     fn default() -> Self {
         Self::of(Node {
             value: Value::Table(Table::new()),
@@ -179,21 +180,21 @@ impl Default for Document {
 }
 
 impl Document {
-    /// Reads TOML `text`; `file` is how errors name it.
+    /// Reads TOML `text`; `file` is its name in errors.
     ///
     /// # Errors
-    /// Every place at which the text is not TOML.
+    /// All syntax errors.
     pub fn parse(file: &str, text: &str) -> Result<Self, InputErrors> {
         parse::parse(file, text).map(Self::of)
     }
 
-    /// Reads the YAML `text` of one flat file: mappings, lists and plain values, a few levels deep.
-    /// `file` is how errors name it.
+    /// Reads plain YAML `text`: mappings, lists and plain values, a few levels deep. `file` is its name
+    /// in errors.
     ///
-    /// Aliases and tags are refused, so that a short text cannot become a large document.
+    /// Aliases and tags are not supported, so that a short text cannot become a large document.
     ///
     /// # Errors
-    /// What in the text is not such YAML.
+    /// Everything that is not plain YAML.
     pub fn parse_yaml(file: &str, text: &str) -> Result<Self, InputErrors> {
         yaml::parse(file, text).map(Self::of)
     }
@@ -206,31 +207,31 @@ impl Document {
         }
     }
 
-    /// The document with files that it names.
+    /// The document with files that it refers to.
     #[must_use]
     pub fn with_files(mut self, files: Files) -> Self {
         self.files = files;
         self
     }
 
-    /// The bytes of a file that it names.
+    /// The bytes of a file that it refers to.
     ///
     /// # Errors
-    /// Why it cannot be read.
+    /// The reason why it cannot be read.
     pub fn open(&self, name: &str) -> Result<Vec<u8>, String> {
         let not_there = || Err("it has not been read".to_owned());
         self.files.get(name).cloned().unwrap_or_else(not_there)
     }
 
-    /// Whether it is known what is in a file that it names, or why it cannot be read.
+    /// Whether a file that it refers to has been read, successfully or not.
     #[must_use]
     pub fn has_file(&self, name: &str) -> bool {
         self.files.contains_key(name)
     }
 
-    /// Puts `value` at `path`, over what the file says; `origin` is how errors name it.
+    /// Sets the value at `path`; `origin` is its origin in errors.
     ///
-    /// Tables on the way are made; something on the way that is no table is replaced by one.
+    /// Missing tables on the path are created; other values on the path are replaced by tables.
     pub fn set(&mut self, path: &[&str], value: Value, origin: &str) {
         self.made.extend(self.missing(path));
         let mut node = &mut self.root;
@@ -261,16 +262,16 @@ impl Document {
         })
     }
 
-    /// The tables that were made for what was put into them.
+    /// The tables that were created for values in them.
     #[must_use]
     pub fn made(&self) -> &[Made] {
         &self.made
     }
 
-    /// Puts under the table at `path` all that `defaults` says and it does not.
+    /// Fills missing keys of the table at `path` from `defaults`.
     ///
-    /// Tables are merged key by key, but for one whose `kind` is another: it is of another form.
-    /// Anything else that is there stays. Nothing happens where no table stands.
+    /// Tables are merged key by key, except for tables of a different `kind`. Existing values stay.
+    /// Without a table at `path`, nothing happens.
     pub fn fill(&mut self, path: &[&str], defaults: &Self) {
         let node = path
             .iter()
@@ -283,7 +284,7 @@ impl Document {
         }
     }
 
-    /// Puts each of `overrides` in its place, one after the other.
+    /// Applies `overrides` in their order.
     #[must_use]
     pub fn with(mut self, overrides: &[Override]) -> Self {
         for each in overrides {
@@ -293,7 +294,7 @@ impl Document {
         self
     }
 
-    /// What stands at `path`.
+    /// The node at `path`.
     #[must_use]
     pub fn get(&self, path: &[&str]) -> Option<&Node> {
         path.iter()
@@ -303,18 +304,18 @@ impl Document {
             })
     }
 
-    /// What `reader` makes of the document, if it finds nothing wrong.
+    /// The result of `reader`, if the sections report no errors.
     ///
-    /// `reader` should look at everything before it gives up, so that all errors are told at once.
+    /// `reader` should check everything before it returns, so that all errors are reported at once.
     ///
     /// # Errors
-    /// Everything that the sections found wrong.
+    /// All errors that the sections report.
     pub fn read<T>(&self, reader: impl FnOnce(&Section) -> Option<T>) -> Result<T, InputErrors> {
         let (value, errors) = self.read_all(reader);
         InputErrors::or(errors, value)
     }
 
-    /// What `reader` makes of the document, and everything that the sections found wrong.
+    /// The result of `reader`, and all errors that the sections report.
     pub fn read_all<T>(
         &self,
         reader: impl FnOnce(&Section) -> Option<T>,

@@ -1,4 +1,4 @@
-//! From TOML text to nodes that know their lines.
+//! Parses TOML into nodes with their lines.
 
 use super::{Node, Table, Value};
 use crate::error::{InputError, InputErrors};
@@ -6,7 +6,7 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-/// Reads `text`, or tells every place at which it is not TOML.
+/// Reads `text`, or reports all syntax errors.
 pub(super) fn parse(file: &str, text: &str) -> Result<Node, InputErrors> {
     let lines = Lines::new(file, text);
     let (table, errors) = DeTable::parse_recoverable(text);
@@ -18,7 +18,7 @@ pub(super) fn parse(file: &str, text: &str) -> Result<Node, InputErrors> {
     InputErrors::or(errors, Some(root))
 }
 
-/// Where the lines of a text begin.
+/// The offsets at which the lines of a text begin.
 struct Lines<'t> {
     file: &'t str,
     starts: Vec<usize>,
@@ -53,7 +53,7 @@ impl<'t> Lines<'t> {
         }
     }
 
-    /// A key's line is the value's: a table's own span may begin anywhere.
+    /// The line of a value is that of its key: the span of a table may begin anywhere.
     fn table(&self, table: &DeTable) -> Value {
         let entry = |(key, value): (&Spanned<_>, &Spanned<_>)| {
             let key_text: &std::borrow::Cow<str> = key.get_ref();
@@ -81,7 +81,7 @@ impl<'t> Lines<'t> {
     }
 }
 
-/// Integers beyond 64 bits become floats: out of any range here, and told as such.
+/// Integers beyond 64 bits become floats, which are out of any range here.
 fn integer_value(integer: &toml::de::DeInteger) -> Value {
     let (text, radix) = (integer.as_str(), integer.radix());
     i64::from_str_radix(text, radix).map_or_else(

@@ -1,4 +1,4 @@
-//! A whole document as a Rust type.
+//! Conversion of a document to a Rust type.
 
 use super::schema::Schema;
 use super::{Document, Node, Value};
@@ -8,16 +8,16 @@ use serde_json::Value as Json;
 use serde_path_to_error::Segment;
 
 impl Document {
-    /// What serde makes of the document, if it is as the `schema` of `T` says.
+    /// Deserialises the document, after checking it against the `schema` of `T`.
     ///
     /// # Errors
-    /// Everything that is wrong with it.
+    /// All errors of the document.
     pub fn typed<T: DeserializeOwned>(&self, schema: &Schema) -> Result<T, InputErrors> {
         let errors = schema.errors(self);
         if !errors.is_empty() {
             return Err(InputErrors(errors));
         }
-        // What the schema of a type allows is read; should one disagree with its type, it is told.
+        // A document that the schema allows can be read, unless the schema disagrees with its type.
         serde_path_to_error::deserialize(json(&self.root)).map_err(|error| {
             let path = error.path().to_string();
             let node = node_at(&self.root, error.path().iter());
@@ -29,7 +29,7 @@ impl Document {
     }
 }
 
-/// Numbers that are not finite become null: a schema allows none.
+/// Non-finite numbers, which no schema allows, become null.
 fn json(node: &Node) -> Json {
     match &node.value {
         Value::Bool(value) => Json::from(*value),
@@ -44,7 +44,7 @@ fn json(node: &Node) -> Json {
     }
 }
 
-/// The innermost value on a path that is there.
+/// The innermost existing value on a path.
 fn node_at<'d, 'p>(root: &'d Node, path: impl Iterator<Item = &'p Segment>) -> &'d Node {
     let mut node = root;
     for segment in path {

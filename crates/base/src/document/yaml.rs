@@ -1,19 +1,19 @@
-//! From YAML text to nodes that know their lines.
+//! Parses plain YAML into nodes with their lines.
 
 use super::{Node, Table, Value};
 use crate::error::{InputError, InputErrors};
 use granit_parser::{Event, Parser, ScalarStyle, ScanError, Span, options};
 
-/// Longest text that is read.
+/// Maximum length of a text, in bytes.
 const MAX_BYTES: usize = 1 << 16;
 
-/// Most mappings and lists within each other.
+/// Maximum nesting depth of mappings and lists.
 const MAX_DEPTH: usize = 8;
 
-/// Reads `text`, or tells what in it is not plain YAML.
+/// Reads `text`, or reports what is not plain YAML in it.
 pub(super) fn parse(file: &str, text: &str) -> Result<Node, InputErrors> {
     if text.len() > MAX_BYTES {
-        let allowed = format!("a text of at most {MAX_BYTES} bytes; it has {}", text.len());
+        let allowed = format!("a file of at most {MAX_BYTES} bytes; it has {}", text.len());
         let error = InputError::new(String::new(), None, allowed);
         let origin = Some(file.to_owned());
         return Err(InputErrors(vec![InputError { origin, ..error }]));
@@ -37,7 +37,7 @@ pub(super) fn parse(file: &str, text: &str) -> Result<Node, InputErrors> {
 struct Reader<'t, I> {
     file: &'t str,
     events: I,
-    /// What is wrong but does not end the reading.
+    /// Errors that do not stop the parser.
     errors: Vec<InputError>,
 }
 
@@ -45,7 +45,7 @@ impl<'t, I> Reader<'t, I>
 where
     I: Iterator<Item = Result<(Event<'t>, Span), ScanError>>,
 {
-    /// The mapping that the text is; an empty text is an empty one.
+    /// The root mapping; empty for an empty text.
     fn root(&mut self) -> Result<Node, InputError> {
         let mut root = None;
         loop {

@@ -1,8 +1,8 @@
-//! A round pillar.
+//! Round pillars.
 
 use super::Point;
 
-/// A disc; its edge belongs to it.
+/// A disc, including its boundary.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Disc {
     /// Its centre.
@@ -12,13 +12,13 @@ pub struct Disc {
 }
 
 impl Disc {
-    /// Whether `point` lies in it.
+    /// Whether it contains `point`.
     #[must_use]
     pub fn contains(&self, point: Point) -> bool {
         self.centre.to(point).length_squared() <= self.radius_m * self.radius_m
     }
 
-    /// Distance from `point` to the disc; 0 within it.
+    /// Distance from `point` to the disc; 0 inside.
     #[must_use]
     pub fn distance_m(&self, point: Point) -> f64 {
         (self.centre.to(point).length() - self.radius_m).max(0.0)

@@ -1,8 +1,8 @@
-//! Points and what stands still in the plane, in metres; y points up, angles run anticlockwise.
+//! Geometry of the plane, in metres; y points up, and angles are anticlockwise.
 //!
-//! **One convention for what is solid:** a [`Segment`] has free space on its left, looking along it
-//! from `from` to `to`, and solid matter on its right. So the vertices of a solid [`Polygon`] run
-//! clockwise, and those of a room anticlockwise. What is solid holds its boundary.
+//! **Orientation:** seen from `from` to `to`, a [`Segment`] has free space on its left and solid matter
+//! on its right. So the vertices of a solid [`Polygon`] run clockwise, and those of a room
+//! anticlockwise. The boundary belongs to the solid.
 
 mod disc;
 mod polygon;
@@ -19,7 +19,7 @@ pub use torus::Torus;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A point, or the way from one point to another; in files `[x, y]`.
+/// A point or a vector; in files `[x, y]`.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(from = "[f64; 2]", into = "[f64; 2]")]
 pub struct Point {
@@ -42,7 +42,7 @@ impl From<Point> for [f64; 2] {
 }
 
 impl Point {
-    /// The way from `self` to `other`.
+    /// The vector from `self` to `other`.
     #[must_use]
     pub fn to(self, other: Self) -> Self {
         Self {
@@ -51,7 +51,7 @@ impl Point {
         }
     }
 
-    /// Where the `way` leads from here.
+    /// The sum of a point and a vector.
     #[must_use]
     pub fn plus(self, way: Self) -> Self {
         Self {
@@ -60,7 +60,7 @@ impl Point {
         }
     }
 
-    /// The way `factor` times as long.
+    /// The vector, scaled by `factor`.
     #[must_use]
     pub fn times(self, factor: f64) -> Self {
         Self {
@@ -69,25 +69,25 @@ impl Point {
         }
     }
 
-    /// Square of the length of the way.
+    /// Square of the length of the vector.
     #[must_use]
     pub fn length_squared(self) -> f64 {
         self.x * self.x + self.y * self.y
     }
 
-    /// Length of the way.
+    /// Length of the vector.
     #[must_use]
     pub fn length(self) -> f64 {
         self.length_squared().sqrt()
     }
 
-    /// The inner product.
+    /// Dot product.
     #[must_use]
     pub fn dot(self, other: Self) -> f64 {
         self.x * other.x + self.y * other.y
     }
 
-    /// The outer product: above 0 if `other` is to the left of `self`.
+    /// Cross product: positive if `other` is to the left of `self`.
     #[must_use]
     pub fn cross(self, other: Self) -> f64 {
         self.x * other.y - self.y * other.x

@@ -1,10 +1,10 @@
-//! An upright rectangle.
+//! Axis-aligned rectangles.
 
 use super::{Point, Segment};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A rectangle along the axes; its edge belongs to it. In files two opposite corners,
+/// An axis-aligned rectangle, including its boundary. In files, two opposite corners,
 /// `[[x, y], [x, y]]`, in any order.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(from = "[Point; 2]", into = "[Point; 2]")]
@@ -41,7 +41,7 @@ impl Rectangle {
         }
     }
 
-    /// The smallest that holds all `points`; `None` without points.
+    /// The bounding box of `points`; `None` without points.
     #[must_use]
     pub fn around(points: impl IntoIterator<Item = Point>) -> Option<Self> {
         points
@@ -50,19 +50,19 @@ impl Rectangle {
             .reduce(|all, one| all.joined(&one))
     }
 
-    /// The corner with the least coordinates.
+    /// The corner with the smallest coordinates.
     #[must_use]
     pub fn min(&self) -> Point {
         self.min
     }
 
-    /// The corner with the greatest coordinates.
+    /// The corner with the largest coordinates.
     #[must_use]
     pub fn max(&self) -> Point {
         self.max
     }
 
-    /// The smallest that holds both.
+    /// The bounding box of both.
     #[must_use]
     pub fn joined(&self, other: &Self) -> Self {
         Self {
@@ -71,7 +71,7 @@ impl Rectangle {
         }
     }
 
-    /// From its least to its greatest corner.
+    /// Width and height.
     #[must_use]
     pub fn size(&self) -> Point {
         self.min.to(self.max)
@@ -83,13 +83,13 @@ impl Rectangle {
         self.size().x * self.size().y
     }
 
-    /// Whether `point` lies in it.
+    /// Whether it contains `point`.
     #[must_use]
     pub fn contains(&self, point: Point) -> bool {
         (self.min.x..=self.max.x).contains(&point.x) && (self.min.y..=self.max.y).contains(&point.y)
     }
 
-    /// Whether the two have a point in common; rectangles that touch have.
+    /// Whether the two overlap or touch.
     #[must_use]
     pub fn overlaps(&self, other: &Self) -> bool {
         self.min.x <= other.max.x
@@ -98,7 +98,7 @@ impl Rectangle {
             && other.min.y <= self.max.y
     }
 
-    /// Distance from `point` to the rectangle; 0 within it.
+    /// Distance from `point` to the rectangle; 0 inside.
     #[must_use]
     pub fn distance_m(&self, point: Point) -> f64 {
         let nearest = Point {
@@ -108,7 +108,7 @@ impl Rectangle {
         nearest.to(point).length()
     }
 
-    /// Its four walls as those of a room: free inside.
+    /// Its four walls, as those of a room with a free inside.
     #[must_use]
     pub fn room(&self) -> [Segment; 4] {
         let Self { min, max } = *self;

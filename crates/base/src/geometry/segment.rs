@@ -1,21 +1,20 @@
-//! A straight wall.
+//! Straight walls.
 
 use super::Point;
 
 /// A straight wall from one point to another: free on its left, solid on its right.
 ///
-/// Two segments that meet have the same bits in the common end: what is asked of an end has one
-/// answer for both, and rounding opens no crack between them.
+/// Adjacent segments have bit-identical common ends, so that rounding opens no gap between them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Segment {
-    /// Its beginning.
+    /// Start point.
     pub from: Point,
-    /// Its end.
+    /// End point.
     pub to: Point,
 }
 
 impl Segment {
-    /// The way from its beginning to its end.
+    /// The vector from its start to its end.
     #[must_use]
     pub fn way(&self) -> Point {
         self.from.to(self.to)
@@ -27,7 +26,7 @@ impl Segment {
         self.way().length()
     }
 
-    /// Its point nearest to `point`; of a segment without length, its beginning.
+    /// Its closest point to `point`; the start of a segment without length.
     #[must_use]
     pub fn nearest(&self, point: Point) -> Point {
         let way = self.way();
@@ -42,7 +41,7 @@ impl Segment {
         }
     }
 
-    /// Distance from `point` to the nearest point of the segment.
+    /// Distance from `point` to the segment.
     #[must_use]
     pub fn distance_m(&self, point: Point) -> f64 {
         self.nearest(point).to(point).length()

@@ -1,12 +1,11 @@
-//! A plane that goes on at its other side.
+//! Periodic worlds.
 
 use super::Point;
 
-/// A rectangle with a corner at the origin whose opposite sides are one: who leaves it on one side
-/// comes in on the other.
+/// A rectangle with a corner at the origin and periodic boundaries.
 ///
-/// So each place has images, a width or a height apart. Of two places in the rectangle, the way from
-/// one to the other is that to the nearest image.
+/// Each point has images, one width or height apart. The distance between two points of the rectangle
+/// is that to the nearest image.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Torus {
     /// Width and height, in metres.
@@ -14,7 +13,7 @@ pub struct Torus {
 }
 
 impl Torus {
-    /// Where a place is in the rectangle: from 0 up to, but not, its size.
+    /// The image of a point in the rectangle: from 0 (included) to its size (excluded).
     #[must_use]
     #[inline]
     pub fn home(self, place: Point) -> Point {
@@ -24,7 +23,7 @@ impl Torus {
         }
     }
 
-    /// The image of a place that is nearest to another; both are in the rectangle.
+    /// The image of `place` that is nearest to `from`; both are in the rectangle.
     #[must_use]
     #[inline]
     pub fn image(self, from: Point, place: Point) -> Point {
@@ -34,7 +33,7 @@ impl Torus {
         }
     }
 
-    /// Whether an image of a place of the rectangle is its nearest to another: just one is.
+    /// Whether `image` is the nearest image to `from`. Exactly one image of a point is.
     #[must_use]
     #[inline]
     pub fn is_nearest(self, from: Point, image: Point) -> bool {
@@ -43,7 +42,7 @@ impl Torus {
         is_near(way.x, self.size_m.x) && is_near(way.y, self.size_m.y)
     }
 
-    /// The ways to images that lead from the rectangle to its eight neighbours.
+    /// The offsets of the eight neighbouring images of the rectangle.
     pub fn shifts(self) -> impl Iterator<Item = Point> {
         let Point { x, y } = self.size_m;
         let columns = [-x, 0.0, x].into_iter();
@@ -51,7 +50,7 @@ impl Torus {
         all.filter(|shift| *shift != Point::default())
     }
 
-    /// The other images of a place of the rectangle that are no farther from it than `reach_m`.
+    /// The other images of a point of the rectangle that are within `reach_m` of the rectangle.
     pub fn images_within(self, place: Point, reach_m: f64) -> impl Iterator<Item = Point> {
         let images = self.shifts().map(move |shift| place.plus(shift));
         let is_near = move |at_m: f64, size_m: f64| -reach_m <= at_m && at_m <= size_m + reach_m;
@@ -65,7 +64,7 @@ fn home(at_m: f64, size_m: f64) -> f64 {
         return at_m;
     }
     let inside_m = at_m - size_m * (at_m / size_m).floor();
-    // Rounding may lead a hair beyond either side.
+    // Rounding may exceed either side slightly.
     if (0.0..size_m).contains(&inside_m) {
         inside_m
     } else {

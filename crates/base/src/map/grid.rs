@@ -1,8 +1,8 @@
-//! A rectangle of cells.
+//! A grid of cells.
 
 use super::MAX_CELLS;
 
-/// A rectangle of cells, row by row.
+/// A grid of cells, row by row.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Grid {
     columns: u32,
@@ -10,7 +10,7 @@ pub(super) struct Grid {
     cells: Vec<i8>,
 }
 
-/// Number of cells of so many columns and rows, if they are not too many.
+/// Number of cells of a grid; `None` above the maximum.
 pub(super) fn size(columns: u32, rows: u32) -> Option<usize> {
     let cells = u64::from(columns) * u64::from(rows);
     usize::try_from(cells)
@@ -19,7 +19,7 @@ pub(super) fn size(columns: u32, rows: u32) -> Option<usize> {
 }
 
 impl Grid {
-    /// The grid of these cells, the lowest row first, or `None` if there are not as many.
+    /// The grid of these cells, the lowest row first; `None` if their number does not match.
     pub(super) fn new(columns: u32, rows: u32, cells: Vec<i8>) -> Option<Self> {
         (size(columns, rows)? == cells.len()).then_some(Self {
             columns,

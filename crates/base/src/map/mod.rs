@@ -1,4 +1,4 @@
-//! Maps of ROS: what `map_server` and `nav2_map_server` load, a YAML file that names a PGM image.
+//! ROS occupancy maps, as loaded by `map_server` and `nav2_map_server`: a YAML file and a PGM image.
 //!
 //! **What a pixel means** (`wiki.ros.org/map_server`, "Value Interpretation", and `map_io.cpp` of
 //! `nav2_map_server`). The image's first row is the map's top. Of a pixel of value v, the occupancy
@@ -13,10 +13,10 @@
 //! * `raw`: 255 v / m, rounded, or -1 if that is above 100; whatever `negate` says.
 //!
 //! `origin` is the pose [x, y, yaw] of the lower left corner of the lower left pixel: the map is
-//! turned about it, anticlockwise, by `yaw` radians. (Much of ROS ignores the yaw; here it counts.)
+//! rotated about it, anticlockwise, by `yaw` radians. (Much of ROS ignores the yaw; here it is used.)
 //!
-//! **What is solid:** cells of 100. Others are not: of sensors, what is unknown is no obstacle. With
-//! [`Unknown::Solid`], all that is not known to be free (0) is solid. Beyond the map nothing is.
+//! **Solid cells:** those of occupancy 100; unknown cells are free. With [`Unknown::Solid`], all cells
+//! that are not known to be free (0) are solid. Outside the map, nothing is solid.
 
 mod grid;
 mod outline;
@@ -30,44 +30,44 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use settings::Settings;
 
-/// Most cells of a map.
+/// Maximum number of cells of a map.
 pub const MAX_CELLS: usize = 64_000_000;
 
-/// Most bytes of a map's image: what reads the file for [`read`] need read no more.
+/// Maximum size of the image of a map, in bytes: a caller of [`read`] need not read more of the file.
 pub const MAX_IMAGE_BYTES: usize = 5 * MAX_CELLS;
 
-/// Most straight walls of a map.
+/// Maximum number of straight walls of a map.
 pub const MAX_SEGMENTS: usize = 4_000_000;
 
-/// What the cells of a map count as that are neither free nor occupied.
+/// Treatment of cells that are neither free nor occupied.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Unknown {
-    /// Nothing is there.
+    /// They are free.
     #[default]
     Free,
-    /// As if they were occupied.
+    /// They are occupied.
     Solid,
 }
 
-/// Where something is solid, in square cells.
+/// An occupancy grid of square cells.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OccupancyMap {
-    /// What ROS calls occupancy: 0 to 100, or -1. The lowest row first.
+    /// Occupancy as in ROS: 0 to 100, or -1. The lowest row is first.
     cells: Grid,
     settings: Settings,
     unknown: Unknown,
     outline: Vec<Segment>,
 }
 
-/// Reads the map whose YAML is `text`; `file` is how errors name it.
+/// Reads the map with the YAML `text`; `file` is its name in errors.
 ///
-/// `open` gives the bytes of the image that the YAML names, or says why it cannot; a relative name
-/// is relative to the YAML file. No more than [`MAX_IMAGE_BYTES`] are looked at. The map takes a
-/// byte a cell and 32 a wall: nothing is set aside that the bytes do not fill.
+/// `open` returns the bytes of the image that the YAML names, or the reason why it cannot; a relative
+/// name is relative to the YAML file. At most [`MAX_IMAGE_BYTES`] are used. The map takes one byte per
+/// cell and 32 per wall; memory is allocated only for data that is present.
 ///
 /// # Errors
-/// Everything that is wrong with the YAML, or else what is wrong with the image.
+/// All errors of the YAML; if there are none, the first error of the image.
 ///
 /// ```
 /// use base::map::{read, Unknown};
@@ -100,7 +100,8 @@ impl OccupancyMap {
         let is_solid = |occupancy| is_solid(occupancy, unknown);
         let corner = |column, row| settings.place(f64::from(column), f64::from(row));
         let outline = outline::trace(&cells, is_solid, corner).ok_or_else(|| {
-            let why = format!("it has more than {MAX_SEGMENTS} straight walls: smooth it");
+            let why =
+                format!("it has more than {MAX_SEGMENTS} straight walls: smooth its outlines");
             settings.image_error(&why)
         })?;
         Ok(Self {
@@ -111,32 +112,32 @@ impl OccupancyMap {
         })
     }
 
-    /// Number of cells along the map's own x axis.
+    /// Number of cells along the x axis of the map.
     #[must_use]
     pub fn columns(&self) -> u32 {
         self.cells.columns()
     }
 
-    /// Number of cells along the map's own y axis.
+    /// Number of cells along the y axis of the map.
     #[must_use]
     pub fn rows(&self) -> u32 {
         self.cells.rows()
     }
 
-    /// Side of a cell.
+    /// Side of a cell, in metres.
     #[must_use]
     pub fn resolution_m(&self) -> f64 {
         self.settings.resolution_m
     }
 
     /// Occupancy of a cell, counted from the lower left: 0 free, 100 occupied, -1 unknown; `None`
-    /// beyond the map.
+    /// outside the map.
     #[must_use]
     pub fn occupancy(&self, column: u32, row: u32) -> Option<i8> {
         self.cells.get(column, row)
     }
 
-    /// Whether `point` lies in a solid cell; on the line between two cells, it is in one of the two.
+    /// Whether `point` is in a solid cell. A point between two cells is in one of them.
     #[must_use]
     pub fn is_solid(&self, point: Point) -> bool {
         let at = self.settings.cell(point);
@@ -144,16 +145,16 @@ impl OccupancyMap {
         occupancy.is_some_and(|occupancy| is_solid(occupancy, self.unknown))
     }
 
-    /// The edges between what is solid and what is not, as long as they are straight, in the world.
+    /// The boundary between solid and free cells as maximal straight segments, in world coordinates.
     ///
-    /// They make up closed lines, free on their left. Where they meet, they have the same bits, so
-    /// that there is no crack, also where two solid cells touch by a corner only.
+    /// They form closed lines with free space on their left. Adjacent segments have bit-identical ends,
+    /// so that there are no gaps, also where two solid cells touch at a corner only.
     #[must_use]
     pub fn outline(&self) -> &[Segment] {
         &self.outline
     }
 
-    /// The map's corners in the world, anticlockwise from its origin.
+    /// The corners of the map in world coordinates, anticlockwise from its origin.
     #[must_use]
     pub fn corners(&self) -> [Point; 4] {
         let (right, top) = (f64::from(self.columns()), f64::from(self.rows()));
@@ -161,7 +162,7 @@ impl OccupancyMap {
             .map(|[column, row]| self.settings.place(column, row))
     }
 
-    /// The smallest upright rectangle that holds the map.
+    /// The axis-aligned bounding box of the map.
     #[must_use]
     pub fn bounds(&self) -> Rectangle {
         let [a, b, c, d] = self.corners();

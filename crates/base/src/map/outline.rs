@@ -1,16 +1,16 @@
-//! The edges between cells that are solid and cells that are not.
+//! The boundary between solid and free cells.
 
 use super::MAX_SEGMENTS;
 use super::grid::Grid;
 use crate::geometry::{Point, Segment};
 
-/// The edges between cells that are `is_solid` and those that are not, as long as they are straight,
-/// with what is not solid on their left; `corner` says where a corner of cells is. `None` if there
-/// are too many.
+/// The boundary between cells that are `is_solid` and the others, as maximal straight segments with free
+/// space on their left; `corner` converts cell corners to world coordinates. `None` if there are too
+/// many.
 ///
-/// Every edge along a line of the grid goes on while the same side is solid. Where another edge
-/// meets it, the cells are solid by turns around that corner, and it ends there: edges meet by their
-/// ends only.
+/// A segment along a grid line continues while the same side is solid. Where another segment meets it,
+/// the cells around that corner alternate between solid and free, and it ends there: segments meet at
+/// their ends only.
 pub(super) fn trace(
     grid: &Grid,
     is_solid: impl Fn(i8) -> bool,

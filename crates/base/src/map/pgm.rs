@@ -1,14 +1,14 @@
-//! Grey images in PGM, plain (P2) and raw (P5), as netpbm.sourceforge.net/doc/pgm.html defines them.
+//! Greyscale images in PGM, plain (P2) and raw (P5), as netpbm.sourceforge.net/doc/pgm.html defines them.
 
 use super::grid::{Grid, size};
 use super::{MAX_CELLS, MAX_IMAGE_BYTES};
 use crate::error::InputError;
 
-/// Reads the image `bytes`, each pixel as its `meaning(value, greatest value)`; `file` is how errors
-/// name it. The image's last row becomes the grid's first.
+/// Reads the image `bytes`, each pixel as `meaning(value, maximum value)`; `file` is its name in errors.
+/// The last row of the image becomes the first row of the grid.
 ///
 /// # Errors
-/// The first thing that is wrong.
+/// The first error found.
 pub(super) fn read(
     file: &str,
     bytes: &[u8],
@@ -27,7 +27,9 @@ pub(super) fn read(
 
 fn image(reader: &mut Reader, meaning: impl Fn(u16, u16) -> i8) -> Result<Grid, String> {
     if reader.bytes.len() > MAX_IMAGE_BYTES {
-        return Err(format!("an image has at most {MAX_IMAGE_BYTES} bytes"));
+        return Err(format!(
+            "the image must have at most {MAX_IMAGE_BYTES} bytes"
+        ));
     }
     let header = Header::read(reader)?;
     let mut cells = Vec::with_capacity(header.size);
@@ -36,16 +38,17 @@ fn image(reader: &mut Reader, meaning: impl Fn(u16, u16) -> i8) -> Result<Grid, 
         if value > header.greatest {
             let greatest = header.greatest;
             return Err(format!(
-                "a pixel is {value}, above the greatest value {greatest}"
+                "a pixel is {value}, above the maximum value {greatest}"
             ));
         }
         cells.push(meaning(value, header.greatest));
     }
     if !reader.rest().iter().all(u8::is_ascii_whitespace) {
-        return Err("more follows after the image's last pixel".to_owned());
+        return Err("data follows the last pixel of the image".to_owned());
     }
     upside_down(&mut cells, header.columns as usize);
-    Grid::new(header.columns, header.rows, cells).ok_or_else(|| "no image".to_owned())
+    Grid::new(header.columns, header.rows, cells)
+        .ok_or_else(|| "the image has no pixels".to_owned())
 }
 
 fn upside_down(cells: &mut [i8], columns: usize) {
@@ -62,7 +65,7 @@ struct Header {
     columns: u32,
     rows: u32,
     greatest: u16,
-    /// Number of pixels; the bytes are there to fill them.
+    /// Number of pixels. The file has enough bytes for all of them.
     size: usize,
 }
 
@@ -76,12 +79,13 @@ impl Header {
         reader.at = 2;
         let columns = reader.number("the width", u32::MAX)?;
         let rows = reader.number("the height", u32::MAX)?;
-        let size = size(columns, rows)
-            .ok_or_else(|| format!("{columns} x {rows} pixels are more than {MAX_CELLS}"))?;
-        let greatest = reader.number("the greatest value", 65_535)?;
+        let size = size(columns, rows).ok_or_else(|| {
+            format!("the image must have at most {MAX_CELLS} pixels, not {columns} x {rows}")
+        })?;
+        let greatest = reader.number("the maximum value", 65_535)?;
         let greatest = u16::try_from(greatest).unwrap_or(u16::MAX);
         if !is_plain && !reader.skip_one_space() {
-            return Err("a white space must follow the greatest value".to_owned());
+            return Err("white space must follow the maximum value".to_owned());
         }
         reader.is_text = is_plain;
         let header = Self {
@@ -91,19 +95,19 @@ impl Header {
             greatest,
             size,
         };
-        let (needed, given) = (header.least_bytes(), reader.rest().len());
+        let (needed, given) = (header.min_bytes(), reader.rest().len());
         if given < needed {
             return Err(format!(
-                "cut off: {columns} x {rows} pixels need {needed} bytes, and {given} follow"
+                "truncated: {columns} x {rows} pixels need {needed} bytes, and {given} follow"
             ));
         }
         Ok(header)
     }
 
-    /// How many bytes the pixels take at least.
-    fn least_bytes(&self) -> usize {
+    /// Minimum number of bytes of the pixels.
+    fn min_bytes(&self) -> usize {
         match (self.is_plain, self.greatest) {
-            // A digit each, and what parts them.
+            // One digit per pixel, and separators.
             (true, _) => 2 * self.size - 1,
             (false, 256..) => 2 * self.size,
             (false, _) => self.size,
@@ -126,7 +130,7 @@ impl Header {
 struct Reader<'b> {
     bytes: &'b [u8],
     at: usize,
-    /// What is read has lines.
+    /// Whether the present part of the file is text, with lines.
     is_text: bool,
 }
 
@@ -138,20 +142,20 @@ impl Reader<'_> {
     fn byte(&mut self) -> Result<u8, String> {
         let byte = self.bytes.get(self.at).copied();
         self.at += usize::from(byte.is_some());
-        byte.ok_or_else(|| "cut off within the pixels".to_owned())
+        byte.ok_or_else(|| "truncated within the pixels".to_owned())
     }
 
     /// A number of the header, at least 1.
-    fn number(&mut self, what: &str, most: u32) -> Result<u32, String> {
+    fn number(&mut self, what: &str, max: u32) -> Result<u32, String> {
         let digits = self.digits();
         let number = std::str::from_utf8(digits)
             .ok()
             .and_then(|text| text.parse().ok());
         number
-            .filter(|number| (1..=most).contains(number))
+            .filter(|number| (1..=max).contains(number))
             .ok_or_else(|| {
                 let given = String::from_utf8_lossy(&digits[..digits.len().min(20)]);
-                format!("{what} must be a whole number from 1 to {most}, not {given:?}")
+                format!("{what} must be a whole number from 1 to {max}, not {given:?}")
             })
     }
 
@@ -161,12 +165,12 @@ impl Reader<'_> {
             .ok()
             .and_then(|text| text.parse().ok());
         number.ok_or_else(|| match digits {
-            [] => "cut off within the pixels, or a pixel that is no number".to_owned(),
+            [] => "truncated within the pixels, or a pixel is not a number".to_owned(),
             _ => "a pixel is above 65535".to_owned(),
         })
     }
 
-    /// The digits after white space and comments; none without these.
+    /// The digits after white space and comments; empty without white space.
     fn digits(&mut self) -> &[u8] {
         if !self.skip_one_space() {
             return &[];
@@ -178,7 +182,7 @@ impl Reader<'_> {
         &rest[..length]
     }
 
-    /// Goes over one white space; a comment, with the end of its line, is one.
+    /// Skips one white space character, or a comment with its line end.
     fn skip_one_space(&mut self) -> bool {
         let rest = self.rest();
         let length = match rest.first() {
@@ -193,7 +197,7 @@ impl Reader<'_> {
         length > 0
     }
 
-    /// Where it is: in the text a line, in raw pixels only the file.
+    /// The present position, for errors: file and line in text, only the file in raw pixels.
     fn origin(&self, file: &str) -> String {
         let read = self.bytes[..self.at].split(|&byte| byte == b'\n');
         if self.is_text {

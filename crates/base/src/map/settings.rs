@@ -1,4 +1,4 @@
-//! What a map's YAML file says, and what it makes of pixels and places.
+//! The YAML file of a map, and the meaning of its pixels and coordinates.
 
 use crate::document::{Document, Section, Value};
 use crate::error::{InputError, InputErrors};
@@ -15,7 +15,7 @@ const KEYS: [&str; 7] = [
     "mode",
 ];
 
-/// How pixels become occupancies.
+/// Conversion of pixels to occupancies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Mode {
     Trinary,
@@ -29,14 +29,14 @@ const MODES: [(&str, Mode); 3] = [
     ("raw", Mode::Raw),
 ];
 
-/// What a map's YAML file says.
+/// The contents of the YAML file.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Settings {
-    /// The image's name, as written.
+    /// Name of the image, as written.
     pub(super) image: String,
-    /// Side of a pixel.
+    /// Side of a pixel, in metres.
     pub(super) resolution_m: f64,
-    /// Where the image's name stands.
+    /// Origin of the image's name, for errors.
     source: String,
     /// Lower left corner.
     origin: Point,
@@ -82,7 +82,10 @@ fn pose(root: &Section) -> Option<(Point, f64)> {
     if let [x, y, yaw_rad] = numbers[..] {
         return Some((Point { x, y }, yaw_rad));
     }
-    root.error("origin", "three numbers: x and y in metres, yaw in radians");
+    root.error(
+        "origin",
+        "a list of three numbers: x and y in metres, yaw in radians",
+    );
     None
 }
 
@@ -105,7 +108,7 @@ fn thresholds(root: &Section) -> Option<(f64, f64)> {
     if free >= occupied {
         root.error(
             "free_thresh",
-            &format!("below occupied_thresh, which is {occupied:?}"),
+            &format!("a number below occupied_thresh, which is {occupied:?}"),
         );
         return None;
     }
@@ -113,13 +116,13 @@ fn thresholds(root: &Section) -> Option<(f64, f64)> {
 }
 
 impl Settings {
-    /// What is wrong with the image as a whole.
+    /// The error that the image cannot be used.
     pub(super) fn image_error(&self, why: &str) -> InputError {
-        let given = Some(format!("{:?}", self.image));
-        let allowed = format!("the name of a map's image in PGM; {why}");
+        let value = Some(format!("{:?}", self.image));
+        let allowed = format!("the name of a PGM image; {why}");
         InputError {
             origin: Some(self.source.clone()),
-            ..InputError::new("image".to_owned(), given, allowed)
+            ..InputError::new("image".to_owned(), value, allowed)
         }
     }
 
@@ -148,7 +151,7 @@ impl Settings {
         }
     }
 
-    /// Where a corner of cells, or a place between them, lies in the world.
+    /// Converts cell coordinates to world coordinates.
     pub(super) fn place(&self, column: f64, row: f64) -> Point {
         let (sine, cosine) = self.turn;
         let (x, y) = (column * self.resolution_m, row * self.resolution_m);
@@ -158,7 +161,7 @@ impl Settings {
         })
     }
 
-    /// The column and the row in which a place in the world lies, if it may be one of the map's.
+    /// The column and the row of a point in world coordinates; `None` if they are out of range.
     pub(super) fn cell(&self, place: Point) -> Option<(u32, u32)> {
         let (sine, cosine) = self.turn;
         let way = self.origin.to(place);

@@ -1,11 +1,11 @@
-//! The places that are tried for one entity.
+//! Candidate positions of an entity.
 
-use super::{MAX_TRIES, NoPlace};
+use super::{MAX_TRIES, PlacementError};
 use crate::geometry::{Point, Rectangle};
 use crate::random::{Stream, unit};
 use crate::trig;
 
-/// The places that are tried for one entity, one after another.
+/// The candidate positions of an entity, in their order.
 #[derive(Debug, Clone)]
 pub(super) enum Candidates {
     Fixed(Point),
@@ -22,18 +22,21 @@ pub(super) enum Candidates {
 }
 
 impl Candidates {
-    /// The first of them that `is_free`.
-    pub(super) fn first(mut self, is_free: impl Fn(Point) -> bool) -> Result<Point, NoPlace> {
+    /// The first candidate that `is_free`.
+    pub(super) fn first(
+        mut self,
+        is_free: impl Fn(Point) -> bool,
+    ) -> Result<Point, PlacementError> {
         if let Self::Fixed(place) = self {
-            return is_free(place).then_some(place).ok_or(NoPlace::Taken);
+            return is_free(place).then_some(place).ok_or(PlacementError::Taken);
         }
         (0..MAX_TRIES)
             .filter_map(|_| self.draw())
             .find(|&place| is_free(place))
-            .ok_or(NoPlace::NoneFree)
+            .ok_or(PlacementError::NoneFree)
     }
 
-    /// The next of them, if it is where it should be.
+    /// PlacementContext the next candidate; `None` if it is outside the rectangle.
     fn draw(&mut self) -> Option<Point> {
         match self {
             Self::Fixed(place) => Some(*place),
@@ -57,10 +60,11 @@ impl Candidates {
     }
 }
 
-/// A draw of the round normal distribution of standard deviation 1, by two numbers of the stream.
+/// A draw from the bivariate standard normal distribution, from two numbers of the stream.
 ///
-/// Box and Muller, *A note on the generation of random normal deviates*, 1958; the logarithm is
-/// `libm`'s and the sines are [`trig`]'s, so it is the same bytes on every machine.
+/// Uses the logarithm of `libm` and the sines of [`trig`], which return the same bits on every machine.
+///
+/// Source: G. E. P. Box and M. E. Muller, *A note on the generation of random normal deviates*, 1958.
 fn normal(stream: &mut Stream) -> Point {
     let distance = (-2.0 * libm::log(1.0 - unit(stream))).sqrt();
     let (sine, cosine) = trig::sin_cos(std::f64::consts::TAU * unit(stream));

@@ -1,16 +1,16 @@
-//! Where things are put: at given places, anywhere, or in clusters.
+//! Positions of items and robots: fixed, uniform or clustered.
 //!
-//! A place is a pure function of the seed, the run, what is placed (its kind and its index within
-//! the kind) and the world, never of how many others there are: with more items, those that were
-//! there stay where they are. Each entity draws from a stream of its own until a place is free
-//! (rejection), at most [`MAX_TRIES`] times. Robots, which must not overlap, are placed by [`team`].
+//! A position is a pure function of the seed, the run, the entity (its kind and its index within the
+//! kind) and the world, and does not depend on the number of other entities: adding items moves none
+//! of the others. Each entity draws from its own stream until a position is free (rejection sampling),
+//! at most [`MAX_TRIES`] times. [`team`] places robots, which must not overlap.
 
 mod candidates;
-mod crowd;
+mod disc_index;
 mod team;
 
-pub use crowd::Crowd;
-pub use team::{Group, NoPlaceFor, team};
+pub use disc_index::DiscIndex;
+pub use team::{Group, TeamPlacementError, team};
 
 use crate::geometry::{Point, Rectangle, Torus};
 use crate::random::{self, Entity, Purpose};
@@ -18,78 +18,77 @@ use candidates::Candidates;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// How often a place is drawn before none is thought to be free.
+/// Maximum number of positions that are drawn for an entity.
 ///
-/// Where a thousandth of the area is free, one search in 20,000 gives up.
+/// If a thousandth of the area is free, one search in 20,000 fails.
 pub const MAX_TRIES: u32 = 10_000;
 
-/// Where the items or robots of a kind are put.
+/// Positions of the items or robots of a kind.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
 pub enum Placement {
-    /// At given places.
+    /// Given positions.
     Fixed {
-        /// A place for each, as [x, y].
+        /// Position of each item or robot, as [x, y].
         at_m: Vec<Point>,
-        /// Which way each looks: 0 along x, anticlockwise. Random if it is not given.
+        /// Heading of each robot: 0 along x, anticlockwise. Random by default.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         heading_deg: Option<Vec<f64>>,
     },
-    /// Anywhere, each place that is free as likely.
+    /// Random positions, uniform over the free area.
     Uniform {
-        /// Only within this rectangle, given by two opposite corners. The whole world if it is not
-        /// given.
+        /// Rectangle of the positions, given by two opposite corners. The whole world by default.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         within_m: Option<Rectangle>,
     },
-    /// In clusters of equal numbers: the centre of each is anywhere that is free, and its members are
-    /// spread about it by a round normal distribution, where it is free.
+    /// Random clusters of equal size. Centres are uniform over the free area; members are normally
+    /// distributed around their centre, in the free area.
     Clustered {
-        /// How many clusters.
+        /// Number of clusters.
         #[schemars(range(min = 1, max = 1_048_576))]
         clusters: u32,
-        /// Standard deviation along x, and along y.
+        /// Standard deviation of the members along each axis.
         #[schemars(range(min = 0.0, max = 1e6))]
         spread_m: f64,
-        /// Centres and members only within this rectangle, given by two opposite corners. The whole
-        /// world if it is not given.
+        /// Rectangle of centres and members, given by two opposite corners. The whole world by
+        /// default.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         within_m: Option<Rectangle>,
     },
 }
 
 impl Default for Placement {
-    /// Anywhere in the world.
+    /// Uniform over the world.
     fn default() -> Self {
         Self::Uniform { within_m: None }
     }
 }
 
-/// What places depend on besides the placement: the run, and the world.
+/// What positions depend on, apart from the placement: the run and the world.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Draws {
+pub struct PlacementContext {
     /// Seed of the study.
     pub seed: u64,
     /// Number of the run.
     pub run: u64,
     /// The world.
     pub world: Rectangle,
-    /// How the world goes on at its sides, if it does.
+    /// The torus of a periodic world.
     pub torus: Option<Torus>,
-    /// What is placed.
-    pub things: Things,
+    /// Whether items or robots are placed.
+    pub things: EntityClass,
 }
 
-/// What is placed: items and robots have streams of their own.
+/// Items or robots: they have different random streams.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Things {
+pub enum EntityClass {
     /// Items.
     Items,
     /// Robots.
     Robots,
 }
 
-impl Things {
+impl EntityClass {
     fn place(self) -> Purpose {
         match self {
             Self::Items => Purpose::Item,
@@ -105,46 +104,46 @@ impl Things {
     }
 }
 
-/// Why something has no place.
+/// The reason why an entity has no position.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-pub enum NoPlace {
-    /// None of the places that were drawn is free.
-    #[error("no free place found after {MAX_TRIES} tries")]
+pub enum PlacementError {
+    /// None of the drawn positions is free.
+    #[error("no free position found after {MAX_TRIES} tries")]
     NoneFree,
-    /// The given place is not free.
-    #[error("its place is not free")]
+    /// The given position is not free.
+    #[error("its position is not free")]
     Taken,
-    /// There are fewer places than things.
-    #[error("only {0} places are given")]
+    /// Fewer positions are given than needed.
+    #[error("only {0} positions are given")]
     NotGiven(usize),
 }
 
 impl Placement {
-    /// Where `entity` is put: the first place of its own that `is_free`.
+    /// The position of `entity`: the first of its candidates that `is_free`.
     ///
-    /// `is_free` must depend on the place and the kind only, for the place to be the same whatever
-    /// else there is.
+    /// `is_free` must depend on the position and the kind only, so that the result does not depend on
+    /// other entities.
     ///
     /// # Errors
-    /// If no place is found.
+    /// If no free position is found.
     pub fn place(
         &self,
-        draws: &Draws,
+        draws: &PlacementContext,
         entity: Entity,
         is_free: impl Fn(Point) -> bool,
-    ) -> Result<Point, NoPlace> {
+    ) -> Result<Point, PlacementError> {
         self.candidates(draws, entity, &is_free)?.first(is_free)
     }
 
-    /// Which way `entity` looks at its start, in radians, 0 along x: as given, or else random.
+    /// The heading of `entity` at its start, in radians, 0 along x: the given one, otherwise random.
     #[must_use]
-    pub fn heading_rad(&self, draws: &Draws, entity: Entity) -> f64 {
+    pub fn heading_rad(&self, draws: &PlacementContext, entity: Entity) -> f64 {
         let given = match self {
             Self::Fixed { heading_deg, .. } => heading_deg.as_deref().unwrap_or_default(),
             _ => &[],
         };
         let random = || {
-            let Draws { seed, run, .. } = *draws;
+            let PlacementContext { seed, run, .. } = *draws;
             let mut stream = random::stream(seed, run, entity, Purpose::StartHeading);
             std::f64::consts::PI * (2.0 * random::unit(&mut stream) - 1.0)
         };
@@ -153,19 +152,19 @@ impl Placement {
             .map_or_else(random, |degrees| degrees.to_radians())
     }
 
-    /// The places that are tried for `entity`, in their order.
+    /// The candidate positions of `entity`, in their order.
     fn candidates(
         &self,
-        draws: &Draws,
+        draws: &PlacementContext,
         entity: Entity,
         is_free: impl Fn(Point) -> bool,
-    ) -> Result<Candidates, NoPlace> {
-        let Draws { seed, run, .. } = *draws;
+    ) -> Result<Candidates, PlacementError> {
+        let PlacementContext { seed, run, .. } = *draws;
         let place = random::stream(seed, run, entity, draws.things.place());
         match *self {
             Self::Fixed { ref at_m, .. } => {
                 let place = at_m.get(entity.index as usize);
-                place.map_or(Err(NoPlace::NotGiven(at_m.len())), |&place| {
+                place.map_or(Err(PlacementError::NotGiven(at_m.len())), |&place| {
                     Ok(Candidates::Fixed(place))
                 })
             }
@@ -179,7 +178,7 @@ impl Placement {
                 within_m,
             } => {
                 let within = within_m.unwrap_or(draws.world);
-                // By turns: equal numbers, and more members leave the others where they are.
+                // Clusters take turns: their sizes are equal, and adding members moves no others.
                 let cluster = Entity {
                     index: entity.index % clusters.max(1),
                     ..entity

@@ -1,65 +1,65 @@
-//! Robots of all kinds, put where none overlaps another.
+//! Positions of the robots of a team, without overlaps.
 
-use super::crowd::Crowd;
-use super::{Draws, NoPlace, Placement};
+use super::disc_index::DiscIndex;
+use super::{Placement, PlacementContext, PlacementError};
 use crate::geometry::Point;
 use crate::random::Entity;
 
 /// The robots of one kind.
 #[derive(Debug, Clone, Copy)]
 pub struct Group<'p> {
-    /// Number of the kind, for [`NoPlaceFor`].
+    /// Index of the kind, for [`TeamPlacementError`].
     pub kind: u8,
-    /// That of [`Entity::kind`].
+    /// The key of the kind in [`Entity::kind`].
     pub key: u32,
-    /// How many robots.
+    /// Number of robots.
     pub count: u32,
     /// Radius of a robot.
     pub radius_m: f64,
-    /// Only robots in the same layer keep out of each other's way.
+    /// Layer: only robots of the same layer may not overlap.
     pub layer: u8,
-    /// Where they are put.
+    /// Their placement.
     pub placement: &'p Placement,
 }
 
-/// A robot that has no place.
+/// The error that a robot has no position.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("robot {index} of kind {kind}: {why}")]
-pub struct NoPlaceFor {
-    /// Number of its kind.
+pub struct TeamPlacementError {
+    /// Index of its kind.
     pub kind: u8,
     /// Its index within the kind.
     pub index: u32,
-    /// Why.
-    pub why: NoPlace,
+    /// The reason.
+    pub why: PlacementError,
 }
 
-/// Where the robots of a team are put, a list a group, so that none overlaps another in its layer.
+/// The positions of the robots of a team, one list per group, without overlaps within a layer.
 ///
-/// **Who gives way.** Robots are put down in order: first the groups with given places, then the
-/// others, each in the order of `groups` and of the index. Each robot has a sequence of places of
-/// its own, as in [`Placement::place`], and takes the first that `is_free` and that no robot before
-/// it overlaps. So with one robot more at the end of its group,
+/// **Order of placement.** Groups with fixed positions come first, then the others, each in the order
+/// of `groups` and of the index. Each robot has its own sequence of candidates, as in
+/// [`Placement::place`], and takes the first that `is_free` and that overlaps no earlier robot. So if
+/// one robot is added at the end of its group,
 ///
-/// * no other robot of its group, and none of a group before it, is anywhere else;
-/// * a robot of a group after it is elsewhere only if its place is now overlapped, by the new robot
-///   or by one that is elsewhere because of it, or if such a one has left a place that it tried first.
+/// * no other robot of its group, and none of an earlier group, moves;
+/// * a robot of a later group moves only if the new robot, or one that has moved because of it, now
+///   overlaps its position or has freed an earlier candidate of it.
 ///
-/// Robots that only touch do not overlap. The time goes with the number of robots, not its square.
+/// Touching is no overlap. The time is proportional to the number of robots.
 ///
 /// # Errors
-/// The first robot for which no place is found.
+/// The first robot for which no position is found.
 pub fn team(
-    draws: &Draws,
+    draws: &PlacementContext,
     groups: &[Group],
     is_free: impl Fn(&Group, Point) -> bool,
-) -> Result<Vec<Vec<Point>>, NoPlaceFor> {
+) -> Result<Vec<Vec<Point>>, TeamPlacementError> {
     let is_given = |group: &Group| matches!(group.placement, Placement::Fixed { .. });
     let mut order: Vec<usize> = (0..groups.len()).collect();
     order.sort_by_key(|&at| !is_given(&groups[at]));
     let mut places = vec![Vec::new(); groups.len()];
     let discs = groups.iter().map(|group| (group.layer, group.radius_m));
-    let mut crowd = Crowd::new(discs, draws.torus);
+    let mut crowd = DiscIndex::new(discs, draws.torus);
     for at in order {
         let group = &groups[at];
         for index in 0..group.count {
@@ -72,19 +72,20 @@ pub fn team(
     Ok(places)
 }
 
-/// The first place of one robot that `is_open`. Clusters are where it `is_free`, whoever stands there.
+/// The first candidate of a robot that `is_open`. The centre of its cluster only needs to be `is_free`:
+/// other robots do not matter.
 fn place(
-    draws: &Draws,
+    draws: &PlacementContext,
     group: &Group,
     index: u32,
     is_free: impl Fn(Point) -> bool,
     is_open: impl Fn(Point) -> bool,
-) -> Result<Point, NoPlaceFor> {
+) -> Result<Point, TeamPlacementError> {
     let Group { kind, key, .. } = *group;
     let entity = Entity { kind: key, index };
     group
         .placement
         .candidates(draws, entity, is_free)
         .and_then(|candidates| candidates.first(is_open))
-        .map_err(|why| NoPlaceFor { kind, index, why })
+        .map_err(|why| TeamPlacementError { kind, index, why })
 }

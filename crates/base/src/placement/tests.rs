@@ -3,9 +3,9 @@ use crate::random::MAX_INDEX;
 use proptest::prelude::*;
 use std::time::{Duration, Instant};
 
-/// Draws for a square world from (0, 0).
-fn draws(side_m: f64, things: Things) -> Draws {
-    Draws {
+/// PlacementContext for a square world from (0, 0).
+fn draws(side_m: f64, things: EntityClass) -> PlacementContext {
+    PlacementContext {
         seed: 7,
         run: 0,
         world: Rectangle::spanned(Point::default(), [side_m, side_m].into()),
@@ -20,7 +20,12 @@ fn item(index: u32) -> Entity {
 
 const ANYWHERE: Placement = Placement::Uniform { within_m: None };
 
-fn places(placement: &Placement, draws: &Draws, count: u32, free: fn(Point) -> bool) -> Vec<Point> {
+fn places(
+    placement: &Placement,
+    draws: &PlacementContext,
+    count: u32,
+    free: fn(Point) -> bool,
+) -> Vec<Point> {
     (0..count)
         .map(|index| placement.place(draws, item(index), free).unwrap())
         .collect()
@@ -49,7 +54,7 @@ fn uniform_places_are_uniform_over_what_is_free() {
     // 176 in one of a million seeds.
     let free = |at: Point| !((4.0..6.0).contains(&at.x) && (4.0..6.0).contains(&at.y));
     let mut counts = [0; 100];
-    for place in places(&ANYWHERE, &draws(10.0, Things::Items), 96_000, free) {
+    for place in places(&ANYWHERE, &draws(10.0, EntityClass::Items), 96_000, free) {
         counts[cell(place.x) * 10 + cell(place.y)] += 1;
     }
     let solid = [44, 45, 54, 55];
@@ -66,7 +71,7 @@ fn uniform_places_are_uniform_over_what_is_free() {
 fn a_cluster_is_a_round_normal_distribution_of_the_stated_spread() {
     // About the centre, exp(-d^2 / 2 s^2) and the angle are uniform and independent. Pearson's
     // statistic of 64 cells is above 131 in one of a million seeds.
-    let draws = draws(1e6, Things::Items);
+    let draws = draws(1e6, EntityClass::Items);
     let placement = Placement::Clustered {
         clusters: 1,
         spread_m: 2.5,
@@ -89,7 +94,7 @@ fn a_cluster_is_a_round_normal_distribution_of_the_stated_spread() {
 
 #[test]
 fn clusters_have_equal_numbers_and_centres_of_their_own() {
-    let draws = draws(1e4, Things::Items);
+    let draws = draws(1e4, EntityClass::Items);
     let placement = Placement::Clustered {
         clusters: 3,
         spread_m: 0.1,
@@ -118,7 +123,7 @@ fn centres_and_members_are_within_and_free() {
         within_m: Some(within),
     };
     let free = |at: Point| at.x + at.y > 6.0;
-    for place in places(&placement, &draws(10.0, Things::Robots), 1000, free) {
+    for place in places(&placement, &draws(10.0, EntityClass::Robots), 1000, free) {
         assert!(within.contains(place) && free(place), "{place:?}");
     }
 }
@@ -133,11 +138,11 @@ fn a_full_world_is_an_error_and_not_an_endless_search() {
             within_m: None,
         },
     ] {
-        let place = placement.place(&draws(10.0, Things::Items), item(0), |_| false);
-        assert_eq!(place, Err(NoPlace::NoneFree));
+        let place = placement.place(&draws(10.0, EntityClass::Items), item(0), |_| false);
+        assert_eq!(place, Err(PlacementError::NoneFree));
     }
     assert_eq!(
-        NoPlace::NoneFree.to_string(),
+        PlacementError::NoneFree.to_string(),
         "no free place found after 10000 tries"
     );
 }
@@ -147,18 +152,18 @@ fn given_places_and_headings_are_kept() {
     let placement: Placement =
         serde_json::from_str(r#"{"kind": "fixed", "at_m": [[1, 2], [3, 4]], "heading_deg": [90]}"#)
             .unwrap();
-    let draws = draws(10.0, Things::Robots);
+    let draws = draws(10.0, EntityClass::Robots);
     assert_eq!(
         placement.place(&draws, item(1), |_| true),
         Ok([3.0, 4.0].into())
     );
     assert_eq!(
         placement.place(&draws, item(1), |_| false),
-        Err(NoPlace::Taken)
+        Err(PlacementError::Taken)
     );
     assert_eq!(
         placement.place(&draws, item(2), |_| true),
-        Err(NoPlace::NotGiven(2))
+        Err(PlacementError::NotGiven(2))
     );
     let quarter = std::f64::consts::FRAC_PI_2;
     assert!((placement.heading_rad(&draws, item(0)) - quarter).abs() < 1e-15);
@@ -172,7 +177,7 @@ fn given_places_and_headings_are_kept() {
 #[test]
 fn headings_are_uniform() {
     // Pearson's statistic of 36 cells is above 95 in one of a million seeds.
-    let draws = draws(10.0, Things::Robots);
+    let draws = draws(10.0, EntityClass::Robots);
     let mut counts = [0; 36];
     for index in 0..36_000 {
         let turn = ANYWHERE.heading_rad(&draws, item(index)) / std::f64::consts::TAU + 0.5;
@@ -199,9 +204,9 @@ fn places_are_the_same_bytes_for_ever() {
     let item = [4_618_961_522_757_686_220, 4_625_356_342_565_807_238];
     let robot = [4_620_789_145_511_727_820, 4_621_332_259_097_494_631];
     let member = [4_620_825_315_978_357_982, 4_612_217_385_491_541_848];
-    assert_eq!(bits(&ANYWHERE, Things::Items), item);
-    assert_eq!(bits(&ANYWHERE, Things::Robots), robot);
-    assert_eq!(bits(&clustered, Things::Items), member);
+    assert_eq!(bits(&ANYWHERE, EntityClass::Items), item);
+    assert_eq!(bits(&ANYWHERE, EntityClass::Robots), robot);
+    assert_eq!(bits(&clustered, EntityClass::Items), member);
 }
 
 #[test]
@@ -259,7 +264,7 @@ proptest! {
         seed: u64, counts in prop::array::uniform3(0_u32..40),
         radii in prop::array::uniform3(0.01_f64..0.5), is_air: bool,
     ) {
-        let draws = Draws { seed, ..draws(20.0, Things::Robots) };
+        let draws = PlacementContext { seed, ..draws(20.0, EntityClass::Robots) };
         let clustered = Placement::Clustered { clusters: 2, spread_m: 5.0, within_m: None };
         let placements = [&ANYWHERE, &clustered, &ANYWHERE];
         let mut groups: Vec<Group> = (0..3)
@@ -279,7 +284,7 @@ proptest! {
     fn one_robot_more_moves_only_those_that_it_really_hinders(
         seed: u64, counts in prop::array::uniform3(1_u32..60), grown in 0_usize..3,
     ) {
-        let draws = Draws { seed, ..draws(12.0, Things::Robots) };
+        let draws = PlacementContext { seed, ..draws(12.0, EntityClass::Robots) };
         let mut groups: Vec<Group> = (0..3)
             .map(|at| group(u8::try_from(at).unwrap(), counts[at], 0.2, &ANYWHERE))
             .collect();
@@ -309,18 +314,18 @@ proptest! {
         seed: u64, run: u64, kind: u32, index in 0..MAX_INDEX - 1,
     ) {
         let clustered = Placement::Clustered { clusters: 1 << 20, spread_m: 1.0, within_m: None };
-        let there = Draws { seed, run, ..draws(1e3, Things::Items) };
+        let there = PlacementContext { seed, run, ..draws(1e3, EntityClass::Items) };
         for placement in [&ANYWHERE, &clustered] {
-            let place = |draws: Draws, kind, index| {
+            let place = |draws: PlacementContext, kind, index| {
                 placement.place(&draws, Entity { kind, index }, |_| true).unwrap()
             };
             let here = place(there, kind, index);
             prop_assert_eq!(here, place(there, kind, index));
             prop_assert_ne!(here, place(there, kind ^ 1, index));
             prop_assert_ne!(here, place(there, kind, index + 1));
-            prop_assert_ne!(here, place(Draws { run: run ^ 1, ..there }, kind, index));
-            prop_assert_ne!(here, place(Draws { seed: seed ^ 1, ..there }, kind, index));
-            prop_assert_ne!(here, place(Draws { things: Things::Robots, ..there }, kind, index));
+            prop_assert_ne!(here, place(PlacementContext { run: run ^ 1, ..there }, kind, index));
+            prop_assert_ne!(here, place(PlacementContext { seed: seed ^ 1, ..there }, kind, index));
+            prop_assert_ne!(here, place(PlacementContext { things: EntityClass::Robots, ..there }, kind, index));
         }
     }
 }
@@ -333,9 +338,9 @@ fn given_places_come_before_drawn_ones_whatever_the_order_of_the_groups() {
     };
     let groups = [group(0, 3, 0.4, &ANYWHERE), group(1, 1, 0.4, &middle)];
     for seed in 0..200 {
-        let draws = Draws {
+        let draws = PlacementContext {
             seed,
-            ..draws(3.0, Things::Robots)
+            ..draws(3.0, EntityClass::Robots)
         };
         let places = team(&draws, &groups, |_, _| true).unwrap();
         assert_eq!(places[1], [[1.0, 1.0].into()]);
@@ -351,7 +356,7 @@ fn given_places_that_overlap_are_told_and_those_that_touch_are_not() {
             .collect(),
         heading_deg: None,
     };
-    let draws = draws(10.0, Things::Robots);
+    let draws = draws(10.0, EntityClass::Robots);
     assert!(team(&draws, &[group(0, 10, 0.15, &row(0.3))], |_, _| true).is_ok());
     let error = team(&draws, &[group(0, 10, 0.15, &row(0.299))], |_, _| true).unwrap_err();
     assert_eq!(
@@ -363,12 +368,12 @@ fn given_places_that_overlap_are_told_and_those_that_touch_are_not() {
 #[test]
 fn a_team_that_does_not_fit_is_told() {
     let error = team(
-        &draws(1.0, Things::Robots),
+        &draws(1.0, EntityClass::Robots),
         &[group(4, 9, 0.5, &ANYWHERE)],
         |_, _| true,
     );
     let error = error.unwrap_err();
-    assert_eq!((error.kind, error.why), (4, NoPlace::NoneFree));
+    assert_eq!((error.kind, error.why), (4, PlacementError::NoneFree));
 }
 
 #[test]
@@ -386,9 +391,9 @@ fn a_million_robots_are_placed_in_seconds() {
     ];
     let start = Instant::now();
     let free = |group: &Group, at: Point| group.kind != 1 || at.x < 0.0;
-    let whole = Draws {
+    let whole = PlacementContext {
         world: Rectangle::spanned([-50.0, 0.0].into(), [2000.0, 2000.0].into()),
-        ..draws(1.0, Things::Robots)
+        ..draws(1.0, EntityClass::Robots)
     };
     let places = team(&whole, &groups, |group, at| {
         free(group, at) && (group.kind == 1 || at.x > 25.0)

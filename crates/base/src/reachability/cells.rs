@@ -1,11 +1,11 @@
-//! Square cells over the world, and which of them are near something.
+//! A grid of square cells over the world.
 
 use super::{MAX_CELLS, Solid, TOLERANCE_M};
 use crate::geometry::{Point, Rectangle, Segment};
 use std::f64::consts::FRAC_1_SQRT_2;
 use std::ops::RangeInclusive;
 
-/// Cells along the robot's radius.
+/// Number of cells along the radius of the robot.
 const CELLS_PER_RADIUS: f64 = 4.0;
 
 /// Square cells that cover the world.
@@ -23,7 +23,7 @@ impl Cells {
         let most = f64::from(MAX_CELLS);
         let coarse_m = (size.x.max(size.y) / most).max((world.area_m2() / most).sqrt());
         let mut side_m = (radius_m / CELLS_PER_RADIUS).max(coarse_m);
-        // Columns and rows are rounded up, which may be a few cells too many.
+        // Rounding columns and rows up may exceed the maximum by a few cells.
         while count(size.x, side_m) * count(size.y, side_m) > most {
             side_m *= 1.01;
         }
@@ -47,7 +47,7 @@ impl Cells {
         self.side_m * FRAC_1_SQRT_2
     }
 
-    /// The cells whose middle is nearer to the solid than `near_m`: of each row a run of indices.
+    /// The cells whose centre is closer to the obstacle than `near_m`: one range of indices per row.
     pub(super) fn near(
         &self,
         solid: Solid,
@@ -65,13 +65,13 @@ impl Cells {
         })
     }
 
-    /// The cells that have a place in the rectangle.
+    /// The cells that overlap the rectangle.
     pub(super) fn touched_by(&self, rectangle: &Rectangle) -> impl Iterator<Item = (u32, u32)> {
         let (min, max) = (
             self.corner.to(rectangle.min()),
             self.corner.to(rectangle.max()),
         );
-        // Half a side further than their middles.
+        // Centres may be half a side outside.
         let far_m = self.side_m / 2.0 + TOLERANCE_M;
         let rows = self.middles(min.y - far_m, max.y + far_m, self.rows);
         let columns = self.middles(min.x - far_m, max.x + far_m, self.columns);
@@ -82,7 +82,7 @@ impl Cells {
         })
     }
 
-    /// The cell and those that it touches, by a side or a corner.
+    /// The cell and its eight neighbours.
     pub(super) fn neighbours(&self, (column, row): (u32, u32)) -> impl Iterator<Item = (u32, u32)> {
         let around = |at: u32, count: u32| at.saturating_sub(1)..=(at + 1).min(count - 1);
         let rows = around(row, self.rows);
@@ -90,8 +90,7 @@ impl Cells {
             .flat_map(move |column| rows.clone().map(move |row| (column, row)))
     }
 
-    /// Of `count` cells in a line those whose middle is from `low` to `high` after the line's
-    /// beginning.
+    /// Of `count` cells in a line, those whose centre is from `low` to `high` along the line.
     fn middles(&self, low: f64, high: f64, count: u32) -> Option<RangeInclusive<u32>> {
         let first = (low / self.side_m - 0.5).ceil().max(0.0);
         let last = (high / self.side_m - 0.5).floor().min(f64::from(count - 1));
@@ -99,7 +98,7 @@ impl Cells {
     }
 }
 
-/// From where to where, along y, places are nearer to the solid than `near_m`.
+/// The interval of y in which points may be closer to the obstacle than `near_m`.
 fn heights(solid: Solid, near_m: f64) -> (f64, f64) {
     let (one, other, far_m) = match solid {
         Solid::Wall(wall) => (wall.from.y, wall.to.y, near_m),
@@ -108,7 +107,7 @@ fn heights(solid: Solid, near_m: f64) -> (f64, f64) {
     (one.min(other) - far_m, one.max(other) + far_m)
 }
 
-/// From where to where, along x, the places of height `y` are nearer to the solid than `near_m`.
+/// The interval of x in which points at height `y` are closer to the obstacle than `near_m`.
 fn widths(solid: Solid, near_m: f64, y: f64) -> Option<(f64, f64)> {
     match solid {
         Solid::Pillar(disc) => chord(disc.centre, disc.radius_m + near_m, y),
@@ -123,14 +122,14 @@ fn widths(solid: Solid, near_m: f64, y: f64) -> Option<(f64, f64)> {
     }
 }
 
-/// Where the line of height `y` is within a circle.
+/// The interval of the line at height `y` within a circle.
 fn chord(centre: Point, radius_m: f64, y: f64) -> Option<(f64, f64)> {
     let up = y - centre.y;
     let half = (radius_m * radius_m - up * up).sqrt();
     (radius_m > 0.0 && half >= 0.0).then_some((centre.x - half, centre.x + half))
 }
 
-/// Where the line of height `y` is beside the wall, not beyond its ends, and nearer than `near_m`.
+/// The interval of the line at height `y` beside the wall, not beyond its ends, within `near_m`.
 fn strip(wall: Segment, near_m: f64, y: f64) -> Option<(f64, f64)> {
     let way = wall.way();
     let aside = Point {
@@ -154,7 +153,7 @@ fn strip(wall: Segment, near_m: f64, y: f64) -> Option<(f64, f64)> {
         .filter(|_| near_m > 0.0)
 }
 
-/// Where the line of height `y` crosses the way from one point to another.
+/// The intersection of the line at height `y` with the segment between two points.
 fn crossing(from: Point, to: Point, y: f64) -> Option<f64> {
     let share = (y - from.y) / (to.y - from.y);
     (0.0..=1.0)
@@ -162,7 +161,7 @@ fn crossing(from: Point, to: Point, y: f64) -> Option<f64> {
         .then_some(from.x + share * (to.x - from.x))
 }
 
-/// How many cells cover a length.
+/// Number of cells that cover a length.
 fn count(length_m: f64, side_m: f64) -> f64 {
     (length_m / side_m).ceil().max(1.0)
 }

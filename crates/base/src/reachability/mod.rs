@@ -1,28 +1,28 @@
-//! Which places a robot can never come to, to tell a user before any run.
+//! The parts of a world that a robot can never reach, to report unreachable items before any run.
 //!
-//! The answer errs on one side: [`Reachability::may_come_near`] says no only when it is sure. The world is
-//! cut into square cells. A cell is closed when every place in it is nearer to something solid than
-//! the robot's radius: its middle is nearer by half the cell's diagonal. A robot that moves visits
-//! one cell after another that touches it, by a side or by a corner; so from the cells where it
-//! starts, all cells that it can come to are flooded, through those that are not closed.
+//! The answer is conservative: [`Reachability::may_come_near`] returns false only if it is certain. The
+//! world is divided into square cells. A cell is closed if every point of it is closer to something
+//! solid than the robot's radius, that is, if its centre is closer by half the cell's diagonal. A
+//! moving robot passes from each cell to a neighbour, by a side or by a corner; so a flood fill from
+//! the start cells, through cells that are not closed, finds all cells that it may reach.
 //!
-//! What is flooded in vain: gaps that are narrower than the robot by less than a cell's diagonal.
-//! Cells are a quarter of the radius wide, so that every gap below four fifths of the robot's width
-//! is seen to be too narrow. In a world that [`MAX_CELLS`] of these do not cover cells are wider, and
-//! once their diagonal is the robot's width, no wall is closed any more.
+//! The fill also passes gaps that are narrower than the robot by less than the diagonal of a cell.
+//! Cells are a quarter of the radius wide, so that every gap below four fifths of the robot's width is
+//! detected as too narrow. In a world that [`MAX_CELLS`] such cells do not cover, cells are wider; once
+//! their diagonal is the robot's width, no wall closes any cell.
 
 mod cells;
 
 use crate::geometry::{Disc, Point, Rectangle, Segment};
 use cells::Cells;
 
-/// Most cells: a world is covered by larger ones rather than by more.
+/// Maximum number of cells: larger worlds get larger cells.
 pub const MAX_CELLS: u32 = 4_000_000;
 
-/// Distances, in metres, that are taken for rounding.
+/// Tolerance for rounding, in metres.
 const TOLERANCE_M: f64 = 1e-9;
 
-/// Something that the robot cannot overlap.
+/// An obstacle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Solid {
     /// A wall.
@@ -31,19 +31,19 @@ pub enum Solid {
     Pillar(Disc),
 }
 
-/// Where a robot may come to.
+/// The places that a robot may reach.
 #[derive(Debug, Clone)]
 pub struct Reachability {
     cells: Cells,
-    /// How many cells may be come to before each, row by row, and in all.
+    /// Cumulative number of reachable cells, row by row.
     flooded_before: Vec<u32>,
 }
 
 impl Reachability {
-    /// Where a robot of `radius_m` may come to from anywhere in its `starts` (a single place is a
-    /// rectangle from itself to itself), within the walls of `world` and among what is `solid`.
+    /// The places that a robot of `radius_m` may reach from anywhere in its `starts` (an empty rectangle
+    /// for a single point), within the walls of `world` and around the `solid` obstacles.
     ///
-    /// Takes some bytes a cell, of at most [`MAX_CELLS`], and time with the cells and what is solid.
+    /// Takes a few bytes per cell, of at most [`MAX_CELLS`], and time linear in cells and obstacles.
     #[must_use]
     pub fn new(
         world: Rectangle,
@@ -53,7 +53,7 @@ impl Reachability {
     ) -> Self {
         let cells = Cells::new(world, radius_m);
         let mut is_closed = vec![false; cells.count()];
-        // A place is nearer to the solid than the radius if the middle of its cell is by so much.
+        // Every point of a cell is within the radius of an obstacle if the centre is this close to it.
         let sure_m = radius_m - cells.half_diagonal_m() - TOLERANCE_M;
         let walls = world.room().map(Solid::Wall);
         for solid in solid.into_iter().chain(walls) {
@@ -72,8 +72,8 @@ impl Reachability {
         }
     }
 
-    /// Whether the robot's centre may come within `distance_m` of `point`, 0 for upon it. If not, it
-    /// never can. Takes time with the rows of cells that are so near.
+    /// Whether the robot's centre may come within `distance_m` of `point`; false is certain. Takes time
+    /// linear in the number of rows within that distance.
     #[must_use]
     pub fn may_come_near(&self, point: Point, distance_m: f64) -> bool {
         let far_m = distance_m + self.cells.half_diagonal_m() + TOLERANCE_M;
@@ -88,13 +88,13 @@ impl Reachability {
     }
 }
 
-/// The cells that are come to from those of `starts` through cells that are not closed.
+/// The cells that are connected to those of `starts` through cells that are not closed.
 fn flood(cells: &Cells, mut is_closed: Vec<bool>, starts: &[Rectangle]) -> Vec<bool> {
     let mut is_flooded = vec![false; cells.count()];
     let mut ahead: Vec<(u32, u32)> = Vec::new();
     let mut visit = |cell: (u32, u32), ahead: &mut Vec<(u32, u32)>| {
         let index = cells.index(cell);
-        // What is flooded is closed behind it, so that it is visited once.
+        // Close reached cells, so that each is visited once.
         if !std::mem::replace(&mut is_closed[index], true) {
             is_flooded[index] = true;
             ahead.push(cell);

@@ -7,7 +7,7 @@ use crate::bodies::Layer;
 use crate::bodies::kind::Kind;
 use crate::scenario::Scenario;
 use crate::world::items::Item;
-use base::placement::{Crowd, NoPlace, NoPlaceFor, Things};
+use base::placement::{DiscIndex, EntityClass, PlacementError, TeamPlacementError};
 use std::collections::BTreeMap;
 
 /// Whether the place of a robot is still valid.
@@ -92,7 +92,7 @@ impl State {
 
     /// Moves added robots elsewhere if their place is taken by now.
     fn make_room(&mut self, scenario: &Scenario, rooms: &[Room]) -> Result<(), NoRoom> {
-        let draws = draws(scenario, self.seed, self.run, Things::Robots);
+        let draws = draws(scenario, self.seed, self.run, EntityClass::Robots);
         let mut crowd = self.crowd(scenario);
         for (robot, room) in rooms.iter().enumerate() {
             if *room == Room::Same {
@@ -108,10 +108,10 @@ impl State {
             let place = match room {
                 _ if is_free(centre) => Ok(centre),
                 Room::Wanted => kind.start.place(&draws, scenario.entity(id), is_free),
-                _ => Err(NoPlace::Taken),
+                _ => Err(PlacementError::Taken),
             };
             let place = place.map(|place| scenario.home(place));
-            let place = place.map_err(|why| NoPlaceFor {
+            let place = place.map_err(|why| TeamPlacementError {
                 kind: id.kind,
                 index: id.index,
                 why,
@@ -123,10 +123,10 @@ impl State {
     }
 
     /// Where the robots of each kind are.
-    fn crowd(&self, scenario: &Scenario) -> Crowd {
+    fn crowd(&self, scenario: &Scenario) -> DiscIndex {
         let kinds = scenario.kinds.iter();
         let discs = kinds.map(|kind| (kind.layer as u8, kind.radius_m));
-        let mut crowd = Crowd::new(discs, scenario.torus);
+        let mut crowd = DiscIndex::new(discs, scenario.torus);
         for (id, disc) in self.ids.iter().zip(&self.discs) {
             crowd.add(usize::from(id.kind), disc.centre);
         }
@@ -180,7 +180,7 @@ fn no_room(scenario: &Scenario, name: &str, index: u32) -> NoRoom {
     NoRoom::Item {
         kind: kind.map_or(0, |(number, _)| number),
         index,
-        why: NoPlace::Taken,
+        why: PlacementError::Taken,
     }
 }
 

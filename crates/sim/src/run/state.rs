@@ -10,7 +10,9 @@ use crate::world::items::Items;
 use base::geometry::{Disc, Point};
 use base::hash::Hash;
 use base::noise::Noise;
-use base::placement::{Draws, Group, NoPlace, NoPlaceFor, Things, team};
+use base::placement::{
+    EntityClass, Group, PlacementContext, PlacementError, TeamPlacementError, team,
+};
 use base::random::Entity;
 use brain::{Motion, RobotId};
 
@@ -118,11 +120,11 @@ pub enum NoRoom {
         /// Its index within the kind.
         index: u32,
         /// The reason.
-        why: NoPlace,
+        why: PlacementError,
     },
     /// A robot.
     #[error(transparent)]
-    Robot(#[from] NoPlaceFor),
+    Robot(#[from] TeamPlacementError),
 }
 
 impl State {
@@ -152,7 +154,7 @@ impl State {
     }
 
     fn place_robots(&mut self, scenario: &Scenario) -> Result<(), NoRoom> {
-        let draws = draws(scenario, self.seed, self.run, Things::Robots);
+        let draws = draws(scenario, self.seed, self.run, EntityClass::Robots);
         let kinds = (0..).zip(&scenario.kinds);
         let groups = kinds.map(|(number, kind)| Group {
             kind: number,
@@ -268,8 +270,13 @@ impl State {
     }
 }
 
-pub(super) fn draws(scenario: &Scenario, seed: u64, run: u64, things: Things) -> Draws {
-    Draws {
+pub(super) fn draws(
+    scenario: &Scenario,
+    seed: u64,
+    run: u64,
+    things: EntityClass,
+) -> PlacementContext {
+    PlacementContext {
         seed,
         run,
         world: scenario.world,
@@ -279,7 +286,7 @@ pub(super) fn draws(scenario: &Scenario, seed: u64, run: u64, things: Things) ->
 }
 
 fn place_items(scenario: &Scenario, seed: u64, run: u64) -> Result<Items, NoRoom> {
-    let draws = draws(scenario, seed, run, Things::Items);
+    let draws = draws(scenario, seed, run, EntityClass::Items);
     let mut items = Vec::new();
     for (number, kind) in (0..).zip(&scenario.items) {
         for index in 0..kind.count {

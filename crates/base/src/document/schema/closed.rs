@@ -1,4 +1,4 @@
-//! A schema brought to the simple form that is followed here.
+//! Converts a schema to the simplified form.
 
 use super::units::annotate;
 use super::{Object, list};
@@ -9,10 +9,10 @@ use serde_json::{Value as Json, json};
 /// Where schemars puts the schemas of named types.
 const DEFINITIONS: &str = "definitions";
 
-/// What an object can be put together from.
+/// Keywords of compositions.
 const PARTS: [&str; 4] = ["$ref", "oneOf", "anyOf", "allOf"];
 
-/// `schema` without null, without parts to be put together, and without other keys.
+/// `schema` in the simplified form, with units.
 pub(super) fn closed(mut schema: Schema) -> Json {
     let definitions = schema.get(DEFINITIONS).cloned();
     let definitions = match definitions {
@@ -26,7 +26,7 @@ pub(super) fn closed(mut schema: Schema) -> Json {
 }
 
 struct Close {
-    /// As they were.
+    /// The original definitions.
     definitions: Object,
 }
 
@@ -46,7 +46,7 @@ impl Transform for Close {
     }
 }
 
-/// TOML has no null: what may be null may be left out.
+/// TOML has no null: nullable values are optional.
 fn drop_null(schema: &mut Object) {
     let is_null = |part: &Json| part.is_null() || part == "null" || part["type"] == "null";
     for key in ["type", "enum", "anyOf", "oneOf"] {
@@ -83,7 +83,7 @@ fn drop_null_values(value: &mut Json) {
 }
 
 impl Close {
-    /// Writes out an object that is made of parts, as of `#[serde(flatten)]` and tagged enums.
+    /// Writes out composed objects, which come from `#[serde(flatten)]` and tagged enums.
     fn compose(&self, schema: &mut Object) {
         let has_parts = PARTS.iter().any(|key| schema.contains_key(*key));
         let is_composed =
@@ -102,7 +102,7 @@ impl Close {
         schema.extend(default.map(|default| ("default".to_owned(), default)));
     }
 
-    /// All that a composed object can be, each without parts.
+    /// All forms of a composed object, without compositions.
     fn variants(&self, schema: &Object) -> Vec<Object> {
         let mut own = schema.clone();
         own.retain(|key, _| !PARTS.contains(&key.as_str()) && key != "default");
@@ -118,7 +118,7 @@ impl Close {
             let parts = list(schema, key).iter().filter_map(Json::as_object);
             let parts: Vec<Object> = parts.flat_map(|part| self.variants(part)).collect();
             if !parts.is_empty() {
-                // What a variant says of itself is worth more than what is said of all.
+                // The keywords of a variant take precedence over those of the whole.
                 made = joined(&made, &parts, |own, part| union(part.clone(), own));
             }
         }
@@ -136,7 +136,7 @@ fn joined(left: &[Object], right: &[Object], join: fn(&Object, &Object) -> Objec
     left.iter().flat_map(with_each).collect()
 }
 
-/// Both; where they differ, the `first`.
+/// The union of both; the `first` takes precedence.
 fn union(mut first: Object, second: &Object) -> Object {
     for (key, value) in second {
         match (first.get_mut(key), value) {
@@ -155,7 +155,7 @@ fn union(mut first: Object, second: &Object) -> Object {
     first
 }
 
-/// Says in numbers what a format says in a word that only Rust knows.
+/// Replaces Rust's integer formats by bounds.
 fn bound(schema: &mut Object) {
     let format = schema.remove("format");
     let (low, high) = match format.as_ref().and_then(Json::as_str) {
@@ -175,7 +175,7 @@ fn close(schema: &mut Object) {
     }
 }
 
-/// Lines of a Rust comment end where the page does.
+/// Joins the lines of each paragraph.
 fn join_lines(schema: &mut Object) {
     if let Some(Json::String(text)) = schema.get_mut("description") {
         let paragraphs = text

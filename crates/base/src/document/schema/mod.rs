@@ -1,7 +1,7 @@
-//! A document checked against a JSON Schema, every error at once, each with its line.
+//! Checks a document against a JSON Schema and reports all errors at once, each with its line.
 //!
-//! The schema is made from the Rust types that serde reads the document into, so what is checked,
-//! what editors complete and what the program reads cannot disagree.
+//! The schema is derived from the Rust types that serde reads the document into, so that the checks, the
+//! completion in editors and the reader cannot disagree.
 //!
 //! ```
 //! use base::document::{Document, schema::Schema};
@@ -45,17 +45,15 @@ use serde_json::{Map, Value as Json};
 /// The properties of an object's schema, or the keywords of any.
 type Object = Map<String, Json>;
 
-/// What a document may say.
-///
-/// It is a JSON Schema of draft 7 in a form that is simple to follow: objects have no keys but
-/// those that they name, nothing may be null, and what is composed of parts is written out.
+/// A JSON Schema of draft 7 in a simplified form: objects allow no other keys than their properties,
+/// null is not allowed, and compositions are written out.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Schema {
     root: Json,
 }
 
 impl Schema {
-    /// What serde reads as a `T`.
+    /// The schema of a type.
     #[must_use]
     pub fn of<T: JsonSchema>() -> Self {
         // Its transforms would hide what `closed` looks for.
@@ -63,7 +61,7 @@ impl Schema {
         Self::closed(settings.into_generator().into_root_schema_for::<T>())
     }
 
-    /// What `schema` says, and no keys but those that it names.
+    /// `schema` in the simplified form.
     #[must_use]
     pub fn closed(schema: schemars::Schema) -> Self {
         Self {
@@ -71,7 +69,7 @@ impl Schema {
         }
     }
 
-    /// The same, but with any other keys at the root.
+    /// The same, with any other keys allowed at the root.
     #[must_use]
     pub fn open(mut self) -> Self {
         if let Some(root) = self.root.as_object_mut() {
@@ -86,7 +84,7 @@ impl Schema {
         &self.root
     }
 
-    /// Everything that is wrong with `document`.
+    /// All errors of `document`.
     #[must_use]
     pub fn errors(&self, document: &Document) -> Vec<InputError> {
         let mut check = Check::new(self);
@@ -100,7 +98,7 @@ impl Schema {
         expected::expected(self, part)
     }
 
-    /// Whether a table at `path` has things under names of a person's choice.
+    /// Whether the keys of the table at `path` are names that the user chooses.
     #[must_use]
     pub fn has_names_at(&self, path: &[&str]) -> bool {
         self.has_names_below(&self.root, path)
@@ -124,11 +122,11 @@ impl Schema {
         is_so || forms.any(|form| self.has_names_below(form, path))
     }
 
-    /// The keywords of `schema`, or of what it refers to; none for a schema that allows anything.
+    /// The keywords of `schema`, following references; `None` for a schema that allows anything.
     #[must_use]
     pub fn keywords<'s>(&'s self, schema: &'s Json) -> Option<&'s Object> {
         let mut schema = schema.as_object()?;
-        // No chain of references is longer than there are definitions; one in a circle says nothing.
+        // A chain of references has at most as many links as there are definitions; cycles mean nothing.
         for _ in 0..100 {
             let Some(Json::String(target)) = schema.get("$ref") else {
                 return Some(schema);

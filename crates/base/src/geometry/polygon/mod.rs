@@ -1,15 +1,13 @@
-//! A solid area with straight edges.
+//! Solid polygons.
 
 mod simple;
 
 use super::{Point, Rectangle, Segment};
 use robust::{Coord, orient2d};
 
-/// A solid area within one closed line that neither crosses nor touches itself; its edge belongs to
-/// it.
+/// A solid simple polygon, including its boundary.
 ///
-/// Which points lie in it, and whether its line is simple, is decided exactly, whatever is rounded
-/// elsewhere (Shewchuk, *Adaptive precision floating-point arithmetic and fast robust geometric
+/// Containment and simplicity are decided with exact arithmetic (Shewchuk, *Adaptive precision floating-point arithmetic and fast robust geometric
 /// predicates*, 1997).
 ///
 /// ```
@@ -24,43 +22,41 @@ pub struct Polygon {
     vertices: Vec<Point>,
 }
 
-/// Why a list of vertices, counted from 0, is no polygon.
+/// The reason why a list of vertices is not a polygon. Vertices are counted from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum PolygonError {
     /// Too few or too many vertices.
     #[error("a polygon of {least} to {most} vertices; it has {0}", least = Polygon::MIN_VERTICES, most = Polygon::MAX_VERTICES)]
     Count(usize),
     /// A coordinate is NaN, infinite or too large.
-    #[error("a polygon of coordinates from -{most:e} to {most:e}; those of vertex {0} are not", most = Polygon::MAX_COORDINATE_M)]
+    #[error("a polygon with coordinates from -{most:e} to {most:e}; vertex {0} is outside", most = Polygon::MAX_COORDINATE_M)]
     Coordinate(usize),
-    /// A vertex is the same as the one after it.
-    #[error("a polygon without the same vertex twice; vertex {0} is the same as the next")]
+    /// A vertex equals the next one.
+    #[error("a polygon without repeated vertices; vertex {0} equals the next one")]
     Repeated(usize),
-    /// The line turns back upon itself at a vertex.
-    #[error("a polygon that does not touch itself; at vertex {0} it turns back upon itself")]
+    /// An edge folds back onto the previous one at a vertex.
+    #[error("a polygon that does not touch itself; it folds back at vertex {0}")]
     Folded(usize),
-    /// The edges that begin at these two vertices have a point in common.
-    #[error(
-        "a polygon that does not cross or touch itself; its edges from vertices {0} and {1} do"
-    )]
+    /// The edges that begin at these two vertices intersect.
+    #[error("a polygon that does not intersect itself; the edges from vertices {0} and {1} do")]
     Crossed(usize, usize),
-    /// The area is too small to be told from 0.
+    /// The area is 0.
     #[error("a polygon with an area above 0")]
     Flat,
 }
 
 impl Polygon {
-    /// Least number of vertices.
+    /// Minimum number of vertices.
     pub const MIN_VERTICES: usize = 3;
-    /// Greatest number of vertices.
+    /// Maximum number of vertices.
     pub const MAX_VERTICES: usize = 10_000;
-    /// Greatest distance of a vertex from either axis.
+    /// Maximum absolute coordinate, in metres.
     pub const MAX_COORDINATE_M: f64 = 1e9;
 
     /// The polygon with these vertices, given clockwise or anticlockwise.
     ///
     /// # Errors
-    /// The first thing that is wrong, if something is.
+    /// The first error found.
     pub fn new(vertices: &[Point]) -> Result<Self, PolygonError> {
         if !(Self::MIN_VERTICES..=Self::MAX_VERTICES).contains(&vertices.len()) {
             return Err(PolygonError::Count(vertices.len()));
@@ -84,12 +80,12 @@ impl Polygon {
         Ok(Self { vertices })
     }
 
-    /// Its edges, with free space on their left, outside.
+    /// Its edges, with the free outside on their left.
     pub fn edges(&self) -> impl Iterator<Item = Segment> + '_ {
         edges(&self.vertices)
     }
 
-    /// The smallest rectangle that holds it.
+    /// Its bounding box.
     #[must_use]
     pub fn bounds(&self) -> Rectangle {
         let first = self.vertices[0];
@@ -97,12 +93,10 @@ impl Polygon {
             .unwrap_or_else(|| Rectangle::spanned(first, first))
     }
 
-    /// Whether `point` lies in it, exactly: its edge belongs to it.
-    ///
-    /// Looks at every edge.
+    /// Whether it contains `point`, by exact arithmetic. Linear in the number of edges.
     #[must_use]
     pub fn contains(&self, point: Point) -> bool {
-        // How often the ray to the right of the point crosses the edges: odd inside.
+        // The ray from the point to the right crosses an odd number of edges if the point is inside.
         let mut is_inside = false;
         for edge in self.edges() {
             let side = side(edge, point);
@@ -117,9 +111,7 @@ impl Polygon {
         is_inside
     }
 
-    /// Distance from `point` to the polygon; 0 within it.
-    ///
-    /// Looks at every edge.
+    /// Distance from `point` to the polygon; 0 inside. Linear in the number of edges.
     #[must_use]
     pub fn distance_m(&self, point: Point) -> f64 {
         if self.contains(point) {
@@ -138,7 +130,7 @@ fn edges(vertices: &[Point]) -> impl Iterator<Item = Segment> + '_ {
         .map(|(&from, &to)| Segment { from, to })
 }
 
-/// The shoelace formula, about the first vertex: the area, below 0 if the vertices run clockwise.
+/// Signed area by the shoelace formula about the first vertex; negative if the vertices run clockwise.
 fn anticlockwise_area(vertices: &[Point]) -> f64 {
     let first = vertices[0];
     let doubled: f64 = edges(vertices)
@@ -147,7 +139,7 @@ fn anticlockwise_area(vertices: &[Point]) -> f64 {
     doubled / 2.0
 }
 
-/// Above 0 if `point` is to the left of the edge, 0 if it is in line with it: exactly.
+/// Positive if `point` is to the left of the edge, 0 if it is on its line; exact.
 fn side(edge: Segment, point: Point) -> f64 {
     let coord = |Point { x, y }| Coord { x, y };
     orient2d(coord(edge.from), coord(edge.to), coord(point))

@@ -1,8 +1,8 @@
-//! Whether a closed line neither crosses nor touches itself.
+//! Checks that a polygon is simple.
 
 use super::{Point, PolygonError, Rectangle, Segment, edges, side};
 
-/// Tells the first thing that is wrong with the closed line through `vertices`.
+/// Returns the first error of the closed line through `vertices`.
 pub(super) fn check(vertices: &[Point]) -> Result<(), PolygonError> {
     let edges: Vec<Segment> = edges(vertices).collect();
     if let Some(at) = edges.iter().position(|edge| edge.from == edge.to) {
@@ -18,15 +18,16 @@ pub(super) fn check(vertices: &[Point]) -> Result<(), PolygonError> {
     }
 }
 
-/// Whether `next`, which begins where `edge` ends, lies upon it.
+/// Whether `next`, which begins at the end of `edge`, folds back onto it.
 fn turns_back(edge: Segment, next: Segment) -> bool {
     side(edge, next.to) == 0.0 && edge.way().dot(next.way()) < 0.0
 }
 
-/// Two edges that are no neighbours and have a point in common.
+/// Two edges that intersect and are not neighbours.
 ///
-/// Edges are looked at from left to right, each against those that begin before it ends: of ten
-/// thousand edges, at worst fifty million pairs, and nearly all of them only by height.
+/// Edges are sorted from left to right, and each is compared with those that begin before it ends. For
+/// ten thousand edges, that is at most fifty million pairs, most of them settled by their bounding
+/// boxes.
 fn crossing(edges: &[Segment]) -> Option<(usize, usize)> {
     let bounds: Vec<Rectangle> = edges
         .iter()

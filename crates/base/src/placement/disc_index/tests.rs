@@ -28,7 +28,7 @@ proptest! {
         moves in prop::collection::vec((0_usize..200, place()), 0..60),
         others in prop::collection::vec(robot(), 1..20),
     ) {
-        let mut crowd = Crowd::new(KINDS, None);
+        let mut crowd = DiscIndex::new(KINDS, None);
         for &(kind, centre) in &robots {
             crowd.add(kind, centre);
         }
@@ -49,7 +49,7 @@ proptest! {
 #[test]
 fn on_a_torus_robots_overlap_across_its_sides() {
     let size_m = Point { x: 10.0, y: 10.0 };
-    let mut crowd = Crowd::new(KINDS, Some(Torus { size_m }));
+    let mut crowd = DiscIndex::new(KINDS, Some(Torus { size_m }));
     crowd.add(1, Point { x: 0.5, y: 9.5 });
     for (x, y, is_taken) in [(9.5, 9.5, true), (9.5, 0.5, true), (8.0, 1.5, false)] {
         assert_eq!(crowd.is_taken(1, Point { x, y }), is_taken, "{x} {y}");

@@ -1,27 +1,28 @@
-//! Robots that stand somewhere, found by where they are.
+//! A spatial hash of the discs of placed robots.
 
 use crate::geometry::{Point, Torus};
 use std::collections::HashMap;
 
-/// Discs that come nearer to each other than this, in metres, overlap; less is rounding.
+/// Discs overlap if they are closer than this, in metres; less is rounding.
 const TOLERANCE_M: f64 = 1e-9;
 
-/// Side of a cell in radii: a robot's surroundings are in few cells, and a cell holds a few robots.
+/// Side of a cell in radii: the surroundings of a robot span few cells, and a cell holds few robots.
 const SIDE: f64 = 8.0;
 
-/// Least side of a cell, in metres, so that the numbers of cells stay exact.
+/// Minimum side of a cell, in metres, so that cell indices stay exact.
 const MIN_SIDE_M: f64 = 1e-3;
 
-/// Where the robots of each kind stand. Memory goes with their number, never with the world's size.
+/// The positions of the robots of each kind. Memory is proportional to their number, independent of the
+/// size of the world.
 #[derive(Debug, Clone)]
-pub struct Crowd {
+pub struct DiscIndex {
     kinds: Vec<Discs>,
     torus: Option<Torus>,
 }
 
-impl Crowd {
-    /// Of nobody yet: a layer and a radius for each kind. Kinds are known by their order. On a torus,
-    /// everybody stands in its rectangle.
+impl DiscIndex {
+    /// An empty index of `kinds`, each given by its layer and its radius, and identified by its place in
+    /// the list. On a torus, all positions are within its rectangle.
     #[must_use]
     pub fn new(kinds: impl IntoIterator<Item = (u8, f64)>, torus: Option<Torus>) -> Self {
         let discs = |(layer, radius_m)| Discs::new(layer, radius_m);
@@ -31,17 +32,17 @@ impl Crowd {
         }
     }
 
-    /// A robot of a kind comes to stand here.
+    /// Adds a robot.
     pub fn add(&mut self, kind: usize, centre: Point) {
         self.kinds[kind].add(centre);
     }
 
-    /// A robot of a kind that stands here goes away.
+    /// Removes a robot.
     pub fn remove(&mut self, kind: usize, centre: Point) {
         self.kinds[kind].remove(centre);
     }
 
-    /// Whether a robot of a kind would here overlap one of its layer; those that only touch do not.
+    /// Whether a robot of a kind would overlap another one of its layer here. Touching is no overlap.
     #[must_use]
     pub fn is_taken(&self, kind: usize, centre: Point) -> bool {
         let Discs {
@@ -90,22 +91,22 @@ impl Discs {
         let at = within
             .as_deref()
             .and_then(|within| within.iter().position(|&other| other == centre));
-        debug_assert!(at.is_some(), "nobody stands at {centre:?}");
+        debug_assert!(at.is_some(), "there is no robot at {centre:?}");
         if let Some((within, at)) = within.zip(at) {
             within.swap_remove(at);
             self.count -= 1;
         }
     }
 
-    /// Nearer than this to one of them, a disc overlaps it; two points never do.
+    /// Discs whose centres are closer than this overlap; two points never do.
     fn reach_m(&self, radius_m: f64) -> f64 {
         self.radius_m + radius_m - TOLERANCE_M
     }
 
-    /// Whether one of them is nearer than `reach_m`.
+    /// Whether any of them is closer than `reach_m`.
     fn overlap(&self, centre: Point, reach_m: f64) -> bool {
         let is_near = |other: &Point| centre.to(*other).length_squared() < reach_m * reach_m;
-        // A large disc among a few small ones: these are fewer than the cells that it covers.
+        // A large disc covers more cells than there are discs: check all of these instead.
         let side = 2.0 * reach_m / self.side_m + 1.0;
         if side * side > 9.0 + length(self.count) {
             return self.cells.values().flatten().any(is_near);
