@@ -4,23 +4,23 @@ use base::geometry::{Disc, Point, Polygon};
 use sim::scenario::{Scenario, ScenarioSpec};
 use sim::world::obstacles::Solid;
 
-/// On a square of so many metres there are so many robots, pillars and boxes.
+/// Side of a square in metres, and its numbers of robots, pillars and boxes.
 const SIDE_M: f64 = 20.0;
 const ROBOTS: u32 = 100;
 const PILLARS: u32 = 20;
 const BOXES: u32 = 10;
 
-/// A field of so many squares, with a wall around it.
+/// A field of several squares, with a wall around it.
 pub(crate) struct Field {
     pub(crate) robots: u32,
     pub(crate) side_m: f64,
     pub(crate) pillars: Vec<Disc>,
-    /// Their least and greatest corners.
+    /// Their minimum and maximum corners.
     pub(crate) boxes: Vec<[Point; 2]>,
 }
 
 impl Field {
-    /// The field for so many robots: a hundred times a square number.
+    /// The field for a number of robots: a hundred times a square number.
     pub(crate) fn new(robots: u32) -> Self {
         let tiles = f64::from(robots / ROBOTS).sqrt().round().max(1.0);
         let mut chance = Chance(1);
@@ -56,7 +56,7 @@ impl Field {
         }
     }
 
-    /// The scenario with everything on: noise on ranges, battery, collisions, judge.
+    /// The scenario with everything enabled: range noise, battery, collisions, judge.
     pub(crate) fn scenario(&self) -> Scenario {
         let rover = serde_json::json!({
             "count": self.robots,
@@ -82,7 +82,7 @@ impl Field {
         Scenario::new(&spec, solids, Vec::new())
     }
 
-    /// All walls, each with what is free to its left.
+    /// All walls, with free space on their left.
     pub(crate) fn walls(&self) -> Vec<[Point; 2]> {
         let room = [
             Point::default(),
@@ -106,7 +106,7 @@ fn corners([low, high]: [Point; 2]) -> [Point; 4] {
     [low, at(low.x, high.y), high, at(high.x, low.y)]
 }
 
-/// Knuth's linear congruential generator: these fields need no better.
+/// Knuth's linear congruential generator, which is good enough for these fields.
 struct Chance(u64);
 
 impl Chance {

@@ -1,5 +1,5 @@
-//! The flock of JuliaDynamics/ABMFrameworksComparison, by its declaration: 400 birds on each torus of
-//! 150 by 150, who see 15 far, for 100 steps from a random start.
+//! The flock of JuliaDynamics/ABMFrameworksComparison, as declared there: 400 birds on each torus of
+//! 150 by 150, with a vision range of 15, for 100 steps from a random start.
 
 use crate::threads::by_turns;
 use sim::run::State;
@@ -7,19 +7,19 @@ use sim::scenario::{Scenario, ScenarioSpec};
 use sim::simulation::Simulation;
 use std::sync::Arc;
 
-/// Birds, and the side of the world for a first so many.
+/// Numbers of birds, and the side of the world for the first one.
 const SIZES: [u32; 3] = [1_000, 10_000, 100_000];
 const BIRDS: f64 = 400.0;
 const SIDE_M: f64 = 150.0;
 
-/// Fewer birds are left to one thread.
+/// Below this number of birds, one thread does all the work.
 const SHARED: u32 = 2_048;
 
-/// Steps of a run, and bird-updates of a piece of work at least.
+/// Steps of a run, and minimum bird-updates of a sample.
 const STEPS: u32 = 100;
 const UPDATES: u32 = 1_000_000;
 
-/// Pieces of work of each number of threads.
+/// Samples for each number of threads.
 const PIECES: u32 = 9;
 
 /// Prints the table.
@@ -33,7 +33,7 @@ pub(crate) fn report() {
     }
 }
 
-/// One thread and two, by turns.
+/// Alternates between one thread and two.
 fn compare(birds: u32, mut simulation: Simulation) {
     let start = simulation.state().clone();
     let runs = (UPDATES / (birds * STEPS)).max(1);
@@ -47,7 +47,7 @@ fn compare(birds: u32, mut simulation: Simulation) {
     }
 }
 
-/// Some runs, and the hash of where the last ended.
+/// Some runs, and the hash of the last final state.
 fn fly(simulation: &mut Simulation, start: &State, runs: u32) -> u64 {
     for _ in 0..runs {
         simulation.restore(start.clone());
@@ -56,7 +56,7 @@ fn fly(simulation: &mut Simulation, start: &State, runs: u32) -> u64 {
     simulation.state().hash()
 }
 
-/// The declared rule, a step of a second.
+/// The declared rule, with steps of one second.
 fn scenario(birds: u32) -> Scenario {
     let side_m = SIDE_M * (f64::from(birds) / BIRDS).sqrt();
     let swarm = serde_json::json!({
@@ -79,7 +79,7 @@ fn scenario(birds: u32) -> Scenario {
     Scenario::new(&spec, Vec::new(), Vec::new())
 }
 
-/// Of the flocks: as asked for, or the usual ones.
+/// Sizes of the flocks: from the command line, or the defaults.
 fn sizes() -> Vec<u32> {
     let asked = std::env::args().nth(2).and_then(|birds| birds.parse().ok());
     asked.map_or(SIZES.to_vec(), |birds| vec![birds])

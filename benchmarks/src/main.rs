@@ -1,9 +1,9 @@
-//! How fast the metric simulator is, beside a bare program of the same work, in one run.
+//! Speed of the metric simulator, compared with a bare program that does the same work.
 //!
 //! `make bench`, or `cargo run --release -p agent-economy-benchmarks -- [team | search | flock | minds | world]`.
-//! `-- field` prints the team's field in JSON instead.
-//! Times are those for which threads had a processor; each figure is the median of many short
-//! pieces of work, those that are compared taken in turns. docs/speed.md says what came of it.
+//! `-- field` prints the field of the team as JSON instead.
+//! Times are processor times; each figure is the median of many short samples, and the programs that are
+//! compared alternate. The results are in docs/speed.md.
 
 #![expect(
     clippy::expect_used,

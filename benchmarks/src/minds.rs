@@ -1,7 +1,7 @@
-//! A hundred robots with full minds: beliefs, goals, trust, navigation around each other, a reflex.
+//! A hundred robots with beliefs, goals, trust, navigation around each other, and a reflex.
 //!
-//! They stand along the walls of a hall of 70 m with pillars, each wants to a place further round, and on
-//! the way they look for items and tell each other.
+//! They start along the walls of a hall of 70 m with pillars, and each navigates to a place further along
+//! the walls. On the way, they search for items and report them to each other.
 
 use crate::scenarios::read;
 use crate::threads::by_turns;
@@ -11,17 +11,17 @@ use std::sync::Arc;
 
 const ROBOTS: u32 = 100;
 
-/// Where each wants to be: by so many places further round, which is opposite, with all of them in each
-/// other's way in the middle, or across a corner.
+/// Destination of each robot, as a number of places further along: opposite, so that all meet in the
+/// middle, or across a corner.
 const CROSSINGS: [(&str, u32); 2] = [("opposite", 50), ("round a corner", 20)];
 
-/// Steps of a run: by then most are half way.
+/// Steps of a run: most robots are then half way.
 const STEPS: u32 = 400;
 
-/// Pieces of work of each number of threads.
+/// Samples for each number of threads.
 const PIECES: u32 = 9;
 
-/// All but how many there are, where they start and where they want to be.
+/// Everything except the number of robots, their starts and their destinations.
 const TEXT: &str = r#"
 [clock]
 time_limit_s = 10000
@@ -67,7 +67,7 @@ pub(crate) fn report() {
     }
 }
 
-/// One thread and two, by turns.
+/// Alternates between one thread and two.
 fn compare(name: &str, further: u32) {
     let simulation = Simulation::new(Arc::new(scenario(further)), 1, 0);
     let mut simulation = simulation.expect("there is room");
@@ -102,7 +102,7 @@ fn scenario(further: u32) -> Scenario {
     read("minds.toml", &text)
 }
 
-/// Along the walls, a quarter of the robots each.
+/// Positions along the walls, a quarter of the robots at each.
 fn place(number: u32) -> String {
     let (side, along) = (number / 25, 1.0 + 2.75 * f64::from(number % 25));
     let [x, y] = match side {

@@ -1,4 +1,4 @@
-//! The field of the sensing team in JSON, for other simulators to stand on.
+//! The field of the sensing team as JSON, for other simulators.
 
 use crate::field::Field;
 use crate::team;
@@ -6,7 +6,7 @@ use serde_json::json;
 use sim::simulation::Simulation;
 use std::sync::Arc;
 
-/// Prints where a hundred robots start, and what stands around them; lengths in metres.
+/// Prints the starts of a hundred robots and their obstacles; lengths are in metres.
 pub(crate) fn report() {
     let field = Field::new(100);
     let simulation = Simulation::new(Arc::new(field.scenario()), 1, 0);

@@ -1,5 +1,5 @@
-//! Runs a second of `scenarios/search.toml`, four robots with scanners of 55 rays that search for items,
-//! and of `scenarios/search-beliefs.toml`, the same with minds.
+//! Runs per second of `scenarios/search.toml`, four robots with scanners of 55 rays that search for
+//! items, and of `scenarios/search-beliefs.toml`, the same with beliefs.
 
 use crate::scenarios::read;
 use crate::threads::by_turns;
@@ -11,12 +11,12 @@ use sim::simulation::Simulation;
 use std::path::Path;
 use std::sync::Arc;
 
-/// Runs of a task for a thread, and of a piece of work.
+/// Runs per task of a thread, and per sample.
 const TASK: u64 = 5;
 const PIECE: u64 = 200;
 const RUNS: f64 = 200.0;
 
-/// Pieces of work for each number of threads.
+/// Samples for each number of threads.
 const PIECES: u32 = 15;
 
 /// Prints the table.
@@ -28,7 +28,7 @@ pub(crate) fn report() {
     }
 }
 
-/// One thread and two, by turns.
+/// Alternates between one thread and two.
 fn compare(name: &str) {
     let scenario = Arc::new(scenario(name));
     let updates = updates_per_run(&scenario);
@@ -46,7 +46,7 @@ fn scenario(name: &str) -> Scenario {
     read(name, &text)
 }
 
-/// A piece of work: the sum of the runs' times, in bits.
+/// A sample: the bits of the sum of the runs' times.
 fn block(runs: &Runs, piece: u64) -> u64 {
     let tasks = (0..PIECE / TASK).into_par_iter();
     let times = tasks.map(|task| {
@@ -54,12 +54,12 @@ fn block(runs: &Runs, piece: u64) -> u64 {
         let columns = runs.run_block(7, first..first + TASK, BlockOptions::ALONE);
         columns[0].iter().sum::<f64>()
     });
-    // In the order of the tasks, whoever does them.
+    // In the order of the tasks, for any assignment to threads.
     let times: Vec<f64> = times.collect();
     times.iter().sum::<f64>().to_bits()
 }
 
-/// On average.
+/// Average.
 #[expect(clippy::cast_precision_loss, reason = "thousands")]
 fn updates_per_run(scenario: &Arc<Scenario>) -> f64 {
     let robots = scenario.robots() as f64;

@@ -1,4 +1,4 @@
-//! The sensing team beside the speed of light.
+//! The sensing team, compared with the speed of light.
 
 use crate::clock::{median, took};
 use crate::field::Field;
@@ -7,19 +7,19 @@ use base::geometry::Point;
 use sim::simulation::Simulation;
 use std::sync::Arc;
 
-/// Robot-updates in each piece of work: many steps also of the largest team, so that what the other
-/// programs have pushed out of the caches is a small part of it.
+/// Robot-updates per sample: many steps even of the largest team, so that the caches evicted by the other
+/// programs matter little.
 const UPDATES: u32 = 200_000;
 
-/// Pieces of work of each program.
+/// Samples of each program.
 const PIECES: usize = 31;
 
-/// Millions of robot-updates in a second of processor time.
+/// Millions of robot-updates per second of processor time.
 struct Rates {
     simulator: f64,
     bare: f64,
     bare_with_noise: f64,
-    /// Of the simulator to the bare program with noise.
+    /// Ratio of the simulator to the bare program with noise.
     ratio: f64,
 }
 
@@ -69,13 +69,13 @@ fn rates(robots: u32) -> Rates {
     }
 }
 
-/// Where robots are, and where they look to.
+/// Positions and headings of the robots.
 pub(crate) fn starts(simulation: &Simulation) -> Vec<(Point, f64)> {
     let each = simulation.state().each_robot(simulation.scenario());
     each.map(|robot| (robot.at, robot.heading_rad)).collect()
 }
 
-/// Of the teams: as asked for, or the usual ones.
+/// Sizes of the teams: from the command line, or the defaults.
 fn sizes() -> Vec<u32> {
     let asked = std::env::args()
         .nth(2)

@@ -1,16 +1,16 @@
-//! The same work by one thread and by two.
+//! The same work on one thread and on two.
 
 use crate::clock::{median, took_by_both};
 use rayon::ThreadPool;
 
-/// What so many threads do in a second: by the time that they had processors, and by the wall.
+/// Work per second of a number of threads: of processor time, and of wall-clock time.
 pub(crate) struct Rate {
     pub(crate) threads: u32,
     pub(crate) a_second: f64,
     pub(crate) by_wall: f64,
 }
 
-/// One thread and two by turns at pieces of work, and the hash of what both come to.
+/// Alternates between one thread and two, and checks that both give the same hash.
 pub(crate) fn by_turns(
     pieces: u32,
     amount: f64,
@@ -40,7 +40,7 @@ pub(crate) fn by_turns(
     (rates, hash)
 }
 
-/// So many threads.
+/// A pool of this number of threads.
 pub(crate) fn pool(threads: u32) -> ThreadPool {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads as usize);
     pool.build().expect("threads can be made")

@@ -1,4 +1,4 @@
-//! A million sensing robots in one world: what they take of memory and time.
+//! Memory and time of a million sensing robots in one world.
 
 use crate::clock::took_by_both;
 use crate::field::Field;
@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 const ROBOTS: u32 = 1_000_000;
 
-/// Steps after which nothing grows any more, and steps that are timed.
+/// Warm-up steps, after which memory stays constant, and timed steps.
 const WARM_UP: u32 = 8;
 const STEPS: u32 = 12;
 
@@ -23,7 +23,7 @@ pub(crate) fn report() {
     for threads in [1, 2] {
         let pool = pool(threads);
         pool.install(|| (0..WARM_UP).for_each(|_| simulation.step()));
-        // Lists of what is near are made anew in some steps only: their mean counts.
+        // Neighbour lists are only rebuilt in some steps, so the mean is reported.
         let steps = || pool.install(|| (0..STEPS).for_each(|_| simulation.step()));
         let [processors_s, wall_s] = took_by_both(steps);
         let rate = f64::from(STEPS * threads) / processors_s;
@@ -35,7 +35,7 @@ pub(crate) fn report() {
     }
 }
 
-/// The most memory that this process has had.
+/// The peak memory of this process.
 fn memory_mb() -> f64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));

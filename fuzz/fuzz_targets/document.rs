@@ -1,4 +1,4 @@
-//! No text makes the reader of documents panic.
+//! The document reader never panics, for any text.
 
 #![no_main]
 

@@ -1,4 +1,4 @@
-//! No image makes the reader of maps panic, and of every map the outline holds what is solid.
+//! The map reader never panics, for any image, and the outline of every map encloses its solid cells.
 
 #![no_main]
 

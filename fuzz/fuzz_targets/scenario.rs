@@ -1,4 +1,4 @@
-//! No text makes the reader of scenarios panic, and every error says where it stands.
+//! The scenario reader never panics, for any text, and every error has an origin.
 
 #![no_main]
 

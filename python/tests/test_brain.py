@@ -173,7 +173,7 @@ def test_a_percept_that_holds_itself_is_told() -> None:
     knot["scans"] = [knot]
     percepts: list[Any] = [{"scans": ring}, knot]
     for percept in percepts:
-        with pytest.raises(ae.InputError, match=r"no more than 32 lists and dicts deep"):
+        with pytest.raises(ae.InputError, match=r"at most 32 levels deep"):
             ae.Brain(None, ROVER).step(percept)
 
 

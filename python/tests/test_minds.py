@@ -236,7 +236,7 @@ def test_what_brains_in_python_remember_is_in_no_snapshot() -> None:
 
 def test_a_body_outside_cannot_have_a_brain_in_python() -> None:
     simulation = Simulation("search", brains={"rover": Ahead})
-    with pytest.raises(InputError, match="a robot that has the scenario's brain"):
+    with pytest.raises(InputError, match="a robot with the brain of the scenario"):
         simulation.step(percepts={"rover/0": {}})
 
 

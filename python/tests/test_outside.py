@@ -160,13 +160,13 @@ FAULTS: list[tuple[dict[str, Any], str]] = [
     ({"commands": {"rover/1": ()}}, r'commands."rover/1" = \[\]: must be a dict'),
     (
         {"percepts": {"rover/1": {"time_s": "\ud800"}}},
-        r'percepts."rover/1".time_s = .*: must be a text of whole characters',
+        r'percepts."rover/1".time_s = .*: must be a string of valid Unicode',
     ),
     ({"commands": {"rover/1": {"motion": 3}}}, r'commands."rover/1".motion = 3: must be a dict'),
     ({"steps": 2, "commands": {"rover/1": STOP}}, "steps = 2: must be 1 with percepts or commands"),
     (
         {"percepts": {"rover/1": {}}, "commands": {"rover/1": STOP}},
-        'commands = "rover/1": must be a robot whose body is not outside',
+        'commands = "rover/1": must be a robot without an external body',
     ),
 ]
 

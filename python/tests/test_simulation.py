@@ -258,7 +258,7 @@ def test_a_path_that_is_no_text_is_told(path: Any) -> None:
 
 
 def test_a_team_without_room_is_told_by_name() -> None:
-    told = "robots.second: the run has no room for second/0: no free place found"
+    told = "robots.second: the run has no room for second/0: no free position found"
     with pytest.raises(InputError, match=told):
         Simulation(Scenario.loads(FULL))
     alone = Simulation(Scenario.loads(FULL).replace("robots.second.count", 0))

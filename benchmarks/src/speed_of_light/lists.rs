@@ -1,4 +1,4 @@
-//! What is near each robot: made anew when some robot may have gone half the skin.
+//! Neighbour lists, rebuilt when a robot may have moved half the skin distance.
 
 use super::{RADIUS_M, RANGE_M, Team};
 use base::geometry::{Disc, Point, Segment};
@@ -6,18 +6,18 @@ use base::geometry::{Disc, Point, Segment};
 const SKIN_M: f64 = 0.55;
 const REACH_M: f64 = RANGE_M + RADIUS_M + SKIN_M;
 
-/// Cells over the world, and for each robot what is near it.
+/// Cells over the world, and the neighbours of each robot.
 pub(super) struct Lists {
     columns: usize,
     cells_per_m: f64,
     starts: Vec<u32>,
     cell_of: Vec<u32>,
     order: Vec<u32>,
-    /// By cell, pillars and walls that may be near a robot in it.
+    /// By cell, the pillars and walls that may be near a robot in it.
     still: Vec<[Vec<u32>; 2]>,
     pub(super) ends: Vec<[u32; 3]>,
     pub(super) things: Vec<u32>,
-    /// The farthest that any robot can have gone since.
+    /// Maximum distance that any robot can have moved since.
     pub(super) gone_m: f64,
 }
 
@@ -100,7 +100,7 @@ fn reordered<T: Copy>(values: &mut Vec<T>, order: &[u32]) {
 }
 
 impl Team {
-    /// Sees to it that the lists hold.
+    /// Rebuilds the lists if necessary.
     pub(super) fn refresh(&mut self) {
         if 2.0 * self.lists.gone_m <= SKIN_M {
             return;

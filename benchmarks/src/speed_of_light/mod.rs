@@ -1,12 +1,12 @@
-//! Speed of light: the sensing team's work by a program that can do nothing else.
+//! Speed of light: a program that can only do the work of the sensing team.
 //!
-//! Disc robots of one size with sixteen exact rays of 3 m, a tiny reactive brain with chance, a
-//! differential drive, a battery, and contacts that are pushed back. Everything is an array of its
-//! own, robots are sorted by place whenever the lists of what is near are made anew, and a whole
-//! step is one function, compiled for the machine's widest vectors. It shares no code with the
-//! simulator but sines and noise. Whatever makes the simulator worth having is not in it: kinds of
-//! robots, sensors, latency, layers of behaviours, messages, the order of collisions, steps that any
-//! number of threads take to the same end.
+//! Disc robots of one size with sixteen exact rays of 3 m, a minimal random reactive brain, a
+//! differential drive, a battery, and contacts that push back. Every quantity is an array of its own,
+//! robots are sorted by position whenever neighbour lists are rebuilt, and a whole step is one function,
+//! compiled for the widest vectors of the machine. It shares only sines and noise with the simulator, and
+//! lacks everything that makes the simulator useful: kinds of robots, sensors, latency, layers of
+//! behaviours, messages, the order of collisions, and results that do not depend on the number of
+//! threads.
 
 #![expect(
     clippy::needless_bitwise_bool,
@@ -20,21 +20,21 @@ mod step;
 use crate::field::Field;
 use base::geometry::{Disc, Point};
 
-/// Of every robot, in metres.
+/// Radius of every robot, in metres.
 pub(crate) const RADIUS_M: f64 = 0.2;
-/// How far rays go.
+/// Range of the rays, in metres.
 pub(crate) const RANGE_M: f64 = 3.0;
 const STEP_S: f64 = 0.1;
 const SPEED_M_S: f64 = 0.5;
 const TURN_RAD_S: f64 = 1.5;
 
-/// The robots of one world, and what stands in it.
+/// The robots and obstacles of one world.
 pub(crate) struct Team {
     x: Vec<f64>,
     y: Vec<f64>,
     heading_rad: Vec<f64>,
     front: Vec<Point>,
-    /// Steps left of a turn; negative to the right.
+    /// Remaining steps of a turn; negative to the right.
     turning: Vec<i32>,
     energy_j: Vec<f64>,
     key: Vec<u32>,
@@ -49,7 +49,7 @@ pub(crate) struct Team {
 }
 
 impl Team {
-    /// A team on a field; with noise on ranges or not.
+    /// A team on a field, with or without range noise.
     pub(crate) fn new(field: &Field, starts: &[(Point, f64)], has_noise: bool) -> Self {
         let (places, headings): (Vec<Point>, Vec<f64>) = starts.iter().copied().unzip();
         let sin_cos = |heading: &f64| {
@@ -75,7 +75,7 @@ impl Team {
         }
     }
 
-    /// A number that depends on all that happened.
+    /// A checksum of the state.
     pub(crate) fn sum(&self) -> f64 {
         #[expect(clippy::cast_precision_loss, reason = "a sum of checks")]
         let collisions = self.collisions as f64;

@@ -1,4 +1,4 @@
-//! Sixteen rays, the same in every robot's own frame, against what is near in that frame.
+//! Sixteen rays, fixed in the frame of every robot, cast against its neighbours in that frame.
 
 #![expect(
     clippy::inline_always,

@@ -1,4 +1,4 @@
-//! One step of all robots, as one function for vectors.
+//! One step of all robots, as one vectorised function.
 
 #![expect(
     clippy::inline_always,
@@ -13,14 +13,14 @@ use base::random::Entity;
 use base::trig::{sin_cos, wrapped};
 use pulp::{Arch, Simd, WithSimd};
 
-/// Power that a robot takes, and energy for a metre.
+/// Power of a robot, and energy per metre.
 const IDLE_W: f64 = 10.0;
 const MOVE_J_PER_M: f64 = 10.0;
 
-/// It turns away from what is nearer ahead.
+/// Distance ahead within which it turns away.
 const NEAR_M: f64 = 0.6;
 
-/// Room for one step.
+/// Scratch memory for one step.
 pub(super) struct Room {
     directions: [Rays; 2],
     /// Of these, the first so many.
@@ -63,7 +63,7 @@ impl Team {
         }
         self.room = room;
         self.tick += 1;
-        // What it drives, and at most as much by being pushed.
+        // The distance that it drives, and at most the same by being pushed.
         self.lists.gone_m += 2.0 * SPEED_M_S * STEP_S;
     }
 }
@@ -106,7 +106,7 @@ impl WithSimd for Step<'_> {
     }
 }
 
-/// Fills what is near, in the robot's frame; returns by how much touching things push it.
+/// Fills the neighbours, in the frame of the robot; returns the displacement by contacts.
 #[expect(clippy::too_many_lines, reason = "one pass over what is near")]
 #[inline(always)]
 fn gather(team: &mut Team, room: &mut Room, robot: usize) -> Point {
@@ -215,7 +215,7 @@ fn blur(noise: Noise, tick: u64, key: u32, ranges: &mut Rays) {
     }
 }
 
-/// The rate of turn.
+/// Turn rate.
 #[inline(always)]
 fn decide(team: &mut Team, robot: usize, ranges: &Rays) -> f64 {
     let left = ranges[0][1].min(ranges[0][2]).min(ranges[0][0]);
@@ -232,7 +232,7 @@ fn decide(team: &mut Team, robot: usize, ranges: &Rays) -> f64 {
     turn
 }
 
-/// Where it gets to.
+/// New position.
 #[inline(always)]
 fn drive(team: &mut Team, robot: usize, turn: f64, pushed: Point) -> Point {
     let speed = if turn == 0.0 { SPEED_M_S } else { 0.0 };

@@ -1,4 +1,4 @@
-//! Arguments of Python functions, checked at the edge: all errors of a call in one exception.
+//! Checks of arguments of Python functions: all errors of a call in one exception.
 
 use crate::error::input_error;
 use base::error::{InputError, InputErrors};
@@ -12,14 +12,14 @@ use std::ops::RangeInclusive;
 /// Maximum runs of one call, over all configurations: about half a gigabyte of outcomes.
 pub(crate) const MAX_RUNS: u64 = 10_000_000;
 
-/// Collects what is wrong with a call's arguments.
+/// Collects the errors of the arguments of a call.
 #[derive(Default)]
 pub(crate) struct Arguments {
     errors: RefCell<Vec<InputError>>,
 }
 
 impl Arguments {
-    /// The whole number of a Python int (not a bool) in `range`.
+    /// A Python int (not a bool) in `range`.
     pub(crate) fn integer(
         &self,
         name: &str,
@@ -35,12 +35,12 @@ impl Arguments {
         number
     }
 
-    /// What all chance comes from.
+    /// The seed of all random numbers.
     pub(crate) fn seed(&self, given: &Bound<PyAny>) -> Option<u64> {
         self.integer("seed", given, 0..=u64::MAX)
     }
 
-    /// The number of a run. Tables number them in 64 bits, one of them a sign.
+    /// The number of a run. Tables store it as a signed 64-bit integer.
     pub(crate) fn run(&self, name: &str, given: &Bound<PyAny>) -> Option<u64> {
         self.integer(name, given, 0..=i64::MAX.cast_unsigned() - MAX_RUNS)
     }
@@ -51,7 +51,7 @@ impl Arguments {
         u32::try_from(robots).ok()
     }
 
-    /// A contact definition's name.
+    /// The name of a contact definition.
     pub(crate) fn contact(&self, given: &Bound<PyAny>) -> Option<Contact> {
         let name = given.extract::<String>().unwrap_or_default();
         let found = Contact::NAMES.iter().find(|(known, _)| *known == name);
@@ -64,7 +64,7 @@ impl Arguments {
         found.map(|(_, contact)| *contact)
     }
 
-    /// Threads to use; `Some(None)` for as many as there are processors.
+    /// Number of threads; `Some(None)` for one per processor.
     #[expect(
         clippy::option_option,
         reason = "an error, Python's None, and a number"
@@ -77,7 +77,7 @@ impl Arguments {
         usize::try_from(threads).ok().map(Some)
     }
 
-    /// Notes that `given` is not what is `allowed`.
+    /// Records that `given` is not what is `allowed`.
     pub(crate) fn error(&self, path: &str, given: &Bound<PyAny>, allowed: String) {
         let error = InputError::new(path.to_owned(), Some(shown(given)), allowed);
         self.errors.borrow_mut().push(error);
@@ -89,7 +89,7 @@ impl Arguments {
     }
 }
 
-/// The exception for an argument that is not what is `allowed` ("must be ...").
+/// The exception for an argument that is not what is `allowed`.
 #[pyfunction]
 pub(crate) fn refusal<'py>(
     name: &str,
@@ -102,7 +102,7 @@ pub(crate) fn refusal<'py>(
     error.into_value(given.py()).into_bound(given.py())
 }
 
-/// A Python value as its author would write it.
+/// The representation of a Python value.
 fn shown(given: &Bound<PyAny>) -> String {
     let repr = given.repr().map(|repr| repr.to_string());
     repr.unwrap_or_else(|_| "something that cannot be shown".to_owned())

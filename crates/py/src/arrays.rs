@@ -1,4 +1,4 @@
-//! What the robots of a kind perceive together: an array for each thing, with an entry a robot.
+//! Percepts of all robots of a kind as arrays, with one entry per robot.
 
 use base::geometry::Point;
 use brain::{About, CommitmentStatus, Heard, Motion, Percept, Provenance, Reading};
@@ -7,11 +7,11 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use sim::step::PendingDecision;
 
-/// The status of a commitment, in the column of an item's kind.
+/// Codes in place of an item kind, for messages about a sender or about its goal.
 pub(crate) const SENDER: i64 = -1;
 pub(crate) const GOAL: i64 = -2;
 
-/// What has become of a goal, by its number.
+/// Status of a commitment, by its code.
 pub(crate) const STANDS: [CommitmentStatus; 3] = [
     CommitmentStatus::Going,
     CommitmentStatus::Done,
@@ -32,10 +32,10 @@ fn seen(entries: &Entries<Heard>) -> PyResult<()> {
     entries.put("mark", |heard| i64::from(of(heard).mark))
 }
 
-/// What robots of one kind perceive, by the names in a percept; NaN, or false, is missing.
+/// The percepts of the robots of a kind, by the names of a percept; NaN or false marks a missing value.
 ///
-/// What there is any number of, such as contacts, has an entry each, and in `row` the place of its
-/// robot.
+/// Lists of variable length, such as contacts, are concatenated; `row` holds the index of the robot of
+/// each entry.
 pub(crate) fn percepts<'py>(
     py: Python<'py>,
     asked: &[PendingDecision],
@@ -77,7 +77,7 @@ impl<'py> Told<'_, 'py> {
         self.dict.set_item(name, what)
     }
 
-    /// Puts a reading of each robot there: its `value`, and its `age_s`.
+    /// Adds a reading of each robot: its `value` and its `age_s`.
     fn reading<T: Value>(
         &self,
         name: &str,
@@ -97,9 +97,9 @@ impl<'py> Told<'_, 'py> {
     }
 }
 
-/// What a reading can be of.
+/// The value of a reading.
 trait Value: Sized {
-    /// An entry a robot; it is a dict where there are several arrays.
+    /// One entry per robot; a dict if there are several arrays.
     fn arrays(
         py: Python<'_>,
         values: impl Iterator<Item = Option<Self>>,
@@ -167,7 +167,7 @@ fn table<T: Element, const N: usize>(
     Ok(table.into_any())
 }
 
-/// Of each ring `age_s` and `ranges_m`, with a row a robot.
+/// `age_s` and `ranges_m` of each ring, with one row per robot.
 fn scans<'py>(py: Python<'py>, asked: &[PendingDecision]) -> PyResult<Bound<'py, PyList>> {
     let rings = asked.first().map_or(0, |first| first.percept.scans.len());
     let scan = |ring: usize| {
@@ -261,7 +261,7 @@ fn inbox<'py>(py: Python<'py>, asked: &[PendingDecision]) -> PyResult<Bound<'py,
     Ok(entries.dict)
 }
 
-/// What there is any number of for each robot, all in one list, and the place of its robot.
+/// Lists of variable length, concatenated, with the index of the robot of each entry.
 struct Entries<'a, 'py, T> {
     py: Python<'py>,
     all: Vec<(i64, &'a T)>,

@@ -1,4 +1,4 @@
-//! Brains, for whoever has percepts of their own: live robots, other simulators, learning.
+//! Brains for other sources of percepts: real robots, other simulators, learning.
 
 use crate::convert::{self, below};
 use crate::error::input_error;
@@ -18,13 +18,13 @@ use serde::de::DeserializeOwned;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// A robot's mind.
+/// The brain of a robot.
 #[pyclass(frozen, module = "agent_economy._core")]
 pub(crate) struct Brain(Mutex<brain::Brain>);
 
 #[pymethods]
 impl Brain {
-    /// As a scenario's `[robots.KIND.brain]` says, in a body; both are dicts.
+    /// A brain from a dict like `[robots.KIND.brain]` of a scenario, for a body, also a dict.
     #[new]
     fn new(spec: &Bound<PyAny>, body: &Bound<PyAny>) -> PyResult<Self> {
         let mut errors = Vec::new();
@@ -37,7 +37,7 @@ impl Brain {
         Ok(Self(Mutex::new(brain)))
     }
 
-    /// As the robots of a kind of a scenario have it.
+    /// The brain of the robots of a kind in a scenario.
     #[staticmethod]
     fn of(scenario: &Bound<MetricScenario>, kind: &str) -> PyResult<Self> {
         let scenario = &scenario.get().0;
@@ -91,8 +91,7 @@ impl Brain {
     }
 }
 
-/// What a dict says that is checked as a document is, and whose None is left out; `name` is how errors
-/// name it.
+/// Reads a dict that is checked like a document; None counts as missing. `name` is its path in errors.
 fn read<T: DeserializeOwned + JsonSchema>(
     name: &str,
     given: &Bound<PyAny>,

@@ -12,7 +12,7 @@ use pyo3::prelude::*;
 type Column<'py> = Bound<'py, PyArray1<i64>>;
 type OutcomeColumns<'py> = (Column<'py>, Column<'py>, Column<'py>);
 
-/// Runs of one call: some half a gigabyte of outcomes and columns.
+/// Maximum runs of one call: about half a gigabyte of outcomes and columns.
 const MAX_RUNS: u64 = 10_000_000;
 
 /// Outcomes of runs with random starts: arrays (runs,) of paints (-1 = proven never), found and
@@ -59,7 +59,7 @@ pub(crate) fn replicate<'py>(
     Ok(columns(py, &outcomes))
 }
 
-/// Every start there is for one or two robots: an array (starts, 2 x robots) of their cells
+/// Every possible start of one or two robots: an array (starts, 2 x robots) of their cells
 /// (x, y of robot 0, then of robot 1), and (starts,) of paints (-1 = proven never).
 #[pyfunction]
 #[pyo3(signature = (robots, contact, *, threads))]

@@ -1,4 +1,4 @@
-//! Runs of the classic engine, stepped by hand.
+//! Stepwise runs of the classic engine.
 
 use crate::arguments::Arguments;
 use crate::configuration::{ColumnTuple, as_tuple};
@@ -14,14 +14,14 @@ use pyo3::types::{PyBytes, PyDict};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// So many steps of a robot take some milliseconds: less than it pays to wake a thread for.
+/// Robot-steps that take some milliseconds: too short to start a thread for.
 const SHORT: u64 = 4096;
 
-/// A scenario of the classic engine, as its runs need it.
+/// A scenario of the classic engine, ready to run.
 #[pyclass(frozen, module = "agent_economy._core")]
 pub(crate) struct ClassicScenario(Configuration);
 
-/// What a run of a source depends on.
+/// Reads the parts of a source that a run depends on.
 #[pyfunction]
 pub(crate) fn read_classic(source: Source) -> PyResult<ClassicScenario> {
     let file = source.file.clone();
@@ -30,8 +30,8 @@ pub(crate) fn read_classic(source: Source) -> PyResult<ClassicScenario> {
         .map_err(|errors| input_error(&errors, &file))
 }
 
-/// The world of 2003: cells a side, pixels a cell, and lists of cells (columns to the right, rows
-/// down) of its walls and its items.
+/// The world: cells per side, pixels per cell, and lists of cells (columns to the right, rows down) of
+/// its walls and its items.
 #[pyfunction]
 pub(crate) fn classic_world(py: Python) -> PyResult<Bound<PyDict>> {
     let walls = cells().filter(|cell| cell.is_static() && !ITEMS.contains(cell));
@@ -46,11 +46,11 @@ pub(crate) fn classic_world(py: Python) -> PyResult<Bound<PyDict>> {
     Ok(dict)
 }
 
-/// A whole run, at one of its moments.
+/// A copy of a run at one moment.
 #[pyclass(frozen, module = "agent_economy._core")]
 pub(crate) struct ClassicSnapshot(Run);
 
-/// A run. Threads may share it: one waits until the other is done.
+/// A run. It may be shared between threads, which wait for each other.
 #[pyclass(frozen, module = "agent_economy._core")]
 pub(crate) struct ClassicSimulation(Mutex<Run>);
 
@@ -69,7 +69,7 @@ impl ClassicSimulation {
         Ok(Self(Mutex::new(Run::new(scenario.get().0, seed, run))))
     }
 
-    /// Takes steps, each a paint, until the run is over. Ctrl-C stops it between two.
+    /// Advances by `steps` paints, or until the run is over. Ctrl-C stops it between two paints.
     fn step(&self, py: Python, steps: &Bound<PyAny>) -> PyResult<()> {
         let check = Arguments::default();
         let steps = check.integer("steps", steps, 0..=u64::MAX);
@@ -89,7 +89,7 @@ impl ClassicSimulation {
         interruptible(py, None, go)
     }
 
-    /// Goes on with another scenario; returns how many steps have been taken.
+    /// Continues with another scenario; returns the number of steps so far.
     fn change(&self, py: Python, scenario: &Bound<ClassicScenario>) -> u64 {
         let mut run = self.locked(py);
         run.change(scenario.get().0);
@@ -104,11 +104,11 @@ impl ClassicSimulation {
         *self.locked(py) = snapshot.get().0.clone();
     }
 
-    /// What the run has given so far, by column; of one that is over, as `run_one` gives it.
+    /// The outcome so far, by column; after the run is over, the same as of `run_one`.
     fn outcome<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let locked = self.locked(py);
         let run: &Run = &locked;
-        // A run that is over may have to go on for a while to be told of.
+        // The final outcome of a run that is over may take more steps to compute.
         let values = py.detach(|| run.values());
         let dict = PyDict::new(py);
         for (column, value) in run.configuration().columns().iter().zip(values) {
@@ -117,14 +117,14 @@ impl ClassicSimulation {
         Ok(dict)
     }
 
-    /// What a run tells: see `Configuration.columns`.
+    /// The outcome columns: see `Configuration.columns`.
     #[getter]
     fn columns(&self, py: Python) -> Vec<ColumnTuple> {
         let columns = self.locked(py).configuration().columns();
         columns.iter().map(as_tuple).collect()
     }
 
-    /// Paints so far.
+    /// Number of paints so far.
     #[getter]
     fn tick(&self, py: Python) -> u64 {
         self.locked(py).paint()
@@ -151,26 +151,26 @@ impl ClassicSimulation {
         self.locked(py).search().hash()
     }
 
-    /// The left-slow score that the robot which decided last has left to the next.
+    /// The left-slow score that the last robot to decide passes to the next one.
     #[getter]
     fn carry(&self, py: Python) -> i16 {
         self.locked(py).search().simulation().carry()
     }
 
-    /// Paints until the team decides next.
+    /// Number of paints until the next decision.
     #[getter]
     fn decides_in(&self, py: Python) -> u64 {
         self.locked(py).search().simulation().decides_in()
     }
 
-    /// When each item was found, in seconds; None where it is not.
+    /// The time at which each item was found, in seconds; None if it has not been found.
     #[getter]
     fn found_s(&self, py: Python) -> Vec<Option<f64>> {
         self.locked(py).found_s().to_vec()
     }
 
-    /// Of each robot `x_px` and `y_px` (right and down), the cell's `column` and `row`, `heading_deg` (clockwise from up), `speed`
-    /// (cells a decision), `left_turns`, `right_turns` and `colour` (0 blue, 1 yellow, 2 red).
+    /// For each robot, `x_px` and `y_px` (right and down), the cell's `column` and `row`, `heading_deg` (clockwise from up), `speed`
+    /// (cells per decision), `left_turns`, `right_turns` and `colour` (0 blue, 1 yellow, 2 red).
     #[getter]
     fn robots<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let run = self.locked(py);
@@ -197,7 +197,7 @@ impl ClassicSimulation {
         Ok(dict)
     }
 
-    /// For each item the cells, columns and rows, on which a robot can find it.
+    /// For each item, the cells (columns and rows) on which a robot can find it.
     #[getter]
     fn contacts(&self, py: Python) -> Vec<Vec<(i32, i32)>> {
         let contact = self.locked(py).configuration().task.contact;
@@ -208,7 +208,7 @@ impl ClassicSimulation {
         cells.map(Iterator::collect).collect()
     }
 
-    /// The cells, columns and rows, that a robot would look at if it decided now.
+    /// The cells (columns and rows) that a robot would look at in a decision now.
     fn looks(&self, py: Python, robot: usize) -> Vec<(i32, i32)> {
         let run = self.locked(py);
         let robot = run.search().simulation().robots().get(robot);
@@ -216,14 +216,14 @@ impl ClassicSimulation {
         cells.map(|cell| (cell.x, cell.y)).collect()
     }
 
-    /// One moment, to be drawn, laid out as [`crate::frame::frame`] does, in pixels with y upwards.
+    /// One moment, for display, in the layout of [`crate::frame::frame`], in pixels with y upwards.
     fn frame<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
         PyBytes::new(py, &drawn(&self.locked(py)))
     }
 }
 
 impl ClassicSimulation {
-    /// The run, when no other thread has it; meanwhile the interpreter is free.
+    /// The run, after waiting for other threads without holding the interpreter.
     fn locked(&self, py: Python) -> MutexGuard<'_, Run> {
         let locked = self.0.lock_py_attached(py);
         locked.unwrap_or_else(PoisonError::into_inner)

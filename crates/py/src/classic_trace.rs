@@ -1,4 +1,4 @@
-//! Starts and traces of the classic engine, as the golden trace files write them.
+//! Starts and traces of the classic engine, in the form of the golden trace files.
 
 use crate::arguments::Arguments;
 use classic::start::{MAX_ROBOTS, random_team};
@@ -8,7 +8,7 @@ use classic::{Colour, Heading, Robot, Speed, Start};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyList};
 
-/// Of all robots together: a second of computing, and some hundred megabytes of Python lists.
+/// Maximum robot-decisions of a trace: a second of computing, and some hundred megabytes of Python lists.
 const MAX_ROBOT_DECISIONS: u64 = 1_000_000;
 const KEYS: [&str; 4] = ["x", "y", "heading", "speed"];
 
@@ -37,7 +37,7 @@ pub(crate) fn random_start<'py>(
     random_team(robots, seed, run).iter().map(row).collect()
 }
 
-/// The plain form's run from `start`, with the keys and shapes of the golden trace files.
+/// A run of the plain form from `start`, with the keys and shapes of the golden trace files.
 #[pyfunction]
 pub(crate) fn trace<'py>(
     py: Python<'py>,

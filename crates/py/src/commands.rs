@@ -1,4 +1,4 @@
-//! What the robots of a kind are to do, from arrays.
+//! Commands for the robots of a kind, from arrays.
 
 use crate::arrays::{GOAL, STANDS};
 use base::geometry::Point;
@@ -7,7 +7,7 @@ use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use sim::step::PendingDecision;
 
-/// Arrays as `agent_economy.runs.batch` has checked them; `row` is the place of an entry's robot.
+/// Arrays as `agent_economy.runs.batch` has checked them; `row` is the index of the robot of an entry.
 #[derive(FromPyObject)]
 pub(crate) struct Commands<'py> {
     speed_m_s: PyReadonlyArray1<'py, f64>,
@@ -35,7 +35,7 @@ struct Outbox<'py> {
 }
 
 impl Commands<'_> {
-    /// Gives each robot its part.
+    /// Distributes the commands to the robots.
     pub(crate) fn give(&self, asked: &mut [PendingDecision]) {
         let speeds = self.speed_m_s.as_array();
         let turns = self.turn_rate_rad_s.as_array();

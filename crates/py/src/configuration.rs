@@ -15,18 +15,18 @@ use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::atomic::AtomicBool;
 
-/// Most runs that one task takes from the pool: starting one costs less than a microsecond.
+/// Maximum runs per task of the thread pool: starting a task costs less than a microsecond.
 const RUNS_PER_TASK: u64 = 16;
 
-/// So many tasks a thread, where there are few runs: some runs take longer than others.
+/// Tasks per thread if there are few runs, because some runs take longer than others.
 const TASKS_PER_THREAD: u64 = 4;
 
-/// Tasks whose results wait as they came, so that these take little memory beside the columns.
+/// Tasks whose results are buffered before they are joined, to limit memory.
 const TASKS_BEFORE_JOINING: usize = 4096;
 
 pub(crate) type ColumnTuple = (String, &'static str, Option<f64>, Option<f64>);
 
-/// A scenario with values for everything that a study varies, ready to be run.
+/// A scenario with values for all factors of a study, ready to run.
 #[pyclass(frozen, module = "agent_economy._core")]
 pub(crate) struct Configuration {
     runner: Box<dyn Runner>,
@@ -34,7 +34,7 @@ pub(crate) struct Configuration {
 
 #[pymethods]
 impl Configuration {
-    /// What each run tells: (name, kind, min, max); a bound is None if there is none.
+    /// The outcome columns: (name, kind, min, max); a bound is None if there is none.
     #[getter]
     fn columns(&self) -> Vec<ColumnTuple> {
         let columns = self.runner.columns();
@@ -51,8 +51,8 @@ pub(crate) fn as_tuple(column: &Column) -> ColumnTuple {
     (column.name.to_string(), kind, column.min, column.max)
 }
 
-/// The configuration of a source with a value at the path of each factor in `values`; only what a
-/// run depends on is read and checked.
+/// The configuration of a source, with `values` at the paths of factors. Only the parts that a run depends
+/// on are read and checked.
 #[pyfunction]
 pub(crate) fn read_configuration(
     source: Source,
@@ -73,7 +73,7 @@ pub(crate) fn read_configuration(
     })
 }
 
-/// Runs `first_run` and on of each configuration: by column, an array (configurations, runs).
+/// Runs of each configuration, from `first_run` on: by column, an array (configurations, runs).
 #[pyfunction]
 #[pyo3(signature = (configurations, *, seed, first_run, runs, threads))]
 #[expect(
@@ -103,7 +103,7 @@ pub(crate) fn run_block<'py>(
     as_dict(py, &runners, columns)
 }
 
-/// The outcome of one run, by column: the same as of [`run_block`].
+/// The outcome of one run by column, the same as in [`run_block`].
 #[pyfunction]
 #[pyo3(signature = (configuration, *, seed, run))]
 pub(crate) fn run_one<'py>(
@@ -132,7 +132,7 @@ fn given_configurations<'py>(
 ) -> Option<Vec<Bound<'py, Configuration>>> {
     let list = given.cast::<PyList>().ok().filter(|list| !list.is_empty());
     let Some(list) = list else {
-        let allowed = "a list of at least one Configuration, as read_configuration makes it";
+        let allowed = "a list of at least one Configuration from read_configuration";
         check.error("configurations", given, allowed.to_owned());
         return None;
     };
@@ -150,8 +150,8 @@ fn given_configurations<'py>(
 
 /// All runs of all configurations, as columns with one configuration after the other.
 ///
-/// Tasks are parts of one configuration's runs, in order, so that joining what they give makes the
-/// same columns for any number of threads.
+/// Each task is a range of runs of one configuration. Joining the results in order gives the same columns
+/// for any number of threads.
 fn in_tasks(
     runners: &[&dyn Runner],
     seed: u64,
@@ -184,7 +184,7 @@ fn in_tasks(
     columns
 }
 
-/// Ranges of at most `length` that make up `runs`.
+/// Splits `runs` into ranges of at most `length`.
 fn parts(runs: &Range<u64>, length: u64) -> impl Iterator<Item = Range<u64>> {
     let Range { start, end } = *runs;
     let firsts = (0..(end - start).div_ceil(length)).map(move |part| start + part * length);

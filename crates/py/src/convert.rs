@@ -1,6 +1,6 @@
-//! What enters and leaves brains, as Python has it: dicts, lists and values.
+//! Converts percepts and commands from and to Python dicts, lists and values.
 //!
-//! It comes many times a second, so it is read without a schema, up to its first error.
+//! For speed, they are read without a schema, and only the first error is reported.
 
 use crate::serde_error;
 use base::document::path_of;
@@ -14,29 +14,30 @@ use serde::de::DeserializeOwned;
 use serde_json::{Map, Number, Value as Json};
 use serde_path_to_error::{Path, Segment};
 
-/// Lists and dicts are at most so deep in each other; a list that holds itself is deeper.
+/// Maximum nesting depth of lists and dicts; a list that contains itself is deeper.
 pub(crate) const MAX_DEPTH: usize = 32;
 
-/// That what is at a path is deeper: Python may not be able to show it.
+/// The error that a value is nested too deeply. It has no representation, which Python may not be able to
+/// make.
 pub(crate) fn too_deep(at: String) -> InputError {
-    let allowed = format!("no more than {MAX_DEPTH} lists and dicts deep; does one hold itself?");
+    let allowed = format!("at most {MAX_DEPTH} levels deep; does a list or dict contain itself?");
     InputError::new(at, Some("...".to_owned()), allowed)
 }
 
-/// What a dict says; `at` is how an error names it.
+/// Reads a dict; `at` is its path in errors.
 pub(crate) fn read<T: DeserializeOwned + JsonSchema>(
     at: &str,
     given: &Bound<PyAny>,
 ) -> Result<T, InputError> {
     let json = json(at, given, MAX_DEPTH)?;
-    // Serde would take a list for one by position.
+    // Serde would accept a list, by position.
     if !json.is_object() {
         return Err(mismatch(at, json.to_string(), "a dict"));
     }
     serde_path_to_error::deserialize(&json).map_err(|refusal| {
         let error = serde_error::error::<T>(&json, refusal.path());
         let path = below(at, &error.path);
-        // It is null too, where it may not stand.
+        // Infinity is read as null, which is not allowed here.
         if is_infinite(given, refusal.path()) {
             return InputError::new(path, Some("inf".to_owned()), "a finite number".to_owned());
         }
@@ -44,9 +45,9 @@ pub(crate) fn read<T: DeserializeOwned + JsonSchema>(
     })
 }
 
-/// The same as Python has it.
+/// Converts a value to Python.
 pub(crate) fn write<'py>(py: Python<'py>, told: &impl Serialize) -> PyResult<Bound<'py, PyAny>> {
-    // It holds texts for keys, and numbers, which JSON has: never an error.
+    // All keys are strings and all values are JSON values, so it cannot fail.
     as_python(py, &serde_json::to_value(told).unwrap_or_default())
 }
 
@@ -58,7 +59,7 @@ pub(crate) fn below(at: &str, path: &str) -> String {
     }
 }
 
-/// Whether infinity stands at a path.
+/// Whether the value at a path is infinite.
 fn is_infinite(given: &Bound<PyAny>, path: &Path) -> bool {
     let found = path
         .iter()
@@ -71,7 +72,7 @@ fn is_infinite(given: &Bound<PyAny>, path: &Path) -> bool {
     number.is_ok_and(f64::is_infinite)
 }
 
-/// A Python value as JSON has it: infinity is null. It is at most so `deep`.
+/// Converts a Python value to JSON; infinity becomes null. `deep` is the remaining depth.
 fn json(at: &str, given: &Bound<PyAny>, deep: usize) -> Result<Json, InputError> {
     let too_deep = || too_deep(at.to_owned());
     if given.is_none() {
@@ -80,7 +81,7 @@ fn json(at: &str, given: &Bound<PyAny>, deep: usize) -> Result<Json, InputError>
         Ok(Json::Bool(truth))
     } else if let Ok(text) = given.cast::<PyString>() {
         let text = text.extract().map(Json::String);
-        text.map_err(|_| mismatch(at, given.to_string(), "a text of whole characters"))
+        text.map_err(|_| mismatch(at, given.to_string(), "a string of valid Unicode"))
     } else if let Ok(dict) = given.cast::<PyDict>() {
         let deep = deep.checked_sub(1).ok_or_else(too_deep)?;
         let entry = |(key, given): (Bound<PyAny>, Bound<PyAny>)| {
@@ -104,7 +105,8 @@ fn json(at: &str, given: &Bound<PyAny>, deep: usize) -> Result<Json, InputError>
     }
 }
 
-/// A name, as it is or as Python shows it: to show something looks for Ctrl-C, and would lose it.
+/// A string itself, or the representation of another value. Converting to a representation would
+/// swallow Ctrl-C.
 pub(crate) fn text(given: &Bound<PyAny>) -> String {
     let text = given.extract::<String>();
     text.unwrap_or_else(|_| given.to_string())
@@ -119,7 +121,7 @@ fn number(at: &str, given: &Bound<PyAny>) -> Result<Json, InputError> {
     let allowed = if given.is_instance_of::<PyFloat>() {
         "a finite number, or inf for a ray that meets nothing"
     } else {
-        "a number, a text, True, False, None, or a list or dict of these"
+        "a number, a string, True, False, None, or a list or dict of these"
     };
     number.ok_or_else(|| mismatch(at, given.to_string(), allowed))
 }

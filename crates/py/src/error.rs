@@ -10,7 +10,7 @@ create_exception!(
     agent_economy,
     InputError,
     PyValueError,
-    "Something given is not allowed; the message names each value, what is allowed and the fix. \
+    "Invalid input. The message states each value, what is allowed, and a suggestion. \
      `errors` has the same as a list of dicts for a scenario or a call; otherwise it is empty."
 );
 
@@ -18,15 +18,15 @@ create_exception!(
     agent_economy,
     NoRoomError,
     InputError,
-    "The world of a run has no room for its team or its items: another run's may have."
+    "The world of this run has no free place for a robot or an item; other runs may have one."
 );
 
-/// All errors in one exception, one a line; `file` is what was read, if it was one.
+/// All errors in one exception, one per line; `file` is the name of the file that was read, if any.
 pub(crate) fn input_error(errors: &InputErrors, file: &str) -> PyErr {
     noted(InputError::new_err(errors.to_string()), errors, file)
 }
 
-/// That a run has no room for something.
+/// The error that a run has no room for an entity.
 pub(crate) fn no_room_error(errors: &InputErrors) -> PyErr {
     noted(NoRoomError::new_err(errors.to_string()), errors, "")
 }

@@ -1,4 +1,4 @@
-//! What comes into a run from outside and goes there, by robots' names: KIND/INDEX.
+//! Percepts and commands of external bodies, by robot name.
 
 use crate::convert;
 use crate::metric_scenario::{name_of, robot_of};
@@ -14,13 +14,13 @@ use sim::scenario::Scenario;
 use sim::simulation::Simulation as Run;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Something for each of some robots.
+/// A value for each of several robots.
 pub(crate) type ByRobot<T> = BTreeMap<RobotId, T>;
 
-/// The percepts and commands of a step; the brains of some kinds are `elsewhere`.
+/// Reads the percepts and commands of a step. The kinds in `elsewhere` have Python brains.
 ///
 /// # Errors
-/// Everything that is wrong with them; of each percept and command the first error.
+/// The first error of each percept and command.
 pub(crate) fn read(
     run: &Run,
     percepts: &Bound<PyDict>,
@@ -59,7 +59,7 @@ fn by_robot<T: DeserializeOwned + JsonSchema>(
         .collect()
 }
 
-/// A body outside obeys its own brain: its command is handed out, and none goes in.
+/// An external body obeys its own brain: it returns a command and takes none.
 fn commanded_outside(
     run: &Run,
     percepts: &ByRobot<Percept>,
@@ -76,13 +76,14 @@ fn commanded_outside(
         .filter(|id| outside.contains(id) || percepts.contains_key(id));
     let error = |id: &RobotId| {
         let name = format!("{:?}", name_of(run.scenario(), *id));
-        let allowed = "a robot whose body is not outside: it gives percepts, and gets commands";
+        let allowed =
+            "a robot without an external body: an external body takes no commands, it returns them";
         InputError::new("commands".to_owned(), Some(name), allowed.to_owned())
     };
     of_outside.map(error).collect()
 }
 
-/// Only the brain of a scenario steps with percepts from outside.
+/// Percepts are only accepted for robots with the brain of the scenario.
 fn without_brain(
     scenario: &Scenario,
     percepts: &ByRobot<Percept>,
@@ -91,12 +92,13 @@ fn without_brain(
     let given = percepts.keys().filter(|id| elsewhere.contains(&id.kind));
     given.map(|id| {
         let name = format!("{:?}", name_of(scenario, *id));
-        let allowed = "a robot that has the scenario's brain: step yours of `brains` yourself";
+        let allowed =
+            "a robot with the brain of the scenario: step the brains in `brains` yourself";
         InputError::new("percepts".to_owned(), Some(name), allowed.to_owned())
     })
 }
 
-/// Something for each of some robots, as Python has it.
+/// Converts the values of several robots to a Python dict.
 pub(crate) fn write<'py, T: serde::Serialize>(
     py: Python<'py>,
     scenario: &Scenario,

@@ -1,4 +1,4 @@
-//! What a page draws of a run.
+//! Frames of a run for display.
 
 use crate::simulation::Simulation;
 use pyo3::prelude::*;

@@ -1,4 +1,4 @@
-//! What one robot of a run perceives, decides and believes, for whoever watches it.
+//! Inspection of one robot of a run: its percepts, decisions and beliefs.
 
 use crate::convert;
 use crate::metric_scenario::id_of;

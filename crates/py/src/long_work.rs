@@ -1,4 +1,4 @@
-//! Work that takes long: on threads, without the interpreter, and open to Ctrl-C.
+//! Long computations: on threads, without holding the interpreter, interrupted by Ctrl-C.
 
 use pyo3::exceptions::{PyOSError, PyRuntimeError};
 use pyo3::prelude::*;
@@ -9,15 +9,15 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-/// Numbers computed between two looks for Ctrl-C: some hundredths of a second for most teams.
+/// Runs between two checks for Ctrl-C: some hundredths of a second for most teams.
 const NUMBERS_PER_BLOCK: u64 = 8192;
 
-/// Time between two looks for Ctrl-C.
+/// Time between two checks for Ctrl-C.
 const BETWEEN_LOOKS: Duration = Duration::from_millis(50);
 
-/// `block` of consecutive parts of `numbers`, one after the other, joined.
+/// The concatenated results of `block` for consecutive parts of `numbers`.
 ///
-/// Between two parts Python's signals are handled; while one is computed other Python threads run.
+/// Python signals are handled between two parts; other Python threads run during a part.
 pub(crate) fn in_blocks<T: Send>(
     py: Python<'_>,
     numbers: Range<u64>,
@@ -36,10 +36,10 @@ pub(crate) fn in_blocks<T: Send>(
     Ok(results)
 }
 
-/// What `work` makes, on a pool of threads, while this one looks for Ctrl-C.
+/// Runs `work` on a pool of threads and checks for Ctrl-C in this one.
 ///
-/// Other Python threads run meanwhile. After Ctrl-C `work` finds its flag set, and should give up
-/// soon: what it then returns is thrown away.
+/// Other Python threads run meanwhile. After Ctrl-C, the flag passed to `work` is set; it should return
+/// soon, and its result is discarded.
 pub(crate) fn interruptible<T: Send>(
     py: Python<'_>,
     threads: Option<usize>,
@@ -52,7 +52,7 @@ pub(crate) fn interruptible<T: Send>(
     py.detach(move || {
         pool.in_place_scope(|scope| {
             scope.spawn(move |_| {
-                // Nobody listens after Ctrl-C.
+                // After Ctrl-C, the receiver is gone.
                 let _ = sender.send(work(stop));
             });
             result_or_stop(&receiver, stop)
@@ -64,7 +64,7 @@ fn result_or_stop<T>(results: &Receiver<T>, stop: &AtomicBool) -> PyResult<T> {
     loop {
         match results.recv_timeout(BETWEEN_LOOKS) {
             Ok(result) => return Ok(result),
-            // The work has panicked; the scope passes that on.
+            // The work panicked; the scope propagates that.
             Err(RecvTimeoutError::Disconnected) => {
                 return Err(PyRuntimeError::new_err("the work gave nothing"));
             }
@@ -80,7 +80,7 @@ fn look_for_signals(py: Python<'_>) -> PyResult<()> {
     py.check_signals()
 }
 
-/// Threads that were made for a process and a number of them.
+/// A thread pool, with its process and its number of threads.
 struct Kept {
     process: u32,
     threads: Option<usize>,
@@ -89,9 +89,9 @@ struct Kept {
 
 static KEPT: Mutex<Option<Kept>> = Mutex::new(None);
 
-/// A pool of so many threads, kept from call to call: to start one takes longer than a small block.
+/// A pool of this number of threads, reused between calls: starting one takes longer than a small block.
 ///
-/// A forked process has its parent's pool and none of its threads, so it makes its own.
+/// A forked process inherits the pool without its threads, so it creates its own.
 fn pool(threads: Option<usize>) -> PyResult<Arc<ThreadPool>> {
     let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
     let process = std::process::id();
@@ -111,7 +111,7 @@ fn pool(threads: Option<usize>) -> PyResult<Arc<ThreadPool>> {
         pool: Arc::clone(&pool),
     };
     let old = kept.replace(new);
-    // The threads of a parent process cannot be ended here.
+    // The threads of the parent process cannot be joined here.
     if let Some(old) = old.filter(|old| old.process != process) {
         std::mem::forget(old);
     }

@@ -1,4 +1,4 @@
-//! Who hears whom, and what sensors cover: for whoever watches a run.
+//! Radio links and sensor footprints of a run for display.
 
 use crate::metric_scenario::id_of;
 use crate::simulation::Simulation;
@@ -50,7 +50,7 @@ pub(crate) fn footprints<'py>(
     Ok(dict)
 }
 
-/// Links to be drawn, `most` at most, each as three 32-bit numbers in little endian, as [`links`] has
+/// Links for display, at most `limit`, each as three 32-bit numbers in little endian, as [`links`] has
 /// them: of the `selected` robot, if it is there, or of `everyone`, and then its own are never left out.
 #[pyfunction]
 pub(crate) fn drawn_links<'py>(
@@ -58,29 +58,29 @@ pub(crate) fn drawn_links<'py>(
     simulation: &Bound<'py, Simulation>,
     selected: Option<Bound<'py, PyAny>>,
     everyone: bool,
-    most: usize,
+    limit: usize,
 ) -> PyResult<Bound<'py, PyBytes>> {
     let mut locked = simulation.get().locked(py)?;
     let run: &mut Run = &mut locked;
     let selected = selected.and_then(|robot| id_of(run.scenario(), &robot).ok());
-    let links = py.detach(|| to_draw(run, selected, everyone, most));
+    let links = py.detach(|| to_draw(run, selected, everyone, limit));
     let numbers = rows(&links).into_iter();
     let bytes: Vec<u8> = numbers.flat_map(u32::to_le_bytes).collect();
     Ok(PyBytes::new(py, &bytes))
 }
 
-fn to_draw(run: &mut Run, selected: Option<RobotId>, everyone: bool, most: usize) -> Vec<Link> {
-    let mut of = |robot| run.links(robot, most).unwrap_or_default();
+fn to_draw(run: &mut Run, selected: Option<RobotId>, everyone: bool, limit: usize) -> Vec<Link> {
+    let mut of = |robot| run.links(robot, limit).unwrap_or_default();
     let mut links = match selected {
         _ if everyone => of(None),
         Some(id) => of(Some(id)),
         None => Vec::new(),
     };
-    if everyone && selected.is_some() && links.len() == most {
+    if everyone && selected.is_some() && links.len() == limit {
         let own = of(selected);
         links.retain(|link| !own.contains(link));
         links.splice(..0, own);
-        links.truncate(most);
+        links.truncate(limit);
     }
     links
 }

@@ -1,9 +1,9 @@
-//! Percepts that a body cannot have had: a slip in a driver, which the brain would only not see.
+//! Rejects percepts that a body cannot have: an error in a driver that a brain would not notice.
 
 use base::error::InputError;
 use brain::{Body, Percept, Scan};
 
-/// `percept`, if it can be one of `body`; `at` is how an error names it.
+/// `percept`, if `body` can have it; `at` is its path in errors.
 pub(crate) fn fitting(at: &str, percept: Percept, body: &Body) -> Result<Percept, InputError> {
     match misfit(at, &percept, body) {
         Some(error) => Err(error),
@@ -14,7 +14,7 @@ pub(crate) fn fitting(at: &str, percept: Percept, body: &Body) -> Result<Percept
 fn misfit(at: &str, percept: &Percept, body: &Body) -> Option<InputError> {
     let (scans, rings) = (percept.scans.len(), body.rings.len());
     if scans > rings {
-        let allowed = format!("a list of {rings} at most, one for each range ring of the body");
+        let allowed = format!("a list of at most {rings}, one for each range sensor of the body");
         return Some(counted(format!("{at}.scans"), scans, allowed));
     }
     let kinds = body.item_kinds.len();
@@ -23,7 +23,7 @@ fn misfit(at: &str, percept: &Percept, body: &Body) -> Option<InputError> {
     let unknown = contacts.find(|(_, contact)| !is_known(contact.kind));
     let unknown = unknown.map(|(number, contact)| {
         let path = format!("{at}.contacts[{number}].kind");
-        let allowed = format!("below {kinds}, the number of kinds of items that there are");
+        let allowed = format!("a number below {kinds}, the number of item kinds");
         InputError::new(path, Some(contact.kind.to_string()), allowed)
     });
     unknown.or_else(|| {

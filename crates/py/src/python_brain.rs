@@ -1,4 +1,4 @@
-//! Brains in Python, in place of those of a scenario's kinds of robots.
+//! Brains in Python that replace those of a scenario's robot kinds.
 
 use crate::arrays;
 use crate::commands::Commands;
@@ -12,19 +12,19 @@ use pyo3::prelude::*;
 use sim::scenario::Scenario;
 use sim::step::{ExternalInputs, PendingDecision};
 
-/// What decides for the robots of a kind, in Python.
+/// A Python brain for the robots of a kind.
 #[derive(FromPyObject)]
 pub(crate) struct PythonBrain<'py> {
     /// Name of the kind.
     kind: String,
-    /// Whether `step` takes the percepts of all robots as arrays, and returns their commands, or
-    /// takes the index and percept of one, and returns its command.
+    /// Whether `step` takes the percepts of all robots as arrays and returns their commands. Otherwise, it
+    /// takes the index and the percept of one robot and returns its command.
     is_in_arrays: bool,
     step: Bound<'py, PyAny>,
 }
 
 impl PythonBrain<'_> {
-    /// The number of its kind, if the scenario has robots of it.
+    /// The index of its kind, if the scenario has that kind.
     pub(crate) fn kind(&self, scenario: &Scenario) -> Option<u8> {
         kind_of(scenario, "brains", &self.kind).ok()
     }

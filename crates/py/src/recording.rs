@@ -1,4 +1,4 @@
-//! What recordings hold of a run.
+//! The state of a run as recordings store it.
 
 use crate::convert;
 use crate::simulation::Simulation;
@@ -12,11 +12,11 @@ use sim::run::Robot;
 use sim::scenario::Scenario;
 use sim::world::obstacles::Solid;
 
-/// What changes in a run, all of one moment; an array has an entry a robot.
+/// The state at one moment; arrays have one entry per robot.
 ///
 /// `tick`, `hash`, `poses` (`x_m`, `y_m`, `heading_rad`), `half_turns` (sine and cosine of half the
 /// heading, the same on every machine), `speeds`, `wanted` (`speed_m_s`, `turn_rate_rad_s`),
-/// `status`, `battery` and `collisions` as `Simulation` has them; `found_s` has an entry an item.
+/// `status`, `battery` and `collisions` as `Simulation` has them; `found_s` has one entry per item.
 #[pyfunction]
 pub(crate) fn recorded_moment<'py>(
     py: Python<'py>,
@@ -74,7 +74,7 @@ fn rows<'py, const N: usize>(
         .reshape([robots.len(), N])
 }
 
-/// What changes only when the scenario does: of each robot `radius_m` and `is_flying`; `bodies`, what
+/// The part of the state that only changes with the scenario: for each robot `radius_m` and `is_flying`; `bodies`, what
 /// brains know of them, `radio_m`, how far their radios reach, and `flies`, by kind; and `maps`, the
 /// obstacles that are maps, in their order: `corners_m` anticlockwise from the origin, `resolution_m`, and
 /// `occupancy`, shape (rows, columns), the lowest row first.

@@ -12,14 +12,14 @@ use pyo3::types::{PyBool, PyDict};
 use sim::scenario::ScenarioSpec;
 use std::collections::BTreeMap;
 
-/// Changes as Python gives them: (path, value, origin).
+/// A change from Python: (path, value, origin).
 pub(crate) type GivenOverride<'py> = (Vec<String>, Bound<'py, PyAny>, String);
 
-/// What a scenario is read from, as Python has it: see `Source` in `agent_economy.scenario`.
+/// The source of a scenario: see `Source` in `agent_economy.scenario`.
 ///
-/// `overrides` are (path, value, origin): `value` is put at `path` over what the text says, and
-/// `origin` is how errors name it. `files` are those that the text names, by their names: bytes, or
-/// a text that says why they cannot be read.
+/// `overrides` are (path, value, origin): `value` replaces the one at `path`, and `origin` is its origin in
+/// errors. `files` are those that the text refers to, by name: bytes, or the reason why they cannot be
+/// read.
 #[derive(FromPyObject)]
 pub(crate) struct Source<'py> {
     pub(crate) file: String,
@@ -35,7 +35,7 @@ enum GivenFile {
     Refusal(String),
 }
 
-/// The scenario of a source, as a dict that `agent_economy.scenario` makes typed.
+/// Reads the scenario of a source as a dict, which `agent_economy.scenario` converts to types.
 #[pyfunction]
 pub(crate) fn read_scenario<'py>(
     py: Python<'py>,
@@ -46,13 +46,13 @@ pub(crate) fn read_scenario<'py>(
     as_dict(py, &read.map_err(|errors| input_error(&errors, &file))?)
 }
 
-/// The files that a source names and does not have; when it has them, it may name more.
+/// The files that a source refers to and lacks. Once it has them, it may refer to more.
 #[pyfunction]
 pub(crate) fn files_wanted(source: Source) -> PyResult<Vec<String>> {
     Ok(base::scenario::files_wanted(&ENGINES, &source.document()?))
 }
 
-/// The whole document of a source, unchecked, as dicts, lists and values.
+/// The document of a source, unchecked, as dicts, lists and values.
 #[pyfunction]
 pub(crate) fn read_document<'py>(
     py: Python<'py>,
@@ -61,7 +61,7 @@ pub(crate) fn read_document<'py>(
     whole(py, &source.document()?)
 }
 
-/// The same, in which every robot kind says what the model says that it is like.
+/// The same, with the defaults of its model in every robot kind.
 #[pyfunction]
 pub(crate) fn read_filled<'py>(
     py: Python<'py>,
@@ -97,7 +97,7 @@ impl Source<'_> {
     }
 }
 
-/// A Python value at `path` as documents have it.
+/// Converts a Python value at `path` to a document value.
 pub(crate) fn value(path: &[String], given: &Bound<PyAny>, origin: &str) -> PyResult<Value> {
     let at = At {
         path,
@@ -107,7 +107,7 @@ pub(crate) fn value(path: &[String], given: &Bound<PyAny>, origin: &str) -> PyRe
     nested(at, given, MAX_DEPTH)
 }
 
-/// The same, but what is None in a dict is left out.
+/// The same, but None in a dict counts as missing.
 pub(crate) fn value_without_none(
     path: &[String],
     given: &Bound<PyAny>,
@@ -121,7 +121,7 @@ pub(crate) fn value_without_none(
     nested(at, given, MAX_DEPTH)
 }
 
-/// A value that is at most so `deep`.
+/// Converts a value; `deep` is the remaining depth.
 fn nested(at: At, given: &Bound<PyAny>, deep: usize) -> PyResult<Value> {
     if let Ok(boolean) = given.cast::<PyBool>() {
         return Ok(Value::Bool(boolean.is_true()));
@@ -142,7 +142,7 @@ fn nested(at: At, given: &Bound<PyAny>, deep: usize) -> PyResult<Value> {
         return items.collect::<PyResult<_>>().map(Value::List);
     }
     given.extract::<f64>().map(Value::Float).map_err(|_| {
-        let allowed = "a text, a number, true, false, or a list or dict of these".to_owned();
+        let allowed = "a string, a number, true, false, or a list or dict of these".to_owned();
         let given = Some(given.to_string());
         refusal(
             at.origin,
@@ -151,7 +151,7 @@ fn nested(at: At, given: &Bound<PyAny>, deep: usize) -> PyResult<Value> {
     })
 }
 
-/// The path of a value, its origin, and whether None in a dict is as if it were not there.
+/// The path of a value, its origin, and whether None in a dict counts as missing.
 #[derive(Clone, Copy)]
 struct At<'a> {
     path: &'a [String],
@@ -236,7 +236,7 @@ fn factor_dicts<'py>(py: Python<'py>, factors: &[Factor]) -> PyResult<Vec<Bound<
     factors.iter().map(factor).collect()
 }
 
-/// A document's value as Python has it; a date is a text.
+/// Converts a document value to Python; a date becomes a string.
 fn plain<'py>(py: Python<'py>, value: &Value) -> PyResult<Bound<'py, PyAny>> {
     match value {
         Value::Bool(value) => Ok(PyBool::new(py, *value).to_owned().into_any()),

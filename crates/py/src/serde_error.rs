@@ -1,4 +1,4 @@
-//! What serde refuses of percepts and commands, in a person's words: those of its schema.
+//! Converts serde errors of percepts and commands to errors in the terms of their schema.
 
 use base::document::schema::Schema;
 use base::document::{Document, Node, Value, path_of};
@@ -7,7 +7,7 @@ use schemars::JsonSchema;
 use serde_json::Value as Json;
 use serde_path_to_error::{Path, Segment};
 
-/// What in `json` serde has refused at `path` when it read a `T`.
+/// The error at `path`, where serde failed to read a `T` from `json`.
 pub(crate) fn error<T: JsonSchema>(json: &Json, path: &Path) -> InputError {
     let at = path.iter().fold(String::new(), |at, each| match each {
         Segment::Seq { index } => format!("{at}[{index}]"),
@@ -17,11 +17,11 @@ pub(crate) fn error<T: JsonSchema>(json: &Json, path: &Path) -> InputError {
     let mut document = Document::default();
     document.set(&[], value(json), "");
     let errors = Schema::of::<T>().errors(&document).into_iter();
-    // PythonBrain the schema refuses what a percept may say: None for what is not there.
+    // Elsewhere, the schema rejects values that a percept allows: None for missing ones.
     let mut here =
         errors.filter(|error| error.path.starts_with(&at) || at.starts_with(&error.path));
     let error = here.next();
-    // Whatever serde refuses, the schema does; should they disagree, the place is told.
+    // The schema rejects whatever serde does; if they disagree, at least the path is reported.
     let error = error.unwrap_or_else(|| InputError::new(at, None, "another value".to_owned()));
     InputError {
         origin: None,
@@ -30,12 +30,11 @@ pub(crate) fn error<T: JsonSchema>(json: &Json, path: &Path) -> InputError {
     }
 }
 
-/// What is allowed, where tables are dicts, and texts have their quotes.
+/// Replaces TOML terms by Python terms.
 pub(crate) fn as_in_python(allowed: &str) -> String {
     let words = [
         ("a table", "a dict"),
         ("tables", "dicts"),
-        (" in quotes", ""),
         ("true or false", "True or False"),
     ];
     words

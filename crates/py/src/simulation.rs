@@ -1,4 +1,4 @@
-//! Runs of the metric engine, stepped by hand.
+//! Stepwise runs of the metric engine.
 
 use crate::arguments::Arguments;
 use crate::configuration::{ColumnTuple, as_tuple};
@@ -24,22 +24,22 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
 use std::thread::{self, ThreadId};
 use std::time::Duration;
 
-/// Steps of so many robots together take some milliseconds: less than it pays to wake a thread for.
+/// Robot-steps that take some milliseconds: too short to start a thread for.
 const SHORT: u64 = 1024;
 
-/// Time between two looks at whether another thread is done.
+/// Time between two checks whether another thread has finished.
 const BETWEEN_LOOKS: Duration = Duration::from_millis(1);
 
-/// A whole run, at one of its moments.
+/// A copy of a run at one moment.
 #[pyclass(frozen, module = "agent_economy._core")]
 pub(crate) struct Snapshot(Run);
 
-/// A run. Threads may share it: one waits until the other is done.
+/// A run. It may be shared between threads, which wait for each other.
 #[pyclass(frozen, module = "agent_economy._core")]
 pub(crate) struct Simulation {
     run: Mutex<Run>,
     threads: Option<usize>,
-    /// In which thread brains in Python are asked now.
+    /// The thread in which Python brains run at the moment.
     asking: Mutex<Option<ThreadId>>,
 }
 
@@ -72,7 +72,7 @@ impl Simulation {
         })
     }
 
-    /// Takes steps, also after the run is over. Ctrl-C stops it between two.
+    /// Advances by `steps`, also after the run is over. Ctrl-C stops it between two steps.
     fn step(&self, py: Python, steps: &Bound<PyAny>) -> PyResult<()> {
         let check = Arguments::default();
         let steps = check.integer("steps", steps, 0..=u64::MAX);
@@ -87,7 +87,7 @@ impl Simulation {
         })
     }
 
-    /// Takes steps until the run is over. Ctrl-C stops it between two.
+    /// Advances until the run is over. Ctrl-C stops it between two steps.
     fn finish(&self, py: Python) -> PyResult<()> {
         let mut run = self.locked(py)?;
         self.take(py, &mut run, u64::MAX, |run, stop| {
@@ -97,9 +97,9 @@ impl Simulation {
         })
     }
 
-    /// Takes one step with percepts of bodies outside and commands for other robots, dicts by the
-    /// robots' names, and with `brains` in Python for some kinds; returns the commands for bodies
-    /// outside. If a brain raises, no step is taken.
+    /// Advances by one step with the percepts of external bodies and with commands for other robots, as
+    /// dicts by robot name, and with Python `brains` for some kinds. Returns the commands for external
+    /// bodies. If a brain raises, the run does not advance.
     #[expect(clippy::needless_pass_by_value, reason = "as Python hands it over")]
     fn step_with<'py>(
         &self,
@@ -123,7 +123,7 @@ impl Simulation {
         external::write(py, run.scenario(), &answers)
     }
 
-    /// What brains in Python decided in the last step, by robot.
+    /// The commands of Python brains in the last step, by robot.
     #[getter]
     fn decided<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let run = self.locked(py)?;
@@ -132,7 +132,7 @@ impl Simulation {
         external::write(py, run.scenario(), &decided)
     }
 
-    /// What a robot will perceive in the next step; None if its brain does not step in it.
+    /// The percept of a robot in the next step; None if its brain does not run in that step.
     fn percept<'py>(
         &self,
         py: Python<'py>,
@@ -161,7 +161,7 @@ impl Simulation {
             .transpose()
     }
 
-    /// What the run has given so far, by column; None if it is not finite.
+    /// The outcome so far, by column; None if it is not finite.
     fn outcome<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
         let run = self.locked(py)?;
         let runs = Runs(Arc::clone(run.scenario()));
@@ -175,15 +175,15 @@ impl Simulation {
         Ok(Some(dict))
     }
 
-    /// What a run tells: see `Configuration.columns`.
+    /// The outcome columns: see `Configuration.columns`.
     #[getter]
     fn columns(&self, py: Python) -> PyResult<Vec<ColumnTuple>> {
         let runs = Runs(Arc::clone(self.locked(py)?.scenario()));
         Ok(runs.columns().iter().map(as_tuple).collect())
     }
 
-    /// Goes on with another scenario; returns how many steps have been taken. After Ctrl-C the run
-    /// is as it was.
+    /// Continues with another scenario; returns the number of steps so far. After Ctrl-C, the run is
+    /// unchanged.
     fn change(&self, py: Python, scenario: &Bound<MetricScenario>) -> PyResult<u64> {
         let mut run = self.locked(py)?;
         let to = &scenario.get().0;
@@ -193,7 +193,7 @@ impl Simulation {
         let changed = self.take(py, &mut run, work, |run, _| {
             run.state().changed(run.scenario(), to)
         })?;
-        // Not before: what Ctrl-C breaks off has changed nothing.
+        // Only now: Ctrl-C must leave the run unchanged.
         run.continue_with(Arc::clone(to), changed.map_err(|why| no_room(to, why))?);
         Ok(run.state().tick())
     }
@@ -212,7 +212,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// Steps that have been taken.
+    /// Number of steps so far.
     #[getter]
     fn tick(&self, py: Python) -> PyResult<u64> {
         Ok(self.locked(py)?.state().tick())
@@ -268,20 +268,20 @@ impl Simulation {
         Ok(self.each(py, |robot| robot.status as u8)?.into_pyarray(py))
     }
 
-    /// Whether each robot's body is outside.
+    /// Whether the body of each robot is external.
     #[getter]
     fn outside<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<bool>>> {
         Ok(self.each(py, |robot| robot.is_external)?.into_pyarray(py))
     }
 
-    /// Share of each robot's battery that is left; 1 for one that never empties.
+    /// State of charge of each robot's battery, 0 to 1; 1 for a battery without a capacity.
     #[getter]
     fn battery<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let left = self.each(py, |robot| robot.battery.unwrap_or(1.0))?;
         Ok(left.into_pyarray(py))
     }
 
-    /// `kind`, `x_m`, `y_m` and `found_s` of each item; NaN where it is not found.
+    /// `kind`, `x_m`, `y_m` and `found_s` of each item; NaN if it has not been found.
     #[getter]
     fn items<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let run = self.locked(py)?;
@@ -302,17 +302,17 @@ impl Simulation {
 }
 
 impl Simulation {
-    /// The run, when no other thread has it. Meanwhile the interpreter is free, since whoever has
-    /// it may need that, and Ctrl-C is looked for.
+    /// The run, after waiting for other threads. While waiting, it releases the interpreter, which they may
+    /// need, and checks for Ctrl-C.
     pub(crate) fn locked(&self, py: Python) -> PyResult<MutexGuard<'_, Run>> {
         loop {
             match self.run.try_lock() {
                 Ok(run) => return Ok(run),
-                // A step is whole or has panicked, which is told where it does.
+                // A panic in another thread is reported there.
                 Err(TryLockError::Poisoned(run)) => return Ok(run.into_inner()),
                 Err(TryLockError::WouldBlock) if *self.asking() == Some(thread::current().id()) => {
-                    let sentence = "a brain must not look at the run that it is in, nor step it: \
-                                    all that it knows is its percept";
+                    let sentence = "a brain must not access or step the run that it is part of: it \
+                                    only knows its percept";
                     let error = InputError::new(String::new(), None, sentence.to_owned());
                     return Err(input_error(&InputErrors(vec![error]), ""));
                 }
@@ -324,7 +324,7 @@ impl Simulation {
         }
     }
 
-    /// Asks brains in Python, in this thread: Python hands Ctrl-C to no other.
+    /// Runs Python brains, in this thread: Python delivers Ctrl-C to no other one.
     fn ask(
         &self,
         scenario: &Scenario,
@@ -341,8 +341,8 @@ impl Simulation {
         self.asking.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Lets a run go on: here if that is little work, in robots times steps, else where threads
-    /// share it and Ctrl-C is looked for.
+    /// Advances a run: in this thread if that is little `work` (robots times steps), otherwise on a thread
+    /// pool, with checks for Ctrl-C.
     fn take<T: Send>(
         &self,
         py: Python,
@@ -357,7 +357,7 @@ impl Simulation {
         interruptible(py, self.threads, |stop| go(run, stop))
     }
 
-    /// Something of each robot, in their order.
+    /// A value of each robot, in their order.
     fn each<T>(&self, py: Python, of: impl Fn(&Robot) -> T) -> PyResult<Vec<T>> {
         let run = self.locked(py)?;
         let robots = run.state().each_robot(run.scenario());
@@ -369,8 +369,8 @@ fn robots(run: &Run) -> u64 {
     run.state().robots() as u64
 }
 
-/// What cannot be another in the middle of a run: every time in it is counted in steps, and every
-/// place is within the world.
+/// The changes that a run does not allow: its times are counted in steps, and all places are within its
+/// world.
 fn unchangeable(from: &Scenario, to: &Scenario) -> Vec<InputError> {
     let error = |path: &str, given: String, was: String| {
         let allowed = format!("{was}, as when the run began");
@@ -393,7 +393,7 @@ fn unchangeable(from: &Scenario, to: &Scenario) -> Vec<InputError> {
     errors
 }
 
-/// That a run has no room for something, by the name of its kind.
+/// The error that a run has no room for an entity, by the name of its kind.
 fn no_room(scenario: &Scenario, why: NoRoom) -> PyErr {
     let named =
         |kind: u8, index: u32, names: Vec<&str>, what: &str, why: &dyn std::fmt::Display| {

@@ -198,8 +198,8 @@ fn thresholds_are_in_order_and_the_pose_has_three_numbers() {
     let text = yaml(&["origin: [0, 0]", "free_thresh: 0.7"]);
     assert_eq!(
         errors(&text, b""),
-        "room.yaml:5: origin = [0, 0]: must be three numbers: x and y in metres, yaw in radians\n\
-         room.yaml:6: free_thresh = 0.7: must be below occupied_thresh, which is 0.65"
+        "room.yaml:5: origin = [0, 0]: must be a list of three numbers: x and y in metres, yaw in radians\n\
+         room.yaml:6: free_thresh = 0.7: must be a number below occupied_thresh, which is 0.65"
     );
 }
 
@@ -210,7 +210,7 @@ fn an_image_that_cannot_be_opened_is_told_where_it_is_named() {
     });
     assert_eq!(
         errors.unwrap_err().to_string(),
-        "a/room.yaml:1: image = \"room.pgm\": must be the name of a map's image in PGM; \
+        "a/room.yaml:1: image = \"room.pgm\": must be the name of a PGM image; \
          room.pgm is not there"
     );
 }
@@ -220,7 +220,7 @@ fn a_header_that_lies_is_told_before_anything_is_set_aside() {
     for (image, expected) in [
         (
             &b"P5 1000000000 1000000000 255\n"[..],
-            "room.pgm:1: 1000000000 x 1000000000 pixels are more than 64000000",
+            "room.pgm:1: the image must have at most 64000000 pixels, not 1000000000 x 1000000000",
         ),
         (
             b"P5 4294967296 1 255\n",
@@ -236,40 +236,40 @@ fn a_header_that_lies_is_told_before_anything_is_set_aside() {
         ),
         (
             b"P5\n8000 8000 255\n12345",
-            "room.pgm: cut off: 8000 x 8000 pixels need 64000000 bytes, and 5 follow",
+            "room.pgm: truncated: 8000 x 8000 pixels need 64000000 bytes, and 5 follow",
         ),
         (
             b"P5\n2 1 256\n123",
-            "room.pgm: cut off: 2 x 1 pixels need 4 bytes, and 3 follow",
+            "room.pgm: truncated: 2 x 1 pixels need 4 bytes, and 3 follow",
         ),
         (
             b"P2\n3 1 255\n1 2",
-            "room.pgm:2: cut off: 3 x 1 pixels need 5 bytes, and 4 follow",
+            "room.pgm:2: truncated: 3 x 1 pixels need 5 bytes, and 4 follow",
         ),
         (
             b"P2\n3 1 255\n100 200\n",
-            "room.pgm:4: cut off within the pixels, or a pixel that is no number",
+            "room.pgm:4: truncated within the pixels, or a pixel is not a number",
         ),
         (b"P2\n1 1 255\n70000", "room.pgm:3: a pixel is above 65535"),
         (
             b"P2\n1 1 254\n255",
-            "room.pgm:3: a pixel is 255, above the greatest value 254",
+            "room.pgm:3: a pixel is 255, above the maximum value 254",
         ),
         (
             b"P5 1 1 9\n\n",
-            "room.pgm: a pixel is 10, above the greatest value 9",
+            "room.pgm: a pixel is 10, above the maximum value 9",
         ),
         (
             b"P5 1 1 255\n12",
-            "room.pgm: more follows after the image's last pixel",
+            "room.pgm: data follows the last pixel of the image",
         ),
         (
             b"P5 1 1 65536\n12",
-            "room.pgm:1: the greatest value must be a whole number from 1 to 65535, not \"65536\"",
+            "room.pgm:1: the maximum value must be a whole number from 1 to 65535, not \"65536\"",
         ),
         (
             b"P5 1 1",
-            "room.pgm:1: the greatest value must be a whole number from 1 to 65535, not \"\"",
+            "room.pgm:1: the maximum value must be a whole number from 1 to 65535, not \"\"",
         ),
         (
             b"P6 1 1 255\n123",
@@ -302,7 +302,7 @@ fn a_short_yaml_cannot_become_a_large_document() {
     let long = format!("image: {}", "a".repeat(70_000));
     assert_eq!(
         errors(&long, b""),
-        "room.yaml: a text of at most 65536 bytes; it has 70007"
+        "room.yaml: a file of at most 65536 bytes; it has 70007"
     );
 }
 
@@ -338,8 +338,8 @@ fn a_map_with_too_many_walls_is_told() {
     image.extend((0..1600 * 1600).map(|at| if (at + at / 1600) % 2 == 0 { 0 } else { 254 }));
     assert_eq!(
         errors(ROOM, &image),
-        "room.yaml:1: image = \"room.pgm\": must be the name of a map's image in PGM; \
-         it has more than 4000000 straight walls: smooth it"
+        "room.yaml:1: image = \"room.pgm\": must be the name of a PGM image; \
+         it has more than 4000000 straight walls: smooth its outlines"
     );
 }
 

@@ -143,7 +143,7 @@ fn a_full_world_is_an_error_and_not_an_endless_search() {
     }
     assert_eq!(
         PlacementError::NoneFree.to_string(),
-        "no free place found after 10000 tries"
+        "no free position found after 10000 tries"
     );
 }
 
@@ -361,7 +361,7 @@ fn given_places_that_overlap_are_told_and_those_that_touch_are_not() {
     let error = team(&draws, &[group(0, 10, 0.15, &row(0.299))], |_, _| true).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "robot 1 of kind 0: its place is not free"
+        "robot 1 of kind 0: its position is not free"
     );
 }
 

@@ -61,11 +61,11 @@ fn what_is_wrong_is_told_with_the_vertex() {
     assert_eq!(bow_tie, PolygonError::Crossed(0, 2));
     assert_eq!(
         bow_tie.to_string(),
-        "a polygon that does not cross or touch itself; its edges from vertices 0 and 2 do"
+        "a polygon that does not intersect itself; the edges from vertices 0 and 2 do"
     );
     assert_eq!(
         PolygonError::Coordinate(4).to_string(),
-        "a polygon of coordinates from -1e9 to 1e9; those of vertex 4 are not"
+        "a polygon with coordinates from -1e9 to 1e9; vertex 4 is outside"
     );
 }
 

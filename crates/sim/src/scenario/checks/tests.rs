@@ -95,7 +95,7 @@ fn errors_of_every_part_are_told_at_once_with_their_lines() {
                     t:30: robots.rover.sensors.eye.detection_probability.mien is not a known key: \
                     expected one of mine; did you mean mine?\n\
                     t:10: world.obstacles[0].polygon_m = [[0, 0], [4, 0], [-1, 2], [0, 4]]: must be a \
-                    polygon that does not cross or touch itself; its edges from vertices 1 and 3 do";
+                    polygon that does not intersect itself; the edges from vertices 1 and 3 do";
     assert_eq!(told, expected);
 }
 
