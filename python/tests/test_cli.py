@@ -10,26 +10,45 @@ import time
 from pathlib import Path
 
 import pytest
+from command_line import COMMAND, run, run_process
 
-COMMAND = [sys.executable, "-m", "agent_economy"]
-
-
-def run(*arguments: str | Path, cwd: Path | None = None) -> subprocess.CompletedProcess[str]:
-    """Run the command and wait for it."""
-    command = [*COMMAND, *map(str, arguments)]
-    return subprocess.run(
-        command, capture_output=True, text=True, cwd=cwd, timeout=120, check=False
-    )
+from agent_economy import cli
 
 
 def test_version_names_the_program() -> None:
-    given = run("--version")
+    given = run_process("--version")
     assert given.returncode == 0
     assert given.stdout.startswith("agent-economy 0.")
+    assert run("--version").stdout == given.stdout
 
 
 @pytest.mark.parametrize(
-    "command", [None, "study", "answer", "watch", "run", "replicate", "check", "scenarios"]
+    ("option", "unloaded"),
+    [("--version", ["typer", "numpy", "agent_economy._core"]), ("--help", ["rich", "numpy"])],
+)
+def test_version_and_help_load_only_what_they_need(option: str, unloaded: list[str]) -> None:
+    program = f"""
+import atexit, sys
+sys.argv[1:] = [{option!r}]
+atexit.register(lambda: print([name for name in {unloaded!r} if name in sys.modules]))
+from agent_economy.__main__ import main
+main()
+"""
+    command = [sys.executable, "-c", program]
+    given = subprocess.run(command, capture_output=True, text=True, check=True, timeout=60)
+    assert given.stdout.splitlines()[-1] == "[]"
+
+
+def test_each_command_is_listed_with_its_description() -> None:
+    listed = run("--help").stdout
+    for name, description in cli.COMMANDS.items():
+        assert re.search(rf"^  {name} +{re.escape(description)}$", listed, re.MULTILINE)
+        assert cli.load(name).name == name
+
+
+@pytest.mark.parametrize(
+    "command",
+    [None, "study", "report", "watch", "run", "replicate", "replay", "check", "ui", "scenarios"],
 )
 def test_help_has_an_example(command: str | None) -> None:
     given = run(*filter(None, [command]), "--help")
@@ -41,12 +60,12 @@ def test_help_has_an_example(command: str | None) -> None:
 def test_study_prints_table_answer_and_path_and_leaves_its_files(
     classic_toml: Path, tmp_path: Path
 ) -> None:
-    given = run("study", classic_toml, "--delta", "0.3", cwd=tmp_path)
+    given = run_process("study", classic_toml, "--delta", "0.3", cwd=tmp_path)
     assert given.returncode == 0, given.stderr
     for part in ("behind", "best", "Send", "with 95% confidence", "Report: studies/classic/"):
         assert part in " ".join(given.stdout.split())
     assert "8 configurations; delta 0.3, confidence 0.95, indifference" in given.stderr
-    assert re.search(r"round \d+: [\d,]+ runs, \d of 8 still in.*; out: ", given.stderr)
+    assert re.search(r"round \d+: [\d,]+ runs, \d of 8 remaining.*; eliminated: ", given.stderr)
     left = {file.name for file in (tmp_path / "studies/classic").iterdir()}
     assert left >= {"answer.json", "report.html", "study.toml", "ledger.sqlite", "blocks"}
 
@@ -82,7 +101,7 @@ def test_a_value_that_is_set_wins_and_is_kept(classic_toml: Path, tmp_path: Path
 def test_check_says_that_nothing_is_wrong(classic_toml: Path, tmp_path: Path) -> None:
     given = run("check", classic_toml, "classic", cwd=tmp_path)
     assert (given.returncode, given.stderr) == (0, "")
-    right = "nothing is wrong: engine classic, factorial: 8 configurations"
+    right = "valid: engine classic, factorial: 8 configurations"
     assert given.stdout.splitlines() == [f"{classic_toml}: {right}", f"classic: {right}"]
     listed = run("check", classic_toml, "--json")
     assert (listed.returncode, json.loads(listed.stdout)) == (0, [])
@@ -169,17 +188,17 @@ def test_a_finished_study_is_answered_watched_and_tightened(
     (out / "answer.json").unlink()
     (out / "report.html").unlink()
 
-    answered = run("answer", out, "--json")
+    answered = run("report", out, "--json")
     assert answered.returncode == 0, answered.stderr
     assert answered.stdout.encode() == before == (out / "answer.json").read_bytes()
     assert (out / "report.html").exists()
 
     watched = run("watch", out)
     assert watched.returncode == 0, watched.stderr
-    assert "1 of 8 still in" in watched.stderr
-    assert watched.stdout == "The study is over.\n"
+    assert "1 of 8 remaining" in watched.stderr
+    assert watched.stdout == "The study is finished.\n"
 
-    tightened = run("study", "--resume", out, "--more", "0.999")
+    tightened = run("study", "--resume", out, "--confidence", "0.999")
     assert tightened.returncode == 0, tightened.stderr
     assert "with 99.9% confidence" in " ".join(tightened.stdout.split())
 
@@ -202,10 +221,10 @@ def test_what_is_asked_stands_in_the_folder_and_nowhere_else(
 ) -> None:
     given = run("study", "--resume", tmp_path, *option)
     assert given.returncode == 2
-    assert "--resume: must be alone" in given.stderr
+    assert "--resume: cannot be combined with" in given.stderr
 
 
-@pytest.mark.parametrize("command", [["answer"], ["watch"], ["study", "--resume"]])
+@pytest.mark.parametrize("command", [["report"], ["watch"], ["study", "--resume"]])
 def test_a_folder_without_a_study_is_told(command: list[str], tmp_path: Path) -> None:
     given = run(*command, tmp_path)
     assert given.returncode == 2
@@ -227,7 +246,7 @@ def test_a_folder_without_a_study_is_told(command: list[str], tmp_path: Path) ->
         (["--set", "clock.time_limit_s"], "--set = 'clock.time_limit_s': must be PATH=VALUE"),
         (
             ["--set", "clock.time_limit_s=1", "--set", "clock.time_limit_s=2"],
-            "--set clock.time_limit_s: is given twice: must be given once",
+            "--set clock.time_limit_s: occurs twice: expected once",
         ),
         (
             ["--vary", "robots.wanderer.count=0"],
@@ -240,7 +259,7 @@ def test_a_folder_without_a_study_is_told(command: list[str], tmp_path: Path) ->
         (["--vary", "8"], "--vary = '8': must be PATH=VALUES"),
         (
             ["--vary", "robots.wanderer.count=1", "--vary", "robots.wanderer.count=2"],
-            "--vary robots.wanderer.count: is given twice",
+            "--vary robots.wanderer.count: occurs twice",
         ),
         (["--runs", "-5"], "runs = -5: must be a whole number from 2"),
         (["--delta", "0"], "delta = 0.0: must be a number above 0"),
@@ -248,11 +267,11 @@ def test_a_folder_without_a_study_is_told(command: list[str], tmp_path: Path) ->
         (["--confidence", "95"], "confidence = 95.0: must be a number from 0.5 to below 1"),
         (["--guarantee", "sure"], "Invalid value for '--guarantee'"),
         (["--design", "lhs"], "--design: study.design"),
-        (["--more", "0.99"], "--more = 0.99: must come with --resume"),
-        (["--resume", "there"], "--resume: must be alone"),
+        (["--more", "0.99"], "No such option: --more"),
+        (["--resume", "there"], "--resume: cannot be combined with"),
         (["--max-runs", "5"], "max_runs = 5: must be a whole number of 80 or more"),
         (["--workers", "0"], "Invalid value for '--workers'"),
-        (["--workers", "2", "--dask", "tcp://127.0.0.1:1"], "must be one of them"),
+        (["--workers", "2", "--dask", "tcp://127.0.0.1:1"], "expected one of them"),
         (["--merit", "best"], '--merit: merit = "best": must be one of "equation-5.2", "appendix"'),
         (["--seed", "-1"], "Invalid value for '--seed'"),
         (["--runs", "many"], "Invalid value for '--runs'"),
@@ -314,11 +333,11 @@ def test_ctrl_c_ends_within_a_second_and_the_study_goes_on_from_there(
     assert process.returncode == 130
     # The promise is one second; the bound allows for a busy machine.
     assert seconds < 3
-    assert re.search(r"Stopped after [\d,]+ runs; all are kept\.", errors)
+    assert re.search(r"Stopped after [\d,]+ runs; all are stored\.", errors)
     assert f"agent-economy study --resume {out}" in errors.replace("\n", "")
     assert "Traceback" not in errors
     assert not (out / "answer.json").exists()
-    unfinished = run("answer", out)
+    unfinished = run("report", out)
     assert unfinished.returncode == 2
     assert "is not finished" in unfinished.stderr
     assert run("study", "--resume", out).returncode == 0
@@ -347,8 +366,8 @@ def test_a_study_at_work_is_watched_and_no_second_process_gets_in(
     assert "another process is working on it" in second.stderr
     # The study was killed, so it is not over, and nobody works on it.
     assert watcher.returncode == 1
-    assert "still in" in errors
-    assert f"it is not over: agent-economy study --resume {out}" in errors
+    assert "remaining" in errors
+    assert f"no process is working on it. Resume with: agent-economy study --resume {out}" in errors
     assert said == ""
 
 
@@ -360,7 +379,7 @@ def test_a_damaged_study_is_refused_with_its_own_exit_code(
     data = bytearray(block.read_bytes())
     data[len(data) // 2] ^= 1
     block.write_bytes(data)
-    for command in (["study", "--resume"], ["answer"]):
+    for command in (["study", "--resume"], ["report"]):
         given = run(*command, tmp_path)
         assert given.returncode == 1
         assert str(block) in given.stderr

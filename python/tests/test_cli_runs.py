@@ -9,9 +9,9 @@ from pathlib import Path
 
 import pyarrow as pa
 import pytest
+from command_line import COMMAND, run
 from metric import ENDLESS, FULL
 from pyarrow import csv, parquet
-from test_cli import COMMAND, run
 
 import agent_economy as ae
 
@@ -68,7 +68,7 @@ def test_replicate_as_json_has_an_interval_round_each_mean(tmp_path: Path) -> No
     assert (told["scenario"], told["seed"], told["runs"]) == ("classic", 0, 25)
     columns = {each["column"]: each for each in told["columns"]}
     assert columns["time_s"]["low"] < columns["time_s"]["mean"] < columns["time_s"]["high"]
-    assert columns["time_s"]["least"] <= columns["time_s"]["low"]
+    assert columns["time_s"]["minimum"] <= columns["time_s"]["low"]
     assert 0 <= columns["complete"]["low"] <= columns["complete"]["mean"] <= 1
     assert csv.read_csv(out)["paints"].equals(ae.replicate("classic", 25)["paints"])
 
@@ -104,7 +104,7 @@ def test_a_recording_in_place_of_a_scenario_is_to_be_taken_again(tmp_path: Path)
     for command in ("run", "replicate", "check", "study"):
         given = run(command, recorded, cwd=tmp_path)
         assert given.returncode == 2
-        assert f"agent-economy rerun {recorded}" in given.stderr + given.stdout
+        assert f"agent-economy replay {recorded}" in given.stderr + given.stdout
 
 
 @pytest.mark.parametrize(
@@ -135,10 +135,10 @@ def test_a_recording_in_place_of_a_scenario_is_to_be_taken_again(tmp_path: Path)
         (["run", "search", "--set", "robots.rover.cuont=3"], "did you mean count?"),
         (["run", "search", "--run", "9223372036854775807"], "run = 9223372036854775807: must be"),
         (["run", "search", "--record", "search.toml"], "recording's name must end in .mcap"),
-        (["run", "search", "--every", "1"], "--every: must come with --record"),
+        (["run", "search", "--every", "1"], "--every: requires --record FILE"),
         (["run", "search", "--percepts", "no/1", "--every", "5"], "--every and --percepts: must"),
         (["replicate", "search", "--out", "runs.txt"], "must end in one of .parquet, .csv"),
-        (["replicate", "search", "--out", "none/runs.csv"], "must be in a folder that is there"),
+        (["replicate", "search", "--out", "none/runs.csv"], "must be in an existing folder"),
         (["replicate", "search", "--runs", "0"], "--runs"),
         (["replicate", "search", "--out", "/proc/x.parquet"], "must be where files can be written"),
     ],
@@ -156,7 +156,7 @@ def test_a_table_that_cannot_be_written_is_told_before_the_first_run(tmp_path: P
     # So many runs would take longer than `run` waits.
     given = run("replicate", "search", "--runs", "10000000", "--out", tmp_path / "runs.csv")
     assert given.returncode == 2
-    assert given.stderr == f"--out {tmp_path}/runs.csv: must be a file, and is a folder\n"
+    assert given.stderr == f"--out {tmp_path}/runs.csv: must be a file; it is a folder\n"
     assert [file.name for file in tmp_path.iterdir()] == ["runs.csv"]
 
 

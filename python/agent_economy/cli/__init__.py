@@ -1,60 +1,83 @@
-"""The command line: it asks, shows and exits; what it shows is made elsewhere.
+"""The command line: reads options, calls the library, prints, and sets the exit code.
 
-One file a command; `told` turns what goes wrong into words and exit codes, `progress` and `table`
-are what a person sees.
+One file per command, imported only when the command is used. `errors` maps exceptions to exit
+codes; `options` has what commands share; `run_progress`, `study_progress` and `answer_table` print.
 """
 
-from typing import Annotated
+from importlib import import_module
+from typing import Annotated, Any
 
 import typer
-
-from agent_economy import __version__
-from agent_economy.cli.answer import answer
-from agent_economy.cli.check import check
-from agent_economy.cli.replicate import replicate
-from agent_economy.cli.rerun import rerun
-from agent_economy.cli.run import run
-from agent_economy.cli.scenarios import scenarios
-from agent_economy.cli.study import study
-from agent_economy.cli.ui import ui
-from agent_economy.cli.watch import watch
+from typer.core import TyperCommand, TyperGroup
 
 __all__ = ["app"]
 
+COMMANDS = {
+    "study": "Find the best team, with the fewest runs.",
+    "report": "Rebuild the answer and the report of a study.",
+    "watch": "Show the progress of a running study.",
+    "run": "Run a scenario once and print the outcome.",
+    "replicate": "Run a scenario many times and print statistics.",
+    "replay": "Replay a recording and verify it.",
+    "check": "Check scenario files.",
+    "ui": "Open the browser interface.",
+    "scenarios": "List the bundled scenarios.",
+}
+"""The module and function of each command, and its line in the list of all commands."""
+
+
+class LazyGroup(TyperGroup):
+    """Lists all commands without importing them; imports the one that is used."""
+
+    def __init__(self, **settings: Any) -> None:
+        """Register the names and one-line descriptions."""
+        super().__init__(**settings)
+        self.commands = {name: TyperCommand(name, help=line) for name, line in COMMANDS.items()}
+
+    def resolve_command(self, ctx: Any, args: list[str]) -> Any:
+        """Return the name, the command and the remaining arguments."""
+        name, command, rest = super().resolve_command(ctx, args)
+        return name, command and load(str(command.name)), rest
+
+
+def load(name: str) -> Any:
+    """Import the command of a name."""
+    function = getattr(import_module(f"agent_economy.cli.{name}"), name)
+    single = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
+    single.command(name)(function)
+    return typer.main.get_command(single)
+
+
+def print_version(is_requested: bool) -> None:  # noqa: FBT001  (typer's callback)
+    """Print the version and exit."""
+    if is_requested:
+        from agent_economy import __version__  # noqa: PLC0415  (slow to find)
+
+        typer.echo(f"agent-economy {__version__}")
+        raise typer.Exit
+
+
+# Without rich, which takes longer to load than all the rest of the help.
 app = typer.Typer(
+    cls=LazyGroup,
     add_completion=False,
     no_args_is_help=True,
     pretty_exceptions_enable=False,
-    rich_markup_mode="rich",
+    rich_markup_mode=None,
 )
-
-
-def print_version(wanted: bool) -> None:  # noqa: FBT001  (typer's callback)
-    """Print the version and end."""
-    if wanted:
-        typer.echo(f"agent-economy {__version__}")
-        raise typer.Exit
 
 
 @app.callback()
 def root(
     *,
     version: Annotated[
-        bool, typer.Option("--version", callback=print_version, is_eager=True, help="Version.")
+        bool,
+        typer.Option(
+            "--version", callback=print_version, is_eager=True, help="Print the version and exit."
+        ),
     ] = False,
 ) -> None:
-    """How many robots, of which kinds, does this job need?
+    """How many robots, of which kinds, does a job need? Answered by fast simulation.
 
     Example: agent-economy study classic
     """
-
-
-app.command()(study)
-app.command()(answer)
-app.command()(watch)
-app.command()(run)
-app.command()(replicate)
-app.command()(rerun)
-app.command()(check)
-app.command()(ui)
-app.command()(scenarios)

@@ -8,12 +8,12 @@ import typer
 
 from agent_economy import study
 from agent_economy._core import InputError
-from agent_economy.cli.given import Sets, overrides
-from agent_economy.cli.told import BAD_INPUT, faults_told
+from agent_economy.cli.errors import BAD_INPUT, error_exits
+from agent_economy.cli.options import Sets, overrides
 from agent_economy.scenario import Override, Scenario
 from agent_economy.study import design
 
-Fault = dict[str, Any]
+Error = dict[str, Any]
 
 
 def check(
@@ -21,66 +21,66 @@ def check(
         list[Path],
         typer.Argument(
             metavar="FILE...",
-            help="Scenarios' TOML files, or names of shipped ones.",
+            help="Scenario files (TOML), or names of bundled ones.",
             show_default=False,
         ),
     ],
     *,
     sets: Sets = None,
     as_json: Annotated[
-        bool, typer.Option("--json", help="Print a list of all faults instead.")
+        bool, typer.Option("--json", help="Print a JSON list of all errors.")
     ] = False,
 ) -> None:
-    """Say all that is wrong with scenarios, or that nothing is; nothing is run.
+    """Check scenario files and print all errors; nothing is run.
 
-    Exit codes: 0 nothing is wrong, 2 something is, or something given is not allowed.
+    Exit codes: 0 all are valid; 2 a scenario or an argument is invalid.
 
     Example: agent-economy check scenarios/classic.toml --set clock.time_limit_s=60
     """
-    with faults_told():
+    with error_exits():
         changes = overrides(sets)
-    faults: list[Fault] = []
+    errors: list[Error] = []
     for file in scenarios:
         try:
-            words = in_words(file, changes)
+            line = summary(file, changes)
         except InputError as error:
-            faults += faults_of(file, error)
+            errors += errors_of(file, error)
         else:
-            typer.echo(words, err=as_json)
+            typer.echo(line, err=as_json)
     if as_json:
-        typer.echo(json.dumps(faults, indent=2))
+        typer.echo(json.dumps(errors, indent=2))
     else:
-        for fault in faults:
-            typer.echo(fault["message"], err=True)
-    if faults:
+        for each in errors:
+            typer.echo(each["message"], err=True)
+    if errors:
         raise typer.Exit(BAD_INPUT)
 
 
-def in_words(file: Path, changes: tuple[Override, ...]) -> str:
-    """Return what a scenario asks, if nothing is wrong with it.
+def summary(file: Path, changes: tuple[Override, ...]) -> str:
+    """Return the line for a valid scenario.
 
     Raises:
-        InputError: If something is.
+        InputError: If it is not valid.
     """
     scenario = Scenario.load(file, changes)
     plan = study.make_plan(scenario)
-    asked = design.in_words(scenario.design, len(plan.configurations))
-    return f"{file}: nothing is wrong: engine {scenario.engine}, {asked}"
+    compared = design.in_words(scenario.design, len(plan.configurations))
+    return f"{file}: valid: engine {scenario.engine}, {compared}"
 
 
-def faults_of(file: Path, error: InputError) -> list[Fault]:
-    """Return what is wrong, one by one; what is no value's fault is a whole sentence."""
-    whole: list[Fault] = [
+def errors_of(file: Path, error: InputError) -> list[Error]:
+    """Return each error; one that is not about a value has its whole text as `allowed`."""
+    whole: list[Error] = [
         {
             "origin": str(file),
             "file": str(file),
             "line": None,
             "path": "",
-            "given": None,
+            "value": None,
             "allowed": sentence,
             "suggestion": None,
             "message": sentence,
         }
         for sentence in str(error).splitlines()
     ]
-    return [dict(fault) for fault in error.errors] or whole
+    return [dict(each) for each in error.errors] or whole

@@ -13,9 +13,9 @@ from rich.text import Text
 
 from agent_economy import api
 from agent_economy._core import InputError
-from agent_economy.cli.gauge import gauge
-from agent_economy.cli.given import Seed, Sets, overrides
-from agent_economy.cli.told import FAILED, faults_told
+from agent_economy.cli.errors import FAILED, error_exits
+from agent_economy.cli.options import Seed, Sets, overrides
+from agent_economy.cli.run_progress import progress_bar
 from agent_economy.runs import factory
 from agent_economy.runs.outcome import Outcome
 from agent_economy.runs.simulation import Simulation
@@ -25,49 +25,53 @@ from agent_economy.scenario import Scenario
 
 def run(  # noqa: PLR0913  (typer's options are arguments)
     scenario: Annotated[
-        Path, typer.Argument(help="A scenario's TOML file, or the name of one.", show_default=False)
+        Path,
+        typer.Argument(
+            help="A scenario file (TOML), or the name of a bundled one.", show_default=False
+        ),
     ],
     *,
     seed: Seed = 0,
     number: Annotated[
-        int, typer.Option("--run", min=0, help="Which run of the seed: each is another world.")
+        int, typer.Option("--run", min=0, help="Number of the run: each is a different world.")
     ] = 0,
     sets: Sets = None,
     record: Annotated[
         Path | None,
         typer.Option(
-            help="File for a recording, NAME.mcap, as Foxglove shows.", show_default=False
+            help="Write a recording to this file, NAME.mcap, for Foxglove and replay.",
+            show_default=False,
         ),
     ] = None,
     every: Annotated[
         int | None,
-        typer.Option(min=1, help="Steps from one recorded moment to the next.", show_default="1"),
+        typer.Option(min=1, help="Number of steps between recorded states.", show_default="1"),
     ] = None,
     percepts: Annotated[
         list[str] | None,
         typer.Option(
             metavar="ROBOT",
-            help="Record what the brain of rover/0 perceives and wants; may be repeated.",
+            help="Also record percepts and beliefs of a robot such as rover/0; may be repeated.",
             show_default=False,
         ),
     ] = None,
     as_json: Annotated[
-        bool, typer.Option("--json", help="Print the outcome as JSON instead of the table.")
+        bool, typer.Option("--json", help="Print the outcome as JSON instead of a table.")
     ] = False,
 ) -> None:
-    """Run a scenario once, and tell what came of it.
+    """Run a scenario once and print the outcome.
 
-    It is the same run, of the same seed and number, as one of agent-economy replicate. A recording
-    is enough to take it again: agent-economy rerun FILE.
+    The run equals the one of the same seed and number in agent-economy replicate. A recording can
+    be replayed from its file alone: agent-economy replay FILE.
 
-    Exit codes: 0 the run is over, or quarantined, 1 the disk takes no more of the recording, 2
-    something given is not allowed, 130 stopped by Ctrl-C.
+    Exit codes: 0 the run has ended or was quarantined; 1 the recording cannot be written; 2 an
+    argument or the scenario is invalid; 130 stopped by Ctrl-C.
 
     Example: agent-economy run search --seed 7 --set robots.rover.count=6 --record run.mcap
     """
-    with faults_told():
+    with error_exits():
         if record is None:
-            of_recordings_only({"--every": every, "--percepts": percepts})
+            require_record({"--every": every, "--percepts": percepts})
         given = Scenario.load(scenario, overrides(sets))
         if record is None:
             outcome = watched(given, seed, number)
@@ -81,25 +85,25 @@ def run(  # noqa: PLR0913  (typer's options are arguments)
         show(given, seed, outcome)
 
 
-def of_recordings_only(options: Mapping[str, object]) -> None:
-    """See to it that nothing is given that would change nothing.
+def require_record(options: Mapping[str, object]) -> None:
+    """Raise an error if an option of recordings is given without --record.
 
     Raises:
-        InputError: If an option has a value.
+        InputError: If it is.
     """
     if given := [name for name, value in options.items() if value]:
-        message = f"{' and '.join(given)}: must come with --record: nothing is recorded without it"
+        message = f"{' and '.join(given)}: requires --record FILE"
         raise InputError(message)
 
 
 def watched(scenario: Scenario, seed: int, number: int) -> Outcome:
-    """Run once, and show how far it is if that takes long."""
+    """Run once, with a progress bar if it takes long."""
     if scenario.engine != "metric":
         return api.run(scenario, seed, number)
     try:
         simulation = Simulation(scenario, seed, number)
     except InputError as no_room:
-        # A run that cannot begin is quarantined, as in a table of runs; what is not allowed is not.
+        # A run without room is quarantined, as in replicate; any other error is raised again.
         outcome = api.run(scenario, seed, number)
         typer.echo(str(no_room), err=True)
         return outcome
@@ -107,8 +111,8 @@ def watched(scenario: Scenario, seed: int, number: int) -> Outcome:
 
 
 def recorded(simulation: Stepped, path: Path, every: int, percepts: Sequence[str]) -> Outcome:
-    """The same, into a file; end with an exit code if the disk takes no more."""
-    # What writes recordings takes as long to load as all the rest.
+    """Run once and record it; exit with a code if the recording cannot be written."""
+    # Importing the writer takes as long as everything else.
     from agent_economy.recording import Recording, RecordingError  # noqa: PLC0415
 
     try:
@@ -121,32 +125,34 @@ def recorded(simulation: Stepped, path: Path, every: int, percepts: Sequence[str
 
 def shown(simulation: Stepped, step: Callable[[], object]) -> Outcome:
     """Step until the run is over."""
-    with gauge(simulation.scenario.time_limit_s, "simulated seconds") as tell:
+    with progress_bar(simulation.scenario.time_limit_s, "simulated seconds") as report:
         while not simulation.is_over:
             step()
-            tell(simulation.time_s)
+            report(simulation.time_s)
     return simulation.outcome()
 
 
 def show(scenario: Scenario, seed: int, outcome: Outcome) -> None:
-    """Print an outcome for people."""
+    """Print an outcome as a table."""
     title = f"{scenario.name}, seed {seed}, run {outcome.run}: {outcome.status}"
     table = Table(
         title=Text(title, style="bold"), title_justify="left", box=box.SIMPLE, show_header=False
     )
     table.add_column(no_wrap=True)
     table.add_column()
-    for name, words in lines(scenario, outcome):
-        table.add_row(name, Text(words))
+    for name, text in lines(scenario, outcome):
+        table.add_row(name, Text(text))
     Console(highlight=False).print(table)
 
 
 def lines(scenario: Scenario, outcome: Outcome) -> list[tuple[str, str]]:
-    """Return what an outcome tells, as names and words."""
+    """Return the rows of an outcome: names and texts."""
     if outcome.status == "quarantined":
-        return [("", "The run gave nothing: it had no room to begin in, or was not finite.")]
+        return [
+            ("", "No outcome: there was no room for the team or items, or a value was not finite.")
+        ]
     found = {f"{kind} found": counts(outcome, kind) for kind in outcome.found}
-    told: dict[str, str | None] = {
+    rows: dict[str, str | None] = {
         **found,
         "time": f"{outcome.time_s:.1f} s of {scenario.time_limit_s:g} s",
         "energy": number(outcome.energy_j, "J"),
@@ -158,17 +164,17 @@ def lines(scenario: Scenario, outcome: Outcome) -> list[tuple[str, str]]:
         "price": number(outcome.price),
         "merit": None if outcome.merit is None else f"{outcome.merit:.3f}",
     }
-    return [(name, words) for name, words in told.items() if words is not None]
+    return [(name, text) for name, text in rows.items() if text is not None]
 
 
 def counts(outcome: Outcome, kind: str) -> str:
-    """Return how many items of a kind were found, and of how many if that is known."""
+    """Return the number of items of a kind found, and the total where it is known."""
     found, missed = outcome.found[kind] or 0, outcome.missed.get(kind)
     return f"{found}" if missed is None else f"{found} of {found + missed}"
 
 
 def number(value: float | None, unit: str = "") -> str | None:
-    """Return a number as people read it; None where there is none."""
+    """Return a number with a readable number of digits; None for None."""
     if value is None:
         return None
     digits = 0 if isinstance(value, int) or value >= 100 or value.is_integer() else 1  # noqa: PLR2004  (a look)

@@ -5,21 +5,23 @@ from typing import Annotated
 
 import typer
 
-from agent_economy.cli.told import faults_told
+from agent_economy.cli.errors import error_exits
 from agent_economy.scenario import Scenario, bundled
 
 
 def scenarios(
     *,
-    as_json: Annotated[bool, typer.Option("--json", help="Print a list of them instead.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print the list as JSON.")] = False,
 ) -> None:
-    """List the scenarios that come with the program: name, engine, summary.
+    """List the bundled scenarios: name, engine, summary.
 
-    A name stands for its file wherever a command takes a scenario. Exit codes: 0 listed.
+    Every command that takes a scenario file also takes one of these names.
+
+    Exit codes: 0 success.
 
     Example: agent-economy scenarios
     """
-    with faults_told():
+    with error_exits():
         rows = [
             {
                 "name": name,

@@ -2,77 +2,102 @@
 
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import typer
 
 from agent_economy import study as studies
 from agent_economy._core import InputError
-from agent_economy.cli.given import Sets, overrides
-from agent_economy.cli.progress import Teller
-from agent_economy.cli.table import show
-from agent_economy.cli.told import INTERRUPTED, faults_told
-from agent_economy.scenario import Scenario
+from agent_economy.cli.answer_table import show
+from agent_economy.cli.errors import INTERRUPTED, error_exits
+from agent_economy.cli.options import Sets, overrides
+from agent_economy.cli.study_progress import ProgressDisplay
+from agent_economy.scenario import Override, Scenario
 from agent_economy.study.answer.labels import label
 from agent_economy.study.engine import Engine
 from agent_economy.study.plan import Plan, tightened
 from agent_economy.study.question import Question, usual_folder
 from agent_economy.study.rectangle import Compute
 
-Text = str | None
+QUESTION, PRECISION, COMPUTING = "Question", "Precision", "Computing"
+"""Panels of options in the help."""
+
+
+@dataclass(frozen=True)
+class NewStudy:
+    """A study of a scenario; its folder may already have runs of the same question.
+
+    Attributes:
+        scenario: The scenario file, or the name of a bundled one.
+        changes: Values that replace the scenario's.
+        settings: Arguments of `make_plan` that were given.
+        out: Folder of the study; None for the usual one.
+    """
+
+    scenario: Path
+    changes: tuple[Override, ...]
+    settings: dict[str, Any]
+    out: Path | None
+
+    def plan(self) -> tuple[Plan, Path]:
+        """Return what to compute, and the folder of the study."""
+        plan = studies.make_plan(Scenario.load(self.scenario, self.changes), **self.settings)
+        return plan, self.out or usual_folder(plan)
+
+
+@dataclass(frozen=True)
+class ResumeStudy:
+    """A study whose folder already has its question.
+
+    Attributes:
+        folder: Folder of the study.
+        confidence: A higher confidence to reach with all runs so far; None for the same.
+    """
+
+    folder: Path
+    confidence: float | None
+
+    def plan(self) -> tuple[Plan, Path]:
+        """Return what to compute, and the folder of the study."""
+        plan = studies.plan_of(self.folder)
+        return plan if self.confidence is None else tightened(plan, self.confidence), self.folder
 
 
 def study(  # noqa: PLR0913  (typer's options are arguments)
     scenario: Annotated[
         Path | None,
-        typer.Argument(help="A scenario's TOML file, or the name of one.", show_default=False),
+        typer.Argument(
+            help="A scenario file (TOML), or the name of a bundled one.", show_default=False
+        ),
     ] = None,
     *,
     vary: Annotated[
         list[str] | None,
-        typer.Option(help="What to compare, as robots.wanderer.count=1..40; may be repeated."),
+        typer.Option(
+            metavar="PATH=VALUES",
+            help="Values to compare, such as robots.wanderer.count=1..40; may be repeated.",
+            show_default="the scenario's",
+            rich_help_panel=QUESTION,
+        ),
     ] = None,
     sets: Sets = None,
     design: Annotated[
-        Text, typer.Option(help="Of what is varied: factorial, lhs:200 or sobol:256.")
-    ] = None,
-    delta: Annotated[
-        float | None,
+        str | None,
         typer.Option(
-            help="Difference of merit worth finding.",
-            show_default="the scenario's, or 2% of the merit's range",
-        ),
-    ] = None,
-    confidence: Annotated[
-        float | None, typer.Option(help="Of the guarantee.", show_default="0.95")
-    ] = None,
-    guarantee: Annotated[
-        Literal["indifference", "pgs"] | None,
-        typer.Option(
-            help="indifference: finds the best if it leads by delta. pgs: within delta of the "
-            "best, whatever the truth.",
-            show_default="indifference",
-        ),
-    ] = None,
-    runs: Annotated[
-        int | None,
-        typer.Option(
-            help="Runs of each configuration, with no guarantee.", show_default="as few as it takes"
+            help="Which combinations of values to compare: factorial, lhs:N or sobol:N (N points).",
+            show_default="the scenario's",
+            rich_help_panel=QUESTION,
         ),
     ] = None,
     merit: Annotated[
-        Text,
+        str | None,
         typer.Option(
-            help="How runs are scored: a name, as equation-5.2, or weights, as "
-            "time=-0.03,robots=-0.2,failed=-5."
-        ),
-    ] = None,
-    max_runs: Annotated[
-        int | None,
-        typer.Option(
-            help="Stop before more runs than this in all; nothing is guaranteed then.",
-            show_default="no end",
+            help="Figure of merit: a name such as equation-5.2, or weights such as "
+            "time=-0.03,robots=-0.2,failed=-5.",
+            show_default="the scenario's",
+            rich_help_panel=QUESTION,
         ),
     ] = None,
     seed: Annotated[
@@ -80,8 +105,51 @@ def study(  # noqa: PLR0913  (typer's options are arguments)
         typer.Option(
             min=0,
             max=2**64 - 1,
-            help="Of all chance: same seed, same bytes.",
+            help="Random seed: the same seed gives the same bytes.",
             show_default="0",
+            rich_help_panel=QUESTION,
+        ),
+    ] = None,
+    delta: Annotated[
+        float | None,
+        typer.Option(
+            help="Indifference zone: the smallest difference in mean merit that matters.",
+            show_default="the scenario's, or 2% of the merit's range",
+            rich_help_panel=PRECISION,
+        ),
+    ] = None,
+    confidence: Annotated[
+        float | None,
+        typer.Option(
+            help="Probability that the guarantee holds. With --resume, a higher value raises the "
+            "confidence and reuses all runs.",
+            show_default="the scenario's, or 0.95",
+            rich_help_panel=PRECISION,
+        ),
+    ] = None,
+    guarantee: Annotated[
+        Literal["indifference", "pgs"] | None,
+        typer.Option(
+            help="indifference: selects the best configuration if it leads by delta. pgs: selects "
+            "a configuration within delta of the best.",
+            show_default="indifference",
+            rich_help_panel=PRECISION,
+        ),
+    ] = None,
+    runs: Annotated[
+        int | None,
+        typer.Option(
+            help="Fixed number of runs per configuration, without a guarantee.",
+            show_default="the fewest that the guarantee allows",
+            rich_help_panel=PRECISION,
+        ),
+    ] = None,
+    max_runs: Annotated[
+        int | None,
+        typer.Option(
+            help="Run budget. If it is reached first, the answer carries no guarantee.",
+            show_default="unlimited",
+            rich_help_panel=PRECISION,
         ),
     ] = None,
     out: Annotated[
@@ -89,79 +157,84 @@ def study(  # noqa: PLR0913  (typer's options are arguments)
         typer.Option(help="Folder of the study.", show_default="studies/NAME, or NAME-DIGEST"),
     ] = None,
     resume: Annotated[
-        Path | None, typer.Option(help="Go on with the study in this folder.", show_default=False)
-    ] = None,
-    more: Annotated[
-        float | None,
-        typer.Option(
-            help="With --resume: tighten to this confidence, with all runs so far.",
-            show_default=False,
-        ),
+        Path | None,
+        typer.Option(metavar="FOLDER", help="Resume the study in this folder.", show_default=False),
     ] = None,
     workers: Annotated[
         int | None,
         typer.Option(
-            min=1, max=1024, help="Processes to run in.", show_default="threads of this one"
+            min=1,
+            max=1024,
+            help="Number of worker processes.",
+            show_default="threads of this process",
+            rich_help_panel=COMPUTING,
         ),
     ] = None,
     dask: Annotated[
-        Text, typer.Option(help="Address of a Dask scheduler to run on.", show_default=False)
+        str | None,
+        typer.Option(
+            help="Address of a Dask scheduler.", show_default=False, rich_help_panel=COMPUTING
+        ),
     ] = None,
     as_json: Annotated[
-        bool, typer.Option("--json", help="Print answer.json instead of the table.")
+        bool, typer.Option("--json", help="Print answer.json instead of a table.")
     ] = False,
 ) -> None:
-    """Say how many of which robots to send, in as few runs as that takes.
+    """Find the best team, with the fewest runs that the guarantee allows.
 
-    The folder keeps every run: stopped or killed, the study goes on when the same is asked again,
-    or with --resume. It ends with answer.json and report.html in it. An option wins over what the
-    scenario says.
+    The study's folder stores every run. A study that was stopped or killed continues when the
+    command is repeated, or with --resume. The folder receives answer.json and report.html at the
+    end. Options take precedence over the scenario.
 
-    Exit codes: 0 answered, 1 the study cannot go on (the disk is full, the folder is damaged or
-    another process has it, workers fail), 2 something given is not allowed, 130 stopped by Ctrl-C.
+    Exit codes: 0 answered; 1 the study cannot continue (the disk is full, the folder is damaged or
+    in use, workers fail); 2 an argument or the scenario is invalid; 130 stopped by Ctrl-C.
 
     Example: agent-economy study classic --vary robots.wanderer.count=1..12
     """
-    with faults_told():
+    with error_exits():
         changes = overrides(sets, vary, merit=merit, design=design)
-        one_executor(workers, dask)
-        if resume is not None:
-            others = [scenario, changes or None, delta, confidence, guarantee, runs, max_runs]
-            is_alone = all(each is None for each in [*others, seed, out])
-            folder, asked = resume, resumed(resume, more, alone=is_alone)
+        settings = {
+            "seed": seed,
+            "delta": delta,
+            "guarantee": guarantee,
+            "runs": runs,
+            "max_runs": max_runs,
+        }
+        settings = {name: value for name, value in settings.items() if value is not None}
+        refuse_two_executors(workers, dask)
+        request: NewStudy | ResumeStudy
+        if resume is None:
+            if confidence is not None:
+                settings["confidence"] = confidence
+            request = NewStudy(required(scenario), changes, settings, out)
         else:
-            given = Scenario.load(required(scenario, more), changes)
-            asked = studies.make_plan(
-                given,
-                seed=seed or 0,
-                delta=delta,
-                confidence=confidence,
-                guarantee=guarantee or "indifference",
-                runs=runs,
-                max_runs=max_runs,
-            )
-            folder = out or usual_folder(asked)
-        typer.echo(str(Question.of(asked)), err=True)
-        found = watched(asked, folder, workers, dask)
-    show(found, folder, as_json=as_json)
+            others = {"SCENARIO": scenario, "--out": out} | settings
+            refuse_with_resume(others, changes)
+            request = ResumeStudy(resume, confidence)
+        plan, folder = request.plan()
+        typer.echo(str(Question.of(plan)), err=True)
+        answer = compute_answer(plan, folder, workers, dask)
+    show(answer, folder, as_json=as_json)
 
 
-def watched(asked: Plan, folder: Path, workers: int | None, dask: str | None) -> studies.Answer:
-    """Run a study and show how it goes on; say what is kept when Ctrl-C stops it."""
-    teller = Teller([label(values) for values in asked.configurations])
+def compute_answer(
+    plan: Plan, folder: Path, workers: int | None, dask: str | None
+) -> studies.Answer:
+    """Run a study with a progress display; Ctrl-C prints how to resume it."""
+    display = ProgressDisplay([label(values) for values in plan.configurations])
     try:
-        with computing(asked.engine, workers, dask) as compute, teller.shown() as on_progress:
-            return studies.pursue(asked, folder, compute=compute, on_progress=on_progress)
+        with executor(plan.engine, workers, dask) as compute, display.shown() as on_progress:
+            return studies.pursue(plan, folder, compute=compute, on_progress=on_progress)
     except KeyboardInterrupt:
-        begun = (folder / "study.toml").exists()
-        kept = f"; all are kept. Go on with: agent-economy study --resume {folder}"
-        typer.echo(f"\nStopped after {teller.runs:,} runs{kept if begun else '.'}", err=True)
+        is_stored = (folder / "study.toml").exists()
+        advice = f"; all are stored. Resume with: agent-economy study --resume {folder}"
+        typer.echo(f"\nStopped after {display.runs:,} runs{advice if is_stored else '.'}", err=True)
         raise typer.Exit(INTERRUPTED) from None
 
 
 @contextmanager
-def computing(engine: Engine, workers: int | None, dask: str | None) -> Iterator[Compute | None]:
-    """Start what computes, other than threads of this process, and end it."""
+def executor(engine: Engine, workers: int | None, dask: str | None) -> Iterator[Compute | None]:
+    """Start the executor of runs and stop it at the end; None for threads of this process."""
     with ExitStack() as stack:
         if workers is not None:
             yield stack.enter_context(engine.in_processes(workers)).columns
@@ -171,33 +244,47 @@ def computing(engine: Engine, workers: int | None, dask: str | None) -> Iterator
             yield None
 
 
-def one_executor(workers: int | None, dask: str | None) -> None:
-    """Refuse two places to run in."""
+def refuse_two_executors(workers: int | None, dask: str | None) -> None:
+    """Raise an error if runs are to be computed in two places.
+
+    Raises:
+        InputError: If both options are given.
+    """
     if workers is not None and dask is not None:
-        message = "--workers, --dask: must be one of them: processes of this machine, or a cluster"
+        message = "--workers, --dask: expected one of them: local processes, or a cluster"
         raise InputError(message)
 
 
-def required(scenario: Path | None, more: float | None) -> Path:
-    """Return the scenario, which is needed without --resume."""
+def required(scenario: Path | None) -> Path:
+    """Return the scenario of a new study.
+
+    Raises:
+        InputError: If it is missing.
+    """
     if scenario is None:
         message = (
-            "SCENARIO is missing: expected a TOML file or a name from `agent-economy scenarios`"
+            "SCENARIO is missing: expected a TOML file, or a name from agent-economy scenarios; "
+            "or --resume FOLDER"
         )
-        raise InputError(message)
-    if more is not None:
-        message = f"--more = {more:g}: must come with --resume FOLDER; else use --confidence"
         raise InputError(message)
     return scenario
 
 
-def resumed(folder: Path, more: float | None, *, alone: bool) -> Plan:
-    """Return the plan of a study to go on with."""
-    if not alone:
+def refuse_with_resume(others: dict[str, Any], changes: tuple[Override, ...]) -> None:
+    """Raise an error if anything is given that the folder of a study already has.
+
+    Raises:
+        InputError: If an option is set.
+    """
+    given = [
+        name if name.startswith("--") or name.isupper() else f"--{name.replace('_', '-')}"
+        for name, value in others.items()
+        if value is not None
+    ]
+    given += [change.origin for change in changes]
+    if given:
         message = (
-            "--resume: must be alone, or with --more, --workers, --dask and --json: what is asked "
-            "stands in the folder"
+            f"--resume: cannot be combined with {', '.join(given)}: the folder already has the "
+            "question; only --confidence, --workers, --dask and --json are allowed"
         )
         raise InputError(message)
-    asked = studies.plan_of(folder)
-    return asked if more is None else tightened(asked, more)

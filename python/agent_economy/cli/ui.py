@@ -10,7 +10,7 @@ from typing import Annotated
 import typer
 import uvicorn
 
-from agent_economy.cli.told import BAD_INPUT, faults_told
+from agent_economy.cli.errors import BAD_INPUT, error_exits
 from agent_economy.server import Workspace, app
 from agent_economy.server.guard import is_loopback
 from agent_economy.server.request_body import MAX_BYTES
@@ -18,25 +18,29 @@ from agent_economy.server.request_body import MAX_BYTES
 
 def ui(
     *,
-    host: Annotated[str, typer.Option(help="Name or address to listen at.")] = "127.0.0.1",
-    port: Annotated[int, typer.Option(min=0, max=65535, help="0 for any that is free.")] = 8765,
+    host: Annotated[str, typer.Option(help="Host name or address to listen on.")] = "127.0.0.1",
+    port: Annotated[
+        int, typer.Option(min=0, max=65535, help="Port to listen on; 0 for any free port.")
+    ] = 8765,
     no_browser: Annotated[
-        bool, typer.Option("--no-browser", help="Only print the page's address.")
+        bool, typer.Option("--no-browser", help="Print the address without opening a browser.")
     ] = False,
 ) -> None:
-    """Open a page on which runs are seen, and changed while they run.
+    """Open the browser interface, to watch and change runs and to start studies.
 
-    It serves this machine only, unless told otherwise by --host: then pages need the token in the
-    address that it prints. Scenarios are those that ship, and those in and below this folder.
-    Ctrl-C ends it. Exit codes: 0 ended, 2 something given is not allowed.
+    By default it serves this machine only. With another --host, pages need the token in the
+    printed address. It offers the bundled scenarios and those in and below the current folder.
+    Press Ctrl-C to stop.
+
+    Exit codes: 0 stopped; 2 an argument is invalid.
 
     Example: agent-economy ui --no-browser
     """
-    with faults_told():
+    with error_exits():
         listening = bound(host, port)
         token = None if is_loopback(host) else secrets.token_urlsafe(24)
         address = address_of(host, listening.getsockname()[1], token)
-        typer.echo(f"Agent Economy is at {address}   (Ctrl-C ends it)")
+        typer.echo(f"Agent Economy is at {address}   (Ctrl-C stops it)")
         if not no_browser:
             webbrowser.open(address)
         served = app(Workspace(Path.cwd()), host, token)
@@ -45,7 +49,7 @@ def ui(
             log_level="warning",
             ws="websockets-sansio",
             ws_max_size=MAX_BYTES,
-            # Frames are floats, which pack badly: of 10,000 robots it took 7 ms each.
+            # Frames are floats, which compress badly: with 10,000 robots it took 7 ms each.
             ws_per_message_deflate=False,
             lifespan="on",
         )
@@ -54,7 +58,7 @@ def ui(
 
 
 def bound(host: str, port: int) -> socket.socket:
-    """Return a socket that listens; end the program if it cannot."""
+    """Return a listening socket; exit with a code if the address cannot be used."""
     try:
         family, kind, protocol, _, address = socket.getaddrinfo(
             host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE
@@ -62,11 +66,11 @@ def bound(host: str, port: int) -> socket.socket:
         listening = socket.socket(family, kind, protocol)
         listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         listening.bind(address)
-        # From now on who comes waits: the address is told before the server has begun.
+        # Clients wait from now on: the address is printed before the server has started.
         listening.listen()
     except OSError as error:
         typer.echo(
-            f"--host {host} --port {port}: cannot be listened at: {error.strerror}; give another",
+            f"--host {host} --port {port}: cannot listen there: {error.strerror}; choose another",
             err=True,
         )
         raise typer.Exit(BAD_INPUT) from None

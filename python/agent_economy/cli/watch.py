@@ -8,29 +8,29 @@ from typing import Annotated
 import typer
 
 from agent_economy import study
-from agent_economy.cli.progress import Teller
-from agent_economy.cli.told import FAILED, INTERRUPTED, faults_told
+from agent_economy.cli.errors import FAILED, INTERRUPTED, error_exits
+from agent_economy.cli.study_progress import ProgressDisplay
 from agent_economy.study.answer.labels import label
 from agent_economy.study.progress import Progress
 
 PAUSE_S = 0.5
-"""Between two looks at the ledger."""
+"""Time between two reads of the ledger."""
 
 
 def watch(
-    folder: Annotated[Path, typer.Argument(help="Folder of a study.", show_default=False)],
+    folder: Annotated[Path, typer.Argument(help="The folder of a study.", show_default=False)],
 ) -> None:
-    """Show how far a study is that another process runs, until it is over; it is not disturbed.
+    """Show the progress of a study in another process until it is finished.
 
-    Exit codes: 0 the study is over, 1 it is not, but nobody works on it, 2 something given is not
-    allowed, 130 stopped by Ctrl-C.
+    Exit codes: 0 the study is finished; 1 it is unfinished and no process is working on it; 2 an
+    argument is invalid; 130 stopped by Ctrl-C.
 
     Example: agent-economy watch studies/classic
     """
-    with faults_told():
+    with error_exits():
         names = [label(values) for values in study.plan_of(folder).configurations]
         try:
-            with Teller(names).shown() as on_progress:
+            with ProgressDisplay(names).shown() as on_progress:
                 is_over = False
                 for progress in rounds(folder):
                     on_progress(progress)
@@ -38,23 +38,26 @@ def watch(
         except KeyboardInterrupt:
             raise typer.Exit(INTERRUPTED) from None
     if not is_over:
-        message = f"Nobody works on it, and it is not over: agent-economy study --resume {folder}"
+        message = (
+            "The study is unfinished and no process is working on it. "
+            f"Resume with: agent-economy study --resume {folder}"
+        )
         typer.echo(message, err=True)
         raise typer.Exit(FAILED)
-    typer.echo("The study is over.")
+    typer.echo("The study is finished.")
 
 
 def rounds(folder: Path) -> Iterator[Progress]:
-    """Yield a study's rounds, those over first and then each as it comes, while somebody works."""
+    """Yield the past rounds of a study, and then each new one while a process works on it."""
     store = study.open(folder)
     done, begin, first_runs = 0, time.monotonic(), 0
     is_worked_on = True
     while is_worked_on:
-        # Looked at before the rounds: what comes after the last look is seen in the next.
+        # Read before the rounds: a round that ends in between is seen in the next pass.
         is_worked_on = study.is_worked_on(folder)
         decisions = store.decisions()
         first_runs = first_runs or (decisions[-1].facts["runs"] if decisions else 0)
-        # Another question of the same study begins its rounds anew.
+        # Another question of the same study starts its rounds from zero.
         done = min(done, len(decisions))
         for decision in decisions[done:]:
             computed = max(0, decision.facts["runs"] - first_runs)

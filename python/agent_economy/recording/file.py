@@ -81,7 +81,7 @@ class Output:
             message = (
                 f"{self._path}: cannot be written any further: {error.strerror or error}: make "
                 "room, write it elsewhere, or record fewer moments (every = 10, --every 10); what "
-                "is there can be taken again with agent-economy rerun"
+                "is there can be taken again with agent-economy replay"
             )
             raise RecordingError(message) from None
 

@@ -15,17 +15,17 @@ from agent_economy.study.answer.results import Result
 from agent_economy.study.store.folder import REPORT
 
 WIDE = 118
-"""Columns that a table with ranges needs, and that there are where the output is no terminal."""
+"""Width of a table with ranges, and of output that is not a terminal."""
 
 NAME = 12
-"""Columns that the name of a configuration needs."""
+"""Minimum width of the name of a configuration."""
 
-MOST = 20
-"""Configurations that a table shows, the best ones."""
+MAX_ROWS = 20
+"""Maximum number of configurations in a table."""
 
 
 def show(answer: Answer, folder: Path, *, as_json: bool) -> None:
-    """Print an answer: as JSON, or the table, the words, and where the report is."""
+    """Print an answer: as JSON, or as a table, a sentence and the path of the report."""
     if as_json:
         typer.echo(files.as_json(answer), nl=False)
         return
@@ -49,7 +49,7 @@ def results_table(answer: Answer, *, ranges: bool) -> Table:
         value, low, high = (format(each, style) for each in (given.value, given.low, given.high))
         return f"{value} ({low}..{high})" if ranges else value
 
-    shown = best_first(answer)[:MOST]
+    shown = best_first(answer)[:MAX_ROWS]
     left_out = len(answer.results) - len(shown)
     caption = f"and {left_out} more, in answer.json" if left_out else None
     table = Table(
@@ -79,7 +79,7 @@ def results_table(answer: Answer, *, ranges: bool) -> Table:
 
 def best_first(answer: Answer) -> list[Result]:
     """Return all results in the configurations' order if they all fit, else the best ones first."""
-    if len(answer.results) <= MOST:
+    if len(answer.results) <= MAX_ROWS:
         return list(answer.results)
     chosen = answer.results[answer.best]
     others = [result for result in answer.results if result is not chosen]

@@ -1,4 +1,4 @@
-"""What a person gives on the command line, as values put over what a scenario says."""
+"""Options that commands share, and the values of a scenario that options replace."""
 
 import tomllib
 from typing import Annotated, Any
@@ -14,14 +14,17 @@ Sets = Annotated[
     typer.Option(
         "--set",
         metavar="PATH=VALUE",
-        help="A value of the scenario, as clock.time_limit_s=60; may be repeated.",
+        help="Replace a value of the scenario, such as clock.time_limit_s=60; may be repeated.",
         show_default=False,
     ),
 ]
-"""The option --set, which every command has that takes a scenario."""
+"""The option --set of every command that takes a scenario."""
 
 Seed = Annotated[
-    int, typer.Option("--seed", min=0, max=2**64 - 1, help="Of all chance: same seed, same bytes.")
+    int,
+    typer.Option(
+        "--seed", min=0, max=2**64 - 1, help="Random seed: the same seed gives the same bytes."
+    ),
 ]
 """The option --seed of a command that runs a scenario."""
 
@@ -33,11 +36,11 @@ def overrides(
     merit: str | None = None,
     design: str | None = None,
 ) -> tuple[Override, ...]:
-    """Return what options say, as values put over the file's.
+    """Return the values that options set, in place of the file's.
 
     Raises:
-        InputError: If a --set is not PATH=VALUE, or a --vary not PATH=VALUES; or one is given twice
-            for one path.
+        InputError: If a --set is not PATH=VALUE, a --vary is not PATH=VALUES, or one of them has a
+            path twice.
     """
     changes = [assigned(text) for text in once("--set", sets or [])]
     changes += [varied(text) for text in once("--vary", vary or [])]
@@ -51,41 +54,41 @@ def overrides(
 
 
 def once(option: str, given: list[str]) -> list[str]:
-    """Return what is given, unless it is given twice for one path.
+    """Return the values of an option that allows each path once.
 
     Raises:
-        InputError: If it is.
+        InputError: If a path occurs twice.
     """
     paths = [text.partition("=")[0].strip() for text in given]
     twice = next((path for path in paths if paths.count(path) > 1), None)
     if twice:
         such = f", such as {twice}=1..4,8" if option == "--vary" else ""
-        message = f"{option} {twice}: is given twice: must be given once{such}"
+        message = f"{option} {twice}: occurs twice: expected once{such}"
         raise InputError(message)
     return given
 
 
 def assigned(text: str) -> Override:
-    """Return the value of PATH=VALUE."""
+    """Return the override that PATH=VALUE stands for."""
     path, value = parts("--set", text, "PATH=VALUE, such as clock.time_limit_s=60")
     return Override.at(path, parsed(value), f"--set {path}")
 
 
 def varied(text: str) -> Override:
-    """Return the factor and values of PATH=VALUES."""
+    """Return the override that PATH=VALUES stands for."""
     path, values = parts("--vary", text, "PATH=VALUES, such as robots.wanderer.count=1..12")
     return Override(("study", "vary", path), values, "--vary")
 
 
 def parts(option: str, text: str, allowed: str) -> tuple[str, str]:
-    """Return what stands before and after the first equals sign."""
+    """Return the parts before and after the first equals sign."""
     path, equals, value = text.partition("=")
     check(bool(equals), option, text, allowed)
     return path.strip(), value.strip()
 
 
 def parsed(text: str) -> Any:
-    """Return a value as TOML has it; what is no TOML is a text."""
+    """Return a value read as TOML, or as a string where it is not valid TOML."""
     try:
         document = tomllib.loads(f"value = {text}")
     except tomllib.TOMLDecodeError:

@@ -1,4 +1,4 @@
-"""How far a study is, told to people: a live table on a terminal, else plain lines."""
+"""The progress of a study: a live table on a terminal, else plain lines."""
 
 import math
 import time
@@ -14,24 +14,24 @@ from rich.text import Text
 from agent_economy.study.progress import OnProgress, Progress
 
 PAUSE_S = 2.0
-"""Between two plain lines in which nobody goes out."""
+"""Time between plain lines when no configuration is eliminated."""
 
-FORETELL_S = 1.0
-"""Between two estimates of the time left."""
+ESTIMATE_PERIOD_S = 1.0
+"""Time between estimates of the time left."""
 
-NAMED = 3
-"""Configurations going out that a line names."""
+MAX_NAMED = 3
+"""Maximum number of eliminated configurations that a line names."""
 
 
-class Teller:
-    """Tells progress on standard error, and remembers it for when the study is stopped."""
+class ProgressDisplay:
+    """Prints progress on standard error, and keeps the run count for when the study is stopped."""
 
     def __init__(self, names: Sequence[str]) -> None:
-        """Begin with nothing done; `names` are what people call the configurations."""
+        """Start at no runs; `names` are the labels of the configurations."""
         self.names = names
         self.runs = 0
         self._left: float | None = None
-        self._foretold_at = -math.inf
+        self._estimated_at = -math.inf
 
     @contextmanager
     def shown(self) -> Iterator[OnProgress]:
@@ -48,7 +48,7 @@ class Teller:
 
     @contextmanager
     def _table(self, console: Console) -> Iterator[OnProgress]:
-        """Show the best so far, redrawn in place."""
+        """Show the leading configurations, redrawn in place."""
         with Live(console=console, transient=True, refresh_per_second=8) as live:
 
             def redraw(progress: Progress) -> None:
@@ -61,13 +61,13 @@ class Teller:
 
     @contextmanager
     def _lines(self, console: Console) -> Iterator[OnProgress]:
-        """Show a line when somebody goes out, and now and then."""
-        said_at = [0.0]
+        """Print a line at each elimination, and every few seconds."""
+        printed_at = [0.0]
 
         def line(progress: Progress) -> None:
-            if progress.eliminated or time.monotonic() - said_at[0] > PAUSE_S:
-                said_at[0] = time.monotonic()
-                text = self._header(progress).plain + self._gone(progress)
+            if progress.eliminated or time.monotonic() - printed_at[0] > PAUSE_S:
+                printed_at[0] = time.monotonic()
+                text = self._header(progress).plain + self._eliminated(progress)
                 console.print(text, highlight=False, soft_wrap=True, markup=False, emoji=False)
 
         yield line
@@ -76,16 +76,16 @@ class Teller:
         rate = progress.computed / progress.seconds if progress.seconds > 0 else 0.0
         text = (
             f"round {progress.round}: {progress.runs:,} runs, {progress.survivors} of "
-            f"{len(self.names)} still in" + (f", {rate:,.0f} runs/s" if rate else "")
+            f"{len(self.names)} remaining" + (f", {rate:,.0f} runs/s" if rate else "")
         )
         return Text(text + self._time_left(progress, rate))
 
     def _time_left(self, progress: Progress, rate: float) -> str:
-        """Return about how long it takes yet, anew each second: foretelling takes a moment."""
+        """Return the estimated time left, updated each second: the estimate takes a moment."""
         if not rate or progress.is_over:
             return ""
-        if time.monotonic() - self._foretold_at > FORETELL_S:
-            self._foretold_at = time.monotonic()
+        if time.monotonic() - self._estimated_at > ESTIMATE_PERIOD_S:
+            self._estimated_at = time.monotonic()
             self._left = progress.foretell()
         return "" if self._left is None else f", about {duration(self._left / rate)} left"
 
@@ -99,20 +99,20 @@ class Teller:
             table.add_row(name, f"{leader.runs:,}", f"{leader.merit:.3f}")
         return table
 
-    def _gone(self, progress: Progress) -> str:
-        """Return who went out in a round."""
+    def _eliminated(self, progress: Progress) -> str:
+        """Return the configurations eliminated in a round."""
         words = [
             f"{self.names[each.configuration]} (by {self.names[each.by]}, {each.runs:,} runs)"
-            for each in progress.eliminated[:NAMED]
+            for each in progress.eliminated[:MAX_NAMED]
         ]
-        more = len(progress.eliminated) - NAMED
+        more = len(progress.eliminated) - MAX_NAMED
         if more > 0:
             words.append(f"{more} more")
-        return f"; out: {', '.join(words)}" if words else ""
+        return f"; eliminated: {', '.join(words)}" if words else ""
 
 
 def duration(seconds: float) -> str:
-    """Return a duration as people say it."""
+    """Return a duration in a readable unit."""
     for unit, length in (("h", 3600), ("min", 60)):
         if seconds >= 2 * length:
             return f"{seconds / length:.0f} {unit}"

@@ -1,0 +1,34 @@
+"""Exceptions as messages on standard error, and exit codes."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import typer
+
+import agent_economy as ae
+
+FAILED = 1
+"""Exit code when a command cannot be completed."""
+
+BAD_INPUT = 2
+"""Exit code when an argument, a scenario or a file is not allowed."""
+
+INTERRUPTED = 130
+"""Exit code after Ctrl-C, as in shells."""
+
+
+@contextmanager
+def error_exits() -> Iterator[None]:
+    """Print an expected exception and exit with its code."""
+    try:
+        yield
+    except KeyboardInterrupt:
+        typer.echo("\nStopped.", err=True)
+        raise typer.Exit(INTERRUPTED) from None
+    # Before InputError: the error of a damaged store is both.
+    except ae.StudyError as error:
+        typer.echo(str(error), err=True)
+        raise typer.Exit(FAILED) from None
+    except ae.InputError as error:
+        typer.echo(str(error), err=True)
+        raise typer.Exit(BAD_INPUT) from None

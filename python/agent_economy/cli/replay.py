@@ -1,0 +1,69 @@
+"""The command `replay`."""
+
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from agent_economy import __version__
+from agent_economy.cli.errors import FAILED, error_exits
+
+if TYPE_CHECKING:
+    from agent_economy.recording import Rerun
+
+
+def replay(
+    file: Annotated[Path, typer.Argument(help="A recording of a run.", show_default=False)],
+    *,
+    verify: Annotated[
+        bool,
+        typer.Option(
+            "--verify/--no-verify", help="Exit with code 1 if a recorded state is not reproduced."
+        ),
+    ] = True,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print the result as JSON instead of a sentence.")
+    ] = False,
+) -> None:
+    """Replay a recorded run from its file alone, and verify that it is reproduced exactly.
+
+    Every recorded state is compared bit by bit. A truncated recording is compared up to its end.
+
+    Exit codes: 0 reproduced; 1 not reproduced; 2 the file is damaged or not a recording;
+    130 stopped by Ctrl-C.
+
+    Example: agent-economy replay run.mcap
+    """
+    # Importing the reader takes as long as everything else.
+    from agent_economy import recording  # noqa: PLC0415
+
+    with error_exits():
+        result = recording.rerun(file)
+    typer.echo(json.dumps(as_dict(result), indent=2) if as_json else as_sentence(result))
+    if verify and not result.agrees:
+        raise typer.Exit(FAILED)
+
+
+def as_sentence(result: "Rerun") -> str:
+    """Return the result of a replay in words."""
+    which = f"{result.scenario.name}, seed {result.seed}, run {result.run}"
+    if result.agrees:
+        verdict = f"reproduced up to step {result.tick:,} (hash {result.hash})"
+    else:
+        verdict = f"differs from the recording from step {result.differs_at:,} on"
+        if result.program != __version__:
+            verdict += f"; recorded by version {result.program}, replayed by {__version__}"
+    end = (
+        "" if result.is_whole else f"; the recording is truncated: it ends at step {result.tick:,}"
+    )
+    return f"{which}: {verdict}{end}"
+
+
+def as_dict(result: "Rerun") -> dict[str, object]:
+    """Return the result of a replay for programs."""
+    names = ("seed", "run", "program", "is_whole", "tick", "hash", "agrees", "differs_at")
+    return {
+        "scenario": result.scenario.name,
+        **{name: getattr(result, name) for name in names},
+    }

@@ -1,0 +1,55 @@
+"""The progress of runs: redrawn in place on a terminal, else plain lines."""
+
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, nullcontext
+
+from rich.console import Console
+from rich.live import Live
+from rich.text import Text
+
+from agent_economy.cli.study_progress import PAUSE_S, duration
+
+REDRAW_S = 1 / 8
+
+ESTIMATE_AFTER_S = 1.0
+"""The remaining time is estimated after this time."""
+
+
+@contextmanager
+def progress_bar(total: float, unit: str) -> Iterator[Callable[[float], None]]:
+    """Print progress on standard error, unless the work ends soon.
+
+    Args:
+        total: The amount of work.
+        unit: Its unit, such as "runs".
+
+    Returns:
+        A function that takes the amount done; it may be called as often as you like.
+    """
+    console = Console(stderr=True)
+    live = Live(console=console, transient=True, auto_refresh=False)
+    begin = time.monotonic()
+    printed_at = begin
+
+    def report(done: float) -> None:
+        nonlocal printed_at
+        now = time.monotonic()
+        if now - printed_at < (REDRAW_S if console.is_terminal else PAUSE_S):
+            return
+        printed_at = now
+        text = f"{done:,.0f} of {total:,.0f} {unit}{time_left(done / total, now - begin)}"
+        if console.is_terminal:
+            live.update(Text(text), refresh=True)
+        else:
+            console.print(text, highlight=False, soft_wrap=True, markup=False, emoji=False)
+
+    with live if console.is_terminal else nullcontext():
+        yield report
+
+
+def time_left(share: float, seconds: float) -> str:
+    """Return the estimated time left, as the end of a line."""
+    if seconds < ESTIMATE_AFTER_S or not 0 < share < 1:
+        return ""
+    return f", about {duration(seconds * (1 - share) / share)} left"
