@@ -18,7 +18,7 @@ from mcap.records import Channel
 from mcap.stream_reader import StreamReader
 from metric import ENDLESS, search
 from recorded import SECOND_NS, Message, contents
-from test_cli import run
+from command_line import run
 
 import agent_economy as ae
 from agent_economy import InputError, Scenario
@@ -464,12 +464,12 @@ def test_the_command_line_records_and_takes_again(tmp_path: Path) -> None:
     given = run("run", *args, "--record", path, "--percepts", "rover/0")
     assert given.returncode == 0, given.stderr
     assert {"/tf", "/percept/rover/0"} < contents(Path(path)).topics.keys()
-    again = run("rerun", path)
+    again = run("replay", path)
     assert (again.returncode, again.stderr) == (0, "")
     assert again.stdout.startswith("search, seed 7, run 0: the same as recorded, up to step 100")
-    told = json.loads(run("rerun", path, "--json").stdout)
+    told = json.loads(run("replay", path, "--json").stdout)
     assert (told["agrees"], told["differs_at"], told["tick"]) == (True, None, 100)
-    refused = run("rerun", "README.md")
+    refused = run("replay", "README.md")
     assert refused.returncode == 2
     assert "Traceback" not in refused.stderr
 
@@ -479,6 +479,6 @@ def test_the_command_line_says_when_a_run_is_not_the_same(tmp_path: Path) -> Non
     with ae.Recording(simulation, tmp_path / "run.mcap") as recording:
         simulation.step(commands={"rover/0": DRIVE})
         recording.step(3)
-    given = run("rerun", str(tmp_path / "run.mcap"))
+    given = run("replay", str(tmp_path / "run.mcap"))
     assert given.returncode == 1
     assert "search, seed 0, run 0: not the same as recorded from step 2 on" in given.stdout

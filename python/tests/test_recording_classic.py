@@ -11,7 +11,7 @@ import jsonschema
 import numpy as np
 import pytest
 from recorded import SECOND_NS, contents
-from test_cli import run
+from command_line import run
 
 import agent_economy as ae
 from agent_economy import ClassicSimulation, InputError, Scenario
@@ -253,7 +253,7 @@ def test_the_command_line_records_and_takes_again(tmp_path: Path) -> None:
     assert (given.returncode, given.stderr) == (0, "")
     outcome = ae.run("classic", 7)
     assert json.loads(given.stdout)["paints"] == outcome.row["paints"]
-    again = run("rerun", path)
+    again = run("replay", path)
     assert (again.returncode, again.stderr) == (0, "")
     steps = f"{outcome.row['paints']:,}"
     assert again.stdout.startswith(
