@@ -13,12 +13,12 @@ from typing import Any
 import jsonschema
 import numpy as np
 import pytest
+from command_line import run
 from conftest import ROOT
 from mcap.records import Channel
 from mcap.stream_reader import StreamReader
 from metric import ENDLESS, search
 from recorded import SECOND_NS, Message, contents
-from command_line import run
 
 import agent_economy as ae
 from agent_economy import InputError, Scenario
@@ -466,7 +466,7 @@ def test_the_command_line_records_and_takes_again(tmp_path: Path) -> None:
     assert {"/tf", "/percept/rover/0"} < contents(Path(path)).topics.keys()
     again = run("replay", path)
     assert (again.returncode, again.stderr) == (0, "")
-    assert again.stdout.startswith("search, seed 7, run 0: the same as recorded, up to step 100")
+    assert again.stdout.startswith("search, seed 7, run 0: reproduced up to step 100")
     told = json.loads(run("replay", path, "--json").stdout)
     assert (told["agrees"], told["differs_at"], told["tick"]) == (True, None, 100)
     refused = run("replay", "README.md")
@@ -481,4 +481,4 @@ def test_the_command_line_says_when_a_run_is_not_the_same(tmp_path: Path) -> Non
         recording.step(3)
     given = run("replay", str(tmp_path / "run.mcap"))
     assert given.returncode == 1
-    assert "search, seed 0, run 0: not the same as recorded from step 2 on" in given.stdout
+    assert "search, seed 0, run 0: differs from the recording from step 2 on" in given.stdout

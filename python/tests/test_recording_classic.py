@@ -10,8 +10,8 @@ from typing import Any
 import jsonschema
 import numpy as np
 import pytest
-from recorded import SECOND_NS, contents
 from command_line import run
+from recorded import SECOND_NS, contents
 
 import agent_economy as ae
 from agent_economy import ClassicSimulation, InputError, Scenario
@@ -256,9 +256,7 @@ def test_the_command_line_records_and_takes_again(tmp_path: Path) -> None:
     again = run("replay", path)
     assert (again.returncode, again.stderr) == (0, "")
     steps = f"{outcome.row['paints']:,}"
-    assert again.stdout.startswith(
-        f"classic, seed 7, run 0: the same as recorded, up to step {steps}"
-    )
+    assert again.stdout.startswith(f"classic, seed 7, run 0: reproduced up to step {steps}")
     refused = run("run", "classic", "--record", path, "--percepts", "wanderer/0")
     assert refused.returncode == 2
     assert "robots of 2003 have no minds" in refused.stderr

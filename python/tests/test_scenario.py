@@ -108,7 +108,7 @@ def test_faults_are_there_one_by_one_with_their_places(classic_toml: Path) -> No
         "clock.time_limit_s": (None, None),
     }
     (contact,) = (fault for fault in caught.value.errors if fault["path"] == "contact")
-    assert (contact["origin"], contact["given"]) == ("my.toml:7", '"tuoch"')
+    assert (contact["origin"], contact["value"]) == ("my.toml:7", '"tuoch"')
     assert contact["suggestion"] == '"touch"'
     assert "one of" in contact["allowed"]
     assert InputError("of another kind").errors == ()
