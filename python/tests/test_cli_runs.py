@@ -136,11 +136,14 @@ def test_a_recording_in_place_of_a_scenario_is_to_be_taken_again(tmp_path: Path)
         (["run", "search", "--run", "9223372036854775807"], "run = 9223372036854775807: must be"),
         (["run", "search", "--record", "search.toml"], "recording's name must end in .mcap"),
         (["run", "search", "--every", "1"], "--every: requires --record FILE"),
-        (["run", "search", "--percepts", "no/1", "--every", "5"], "--every and --percepts: must"),
+        (
+            ["run", "search", "--percepts", "no/1", "--every", "5"],
+            "--every and --percepts: requires --record FILE",
+        ),
         (["replicate", "search", "--out", "runs.txt"], "must end in one of .parquet, .csv"),
         (["replicate", "search", "--out", "none/runs.csv"], "must be in an existing folder"),
         (["replicate", "search", "--runs", "0"], "--runs"),
-        (["replicate", "search", "--out", "/proc/x.parquet"], "must be where files can be written"),
+        (["replicate", "search", "--out", "/proc/x.parquet"], "is not writable"),
     ],
 )
 def test_what_is_not_allowed_is_told(arguments: list[str], told: str, tmp_path: Path) -> None:
