@@ -418,7 +418,7 @@ def test_the_command_line_says_that_a_disk_is_full(tmp_path: Path) -> None:
     assert given.returncode == 1
     assert given.stderr.startswith(f"{path}: cannot be written any further: No space left")
     assert len(given.stderr.splitlines()) == 1
-    assert "1 the disk takes no more" in " ".join(run("run", "--help").stdout.split())
+    assert "1 the recording cannot be written" in " ".join(run("run", "--help").stdout.split())
 
 
 KILLED = """
