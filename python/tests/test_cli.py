@@ -413,6 +413,7 @@ class CtrlC:
             raise KeyboardInterrupt
 
 sys.meta_path.insert(0, CtrlC())
+sys.argv[1:] = ["scenarios"]
 from agent_economy.__main__ import main
 main()
 """

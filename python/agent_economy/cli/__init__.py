@@ -10,6 +10,8 @@ from typing import Annotated, Any
 import typer
 from typer.core import TyperCommand, TyperGroup
 
+from agent_economy.cli.errors import error_exits
+
 __all__ = ["app"]
 
 COMMANDS = {
@@ -42,7 +44,8 @@ class LazyGroup(TyperGroup):
 
 def load(name: str) -> Any:
     """Import the command of a name."""
-    function = getattr(import_module(f"agent_economy.cli.{name}"), name)
+    with error_exits():  # Ctrl-C during the import
+        function = getattr(import_module(f"agent_economy.cli.{name}"), name)
     single = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
     single.command(name)(function)
     return typer.main.get_command(single)
