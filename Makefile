@@ -39,6 +39,7 @@ python-lint: .venv/installed
 	$(BIN)/stubtest agent_economy._core
 	$(BIN)/lint-imports --no-cache
 	$(BIN)/python scripts/check_tree.py
+	$(BIN)/python scripts/check_cycles.py
 
 # A toolchain without rustup may lack the target: the check is then skipped with a message.
 wasm: ## Check that the metric simulator and the brain compile for browsers
