@@ -1,10 +1,10 @@
-"""Ask how many robots a job needs, and hear an answer with a guarantee."""
+"""Compute how many robots a job needs, with a guarantee."""
 
 import agent_economy as ae
 
 
 def main() -> None:
-    """Answer the question of the thesis that all of this grew from."""
+    """Answer the question of the 2003 thesis."""
     answer = ae.study.run(ae.Scenario.load("classic"))
     print(answer.sentence)
     print(answer.guarantee)

@@ -21,7 +21,7 @@ import agent_economy as ae
 from agent_economy._core import CONTACTS
 from agent_economy.study.answer import published as theirs
 from agent_economy.study.answer.evidence import Evidence
-from agent_economy.study.race import hold
+from agent_economy.study.race import run_race
 
 SCENARIO = ae.Scenario.load(ROOT / "scenarios" / "classic.toml")
 
@@ -233,7 +233,7 @@ def best_and_ties(contact: str, rate: float) -> tuple[str, str]:
 def studied(scenario: ae.Scenario) -> tuple[ae.study.Answer, Evidence]:
     """Return what so many runs of each team say."""
     with tempfile.TemporaryDirectory() as folder:
-        return hold(ae.study.make_plan(scenario, runs=RUNS), Path(folder))
+        return run_race(ae.study.make_plan(scenario, runs=RUNS), Path(folder))
 
 
 def size(team: ae.study.Result) -> int:

@@ -14,7 +14,7 @@ from statistics import median
 import numpy as np
 
 from agent_economy import classic
-from agent_economy.study.store import Column, Columns, Rectangle, Store
+from agent_economy.study.store import Column, Columns, RunBlock, Store
 
 COLUMNS = (
     Column("time_s", "real"),
@@ -64,7 +64,7 @@ def large(data: Columns, rows: int) -> tuple[float, float, float]:
     """Return rows written and read a second (medians), and bytes a row, of rectangles of a size."""
     copies = rows // (len(TEAM_SIZES) * RUNS)
     block = {name: np.tile(values, (copies, 1)) for name, values in data.items()}
-    area = Rectangle(tuple(range(copies * len(TEAM_SIZES))), 0, RUNS)
+    area = RunBlock(tuple(range(copies * len(TEAM_SIZES))), 0, RUNS)
     writing, reading, size = [], [], 0
     for _ in range(TRIALS):
         with tempfile.TemporaryDirectory(dir=".") as place:
@@ -76,7 +76,7 @@ def large(data: Columns, rows: int) -> tuple[float, float, float]:
     return rows / median(writing), rows / median(reading), size / rows
 
 
-def part(outcomes: Columns, area: Rectangle) -> Columns:
+def part(outcomes: Columns, area: RunBlock) -> Columns:
     """Return the outcomes of an area, out of those of configurations and runs 0, 1, ..."""
     rows = slice(area.configurations[0], area.configurations[-1] + 1)
     return {name: values[rows, area.first_run : area.end] for name, values in outcomes.items()}
@@ -87,7 +87,7 @@ def small(data: Columns) -> tuple[float, float]:
     configurations, runs = SMALL
     block = {name: values[:configurations, :runs] for name, values in data.items()}
     areas = [
-        Rectangle(tuple(range(configurations)), number * runs, runs)
+        RunBlock(tuple(range(configurations)), number * runs, runs)
         for number in range(SMALL_BLOCKS)
     ]
     with (
@@ -99,7 +99,7 @@ def small(data: Columns) -> tuple[float, float]:
     return median(writing) * 1000, median(reading) * 1000
 
 
-def refuse(area: Rectangle) -> Columns:
+def refuse(area: RunBlock) -> Columns:
     """End the program: what should be read was not stored."""
     sys.exit(f"{area} was stored, but is asked for again")
 

@@ -14,9 +14,8 @@ from agent_economy.study.answer.evidence import Evidence, Sample
 from agent_economy.study.answer.results import Ending, results
 from agent_economy.study.answer.saturation import saturations
 from agent_economy.study.answer.sensitivity import sensitivity
-from agent_economy.study.answer.sentence import in_words
-from agent_economy.study.selection import Elimination, drive
-from agent_economy.study.selection import in_words as guaranteed
+from agent_economy.study.answer.sentence import sentence
+from agent_economy.study.selection import Elimination, drive, guarantee_text
 
 Floats = NDArray[np.float64]
 Values = dict[str, float | str]
@@ -117,12 +116,12 @@ def study(
     evidence = Evidence(samples, 0.95)
     if runs is None:
         gone = tuple(Elimination(*each) for each in procedure.eliminations)
-        words = guaranteed(procedure, delta, 0.95, "indifference")
+        words = guarantee_text(procedure, delta, 0.95, "indifference")
         ending = Ending(procedure.best, gone, words, is_guaranteed=True)
     else:
         best = int(np.argmax([sample.mean("merit") for sample in samples]))
         ending = Ending(
-            best, (), "Nothing is guaranteed: the number of runs was fixed.", is_guaranteed=False
+            best, (), "No guarantee: the number of runs was fixed.", is_guaranteed=False
         )
     return conclude(evidence, ending, delta), evidence
 
@@ -134,7 +133,7 @@ def conclude(evidence: Evidence, ending: Ending, delta: float = 0.05) -> Answer:
     return Answer(
         scenario=scenario,
         seed=0,
-        sentence=in_words(scenario, delta, ending.best, found),
+        sentence=sentence(scenario, delta, ending.best, found),
         guarantee=ending.guarantee,
         is_guaranteed=ending.is_guaranteed,
         delta=delta,

@@ -12,14 +12,14 @@ from pathlib import Path
 import numpy as np
 
 from agent_economy import InputError
-from agent_economy.study.rectangle import Columns, Rectangle
+from agent_economy.study.run_block import Columns, RunBlock
 from agent_economy.study.store import Column, Store
 from agent_economy.study.store.ledger import Ledger
 
 COLUMNS = (Column("time_s", "real"), Column("failed", "flag"), Column("paints", "whole"))
 
 
-def outcomes(area: Rectangle) -> Columns:
+def outcomes(area: RunBlock) -> Columns:
     """Return outcomes among which some are never and some quarantined."""
     configuration = np.array(area.configurations, dtype=np.float64)[:, None]
     run = np.arange(area.first_run, area.end, dtype=np.float64)[None, :]
@@ -30,13 +30,13 @@ def outcomes(area: Rectangle) -> Columns:
     return {"time_s": time_s, "failed": (mixed > 990).astype(np.float64), "paints": paints}
 
 
-def slow_outcomes(area: Rectangle) -> Columns:
+def slow_outcomes(area: RunBlock) -> Columns:
     """Return outcomes after a tenth of a millisecond a run."""
     time.sleep(area.rows * 1e-4)
     return outcomes(area)
 
 
-def killed_once(place: Path, area: Rectangle) -> Columns:
+def killed_once(place: Path, area: RunBlock) -> Columns:
     """Kill the worker at run 30 of configuration 3, the first time in a folder."""
     if 3 in area.configurations and area.first_run <= 30 < area.end:
         try:
@@ -48,14 +48,14 @@ def killed_once(place: Path, area: Rectangle) -> Columns:
     return slow_outcomes(area)
 
 
-def killed_always(area: Rectangle) -> Columns:
+def killed_always(area: RunBlock) -> Columns:
     """Kill the worker at run 30 of configuration 3."""
     if 3 in area.configurations and area.first_run <= 30 < area.end:
         os.kill(os.getpid(), signal.SIGKILL)
     return slow_outcomes(area)
 
 
-def failing(area: Rectangle) -> Columns:
+def failing(area: RunBlock) -> Columns:
     """Fail at run 30 of configuration 3."""
     if 3 in area.configurations and area.first_run <= 30 < area.end:
         message = "the brain has no goal"
@@ -63,7 +63,7 @@ def failing(area: Rectangle) -> Columns:
     return outcomes(area)
 
 
-def logged(place: Path, area: Rectangle) -> Columns:
+def logged(place: Path, area: RunBlock) -> Columns:
     """Return outcomes, and leave a file that says which were computed, and by whom."""
     name = f"{area.configurations[0]}-{len(area.configurations)}-{area.first_run}-{area.runs}"
     (place / f"{name}-{os.getpid()}-{time.monotonic_ns()}").touch()
@@ -77,25 +77,23 @@ def same(left: Columns, right: Columns) -> bool:
     )
 
 
-def asked(boundaries: int) -> list[Rectangle]:
+def asked(boundaries: int) -> list[RunBlock]:
     """Return what a race of eight configurations asks for, of which ever fewer are left."""
-    first, rectangles = 0, []
+    first, blocks = 0, []
     for number in range(boundaries):
         runs = max(10, first // 10)
-        rectangles.append(
-            Rectangle(tuple(range(7 - number * 7 // boundaries, -1, -1)), first, runs)
-        )
+        blocks.append(RunBlock(tuple(range(7 - number * 7 // boundaries, -1, -1)), first, runs))
         first += runs
-    return rectangles
+    return blocks
 
 
 def write_study(folder: Path, boundaries: int = 8) -> None:
     """Compute a whole study into a folder, or what is not there of it."""
     with Store.open(folder, "seed = 1\n", COLUMNS) as store:
-        for number, rectangle in enumerate(asked(boundaries)):
-            data = store.block(rectangle, outcomes)
-            assert same(data, outcomes(rectangle))
-            store.note(number, {"survivors": list(rectangle.configurations)})
+        for number, block in enumerate(asked(boundaries)):
+            data = store.block(block, outcomes)
+            assert same(data, outcomes(block))
+            store.note(number, {"survivors": list(block.configurations)})
 
 
 def write_and_die(folder: Path, calls: int) -> None:

@@ -15,6 +15,6 @@ def plan(delta: float = 0.3) -> study.Plan:
     )
 
 
-def pursue(folder: Path) -> None:
+def run_plan(folder: Path) -> None:
     """Run the small study, or go on with it."""
-    study.pursue(plan(), folder)
+    study.run_plan(plan(), folder)

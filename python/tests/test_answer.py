@@ -9,7 +9,7 @@ import pytest
 from agent_economy.study.answer.effort import efforts
 from agent_economy.study.answer.evidence import Evidence, Sample
 from agent_economy.study.answer.front import front
-from agent_economy.study.answer.labels import label, order
+from agent_economy.study.answer.labels import label, recommendation
 from agent_economy.study.answer.saturation import saturations
 from agent_economy.study.answer.sensitivity import sensitivity
 from agent_economy.study.answer.ties import Verdict, standings
@@ -44,7 +44,7 @@ def evidence(*samples: Sample) -> Evidence:
         (0.5, 20_000, 0.1, "tied"),
         (0.2, 2000, 0.1, "worse"),
         (0.5, 50, 0.1, "undecided"),
-        (0.4, 400, 0.15, "no better"),
+        (0.4, 400, 0.15, "not better"),
     ],
 )
 def test_a_verdict_is_what_the_runs_prove(
@@ -147,6 +147,8 @@ def test_a_configuration_is_named_as_people_name_it() -> None:
     assert label({TEAM: 1}) == "1 rover"
     assert label({TEAM: 4, "contact": "touch"}) == "4 rovers, contact touch"
     assert label({"a.range_m": 1.5, "b.range_m": 2}) == "a.range_m 1.5, b.range_m 2"
-    assert order({TEAM: 4, "clock.time_limit_s": 60}) == "Send 4 rovers with time_limit_s 60"
-    assert order({"clock.time_limit_s": 60}) == "Choose time_limit_s 60"
-    assert order({"robots.rover.is_loud": False}) == "Choose is_loud false"
+    assert (
+        recommendation({TEAM: 4, "clock.time_limit_s": 60}) == "Send 4 rovers with time_limit_s 60"
+    )
+    assert recommendation({"clock.time_limit_s": 60}) == "Choose time_limit_s 60"
+    assert recommendation({"robots.rover.is_loud": False}) == "Choose is_loud false"

@@ -363,7 +363,7 @@ def test_a_study_at_work_is_watched_and_no_second_process_gets_in(
         process.wait()
     said, errors = watcher.communicate(timeout=60)
     assert second.returncode == 1
-    assert "another process is working on it" in second.stderr
+    assert "another process is using it" in second.stderr
     # The study was killed, so it is not over, and nobody works on it.
     assert watcher.returncode == 1
     assert "remaining" in errors

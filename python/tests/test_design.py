@@ -52,14 +52,14 @@ def test_points_that_fall_together_are_one_configuration(name: str) -> None:
         (team, contact) for team in TEAM.values for contact in CONTACT.values
     }
     drawn = name.partition(":")[2]
-    told = f"{name}: 6 configurations (of {drawn} points, the others fall on these)"
-    assert design.in_words(name, len(points)) == told
+    text = f"{name}: 6 configurations ({drawn} points, some with the same values)"
+    assert design.describe(name, len(points)) == text
 
 
 def test_a_design_without_duplicates_says_how_many_it_has() -> None:
-    assert design.in_words("factorial", len(design.points([TEAM]))) == "factorial: 3 configurations"
+    assert design.describe("factorial", len(design.points([TEAM]))) == "factorial: 3 configurations"
     assert (
-        design.in_words("lhs:7", len(design.points([RATE], "lhs:7"))) == "lhs:7: 7 configurations"
+        design.describe("lhs:7", len(design.points([RATE], "lhs:7"))) == "lhs:7: 7 configurations"
     )
 
 

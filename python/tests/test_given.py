@@ -60,10 +60,10 @@ def answer(**arguments: Any) -> study.Answer:
         (lambda: answer(compute=NO), r"^compute = 5: must be a function or None$"),
         (lambda: answer(on_progress=NO), r"^on_progress = 5: must be a function or None$"),
         (lambda: study.make_plan(NO), r"^scenario = 5: must be a Scenario$"),
-        (lambda: study.pursue(NO, "never"), r"^asked = 5: must be a Plan"),
+        (lambda: study.run_plan(NO, "never"), r"^plan = 5: must be a Plan"),
         (lambda: study.resume(NO), rf"^folder = 5: {PATH}$"),
         (lambda: study.open(NO), rf"^folder = 5: {PATH}$"),
-        (lambda: study.is_worked_on(NO), rf"^folder = 5: {PATH}$"),
+        (lambda: study.is_locked(NO), rf"^folder = 5: {PATH}$"),
         (
             lambda: study.select_best(NO, 2, bounds=(0, 1), delta=0.1),
             r"^sampler = 5: must be a function of configurations",

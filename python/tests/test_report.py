@@ -19,9 +19,9 @@ from agent_economy.study.answer.results import Ending
 from agent_economy.study.errors import StudyError
 from agent_economy.study.report import charts
 from agent_economy.study.report import script as chart_script
+from agent_economy.study.report.formatting import MINUS
 from agent_economy.study.report.sections import saturation_in_words, sections
 from agent_economy.study.report.view import View
-from agent_economy.study.report.writing import MINUS
 from agent_economy.study.selection import Elimination
 
 Study = tuple[Answer, Evidence]
@@ -83,7 +83,7 @@ def with_label(study: Study, label: str) -> Study:
     answer, evidence = study
     first, *others = answer.results
     results = (replace(first, label=label), *others)
-    return replace(answer, results=results, sentence=f"Send {label}: it is best."), evidence
+    return replace(answer, results=results, sentence=f"Send {label}. It is best."), evidence
 
 
 def test_a_page_is_one_file_that_fetches_nothing(any_study: Study, script: str) -> None:
@@ -111,12 +111,12 @@ def test_the_answer_comes_first_then_what_is_guaranteed_and_how_many_runs_it_too
 def test_sections_come_in_the_order_in_which_people_ask(teams: Study) -> None:
     assert [section.heading for section in sections(View(*teams))] == [
         "Figure of merit",
-        "How often it fails",
-        "Price, time and certainty",
+        "Failures",
+        "Price, time and failures",
         "How many wanderers are enough",
-        "Who went out when",
-        "What a smaller delta would take",
-        "How long it takes",
+        "Eliminations",
+        "Runs for a smaller delta",
+        "Times",
         "Williams 2003",
     ]
 
@@ -160,8 +160,8 @@ def test_a_table_says_what_its_chart_draws(teams: Study) -> None:
 def test_one_configuration_has_nothing_to_be_compared_with(alone: Study) -> None:
     assert list(charts.specifications(*alone)) == ["times"]
     headings = [section.heading for section in sections(View(*alone))]
-    assert "Who went out when" not in headings
-    assert "Price, time and certainty" not in headings
+    assert "Eliminations" not in headings
+    assert "Price, time and failures" not in headings
 
 
 def test_of_a_thousand_configurations_the_best_fifty_are_shown_and_the_page_says_so(
@@ -169,7 +169,7 @@ def test_of_a_thousand_configurations_the_best_fifty_are_shown_and_the_page_says
 ) -> None:
     answer, _ = thousand
     page = body(report.html(*thousand, script))
-    assert "Shown are 50 of 1,000 configurations" in page
+    assert "50 of 1,000 configurations are shown" in page
     rows = charts.specifications(*thousand)["merit"]["data"]["values"]
     best = sorted((result.merit.value for result in answer.results), reverse=True)[:50]
     assert [row["value"] for row in rows] == pytest.approx(best, rel=1e-5)
@@ -213,7 +213,7 @@ def test_quarantined_runs_are_said_and_counted(teams: Study, script: str) -> Non
     first, *others = answer.results
     results = (replace(first, quarantined=3), *others)
     page = body(report.html(replace(answer, results=results), evidence, script))
-    assert "3 runs gave no finite merit" in page
+    assert "3 runs without a finite merit" in page
     assert "3 of 1 wanderer" in page
     assert "quarantined runs</th>" in page
 
@@ -229,7 +229,7 @@ def test_a_column_that_is_not_finite_is_not_known_rather_than_a_number(
     evidence = Evidence((broken, *others), evidence.confidence)
     bare = replace(answer.results[0], time_s=replace(answer.results[0].time_s, value=np.nan))
     page = report.html(replace(answer, results=(bare, *answer.results[1:])), evidence, script)
-    assert "not known" in body(page)
+    assert "unknown" in body(page)
     assert "NaN" not in page.rsplit("const charts = ", 1)[1]
     assert ending.best == answer.best
 
@@ -239,7 +239,7 @@ def test_what_the_runs_leave_open_is_called_undecided(script: str) -> None:
     page = body(report.html(*few, script))
     assert page.count('<td class="words">undecided</td>') == 2
     assert "Undecided between 3 and 5" in page
-    assert "No configuration was put out" in page
+    assert "No configuration was eliminated" in page
 
 
 def test_what_the_runs_prove_is_said(script: str) -> None:
@@ -259,7 +259,7 @@ def test_what_the_runs_prove_is_said(script: str) -> None:
     assert '<td class="words">tied within delta</td>' in page
     assert '<td class="words">worse</td>' in page
     assert "Decided: 3 are enough" in page
-    assert "out after 10 runs" in page
+    assert "eliminated after 10 runs" in page
 
 
 def test_a_largest_team_that_beats_all_is_not_called_enough(teams: Study) -> None:
@@ -284,7 +284,7 @@ def test_factors_that_matter_are_shown_with_the_share_of_chance(
     given: list[by_hand.Values] = [{MIX: 8 * mix, ROVERS: robots} for mix, robots in grid]
     found = by_hand.study(given, by_hand.synthetic, runs=20)
     page = body(report.html(*found, script))
-    assert "of that spread is chance" in page
+    assert "of that variance is noise of means" in page
     rows = charts.specifications(*found)["sensitivity"]["data"]["values"]
     assert {row["label"] for row in rows} == {"mix", "rovers"}
 
@@ -328,4 +328,4 @@ def test_a_script_that_cannot_be_bundled_is_an_error_and_its_report_says_so(
         with pytest.raises(StudyError, match="could not bundle the chart script: no memory"):
             made.text()
         files.write(tmp_path, *teams, made)
-    assert "The charts could not be made" in (tmp_path / "report.html").read_text("utf-8")
+    assert "The charts could not be created" in (tmp_path / "report.html").read_text("utf-8")

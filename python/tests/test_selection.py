@@ -103,7 +103,7 @@ def test_max_runs_stops_it_and_nothing_is_claimed() -> None:
     assert found.stopped
     assert 400 <= found.runs.sum() <= 1000
     assert len(found.survivors) > 1
-    assert found.guarantee.startswith("Nothing is guaranteed")
+    assert found.guarantee.startswith("No guarantee")
 
 
 def test_a_run_without_a_finite_merit_counts_as_the_worst_and_is_counted() -> None:
@@ -219,10 +219,10 @@ def test_without_noise_the_best_is_selected(merits: list[float], guarantee: Any)
         ({"guarantee": "PCS"}, "guarantee = 'PCS': must be one of 'indifference', 'pgs'"),
         ({"seed": -1}, "seed = -1: must be a whole number from 0 to 2147483647"),
         ({"max_runs": 10}, "max_runs = 10: must be None or a whole number of 20 (10 k) or more"),
-        ({"bounds": (1, 0)}, "bounds = (1, 0): must be least and greatest merit, finite"),
-        ({"bounds": (0, np.inf)}, "must be least and greatest merit, finite"),
+        ({"bounds": (1, 0)}, "bounds = (1, 0): must be minimum and maximum merit, finite"),
+        ({"bounds": (0, np.inf)}, "must be minimum and maximum merit, finite"),
         ({"bounds": "wide"}, "bounds = 'wide': must be"),
-        ({"bounds": np.zeros((3, 2))}, "as a pair or an array (2, 2)"),
+        ({"bounds": np.zeros((3, 2))}, "as a pair or an array of shape (2, 2)"),
     ],
 )
 def test_a_bad_argument_is_told(change: dict[str, Any], told: str) -> None:
@@ -242,7 +242,7 @@ def test_all_bad_arguments_are_told_at_once() -> None:
     ("returned", "told"),
     [
         (np.zeros(20), "the sampler returned shape (20,): must be (2, 10)"),
-        ([[0.5] * 10, [0.5]], "the sampler returned no array of numbers of shape (2, 10)"),
+        ([[0.5] * 10, [0.5]], "the sampler must return an array of numbers of shape (2, 10)"),
         (np.full((2, 10), 1.5), "configuration 0 had a merit of 1.5: must be from 0 to 1"),
     ],
 )

@@ -144,7 +144,7 @@ def test_who_comes_late_sees_the_present(answered: Answered) -> None:
 
 def test_an_answer_has_the_reports_own_sections_charts_and_tables(answered: Answered) -> None:
     folder, _ = answered
-    found, evidence = study.look(folder.path / "studies" / "classic")
+    found, evidence = study.load_answer(folder.path / "studies" / "classic")
     shown = folder.get("/api/study", id="studies/classic")["answer"]
     sections = list(report.sections(View(found, evidence)))
     assert [each["title"] for each in shown["sections"]] == [each.heading for each in sections]
@@ -357,9 +357,9 @@ def test_no_more_than_two_run_at_a_time_and_all_end_with_the_server(tmp_path: Pa
         assert "is being worked on" in again["message"]
         for name in names:
             folder.watched(name, runs=1)
-            assert study.is_worked_on(tmp_path / name)
+            assert study.is_locked(tmp_path / name)
         assert {row["state"] for row in folder.get("/api/studies")["studies"]} == {"running"}
-    assert not any(study.is_worked_on(tmp_path / name) for name in names)
+    assert not any(study.is_locked(tmp_path / name) for name in names)
     assert multiprocessing.active_children() == []
 
 
@@ -377,9 +377,9 @@ def test_a_study_ends_when_its_server_is_killed(tmp_path: Path) -> None:
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as server:
         assert server.stdout
         place = tmp_path / server.stdout.readline().strip()
-        wait_until(lambda: study.is_worked_on(place))
+        wait_until(lambda: study.is_locked(place))
         server.kill()
-    wait_until(lambda: not study.is_worked_on(place))
+    wait_until(lambda: not study.is_locked(place))
 
 
 def wait_until(holds: Any, most_s: float = 30) -> None:
@@ -393,7 +393,7 @@ def test_another_processs_study_is_shown_as_running_and_not_stopped(
     answered: Answered, tmp_path: Path
 ) -> None:
     shutil.copytree(answered[0].path / "studies", tmp_path / "studies")
-    plan = study.plan_of(tmp_path / "studies" / "classic")
+    plan = study.load_plan(tmp_path / "studies" / "classic")
     with served(tmp_path) as client:
         folder = Folder(client, tmp_path)
 
@@ -405,7 +405,7 @@ def test_another_processs_study_is_shown_as_running_and_not_stopped(
             raise KeyboardInterrupt
 
         with pytest.raises(KeyboardInterrupt):
-            study.pursue(plan, tmp_path / "studies" / "classic", on_progress=look)
+            study.run_plan(plan, tmp_path / "studies" / "classic", on_progress=look)
         assert folder.get("/api/studies")["studies"][0]["state"] == "answered"
 
 
@@ -420,7 +420,7 @@ def test_a_list_checks_no_scenario_and_computes_nothing(
     def never(*_: object) -> None:
         raise AssertionError
 
-    monkeypatch.setattr(study, "plan_of", never)
+    monkeypatch.setattr(study, "load_plan", never)
     monkeypatch.setattr(Scenario, "of", never)
     with served(tmp_path) as client:
         rows = Folder(client, tmp_path).get("/api/studies")["studies"]

@@ -17,23 +17,23 @@ from hypothesis import strategies as st
 from made_up import COLUMNS, outcomes, same, write_study
 
 from agent_economy import InputError
-from agent_economy.study.rectangle import Columns, Rectangle, numbers, spans
+from agent_economy.study.run_block import Columns, RunBlock, numbers, spans
 from agent_economy.study.store import Column, Store, coverage, read
 from agent_economy.study.store import folder as files
-from agent_economy.study.store.ledger import Block, Ledger
+from agent_economy.study.store.ledger import BlockFile, Ledger
 
-AREA = Rectangle((3, 0, 7), 10, 40)
-ASKED = 'scenario = "classic"\nseed = 1\n'
+AREA = RunBlock((3, 0, 7), 10, 40)
+QUESTION = 'scenario = "classic"\nseed = 1\n'
 
 
-def refuse(area: Rectangle) -> Columns:
+def refuse(area: RunBlock) -> Columns:
     """Fail: what should be stored was asked for."""
     pytest.fail(f"{area} is computed again")
 
 
 def opened(folder: Path) -> Store:
     """Return a store of made-up columns."""
-    return Store.open(folder, ASKED, COLUMNS)
+    return Store.open(folder, QUESTION, COLUMNS)
 
 
 @pytest.fixture
@@ -61,27 +61,27 @@ def test_what_was_computed_is_read_back_exactly(study: Path) -> None:
 
 
 def test_rows_come_in_the_order_asked_for(study: Path) -> None:
-    turned = Rectangle((7, 3), 10, 40)
+    turned = RunBlock((7, 3), 10, 40)
     with opened(study) as store:
         assert same(store.block(turned, refuse), outcomes(turned))
 
 
 def test_only_what_is_missing_is_computed(study: Path) -> None:
-    wanted = Rectangle((5, 7, 1, 0), 10, 40)
+    wanted = RunBlock((5, 7, 1, 0), 10, 40)
     seen = []
 
-    def compute(area: Rectangle) -> Columns:
+    def compute(area: RunBlock) -> Columns:
         seen.append(area)
         return outcomes(area)
 
     with opened(study) as store:
         assert same(store.block(wanted, compute), outcomes(wanted))
         assert store.computed == 80
-    assert seen == [Rectangle((1, 5), 10, 40)]
+    assert seen == [RunBlock((1, 5), 10, 40)]
 
 
 def test_a_computed_block_is_returned_as_it_will_be_read(tmp_path: Path) -> None:
-    area = Rectangle((0,), 0, 4)
+    area = RunBlock((0,), 0, 4)
     data = {
         "time_s": np.array([[-0.0, np.inf, np.nan, 1e-300]]),
         "failed": np.array([[-0.0, 1.0, np.nan, np.inf]]),
@@ -100,7 +100,7 @@ def test_a_computed_block_is_returned_as_it_will_be_read(tmp_path: Path) -> None
 def test_a_value_that_would_not_survive_is_refused(tmp_path: Path, name: str, value: float) -> None:
     data = outcomes(AREA)
     data[name][1, 2] = value
-    with opened(tmp_path) as store, pytest.raises(ValueError, match=f"column {name} is a"):
+    with opened(tmp_path) as store, pytest.raises(ValueError, match=rf"column {name} \("):
         store.block(AREA, lambda _: data)
 
 
@@ -117,7 +117,7 @@ def test_the_same_outcomes_give_the_same_bytes(tmp_path: Path) -> None:
     files_of = []
     for name, configurations in (("one", (0, 1, 2)), ("two", (2, 0, 1))):
         with opened(tmp_path / name) as store:
-            store.block(Rectangle(configurations, 0, 50), outcomes)
+            store.block(RunBlock(configurations, 0, 50), outcomes)
         files_of.append({p.name: p.read_bytes() for p in (tmp_path / name / "blocks").iterdir()})
     assert files_of[0] == files_of[1]
 
@@ -125,21 +125,21 @@ def test_the_same_outcomes_give_the_same_bytes(tmp_path: Path) -> None:
 def test_large_rectangles_are_cut_by_what_is_asked_for_only(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(coverage, "MOST_ROWS", 100)
-    area = Rectangle((4, 2, 0, 1, 3), 1000, 30)
-    tall = Rectangle((0, 1), 2000, 250)
+    monkeypatch.setattr(coverage, "MAX_ROWS", 100)
+    area = RunBlock((4, 2, 0, 1, 3), 1000, 30)
+    tall = RunBlock((0, 1), 2000, 250)
     with opened(tmp_path) as store:
         assert same(store.block(area, outcomes), outcomes(area))
         assert same(store.block(tall, outcomes), outcomes(tall))
         assert same(store.block(tall, refuse), outcomes(tall))
-    shapes = [block.rectangle for block in read(tmp_path).blocks()]
-    assert shapes[:2] == [Rectangle((0, 1, 2), 1000, 30), Rectangle((3, 4), 1000, 30)]
+    shapes = [block.block for block in read(tmp_path).block_files()]
+    assert shapes[:2] == [RunBlock((0, 1, 2), 1000, 30), RunBlock((3, 4), 1000, 30)]
     assert {each.first_run for each in shapes[2:]} == {2000, 2100, 2200}
 
 
 FIRST_RUNS = (0, 10, 20, 33, 50)
 areas = st.builds(
-    lambda configurations, place: Rectangle(
+    lambda configurations, place: RunBlock(
         tuple(configurations), FIRST_RUNS[place], FIRST_RUNS[place + 1] - FIRST_RUNS[place]
     ),
     st.lists(st.integers(0, 9), min_size=1, unique=True),
@@ -149,17 +149,17 @@ areas = st.builds(
 
 @settings(max_examples=25, deadline=None)
 @given(st.lists(st.tuples(areas, st.booleans()), max_size=12))
-def test_any_rectangles_in_any_order_are_computed_once(asked: list[tuple[Rectangle, bool]]) -> None:
+def test_any_rectangles_in_any_order_are_computed_once(asked: list[tuple[RunBlock, bool]]) -> None:
     times: Counter[tuple[int, int]] = Counter()
 
-    def compute(area: Rectangle) -> Columns:
+    def compute(area: RunBlock) -> Columns:
         times.update(
             (each, run) for each in area.configurations for run in range(area.first_run, area.end)
         )
         return outcomes(area)
 
     with tempfile.TemporaryDirectory() as place, pytest.MonkeyPatch.context() as patch:
-        patch.setattr(coverage, "MOST_ROWS", 64)
+        patch.setattr(coverage, "MAX_ROWS", 64)
         patch.setattr(os, "fsync", lambda _: None)
         store = opened(Path(place))
         for area, again in asked:
@@ -178,56 +178,56 @@ def test_any_rectangles_in_any_order_are_computed_once(asked: list[tuple[Rectang
 def test_runs_that_overlap_stored_ones_are_refused(study: Path) -> None:
     with opened(study) as store:
         for first_run, runs in ((10, 41), (0, 11), (49, 5), (11, 2), (0, 100)):
-            with pytest.raises(InputError, match="holds runs 10-49 together"):
-                store.block(Rectangle((0,), first_run, runs), refuse)
-        assert store.block(Rectangle((0,), 50, 5), outcomes)
-        assert store.block(Rectangle((0,), 0, 10), outcomes)
+            with pytest.raises(InputError, match="stores runs 10-49 as one block"):
+                store.block(RunBlock((0,), first_run, runs), refuse)
+        assert store.block(RunBlock((0,), 50, 5), outcomes)
+        assert store.block(RunBlock((0,), 0, 10), outcomes)
 
 
 def test_another_study_is_refused_with_what_differs(study: Path) -> None:
     with pytest.raises(InputError) as caught:
-        Store.open(study, ASKED.replace("seed = 1", "seed = 2"), COLUMNS)
+        Store.open(study, QUESTION.replace("seed = 1", "seed = 2"), COLUMNS)
     message = str(caught.value)
     assert "another study: use another folder (--out)" in message
-    assert "there: seed = 1" in message
-    assert "asked: seed = 2" in message
+    assert "existing: seed = 1" in message
+    assert "requested: seed = 2" in message
     assert "classic" not in message
 
 
 def test_a_study_that_lost_what_was_asked_is_refused(study: Path) -> None:
     (study / "study.toml").unlink()
-    with pytest.raises(InputError, match="study.toml: is missing, though there are results"):
+    with pytest.raises(InputError, match="study.toml: is missing, but there are results"):
         opened(study)
-    with pytest.raises(InputError, match="holds no study"):
+    with pytest.raises(InputError, match="contains no study"):
         read(study)
 
 
 def test_other_columns_are_refused(study: Path) -> None:
     with pytest.raises(InputError, match=r"other columns \(time_s \(real\)"):
-        Store.open(study, ASKED, [*COLUMNS[:2], Column("paints", "real")])
+        Store.open(study, QUESTION, [*COLUMNS[:2], Column("paints", "real")])
 
 
 def test_a_column_named_as_one_of_the_stores_is_refused(tmp_path: Path) -> None:
     for names in ((), ("run",), ("a", "a"), tuple(f"c{i}" for i in range(63))):
         with pytest.raises(ValueError, match="1 to 62 columns"):
-            Store.open(tmp_path, ASKED, [Column(name, "real") for name in names])
+            Store.open(tmp_path, QUESTION, [Column(name, "real") for name in names])
 
 
 def test_a_newer_ledger_is_refused(study: Path) -> None:
     with sqlite3.connect(study / "ledger.sqlite") as connection:
         connection.execute("PRAGMA user_version = 2")
     connection.close()
-    for attempt in (opened, lambda folder: read(folder).blocks()):
-        with pytest.raises(InputError, match=r"newer version of this program \(ledger 2"):
+    for attempt in (opened, lambda folder: read(folder).block_files()):
+        with pytest.raises(InputError, match=r"newer version of this program \(ledger format 2"):
             attempt(study)
 
 
 def test_a_ledger_of_another_program_is_refused(tmp_path: Path) -> None:
-    (tmp_path / "study.toml").write_text(ASKED)
+    (tmp_path / "study.toml").write_text(QUESTION)
     with sqlite3.connect(tmp_path / "ledger.sqlite") as connection:
         connection.execute("CREATE TABLE block (name)")
     connection.close()
-    with pytest.raises(InputError, match="ledger.sqlite: is not a ledger of this program"):
+    with pytest.raises(InputError, match="ledger.sqlite: is not a ledger of a study"):
         opened(tmp_path)
 
 
@@ -242,14 +242,14 @@ def test_a_changed_block_is_refused(study: Path) -> None:
     data = bytearray(only_block(study).read_bytes())
     data[100] ^= 1
     only_block(study).write_bytes(data)
-    with opened(study) as store, pytest.raises(InputError, match="parquet: is not as it was"):
+    with opened(study) as store, pytest.raises(InputError, match="parquet: is damaged"):
         store.block(AREA, refuse)
 
 
 def test_missing_and_shortened_blocks_are_all_named(study: Path) -> None:
     with opened(study) as store:
-        store.block(Rectangle((0,), 100, 40), outcomes)
-        store.block(Rectangle((0,), 200, 40), outcomes)
+        store.block(RunBlock((0,), 100, 40), outcomes)
+        store.block(RunBlock((0,), 200, 40), outcomes)
         first, second, _ = sorted((study / "blocks").iterdir())
         first.unlink()
         second.write_bytes(second.read_bytes()[:-1])
@@ -259,16 +259,16 @@ def test_missing_and_shortened_blocks_are_all_named(study: Path) -> None:
         with pytest.raises(InputError) as caught:
             attempt(study)
         assert f"{first}: is missing" in str(caught.value)
-        assert f"{second}: is not as it was written" in str(caught.value)
+        assert f"{second}: is damaged" in str(caught.value)
 
 
 def test_other_outcomes_of_the_same_runs_are_refused(study: Path) -> None:
-    entered = read(study).blocks()[0]
+    entered = read(study).block_files()[0]
     with opened(study) as store:
         store._ledger.enter(entered)
-        with pytest.raises(InputError, match="the same runs gave other outcomes"):
-            store._ledger.enter(Block(entered.rectangle, entered.bytes, "0" * 64))
-    assert read(study).blocks() == [entered]
+        with pytest.raises(InputError, match="the same runs had other outcomes"):
+            store._ledger.enter(BlockFile(entered.block, entered.bytes, "0" * 64))
+    assert read(study).block_files() == [entered]
 
 
 def test_a_block_that_was_not_entered_is_overwritten(study: Path) -> None:
@@ -287,10 +287,10 @@ def test_a_block_that_was_not_entered_is_overwritten(study: Path) -> None:
 
 
 def test_an_interrupted_computation_leaves_the_store_usable(study: Path) -> None:
-    def interrupted(_: Rectangle) -> Columns:
+    def interrupted(_: RunBlock) -> Columns:
         raise KeyboardInterrupt
 
-    other = Rectangle((0, 1), 50, 10)
+    other = RunBlock((0, 1), 50, 10)
     with opened(study) as store:
         with pytest.raises(KeyboardInterrupt):
             store.block(other, interrupted)
@@ -304,13 +304,13 @@ def test_one_process_at_a_time_writes(study: Path) -> None:
         "Store.open(Path(sys.argv[2]), sys.argv[3], COLUMNS); print('held', flush=True);"
         "time.sleep(60)"
     )
-    command = [sys.executable, "-c", hold, str(Path(__file__).parent), str(study), ASKED]
+    command = [sys.executable, "-c", hold, str(Path(__file__).parent), str(study), QUESTION]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as holder:
         assert holder.stdout
         assert holder.stdout.readline() == "held\n"
-        with pytest.raises(InputError, match="study: another process is working on it"):
+        with pytest.raises(InputError, match="study: another process is using it"):
             opened(study)
-        assert len(read(study).blocks()) == 1
+        assert len(read(study).block_files()) == 1
         holder.kill()
     with opened(study) as store:
         assert store.rows == 120
@@ -319,7 +319,7 @@ def test_one_process_at_a_time_writes(study: Path) -> None:
 def test_a_full_disk_is_told_and_the_study_goes_on(
     study: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    other = Rectangle((0, 1), 50, 10)
+    other = RunBlock((0, 1), 50, 10)
     write = os.write
 
     def full(descriptor: int, data: memoryview) -> int:
@@ -361,7 +361,7 @@ def test_a_folder_that_cannot_be_written_in_is_told(
         with pytest.raises(InputError, match=r"study: cannot be .* \(Read-only file system\)"):
             opened(study)
     (study.parent / "file").touch()
-    with pytest.raises(InputError, match=r"file/study: cannot be made \(Not a directory\)"):
+    with pytest.raises(InputError, match=r"file/study: cannot be created \(Not a directory\)"):
         opened(study.parent / "file" / "study")
     assert opened(study).rows == 120
 
@@ -379,12 +379,12 @@ def test_a_folder_that_cannot_be_written_in_can_be_read(study: Path) -> None:
 def test_watchers_read_while_another_writes(tmp_path: Path) -> None:
     with opened(tmp_path) as store:
         watcher = read(tmp_path)
-        assert watcher.asked == ASKED
+        assert watcher.question == QUESTION
         assert watcher.columns() == COLUMNS
         assert watcher.runs().fetchall() == []
         assert watcher.runs().columns == ["configuration", "run", *outcomes(AREA), "quarantined"]
         for number in range(5):
-            store.block(Rectangle((0, 1), number * 10, 10), outcomes)
+            store.block(RunBlock((0, 1), number * 10, 10), outcomes)
             store.note(number, {"survivors": [0, 1]})
             relation = watcher.runs()
             assert relation.count("*").fetchall() == [(20 * number + 20,)]
@@ -453,13 +453,13 @@ def test_spans_are_short() -> None:
 
 @pytest.mark.parametrize("area", [((), 0, 1), ((1, 1), 0, 1), ((0,), 0, 0), ((-1,), 0, 1)])
 def test_no_rectangle_is_empty_or_twice_the_same(area: tuple[tuple[int, ...], int, int]) -> None:
-    with pytest.raises(ValueError, match="a rectangle has"):
-        Rectangle(*area)
+    with pytest.raises(ValueError, match="a block has"):
+        RunBlock(*area)
 
 
 def test_a_study_that_has_not_begun_has_no_runs(tmp_path: Path) -> None:
-    (tmp_path / "study.toml").write_text(ASKED)
-    assert read(tmp_path).blocks() == []
+    (tmp_path / "study.toml").write_text(QUESTION)
+    assert read(tmp_path).block_files() == []
     sqlite3.connect(tmp_path / "ledger.sqlite").execute("PRAGMA journal_mode = WAL").close()
     assert read(tmp_path).decisions() == []
     assert read(tmp_path).runs().columns == ["configuration", "run", "quarantined"]
@@ -468,10 +468,10 @@ def test_a_study_that_has_not_begun_has_no_runs(tmp_path: Path) -> None:
 def test_a_ledger_killed_while_it_was_made_is_made_again(tmp_path: Path) -> None:
     files.make(tmp_path)
     (tmp_path / "ledger.sqlite").touch()
-    (tmp_path / "study.toml").write_text(ASKED)
+    (tmp_path / "study.toml").write_text(QUESTION)
     sqlite3.connect(tmp_path / "ledger.sqlite").execute("PRAGMA journal_mode = WAL").close()
     with opened(tmp_path) as store:
         assert same(store.block(AREA, outcomes), outcomes(AREA))
     ledger = Ledger.read(tmp_path / "ledger.sqlite")
-    assert len(ledger.blocks()) == 1
+    assert len(ledger.block_files()) == 1
     ledger.close()

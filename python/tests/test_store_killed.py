@@ -28,9 +28,9 @@ def entered(folder: Path) -> dict[str, str]:
     """Return what the ledger says of each block, after seeing that all rows are there, once."""
     if not (folder / "study.toml").exists():
         return {}
-    there = read(folder).blocks()
+    there = read(folder).block_files()
     runs = read(folder).runs()
-    rows = sum(block.rectangle.rows for block in there)
+    rows = sum(block.block.rows for block in there)
     assert runs.count("*").fetchall() == [(rows,)]
     assert runs.project("configuration, run").distinct().count("*").fetchall() == [(rows,)]
     files = blocks(folder)

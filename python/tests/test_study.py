@@ -12,8 +12,8 @@ import small
 import agent_economy as ae
 from agent_economy import InputError, Scenario, study
 from agent_economy.study import files, race
-from agent_economy.study.pieces import FEWEST_ROWS, in_pieces
-from agent_economy.study.rectangle import Rectangle
+from agent_economy.study.chunks import MIN_ROWS, in_chunks
+from agent_economy.study.run_block import RunBlock
 
 TEAM = "robots.wanderer.count"
 
@@ -29,7 +29,7 @@ def test_forty_teams_are_settled_in_a_few_thousand_runs(scenario: Scenario) -> N
     assert answer.results[answer.best].values[TEAM] in {4, 5}
     assert answer.runs < 8000
     assert "with 95% confidence" in answer.guarantee
-    assert answer.sentence.startswith(f"Send {answer.results[answer.best].label}: ")
+    assert answer.sentence.startswith(f"Send {answer.results[answer.best].label}. ")
 
 
 def test_without_a_delta_it_is_two_percent_of_the_merits_range(scenario: Scenario) -> None:
@@ -122,7 +122,7 @@ def test_a_study_that_must_stop_first_guarantees_nothing(
     answer = study.run(scenario, delta=0.001, max_runs=900, out=tmp_path)
     assert answer.runs <= 900
     assert not answer.is_guaranteed
-    assert answer.guarantee.startswith("Nothing is guaranteed")
+    assert answer.guarantee.startswith("No guarantee")
     assert study.rebuild(tmp_path).runs == answer.runs
     assert study.open(tmp_path).decisions()[-1].facts["is_over"]
     with pytest.raises(InputError, match="max_runs = 79: must be a whole number of 80 or more"):
@@ -134,7 +134,7 @@ def test_runs_of_another_program_are_not_mixed_with_ours(
 ) -> None:
     study.run(scenario, delta=0.3, out=tmp_path)
     monkeypatch.setattr("agent_economy.study.plan.version", lambda _: "99.0")
-    with pytest.raises(InputError, match="holds another study"):
+    with pytest.raises(InputError, match="contains another study"):
         study.run(scenario, delta=0.3, out=tmp_path)
 
 
@@ -151,7 +151,7 @@ def test_a_study_toml_edited_to_ask_for_other_runs_is_refused(
     assert there in text
     path.write_text(text.replace(there, edited))
     for ask_again in (study.rebuild, study.resume):
-        with pytest.raises(InputError, match=r"its \[data\] was changed"):
+        with pytest.raises(InputError, match=r"\[data\] was changed"):
             ask_again(tmp_path)
 
 
@@ -176,7 +176,7 @@ def test_a_folder_with_other_runs_is_refused(
     change: dict[str, Any], scenario: Scenario, tmp_path: Path
 ) -> None:
     study.run(scenario, delta=0.3, out=tmp_path)
-    with pytest.raises(InputError, match="holds another study"):
+    with pytest.raises(InputError, match="contains another study"):
         study.run(scenario, delta=0.3, out=tmp_path, **change)
 
 
@@ -275,15 +275,15 @@ def test_a_run_that_went_wrong_counts_as_the_worst_and_is_counted(
 ) -> None:
     asked = study.make_plan(scenario.replace(f"study.vary.{TEAM}", "3,4,5"), delta=0.3)
 
-    def compute(rectangle: Any) -> Any:
-        columns = asked.engine(rectangle)
-        for row, configuration in enumerate(rectangle.configurations):
+    def compute(block: Any) -> Any:
+        columns = asked.engine(block)
+        for row, configuration in enumerate(block.configurations):
             if configuration == 1:
                 for values in columns.values():
                     values[row] = float("nan")
         return columns
 
-    answer = study.pursue(asked, tmp_path, compute=compute)
+    answer = study.run_plan(asked, tmp_path, compute=compute)
     four = answer.results[1]
     assert answer.best != 1
     assert four.quarantined == four.runs > 0
@@ -295,7 +295,7 @@ def test_a_run_that_went_wrong_counts_as_the_worst_and_is_counted(
 def test_the_last_ranges_that_watchers_see_are_those_of_the_answer(scenario: Scenario) -> None:
     seen: list[study.Progress] = []
     answer = study.run(scenario, delta=0.5, on_progress=seen.append)
-    ranged = seen[-1].ranged()
+    ranged = seen[-1].intervals()
     assert len(ranged) == seen[-1].survivors
     for leader, merit in ranged:
         result = answer.results[leader.configuration]
@@ -309,7 +309,7 @@ def test_a_long_round_is_told_of_while_it_goes_on(monkeypatch: pytest.MonkeyPatc
 
     def look(now: study.Progress) -> None:
         seen.append(now)
-        left.append(now.foretell())
+        left.append(now.estimate_remaining())
 
     search = Scenario.load("search").replace("clock.time_limit_s", 5)
     vary = {"robots.rover.count": "1,2"}
@@ -324,12 +324,12 @@ def test_a_long_round_is_told_of_while_it_goes_on(monkeypatch: pytest.MonkeyPatc
 
 
 def test_pieces_together_are_the_whole() -> None:
-    area = Rectangle(tuple(range(4)), 3, 1400)
+    area = RunBlock(tuple(range(4)), 3, 1400)
     seen: list[int] = []
-    compute = in_pieces(made_up.slow_outcomes, seen.append)
+    compute = in_chunks(made_up.slow_outcomes, seen.append)
     assert made_up.same(compute(area), made_up.outcomes(area))
     assert seen == sorted(set(seen))
-    assert 0 < seen[0] <= FEWEST_ROWS
+    assert 0 < seen[0] <= MIN_ROWS
     assert seen[-1] < area.rows
 
 
@@ -360,20 +360,20 @@ def test_to_look_at_a_finished_study_gives_its_answer_and_writes_nothing(
 ) -> None:
     answer = study.run(scenario, delta=0.5, out=tmp_path)
     before = written(tmp_path)
-    found, evidence = study.look(tmp_path)
+    found, evidence = study.load_answer(tmp_path)
     assert files.as_json(found) == files.as_json(answer)
     assert sum(sample.runs for sample in evidence.samples) == answer.runs
     assert written(tmp_path) == before
     (tmp_path / "ledger.sqlite").unlink()
     with pytest.raises(InputError, match="is not finished"):
-        study.look(tmp_path)
+        study.load_answer(tmp_path)
 
 
 def test_a_configuration_alone_has_the_very_runs_of_the_study(tmp_path: Path) -> None:
     search = Scenario.load("search").replace("clock.time_limit_s", 5)
     vary = {"robots.rover.count": "1,2", "items.mine.count": "3"}
     study.run(search, vary=vary, runs=2, seed=5, out=tmp_path)
-    plan = study.plan_of(tmp_path)
+    plan = study.load_plan(tmp_path)
     stored = study.open(tmp_path).runs().filter("configuration = 1 AND run = 1").fetchnumpy()
     mine = ae.run(plan.alone(1), seed=5, run=1).row
     assert mine["distance_m"] == stored["distance_m"][0]

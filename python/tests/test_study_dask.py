@@ -18,9 +18,9 @@ def test_a_dask_worker_killed_in_mid_study_changes_no_byte(
         if now.round == 7:
             victim.kill()
 
-    study.pursue(asked, tmp_path / "here")
+    study.run_plan(asked, tmp_path / "here")
     with asked.engine.on_dask(address) as workers:
-        study.pursue(asked, tmp_path / "dask", compute=workers.columns, on_progress=kill)
+        study.run_plan(asked, tmp_path / "dask", compute=workers.columns, on_progress=kill)
     assert victim.wait(10) != 0
     for name in ("answer.json", "study.toml"):
         assert (tmp_path / "dask" / name).read_bytes() == (tmp_path / "here" / name).read_bytes()

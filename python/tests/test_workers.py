@@ -1,4 +1,4 @@
-"""Workers: how a rectangle is cut shows in no result, and a worker that dies loses none."""
+"""Workers: how a block is cut shows in no result, and a worker that dies loses none."""
 
 import os
 import re
@@ -20,10 +20,10 @@ from made_up import outcomes, same
 
 from agent_economy import InputError, StudyError
 from agent_economy.study.executors import LocalExecutor, dask_executor
-from agent_economy.study.rectangle import Columns, Rectangle
-from agent_economy.study.workers import MOST_PIECES, Pace, Workers, cut
+from agent_economy.study.run_block import Columns, RunBlock
+from agent_economy.study.workers import MAX_CHUNKS, Throughput, Workers, next_part
 
-AREA = Rectangle((4, 3, 2, 1, 0, 9, 8), 20, 1000)
+AREA = RunBlock((4, 3, 2, 1, 0, 9, 8), 20, 1000)
 
 
 def two_processes() -> Executor:
@@ -38,7 +38,7 @@ def two_processes() -> Executor:
     st.integers(1, 5),
 )
 def test_how_it_was_cut_shows_in_no_result(names: list[int], runs: int, count: int) -> None:
-    areas = [Rectangle(tuple(names), 70, runs), Rectangle(tuple(names[:1]), 0, runs)]
+    areas = [RunBlock(tuple(names), 70, runs), RunBlock(tuple(names[:1]), 0, runs)]
     with Workers(lambda: ThreadPoolExecutor(count), count, outcomes) as workers:
         for area in areas:
             assert same(workers.columns(area), outcomes(area))
@@ -53,27 +53,29 @@ def test_how_it_was_cut_shows_in_no_result(names: list[int], runs: int, count: i
 def test_pieces_cover_a_rectangle_once_and_are_not_thousands(
     configurations: int, runs: int, workers: int, rate: float
 ) -> None:
-    area = Rectangle(tuple(range(configurations)), 0, runs)
-    pace = Pace()
-    pace.add(1000, 1000 / rate)
-    row, run, given_out, pieces = 0, 0, 0, 0
+    area = RunBlock(tuple(range(configurations)), 0, runs)
+    throughput = Throughput()
+    throughput.add(1000, 1000 / rate)
+    row, run, given_out, chunks = 0, 0, 0, 0
     while given_out < area.rows:
-        piece = cut(area, given_out, pace.piece_rows(area.rows, area.rows - given_out, workers))
-        assert (piece.row, piece.area.first_run) == (row, run)
-        given_out += piece.area.rows
+        chunk = next_part(
+            area, given_out, throughput.chunk_rows(area.rows, area.rows - given_out, workers)
+        )
+        assert (chunk.row, chunk.runs.first_run) == (row, run)
+        given_out += chunk.runs.rows
         row, run = divmod(given_out, runs)
-        pieces += 1
+        chunks += 1
     assert given_out == area.rows
-    assert min(workers, area.rows) <= pieces <= 3 * max(MOST_PIECES, workers)
+    assert min(workers, area.rows) <= chunks <= 3 * max(MAX_CHUNKS, workers)
 
 
 def test_pieces_take_about_a_second_once_the_rate_is_known() -> None:
-    pace = Pace()
-    pace.add(500, 2.0)
-    assert pace.piece_rows(100_000, 100_000, 2) == 250
-    assert pace.piece_rows(100_000, 400, 2) == 196  # of 512 pieces
-    assert pace.piece_rows(1000, 100, 2) == 25
-    assert pace.piece_rows(1000, 4, 2) == 12  # a twentieth of a second
+    throughput = Throughput()
+    throughput.add(500, 2.0)
+    assert throughput.chunk_rows(100_000, 100_000, 2) == 250
+    assert throughput.chunk_rows(100_000, 400, 2) == 196  # of 512 chunks
+    assert throughput.chunk_rows(1000, 100, 2) == 25
+    assert throughput.chunk_rows(1000, 4, 2) == 12  # a twentieth of a second
 
 
 def test_every_run_is_computed_once(tmp_path: Path) -> None:
@@ -109,7 +111,7 @@ def test_runs_that_always_fail_end_the_study_by_name() -> None:
 
 
 def test_runs_that_always_kill_their_worker_end_the_study_by_name() -> None:
-    area = Rectangle(tuple(range(8)), 0, 400)
+    area = RunBlock(tuple(range(8)), 0, 400)
     with (
         Workers(two_processes, 2, made_up.killed_always) as workers,
         pytest.raises(StudyError, match="3 times, at last with BrokenProcessPool") as caught,
@@ -152,7 +154,7 @@ def test_a_task_that_gives_less_ends_the_study(task: partial[Columns], reason: s
 
 INTERRUPTED = """
 import os, time
-from made_up import Rectangle
+from made_up import RunBlock
 from agent_economy.study.executors import LocalExecutor
 from agent_economy.study.workers import Workers
 
@@ -162,7 +164,7 @@ def task(area):
 
 if __name__ == "__main__":
     with Workers(lambda: LocalExecutor(2), 2, task) as workers:
-        workers.columns(Rectangle((0, 1), 0, 10))
+        workers.columns(RunBlock((0, 1), 0, 10))
 """
 
 

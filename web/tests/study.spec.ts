@@ -31,7 +31,7 @@ async function start(request: APIRequestContext, fake: At, ask: object = plain):
 }
 
 const at = (fake: At, id: string) => `${fake.url}/#/study?id=${id}`;
-const sentence = (page: Page) => page.getByText(/^Send \d rovers?: a run takes/);
+const sentence = (page: Page) => page.getByText(/^Send \d rovers?\. A run takes/);
 
 async function answered(page: Page, fake: At) {
   await page.goto(at(fake, await start(page.request, fake)));
@@ -184,7 +184,7 @@ test("an answer has its sentence, guarantee, charts with tables, and files", asy
   await answered(page, fake);
   await expect(page.getByText("selected one with 95% confidence")).toBeVisible();
   await expect(
-    page.getByRole("img", { name: /^Figure of merit with its range/ }).locator("svg"),
+    page.getByRole("img", { name: /^Figure of merit with its interval/ }).locator("svg"),
   ).toBeVisible();
   await expect(page.getByRole("row", { name: /^4 rovers/ }).first()).toBeVisible();
   await page.getByText("Table of values").first().click();
@@ -199,7 +199,7 @@ test("an answer has its sentence, guarantee, charts with tables, and files", asy
 
 test("charts follow the theme and the width of the window", async ({ page, fake }) => {
   await answered(page, fake);
-  const chart = page.getByRole("img", { name: /^Figure of merit with its range/ });
+  const chart = page.getByRole("img", { name: /^Figure of merit with its interval/ });
   const width = () =>
     chart
       .locator("svg")
@@ -223,7 +223,7 @@ test("a click on a point of a chart opens the runs of its configuration, and fro
   fake,
 }) => {
   await answered(page, fake);
-  const chart = page.getByRole("img", { name: /^Figure of merit with its range/ });
+  const chart = page.getByRole("img", { name: /^Figure of merit with its interval/ });
   await chart.locator(".mark-symbol.role-mark path").nth(3).click();
   const dialog = page.getByRole("dialog", { name: "Runs of 4 rovers" });
   await expect(dialog.getByRole("row", { name: /^median/ })).toBeVisible();

@@ -64,7 +64,7 @@ def summary(file: Path, changes: tuple[Override, ...]) -> str:
     """
     scenario = Scenario.load(file, changes)
     plan = study.make_plan(scenario)
-    compared = design.in_words(scenario.design, len(plan.configurations))
+    compared = design.describe(scenario.design, len(plan.configurations))
     return f"{file}: valid: engine {scenario.engine}, {compared}"
 
 

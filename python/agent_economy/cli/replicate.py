@@ -27,7 +27,7 @@ from agent_economy.cli.run_progress import progress_bar
 from agent_economy.scenario import Scenario
 from agent_economy.study.answer import estimate
 from agent_economy.study.answer.evidence import Interval
-from agent_economy.study.store.folder import try_out, write_whole
+from agent_economy.study.store.folder import check_writable, write_whole
 
 WRITERS: dict[str, Callable[[pa.Table, io.BytesIO], None]] = {
     ".parquet": parquet.write_table,
@@ -121,7 +121,7 @@ def writer_of(out: Path) -> Callable[[pa.Table, io.BytesIO], None]:
         message = f"--out {out}: must be a file; it is a folder"
         raise InputError(message)
     try:
-        try_out(out)
+        check_writable(out)
     except OSError as error:
         message = f"--out {out}: is not writable: {error.strerror or error}"
         raise InputError(message) from None

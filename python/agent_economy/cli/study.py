@@ -17,9 +17,9 @@ from agent_economy.cli.study_progress import ProgressDisplay
 from agent_economy.scenario import Override, Scenario
 from agent_economy.study.answer.labels import label
 from agent_economy.study.engine import Engine
-from agent_economy.study.plan import Plan, tightened
+from agent_economy.study.plan import Plan, with_confidence
 from agent_economy.study.question import Question, usual_folder
-from agent_economy.study.rectangle import Compute
+from agent_economy.study.run_block import Compute
 
 QUESTION, PRECISION, COMPUTING = "Question", "Precision", "Computing"
 """Panels of options in the help."""
@@ -61,8 +61,10 @@ class ResumeStudy:
 
     def plan(self) -> tuple[Plan, Path]:
         """Return what to compute, and the folder of the study."""
-        plan = studies.plan_of(self.folder)
-        return plan if self.confidence is None else tightened(plan, self.confidence), self.folder
+        plan = studies.load_plan(self.folder)
+        return plan if self.confidence is None else with_confidence(
+            plan, self.confidence
+        ), self.folder
 
 
 def study(  # noqa: PLR0913  (typer's options are arguments)
@@ -224,7 +226,7 @@ def compute_answer(
     display = ProgressDisplay([label(values) for values in plan.configurations])
     try:
         with executor(plan.engine, workers, dask) as compute, display.shown() as on_progress:
-            return studies.pursue(plan, folder, compute=compute, on_progress=on_progress)
+            return studies.run_plan(plan, folder, compute=compute, on_progress=on_progress)
     except KeyboardInterrupt:
         is_stored = (folder / "study.toml").exists()
         advice = f"; all are stored. Resume with: agent-economy study --resume {folder}"

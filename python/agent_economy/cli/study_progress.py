@@ -86,7 +86,7 @@ class ProgressDisplay:
             return ""
         if time.monotonic() - self._estimated_at > ESTIMATE_PERIOD_S:
             self._estimated_at = time.monotonic()
-            self._left = progress.foretell()
+            self._left = progress.estimate_remaining()
         return "" if self._left is None else f", about {duration(self._left / rate)} left"
 
     def _leaders(self, progress: Progress) -> Table:

@@ -28,7 +28,7 @@ def watch(
     Example: agent-economy watch studies/classic
     """
     with error_exits():
-        names = [label(values) for values in study.plan_of(folder).configurations]
+        names = [label(values) for values in study.load_plan(folder).configurations]
         try:
             with ProgressDisplay(names).shown() as on_progress:
                 is_over = False
@@ -51,10 +51,10 @@ def rounds(folder: Path) -> Iterator[Progress]:
     """Yield the past rounds of a study, and then each new one while a process works on it."""
     store = study.open(folder)
     done, begin, first_runs = 0, time.monotonic(), 0
-    is_worked_on = True
-    while is_worked_on:
+    is_locked = True
+    while is_locked:
         # Read before the rounds: a round that ends in between is seen in the next pass.
-        is_worked_on = study.is_worked_on(folder)
+        is_locked = study.is_locked(folder)
         decisions = store.decisions()
         first_runs = first_runs or (decisions[-1].facts["runs"] if decisions else 0)
         # Another question of the same study starts its rounds from zero.
@@ -64,4 +64,4 @@ def rounds(folder: Path) -> Iterator[Progress]:
             seconds = time.monotonic() - begin
             yield Progress.of_facts(decision.round, decision.facts, computed, seconds)
         done = len(decisions)
-        time.sleep(PAUSE_S if is_worked_on else 0)
+        time.sleep(PAUSE_S if is_locked else 0)

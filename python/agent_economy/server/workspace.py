@@ -12,8 +12,8 @@ from agent_economy import _core
 from agent_economy._core import InputError
 from agent_economy.scenario import Scenario, Source, bundled, validation
 from agent_economy.scenario.source import MAX_BYTES, read_file
-from agent_economy.study import plan_of
-from agent_economy.study.store.folder import ASKED
+from agent_economy.study import load_plan
+from agent_economy.study.store.folder import QUESTION
 
 MAX_DEPTH, MAX_FOLDERS, MAX_FILES = 4, 1000, 200
 """Limits of the search for files: depth of folders, number of folders, number of files."""
@@ -80,7 +80,7 @@ class Workspace:
         """
         folder = self.folder / name
         is_plain = name == folder_id(folder, self.folder) and ".." not in folder.parts
-        is_here = is_plain and self.has(folder / ASKED) and is_study(folder)
+        is_here = is_plain and self.has(folder / QUESTION) and is_study(folder)
         validation.check(is_here, "study", name, "the id of a study in the list")
         return folder
 
@@ -106,7 +106,7 @@ class Workspace:
         Raises:
             InputError: If there is no such study or configuration.
         """
-        plan = plan_of(self.study(name))
+        plan = load_plan(self.study(name))
         return plan.alone(configuration), plan.seed
 
     def _content(self, file: Path) -> bytes | str:
@@ -183,7 +183,7 @@ def folder_id(folder: Path, below: Path) -> str:
 
 def is_study(folder: Path) -> bool:
     """Return whether a folder contains a study."""
-    return is_file(folder / ASKED)
+    return is_file(folder / QUESTION)
 
 
 def is_file(path: Path) -> bool:

@@ -1,19 +1,19 @@
-"""A study: as many runs of each configuration as the question needs, and the answer.
+"""A study: runs of each configuration until its question is answered.
 
-The data flows one way: `ask` -> `plan` (what is asked; `design`, `engine`) -> `race` (the loop:
-the procedure of `selection` asks, `store` looks up, `engine` or `workers` compute) -> `answer`
-(what the runs say for sure) -> `report` and `files`.
+The data flows one way: `api` -> `plan` (the question; `design`, `engine`) -> `race` (the loop: the
+procedure of `selection` requests runs, `store` reads them, `engine` or `workers` compute missing
+ones) -> `answer` (what the runs prove) -> `report` and `files`.
 """
 
 from agent_economy.study.answer.conclude import Answer
 from agent_economy.study.answer.results import Result
-from agent_economy.study.ask import look, plan_of, pursue, rebuild, resume, run
+from agent_economy.study.api import load_answer, load_plan, rebuild, resume, run, run_plan
 from agent_economy.study.plan import Plan
 from agent_economy.study.plan import make as make_plan
 from agent_economy.study.progress import Progress
 from agent_economy.study.selection import Selection, select_best
 from agent_economy.study.store import read as open  # noqa: A004  (ae.study.open)
-from agent_economy.study.store.folder import is_worked_on
+from agent_economy.study.store.folder import is_locked
 
 __all__ = [
     "Answer",
@@ -21,14 +21,14 @@ __all__ = [
     "Progress",
     "Result",
     "Selection",
-    "is_worked_on",
-    "look",
+    "is_locked",
+    "load_answer",
+    "load_plan",
     "make_plan",
     "open",
-    "plan_of",
-    "pursue",
     "rebuild",
     "resume",
     "run",
+    "run_plan",
     "select_best",
 ]

@@ -1,4 +1,4 @@
-"""What people may ask of a selection, checked: all faults of a call in one exception."""
+"""Checks of the arguments of a selection: all errors of a call in one exception."""
 
 import math
 from typing import Literal, get_args
@@ -14,9 +14,9 @@ Guarantee = Literal["indifference", "pgs"]
 Floats = NDArray[np.float64]
 
 MAX_CONFIGURATIONS = 100_000
-LEAST_CONFIDENCE = 0.5
+MIN_CONFIDENCE = 0.5
 FIRST_LOOK = _core.FIRST_LOOK
-"""Runs of every configuration before anything is decided."""
+"""Runs of every configuration before the first decision."""
 
 
 def checked_arguments(  # noqa: PLR0913, PLR0917  (the arguments of select_best)
@@ -31,42 +31,42 @@ def checked_arguments(  # noqa: PLR0913, PLR0917  (the arguments of select_best)
     """Return the bounds of each configuration, shape (k, 2).
 
     Raises:
-        InputError: If anything is not allowed; all faults at once.
+        InputError: If an argument is invalid; with all errors at once.
     """
     whole_k = is_whole(k, 1, MAX_CONFIGURATIONS)
-    least = FIRST_LOOK * k if whole_k else 1
+    min_runs = FIRST_LOOK * k if whole_k else 1
     limits = limits_of(k, bounds) if whole_k else None
-    faults = [
+    errors = [
         *errors_unless(whole_k, "k", k, f"a whole number from 1 to {MAX_CONFIGURATIONS}"),
-        *question_faults(delta, confidence, guarantee),
+        *question_errors(delta, confidence, guarantee),
         *errors_unless(
             is_whole(seed, 0, 2**31 - 1), "seed", seed, "a whole number from 0 to 2147483647"
         ),
         *errors_unless(
-            max_runs is None or is_whole(max_runs, least, 2**62),
+            max_runs is None or is_whole(max_runs, min_runs, 2**62),
             "max_runs",
             max_runs,
-            f"None or a whole number of {least} (10 k) or more",
+            f"None or a whole number of {min_runs} (10 k) or more",
         ),
         *errors_unless(
             not whole_k or limits is not None,
             "bounds",
             bounds,
-            f"least and greatest merit, finite, as a pair or an array ({k}, 2)",
+            f"minimum and maximum merit, finite, as a pair or an array of shape ({k}, 2)",
         ),
     ]
-    if faults or limits is None:
-        raise InputError("\n".join(faults))
+    if errors or limits is None:
+        raise InputError("\n".join(errors))
     return limits
 
 
-def question_faults(delta: object, confidence: object, guarantee: object) -> list[str]:
-    """Return what is wrong with a question."""
+def question_errors(delta: object, confidence: object, guarantee: object) -> list[str]:
+    """Return the errors of a question."""
     names = get_args(Guarantee)
     return [
         *errors_unless(is_between(delta, 0, math.inf), "delta", delta, "a number above 0"),
         *errors_unless(
-            is_between(confidence, np.nextafter(LEAST_CONFIDENCE, 0), 1),
+            is_between(confidence, np.nextafter(MIN_CONFIDENCE, 0), 1),
             "confidence",
             confidence,
             "a number from 0.5 to below 1",
@@ -88,7 +88,7 @@ def is_between(given: object, above: float, below: float) -> bool:
 
 
 def limits_of(k: int, bounds: ArrayLike) -> Floats | None:
-    """Return least and greatest merit of each configuration, shape (k, 2); None if not allowed."""
+    """Return minimum and maximum merit of each configuration, shape (k, 2); None if invalid."""
     try:
         given = np.asarray(bounds, dtype=np.float64)
     except (TypeError, ValueError):

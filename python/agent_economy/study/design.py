@@ -1,4 +1,4 @@
-"""Which configurations a study compares: full factorial, Latin hypercube or Sobol' points."""
+"""The configurations of a study: full factorial, Latin hypercube or Sobol' points."""
 
 import math
 from collections.abc import Sequence
@@ -11,7 +11,7 @@ from agent_economy._core import InputError
 from agent_economy.scenario import Factor, Value
 
 MAX_CONFIGURATIONS = 100_000
-"""Configurations that a study may have."""
+"""Maximum number of configurations of a study."""
 
 Values = dict[str, Value]
 """A value for each factor, by path."""
@@ -21,12 +21,12 @@ def points(factors: Sequence[Factor], design: str = "factorial", seed: int = 0) 
     """Return the configurations of a design, the same in every call.
 
     Args:
-        factors: What is varied; nothing gives the one configuration without changes.
-        design: "factorial" (each value with each other, the first factor varies slowest), "lhs:N"
-            or "sobol:N" (N points that fill the space, N a power of two for sobol), as
-            `Scenario.design` has it. A point takes the value of a factor's list on whose equal
-            share it falls; points that fall together are one configuration.
-        seed: Of lhs and sobol; 0 to 2^64 - 1.
+        factors: What is varied; without factors there is one configuration, without changes.
+        design: "factorial" (all combinations of values, the first factor varies slowest), "lhs:N"
+            or "sobol:N" (N space-filling points, N a power of two for sobol), as in
+            `Scenario.design`. A list of values divides its axis into equal parts, one per value;
+            points with the same values are one configuration.
+        seed: Seed of lhs and sobol; 0 to 2^64 - 1.
 
     Raises:
         InputError: If there are more than 100,000, or a factorial design has a range.
@@ -38,23 +38,23 @@ def points(factors: Sequence[Factor], design: str = "factorial", seed: int = 0) 
     return [dict(zip(paths, row, strict=True)) for row in dict.fromkeys(rows)]
 
 
-def in_words(design: str, configurations: int) -> str:
-    """Return how many configurations a design has, and how many of its points are left."""
-    left = f"{configurations:,} configuration{'' if configurations == 1 else 's'}"
+def describe(design: str, configurations: int) -> str:
+    """Return a design and its number of configurations in words."""
+    number = f"{configurations:,} configuration{'' if configurations == 1 else 's'}"
     if design == "factorial":
-        return f"factorial: {left}"
+        return f"factorial: {number}"
     drawn = number_of_points(design)
-    return f"{design}: {left}" + (
-        f" (of {drawn:,} points, the others fall on these)" if configurations < drawn else ""
+    return f"{design}: {number}" + (
+        f" ({drawn:,} points, some with the same values)" if configurations < drawn else ""
     )
 
 
 def factorial(factors: Sequence[Factor]) -> list[Values]:
-    """Return each value of each factor with each of every other."""
+    """Return all combinations of the factors' values."""
     ranges = [factor for factor in factors if factor.range]
     if ranges:
         message = "\n".join(
-            f"study.vary: {factor.path}: must be a list of values where the design is factorial"
+            f"study.vary: {factor.path}: must be a list of values if the design is factorial"
             for factor in ranges
         )
         raise InputError(message)

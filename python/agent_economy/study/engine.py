@@ -1,4 +1,4 @@
-"""What runs a study's configurations: the simulator that the scenario names."""
+"""Runs the configurations of a study on the simulator of its scenario."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -11,20 +11,20 @@ from agent_economy.scenario import Scenario
 from agent_economy.study.arguments import Floats
 from agent_economy.study.design import Values
 from agent_economy.study.executors import LocalExecutor, dask_executor
-from agent_economy.study.rectangle import Columns, Rectangle
+from agent_economy.study.run_block import Columns, RunBlock
 from agent_economy.study.store.columns import Column
 from agent_economy.study.workers import Workers
 
 
 @dataclass(frozen=True)
 class Engine:
-    """The configurations of a study, ready to run; it can be sent to another process.
+    """The configurations of a study, ready to run; it can be pickled for another process.
 
     Attributes:
-        scenario: What they differ from.
-        configurations: The values in which each differs.
-        seed: Of all random numbers.
-        threads: That it uses; None for as many as there are processors.
+        scenario: The scenario that they vary.
+        configurations: The values of the varied factors of each.
+        seed: Seed of all random numbers.
+        threads: Number of threads; None for one per processor.
     """
 
     scenario: Scenario
@@ -33,19 +33,19 @@ class Engine:
     threads: int | None = None
 
     def __getstate__(self) -> dict[str, object]:
-        """Leave out what is compiled: it is made again where it is needed."""
+        """Leave out compiled configurations: they are compiled again where they are needed."""
         return {name: getattr(self, name) for name in self.__dataclass_fields__}
 
     def __setstate__(self, state: dict[str, object]) -> None:
-        """Take what another process sent."""
+        """Restore the attributes."""
         self.__dict__.update(state)
 
     def in_processes(self, count: int) -> Workers:
-        """Return processes of this machine that compute, one thread each; use it in a `with`."""
+        """Return processes of this machine, one thread each; use as a context manager."""
         return Workers(lambda: LocalExecutor(count), count, replace(self, threads=1))
 
     def on_dask(self, address: str) -> Workers:
-        """Return a Dask cluster's workers; use it in a `with`.
+        """Return the workers of a Dask cluster; use as a context manager.
 
         Raises:
             InputError: If no scheduler answers at the address, or Dask is not installed.
@@ -69,31 +69,31 @@ class Engine:
 
     @property
     def columns(self) -> tuple[Column, ...]:
-        """What every run tells."""
+        """The columns of every run."""
         return tuple(Column(name, kind) for name, kind, _, _ in self._compiled(0).columns)
 
     def limits(self, configuration: int) -> dict[str, tuple[float, float]]:
-        """Return between which values each column of a configuration lies."""
+        """Return the range of each column of a configuration."""
         return {
             name: (
-                -np.inf if least is None else least,
-                np.inf if greatest is None else greatest,
+                -np.inf if lowest is None else lowest,
+                np.inf if highest is None else highest,
             )
-            for name, _, least, greatest in self._compiled(configuration).columns
+            for name, _, lowest, highest in self._compiled(configuration).columns
         }
 
     def merit_limits(self) -> Floats:
-        """Return between which merits the runs of each configuration lie: (configurations, 2)."""
+        """Return the range of the merit of each configuration, shape (configurations, 2)."""
         limits = [self.limits(index) for index in range(len(self.configurations))]
         return np.array([self.scenario.merit.bounds(each) for each in limits])
 
-    def __call__(self, rectangle: Rectangle) -> Columns:
-        """Return the outcomes of a rectangle."""
-        compiled = [self._compiled(each) for each in rectangle.configurations]
+    def __call__(self, block: RunBlock) -> Columns:
+        """Return the outcomes of a block of runs."""
+        compiled = [self._compiled(each) for each in block.configurations]
         return _core.run_block(
             compiled,
             seed=self.seed,
-            first_run=rectangle.first_run,
-            runs=rectangle.runs,
+            first_run=block.first_run,
+            runs=block.runs,
             threads=self.threads,
         )

@@ -1,14 +1,14 @@
-"""What ends a study besides what a user wrote."""
+"""Errors that end a study although its question is valid."""
 
 from agent_economy._core import InputError
 
 
 class StudyError(RuntimeError):
-    """A study cannot go on, though nothing that was asked is wrong: asked again, it goes on."""
+    """A study cannot continue, although its question is valid; it can be resumed later."""
 
 
 class StoreError(StudyError, InputError):
-    """A study's folder is damaged, taken, full, or another version's: not what was asked is wrong.
+    """A study's folder is damaged, locked, full, or of another version.
 
-    It is an `InputError` too, so that who calls from Python catches all that a folder can be.
+    It is also an `InputError`, so that callers can catch all errors of a folder as one type.
     """

@@ -1,4 +1,4 @@
-"""Where pieces of a study run: processes of this machine, or a Dask cluster."""
+"""Executors for chunks of a study: processes of this machine, or a Dask cluster."""
 
 import contextlib
 import multiprocessing
@@ -18,10 +18,10 @@ from agent_economy._core import InputError
 from agent_economy.study.errors import StudyError
 
 CONNECT_S = 10
-"""How long a scheduler may take to answer, or to come back."""
+"""Time limit for a scheduler to answer."""
 
-WATCH_S = 0.5
-"""Seconds between two looks at whether a scheduler is lost."""
+CHECK_S = 0.5
+"""Interval of checks whether the scheduler is lost."""
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -30,31 +30,31 @@ T = TypeVar("T")
 class LocalExecutor(ProcessPoolExecutor):
     """Processes of this machine.
 
-    They end with the process that started them, however that ends. A script that starts them keeps
-    what it does under `if __name__ == "__main__":`, since each imports it.
+    They end with the process that started them, however it ends. A script that starts them must
+    guard its code with `if __name__ == "__main__":`, because each process imports it.
     """
 
     def __init__(self, count: int) -> None:
-        """Start processes as pieces come, up to a count."""
+        """Prepare up to `count` processes; they start with the first chunks."""
         context = multiprocessing.get_context("spawn")
-        super().__init__(count, mp_context=context, initializer=begin_worker)
+        super().__init__(count, mp_context=context, initializer=prepare_worker)
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:  # noqa: FBT001, FBT002  (as inherited)
-        """End; without waiting, what runs is ended at once."""
+        """Stop; without waiting, running chunks are terminated."""
         processes = [] if wait else list((self._processes or {}).values())
         super().shutdown(wait, cancel_futures=cancel_futures)
         for process in processes:
             process.terminate()
 
 
-def begin_worker() -> None:
-    """Prepare a process: Ctrl-C is its parent's to handle, and without a parent it ends."""
+def prepare_worker() -> None:
+    """Prepare a process: it ignores Ctrl-C, which its parent handles, and ends with its parent."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threading.Thread(target=end_with_parent, daemon=True).start()
 
 
 def end_with_parent() -> None:
-    """End this process when the one that started it has ended."""
+    """End this process when its parent has ended."""
     parent = multiprocessing.parent_process()
     if parent:
         parent.join()
@@ -62,7 +62,7 @@ def end_with_parent() -> None:
 
 
 class DaskExecutor(Executor):
-    """A Dask cluster, as an executor that says so when its scheduler is lost."""
+    """A Dask cluster as an executor that raises an error when its scheduler is lost."""
 
     def __init__(self, address: str, client: Any) -> None:
         """Take over a `distributed.Client`."""
@@ -75,7 +75,7 @@ class DaskExecutor(Executor):
 
     @property
     def count(self) -> int:
-        """Threads that the cluster's workers have now."""
+        """Current number of threads of the cluster's workers."""
         return sum(self._client.nthreads().values())
 
     def submit(self, fn: Callable[P, T], /, *args: P.args, **kwargs: P.kwargs) -> Future[T]:
@@ -92,7 +92,7 @@ class DaskExecutor(Executor):
         return future
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:  # noqa: FBT001, FBT002  (as inherited)
-        """Let the cluster go; its workers stay."""
+        """Disconnect from the cluster; its workers keep running."""
         self._ended.set()
         if not self._is_lost:
             self._executor.shutdown(wait=wait and not cancel_futures)
@@ -100,23 +100,20 @@ class DaskExecutor(Executor):
 
     @property
     def _is_lost(self) -> bool:
-        """Whether the client has given up its scheduler."""
+        """Whether the client has lost its scheduler."""
         return self._client.status in {"closing", "closed"}
 
     def _watch(self) -> None:
-        """Say of every call that it is lost when the scheduler is.
-
-        Dask would say nothing, and whoever waits would wait for ever.
-        """
-        while not self._ended.wait(WATCH_S):
+        """Fail all pending calls when the scheduler is lost, as Dask itself does not."""
+        while not self._ended.wait(CHECK_S):
             if self._is_lost:
                 for future in list(self._waiting):
                     with contextlib.suppress(InvalidStateError):
                         future.set_exception(self._lost())
 
     def _lost(self) -> StudyError:
-        """Return what to say."""
-        message = f"{self._address}: the Dask scheduler is lost: start it, then ask again to go on"
+        """Return the error for a lost scheduler."""
+        message = f"{self._address}: the Dask scheduler is lost: restart it, then resume the study"
         return StudyError(message)
 
 
@@ -124,8 +121,8 @@ def dask_executor(address: str) -> DaskExecutor:
     """Return a Dask cluster as an executor.
 
     Args:
-        address: Of its scheduler, as tcp://HOST:8786. Its workers need this version of this
-            program installed.
+        address: Address of its scheduler, such as tcp://HOST:8786. The same version of this program
+            must be installed on its workers.
 
     Raises:
         InputError: If Dask is not installed, or nothing answers at the address.
@@ -133,11 +130,11 @@ def dask_executor(address: str) -> DaskExecutor:
     try:
         from distributed import Client  # noqa: PLC0415  (an extra, and slow to load)
     except ImportError:
-        message = f"{address}: needs Dask: pip install 'agent-economy[dask]'"
+        message = f"{address}: Dask is not installed: pip install 'agent-economy[dask]'"
         raise InputError(message) from None
     try:
         client = Client(address, timeout=CONNECT_S, set_as_default=False)  # type: ignore[no-untyped-call]
     except (OSError, ValueError) as error:
-        message = f"{address}: no Dask scheduler answers there ({error})"
+        message = f"{address}: no Dask scheduler answers at this address ({error})"
         raise InputError(message) from None
     return DaskExecutor(address, client)

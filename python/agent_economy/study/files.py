@@ -1,4 +1,4 @@
-"""What a study leaves besides its data: answer.json and report.html."""
+"""The output files of a study: answer.json and report.html."""
 
 import json
 from dataclasses import asdict
@@ -14,7 +14,7 @@ from agent_economy.study.versions import versions
 
 
 def write(folder: Path, answer: Answer, evidence: Evidence, script: report.ChartScript) -> None:
-    """Write a study's report and answer; each appears whole or not at all, the answer last.
+    """Write a study's report and answer atomically, the answer last.
 
     Raises:
         InputError: If they cannot be written.
@@ -29,27 +29,27 @@ def write(folder: Path, answer: Answer, evidence: Evidence, script: report.Chart
     write_whole(folder / ANSWER, as_json(answer).encode())
 
 
-def are_there(folder: Path, answer: Answer) -> bool:
-    """Return whether an answer is there, and a report beside it: both follow from the same runs."""
-    there = read_bytes(folder / ANSWER)
-    return there == as_json(answer).encode() and (folder / REPORT).exists()
+def are_current(folder: Path, answer: Answer) -> bool:
+    """Return whether a folder contains this answer, and a report with it."""
+    existing = read_bytes(folder / ANSWER)
+    return existing == as_json(answer).encode() and (folder / REPORT).exists()
 
 
 def as_json(answer: Answer) -> str:
-    """Return an answer as JSON: no time, path, host or number of threads is in it."""
+    """Return an answer as JSON, without times, paths, hosts and numbers of threads."""
     return json.dumps(as_dict(answer), indent=2, allow_nan=False) + "\n"
 
 
 def as_dict(answer: Answer) -> dict[str, Any]:
-    """Return an answer as JSON has it."""
-    given = asdict(answer)
-    scenario = given.pop("scenario")
+    """Return an answer as JSON values."""
+    values = asdict(answer)
+    scenario = values.pop("scenario")
     del scenario["source"]
     results = [
-        {"configuration": index, **result} for index, result in enumerate(given.pop("results"))
+        {"configuration": index, **result} for index, result in enumerate(values.pop("results"))
     ]
     return {
-        **given,
+        **values,
         "runs": answer.runs,
         "results": results,
         "scenario": scenario,

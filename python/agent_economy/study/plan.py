@@ -1,7 +1,7 @@
-"""What is asked of a study: the configurations that it compares, and how sure it must be.
+"""The plan of a study: the configurations that it compares, and the guarantee that it must reach.
 
-A plan is kept as `study.toml` in the study's folder, whole: the scenario's text and what was put
-over it, so that the folder alone goes on.
+A plan is stored as `study.toml` in the study's folder, with the scenario's text and its overrides,
+so that the study can be resumed from the folder alone.
 """
 
 import hashlib
@@ -22,45 +22,45 @@ from agent_economy.scenario.validation import check, errors_unless, is_whole, of
 from agent_economy.study import design
 from agent_economy.study.arguments import (
     FIRST_LOOK,
-    LEAST_CONFIDENCE,
+    MIN_CONFIDENCE,
     Floats,
     Guarantee,
-    question_faults,
+    question_errors,
 )
 from agent_economy.study.design import Values
 from agent_economy.study.engine import Engine
 
 FORMAT = 1
-"""Of study.toml."""
+"""Format version of study.toml."""
 
 PART_OF_RANGE = 0.02
-"""Of the merit's range: the delta of a study that is told none."""
+"""Default delta, as a part of the merit's range."""
 
 MAX_RUNS = 10_000_000
-"""Of each configuration, when their number is fixed beforehand."""
+"""Maximum fixed number of runs per configuration."""
 
 MAX_SEED = 2**64 - 1
 
 WITHOUT_RUNS = {"merit", "published", "study", "summary"}
-"""Keys of a scenario on which no run depends: configurations are counted apart."""
+"""Keys of a scenario that do not affect runs; configurations are compared separately."""
 
-HEADER = "# What was asked of this study. Go on: agent-economy study --resume FOLDER\n\n"
+HEADER = "# The question of this study. To resume it: agent-economy study --resume FOLDER\n\n"
 
 
 @dataclass(frozen=True)
 class Plan:
-    """What is asked of a study.
+    """The question of a study.
 
     Attributes:
-        scenario: What is run.
-        seed: Of all random numbers, 0 to 2^64 - 1.
-        delta: The difference of mean merits worth finding.
-        confidence: Of the guarantee, and of all intervals together.
-        guarantee: Which one, as `select_best` has it.
-        runs: Of each configuration; None for as few as it takes.
-        max_runs: Of all together, after which it stops without a guarantee; None for no end.
-        configurations: The values in which each differs from the scenario.
-        engine: What runs them.
+        scenario: The scenario that is varied.
+        seed: Seed of all random numbers, 0 to 2^64 - 1.
+        delta: Indifference zone, in units of merit.
+        confidence: Confidence of the guarantee, and of all intervals together.
+        guarantee: "indifference" or "pgs", as in `select_best`.
+        runs: Fixed number of runs per configuration; None to stop when the answer is settled.
+        max_runs: Run budget of all configurations together; None for no limit.
+        configurations: The values of the varied factors of each configuration.
+        engine: Runs the configurations.
     """
 
     scenario: Scenario
@@ -74,7 +74,7 @@ class Plan:
     engine: Engine
 
     def alone(self, configuration: int) -> Scenario:
-        """Return the scenario with the values of a configuration: its runs are the study's.
+        """Return the scenario with the values of one configuration; it has the same runs.
 
         Raises:
             InputError: If there is no such configuration.
@@ -88,7 +88,7 @@ class Plan:
         )
 
     def text(self) -> str:
-        """Return study.toml."""
+        """Return the text of study.toml."""
         source = self.scenario.source
         question = {
             "delta": self.delta,
@@ -108,31 +108,34 @@ class Plan:
             "scenario": source.text,
             "files": {name: digest(data) for name, data in self.files.items()},
         }
-        document = {"format": FORMAT, "question": given(question), "data": given(data)}
+        document = {
+            "format": FORMAT,
+            "question": without_none(question),
+            "data": without_none(data),
+        }
         return HEADER + tomli_w.dumps(document, multiline_strings=True)
 
     @cached_property
     def limits(self) -> Floats:
-        """Between which merits the runs of each configuration lie; shape (configurations, 2).
+        """The range of the merit of each configuration; shape (configurations, 2).
 
         Raises:
-            InputError: If a configuration is not allowed.
+            InputError: If a configuration is invalid.
         """
         return self.engine.merit_limits()
 
     @property
     def files(self) -> dict[str, bytes]:
-        """The files that the scenario names, by their names."""
+        """The files that the scenario refers to, by name."""
         files = self.scenario.source.files.items()
         return {name: data for name, data in files if isinstance(data, bytes)}
 
     @cached_property
     def identity(self) -> str:
-        """Says which runs these are: two plans of one identity can share a folder.
+        """The hash of all that determines the runs: plans with the same identity share a folder.
 
-        It covers all on which a run, or the numbers of runs asked for together, depends: the
-        program, the seed, the configurations in their order, and the scenario but for what only
-        scores and words depend on.
+        It covers the version of the program, the seed, the configurations in their order, and the
+        scenario except for the keys that affect only scores and texts.
         """
         document = self.scenario.to_dict()
         runs = {key: value for key, value in document.items() if key not in WITHOUT_RUNS}
@@ -152,10 +155,10 @@ def make(  # noqa: PLR0913  (keywords with defaults)
     runs: int | None = None,
     max_runs: int | None = None,
 ) -> Plan:
-    """Return the plan of a scenario's study; what is not given is the scenario's, or the default.
+    """Return the plan of a scenario's study; None stands for the scenario's value or the default.
 
     Raises:
-        InputError: If anything is not allowed.
+        InputError: If an argument or a configuration is invalid.
     """
     plan = draft(
         scenario,
@@ -167,12 +170,12 @@ def make(  # noqa: PLR0913  (keywords with defaults)
         max_runs=max_runs,
     )
     limits = plan.limits
-    is_told = delta is not None or scenario.delta is not None
-    return plan if is_told else replace(plan, delta=usual_delta(limits))
+    has_delta = delta is not None or scenario.delta is not None
+    return plan if has_delta else replace(plan, delta=default_delta(limits))
 
 
-def usual_delta(limits: Floats) -> float:
-    """Return the delta of a study that is told none."""
+def default_delta(limits: Floats) -> float:
+    """Return the delta of a study without one of its own."""
     return PART_OF_RANGE * float(limits[:, 1].max() - limits[:, 0].min()) or 1.0
 
 
@@ -186,22 +189,22 @@ def draft(  # noqa: PLR0913  (as in make)
     runs: int | None,
     max_runs: int | None,
 ) -> Plan:
-    """Return a plan of which it is not known yet that each configuration is allowed.
+    """Return a plan whose configurations are not checked yet.
 
     Raises:
-        InputError: If anything else is not.
+        InputError: If an argument is invalid.
     """
     of_kind("scenario", scenario, Scenario, "a Scenario")
-    sure = confidence if confidence is not None else scenario.confidence
-    check_question(seed=seed, delta=delta, confidence=sure, guarantee=guarantee, runs=runs)
+    confidence = confidence if confidence is not None else scenario.confidence
+    check_question(seed=seed, delta=delta, confidence=confidence, guarantee=guarantee, runs=runs)
     configurations = tuple(design.points(scenario.factors, scenario.design, seed))
     check_max_runs(max_runs, runs, FIRST_LOOK * len(configurations))
-    wanted = delta if delta is not None else scenario.delta
+    delta = delta if delta is not None else scenario.delta
     return Plan(
         scenario=scenario,
         seed=int(seed),
-        delta=float(wanted if wanted is not None else 1.0),
-        confidence=float(sure),
+        delta=float(delta if delta is not None else 1.0),
+        confidence=float(confidence),
         guarantee=guarantee,
         runs=None if runs is None else int(runs),
         max_runs=None if max_runs is None else int(max_runs),
@@ -213,49 +216,49 @@ def draft(  # noqa: PLR0913  (as in make)
 def check_question(
     *, seed: int, delta: float | None, confidence: float | None, guarantee: str, runs: int | None
 ) -> None:
-    """See to what is asked of a scenario's study; None is for what the scenario says.
+    """Check the question of a study; None stands for the scenario's value.
 
     Raises:
-        InputError: If anything is not allowed; all faults at once.
+        InputError: If an argument is invalid; with all errors at once.
     """
-    sure = LEAST_CONFIDENCE if confidence is None else confidence
-    faults = question_faults(1.0 if delta is None else delta, sure, guarantee)
-    faults += errors_unless(is_whole(seed, 0, MAX_SEED), "seed", seed, f"0 to {MAX_SEED}")
-    is_fixed = runs is None or is_whole(runs, 2, MAX_RUNS)
-    faults += errors_unless(is_fixed, "runs", runs, f"a whole number from 2 to {MAX_RUNS}")
-    if faults:
-        raise InputError("\n".join(faults))
+    confidence = MIN_CONFIDENCE if confidence is None else confidence
+    errors = question_errors(1.0 if delta is None else delta, confidence, guarantee)
+    errors += errors_unless(is_whole(seed, 0, MAX_SEED), "seed", seed, f"0 to {MAX_SEED}")
+    is_allowed = runs is None or is_whole(runs, 2, MAX_RUNS)
+    errors += errors_unless(is_allowed, "runs", runs, f"a whole number from 2 to {MAX_RUNS}")
+    if errors:
+        raise InputError("\n".join(errors))
 
 
-def check_max_runs(max_runs: int | None, runs: int | None, least: int) -> None:
-    """Refuse an end before the first look, or one of a number of runs that is fixed.
+def check_max_runs(max_runs: int | None, runs: int | None, min_runs: int) -> None:
+    """Check a run budget: it must allow the first look, and excludes a fixed number of runs.
 
     Raises:
-        InputError: If it is so.
+        InputError: If it is invalid.
     """
     if max_runs is None:
         return
-    check(runs is None, "max_runs", max_runs, "left out where runs are given")
-    allowed = f"a whole number of {least} or more, {FIRST_LOOK} of each configuration"
-    check(is_whole(max_runs, least, 2**62), "max_runs", max_runs, allowed)
+    check(runs is None, "max_runs", max_runs, "left out if runs are given")
+    allowed = f"a whole number of {min_runs} or more, {FIRST_LOOK} of each configuration"
+    check(is_whole(max_runs, min_runs, 2**62), "max_runs", max_runs, allowed)
 
 
-def tightened(plan: Plan, confidence: float) -> Plan:
-    """Return a plan that asks for a higher confidence.
+def with_confidence(plan: Plan, confidence: float) -> Plan:
+    """Return a plan with a higher confidence.
 
     Raises:
-        InputError: If it is not higher, or not below 1.
+        InputError: If it is lower, or not below 1.
     """
-    faults = question_faults(plan.delta, confidence, plan.guarantee)
-    if not faults and confidence < plan.confidence:
-        faults = [f"confidence = {confidence:g}: must be above the study's {plan.confidence:g}"]
-    if faults:
-        raise InputError("\n".join(faults))
+    errors = question_errors(plan.delta, confidence, plan.guarantee)
+    if not errors and confidence < plan.confidence:
+        errors = [f"confidence = {confidence:g}: must be above the study's {plan.confidence:g}"]
+    if errors:
+        raise InputError("\n".join(errors))
     return replace(plan, confidence=float(confidence))
 
 
 def digest(data: bytes) -> str:
-    """Return what tells a file's content from any other."""
+    """Return the hash of a file's content."""
     return hashlib.sha256(data).hexdigest()
 
 
@@ -264,11 +267,11 @@ def read(text: str, file: str, content: Callable[[str], bytes]) -> Plan:
 
     Args:
         text: Its text.
-        file: How faults name it.
-        content: Gives what is in a file by its digest.
+        file: Its path in error messages.
+        content: Returns the content of a file by its digest.
 
     Raises:
-        InputError: If it is none, or of a newer version.
+        InputError: If it is not a study.toml, or one of a newer version.
     """
     try:
         document = tomllib.loads(text)
@@ -276,27 +279,29 @@ def read(text: str, file: str, content: Callable[[str], bytes]) -> Plan:
         message = f"{file}: is not a study: {error}"
         raise InputError(message) from None
     if document.get("format") != FORMAT:
-        message = f"{file}: format = {document.get('format')}: must be {FORMAT}; a newer program's?"
+        message = (
+            f"{file}: format = {document.get('format')}: must be {FORMAT}: update this program?"
+        )
         raise InputError(message)
     try:
-        found = of_document(document, content)
-        if found.identity == document["data"]["identity"]:
-            return found
+        plan = of_document(document, content)
+        if plan.identity == document["data"]["identity"]:
+            return plan
     except (KeyError, TypeError, ValueError) as error:
         if isinstance(error, InputError):
             raise
-        message = f"{file}: is damaged ({error!r}): restore it, or start in another folder"
+        message = f"{file}: is damaged ({error!r}): restore it, or use another folder"
         raise InputError(message) from None
     message = (
-        f"{file}: its [data] was changed, or is that of another version of this program "
-        f"({document['data'].get('program')}): the runs beside it are others; restore it, or start "
-        "in another folder"
+        f"{file}: [data] was changed, or was written by another version of this program "
+        f"({document['data'].get('program')}), and does not match the stored runs: restore it, or "
+        "use another folder"
     )
     raise InputError(message)
 
 
 def of_document(document: Mapping[str, Any], content: Callable[[str], bytes]) -> Plan:
-    """Return the plan of a parsed study.toml: that its configurations are allowed was seen to."""
+    """Return the plan of a parsed study.toml; its configurations were checked before."""
     data, question = document["data"], document["question"]
     overrides = tuple(
         Override(tuple(each["path"]), each["value"], "study.toml") for each in data["changes"]
@@ -314,7 +319,7 @@ def of_document(document: Mapping[str, Any], content: Callable[[str], bytes]) ->
 
 
 def is_same_data(one: str, other: str) -> bool:
-    """Return whether two study.toml ask for the same runs, if perhaps another question of them."""
+    """Return whether two study.toml have the same runs; their questions may differ."""
     try:
         first, second = tomllib.loads(one), tomllib.loads(other)
     except tomllib.TOMLDecodeError:
@@ -324,6 +329,6 @@ def is_same_data(one: str, other: str) -> bool:
     )
 
 
-def given(table: dict[str, Any]) -> dict[str, Any]:
-    """Return a table without what is None: TOML has no such value."""
+def without_none(table: dict[str, Any]) -> dict[str, Any]:
+    """Return a table without values of None, which TOML does not have."""
     return {key: value for key, value in table.items() if value is not None}

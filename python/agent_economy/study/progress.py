@@ -1,4 +1,4 @@
-"""What watchers of a study are told."""
+"""The progress of a study."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -10,32 +10,33 @@ from agent_economy.study.selection import Elimination
 
 @dataclass(frozen=True)
 class Leader:
-    """One of the best so far."""
+    """One of the best configurations so far."""
 
     configuration: int
     runs: int
     merit: float
 
 
-Ranged = tuple[Leader, Interval]
+LeaderInterval = tuple[Leader, Interval]
 
 
 @dataclass(frozen=True)
 class Progress:
-    """How far a study is: after a round, or while a long one goes on.
+    """The progress of a study after a round, or during a long one.
 
     Attributes:
-        round: Rounds over.
-        runs: Runs of all configurations, the stored ones included, and of the round that goes on.
-        computed: Those of them that this process had to compute.
-        seconds: Since it began.
-        survivors: Configurations still in.
+        round: Completed rounds.
+        runs: Runs of all configurations, including stored ones and those of the current round.
+        computed: Those of them that this process computed.
+        seconds: Seconds since the start.
+        survivors: Remaining configurations.
         leaders: The best of them so far.
-        eliminated: Those put out by the round that is over now, and by whom.
+        eliminated: Configurations that the completed round eliminated.
         is_over: Whether it was the last round.
-        foretell: Returns about how many runs are left; None if nobody can say. It takes a moment.
-        ranged: Returns the best of the survivors, each with its mean merit and bounds that hold
-            with all of the answer's. It takes a moment.
+        estimate_remaining: Returns the approximate number of runs left; None if it is unknown.
+            Takes milliseconds.
+        intervals: Returns the best of the survivors, each with its mean merit and bounds that hold
+            simultaneously with all of the answer's. Takes milliseconds.
     """
 
     round: int
@@ -46,11 +47,11 @@ class Progress:
     leaders: tuple[Leader, ...]
     eliminated: tuple[Elimination, ...]
     is_over: bool
-    foretell: Callable[[], float | None]
-    ranged: Callable[[], tuple[Ranged, ...]]
+    estimate_remaining: Callable[[], float | None]
+    intervals: Callable[[], tuple[LeaderInterval, ...]]
 
     def facts(self) -> dict[str, Any]:
-        """Return what the ledger keeps of the round: what follows from the data alone."""
+        """Return what the ledger stores of the round: facts that follow from the data alone."""
         return {
             "runs": self.runs,
             "survivors": self.survivors,
@@ -63,7 +64,7 @@ class Progress:
     def of_facts(
         cls, number: int, facts: Mapping[str, Any], computed: int, seconds: float
     ) -> "Progress":
-        """Return a round as the ledger keeps it: without ranges, or how many runs are left."""
+        """Return a round from the ledger: without intervals and an estimate of what is left."""
         return cls(
             round=number + 1,
             runs=facts["runs"],
@@ -73,8 +74,8 @@ class Progress:
             leaders=tuple(Leader(*each) for each in facts["leaders"]),
             eliminated=tuple(Elimination(*each) for each in facts["eliminated"]),
             is_over=facts["is_over"],
-            foretell=lambda: None,
-            ranged=tuple,
+            estimate_remaining=lambda: None,
+            intervals=tuple,
         )
 
 

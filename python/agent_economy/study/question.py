@@ -1,27 +1,27 @@
-"""What a study compares and how sure it must be, in words; and where it is kept."""
+"""A study's question in words, and the folder of the study."""
 
 from dataclasses import dataclass
 from pathlib import Path
 
 from agent_economy.study import design
 from agent_economy.study.plan import Plan, is_same_data
-from agent_economy.study.store.folder import ASKED
+from agent_economy.study.store.folder import QUESTION
 
 FOLDER = Path("studies")
-"""In which studies are kept if nothing else is said."""
+"""Default folder of studies."""
 
 
 @dataclass(frozen=True)
 class Question:
-    """What a study compares, and how sure it must be.
+    """What a study compares, and with which guarantee.
 
     Attributes:
         design: As in `Scenario.design`.
-        configurations: How many.
-        delta: The difference of mean merits worth finding.
-        confidence: Of the guarantee.
-        guarantee: Which one, as `select_best` has it.
-        runs: Of each configuration; None for as few as it takes.
+        configurations: Number of configurations.
+        delta: Indifference zone, in units of merit.
+        confidence: Confidence of the guarantee.
+        guarantee: "indifference" or "pgs", as in `select_best`.
+        runs: Fixed number of runs per configuration; None to stop when the answer is settled.
     """
 
     design: str
@@ -44,22 +44,24 @@ class Question:
         )
 
     def __str__(self) -> str:
-        """Return it as it is announced."""
+        """Return it in one line."""
         wanted = (
-            f"{self.runs:,} runs of each"
+            f"{self.runs:,} runs per configuration"
             if self.runs is not None
             else f"delta {self.delta:g}, confidence {self.confidence:g}, {self.guarantee}"
         )
-        return f"{design.in_words(self.design, self.configurations)}; {wanted}"
+        return f"{design.describe(self.design, self.configurations)}; {wanted}"
 
 
 def usual_folder(plan: Plan, below: Path = Path()) -> Path:
-    """Return studies/NAME; where that holds other runs, the same with what tells these apart.
+    """Return studies/NAME, or studies/NAME-DIGEST if the former contains other runs.
 
     Raises:
-        OSError: If what is there cannot be read.
+        OSError: If an existing study.toml cannot be read.
     """
     folder = below / FOLDER / plan.scenario.name
-    there = folder / ASKED
-    is_other = there.exists() and not is_same_data(there.read_text(errors="replace"), plan.text())
+    existing = folder / QUESTION
+    is_other = existing.exists() and not is_same_data(
+        existing.read_text(errors="replace"), plan.text()
+    )
     return folder.with_name(f"{folder.name}-{plan.identity[:8]}") if is_other else folder

@@ -1,8 +1,8 @@
-"""Compute a rectangle on several workers; how it was cut shows in no result.
+"""Compute a block of runs on several workers; the result does not depend on its division.
 
-A rectangle is cut row by row into pieces, each as large as the rate so far says a second's work is.
-Two pieces a worker are under way, so that none waits; the last ones are smaller, so that all end
-together. A piece whose worker dies is given to another.
+A block is divided row by row into chunks of about a second each, by the rate measured so far. Two
+chunks per worker are pending, so that no worker waits; the last ones are smaller, so that all
+workers finish together. A chunk whose worker dies is given to another.
 """
 
 import time
@@ -25,92 +25,92 @@ from typing import Self, TypeAlias
 import numpy as np
 
 from agent_economy.study.errors import StudyError
-from agent_economy.study.rectangle import Columns, Compute, Rectangle, check_shape
+from agent_economy.study.run_block import Columns, Compute, RunBlock, check_shape
 
-MOST_PIECES = 512
-"""Of a rectangle, about: what each costs besides its runs must not matter."""
+MAX_CHUNKS = 512
+"""Approximate maximum per block, so that the overhead of a chunk does not matter."""
 
-PIECE_S = 1.0
-"""What a piece should take."""
+CHUNK_S = 1.0
+"""Intended duration of a chunk."""
 
-LEAST_PIECE_S = 0.05
-"""What a piece should take at least, at the end of a rectangle."""
+MIN_CHUNK_S = 0.05
+"""Minimum duration of a chunk at the end of a block."""
 
 ATTEMPTS = 3
-"""How often a piece may fail."""
+"""Maximum number of attempts at a chunk."""
 
 BROKEN_S = 30
-"""How long a broken executor may take to say so of all that it had."""
+"""Time limit for a broken executor to report all of its chunks as failed."""
 
 Result: TypeAlias = tuple[Columns, float]
-"""Outcomes of a piece, and the seconds that they took."""
+"""Outcomes of a chunk, and its duration in seconds."""
 
-UNKNOWN_PIECES = 16
-"""Pieces a worker while the rate is not known."""
+INITIAL_CHUNKS = 16
+"""Chunks per worker while the rate is unknown."""
 
 
 @dataclass(frozen=True, eq=False)
-class Piece:
-    """A part of a rectangle that one worker computes.
+class Chunk:
+    """A part of a block that one worker computes.
 
     Attributes:
-        area: Which part.
-        row: Where its first configuration stands in the rectangle.
-        failures: How often it failed, or its worker died, if only by another's fault.
+        runs: The runs of the part.
+        row: Index of its first configuration in the block.
+        failures: How often it failed or lost its worker, even if another chunk was the cause.
     """
 
-    area: Rectangle
+    runs: RunBlock
     row: int
     failures: int = 0
 
 
 @dataclass
-class Pace:
-    """Rows that a worker computes a second.
+class Throughput:
+    """Rows per second and worker, averaged with more weight on recent chunks.
 
     Attributes:
-        rows: Computed, the older the fewer.
-        seconds: That they took.
+        rows: Weighted number of computed rows.
+        seconds: Weighted time that they took.
     """
 
     rows: float = 0.0
     seconds: float = 0.0
 
     def add(self, rows: int, seconds: float) -> None:
-        """Learn from a piece; one of a second counts half after ten more of its kind."""
+        """Add a chunk; its weight is halved after ten more."""
         self.rows = 0.93 * self.rows + rows
         self.seconds = 0.93 * self.seconds + seconds
 
-    def piece_rows(self, all_rows: int, left: int, workers: int) -> int:
-        """Return how many rows the next piece has, when some of all are left to give out."""
-        fewest = ceil(all_rows / MOST_PIECES)
+    def chunk_rows(self, all_rows: int, unassigned: int, workers: int) -> int:
+        """Return the number of rows of the next chunk."""
+        min_rows = ceil(all_rows / MAX_CHUNKS)
         if not self.seconds:
-            return ceil(all_rows / (UNKNOWN_PIECES * workers))
+            return ceil(all_rows / (INITIAL_CHUNKS * workers))
         rate = self.rows / self.seconds
-        rows = min(rate * PIECE_S, left / (2 * workers))
-        most = max(1, all_rows // workers)
-        return min(most, max(1, fewest, round(rows), round(rate * LEAST_PIECE_S)))
+        rows = min(rate * CHUNK_S, unassigned / (2 * workers))
+        max_rows = max(1, all_rows // workers)
+        return min(max_rows, max(1, min_rows, round(rows), round(rate * MIN_CHUNK_S)))
 
 
 class Workers:
-    """Workers that compute rectangles, on any `concurrent.futures.Executor`.
+    """Workers that compute blocks of runs, on any `concurrent.futures.Executor`.
 
-    Use it in a `with`, and `columns` as the `compute` of a store.
+    Use it as a context manager, and `columns` as the `compute` of a store.
     """
 
     def __init__(self, make_executor: Callable[[], Executor], count: int, task: Compute) -> None:
-        """Start none yet.
+        """Prepare workers; they start with the first block.
 
         Args:
-            make_executor: Called for the first rectangle, and after an executor broke.
-            count: Pieces that it computes at a time, 1 or more.
-            task: Gives the outcomes of a rectangle. Workers get it pickled, with every piece.
+            make_executor: Called for the first block, and after an executor broke.
+            count: Number of chunks that it computes at a time, 1 or more.
+            task: Computes the outcomes of a block; pickled with every chunk.
         """
         self._make = make_executor
         self._count = count
         self._task = task
         self._executor: Executor | None = None
-        self._pace = Pace()
+        self._throughput = Throughput()
 
     def __enter__(self) -> Self:
         return self
@@ -119,191 +119,191 @@ class Workers:
         self.stop()
 
     def stop(self) -> None:
-        """Let the workers go, at once; a later rectangle starts others."""
+        """Stop the workers at once; a later block starts new ones."""
         executor, self._executor = self._executor, None
         if executor:
             executor.shutdown(wait=False, cancel_futures=True)
 
-    def columns(self, rectangle: Rectangle) -> Columns:
-        """Return the outcomes of a rectangle, the same as the task's for all of it at once.
+    def columns(self, block: RunBlock) -> Columns:
+        """Return the outcomes of a block, the same as if the task computed it at once.
 
         Raises:
-            StudyError: If a piece failed three times, or the executor is lost for good.
-            InputError: If the executor cannot be made.
+            StudyError: If a chunk failed three times, or the executor is lost.
+            InputError: If the executor cannot be created.
         """
-        job = Job(rectangle)
+        job = Job(block)
         try:
             while not job.is_done:
-                self._give_out(job)
+                self._submit(job)
                 self._collect(job)
         except BaseException:
             self.stop()
             raise
         return job.columns
 
-    def _give_out(self, job: "Job") -> None:
-        """Submit pieces until every worker has its next one too."""
-        while len(job.under_way) < job.most_under_way(self._count):
-            piece = job.next_piece(self._pace, self._count)
-            if piece is None:
+    def _submit(self, job: "Job") -> None:
+        """Submit chunks until every worker has one more pending."""
+        while len(job.pending) < job.max_pending(self._count):
+            chunk = job.next_chunk(self._throughput, self._count)
+            if chunk is None:
                 return
             if self._executor is None:
                 self._executor = self._make()
             try:
-                future = self._executor.submit(run, self._task, piece.area, own_version())
+                future = self._executor.submit(run, self._task, chunk.runs, own_version())
             except StudyError:
                 raise
             except (BrokenExecutor, RuntimeError, OSError) as error:
-                job.failed(piece, error)
+                job.failed(chunk, error)
                 self._replace_executor(job)
             else:
-                job.under_way[future] = piece
+                job.pending[future] = chunk
 
     def _collect(self, job: "Job") -> None:
-        """Wait for a piece or more and put them in place."""
-        done, _ = wait(job.under_way, return_when=FIRST_COMPLETED)
-        can_go_on = [self._take(job, future) for future in done]
-        if not all(can_go_on):
+        """Wait for at least one chunk and store the results."""
+        done, _ = wait(job.pending, return_when=FIRST_COMPLETED)
+        are_usable = [self._take(job, future) for future in done]
+        if not all(are_usable):
             self._replace_executor(job)
 
     def _take(self, job: "Job", future: "Future[Result]") -> bool:
-        """Put what a worker computed in place, or note that it failed.
+        """Store the result of a chunk, or record that it failed.
 
         Returns:
-            Whether the executor can go on.
+            Whether the executor is still usable.
         """
-        piece = job.under_way.pop(future)
+        chunk = job.pending.pop(future)
         try:
             columns, seconds = future.result()
-            job.put(piece, columns)
+            job.put(chunk, columns)
         except StudyError:
             raise
         except CancelledError:
-            job.again.append(piece)  # Not begun, or lost with a scheduler that may come back.
+            job.retries.append(chunk)  # Not started, or lost with a scheduler that may return.
             return True
-        except Exception as error:  # noqa: BLE001  (a task may fail in any way; the last is told)
-            job.failed(piece, error)
+        except Exception as error:  # noqa: BLE001  (a task may fail in any way; the last is reported)
+            job.failed(chunk, error)
             return not isinstance(error, BrokenExecutor)
-        self._pace.add(piece.area.rows, seconds)
+        self._throughput.add(chunk.runs.rows, seconds)
         return True
 
     def _replace_executor(self, job: "Job") -> None:
-        """Let a broken executor go, and note what it leaves undone to be given to the next."""
+        """Stop a broken executor, and retry its pending chunks on the next one."""
         self.stop()
-        done, lost = wait(job.under_way, timeout=BROKEN_S)
+        done, lost = wait(job.pending, timeout=BROKEN_S)
         for future in done:
             self._take(job, future)
         for future in lost:
-            job.failed(job.under_way.pop(future), TimeoutError("lost with its worker"))
+            job.failed(job.pending.pop(future), TimeoutError("lost with its worker"))
 
 
 @dataclass
 class Job:
-    """A rectangle that is being computed.
+    """A block that is being computed.
 
     Attributes:
-        rectangle: What is asked for.
-        columns: What there is of it.
-        under_way: Pieces that workers have.
-        again: Pieces that failed.
-        given: Rows given out at least once.
-        there: Rows computed.
+        block: The requested runs.
+        columns: The outcomes so far.
+        pending: Submitted chunks.
+        retries: Chunks that failed.
+        assigned: Number of rows submitted at least once.
+        computed: Number of rows computed.
     """
 
-    rectangle: Rectangle
+    block: RunBlock
     columns: Columns = field(default_factory=dict)
-    under_way: dict["Future[Result]", Piece] = field(default_factory=dict)
-    again: deque[Piece] = field(default_factory=deque)
-    given: int = 0
-    there: int = 0
+    pending: dict["Future[Result]", Chunk] = field(default_factory=dict)
+    retries: deque[Chunk] = field(default_factory=deque)
+    assigned: int = 0
+    computed: int = 0
 
     @property
     def is_done(self) -> bool:
         """Whether all is computed."""
-        return self.there == self.rectangle.rows
+        return self.computed == self.block.rows
 
-    def most_under_way(self, workers: int) -> int:
-        """Return how many pieces may be under way.
+    def max_pending(self, workers: int) -> int:
+        """Return how many chunks may be pending.
 
-        A piece that has one attempt left goes alone, so that no other's worker dying is held
-        against it.
+        A chunk with one attempt left runs alone, so that it does not fail because another chunk
+        killed its worker.
         """
-        pieces = [*self.under_way.values(), *self.again]
-        return 1 if any(piece.failures == ATTEMPTS - 1 for piece in pieces) else 2 * workers
+        chunks = [*self.pending.values(), *self.retries]
+        return 1 if any(chunk.failures == ATTEMPTS - 1 for chunk in chunks) else 2 * workers
 
-    def next_piece(self, pace: Pace, workers: int) -> Piece | None:
-        """Return what to give out next, None if nothing is left."""
-        if self.again:
-            self.again = deque(sorted(self.again, key=lambda piece: -piece.failures))
-            return self.again.popleft()
-        all_rows = self.rectangle.rows
-        if self.given == all_rows:
+    def next_chunk(self, throughput: Throughput, workers: int) -> Chunk | None:
+        """Return the next chunk to submit; None if none is left."""
+        if self.retries:
+            self.retries = deque(sorted(self.retries, key=lambda chunk: -chunk.failures))
+            return self.retries.popleft()
+        all_rows = self.block.rows
+        if self.assigned == all_rows:
             return None
-        rows = pace.piece_rows(all_rows, all_rows - self.given, workers)
-        piece = cut(self.rectangle, self.given, rows)
-        self.given += piece.area.rows
-        return piece
+        rows = throughput.chunk_rows(all_rows, all_rows - self.assigned, workers)
+        chunk = next_part(self.block, self.assigned, rows)
+        self.assigned += chunk.runs.rows
+        return chunk
 
-    def put(self, piece: Piece, columns: Columns) -> None:
-        """Put what a worker computed in place.
+    def put(self, chunk: Chunk, columns: Columns) -> None:
+        """Store the outcomes of a chunk.
 
         Raises:
-            ValueError: If it is not of the piece's shape, or has other columns than the first.
+            ValueError: If they have another shape, or other columns than the first chunk.
         """
-        check_shape(piece.area, columns)
+        check_shape(chunk.runs, columns)
         if not self.columns:
-            self.columns = {name: np.empty(self.rectangle.shape) for name in columns}
+            self.columns = {name: np.empty(self.block.shape) for name in columns}
         if not columns or columns.keys() != self.columns.keys():
-            message = f"columns {', '.join(columns)} differ from those of other pieces"
+            message = f"columns {', '.join(columns)} differ from those of other chunks"
             raise ValueError(message)
-        configurations, runs = piece.area.shape
-        first = piece.area.first_run - self.rectangle.first_run
+        configurations, runs = chunk.runs.shape
+        first = chunk.runs.first_run - self.block.first_run
         for name, values in columns.items():
-            rows = slice(piece.row, piece.row + configurations)
+            rows = slice(chunk.row, chunk.row + configurations)
             self.columns[name][rows, first : first + runs] = values
-        self.there += piece.area.rows
+        self.computed += chunk.runs.rows
 
-    def failed(self, piece: Piece, error: Exception) -> None:
-        """Note a piece to be tried again.
+    def failed(self, chunk: Chunk, error: Exception) -> None:
+        """Retry a failed chunk.
 
         Raises:
-            StudyError: If it was tried often enough.
+            StudyError: If it has no attempt left.
         """
-        piece = replace(piece, failures=piece.failures + 1)
-        if piece.failures == ATTEMPTS:
+        chunk = replace(chunk, failures=chunk.failures + 1)
+        if chunk.failures == ATTEMPTS:
             reason = f"{type(error).__name__}: {error}"
-            message = f"{piece.area} failed {ATTEMPTS} times, at last with {reason}"
+            message = f"{chunk.runs} failed {ATTEMPTS} times, the last time with {reason}"
             raise StudyError(message) from error
-        self.again.append(piece)
+        self.retries.append(chunk)
 
 
-def cut(rectangle: Rectangle, given: int, rows: int) -> Piece:
-    """Return the next piece after some rows: whole configurations, or some runs of one."""
-    row, skipped = divmod(given, rectangle.runs)
-    if skipped or rows < rectangle.runs:
-        runs = min(rows, rectangle.runs - skipped)
-        configurations = rectangle.configurations[row : row + 1]
-        return Piece(Rectangle(configurations, rectangle.first_run + skipped, runs), row)
-    end = row + rows // rectangle.runs
-    configurations = rectangle.configurations[row:end]
-    return Piece(Rectangle(configurations, rectangle.first_run, rectangle.runs), row)
+def next_part(block: RunBlock, assigned: int, rows: int) -> Chunk:
+    """Return the chunk after the assigned rows: whole configurations, or some runs of one."""
+    row, skipped = divmod(assigned, block.runs)
+    if skipped or rows < block.runs:
+        runs = min(rows, block.runs - skipped)
+        configurations = block.configurations[row : row + 1]
+        return Chunk(RunBlock(configurations, block.first_run + skipped, runs), row)
+    end = row + rows // block.runs
+    configurations = block.configurations[row:end]
+    return Chunk(RunBlock(configurations, block.first_run, block.runs), row)
 
 
-def run(task: Compute, area: Rectangle, asked_version: str) -> Result:
-    """Compute a piece; this is what a worker does.
+def run(task: Compute, runs: RunBlock, study_version: str) -> Result:
+    """Compute a chunk in a worker.
 
     Returns:
-        Its outcomes, and the seconds that they took.
+        Its outcomes, and its duration in seconds.
 
     Raises:
         RuntimeError: If the worker has another version of this program.
     """
-    if own_version() != asked_version:
-        message = f"a worker has version {own_version()} of this program, the study {asked_version}"
+    if own_version() != study_version:
+        message = f"a worker has version {own_version()} of this program, the study {study_version}"
         raise RuntimeError(message)
-    begin = time.perf_counter()
-    columns = task(area)
-    return columns, time.perf_counter() - begin
+    start = time.perf_counter()
+    columns = task(runs)
+    return columns, time.perf_counter() - start
 
 
 @cache

@@ -14,15 +14,15 @@ export function answerOf(study) {
     result.verdict = behind;
   }
   const { label, merit, failed } = results[best];
-  const share = `${number(100 * failed[0], 2)}% fail`;
+  const share = `${number(100 * failed[0], 2)}% of runs fail`;
   const { delta, confidence } = study.planned;
   return {
-    sentence: `Send ${label}: a run takes ${number(results[best].time_s[0], 1)} s on average, ${share}, figure of merit ${number(merit[0])} (${number(merit[1])} to ${number(merit[2])}).`,
-    guarantee: `If one configuration is better than every other by ${delta} or more, it is the selected one with ${100 * confidence}% confidence; nothing is promised about differences smaller than that.`,
+    sentence: `Send ${label}. A run takes ${number(results[best].time_s[0], 1)} s on average, ${share}, and the figure of merit is ${number(merit[0])} (${number(merit[1])} to ${number(merit[2])}).`,
+    guarantee: `If one configuration is better than every other by ${delta} or more, it is the selected one with ${100 * confidence}% confidence. Smaller differences are not guaranteed to be found.`,
     facts: [
       [`${100 * confidence}%`, "confidence"],
-      [String(delta), "delta, the difference of merit worth finding"],
-      [study.runs.toLocaleString("en"), "runs in all"],
+      [String(delta), "indifference zone (delta)"],
+      [study.runs.toLocaleString("en"), "runs"],
       [String(results.length), "configurations"],
     ],
     quarantined: "",
@@ -73,7 +73,7 @@ function sectionsOf(results) {
       "merit",
       "Figure of merit",
       "Merit of a run = −0.03 × time_s + −0.2 × robots + −2 × failed (equation-5.2). Higher is better.",
-      "Figure of merit with its range",
+      "Figure of merit with its interval",
       table(
         "Figure of merit of each configuration",
         ["standing", "figure of merit", "runs"],
@@ -83,9 +83,9 @@ function sectionsOf(results) {
     ),
     section(
       "front",
-      "Price, time and certainty",
+      "Price, time and failures",
       "The size of a mark says how often runs fail.",
-      "Price against mean time, with its range; larger: fails more often",
+      "Price and mean time with its interval; larger marks fail more often",
       table("Price, time and failures", ["mean time, s", "failed"], ({ time_s, failed }) => [
         ranged(time_s, 1),
         `${number(100 * failed[0], 1)}%`,

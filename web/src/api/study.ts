@@ -106,7 +106,7 @@ export interface Result {
   label: string;
   runs: number;
   merit: Interval;
-  verdict: "best" | "tied" | "no better" | "undecided" | "worse";
+  verdict: "best" | "tied" | "not better" | "undecided" | "worse";
   eliminated: boolean;
 }
 

@@ -11,9 +11,9 @@ test("a study is started and answered, and a point of its chart opens a run of i
   await expect(page.getByText("factorial: 4 configurations; delta 0.5")).toBeVisible();
   await page.getByRole("button", { name: "Start" }).click();
   await expect(page.getByRole("heading", { name: "Remaining" })).toBeVisible();
-  await expect(page.getByText(/^Send \d rovers?: a run takes/)).toBeVisible({ timeout: 60_000 });
+  await expect(page.getByText(/^Send \d rovers?\. A run takes/)).toBeVisible({ timeout: 60_000 });
 
-  const chart = page.getByRole("img", { name: /^Figure of merit with its range/ });
+  const chart = page.getByRole("img", { name: /^Figure of merit with its interval/ });
   await chart.locator(".mark-symbol.role-mark path").first().click();
   const dialog = page.getByRole("dialog", { name: "Runs of 1 rover" });
   const row = dialog.getByRole("row", { name: /^median/ });

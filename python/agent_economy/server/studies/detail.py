@@ -41,7 +41,7 @@ class AnswerCache:
         key = folder, hashlib.sha256(data).hexdigest()
         with self._lock:
             if key not in self._kept:
-                self._kept[key] = detail(*study.look(folder))
+                self._kept[key] = detail(*study.load_answer(folder))
             self._kept.move_to_end(key)
             while len(self._kept) > CACHE_SIZE:
                 self._kept.popitem(last=False)

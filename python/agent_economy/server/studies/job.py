@@ -18,7 +18,7 @@ from agent_economy import study
 from agent_economy._core import InputError
 from agent_economy.study import Plan, Progress
 from agent_economy.study.errors import StudyError
-from agent_economy.study.store.folder import ASKED
+from agent_economy.study.store.folder import QUESTION
 
 GENTLE = 10
 """What `nice` adds: runs that somebody watches go first."""
@@ -83,7 +83,7 @@ class StudyJob:
 
     def wait_until_begun(self) -> None:
         """Wait until its folder is there, or it has ended."""
-        while not ((self._folder / ASKED).exists() or self._ended.wait(LOOK_S)):
+        while not ((self._folder / QUESTION).exists() or self._ended.wait(LOOK_S)):
             pass
 
     def stop(self) -> None:
@@ -132,7 +132,7 @@ def work(plan: Plan, folder: Path, line: Connection) -> None:
         signal.signal(signal.SIGINT, interrupted)
         line.send({})
         try:
-            study.pursue(plan, folder, on_progress=ProgressReporter(line))
+            study.run_plan(plan, folder, on_progress=ProgressReporter(line))
         except (StudyError, InputError) as error:
             line.send({"message": str(error)})
 
@@ -193,7 +193,7 @@ def estimated(now: Progress) -> dict[str, Any]:
     return {
         "standings": [
             [leader.configuration, leader.runs, leader.merit, merit.low, merit.high]
-            for leader, merit in now.ranged()
+            for leader, merit in now.intervals()
         ],
-        "left_runs": None if now.is_over else now.foretell(),
+        "left_runs": None if now.is_over else now.estimate_remaining(),
     }

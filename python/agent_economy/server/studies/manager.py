@@ -13,9 +13,9 @@ from agent_economy.server.studies.job import StudyJob
 from agent_economy.server.studies.summary import Summaries, of_plan
 from agent_economy.server.workspace import Workspace, is_study
 from agent_economy.study import Plan
-from agent_economy.study.plan import tightened
+from agent_economy.study.plan import with_confidence
 from agent_economy.study.question import usual_folder
-from agent_economy.study.store.folder import is_worked_on, told
+from agent_economy.study.store.folder import disk_errors, is_locked
 
 MAX_AT_WORK = 2
 """StudyManager at work at a time: each uses all processors."""
@@ -50,7 +50,7 @@ class StudyManager:
         row = self._summaries.of(folder).listed(name)
         if row["state"] == "damaged":
             return row
-        if is_worked_on(folder):
+        if is_locked(folder):
             return {**row, "state": "running"}
         return {**row, "message": work.message if work else None}
 
@@ -61,7 +61,7 @@ class StudyManager:
             InputError: If there is no such study, or it is damaged.
         """
         work = self._works.get(name)
-        return work.plan if work and work.is_alive else study.plan_of(self._places.study(name))
+        return work.plan if work and work.is_alive else study.load_plan(self._places.study(name))
 
     def folder(self, name: str) -> Path:
         """Return the folder of a study.
@@ -81,7 +81,7 @@ class StudyManager:
         Raises:
             InputError: If that is outside of the server's folder, or cannot be read.
         """
-        with told(self._places.folder, "read"):
+        with disk_errors(self._places.folder, "read"):
             return self._places.id_of_study(usual_folder(plan, self._places.folder))
 
     def state(self, name: str) -> str | None:
@@ -108,8 +108,8 @@ class StudyManager:
         folder = self._places.study(name)
 
         def wanted() -> Plan:
-            plan = study.plan_of(folder)
-            return plan if confidence is None else tightened(plan, confidence)
+            plan = study.load_plan(folder)
+            return plan if confidence is None else with_confidence(plan, confidence)
 
         self._begin(name, wanted)
         return self.of(name)
@@ -139,7 +139,7 @@ class StudyManager:
         folder: Path = self._places.folder / name
         with self._lock:
             at_work = [each for each, work in self._works.items() if work.is_alive]
-            if name in at_work or is_worked_on(folder):
+            if name in at_work or is_locked(folder):
                 message = f"{name}: is being worked on: stop it first, or wait for its answer"
                 raise InputError(message)
             if len(at_work) >= MAX_AT_WORK:

@@ -11,7 +11,7 @@ from agent_economy import study
 from agent_economy._core import InputError
 from agent_economy.study import Plan
 from agent_economy.study.question import Question
-from agent_economy.study.store.folder import ANSWER, ASKED, LEDGER, read_bytes
+from agent_economy.study.store.folder import ANSWER, LEDGER, QUESTION, read_bytes
 
 State = str
 """running, answered, stopped or damaged."""
@@ -79,7 +79,7 @@ class Summaries:
 def stamp(folder: Path) -> list[tuple[float, int]]:
     """Return the modification times and sizes of the files of a study."""
     found = []
-    for name in (ASKED, ANSWER, LEDGER, f"{LEDGER}-wal"):
+    for name in (QUESTION, ANSWER, LEDGER, f"{LEDGER}-wal"):
         try:
             about = (folder / name).stat()
         except OSError:
@@ -96,7 +96,7 @@ def summary(folder: Path, changed_s: float) -> Summary:
         answer = read_answer(folder)
         if answer is not None:
             return answered(folder, answer, changed_s)
-        return of_plan(study.plan_of(folder), runs_so_far(folder), changed_s)
+        return of_plan(study.load_plan(folder), runs_so_far(folder), changed_s)
     except InputError as error:
         return Summary("damaged", folder.name, "", None, 0, None, str(error), changed_s)
 
@@ -116,7 +116,7 @@ def answered(folder: Path, answer: Mapping[str, Any], changed_s: float) -> Summa
     """
     scenario = answer["scenario"]
     try:
-        asked = tomllib.loads(study.open(folder).asked)
+        asked = tomllib.loads(study.open(folder).question)
         question = Question(
             scenario["design"],
             len(answer["results"]),
@@ -126,10 +126,10 @@ def answered(folder: Path, answer: Mapping[str, Any], changed_s: float) -> Summa
             asked["data"].get("runs"),
         )
     except tomllib.TOMLDecodeError as error:
-        message = f"{folder / ASKED}: is not a study: {error}"
+        message = f"{folder / QUESTION}: is not a study: {error}"
         raise InputError(message) from None
     except (KeyError, TypeError, AttributeError):
-        message = f"{folder / ASKED}: is damaged: restore it, or start in another folder"
+        message = f"{folder / QUESTION}: is damaged: restore it, or start in another folder"
         raise InputError(message) from None
     return Summary(
         "answered",

@@ -1,10 +1,10 @@
-"""What a finer answer would take: the runs that a smaller delta asks for, foretold.
+"""The runs that smaller deltas would take, predicted from the runs of a study.
 
-A duel of the selected configuration with another ends when its evidence e reaches the threshold T.
-Per run, log e grows by about (d + delta)^2 / (2 v), for a difference of means d with variance v
-(the best bet's growth, to second order), and bets cannot exceed their limit, so by no more than
-half of (d + delta) / depth. The sum over all configurations, scaled so that it is right for the
-delta that was asked, is what another delta takes.
+The test of the selected configuration against another ends when its evidence e reaches the
+threshold T. Per run, log e grows by about (d + delta)^2 / (2 v), for a difference of means d with
+variance v (the growth of the best bet, to second order), but by no more than half of
+(d + delta) / depth, because bets are limited. The sum over all configurations, scaled to the actual
+number of runs for the study's delta, predicts the number for another delta.
 """
 
 import math
@@ -13,16 +13,16 @@ from dataclasses import dataclass
 from agent_economy.study.answer.evidence import Evidence
 
 PARTS = (2, 5, 10)
-"""Into which the delta asked is divided."""
+"""Divisors of the study's delta."""
 
 
 SMALLEST = 1e-100
-"""Lead below which nobody waits for the end."""
+"""Lower limit of a lead, to avoid a division by zero."""
 
 
 @dataclass(frozen=True)
-class Asked:
-    """What a duel must prove, and against how many rivals in all."""
+class Target:
+    """What a test must prove, and the number of rivals in all."""
 
     delta: float
     rivals: int
@@ -30,52 +30,52 @@ class Asked:
 
 @dataclass(frozen=True)
 class Effort:
-    """About how many runs a study with another delta takes in all."""
+    """The predicted number of runs of a study with another delta."""
 
     delta: float
     runs: int
 
 
 def efforts(evidence: Evidence, best: int, delta: float) -> tuple[Effort, ...]:
-    """Return about how many runs smaller deltas take; none for one configuration."""
+    """Return the predicted runs for smaller deltas; none for one configuration."""
     if len(evidence.samples) == 1:
         return ()
     total = sum(sample.runs for sample in evidence.samples)
-    scale = total / foretold(evidence, best, delta)
+    scale = total / predicted_runs(evidence, best, delta)
     return tuple(
-        Effort(delta / part, two_figures(scale * foretold(evidence, best, delta / part)))
+        Effort(delta / part, two_figures(scale * predicted_runs(evidence, best, delta / part)))
         for part in PARTS
     )
 
 
-def remaining(survivors: Evidence, best: int, delta: float, rivals: int) -> float:
-    """Return about how many runs a race still takes, from the runs of those still in."""
-    left = [
-        max(0.0, duel_runs(survivors, best, other, Asked(delta, rivals)) - sample.runs)
+def remaining_runs(survivors: Evidence, best: int, delta: float, rivals: int) -> float:
+    """Return the predicted number of runs until a race ends, from the runs of its survivors."""
+    missing = [
+        max(0.0, test_runs(survivors, best, other, Target(delta, rivals)) - sample.runs)
         for other, sample in enumerate(survivors.samples)
         if other != best
     ]
-    return sum(left) + max(left, default=0.0)
+    return sum(missing) + max(missing, default=0.0)
 
 
-def foretold(evidence: Evidence, best: int, delta: float) -> float:
-    """Return the runs that a study takes, up to a factor."""
+def predicted_runs(evidence: Evidence, best: int, delta: float) -> float:
+    """Return the predicted runs of a study, up to a constant factor."""
     others = [
-        duel_runs(evidence, best, other, Asked(delta, len(evidence.samples) - 1))
+        test_runs(evidence, best, other, Target(delta, len(evidence.samples) - 1))
         for other in range(len(evidence.samples))
         if other != best
     ]
     return sum(others) + max(others)
 
 
-def duel_runs(evidence: Evidence, best: int, other: int, asked: Asked) -> float:
-    """Return the runs after which the selected configuration puts another out."""
+def test_runs(evidence: Evidence, best: int, other: int, target: Target) -> float:
+    """Return the predicted runs until the selected configuration eliminates another."""
     champion, challenger = evidence.samples[best], evidence.samples[other]
     runs = min(champion.runs, challenger.runs)
     differences = champion.columns["merit"][:runs] - challenger.columns["merit"][:runs]
-    lead = max(max(float(differences.mean()), 0.0) + asked.delta, SMALLEST)
+    lead = max(max(float(differences.mean()), 0.0) + target.delta, SMALLEST)
     depth = challenger.limits["merit"][1] - champion.limits["merit"][0]
-    goal = math.log(asked.rivals / (1 - evidence.confidence))
+    goal = math.log(target.rivals / (1 - evidence.confidence))
     fastest = max(0.0, 2 * depth / lead)
     return goal * max(2 * (float(differences.std()) / lead) ** 2, fastest) + 1
 

@@ -1,4 +1,4 @@
-"""Estimates from a number of runs that was fixed beforehand, as others publish them."""
+"""Classical interval estimates from a fixed number of runs."""
 
 import math
 
@@ -14,10 +14,10 @@ def mean(samples: NDArray[np.float64], confidence: float = CONFIDENCE) -> Interv
     """Return the mean of samples with Student's t interval.
 
     Args:
-        samples: Shape (n,), n at least 2. It assumes that their mean is near normal: where few of
-            many samples carry most of the spread (a failure that costs much and is rare), it is
-            too narrow, and without one among them it has no width.
-        confidence: Of a two-sided interval.
+        samples: Shape (n,), n at least 2. The interval assumes that their mean is nearly normal. It
+            is too narrow if a few samples cause most of the variance (rare, costly failures), and
+            has no width if none of these occurred.
+        confidence: Confidence of the two-sided interval.
 
     Source: Student (1908), The probable error of a mean, Biometrika 6.
     """
@@ -35,7 +35,7 @@ def share(successes: int, trials: int, confidence: float = CONFIDENCE) -> Interv
     Args:
         successes: 0 to `trials`.
         trials: At least 1.
-        confidence: Of a two-sided interval; it covers the truth at least this often.
+        confidence: Minimum coverage of the two-sided interval.
 
     Source: Clopper and Pearson (1934), The use of confidence or fiducial limits illustrated in the
         case of the binomial, Biometrika 26.

@@ -1,10 +1,9 @@
-"""What the runs of a study say, with certainty that holds for all of it together and at any moment.
+"""What the runs of a study prove, with intervals that hold simultaneously and at any time.
 
-A race looks at its runs again and again and stops when it likes, so intervals for a fixed number of
+A race evaluates its runs repeatedly and stops depending on them, so intervals for a fixed number of
 runs would be too narrow. All of these are confidence sequences (`crates/select/src/bounds.rs`). The
-error that the confidence leaves is divided among them (`SINGLES`, `PAIRS`), and each part evenly
-among all configurations or ordered pairs; so every statement of an answer that is made from them
-holds together with all others.
+allowed error, 1 - confidence, is divided among them (`SINGLES`, `PAIRS`), each part equally among
+configurations or ordered pairs; so all statements of an answer hold simultaneously.
 """
 
 from collections.abc import Mapping
@@ -17,19 +16,19 @@ from agent_economy.study.arguments import Floats
 Limits = tuple[float, float]
 
 QUANTITIES = ("merit", "time_s", "failed")
-"""What intervals are made of: the merit, and two columns that every simulator has."""
+"""Quantities with intervals: the merit, and two columns that every simulator has."""
 
 
 SINGLES = 1 / 4
-"""Part of the error for the intervals of single configurations, all quantities together."""
+"""Part of the allowed error for intervals of single configurations, all quantities together."""
 
 PAIRS = {"merit": 1 / 2, "time_s": 1 / 8, "failed": 1 / 8}
-"""Parts for the differences of pairs; most for what decides whom to send."""
+"""Parts for the differences of pairs; the largest for the merit, which decides the selection."""
 
 
 @dataclass(frozen=True)
 class Interval:
-    """A mean, and the bounds between which the true one lies."""
+    """An estimate of a mean with its confidence bounds."""
 
     value: float
     low: float
@@ -41,10 +40,10 @@ class Sample:
     """The runs of one configuration.
 
     Attributes:
-        values: By path, what it differs in from the others.
+        values: Values of the varied factors, by path.
         columns: By name, shape (runs,): each of `QUANTITIES`, and the simulator's other columns.
-        limits: By name, between which values a column lies.
-        quarantined: Runs that gave no finite merit and count as the worst.
+        limits: By name, the range of a column.
+        quarantined: Number of runs without a finite merit, which count as the worst.
     """
 
     values: Mapping[str, float | str]
@@ -54,7 +53,7 @@ class Sample:
 
     @property
     def runs(self) -> int:
-        """How many runs."""
+        """Number of runs."""
         return len(self.columns["merit"])
 
     def mean(self, name: str) -> float:
@@ -70,11 +69,11 @@ class Evidence:
     confidence: float
 
     def alpha_single(self) -> float:
-        """Return the error of each side of one configuration's interval."""
+        """Return the allowed error of each side of one configuration's interval."""
         return (1 - self.confidence) * SINGLES / (2 * len(QUANTITIES) * len(self.samples))
 
     def alpha_pair(self, name: str) -> float:
-        """Return the error of each side of one pair's difference in a quantity."""
+        """Return the allowed error of each side of one pair's difference in a quantity."""
         count = len(self.samples)
         return (1 - self.confidence) * PAIRS[name] / max(1, count * (count - 1))
 
@@ -91,14 +90,14 @@ class Evidence:
 
     @cached_property
     def _intervals(self) -> dict[tuple[int, str], Interval]:
-        """Those that were asked for: each is asked for many times."""
+        """Intervals computed so far: each is used many times."""
         return {}
 
     def difference(self, one: int, other: int, name: str) -> Interval:
-        """Return one's mean less the other's.
+        """Return the difference of two means.
 
-        Its bounds are from the runs that both have, or from the two intervals of all runs, which
-        hold together with these, where that says more.
+        Its bounds are the tighter ones of two kinds that hold simultaneously: from the runs that
+        both have in common, and from the two intervals of all runs.
         """
         values, limits = self._differences(one, other, name)
         low, high = _core.mean_bounds(values, *limits, self.alpha_pair(name))
@@ -107,7 +106,7 @@ class Evidence:
         return Interval(min(max(float(values.mean()), low), high), low, high)
 
     def exceeds(self, one: int, other: int, name: str, by: float = 0.0) -> bool:
-        """Return whether one's mean is surely above the other's by some amount."""
+        """Return whether one mean is proved to be above the other by more than an amount."""
         if self.interval(one, name).low - self.interval(other, name).high > by:
             return True
         values, limits = self._differences(one, other, name)
@@ -117,5 +116,5 @@ class Evidence:
         first, second = self.samples[one], self.samples[other]
         runs = min(first.runs, second.runs)
         values = first.columns[name][:runs] - second.columns[name][:runs]
-        (least, greatest), (other_least, other_greatest) = first.limits[name], second.limits[name]
-        return values, (least - other_greatest, greatest - other_least)
+        (low, high), (other_low, other_high) = first.limits[name], second.limits[name]
+        return values, (low - other_high, high - other_low)

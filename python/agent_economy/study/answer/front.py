@@ -1,8 +1,7 @@
-"""The front of price, time and success: which configurations somebody might want.
+"""The Pareto front of price, time and failures.
 
-A configuration is dominated by one that costs no more, takes no longer and fails no more often, and
-is better in one of these. It is *surely dominated* when the runs prove that of some other; all
-others are *possibly efficient*.
+A configuration is *dominated* by another if the runs prove that the other is faster and fails less
+often, at no higher price. All others are *possibly efficient*.
 """
 
 from dataclasses import dataclass
@@ -16,12 +15,12 @@ JUDGED = ("robots", "time_s", "failed")
 TIME = JUDGED.index("time_s")
 
 CANDIDATES = 20
-"""Rivals that are tried against a configuration, those with the shortest times."""
+"""Maximum number of rivals compared with a configuration, those with the shortest times."""
 
 
 @dataclass(frozen=True)
 class Place:
-    """A configuration's place: its price in robots, and who surely dominates it, if anybody."""
+    """A configuration's price in robots, and the index of one that dominates it, if any."""
 
     price: float
     dominated_by: int | None
@@ -37,15 +36,15 @@ def front(evidence: Evidence) -> tuple[Place, ...]:
 
 
 def dominator(evidence: Evidence, means: Floats, index: int) -> int | None:
-    """Return the fastest of those that surely dominate a configuration; None if nobody does."""
-    # Where the means do not say so, the runs cannot prove it.
+    """Return the fastest of those that dominate a configuration, None if there is none."""
+    # Without lower means, the runs cannot prove it.
     apparent = np.flatnonzero((means <= means[index]).all(axis=1))
     fastest = apparent[np.argsort(means[apparent, TIME], kind="stable")]
     rivals = fastest[fastest != index][:CANDIDATES].tolist()
-    return next((rival for rival in rivals if surely_dominates(evidence, rival, index)), None)
+    return next((rival for rival in rivals if dominates(evidence, rival, index)), None)
 
 
-def surely_dominates(evidence: Evidence, rival: int, index: int) -> bool:
-    """Return whether the runs prove that a rival that costs no more is faster and fails less."""
+def dominates(evidence: Evidence, rival: int, index: int) -> bool:
+    """Return whether the runs prove that a rival of no higher price is faster and fails less."""
     slower = evidence.exceeds(index, rival, "time_s")
     return slower and evidence.exceeds(index, rival, "failed")

@@ -1,22 +1,22 @@
-"""What people call a configuration: "4 rovers, 1 scout, contact touch"."""
+"""Labels of configurations: "4 rovers, 1 scout, contact touch"."""
 
 from collections.abc import Mapping, Sequence
 
 Values = Mapping[str, float | str]
 
 TEAM = ("robots.", ".count")
-"""How the path of a factor that is a team size begins and ends."""
+"""Prefix and suffix of the path of a factor that is a team size."""
 
 
 def label(values: Values) -> str:
-    """Return what people call a configuration that differs from others in these values."""
+    """Return the label of a configuration from its values of the varied factors."""
     lasts = [path.rsplit(".", 1)[-1] for path in values]
     parts = [
-        # Two paths that end alike are told apart by all of them.
+        # Paths with the same last key are written in full.
         part(path, value, is_short=lasts.count(last) == 1)
         for (path, value), last in zip(values.items(), lasts, strict=True)
     ]
-    return ", ".join(parts) or "the scenario as it is"
+    return ", ".join(parts) or "the scenario"
 
 
 def part(path: str, value: float | str, *, is_short: bool = True) -> str:
@@ -29,7 +29,7 @@ def part(path: str, value: float | str, *, is_short: bool = True) -> str:
 
 
 def is_number(value: float | str) -> bool:
-    """Return whether a factor's value is a number: no name, and neither true nor false."""
+    """Return whether a factor's value is a number, not a name, true or false."""
     return not isinstance(value, str | bool)
 
 
@@ -44,12 +44,12 @@ def robot_kind(path: str) -> str | None:
     return path[len(start) : -len(end)] if path.startswith(start) and path.endswith(end) else None
 
 
-def order(values: Values) -> str:
-    """Return what to do: "Send 4 rovers", "Choose time_limit_s 120", "Send 4 rovers with time_limit_s 120"."""
+def recommendation(values: Values) -> str:
+    """Return the recommendation: "Send 4 rovers", "Choose contact touch", or both."""
     teams = {path: value for path, value in values.items() if robot_kind(path) is not None}
     others = {path: value for path, value in values.items() if path not in teams}
     if not values:
-        return "The scenario as it is"
+        return "One configuration, the scenario"
     if not teams:
         return f"Choose {label(others)}"
     return f"Send {label(teams)}" + (f" with {label(others)}" if others else "")
@@ -63,5 +63,5 @@ def varied(configurations: Sequence[Values]) -> tuple[str, ...]:
 
 def listed(words: list[str]) -> str:
     """Return "a", "a and b", "a, b and c"."""
-    *most, last = words
-    return f"{', '.join(most)} and {last}" if most else last
+    *others, last = words
+    return f"{', '.join(others)} and {last}" if others else last

@@ -1,4 +1,4 @@
-"""Results of others, scored as our runs are."""
+"""Published results, scored with the merit of the study."""
 
 from dataclasses import dataclass
 
@@ -11,15 +11,15 @@ from agent_economy.study.answer.evidence import Interval
 
 @dataclass(frozen=True)
 class PublishedResult:
-    """What others found of one team.
+    """The published result of one team.
 
     Attributes:
         robots: Team size.
         times_s: Time of each run, capped.
         time_s: Their mean.
-        failed: How many reached the cap.
+        failed: Number of runs that reached the cap.
         failed_share: Their share, with an exact 95% interval.
-        merit: Our figure of merit of these runs, with Student's 95% interval.
+        merit: The study's figure of merit of these runs, with Student's 95% interval.
     """
 
     robots: int
@@ -31,7 +31,7 @@ class PublishedResult:
 
 
 def results(scenario: Scenario) -> tuple[PublishedResult, ...]:
-    """Return what others found, if their runs tell all that the merit weighs."""
+    """Return the published results, if they include all columns of the merit."""
     published = scenario.published
     known = {"time_s", "failed", "robots"}
     if not published or not set(scenario.merit.columns) <= known:

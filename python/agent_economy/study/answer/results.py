@@ -1,4 +1,4 @@
-"""What the runs of each configuration came to."""
+"""The results of each configuration."""
 
 from dataclasses import dataclass
 
@@ -12,13 +12,13 @@ from agent_economy.study.selection import Elimination
 
 @dataclass(frozen=True)
 class Ending:
-    """How a race ended.
+    """The end of a race.
 
     Attributes:
-        best: The configuration selected.
-        eliminations: Who went out, in that order.
-        guarantee: What is guaranteed, in words.
-        is_guaranteed: Whether anything is.
+        best: Index of the selected configuration.
+        eliminations: The eliminated configurations, in the order of their elimination.
+        guarantee: The guarantee of the selection in words.
+        is_guaranteed: Whether there is a guarantee.
     """
 
     best: int
@@ -29,19 +29,19 @@ class Ending:
 
 @dataclass(frozen=True)
 class Result:
-    """What the runs of one configuration came to; intervals of all hold together.
+    """The result of one configuration; the intervals of all hold simultaneously.
 
     Attributes:
-        values: By path, what it differs in from the others.
-        label: What people call it.
-        runs: How many.
-        quarantined: How many of them gave no finite merit and count as the worst.
+        values: Values of the varied factors, by path.
+        label: Name for people.
+        runs: Number of runs.
+        quarantined: Number of runs without a finite merit, which count as the worst.
         merit: Figure of merit.
         time_s: Time of a run, capped.
         failed: Share of runs that failed.
-        standing: How it stands to the selected one.
-        place: Its place on the front of price, time and success.
-        eliminated: When and by whom; None for those that never were.
+        standing: Comparison with the selected configuration.
+        place: Place with respect to the Pareto front of price, time and failures.
+        eliminated: When and by which configuration; None if it was not eliminated.
     """
 
     values: dict[str, Value]
@@ -57,8 +57,8 @@ class Result:
 
 
 def results(evidence: Evidence, ending: Ending, delta: float) -> tuple[Result, ...]:
-    """Return what the runs of each configuration came to."""
-    gone = {each.configuration: each for each in ending.eliminations}
+    """Return the result of each configuration."""
+    eliminated = {each.configuration: each for each in ending.eliminations}
     standing = standings(evidence, ending.best, delta)
     placed = zip(standing, front(evidence), strict=True)
     return tuple(
@@ -72,7 +72,7 @@ def results(evidence: Evidence, ending: Ending, delta: float) -> tuple[Result, .
             failed=evidence.interval(index, "failed"),
             standing=stands,
             place=place,
-            eliminated=gone.get(index),
+            eliminated=eliminated.get(index),
         )
         for index, (stands, place) in enumerate(placed)
     )

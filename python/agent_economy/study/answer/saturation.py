@@ -1,7 +1,7 @@
 """The smallest team such that no larger one gains more than its extra robots cost.
 
 The merit counts what robots cost, so a larger team gains more than it costs if its merit is higher.
-All else is as in the selected configuration.
+All other factors have their values in the selected configuration.
 """
 
 from dataclasses import dataclass
@@ -12,15 +12,15 @@ from agent_economy.study.answer.labels import robot_kind
 
 @dataclass(frozen=True)
 class Saturation:
-    """Where a team stops to be worth enlarging.
+    """The size from which a larger team is not worth its price.
 
     Attributes:
-        path: Of the team size.
-        sizes: Those compared, ascending.
-        proved: The smallest size of which it is proved that no larger one that was compared gains
-            delta more than its extra robots cost. If it is the largest, nothing is proved.
-        possible: The smallest size of which the contrary is not proved.
-        gains: Of each size above the smaller of these two, its merit less that one's.
+        path: Path of the team size.
+        sizes: The compared sizes, ascending.
+        proved: The smallest size for which it is proved that no larger compared one gains delta
+            more than its extra robots cost. The largest size if nothing is proved.
+        possible: The smallest size for which the contrary is not proved.
+        gains: For each size above the smaller of these two, the difference of merit from it.
     """
 
     path: str
@@ -31,12 +31,12 @@ class Saturation:
 
     @property
     def base(self) -> int:
-        """The size over which the larger ones' gains are told."""
+        """The size with which larger ones are compared in `gains`."""
         return min(self.proved, self.possible)
 
 
 def saturations(evidence: Evidence, best: int, delta: float) -> tuple[Saturation, ...]:
-    """Return where each team size saturates, of which there are several to compare."""
+    """Return the saturation of each team size with several values."""
     slices = {path: team_slice(evidence, best, path) for path in team_paths(evidence)}
     return tuple(
         saturation(evidence, path, sizes, delta) for path, sizes in slices.items() if len(sizes) > 1
@@ -49,7 +49,7 @@ def team_paths(evidence: Evidence) -> list[str]:
 
 
 def team_slice(evidence: Evidence, best: int, path: str) -> dict[int, int]:
-    """Return configurations by team size, ascending, that differ from the best in it alone."""
+    """Return configurations by team size, ascending, that differ from the best only in it."""
     fixed = {**evidence.samples[best].values, path: None}
     sizes = {
         int(sample.values[path]): index
@@ -60,7 +60,7 @@ def team_slice(evidence: Evidence, best: int, path: str) -> dict[int, int]:
 
 
 def saturation(evidence: Evidence, path: str, sizes: dict[int, int], delta: float) -> Saturation:
-    """Return where one team size saturates."""
+    """Return the saturation of one team size."""
     proved = next(size for size in sizes if is_proved(evidence, sizes, size, delta))
     possible = next(size for size in sizes if not is_refuted(evidence, sizes, size))
     base = min(proved, possible)
@@ -77,7 +77,7 @@ def above(sizes: dict[int, int], size: int) -> list[int]:
 
 
 def is_proved(evidence: Evidence, sizes: dict[int, int], size: int, delta: float) -> bool:
-    """Return whether no larger team gains delta more than it costs, for sure."""
+    """Return whether it is proved that no larger team gains delta more than it costs."""
     return all(
         evidence.exceeds(sizes[size], sizes[larger], "merit", by=-delta)
         for larger in above(sizes, size)
@@ -85,7 +85,7 @@ def is_proved(evidence: Evidence, sizes: dict[int, int], size: int, delta: float
 
 
 def is_refuted(evidence: Evidence, sizes: dict[int, int], size: int) -> bool:
-    """Return whether some larger team gains more than it costs, for sure."""
+    """Return whether it is proved that some larger team gains more than it costs."""
     return any(
         evidence.exceeds(sizes[larger], sizes[size], "merit") for larger in above(sizes, size)
     )

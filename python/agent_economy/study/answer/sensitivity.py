@@ -1,7 +1,7 @@
-"""How much of the merit's spread among configurations comes from each varied factor.
+"""Sensitivity analysis: how much of the merit's variance among configurations each factor explains.
 
-Every configuration has at least the runs of the first look, and these are the same run numbers for
-all: their mean merits are what is analysed, one a configuration.
+Every configuration has at least the runs of the first look, with the same run numbers for all. The
+mean merits of these runs are analysed, one per configuration.
 """
 
 import warnings
@@ -16,21 +16,21 @@ from agent_economy.study.answer.evidence import Evidence
 from agent_economy.study.answer.labels import varied
 from agent_economy.study.arguments import FIRST_LOOK
 
-FEWEST = 30
-"""Configurations that the analysis needs."""
+MIN_CONFIGURATIONS = 30
+"""Minimum number of configurations for the analysis."""
 
 RESAMPLES = 100
 
 SEED = 1
-"""Of the bootstrap; SALib takes 0 for none."""
+"""Seed of the bootstrap; 0 would mean no seed to SALib."""
 
 PLACES = 4
-"""Decimals that are kept: further ones depend on the machine's linear algebra."""
+"""Decimals of results; further ones depend on the machine's linear algebra."""
 
 
 @dataclass(frozen=True)
 class Influence:
-    """What one factor does.
+    """The influence of one factor.
 
     Attributes:
         path: The factor.
@@ -49,11 +49,11 @@ class Influence:
 
 @dataclass(frozen=True)
 class Sensitivity:
-    """What each factor does, the strongest first.
+    """The influence of each factor, the strongest first.
 
     Attributes:
-        influences: Of each varied factor.
-        noise: Share of the variance that is chance: what the means of so few runs scatter.
+        influences: Influence of each varied factor.
+        noise: Share of the variance that is noise of means of few runs.
     """
 
     influences: tuple[Influence, ...]
@@ -61,7 +61,7 @@ class Sensitivity:
 
 
 def sensitivity(evidence: Evidence) -> Sensitivity | None:
-    """Return what each factor does; None with fewer than two factors or 30 configurations.
+    """Return the influence of each factor; None for fewer than two factors or 30 configurations.
 
     Source: Borgonovo (2007), A new uncertainty importance measure, Reliability Engineering and
         System Safety 92; Plischke, Borgonovo and Smith (2013) for given data; as in SALib.
@@ -69,9 +69,9 @@ def sensitivity(evidence: Evidence) -> Sensitivity | None:
     paths = varied([each.values for each in evidence.samples])
     firsts = np.array([each.columns["merit"][:FIRST_LOOK] for each in evidence.samples])
     means = firsts.mean(axis=1)
-    if len(paths) < 2 or len(means) < FEWEST or np.ptp(means) == 0:  # noqa: PLR2004
+    if len(paths) < 2 or len(means) < MIN_CONFIGURATIONS or np.ptp(means) == 0:  # noqa: PLR2004
         return None
-    # What all share in a run moves all means alike: only the rest makes them differ by chance.
+    # The common part of a run shifts all means equally; only the rest is noise between them.
     own = firsts - firsts.mean(axis=0)
     noise = own.var(axis=1, ddof=1).mean() / firsts.shape[1] / means.var(ddof=1)
     return Sensitivity(influences(evidence, paths, means), float(min(noise, 1.0)))
@@ -80,8 +80,8 @@ def sensitivity(evidence: Evidence) -> Sensitivity | None:
 def influences(
     evidence: Evidence, paths: Sequence[str], means: NDArray[np.float64]
 ) -> tuple[Influence, ...]:
-    """Return what SALib says of each factor, the strongest first."""
-    # SALib loads pandas and matplotlib: a second.
+    """Return SALib's results for each factor, the strongest first."""
+    # SALib imports pandas and matplotlib, which takes a second.
     from SALib.analyze import delta  # noqa: PLC0415
     from threadpoolctl import threadpool_limits  # noqa: PLC0415
 
@@ -91,7 +91,7 @@ def influences(
         "names": list(paths),
         "bounds": [[column.min(), column.max()] for column in points.T],
     }
-    # Its matrices are small: more threads than one only wait for each other.
+    # Its matrices are too small for several threads.
     with contained(), threadpool_limits(1):
         found = delta.analyze(problem, points, means, num_resamples=RESAMPLES, seed=SEED)
     named = ("S1", "S1_conf", "delta_balanced", "delta_balanced_conf")
@@ -104,7 +104,7 @@ def influences(
 
 
 def codes(evidence: Evidence, path: str) -> NDArray[np.float64]:
-    """Return a factor's values as numbers; words by their place in the order of appearance."""
+    """Return a factor's values as numbers; names by their order of appearance."""
     values = [each.values[path] for each in evidence.samples]
     if any(isinstance(value, str) for value in values):
         places = {value: place for place, value in enumerate(dict.fromkeys(values))}
@@ -114,10 +114,10 @@ def codes(evidence: Evidence, path: str) -> NDArray[np.float64]:
 
 @contextmanager
 def contained() -> Iterator[None]:
-    """Undo what SALib's analysis does to the whole process.
+    """Undo the global side effects of SALib's analysis.
 
-    It seeds numpy's global generator, and warns of few samples in a format that it sets for all;
-    the errors that it returns say the same.
+    It seeds numpy's global generator, and warns of small samples in a format that it sets for the
+    whole process; the errors that it returns contain the same information.
     """
     state, formatter = np.random.get_state(), warnings.formatwarning  # noqa: NPY002
     try:

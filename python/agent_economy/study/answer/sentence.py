@@ -3,61 +3,57 @@
 from collections.abc import Sequence
 
 from agent_economy.scenario import Scenario
-from agent_economy.study.answer.labels import listed, order, robot_kind
+from agent_economy.study.answer.labels import listed, recommendation, robot_kind
 from agent_economy.study.answer.results import Result
+from agent_economy.study.answer.ties import Verdict
 
-NAMED = 5
-"""Configurations that a sentence names one by one."""
+MAX_NAMED = 5
+"""Configurations that a sentence names individually."""
 
 
-def in_words(scenario: Scenario, delta: float, best: int, results: Sequence[Result]) -> str:
-    """Return the answer: whom to send, what that gives, and how near the others are."""
+def sentence(scenario: Scenario, delta: float, best: int, results: Sequence[Result]) -> str:
+    """Return the answer: which team to send, its performance, and how close the others are."""
     chosen = results[best]
     parts = [
-        f"{order(chosen.values)}: {performance(chosen)}",
-        *tied(results, delta),
-        *too_close(results, delta),
+        recommendation(chosen.values),
+        performance(chosen),
+        *named(results, {"tied"}, f"tied within {delta:g}"),
+        *named(results, {"undecided", "not better"}, "too close to decide with these runs", delta),
         *published_choice(scenario, chosen, results),
         *edges(chosen, results),
     ]
-    return "; ".join(parts) + "."
+    return " ".join(f"{part}." for part in parts)
 
 
-def performance(told: Result) -> str:
-    """Return what a configuration does."""
-    merit = told.merit
+def performance(result: Result) -> str:
+    """Return the mean results of a configuration."""
+    merit = result.merit
     return (
-        f"a run takes {told.time_s.value:.1f} s on average, {told.failed.value:.2%} fail, figure "
-        f"of merit {merit.value:.2f} ({merit.low:.2f} to {merit.high:.2f})"
+        f"A run takes {result.time_s.value:.1f} s on average, {result.failed.value:.2%} of runs "
+        f"fail, and the figure of merit is {merit.value:.2f} ({merit.low:.2f} to {merit.high:.2f})"
     )
 
 
-def tied(results: Sequence[Result], delta: float) -> list[str]:
-    """Return which configurations are as good for sure."""
-    names = [each.label for each in results if each.standing.verdict == "tied"]
-    return [f"{listing(names)} as good within {delta:g}, for sure"] if names else []
-
-
-def too_close(results: Sequence[Result], delta: float) -> list[str]:
-    """Return which configurations seem as good, without the runs settling it."""
-    names = [
+def named(
+    results: Sequence[Result], verdicts: set[Verdict], words: str, max_behind: float = float("inf")
+) -> list[str]:
+    """Return a sentence about the configurations of some verdicts that are close enough, if any."""
+    labels = [
         each.label
         for each in results
-        if each.standing.verdict in {"undecided", "no better"}
+        if each.standing.verdict in verdicts
         and each.standing.behind
-        and each.standing.behind.value < delta
+        and each.standing.behind.value < max_behind
     ]
-    return [f"{listing(names)} too close to call with these runs"] if names else []
-
-
-def listing(names: list[str]) -> str:
-    """Return names, not too many, as the subject of a sentence with its verb."""
-    named = names if len(names) <= NAMED else [*names[:NAMED], f"{len(names) - NAMED} more"]
-    return f"{listed(named)} {'is' if len(names) == 1 else 'are'}"
+    if not labels:
+        return []
+    more = len(labels) - MAX_NAMED
+    shown = [*labels[:MAX_NAMED], f"{more} more"] if more > 0 else labels
+    return [f"{words.capitalize()}: {listed(shown)}"]
 
 
 def published_choice(scenario: Scenario, chosen: Result, results: Sequence[Result]) -> list[str]:
-    """Return how the published choice stands, where team size alone is varied."""
+    """Return a comparison with the published choice, if only a team size is varied."""
     published = scenario.published
     paths = list(chosen.values)
     if not published or len(paths) != 1 or robot_kind(paths[0]) is None:
@@ -66,12 +62,12 @@ def published_choice(scenario: Scenario, chosen: Result, results: Sequence[Resul
     if theirs is None:
         return []
     if theirs is chosen:
-        return [f"{published.source} chose the same"]
+        return [f"{published.source} selected the same team"]
     behind = theirs.standing.behind
     if behind is None or theirs.standing.verdict != "worse":
         return []
-    cost = f"{behind.value:.3f} of merit ({behind.low:.3f} to {behind.high:.3f})"
-    return [f"the {published.choice} of {published.source} would cost {cost}"]
+    loss = f"{behind.value:.3f} ({behind.low:.3f} to {behind.high:.3f})"
+    return [f"The team that {published.source} selected, {theirs.label}, is worse by {loss}"]
 
 
 def edges(chosen: Result, results: Sequence[Result]) -> list[str]:
@@ -82,5 +78,5 @@ def edges(chosen: Result, results: Sequence[Result]) -> list[str]:
         if robot_kind(path) is not None and len(sizes) > 1 and size == max(sizes, key=float):
             kinds.append(robot_kind(path))
     return [
-        f"no team with more {kind}s was compared, and one may be better still" for kind in kinds
+        f"No team with more {kind}s was compared; a larger team may be better" for kind in kinds
     ]

@@ -1,22 +1,30 @@
-"""Which configurations are as good as the best, which are worse, and which is not known."""
+"""Which configurations are tied with the selected one, which are worse, and which are undecided."""
 
 from dataclasses import dataclass
 from typing import Literal
 
 from agent_economy.study.answer.evidence import Evidence, Interval
 
-Verdict = Literal["best", "tied", "worse", "no better", "undecided"]
+Verdict = Literal["best", "tied", "worse", "not better", "undecided"]
+
+VERDICT_TEXT: dict[Verdict, str] = {
+    "best": "selected",
+    "tied": "tied within delta",
+    "worse": "worse",
+    "not better": "not better by delta",
+    "undecided": "undecided",
+}
 
 
 @dataclass(frozen=True)
 class Standing:
-    """How far a configuration is behind the selected one.
+    """The comparison of a configuration with the selected one.
 
     Attributes:
-        behind: The selected one's mean merit less this one's; None for the selected one itself.
-        verdict: "tied": for sure, the two differ by delta at most. "worse": for sure, if perhaps by
-            little. "no better": for sure, it is not better by more than delta; whether it is worse
-            is open. "undecided": even that is open.
+        behind: The selected one's mean merit minus this one's; None for the selected one itself.
+        verdict: What is proved. "tied": the two differ by at most delta. "worse": its mean merit is
+            lower. "not better": it is not better by more than delta, but may be worse.
+            "undecided": none of these.
     """
 
     behind: Interval | None
@@ -24,7 +32,7 @@ class Standing:
 
 
 def standings(evidence: Evidence, best: int, delta: float) -> tuple[Standing, ...]:
-    """Return how each configuration stands to the selected one."""
+    """Return the comparison of each configuration with the selected one."""
     return tuple(
         Standing(None, "best") if other == best else standing(evidence, best, other, delta)
         for other in range(len(evidence.samples))
@@ -32,10 +40,10 @@ def standings(evidence: Evidence, best: int, delta: float) -> tuple[Standing, ..
 
 
 def standing(evidence: Evidence, best: int, other: int, delta: float) -> Standing:
-    """Return how one configuration stands to the selected one."""
+    """Return the comparison of one configuration with the selected one."""
     behind = evidence.difference(best, other, "merit")
     if -delta <= behind.low and behind.high <= delta:
         return Standing(behind, "tied")
     if behind.low > 0:
         return Standing(behind, "worse")
-    return Standing(behind, "no better" if behind.low >= -delta else "undecided")
+    return Standing(behind, "not better" if behind.low >= -delta else "undecided")

@@ -1,7 +1,7 @@
 """The report of a study: one HTML page that works offline.
 
-`view` orders what is shown; `charts` are Vega-Lite specifications, `tables` the same numbers;
-`sections` put both in the page's order; `page` fills the template with them and the `script`.
+`view` selects and orders what is shown; `charts` are Vega-Lite specifications, `tables` the same
+numbers as text; `sections` combine both; `page` fills the template with them and the `script`.
 """
 
 from agent_economy.study.report.charts import specifications

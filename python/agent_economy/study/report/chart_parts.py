@@ -1,24 +1,25 @@
-"""What the charts of a report are put together from: pieces of Vega-Lite specifications."""
+"""Parts of the Vega-Lite specifications of a report's charts."""
 
 from typing import Any
 
+from agent_economy.study.answer.evidence import Interval
+from agent_economy.study.report.formatting import finite
 from agent_economy.study.report.view import View, factor_name
-from agent_economy.study.report.writing import finite
 
 Spec = dict[str, Any]
 Rows = list[dict[str, Any]]
 Codes = dict[str, tuple[str, str]]
-"""Colour and shape by meaning."""
+"""Colour and shape by category."""
 
 BLUE, ORANGE, TEAL, GREY = "#2f7fd1", "#d9730d", "#1a9a8a", "#87909b"
-"""They differ for the colour-blind, and can be seen on white and on near black."""
+"""Distinguishable with colour blindness, and visible on light and dark backgrounds."""
 
 SCHEMA = "https://vega.github.io/schema/vega-lite/v6.json"
 INK = "ink"
-"""The name of layers of text: a page gives what they draw the colour of its text."""
+"""Name of text layers, which take the text colour of the page."""
 HEIGHT = 260
 FEW = 12
-WRITING = {
+TEXT_STYLE = {
     "labelColor": GREY,
     "labelFontSize": 12,
     "titleColor": GREY,
@@ -28,7 +29,7 @@ WRITING = {
 
 
 def chart(layers: list[Spec], rows: Rows, height: int | Spec = HEIGHT) -> Spec:
-    """Return layers as a chart as wide as its page allows."""
+    """Return layers as a chart of the width of its container."""
     return {
         "$schema": SCHEMA,
         "width": "container",
@@ -38,38 +39,38 @@ def chart(layers: list[Spec], rows: Rows, height: int | Spec = HEIGHT) -> Spec:
         "layer": layers,
         "config": {
             "view": {"stroke": None},
-            "axis": {**WRITING, "gridColor": GREY, "gridOpacity": 0.3, "tickColor": GREY},
+            "axis": {**TEXT_STYLE, "gridColor": GREY, "gridOpacity": 0.3, "tickColor": GREY},
             "axisQuantitative": {"tickCount": 7},
-            # A title may be wider than the plot on a narrow screen; there it has room to the left.
+            # On a narrow screen a title may be wider than the plot; it extends to the left.
             "axisX": {"titleAnchor": "end"},
-            "legend": {**WRITING, "orient": "top"},
+            "legend": {**TEXT_STYLE, "orient": "top"},
             "text": {"color": GREY},
         },
     }
 
 
 def field(name: str, kind: str = "quantitative", **settings: Any) -> Spec:
-    """Return the definition of a channel."""
+    """Return the definition of an encoding channel."""
     return {"field": name, "type": kind, **settings}
 
 
 def fixed(rows: Rows, mark: Spec, encoding: Spec) -> Spec:
-    """Return a layer with data of its own."""
+    """Return a layer with its own data."""
     return {"data": {"values": rows}, "mark": mark, "encoding": encoding}
 
 
-def line_at(channel: str, at: float, **look: Any) -> Spec:
+def line_at(channel: str, at: float, **style: Any) -> Spec:
     """Return a line across the chart."""
-    mark = {"type": "rule", "color": GREY, **look}
+    mark = {"type": "rule", "color": GREY, **style}
     return fixed([{"line": at}], mark, {channel: field("line")})
 
 
 def coded(name: str, codes: Codes, rows: Rows) -> Spec:
-    """Return colour and shape by meaning, for those meanings that are there."""
-    there = [meaning for meaning in codes if any(row[name] == meaning for row in rows)]
+    """Return the encodings of colour and shape for the categories that occur."""
+    used = [category for category in codes if any(row[name] == category for row in rows)]
 
     def scale(side: int) -> Spec:
-        return {"domain": there, "range": [codes[meaning][side] for meaning in there]}
+        return {"domain": used, "range": [codes[category][side] for category in used]}
 
     return {
         "color": field(name, "nominal", scale=scale(0), title=None),
@@ -77,19 +78,19 @@ def coded(name: str, codes: Codes, rows: Rows) -> Spec:
     }
 
 
-def with_bounds(value: str, title: Spec, place: Spec, looks: Spec) -> list[Spec]:
-    """Return points with their intervals.
+def with_bounds(value: str, title: Spec, place: Spec, style: Spec) -> list[Spec]:
+    """Return the layers of points with their intervals.
 
     Args:
         value: The channel of values, "x" or "y".
         title: Settings of its channel: title, axis, scale.
         place: The encoding of the other channel.
-        looks: Encodings of colour and shape.
+        style: Encodings of colour and shape.
     """
     bounds = {value: field("low", **title), f"{value}2": {"field": "high"}}
-    lines = {**place, **bounds, "color": looks["color"]}
+    lines = {**place, **bounds, "color": style["color"]}
     tip = [field("label", "nominal", title=" "), *map(field, ("value", "low", "high"))]
-    points = {**place, value: field("value", **title), **looks, "tooltip": tip}
+    points = {**place, value: field("value", **title), **style, "tooltip": tip}
     dot = {"type": "point", "filled": True, "size": 70, "opacity": 1}
     return [
         {"mark": {"type": "rule", "size": 2}, "encoding": lines},
@@ -98,25 +99,35 @@ def with_bounds(value: str, title: Spec, place: Spec, looks: Spec) -> list[Spec]
 
 
 def heights(rows: Rows) -> Spec:
-    """Return the height of a chart with a row a name."""
+    """Return the height of a chart with a row per name."""
     return {"step": 26 if len(rows) <= FEW else 19}
 
 
 def by_name(rows: Rows) -> Spec:
     """Return the y axis of names, in the order of the rows."""
     names = list(dict.fromkeys(row["label"] for row in rows))
-    # Off the plot, so that a point at its edge hides no name.
+    # With an offset, so that a point at the edge does not cover a name.
     axis = {"grid": True, "ticks": False, "domain": False, "offset": 8}
     return field("label", "nominal", title=None, sort=names, axis=axis)
 
 
+def bounds(interval: Interval) -> dict[str, float | None]:
+    """Return an interval as a row has it."""
+    return {name: finite(getattr(interval, name)) for name in ("value", "low", "high")}
+
+
+def around(value: float, error: float) -> Interval:
+    """Return a value with the same error on both sides."""
+    return Interval(value, value - error, value + error)
+
+
 def row_of(view: View, index: int) -> dict[str, Any]:
-    """Return a configuration's number and what it is called, as all rows that stand for one."""
+    """Return the number and name of a configuration, as in all of its rows."""
     return {"label": view.names[index], "configuration": index}
 
 
 def place_of(view: View, index: int) -> dict[str, Any]:
-    """Return which configuration a row is of, and where that stands on the axis."""
+    """Return the configuration of a row, with its position on the axis."""
     row = row_of(view, index)
     if view.numeric_factor:
         row["at"] = finite(float(view.result(index).values[view.numeric_factor]))
@@ -134,8 +145,8 @@ def axis_of(view: View, rows: Rows) -> tuple[str, Spec, str]:
     return "x", field("at", title=title, axis=ticks, scale=scale), "y"
 
 
-def intervals(view: View, rows: Rows, title: Spec, looks: Spec) -> Spec:
-    """Return points with intervals along the axis of configurations."""
+def intervals(view: View, rows: Rows, title: Spec, style: Spec) -> Spec:
+    """Return a chart of points with intervals along the axis of configurations."""
     channel, place, value = axis_of(view, rows)
-    layers = with_bounds(value, {"scale": {"zero": False}, **title}, {channel: place}, looks)
+    layers = with_bounds(value, {"scale": {"zero": False}, **title}, {channel: place}, style)
     return chart(layers, rows, HEIGHT if channel == "x" else heights(rows))

@@ -1,8 +1,8 @@
-"""The charts of a report, as Vega-Lite specifications: plain dicts, one function a chart.
+"""The charts of a report as Vega-Lite specifications: plain dicts, one function per chart.
 
-Configurations lie along the x axis where one number is varied, else down the y axis by name, which
-leaves room for names on narrow screens. Every chart works on light and on dark ground: it has no
-background, and its colours are of middle lightness; where they mean something, so do shapes.
+Configurations are on the x axis if one number is varied, else on the y axis by name, which leaves
+room for names on narrow screens. Every chart works on light and dark backgrounds: its background is
+transparent, its colours have medium lightness, and categories also differ in shape.
 """
 
 from typing import Any
@@ -11,6 +11,7 @@ import numpy as np
 
 from agent_economy.study.answer.conclude import Answer
 from agent_economy.study.answer.evidence import Evidence, Interval
+from agent_economy.study.answer.ties import VERDICT_TEXT
 from agent_economy.study.report import factor_charts
 from agent_economy.study.report.chart_parts import (
     BLUE,
@@ -24,6 +25,7 @@ from agent_economy.study.report.chart_parts import (
     Rows,
     Spec,
     axis_of,
+    bounds,
     by_name,
     chart,
     coded,
@@ -36,29 +38,29 @@ from agent_economy.study.report.chart_parts import (
     row_of,
     with_bounds,
 )
+from agent_economy.study.report.formatting import finite
 from agent_economy.study.report.view import View
-from agent_economy.study.report.writing import finite
 
 VERDICTS: Codes = {
     "selected": (BLUE, "circle"),
     "tied within delta": (TEAL, "square"),
-    "no better": (TEAL, "triangle-right"),
+    "not better by delta": (TEAL, "triangle-right"),
     "undecided": (ORANGE, "diamond"),
     "worse": (GREY, "triangle-down"),
 }
 PLACES: Codes = {
     "selected": (BLUE, "circle"),
-    "selected, surely dominated": (BLUE, "cross"),
+    "selected, dominated": (BLUE, "cross"),
     "possibly efficient": (TEAL, "square"),
-    "surely dominated": (GREY, "triangle-down"),
+    "dominated": (GREY, "triangle-down"),
 }
-STATES = {"selected": BLUE, "never out": TEAL, "out": GREY}
+STATES = {"selected": BLUE, "remaining": TEAL, "eliminated": GREY}
 FRONT_HEIGHT = 300
 QUANTILES = {"p5": 0.05, "p25": 0.25, "p50": 0.5, "p75": 0.75, "p95": 0.95}
 
 
 def specifications(answer: Answer, evidence: Evidence) -> dict[str, Spec]:
-    """Return each chart's Vega-Lite specification by name: those that have something to show."""
+    """Return the Vega-Lite specification of each chart that the answer has data for, by name."""
     view = View(answer, evidence)
     made = {"times": times(view)}
     if view.compares:
@@ -68,14 +70,14 @@ def specifications(answer: Answer, evidence: Evidence) -> dict[str, Spec]:
 
 
 def merit(view: View) -> Spec:
-    """Return the figure of merit of each configuration with its interval."""
+    """Return the chart of the figure of merit of each configuration."""
     rows = [judged(view, index, view.result(index).merit) for index in view.shown]
-    looks = coded("verdict", VERDICTS, rows)
-    return intervals(view, rows, {"title": "figure of merit (higher is better)"}, looks)
+    style = coded("verdict", VERDICTS, rows)
+    return intervals(view, rows, {"title": "figure of merit (higher is better)"}, style)
 
 
 def failed(view: View) -> Spec:
-    """Return the share of failed runs of each configuration with its interval."""
+    """Return the chart of the share of failed runs of each configuration."""
     rows = [judged(view, index, view.result(index).failed) for index in view.shown]
     title = {
         "title": "share of runs that failed",
@@ -86,7 +88,7 @@ def failed(view: View) -> Spec:
 
 
 def behind(view: View) -> Spec:
-    """Return how far the nearest are behind the selected one; a band marks delta to both sides."""
+    """Return the chart of differences from the selected one; a band marks delta on both sides."""
     rows = [
         judged(view, index, interval)
         for index in view.nearest
@@ -97,32 +99,25 @@ def behind(view: View) -> Spec:
     band = fixed(
         [{"from": -delta, "to": delta}], {"type": "rect", "opacity": 0.15, "color": BLUE}, ends
     )
-    title = {"title": "merit behind the selected one"}
+    title = {"title": "difference of merit from the selected one"}
     points = with_bounds("x", title, {"y": by_name(rows)}, coded("verdict", VERDICTS, rows))
     return chart([band, line_at("x", 0.0), *points], rows, heights(rows))
 
 
 def judged(view: View, index: int, interval: Interval) -> dict[str, Any]:
-    """Return a row of a configuration's interval, with how the configuration stands."""
+    """Return the row of a configuration's interval, with its verdict."""
     verdict = verdict_of(view, index)
     return {**place_of(view, index), **bounds(interval), "verdict": verdict}
 
 
 def verdict_of(view: View, index: int) -> str:
-    """Return how a configuration stands to the selected one, in words."""
-    words = {"best": "selected", "tied": "tied within delta"}
-    verdict = view.result(index).standing.verdict
-    return words.get(verdict, verdict)
-
-
-def bounds(interval: Interval) -> dict[str, float | None]:
-    """Return an interval as a row has it."""
-    return {name: finite(getattr(interval, name)) for name in ("value", "low", "high")}
+    """Return the verdict on a configuration in words."""
+    return VERDICT_TEXT[view.result(index).standing.verdict]
 
 
 def front(view: View) -> Spec:
-    """Return price, time and failures of configurations."""
-    # What is drawn last lies on top: the selected one.
+    """Return the chart of price, time and failures."""
+    # The selected one is drawn last, on top of the others.
     rows = [front_row(view, index) for index in reversed(view.on_front)]
     space: Spec = {"zero": False, "padding": 16}
     price = field(
@@ -131,8 +126,8 @@ def front(view: View) -> Spec:
     seconds: Spec = {"title": "mean time (s)", "scale": space}
     at = {"x": price, "y": field("value", **seconds)}
     size = field("failed", title="failed", scale={"range": [50, 500], "zero": True})
-    looks = {"symbolFillColor": GREY, "symbolStrokeColor": GREY}
-    size["legend"] = {"format": "~%", "tickCount": 3, **looks}
+    symbols = {"symbolFillColor": GREY, "symbolStrokeColor": GREY}
+    size["legend"] = {"format": "~%", "tickCount": 3, **symbols}
     tip = [
         field("label", "nominal", title=" "),
         field("price"),
@@ -148,7 +143,7 @@ def front(view: View) -> Spec:
 
 
 def front_row(view: View, index: int) -> dict[str, Any]:
-    """Return a configuration's price, time and failures."""
+    """Return the row of a configuration's price, time and failures."""
     result = view.result(index)
     return {
         **row_of(view, index),
@@ -160,40 +155,40 @@ def front_row(view: View, index: int) -> dict[str, Any]:
 
 
 def place_on_front(view: View, index: int) -> str:
-    """Return a configuration's place in words."""
+    """Return whether a configuration is on the Pareto front, in words."""
     is_efficient = view.result(index).place.dominated_by is None
     if index != view.answer.best:
-        return "possibly efficient" if is_efficient else "surely dominated"
-    return "selected" if is_efficient else "selected, surely dominated"
+        return "possibly efficient" if is_efficient else "dominated"
+    return "selected" if is_efficient else "selected, dominated"
 
 
 def runs(view: View) -> Spec:
-    """Return the runs that each configuration took."""
+    """Return the chart of the runs of each configuration."""
     rows: Rows = [
         {**row_of(view, index), "runs": view.result(index).runs, "state": state(view, index)}
         for index in view.by_runs
     ]
     base = {"y": by_name(rows), "x": field("runs", title="runs")}
     colors = {name: (color, "square") for name, color in STATES.items()}
-    look = {"color": coded("state", colors, rows)["color"]}
+    style = {"color": coded("state", colors, rows)["color"]}
     tip = [field("label", "nominal", title=" "), field("runs"), field("state", "nominal")]
     text = {"type": "text", "align": "left", "dx": 4}
     layers = [
-        {"mark": "bar", "encoding": {**base, **look, "tooltip": tip}},
+        {"mark": "bar", "encoding": {**base, **style, "tooltip": tip}},
         {"name": INK, "mark": text, "encoding": {**base, "text": field("runs", format=",")}},
     ]
     return chart(layers, rows, heights(rows))
 
 
 def state(view: View, index: int) -> str:
-    """Return whether a configuration was selected, put out, or neither."""
+    """Return whether a configuration was selected or eliminated, or remains."""
     if index == view.answer.best:
         return "selected"
-    return "out" if view.result(index).eliminated else "never out"
+    return "eliminated" if view.result(index).eliminated else "remaining"
 
 
 def times(view: View) -> Spec:
-    """Return the distribution of times: the middle nine tenths, the middle half, the median."""
+    """Return the chart of the times: middle 90%, middle 50%, and median."""
     rows = [row for index in view.shown if (row := quantile_row(view, index))]
     channel, place, value = axis_of(view, rows)
     tip = [field("label", "nominal", title=" "), *map(field, QUANTILES)]
@@ -215,7 +210,7 @@ def times(view: View) -> Spec:
 
 
 def quantile_row(view: View, index: int) -> dict[str, Any] | None:
-    """Return the quantiles of a configuration's times; None if it has none."""
+    """Return the row of quantiles of a configuration's times; None if it has none."""
     times_s = view.evidence.samples[index].columns["time_s"]
     known = times_s[np.isfinite(times_s)]
     if not len(known):

@@ -1,4 +1,4 @@
-"""Charts of what factors do: a map of two, gains of larger teams, sensitivity; and of others."""
+"""Charts of factors (heat map, gains of larger teams, sensitivity), and of published results."""
 
 from typing import Any
 
@@ -11,6 +11,8 @@ from agent_economy.study.report.chart_parts import (
     Codes,
     Rows,
     Spec,
+    around,
+    bounds,
     by_name,
     chart,
     coded,
@@ -21,21 +23,21 @@ from agent_economy.study.report.chart_parts import (
     row_of,
     with_bounds,
 )
+from agent_economy.study.report.formatting import finite
 from agent_economy.study.report.view import View, factor_name
-from agent_economy.study.report.writing import finite
 
 TALLEST = 480
-"""Height of a map, px, unless its rows get too thin."""
+"""Height of a heat map in pixels, unless its rows become too thin."""
 
 MEASURES: Codes = {
     "alone": (BLUE, "circle"),
-    "with all its interactions": (ORANGE, "diamond"),
+    "with interactions": (ORANGE, "diamond"),
 }
 OURS = "this study"
 
 
 def specifications(view: View) -> dict[str, Spec]:
-    """Return each chart's specification by name: those that have something to show."""
+    """Return the specification of each chart that the answer has data for, by name."""
     made: dict[str, Spec] = {}
     if view.is_grid:
         made["heat"] = heat(view)
@@ -50,7 +52,7 @@ def specifications(view: View) -> dict[str, Spec]:
 
 
 def heat(view: View) -> Spec:
-    """Return the mean merit over a full grid of two factors, the selected one framed."""
+    """Return the heat map of the mean merit over two factors, the selected one framed."""
     across, down = view.varied
     rows: Rows = [
         {
@@ -80,7 +82,7 @@ def heat(view: View) -> Spec:
 
 
 def steps(rows: Rows, name: str, *, low_first: bool) -> list[float | str]:
-    """Return the values along one side of a map: numbers by size, words as they come."""
+    """Return the values along one axis of a heat map: numbers sorted, names in their order."""
     found = list(dict.fromkeys(row[name] for row in rows))
     if any(isinstance(value, str) for value in found):
         return found
@@ -88,28 +90,26 @@ def steps(rows: Rows, name: str, *, low_first: bool) -> list[float | str]:
 
 
 def saturation(view: View, found: Saturation) -> Spec:
-    """Return what larger teams gain over one size, against nothing and against delta."""
+    """Return the chart of the gains of larger teams, with lines at zero and at delta."""
     rows: Rows = [
         {
             "label": f"{size:,}",
-            "value": finite(gain.value),
-            "low": finite(gain.low),
-            "high": finite(gain.high),
+            **bounds(gain),
             "gain": "gain",
         }
         for size, gain in found.gains.items()
     ]
-    looks = coded("gain", {"gain": (BLUE, "circle")}, rows)
-    looks = {name: {**channel, "legend": None} for name, channel in looks.items()}
+    style = coded("gain", {"gain": (BLUE, "circle")}, rows)
+    style = {name: {**channel, "legend": None} for name, channel in style.items()}
     kind = f"{robot_kind(found.path)}s"
     title = {"title": f"gain of merit over {found.base:,} {kind}"}
     place = {"y": {**by_name(rows), "title": kind}}
     lines = [line_at("x", 0.0), line_at("x", view.answer.delta, strokeDash=[4, 3], color=ORANGE)]
-    return chart([*lines, *with_bounds("x", title, place, looks)], rows, heights(rows))
+    return chart([*lines, *with_bounds("x", title, place, style)], rows, heights(rows))
 
 
 def sensitivity(view: View) -> Spec:
-    """Return how much of the merit each factor explains, with errors."""
+    """Return the chart of the influence of each factor."""
     found = view.answer.sensitivity
     rows: Rows = []
     for each in found.influences if found else ():
@@ -118,9 +118,7 @@ def sensitivity(view: View) -> Spec:
             {
                 "label": factor_name(each.path),
                 "measure": measure,
-                "value": finite(share),
-                "low": finite(share - error),
-                "high": finite(share + error),
+                **bounds(around(share, error)),
             }
             for measure, (share, error) in zip(MEASURES, shares, strict=True)
         ]
@@ -131,7 +129,7 @@ def sensitivity(view: View) -> Spec:
 
 
 def published(view: View, path: str) -> Spec:
-    """Return our figures of merit beside those of others, by team size."""
+    """Return the chart of the figures of merit of this study and published ones, by team size."""
     scenario = view.answer.scenario
     theirs = scenario.published.source if scenario.published else ""
     rows: Rows = [
@@ -142,22 +140,20 @@ def published(view: View, path: str) -> Spec:
         for index in view.shown
     ]
     rows += [published_row(theirs, each.robots, each.merit) for each in view.answer.published]
-    looks = coded("source", {OURS: (BLUE, "circle"), theirs: (ORANGE, "diamond")}, rows)
+    style = coded("source", {OURS: (BLUE, "circle"), theirs: (ORANGE, "diamond")}, rows)
     place = {
         "x": field("at", "ordinal", title=factor_name(path), axis={"labelAngle": 0}),
         "xOffset": field("source", "nominal", scale={"paddingOuter": 1}, sort=[OURS, theirs]),
     }
     title = {"title": "figure of merit (higher is better)", "scale": {"zero": False}}
-    return chart(with_bounds("y", title, place, looks), rows)
+    return chart(with_bounds("y", title, place, style), rows)
 
 
 def published_row(source: str, size: int, merit: Interval) -> dict[str, Any]:
-    """Return the figure of merit of a team, as somebody found it."""
+    """Return the row of a team's figure of merit from one source."""
     return {
         "label": f"{source}, {size}",
         "at": size,
         "source": source,
-        "value": finite(merit.value),
-        "low": finite(merit.low),
-        "high": finite(merit.high),
+        **bounds(merit),
     }

@@ -6,15 +6,16 @@ import jinja2
 
 from agent_economy.study.answer.conclude import Answer
 from agent_economy.study.answer.evidence import Evidence
+from agent_economy.study.answer.labels import recommendation
 from agent_economy.study.report.assumptions import assumptions
 from agent_economy.study.report.charts import specifications
+from agent_economy.study.report.formatting import brief, count
 from agent_economy.study.report.sections import sections
 from agent_economy.study.report.view import View
-from agent_economy.study.report.writing import brief, count
-from agent_economy.study.selection import certainty
+from agent_economy.study.selection import percentage
 
-MOST_NAMED = 8
-"""Configurations that a warning names."""
+MAX_NAMED = 8
+"""Maximum number of configurations that a warning names."""
 
 
 def html(answer: Answer, evidence: Evidence, javascript: str) -> str:
@@ -34,11 +35,11 @@ def html(answer: Answer, evidence: Evidence, javascript: str) -> str:
         lstrip_blocks=True,
     )
     view = View(answer, evidence)
-    advice, colon, reasons = answer.sentence.partition(":")
+    advice = f"{recommendation(answer.results[answer.best].values)}."
     return environment.get_template("report.html.jinja").render(
         answer=answer,
-        advice=advice + colon,
-        reasons=reasons,
+        advice=advice,
+        reasons=answer.sentence.removeprefix(advice),
         facts=tuple(facts(answer)),
         quarantined=quarantined(view),
         sections=tuple(sections(view)),
@@ -49,10 +50,10 @@ def html(answer: Answer, evidence: Evidence, javascript: str) -> str:
 
 
 def facts(answer: Answer) -> Iterator[tuple[str, str]]:
-    """Return the numbers that say how sure an answer is, each with what it is."""
-    yield certainty(answer.confidence), "confidence"
-    yield brief(answer.delta), "delta, the difference of merit worth finding"
-    yield f"{answer.runs:,}", "runs in all"
+    """Return the key numbers of an answer, each with its label."""
+    yield percentage(answer.confidence), "confidence"
+    yield brief(answer.delta), "indifference zone (delta)"
+    yield f"{answer.runs:,}", "runs"
     yield (
         f"{len(answer.results):,}",
         "configurations" if len(answer.results) > 1 else "configuration",
@@ -60,14 +61,14 @@ def facts(answer: Answer) -> Iterator[tuple[str, str]]:
 
 
 def quarantined(view: View) -> str:
-    """Return a warning of runs that gave no finite merit; nothing where there are none."""
+    """Return a warning about runs without a finite merit; an empty string if there are none."""
     counts = [result.quarantined for result in view.answer.results]
     hit = [index for index in view.ranked if counts[index]]
     if not hit:
         return ""
-    named = "; ".join(f"{counts[index]:,} of {view.names[index]}" for index in hit[:MOST_NAMED])
-    more = f"; and of {len(hit) - MOST_NAMED:,} others" if len(hit) > MOST_NAMED else ""
+    details = "; ".join(f"{counts[index]:,} of {view.names[index]}" for index in hit[:MAX_NAMED])
+    more = f"; and of {len(hit) - MAX_NAMED:,} others" if len(hit) > MAX_NAMED else ""
     return (
-        f"{count(sum(counts), 'run')} gave no finite merit. They are quarantined: each counts as "
-        f"the worst there is. {named}{more}."
+        f"{count(sum(counts), 'run')} without a finite merit: quarantined, each counts as the "
+        f"worst merit. {details}{more}."
     )

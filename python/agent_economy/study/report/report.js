@@ -11,7 +11,7 @@ for (const [name, chart] of Object.entries(charts)) {
     },
   });
 }
-// What is folded on the screen is open on paper.
+// Folded tables are printed open.
 const folded = () => document.querySelectorAll("details:not([open])");
 addEventListener("beforeprint", () => {
   for (const each of folded()) {

@@ -1,19 +1,19 @@
-"""The sections of a report, in their order: words, charts and tables."""
+"""The sections of a report in their order: notes, charts and tables."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
 
 from agent_economy.study.answer.saturation import Saturation
 from agent_economy.study.report import tables
+from agent_economy.study.report.formatting import MINUS, TIMES, brief, count
 from agent_economy.study.report.tables import Table
-from agent_economy.study.report.view import MOST, View, factor_name
-from agent_economy.study.report.writing import MINUS, TIMES, brief, count
-from agent_economy.study.selection import certainty
+from agent_economy.study.report.view import MAX_SHOWN, View, factor_name
+from agent_economy.study.selection import percentage
 
 
 @dataclass(frozen=True)
 class Picture:
-    """A chart by name, and what it shows in words."""
+    """A chart by name, with its caption."""
 
     name: str
     shows: str
@@ -24,11 +24,11 @@ class Section:
     """A section of the page.
 
     Attributes:
-        heading: What it answers.
-        notes: How to read it, a paragraph each.
+        heading: Its heading.
+        notes: Explanations, a paragraph each.
         pictures: Its charts.
-        tables: Its numbers.
-        is_folded: Whether its tables are closed until asked for.
+        tables: Its tables.
+        is_folded: Whether its tables are initially closed.
     """
 
     heading: str
@@ -39,7 +39,7 @@ class Section:
 
 
 def sections(view: View) -> Iterator[Section]:
-    """Return the sections that have something to show."""
+    """Return the sections that the answer has data for."""
     yield merit(view)
     if view.is_grid:
         yield heat(view)
@@ -58,67 +58,67 @@ def sections(view: View) -> Iterator[Section]:
 
 
 def merit(view: View) -> Section:
-    """Return who is how good, and how far behind the selected one."""
+    """Return the section on the figure of merit."""
     notes = [formula(view), f"{together(view)} {cut(view, 'the best by merit')}".strip()]
     pictures = []
     if view.compares:
-        pictures.append(Picture("merit", "Figure of merit with its range"))
-        some = f"the {len(view.nearest)} nearest" if len(view.nearest) > 1 else "the other"
-        shows = f"How far behind the selected one: {some}, compared run by run (shaded: delta)"
+        pictures.append(Picture("merit", "Figure of merit with its interval"))
+        others = f"the {len(view.nearest)} next best" if len(view.nearest) > 1 else "the other one"
+        shows = f"Difference from the selected configuration: {others}, run by run (shaded: delta)"
         pictures.append(Picture("behind", shows))
         notes.append(
-            f"Tied within delta: differs from the selected one by {brief(view.answer.delta)} at "
-            "most, for sure. Worse: for sure, if perhaps by little. No better: not by more than "
-            "delta, for sure. Undecided: these ranges leave it open; what the guarantee says of "
-            "those put out holds all the same."
+            "Verdicts: tied within delta means that the merit differs from the selected one by at "
+            f"most {brief(view.answer.delta)}; worse, that it is lower; not better by delta, that "
+            "it is not higher by more than delta; undecided, that the intervals prove none of "
+            "these. The guarantee includes eliminated configurations whose verdict is undecided."
         )
     found = (tables.merit(view),)
     return Section("Figure of merit", tuple(notes), tuple(pictures), found, is_folded=False)
 
 
 def heat(view: View) -> Section:
-    """Return the merit over two factors together."""
+    """Return the section on the merit over two factors."""
     across, down = map(factor_name, view.varied)
-    picture = Picture("heat", "Mean merit of every pair; the selected one is framed")
+    picture = Picture("heat", "Mean merit of every combination; the selected one is framed")
     heading = f"Merit by {across} and {down}"
     return Section(heading, (), (picture,), tables.heat(view))
 
 
 def formula(view: View) -> str:
-    """Return how the merit is made up."""
+    """Return the formula of the merit."""
     merit = view.answer.scenario.merit
     parts = ((brief(term.weight), weighed(term.column, term.max)) for term in merit.terms)
     summed = " + ".join(map(f" {TIMES} ".join, parts)).replace(f"+ {MINUS}", f"{MINUS} ")
     return f"Merit of a run = {summed} ({merit.name}). Higher is better."
 
 
-def weighed(column: str, most: float | None) -> str:
-    """Return what a term weighs."""
-    return column if most is None else f"min({column}, {brief(most)})"
+def weighed(column: str, limit: float | None) -> str:
+    """Return the quantity of a term."""
+    return column if limit is None else f"min({column}, {brief(limit)})"
 
 
 def together(view: View) -> str:
-    """Return what ranges mean."""
+    """Return the meaning of intervals and verdicts."""
     return (
-        f"Ranges hold simultaneously: for all configurations and all quantities together, and at "
-        f"any moment, with {certainty(view.answer.confidence)} confidence."
+        "All intervals and verdicts hold simultaneously, for all configurations and quantities, "
+        f"with {percentage(view.answer.confidence)} confidence."
     )
 
 
 def cut(view: View, which: str) -> str:
-    """Return which configurations are shown, where these are not all."""
+    """Return which configurations are shown if these are not all."""
     total = len(view.answer.results)
-    if total <= MOST:
+    if total <= MAX_SHOWN:
         return ""
-    return f"Shown are {MOST} of {total:,} configurations, {which}; answer.json has all."
+    return f"{MAX_SHOWN} of {total:,} configurations are shown, {which}; answer.json contains all."
 
 
 def failed(view: View) -> Section:
-    """Return how often runs fail."""
-    pictures = (Picture("failed", "Share of runs that failed, with its range"),)
+    """Return the section on failed runs."""
+    pictures = (Picture("failed", "Share of runs that failed, with its interval"),)
     return Section(
-        "How often it fails",
-        (f"Ranges as above. {cut(view, 'the best by merit')}".strip(),),
+        "Failures",
+        (f"Intervals as above. {cut(view, 'the best by merit')}".strip(),),
         pictures if view.compares else (),
         (tables.failed(view),),
         is_folded=view.compares,
@@ -126,22 +126,24 @@ def failed(view: View) -> Section:
 
 
 def front(view: View) -> Section:
-    """Return which configurations somebody might want for price, time and success."""
+    """Return the section on the Pareto front of price, time and failures."""
     total = len(view.answer.results)
     out = sum(result.place.dominated_by is not None for result in view.answer.results)
     note = (
-        "Surely dominated: the runs prove that another, which costs no more, is faster and fails "
-        f"less often. That is true of {out:,} of {total:,}; the others are possibly efficient. "
+        "A configuration is dominated if another of no higher price is proved to be faster and to "
+        f"fail less often: {out:,} of {total:,}. The others are possibly efficient. "
         f"{cut(view, 'the possibly efficient first')}"
     )
-    picture = Picture("front", "Price against mean time, with its range; larger: fails more often")
-    return Section("Price, time and certainty", (note.strip(),), (picture,), (tables.front(view),))
+    picture = Picture(
+        "front", "Price and mean time with its interval; larger marks fail more often"
+    )
+    return Section("Price, time and failures", (note.strip(),), (picture,), (tables.front(view),))
 
 
 def saturation(view: View, found: Saturation) -> Section:
-    """Return whether a larger team is worth its price."""
+    """Return the section on whether a larger team is worth its price."""
     number = view.saturations.index(found)
-    shows = f"What more {factor_name(found.path)} gain over {found.base:,} (dashed: delta)"
+    shows = f"Gain of more than {found.base:,} {factor_name(found.path)} (dashed: delta)"
     return Section(
         f"How many {factor_name(found.path)} are enough",
         (saturation_in_words(view, found),),
@@ -151,82 +153,80 @@ def saturation(view: View, found: Saturation) -> Section:
 
 
 def saturation_in_words(view: View, found: Saturation) -> str:
-    """Return whether it is decided how many are enough."""
+    """Return how many robots are enough, as far as it is decided."""
     proved, possible = found.proved, found.possible
     largest = found.sizes[-1]
     weighs_robots = "robots" in view.answer.scenario.merit.columns
     enough = (
-        f"A number is enough if no larger one that was compared (up to {largest:,}) gains "
-        f"{brief(view.answer.delta)} of merit over it"
-        f"{', what its robots cost included' if weighs_robots else ''}."
+        f"A number is enough if no larger compared one (up to {largest:,}) gains more than "
+        f"{brief(view.answer.delta)} of merit"
+        f"{', after the cost of its robots' if weighs_robots else ''}."
     )
     if proved == possible == largest:
-        return f"Not reached: every number below {largest:,} is surely beaten by a larger one."
+        return (
+            f"Not reached: for every number below {largest:,}, a larger one is proved to be better."
+        )
     if proved > possible:
         return f"Undecided between {possible:,} and {proved:,}. {enough}"
-    little = " A larger one gains something, but less than that." if proved < possible else ""
-    return (
-        f"Decided: {proved:,} are enough, and no smaller number is proved to be. {enough}{little}"
+    little = (
+        " A larger one gains more than nothing, but less than that." if proved < possible else ""
     )
+    return f"Decided: {proved:,} are enough; no smaller number is proved to be. {enough}{little}"
 
 
 def history(view: View) -> Section:
-    """Return who was put out, when and by whom."""
+    """Return the section on eliminations."""
     outs = sorted(each.eliminated.runs for each in view.answer.results if each.eliminated)
-    note = "No configuration was put out."
+    note = "No configuration was eliminated."
     if outs:
         half, last = outs[(len(outs) - 1) // 2], outs[-1]
         note = (
-            f"{len(outs):,} of {count(len(view.answer.results), 'configuration')} were put out: "
-            f"half of these by {count(half, 'run')} each, the last after {last:,}. One goes out "
-            "when the runs prove that it is not delta better than another; by how much it is "
-            "worse may stay undecided."
+            f"{len(outs):,} of {count(len(view.answer.results), 'configuration')} were eliminated: "
+            f"half of them within {count(half, 'run')} each, the last after {last:,}. A "
+            "configuration is eliminated when the runs prove that it is not better than another by "
+            "delta."
         )
-    picture = Picture("runs", "Runs that each configuration took before it was out")
-    notes = (f"{note} {cut(view, 'those that took the most runs')}".strip(),)
-    return Section("Who went out when", notes, (picture,), (tables.history(view),))
+    picture = Picture("runs", "Runs of each configuration until its elimination")
+    notes = (f"{note} {cut(view, 'those with the most runs')}".strip(),)
+    return Section("Eliminations", notes, (picture,), (tables.history(view),))
 
 
 def sensitivity(view: View) -> Section:
-    """Return which factors matter."""
+    """Return the section on the influence of factors."""
     found = view.answer.sensitivity
     note = (
-        "How much of the merit's spread among configurations comes from each factor. Alone: first "
-        "order. With all its interactions: Borgonovo's delta."
+        "The share of the merit's variance among configurations that each factor explains. Alone: "
+        "first-order index. With interactions: Borgonovo's delta."
     )
-    chance = (
-        f"{found.noise if found else 0:.0%} of that spread is chance, as means of few runs scatter."
-    )
+    chance = f"{found.noise if found else 0:.0%} of that variance is noise of means of few runs."
     picture = Picture("sensitivity", "Influence of each factor, with 95% bootstrap intervals")
-    return Section("What matters", (note, chance), (picture,), (tables.sensitivity(view),))
+    return Section("Influence of factors", (note, chance), (picture,), (tables.sensitivity(view),))
 
 
 def efforts(view: View) -> Section:
-    """Return what a finer answer would take."""
+    """Return the section on smaller deltas."""
     note = (
-        f"This study looked for differences of {brief(view.answer.delta)} and took "
-        f"{view.answer.runs:,} runs. Foretold from them:"
+        f"This study had a delta of {brief(view.answer.delta)} and took "
+        f"{view.answer.runs:,} runs. The runs for smaller deltas are predicted from them."
     )
-    heading, found = "What a smaller delta would take", (tables.efforts(view),)
+    heading, found = "Runs for a smaller delta", (tables.efforts(view),)
     return Section(heading, (note,), tables=found, is_folded=False)
 
 
 def times(view: View) -> Section:
-    """Return how long runs take."""
+    """Return the section on the times of runs."""
     note = f"Failed runs count with the time at which they ended. {cut(view, 'the best by merit')}"
-    shows = "Diamond: median. Box: the middle half of the runs. Line: the middle nine tenths"
-    return Section(
-        "How long it takes", (note.strip(),), (Picture("times", shows),), (tables.times(view),)
-    )
+    shows = "Median (diamond), middle 50% (box) and middle 90% (line) of the runs"
+    return Section("Times", (note.strip(),), (Picture("times", shows),), (tables.times(view),))
 
 
 def published(view: View) -> Section:
-    """Return what others found."""
-    given = view.answer.scenario.published
-    source, time_limit_s = (given.source, brief(given.time_limit_s)) if given else ("", "")
+    """Return the section on published results."""
+    theirs = view.answer.scenario.published
+    source, time_limit_s = (theirs.source, brief(theirs.time_limit_s)) if theirs else ("", "")
     note = (
-        f"Its own runs, stopped at {time_limit_s} s, scored by the same figure of merit. Their ranges are "
-        "95% intervals, each for itself: Student's of merits, exact of failures."
+        f"The published runs, with a time limit of {time_limit_s} s, scored with the same figure "
+        "of merit, with individual 95% intervals: Student's for merits, exact for failures."
     )
     shows = f"Figure of merit in this study and in {source}"
     pictures = (Picture("published", shows),) if view.published_axis else ()

@@ -6,17 +6,18 @@ from dataclasses import dataclass
 from agent_economy.study.answer.evidence import Interval
 from agent_economy.study.answer.labels import word
 from agent_economy.study.answer.saturation import Saturation
+from agent_economy.study.report.chart_parts import around
 from agent_economy.study.report.charts import QUANTILES, quantile_row, state, verdict_of
+from agent_economy.study.report.formatting import NOTHING, UNKNOWN, brief, decimal, percent
 from agent_economy.study.report.view import View, factor_name
-from agent_economy.study.report.writing import NOTHING, UNKNOWN, brief, decimal, percent
 
 WIDEST = 10
-"""Columns of a map's table."""
+"""Maximum number of columns of a heat map's table."""
 
 
 @dataclass(frozen=True)
 class Cell:
-    """A cell: a text, the range around it if any, and whether it is words rather than a number."""
+    """A cell: its text, its interval if any, and whether it contains words, not a number."""
 
     text: str
     range: str = ""
@@ -25,19 +26,19 @@ class Cell:
 
 @dataclass(frozen=True)
 class Row:
-    """A row; its first cell heads it.
+    """A row; its first cell is its header.
 
-    `look` is how it stands out, `configuration` the number of the one that it is of, if of one.
+    `style` is its CSS class, `configuration` the number of its configuration, if it is about one.
     """
 
     cells: tuple[Cell, ...]
-    look: str = ""
+    style: str = ""
     configuration: int | None = None
 
 
 @dataclass(frozen=True)
 class Table:
-    """A table; `caption` says what it holds."""
+    """A table with its caption."""
 
     caption: str
     heads: tuple[str, ...]
@@ -63,12 +64,12 @@ def shares(interval: Interval, decimals: int) -> Cell:
 
 def row(view: View, index: int, cells: Iterable[Cell]) -> Row:
     """Return a configuration's row."""
-    look = "best" if index == view.answer.best else view.result(index).standing.verdict
-    return Row((words(view.names[index]), *cells), look, index)
+    style = "best" if index == view.answer.best else view.result(index).standing.verdict
+    return Row((words(view.names[index]), *cells), style, index)
 
 
 def merit(view: View) -> Table:
-    """Return merit, distance to the selected one, standing and runs."""
+    """Return the table of merit, difference from the selected one, verdict and runs."""
     has_quarantined = any(result.quarantined for result in view.answer.results)
 
     def cells(index: int) -> Iterable[Cell]:
@@ -81,7 +82,7 @@ def merit(view: View) -> Table:
         if has_quarantined:
             yield Cell(f"{result.quarantined:,}")
 
-    heads = ("configuration", "standing", "figure of merit", "behind the selected", "runs")
+    heads = ("configuration", "verdict", "figure of merit", "difference from selected", "runs")
     return Table(
         "Figure of merit of each configuration",
         (*heads, "quarantined runs") if has_quarantined else heads,
@@ -90,7 +91,7 @@ def merit(view: View) -> Table:
 
 
 def heat(view: View) -> tuple[Table, ...]:
-    """Return the mean merit over two factors, in tables that are no wider than a sheet."""
+    """Return the mean merit over two factors, in tables that fit on a printed page."""
     across, down = view.varied
     merits = {
         (result.values[across], result.values[down]): decimal(result.merit.value, view.merit_places)
@@ -98,7 +99,7 @@ def heat(view: View) -> tuple[Table, ...]:
     }
     columns = tuple(dict.fromkeys(one for one, _ in merits))
     rows = tuple(dict.fromkeys(other for _, other in merits))
-    name = f"Mean merit; down {factor_name(down)}, across {factor_name(across)}"
+    name = f"Mean merit; rows: {factor_name(down)}, columns: {factor_name(across)}"
     return tuple(
         Table(
             name,
@@ -118,7 +119,7 @@ def written(value: float | str) -> str:
 
 
 def failed(view: View) -> Table:
-    """Return the shares of failed runs."""
+    """Return the table of failed runs."""
     return Table(
         "Share of runs that failed",
         ("configuration", "failed", "runs"),
@@ -137,7 +138,7 @@ def failed(view: View) -> Table:
 
 
 def front(view: View) -> Table:
-    """Return price, time, failures, and who dominates whom."""
+    """Return the table of price, time, failures and dominance."""
 
     def cells(index: int) -> Iterable[Cell]:
         result = view.result(index)
@@ -148,20 +149,20 @@ def front(view: View) -> Table:
         if rival is None:
             yield words("possibly efficient")
         else:
-            yield words(f"surely dominated by {view.names[rival]}")
+            yield words(f"dominated by {view.names[rival]}")
 
     return Table(
         "Price, time and failures",
-        ("configuration", "price, robots", "mean time, s", "failed", "place"),
+        ("configuration", "price, robots", "mean time, s", "failed", "Pareto front"),
         tuple(row(view, index, cells(index)) for index in view.on_front),
     )
 
 
 def gains(view: View, found: Saturation) -> Table:
-    """Return what larger teams gain."""
+    """Return the table of gains of larger teams."""
     kind = factor_name(found.path)
     return Table(
-        f"What more {kind} gain over {found.base:,}",
+        f"Gain of more than {found.base:,} {kind}",
         (kind, "gain of merit"),
         tuple(
             Row((Cell(f"{size:,}"), measured(gain, view.merit_places)))
@@ -171,32 +172,32 @@ def gains(view: View, found: Saturation) -> Table:
 
 
 def history(view: View) -> Table:
-    """Return who was put out, when and by whom."""
+    """Return the table of runs and eliminations."""
 
     def cells(index: int) -> Iterable[Cell]:
         out = view.result(index).eliminated
         yield Cell(f"{view.result(index).runs:,}")
         if out:
-            yield words(f"out after {out.runs:,} runs")
+            yield words(f"eliminated after {out.runs:,} runs")
             yield words(view.names[out.by])
         else:
             yield words(state(view, index))
             yield words(NOTHING)
 
     return Table(
-        "Runs of each configuration, and what became of it",
-        ("configuration", "runs", "what became of it", "put out by"),
+        "Runs and elimination of each configuration",
+        ("configuration", "runs", "status", "eliminated by"),
         tuple(row(view, index, cells(index)) for index in view.by_runs),
     )
 
 
 def sensitivity(view: View) -> Table:
-    """Return what each factor does."""
+    """Return the table of the influence of each factor."""
     found = view.answer.sensitivity
     influences = found.influences if found else ()
     return Table(
-        "Influence of each factor; ranges are 95% bootstrap intervals, each for itself",
-        ("factor", "alone", "with all its interactions"),
+        "Influence of each factor, with individual 95% bootstrap intervals",
+        ("factor", "alone", "with interactions"),
         tuple(
             Row(
                 (
@@ -210,16 +211,11 @@ def sensitivity(view: View) -> Table:
     )
 
 
-def around(value: float, error: float) -> Interval:
-    """Return a value with the same error to both sides."""
-    return Interval(value, value - error, value + error)
-
-
 def efforts(view: View) -> Table:
-    """Return what smaller deltas would take."""
+    """Return the table of predicted runs for smaller deltas."""
     return Table(
-        "Runs that smaller deltas would take",
-        ("delta", "runs in all, about", "times this study, about"),
+        "Predicted runs for smaller deltas",
+        ("delta", "predicted runs", "relative to this study"),
         tuple(
             Row(
                 (
@@ -234,7 +230,7 @@ def efforts(view: View) -> Table:
 
 
 def times(view: View) -> Table:
-    """Return quantiles of times."""
+    """Return the table of quantiles of times."""
 
     def cells(index: int) -> Iterable[Cell]:
         found = quantile_row(view, index) or {}
@@ -243,14 +239,14 @@ def times(view: View) -> Table:
             yield Cell(UNKNOWN if number is None else decimal(number, view.time_places))
 
     return Table(
-        "Time of a run, s",
-        ("configuration", "5% take at most", "25%", "50% (median)", "75%", "95%"),
+        "Quantiles of the time of a run, s",
+        ("configuration", "5%", "25%", "50% (median)", "75%", "95%"),
         tuple(row(view, index, cells(index)) for index in view.shown),
     )
 
 
 def published(view: View) -> Table:
-    """Return the results of others."""
+    """Return the table of published results."""
     return Table(
         "Published results",
         ("robots", "runs", "mean time, s", "failed", "figure of merit"),

@@ -1,4 +1,4 @@
-"""What of an answer a report shows, in which order, under which names."""
+"""The selection, order and names of what a report shows."""
 
 import math
 from collections import Counter
@@ -10,19 +10,19 @@ from agent_economy.study.answer.evidence import Evidence
 from agent_economy.study.answer.labels import is_number, robot_kind, varied
 from agent_economy.study.answer.results import Result
 from agent_economy.study.answer.saturation import Saturation
-from agent_economy.study.report.writing import finite, places
+from agent_economy.study.report.formatting import finite, places
 
-MOST = 50
-"""Configurations in a chart or a table; answer.json has all."""
+MAX_SHOWN = 50
+"""Maximum number of configurations in a chart or a table; answer.json contains all."""
 
-FEWEST, NEAREST = 5, 12
-"""Configurations of which a report shows how far they are behind the selected one."""
+MIN_NEAREST, MAX_NEAREST = 5, 12
+"""Configurations that a report compares with the selected one run by run."""
 
 LONG = 32
-"""Letters of a long name."""
+"""Length above which a name is long."""
 
-MOST_CELLS = 1500
-"""Of a map of two factors."""
+MAX_CELLS = 1500
+"""Maximum number of cells of a heat map."""
 
 
 @dataclass(frozen=True)
@@ -34,9 +34,9 @@ class View:
 
     @cached_property
     def names(self) -> tuple[str, ...]:
-        """What people call each configuration; no two the same.
+        """The name of each configuration; all are different.
 
-        Where some are so long that a chart on a narrow screen cuts them, their rank comes first.
+        If some are too long for a chart on a narrow screen, all begin with their rank.
         """
         labels = [result.label for result in self.answer.results]
         is_long = max(map(len, labels)) > LONG
@@ -64,8 +64,8 @@ class View:
 
     @cached_property
     def shown(self) -> tuple[int, ...]:
-        """The best configurations, as they stand along the axis."""
-        best = self.ranked[:MOST]
+        """The best configurations, in the order of the axis."""
+        best = self.ranked[:MAX_SHOWN]
         path = self.numeric_factor
         if path is None:
             return best
@@ -78,7 +78,7 @@ class View:
 
     @cached_property
     def numeric_factor(self) -> str | None:
-        """The only factor that is varied, if it is a number: the axis of the charts."""
+        """The only varied factor, if it is a number: the axis of the charts."""
         if len(self.varied) != 1:
             return None
         path = self.varied[0]
@@ -87,29 +87,29 @@ class View:
 
     @cached_property
     def nearest(self) -> tuple[int, ...]:
-        """Those nearest behind the selected one: few enough that the far ones set no scale."""
+        """Those closest to the selected one; distant ones would dominate the scale."""
         others = self.ranked[1:]
-        return others[: min(NEAREST, max(FEWEST, len(others) // 2))]
+        return others[: min(MAX_NEAREST, max(MIN_NEAREST, len(others) // 2))]
 
     @cached_property
     def by_runs(self) -> tuple[int, ...]:
-        """Those that took the most runs, the better first among equals."""
-        return tuple(sorted(self.ranked, key=lambda index: -self.result(index).runs))[:MOST]
+        """Those with the most runs; of equals, the better one first."""
+        return tuple(sorted(self.ranked, key=lambda index: -self.result(index).runs))[:MAX_SHOWN]
 
     @cached_property
     def on_front(self) -> tuple[int, ...]:
-        """The possibly efficient ones, by merit, then the surely dominated ones."""
+        """The possibly efficient ones by merit, then the dominated ones."""
 
         def is_dominated(index: int) -> bool:
             return self.result(index).place.dominated_by is not None
 
-        return tuple(sorted(self.ranked, key=is_dominated))[:MOST]
+        return tuple(sorted(self.ranked, key=is_dominated))[:MAX_SHOWN]
 
     @cached_property
     def is_grid(self) -> bool:
-        """Whether two factors are varied, and each pair of their values is there once."""
+        """Whether two factors are varied in a full grid."""
         results = self.answer.results
-        if len(self.varied) != len(("across", "down")) or len(results) > MOST_CELLS:
+        if len(self.varied) != len(("across", "down")) or len(results) > MAX_CELLS:
             return False
         points = {tuple(each.values[path] for path in self.varied) for each in results}
         sides = [len(set(side)) for side in zip(*points, strict=True)]
@@ -117,15 +117,15 @@ class View:
 
     @cached_property
     def saturations(self) -> tuple[Saturation, ...]:
-        """Where each varied team size saturates, with what the nearest larger teams gain."""
+        """The saturation of each varied team size, with the gains of the next larger teams."""
         return tuple(
-            replace(each, gains=dict(list(each.gains.items())[:MOST]))
+            replace(each, gains=dict(list(each.gains.items())[:MAX_SHOWN]))
             for each in self.answer.saturations
         )
 
     @property
     def published_axis(self) -> str | None:
-        """The only factor, if it is a team size by which results of others can be shown."""
+        """The only factor, if it is a team size with published results."""
         path = self.numeric_factor
         is_team = path is not None and robot_kind(path) is not None
         return path if self.answer.published and is_team else None
@@ -136,12 +136,12 @@ class View:
         return len(self.answer.results) > 1
 
     def result(self, index: int) -> Result:
-        """Return what the runs of a configuration came to."""
+        """Return the result of a configuration."""
         return self.answer.results[index]
 
     @cached_property
     def merit_places(self) -> int:
-        """Decimals of merits: delta has two figures."""
+        """Decimals of merits: two figures of delta."""
         return places(self.answer.delta)
 
     @cached_property
@@ -152,12 +152,12 @@ class View:
 
     @cached_property
     def share_places(self) -> int:
-        """Decimals of percentages: the narrowest interval has two figures, three at most."""
+        """Decimals of percentages: two figures of the narrowest interval, but at most three."""
         widths = [100 * (each.failed.high - each.failed.low) for each in self.answer.results]
         return min(3, places(min((width for width in widths if width > 0), default=10.0)))
 
 
 def factor_name(path: str) -> str:
-    """Return what an axis calls a factor: "rovers" for robots.rover.count, else its last key."""
+    """Return the name of a factor on an axis: rovers for robots.rover.count, else the last key."""
     kind = robot_kind(path)
     return path.rsplit(".", 1)[-1] if kind is None else f"{kind}s"

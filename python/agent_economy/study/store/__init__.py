@@ -1,27 +1,27 @@
-"""Where a study keeps what it computed: nothing is lost when it is killed, nothing done twice.
+"""The store of a study's outcomes: a killed study loses no finished block and repeats none.
 
-A folder holds `study.toml` (what was asked), `ledger.sqlite` (which blocks there are, and what was
-decided) and `blocks/*.parquet` (outcomes; never changed once they have their names). A block is
-written under another name, put on the disk, renamed, and then entered in the ledger; what is not
-in the ledger does not count, so a kill at any moment leaves a folder from which `Store.open` goes
-on. A study goes on by asking again from its beginning: what is stored is read.
+A folder contains `study.toml` (the question), `ledger.sqlite` (the block files and the decisions)
+and `blocks/*.parquet` (outcomes; never changed once they have their names). A block is written
+under a temporary name, synced, renamed, and then entered in the ledger. Files that are not in the
+ledger are ignored, so `Store.open` can resume from a kill at any moment: the study is repeated from
+its beginning, and stored runs are read instead of computed.
 """
 
-from agent_economy.study.rectangle import Columns, Compute, Rectangle
+from agent_economy.study.run_block import Columns, Compute, RunBlock
 from agent_economy.study.store.columns import Column
-from agent_economy.study.store.ledger import Block, Decision
-from agent_economy.study.store.reading import ReadStore, Stored, read
+from agent_economy.study.store.ledger import BlockFile, Decision
+from agent_economy.study.store.reading import ReadStore, StoredRuns, read
 from agent_economy.study.store.writing import Store
 
 __all__ = [
-    "Block",
+    "BlockFile",
     "Column",
     "Columns",
     "Compute",
     "Decision",
     "ReadStore",
-    "Rectangle",
+    "RunBlock",
     "Store",
-    "Stored",
+    "StoredRuns",
     "read",
 ]

@@ -1,4 +1,4 @@
-"""What a run's outcome is called and how it is kept."""
+"""The columns of outcomes and their types."""
 
 from dataclasses import dataclass
 from typing import Any, Literal, TypeAlias
@@ -8,10 +8,10 @@ import pyarrow as pa
 Kind: TypeAlias = Literal["whole", "real", "flag"]
 
 OWN = ("configuration", "run", "quarantined")
-"""Columns that every block has besides the outcomes."""
+"""Columns of every block file besides the outcomes."""
 
-MOST = 62
-"""Columns that fit the marks of a quarantined run."""
+MAX_COLUMNS = 62
+"""Maximum number of columns: one bit each in `quarantined`."""
 
 ARROW: dict[Kind, Any] = {"whole": pa.int64(), "real": pa.float64(), "flag": pa.bool_()}
 
@@ -30,19 +30,21 @@ class Column:
 
 
 def check_names(columns: tuple[Column, ...]) -> None:
-    """Refuse columns that a block cannot hold.
+    """Refuse columns that a block file cannot contain.
 
     Raises:
-        ValueError: If there are none or too many, or a name is taken.
+        ValueError: If there are none or too many, or a name is reserved.
     """
     names = [column.name for column in columns]
-    if not 1 <= len(names) <= MOST or len({*names, *OWN}) < len(names) + len(OWN):
-        message = f"a block holds 1 to {MOST} columns of different names, none of {OWN}: {names}"
+    if not 1 <= len(names) <= MAX_COLUMNS or len({*names, *OWN}) < len(names) + len(OWN):
+        message = (
+            f"a block has 1 to {MAX_COLUMNS} columns of different names, none of {OWN}, not {names}"
+        )
         raise ValueError(message)
 
 
 def schema(columns: tuple[Column, ...]) -> Any:
-    """Return what a block's file holds, the same for every block of a study."""
+    """Return the Arrow schema of a block file, the same for all of a study."""
     return pa.schema(
         [
             pa.field("configuration", pa.int32(), nullable=False),

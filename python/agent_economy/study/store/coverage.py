@@ -1,4 +1,4 @@
-"""Which runs are stored, and how what is asked for is cut into blocks."""
+"""Which runs are stored, and how requested runs are divided into blocks."""
 
 from bisect import bisect_left
 from collections import defaultdict
@@ -7,80 +7,80 @@ from math import ceil
 from pathlib import Path
 
 from agent_economy.study.errors import StoreError
-from agent_economy.study.rectangle import Rectangle
-from agent_economy.study.store.ledger import Block
+from agent_economy.study.run_block import RunBlock
+from agent_economy.study.store.ledger import BlockFile
 
-MOST_ROWS = 2**18
-"""Of a block, unless it is of a single configuration."""
+MAX_ROWS = 2**18
+"""Rows of a block file, unless it is of a single configuration."""
 
 
-def cut(rectangle: Rectangle) -> Iterator[Rectangle]:
-    """Yield a rectangle in blocks, configurations ascending.
+def split(requested: RunBlock) -> Iterator[RunBlock]:
+    """Yield the blocks in which runs are stored, configurations ascending.
 
-    Runs are cut at places that depend on the runs only, so that a first run always means the same
-    runs, whichever configurations were asked for together.
+    The division of the runs depends on the runs only, so that a first run always means the same
+    runs, whichever configurations are requested together.
     """
-    configurations = sorted(rectangle.configurations)
-    for first_run in range(rectangle.first_run, rectangle.end, MOST_ROWS):
-        runs = min(MOST_ROWS, rectangle.end - first_run)
-        blocks = ceil(len(configurations) / max(1, MOST_ROWS // runs))
+    configurations = sorted(requested.configurations)
+    for first_run in range(requested.first_run, requested.end, MAX_ROWS):
+        runs = min(MAX_ROWS, requested.end - first_run)
+        blocks = ceil(len(configurations) / max(1, MAX_ROWS // runs))
         each = ceil(len(configurations) / blocks)
         for first in range(0, len(configurations), each):
-            yield Rectangle(tuple(configurations[first : first + each]), first_run, runs)
+            yield RunBlock(tuple(configurations[first : first + each]), first_run, runs)
 
 
 class Coverage:
-    """Which runs are stored in which block."""
+    """Which runs are stored in which file."""
 
-    def __init__(self, folder: Path, blocks: Iterable[Block] = ()) -> None:
-        """Start from blocks, which are of a study's folder."""
+    def __init__(self, folder: Path, files: Iterable[BlockFile] = ()) -> None:
+        """Start from the block files of a study's folder."""
         self._folder = folder
-        self._blocks: defaultdict[int, dict[int, Block]] = defaultdict(dict)
+        self._files: defaultdict[int, dict[int, BlockFile]] = defaultdict(dict)
         self._firsts: list[int] = []
         self._runs: dict[int, int] = {}
-        for block in blocks:
-            self.add(block)
+        for file in files:
+            self.add(file)
 
-    def add(self, block: Block) -> None:
-        """Add a block."""
-        area = block.rectangle
-        self.check(area)
-        if area.first_run not in self._runs:
-            self._firsts.insert(bisect_left(self._firsts, area.first_run), area.first_run)
-            self._runs[area.first_run] = area.runs
-        self._blocks[area.first_run].update(dict.fromkeys(area.configurations, block))
+    def add(self, file: BlockFile) -> None:
+        """Add a block file."""
+        block = file.block
+        self.check(block)
+        if block.first_run not in self._runs:
+            self._firsts.insert(bisect_left(self._firsts, block.first_run), block.first_run)
+            self._runs[block.first_run] = block.runs
+        self._files[block.first_run].update(dict.fromkeys(block.configurations, file))
 
-    def check(self, area: Rectangle) -> None:
+    def check(self, block: RunBlock) -> None:
         """Refuse runs that overlap stored ones without being the same.
 
         Raises:
-            StoreError: If they do: another version of this program asked for others.
+            StoreError: If they do: another version of this program divided the runs differently.
         """
-        place = bisect_left(self._firsts, area.first_run)
-        near = self._firsts[max(0, place - 1) : place + 1]
-        for first in near:
+        index = bisect_left(self._firsts, block.first_run)
+        neighbours = self._firsts[max(0, index - 1) : index + 1]
+        for first in neighbours:
             end = first + self._runs[first]
-            same = (first, end) == (area.first_run, area.end)
-            if not same and first < area.end and area.first_run < end:
+            same = (first, end) == (block.first_run, block.end)
+            if not same and first < block.end and block.first_run < end:
                 message = (
-                    f"{self._folder}: holds runs {first}-{end - 1} together, but "
-                    f"{area.first_run}-{area.end - 1} are asked for: use another folder"
+                    f"{self._folder}: stores runs {first}-{end - 1} as one block, which overlaps "
+                    f"the requested block {block.first_run}-{block.end - 1}: use another folder"
                 )
                 raise StoreError(message)
 
-    def missing(self, area: Rectangle) -> Rectangle | None:
-        """Return what of a block's rectangle is not stored."""
-        there = self._blocks[area.first_run]
-        left = tuple(each for each in area.configurations if each not in there)
-        return Rectangle(left, area.first_run, area.runs) if left else None
+    def missing(self, block: RunBlock) -> RunBlock | None:
+        """Return the part of a block that is not stored; None if all of it is."""
+        stored = self._files[block.first_run]
+        missing = tuple(each for each in block.configurations if each not in stored)
+        return RunBlock(missing, block.first_run, block.runs) if missing else None
 
-    def blocks(self, area: Rectangle) -> list[tuple[Block, list[int]]]:
-        """Return the blocks that hold what is stored of a rectangle, and what each holds of it."""
-        there = self._blocks[area.first_run]
-        # By identity: a block's hash takes as long as it has configurations.
-        found: dict[int, tuple[Block, list[int]]] = {}
-        for configuration in area.configurations:
-            block = there.get(configuration)
-            if block:
-                found.setdefault(id(block), (block, []))[1].append(configuration)
+    def block_files(self, block: RunBlock) -> list[tuple[BlockFile, list[int]]]:
+        """Return the files that contain runs of a block, each with its configurations of it."""
+        stored = self._files[block.first_run]
+        # By identity: hashing a file's entry takes time in proportion to its configurations.
+        found: dict[int, tuple[BlockFile, list[int]]] = {}
+        for configuration in block.configurations:
+            file = stored.get(configuration)
+            if file:
+                found.setdefault(id(file), (file, []))[1].append(configuration)
         return list(found.values())

@@ -1,4 +1,4 @@
-"""A study's folder: the lock, files that appear whole, and faults as people read them."""
+"""A study's folder: its lock, files that are written atomically, and errors with paths."""
 
 import contextlib
 import difflib
@@ -14,7 +14,7 @@ from agent_economy._core import InputError
 from agent_economy.scenario import validation
 from agent_economy.study.errors import StoreError
 
-ASKED = "study.toml"
+QUESTION = "study.toml"
 BLOCKS = "blocks"
 FILES = "files"
 LEDGER = "ledger.sqlite"
@@ -22,21 +22,21 @@ LOCK = ".lock"
 ANSWER = "answer.json"
 REPORT = "report.html"
 UNFINISHED = ".unfinished-"
-"""What the names of files begin with until they are whole."""
+"""Prefix of the names of files that are being written."""
 
-TRIALS = 5
-TRIAL_S = 0.02
-"""How often, and how long after each, a folder's lock is tried."""
+ATTEMPTS = 5
+RETRY_S = 0.02
+"""Attempts at locking a folder, and the pause between two."""
 
-MOST_SHOWN = 6
-"""Differing lines that a fault shows."""
+MAX_SHOWN = 6
+"""Maximum number of differing lines in an error."""
 
 
 @contextmanager
-def told(
-    path: Path, doing: str = "written", fault: type[InputError] = StoreError
+def disk_errors(
+    path: Path, action: str = "written", error_type: type[InputError] = StoreError
 ) -> Iterator[None]:
-    """Turn what a disk or a ledger refuses into a fault that names the path and the reason.
+    """Turn errors of the disk and of SQLite into ones that name the path and the reason.
 
     Raises:
         InputError: For an OSError or a sqlite3.Error.
@@ -44,38 +44,38 @@ def told(
     try:
         yield
     except OSError as error:
-        message = f"{path}: cannot be {doing} ({error.strerror or error})"
-        raise fault(message) from error
+        message = f"{path}: cannot be {action} ({error.strerror or error})"
+        raise error_type(message) from error
     except sqlite3.Error as error:
-        message = f"{path}: cannot be {doing} ({error})"
-        raise fault(message) from error
+        message = f"{path}: cannot be {action} ({error})"
+        raise error_type(message) from error
 
 
 def make(folder: Path) -> None:
-    """Make a study's folder as far as it is not there.
+    """Create a study's folder if it does not exist.
 
     Raises:
-        InputError: If it cannot be.
+        InputError: If it cannot be created.
     """
-    with told(folder, "made", InputError):
+    with disk_errors(folder, "created", InputError):
         (folder / BLOCKS).mkdir(parents=True, exist_ok=True)
         sync_folder(folder)
 
 
 def lock(folder: Path) -> int:
-    """Take a folder for this process until the descriptor is closed, if only by its death.
+    """Lock a folder for this process until the descriptor is closed or the process ends.
 
     Raises:
-        InputError: If another process has it.
+        InputError: If another process has locked it.
     """
-    with told(folder):
+    with disk_errors(folder):
         descriptor = os.open(folder / LOCK, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o666)
-    for trial in range(TRIALS):
+    for attempt in range(ATTEMPTS):
         try:
             fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
-            # Somebody may just be looking (`is_worked_on`).
-            time.sleep(TRIAL_S if trial + 1 < TRIALS else 0)
+            # `is_locked` of another process holds the lock for a moment.
+            time.sleep(RETRY_S if attempt + 1 < ATTEMPTS else 0)
         except OSError as error:
             os.close(descriptor)
             message = f"{folder}: cannot be locked ({error.strerror})"
@@ -83,15 +83,15 @@ def lock(folder: Path) -> int:
         else:
             return descriptor
     os.close(descriptor)
-    message = f"{folder}: another process is working on it: wait for it, or use another folder"
+    message = f"{folder}: another process is using it: wait until it ends, or use another folder"
     raise StoreError(message)
 
 
-def is_worked_on(folder: str | Path) -> bool:
-    """Return whether a process has a folder now.
+def is_locked(folder: str | Path) -> bool:
+    """Return whether a process has locked a folder, which means that its study is running.
 
     Raises:
-        InputError: If it is no path.
+        InputError: If `folder` is not a path.
     """
     place = validation.path("folder", folder)
     try:
@@ -108,8 +108,8 @@ def is_worked_on(folder: str | Path) -> bool:
 
 
 def remove_unfinished(folder: Path) -> None:
-    """Remove what killed processes left half-written. The folder must be locked."""
-    with told(folder):
+    """Remove partial files of killed processes. The folder must be locked."""
+    with disk_errors(folder):
         for place in (folder / BLOCKS, folder / FILES, folder):
             for path in place.glob(f"{UNFINISHED}*"):
                 if path.is_file():
@@ -117,13 +117,13 @@ def remove_unfinished(folder: Path) -> None:
 
 
 def write_whole(path: Path, data: bytes | memoryview) -> None:
-    """Write a file that appears whole or not at all, and is on the disk when this returns.
+    """Write a file atomically: it appears whole or not at all, and is on the disk on return.
 
     Raises:
-        InputError: If it cannot be written; nothing is left of it.
+        InputError: If it cannot be written; no partial file remains.
     """
     unfinished = path.with_name(UNFINISHED + path.name)
-    with told(path):
+    with disk_errors(path):
         try:
             with unfinished.open("wb", buffering=0) as file:
                 write_all(file.fileno(), data)
@@ -136,8 +136,8 @@ def write_whole(path: Path, data: bytes | memoryview) -> None:
             raise
 
 
-def try_out(path: Path) -> None:
-    """See whether `write_whole` can write a file; nothing is left of the trial.
+def check_writable(path: Path) -> None:
+    """Check that `write_whole` can write a file; no file remains.
 
     Raises:
         OSError: If it cannot.
@@ -148,14 +148,14 @@ def try_out(path: Path) -> None:
 
 
 def write_all(descriptor: int, data: bytes | memoryview) -> None:
-    """Write every byte: a write may take fewer than it is given."""
+    """Write every byte: `os.write` may write fewer than requested."""
     left = memoryview(data)
     while left:
         left = left[os.write(descriptor, left) :]
 
 
 def sync_folder(folder: Path) -> None:
-    """Wait until the names in a folder are on the disk."""
+    """Sync the file names of a folder to the disk."""
     descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
     try:
         os.fsync(descriptor)
@@ -163,67 +163,67 @@ def sync_folder(folder: Path) -> None:
         os.close(descriptor)
 
 
-def keep(folder: Path, content: Mapping[str, bytes]) -> None:
-    """Write down files that a study needs besides study.toml, by their digests, which are names.
+def write_files(folder: Path, content: Mapping[str, bytes]) -> None:
+    """Write the files that a study needs besides study.toml; their names are their digests.
 
     Raises:
         InputError: If one cannot be written.
     """
     place = folder / FILES
     if content:
-        with told(place, "made"):
+        with disk_errors(place, "created"):
             place.mkdir(exist_ok=True)
     for name, data in content.items():
         if not (place / name).exists():
             write_whole(place / name, data)
 
 
-def settle(
-    folder: Path, asked: str, may_replace: Callable[[str, str], bool], *, is_begun: bool
+def write_question(
+    folder: Path, question: str, may_replace: Callable[[str, str], bool], *, is_begun: bool
 ) -> None:
-    """Write down what is asked, or see that it is what was asked before.
+    """Write study.toml, or check that it is the existing one.
 
     Raises:
         InputError: If the folder holds another study.
     """
-    path = folder / ASKED
-    there = read_bytes(path)
-    if there is None and is_begun:
-        message = f"{path}: is missing, though there are results: restore it, or use another folder"
+    path = folder / QUESTION
+    existing = read_bytes(path)
+    if existing is None and is_begun:
+        message = f"{path}: is missing, but there are results: restore it, or use another folder"
         raise InputError(message)
-    if there == asked.encode():
+    if existing == question.encode():
         return
-    if there is None or may_replace(there.decode(errors="replace"), asked):
-        # An answer that is there is to what study.toml asks, whenever this is killed.
-        with told(folder):
+    if existing is None or may_replace(existing.decode(errors="replace"), question):
+        # Removed first: whenever this is killed, an existing answer belongs to study.toml.
+        with disk_errors(folder):
             for name in (ANSWER, REPORT):
                 (folder / name).unlink(missing_ok=True)
-        write_whole(path, asked.encode())
+        write_whole(path, question.encode())
     else:
         message = (
-            f"{folder}: holds another study: use another folder (--out), or remove it\n"
-            + differences(there.decode(errors="replace"), asked)
+            f"{folder}: contains another study: use another folder (--out), or remove it\n"
+            + differences(existing.decode(errors="replace"), question)
         )
         raise InputError(message)
 
 
 def read_bytes(path: Path) -> bytes | None:
-    """Return a file's bytes, None if it is not there.
+    """Return a file's bytes; None if it does not exist.
 
     Raises:
         InputError: If it cannot be read.
     """
-    with told(path, "read"):
+    with disk_errors(path, "read"):
         try:
             return path.read_bytes()
         except FileNotFoundError:
             return None
 
 
-def differences(there: str, asked: str) -> str:
-    """Return the first lines in which a study differs from what is asked."""
-    diff = difflib.ndiff(there.splitlines(), asked.splitlines())
-    words = {"- ": "there", "+ ": "asked"}
+def differences(existing: str, requested: str) -> str:
+    """Return the first lines in which an existing study.toml differs from the requested one."""
+    diff = difflib.ndiff(existing.splitlines(), requested.splitlines())
+    words = {"- ": "existing", "+ ": "requested"}
     lines = [f"  {words[line[:2]]}: {line[2:]}" for line in diff if line[:2] in words]
-    more = [f"  and {len(lines) - MOST_SHOWN} more lines"] if len(lines) > MOST_SHOWN else []
-    return "\n".join([*lines[:MOST_SHOWN], *more]) or "  they differ in how lines end"
+    more = [f"  and {len(lines) - MAX_SHOWN} more lines"] if len(lines) > MAX_SHOWN else []
+    return "\n".join([*lines[:MAX_SHOWN], *more]) or "  they differ in line endings"

@@ -1,7 +1,7 @@
-"""The ledger of a study: which blocks there are, with their hashes, and what was decided.
+"""The ledger of a study: its block files with their hashes, and the decisions of the race.
 
-SQLite in WAL mode: one process writes, any number read meanwhile. A block's entry is waited for
-until it is on the disk; a decision's is not, because it follows from the blocks.
+SQLite in WAL mode: one process writes while any number read. The entry of a block file is synced to
+the disk before the study continues; that of a decision is not, because it follows from the blocks.
 """
 
 import json
@@ -14,12 +14,12 @@ from typing import Any, Self
 from urllib.parse import quote
 
 from agent_economy.study.errors import StoreError
-from agent_economy.study.rectangle import Rectangle, numbers, spans
+from agent_economy.study.run_block import RunBlock, numbers, spans
 from agent_economy.study.store.columns import Column
-from agent_economy.study.store.folder import told
+from agent_economy.study.store.folder import disk_errors
 
 APPLICATION = 0x61676563
-"""Says in the file's header whose it is: "agec"."""
+"""Application id in the file's header: "agec"."""
 
 VERSION = 1
 
@@ -35,36 +35,36 @@ CREATE TABLE decision (round INTEGER PRIMARY KEY, facts TEXT NOT NULL);
 
 
 @dataclass(frozen=True)
-class Block:
-    """A file of outcomes.
+class BlockFile:
+    """The file of a block of runs.
 
     Attributes:
-        rectangle: What it holds, configurations ascending.
+        block: Its runs, configurations ascending.
         bytes: Its length.
-        sha256: Of its bytes, in hexadecimal.
+        sha256: Hash of its bytes, in hexadecimal.
     """
 
-    rectangle: Rectangle
+    block: RunBlock
     bytes: int
     sha256: str
 
     @property
     def name(self) -> str:
-        """Its file's name: no other block of a study has this first run and configuration."""
-        first = self.rectangle.configurations[0]
-        return f"{self.rectangle.first_run:012d}-{first:07d}.parquet"
+        """Its name: no other block of a study has this first run and configuration."""
+        first = self.block.configurations[0]
+        return f"{self.block.first_run:012d}-{first:07d}.parquet"
 
 
 @dataclass(frozen=True)
 class Decision:
-    """What was decided in a round, as the race wrote it down."""
+    """The state of the race after a round, as the race recorded it."""
 
     round: int
     facts: dict[str, Any]
 
 
 class Ledger:
-    """A study's ledger, open."""
+    """The open ledger of a study."""
 
     def __init__(self, path: Path, connection: sqlite3.Connection) -> None:
         """Use `write` or `read`."""
@@ -73,13 +73,13 @@ class Ledger:
 
     @classmethod
     def write(cls, path: Path, columns: tuple[Column, ...]) -> Self:
-        """Open a ledger to write in, made if it is not there.
+        """Open a ledger for writing; it is created if it does not exist.
 
         Raises:
-            StoreError: If it is no ledger, newer than this program, of other columns, or cannot be
-                written.
+            StoreError: If it is not a ledger, newer than this program, has other columns, or cannot
+                be written.
         """
-        with told(path, "opened as a ledger"):
+        with disk_errors(path, "opened as a ledger"):
             connection = sqlite3.connect(path, timeout=30, isolation_level=None)
             try:
                 prepare(connection, path, columns)
@@ -88,24 +88,24 @@ class Ledger:
                 raise
         ledger = cls(path, connection)
         if ledger.columns() != columns:
-            has = ", ".join(f"{column.name} ({column.kind})" for column in ledger.columns())
+            existing = ", ".join(f"{column.name} ({column.kind})" for column in ledger.columns())
             ledger.close()
-            message = f"{path}: was written with other columns ({has}): use another folder"
+            message = f"{path}: was written with other columns ({existing}): use another folder"
             raise StoreError(message)
         return ledger
 
     @classmethod
     def read(cls, path: Path) -> Self:
-        """Open a ledger to read.
+        """Open a ledger for reading.
 
         Raises:
-            StoreError: If it is not there, no ledger, or newer than this program.
+            StoreError: If it does not exist, is not a ledger, or is newer than this program.
         """
-        with told(path, "read as a ledger"):
+        with disk_errors(path, "read as a ledger"):
             connection = connect_to_read(path)
             try:
                 if not is_empty(connection):
-                    check_whose(connection, path)
+                    check_header(connection, path)
             except BaseException:
                 connection.close()
                 raise
@@ -116,21 +116,21 @@ class Ledger:
         self._connection.close()
 
     def is_begun(self) -> bool:
-        """Return whether it has its tables: a killed process may have left it without."""
-        with told(self.path, "read as a ledger"):
+        """Return whether it has its tables; a killed process may have left it without."""
+        with disk_errors(self.path, "read as a ledger"):
             return not is_empty(self._connection)
 
     def columns(self) -> tuple[Column, ...]:
-        """Return the columns of its blocks."""
+        """Return the columns of its block files."""
         rows = self._rows("SELECT name, kind FROM outcome ORDER BY place")
         return tuple(Column(*row) for row in rows)
 
-    def blocks(self) -> list[Block]:
-        """Return its blocks, by first run and configuration."""
-        question = "SELECT configurations, first_run, runs, bytes, sha256 FROM block ORDER BY name"
+    def block_files(self) -> list[BlockFile]:
+        """Return its block files, by first run and configuration."""
+        query = "SELECT configurations, first_run, runs, bytes, sha256 FROM block ORDER BY name"
         return [
-            Block(Rectangle(numbers(configurations), first_run, runs), size, sha256)
-            for configurations, first_run, runs, size, sha256 in self._rows(question)
+            BlockFile(RunBlock(numbers(configurations), first_run, runs), size, sha256)
+            for configurations, first_run, runs, size, sha256 in self._rows(query)
         ]
 
     def decisions(self) -> list[Decision]:
@@ -138,38 +138,38 @@ class Ledger:
         rows = self._rows("SELECT round, facts FROM decision ORDER BY round")
         return [Decision(number, json.loads(facts)) for number, facts in rows]
 
-    def enter(self, block: Block) -> None:
-        """Enter a block whose file is on the disk, and wait until the entry is.
+    def enter(self, file: BlockFile) -> None:
+        """Enter a block file that is on the disk, and wait until the entry is.
 
         Raises:
-            StoreError: If another of its name is entered, or the entry cannot be written.
+            StoreError: If a different one of its name is entered, or the entry cannot be written.
         """
-        self.check_same(block)
-        area = block.rectangle
-        values = (area.first_run, area.runs, spans(area.configurations), block.bytes, block.sha256)
-        with told(self.path):
+        self.check_same(file)
+        block = file.block
+        values = (block.first_run, block.runs, spans(block.configurations), file.bytes, file.sha256)
+        with disk_errors(self.path):
             self._connection.execute(
-                "INSERT OR IGNORE INTO block VALUES (?, ?, ?, ?, ?, ?)", (block.name, *values)
+                "INSERT OR IGNORE INTO block VALUES (?, ?, ?, ?, ?, ?)", (file.name, *values)
             )
 
-    def check_same(self, block: Block) -> None:
-        """Refuse a block of which another form is entered.
+    def check_same(self, file: BlockFile) -> None:
+        """Refuse a block file that differs from the one entered under its name.
 
         Raises:
-            StoreError: If the same runs gave other outcomes before.
+            StoreError: If the same runs had other outcomes before.
         """
-        entered = self._rows("SELECT sha256 FROM block WHERE name = ?", block.name)
-        if entered and entered[0] != (block.sha256,):
+        entered = self._rows("SELECT sha256 FROM block WHERE name = ?", file.name)
+        if entered and entered[0] != (file.sha256,):
             message = (
-                f"{self.path}: block {block.name} was entered with other bytes: the same runs gave "
-                "other outcomes; see that all machines have the same version of this program"
+                f"{self.path}: block {file.name} was entered with other bytes: the same runs had "
+                "other outcomes; check that all machines have the same version of this program"
             )
             raise StoreError(message)
 
     def note(self, decision: Decision) -> None:
-        """Write down a round's decision, unless it is there.
+        """Record the decision of a round, unless it is recorded already.
 
-        One that differs from what is there begins another history: later rounds are removed.
+        If it differs from the recorded one, those of later rounds are removed.
 
         Raises:
             StoreError: If it cannot be written.
@@ -178,7 +178,7 @@ class Ledger:
         number = decision.round
         if self._rows("SELECT facts FROM decision WHERE round = ?", number) == [(facts,)]:
             return
-        with told(self.path):
+        with disk_errors(self.path):
             self._connection.execute("PRAGMA synchronous = NORMAL")
             self._connection.execute("BEGIN IMMEDIATE")
             try:
@@ -190,17 +190,17 @@ class Ledger:
                     self._connection.execute("ROLLBACK")
                 self._connection.execute("PRAGMA synchronous = FULL")
 
-    def _rows(self, question: str, *values: object) -> list[tuple[Any, ...]]:
-        with told(self.path, "read as a ledger"):
-            return self._connection.execute(question, values).fetchall()
+    def _rows(self, query: str, *values: object) -> list[tuple[Any, ...]]:
+        with disk_errors(self.path, "read as a ledger"):
+            return self._connection.execute(query, values).fetchall()
 
 
 def prepare(connection: sqlite3.Connection, path: Path, columns: Iterable[Column]) -> None:
-    """Make the tables of a ledger that has none, all at once; check one that has."""
+    """Create the tables of a new ledger, all at once; check an existing one."""
     connection.execute("PRAGMA journal_mode = WAL")
     connection.execute("PRAGMA synchronous = FULL")
     if not is_empty(connection):
-        check_whose(connection, path)
+        check_header(connection, path)
         return
     connection.executescript(TABLES)
     rows = ((place, column.name, column.kind) for place, column in enumerate(columns))
@@ -211,21 +211,21 @@ def prepare(connection: sqlite3.Connection, path: Path, columns: Iterable[Column
 
 
 def is_empty(connection: sqlite3.Connection) -> bool:
-    """Return whether nothing was ever made in a ledger: new, or killed while it was made."""
+    """Return whether a ledger has no tables: it is new, or its creation was killed."""
     tables = connection.execute("SELECT count(*) FROM sqlite_master").fetchone()[0]
     return tables == 0 and header(connection, "application_id") == 0
 
 
-def check_whose(connection: sqlite3.Connection, path: Path) -> None:
-    """Refuse a file that is not a ledger that this program can read."""
+def check_header(connection: sqlite3.Connection, path: Path) -> None:
+    """Refuse a file that is not a ledger or newer than this program."""
     if header(connection, "application_id") != APPLICATION:
-        message = f"{path}: is not a ledger of this program: use another folder"
+        message = f"{path}: is not a ledger of a study: use another folder"
         raise StoreError(message)
     version = header(connection, "user_version")
     if version > VERSION:
         message = (
-            f"{path}: was written by a newer version of this program (ledger {version}, this one "
-            f"knows up to {VERSION}): use that version, or another folder"
+            f"{path}: was written by a newer version of this program (ledger format {version}, "
+            f"supported: up to {VERSION}): use that version, or another folder"
         )
         raise StoreError(message)
 
@@ -236,7 +236,7 @@ def header(connection: sqlite3.Connection, name: str) -> int:
 
 
 def connect_to_read(path: Path) -> sqlite3.Connection:
-    """Return a connection that cannot write, also where the folder cannot be written in."""
+    """Return a read-only connection, also for folders that cannot be written."""
     address = f"file:{quote(str(path.absolute()))}?mode=ro"
     connection = sqlite3.connect(address, uri=True, timeout=30, isolation_level=None)
     try:
@@ -245,13 +245,13 @@ def connect_to_read(path: Path) -> sqlite3.Connection:
         connection.close()
         if not path.exists() or path.with_name(f"{path.name}-wal").exists():
             raise
-        # Nobody writes, and SQLite may not make the files that it would coordinate readers with.
+        # No process writes, and SQLite cannot create the files for coordinating with a writer.
         return sqlite3.connect(f"{address}&immutable=1", uri=True, isolation_level=None)
     return connection
 
 
-def snapshot(path: Path) -> tuple[tuple[Column, ...], list[Block], list[Decision]]:
-    """Return what a ledger holds now, nothing if the study has not begun.
+def snapshot(path: Path) -> tuple[tuple[Column, ...], list[BlockFile], list[Decision]]:
+    """Return the current content of a ledger; all empty if the study has not begun.
 
     Raises:
         StoreError: As `Ledger.read`.
@@ -261,4 +261,4 @@ def snapshot(path: Path) -> tuple[tuple[Column, ...], list[Block], list[Decision
     with closing(Ledger.read(path)) as ledger:
         if not ledger.is_begun():
             return (), [], []
-        return ledger.columns(), ledger.blocks(), ledger.decisions()
+        return ledger.columns(), ledger.block_files(), ledger.decisions()

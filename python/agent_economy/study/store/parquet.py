@@ -1,8 +1,8 @@
-"""A block's bytes: Parquet, the same for the same outcomes, which it gives back exactly.
+"""The bytes of a block file: Parquet, the same bytes for the same outcomes, and lossless.
 
 Rows are sorted by configuration, then run. Null means never (+inf). A cell that is NaN is null too,
-and bit i of the row's `quarantined` says that column i was; so SQL that forgets the quarantined
-meets no NaN, and `quarantined <> 0` finds them.
+and bit i of the row's `quarantined` marks column i; so SQL queries that ignore quarantined runs
+read no NaN, and `quarantined <> 0` finds these runs.
 """
 
 from typing import Any, NoReturn
@@ -12,26 +12,26 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
-from agent_economy.study.rectangle import Columns, Rectangle
+from agent_economy.study.run_block import Columns, RunBlock
 from agent_economy.study.store.columns import Column, schema
 
 LEVEL = 1
-"""Of zstd: higher ones gain a few percent and take twice the time."""
+"""Compression level of zstd: higher ones save a few percent and take twice the time."""
 
 EXACT = 2.0**53
-"""Whole numbers below it are floats exactly."""
+"""Whole numbers below it have an exact floating-point value."""
 
 
-def encode(rectangle: Rectangle, columns: tuple[Column, ...], data: Columns) -> memoryview:
-    """Return the file of a rectangle whose configurations ascend.
+def encode(block: RunBlock, columns: tuple[Column, ...], data: Columns) -> memoryview:
+    """Return the file of a block with ascending configurations.
 
     Raises:
-        ValueError: If a value is not of its column's kind.
+        ValueError: If a value does not fit the type of its column.
     """
-    configurations, runs = rectangle.shape
-    names = np.asarray(rectangle.configurations, dtype=np.int32)
-    numbers = np.arange(rectangle.first_run, rectangle.end, dtype=np.int64)
-    marks = np.zeros(rectangle.rows, dtype=np.int64)
+    configurations, runs = block.shape
+    names = np.asarray(block.configurations, dtype=np.int32)
+    numbers = np.arange(block.first_run, block.end, dtype=np.int64)
+    marks = np.zeros(block.rows, dtype=np.int64)
     cells = [
         cell(column, data[column.name].ravel(), marks, bit) for bit, column in enumerate(columns)
     ]
@@ -61,7 +61,7 @@ def encode(rectangle: Rectangle, columns: tuple[Column, ...], data: Columns) -> 
 
 
 def cell(column: Column, values: NDArray[np.float64], marks: NDArray[np.int64], bit: int) -> Any:
-    """Return a column as Arrow has it, and mark its quarantined cells."""
+    """Return a column as an Arrow array, and mark its quarantined cells."""
     absent = None
     if not np.isfinite(values).all():
         quarantined = np.isnan(values)
@@ -70,7 +70,7 @@ def cell(column: Column, values: NDArray[np.float64], marks: NDArray[np.int64], 
         values = np.where(absent, 0.0, values)
     if column.kind == "real":
         return arrow(values, absent)
-    check_least_and_greatest(column, values)
+    check_range(column, values)
     kept = values.astype(np.bool_ if column.kind == "flag" else np.int64)
     if (kept != values).any():
         refuse(column, values[kept != values][0])
@@ -78,7 +78,7 @@ def cell(column: Column, values: NDArray[np.float64], marks: NDArray[np.int64], 
 
 
 def arrow(values: NDArray[Any], absent: NDArray[np.bool_] | None = None) -> Any:
-    """Return an array as Arrow has it, null where it is absent.
+    """Return an array as an Arrow array, null where `absent`.
 
     `pyarrow.array` does the same, but imports pandas where it is installed: a second per process.
     """
@@ -88,25 +88,25 @@ def arrow(values: NDArray[Any], absent: NDArray[np.bool_] | None = None) -> Any:
 
 
 def bits(flags: NDArray[np.bool_]) -> Any:
-    """Return flags as Arrow has them, eight to a byte."""
+    """Return flags as an Arrow buffer, eight per byte."""
     return pa.py_buffer(np.packbits(flags, bitorder="little"))
 
 
-def check_least_and_greatest(column: Column, values: NDArray[np.float64]) -> None:
-    """Refuse what is no whole number that floats tell from the next."""
+def check_range(column: Column, values: NDArray[np.float64]) -> None:
+    """Refuse whole numbers without an exact floating-point value."""
     for value in (values.min(), values.max()):
         if abs(value) >= EXACT:
             refuse(column, value)
 
 
 def refuse(column: Column, value: float) -> NoReturn:
-    """Say that a column cannot hold a value."""
-    message = f"column {column.name} is a {column.kind} and cannot hold {value}"
+    """Raise the error for a value that does not fit its column."""
+    message = f"column {column.name} ({column.kind}) cannot contain {value}"
     raise ValueError(message)
 
 
-def decode(data: bytes, rectangle: Rectangle, columns: tuple[Column, ...]) -> Columns:
-    """Return the outcomes that a file holds.
+def decode(data: bytes, block: RunBlock, columns: tuple[Column, ...]) -> Columns:
+    """Return the outcomes in a file.
 
     Raises:
         pyarrow.ArrowException: If it is not a file of `encode`.
@@ -114,7 +114,7 @@ def decode(data: bytes, rectangle: Rectangle, columns: tuple[Column, ...]) -> Co
     names = [column.name for column in columns]
     # Not `read_table`: it imports pandas, as in `arrow`.
     table = pq.ParquetFile(pa.BufferReader(data)).read(
-        [*names, "quarantined"], use_threads=rectangle.rows > 2**14
+        [*names, "quarantined"], use_threads=block.rows > 2**14
     )
     marks = numbers(table["quarantined"])
     any_marked = marks.any()
@@ -123,12 +123,12 @@ def decode(data: bytes, rectangle: Rectangle, columns: tuple[Column, ...]) -> Co
         values = floats(table[name])
         if any_marked:
             values[(marks >> bit & 1).astype(bool)] = np.nan
-        outcomes[name] = values.reshape(rectangle.shape)
+        outcomes[name] = values.reshape(block.shape)
     return outcomes
 
 
 def floats(column: Any) -> NDArray[np.float64]:
-    """Return a column of a file as floats that can be written to, null as +inf."""
+    """Return a column of a file as a writable array, null as +inf."""
     never = arrow(np.array([np.inf]))[0]  # `pyarrow.scalar` would import pandas.
     return numbers(column.cast(pa.float64()).fill_null(never)).copy()
 
@@ -139,7 +139,7 @@ def numbers(column: Any) -> NDArray[Any]:
 
 
 def as_read(columns: tuple[Column, ...], data: Columns) -> Columns:
-    """Return outcomes as `decode` gives them back: zeros of whole numbers have no sign."""
+    """Return outcomes as `decode` returns them: zeros of whole numbers have no sign."""
     return {
         column.name: data[column.name] if column.kind == "real" else data[column.name] + 0.0
         for column in columns

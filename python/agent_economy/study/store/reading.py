@@ -1,4 +1,4 @@
-"""A study's store for those who watch: no lock, nothing written, also while another writes."""
+"""Read-only access to a study's store, without a lock, also while another process writes."""
 
 import hashlib
 from dataclasses import dataclass
@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any
 from agent_economy._core import InputError
 from agent_economy.scenario import validation
 from agent_economy.study.errors import StoreError
-from agent_economy.study.rectangle import Columns, Compute, Rectangle
+from agent_economy.study.run_block import Columns, Compute, RunBlock
 from agent_economy.study.store import folder as files
 from agent_economy.study.store.columns import Column
-from agent_economy.study.store.coverage import Coverage, cut
-from agent_economy.study.store.ledger import Block, Decision, snapshot
-from agent_economy.study.store.writing import Gathered, check_there, read_block
+from agent_economy.study.store.coverage import Coverage, split
+from agent_economy.study.store.ledger import BlockFile, Decision, snapshot
+from agent_economy.study.store.writing import Gathered, check_files, read_block
 
 if TYPE_CHECKING:
     from duckdb import DuckDBPyRelation
@@ -21,22 +21,22 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class ReadStore:
-    """A study's folder, to read; every call sees what is there then.
+    """A study's folder for reading; every call returns the current content.
 
     Attributes:
-        folder: Where.
-        asked: The text of study.toml.
+        folder: The study's folder.
+        question: The text of study.toml.
     """
 
     folder: Path
-    asked: str
+    question: str
 
     def columns(self) -> tuple[Column, ...]:
         """Return the columns of every run."""
         return snapshot(self.folder / files.LEDGER)[0]
 
-    def blocks(self) -> list[Block]:
-        """Return the blocks so far, by first run and configuration."""
+    def block_files(self) -> list[BlockFile]:
+        """Return the block files so far, by first run and configuration."""
         return snapshot(self.folder / files.LEDGER)[1]
 
     def decisions(self) -> list[Decision]:
@@ -44,54 +44,54 @@ class ReadStore:
         return snapshot(self.folder / files.LEDGER)[2]
 
     def content(self, digest: str) -> bytes:
-        """Return what is in a file that the study needs besides study.toml, by its digest.
+        """Return the content of a file that the study needs besides study.toml, by its digest.
 
         Raises:
-            InputError: If it is missing, or is another.
+            InputError: If it is missing or damaged.
         """
         path = self.folder / files.FILES / digest
         data = files.read_bytes(path)
         if data is None or hashlib.sha256(data).hexdigest() != digest:
-            message = f"{path}: is missing or damaged: restore it, or start in another folder"
+            message = f"{path}: is missing or damaged: restore it, or use another folder"
             raise StoreError(message)
         return data
 
-    def stored(self) -> "Stored":
-        """Return what is stored now, to look rectangles up in."""
-        columns, blocks, _ = snapshot(self.folder / files.LEDGER)
-        return Stored(self.folder, columns, Coverage(self.folder, blocks))
+    def stored(self) -> "StoredRuns":
+        """Return the runs that are stored now."""
+        columns, block_files, _ = snapshot(self.folder / files.LEDGER)
+        return StoredRuns(self.folder, columns, Coverage(self.folder, block_files))
 
     def runs(self) -> "DuckDBPyRelation":
-        """Return the runs so far, a row each, to ask in SQL.
+        """Return the runs so far as a DuckDB relation, a row each, for SQL queries.
 
         Returns:
             `configuration`, `run`, the study's columns (null = never, or quarantined) and
-            `quarantined` (whether a value of the run was no number).
+            `quarantined` (whether a value of the run was not a number).
 
         Raises:
-            InputError: If a block is missing or cut short. Hashes are not compared.
+            InputError: If a block file is missing or truncated. Hashes are not compared.
         """
         import duckdb  # noqa: PLC0415  (slow to load)
 
-        columns, blocks, _ = snapshot(self.folder / files.LEDGER)
-        check_there(self.folder, blocks)
+        columns, block_files, _ = snapshot(self.folder / files.LEDGER)
+        check_files(self.folder, block_files)
         connection = duckdb.connect()
-        if not blocks:
+        if not block_files:
             return connection.sql(f"{empty(columns)} LIMIT 0")
-        paths = [str(self.folder / files.BLOCKS / block.name) for block in blocks]
+        paths = [str(self.folder / files.BLOCKS / file.name) for file in block_files]
         marked = connection.read_parquet(paths)
         return marked.project("* REPLACE (quarantined <> 0 AS quarantined)")
 
 
 @dataclass
-class Stored:
-    """The runs that a study had at some moment, as `Store` gives them; none is kept.
+class StoredRuns:
+    """The runs of a study at one moment, with the interface of `Store`; it writes nothing.
 
     Attributes:
-        folder: Where.
-        columns: Of every run.
-        coverage: Which runs there are.
-        computed: Runs that had to be computed.
+        folder: The study's folder.
+        columns: The columns of every run.
+        coverage: Which runs are stored.
+        computed: Number of runs that were computed.
     """
 
     folder: Path
@@ -99,29 +99,29 @@ class Stored:
     coverage: Coverage
     computed: int = 0
 
-    def block(self, rectangle: Rectangle, compute: Compute) -> Columns:
-        """Return the outcomes of a rectangle, as `Store.block` does.
+    def block(self, block: RunBlock, compute: Compute) -> Columns:
+        """Return the outcomes of a block of runs, as `Store.block` does.
 
         Raises:
-            StoreError: If a block is missing or damaged; or for what `compute` raises.
+            StoreError: If a block file is missing or damaged; also any error that `compute` raises.
         """
-        gathered = Gathered(rectangle, self.columns)
-        for part in cut(rectangle):
+        gathered = Gathered(block, self.columns)
+        for part in split(block):
             missing = self.coverage.missing(part)
             if missing:
                 gathered.put(missing, compute(missing))
                 self.computed += missing.rows
-            for block, configurations in self.coverage.blocks(part):
-                data = read_block(self.folder, block, self.columns)
-                gathered.put(block.rectangle, data, configurations)
+            for file, configurations in self.coverage.block_files(part):
+                data = read_block(self.folder, file, self.columns)
+                gathered.put(file.block, data, configurations)
         return gathered.columns
 
     def note(self, round: int, facts: dict[str, Any]) -> None:  # noqa: A002  (as Store's)
-        """Write nothing down."""
+        """Record nothing."""
 
 
 def empty(columns: tuple[Column, ...]) -> str:
-    """Return SQL that gives no run, but its columns."""
+    """Return SQL for the columns without any run."""
     types = {"whole": "BIGINT", "real": "DOUBLE", "flag": "BOOLEAN"}
     pairs = [("configuration", "INTEGER"), ("run", "BIGINT")]
     pairs += [(column.name, types[column.kind]) for column in columns]
@@ -130,18 +130,18 @@ def empty(columns: tuple[Column, ...]) -> str:
 
 
 def read(folder: str | Path) -> ReadStore:
-    """Open a study's folder to read.
+    """Open a study's folder for reading.
 
     Raises:
-        InputError: If it holds no study.
+        InputError: If it contains no study.
     """
     folder = validation.path("folder", folder)
-    asked = files.read_bytes(folder / files.ASKED)
-    if asked is None:
-        message = f"{folder}: holds no study ({files.ASKED} is not there)"
+    question = files.read_bytes(folder / files.QUESTION)
+    if question is None:
+        message = f"{folder}: contains no study ({files.QUESTION} is missing)"
         raise InputError(message)
     try:
-        return ReadStore(folder, asked.decode())
+        return ReadStore(folder, question.decode())
     except UnicodeDecodeError:
-        message = f"{folder / files.ASKED}: is not UTF-8 text: restore it, or use another folder"
+        message = f"{folder / files.QUESTION}: is not UTF-8 text: restore it, or use another folder"
         raise InputError(message) from None

@@ -1,4 +1,4 @@
-"""A study's store: what is stored is read, what is not is computed and kept."""
+"""A study's store: stored runs are read, missing ones are computed and stored."""
 
 import hashlib
 import os
@@ -12,29 +12,30 @@ import numpy as np
 import pyarrow as pa
 
 from agent_economy.study.errors import StoreError
-from agent_economy.study.rectangle import Columns, Compute, Rectangle, check_shape
+from agent_economy.study.run_block import Columns, Compute, RunBlock, check_shape
 from agent_economy.study.store import folder as files
 from agent_economy.study.store import parquet
 from agent_economy.study.store.columns import Column, check_names
-from agent_economy.study.store.coverage import Coverage, cut
-from agent_economy.study.store.ledger import Block, Decision, Ledger
+from agent_economy.study.store.coverage import Coverage, split
+from agent_economy.study.store.ledger import BlockFile, Decision, Ledger
 
 
-def never(there: str, asked: str) -> bool:  # noqa: ARG001
-    """Refuse any change of what is asked."""
+def never(existing: str, requested: str) -> bool:  # noqa: ARG001
+    """Refuse any change of the question."""
     return False
 
 
 class Store:
     """The outcomes of a study, in a folder that one process writes at a time.
 
-    Open it with `Store.open`, in a `with`; ask with `block`; it may be killed at any moment.
+    Open it with `Store.open` as a context manager and read runs with `block`. The process may be
+    killed at any moment.
 
     Attributes:
-        folder: Where.
-        columns: Of every run.
-        rows: Runs that are stored.
-        computed: Runs that had to be computed since it was opened.
+        folder: The study's folder.
+        columns: The columns of every run.
+        rows: Number of stored runs.
+        computed: Number of runs computed since it was opened.
     """
 
     def __init__(self, folder: Path, columns: tuple[Column, ...], opened: ExitStack) -> None:
@@ -49,25 +50,25 @@ class Store:
     def open(
         cls,
         folder: Path,
-        asked: str,
+        question: str,
         columns: Sequence[Column],
         *,
         content: Mapping[str, bytes] = MappingProxyType({}),
         may_replace: Callable[[str, str], bool] = never,
     ) -> Self:
-        """Open a study's folder, made if it is not there.
+        """Open a study's folder; it is created if it does not exist.
 
         Args:
-            folder: Where; what a killed process left half-done is put right.
-            asked: The text of study.toml.
-            columns: Of every run.
+            folder: The folder; what a killed process left unfinished is removed.
+            question: The text of study.toml.
+            columns: The columns of every run.
             content: Files that the study needs besides, by their digests.
-            may_replace: Whether the study.toml that is there (first) may become the one asked
-                (second): they ask another question about the same runs.
+            may_replace: Whether the existing study.toml (first) may be replaced by the requested
+                one (second), because they are different questions about the same runs.
 
         Raises:
-            StoreError: If another process works on the folder, it holds another study, what it
-                holds is damaged, or it cannot be written.
+            StoreError: If another process uses the folder, it contains another study or is damaged,
+                or it cannot be written.
         """
         check_names(tuple(columns))
         with ExitStack() as opened:
@@ -75,22 +76,22 @@ class Store:
             opened.callback(os.close, files.lock(folder))
             files.remove_unfinished(folder)
             store = cls(folder, tuple(columns), opened)
-            files.keep(folder, content)
-            store._begin(asked, may_replace)
+            files.write_files(folder, content)
+            store._begin(question, may_replace)
             store._opened = opened.pop_all()
             return store
 
-    def _begin(self, asked: str, may_replace: Callable[[str, str], bool]) -> None:
+    def _begin(self, question: str, may_replace: Callable[[str, str], bool]) -> None:
         path = self.folder / files.LEDGER
-        # What was asked is compared first: another study may well have other columns.
+        # The question is compared first: another study may have other columns.
         is_begun = path.exists() and path.stat().st_size > 0
-        files.settle(self.folder, asked, may_replace, is_begun=is_begun)
+        files.write_question(self.folder, question, may_replace, is_begun=is_begun)
         self._ledger = Ledger.write(path, self.columns)
         self._opened.callback(self._ledger.close)
-        blocks = self._ledger.blocks()
-        check_there(self.folder, blocks)
-        self._coverage = Coverage(self.folder, blocks)
-        self.rows = sum(block.rectangle.rows for block in blocks)
+        existing = self._ledger.block_files()
+        check_files(self.folder, existing)
+        self._coverage = Coverage(self.folder, existing)
+        self.rows = sum(file.block.rows for file in existing)
 
     def __enter__(self) -> Self:
         return self
@@ -99,130 +100,130 @@ class Store:
         self.close()
 
     def close(self) -> None:
-        """Close it; another process may open it then."""
+        """Close it; then another process may open it."""
         self._opened.close()
 
-    def block(self, rectangle: Rectangle, compute: Compute) -> Columns:
-        """Return the outcomes of a rectangle.
+    def block(self, block: RunBlock, compute: Compute) -> Columns:
+        """Return the outcomes of a block of runs.
 
         Args:
-            rectangle: Its runs must be the same as any stored ones that they overlap.
-            compute: Called with what is not stored, configurations ascending, a block at a time.
+            block: The runs; they may overlap stored blocks only if the runs are the same.
+            compute: Called with the missing parts, one at a time, configurations ascending.
 
         Returns:
-            Every column, (configurations, runs), in the rectangle's order.
+            Every column, shape (configurations, runs), in the order of the block.
 
         Raises:
-            StoreError: If a stored block is missing or damaged, or a new one cannot be written; or
-                for what `compute` raises.
-            ValueError: If `compute` gives no outcomes of the store's columns.
+            StoreError: If a stored block is missing or damaged, or a new one cannot be written;
+                also any error that `compute` raises.
+            ValueError: If `compute` does not return the store's columns.
         """
-        parts = list(cut(rectangle))
+        parts = list(split(block))
         for part in parts:
             self._coverage.check(part)
-        if self._coverage.missing(rectangle) == rectangle and parts == [rectangle]:
-            return self._keep(rectangle, compute(rectangle))
-        gathered = Gathered(rectangle, self.columns)
+        if self._coverage.missing(block) == block and parts == [block]:
+            return self._store(block, compute(block))
+        gathered = Gathered(block, self.columns)
         for part in parts:
-            stored = self._coverage.blocks(part)
+            stored = self._coverage.block_files(part)
             missing = self._coverage.missing(part)
             if missing:
-                gathered.put(missing, self._keep(missing, compute(missing)))
-            for block, configurations in stored:
-                data = read_block(self.folder, block, self.columns)
-                gathered.put(block.rectangle, data, configurations)
+                gathered.put(missing, self._store(missing, compute(missing)))
+            for file, configurations in stored:
+                data = read_block(self.folder, file, self.columns)
+                gathered.put(file.block, data, configurations)
         return gathered.columns
 
     def note(self, round: int, facts: dict[str, Any]) -> None:  # noqa: A002  (the project's word)
-        """Write down what was decided in a round, for those who watch.
+        """Record the decision of a round for `watch` and the page.
 
-        The same again changes nothing; other facts remove those of later rounds.
+        Recording it again changes nothing; different facts remove those of later rounds.
 
         Args:
             round: 0 or more.
-            facts: What JSON can hold, without NaN and infinity.
+            facts: JSON values without NaN and infinity.
 
         Raises:
             StoreError: If it cannot be written.
         """
         self._ledger.note(Decision(round, facts))
 
-    def _keep(self, rectangle: Rectangle, given: Columns) -> Columns:
-        """Put outcomes on the disk, then enter them; return them as they will be read."""
-        if {column.name for column in self.columns} != given.keys():
-            message = f"columns {', '.join(given)} are not those of the store"
+    def _store(self, block: RunBlock, columns: Columns) -> Columns:
+        """Write outcomes to the disk and enter them; return them as they will be read."""
+        if {column.name for column in self.columns} != columns.keys():
+            message = f"columns {', '.join(columns)} are not those of the store"
             raise ValueError(message)
-        data = {name: np.asarray(values, dtype=np.float64) for name, values in given.items()}
-        check_shape(rectangle, data)
-        encoded = parquet.encode(rectangle, self.columns, data)
-        block = Block(rectangle, len(encoded), hashlib.sha256(encoded).hexdigest())
-        self._ledger.check_same(block)
-        files.write_whole(self.folder / files.BLOCKS / block.name, encoded)
-        self._ledger.enter(block)
-        self._coverage.add(block)
-        self.rows += rectangle.rows
-        self.computed += rectangle.rows
+        data = {name: np.asarray(values, dtype=np.float64) for name, values in columns.items()}
+        check_shape(block, data)
+        encoded = parquet.encode(block, self.columns, data)
+        file = BlockFile(block, len(encoded), hashlib.sha256(encoded).hexdigest())
+        self._ledger.check_same(file)
+        files.write_whole(self.folder / files.BLOCKS / file.name, encoded)
+        self._ledger.enter(file)
+        self._coverage.add(file)
+        self.rows += block.rows
+        self.computed += block.rows
         return parquet.as_read(self.columns, data)
 
 
 class Gathered:
-    """Outcomes of a rectangle, put together from blocks."""
+    """Outcomes of a block, gathered from parts."""
 
-    def __init__(self, rectangle: Rectangle, columns: tuple[Column, ...]) -> None:
-        """Start with none."""
-        self._rectangle = rectangle
-        self._places = {each: row for row, each in enumerate(rectangle.configurations)}
-        self.columns: Columns = {column.name: np.empty(rectangle.shape) for column in columns}
+    def __init__(self, block: RunBlock, columns: tuple[Column, ...]) -> None:
+        """Start without outcomes."""
+        self._first_run = block.first_run
+        self._rows = {each: row for row, each in enumerate(block.configurations)}
+        self.columns: Columns = {column.name: np.empty(block.shape) for column in columns}
 
     def put(
-        self, area: Rectangle, data: Columns, configurations: Sequence[int] | None = None
+        self, part: RunBlock, data: Columns, configurations: Sequence[int] | None = None
     ) -> None:
-        """Put in what a block holds, of all its configurations or of some."""
-        wanted = area.configurations if configurations is None else configurations
-        rows = {each: row for row, each in enumerate(area.configurations)}
+        """Add the outcomes of a part, of all its configurations or of some."""
+        wanted = part.configurations if configurations is None else configurations
+        rows = {each: row for row, each in enumerate(part.configurations)}
         source = span([rows[each] for each in wanted])
-        target = span([self._places[each] for each in wanted])
-        first = area.first_run - self._rectangle.first_run
+        target = span([self._rows[each] for each in wanted])
+        first = part.first_run - self._first_run
         for name, values in data.items():
-            self.columns[name][target, first : first + area.runs] = values[source]
+            self.columns[name][target, first : first + part.runs] = values[source]
 
 
-def read_block(folder: Path, block: Block, columns: tuple[Column, ...]) -> Columns:
-    """Return the outcomes that a study's block holds.
+def read_block(folder: Path, file: BlockFile, columns: tuple[Column, ...]) -> Columns:
+    """Return the outcomes in a block file.
 
     Raises:
-        StoreError: If its file is missing or damaged.
+        StoreError: If it is missing or damaged.
     """
-    path = folder / files.BLOCKS / block.name
+    path = folder / files.BLOCKS / file.name
     data = files.read_bytes(path)
     if data is None:
-        check_there(folder, [block])
-    if data is None or hashlib.sha256(data).hexdigest() != block.sha256:
+        check_files(folder, [file])
+    if data is None or hashlib.sha256(data).hexdigest() != file.sha256:
         raise StoreError(damaged(path))
     try:
-        return parquet.decode(data, block.rectangle, columns)
+        return parquet.decode(data, file.block, columns)
     except pa.ArrowException as error:
         message = f"{path}: cannot be read ({error})"
         raise StoreError(message) from error
 
 
-def span(places: list[int]) -> slice | list[int]:
-    """Return places as a slice if they are consecutive: numpy copies it several times faster."""
-    first, end = places[0], places[0] + len(places)
-    return slice(first, end) if places == list(range(first, end)) else places
+def span(rows: list[int]) -> slice | list[int]:
+    """Return rows as a slice if they are consecutive: numpy copies it several times faster."""
+    first, end = rows[0], rows[0] + len(rows)
+    return slice(first, end) if rows == list(range(first, end)) else rows
 
 
-def check_there(folder: Path, blocks: Sequence[Block]) -> None:
-    """Refuse a folder in which files of blocks are missing or cut short.
+def check_files(folder: Path, block_files: Sequence[BlockFile]) -> None:
+    """Refuse a folder in which block files are missing or truncated.
 
     Raises:
-        StoreError: If there are such; it names all.
+        StoreError: If there are any; it names all.
     """
     faults = []
-    for block in blocks:
-        path = folder / files.BLOCKS / block.name
+    for file in block_files:
+        path = folder / files.BLOCKS / file.name
         try:
-            if path.stat().st_size != block.bytes:
+            if path.stat().st_size != file.bytes:
                 faults.append(damaged(path))
         except FileNotFoundError:
             faults.append(f"{path}: is missing: restore it, or use another folder")
@@ -233,5 +234,5 @@ def check_there(folder: Path, blocks: Sequence[Block]) -> None:
 
 
 def damaged(path: Path) -> str:
-    """Return what to say of a block that is not as it was entered."""
-    return f"{path}: is not as it was written (its hash differs): restore it, or use another folder"
+    """Return the error message for a block file that differs from its entry."""
+    return f"{path}: is damaged (its hash differs): restore it, or use another folder"

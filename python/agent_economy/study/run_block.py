@@ -1,4 +1,4 @@
-"""What a study asks for at once: some configurations, some consecutive runs of each."""
+"""Blocks of runs: consecutive runs of some configurations."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 Columns: TypeAlias = dict[str, NDArray[np.float64]]
-"""Outcomes by column name, each (configurations, runs); NaN = quarantined, +inf = never."""
+"""Outcomes by column name, each of shape (configurations, runs); NaN: quarantined, +inf: never."""
 
 
 @dataclass(frozen=True)
-class Rectangle:
+class RunBlock:
     """Consecutive runs of some configurations.
 
     Attributes:
@@ -27,12 +27,12 @@ class Rectangle:
     runs: int
 
     def __post_init__(self) -> None:
-        """Refuse what no study asks for."""
+        """Check the attributes."""
         if not self.configurations or len(set(self.configurations)) < len(self.configurations):
-            message = f"a rectangle has each configuration once, not {self.configurations}"
+            message = f"a block has each configuration once, not {self.configurations}"
             raise ValueError(message)
         if min(self.configurations) < 0 or self.first_run < 0 or self.runs < 1:
-            message = f"a rectangle has numbers from 0 and a run or more, not {self}"
+            message = f"a block has numbers from 0 and at least one run, not {self}"
             raise ValueError(message)
 
     @property
@@ -42,21 +42,21 @@ class Rectangle:
 
     @property
     def shape(self) -> tuple[int, int]:
-        """Configurations and runs."""
+        """Number of configurations and of runs of each."""
         return len(self.configurations), self.runs
 
     @property
     def rows(self) -> int:
-        """Runs of all configurations together."""
+        """Number of runs of all configurations together."""
         return len(self.configurations) * self.runs
 
     def __str__(self) -> str:
-        """Return it as people read it."""
+        """Return it as error messages write it."""
         return f"configurations {spans(self.configurations)}, runs {self.first_run}-{self.end - 1}"
 
 
-Compute: TypeAlias = Callable[[Rectangle], Columns]
-"""What gives the outcomes of a rectangle; the same for the same rectangle, whoever asks."""
+Compute: TypeAlias = Callable[[RunBlock], Columns]
+"""Computes the outcomes of a block of runs; always the same for the same block."""
 
 
 def spans(numbers: Iterable[int]) -> str:
@@ -70,20 +70,20 @@ def spans(numbers: Iterable[int]) -> str:
 
 
 def numbers(text: str) -> tuple[int, ...]:
-    """Return the numbers that `spans` wrote."""
+    """Return the numbers of a text that `spans` returned."""
     parts = (part.partition("-") for part in text.split(","))
     return tuple(
         number for first, _, last in parts for number in range(int(first), int(last or first) + 1)
     )
 
 
-def check_shape(rectangle: Rectangle, columns: Columns) -> None:
-    """Refuse columns that are not of a rectangle's shape.
+def check_shape(block: RunBlock, columns: Columns) -> None:
+    """Refuse columns that are not of a block's shape.
 
     Raises:
-        ValueError: If one is not; what computed them is at fault.
+        ValueError: If one is not; this is an error of what computed them.
     """
     for name, values in columns.items():
-        if values.shape != rectangle.shape:
-            message = f"column {name} of {rectangle} has shape {values.shape}"
+        if values.shape != block.shape:
+            message = f"column {name} of {block} has shape {values.shape}"
             raise ValueError(message)

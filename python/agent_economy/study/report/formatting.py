@@ -1,25 +1,25 @@
-"""How a report writes numbers."""
+"""The format of numbers in a report."""
 
 import math
 
 from agent_economy.study.answer.evidence import Interval
 
-UNKNOWN, NOTHING = "not known", "\N{EN DASH}"
+UNKNOWN, NOTHING = "unknown", "\N{EN DASH}"
 MINUS, TIMES = "\N{MINUS SIGN}", "\N{MULTIPLICATION SIGN}"
 
 
 def finite(number: float) -> float | None:
-    """Return a number to six figures, None where it is none."""
+    """Return a number rounded to six figures; None if it is not finite."""
     return float(f"{number:.6g}") if math.isfinite(number) else None
 
 
 def places(scale: float) -> int:
-    """Return how many decimals give a number of this size two figures."""
+    """Return the number of decimals that shows two figures of a number of this size."""
     return max(0, 1 - math.floor(math.log10(scale))) if 0 < scale < math.inf else 2
 
 
 def decimal(number: float, decimals: int) -> str:
-    """Return a number as people write it: -1,234.5 with a true minus."""
+    """Return a number with separators and a typographic minus: -1,234.5."""
     if not math.isfinite(number):
         return UNKNOWN
     written = f"{number:,.{decimals}f}".replace("-", MINUS)
@@ -27,7 +27,7 @@ def decimal(number: float, decimals: int) -> str:
 
 
 def brief(number: float) -> str:
-    """Return a number in as few figures as it has: 0.05, 120."""
+    """Return a number without trailing zeros: 0.05, 120."""
     return f"{number:g}".replace("-", MINUS)
 
 
@@ -42,5 +42,5 @@ def count(number: int, word: str) -> str:
 
 
 def span(interval: Interval, decimals: int) -> str:
-    """Return the bounds of an interval in words."""
+    """Return the bounds of an interval: "1.2 to 3.4"."""
     return f"{decimal(interval.low, decimals)} to {decimal(interval.high, decimals)}"

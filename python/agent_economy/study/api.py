@@ -1,4 +1,4 @@
-"""Ask a study: a scenario's question, one that was interrupted, or one that is answered already."""
+"""Run studies, resume them, and read their answers."""
 
 import tempfile
 from collections.abc import Iterable, Mapping
@@ -16,10 +16,9 @@ from agent_economy.study.answer.labels import word
 from agent_economy.study.arguments import Guarantee
 from agent_economy.study.plan import Plan
 from agent_economy.study.progress import OnProgress
-from agent_economy.study.race import hold
-from agent_economy.study.race import look as look_at
-from agent_economy.study.rectangle import Compute, Rectangle
+from agent_economy.study.race import answer_of, run_race
 from agent_economy.study.report.script import ChartScript
+from agent_economy.study.run_block import Compute, RunBlock
 from agent_economy.study.store import read
 
 
@@ -38,26 +37,28 @@ def run(  # noqa: PLR0913  (keywords with defaults)
     compute: Compute | None = None,
     on_progress: OnProgress | None = None,
 ) -> Answer:
-    """Return the answer to a scenario's question, as soon as there is proof.
+    """Run the study of a scenario until its answer is settled, and return the answer.
 
     Args:
-        scenario: What is run.
-        vary: Values of each varied factor, by path, or a text of them such as "1..40"; None for
+        scenario: The scenario.
+        vary: Values of each varied factor, by path, as a list or a string such as "1..40"; None for
             what the scenario varies.
         design: "factorial", "lhs:N" or "sobol:N"; None for the scenario's.
-        delta: The difference of mean merits worth finding; None for the scenario's, or 2% of the
+        delta: Indifference zone, in units of merit, above 0; None for the scenario's, or 2% of the
             merit's range.
-        confidence: Of the guarantee; None for the scenario's.
+        confidence: Confidence of the guarantee, 0.5 to below 1; None for the scenario's.
         guarantee: As in `select_best`.
-        runs: Of each configuration; None for as few as it takes.
-        max_runs: Of all together, after which it stops without a guarantee; None for no end.
-        seed: 0 to 2^64 - 1.
-        out: Folder of the study, to go on with and to look at; None keeps nothing.
-        compute: What computes rectangles, such as `Workers`; None for threads in this process.
-        on_progress: Called after each round, and each second or so of a long one.
+        runs: Fixed number of runs per configuration; None to stop when the answer is settled.
+        max_runs: Run budget of all configurations together; if it is reached first, the answer has
+            no guarantee. None for no limit.
+        seed: Seed of all random numbers, 0 to 2^64 - 1.
+        out: Folder in which the study is stored; None stores nothing.
+        compute: Computes blocks of runs, such as `Workers.columns`; None for threads of this
+            process.
+        on_progress: Called after each round, and about once a second during a long one.
 
     Raises:
-        InputError: If anything is not allowed; or the folder holds another study, is damaged, or
+        InputError: If an argument is invalid; or the folder contains another study, is damaged, or
             cannot be written.
     """
     validation.of_kind("scenario", scenario, Scenario, "a Scenario")
@@ -65,7 +66,7 @@ def run(  # noqa: PLR0913  (keywords with defaults)
     changes = [varied(path, values) for path, values in (vary or {}).items()]
     if design is not None:
         changes.append(Override(("study", "design"), design, "design"))
-    asked = plans.make(
+    plan = plans.make(
         scenario.changed(tuple(changes)),
         seed=seed,
         delta=delta,
@@ -75,9 +76,9 @@ def run(  # noqa: PLR0913  (keywords with defaults)
         max_runs=max_runs,
     )
     if out is not None:
-        return pursue(asked, validation.path("out", out), compute=compute, on_progress=on_progress)
+        return run_plan(plan, validation.path("out", out), compute=compute, on_progress=on_progress)
     with tempfile.TemporaryDirectory() as folder:
-        return hold(asked, Path(folder), compute, on_progress)[0]
+        return run_race(plan, Path(folder), compute, on_progress)[0]
 
 
 def resume(
@@ -87,100 +88,100 @@ def resume(
     compute: Compute | None = None,
     on_progress: OnProgress | None = None,
 ) -> Answer:
-    """Go on with a study, or tighten a finished one to a higher confidence with all its runs.
+    """Resume a study, or raise the confidence of a finished one; all its runs are reused.
 
     Raises:
-        InputError: As in `run`; or if the folder holds no study.
+        InputError: As in `run`; or if the folder contains no study.
     """
-    asked = plan_of(folder)
+    plan = load_plan(folder)
     if confidence is not None:
-        asked = plans.tightened(asked, confidence)
-    return pursue(asked, folder, compute=compute, on_progress=on_progress)
+        plan = plans.with_confidence(plan, confidence)
+    return run_plan(plan, folder, compute=compute, on_progress=on_progress)
 
 
 def rebuild(folder: str | Path) -> Answer:
     """Rebuild the answer and the report of a finished study from its runs; computes none.
 
     Raises:
-        InputError: If the folder holds no study, or one that is not finished.
+        InputError: If the folder contains no study, or an unfinished one.
     """
-    return pursue(plan_of(folder), folder, compute=refuse(folder), anew=True)
+    return run_plan(load_plan(folder), folder, compute=refuse(folder), rewrite=True)
 
 
-def look(folder: str | Path) -> tuple[Answer, Evidence]:
-    """Return the answer of a finished study and its runs; nothing is computed or written.
+def load_answer(folder: str | Path) -> tuple[Answer, Evidence]:
+    """Return the answer of a finished study and its runs; computes and writes nothing.
 
     Raises:
-        InputError: If the folder holds no study, or one that is not finished.
+        InputError: If the folder contains no study, or an unfinished one.
     """
-    return look_at(plan_of(folder), read(folder).stored(), refuse(folder))
+    return answer_of(load_plan(folder), read(folder).stored(), refuse(folder))
 
 
-def pursue(
-    asked: Plan,
+def run_plan(
+    plan: Plan,
     folder: str | Path,
     *,
     compute: Compute | None = None,
     on_progress: OnProgress | None = None,
-    anew: bool = False,
+    rewrite: bool = False,
 ) -> Answer:
-    """Run a study, or go on with it, and leave its answer and report in its folder.
+    """Run or resume a study, and write its answer and report to its folder.
 
     Args:
-        asked: What is asked.
-        folder: Of the study; made if it is not there.
+        plan: The question, as returned by `make_plan` or `load_plan`.
+        folder: Folder of the study; created if it does not exist.
         compute: As in `run`.
         on_progress: As in `run`.
-        anew: Whether to write the report though it is there already.
+        rewrite: Whether to write the report even if it is up to date.
 
     Raises:
         InputError: As in `run`.
     """
-    validation.of_kind("asked", asked, Plan, "a Plan, as make_plan returns")
+    validation.of_kind("plan", plan, Plan, "a Plan, as make_plan returns")
     place = validation.path("folder", folder)
     with ChartScript() as script:
 
         def finish(answer: Answer, evidence: Evidence) -> None:
-            if anew or not files.are_there(place, answer):
+            if rewrite or not files.are_current(place, answer):
                 files.write(place, answer, evidence, script)
 
-        return hold(asked, place, compute, on_progress, finish)[0]
+        return run_race(plan, place, compute, on_progress, finish)[0]
 
 
 def varied(path: str, values: str | Iterable[Value]) -> Override:
-    """Return what varies a factor.
+    """Return the override that varies a factor.
 
     Raises:
-        InputError: If the path is no text, or the values are no list.
+        InputError: If the path is not a string, or the values are not a list.
     """
     check_path("vary", path)
     validation.of_kind(
-        f"vary: {path}", values, Iterable, 'a list of values or a text, such as "1..40"'
+        f"vary: {path}", values, Iterable, 'a list of values or a string, such as "1..40"'
     )
     return Override(("study", "vary", path), written(values), "vary")
 
 
 def written(values: str | Iterable[Value]) -> str:
-    """Return values of a factor as scenarios have them."""
+    """Return values of a factor as scenarios write them."""
     return values if isinstance(values, str) else ",".join(map(word, values))
 
 
-def plan_of(folder: str | Path) -> Plan:
-    """Return what is asked of the study in a folder.
+def load_plan(folder: str | Path) -> Plan:
+    """Return the plan of the study in a folder.
 
     Raises:
         InputError: If there is none.
     """
     store = read(folder)
-    return plans.read(store.asked, str(Path(folder) / "study.toml"), store.content)
+    return plans.read(store.question, str(Path(folder) / "study.toml"), store.content)
 
 
 def refuse(folder: str | Path) -> Compute:
-    """Return what computes nothing, because nothing should be missing."""
+    """Return a `compute` for finished studies: it raises an error if runs are missing."""
 
-    def compute(rectangle: Rectangle) -> Any:
+    def compute(block: RunBlock) -> Any:
         message = (
-            f"{folder}: is not finished ({rectangle} are missing): go on with "
+            f"{folder}: is not finished ({block} are missing): resume it with "
             f"agent-economy study --resume {folder}"
         )
         raise InputError(message)
