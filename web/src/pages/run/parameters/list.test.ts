@@ -42,7 +42,7 @@ test("numbers have bounds, help and value from schema and scenario", () => {
     minimum: 0,
     maximum: 1_000_000,
     value: 4,
-    help: "Robots of this kind in the team.",
+    help: "Number of robots of this kind in the team.",
   });
 });
 
@@ -68,7 +68,7 @@ test("names to choose from are choices", () => {
 
 test("entries of lists are listed by their kind", () => {
   expect(at("robots.rover.brain.behaviours[1].near_m")?.value).toBe(0.3);
-  expect(at("robots.rover.brain.behaviours[0].value")?.help).toMatch(/searching is worth/);
+  expect(at("robots.rover.brain.behaviours[0].value")?.help).toMatch(/^Value of searching/);
   expect(at("robots.rover.brain.behaviours[0].near_m")).toBeUndefined();
   expect(at("world.obstacles[0].circle.radius_m")?.value).toBe(1.5);
   expect(at("world.size_m[1]")?.value).toBe(20);
