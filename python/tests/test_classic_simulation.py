@@ -95,8 +95,8 @@ def test_what_was_changed_is_logged_and_gives_the_run_again() -> None:
         ("contact", "nose", "one of"),
         ("clock.time_limit_s", -1, "a number from 0"),
         ("clock.paints_per_s", 10_000, "a number from 0.1 to 1000"),
-        ("world.size_m", [3, 3], "known keys"),
-        ("engine", "metric", "must be"),
+        ("world.size_m", [3, 3], "is not a known key"),
+        ("engine", "metric", "is not a known key"),
     ],
 )
 def test_what_is_not_allowed_is_told_and_changes_nothing(
@@ -142,5 +142,5 @@ def test_a_robot_looks_at_three_cells_near_and_three_far() -> None:
 def test_each_engine_says_which_runs_are_its_own() -> None:
     with pytest.raises(ae.InputError, match="ClassicSimulation"):
         ae.Simulation("classic")
-    with pytest.raises(ae.InputError, match="see Simulation"):
+    with pytest.raises(ae.InputError, match="use Simulation"):
         ae.ClassicSimulation("search")

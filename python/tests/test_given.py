@@ -34,13 +34,13 @@ def answer(**arguments: Any) -> study.Answer:
     ("call", "told"),
     [
         (lambda: ae.Scenario.load(NO), rf"^file = 5: {PATH}$"),
-        (lambda: loads(text=NO), r"^text = 5: must be a text in TOML$"),
-        (lambda: loads(file=NO), r"^file = 5: must be a text"),
+        (lambda: loads(text=NO), r"^text = 5: must be a string of TOML$"),
+        (lambda: loads(file=NO), r"^file = 5: must be a file name"),
         (lambda: loads(overrides=NO), r"^overrides = 5: must be a tuple of Override$"),
         (lambda: loads().changed((NO,)), r"^overrides = 5: must be a tuple of Override$"),
         (lambda: loads().configuration(NO), r"^values = 5: must be a dict of values"),
         (lambda: loads().configuration({NO: 1}), r"^values: path = 5: must be keys from the root"),
-        (lambda: loads(text="\ud800"), r"^text = '\\ud800': must be a text in TOML$"),
+        (lambda: loads(text="\ud800"), r"^text = '\\ud800': must be a string of TOML$"),
         (lambda: loads().replace("a" + ".a" * 20_000, 1), r"path = 'a\.a.*; at most 32$"),
         (lambda: loads().replace("\ud800", 1), r"path = '\\ud800': must be keys from the root"),
         (lambda: ae.Simulation("search").change([1], 1), r"path = \[1\]: must be keys"),  # type: ignore[arg-type]

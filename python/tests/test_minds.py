@@ -142,7 +142,7 @@ FAULTS: list[tuple[Any, str]] = [
     ({"rover": 7}, "brains.rover = 7: must be a Batch, or a class or function that makes"),
     ({"rover": lambda body: body}, r"brains.rover = \{.*: must be what makes objects with a step"),
     ({"rover": saying(None)}, r'brains."rover/0".step\(\) = null: must be a dict'),
-    ({"rover": saying({"motoin": {}})}, r"step\(\).motoin = .*did you mean motion\?"),
+    ({"rover": saying({"motoin": {}})}, r"step\(\).motoin is not a known key: .*did you mean motion\?"),
     (
         {"rover": saying({"motion": {"speed_m_s": math.nan}})},
         r'brains."rover/0".step\(\).motion.speed_m_s = nan: must be a finite number',
@@ -221,7 +221,7 @@ def test_a_brain_that_looks_at_its_run_is_told_and_nothing_hangs() -> None:
             return super().step(percept)
 
     runs.append(Simulation("search", brains={"rover": Cheat}))
-    with pytest.raises(InputError, match="must not look at the run that it is in"):
+    with pytest.raises(InputError, match="must not access or step the run that it is part of"):
         runs[0].step()
     assert runs[0].tick == 0
 

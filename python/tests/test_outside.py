@@ -153,7 +153,7 @@ FAULTS: list[tuple[dict[str, Any], str]] = [
     ({"commands": "rover/1"}, "commands = 'rover/1': must be a dict"),
     (
         {"percepts": {"rover/1": {"tiem_s": 1}}},
-        r'percepts."rover/1".tiem_s = 1: must be one of the known',
+        r'percepts."rover/1".tiem_s is not a known key: expected one of',
     ),
     ({"percepts": {"rover/1": {"time_s": math.nan}}}, r'percepts."rover/1".time_s = nan: must be'),
     ({"percepts": {"rover/1": []}}, r'percepts."rover/1" = \[\]: must be a dict'),

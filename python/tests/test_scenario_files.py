@@ -67,7 +67,7 @@ def test_a_study_whose_map_has_changed_is_another_study(room: Path) -> None:
     out = room.parent / "study"
     study.run(ae.Scenario.load(room), out=out)
     (room.parent / "maps" / "room.pgm").write_text("P2 2 1 255  254 0")
-    with pytest.raises(ae.InputError, match="holds another study"):
+    with pytest.raises(ae.InputError, match="contains another study"):
         study.run(ae.Scenario.load(room), out=out)
 
 
@@ -101,7 +101,7 @@ def test_what_may_never_end_is_not_read(room: Path, name: str, other: str) -> No
     with pytest.raises(ae.InputError) as told:
         ae.Scenario.load(room)
     assert Path(name).name in str(told.value)
-    assert "is a pipe or a device; write what it gives into a file" in str(told.value)
+    assert "is a pipe or a device; save its output to a file and pass that" in str(told.value)
 
 
 def test_a_map_may_be_as_large_as_its_reader_takes(
@@ -127,7 +127,7 @@ def test_a_file_that_is_too_large_for_a_scenario_is_not_read_to_its_end(tmp_path
         ae.Scenario.load(tmp_path / "large.toml")
     with (tmp_path / "large.toml").open("r+b") as large:
         large.write(source.RECORDING_MAGIC)
-    with pytest.raises(ae.InputError, match="is a recording"):
+    with pytest.raises(ae.InputError, match="got a recording"):
         ae.Scenario.load(tmp_path / "large.toml")
 
 

@@ -11,7 +11,7 @@ from jsonschema import Draft7Validator
 
 from agent_economy.scenario import bundled
 
-SCHEMAS = Path(bundled.__file__).parent / "schemas"
+SCHEMAS = Path(bundled.__file__).parent.parent / "schemas"
 
 METRIC = [file for file in bundled.scenarios().values() if 'engine = "metric"' in file.read_text()]
 

@@ -24,7 +24,7 @@ NUMBERS = {
 
 @pytest.fixture(scope="module")
 def schema() -> dict[str, Any]:
-    file = Path(bundled.__file__).parent / "schemas" / "classic.schema.json"
+    file = Path(bundled.__file__).parent.parent / "schemas" / "classic.schema.json"
     read: dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
     Draft7Validator.check_schema(read)
     return read

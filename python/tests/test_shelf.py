@@ -410,7 +410,7 @@ def test_the_exported_text_is_the_scenario_as_it_was_changed(page: Page) -> None
     expected = expected.replace("robots.rover.sensors.camera.range_m", 2.5)
     expected = expected.replace("world.obstacles", obstacles[1:])
     assert ae.Scenario.loads(text).to_dict() == expected.to_dict()
-    assert text.startswith("# From search-beliefs, seed 7, run 0, as it was at tick 20 (2 s).\n")
+    assert text.startswith("# From search-beliefs, seed 7, run 0, at tick 20 (2 s).\n")
 
 
 def test_the_exported_text_of_what_was_not_changed_keeps_its_comments(page: Page) -> None:

@@ -105,7 +105,7 @@ def test_runs_that_always_fail_end_the_study_by_name() -> None:
     ):
         workers.columns(AREA)
     said = (
-        r"configurations [0-9,-]+, runs \d+-\d+ failed 3 times, at last with ValueError: the brain"
+        r"configurations [0-9,-]+, runs \d+-\d+ failed 3 times, the last time with ValueError: the brain"
     )
     assert re.match(said, str(caught.value))
 
@@ -114,7 +114,7 @@ def test_runs_that_always_kill_their_worker_end_the_study_by_name() -> None:
     area = RunBlock(tuple(range(8)), 0, 400)
     with (
         Workers(two_processes, 2, made_up.killed_always) as workers,
-        pytest.raises(StudyError, match="3 times, at last with BrokenProcessPool") as caught,
+        pytest.raises(StudyError, match="3 times, the last time with BrokenProcessPool") as caught,
     ):
         workers.columns(area)
     assert "configurations 3, runs" in str(caught.value)
@@ -132,7 +132,7 @@ class Unwilling(Executor):
 def test_an_executor_that_takes_nothing_ends_the_study() -> None:
     with (
         Workers(Unwilling, 2, outcomes) as workers,
-        pytest.raises(StudyError, match="failed 3 times, at last with RuntimeError: cannot sched"),
+        pytest.raises(StudyError, match="failed 3 times, the last time with RuntimeError: cannot sched"),
     ):
         workers.columns(AREA)
 
@@ -230,7 +230,7 @@ def test_runs_that_always_fail_on_dask_end_the_study_by_name(cluster: Cluster) -
     address, _ = cluster
     with (
         Workers(partial(dask_executor, address), 2, made_up.failing) as workers,
-        pytest.raises(StudyError, match="at last with ValueError: the brain has no goal"),
+        pytest.raises(StudyError, match="the last time with ValueError: the brain has no goal"),
     ):
         workers.columns(AREA)
 

@@ -58,7 +58,7 @@ class BelievedRobot(TypedDict):
     age_s: float
 
 
-class Wanted(TypedDict):
+class GoalState(TypedDict):
     """A goal.
 
     Attributes:
@@ -92,7 +92,7 @@ class Wanted(TypedDict):
     is_pursued: bool
 
 
-class Course(TypedDict):
+class HeadingOption(TypedDict):
     """A course that a robot looked along, and what it is worth.
 
     Attributes:
@@ -109,7 +109,7 @@ class Course(TypedDict):
     utility: float
 
 
-class Reach(TypedDict):
+class HeadingOptions(TypedDict):
     """The courses that a robot looked along, and which of them it took.
 
     Attributes:
@@ -120,10 +120,10 @@ class Reach(TypedDict):
 
     to: Point
     taken: int
-    courses: list[Course]
+    courses: list[HeadingOption]
 
 
-class Thoughts(TypedDict):
+class BeliefState(TypedDict):
     """What a robot believes and wants at one moment.
 
     Attributes:
@@ -137,8 +137,8 @@ class Thoughts(TypedDict):
     pose: Pose | None
     items: list[BelievedItem]
     robots: list[BelievedRobot]
-    goals: list[Wanted]
-    reach: Reach | None
+    goals: list[GoalState]
+    reach: HeadingOptions | None
 
 
 class BelievedMap(TypedDict):

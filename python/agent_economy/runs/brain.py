@@ -19,7 +19,7 @@ from typing import (
 )
 
 from agent_economy import _core
-from agent_economy.runs.belief_state import Thoughts
+from agent_economy.runs.belief_state import BeliefState
 from agent_economy.runs.robots import Point, RobotId
 from agent_economy.scenario import Scenario, as_scenario, validation
 
@@ -128,7 +128,7 @@ class Motion(TypedDict):
     turn_rate_rad_s: float
 
 
-class Seen(TypedDict):
+class Provenance(TypedDict):
     """The looks of one robot at one item: what counts once, whoever tells of it, and however often.
 
     Attributes:
@@ -150,7 +150,7 @@ class AboutItem(TypedDict):
 
     kind: int
     at: Point
-    seen: NotRequired[Seen]
+    seen: NotRequired[Provenance]
 
 
 class AboutSender(TypedDict):
@@ -320,7 +320,7 @@ class Watched(TypedDict):
     command: Command
     leading: int | None
     holds_s: list[float]
-    thoughts: Thoughts | None
+    thoughts: BeliefState | None
 
 
 class Brain:
@@ -370,13 +370,13 @@ class Brain:
         """
         return cast("Command", self._mind.step(percept))
 
-    def thoughts(self) -> Thoughts | None:
+    def thoughts(self) -> BeliefState | None:
         """Return what it believes and wants, as of its last step.
 
         Returns:
             None if it has no mind: neither beliefs, nor a behaviour that needs them.
         """
-        return cast("Thoughts | None", self._mind.thoughts())
+        return cast("BeliefState | None", self._mind.thoughts())
 
     def copy(self) -> "Brain":
         """Return a brain with the same memories, which then goes its own way."""
@@ -389,6 +389,6 @@ def schemas() -> dict[str, dict[str, Any]]:
     """Return the JSON Schemas of brains, for other languages.
 
     They are those of all that enters and leaves one, BrainSpec, Body, Percept and Command, and of
-    Thoughts.
+    BeliefState.
     """
     return _core.Brain.schemas()

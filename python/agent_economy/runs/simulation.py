@@ -11,7 +11,7 @@ import pyarrow as pa
 from numpy.typing import NDArray
 
 from agent_economy import _core
-from agent_economy.runs.belief_state import BelievedMap, Thoughts
+from agent_economy.runs.belief_state import BelievedMap, BeliefState
 from agent_economy.runs.brain import Command, Percept, Watched
 from agent_economy.runs.outcome import Outcome
 from agent_economy.runs.python_brains import Brains, changed_minds, minds
@@ -164,7 +164,7 @@ class Simulation(Stepped):
         """
         return cast("Percept | None", self._run.percept(robot))
 
-    def thoughts(self, robot: str) -> Thoughts | None:
+    def thoughts(self, robot: str) -> BeliefState | None:
         """Return what a robot believes and wants, as of its brain's last step.
 
         Args:
@@ -177,7 +177,7 @@ class Simulation(Stepped):
             InputError: If there is no such robot.
         """
         thoughts = self._run.thoughts(robot)
-        return None if self._is_in_python(robot) else cast("Thoughts | None", thoughts)
+        return None if self._is_in_python(robot) else cast("BeliefState | None", thoughts)
 
     def believed_map(self, robot: str) -> BelievedMap | None:
         """Return the map in a robot's mind, as of its brain's last step.

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from threading import RLock
 from typing import Any, NamedTuple, Protocol
 
-from agent_economy.runs.belief_state import Thoughts
+from agent_economy.runs.belief_state import BeliefState
 from agent_economy.runs.outcome import Columns, Outcome, so_far
 from agent_economy.scenario import Scenario, TomlValue
 
@@ -83,7 +83,7 @@ class Stepped(ABC):
         """Put a value into the scenario, and go on with that."""
 
     @abstractmethod
-    def thoughts(self, robot: str) -> Thoughts | None:
+    def thoughts(self, robot: str) -> BeliefState | None:
         """Return what a robot believes and wants; None if it has no mind."""
 
     @abstractmethod
