@@ -142,7 +142,10 @@ FAULTS: list[tuple[Any, str]] = [
     ({"rover": 7}, "brains.rover = 7: must be a Batch, or a class or function that makes"),
     ({"rover": lambda body: body}, r"brains.rover = \{.*: must be what makes objects with a step"),
     ({"rover": saying(None)}, r'brains."rover/0".step\(\) = null: must be a dict'),
-    ({"rover": saying({"motoin": {}})}, r"step\(\).motoin is not a known key: .*did you mean motion\?"),
+    (
+        {"rover": saying({"motoin": {}})},
+        r"step\(\).motoin is not a known key: .*did you mean motion\?",
+    ),
     (
         {"rover": saying({"motion": {"speed_m_s": math.nan}})},
         r'brains."rover/0".step\(\).motion.speed_m_s = nan: must be a finite number',

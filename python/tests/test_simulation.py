@@ -233,7 +233,11 @@ def test_changes_are_a_record_that_gives_the_same_run() -> None:
             {"size_m": [25, 25], "periodic": True},
             "world.periodic = true: must be false, as when",
         ),
-        ("robots.rover.cuont", 3, r"change: robots.rover.cuont is not a known key: .*did you mean count\?"),
+        (
+            "robots.rover.cuont",
+            3,
+            r"change: robots.rover.cuont is not a known key: .*did you mean count\?",
+        ),
         ("robots.rover.count", -1, "change: robots.rover.count = -1: must be a whole number from"),
         ("engine", "classic", "engine = 'classic': must be 'metric'|is not a known key"),
     ],

@@ -105,7 +105,8 @@ def test_runs_that_always_fail_end_the_study_by_name() -> None:
     ):
         workers.columns(AREA)
     said = (
-        r"configurations [0-9,-]+, runs \d+-\d+ failed 3 times, the last time with ValueError: the brain"
+        r"configurations [0-9,-]+, runs \d+-\d+ failed 3 times, "
+        r"the last time with ValueError: the brain"
     )
     assert re.match(said, str(caught.value))
 
@@ -132,7 +133,9 @@ class Unwilling(Executor):
 def test_an_executor_that_takes_nothing_ends_the_study() -> None:
     with (
         Workers(Unwilling, 2, outcomes) as workers,
-        pytest.raises(StudyError, match="failed 3 times, the last time with RuntimeError: cannot sched"),
+        pytest.raises(
+            StudyError, match="failed 3 times, the last time with RuntimeError: cannot sched"
+        ),
     ):
         workers.columns(AREA)
 
