@@ -249,7 +249,7 @@ test("a click on a point of a chart opens the runs of its configuration, and fro
 test("all runs of a configuration can be paged through", async ({ page, fake }) => {
   await answered(page, fake);
   await page.getByRole("link", { name: "3 rovers" }).first().click();
-  await page.getByText("All runs").click();
+  await page.getByText("All runs", { exact: true }).click();
   await expect(page.getByText(/^1 to 50 of [\d,]+, in order/)).toBeVisible();
   await page.getByRole("button", { name: "Next" }).click();
   await expect(page.getByText(/^51 to 100 of/)).toBeVisible();

@@ -152,7 +152,7 @@ def front(view: View) -> Table:
             yield words(f"dominated by {view.names[rival]}")
 
     return Table(
-        "Price, time and failures",
+        "Price, time and failures of each configuration",
         ("configuration", "price, robots", "mean time, s", "failed", "Pareto front"),
         tuple(row(view, index, cells(index)) for index in view.on_front),
     )
