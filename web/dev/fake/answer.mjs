@@ -86,10 +86,11 @@ function sectionsOf(results) {
       "Price, time and failures",
       "The size of a mark says how often runs fail.",
       "Price and mean time with its interval; larger marks fail more often",
-      table("Price, time and failures of each configuration", ["mean time, s", "failed"], ({ time_s, failed }) => [
-        ranged(time_s, 1),
-        `${number(100 * failed[0], 1)}%`,
-      ]),
+      table(
+        "Price, time and failures of each configuration",
+        ["mean time, s", "failed"],
+        ({ time_s, failed }) => [ranged(time_s, 1), `${number(100 * failed[0], 1)}%`],
+      ),
       true,
     ),
     section(
