@@ -13,9 +13,9 @@
 //!     run (64)          kind (8)   index (20)  purpose (8)  block (28)
 //! ```
 //!
-//! and the 64-bit key is the seed, whose highest 24 bits are XORed with the highest 24 of the
-//! kind's 32: for seeds below 2^40 no two streams have the same key and counter. A stream
-//! holds 2^28 blocks of four 32-bit words.
+//! and the 64-bit key is the seed, whose highest 24 bits are combined by exclusive or with the
+//! highest 24 of the kind's 32: for seeds below 2^40 no two streams have the same key and counter.
+//! A stream holds 2^28 blocks of four 32-bit words.
 
 pub use rand_philox::Philox as Stream;
 

@@ -36,7 +36,7 @@ impl Candidates {
             .ok_or(PlacementError::NoneFree)
     }
 
-    /// PlacementContext the next candidate; `None` if it is outside the rectangle.
+    /// Returns the next candidate; `None` if it is outside the rectangle.
     fn draw(&mut self) -> Option<Point> {
         match self {
             Self::Fixed(place) => Some(*place),

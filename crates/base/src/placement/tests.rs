@@ -3,7 +3,7 @@ use crate::random::MAX_INDEX;
 use proptest::prelude::*;
 use std::time::{Duration, Instant};
 
-/// PlacementContext for a square world from (0, 0).
+/// A context for a square world from (0, 0).
 fn draws(side_m: f64, things: EntityClass) -> PlacementContext {
     PlacementContext {
         seed: 7,
