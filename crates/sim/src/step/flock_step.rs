@@ -86,7 +86,7 @@ fn flock_step_some(
             tick,
             &Body {
                 kind,
-                body_state,
+                state: body_state,
                 disc,
                 course,
                 agent,

@@ -37,7 +37,7 @@ pub(crate) enum Stop {
 /// A body that is about to move, and what its brain wants.
 pub(crate) struct Body<'a> {
     pub(crate) kind: &'a Kind,
-    pub(crate) body_state: &'a BodyState,
+    pub(crate) state: &'a BodyState,
     pub(crate) disc: &'a Disc,
     pub(crate) course: &'a Orientation,
     pub(crate) agent: &'a Agent,
@@ -54,14 +54,14 @@ pub(crate) struct Body<'a> {
 pub(crate) fn planned(scenario: &Scenario, tick: u64, body: &Body) -> Plan {
     let Body {
         kind,
-        body_state,
+        state,
         disc,
         course,
         agent,
         ..
     } = *body;
     let sensing_w = kind.sensing_w(agent.sensors_off);
-    if !body_state.can_move(tick) {
+    if !state.can_move(tick) {
         return Plan {
             path: Path::rest(disc.centre),
             sensing_w,
@@ -69,12 +69,9 @@ pub(crate) fn planned(scenario: &Scenario, tick: u64, body: &Body) -> Plan {
         };
     }
     let going = scenario.going(disc.centre, kind.layer);
-    let driven = kind.drive.step(
-        body_state.speed_m_s,
-        agent.wanted,
-        going.speed,
-        scenario.step_s,
-    );
+    let driven = kind
+        .drive
+        .step(state.speed_m_s, agent.wanted, going.speed, scenario.step_s);
     let turn_rad = driven.turn_rate_rad_s * scenario.step_s;
     let (front, turn_rad) = if kind.drive.turns_at_once {
         (course.turned(turn_rad).front, 0.0)
@@ -149,7 +146,7 @@ impl<'a> View<'a> {
     pub(crate) fn body(&self, robot: usize, agent: &'a Agent) -> Body<'a> {
         Body {
             kind: self.kind(robot),
-            body_state: &self.body_states[robot],
+            state: &self.body_states[robot],
             disc: &self.discs[robot],
             course: &self.orientations[robot],
             agent,
