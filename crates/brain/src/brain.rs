@@ -22,44 +22,44 @@ use alloc::vec::Vec;
 
 /// The brain of one robot.
 ///
-/// A clone has the same memories and then goes its own way; all clones share what is the same for
-/// the kind of robot. So for a team, make one and clone it: each robot then takes some 100 bytes, and
-/// what it believes, if it believes anything.
+/// A clone starts with the same memory, and is independent from then on; all clones share what is
+/// the same for their kind of robot. For a team, create one brain and clone it: each robot then
+/// takes about 100 bytes, plus its beliefs if it has any.
 #[derive(Debug, Clone)]
 pub struct Brain {
     kind: Arc<Kind>,
-    moved: DeadReckoning,
+    odometry: DeadReckoning,
     layers: Box<[Layer<Memory>]>,
-    mind: Option<Box<BeliefBrain>>,
-    /// If what behaviours want is summed.
+    beliefs: Option<Box<BeliefBrain>>,
+    /// With motor schemas only.
     noise: Option<Box<Noise>>,
 }
 
-/// What is the same for all robots of a kind.
+/// The part of a brain that all robots of a kind share.
 #[derive(Debug)]
 struct Kind {
     spec: Arc<BrainSpec>,
     body: Arc<Body>,
-    sight: SpeedGovernor,
+    governor: SpeedGovernor,
     behaviours: Vec<Ready>,
-    /// If what behaviours want is summed.
+    /// With motor schemas only.
     sum: Option<Sum>,
 }
 
 impl Brain {
-    /// A mind as `spec` says, in such a `body`, that has just been switched on.
+    /// The brain that a specification describes, in a body; it has just been switched on.
     #[must_use]
     pub fn new(spec: Arc<BrainSpec>, body: Arc<Body>) -> Self {
         let ready = spec.behaviours.iter().map(|each| each.ready(&body));
         let behaviours: Vec<Ready> = ready.collect();
         let sum = sum(&spec);
         Self {
-            moved: DeadReckoning::default(),
+            odometry: DeadReckoning::default(),
             layers: layers(&behaviours),
-            mind: mind(&spec, &body),
+            beliefs: belief_brain(&spec, &body),
             noise: sum.is_some().then(Box::default),
             kind: Arc::new(Kind {
-                sight: SpeedGovernor::new(&body),
+                governor: SpeedGovernor::new(&body),
                 spec,
                 body,
                 behaviours,
@@ -68,53 +68,53 @@ impl Brain {
         }
     }
 
-    /// The same mind, briefed as `told` is: both are of the same spec, in the same body but for what
-    /// they know of others.
+    /// This brain with the specification and body of another, which may differ only in what they
+    /// say of other robots.
     #[must_use]
-    pub fn rebriefed(&self, told: &Self) -> Self {
+    pub fn rebriefed(&self, other: &Self) -> Self {
         Self {
-            kind: Arc::clone(&told.kind),
+            kind: Arc::clone(&other.kind),
             ..self.clone()
         }
     }
 
-    /// What it was made of.
+    /// The specification.
     #[must_use]
     pub fn spec(&self) -> &BrainSpec {
         &self.kind.spec
     }
 
-    /// What it knows of its body.
+    /// The body.
     #[must_use]
     pub fn body(&self) -> &Body {
         &self.kind.body
     }
 
-    /// Whether it believes and wants anything.
+    /// Whether it has beliefs and goals.
     #[must_use]
     pub fn has_mind(&self) -> bool {
-        self.mind.is_some()
+        self.beliefs.is_some()
     }
 
-    /// What it believes and wants; `None` if it has no mind.
+    /// Its beliefs and goals; `None` if it has none.
     #[must_use]
     pub fn thoughts(&self) -> Option<BeliefState> {
-        self.mind.as_deref().map(BeliefState::of)
+        self.beliefs.as_deref().map(BeliefState::of)
     }
 
-    /// The map in its mind; `None` if it has none.
+    /// Its map; `None` if it has none.
     #[must_use]
     pub fn map(&self) -> Option<BelievedMap> {
-        let map = self.mind.as_deref()?.beliefs.map.as_ref()?;
+        let map = self.beliefs.as_deref()?.beliefs.map.as_ref()?;
         Some(BelievedMap::of(map))
     }
 
-    /// What it would decide now, and why; the brain itself does not step.
+    /// The decision that it would make now, and its reasons; the brain itself does not step.
     #[must_use]
     pub fn decision(&self, percept: &Percept) -> Decision {
         let mut brain = self.clone();
         let mut command = Command::default();
-        let leading = brain.lead_into(percept, &mut command);
+        let leading = brain.decide_into(percept, &mut command);
         Decision {
             command,
             leading: leading.and_then(|place| u32::try_from(place).ok()),
@@ -123,49 +123,50 @@ impl Brain {
         }
     }
 
-    /// Robots have other numbers from now on; what is remembered of one that is gone is forgotten.
-    pub fn renumber(&mut self, now: impl Fn(RobotId) -> Option<RobotId>) {
-        if let Some(mind) = &mut self.mind {
-            mind.beliefs.renumber(&now);
+    /// Changes the ids of the other robots; those without a new id are forgotten.
+    pub fn renumber(&mut self, new_id: impl Fn(RobotId) -> Option<RobotId>) {
+        if let Some(brain) = &mut self.beliefs {
+            brain.beliefs.renumber(&new_id);
         }
     }
 
-    /// How it goes with the others, if it does nothing else: then its commands are what this says,
-    /// whatever else it may know.
+    /// Its flocking behaviour, if it has no other and no beliefs or range sensors: its commands
+    /// then depend on nothing else.
     #[must_use]
     pub fn flock(&self) -> Option<&flock::Ready> {
         match self.kind.behaviours.as_slice() {
-            [Ready::Flock(ready)] if self.kind.body.rings.is_empty() && self.mind.is_none() => {
+            [Ready::Flock(ready)] if self.kind.body.rings.is_empty() && self.beliefs.is_none() => {
                 Some(ready)
             }
             _ => None,
         }
     }
 
-    /// What the robot is to do, given what it knows; called once in each of the body's periods.
+    /// The command for a percept; to be called once per period of the body.
     ///
-    /// Whatever the percept holds, the command holds finite numbers within the body's limits.
+    /// Whatever the percept contains, the command contains finite numbers within the body's limits.
     pub fn step(&mut self, percept: &Percept) -> Command {
         let mut command = Command::default();
         self.step_into(percept, &mut command);
         command
     }
 
-    /// As [`Brain::step`], into a command whose memory is used again.
+    /// Like [`Brain::step`], but reuses the allocations of a command.
     pub fn step_into(&mut self, percept: &Percept, command: &mut Command) {
-        self.lead_into(percept, command);
+        self.decide_into(percept, command);
     }
 
-    /// The same; returns the behaviour that has its way, if it is one.
+    /// Like [`Brain::step_into`]; returns the index of the active behaviour, if there is a single
+    /// one.
     #[inline]
-    fn lead_into(&mut self, percept: &Percept, command: &mut Command) -> Option<usize> {
+    fn decide_into(&mut self, percept: &Percept, command: &mut Command) -> Option<usize> {
         command.requests.clear();
         command.outbox.clear();
         let (leading, motion) = self.motion(percept);
         command.motion = motion;
-        self.moved.told(command.motion, &self.kind.body);
-        if let Some(mind) = &mut self.mind {
-            mind.tell(self.kind.body.period_s, &mut command.outbox);
+        self.odometry.told(command.motion, &self.kind.body);
+        if let Some(brain) = &mut self.beliefs {
+            brain.publish(self.kind.body.period_s, &mut command.outbox);
         }
         leading
     }
@@ -175,69 +176,72 @@ impl Brain {
         let Kind {
             spec,
             body,
-            sight,
+            governor,
             behaviours,
             sum,
         } = &*self.kind;
-        let mut turned_rad = self.moved.take_in(percept, body);
-        let now_m_s = self.moved.now_m_s(percept, body);
-        if let Some(mind) = &mut self.mind {
-            let moved = &self.moved;
-            turned_rad = moved.turned_beside_compass_rad(turned_rad, percept, body);
-            let moved = [moved.gone_m_s(percept, body), turned_rad];
-            mind.beliefs.take_in(percept, body, &sight.rings, moved);
+        let mut turned_rad = self.odometry.take_in(percept, body);
+        let now_m_s = self.odometry.now_m_s(percept, body);
+        if let Some(brain) = &mut self.beliefs {
+            let odometry = &self.odometry;
+            turned_rad = odometry.turned_beside_compass_rad(turned_rad, percept, body);
+            let moved = [odometry.gone_m_s(percept, body), turned_rad];
+            brain.beliefs.take_in(percept, body, &governor.rings, moved);
         }
-        let (beliefs, mut wants) = match self.mind.as_deref_mut() {
-            Some(BeliefBrain { beliefs, wants }) => (Some(&*beliefs), Some(wants)),
+        let (beliefs, mut selection) = match self.beliefs.as_deref_mut() {
+            Some(BeliefBrain { beliefs, selection }) => (Some(&*beliefs), Some(selection)),
             None => (None, None),
         };
         let situation = Situation {
             percept,
             body,
             beliefs,
-            rings: &sight.rings,
-            ahead: sight.ahead(percept, body, now_m_s),
+            rings: &governor.rings,
+            ahead: governor.ahead(percept, body, now_m_s),
             turned_rad,
             now_m_s,
         };
-        let (leading, wanted) = match (sum.as_ref().zip(self.noise.as_deref_mut()), &mut wants) {
+        let (leading, wanted) = match (sum.as_ref().zip(self.noise.as_deref_mut()), &mut selection)
+        {
             (Some((sum, noise)), _) => {
                 let motion = sum.motion(behaviours, &mut self.layers, noise, &situation);
                 (None, motion)
             }
-            (None, None) => moved(arbitrate(behaviours, &mut self.layers, &situation)),
-            (None, Some(wants)) => chosen(spec, behaviours, (&mut self.layers, wants), &situation),
+            (None, None) => reactive(arbitrate(behaviours, &mut self.layers, &situation)),
+            (None, Some(selection)) => {
+                goal_directed(spec, behaviours, (&mut self.layers, selection), &situation)
+            }
         };
-        let mut motion = possible(wanted, body);
+        let mut motion = clamped(wanted, body);
         if spec.limit_speed_to_stopping_distance {
-            motion = sight.limited(motion, &situation, &self.moved);
+            motion = governor.limit(motion, &situation, &self.odometry);
         }
-        if let (Some(beliefs), Some(wants)) = (beliefs, wants) {
-            let traffic = &mut wants.way.traffic;
-            traffic.look(&beliefs.others.movers, body, [now_m_s, turned_rad]);
-            motion = traffic.limited(motion, body, now_m_s);
+        if let (Some(beliefs), Some(selection)) = (beliefs, selection) {
+            let traffic = &mut selection.navigator.traffic;
+            traffic.update(&beliefs.others.movers, body, [now_m_s, turned_rad]);
+            motion = traffic.limit(motion, body, now_m_s);
         }
-        (leading, possible(motion, body))
+        (leading, clamped(motion, body))
     }
 }
 
-/// What one without a mind does, and the behaviour that wants it: it cannot be somewhere on purpose.
-fn moved(wanted: Option<(usize, Proposal)>) -> (Option<usize>, Motion) {
+/// The active behaviour and its motion, without beliefs: destinations cannot be pursued then.
+fn reactive(wanted: Option<(usize, Proposal)>) -> (Option<usize>, Motion) {
     match wanted {
         Some((behaviour, Proposal::Motion(motion))) => (Some(behaviour), motion),
         _ => (None, Motion::default()),
     }
 }
 
-/// What one with a mind does, and the behaviour that wants it.
-fn chosen(
+/// The active behaviour and its motion, with beliefs.
+fn goal_directed(
     spec: &BrainSpec,
     behaviours: &[Ready],
-    (layers, wants): (&mut [Layer<Memory>], &mut GoalSelection),
+    (layers, selection): (&mut [Layer<Memory>], &mut GoalSelection),
     situation: &Situation,
 ) -> (Option<usize>, Motion) {
-    let mut all = core::mem::take(&mut wants.proposals);
-    wants.way.turned_to = None;
+    let mut all = core::mem::take(&mut selection.proposals);
+    selection.navigator.target = None;
     match spec.arbitration {
         Arbitration::Goals => proposals(behaviours, layers, situation, &mut all),
         Arbitration::Subsumption | Arbitration::Schemas(_) => {
@@ -245,26 +249,27 @@ fn chosen(
             all.extend(arbitrate(behaviours, layers, situation));
         }
     }
-    // The highest comes first: a motion there is a reflex, and one further down what is left to do.
+    // The highest comes first. A motion there is a reflex; one further down applies only if no
+    // destination is proposed.
     let decided = match all.first() {
         None => {
-            wants.keep_below(0);
+            selection.keep_below(0);
             (None, Motion::default())
         }
         Some((behaviour, Proposal::Motion(motion))) => {
-            wants.keep_below(*behaviour);
+            selection.keep_below(*behaviour);
             (Some(*behaviour), *motion)
         }
         Some((_, Proposal::Destination(_))) => {
-            let motion = wants.serve(&all, behaviours, layers, situation);
-            (wants.pursued(), motion)
+            let motion = selection.serve(&all, behaviours, layers, situation);
+            (selection.pursued_behaviour(), motion)
         }
     };
-    wants.proposals = all;
+    selection.proposals = all;
     decided
 }
 
-/// The sum of what behaviours want, if the scenario asks for one.
+/// The motor schemas, if they are the arbitration.
 fn sum(spec: &BrainSpec) -> Option<Sum> {
     let Arbitration::Schemas(schemas) = &spec.arbitration else {
         return None;
@@ -273,18 +278,18 @@ fn sum(spec: &BrainSpec) -> Option<Sum> {
     Some(Sum::new(schemas, names))
 }
 
-/// A mind, if the scenario asks for one or a behaviour needs it.
-fn mind(spec: &BrainSpec, body: &Body) -> Option<Box<BeliefBrain>> {
+/// The beliefs and goals, if the specification has beliefs or a behaviour needs them.
+fn belief_brain(spec: &BrainSpec, body: &Body) -> Option<Box<BeliefBrain>> {
     let mut behaviours = spec.behaviours.iter();
     let is_needed = spec.beliefs.is_some() || behaviours.any(BehaviourSpec::needs_beliefs);
     let beliefs = spec.beliefs.clone().unwrap_or_default();
     is_needed.then(|| Box::new(BeliefBrain::new(&beliefs, body)))
 }
 
-/// Within the body's limits; nonsense is 0.
-fn possible(wanted: Motion, body: &Body) -> Motion {
-    let within = |value: f64, least: f64, most: f64| {
-        let value = value.max(least).min(most);
+/// A motion within the body's limits; numbers that are not finite become 0.
+fn clamped(wanted: Motion, body: &Body) -> Motion {
+    let within = |value: f64, min: f64, max: f64| {
+        let value = value.max(min).min(max);
         // Adding 0 makes -0 a plain 0.
         if value.is_finite() { value + 0.0 } else { 0.0 }
     };
@@ -301,7 +306,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_brain_of_three_behaviours_takes_some_hundred_bytes() {
+    fn a_brain_of_three_behaviours_takes_at_most_136_bytes() {
         let layer = size_of::<Layer<Memory>>();
         let all = size_of::<Brain>() + 3 * layer;
         assert!(all <= 136, "{all} bytes, {layer} a layer");

@@ -26,9 +26,9 @@ pub(crate) fn ring(rays: usize, range_m: f64) -> RangeRing {
     }
 }
 
-/// Where the ray from `origin` along `direction` comes upon a wall from its free side, in lengths of
-/// `direction`; from the solid side, or along it, it meets nothing. An end on the ray counts for both
-/// of its sides, so that a ray between two walls with a common end meets one of them.
+/// Where the ray from `origin` along `direction` comes upon a wall from its free side, in lengths
+/// of `direction`; from the solid side, or along it, it meets nothing. An end on the ray counts for
+/// both of its sides, so that a ray between two walls with a common end meets one of them.
 fn hit(wall: &Segment, origin: Point, direction: Point) -> Option<f64> {
     let (from, to) = (origin.to(wall.from), origin.to(wall.to));
     let (right, left) = (direction.cross(from), direction.cross(to));
@@ -96,7 +96,7 @@ pub(crate) struct Walk {
     /// Others that it sees, wherever they are.
     pub(crate) others: Vec<(RobotId, Point)>,
     /// From its hull to the nearest wall, the least so far.
-    pub(crate) least_gap_m: f64,
+    pub(crate) min_gap_m: f64,
     pub(crate) is_touching: bool,
     steps: usize,
     /// Scans that were measured, with their steps.
@@ -116,7 +116,7 @@ impl Walk {
             speed_m_s: 0.0,
             id: (RobotId::default(), 1),
             others: Vec::new(),
-            least_gap_m: f64::INFINITY,
+            min_gap_m: f64::INFINITY,
             is_touching: false,
             steps: 0,
             scans: VecDeque::new(),
@@ -125,7 +125,7 @@ impl Walk {
     }
 
     /// So many steps under a brain.
-    pub(crate) fn go(&mut self, brain: &mut Brain, steps: usize) {
+    pub(crate) fn run(&mut self, brain: &mut Brain, steps: usize) {
         let mut command = Command::default();
         for _ in 0..steps {
             let percept = self.percept();
@@ -213,7 +213,7 @@ impl Walk {
             let way_m = self.speed_m_s * part_s - change_m_s * change_s / 2.0;
             let there = self.at.plus(Point { x, y }.times(way_m));
             let gap_m = self.gap_m(there);
-            self.least_gap_m = self.least_gap_m.min(gap_m);
+            self.min_gap_m = self.min_gap_m.min(gap_m);
             if gap_m > 0.0 || gap_m > self.gap_m(self.at) {
                 self.at = there;
             } else {

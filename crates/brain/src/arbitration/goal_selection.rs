@@ -1,9 +1,9 @@
-//! A mind: identifier, goal selector, adapter (Rodin and Amin, *Intelligent navigation for an autonomous
-//! mobile robot*, 1988).
+//! A belief-based brain: identifier, goal selector, adapter (Rodin and Amin, *Intelligent
+//! navigation for an autonomous mobile robot*, 1988).
 //!
-//! * the *identifier* makes [beliefs](crate::perception::beliefs) of percepts;
-//! * the *goal selector* chooses among the [goals](crate::goals) that behaviours have;
-//! * the *adapter* finds a [way](crate::navigation::navigator) there, and keeps out of others'.
+//! * the *identifier* turns percepts into [beliefs](crate::perception::beliefs);
+//! * the *goal selector* chooses among the [goals](crate::goals) of the behaviours;
+//! * the *adapter* finds a [path](crate::navigation::navigator) there, and avoids other robots.
 
 use crate::arbitration::subsumption::Layer;
 use crate::behaviours::behaviour::Behaviour;
@@ -19,20 +19,20 @@ use crate::perception::beliefs::{Beliefs, BeliefsSpec};
 use crate::perception::situation::Situation;
 use alloc::vec::Vec;
 
-/// What only robots have that believe something: most kinds do not.
+/// The part of a brain that only robots with beliefs have.
 #[derive(Debug, Clone)]
 pub(crate) struct BeliefBrain {
     pub(crate) beliefs: Beliefs,
-    pub(crate) wants: GoalSelection,
+    pub(crate) selection: GoalSelection,
 }
 
-/// What a robot wants, and how it gets there.
+/// The goals of a robot, and the path to the one that it pursues.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct GoalSelection {
     pub(crate) goals: Goals,
-    pub(crate) way: Navigator,
-    going: Option<Destination>,
-    /// Kept so that nothing is allocated.
+    pub(crate) navigator: Navigator,
+    pursued: Option<Destination>,
+    /// Kept between steps to reuse its allocation.
     pub(crate) proposals: Vec<(usize, Proposal)>,
 }
 
@@ -40,38 +40,40 @@ impl BeliefBrain {
     pub(crate) fn new(spec: &BeliefsSpec, body: &Body) -> Self {
         Self {
             beliefs: Beliefs::new(spec, body),
-            wants: GoalSelection::default(),
+            selection: GoalSelection::default(),
         }
     }
 
-    /// Tells others what they need to know.
-    pub(crate) fn tell(&mut self, period_s: f64, outbox: &mut Vec<Message>) {
-        self.beliefs.tell(self.wants.going, period_s, outbox);
+    /// Adds the messages of this step to the outbox.
+    pub(crate) fn publish(&mut self, period_s: f64, outbox: &mut Vec<Message>) {
+        self.beliefs.tell(self.selection.pursued, period_s, outbox);
     }
 }
 
 impl GoalSelection {
-    /// Whether a goal is the one that the robot goes for.
     pub(crate) fn is_pursued(&self, goal: &Goal) -> bool {
-        self.going.is_some_and(|aim| aim.to == goal.aim.to)
+        self.pursued
+            .is_some_and(|pursued| pursued.at == goal.destination.at)
     }
 
-    /// The behaviour whose goal the robot goes for.
-    pub(crate) fn pursued(&self) -> Option<usize> {
+    /// Index of the behaviour whose goal the robot pursues.
+    pub(crate) fn pursued_behaviour(&self) -> Option<usize> {
         let mut goals = self.goals.goals.iter();
         Some(goals.find(|goal| self.is_pursued(goal))?.behaviour)
     }
 
-    /// Keeps the goals of behaviours below one, which were not asked; those above want nothing.
+    /// Keeps only the goals of behaviours below one: those are suppressed, while the ones above
+    /// propose nothing.
     pub(crate) fn keep_below(&mut self, behaviour: usize) {
         let goals = &mut self.goals.goals;
         goals.retain(|goal| goal.behaviour < behaviour);
-        let is_kept = |aim: &Destination| goals.iter().any(|goal| goal.aim.to == aim.to);
-        self.going = self.going.filter(is_kept);
+        let is_kept =
+            |pursued: &Destination| goals.iter().any(|goal| goal.destination.at == pursued.at);
+        self.pursued = self.pursued.filter(is_kept);
     }
 
-    /// The motion that serves proposals best: those of behaviours by their places, none of them beside a
-    /// motion unless it is the lowest.
+    /// The motion towards the goal that is pursued, given the proposals of behaviours by their
+    /// indices; a proposed motion can only be the last of them, and is ignored.
     pub(crate) fn serve(
         &mut self,
         proposals: &[(usize, Proposal)],
@@ -79,42 +81,43 @@ impl GoalSelection {
         layers: &mut [Layer<Memory>],
         situation: &Situation,
     ) -> Motion {
-        let going = self.going.take().map(|aim| aim.to);
+        let pursued = self.pursued.take().map(|destination| destination.at);
         let Some(beliefs) = situation.beliefs else {
             return Motion::default();
         };
         let Some(pose) = beliefs.pose() else {
             return Motion::default();
         };
-        let aims = proposals
+        let destinations = proposals
             .iter()
             .filter_map(|(behaviour, proposal)| match proposal {
-                Proposal::Destination(aim) => Some((*behaviour, *aim)),
+                Proposal::Destination(destination) => Some((*behaviour, *destination)),
                 Proposal::Motion(_) => None,
             });
         let step = Step {
             at: pose.at,
             period_s: situation.body.period_s,
-            closed: self.way.closed(),
+            unreachable: self.navigator.unreachable_goal(),
             battery_s: beliefs.battery_s(),
-            going: going.map(|to| (to, self.way.left_m(pose.at, to))),
+            pursued: pursued.map(|to| (to, self.navigator.remaining_m(pose.at, to))),
         };
-        self.goals.renew(aims, &step);
-        for goal in self.goals.in_trouble() {
+        self.goals.update(destinations, &step);
+        for goal in self.goals.unreported() {
             if let (Some(behaviour), Some(layer)) = (
                 behaviours.get(goal.behaviour),
                 layers.get_mut(goal.behaviour),
             ) {
                 behaviour.judged(layer.memory(), goal.verdict);
             }
-            if goal.verdict == Verdict::Impossible && going == Some(goal.aim.to) {
-                self.way.find_anew();
+            if goal.verdict == Verdict::Impossible && pursued == Some(goal.destination.at) {
+                self.navigator.discard_plan();
             }
         }
-        let Some(goal) = self.goals.next(pose.at) else {
+        let Some(goal) = self.goals.select(pose.at) else {
             return Motion::default();
         };
-        self.going = Some(goal.aim);
-        self.way.towards(&goal.aim, situation, beliefs)
+        self.pursued = Some(goal.destination);
+        self.navigator
+            .drive_to(&goal.destination, situation, beliefs)
     }
 }

@@ -41,8 +41,8 @@ pub(crate) fn layers<B: Behaviour>(behaviours: &[B]) -> Box<[Layer<B::Memory>]> 
         .collect()
 }
 
-/// What the highest behaviour with something to do, or with hold time left, asks for, and its place.
-/// The lowest comes first.
+/// What the highest behaviour with something to do, or with hold time left, asks for, and its
+/// place. The lowest comes first.
 #[inline]
 pub(crate) fn arbitrate<B: Behaviour>(
     behaviours: &[B],
@@ -187,8 +187,8 @@ mod tests {
         };
         let avoid = Test::Shipped(BehaviourSpec::Avoid(avoid).ready(&body));
         let behaviours = [Test::Correct, avoid];
-        let (mut layers, mut moved) = (layers(&behaviours), DeadReckoning::default());
-        let sight = SpeedGovernor::new(&body);
+        let (mut layers, mut odometry) = (layers(&behaviours), DeadReckoning::default());
+        let governor = SpeedGovernor::new(&body);
         let mut walk = Walk::new(body.clone(), wide_wall(), [0.0, 0.0], 0.0);
         walk.wiring = Wiring {
             compass: true,
@@ -196,20 +196,20 @@ mod tests {
         };
         for _ in 0..600 {
             let percept = walk.percept();
-            let turned_rad = moved.take_in(&percept, &body);
-            let now_m_s = moved.now_m_s(&percept, &body);
+            let turned_rad = odometry.take_in(&percept, &body);
+            let now_m_s = odometry.now_m_s(&percept, &body);
             let situation = Situation {
                 percept: &percept,
                 body: &body,
                 beliefs: None,
-                rings: &sight.rings,
-                ahead: sight.ahead(&percept, &body, now_m_s),
+                rings: &governor.rings,
+                ahead: governor.ahead(&percept, &body, now_m_s),
                 turned_rad,
                 now_m_s,
             };
             let wanted = motion(arbitrate(&behaviours, &mut layers, &situation));
-            let motion = sight.limited(wanted, &situation, &moved);
-            moved.told(motion, &body);
+            let motion = governor.limit(wanted, &situation, &odometry);
+            odometry.told(motion, &body);
             walk.step(motion);
         }
         walk
@@ -226,7 +226,7 @@ mod tests {
         let walk = walk(2.5);
         assert!(walk.at.x > 6.0, "{:?}", walk.at);
         assert!(wrapped(walk.heading_rad).abs() < 0.2);
-        assert!(walk.least_gap_m > 0.0);
+        assert!(walk.min_gap_m > 0.0);
     }
 
     /// Has something to do when the touch sensor says so.

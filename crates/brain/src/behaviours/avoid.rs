@@ -426,7 +426,7 @@ mod tests {
         let alley = outline(&[[0.0, -0.4], [3.0, -0.4], [3.0, 0.4], [0.0, 0.4]]);
         let walls = alley.into_iter().take(3).collect();
         let mut walk = Walk::new(rover(), walls, [1.0, 0.0], 0.0);
-        walk.go(&mut brain(&rover()), 600);
+        walk.run(&mut brain(&rover()), 600);
         assert!(walk.at.x < 0.0, "{:?}", walk.at);
     }
 
@@ -442,7 +442,7 @@ mod tests {
         let mut farthest_m = 0.0_f64;
         for _ in 0..3000 {
             let before = walk.is_touching;
-            walk.go(&mut brain, 1);
+            walk.run(&mut brain, 1);
             touches += usize::from(walk.is_touching && !before);
             farthest_m = farthest_m.max((walk.at.x - 2.5).hypot(walk.at.y - 2.5));
         }

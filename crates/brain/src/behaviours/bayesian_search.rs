@@ -2,7 +2,7 @@
 
 use super::outlook::Outlook;
 use super::part::Part;
-use super::survey::{Survey, aim};
+use super::survey::{Survey, destination};
 use crate::behaviours::behaviour::Behaviour;
 use crate::goals::Verdict;
 use crate::goals::proposal::{Destination, Proposal};
@@ -64,7 +64,7 @@ impl Default for BayesianSearch {
 /// [`BayesianSearch`] in a body.
 #[derive(Debug, Clone)]
 pub(crate) struct Ready {
-    aim: Destination,
+    destination: Destination,
     outlook: Outlook,
 }
 
@@ -80,7 +80,7 @@ pub(crate) struct Search {
 impl Ready {
     pub(super) fn new(spec: &BayesianSearch, body: &Body) -> Self {
         Self {
-            aim: aim(spec.speed_m_s, spec.value, body),
+            destination: destination(spec.speed_m_s, spec.value, body),
             outlook: Outlook::new(&body.detectors),
         }
     }
@@ -91,7 +91,8 @@ impl Ready {
         let (Search { survey, part, .. }, outlook) = (search, &self.outlook);
         part.renew(beliefs, map);
         let stop_duration_s = STOP_S + outlook.looks(LOOKED) * beliefs.look_s();
-        let time_s = |way_m: f64| stop_duration_s + way_m / self.aim.speed_m_s.max(1e-6);
+        let time_s =
+            |way_m: f64| stop_duration_s + way_m / self.destination.max_speed_m_s.max(1e-6);
         let apart = apart(situation.body, map);
         let worth = |cell: usize, way_m: f64, least: f64| {
             let [column, row] = map.field.column_and_row_of(cell);
@@ -168,7 +169,7 @@ impl Behaviour for Ready {
         let known = Known::new(situation)?;
         let search = memory.get_or_insert_default();
         let going = search.survey.still_going(situation.body.period_s);
-        let is_there = |to: Point| known.pose.at.to(to).length() <= self.aim.within_m;
+        let is_there = |to: Point| known.pose.at.to(to).length() <= self.destination.tolerance_m;
         if going.is_some_and(is_there) {
             // What it promised and has not been seen on the way cannot be seen from there.
             search.survey.give_up();
@@ -183,7 +184,10 @@ impl Behaviour for Ready {
             search.survey.going = Some((to, 0.0));
             to
         };
-        Some(Proposal::Destination(Destination { to, ..self.aim }))
+        Some(Proposal::Destination(Destination {
+            at: to,
+            ..self.destination
+        }))
     }
 
     fn judged(&self, memory: &mut Self::Memory, _verdict: Verdict) {

@@ -37,8 +37,8 @@ impl Default for Follow {
     }
 }
 
-/// Where the leader has moved by less the aim stays, in metres: a goal that changes in each step is told to all
-/// in each step, and its way is found anew.
+/// Where the leader has moved by less the aim stays, in metres: a goal that changes in each step is
+/// told to all in each step, and its way is found anew.
 const SAME_M: f64 = 0.3;
 
 /// [`Follow`] in a body.
@@ -93,9 +93,9 @@ impl Behaviour for Ready {
             **to = beside;
         }
         Some(Proposal::Destination(Destination {
-            to: **to,
-            within_m: 0.1,
-            speed_m_s: self.speed_m_s,
+            at: **to,
+            tolerance_m: 0.1,
+            max_speed_m_s: self.speed_m_s,
             value: self.spec.value,
         }))
     }

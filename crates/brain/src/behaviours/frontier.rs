@@ -1,6 +1,6 @@
 //! Searching at the frontier of what has been observed.
 
-use super::survey::{Survey, aim, share};
+use super::survey::{Survey, destination, share};
 use crate::behaviours::behaviour::Behaviour;
 use crate::goals::Verdict;
 use crate::goals::proposal::{Destination, Proposal};
@@ -43,13 +43,13 @@ impl Default for Frontier {
 /// [`Frontier`] in a body.
 #[derive(Debug, Clone)]
 pub(crate) struct Ready {
-    aim: Destination,
+    destination: Destination,
 }
 
 impl Ready {
     pub(super) fn new(spec: &Frontier, body: &Body) -> Self {
         Self {
-            aim: aim(spec.speed_m_s, spec.value, body),
+            destination: destination(spec.speed_m_s, spec.value, body),
         }
     }
 }
@@ -100,7 +100,10 @@ impl Behaviour for Ready {
             survey.going = Some((to, 0.0));
             to
         };
-        Some(Proposal::Destination(Destination { to, ..self.aim }))
+        Some(Proposal::Destination(Destination {
+            at: to,
+            ..self.destination
+        }))
     }
 
     fn judged(&self, memory: &mut Self::Memory, _verdict: Verdict) {

@@ -40,7 +40,7 @@ impl Default for HoldPosition {
 #[derive(Debug, Clone)]
 pub(crate) struct Ready {
     at: Option<Point>,
-    aim: Destination,
+    destination: Destination,
 }
 
 /// Where it stays, once it knows.
@@ -50,10 +50,10 @@ impl Ready {
     pub(super) fn new(spec: &HoldPosition, body: &Body) -> Self {
         Self {
             at: spec.at_m,
-            aim: Destination {
-                to: Point::default(),
-                within_m: spec.within_m,
-                speed_m_s: body.max_speed_m_s,
+            destination: Destination {
+                at: Point::default(),
+                tolerance_m: spec.within_m,
+                max_speed_m_s: body.max_speed_m_s,
                 value: spec.value,
             },
         }
@@ -74,11 +74,14 @@ impl Behaviour for Ready {
             return Some(Motion::default().into());
         };
         let to = **memory.get_or_insert_with(|| Box::new(self.at.unwrap_or(pose.at)));
-        let is_there = pose.at.to(to).length() <= self.aim.within_m;
+        let is_there = pose.at.to(to).length() <= self.destination.tolerance_m;
         Some(if is_there {
             Motion::default().into()
         } else {
-            Proposal::Destination(Destination { to, ..self.aim })
+            Proposal::Destination(Destination {
+                at: to,
+                ..self.destination
+            })
         })
     }
 

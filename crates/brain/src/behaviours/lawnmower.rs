@@ -53,7 +53,7 @@ const MOST_CORNERS: usize = 100_000;
 pub(crate) struct Ready {
     width_m: f64,
     inset_m: f64,
-    aim: Destination,
+    destination: Destination,
 }
 
 /// Where it is on its way; `None` before it begins.
@@ -79,10 +79,10 @@ impl Ready {
         Self {
             width_m: width_m.max(2.0 * body.radius_m),
             inset_m: (range_m / 2.0).min(width_m / 2.0).max(1.5 * body.radius_m),
-            aim: Destination {
-                to: Point::default(),
-                within_m: (0.1 * width_m).clamp(0.2, 2.0),
-                speed_m_s: spec.speed_m_s.unwrap_or(body.max_speed_m_s),
+            destination: Destination {
+                at: Point::default(),
+                tolerance_m: (0.1 * width_m).clamp(0.2, 2.0),
+                max_speed_m_s: spec.speed_m_s.unwrap_or(body.max_speed_m_s),
                 value: spec.value,
             },
         }
@@ -124,8 +124,8 @@ impl Ready {
     }
 }
 
-/// How wide a strip the best detector sees when the body goes straight on, and how far it sees; for a
-/// body without one, some metres.
+/// How wide a strip the best detector sees when the body goes straight on, and how far it sees; for
+/// a body without one, some metres.
 pub(super) fn swath_m(body: &Body) -> (f64, f64) {
     let strips = body.detectors.iter().map(|detector| {
         let half_rad = (detector.width_rad / 2.0).min(FRAC_PI_2);
@@ -210,8 +210,8 @@ impl Track {
         periods * period_m + if is_in_lane { self.lane_m } else { period_m }
     }
 
-    /// The `number`-th place of one of so many equal parts: its beginning, its corners, its end. `None`
-    /// after that.
+    /// The `number`-th place of one of so many equal parts: its beginning, its corners, its end.
+    /// `None` after that.
     fn place_of_part(&self, [part, parts]: [u32; 2], number: u32) -> Option<Point> {
         let part_m = self.length_m() / f64::from(parts);
         let (from_m, to_m) = (f64::from(part) * part_m, f64::from(part + 1) * part_m);
@@ -243,12 +243,15 @@ impl Behaviour for Ready {
         if progress.part != part {
             **progress = Progress::of(part);
         }
-        let is_there = |to: Point| pose.at.to(to).length() <= self.aim.within_m;
+        let is_there = |to: Point| pose.at.to(to).length() <= self.destination.tolerance_m;
         if progress.to.is_some_and(is_there) {
             progress.go_on();
         }
         let to = self.place(progress, field)?;
-        Some(Proposal::Destination(Destination { to, ..self.aim }))
+        Some(Proposal::Destination(Destination {
+            at: to,
+            ..self.destination
+        }))
     }
 
     fn judged(&self, memory: &mut Memory, verdict: Verdict) {

@@ -131,9 +131,9 @@ impl Behaviour for Ready {
             to = self.next(errands, at, situation)?;
         }
         Some(Proposal::Destination(Destination {
-            to,
-            within_m: self.spec.within_m,
-            speed_m_s: self.speed_m_s,
+            at: to,
+            tolerance_m: self.spec.within_m,
+            max_speed_m_s: self.speed_m_s,
             value: self.spec.value,
         }))
     }

@@ -190,7 +190,7 @@ mod tests {
     fn squares_visited(walk: &mut Walk, brain: &mut Brain, seconds: usize) -> usize {
         let mut visited = std::collections::BTreeSet::new();
         for _ in 0..seconds {
-            walk.go(brain, 10);
+            walk.run(brain, 10);
             #[expect(clippy::cast_possible_truncation, reason = "within the room")]
             visited.insert([walk.at.x.floor() as i32, walk.at.y.floor() as i32]);
         }
@@ -214,12 +214,12 @@ mod tests {
             let squares =
                 squares_visited(&mut walk, &mut brain(&body, RandomBounce::default()), 600);
             assert!(squares >= 24, "{squares} of 25");
-            assert!(walk.least_gap_m > 0.0, "{}", walk.least_gap_m);
+            assert!(walk.min_gap_m > 0.0, "{}", walk.min_gap_m);
         }
     }
 
-    /// If it braked only where it should turn, it would come so near that what avoids obstacles takes
-    /// over, turns no farther than it must, and leads it along the walls for ever.
+    /// If it braked only where it should turn, it would come so near that what avoids obstacles
+    /// takes over, turns no farther than it must, and leads it along the walls for ever.
     #[test]
     fn weak_brakes_do_not_keep_it_along_the_walls() {
         let mut body = rover();
@@ -229,7 +229,7 @@ mod tests {
         let mut brain = Brain::new(Arc::new(BrainSpec::default()), Arc::new(body));
         let mut in_the_middle = 0;
         for _ in 0..2000 {
-            walk.go(&mut brain, 10);
+            walk.run(&mut brain, 10);
             let off_m = (walk.at.x - 10.0).abs().max((walk.at.y - 10.0).abs());
             in_the_middle += u32::from(off_m < 5.0);
         }
@@ -252,7 +252,7 @@ mod tests {
         let mut body = rover();
         body.rings[0].range_m = 0.6;
         let mut walk = Walk::new(body.clone(), room(9.0, 9.0), [4.0, 4.0], 0.0);
-        walk.go(&mut brain(&body, RandomBounce::default()), 20);
+        walk.run(&mut brain(&body, RandomBounce::default()), 20);
         assert!(walk.at.x > 4.3, "{:?}", walk.at);
     }
 

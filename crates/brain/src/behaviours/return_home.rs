@@ -45,7 +45,8 @@ impl Default for ReturnHome {
     }
 }
 
-/// A battery that has gained so much since it was low has been charged, or was misread; and so has one that is full.
+/// A battery that has gained so much since it was low has been charged, or was misread; and so has
+/// one that is full.
 const GAINED: f64 = 0.2;
 const FULL: f64 = 0.95;
 
@@ -53,7 +54,7 @@ const FULL: f64 = 0.95;
 #[derive(Debug, Clone)]
 pub(crate) struct Ready {
     spec: ReturnHome,
-    aim: Destination,
+    destination: Destination,
 }
 
 /// Where home is, once it knows, and if it is on its way there, the least that was left since.
@@ -63,10 +64,10 @@ impl Ready {
     pub(super) fn new(spec: &ReturnHome, body: &Body) -> Self {
         Self {
             spec: spec.clone(),
-            aim: Destination {
-                to: Point::default(),
-                within_m: spec.within_m,
-                speed_m_s: body.max_speed_m_s,
+            destination: Destination {
+                at: Point::default(),
+                tolerance_m: spec.within_m,
+                max_speed_m_s: body.max_speed_m_s,
                 value: spec.value,
             },
         }
@@ -75,7 +76,7 @@ impl Ready {
     /// The least that was left since it went home, if it is still to go there.
     fn low_since(&self, low: Option<f64>, way_m: f64, beliefs: &Beliefs) -> Option<f64> {
         let left = beliefs.battery_left()?;
-        let way_s = way_m / self.aim.speed_m_s.max(1e-6);
+        let way_s = way_m / self.destination.max_speed_m_s.max(1e-6);
         let is_low =
             left <= self.spec.min_charge || beliefs.battery_s() < self.spec.reserve_factor * way_s;
         let low = low.filter(|low| left < (low + GAINED).min(FULL));
@@ -107,8 +108,8 @@ impl Behaviour for Ready {
                 Motion::default().into()
             } else {
                 Proposal::Destination(Destination {
-                    to: *to,
-                    ..self.aim
+                    at: *to,
+                    ..self.destination
                 })
             }
         })

@@ -53,7 +53,7 @@ impl Default for Spiral {
 pub(crate) struct Ready {
     around: Option<Point>,
     width_m: f64,
-    aim: Destination,
+    destination: Destination,
 }
 
 /// Its middle, and how far along the spiral it is, in metres; `None` before it begins.
@@ -67,10 +67,10 @@ impl Ready {
         Self {
             around: spec.around_m,
             width_m,
-            aim: Destination {
-                to: Point::default(),
-                within_m: width_m / 4.0,
-                speed_m_s: spec.speed_m_s.unwrap_or(body.max_speed_m_s),
+            destination: Destination {
+                at: Point::default(),
+                tolerance_m: width_m / 4.0,
+                max_speed_m_s: spec.speed_m_s.unwrap_or(body.max_speed_m_s),
                 value: spec.value,
             },
         }
@@ -97,7 +97,7 @@ impl Ready {
             }
             let inside = field.nearest(place);
             let is_near = inside.to(place).length() <= self.width_m / 2.0;
-            if is_near && at.to(inside).length() > self.aim.within_m {
+            if is_near && at.to(inside).length() > self.destination.tolerance_m {
                 return Some(inside);
             }
             *along_m += self.width_m / 2.0;
@@ -120,7 +120,10 @@ impl Behaviour for Ready {
         let middle = self.around.unwrap_or(at);
         let spiral = memory.get_or_insert_with(|| Box::new((middle, 0.0)));
         let to = self.next(spiral, situation)?;
-        Some(Proposal::Destination(Destination { to, ..self.aim }))
+        Some(Proposal::Destination(Destination {
+            at: to,
+            ..self.destination
+        }))
     }
 
     fn judged(&self, memory: &mut Memory, verdict: Verdict) {

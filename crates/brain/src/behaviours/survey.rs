@@ -2,7 +2,7 @@
 
 use crate::goals::proposal::Destination;
 use crate::io::body::Body;
-use crate::navigation::path::Wave;
+use crate::navigation::path::Wavefront;
 use crate::perception::beliefs::peers::Peer;
 use crate::perception::beliefs::{Beliefs, Map};
 use alloc::vec::Vec;
@@ -23,7 +23,7 @@ const MOST_GIVEN_UP: usize = 16;
 /// What one robot remembers of its search.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Survey {
-    wave: Wave,
+    wavefront: Wavefront,
     /// Where it is going, and for how long it has been.
     pub(crate) going: Option<(Point, f64)>,
     /// Places that it could not get to, or need not again so soon.
@@ -31,11 +31,12 @@ pub(crate) struct Survey {
 }
 
 impl Survey {
-    /// The place that is worth most, by its cell and the way there; `None` if none is worth anything.
-    /// `worth` is also told what the best so far is worth: of less it need not say how much.
+    /// The place that is worth most, by its cell and the way there; `None` if none is worth
+    /// anything. `worth` is also told what the best so far is worth: of less it need not say how
+    /// much.
     ///
-    /// Nothing so far off is worth more than `at_most` of the way. Where the body does not fit, so that it
-    /// can only be looked at from outside, comes last.
+    /// Nothing so far off is worth more than `at_most` of the way. Where the body does not fit, so
+    /// that it can only be looked at from outside, comes last.
     pub(crate) fn best(
         &mut self,
         (map, body): (&Map, &Body),
@@ -53,7 +54,7 @@ impl Survey {
             }
             best
         };
-        self.wave.run(known, at, room_m, |cell, way_m| {
+        self.wavefront.expand(known, at, room_m, |cell, way_m| {
             at_most(way_m) > offer(cell, way_m).worth
         });
         if best.place.is_none() {
@@ -65,11 +66,11 @@ impl Survey {
     /// The same among cells that the body does not fit into.
     fn beside(&self, map: &Map, worth: impl Fn(usize, f64, f64) -> f64, best: &mut Best) {
         let (field, cells) = (&map.field, 0..map.field.cells());
-        for cell in cells.filter(|cell| self.wave.is_shut(field, *cell)) {
+        for cell in cells.filter(|cell| self.wavefront.is_blocked(field, *cell)) {
             let place = field.centre(cell);
             let is_worth_it = worth(cell, 0.0, best.worth) > best.worth;
             if let Some((_, way_m)) = is_worth_it
-                .then(|| self.wave.out_of(field, &map.filled, place))
+                .then(|| self.wavefront.exit(field, &map.filled, place))
                 .flatten()
             {
                 best.offer(
@@ -138,11 +139,11 @@ pub(crate) fn share(beliefs: &Beliefs, at: Point, place: Point, near_m: f64) -> 
 }
 
 /// How a search goes to a place.
-pub(crate) fn aim(speed_m_s: Option<f64>, value: f64, body: &Body) -> Destination {
+pub(crate) fn destination(speed_m_s: Option<f64>, value: f64, body: &Body) -> Destination {
     Destination {
-        to: Point::default(),
-        within_m: 0.3,
-        speed_m_s: speed_m_s.unwrap_or(body.max_speed_m_s),
+        at: Point::default(),
+        tolerance_m: 0.3,
+        max_speed_m_s: speed_m_s.unwrap_or(body.max_speed_m_s),
         value,
     }
 }

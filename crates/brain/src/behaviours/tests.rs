@@ -67,7 +67,7 @@ impl Errand {
 
     fn go(&mut self, seconds: u32) {
         for _ in 0..10 * seconds {
-            self.walk.go(&mut self.brain, 1);
+            self.walk.run(&mut self.brain, 1);
             self.track.push(self.walk.at);
         }
     }
@@ -113,8 +113,8 @@ fn navigate(places: &[Point], assignment: Assignment) -> BehaviourSpec {
     })
 }
 
-/// A wall from the lower side of a room of 16 m by 12 m up to 9 m: more than three times as wide as what
-/// a rover sees.
+/// A wall from the lower side of a room of 16 m by 12 m up to 9 m: more than three times as wide as
+/// what a rover sees.
 const WALL: [f64; 4] = [7.8, 0.0, 8.2, 9.0];
 
 #[test]
@@ -124,7 +124,7 @@ fn a_robot_goes_around_a_wall_to_its_place() {
     let mut robot = Errand::new(errand, [16.0, 12.0], &[WALL], at(3.0, 2.0));
     robot.go(60);
     assert!(robot.visit(place).is_some(), "{:?}", robot.walk.at);
-    assert!(robot.walk.least_gap_m > 0.0, "{}", robot.walk.least_gap_m);
+    assert!(robot.walk.min_gap_m > 0.0, "{}", robot.walk.min_gap_m);
     // And then it has nothing more to do.
     assert!(robot.walk.speed_m_s.abs() < 1e-6);
 }
@@ -147,7 +147,7 @@ fn a_robot_comes_out_of_a_deep_dead_end_without_going_astray() {
     // The way is some 42 m long.
     robot.go(90);
     assert!(robot.visit(place).is_some(), "{:?}", robot.walk.at);
-    assert!(robot.walk.least_gap_m > 0.0, "{}", robot.walk.least_gap_m);
+    assert!(robot.walk.min_gap_m > 0.0, "{}", robot.walk.min_gap_m);
 }
 
 #[test]
@@ -162,7 +162,8 @@ fn places_are_visited_in_their_order() {
 
 #[test]
 fn a_robot_fits_through_a_door_twice_as_wide_as_itself_wherever_its_cells_lie() {
-    // A map of 4096 cells has cells of 0.4 m here: those of the door posts leave too little between them.
+    // A map of 4096 cells has cells of 0.4 m here: those of the door posts leave too little between
+    // them.
     for off_m in [0.0, 0.1, 0.2, 0.3] {
         let walls = [
             [12.0, 0.0, 12.3, 11.5 + off_m],

@@ -1,65 +1,69 @@
-//! Whether a goal is being reached.
+//! The progress towards a goal.
 
 use crate::goals::proposal::Destination;
 use base::geometry::Point;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// It comes nearer if the way left has become shorter by this since the best so far, in metres.
-const NEARER_M: f64 = 0.1;
+/// The robot makes progress when the path to the goal is shorter by this than ever before, in
+/// metres.
+const PROGRESS_M: f64 = 0.1;
 
-/// Who has not come nearer for so long recedes; and for so long, cannot get there; in seconds.
+/// Time without progress after which the robot recedes, and after which the goal is impossible, in
+/// seconds.
 const RECEDING_S: f64 = 4.0;
 const IMPOSSIBLE_S: f64 = 30.0;
 
-/// What is impossible is not tried again for so long, in seconds: others have their turn meanwhile.
-const RESTS_S: f64 = 10.0;
+/// Time for which an impossible goal is not tried again, in seconds; other goals are served
+/// meanwhile.
+const REST_S: f64 = 10.0;
 
-/// What is being made of a goal.
+/// The state of a goal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
-    /// It is there.
+    /// The robot has reached it.
     Complete,
-    /// There is no way as far as it knows, the battery does not last, or it has tried for too long.
+    /// There is no known path, the battery does not last, or the robot has tried for too long.
     Impossible,
-    /// It comes nearer.
+    /// The robot comes nearer.
     Approaching,
-    /// It has not come nearer for some time.
+    /// The robot has not come nearer for some time.
     Receding,
 }
 
-/// What is known of a step.
+/// The situation of one step.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Step {
     pub(crate) at: Point,
     pub(crate) period_s: f64,
-    /// A place to which there is no way as far as is known.
-    pub(crate) closed: Option<Point>,
-    /// So long the battery lasts.
+    /// A position to which no path is known.
+    pub(crate) unreachable: Option<Point>,
+    /// Remaining battery time.
     pub(crate) battery_s: f64,
-    /// Where it went in the last step, and the way left to there: what it did not go for may wait.
-    pub(crate) going: Option<(Point, f64)>,
+    /// The position of the goal that was pursued in the last step, and the path length to it. For
+    /// other goals, time without progress does not count.
+    pub(crate) pursued: Option<(Point, f64)>,
 }
 
 impl Step {
-    /// The way left to a place: as it knows it where it is going, straight to others.
-    fn left_m(&self, to: Point) -> f64 {
-        let known = self.going.filter(|(going, _)| *going == to);
-        known.map_or_else(|| self.at.to(to).length(), |(_, left_m)| left_m)
+    /// Path length to a position; only a straight line unless it is the pursued one.
+    fn remaining_m(&self, to: Point) -> f64 {
+        let known = self.pursued.filter(|(pursued, _)| *pursued == to);
+        known.map_or_else(|| self.at.to(to).length(), |(_, remaining_m)| remaining_m)
     }
 }
 
-/// How a goal has been approached so far.
+/// The progress towards one goal so far.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Fitness {
-    /// The way left when it was shortest, and in the last step.
+    /// The minimum path length so far, and that of the last step.
     pub(crate) best_m: f64,
     pub(crate) last_m: f64,
-    /// It has not come nearer for so long.
-    pub(crate) since_s: f64,
-    /// It still is impossible for so long.
-    pub(crate) rests_s: f64,
+    /// Time without progress.
+    pub(crate) stuck_s: f64,
+    /// Remaining time for which the goal counts as impossible.
+    pub(crate) rest_s: f64,
 }
 
 impl Default for Fitness {
@@ -67,65 +71,65 @@ impl Default for Fitness {
         Self {
             best_m: f64::INFINITY,
             last_m: f64::INFINITY,
-            since_s: 0.0,
-            rests_s: 0.0,
+            stuck_s: 0.0,
+            rest_s: 0.0,
         }
     }
 }
 
 impl Fitness {
-    /// Whether it is known to be impossible for now.
-    pub(crate) fn rests(&self) -> bool {
-        self.rests_s > 0.0
+    pub(crate) fn is_resting(&self) -> bool {
+        self.rest_s > 0.0
     }
 
-    /// Lets it be impossible for some time.
-    pub(crate) fn rest(&mut self) {
-        self.rests_s = RESTS_S;
+    /// Lets the goal count as impossible for some time.
+    pub(crate) fn start_rest(&mut self) {
+        self.rest_s = REST_S;
     }
 
-    /// The verdict on a goal:
+    /// Takes a step into account, and returns the verdict:
     ///
     /// ```text
-    /// complete      distance <= within
-    /// impossible    no way known, or battery time < way / speed, or not nearer for 30 s, and 10 s from then
-    /// receding      not nearer for 4 s
-    /// approaching   else
+    /// complete      distance <= tolerance
+    /// impossible    no known path, or battery time < path length / speed, or no progress for 30 s;
+    ///               and for 10 s after that
+    /// receding      no progress for 4 s
+    /// approaching   otherwise
     /// ```
-    pub(crate) fn judge(&mut self, aim: &Destination, step: &Step) -> Verdict {
-        if self.rests() {
-            self.rests_s -= step.period_s;
-            if !self.rests() {
+    pub(crate) fn update(&mut self, destination: &Destination, step: &Step) -> Verdict {
+        if self.is_resting() {
+            self.rest_s -= step.period_s;
+            if !self.is_resting() {
                 *self = Self::default();
             }
         }
-        let left_m = step.left_m(aim.to);
-        self.note(left_m, aim, step);
-        let is_far = super::time_s(left_m, aim) > step.battery_s;
-        let is_closed = step.closed == Some(aim.to);
-        if step.at.to(aim.to).length() <= aim.within_m {
+        let remaining_m = step.remaining_m(destination.at);
+        self.track(remaining_m, destination, step);
+        let is_out_of_range = super::time_s(remaining_m, destination) > step.battery_s;
+        let is_unreachable = step.unreachable == Some(destination.at);
+        let is_stuck = self.stuck_s > IMPOSSIBLE_S;
+        if step.at.to(destination.at).length() <= destination.tolerance_m {
             Verdict::Complete
-        } else if self.rests() || is_closed || is_far || self.since_s > IMPOSSIBLE_S {
+        } else if self.is_resting() || is_unreachable || is_out_of_range || is_stuck {
             Verdict::Impossible
-        } else if self.since_s > RECEDING_S {
+        } else if self.stuck_s > RECEDING_S {
             Verdict::Receding
         } else {
             Verdict::Approaching
         }
     }
 
-    /// Notes the way left.
-    fn note(&mut self, left_m: f64, aim: &Destination, step: &Step) {
-        // Nobody goes so far in a step: the way that it knew is closed, or a shorter one was found.
-        let most_m = aim.speed_m_s * step.period_s + NEARER_M;
-        let is_another_way = (left_m - self.last_m).abs() > most_m;
-        self.last_m = left_m;
-        if is_another_way {
-            self.best_m = left_m;
-        } else if left_m < self.best_m - NEARER_M {
-            (self.best_m, self.since_s) = (left_m, 0.0);
-        } else if step.going.is_some_and(|(to, _)| to == aim.to) {
-            self.since_s += step.period_s;
+    fn track(&mut self, remaining_m: f64, destination: &Destination, step: &Step) {
+        // No robot moves that far in a step: the old path is blocked, or a shorter one was found.
+        let max_step_m = destination.max_speed_m_s * step.period_s + PROGRESS_M;
+        let is_new_path = (remaining_m - self.last_m).abs() > max_step_m;
+        self.last_m = remaining_m;
+        if is_new_path {
+            self.best_m = remaining_m;
+        } else if remaining_m < self.best_m - PROGRESS_M {
+            (self.best_m, self.stuck_s) = (remaining_m, 0.0);
+        } else if step.pursued.is_some_and(|(to, _)| to == destination.at) {
+            self.stuck_s += step.period_s;
         }
     }
 }
@@ -134,42 +138,42 @@ impl Fitness {
 mod tests {
     use super::*;
 
-    const AIM: Destination = Destination {
-        to: Point { x: 9.0, y: 0.0 },
-        within_m: 0.5,
-        speed_m_s: 1.0,
+    const GOAL: Destination = Destination {
+        at: Point { x: 9.0, y: 0.0 },
+        tolerance_m: 0.5,
+        max_speed_m_s: 1.0,
         value: 1.0,
     };
 
-    /// So far before the aim, with so much way left.
-    fn step(away_m: f64, left_m: f64) -> Step {
+    /// At a distance from the goal, with a path of some length left.
+    fn step(distance_m: f64, remaining_m: f64) -> Step {
         Step {
             at: Point {
-                x: AIM.to.x - away_m,
+                x: GOAL.at.x - distance_m,
                 y: 0.0,
             },
             period_s: 1.0,
-            closed: None,
+            unreachable: None,
             battery_s: 20.0,
-            going: Some((AIM.to, left_m)),
+            pursued: Some((GOAL.at, remaining_m)),
         }
     }
 
     #[test]
-    fn who_comes_nearer_approaches_and_is_there_in_the_end() {
+    fn a_robot_that_comes_nearer_approaches_until_the_goal_is_complete() {
         let mut fitness = Fitness::default();
-        for way_m in [9.0, 8.0, 7.0, 3.0] {
-            let verdict = fitness.judge(&AIM, &step(way_m, way_m));
+        for remaining_m in [9.0, 8.0, 7.0, 3.0] {
+            let verdict = fitness.update(&GOAL, &step(remaining_m, remaining_m));
             assert_eq!(verdict, Verdict::Approaching);
         }
-        assert_eq!(fitness.judge(&AIM, &step(0.4, 0.4)), Verdict::Complete);
+        assert_eq!(fitness.update(&GOAL, &step(0.4, 0.4)), Verdict::Complete);
     }
 
     #[test]
-    fn who_does_not_come_nearer_recedes_and_gives_up_in_the_end() {
+    fn without_progress_a_robot_recedes_until_the_goal_is_impossible() {
         let mut fitness = Fitness::default();
         let verdicts: Vec<Verdict> = (0..40)
-            .map(|_| fitness.judge(&AIM, &step(5.0, 5.0)))
+            .map(|_| fitness.update(&GOAL, &step(5.0, 5.0)))
             .collect();
         assert_eq!(verdicts[4], Verdict::Approaching);
         assert_eq!(verdicts[6], Verdict::Receding);
@@ -177,39 +181,39 @@ mod tests {
     }
 
     #[test]
-    fn who_goes_a_long_way_round_approaches_though_the_aim_is_no_nearer() {
+    fn a_robot_on_a_detour_approaches_while_its_path_shortens() {
         let mut fitness = Fitness::default();
-        for left_m in (0..40).map(|step| 60.0 - f64::from(step)) {
+        for remaining_m in (0..40).map(|step| 60.0 - f64::from(step)) {
             let step = Step {
                 battery_s: 100.0,
-                ..step(5.0, left_m)
+                ..step(5.0, remaining_m)
             };
-            assert_eq!(fitness.judge(&AIM, &step), Verdict::Approaching);
+            assert_eq!(fitness.update(&GOAL, &step), Verdict::Approaching);
         }
     }
 
     #[test]
-    fn who_finds_that_the_way_is_longer_approaches_as_soon_as_he_gets_on_there() {
+    fn a_robot_that_finds_its_path_longer_approaches_while_the_new_one_shortens() {
         let mut fitness = Fitness::default();
-        fitness.judge(&AIM, &step(5.0, 5.0));
-        for left_m in [18.0, 17.0, 16.0, 15.0, 14.0, 13.0, 12.0] {
-            let verdict = fitness.judge(&AIM, &step(5.0, left_m));
+        fitness.update(&GOAL, &step(5.0, 5.0));
+        for remaining_m in [18.0, 17.0, 16.0, 15.0, 14.0, 13.0, 12.0] {
+            let verdict = fitness.update(&GOAL, &step(5.0, remaining_m));
             assert_eq!(verdict, Verdict::Approaching);
         }
     }
 
     #[test]
-    fn what_the_battery_does_not_reach_or_nothing_leads_to_is_impossible() {
+    fn goals_beyond_the_battery_or_without_a_path_are_impossible() {
         let empty = Step {
             battery_s: 3.0,
             ..step(5.0, 5.0)
         };
-        let closed = Step {
-            closed: Some(AIM.to),
+        let unreachable = Step {
+            unreachable: Some(GOAL.at),
             ..step(5.0, 5.0)
         };
-        for step in [empty, closed] {
-            let verdict = Fitness::default().judge(&AIM, &step);
+        for step in [empty, unreachable] {
+            let verdict = Fitness::default().update(&GOAL, &step);
             assert_eq!(verdict, Verdict::Impossible);
         }
     }

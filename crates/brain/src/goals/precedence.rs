@@ -1,24 +1,24 @@
-//! How much a goal is worth going for now: its utility.
+//! The current utility of a goal.
 
 use crate::goals::proposal::Destination;
 
-/// What is so many seconds away is worth half of what is here.
+/// A goal this far away, in seconds, is worth half as much as one here.
 const HALF_S: f64 = 10.0;
 
-/// A battery should last for so many times the way.
-const MARGIN: f64 = 1.5;
+/// Required battery time, as a multiple of the time for the path.
+const RESERVE_FACTOR: f64 = 1.5;
 
-/// A goal's precedence, recomputed in every cycle:
+/// The precedence of a goal, recomputed in every step:
 ///
 /// ```text
-/// precedence = value x P(it can be reached) / (1 + t / 10 s)
-/// P = min(1, time that the battery lasts / (1.5 t)),   t = way / speed
+/// precedence = value x P(reachable) / (1 + t / 10 s)
+/// P(reachable) = min(1, battery time / (1.5 t)),   t = path length / speed
 /// ```
 ///
-/// The nearer and the likelier a goal is, the higher it stands; one that is worth nothing, or cannot
-/// be reached, comes last.
-pub(crate) fn precedence(aim: &Destination, time_s: f64, battery_s: f64) -> f64 {
-    let precedence = aim.value * likely(time_s, battery_s) / (1.0 + time_s / HALF_S);
+/// Near and likely reachable goals come first; goals without value or out of reach come last.
+pub(crate) fn precedence(destination: &Destination, time_s: f64, battery_s: f64) -> f64 {
+    let reachable = reachable_probability(time_s, battery_s);
+    let precedence = destination.value * reachable / (1.0 + time_s / HALF_S);
     if precedence.is_finite() {
         precedence
     } else {
@@ -26,10 +26,10 @@ pub(crate) fn precedence(aim: &Destination, time_s: f64, battery_s: f64) -> f64 
     }
 }
 
-/// Probability that it can be reached, P above.
+/// Probability that the battery lasts, from 0 to 1.
 #[inline]
-pub(crate) fn likely(time_s: f64, battery_s: f64) -> f64 {
-    let needed_s = MARGIN * time_s;
+pub(crate) fn reachable_probability(time_s: f64, battery_s: f64) -> f64 {
+    let needed_s = RESERVE_FACTOR * time_s;
     if needed_s > battery_s {
         battery_s / needed_s
     } else {
@@ -37,12 +37,12 @@ pub(crate) fn likely(time_s: f64, battery_s: f64) -> f64 {
     }
 }
 
-/// Time that a way takes.
-pub(crate) fn time_s(way_m: f64, aim: &Destination) -> f64 {
-    if way_m <= aim.within_m {
+/// Time to a destination over a path of this length; 0 within its tolerance.
+pub(crate) fn time_s(path_m: f64, destination: &Destination) -> f64 {
+    if path_m <= destination.tolerance_m {
         0.0
     } else {
-        way_m / aim.speed_m_s.max(1e-6)
+        path_m / destination.max_speed_m_s.max(1e-6)
     }
 }
 
@@ -51,33 +51,37 @@ mod tests {
     use super::*;
     use base::geometry::Point;
 
-    const AIM: Destination = Destination {
-        to: Point { x: 0.0, y: 0.0 },
-        within_m: 0.5,
-        speed_m_s: 2.0,
+    const DESTINATION: Destination = Destination {
+        at: Point { x: 0.0, y: 0.0 },
+        tolerance_m: 0.5,
+        max_speed_m_s: 2.0,
         value: 3.0,
     };
 
-    #[test]
-    fn precedence_is_the_value_halved_by_ten_seconds_of_way() {
-        assert!((precedence(&AIM, 0.0, 100.0) - 3.0).abs() < 1e-12);
-        assert!((precedence(&AIM, time_s(20.0, &AIM), 100.0) - 1.5).abs() < 1e-12);
+    fn precedence(time_s: f64, battery_s: f64) -> f64 {
+        super::precedence(&DESTINATION, time_s, battery_s)
     }
 
     #[test]
-    fn what_the_battery_does_not_last_for_comes_later() {
-        let far_s = time_s(20.0, &AIM);
-        assert!((precedence(&AIM, far_s, 7.5) - 0.75).abs() < 1e-12);
-        assert!(precedence(&AIM, far_s, 0.0) == 0.0);
+    fn precedence_is_the_value_halved_by_ten_seconds_of_path() {
+        assert!((precedence(0.0, 100.0) - 3.0).abs() < 1e-12);
+        assert!((precedence(time_s(20.0, &DESTINATION), 100.0) - 1.5).abs() < 1e-12);
     }
 
     #[test]
-    fn nonsense_has_no_precedence() {
-        assert!(precedence(&AIM, f64::NAN, 1.0) == 0.0);
+    fn goals_that_the_battery_may_not_reach_come_later() {
+        let far_s = time_s(20.0, &DESTINATION);
+        assert!((precedence(far_s, 7.5) - 0.75).abs() < 1e-12);
+        assert!(precedence(far_s, 0.0) == 0.0);
+    }
+
+    #[test]
+    fn precedence_of_invalid_numbers_is_zero() {
+        assert!(precedence(f64::NAN, 1.0) == 0.0);
         let endless = Destination {
             value: f64::INFINITY,
-            ..AIM
+            ..DESTINATION
         };
-        assert!(precedence(&endless, 1.0, 1.0) == 0.0);
+        assert!(super::precedence(&endless, 1.0, 1.0) == 0.0);
     }
 }

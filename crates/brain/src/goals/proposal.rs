@@ -1,25 +1,26 @@
-//! What a behaviour asks for.
+//! The proposal of a behaviour.
 
 use crate::io::command::Motion;
 use base::geometry::Point;
 
-/// What a behaviour with something to do asks for: a motion now, or to be somewhere.
+/// What an active behaviour proposes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Proposal {
+    /// A motion for this step.
     Motion(Motion),
+    /// A place to be.
     Destination(Destination),
 }
 
-/// A place to be; how to get there is found for all behaviours alike.
+/// A place to be; the [navigator](crate::navigation::navigator) finds the path for all behaviours.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Destination {
-    /// In the world.
-    pub(crate) to: Point,
-    /// Nearer than this it is there.
-    pub(crate) within_m: f64,
-    /// At most so fast.
-    pub(crate) speed_m_s: f64,
-    /// What it is worth to be there, beside other aims.
+    /// In world coordinates.
+    pub(crate) at: Point,
+    /// It is reached within this distance.
+    pub(crate) tolerance_m: f64,
+    pub(crate) max_speed_m_s: f64,
+    /// Value of being there, relative to other destinations.
     pub(crate) value: f64,
 }
 

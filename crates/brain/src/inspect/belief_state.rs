@@ -2,7 +2,7 @@
 
 use super::heading_options::HeadingOptions;
 use crate::arbitration::goal_selection::{BeliefBrain, GoalSelection};
-use crate::goals::precedence::{likely, time_s};
+use crate::goals::precedence::{reachable_probability, time_s};
 use crate::goals::{Goal, Verdict};
 use crate::perception::beliefs::Beliefs;
 use crate::perception::beliefs::pose::Pose;
@@ -59,45 +59,47 @@ pub struct GoalState {
 }
 
 impl BeliefState {
-    pub(crate) fn of(mind: &BeliefBrain) -> Self {
-        let BeliefBrain { beliefs, wants } = mind;
+    pub(crate) fn of(brain: &BeliefBrain) -> Self {
+        let BeliefBrain { beliefs, selection } = brain;
         let robots = beliefs.others.movers.iter().map(|mover| BelievedRobot {
             id: mover.id,
             at: mover.at,
             velocity_m_s: mover.velocity_m_s,
             age_s: mover.age_s,
         });
-        let goals = wants.goals.goals.iter();
-        let goals = goals.map(|goal| GoalState::of(goal, beliefs, wants));
+        let goals = selection.goals.goals.iter();
+        let goals = goals.map(|goal| GoalState::of(goal, beliefs, selection));
         Self {
             pose: beliefs.pose(),
             items: beliefs.believed_items().collect(),
             robots: robots.collect(),
             goals: goals.collect(),
-            reach: HeadingOptions::of(&wants.way),
+            reach: HeadingOptions::of(&selection.navigator),
         }
     }
 }
 
 impl GoalState {
-    fn of(goal: &Goal, beliefs: &Beliefs, wants: &GoalSelection) -> Self {
-        let (aim, fitness) = (&goal.aim, &goal.fitness);
-        let way_m = beliefs.pose().map(|pose| pose.at.to(aim.to).length());
-        let time_s = time_s(way_m.unwrap_or_default(), aim);
+    fn of(goal: &Goal, beliefs: &Beliefs, selection: &GoalSelection) -> Self {
+        let (destination, fitness) = (&goal.destination, &goal.fitness);
+        let distance_m = beliefs
+            .pose()
+            .map(|pose| pose.at.to(destination.at).length());
+        let time_s = time_s(distance_m.unwrap_or_default(), destination);
         Self {
             behaviour: u32::try_from(goal.behaviour).unwrap_or(u32::MAX),
-            to: aim.to,
+            to: destination.at,
             precedence: goal.precedence,
-            value: aim.value,
-            likely: likely(time_s, beliefs.battery_s()),
+            value: destination.value,
+            likely: reachable_probability(time_s, beliefs.battery_s()),
             time_s,
-            within_m: aim.within_m,
+            within_m: destination.tolerance_m,
             verdict: goal.verdict,
             left_m: fitness.last_m,
             best_m: fitness.best_m,
-            stuck_s: fitness.since_s,
-            rests_s: fitness.rests_s.max(0.0),
-            is_pursued: wants.is_pursued(goal),
+            stuck_s: fitness.stuck_s,
+            rests_s: fitness.rest_s.max(0.0),
+            is_pursued: selection.is_pursued(goal),
         }
     }
 }

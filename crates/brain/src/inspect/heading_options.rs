@@ -1,7 +1,7 @@
 //! The utility of the headings around a robot.
 
 use crate::navigation::navigator::Navigator;
-use crate::navigation::reachable::{COURSES, bearing_rad, utility};
+use crate::navigation::reachable::{HEADINGS, bearing_rad, utility};
 use alloc::vec::Vec;
 use base::geometry::Point;
 use schemars::JsonSchema;
@@ -34,24 +34,24 @@ pub struct HeadingOption {
 
 impl HeadingOptions {
     /// Of the last step; `None` if the robot did not navigate in it.
-    pub(crate) fn of(way: &Navigator) -> Option<Self> {
-        let [aim_rad, away_m] = way.turned_to?;
-        let to = crate::perception::sector::direction(aim_rad).times(away_m);
-        let reachable = &way.reachable;
-        let course = |course| {
-            let at = reachable.reached(course, away_m);
+    pub(crate) fn of(navigator: &Navigator) -> Option<Self> {
+        let [target_rad, distance_m] = navigator.target?;
+        let to = crate::perception::sector::direction(target_rad).times(distance_m);
+        let reachable = &navigator.reachable;
+        let option = |heading| {
+            let at = reachable.reached(heading, distance_m);
             HeadingOption {
-                bearing_rad: bearing_rad(course),
-                free_m: reachable.free_m[course],
+                bearing_rad: bearing_rad(heading),
+                free_m: reachable.free_m[heading],
                 at,
-                utility: utility(course, at.to(to).length_squared()),
+                utility: utility(heading, at.to(to).length_squared()),
             }
         };
-        let taken = reachable.best_course(aim_rad, away_m);
+        let taken = reachable.best_heading(target_rad, distance_m);
         Some(Self {
             to,
             taken: u32::try_from(taken).unwrap_or(u32::MAX),
-            courses: (0..COURSES).map(course).collect(),
+            courses: (0..HEADINGS).map(option).collect(),
         })
     }
 }
@@ -65,23 +65,23 @@ mod tests {
 
     proptest! {
         #[test]
-        fn the_course_that_is_taken_is_worth_most(
+        fn the_heading_taken_has_the_highest_utility(
             hits in proptest::collection::vec((-PI..PI, 0.05_f64..6.0), 0..12),
-            aim_rad in -PI..PI, away_m in 0.0_f64..8.0,
+            target_rad in -PI..PI, distance_m in 0.0_f64..8.0,
         ) {
             let hits: Vec<Ray> = hits.iter().map(|(bearing, range)| Ray::new(*bearing, *range)).collect();
-            let mut way = Navigator::default();
-            prop_assert!(HeadingOptions::of(&way).is_none());
-            way.reachable.look(&hits, &[], (0.25, 1.0));
-            way.turned_to = Some([aim_rad, away_m]);
-            let told = HeadingOptions::of(&way).unwrap();
-            let taken = told.courses[told.taken as usize];
-            let most = told.courses.iter().map(|course| course.utility).fold(f64::NEG_INFINITY, f64::max);
-            prop_assert!(taken.utility >= most - 1e-9, "{told:?}");
-            let choice = way.reachable.best(aim_rad, away_m);
+            let mut navigator = Navigator::default();
+            prop_assert!(HeadingOptions::of(&navigator).is_none());
+            navigator.reachable.update(&hits, &[], (0.25, 1.0));
+            navigator.target = Some([target_rad, distance_m]);
+            let options = HeadingOptions::of(&navigator).unwrap();
+            let taken = options.courses[options.taken as usize];
+            let max = options.courses.iter().map(|option| option.utility).fold(f64::NEG_INFINITY, f64::max);
+            prop_assert!(taken.utility >= max - 1e-9, "{options:?}");
+            let choice = navigator.reachable.best(target_rad, distance_m);
             prop_assert_eq!(choice.free_m.to_bits(), taken.free_m.to_bits());
-            for course in told.courses {
-                prop_assert!(course.at.length() <= course.free_m.min(away_m) + 1e-9);
+            for option in options.courses {
+                prop_assert!(option.at.length() <= option.free_m.min(distance_m) + 1e-9);
             }
         }
     }

@@ -1,4 +1,4 @@
-//! Navigation: how to get to a destination, and how fast it is safe to move.
+//! Navigation: how to reach a destination, and how fast it is safe to move.
 
 pub(crate) mod navigator;
 pub(crate) mod path;

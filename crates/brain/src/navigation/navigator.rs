@@ -1,11 +1,12 @@
-//! How to get to an aim: the *adapter* of a mind.
+//! The navigator drives a robot to a destination.
 //!
-//! The [path](super::path) leads around what is known to be filled; the next place on it is what the robot
-//! turns to. Of all that it can [reach](super::reachable) from here it takes what is best for that, or [gives
-//! way](super::shunting) if it gets nowhere. Last, it keeps out of [others' way](super::traffic).
+//! The [path](super::path) leads around known obstacles; its next waypoint is the target of this
+//! step. Of the [headings](super::reachable) around the robot, the navigator takes the one that
+//! gets it nearest to the target, and [gives way](super::shunting) if the robot is blocked. Keeping
+//! clear of [other robots](super::traffic) comes last.
 
-use super::path::Wave;
-use super::reachable::{Reachable, unhurried_m_s};
+use super::path::Wavefront;
+use super::reachable::{Reachable, approach_speed_m_s};
 use super::shunting::{Shunting, Step};
 use super::traffic::Traffic;
 use crate::goals::proposal::Destination;
@@ -18,202 +19,240 @@ use alloc::vec::Vec;
 use base::geometry::Point;
 use core::f64::consts::FRAC_PI_3;
 
-/// A path is looked over after so long, in seconds.
-const LOOKED_OVER_S: f64 = 1.0;
+/// A plan is renewed after this time, in seconds.
+const PLAN_LIFETIME_S: f64 = 1.0;
 
-/// Room beside what is filled, as a share of a cell's width.
-const CELL_ROOM: f64 = 0.35;
+/// Clearance beside occupied cells, as a fraction of the cell size.
+const CLEARANCE: f64 = 0.35;
 
-/// Where there is no other way, what fills a cell may be so much farther off than its middle, as a share of
-/// a cell's width.
-const TIGHT_ROOM: f64 = 0.5;
+/// Where no path has that clearance, an obstacle may lie this much farther away than the centre of
+/// its cell, as a fraction of the cell size.
+const TIGHT_CLEARANCE: f64 = 0.5;
 
-/// What one robot remembers of its way.
+/// The path of one robot, and its memory for driving along it.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Navigator {
     pub(crate) reachable: Reachable,
     pub(crate) traffic: Traffic,
     shunting: Shunting,
     hits: Vec<Ray>,
-    wave: Wave,
+    wavefront: Wavefront,
     plan: Option<Plan>,
-    /// The place that it turned to in the last step, from its front: its bearing and how far it was.
-    pub(crate) turned_to: Option<[f64; 2]>,
+    /// The target of the last step, relative to the robot's front: bearing (radians) and distance
+    /// (metres).
+    pub(crate) target: Option<[f64; 2]>,
 }
 
-/// A way that was found.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Plan {
-    to: Point,
-    /// The next place on it; `None` if there is no way.
-    next: Option<Point>,
-    /// The way from there on.
+    goal: Point,
+    /// The next waypoint; `None` if there is no path.
+    waypoint: Option<Point>,
+    /// Length of the path beyond the waypoint.
     beyond_m: f64,
     age_s: f64,
-    /// Of the map, when it was found.
-    changes: u32,
+    /// [`Occupancy::changes`](crate::perception::beliefs::occupancy::Occupancy::changes) of the map
+    /// that it was made on.
+    map_changes: u32,
+}
+
+impl Plan {
+    fn is_straight(&self) -> bool {
+        self.waypoint == Some(self.goal)
+    }
+
+    /// Whether the next waypoint has to be determined again.
+    fn is_due(&self, at: Point, cell_m: f64) -> bool {
+        let is_near = |waypoint: Point| at.to(waypoint).length() < 2.0 * cell_m;
+        let has_reached = !self.is_straight() && self.waypoint.is_some_and(is_near);
+        has_reached || self.age_s >= PLAN_LIFETIME_S
+    }
+}
+
+/// Where the next waypoint comes from.
+enum Source {
+    /// The current plan.
+    Plan(Plan),
+    /// No known obstacle lies before the goal: the goal is the waypoint.
+    StraightLine,
+    /// The distances of the last search, which are still valid.
+    LastSearch,
+    /// A new search.
+    NewSearch,
 }
 
 impl Navigator {
-    /// The motion towards an aim; to stand, if it does not know where it is or there is no way.
-    pub(crate) fn towards(
+    /// The motion towards a destination; it stands still without a pose or a path.
+    pub(crate) fn drive_to(
         &mut self,
-        aim: &Destination,
+        destination: &Destination,
         situation: &Situation,
         beliefs: &Beliefs,
     ) -> Motion {
         let Some(pose) = beliefs.pose() else {
             return Motion::default();
         };
-        let next = match &beliefs.map {
-            Some(map) => self.next(aim.to, &pose, map, situation),
-            None => Some(aim.to),
+        let goal = destination.at;
+        let waypoint = match &beliefs.map {
+            Some(map) => self.next_waypoint(goal, &pose, map, situation),
+            None => Some(goal),
         };
-        let Some(next) = next else {
+        let Some(waypoint) = waypoint else {
             return Motion::default();
         };
         standing(beliefs, situation.rings, situation.percept, &mut self.hits);
         let step = Step {
-            aim: aim.to,
-            way: pose.own(next),
-            left_m: self.left_m(pose.at, aim.to),
+            goal,
+            target: pose.own(waypoint),
+            remaining_m: self.remaining_m(pose.at, goal),
             turned_rad: situation.turned_rad,
             period_s: situation.body.period_s,
             max_speed_m_s: situation.body.max_speed_m_s,
             hits: &self.hits,
             movers: &beliefs.others.movers,
         };
-        let way = self.shunting.instead(&step, situation.dice());
-        let left_m = step.left_m - aim.within_m / 2.0;
-        let most_m_s = if self.shunting.gives_way() {
-            aim.speed_m_s
+        let target = self.shunting.redirect(&step, situation.dice());
+        let stop_within_m = step.remaining_m - destination.tolerance_m / 2.0;
+        let max_m_s = if self.shunting.is_yielding() {
+            destination.max_speed_m_s
         } else {
-            aim.speed_m_s.min(stopping_m_s(left_m, situation))
+            destination
+                .max_speed_m_s
+                .min(stopping_speed_m_s(stop_within_m, situation))
         };
-        self.take(way, most_m_s, situation, beliefs)
+        self.steer(target, max_m_s, situation, beliefs)
     }
 
-    /// A place to which there is no way as far as it knows.
-    pub(crate) fn closed(&self) -> Option<Point> {
-        let plan = self.plan.filter(|plan| plan.next.is_none())?;
-        Some(plan.to)
+    /// The goal of the current plan if no path to it is known.
+    pub(crate) fn unreachable_goal(&self) -> Option<Point> {
+        let plan = self.plan.filter(|plan| plan.waypoint.is_none())?;
+        Some(plan.goal)
     }
 
-    /// The way left from a place to an aim, as far as it knows.
-    pub(crate) fn left_m(&self, at: Point, aim: Point) -> f64 {
-        let plan = self.plan.filter(|plan| plan.to == aim);
-        let known = plan.and_then(|plan| Some((plan.next?, plan.beyond_m)));
-        let (next, beyond_m) = known.unwrap_or((aim, 0.0));
-        at.to(next).length() + beyond_m
+    /// Length of the path from a position to a goal; the straight line if no path is known.
+    pub(crate) fn remaining_m(&self, at: Point, goal: Point) -> f64 {
+        let plan = self.plan.filter(|plan| plan.goal == goal);
+        let known = plan.and_then(|plan| Some((plan.waypoint?, plan.beyond_m)));
+        let (waypoint, beyond_m) = known.unwrap_or((goal, 0.0));
+        at.to(waypoint).length() + beyond_m
     }
 
-    /// Forgets the way.
-    pub(crate) fn find_anew(&mut self) {
+    pub(crate) fn discard_plan(&mut self) {
         self.plan = None;
     }
 
-    /// The next place on the way: the aim itself if nothing stands before it.
-    fn next(&mut self, to: Point, pose: &Pose, map: &Map, situation: &Situation) -> Option<Point> {
-        let plan = self.plan.filter(|plan| plan.to == to);
-        let period_s = situation.body.period_s;
-        let (is_old, is_there) = match plan {
-            None => (true, true),
-            Some(plan) => {
-                let near_m = 2.0 * map.field.cell_m;
-                let is_there = plan
-                    .next
-                    .is_some_and(|next| pose.at.to(next).length() < near_m);
-                (
-                    plan.age_s >= LOOKED_OVER_S,
-                    is_there && plan.next != Some(to),
-                )
-            }
+    /// The next waypoint on the path: the goal itself if no known obstacle lies before it.
+    fn next_waypoint(
+        &mut self,
+        goal: Point,
+        pose: &Pose,
+        map: &Map,
+        situation: &Situation,
+    ) -> Option<Point> {
+        let body = situation.body;
+        let waypoint = match self.waypoint_source(goal, pose.at, map) {
+            Source::Plan(plan) => return self.keep(plan, body.period_s),
+            Source::StraightLine => Some(goal),
+            Source::LastSearch => self.wavefront.waypoint(&map.field, &map.filled, pose.at),
+            Source::NewSearch => self.search(goal, pose.at, map, body.radius_m),
         };
-        if let (Some(plan), false) = (plan, is_old || is_there) {
-            self.plan = Some(Plan {
-                age_s: plan.age_s + period_s,
-                ..plan
-            });
-            return plan.next;
-        }
-        let is_straight = map.filled.is_free_between(&map.field, pose.at, to);
-        let next = if is_straight {
-            Some(to)
-        } else {
-            let is_known = plan.is_some_and(|plan| {
-                let is_the_same = plan.changes == map.filled.changes && plan.next != Some(to);
-                is_the_same && self.wave.knows(&map.field, pose.at)
-            });
-            if is_known {
-                self.wave.ahead(&map.field, &map.filled, pose.at)
-            } else {
-                self.found(to, pose, map, situation.body.radius_m)
-            }
-        };
-        let beyond_m = next.filter(|next| *next != to).map(|next| {
-            let cell = map.field.nearest_cell(next);
-            let by_cells_m = self.wave.cell_distance_m(&map.field, cell);
-            // A wave to where the body does not fit begins beside it.
-            by_cells_m.unwrap_or_default().max(next.to(to).length())
-        });
         self.plan = Some(Plan {
-            to,
-            next,
-            beyond_m: beyond_m.unwrap_or_default(),
+            goal,
+            waypoint,
+            beyond_m: self.beyond_m(waypoint, goal, map),
             age_s: 0.0,
-            changes: map.filled.changes,
+            map_changes: map.filled.changes,
         });
-        next
+        waypoint
     }
 
-    /// The next place on the way that is found anew: one with room on both sides, or else one where it may
-    /// just fit, since what fills a cell need not fill all of it.
-    fn found(&mut self, to: Point, pose: &Pose, map: &Map, radius_m: f64) -> Option<Point> {
+    fn waypoint_source(&self, goal: Point, at: Point, map: &Map) -> Source {
+        let plan = self.plan.filter(|plan| plan.goal == goal);
+        if let Some(plan) = plan.filter(|plan| !plan.is_due(at, map.field.cell_m)) {
+            return Source::Plan(plan);
+        }
+        if map.filled.is_free_between(&map.field, at, goal) {
+            return Source::StraightLine;
+        }
+        let is_valid =
+            plan.is_some_and(|plan| plan.map_changes == map.filled.changes && !plan.is_straight());
+        if is_valid && self.wavefront.covers(&map.field, at) {
+            Source::LastSearch
+        } else {
+            Source::NewSearch
+        }
+    }
+
+    fn keep(&mut self, plan: Plan, period_s: f64) -> Option<Point> {
+        self.plan = Some(Plan {
+            age_s: plan.age_s + period_s,
+            ..plan
+        });
+        plan.waypoint
+    }
+
+    /// The first waypoint of a new path: one with clearance on both sides, or else one through
+    /// which the robot may just fit, since an obstacle need not fill its whole cell.
+    fn search(&mut self, goal: Point, at: Point, map: &Map, radius_m: f64) -> Option<Point> {
         let cell_m = map.field.cell_m;
-        let here = map.field.nearest_cell(pose.at);
-        let rooms_m = [
-            radius_m + CELL_ROOM * cell_m,
-            (radius_m - TIGHT_ROOM * cell_m).max(0.0),
+        let here = map.field.nearest_cell(at);
+        let clearances_m = [
+            radius_m + CLEARANCE * cell_m,
+            (radius_m - TIGHT_CLEARANCE * cell_m).max(0.0),
         ];
-        rooms_m.into_iter().find_map(|room_m| {
+        clearances_m.into_iter().find_map(|clearance_m| {
             let known = (&map.field, &map.filled);
-            self.wave.run(known, to, room_m, |cell, _| cell != here);
-            self.wave.ahead(&map.field, &map.filled, pose.at)
+            self.wavefront
+                .expand(known, goal, clearance_m, |cell, _| cell != here);
+            self.wavefront.waypoint(&map.field, &map.filled, at)
         })
     }
 
-    /// Goes a way from its front, as well as that can be done.
-    fn take(
+    /// Length of the path from its next waypoint to the goal.
+    fn beyond_m(&self, waypoint: Option<Point>, goal: Point, map: &Map) -> f64 {
+        let Some(waypoint) = waypoint.filter(|waypoint| *waypoint != goal) else {
+            return 0.0;
+        };
+        let cell = map.field.nearest_cell(waypoint);
+        let by_cells_m = self.wavefront.cell_distance_m(&map.field, cell);
+        // If the robot does not fit into the goal cell, the wavefront starts beside it.
+        by_cells_m
+            .unwrap_or_default()
+            .max(waypoint.to(goal).length())
+    }
+
+    /// The motion along the best heading to a target, which is relative to the robot's front.
+    fn steer(
         &mut self,
-        way: Point,
-        most_m_s: f64,
+        target: Point,
+        max_m_s: f64,
         situation: &Situation,
         beliefs: &Beliefs,
     ) -> Motion {
         let body = situation.body;
-        let speed_m_s = body.max_speed_m_s.min(most_m_s.max(0.1));
+        let speed_m_s = body.max_speed_m_s.min(max_m_s.max(0.1));
         let movers = &beliefs.others.movers;
         self.reachable
-            .look(&self.hits, movers, (body.radius_m, speed_m_s));
-        let (aim_rad, away_m) = (libm::atan2(way.y, way.x), way.length());
-        self.turned_to = Some([aim_rad, away_m]);
-        let choice = self.reachable.best(aim_rad, away_m);
+            .update(&self.hits, movers, (body.radius_m, speed_m_s));
+        let (bearing_rad, distance_m) = (libm::atan2(target.y, target.x), target.length());
+        self.target = Some([bearing_rad, distance_m]);
+        let choice = self.reachable.best(bearing_rad, distance_m);
         let turn_rad = choice.bearing_rad;
         let aligned = (1.0 - turn_rad.abs() / FRAC_PI_3).max(0.0);
         let free_m = choice.free_m.min(self.reachable.ahead_m());
         Motion {
-            speed_m_s: most_m_s.min(unhurried_m_s(free_m)) * aligned,
+            speed_m_s: max_m_s.min(approach_speed_m_s(free_m)) * aligned,
             turn_rate_rad_s: turn_rad / body.period_s,
         }
     }
 }
 
-/// The greatest speed from which it stops within a distance.
-pub(crate) fn stopping_m_s(left_m: f64, situation: &Situation) -> f64 {
+/// The maximum speed from which the robot stops within a distance.
+pub(crate) fn stopping_speed_m_s(distance_m: f64, situation: &Situation) -> f64 {
     let braking = 0.9 * situation.body.max_acceleration_m_s2;
     if braking.is_finite() {
-        libm::sqrt(2.0 * braking * left_m.max(0.0))
+        libm::sqrt(2.0 * braking * distance_m.max(0.0))
     } else {
-        left_m.max(0.0) / situation.body.period_s
+        distance_m.max(0.0) / situation.body.period_s
     }
 }

@@ -1,294 +1,300 @@
-//! The shortest way around what is known to be filled.
+//! The shortest path around known obstacles.
 //!
-//! A wave runs from a place over all cells that the body fits into (Dijkstra, *A note on two problems in
-//! connexion with graphs*, 1959, with whole numbers: 5 a step, 7 a step aslant); a robot goes down it as
-//! far as it sees a straight way. What is unknown counts as free.
+//! A wavefront expands from the goal over all cells that the robot fits into (Dijkstra, *A note on
+//! two problems in connexion with graphs*, 1959, with integer costs: 5 for a straight step, 7 for a
+//! diagonal one). The robot descends the resulting distances, and cuts corners as far as the
+//! straight line is free. Unknown cells count as free.
 //!
-//! Who stands, or wants to be, where the body does not fit, as next to a wall, goes straight between there
-//! and the nearest cells where it does, if nothing filled lies between.
+//! A start or goal where the robot does not fit, such as one close to a wall, is connected by
+//! straight lines to the nearest cells where it does, unless an obstacle lies between.
 
 use crate::perception::beliefs::field::Field;
 use crate::perception::beliefs::occupancy::Occupancy;
 use alloc::vec::Vec;
 use base::geometry::Point;
 
-/// A step along a row or a column, and one aslant; 7 / 5 is near the square root of 2.
+/// Costs of a step; 7 / 5 approximates the square root of 2.
 const STRAIGHT: u16 = 5;
-const ASLANT: u16 = 7;
+const DIAGONAL: u16 = 7;
 
-/// The body does not fit into a cell: no wave ever runs over what is nearer.
-const SHUT: u16 = 0;
+/// The robot does not fit into the cell. Below all other costs, so that no step ever improves it.
+const BLOCKED: u16 = 0;
 
-/// Where a wave begins.
-const BEGIN: u16 = 1;
+/// Cost of the cells where the wavefront starts.
+const START: u16 = 1;
 
-/// No wave has come to a cell.
-const NEVER: u16 = u16::MAX;
+const UNREACHED: u16 = u16::MAX;
 
-/// Waves end here: no way on a field of some thousand cells is longer, but for mazes.
-const FARTHEST: u16 = NEVER - ASLANT;
+/// The wavefront stops here: except in mazes, no path on a field of some thousand cells is longer.
+const MAX_COST: u16 = UNREACHED - DIAGONAL;
 
-/// How far every cell is from one place. Two bytes a cell and four for the wave.
+/// The distance of every cell from one position. Two bytes per cell, and four per open cell.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Wave {
-    from: Point,
-    /// Row by row, with a shut cell before each row and a shut row before and after all.
-    fifths: Vec<u16>,
-    /// From a cell to the one above it.
+pub(crate) struct Wavefront {
+    origin: Point,
+    /// Distances in fifths of a cell plus [`START`], row by row, with a blocked cell before each
+    /// row and a blocked row before the first and after the last.
+    costs: Vec<u16>,
+    /// Offset from a cell to the one above it.
     stride: usize,
-    /// In cells: so far off there is room beside what is filled.
-    reach: i32,
-    /// Cells to go on from, by what is left of their cost modulo 8.
-    fronts: [Vec<u32>; 8],
-    is_whole: bool,
+    /// Obstacles are inflated by less than this number of cells.
+    inflation: i32,
+    /// Open cells, by their cost modulo 8.
+    buckets: [Vec<u32>; 8],
+    is_complete: bool,
 }
 
-impl Wave {
-    /// Lets a wave run from `from`; a body that needs so much room to all sides must fit.
+impl Wavefront {
+    /// Expands the wavefront from `origin` for a robot that needs `clearance_m` on all sides.
     ///
-    /// `goes_on` is asked for each cell that the wave comes to, with how far that is, the nearest first.
-    pub(crate) fn run(
+    /// `visit` receives each cell that is reached with its distance, the nearest first; the
+    /// expansion stops when it returns `false`.
+    pub(crate) fn expand(
         &mut self,
         (field, map): (&Field, &Occupancy),
-        from: Point,
-        room_m: f64,
-        goes_on: impl FnMut(usize, f64) -> bool,
+        origin: Point,
+        clearance_m: f64,
+        visit: impl FnMut(usize, f64) -> bool,
     ) {
-        self.from = from;
+        self.origin = origin;
         self.stride = field.columns + 1;
-        self.open(field);
-        self.shut(field, map, room_m);
-        self.begin(field, map);
-        self.is_whole = self.spread(field, goes_on);
+        self.clear(field);
+        self.block_obstacles(field, map, clearance_m);
+        self.start(field, map);
+        self.is_complete = self.propagate(field, visit);
     }
 
-    /// Opens all cells but those around the field.
-    fn open(&mut self, field: &Field) {
-        self.fifths.clear();
-        self.fifths.resize(self.stride, SHUT);
+    /// Opens all cells except those of the border.
+    fn clear(&mut self, field: &Field) {
+        self.costs.clear();
+        self.costs.resize(self.stride, BLOCKED);
         for _ in 0..field.rows {
-            self.fifths.push(SHUT);
-            let row = self.fifths.len() + field.columns;
-            self.fifths.resize(row, NEVER);
+            self.costs.push(BLOCKED);
+            let row = self.costs.len() + field.columns;
+            self.costs.resize(row, UNREACHED);
         }
-        self.fifths.resize((field.rows + 2) * self.stride + 1, SHUT);
+        self.costs
+            .resize((field.rows + 2) * self.stride + 1, BLOCKED);
     }
 
-    /// Shuts the cells that a body does not fit into.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_precision_loss,
         reason = "at most some thousands"
     )]
-    fn shut(&mut self, field: &Field, map: &Occupancy, room_m: f64) {
-        let most = field.columns.max(field.rows) as f64;
-        let room = (room_m / field.cell_m).max(0.0).min(most);
-        self.reach = room as i32 + 1;
-        for filled in map.filled() {
-            let [column, row] = field.column_and_row_of(filled);
-            for up in 1 - self.reach..self.reach {
-                for right in 1 - self.reach..self.reach {
-                    let is_near = f64::from(right * right + up * up) <= room * room;
+    fn block_obstacles(&mut self, field: &Field, map: &Occupancy, clearance_m: f64) {
+        let max_cells = field.columns.max(field.rows) as f64;
+        let clearance = (clearance_m / field.cell_m).max(0.0).min(max_cells);
+        self.inflation = clearance as i32 + 1;
+        for occupied in map.filled() {
+            let [column, row] = field.column_and_row_of(occupied);
+            for up in 1 - self.inflation..self.inflation {
+                for right in 1 - self.inflation..self.inflation {
+                    let is_near = f64::from(right * right + up * up) <= clearance * clearance;
                     if let Some(cell) = field.number(column + right, row + up)
                         && is_near
                     {
-                        let place = self.place(field, cell);
-                        self.fifths[place] = SHUT;
+                        let index = self.index(field, cell);
+                        self.costs[index] = BLOCKED;
                     }
                 }
             }
         }
     }
 
-    fn begin(&mut self, field: &Field, map: &Occupancy) {
-        self.fronts.iter_mut().for_each(Vec::clear);
-        let first = field.nearest_cell(self.from);
-        if !self.is_shut(field, first) {
-            let place = self.place(field, first);
-            self.reach_at(place, BEGIN);
+    fn start(&mut self, field: &Field, map: &Occupancy) {
+        self.buckets.iter_mut().for_each(Vec::clear);
+        let origin_cell = field.nearest_cell(self.origin);
+        if !self.is_blocked(field, origin_cell) {
+            let index = self.index(field, origin_cell);
+            self.reach(index, START);
             return;
         }
-        let from = self.from;
-        for cell in field.around(first, self.reach + 1) {
-            let is_open = !self.is_shut(field, cell);
-            if is_open && leads(field, map, field.centre(cell), from) {
-                let place = self.place(field, cell);
-                self.reach_at(place, BEGIN);
+        let origin = self.origin;
+        for cell in field.around(origin_cell, self.inflation + 1) {
+            let is_open = !self.is_blocked(field, cell);
+            if is_open && is_connected(field, map, field.centre(cell), origin) {
+                let index = self.index(field, cell);
+                self.reach(index, START);
             }
         }
     }
 
-    /// Whether it comes to all that it can.
-    fn spread(&mut self, field: &Field, mut goes_on: impl FnMut(usize, f64) -> bool) -> bool {
-        let (mut cost, mut empty) = (BEGIN, 0);
-        while empty < 8 && cost < FARTHEST {
-            let mut front = core::mem::take(&mut self.fronts[usize::from(cost % 8)]);
-            empty = if front.is_empty() { empty + 1 } else { 0 };
-            let way_m = way_m(field, cost);
-            for place in front.iter().map(|place| *place as usize) {
-                if self.fifths[place] == cost {
-                    self.go_on(place, cost);
-                    let (row, column) = (place / self.stride - 1, place % self.stride - 1);
-                    if !goes_on(row * field.columns + column, way_m) {
+    /// Returns whether all reachable cells were visited.
+    fn propagate(&mut self, field: &Field, mut visit: impl FnMut(usize, f64) -> bool) -> bool {
+        let (mut cost, mut empty_buckets) = (START, 0);
+        while empty_buckets < 8 && cost < MAX_COST {
+            let mut front = core::mem::take(&mut self.buckets[usize::from(cost % 8)]);
+            empty_buckets = if front.is_empty() {
+                empty_buckets + 1
+            } else {
+                0
+            };
+            let distance_m = distance_m(field, cost);
+            for index in front.iter().map(|index| *index as usize) {
+                if self.costs[index] == cost {
+                    self.relax_neighbours(index, cost);
+                    let (row, column) = (index / self.stride - 1, index % self.stride - 1);
+                    if !visit(row * field.columns + column, distance_m) {
                         return false;
                     }
                 }
             }
-            // Its room is used again.
+            // Its allocation is reused.
             front.clear();
-            self.fronts[usize::from(cost % 8)] = front;
+            self.buckets[usize::from(cost % 8)] = front;
             cost += 1;
         }
         true
     }
 
     #[inline]
-    fn go_on(&mut self, place: usize, cost: u16) {
-        let (up, down) = (place + self.stride, place - self.stride);
-        for next in [place + 1, place - 1, up, down] {
-            if self.fifths[next] > cost + STRAIGHT {
-                self.reach_at(next, cost + STRAIGHT);
+    fn relax_neighbours(&mut self, index: usize, cost: u16) {
+        let (up, down) = (index + self.stride, index - self.stride);
+        for next in [index + 1, index - 1, up, down] {
+            if self.costs[next] > cost + STRAIGHT {
+                self.reach(next, cost + STRAIGHT);
             }
         }
         for (row, side) in [(up, 1), (up, -1), (down, 1), (down, -1)] {
             let next = row.wrapping_add_signed(side);
-            if self.fifths[next] > cost + ASLANT && !self.is_crack(row, place, side) {
-                self.reach_at(next, cost + ASLANT);
+            if self.costs[next] > cost + DIAGONAL && !self.is_gap(row, index, side) {
+                self.reach(next, cost + DIAGONAL);
             }
         }
     }
 
-    /// Whether a step aslant, by way of a row and to a side, would pass between two shut cells.
+    /// Whether a diagonal step, through a row and to a side, would pass between two blocked cells.
     #[inline]
-    fn is_crack(&self, row: usize, place: usize, side: isize) -> bool {
-        self.fifths[row] == SHUT && self.fifths[place.wrapping_add_signed(side)] == SHUT
+    fn is_gap(&self, row: usize, index: usize, side: isize) -> bool {
+        self.costs[row] == BLOCKED && self.costs[index.wrapping_add_signed(side)] == BLOCKED
     }
 
     #[inline]
     #[expect(clippy::cast_possible_truncation, reason = "at most 65,000 cells")]
-    fn reach_at(&mut self, place: usize, cost: u16) {
-        self.fifths[place] = cost;
-        self.fronts[usize::from(cost % 8)].push(place as u32);
+    fn reach(&mut self, index: usize, cost: u16) {
+        self.costs[index] = cost;
+        self.buckets[usize::from(cost % 8)].push(index as u32);
     }
 
-    /// Where a cell of the field is among all.
+    /// Index of a cell of the field in `costs`.
     #[inline]
-    fn place(&self, field: &Field, cell: usize) -> usize {
+    fn index(&self, field: &Field, cell: usize) -> usize {
         let (column, row) = (cell % field.columns, cell / field.columns);
         (row + 1) * self.stride + column + 1
     }
 
-    /// Whether it has come to a place, or is known never to.
-    pub(crate) fn knows(&self, field: &Field, place: Point) -> bool {
-        let cell = field.nearest_cell(place);
-        self.is_whole || (!self.fifths.is_empty() && self.cell_distance_m(field, cell).is_some())
+    /// Whether the distance of a position is known, or that it is unreachable.
+    pub(crate) fn covers(&self, field: &Field, at: Point) -> bool {
+        let cell = field.nearest_cell(at);
+        self.is_complete || (!self.costs.is_empty() && self.cell_distance_m(field, cell).is_some())
     }
 
-    /// Whether a body does not fit into a cell.
+    /// Whether the robot does not fit into a cell.
     #[inline]
-    pub(crate) fn is_shut(&self, field: &Field, cell: usize) -> bool {
-        self.fifths[self.place(field, cell)] == SHUT
+    pub(crate) fn is_blocked(&self, field: &Field, cell: usize) -> bool {
+        self.costs[self.index(field, cell)] == BLOCKED
     }
 
-    /// How far a cell is by the way; `None` if there is none, or the body does not fit into it.
+    /// Path length to a cell; `None` if it is blocked or unreached.
     #[inline]
     pub(crate) fn cell_distance_m(&self, field: &Field, cell: usize) -> Option<f64> {
-        let fifths = self.fifths[self.place(field, cell)];
-        let is_way = fifths != SHUT && fifths != NEVER;
-        is_way.then(|| way_m(field, fifths))
+        let cost = self.costs[self.index(field, cell)];
+        let is_reached = cost != BLOCKED && cost != UNREACHED;
+        is_reached.then(|| distance_m(field, cost))
     }
 
-    /// The nearest cell of all to which a straight way leads from a place that the body does not fit into,
-    /// and how far that place is by way of it.
-    pub(crate) fn out_of(
-        &self,
-        field: &Field,
-        map: &Occupancy,
-        place: Point,
-    ) -> Option<(usize, f64)> {
-        let cells = field.around(field.nearest_cell(place), self.reach + 1);
+    /// The cell by which the robot leaves a position where it does not fit, and the path length to
+    /// that position; `None` if no such cell is connected to it.
+    pub(crate) fn exit(&self, field: &Field, map: &Occupancy, at: Point) -> Option<(usize, f64)> {
+        let cells = field.around(field.nearest_cell(at), self.inflation + 1);
         let distances = cells.filter_map(|cell| {
             let centre = field.centre(cell);
-            let way_m = self.cell_distance_m(field, cell)? + centre.to(place).length();
-            leads(field, map, centre, place).then_some((cell, way_m))
+            let path_m = self.cell_distance_m(field, cell)? + centre.to(at).length();
+            is_connected(field, map, centre, at).then_some((cell, path_m))
         });
         distances.min_by(|one, other| one.1.total_cmp(&other.1))
     }
 
-    /// The next cell on the way from one to where the wave began; `None` there.
+    /// The next cell on the path from a cell to the origin; `None` at the origin.
     fn next(&self, field: &Field, cell: usize) -> Option<usize> {
-        let place = self.place(field, cell);
+        let index = self.index(field, cell);
         let [column, row] = field.column_and_row_of(cell);
-        let (up, down) = (place + self.stride, place - self.stride);
+        let (up, down) = (index + self.stride, index - self.stride);
         let straight = [
-            (1, 0, place + 1),
-            (-1, 0, place - 1),
+            (1, 0, index + 1),
+            (-1, 0, index - 1),
             (0, 1, up),
             (0, -1, down),
         ];
-        let aslant = [(1, 1, up), (-1, 1, up), (1, -1, down), (-1, -1, down)];
-        let aslant = aslant
+        let diagonal = [(1, 1, up), (-1, 1, up), (1, -1, down), (-1, -1, down)];
+        let diagonal = diagonal
             .into_iter()
-            .filter(|(side, _, row)| !self.is_crack(*row, place, *side as isize))
+            .filter(|(side, _, row)| !self.is_gap(*row, index, *side as isize))
             .map(|(side, level, row)| {
-                (side, level, row.wrapping_add_signed(side as isize), ASLANT)
+                (
+                    side,
+                    level,
+                    row.wrapping_add_signed(side as isize),
+                    DIAGONAL,
+                )
             });
         let straight = straight
             .into_iter()
             .map(|(side, level, next)| (side, level, next, STRAIGHT));
         let all = straight
-            .chain(aslant)
+            .chain(diagonal)
             .filter_map(|(side, level, next, step)| {
-                let fifths = self.fifths[next];
+                let cost = self.costs[next];
                 let cell = field.number(column + side, row + level)?;
-                (fifths != SHUT).then(|| (fifths.saturating_add(step), cell, fifths))
+                (cost != BLOCKED).then(|| (cost.saturating_add(step), cell, cost))
             });
-        let (_, next, fifths) = all.min()?;
-        (fifths < self.fifths[place]).then_some(next)
+        let (_, next, cost) = all.min()?;
+        (cost < self.costs[index]).then_some(next)
     }
 
-    /// The farthest place on the way from `from` that lies straight ahead; `None` if there is no way.
-    pub(crate) fn ahead(&self, field: &Field, map: &Occupancy, from: Point) -> Option<Point> {
-        let mut cell = field.nearest_cell(from);
+    /// The farthest point on the path from `at` to the origin that can be reached in a straight
+    /// line; `None` if there is no path.
+    pub(crate) fn waypoint(&self, field: &Field, map: &Occupancy, at: Point) -> Option<Point> {
+        let mut cell = field.nearest_cell(at);
         let Some(_) = self.cell_distance_m(field, cell) else {
-            let (out, _) = self.out_of(field, map, from)?;
-            return Some(field.centre(out));
+            let (exit, _) = self.exit(field, map, at)?;
+            return Some(field.centre(exit));
         };
-        let mut seen = None;
+        let mut farthest = None;
         while let Some(next) = self.next(field, cell) {
-            let place = field.centre(next);
-            if seen.is_some() && !self.is_open_between(field, from, place) {
+            let centre = field.centre(next);
+            if farthest.is_some() && !self.is_open_between(field, at, centre) {
                 break;
             }
-            (seen, cell) = (Some(place), next);
+            (farthest, cell) = (Some(centre), next);
         }
-        // From where the wave began, the rest is straight.
-        Some(seen.unwrap_or(self.from))
+        // From the cells where the wavefront started, the origin is reached in a straight line.
+        Some(farthest.unwrap_or(self.origin))
     }
 
-    /// Whether the body fits through on the straight way between two places.
+    /// Whether the robot fits through all cells on the straight line between two points.
     pub(crate) fn is_open_between(&self, field: &Field, from: Point, to: Point) -> bool {
-        let way = from.to(to);
-        let length_m = way.length();
-        let direction = way.times(1.0 / length_m.max(f64::MIN_POSITIVE));
+        let line = from.to(to);
+        let length_m = line.length();
+        let direction = line.times(1.0 / length_m.max(f64::MIN_POSITIVE));
         !field
             .along(from, direction, length_m)
-            .any(|cell| self.is_shut(field, cell))
+            .any(|cell| self.is_blocked(field, cell))
     }
 }
 
-/// The way that costs so much.
 #[inline]
-fn way_m(field: &Field, fifths: u16) -> f64 {
-    f64::from(fifths - BEGIN) / f64::from(STRAIGHT) * field.cell_m
+fn distance_m(field: &Field, cost: u16) -> f64 {
+    f64::from(cost - START) / f64::from(STRAIGHT) * field.cell_m
 }
 
-/// Whether nothing lies between an open cell and a place near it, which may be filled itself.
-fn leads(field: &Field, map: &Occupancy, open: Point, place: Point) -> bool {
-    if map.is_filled(field.nearest_cell(place)) {
-        map.sees(field, open, place, 0.0)
+/// Whether no obstacle lies between an open cell and a point near it, which may be occupied itself.
+fn is_connected(field: &Field, map: &Occupancy, open: Point, at: Point) -> bool {
+    if map.is_filled(field.nearest_cell(at)) {
+        map.sees(field, open, at, 0.0)
     } else {
-        map.is_free_between(field, open, place)
+        map.is_free_between(field, open, at)
     }
 }
 

@@ -1,11 +1,11 @@
-//! Giving way: what to do when nobody gets on.
+//! Giving way: what to do when robots block each other.
 //!
-//! Robots that meet head-on in an aisle keep to the right; where that is not enough, the one on the
-//! left-hand side goes back and lets the other pass, and who still gets nowhere goes some random way
-//! for a while, each time for longer, until the knot is loose (Yuta and Premvuti, *Coordinating
-//! autonomous and centralized decision making to achieve cooperative behaviors between multiple mobile
-//! robots*, IROS 1992, call the going back "shunting"; the growing times are those of Metcalfe and
-//! Boggs, *Ethernet*, 1976).
+//! Robots that meet head-on in an aisle keep right. Where that is not enough, the one on the
+//! left-hand side reverses and lets the other pass. A robot that is still blocked takes a random
+//! heading for a while, each time for longer, until the deadlock is resolved (Yuta and Premvuti,
+//! *Coordinating autonomous and centralized decision making to achieve cooperative behaviors
+//! between multiple mobile robots*, IROS 1992, call the reversing "shunting"; the growing times are
+//! the exponential backoff of Metcalfe and Boggs, *Ethernet*, 1976).
 
 use crate::io::random_words::RandomWords;
 use crate::perception::beliefs::mover::Mover;
@@ -15,71 +15,74 @@ use base::geometry::Point;
 use base::trig::wrapped;
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
-/// Whose way to the aim becomes shorter by less than this share of its greatest speed gets nowhere.
+/// A robot is blocked while its path shortens at less than this fraction of its maximum speed.
 ///
-/// The way, not the distance: that around a wall leads away from the aim.
-const NOWHERE: f64 = 0.2;
+/// The path, not the distance: a path around a wall leads away from the goal.
+const MIN_PROGRESS: f64 = 0.2;
 
-/// It gives way after so long, half as soon on the left-hand side and three times as late on the
-/// right-hand one, and for so long; in seconds.
+/// A blocked robot gives way after this time, in seconds: half of it on the left-hand side of an
+/// aisle, three times as much on the right-hand side.
 const PATIENCE_S: f64 = 2.0;
-const AWAY_S: f64 = 2.0;
 
-/// Each time for longer by this factor, but no longer than by that.
-const LONGER: f64 = 1.5;
-const LONGEST: f64 = 6.0;
+/// It gives way for this time, in seconds.
+const YIELD_S: f64 = 2.0;
 
-/// Others farther than this are in nobody's way, in metres.
+/// Each time multiplies the duration by `BACKOFF`, up to `MAX_BACKOFF` in total.
+const BACKOFF: f64 = 1.5;
+const MAX_BACKOFF: f64 = 6.0;
+
+/// Robots and walls farther away than this do not matter, in metres.
 const NEAR_M: f64 = 2.0;
 
-/// To one who comes towards it, it keeps right by this.
+/// Angle by which a robot keeps right of an oncoming one.
 const KEEP_RIGHT_RAD: f64 = 0.2;
 
-/// One comes towards it if he does not pass it farther aside than this, in metres.
-const ASIDE_M: f64 = 1.5;
+/// An oncoming robot that passes farther aside than this does not matter, in metres.
+const PASSING_M: f64 = 1.5;
 
-/// An aim that moves by less is the same, in metres.
-const SAME_AIM_M: f64 = 1.0;
+/// A goal that moves by less than this remains the same goal, in metres.
+const SAME_GOAL_M: f64 = 1.0;
 
-/// Sides that differ by less than this are equally wide, in metres.
-const SAME_M: f64 = 0.1;
+/// Sides of an aisle that differ by less than this are equally wide, in metres.
+const SAME_WIDTH_M: f64 = 0.1;
 
-/// What one robot remembers of getting nowhere.
+/// One robot's memory of its progress.
 #[derive(Debug, Clone)]
 pub(crate) struct Shunting {
-    /// Where it wanted to be, and how far that was.
-    aim: Point,
-    left_m: f64,
-    nowhere_s: f64,
-    /// Its random share of patience, 0.5 to 1.5.
-    share: f64,
-    /// For so long it gives way, along a course from its front.
-    left_s: f64,
-    course_rad: f64,
-    factor: f64,
+    /// The goal of the last step, and the path length to it.
+    goal: Point,
+    remaining_m: f64,
+    blocked_s: f64,
+    /// Random factor of its patience, 0.5 to 1.5.
+    patience: f64,
+    /// Remaining time for which it gives way, and the heading for it, relative to its front.
+    yield_s: f64,
+    yield_rad: f64,
+    backoff: f64,
 }
 
 impl Default for Shunting {
     fn default() -> Self {
         Self {
-            aim: Point::default(),
-            left_m: f64::INFINITY,
-            nowhere_s: 0.0,
-            share: 1.0,
-            left_s: 0.0,
-            course_rad: 0.0,
-            factor: 1.0,
+            goal: Point::default(),
+            remaining_m: f64::INFINITY,
+            blocked_s: 0.0,
+            patience: 1.0,
+            yield_s: 0.0,
+            yield_rad: 0.0,
+            backoff: 1.0,
         }
     }
 }
 
-/// What is to be known of a step.
+/// The situation of one step.
 pub(crate) struct Step<'s> {
-    /// In the world: where it wants to be; and from its front: the next place on the way there.
-    pub(crate) aim: Point,
-    pub(crate) way: Point,
-    /// The way left to the aim.
-    pub(crate) left_m: f64,
+    /// In world coordinates.
+    pub(crate) goal: Point,
+    /// The next waypoint, relative to the robot's front.
+    pub(crate) target: Point,
+    /// Path length to the goal.
+    pub(crate) remaining_m: f64,
     pub(crate) turned_rad: f64,
     pub(crate) period_s: f64,
     pub(crate) max_speed_m_s: f64,
@@ -87,77 +90,82 @@ pub(crate) struct Step<'s> {
     pub(crate) movers: &'s [Mover],
 }
 
+impl Step<'_> {
+    fn target_rad(&self) -> f64 {
+        libm::atan2(self.target.y, self.target.x)
+    }
+}
+
 impl Shunting {
-    /// The way to take instead of the one that it wants, from its front.
-    pub(crate) fn instead(&mut self, step: &Step, mut dice: RandomWords) -> Point {
-        self.course_rad = wrapped(self.course_rad - step.turned_rad);
-        let progress_m = self.left_m - step.left_m;
-        let is_other = self.aim.to(step.aim).length() > SAME_AIM_M;
-        self.aim = step.aim;
-        if is_other {
-            self.nowhere_s = 0.0;
-        } else if self.left_s > 0.0 {
-            self.left_s -= step.period_s;
+    /// The target to steer for instead of that of the step, relative to the robot's front.
+    pub(crate) fn redirect(&mut self, step: &Step, mut random: RandomWords) -> Point {
+        self.yield_rad = wrapped(self.yield_rad - step.turned_rad);
+        let progress_m = self.remaining_m - step.remaining_m;
+        let is_new_goal = self.goal.to(step.goal).length() > SAME_GOAL_M;
+        self.goal = step.goal;
+        if is_new_goal {
+            self.blocked_s = 0.0;
+        } else if self.yield_s > 0.0 {
+            self.yield_s -= step.period_s;
         } else {
-            self.count(progress_m, step);
+            self.watch_progress(progress_m, step);
         }
-        self.left_m = step.left_m;
-        if self.left_s <= 0.0 && self.is_at_an_end(step) {
-            self.give_way(step, &mut dice);
+        self.remaining_m = step.remaining_m;
+        if self.yield_s <= 0.0 && self.is_out_of_patience(step) {
+            self.start_yielding(step, &mut random);
         }
-        if self.left_s > 0.0 {
-            return direction(self.course_rad).times(NEAR_M);
+        if self.yield_s > 0.0 {
+            return direction(self.yield_rad).times(NEAR_M);
         }
-        keeping_right(step)
+        keep_right(step)
     }
 
-    /// Whether it gives way now.
-    pub(crate) fn gives_way(&self) -> bool {
-        self.left_s > 0.0
+    pub(crate) fn is_yielding(&self) -> bool {
+        self.yield_s > 0.0
     }
 
-    fn count(&mut self, progress_m: f64, step: &Step) {
-        let least_m = NOWHERE * step.max_speed_m_s * step.period_s;
-        if is_turning_there(step) {
+    fn watch_progress(&mut self, progress_m: f64, step: &Step) {
+        if is_turning_to_target(step) {
             return;
         }
-        if progress_m < least_m {
-            self.nowhere_s += step.period_s;
+        if progress_m < MIN_PROGRESS * step.max_speed_m_s * step.period_s {
+            self.blocked_s += step.period_s;
         } else {
-            self.nowhere_s = (self.nowhere_s - 2.0 * step.period_s).max(0.0);
-            self.factor = (self.factor - 0.1 * step.period_s).max(1.0);
+            self.blocked_s = (self.blocked_s - 2.0 * step.period_s).max(0.0);
+            self.backoff = (self.backoff - 0.1 * step.period_s).max(1.0);
         }
     }
 
-    fn is_at_an_end(&self, step: &Step) -> bool {
+    fn is_out_of_patience(&self, step: &Step) -> bool {
         let factor = match side(step) {
             Side::Left => 0.5,
             Side::Right => 3.0,
             Side::Neither => 1.0,
         };
-        self.nowhere_s > factor * PATIENCE_S * self.share
+        self.blocked_s > factor * PATIENCE_S * self.patience
     }
 
-    fn give_way(&mut self, step: &Step, dice: &mut RandomWords) {
-        let aim_rad = libm::atan2(step.way.y, step.way.x);
-        self.course_rad = wrapped(match side(step) {
-            Side::Left => aim_rad + PI + KEEP_RIGHT_RAD,
-            _ => away_rad(step, aim_rad) + dice.between(-FRAC_PI_2, FRAC_PI_2) - 0.3,
+    fn start_yielding(&mut self, step: &Step, random: &mut RandomWords) {
+        let target_rad = step.target_rad();
+        self.yield_rad = wrapped(match side(step) {
+            Side::Left => target_rad + PI + KEEP_RIGHT_RAD,
+            _ => away_rad(step, target_rad) + random.between(-FRAC_PI_2, FRAC_PI_2) - 0.3,
         });
-        self.left_s = AWAY_S * self.factor * dice.between(0.5, 1.5);
-        self.factor = (self.factor * LONGER).min(LONGEST);
-        self.nowhere_s = 0.0;
-        self.share = dice.between(0.5, 1.5);
+        self.yield_s = YIELD_S * self.backoff * random.between(0.5, 1.5);
+        self.backoff = (self.backoff * BACKOFF).min(MAX_BACKOFF);
+        self.blocked_s = 0.0;
+        self.patience = random.between(0.5, 1.5);
     }
 }
 
-/// Whether it still turns to its way: that takes its time, and nobody is in the way of it.
-fn is_turning_there(step: &Step) -> bool {
-    let aside_rad = libm::atan2(step.way.y, step.way.x);
-    aside_rad.abs() > FRAC_PI_4 && step.turned_rad * aside_rad > 0.0
+/// Whether the robot still turns to its target: it makes no progress then, though nothing blocks
+/// it.
+fn is_turning_to_target(step: &Step) -> bool {
+    let target_rad = step.target_rad();
+    target_rad.abs() > FRAC_PI_4 && step.turned_rad * target_rad > 0.0
 }
 
-/// On which side of an aisle a robot is.
+/// The side of an aisle on which a robot is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Side {
     Left,
@@ -166,52 +174,53 @@ enum Side {
 }
 
 fn side(step: &Step) -> Side {
-    let aim_rad = libm::atan2(step.way.y, step.way.x);
+    let target_rad = step.target_rad();
     let [left_m, right_m] = [FRAC_PI_2, -FRAC_PI_2].map(|side_rad| {
-        let within = |hit: &&Ray| wrapped(hit.bearing_rad - aim_rad - side_rad).abs() < FRAC_PI_4;
-        let ranges_m = step.hits.iter().filter(within).map(|hit| hit.range_m);
+        let is_there =
+            |hit: &&Ray| wrapped(hit.bearing_rad - target_rad - side_rad).abs() < FRAC_PI_4;
+        let ranges_m = step.hits.iter().filter(is_there).map(|hit| hit.range_m);
         ranges_m.fold(NEAR_M, f64::min)
     });
-    if right_m > left_m + SAME_M {
+    if right_m > left_m + SAME_WIDTH_M {
         Side::Left
-    } else if left_m > right_m + SAME_M {
+    } else if left_m > right_m + SAME_WIDTH_M {
         Side::Right
     } else {
         Side::Neither
     }
 }
 
-/// The course away from those who are near; back, if nobody is.
-fn away_rad(step: &Step, aim_rad: f64) -> f64 {
+/// The bearing away from movers nearby; back if there are none.
+fn away_rad(step: &Step, target_rad: f64) -> f64 {
     let near = step.movers.iter().map(|mover| mover.at);
     let near = near.filter(|at| (1e-6..NEAR_M).contains(&at.length()));
     let away = near.fold(Point::default(), |away, at| {
-        let apart_m = at.length();
-        away.plus(at.times(-1.0 / (apart_m * apart_m * apart_m)))
+        let distance_m = at.length();
+        away.plus(at.times(-1.0 / (distance_m * distance_m * distance_m)))
     });
     if away.length_squared() > 1e-12 {
         libm::atan2(away.y, away.x)
     } else {
-        aim_rad + PI
+        target_rad + PI
     }
 }
 
-/// The way, or a little to the right of it if somebody comes along it.
-fn keeping_right(step: &Step) -> Point {
-    let length_m = step.way.length();
+/// The target, or a point to the right of it if another robot is oncoming.
+fn keep_right(step: &Step) -> Point {
+    let length_m = step.target.length();
     if length_m <= 0.0 {
-        return step.way;
+        return step.target;
     }
-    let front = step.way.times(1.0 / length_m);
-    let comes = |mover: &Mover| {
-        let is_ahead = mover.at.dot(front) > 0.0 && mover.at.cross(front).abs() < ASIDE_M;
-        is_ahead && mover.course.dot(front) < -0.5
+    let forward = step.target.times(1.0 / length_m);
+    let is_oncoming = |mover: &Mover| {
+        let is_ahead = mover.at.dot(forward) > 0.0 && mover.at.cross(forward).abs() < PASSING_M;
+        is_ahead && mover.course.dot(forward) < -0.5
     };
-    if step.movers.iter().any(comes) {
+    if step.movers.iter().any(is_oncoming) {
         let right = direction(-KEEP_RIGHT_RAD);
-        crate::perception::beliefs::pose::turned(step.way, right)
+        crate::perception::beliefs::pose::turned(step.target, right)
     } else {
-        step.way
+        step.target
     }
 }
 

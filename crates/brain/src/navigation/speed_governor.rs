@@ -1,13 +1,15 @@
-//! No faster than it sees: a robot must be able to stop within what it knows to be free.
+//! The speed limit of a robot that must be able to stop within what it knows to be free.
 //!
-//! At speed `v` it goes on for a period before it can think again, and then needs `v^2 / (2 a)` to
-//! stop; if it already goes at `u > v`, slowing down takes `(u - v)^2 / (2 a)` more. All this must
-//! fit into what was free when the scan was measured, less what it may have gone since. Along a
-//! curve it must fit into all that the curve can sweep, or the robot stops before it turns. For `a`
-//! it takes a little less than it has, since sensors err.
+//! At speed `v` the robot moves on for one period before its next step, and then needs `v^2 / (2
+//! a)` to stop; if its current speed is `u > v`, slowing down takes `(u - v)^2 / (2 a)` more. All
+//! this must fit into the distance that was free when the scan was measured, less what the robot
+//! may have moved since. On a curve it must fit into the whole area that the curve can sweep;
+//! otherwise the robot stops before it turns. `a` is slightly less than the robot's deceleration,
+//! since sensors err.
 //!
-//! In words of an invariant: after each step it can still stop in time. If the scan leaves room for
-//! the next step that stays so by the law; if not, it brakes as hard as it can, and it stays so too.
+//! Invariant: after each step, the robot can still stop in time. A step within the limit keeps it
+//! true. If no speed is within the limit, the robot brakes as hard as it can, which keeps it true
+//! as well.
 
 use crate::io::body::Body;
 use crate::io::command::Motion;
@@ -19,73 +21,72 @@ use crate::perception::situation::{ClearAhead, Situation};
 use alloc::vec::Vec;
 use core::f64::consts::{FRAC_PI_2, PI};
 
-/// Room that it keeps around itself, as a share of its radius.
-const ROOM: f64 = 0.05;
+/// Clearance around the robot, as a fraction of its radius.
+const CLEARANCE: f64 = 0.05;
 
-/// It counts on this share of its brakes: who sees 10% too far still stops in time.
+/// Fraction of the maximum deceleration that is relied on: a robot whose ranges are 10% too long
+/// still stops in time.
 const BRAKING: f64 = 0.9;
 
-/// The range rings of a kind of robot, and its law of speed.
+/// The range rings of a kind of robot, and its speed limit.
 #[derive(Debug, Clone)]
 pub(crate) struct SpeedGovernor {
     pub(crate) rings: Vec<Ring>,
     half_width_m: f64,
-
-    looks_ahead: bool,
-    looks_behind: bool,
+    covers_front: bool,
+    covers_back: bool,
     /// 1 / (2 a).
     stopping_s2_m: f64,
 }
 
 impl SpeedGovernor {
     pub(crate) fn new(body: &Body) -> Self {
-        let half_width_m = body.radius_m * (1.0 + ROOM);
+        let half_width_m = body.radius_m * (1.0 + CLEARANCE);
         let ring = |ring| Ring::new(ring, half_width_m, body.period_s);
         let rings: Vec<Ring> = body.rings.iter().map(ring).collect();
         Self {
             half_width_m,
-            looks_ahead: rings.iter().any(|ring| ring.looks_ahead),
-            looks_behind: rings.iter().any(|ring| ring.looks_behind),
+            covers_front: rings.iter().any(|ring| ring.looks_ahead),
+            covers_back: rings.iter().any(|ring| ring.looks_behind),
             rings,
             stopping_s2_m: 0.5 / (BRAKING * body.max_acceleration_m_s2),
         }
     }
 
-    /// What is seen straight ahead.
+    /// The free distance straight ahead.
     #[inline]
     pub(crate) fn ahead(&self, percept: &Percept, body: &Body, now_m_s: f64) -> Option<ClearAhead> {
         let free_m = |ring: &Ring, _, ranges_m: &[f64]| Some(ring.free_ahead_m(ranges_m));
-        self.seen(percept, body, (1.0, now_m_s.max(0.0)), free_m)
+        self.clear(percept, body, (1.0, now_m_s.max(0.0)), free_m)
     }
 
-    /// What sight allows of a motion; in a direction in which the body has no range sensor it is
-    /// blind, and not limited.
+    /// The wanted motion, slowed down to the limit. A motion in a direction that no range sensor
+    /// covers is not limited.
     #[inline]
-    pub(crate) fn limited(
+    pub(crate) fn limit(
         &self,
         wanted: Motion,
         situation: &Situation,
-        moved: &DeadReckoning,
+        odometry: &DeadReckoning,
     ) -> Motion {
         let Situation { body, now_m_s, .. } = *situation;
-        let goes_back = now_m_s < 0.0 || (now_m_s == 0.0 && wanted.speed_m_s < 0.0);
-        let way = if goes_back { -1.0 } else { 1.0 };
-        let looks = if way > 0.0 {
-            self.looks_ahead
+        let is_reverse = now_m_s < 0.0 || (now_m_s == 0.0 && wanted.speed_m_s < 0.0);
+        let (sign, is_covered) = if is_reverse {
+            (-1.0, self.covers_back)
         } else {
-            self.looks_behind
+            (1.0, self.covers_front)
         };
         let now_m_s = now_m_s.abs();
-        let wanted_m_s = (wanted.speed_m_s * way).max(0.0);
-        if !looks || (now_m_s == 0.0 && wanted_m_s == 0.0) {
+        let wanted_m_s = (wanted.speed_m_s * sign).max(0.0);
+        if !is_covered || (now_m_s == 0.0 && wanted_m_s == 0.0) {
             return wanted;
         }
-        let seen = self.on_the_way(wanted, way, situation, moved);
-        let free_m = seen.map_or(0.0, |seen| seen.free_m);
-        // A turn that leads where it could not stop waits until it stands.
+        let clear = self.clear_along(wanted, sign, situation, odometry);
+        let free_m = clear.map_or(0.0, |clear| clear.free_m);
+        // A turn towards where the robot could not stop is postponed until it stands still.
         let can_turn = now_m_s * now_m_s * self.stopping_s2_m <= free_m;
         Motion {
-            speed_m_s: way * self.speed_m_s(wanted_m_s, now_m_s, free_m, body.period_s),
+            speed_m_s: sign * self.speed_m_s(wanted_m_s, now_m_s, free_m, body.period_s),
             turn_rate_rad_s: if can_turn {
                 wanted.turn_rate_rad_s
             } else {
@@ -94,14 +95,15 @@ impl SpeedGovernor {
         }
     }
 
-    /// What is seen where a motion leads; less, but enough for it, if that is sooner told.
+    /// The free distance in the direction of a motion; possibly less, but enough for it, if that is
+    /// faster to compute.
     #[inline]
-    fn on_the_way(
+    fn clear_along(
         &self,
         wanted: Motion,
-        way: f64,
+        sign: f64,
         situation: &Situation,
-        moved: &DeadReckoning,
+        odometry: &DeadReckoning,
     ) -> Option<ClearAhead> {
         let Situation {
             percept,
@@ -110,110 +112,113 @@ impl SpeedGovernor {
             now_m_s,
             ..
         } = *situation;
-        let goes_straight = wanted.turn_rate_rad_s == 0.0
-            && way > 0.0
-            && ahead.is_some_and(|seen| moved.turned_within_rad(seen.age_s) == 0.0);
-        if goes_straight {
+        let is_straight = wanted.turn_rate_rad_s == 0.0
+            && sign > 0.0
+            && ahead.is_some_and(|clear| odometry.turned_within_rad(clear.age_s) == 0.0);
+        if is_straight {
             return ahead;
         }
         let now_m_s = now_m_s.abs();
-        let wanted_m_s = (wanted.speed_m_s * way).max(0.0);
+        let wanted_m_s = (wanted.speed_m_s * sign).max(0.0);
         let turning_s = body.period_s + 2.0 * self.stopping_s2_m * now_m_s.max(wanted_m_s);
         let stopping_m = now_m_s * now_m_s * self.stopping_s2_m;
-        let needed_m = stopping_m.max(self.way_m(wanted_m_s, now_m_s, body.period_s));
-        self.seen(percept, body, (way, now_m_s), |ring, age_s, ranges_m| {
-            let turned_rad = moved.turned_within_rad(age_s);
-            // Turned farther than that, what it saw is not where it goes.
+        let needed_m = stopping_m.max(self.needed_m(wanted_m_s, now_m_s, body.period_s));
+        self.clear(percept, body, (sign, now_m_s), |ring, age_s, ranges_m| {
+            let turned_rad = odometry.turned_within_rad(age_s);
+            // After a larger turn, the scan does not show where the robot moves.
             if turned_rad.abs() > FRAC_PI_2 {
                 return None;
             }
-            // The nearest anywhere is soon told, and mostly it is far enough.
+            // The nearest distance in any direction is cheap to compute, and mostly large enough.
             let nearest_m = ring.nearest_m(ranges_m);
-            let enough_m = needed_m + self.half_width_m + gone_m(body, now_m_s, age_s);
+            let enough_m = needed_m + self.half_width_m + max_moved_m(body, now_m_s, age_s);
             let turn_rad = wanted.turn_rate_rad_s * turning_s;
             Some(if nearest_m > enough_m {
                 nearest_m
             } else {
-                ring.free_m(ranges_m, &self.sector(turned_rad, turn_rad, way))
+                ring.free_m(ranges_m, &self.sector(turned_rad, turn_rad, sign))
             })
         })
     }
 
-    /// The nearest that rings see on the way, ahead or back; each is asked how far from the centre it
-    /// sees, if it can tell.
+    /// The minimum free distance over all rings with a fresh scan, forwards or backwards; `free_m`
+    /// returns that of one ring from the robot's centre, if it is known.
     ///
-    /// One that looks elsewhere may see something in the way beside the body, but that it sees
-    /// nothing says nothing.
+    /// A ring that does not cover the direction may still detect an obstacle beside the robot, but
+    /// proves nothing when it detects none.
     #[inline]
-    fn seen(
+    fn clear(
         &self,
         percept: &Percept,
         body: &Body,
-        (way, speed_m_s): (f64, f64),
+        (sign, speed_m_s): (f64, f64),
         free_m: impl Fn(&Ring, f64, &[f64]) -> Option<f64>,
     ) -> Option<ClearAhead> {
         let mut nearest: Option<ClearAhead> = None;
-        let mut has_looked = false;
-        for (place, ring) in self.rings.iter().enumerate() {
-            let scan = ring.fresh(percept.scans.get(place));
+        let mut is_covered = false;
+        for (index, ring) in self.rings.iter().enumerate() {
+            let scan = ring.fresh(percept.scans.get(index));
             let Some((age_s, ranges_m)) = scan else {
                 continue;
             };
-            let looks = if way > 0.0 {
+            let covers = if sign > 0.0 {
                 ring.looks_ahead
             } else {
                 ring.looks_behind
             };
             let free_m = free_m(ring, age_s, ranges_m);
-            let Some(free_m) = free_m.filter(|free_m| looks || *free_m < ring.range_m()) else {
+            let Some(free_m) = free_m.filter(|free_m| covers || *free_m < ring.range_m()) else {
                 continue;
             };
-            has_looked |= looks;
-            let free_m = free_m - self.half_width_m - gone_m(body, speed_m_s, age_s);
+            is_covered |= covers;
+            let free_m = free_m - self.half_width_m - max_moved_m(body, speed_m_s, age_s);
             let so_far = nearest.unwrap_or(ClearAhead { free_m, age_s });
             nearest = Some(ClearAhead {
                 free_m: free_m.min(so_far.free_m),
                 age_s: age_s.max(so_far.age_s),
             });
         }
-        nearest.filter(|_| has_looked)
+        nearest.filter(|_| is_covered)
     }
 
-    /// Courses from where it looked to where it will stand, turning all the time.
-    fn sector(&self, turned_rad: f64, turn_rad: f64, way: f64) -> Sector {
+    /// The area that the robot can sweep from the heading of the scan to the one where it will
+    /// stand, turning all the time.
+    fn sector(&self, turned_rad: f64, turn_rad: f64, sign: f64) -> Sector {
         let last_rad = turned_rad + turn_rad;
-        let least = turned_rad.min(last_rad).min(0.0);
-        let most = turned_rad.max(last_rad).max(0.0);
-        // Within half a turn it has either come to stand or begun to come back.
-        let over = (most - least - PI).max(0.0);
-        let (least, most) = if turn_rad > 0.0 {
-            (least, most - over)
+        let min = turned_rad.min(last_rad).min(0.0);
+        let max = turned_rad.max(last_rad).max(0.0);
+        // Within half a turn the robot has either stopped or started to come back.
+        let over = (max - min - PI).max(0.0);
+        let (min, max) = if turn_rad > 0.0 {
+            (min, max - over)
         } else {
-            (least + over, most)
+            (min + over, max)
         };
-        let back_rad = if way < 0.0 { PI } else { 0.0 };
-        Sector::new(back_rad + least, back_rad + most, self.half_width_m)
+        let back_rad = if sign < 0.0 { PI } else { 0.0 };
+        Sector::new(back_rad + min, back_rad + max, self.half_width_m)
     }
 
-    /// The most, up to `wanted_m_s`, at which it can stop within `free_m` if it goes at `now_m_s`.
+    /// The maximum speed, up to `wanted_m_s`, from which the robot stops within `free_m` if its
+    /// current speed is `now_m_s`.
     #[inline]
     fn speed_m_s(&self, wanted_m_s: f64, now_m_s: f64, free_m: f64, period_s: f64) -> f64 {
-        if self.way_m(wanted_m_s, now_m_s, period_s) <= free_m {
+        if self.needed_m(wanted_m_s, now_m_s, period_s) <= free_m {
             return wanted_m_s;
         }
-        self.most_m_s(now_m_s, free_m, period_s).min(wanted_m_s)
+        self.max_m_s(now_m_s, free_m, period_s).min(wanted_m_s)
     }
 
-    /// How far it goes if it wants to go so fast for a period, and then brakes.
+    /// The distance that the robot moves if it changes to a speed, keeps it for a period and
+    /// brakes.
     #[inline]
-    fn way_m(&self, wanted_m_s: f64, now_m_s: f64, period_s: f64) -> f64 {
+    fn needed_m(&self, wanted_m_s: f64, now_m_s: f64, period_s: f64) -> f64 {
         let slowing_m_s = (now_m_s - wanted_m_s).max(0.0);
         let squares = wanted_m_s * wanted_m_s + slowing_m_s * slowing_m_s;
         wanted_m_s * period_s + squares * self.stopping_s2_m
     }
 
     /// The `v` with `v period + (v^2 + max(0, now - v)^2) / (2 a) = free`, or 0.
-    fn most_m_s(&self, now_m_s: f64, free_m: f64, period_s: f64) -> f64 {
+    fn max_m_s(&self, now_m_s: f64, free_m: f64, period_s: f64) -> f64 {
         if free_m <= 0.0 {
             return 0.0;
         }
@@ -235,10 +240,10 @@ fn positive_root(a: f64, b: f64, c: f64) -> f64 {
     2.0 * c / (b + libm::sqrt(b * b + 4.0 * a * c))
 }
 
-/// At most so far it went within the last `age_s` if it now goes at a speed: before that it was
-/// faster by what it can brake, and never faster than it can go.
+/// The maximum distance that the robot moved within the last `age_s`, given its current speed: it
+/// was faster before by what it can brake, but never faster than its maximum speed.
 #[inline]
-fn gone_m(body: &Body, speed_m_s: f64, age_s: f64) -> f64 {
+fn max_moved_m(body: &Body, speed_m_s: f64, age_s: f64) -> f64 {
     let braking_m_s = body.max_acceleration_m_s2 * age_s / 2.0;
     (speed_m_s + braking_m_s).min(body.max_speed_m_s) * age_s
 }
@@ -276,7 +281,7 @@ mod tests {
         }
     }
 
-    /// From very slow to very fast, sluggish to instant, near to far sighted.
+    /// Slow and fast, with weak and instant brakes, short and long sensor range.
     fn body() -> impl Strategy<Value = Body> {
         let steps = (0.01_f64..0.5, 0.05_f64..20.0);
         let brakes = prop_oneof![0.1_f64..30.0, Just(f64::INFINITY)];
@@ -314,66 +319,66 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(400))]
 
         #[test]
-        fn a_robot_that_goes_no_faster_than_it_sees_never_hits_a_wall(
+        fn a_robot_within_the_speed_limit_never_hits_a_wall(
             body in body(), wiring in wiring(), course in -3.1_f64..3.1, x in 0.6_f64..19.4,
         ) {
             let body = wired(body, wiring);
             let mut walk = Walk::new(body.clone(), room(20.0, 9.0), [x, 4.0], course);
             walk.wiring = wiring;
-            walk.go(&mut cruiser(&body), 600);
-            prop_assert!(walk.least_gap_m > 0.0, "{} m", walk.least_gap_m);
+            walk.run(&mut cruiser(&body), 600);
+            prop_assert!(walk.min_gap_m > 0.0, "{} m", walk.min_gap_m);
         }
 
         #[test]
-        fn it_hits_none_along_a_curve(
+        fn a_robot_on_a_curve_never_hits_a_wall(
             body in body(), wiring in wiring(), course in -3.1_f64..3.1, rate in -3.0_f64..3.0,
         ) {
             let body = wired(body, wiring);
-            let sight = super::SpeedGovernor::new(&body);
-            let mut moved = super::DeadReckoning::default();
+            let governor = super::SpeedGovernor::new(&body);
+            let mut odometry = super::DeadReckoning::default();
             let mut walk = Walk::new(body.clone(), room(20.0, 9.0), [7.0, 4.0], course);
             walk.wiring = wiring;
             for _ in 0..300 {
                 let percept = walk.percept();
-                let now_m_s = moved.now_m_s(&percept, &body);
+                let now_m_s = odometry.now_m_s(&percept, &body);
                 let situation = super::Situation {
                     beliefs: None,
                     percept: &percept,
                     body: &body,
-                    rings: &sight.rings,
-                    ahead: sight.ahead(&percept, &body, now_m_s),
+                    rings: &governor.rings,
+                    ahead: governor.ahead(&percept, &body, now_m_s),
                     turned_rad: 0.0,
                     now_m_s,
                 };
                 let wanted = Motion { speed_m_s: body.max_speed_m_s, turn_rate_rad_s: rate };
-                let motion = sight.limited(wanted, &situation, &moved);
-                moved.told(motion, &body);
+                let motion = governor.limit(wanted, &situation, &odometry);
+                odometry.told(motion, &body);
                 walk.step(motion);
             }
-            prop_assert!(walk.least_gap_m > 0.0, "{} m", walk.least_gap_m);
+            prop_assert!(walk.min_gap_m > 0.0, "{} m", walk.min_gap_m);
         }
     }
 
     #[test]
-    fn without_the_law_it_hits_the_wall() {
+    fn without_the_limit_a_robot_hits_the_wall() {
         let spec = BrainSpec {
             limit_speed_to_stopping_distance: false,
             ..cruising()
         };
         let mut walk = Walk::new(rover(), room(20.0, 9.0), [4.0, 4.0], 0.0);
-        walk.go(&mut Brain::new(Arc::new(spec), Arc::new(rover())), 300);
-        assert!(walk.least_gap_m <= 0.0);
+        walk.run(&mut Brain::new(Arc::new(spec), Arc::new(rover())), 300);
+        assert!(walk.min_gap_m <= 0.0);
     }
 
     #[test]
-    fn it_comes_near_to_the_wall_all_the_same() {
+    fn a_robot_within_the_limit_still_gets_near_the_wall() {
         let mut walk = Walk::new(rover(), room(20.0, 9.0), [4.0, 4.0], 0.3);
-        walk.go(&mut cruiser(&rover()), 600);
-        assert!(walk.least_gap_m < 0.1, "{} m", walk.least_gap_m);
+        walk.run(&mut cruiser(&rover()), 600);
+        assert!(walk.min_gap_m < 0.1, "{} m", walk.min_gap_m);
     }
 
     #[test]
-    fn it_stands_without_a_scan_and_with_a_stale_or_broken_one() {
+    fn a_robot_stands_still_without_a_valid_scan() {
         let body = rover();
         let free = vec![f64::INFINITY; 16];
         assert!(speed_m_s(&body, &scan(0.0, free.clone())) == 1.0);
@@ -392,7 +397,7 @@ mod tests {
     }
 
     #[test]
-    fn the_older_the_scan_the_slower_it_goes() {
+    fn an_older_scan_lowers_the_speed() {
         let mut body = rover();
         body.max_speed_m_s = 9.0;
         body.rings[0].period_s = 1.0;
@@ -401,7 +406,7 @@ mod tests {
     }
 
     #[test]
-    fn a_robot_without_range_sensors_or_with_some_that_look_aside_only_is_not_limited() {
+    fn a_robot_without_a_range_sensor_to_the_front_is_not_limited() {
         let mut body = rover();
         body.rings[0].bearings_rad = vec![1.5, -1.5];
         assert!(speed_m_s(&body, &Percept::default()) == 1.0);
@@ -410,17 +415,17 @@ mod tests {
     }
 
     #[test]
-    fn the_law_is_the_one_of_its_source() {
-        // v period + v^2 / (2 a) = free with nine tenths of a.
+    fn the_limit_matches_its_formula() {
+        // v period + v^2 / (2 a) = free, with 0.9 of the body's deceleration.
         let mut ranges = vec![f64::INFINITY; 16];
         ranges[0] = 0.3 + 0.25 * 1.05;
         let speed = speed_m_s(&rover(), &scan(0.0, ranges));
-        let way_m = 0.1 * speed + speed * speed / (2.0 * 0.9);
-        assert!((way_m - 0.3).abs() < 1e-12, "{speed}");
+        let needed_m = 0.1 * speed + speed * speed / (2.0 * 0.9);
+        assert!((needed_m - 0.3).abs() < 1e-12, "{speed}");
     }
 
     #[test]
-    fn it_stops_before_a_wall_though_every_range_is_four_per_cent_too_far() {
+    fn a_robot_stops_before_a_wall_although_every_range_is_four_per_cent_too_long() {
         let mut body = rover();
         (body.max_speed_m_s, body.rings[0].range_m) = (5.0, 10.0);
         let across = Segment {
@@ -436,11 +441,11 @@ mod tests {
             let motion = brain.step(&percept).motion;
             walk.step(motion);
         }
-        assert!(walk.at.x > 11.0 && walk.least_gap_m > 0.0, "{:?}", walk.at);
+        assert!(walk.at.x > 11.0 && walk.min_gap_m > 0.0, "{:?}", walk.at);
     }
 
     #[test]
-    fn what_a_ring_at_the_side_sees_in_the_way_stops_it() {
+    fn an_obstacle_ahead_that_only_a_ring_at_the_side_detects_stops_the_robot() {
         let mut body = rover();
         let mut side = body.rings[0].clone();
         (body.rings[0].bearings_rad, side.bearings_rad) = (vec![-0.1, 0.0, 0.1], vec![0.9, 1.1]);
@@ -460,7 +465,7 @@ mod tests {
     }
 
     #[test]
-    fn it_passes_a_door_that_is_a_hand_wider_than_itself() {
+    fn a_robot_passes_a_door_twenty_centimetres_wider_than_itself() {
         let mut walls = room(8.0, 4.0);
         for wall in [
             [[4.0, 0.0], [4.0, 1.65], [4.1, 1.65], [4.1, 0.0]],
@@ -469,12 +474,12 @@ mod tests {
             walls.extend(outline(&wall));
         }
         let mut walk = Walk::new(rover(), walls, [1.0, 2.0], 0.0);
-        walk.go(&mut cruiser(&rover()), 200);
+        walk.run(&mut cruiser(&rover()), 200);
         assert!(walk.at.x > 7.0, "{:?}", walk.at);
     }
 
     #[test]
-    fn backing_it_stops_before_a_wall_too() {
+    fn a_reversing_robot_stops_before_a_wall() {
         let mut body = rover();
         body.max_reverse_speed_m_s = 1.0;
         let across = Segment {
@@ -488,16 +493,12 @@ mod tests {
             })],
             ..BrainSpec::default()
         };
-        walk.go(&mut Brain::new(Arc::new(spec), Arc::new(body)), 100);
-        assert!(
-            (0.0..0.1).contains(&walk.least_gap_m),
-            "{}",
-            walk.least_gap_m
-        );
+        walk.run(&mut Brain::new(Arc::new(spec), Arc::new(body)), 100);
+        assert!((0.0..0.1).contains(&walk.min_gap_m), "{}", walk.min_gap_m);
     }
 
     #[test]
-    fn a_command_of_a_step_into_is_the_same_as_that_of_a_step() {
+    fn step_into_returns_the_same_command_as_step() {
         let percept = scan(0.0, vec![1.0; 16]);
         let mut command = Command::default();
         cruiser(&rover()).step_into(&percept, &mut command);

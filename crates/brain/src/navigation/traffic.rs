@@ -1,25 +1,29 @@
-//! Keeping out of each other's way.
+//! Collision avoidance between robots.
 //!
-//! Whoever moves has a stopping way: from where it is to where it stands if it brakes now. Between the
-//! stopping ways of two robots runs the line that is as far from both as can be. **Each keeps its next
-//! stopping way on its own side of that line**, half of both radii away from it. Braking always does:
-//! the rest of a stopping way is part of it. So whatever two robots want that both follow this rule,
-//! they never meet, and nobody needs to know what the other wants; a robot that stands may turn.
+//! A moving robot has a stopping path: from its position to where it stands if it brakes now. A
+//! line separates the stopping paths of two robots, half way between their nearest points. **Each
+//! robot keeps its next stopping path on its own side of that line**, at a distance of half the sum
+//! of both radii. Braking always satisfies this: the rest of a stopping path is part of it. So
+//! robots that both follow this rule never collide, whatever they want to do, and neither needs to
+//! know what the other wants. A robot that stands still may turn.
 //!
 //! ```text
-//!      me ----> |     /          The line stands across the shortest way between the
-//!               | gap           two stopping ways. Who comes from the side may pass
-//!               |     \          along it.
-//!   <- stopping | stopping <---- other
+//!          stopping path         |         stopping path
+//!   robot ----------------->     |     <----------------- other robot
+//!                            gap / 2   gap / 2
 //! ```
 //!
-//! Others see where one went in the last step, not where he points at its end. Who turns while he goes
-//! therefore leaves as much more room as the end of his stopping way is aside of where others see it.
-//! What crosses cannot be kept apart: then both brake.
+//! The line is perpendicular to the shortest connection of the two paths: a robot that comes from
+//! the side may pass along it.
 //!
-//! The idea is that of buffered Voronoi cells (Zhou, Wang, Bandyopadhyay and Schwager, *Fast, on-line
-//! collision avoidance for dynamic vehicles using buffered Voronoi cells*, 2017), which are between
-//! points and hold for bodies that stop at once; here they are between stopping ways.
+//! Others observe the direction of a robot's last motion, not its heading at the end of the step. A
+//! robot that turns while it moves therefore leaves additional room: the lateral distance between
+//! the end of its stopping path and where others assume it. If two stopping paths cross, they
+//! cannot be separated: then both robots brake.
+//!
+//! The idea is that of buffered Voronoi cells (Zhou, Wang, Bandyopadhyay and Schwager, *Fast,
+//! on-line collision avoidance for dynamic vehicles using buffered Voronoi cells*, 2017), which
+//! separate points and hold for robots that stop at once; here they separate stopping paths.
 
 use crate::io::body::Body;
 use crate::io::command::Motion;
@@ -28,52 +32,59 @@ use crate::perception::sector::direction;
 use alloc::vec::Vec;
 use base::geometry::{Point, Segment};
 
-/// Room between two hulls, in metres, besides what sensors err by.
-const ROOM_M: f64 = 0.02;
+/// Clearance between two robots in addition to the sensor error, in metres.
+const CLEARANCE_M: f64 = 0.02;
 
-/// It counts on this share of its brakes, and on others' too.
+/// Fraction of the maximum deceleration that is relied on, of this robot and of others.
 const BRAKING: f64 = 0.9;
 
-/// Positions may err by so many standard deviations.
+/// Allowance for the error of positions, in standard deviations.
 const DEVIATIONS: f64 = 3.0;
 
-/// A line that must not be crossed: what it keeps apart is `normal . point <= most`.
+/// A line that the robot must not cross: points on its side satisfy `normal . point <= max`.
 #[derive(Debug, Clone, Copy)]
 struct Line {
     normal: Point,
-    most: f64,
+    max: f64,
 }
 
-/// The lines towards all others nearby.
+/// The lines between this robot and all others nearby.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Traffic {
     lines: Vec<Line>,
 }
 
 impl Traffic {
-    /// Draws the lines anew, for a robot that goes at a speed and has turned in its last step.
-    pub(crate) fn look(&mut self, movers: &[Mover], body: &Body, [now_m_s, turned_rad]: [f64; 2]) {
+    /// Computes the lines for a robot that moves at a speed and turned by an angle in its last
+    /// step.
+    pub(crate) fn update(
+        &mut self,
+        movers: &[Mover],
+        body: &Body,
+        [now_m_s, turned_rad]: [f64; 2],
+    ) {
         self.lines.clear();
-        let own = stopping_way(body, Point::default(), now_m_s, 0.0);
+        let own = stopping_path(body, Point::default(), now_m_s, 0.0);
         let lag_m = lag_m(&own, turned_rad);
         for mover in movers {
             self.lines.extend(line(&own, lag_m, mover, body));
         }
     }
 
-    /// What of a motion keeps to all lines: slower, or straight on while it brakes.
-    pub(crate) fn limited(&self, wanted: Motion, body: &Body, now_m_s: f64) -> Motion {
+    /// The motion nearest to the wanted one that keeps to all lines: slower, with less of a turn,
+    /// or braking straight ahead.
+    pub(crate) fn limit(&self, wanted: Motion, body: &Body, now_m_s: f64) -> Motion {
         let is_turning_only = now_m_s == 0.0 && wanted.speed_m_s == 0.0;
         if self.lines.is_empty() || is_turning_only {
             return wanted;
         }
         for turn in [1.0, 0.5, 0.0] {
-            for share in [1.0, 0.75, 0.5, 0.25, 0.0] {
+            for speed in [1.0, 0.75, 0.5, 0.25, 0.0] {
                 let motion = Motion {
-                    speed_m_s: wanted.speed_m_s * share,
+                    speed_m_s: wanted.speed_m_s * speed,
                     turn_rate_rad_s: wanted.turn_rate_rad_s * turn,
                 };
-                if self.keeps(motion, body, now_m_s) {
+                if self.allows(motion, body, now_m_s) {
                     return motion;
                 }
             }
@@ -88,35 +99,36 @@ impl Traffic {
         }
     }
 
-    /// Whether the stopping way after a step of a motion is on this side of every line.
-    fn keeps(&self, motion: Motion, body: &Body, now_m_s: f64) -> bool {
+    /// Whether the stopping path after one step of a motion is on this side of every line.
+    fn allows(&self, motion: Motion, body: &Body, now_m_s: f64) -> bool {
         let period_s = body.period_s;
-        let most_m_s = body.max_acceleration_m_s2 * period_s;
-        let change_m_s = (motion.speed_m_s - now_m_s).max(-most_m_s).min(most_m_s);
+        let max_change_m_s = body.max_acceleration_m_s2 * period_s;
+        let change_m_s = (motion.speed_m_s - now_m_s)
+            .max(-max_change_m_s)
+            .min(max_change_m_s);
         let then_m_s = now_m_s + change_m_s;
         let change_s = change_m_s.abs() / body.max_acceleration_m_s2;
         let turned_rad = motion.turn_rate_rad_s * period_s;
-        // At once to the new speed, as far as that goes, and then on with it.
-        let way_m = then_m_s * period_s - change_m_s * change_s / 2.0;
-        let there = direction(turned_rad / 2.0).times(way_m);
-        let stopping = stopping_way(body, there, then_m_s, turned_rad);
-        let bulge_m = (way_m * turned_rad / 8.0).abs();
+        // It accelerates at the start of the step, and then keeps the new speed.
+        let distance_m = then_m_s * period_s - change_m_s * change_s / 2.0;
+        let position = direction(turned_rad / 2.0).times(distance_m);
+        let stopping = stopping_path(body, position, then_m_s, turned_rad);
+        let bulge_m = (distance_m * turned_rad / 8.0).abs();
         let lag_m = lag_m(&stopping, turned_rad) + bulge_m;
-        [stopping.from, stopping.to].iter().all(|place| {
+        [stopping.from, stopping.to].iter().all(|end| {
             let mut lines = self.lines.iter();
-            lines.all(|line| line.normal.dot(*place) <= line.most - lag_m)
+            lines.all(|line| line.normal.dot(*end) <= line.max - lag_m)
         })
     }
 }
 
-/// So far aside others see the end of a stopping way after a turn: they know where one went in the step,
-/// not where he points at its end.
+/// Lateral distance, after a turn, between the end of a stopping path and where others assume it:
+/// they know the direction of the motion in the step, not the heading at its end.
 fn lag_m(stopping: &Segment, turned_rad: f64) -> f64 {
     stopping.length_m() * turned_rad.abs() / 2.0
 }
 
-/// From a place to where it stands if it brakes there.
-fn stopping_way(body: &Body, from: Point, speed_m_s: f64, heading_rad: f64) -> Segment {
+fn stopping_path(body: &Body, from: Point, speed_m_s: f64, heading_rad: f64) -> Segment {
     let braking = BRAKING * body.max_acceleration_m_s2;
     let stopping_m = speed_m_s * speed_m_s.abs() / (2.0 * braking);
     Segment {
@@ -125,9 +137,10 @@ fn stopping_way(body: &Body, from: Point, speed_m_s: f64, heading_rad: f64) -> S
     }
 }
 
-/// The line between this robot's stopping way and that of another.
+/// The line between this robot's stopping path and that of another.
 ///
-/// The other's speed was measured over its last step: it may have grown in it by half of what it can.
+/// The other's speed is an average over its last step: since then, it may have increased by half of
+/// what its acceleration allows.
 fn line(own: &Segment, lag_m: f64, mover: &Mover, body: &Body) -> Option<Line> {
     let braking = BRAKING * mover.braking_m_s2;
     let speed_m_s = mover.speed_m_s();
@@ -146,25 +159,26 @@ fn line(own: &Segment, lag_m: f64, mover: &Mover, body: &Body) -> Option<Line> {
     let between = here.to(there);
     let gap_m = between.length();
     if gap_m <= 0.0 {
-        // They cross: all that is left is to brake.
-        let is_anybody_moving = own.length_m() + other.length_m() > 0.0;
-        return is_anybody_moving.then_some(Line {
+        // The paths cross. No motion satisfies this line, so that the robot brakes.
+        let is_any_moving = own.length_m() + other.length_m() > 0.0;
+        return is_any_moving.then_some(Line {
             normal: Point::default(),
-            most: f64::NEG_INFINITY,
+            max: f64::NEG_INFINITY,
         });
     }
     let normal = between.times(1.0 / gap_m);
     let error_m = DEVIATIONS * body.neighbour_noise_m;
-    let half_m = (body.radius_m + mover.radius_m + ROOM_M + error_m) / 2.0;
-    // Who is too near already must not come nearer, nor to one of whom nobody knows how fast he goes.
-    let left_m = if mover.looks > 1 {
+    let half_m = (body.radius_m + mover.radius_m + CLEARANCE_M + error_m) / 2.0;
+    // Robots that are too near already must not come nearer. The same holds for a mover that was
+    // observed only once, whose velocity is unknown.
+    let free_m = if mover.looks > 1 {
         (gap_m / 2.0 - half_m - lag_m).max(0.0)
     } else {
         0.0
     };
     Some(Line {
         normal,
-        most: normal.dot(here) + left_m,
+        max: normal.dot(here) + free_m,
     })
 }
 

@@ -1,26 +1,27 @@
-//! Motor schemas: what all behaviours want, as one sum of vectors.
+//! Motor schemas: the proposals of all behaviours as one sum of vectors.
 //!
-//! After Arkin, *Motor schema-based mobile robot navigation*, International Journal of Robotics Research
-//! 8(4), 1989. In units of the fastest that the body can, from its front:
+//! After Arkin, *Motor schema-based mobile robot navigation*, International Journal of Robotics
+//! Research 8(4), 1989. In units of the maximum speed of the body, relative to its front:
 //!
 //! ```text
-//! sum = mean of what behaviours want, by their gains       length 0 to 1
-//!     + repulsion x what obstacles repel                   0 beyond the influence, 1 at contact
-//!     + noise gain x a random direction                    kept for a time, then drawn anew
+//! sum = mean of the proposals, weighted by gains     length 0 to 1
+//!     + repulsion gain x repulsion of obstacles      0 beyond the influence, 1 at contact
+//!     + noise gain x random direction                kept for a time, then drawn again
 //!
-//! behaviour wants    vector
-//! to be somewhere    towards the place, as long as its speed
-//! a motion           [speed / fastest, turn rate / fastest], at most 1 long
+//! proposal       vector
+//! destination    towards it, as long as its speed
+//! motion         [speed / max speed, turn rate / max turn rate], at most 1 long
 //! ```
 //!
-//! The robot turns to where the sum points, and goes as fast as the sum is long, but no faster than any
-//! behaviour wants. Where the sum is nothing it would stay for ever, as in a dead end before its goal; so
-//! the noise [grows](noise) while it gets nowhere. Since what behaviours want is a mean, what `repulsion`
-//! and `noise` are beside it is the same for one behaviour or ten.
+//! The robot turns to the direction of the sum, and its speed is the length of the sum, but at most
+//! the highest speed that a behaviour proposes. Where the sum vanishes, as in a dead end before a
+//! destination, the robot would stop for ever; so the noise [grows](noise) while the robot is
+//! blocked. Since the proposals are averaged, the relative weight of `repulsion` and `noise` does
+//! not depend on the number of behaviours.
 
 mod noise;
+mod proposal_mean;
 mod repulsion;
-mod wanted;
 
 use crate::arbitration::subsumption::{Layer, step};
 use crate::behaviours::{Memory, Ready};
@@ -30,9 +31,9 @@ use alloc::collections::BTreeMap;
 use alloc::string::String;
 use alloc::vec::Vec;
 pub(crate) use noise::Noise;
+use proposal_mean::{ProposalMean, along};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use wanted::{GoalState, along};
 
 /// Parameters of motor schemas.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -83,16 +84,16 @@ impl Default for Schemas {
     }
 }
 
-/// [`Schemas`] of a kind of robots.
+/// [`Schemas`] of a kind of robot.
 #[derive(Debug, Clone)]
 pub(crate) struct Sum {
     spec: Schemas,
-    /// By the behaviours' places.
+    /// In the order of the behaviours.
     gains: Vec<Option<f64>>,
 }
 
 impl Sum {
-    /// Of behaviours with these names.
+    /// For behaviours with these names.
     pub(crate) fn new<'n>(spec: &Schemas, names: impl Iterator<Item = &'n str>) -> Self {
         Self {
             spec: spec.clone(),
@@ -100,7 +101,7 @@ impl Sum {
         }
     }
 
-    /// The motion along the sum; to stand, if no behaviour wants to move.
+    /// The motion along the sum; the robot stands still if no behaviour proposes to move.
     pub(crate) fn motion(
         &self,
         behaviours: &[Ready],
@@ -108,22 +109,22 @@ impl Sum {
         noise: &mut Noise,
         situation: &Situation,
     ) -> Motion {
-        let mut wanted = GoalState::default();
+        let mut proposals = ProposalMean::default();
         for ((behaviour, layer), gain) in behaviours.iter().zip(layers).zip(&self.gains) {
             if let Some(proposal) = step(behaviour, layer, situation) {
-                wanted.add(&proposal, *gain, situation);
+                proposals.add(&proposal, *gain, situation);
             }
         }
-        let noise = noise.vector(&self.spec, wanted.most > 0.0, situation);
-        if wanted.most <= 0.0 {
+        let noise = noise.vector(&self.spec, proposals.max_speed > 0.0, situation);
+        if proposals.max_speed <= 0.0 {
             return Motion::default();
         }
-        let repelled = repulsion::vector(self.spec.influence_m, situation);
-        let sum = wanted
+        let repulsion = repulsion::vector(self.spec.influence_m, situation);
+        let sum = proposals
             .mean()
-            .plus(repelled.times(self.spec.repulsion))
+            .plus(repulsion.times(self.spec.repulsion))
             .plus(noise);
-        along(sum, wanted.most, situation.body)
+        along(sum, proposals.max_speed, situation.body)
     }
 }
 
@@ -139,7 +140,7 @@ mod tests {
     use core::f64::consts::FRAC_PI_3;
     use std::sync::Arc;
 
-    /// One that turns at once to where it wants, so that its rate of turn says where that is.
+    /// It turns to any heading within one step, so that its turn rate is that heading.
     fn nimble() -> Body {
         Body {
             max_turn_rate_rad_s: 100.0,
@@ -147,7 +148,7 @@ mod tests {
         }
     }
 
-    fn still() -> Schemas {
+    fn without_noise() -> Schemas {
         Schemas {
             noise: 0.0,
             max_noise: 0.0,
@@ -171,7 +172,7 @@ mod tests {
         })
     }
 
-    fn to(x: f64, y: f64, value: f64) -> BehaviourSpec {
+    fn navigate_to(x: f64, y: f64, value: f64) -> BehaviourSpec {
         BehaviourSpec::Navigate(Navigate {
             waypoints_m: vec![Point { x, y }],
             value,
@@ -179,7 +180,7 @@ mod tests {
         })
     }
 
-    /// At the origin, along x, with these ranges of 16 rays all around.
+    /// At the origin, facing along x, with these ranges of 16 rays; all others are free.
     fn percept(near: &[(usize, f64)]) -> Percept {
         let mut ranges_m = vec![f64::INFINITY; 16];
         for (ray, range_m) in near {
@@ -196,7 +197,7 @@ mod tests {
         }
     }
 
-    /// Where it turns to, and how fast it goes.
+    /// The angle by which it turns, and its speed.
     fn motion(schemas: Schemas, behaviours: Vec<BehaviourSpec>, percept: &Percept) -> [f64; 2] {
         let motion = brain(schemas, behaviours, nimble()).step(percept).motion;
         [motion.turn_rate_rad_s * 0.1, motion.speed_m_s]
@@ -211,50 +212,56 @@ mod tests {
     }
 
     #[test]
-    fn two_attractions_make_the_mean_of_their_directions_by_their_gains() {
+    fn two_destinations_are_averaged_by_their_gains() {
         // 3/4 along x and 1/4 along y.
         let turn_rad = 1.0_f64.atan2(3.0);
         let speed_m_s = 10.0_f64.sqrt() / 4.0 * (1.0 - turn_rad / FRAC_PI_3);
-        let both = vec![to(9.0, 0.0, 3.0), to(0.0, 9.0, 1.0)];
-        assert_near(motion(still(), both, &percept(&[])), [turn_rad, speed_m_s]);
-        // The same by a gain: what it wants at a place is worth 0.1 without.
-        let stay = BehaviourSpec::HoldPosition(HoldPosition {
+        let both = vec![navigate_to(9.0, 0.0, 3.0), navigate_to(0.0, 9.0, 1.0)];
+        assert_near(
+            motion(without_noise(), both, &percept(&[])),
+            [turn_rad, speed_m_s],
+        );
+        // The same with gains, which replace the values.
+        let hold = BehaviourSpec::HoldPosition(HoldPosition {
             at_m: Some(Point { x: 0.0, y: 9.0 }),
             ..HoldPosition::default()
         });
         let schemas = Schemas {
             gains: [("navigate".into(), 6.0), ("hold_position".into(), 2.0)].into(),
-            ..still()
+            ..without_noise()
         };
-        let both = vec![stay, to(9.0, 0.0, 1.0)];
+        let both = vec![hold, navigate_to(9.0, 0.0, 1.0)];
         assert_near(motion(schemas, both, &percept(&[])), [turn_rad, speed_m_s]);
     }
 
     #[test]
-    fn a_motion_is_a_vector_too_and_needs_no_mind() {
+    fn motions_and_destinations_are_averaged_and_motions_need_no_beliefs() {
         assert_near(
-            motion(still(), vec![cruise(0.6)], &Percept::default()),
+            motion(without_noise(), vec![cruise(0.6)], &Percept::default()),
             [0.0, 0.6],
         );
-        let both = vec![cruise(1.0), to(0.0, 9.0, 1.0)];
+        let both = vec![cruise(1.0), navigate_to(0.0, 9.0, 1.0)];
         let turn_rad = core::f64::consts::FRAC_PI_4;
         let speed_m_s = 0.5_f64.sqrt() * (1.0 - turn_rad / FRAC_PI_3);
-        assert_near(motion(still(), both, &percept(&[])), [turn_rad, speed_m_s]);
+        assert_near(
+            motion(without_noise(), both, &percept(&[])),
+            [turn_rad, speed_m_s],
+        );
     }
 
     #[test]
-    fn it_goes_no_faster_than_any_behaviour_wants_whatever_repels_it() {
+    fn repulsion_does_not_raise_the_speed_above_that_of_the_behaviours() {
         let many = vec![cruise(0.4), cruise(0.4), cruise(0.4)];
-        // At contact behind.
+        // An obstacle behind, at contact.
         let percept = percept(&[(8, 0.25)]);
-        assert_near(motion(still(), many, &percept), [0.0, 0.4]);
+        assert_near(motion(without_noise(), many, &percept), [0.0, 0.4]);
     }
 
     #[test]
     fn an_obstacle_repels_linearly_from_its_influence_to_contact() {
         let schemas = Schemas {
             repulsion: 1.0,
-            ..still()
+            ..without_noise()
         };
         for (gap_m, speed_m_s) in [
             (1.5, 1.0),
@@ -270,18 +277,18 @@ mod tests {
         let left = percept(&[(4, 0.75)]);
         let [turn_rad, _] = motion(schemas.clone(), vec![cruise(1.0)], &left);
         assert!((turn_rad + 0.5_f64.atan()).abs() < 1e-9, "{turn_rad}");
-        // Between two walls alike nothing is left.
+        // Equal walls on both sides cancel out.
         let both = percept(&[(4, 0.75), (12, 0.75)]);
         assert_near(motion(schemas, vec![cruise(1.0)], &both), [0.0, 1.0]);
     }
 
     #[test]
-    fn who_wants_nothing_stands() {
+    fn without_a_proposal_to_move_the_robot_stands_still() {
         let schemas = Schemas {
             noise: 5.0,
             ..Schemas::default()
         };
-        let there = vec![to(0.1, 0.0, 1.0)];
+        let there = vec![navigate_to(0.1, 0.0, 1.0)];
         let near = percept(&[(0, 0.3)]);
         assert_near(motion(schemas.clone(), there, &near), [0.0, 0.0]);
         let muted = Schemas {
@@ -292,7 +299,7 @@ mod tests {
     }
 
     #[test]
-    fn a_room_is_roamed_and_its_walls_are_not_touched() {
+    fn a_robot_roams_a_room_without_touching_its_walls() {
         let body = rover();
         let mut walk = Walk::new(body.clone(), room(8.0, 8.0), [2.0, 3.0], 0.4);
         let spec = BrainSpec {
@@ -303,7 +310,7 @@ mod tests {
         let mut brain = Brain::new(Arc::new(spec), Arc::new(body));
         let mut bounds = [walk.at, walk.at];
         for _ in 0..3000 {
-            walk.go(&mut brain, 1);
+            walk.run(&mut brain, 1);
             let [low, high] = &mut bounds;
             *low = Point {
                 x: low.x.min(walk.at.x),
@@ -316,6 +323,6 @@ mod tests {
         }
         let size = bounds[0].to(bounds[1]);
         assert!(size.x > 4.0 && size.y > 4.0, "{size:?}");
-        assert!(walk.least_gap_m > 0.0, "{}", walk.least_gap_m);
+        assert!(walk.min_gap_m > 0.0, "{}", walk.min_gap_m);
     }
 }

@@ -1,7 +1,7 @@
-//! Noise that grows while a robot gets nowhere.
+//! Noise that grows while a robot is blocked.
 //!
-//! Gains that change with how the robot fares are after Clark, Arkin and Ram, *Learning momentum: on-line
-//! performance enhancement for reactive systems*, 1992.
+//! Gains that adapt to the robot's progress are after Clark, Arkin and Ram, *Learning momentum:
+//! on-line performance enhancement for reactive systems*, 1992.
 
 use super::Schemas;
 use crate::perception::beliefs::pose::turned;
@@ -11,20 +11,22 @@ use base::geometry::Point;
 use base::trig::wrapped;
 use core::f64::consts::PI;
 
-/// It falls at this share of the rate at which it grows: who comes back to a dead end still has some.
-const FALLS: f64 = 0.25;
+/// The noise falls at this fraction of the rate at which it grows, so that some is left when the
+/// robot returns to a dead end.
+const FALL_RATE: f64 = 0.25;
 
-/// One robot's noise. It needs no position: wheels and turns say how far it has come.
+/// The noise of one robot. It needs no position: the distance covered comes from odometry.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Noise {
-    /// What it has grown by.
-    more: f64,
-    /// From the robot's front, and for how long it stays.
-    towards_rad: f64,
-    stays_s: f64,
-    /// The middle of the circle that it has not left, from its front, and since when.
-    from: Point,
-    since_s: f64,
+    /// Amount by which it has grown.
+    growth: f64,
+    /// The random direction, relative to the robot's front, and the time until the next one.
+    direction_rad: f64,
+    next_in_s: f64,
+    /// The centre of the circle that the robot has not left, relative to its front, and the time
+    /// since when.
+    centre: Point,
+    within_s: f64,
 }
 
 impl Noise {
@@ -32,50 +34,57 @@ impl Noise {
     pub(super) fn vector(
         &mut self,
         spec: &Schemas,
-        wants_to_move: bool,
+        is_motion_proposed: bool,
         situation: &Situation,
     ) -> Point {
-        self.move_on(situation);
-        let has_left = self.from.length() > spec.blocked_within_m;
-        if has_left || !wants_to_move {
-            (self.from, self.since_s) = (Point::default(), 0.0);
+        self.advance(situation);
+        let has_left = self.centre.length() > spec.blocked_within_m;
+        if has_left || !is_motion_proposed {
+            (self.centre, self.within_s) = (Point::default(), 0.0);
         }
         self.grow(spec, situation.body.period_s);
-        if self.stays_s <= 0.0 {
+        if self.next_in_s <= 0.0 {
             self.draw(situation);
-            self.stays_s = spec.noise_s;
+            self.next_in_s = spec.noise_s;
         }
-        self.stays_s -= situation.body.period_s;
-        direction(self.towards_rad).times(spec.noise + self.more)
+        self.next_in_s -= situation.body.period_s;
+        direction(self.direction_rad).times(spec.noise + self.growth)
     }
 
-    /// Carries on what it knows from its front.
-    fn move_on(&mut self, situation: &Situation) {
-        let (turned_rad, way_m) = (
+    /// Moves the direction and the centre to the robot's new front.
+    fn advance(&mut self, situation: &Situation) {
+        let (turned_rad, distance_m) = (
             situation.turned_rad,
             situation.now_m_s * situation.body.period_s,
         );
-        self.towards_rad = wrapped(self.towards_rad - turned_rad);
-        let gone = Point { x: way_m, y: 0.0 };
-        self.from = turned(gone.to(self.from), direction(-turned_rad));
-        self.since_s += situation.body.period_s;
+        self.direction_rad = wrapped(self.direction_rad - turned_rad);
+        let moved = Point {
+            x: distance_m,
+            y: 0.0,
+        };
+        self.centre = turned(moved.to(self.centre), direction(-turned_rad));
+        self.within_s += situation.body.period_s;
     }
 
     fn grow(&mut self, spec: &Schemas, period_s: f64) {
-        let most = (spec.max_noise - spec.noise).max(0.0);
-        let change = most * period_s / spec.blocked_after_s;
-        let is_blocked = self.since_s > spec.blocked_after_s;
-        let change = if is_blocked { change } else { -FALLS * change };
-        self.more = (self.more + change).max(0.0).min(most);
+        let max_growth = (spec.max_noise - spec.noise).max(0.0);
+        let change = max_growth * period_s / spec.blocked_after_s;
+        let is_blocked = self.within_s > spec.blocked_after_s;
+        let change = if is_blocked {
+            change
+        } else {
+            -FALL_RATE * change
+        };
+        self.growth = (self.growth + change).max(0.0).min(max_growth);
     }
 
     fn draw(&mut self, situation: &Situation) {
-        let mut dice = situation.dice();
-        // The first four numbers are for behaviours.
+        let mut random = situation.dice();
+        // The first four numbers belong to the behaviours.
         (0..4).for_each(|_| {
-            dice.unit();
+            random.unit();
         });
-        self.towards_rad = dice.between(-PI, PI);
+        self.direction_rad = random.between(-PI, PI);
     }
 }
 
@@ -85,7 +94,7 @@ mod tests {
     use crate::Percept;
     use crate::world_of_walls::rover;
 
-    /// How long the noise of a robot is after each of so many seconds at a speed.
+    /// The length of a robot's noise after each second at a speed.
     fn lengths(noise: &mut Noise, speed_m_s: f64, seconds: u32) -> Vec<f64> {
         let (body, spec) = (rover(), Schemas::default());
         let situation = Situation {
@@ -103,12 +112,12 @@ mod tests {
     }
 
     #[test]
-    fn it_grows_while_the_robot_gets_nowhere_and_falls_slower_while_it_does() {
+    fn noise_grows_while_the_robot_is_blocked_and_falls_more_slowly_when_it_moves() {
         let mut noise = Noise::default();
         let stuck = lengths(&mut noise, 0.0, 20);
         let near = |length: f64, expected: f64| (length - expected).abs() < 0.1;
         assert!(stuck[..5].iter().all(|length| near(*length, 0.1)));
-        // By 2.9 within 5 s, and then no more.
+        // It grows by 2.9 within 5 s, and then stays.
         assert!(
             near(stuck[7], 0.1 + 2.9 * 3.0 / 5.0) && near(stuck[19], 3.0),
             "{stuck:?}"
@@ -119,11 +128,11 @@ mod tests {
     }
 
     #[test]
-    fn a_direction_is_kept_for_its_time_also_while_the_robot_turns() {
+    fn a_direction_is_kept_for_its_time_while_the_robot_turns() {
         let (body, spec) = (rover(), Schemas::default());
         let mut noise = Noise::default();
         let mut heading_rad = 0.0;
-        let courses = (0..80_u32).map(|step| {
+        let directions = (0..80_u32).map(|step| {
             let percept = Percept {
                 dice: [step; 4],
                 ..Percept::default()
@@ -141,16 +150,16 @@ mod tests {
             let vector = noise.vector(&spec, true, &situation);
             wrapped(heading_rad + libm::atan2(vector.y, vector.x))
         });
-        let courses: Vec<f64> = courses.collect();
+        let directions: Vec<f64> = directions.collect();
         let is_same = |pair: &[f64]| wrapped(pair[0] - pair[1]).abs() < 1e-9;
         let changes: Vec<usize> = (1..80)
-            .filter(|step| !is_same(&courses[step - 1..=*step]))
+            .filter(|step| !is_same(&directions[step - 1..=*step]))
             .collect();
         assert_eq!(changes, [40]);
     }
 
     #[test]
-    fn noise_that_must_not_grow_stays() {
+    fn noise_without_room_to_grow_stays_constant() {
         let (body, spec) = (
             rover(),
             Schemas {
@@ -171,8 +180,8 @@ mod tests {
         };
         let mut noise = Noise::default();
         for _ in 0..200 {
-            let more = noise.vector(&spec, true, &situation).length() - 0.5;
-            assert!(more.abs() < 1e-9 && noise.more == 0.0);
+            let growth = noise.vector(&spec, true, &situation).length() - 0.5;
+            assert!(growth.abs() < 1e-9 && noise.growth == 0.0);
         }
     }
 }

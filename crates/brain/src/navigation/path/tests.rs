@@ -6,7 +6,6 @@ use proptest::prelude::*;
 const COLUMNS: usize = 14;
 const ROWS: usize = 11;
 
-/// Cells are this wide, in metres.
 const CELL_M: f64 = 0.5;
 
 fn field() -> Field {
@@ -34,65 +33,65 @@ fn map(is_filled: impl Fn(usize, usize) -> bool) -> Occupancy {
     map
 }
 
-/// A map as one draws it, the highest row first.
+/// A map from a drawing, the highest row first.
 fn drawn(rows: [&str; ROWS]) -> Occupancy {
     map(|column, row| rows[ROWS - 1 - row].as_bytes()[column] == b'#')
 }
 
-fn place(column: usize, row: usize) -> Point {
+fn point(column: usize, row: usize) -> Point {
     field().centre(row * COLUMNS + column)
 }
 
-fn wave(map: &Occupancy, from: Point, radius_m: f64) -> Wave {
-    let mut wave = Wave::default();
-    wave.run((&field(), map), from, radius_m, |_, _| true);
-    wave
+fn wavefront(map: &Occupancy, origin: Point, radius_m: f64) -> Wavefront {
+    let mut wavefront = Wavefront::default();
+    wavefront.expand((&field(), map), origin, radius_m, |_, _| true);
+    wavefront
 }
 
 /// Whether a body of this radius fits into each cell.
-fn opens(map: &Occupancy, radius_m: f64) -> Vec<bool> {
+fn open_cells(map: &Occupancy, radius_m: f64) -> Vec<bool> {
     let field = field();
     let is_near =
         |cell: usize, other: usize| field.centre(cell).to(field.centre(other)).length() <= radius_m;
-    let is_open = |cell| {
+    let fits = |cell| {
         !map.filled()
             .any(|other| other == cell || is_near(cell, other))
     };
-    (0..field.cells()).map(is_open).collect()
+    (0..field.cells()).map(fits).collect()
 }
 
-/// The plainest way to find all distances: until nothing changes.
-fn distances(opens: &[bool], from: usize) -> Vec<Option<u16>> {
-    let mut all = vec![NEVER; opens.len()];
-    all[from] = 0;
+/// Reference: relaxes all steps until no distance changes.
+fn distances(is_open: &[bool], from: usize) -> Vec<Option<u16>> {
+    let mut costs = vec![UNREACHED; is_open.len()];
+    costs[from] = 0;
     let mut is_changing = true;
     while is_changing {
         is_changing = false;
-        for (cell, next, step) in steps(opens) {
-            let fifths = all[cell].saturating_add(step);
-            if fifths < all[next] {
-                all[next] = fifths;
+        for (cell, next, step) in steps(is_open) {
+            let cost = costs[cell].saturating_add(step);
+            if cost < costs[next] {
+                costs[next] = cost;
                 is_changing = true;
             }
         }
     }
-    let reached = all.into_iter();
-    reached
-        .map(|fifths| (fifths < NEVER).then_some(fifths))
+    let costs = costs.into_iter();
+    costs
+        .map(|cost| (cost < UNREACHED).then_some(cost))
         .collect()
 }
 
-/// All steps that can be taken: from open to open cells, and none aslant between two shut ones.
-fn steps(opens: &[bool]) -> Vec<(usize, usize, u16)> {
-    let open = |column: usize, row: usize| opens[row * COLUMNS + column];
+/// All steps between open cells, but no diagonal ones between two blocked cells.
+fn steps(is_open: &[bool]) -> Vec<(usize, usize, u16)> {
+    let open = |column: usize, row: usize| is_open[row * COLUMNS + column];
     let mut steps = Vec::new();
-    for cell in (0..opens.len()).filter(|cell| opens[*cell]) {
+    for cell in (0..is_open.len()).filter(|cell| is_open[*cell]) {
         let (column, row) = (cell % COLUMNS, cell / COLUMNS);
-        for next in (0..opens.len()).filter(|next| opens[*next]) {
+        for next in (0..is_open.len()).filter(|next| is_open[*next]) {
             let (right, up) = (next % COLUMNS, next / COLUMNS);
             let (dx, dy) = (column.abs_diff(right), row.abs_diff(up));
-            let is_crack = dx == 1 && dy == 1 && !open(right, row) && !open(column, up);
-            if dx.max(dy) == 1 && !is_crack {
+            let is_gap = dx == 1 && dy == 1 && !open(right, row) && !open(column, up);
+            if dx.max(dy) == 1 && !is_gap {
                 steps.push((cell, next, if dx + dy == 2 { 7 } else { 5 }));
             }
         }
@@ -100,84 +99,84 @@ fn steps(opens: &[bool]) -> Vec<(usize, usize, u16)> {
     steps
 }
 
-/// The cells on the way from one down to where the wave began.
-fn way_down(wave: &Wave, from: usize) -> Vec<usize> {
-    core::iter::successors(Some(from), |cell| wave.next(&field(), *cell)).collect()
+/// The cells on the path from one to the origin.
+fn cells_to_origin(wavefront: &Wavefront, from: usize) -> Vec<usize> {
+    core::iter::successors(Some(from), |cell| wavefront.next(&field(), *cell)).collect()
 }
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(96))]
 
     #[test]
-    fn distances_are_those_of_the_plainest_search(
+    fn distances_match_the_reference(
         filled in proptest::collection::vec(0_u8..4, COLUMNS * ROWS),
         few in 1_u8..3, from in 0..COLUMNS * ROWS,
         radius_m in prop_oneof![Just(0.1), Just(0.6), Just(0.8)],
     ) {
         let map = map(|column, row| filled[row * COLUMNS + column] < few && row % few as usize == 0);
-        let (field, opens) = (field(), opens(&map, radius_m));
-        prop_assume!(opens[from]);
-        let wave = wave(&map, field.centre(from), radius_m);
-        for (cell, expected) in distances(&opens, from).into_iter().enumerate() {
-            let expected_m = expected.map(|fifths| f64::from(fifths) / 5.0 * CELL_M);
-            prop_assert_eq!(wave.cell_distance_m(&field, cell), expected_m, "{}", cell);
-            prop_assert_eq!(wave.is_shut(&field, cell), !opens[cell]);
+        let (field, is_open) = (field(), open_cells(&map, radius_m));
+        prop_assume!(is_open[from]);
+        let wavefront = wavefront(&map, field.centre(from), radius_m);
+        for (cell, expected) in distances(&is_open, from).into_iter().enumerate() {
+            let expected_m = expected.map(|cost| f64::from(cost) / 5.0 * CELL_M);
+            prop_assert_eq!(wavefront.cell_distance_m(&field, cell), expected_m, "{}", cell);
+            prop_assert_eq!(wavefront.is_blocked(&field, cell), !is_open[cell]);
         }
     }
 
     #[test]
-    fn a_way_leads_straight_on_to_where_the_wave_began_over_open_cells(
+    fn every_path_leads_over_open_cells_to_the_origin(
         filled in proptest::collection::vec(0_u8..6, COLUMNS * ROWS), from in 0..COLUMNS * ROWS,
         radius_m in prop_oneof![Just(0.1), Just(0.6)],
     ) {
         let map = map(|column, row| filled[row * COLUMNS + column] == 0);
-        let (field, opens) = (field(), opens(&map, radius_m));
-        let wave = wave(&map, field.centre(from), radius_m);
-        for cell in (0..field.cells()).filter(|cell| opens[*cell]) {
-            if wave.cell_distance_m(&field, cell).is_none() {
+        let (field, is_open) = (field(), open_cells(&map, radius_m));
+        let wavefront = wavefront(&map, field.centre(from), radius_m);
+        for cell in (0..field.cells()).filter(|cell| is_open[*cell]) {
+            if wavefront.cell_distance_m(&field, cell).is_none() {
                 continue;
             }
-            let way = way_down(&wave, cell);
-            prop_assert!(way.iter().all(|cell| opens[*cell]));
-            let last = field.centre(*way.last().unwrap());
-            prop_assert!(!opens[from] || last == field.centre(from));
+            let path = cells_to_origin(&wavefront, cell);
+            prop_assert!(path.iter().all(|cell| is_open[*cell]));
+            let last = field.centre(*path.last().unwrap());
+            prop_assert!(!is_open[from] || last == field.centre(from));
             prop_assert!(map.sees(&field, last, field.centre(from), 0.0));
-            prop_assert_eq!(wave.ahead(&field, &map, last), Some(field.centre(from)));
+            prop_assert_eq!(wavefront.waypoint(&field, &map, last), Some(field.centre(from)));
         }
     }
 
     #[test]
-    fn who_stands_too_near_to_something_gets_out_by_a_way_that_is_free(
+    fn a_robot_too_near_to_an_obstacle_leaves_along_a_free_line(
         filled in proptest::collection::vec(0_u8..6, COLUMNS * ROWS), from in 0..COLUMNS * ROWS,
         at in 0..COLUMNS * ROWS,
     ) {
         let map = map(|column, row| filled[row * COLUMNS + column] == 0);
-        let (field, wave) = (field(), wave(&map, field().centre(from), 0.6));
-        prop_assume!(wave.is_shut(&field, at));
-        let place = field.centre(at);
-        if let Some((out, way_m)) = wave.out_of(&field, &map, place) {
-            prop_assert!(map.sees(&field, field.centre(out), place, 0.0));
-            prop_assert!(way_m > wave.cell_distance_m(&field, out).unwrap());
-            prop_assert_eq!(wave.ahead(&field, &map, place), Some(field.centre(out)));
+        let (field, wavefront) = (field(), wavefront(&map, field().centre(from), 0.6));
+        prop_assume!(wavefront.is_blocked(&field, at));
+        let at = field.centre(at);
+        if let Some((exit, path_m)) = wavefront.exit(&field, &map, at) {
+            prop_assert!(map.sees(&field, field.centre(exit), at, 0.0));
+            prop_assert!(path_m > wavefront.cell_distance_m(&field, exit).unwrap());
+            prop_assert_eq!(wavefront.waypoint(&field, &map, at), Some(field.centre(exit)));
         }
     }
 
     #[test]
-    fn straight_ahead_lies_what_can_be_gone_to_straight(
+    fn the_waypoint_can_be_reached_in_a_straight_line(
         filled in proptest::collection::vec(0_u8..8, COLUMNS * ROWS),
         from in 0..COLUMNS * ROWS, at in (0.0_f64..7.0, 0.0_f64..5.5),
     ) {
         let map = map(|column, row| filled[row * COLUMNS + column] == 0);
         let (field, at) = (field(), Point { x: at.0, y: at.1 });
-        let wave = wave(&map, field.centre(from), 0.1);
+        let wavefront = wavefront(&map, field.centre(from), 0.1);
         let here = field.nearest_cell(at);
-        if let Some(before_m) = wave.cell_distance_m(&field, here) {
-            let ahead = wave.ahead(&field, &map, at).unwrap();
-            let next = wave.next(&field, here).map(|cell| field.centre(cell));
-            let is_next = Some(ahead) == next || ahead == field.centre(from);
-            prop_assert!(is_next || wave.is_open_between(&field, at, ahead));
-            let left_m = wave.cell_distance_m(&field, field.nearest_cell(ahead));
-            prop_assert!(left_m.is_none_or(|left_m| left_m < before_m || before_m == 0.0));
+        if let Some(here_m) = wavefront.cell_distance_m(&field, here) {
+            let waypoint = wavefront.waypoint(&field, &map, at).unwrap();
+            let next = wavefront.next(&field, here).map(|cell| field.centre(cell));
+            let is_next = Some(waypoint) == next || waypoint == field.centre(from);
+            prop_assert!(is_next || wavefront.is_open_between(&field, at, waypoint));
+            let left_m = wavefront.cell_distance_m(&field, field.nearest_cell(waypoint));
+            prop_assert!(left_m.is_none_or(|left_m| left_m < here_m || here_m == 0.0));
         }
     }
 }
@@ -197,41 +196,45 @@ const WALL: [&str; ROWS] = [
 ];
 
 #[test]
-fn a_way_leads_around_a_wall() {
+fn a_path_leads_around_a_wall() {
     let map = drawn(WALL);
-    let wave = wave(&map, place(12, 1), 0.4);
-    let mut at = place(1, 1);
+    let wavefront = wavefront(&map, point(12, 1), 0.4);
+    let mut at = point(1, 1);
     let mut highest_m = 0.0_f64;
     for _ in 0..20 {
-        at = wave.ahead(&field(), &map, at).unwrap();
+        at = wavefront.waypoint(&field(), &map, at).unwrap();
         highest_m = highest_m.max(at.y);
     }
-    assert_eq!(at, place(12, 1));
+    assert_eq!(at, point(12, 1));
     assert!(highest_m > 4.5, "{highest_m}");
 }
 
 #[test]
-fn an_aim_close_behind_a_wall_is_come_to_around_it() {
+fn a_goal_close_behind_a_wall_is_reached_around_it() {
     for radius_m in [0.1, 0.6] {
         let map = drawn(WALL);
-        let wave = wave(&map, place(7, 3), radius_m);
-        let here = field().nearest_cell(place(5, 3));
-        let out_m = || {
-            wave.out_of(&field(), &map, place(5, 3))
-                .map(|(_, way_m)| way_m)
+        let wavefront = wavefront(&map, point(7, 3), radius_m);
+        let here = field().nearest_cell(point(5, 3));
+        let exit_m = || {
+            wavefront
+                .exit(&field(), &map, point(5, 3))
+                .map(|(_, path_m)| path_m)
         };
-        let way_m = wave.cell_distance_m(&field(), here).or_else(out_m).unwrap();
-        assert!(way_m > 6.0, "{way_m}");
+        let path_m = wavefront
+            .cell_distance_m(&field(), here)
+            .or_else(exit_m)
+            .unwrap();
+        assert!(path_m > 6.0, "{path_m}");
     }
 }
 
 #[test]
-fn who_grazes_a_wall_comes_off_it() {
+fn a_robot_close_to_a_wall_moves_away_from_it() {
     let map = drawn(WALL);
-    let wave = wave(&map, place(1, 9), 0.6);
-    let grazing = place(5, 3);
-    assert!(wave.is_shut(&field(), field().nearest_cell(grazing)));
-    assert!(wave.ahead(&field(), &map, grazing).unwrap().x < grazing.x);
+    let wavefront = wavefront(&map, point(1, 9), 0.6);
+    let close = point(5, 3);
+    assert!(wavefront.is_blocked(&field(), field().nearest_cell(close)));
+    assert!(wavefront.waypoint(&field(), &map, close).unwrap().x < close.x);
 }
 
 const GAP_AND_DOOR: [&str; ROWS] = [
@@ -249,34 +252,38 @@ const GAP_AND_DOOR: [&str; ROWS] = [
 ];
 
 #[test]
-fn no_way_leads_through_a_gap_that_is_too_narrow() {
+fn no_path_leads_through_a_gap_that_is_too_narrow() {
     let map = drawn(GAP_AND_DOOR);
-    let outside = place(10, 3);
-    let inside = field().nearest_cell(place(2, 3));
-    let slim = wave(&map, outside, 0.1);
-    let stout = wave(&map, outside, 0.6);
-    assert_eq!(slim.cell_distance_m(&field(), inside), Some(4.0));
-    assert_eq!(stout.cell_distance_m(&field(), inside), None);
+    let outside = point(10, 3);
+    let inside = field().nearest_cell(point(2, 3));
+    let narrow = wavefront(&map, outside, 0.1);
+    let wide = wavefront(&map, outside, 0.6);
+    assert_eq!(narrow.cell_distance_m(&field(), inside), Some(4.0));
+    assert_eq!(wide.cell_distance_m(&field(), inside), None);
 }
 
 #[test]
-fn before_a_narrow_gap_one_turns_to_the_wide_door() {
+fn the_wide_door_is_used_instead_of_a_narrow_gap_nearby() {
     let mut rows = GAP_AND_DOOR;
     rows[3] = "..............";
     let map = drawn(rows);
-    // Both right before the gap: one wants to be on its other side.
-    let wave = wave(&map, place(8, 3), 0.6);
-    let way = way_down(&wave, field().nearest_cell(place(4, 3)));
-    let gap = field().nearest_cell(place(6, 3));
-    assert!(way.len() > 8 && !way.contains(&gap), "{way:?}");
+    // The robot and its goal are on opposite sides of the gap.
+    let wavefront = wavefront(&map, point(8, 3), 0.6);
+    let path = cells_to_origin(&wavefront, field().nearest_cell(point(4, 3)));
+    let gap = field().nearest_cell(point(6, 3));
+    assert!(path.len() > 8 && !path.contains(&gap), "{path:?}");
 }
 
 #[test]
-fn a_wall_aslant_has_no_cracks() {
+fn a_diagonal_wall_has_no_gaps() {
     let map = map(|column, row| column == row);
-    for (radius_m, aim) in [(0.1, [8, 2]), (0.6, [8, 2]), (0.6, [8, 7]), (0.1, [8, 7])] {
-        let wave = wave(&map, place(aim[0], aim[1]), radius_m);
-        let beyond = field().nearest_cell(place(2, 8));
-        assert_eq!(wave.cell_distance_m(&field(), beyond), None, "{radius_m}");
+    for (radius_m, goal) in [(0.1, [8, 2]), (0.6, [8, 2]), (0.6, [8, 7]), (0.1, [8, 7])] {
+        let wavefront = wavefront(&map, point(goal[0], goal[1]), radius_m);
+        let beyond = field().nearest_cell(point(2, 8));
+        assert_eq!(
+            wavefront.cell_distance_m(&field(), beyond),
+            None,
+            "{radius_m}"
+        );
     }
 }

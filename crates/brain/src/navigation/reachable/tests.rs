@@ -3,7 +3,7 @@ use proptest::prelude::*;
 
 const RADIUS_M: f64 = 0.25;
 
-/// Steps of the disc that is marched along a course, in metres.
+/// Step length of the reference that marches a disc along a heading, in metres.
 const STRIDE_M: f64 = 0.005;
 
 fn hit() -> impl Strategy<Value = Ray> {
@@ -25,19 +25,19 @@ fn mover() -> impl Strategy<Value = Mover> {
     })
 }
 
-/// How far a disc goes along a course until it is nearer than `reach_m` to a place that moves on, and
-/// still coming nearer: marched.
-fn marched_m(course: Point, at: Point, still: Point, reach_m: f64) -> f64 {
-    let apart_m = |along_m: f64| {
-        course
+/// Reference: the distance that a disc moves along a heading until it is nearer than `contact_m` to
+/// a moving point and still approaching it. `drift` is the point's motion per metre of the disc's.
+fn marched_m(heading: Point, at: Point, drift: Point, contact_m: f64) -> f64 {
+    let distance_m = |along_m: f64| {
+        heading
             .times(along_m)
-            .to(at.plus(still.times(along_m)))
+            .to(at.plus(drift.times(along_m)))
             .length()
     };
     let mut along_m = 0.0;
     while along_m < HORIZON_M {
-        let next_m = apart_m(along_m + STRIDE_M);
-        if next_m < reach_m && next_m < apart_m(along_m) {
+        let next_m = distance_m(along_m + STRIDE_M);
+        if next_m < contact_m && next_m < distance_m(along_m) {
             return along_m;
         }
         along_m += STRIDE_M;
@@ -45,9 +45,9 @@ fn marched_m(course: Point, at: Point, still: Point, reach_m: f64) -> f64 {
     HORIZON_M
 }
 
-fn looked(hits: &[Ray], movers: &[Mover], speed_m_s: f64) -> Reachable {
+fn reachable(hits: &[Ray], movers: &[Mover], speed_m_s: f64) -> Reachable {
     let mut reachable = Reachable::default();
-    reachable.look(hits, movers, (RADIUS_M, speed_m_s));
+    reachable.update(hits, movers, (RADIUS_M, speed_m_s));
     reachable
 }
 
@@ -55,23 +55,23 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
 
     #[test]
-    fn a_course_is_free_as_far_as_a_disc_that_is_marched_along_it_gets(
+    fn free_distances_beside_obstacles_match_the_reference(
         hits in proptest::collection::vec(hit(), 0..12),
     ) {
-        let reachable = looked(&hits, &[], 1.0);
-        for (course, free_m) in reachable.free_m.iter().enumerate() {
-            let course = direction(bearing_rad(course));
-            let reach_m = RADIUS_M + GRAZING_M;
+        let reachable = reachable(&hits, &[], 1.0);
+        for (heading, free_m) in reachable.free_m.iter().enumerate() {
+            let heading = direction(bearing_rad(heading));
+            let contact_m = RADIUS_M + OBSTACLE_MARGIN_M;
             let marched = hits.iter().map(|hit| {
                 let at = direction(hit.bearing_rad).times(hit.range_m);
-                marched_m(course, at, Point::default(), reach_m)
+                marched_m(heading, at, Point::default(), contact_m)
             });
             let expected_m = marched.fold(HORIZON_M, f64::min);
-            // Whom it would only graze, marching may miss.
+            // The reference can miss an obstacle that the disc only grazes.
             let grazes = hits.iter().any(|hit| {
                 let at = direction(hit.bearing_rad).times(hit.range_m);
-                let is_beside = course.dot(at).abs() < STRIDE_M;
-                is_beside || (course.cross(at).abs() - reach_m).abs() < 1e-3
+                let is_beside = heading.dot(at).abs() < STRIDE_M;
+                is_beside || (heading.cross(at).abs() - contact_m).abs() < 1e-3
             });
             let is_right = (free_m - expected_m).abs() <= 2.0 * STRIDE_M;
             prop_assert!(is_right || grazes, "{} {}", free_m, expected_m);
@@ -79,26 +79,27 @@ proptest! {
     }
 
     #[test]
-    fn who_moves_is_met_where_he_will_be(
+    fn free_distances_before_movers_match_the_reference(
         movers in proptest::collection::vec(mover(), 1..4), speed_m_s in 0.3_f64..1.5,
     ) {
-        let reachable = looked(&[], &movers, speed_m_s);
-        for (course, free_m) in reachable.free_m.iter().enumerate() {
-            let course = direction(bearing_rad(course));
+        let reachable = reachable(&[], &movers, speed_m_s);
+        for (heading, free_m) in reachable.free_m.iter().enumerate() {
+            let heading = direction(bearing_rad(heading));
             let marched = movers.iter().map(|mover| {
-                let reach_m = RADIUS_M + mover.radius_m + MARGIN_M;
-                if mover.at.length() <= reach_m {
-                    return if mover.at.dot(course) > 0.0 { 0.0 } else { HORIZON_M };
+                let contact_m = RADIUS_M + mover.radius_m + MOVER_MARGIN_M;
+                if mover.at.length() <= contact_m {
+                    return if mover.at.dot(heading) > 0.0 { 0.0 } else { HORIZON_M };
                 }
-                let still = mover.velocity_m_s.times(1.0 / speed_m_s);
-                marched_m(course, mover.at, still, reach_m)
+                let drift = mover.velocity_m_s.times(1.0 / speed_m_s);
+                marched_m(heading, mover.at, drift, contact_m)
             });
             let expected_m = marched.fold(HORIZON_M, f64::min);
-            // A near miss is one for only one of both.
+            // A near miss may count as contact in only one of the two.
             let clear_m = free_m.min(expected_m);
             let is_near = movers.iter().any(|mover| {
                 let at = mover.at.plus(mover.velocity_m_s.times((clear_m + 0.1) / speed_m_s));
-                course.times(clear_m + 0.1).to(at).length() < mover.radius_m + RADIUS_M + MARGIN_M + 0.15
+                let contact_m = mover.radius_m + RADIUS_M + MOVER_MARGIN_M;
+                heading.times(clear_m + 0.1).to(at).length() < contact_m + 0.15
             });
             let is_right = (free_m - expected_m).abs() <= 3.0 * STRIDE_M;
             prop_assert!(is_right || is_near, "{} {}", free_m, expected_m);
@@ -106,32 +107,40 @@ proptest! {
     }
 
     #[test]
-    fn in_the_open_the_best_way_is_straight_to_the_aim(aim_rad in -PI..PI, away_m in 1.0_f64..20.0) {
-        let choice = looked(&[], &[], 1.0).best(aim_rad, away_m);
-        // Turning costs a little, so of two courses beside it the one ahead may win.
-        prop_assert!(wrapped(choice.bearing_rad - aim_rad).abs() <= 1.3 * PI / 40.0, "{choice:?}");
-        let nearest = (0..COURSES).map(|course| wrapped(bearing_rad(course) - aim_rad).abs());
+    fn without_obstacles_the_best_heading_is_straight_to_the_target(
+        target_rad in -PI..PI, distance_m in 1.0_f64..20.0,
+    ) {
+        let choice = reachable(&[], &[], 1.0).best(target_rad, distance_m);
+        // Turning has a small cost, so of the two headings beside the target the one further ahead
+        // may win.
+        let off_rad = wrapped(choice.bearing_rad - target_rad).abs();
+        prop_assert!(off_rad <= 1.3 * PI / 40.0, "{choice:?}");
+        let nearest =
+            (0..HEADINGS).map(|heading| wrapped(bearing_rad(heading) - target_rad).abs());
         if nearest.fold(PI, f64::min) < 0.7 * PI / 40.0 {
-            prop_assert!((choice.bearing_rad - aim_rad).abs() < 1e-12, "{choice:?}");
+            prop_assert!((choice.bearing_rad - target_rad).abs() < 1e-12, "{choice:?}");
         }
     }
 
     #[test]
-    fn no_course_that_would_touch_is_left_out(range_m in 0.01_f64..5.0, at_rad in -PI..PI) {
-        let reachable = looked(&[Ray::new(at_rad, range_m)], &[], 1.0);
+    fn every_heading_that_touches_an_obstacle_is_limited(
+        range_m in 0.01_f64..5.0, at_rad in -PI..PI,
+    ) {
+        let reachable = reachable(&[Ray::new(at_rad, range_m)], &[], 1.0);
         let at = direction(at_rad).times(range_m);
-        for (course, free_m) in reachable.free_m.iter().enumerate() {
-            let course = direction(bearing_rad(course));
-            let touches = course.dot(at) > 0.0 && course.cross(at).abs() < RADIUS_M + GRAZING_M - 1e-9;
+        let contact_m = RADIUS_M + OBSTACLE_MARGIN_M;
+        for (heading, free_m) in reachable.free_m.iter().enumerate() {
+            let heading = direction(bearing_rad(heading));
+            let touches = heading.dot(at) > 0.0 && heading.cross(at).abs() < contact_m - 1e-9;
             prop_assert!(!touches || *free_m < HORIZON_M);
         }
     }
 }
 
 #[test]
-fn a_blocked_aim_is_passed_on_the_side_that_is_nearer_to_it() {
+fn a_blocked_target_is_passed_on_the_nearer_side() {
     let wall = [-0.3, -0.2, -0.1, 0.0, 0.1_f64].map(|bearing_rad| Ray::new(bearing_rad, 1.5));
-    let choice = looked(&wall, &[], 1.0).best(0.0, 4.0);
+    let choice = reachable(&wall, &[], 1.0).best(0.0, 4.0);
     assert!((0.1..0.8).contains(&choice.bearing_rad), "{choice:?}");
     assert!(choice.free_m > 4.0, "{choice:?}");
 }

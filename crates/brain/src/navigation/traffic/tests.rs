@@ -8,24 +8,24 @@ use base::trig::wrapped;
 use core::f64::consts::{PI, TAU};
 use proptest::prelude::*;
 
-/// Parts of a step in which a disc moves and is looked at.
-const PARTS: u32 = 10;
+/// Substeps of a step, after each of which the distances are checked.
+const SUBSTEPS: u32 = 10;
 
-/// A disc that follows the rule and knows of others what percepts tell.
-struct Follower {
+/// A robot that follows the rule, and knows the others from exact percepts.
+struct TestRobot {
     body: Body,
     at: Point,
     heading_rad: f64,
     speed_m_s: f64,
     others: Others,
     traffic: Traffic,
-    /// What it wants, and for how many steps more.
+    /// The motion that it wants, and the remaining steps for which it does.
     proposal: (Motion, u32),
     turned_rad: f64,
-    way_m: f64,
+    moved_m: f64,
 }
 
-impl Follower {
+impl TestRobot {
     fn new(body: Body, at: Point, heading_rad: f64) -> Self {
         Self {
             body,
@@ -36,12 +36,11 @@ impl Follower {
             traffic: Traffic::default(),
             proposal: (Motion::default(), 0),
             turned_rad: 0.0,
-            way_m: 0.0,
+            moved_m: 0.0,
         }
     }
 
-    /// What exact sensors tell of others.
-    fn sees(&self, own: usize, crowd: &[(u8, Point)]) -> Percept {
+    fn percept(&self, own: usize, crowd: &[(u8, Point)]) -> Percept {
         let numbered = (0..).zip(crowd).filter(|(number, _)| *number != own);
         let neighbours = numbered.map(|(number, (kind, at))| {
             let way = self.at.to(*at);
@@ -62,8 +61,9 @@ impl Follower {
         }
     }
 
-    /// Any proposal, kept for a while; one in three is to be in the midst of all, and some are to stand.
-    fn proposals(&mut self, random: &mut Stream) -> Motion {
+    /// A random motion, kept for a while: one in three towards the centre of the crowd, some of
+    /// them standing still.
+    fn wanted(&mut self, random: &mut Stream) -> Motion {
         let (motion, left) = self.proposal;
         if left > 0 {
             self.proposal.1 -= 1;
@@ -90,90 +90,92 @@ impl Follower {
         motion
     }
 
-    fn decides(&mut self, percept: &Percept, wanted: Motion) -> Motion {
-        let way = direction(self.turned_rad / 2.0).times(self.way_m);
+    fn decide(&mut self, percept: &Percept, wanted: Motion) -> Motion {
+        let way = direction(self.turned_rad / 2.0).times(self.moved_m);
         let (body, turned_rad) = (&self.body, self.turned_rad);
         self.others.take_in(percept, body, way, turned_rad);
         let now_m_s = self.speed_m_s;
         self.traffic
-            .look(&self.others.movers, body, [now_m_s, turned_rad]);
-        self.traffic.limited(wanted, body, now_m_s)
+            .update(&self.others.movers, body, [now_m_s, turned_rad]);
+        self.traffic.limit(wanted, body, now_m_s)
     }
 
-    fn begins(&mut self) {
-        (self.way_m, self.turned_rad) = (0.0, 0.0);
+    fn begin_step(&mut self) {
+        (self.moved_m, self.turned_rad) = (0.0, 0.0);
     }
 
-    fn moves(&mut self, told: Motion) {
-        let part_s = self.body.period_s / f64::from(PARTS);
-        let most_m_s = self.body.max_acceleration_m_s2 * part_s;
+    fn advance(&mut self, command: Motion) {
+        let substep_s = self.body.period_s / f64::from(SUBSTEPS);
+        let max_change_m_s = self.body.max_acceleration_m_s2 * substep_s;
         let before_m_s = self.speed_m_s;
-        let change_m_s = (told.speed_m_s - before_m_s).clamp(-most_m_s, most_m_s);
+        let change_m_s = (command.speed_m_s - before_m_s).clamp(-max_change_m_s, max_change_m_s);
         self.speed_m_s += change_m_s;
         let change_s = change_m_s.abs() / self.body.max_acceleration_m_s2;
-        let way_m = self.speed_m_s * part_s - change_m_s * change_s / 2.0;
-        let turned_rad = told.turn_rate_rad_s * part_s;
-        let way = direction(self.heading_rad + turned_rad / 2.0).times(way_m);
+        let distance_m = self.speed_m_s * substep_s - change_m_s * change_s / 2.0;
+        let turned_rad = command.turn_rate_rad_s * substep_s;
+        let way = direction(self.heading_rad + turned_rad / 2.0).times(distance_m);
         self.at = self.at.plus(way);
         self.heading_rad = wrapped(self.heading_rad + turned_rad);
-        self.way_m += way_m;
+        self.moved_m += distance_m;
         self.turned_rad += turned_rad;
     }
 }
 
-/// Followers of one or two kinds in a ring or a heap, none too near to another.
-fn crowd(random: &mut Stream, bodies: &[Body], count: usize) -> Vec<Follower> {
-    let mut crowd: Vec<Follower> = Vec::new();
-    let mut wide_m = 1.0;
+/// Robots at random positions around the origin, of the given kinds in turn, none too near to
+/// another.
+fn crowd(random: &mut Stream, bodies: &[Body], count: usize) -> Vec<TestRobot> {
+    let mut crowd: Vec<TestRobot> = Vec::new();
+    let mut radius_m = 1.0;
     while crowd.len() < count {
-        wide_m *= 1.01;
+        radius_m *= 1.01;
         let kind = crowd.len() % bodies.len();
-        let at = direction(TAU * unit(random)).times(wide_m * unit(random));
-        let is_free = |other: &Follower| {
-            let least_m = other.body.radius_m + bodies[kind].radius_m + 2.0 * ROOM_M;
-            other.at.to(at).length() > least_m
+        let at = direction(TAU * unit(random)).times(radius_m * unit(random));
+        let is_free = |other: &TestRobot| {
+            let min_m = other.body.radius_m + bodies[kind].radius_m + 2.0 * CLEARANCE_M;
+            other.at.to(at).length() > min_m
         };
         if crowd.iter().all(is_free) {
             let heading_rad = PI * (2.0 * unit(random) - 1.0);
-            crowd.push(Follower::new(bodies[kind].clone(), at, heading_rad));
+            crowd.push(TestRobot::new(bodies[kind].clone(), at, heading_rad));
         }
     }
     crowd
 }
 
-fn least_gap_m(crowd: &[Follower]) -> f64 {
-    let mut least_m = f64::INFINITY;
+fn min_gap_m(crowd: &[TestRobot]) -> f64 {
+    let mut min_m = f64::INFINITY;
     for (number, one) in crowd.iter().enumerate() {
         for other in &crowd[..number] {
             let apart_m = one.at.to(other.at).length();
-            least_m = least_m.min(apart_m - one.body.radius_m - other.body.radius_m);
+            min_m = min_m.min(apart_m - one.body.radius_m - other.body.radius_m);
         }
     }
-    least_m
+    min_m
 }
 
-/// All take so many steps; returns how near the hulls of two have come, and how far all went.
-fn go(crowd: &mut [Follower], random: &mut Stream, steps: u32) -> (f64, f64) {
-    let (mut least_m, mut gone_m) = (f64::INFINITY, 0.0);
+/// Simulates some steps; returns the minimum gap between two robots, and the distance that all of
+/// them travelled.
+fn simulate(crowd: &mut [TestRobot], random: &mut Stream, steps: u32) -> (f64, f64) {
+    let (mut min_m, mut travelled_m) = (f64::INFINITY, 0.0);
     for _ in 0..steps {
         let kinds = crowd[0].body.others.len();
         let kind = |number| u8::try_from(number % kinds).unwrap();
         let numbered = crowd.iter().enumerate();
-        let places: Vec<(u8, Point)> = numbered.map(|(n, one)| (kind(n), one.at)).collect();
-        let mut decide = |(own, one): (usize, &mut Follower)| {
-            let wanted = one.proposals(random);
-            one.decides(&one.sees(own, &places), wanted)
+        let positions: Vec<(u8, Point)> = numbered.map(|(n, one)| (kind(n), one.at)).collect();
+        let mut decide = |(own, one): (usize, &mut TestRobot)| {
+            let wanted = one.wanted(random);
+            one.decide(&one.percept(own, &positions), wanted)
         };
-        let told: Vec<Motion> = crowd.iter_mut().enumerate().map(&mut decide).collect();
-        crowd.iter_mut().for_each(Follower::begins);
-        for _ in 0..PARTS {
-            let all = crowd.iter_mut().zip(&told);
-            all.for_each(|(one, told)| one.moves(*told));
-            least_m = least_m.min(least_gap_m(crowd));
+        let commands: Vec<Motion> = crowd.iter_mut().enumerate().map(&mut decide).collect();
+        crowd.iter_mut().for_each(TestRobot::begin_step);
+        for _ in 0..SUBSTEPS {
+            let all = crowd.iter_mut().zip(&commands);
+            all.for_each(|(one, command)| one.advance(*command));
+            min_m = min_m.min(min_gap_m(crowd));
         }
-        gone_m += crowd.iter().map(|one| one.way_m.abs()).sum::<f64>();
+        travelled_m += crowd.iter().map(|one| one.moved_m.abs()).sum::<f64>();
     }
-    (least_m, gone_m)
+    (min_m, travelled_m)
 }
 
 fn bodies(numbers: &[[f64; 5]]) -> Vec<Body> {
@@ -195,14 +197,14 @@ fn bodies(numbers: &[[f64; 5]]) -> Vec<Body> {
         detectors: Vec::new(),
     };
     let others: Vec<Other> = bodies.iter().map(other).collect();
-    let told = |body: Body| Body {
+    let with_others = |body: Body| Body {
         others: others.clone(),
         ..body
     };
-    bodies.into_iter().map(told).collect()
+    bodies.into_iter().map(with_others).collect()
 }
 
-/// What bodies can be: small and large, slow and fast, with weak brakes and such that stop at once.
+/// Small and large, slow and fast bodies, with weak brakes and with instant stops.
 fn any_body() -> impl Strategy<Value = [f64; 5]> {
     let acceleration = prop_oneof![3 => 0.5_f64..4.0, 1 => Just(f64::INFINITY)];
     let back = prop_oneof![Just(0.0), Just(1.0)];
@@ -215,25 +217,25 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(40))]
 
     #[test]
-    fn whatever_they_want_robots_that_keep_out_of_each_others_way_never_touch(
+    fn robots_that_follow_the_rule_never_touch_whatever_they_want(
         seed: u64, count in 2_usize..25, kinds in proptest::collection::vec(any_body(), 1..3),
     ) {
         let mut random = random(seed);
         let mut crowd = crowd(&mut random, &bodies(&kinds), count);
-        let (least_m, _) = go(&mut crowd, &mut random, 300);
-        prop_assert!(least_m > 0.0, "{least_m}");
+        let (min_m, _) = simulate(&mut crowd, &mut random, 300);
+        prop_assert!(min_m > 0.0, "{min_m}");
     }
 
     #[test]
-    fn who_is_too_near_already_does_not_come_nearer(seed: u64, overlap_m in 0.01_f64..0.3) {
+    fn robots_that_are_too_near_already_do_not_come_nearer(seed: u64, overlap_m in 0.01_f64..0.3) {
         let mut random = random(seed);
         let bodies = bodies(&[[0.25, 1.0, 1.0, 1.5, 0.0]]);
         let place = |x| Point { x, y: 0.0 };
-        let mut pair: Vec<Follower> = [0.0, 0.5 - overlap_m]
-            .map(|x| Follower::new(bodies[0].clone(), place(x), TAU * unit(&mut random)))
+        let mut pair: Vec<TestRobot> = [0.0, 0.5 - overlap_m]
+            .map(|x| TestRobot::new(bodies[0].clone(), place(x), TAU * unit(&mut random)))
             .into();
-        let (least_m, _) = go(&mut pair, &mut random, 200);
-        prop_assert!(least_m > -overlap_m - 1e-3, "{least_m}");
+        let (min_m, _) = simulate(&mut pair, &mut random, 200);
+        prop_assert!(min_m > -overlap_m - 1e-3, "{min_m}");
     }
 }
 
@@ -242,12 +244,12 @@ fn random(seed: u64) -> Stream {
 }
 
 #[test]
-fn they_still_get_about() {
+fn robots_still_make_progress() {
     let mut random = random(7);
     let mut crowd = crowd(&mut random, &bodies(&[[0.25, 1.0, 1.0, 1.5, 0.0]]), 6);
-    let (_, gone_m) = go(&mut crowd, &mut random, 600);
-    // Half of them want to the midst all the time; alone they would go half as fast as they can.
-    assert!(gone_m / (6.0 * 60.0) > 0.15, "{gone_m}");
+    let (_, travelled_m) = simulate(&mut crowd, &mut random, 600);
+    // Many of them want to be at the centre; each alone would move at half its maximum speed.
+    assert!(travelled_m / (6.0 * 60.0) > 0.15, "{travelled_m}");
 }
 
 fn mover(at: [f64; 2], velocity_m_s: [f64; 2]) -> Mover {
@@ -265,39 +267,39 @@ fn mover(at: [f64; 2], velocity_m_s: [f64; 2]) -> Mover {
 
 fn limited(movers: &[Mover], wanted: [f64; 2], now_m_s: f64) -> [f64; 2] {
     let mut traffic = Traffic::default();
-    traffic.look(movers, &rover(), [now_m_s, 0.0]);
+    traffic.update(movers, &rover(), [now_m_s, 0.0]);
     let wanted = Motion {
         speed_m_s: wanted[0],
         turn_rate_rad_s: wanted[1],
     };
-    let motion = traffic.limited(wanted, &rover(), now_m_s);
+    let motion = traffic.limit(wanted, &rover(), now_m_s);
     [motion.speed_m_s, motion.turn_rate_rad_s]
 }
 
 #[test]
 #[expect(clippy::float_cmp, reason = "exact by construction")]
-fn who_stands_in_a_throng_may_turn_but_not_go() {
-    let throng = [0, 1, 2, 3, 4, 5].map(|sixth| {
+fn a_robot_that_stands_in_a_crowd_may_turn_but_not_move() {
+    let crowd = [0, 1, 2, 3, 4, 5].map(|sixth| {
         let at = direction(f64::from(sixth) * TAU / 6.0).times(0.51);
         mover([at.x, at.y], [0.0, 0.0])
     });
-    assert_eq!(limited(&throng, [1.0, 1.5], 0.0), [0.0, 1.5]);
-    // Even if somebody comes right across.
-    let rushing = [mover([-1.0, 0.0], [3.0, 0.0])];
-    assert_eq!(limited(&rushing, [0.0, 1.5], 0.0), [0.0, 1.5]);
-    assert_eq!(limited(&rushing, [1.0, 1.5], 0.0), [0.0, 1.5]);
+    assert_eq!(limited(&crowd, [1.0, 1.5], 0.0), [0.0, 1.5]);
+    // Even if another robot approaches fast.
+    let approaching = [mover([-1.0, 0.0], [3.0, 0.0])];
+    assert_eq!(limited(&approaching, [0.0, 1.5], 0.0), [0.0, 1.5]);
+    assert_eq!(limited(&approaching, [1.0, 1.5], 0.0), [0.0, 1.5]);
 }
 
 #[test]
 #[expect(clippy::float_cmp, reason = "exact by construction")]
-fn ways_that_cross_already_are_braked_on_straight() {
+fn robots_brake_straight_ahead_when_their_stopping_paths_cross() {
     let crossing = [mover([0.4, -0.5], [0.0, 2.0])];
     assert_eq!(limited(&crossing, [1.0, 1.0], 1.0), [0.0, 0.0]);
 }
 
 #[test]
 #[expect(clippy::float_cmp, reason = "exact by construction")]
-fn who_goes_away_or_is_far_off_is_in_nobodys_way() {
+fn robots_that_move_away_or_are_far_away_do_not_matter() {
     for far in [
         mover([-1.0, 0.0], [-1.0, 0.0]),
         mover([5.0, 0.0], [-1.0, 0.0]),

@@ -177,13 +177,13 @@ impl Told {
         outbox: &mut Vec<Message>,
     ) {
         let before = self.goal;
-        let is_new = goal.map(|aim| aim.to) != before.map(|aim| aim.to);
+        let is_new = goal.map(|aim| aim.at) != before.map(|aim| aim.at);
         if !is_new && !is_time {
             return;
         }
-        let say = |aim: Destination, stand| sure(About::Goal { at: aim.to, stand });
+        let say = |aim: Destination, stand| sure(About::Goal { at: aim.at, stand });
         if let Some(ended) = before.filter(|_| is_new) {
-            if at.to(ended.to).length() <= ended.within_m {
+            if at.to(ended.at).length() <= ended.tolerance_m {
                 outbox.push(say(ended, CommitmentStatus::Done));
             } else if goal.is_none() {
                 // Who goes elsewhere has left too.

@@ -236,10 +236,10 @@ fn where_one_goes_is_told_at_once_and_whether_it_has_been_there() {
     robot.step(true, Vec::new());
     let goals = |robot: &mut Robot, goal: Option<Point>| {
         let mut outbox = Vec::new();
-        let aim = goal.map(|to| Destination {
-            to,
-            within_m: 0.5,
-            speed_m_s: 1.0,
+        let aim = goal.map(|at| Destination {
+            at,
+            tolerance_m: 0.5,
+            max_speed_m_s: 1.0,
             value: 1.0,
         });
         robot.beliefs.tell(aim, 0.01, &mut outbox);
