@@ -26,7 +26,7 @@ def wander(percepts: Percepts, memory: dict[str, Any]) -> Commands:
     is_blocked = is_near | np.isnan(scan["age_s"])  # what is missing is NaN
     is_turning = percepts["time_s"] < turns_until_s[robots]
     begins = is_blocked & ~is_turning
-    luck = percepts["dice"][begins, 0] / 2**32
+    luck = percepts["random_words"][begins, 0] / 2**32
     turns_until_s[robots[begins]] = percepts["time_s"] + LONGEST_TURN_S * luck
     is_turning |= begins
     return {

@@ -27,7 +27,7 @@ class Wanderer:
         is_turning = percept["time_s"] < self.turns_until_s
         if not is_turning and self.is_blocked(percept):
             is_turning = True
-            luck = percept["dice"][0] / 2**32  # the only chance that a brain has
+            luck = percept["random_words"][0] / 2**32  # the only chance that a brain has
             self.turns_until_s = percept["time_s"] + LONGEST_TURN_S * luck
         return {
             "motion": {

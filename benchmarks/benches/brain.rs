@@ -35,7 +35,7 @@ fn percept(ranges_m: Vec<f64>) -> Percept {
         ranges_m,
     };
     Percept {
-        dice: [1 << 31; 4],
+        random_words: [1 << 31; 4],
         touch: Some(Reading {
             value: false,
             age_s: 0.0,

@@ -72,12 +72,12 @@ class Talker(Ahead):
         self.steps += 1
         heard = sum(each["from"]["index"] + 1 for each in percept["inbox"])
         # As if it told of nobody's looks: a batch cannot.
-        seen = {"by": {"kind": 0, "index": 0}, "mark": 0, "looks": 0}
-        about: Any = {"item": {"kind": 0, "at": [1.0, 2.0], "seen": seen}}
+        provenance = {"observer": {"kind": 0, "index": 0}, "track_id": 0, "observations": 0}
+        about: Any = {"item": {"kind": 0, "at": [1.0, 2.0], "provenance": provenance}}
         return {
             "motion": {
                 "speed_m_s": 0.1 + 0.1 * len(percept["neighbours"]),
-                "turn_rate_rad_s": 0.2 * heard + percept["dice"][0] / 2**33,
+                "turn_rate_rad_s": 0.2 * heard + percept["random_words"][0] / 2**33,
             },
             "requests": [{"sensor": 1, "on": self.steps % 5 != 0}],
             "outbox": [{"about": about, "confidence": 0.5} for _ in percept["contacts"]],
@@ -101,14 +101,14 @@ class Bumper:
         assert touch is not None
         assert wheels is not None
         turned_rad = wheels["value"]["turn_rate_rad_s"] * self.body["period_s"]
-        left_rad = self.left(percept["dice"], turned_rad, is_held=touch["value"])
+        left_rad = self.left(percept["random_words"], turned_rad, is_held=touch["value"])
         most = self.body["max_turn_rate_rad_s"]
         turn = left_rad / self.body["period_s"]
         speed_m_s = 0.0 if left_rad else self.body["max_speed_m_s"]
         motion = {"speed_m_s": speed_m_s, "turn_rate_rad_s": min(max(turn, -most), most)}
         return {"motion": motion, "requests": [], "outbox": []}  # type: ignore[typeddict-item]
 
-    def left(self, dice: Any, turned_rad: float, *, is_held: bool) -> float:
+    def left(self, random_words: Any, turned_rad: float, *, is_held: bool) -> float:
         """Return how far it has still to turn; 0 if it goes ahead."""
         if self.left_rad is not None:
             self.left_rad -= np.float32(turned_rad)
@@ -122,7 +122,7 @@ class Bumper:
         if not is_held or straight_s < 0.5:
             return 0.0
         least = math.pi / 4
-        left_rad = least + (math.tau - least - least) * (dice[1] / 2**32)
+        left_rad = least + (math.tau - least - least) * (random_words[1] / 2**32)
         left_rad -= math.tau if left_rad > math.pi else 0.0
         patience_s = 1 + 2 * abs(left_rad) / self.body["max_turn_rate_rad_s"]
         self.left_rad, self.patience_s = np.float32(left_rad), np.float32(min(patience_s, 60))

@@ -56,7 +56,7 @@ def talk(percepts: Percepts, memory: dict[str, Any]) -> Commands:
     inbox, rows = percepts["inbox"], np.arange(len(robots))
     heard = np.bincount(inbox["row"], inbox["from_index"] + 1, len(robots))
     mates = np.bincount(percepts["neighbours"]["row"], minlength=len(robots))
-    turn_rate_rad_s = 0.2 * heard + percepts["dice"][:, 0] / 2**33
+    turn_rate_rad_s = 0.2 * heard + percepts["random_words"][:, 0] / 2**33
     seen = percepts["contacts"]["row"]
     return {
         "motion": {"speed_m_s": 0.1 + 0.1 * mates, "turn_rate_rad_s": turn_rate_rad_s},
@@ -136,7 +136,7 @@ def test_arrays_hold_what_each_robot_perceives() -> None:
         for row, percept in enumerate(alone):
             assert percept is not None
             assert percepts["time_s"] == percept["time_s"]
-            assert percepts["dice"][row].tolist() == percept["dice"]
+            assert percepts["random_words"][row].tolist() == percept["random_words"]
             for name, value in as_rows(percepts, row).items():
                 assert percept[name] == value, name  # type: ignore[literal-required]
             for ring, scan in zip(percepts["scans"], percept["scans"], strict=True):
@@ -168,10 +168,10 @@ def test_arrays_have_the_names_of_percepts_and_of_their_types() -> None:
     Simulation(Scenario.loads(SMALL), brains={"bumper": Batch(note)}).step()
     assert told[0].keys() == Percepts.__annotations__.keys()
     # Of all robots of a kind together.
-    together = {"id": "robots", "of_kind": "count"}
+    together = {"id": "robots", "team_size": "count"}
     percept = {together.get(name, name) for name in Percept.__annotations__}
     assert told[0].keys() >= percept
-    for name in ("looks", "contacts", "neighbours", "inbox"):
+    for name in ("observations", "contacts", "neighbours", "inbox"):
         entries = getattr(batch, name.capitalize())
         assert told[0][name].keys() == entries.__annotations__.keys()
 

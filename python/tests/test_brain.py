@@ -28,7 +28,7 @@ ROVER: Body = {
 }
 OPEN: Percept = {"scans": [{"age_s": 0.0, "ranges_m": [math.inf] * 16}]}
 NAVIGATE = {"kind": "navigate", "waypoints_m": [[9, 2]]}
-WALLED: Percept = {"dice": [7, 7, 7, 7], "scans": [{"age_s": 0.0, "ranges_m": [0.5] * 16}]}
+WALLED: Percept = {"random_words": [7, 7, 7, 7], "scans": [{"age_s": 0.0, "ranges_m": [0.5] * 16}]}
 
 
 def test_a_brain_goes_where_it_sees_that_it_is_free() -> None:
@@ -52,7 +52,7 @@ def test_a_copy_has_the_same_future_and_then_goes_its_own_way() -> None:
 def test_arrays_none_and_whole_numbers_are_read_as_lists_nothing_and_numbers() -> None:
     arrays: Any = {
         "touch": None,
-        "dice": np.zeros(4, dtype=np.uint32),
+        "random_words": np.zeros(4, dtype=np.uint32),
         "scans": [{"age_s": 0, "ranges_m": np.full(16, np.inf)}],
     }
     assert ae.Brain(None, ROVER).step(arrays) == ae.Brain(None, ROVER).step(OPEN)
@@ -116,7 +116,7 @@ HEARD = {"from": {"kind": 0, "index": 0}, "age_s": 0.0}
 @pytest.mark.parametrize(
     ("percept", "told"),
     [
-        ({"scanz": []}, "percept.scanz is not a known key: expected one of time_s, dice, "),
+        ({"scanz": []}, "percept.scanz is not a known key: expected one of time_s, random_words, "),
         ({"time_s": "x"}, 'percept.time_s = "x": must be a number'),
         ({"time_s": math.inf}, "percept.time_s = inf: must be a finite number"),
         ({"touch": None, "position": {"value": 3, "age_s": 0}}, "must be a list of 2 numbers"),
@@ -130,7 +130,7 @@ HEARD = {"from": {"kind": 0, "index": 0}, "age_s": 0.0}
         ),
         ({"scans": [{"ranges_m": [1.0, math.nan]}]}, "percept.scans[0].ranges_m[1] = nan: must be"),
         ({"touch": {"value": 3, "age_s": 0.0}}, "percept.touch.value = 3: must be True or False"),
-        ({"dice": [1, 2, 3]}, "percept.dice = [1, 2, 3]: must be a list of 4 whole"),
+        ({"random_words": [1, 2, 3]}, "percept.random_words = [1, 2, 3]: must be a list of 4 whole"),
         ({"time_s": object}, "percept.time_s = <class 'object'>: must be a number"),
         ("far", 'percept = "far": must be a dict'),
     ],

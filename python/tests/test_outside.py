@@ -65,7 +65,7 @@ def test_the_command_of_a_body_outside_is_that_of_its_brain() -> None:
             5 + step / 100,
             8,
             0.1,
-            dice=[step, 2, 3, 4],
+            random_words=[step, 2, 3, 4],
             time_s=step / 10,
             scans=near if step % 9 == 0 else far,
         )
@@ -184,7 +184,7 @@ def test_what_is_not_allowed_is_told_and_no_step_is_taken(
 
 
 def test_faults_of_several_robots_are_told_at_once() -> None:
-    percepts: Any = {"rover/1": {"dice": 3}, "rover/9": {}}
+    percepts: Any = {"rover/1": {"random_words": 3}, "rover/9": {}}
     with pytest.raises(InputError) as caught:
         Simulation("search").step(percepts=percepts, commands={"rover/7": STOP})
     assert len(str(caught.value).splitlines()) == 3

@@ -3,7 +3,7 @@
 use crate::brain::Brain;
 use crate::io::body::{Body, RangeRing, RobotId};
 use crate::io::command::{Command, Motion};
-use crate::io::percept::{Look, Neighbour, Percept, Reading, Scan};
+use crate::io::percept::{Neighbour, Observation, Percept, Reading, Scan};
 use base::geometry::{Point, Segment};
 use base::random::{Entity, Purpose, Stream, stream};
 use base::trig::{sin_cos, wrapped};
@@ -148,7 +148,7 @@ impl Walk {
             ranges_m: ranges.clone(),
         });
         let time_s = self.steps as f64 * self.body.period_s;
-        let look = Look {
+        let look = Observation {
             sensor: 0,
             age_s: 0.0,
         };
@@ -157,12 +157,12 @@ impl Walk {
         Percept {
             time_s,
             id: self.id.0,
-            of_kind: self.id.1,
+            team_size: self.id.1,
             position: self.wiring.position.then_some(now(self.at)),
             battery: has_gauge.then_some(now(left)),
-            looks: self.wiring.position.then_some(look).into_iter().collect(),
+            observations: self.wiring.position.then_some(look).into_iter().collect(),
             neighbours: self.others.iter().map(|other| self.seen(other)).collect(),
-            dice: std::array::from_fn(|_| self.dice.next_u32()),
+            random_words: std::array::from_fn(|_| self.dice.next_u32()),
             touch: self.wiring.touch.then_some(now(self.is_touching)),
             heading_rad: self.wiring.compass.then_some(now(self.heading_rad)),
             scans: vec![scan.unwrap_or_default(); self.body.rings.len()],

@@ -7,8 +7,8 @@ use brain::behaviours::{
 };
 use brain::{
     About, Arbitration, BeliefsSpec, Body, Brain, BrainSpec, Command, CommitmentStatus, Contact,
-    Detector, Heard, Look, Message, Motion, Neighbour, Other, Percept, Provenance, RangeRing,
-    Reading, RobotId, Scan, SensorRequest,
+    Detector, Heard, Message, Motion, Neighbour, Observation, Other, Percept, Provenance,
+    RangeRing, Reading, RobotId, Scan, SensorRequest,
 };
 use proptest::prelude::*;
 use std::sync::Arc;
@@ -166,29 +166,33 @@ fn robot() -> impl Strategy<Value = RobotId> {
 }
 
 fn message(number: Numbers) -> impl Strategy<Value = Message> {
-    let seen = (known_robot(), any::<u32>(), any::<u32>());
-    let seen = seen.prop_map(|(by, mark, looks)| Provenance { by, mark, looks });
-    let item = (any::<u16>(), point(number), seen).prop_map(|(kind, at, seen)| About::Item {
-        kind,
-        at,
-        seen,
+    let provenance = (known_robot(), any::<u32>(), any::<u32>());
+    let provenance = provenance.prop_map(|(observer, track_id, observations)| Provenance {
+        observer,
+        track_id,
+        observations,
     });
-    let sender =
-        (point(number), number(-4.0, 4.0), any::<u32>()).prop_map(|(at, heading_rad, looks)| {
-            About::Sender {
-                at,
-                heading_rad,
-                looks,
-            }
+    let item =
+        (any::<u16>(), point(number), provenance).prop_map(|(kind, at, provenance)| About::Item {
+            kind,
+            at,
+            provenance,
         });
+    let sender = (point(number), number(-4.0, 4.0), any::<u32>()).prop_map(
+        |(at, heading_rad, observations)| About::Sender {
+            at,
+            heading_rad,
+            observations,
+        },
+    );
     let stands = [
-        CommitmentStatus::Going,
+        CommitmentStatus::Active,
         CommitmentStatus::Done,
-        CommitmentStatus::Left,
+        CommitmentStatus::Released,
     ];
-    let goal = (point(number), 0_usize..2).prop_map(move |(at, stand)| About::Goal {
+    let goal = (point(number), 0_usize..2).prop_map(move |(at, status)| About::Goal {
         at,
-        stand: stands[stand],
+        status: stands[status],
     });
     (prop_oneof![item, sender, goal], number(0.0, 1.0))
         .prop_map(|(about, confidence)| Message { about, confidence })
@@ -246,20 +250,27 @@ fn percept(number: Numbers) -> impl Strategy<Value = Percept> {
         reading(any::<bool>(), number),
     );
     let clock = (number(0.0, 1e4), any::<[u32; 4]>());
-    let look = (0_u16..3, number(0.0, 1.0)).prop_map(|(sensor, age_s)| Look { sensor, age_s });
+    let look =
+        (0_u16..3, number(0.0, 1.0)).prop_map(|(sensor, age_s)| Observation { sensor, age_s });
     let told = (
         known_robot(),
         0_u32..4,
         proptest::collection::vec(look, 0..3),
     );
     (clock, readings, scans(number, 2), others(number), told).prop_map(
-        |((time_s, dice), readings, scans, (contacts, neighbours, inbox), (id, of_kind, looks))| {
+        |(
+            (time_s, random_words),
+            readings,
+            scans,
+            (contacts, neighbours, inbox),
+            (id, team_size, observations),
+        )| {
             Percept {
                 id,
-                of_kind,
-                looks,
+                team_size,
+                observations,
                 time_s,
-                dice,
+                random_words,
                 position: readings.0,
                 heading_rad: readings.1,
                 motion: readings.2,

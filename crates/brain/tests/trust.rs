@@ -2,8 +2,8 @@
 
 use base::geometry::{Point, Rectangle};
 use brain::{
-    About, Body, Brain, BrainSpec, CommitmentStatus, Detector, Heard, Look, Message, Motion, Other,
-    Percept, Provenance, Reading, RobotId,
+    About, Body, Brain, BrainSpec, CommitmentStatus, Detector, Heard, Message, Motion, Observation,
+    Other, Percept, Provenance, Reading, RobotId,
 };
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -65,11 +65,11 @@ const fn now<T>(value: T) -> Reading<T> {
 fn step(brain: &mut Brain, inbox: Vec<Heard>) -> Vec<(Point, CommitmentStatus)> {
     let percept = Percept {
         id: ME,
-        of_kind: 8,
+        team_size: 8,
         position: Some(now(Point { x: 10.0, y: 10.0 })),
         heading_rad: Some(now(0.0)),
         motion: Some(now(Motion::default())),
-        looks: vec![Look {
+        observations: vec![Observation {
             sensor: 0,
             age_s: 0.0,
         }],
@@ -78,7 +78,7 @@ fn step(brain: &mut Brain, inbox: Vec<Heard>) -> Vec<(Point, CommitmentStatus)> 
     };
     let goals = brain.step(&percept).outbox.into_iter();
     let goal = |message: Message| match message.about {
-        About::Goal { at, stand } => Some((at, stand)),
+        About::Goal { at, status } => Some((at, status)),
         _ => None,
     };
     goals.filter_map(goal).collect()
@@ -87,7 +87,7 @@ fn step(brain: &mut Brain, inbox: Vec<Heard>) -> Vec<(Point, CommitmentStatus)> 
 /// Whether it says within some seconds that it goes to a place.
 fn goes_to(brain: &mut Brain, to: Point, within_s: u32) -> bool {
     let mut steps = 0..10 * within_s;
-    steps.any(|_| step(brain, Vec::new()).contains(&(to, CommitmentStatus::Going)))
+    steps.any(|_| step(brain, Vec::new()).contains(&(to, CommitmentStatus::Active)))
 }
 
 /// Whether it goes anywhere in four seconds.
@@ -97,7 +97,7 @@ fn goes_anywhere(brain: &mut Brain) -> bool {
         let goals = step(brain, Vec::new());
         goals
             .iter()
-            .any(|(_, stand)| *stand == CommitmentStatus::Going)
+            .any(|(_, status)| *status == CommitmentStatus::Active)
     })
 }
 
@@ -110,11 +110,11 @@ fn heard(from: RobotId, about: About, [age_s, confidence]: [f64; 2]) -> Heard {
     }
 }
 
-fn sender(at: Point, looks: u32) -> About {
+fn sender(at: Point, observations: u32) -> About {
     About::Sender {
         at,
         heading_rad: 0.0,
-        looks,
+        observations,
     }
 }
 
@@ -131,8 +131,8 @@ const PLACE: Point = Point { x: 15.0, y: 10.0 };
 const ERRAND: &str = r#"{"kind": "navigate", "assignment": "shared", "waypoints_m": [[15, 10]]}"#;
 
 fn done(confidence: f64) -> Heard {
-    let (at, stand) = (PLACE, CommitmentStatus::Done);
-    heard(LEADER, About::Goal { at, stand }, [0.0, confidence])
+    let (at, status) = (PLACE, CommitmentStatus::Done);
+    heard(LEADER, About::Goal { at, status }, [0.0, confidence])
 }
 
 #[test]
@@ -157,7 +157,7 @@ fn who_said_once_where_it_goes_and_tells_only_where_it_is_holds_no_place() {
     let mut brain = brain(ERRAND, "");
     let about = About::Goal {
         at: PLACE,
-        stand: CommitmentStatus::Going,
+        status: CommitmentStatus::Active,
     };
     let here = Point { x: 3.0, y: 3.0 };
     let told = vec![heard(LEADER, about, [0.0, 1.0])];
@@ -166,7 +166,7 @@ fn who_said_once_where_it_goes_and_tells_only_where_it_is_holds_no_place() {
         let mut steps = 0..steps;
         steps.all(|_| {
             let where_it_is = heard(LEADER, sender(here, 1), [0.0, 1.0]);
-            !step(&mut brain, vec![where_it_is]).contains(&(PLACE, CommitmentStatus::Going))
+            !step(&mut brain, vec![where_it_is]).contains(&(PLACE, CommitmentStatus::Active))
         })
     };
     assert!(waits(95), "it is still on its way");
@@ -185,7 +185,7 @@ fn what_was_said_long_ago_or_has_no_age_holds_no_place() {
         let mut brain = brain(ERRAND, "");
         let about = About::Goal {
             at: PLACE,
-            stand: CommitmentStatus::Going,
+            status: CommitmentStatus::Active,
         };
         step(&mut brain, vec![heard(LEADER, about, [age_s, 1.0])]);
         assert_eq!(!goes_to(&mut brain, PLACE, 3), is_held, "{age_s}");
@@ -220,37 +220,45 @@ fn however_many_looks_one_claims_who_is_not_trusted_ends_no_search() {
     for (initial, confidence, ends) in [(0.9, 1.0, true), (0.05, 1.0, false), (0.9, 0.05, false)] {
         let trust = format!(r#""initial": {initial}, "adaptive": false"#);
         let mut brain = brain(r#"{"kind": "frontier"}"#, &trust);
-        let mut looks = 0;
+        let mut observations = 0;
         // Three times, as saying it again must not help.
         for at in all_over().chain(all_over()).chain(all_over()) {
-            looks += 100_000;
+            observations += 100_000;
             step(
                 &mut brain,
-                vec![heard(LIAR, sender(at, looks), [0.0, confidence])],
+                vec![heard(LIAR, sender(at, observations), [0.0, confidence])],
             );
         }
         assert_eq!(!goes_anywhere(&mut brain), ends, "{initial} {confidence}");
     }
 }
 
-/// Lies about items in view, as looks of `by`; then robot 3 says truly that it has looked everywhere.
-fn believes_3_after_lies_of_7(by: RobotId) -> bool {
+/// Lies about items in view, as observations of `by`; then robot 3 says truly that it has looked everywhere.
+fn believes_3_after_lies_of_7(observer: RobotId) -> bool {
     let mut brain = brain(r#"{"kind": "frontier"}"#, "");
-    for mark in 0..12 {
-        let away = base::trig::sin_cos(TAU * f64::from(mark) / 12.0);
+    for track_id in 0..12 {
+        let away = base::trig::sin_cos(TAU * f64::from(track_id) / 12.0);
         let at = Point {
             x: 10.0 + 2.0 * away.1,
             y: 10.0 + 2.0 * away.0,
         };
-        let seen = Provenance { by, mark, looks: 5 };
-        let lie = About::Item { kind: 0, at, seen };
+        let provenance = Provenance {
+            observer,
+            track_id,
+            observations: 5,
+        };
+        let lie = About::Item {
+            kind: 0,
+            at,
+            provenance,
+        };
         step(&mut brain, vec![heard(LIAR, lie, [0.0, 1.0])]);
         (0..9).for_each(|_| drop(step(&mut brain, Vec::new())));
     }
-    for (at, looks) in all_over().zip(1..) {
+    for (at, observations) in all_over().zip(1..) {
         step(
             &mut brain,
-            vec![heard(robot(3), sender(at, looks), [0.0, 1.0])],
+            vec![heard(robot(3), sender(at, observations), [0.0, 1.0])],
         );
     }
     !goes_anywhere(&mut brain)

@@ -12,24 +12,26 @@ pub(crate) const SENDER: i64 = -1;
 pub(crate) const GOAL: i64 = -2;
 
 /// Status of a commitment, by its code.
-pub(crate) const STANDS: [CommitmentStatus; 3] = [
-    CommitmentStatus::Going,
+pub(crate) const STATUSES: [CommitmentStatus; 3] = [
+    CommitmentStatus::Active,
     CommitmentStatus::Done,
-    CommitmentStatus::Left,
+    CommitmentStatus::Released,
 ];
 
-/// Whose looks messages tell of; what is about no item is by its sender.
-fn seen(entries: &Entries<Heard>) -> PyResult<()> {
+/// The provenance of messages: of one that is not about an item, its sender.
+fn provenance(entries: &Entries<Heard>) -> PyResult<()> {
     let of = |heard: &Heard| match heard.message.about {
-        About::Item { seen, .. } => seen,
+        About::Item { provenance, .. } => provenance,
         _ => Provenance {
-            by: heard.from,
+            observer: heard.from,
             ..Provenance::default()
         },
     };
-    entries.put("by_kind", |heard| i64::from(of(heard).by.kind))?;
-    entries.put("by_index", |heard| i64::from(of(heard).by.index))?;
-    entries.put("mark", |heard| i64::from(of(heard).mark))
+    entries.put("observer_kind", |heard| i64::from(of(heard).observer.kind))?;
+    entries.put("observer_index", |heard| {
+        i64::from(of(heard).observer.index)
+    })?;
+    entries.put("track_id", |heard| i64::from(of(heard).track_id))
 }
 
 /// The percepts of the robots of a kind, by the names of a percept; NaN or false marks a missing value.
@@ -50,8 +52,8 @@ pub(crate) fn percepts<'py>(
     let indices = asked.iter().map(|asked| i64::from(asked.robot.index));
     told.put("robots", array(py, indices))?;
     told.put(
-        "dice",
-        table(py, asked.iter().map(|asked| asked.percept.dice))?,
+        "random_words",
+        table(py, asked.iter().map(|asked| asked.percept.random_words))?,
     )?;
     told.reading("position", |percept| percept.position)?;
     told.reading("heading_rad", |percept| percept.heading_rad)?;
@@ -59,7 +61,7 @@ pub(crate) fn percepts<'py>(
     told.reading("battery", |percept| percept.battery)?;
     told.reading("touch", |percept| percept.touch)?;
     told.put("scans", scans(py, asked)?)?;
-    told.put("looks", looks(py, asked)?)?;
+    told.put("observations", observations(py, asked)?)?;
     told.put("contacts", contacts(py, asked)?)?;
     told.put("neighbours", neighbours(py, asked)?)?;
     told.put("inbox", inbox(py, asked)?)?;
@@ -192,8 +194,8 @@ fn scans<'py>(py: Python<'py>, asked: &[PendingDecision]) -> PyResult<Bound<'py,
     PyList::new(py, (0..rings).map(scan).collect::<PyResult<Vec<_>>>()?)
 }
 
-fn looks<'py>(py: Python<'py>, asked: &[PendingDecision]) -> PyResult<Bound<'py, PyDict>> {
-    let entries = Entries::new(py, asked, |percept| &percept.looks)?;
+fn observations<'py>(py: Python<'py>, asked: &[PendingDecision]) -> PyResult<Bound<'py, PyDict>> {
+    let entries = Entries::new(py, asked, |percept| &percept.observations)?;
     entries.put("sensor", |look| i64::from(look.sensor))?;
     entries.put("age_s", |look| look.age_s)?;
     Ok(entries.dict)
@@ -237,17 +239,17 @@ fn inbox<'py>(py: Python<'py>, asked: &[PendingDecision]) -> PyResult<Bound<'py,
         About::Sender { heading_rad, .. } => heading_rad,
         About::Item { .. } | About::Goal { .. } => f64::NAN,
     })?;
-    entries.put("looks", |heard| match heard.message.about {
-        About::Item { seen, .. } => seen.looks.into(),
-        About::Sender { looks, .. } => looks.into(),
+    entries.put("observations", |heard| match heard.message.about {
+        About::Item { provenance, .. } => provenance.observations.into(),
+        About::Sender { observations, .. } => observations.into(),
         About::Goal { .. } => 0_i64,
     })?;
-    seen(&entries)?;
-    entries.put("stand", |heard| {
-        let About::Goal { stand, .. } = heard.message.about else {
+    provenance(&entries)?;
+    entries.put("status", |heard| {
+        let About::Goal { status, .. } = heard.message.about else {
             return 0_i64;
         };
-        stand as i64
+        status as i64
     })?;
     let places = entries
         .all

@@ -1,6 +1,6 @@
 //! Commands for the robots of a kind, from arrays.
 
-use crate::arrays::{GOAL, STANDS};
+use crate::arrays::{GOAL, STATUSES};
 use base::geometry::Point;
 use brain::{About, Message, Motion, Provenance, SensorRequest};
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
@@ -30,8 +30,8 @@ struct Outbox<'py> {
     item_kind: PyReadonlyArray1<'py, i64>,
     at: PyReadonlyArray2<'py, f64>,
     heading_rad: PyReadonlyArray1<'py, f64>,
-    looks: PyReadonlyArray1<'py, u32>,
-    stand: PyReadonlyArray1<'py, u8>,
+    observations: PyReadonlyArray1<'py, u32>,
+    status: PyReadonlyArray1<'py, u8>,
 }
 
 impl Commands<'_> {
@@ -74,24 +74,28 @@ impl Outbox<'_> {
             .map(|at| Point { x: at[0], y: at[1] });
         let kinds = self.item_kind.as_array();
         let abouts = places.zip(kinds.iter().zip(self.heading_rad.as_array()));
-        let more = self.looks.as_array().into_iter().zip(self.stand.as_array());
+        let more = self
+            .observations
+            .as_array()
+            .into_iter()
+            .zip(self.status.as_array());
         let abouts = abouts.zip(more).map(|((at, (kind, heading_rad)), more)| {
-            let (looks, stand) = (*more.0, *more.1);
+            let (observations, status) = (*more.0, *more.1);
             match u16::try_from(*kind) {
                 // By its sender: who hears it counts it so.
                 Ok(kind) => About::Item {
                     kind,
                     at,
-                    seen: Provenance::default(),
+                    provenance: Provenance::default(),
                 },
                 Err(_) if *kind == GOAL => About::Goal {
                     at,
-                    stand: STANDS[usize::from(stand) % STANDS.len()],
+                    status: STATUSES[usize::from(status) % STATUSES.len()],
                 },
                 Err(_) => About::Sender {
                     at,
                     heading_rad: *heading_rad,
-                    looks,
+                    observations,
                 },
             }
         });

@@ -42,8 +42,8 @@ class Scans(TypedDict):
     ranges_m: Floats
 
 
-class Looks(TypedDict):
-    """Looks for items: of the robot in a `row`, the `sensor` of `Body.sensors`, `age_s` ago."""
+class Observations(TypedDict):
+    """Measurements of item detectors: of the robot in a `row`, the `sensor` of `Body.sensors`."""
 
     row: Whole
     sensor: Whole
@@ -90,12 +90,12 @@ class Inbox(TypedDict):
             about a place where the sender wants to be.
         at: Where that is, shape (messages, 2).
         heading_rad: The sender's course; NaN if it is not about the sender.
-        looks: How often the looker has looked at the item, or the sender for items at all.
-        by_kind: Kind of the robot that looked.
-        by_index: Place of that robot in its kind.
-        mark: That robot's own number for the item.
-        stand: What has become of the place where the sender wanted to be: 0 if it is going there,
-            1 if it has been there, 2 if it no longer goes.
+        observations: Number of observations of the item by the observer, or of all observations
+            by the sender.
+        observer_kind: Kind of the robot that observed the item.
+        observer_index: Index of that robot within its kind.
+        track_id: The number that the observer gave the item.
+        status: Status of the sender's commitment to a destination: 0 active, 1 done, 2 released.
     """
 
     row: Whole
@@ -106,11 +106,11 @@ class Inbox(TypedDict):
     item_kind: Whole
     at: Floats
     heading_rad: Floats
-    looks: Whole
-    by_kind: Whole
-    by_index: Whole
-    mark: Whole
-    stand: Whole
+    observations: Whole
+    observer_kind: Whole
+    observer_index: Whole
+    track_id: Whole
+    status: Whole
 
 
 class Percepts(TypedDict):
@@ -121,14 +121,15 @@ class Percepts(TypedDict):
         count: Robots of the kind that there are in the run, also those that do not step now.
         time_s: Time since the mission began.
         robots: Which robots step, shape (n,): their indices, below `count`, rising.
-        dice: Four random whole numbers below 2^32 of each, shape (n, 4).
+        random_words: Four random integers below 2^32 for each, shape (n, 4).
         position: Where each is in the world; values have the shape (n, 2).
         heading_rad: The course of each; 0 along x.
         motion: How each moves, from its wheels or rotors.
         battery: Share of each battery's capacity that is left, 0 to 1.
         touch: Whether each touches something.
         scans: Of each range ring of the body.
-        looks: Looks for items since the last step, also those that recognised none.
+        observations: Measurements of item detectors since the last step, including those without
+            a contact.
         contacts: Items that sensors recognised since the last step, or took for such.
         neighbours: Robots that sensors recognised since the last step.
         inbox: What other robots told since the last step.
@@ -138,14 +139,14 @@ class Percepts(TypedDict):
     count: int
     time_s: float
     robots: Whole
-    dice: NDArray[np.uint32]
+    random_words: NDArray[np.uint32]
     position: Readings[Floats]
     heading_rad: Readings[Floats]
     motion: Readings[Motions]
     battery: Readings[Floats]
     touch: Readings[Truths]
     scans: list[Scans]
-    looks: Looks
+    observations: Observations
     contacts: Contacts
     neighbours: Neighbours
     inbox: Inbox
@@ -174,8 +175,8 @@ class Outbox(TypedDict):
     item_kind: ArrayLike
     at: ArrayLike
     heading_rad: NotRequired[ArrayLike]
-    looks: NotRequired[ArrayLike]
-    stand: NotRequired[ArrayLike]
+    observations: NotRequired[ArrayLike]
+    status: NotRequired[ArrayLike]
 
 
 class Commands(TypedDict):

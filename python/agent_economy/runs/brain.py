@@ -1,7 +1,7 @@
 """A robot's mind, for whoever has percepts of their own: live robots, other simulators, learning.
 
 A percept comes in, a command goes out, and nothing else: no clock, no files, no chance but the
-percept's dice. The same percepts give the same commands. Both are plain dicts, with the names and
+percept's random words. The same percepts give the same commands. Both are plain dicts, with the names and
 units of the scenario: metres, seconds and radians, angles anticlockwise from the robot's front
 unless said otherwise.
 """
@@ -129,46 +129,44 @@ class Motion(TypedDict):
 
 
 class Provenance(TypedDict):
-    """The looks of one robot at one item: what counts once, whoever tells of it, and however often.
+    """The observations of one item by one robot: they count once, however often they are reported.
 
     Attributes:
-        by: Who looked.
-        mark: The looker's own number for the item.
-        looks: How often it looked; of two reports with the same mark, the one with more holds.
+        observer: The robot that made the observations.
+        track_id: The number that the observer gave the item.
+        observations: Number of observations: of two reports with the same track id, the one with
+            more counts.
     """
 
-    by: RobotId
-    mark: int
-    looks: int
+    observer: RobotId
+    track_id: int
+    observations: int
 
 
 class AboutItem(TypedDict):
-    """An item: the place of its kind in `Body.item_kinds`, where it is, and whose looks say so.
+    """An item: the index of its kind in `Body.item_kinds`, its position and its provenance.
 
-    Left out, they are the sender's.
+    The default provenance is the sender.
     """
 
     kind: int
     at: Point
-    seen: NotRequired[Provenance]
+    provenance: NotRequired[Provenance]
 
 
 class AboutSender(TypedDict):
-    """The sender itself: where it is, its course, and how often it has looked for items so far.
-
-    A course of 0 is along x.
-    """
+    """The sender itself: its position, heading (0 along x) and observations so far."""
 
     at: Point
     heading_rad: float
-    looks: NotRequired[int]
+    observations: NotRequired[int]
 
 
 class AboutGoal(TypedDict):
-    """A place where the sender wants to be, and what has become of that."""
+    """A destination of the sender, and the status of its commitment."""
 
     at: Point
-    stand: Literal["going", "done", "left"]
+    status: Literal["active", "done", "released"]
 
 
 class About(TypedDict, total=False):
@@ -206,8 +204,8 @@ class Scan(TypedDict, total=False):
     ranges_m: Sequence[float | None]
 
 
-class Look(TypedDict):
-    """A look for items: the sensor, by its place in `Body.sensors`, and how long ago."""
+class Observation(TypedDict):
+    """A measurement of an item detector: its index in `Body.sensors`, and the age."""
 
     sensor: int
     age_s: float
@@ -250,32 +248,33 @@ class Percept(TypedDict, total=False):
 
     Attributes:
         time_s: Time since the mission began.
-        dice: Four random whole numbers below 2^32, the only chance that a brain has.
+        random_words: Four random integers below 2^32, the only source of randomness of a brain.
         id: Which robot it is: it was told so before the mission.
-        of_kind: How many robots of its kind there are, itself among them; 0 if it was not told.
+        team_size: Number of robots of its kind, itself included; 0 if unknown.
         position: Where it is in the world.
         heading_rad: Its course: 0 along x.
         motion: How it moves, from its wheels or rotors.
         battery: Share of the battery's capacity that is left, 0 to 1.
         touch: Whether it touches something.
         scans: Of each range ring of its body, in the body's order.
-        looks: Looks for items since the last step, also those that recognised none.
+        observations: Measurements of its item detectors since the last step, including those
+            without a contact.
         contacts: Items that its sensors recognised since the last step, or took for such.
         neighbours: Robots that its sensors recognised since the last step.
         inbox: What other robots told since the last step.
     """
 
     time_s: float
-    dice: Sequence[int]
+    random_words: Sequence[int]
     id: RobotId
-    of_kind: int
+    team_size: int
     position: Reading[Point] | None
     heading_rad: Reading[float] | None
     motion: Reading[Motion] | None
     battery: Reading[float] | None
     touch: Reading[bool] | None
     scans: Sequence[Scan]
-    looks: Sequence[Look]
+    observations: Sequence[Observation]
     contacts: Sequence[Contact]
     neighbours: Sequence[Neighbour]
     inbox: Sequence[Heard]

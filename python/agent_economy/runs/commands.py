@@ -24,10 +24,10 @@ SENDER = -1
 GOAL = -2
 """In place of an item's kind where a message is about a place where its sender wants to be."""
 
-GOING, LEFT = 0, 2
+ACTIVE, RELEASED = 0, 2
 """The least and the greatest of what can have become of such a place."""
 
-MOST_LOOKS = 2**32 - 1
+MAX_OBSERVATIONS = 2**32 - 1
 
 
 @dataclass(frozen=True)
@@ -48,8 +48,8 @@ class Outbox:
     item_kind: Whole
     at: Floats
     heading_rad: Floats
-    looks: NDArray[np.uint32]
-    stand: NDArray[np.uint8]
+    observations: NDArray[np.uint32]
+    status: NDArray[np.uint8]
 
 
 @dataclass(frozen=True)
@@ -160,13 +160,13 @@ def outbox(commands: Table, robots: int) -> Outbox:
     at = table.numbers("at", (len(row), 2))
     has_course = np.any(item_kind == SENDER)
     heading_rad = table.numbers("heading_rad", row.shape) if has_course else np.zeros(row.shape)
-    looks = np.zeros(row.shape, np.uint32)
-    if "looks" in table:
-        looks = table.whole("looks", row.shape, (0, MOST_LOOKS)).astype(np.uint32)
-    stand = np.zeros(row.shape, np.uint8)
-    if "stand" in table:
-        stand = table.whole("stand", row.shape, (GOING, LEFT)).astype(np.uint8)
-    return Outbox(row, confidence, item_kind, at, heading_rad, looks, stand)
+    observations = np.zeros(row.shape, np.uint32)
+    if "observations" in table:
+        observations = table.whole("observations", row.shape, (0, MAX_OBSERVATIONS)).astype(np.uint32)
+    status = np.zeros(row.shape, np.uint8)
+    if "status" in table:
+        status = table.whole("status", row.shape, (ACTIVE, RELEASED)).astype(np.uint8)
+    return Outbox(row, confidence, item_kind, at, heading_rad, observations, status)
 
 
 NOTHING = Table("commands", {}, batch.Commands.__annotations__)

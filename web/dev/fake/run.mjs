@@ -193,7 +193,7 @@ function perceptOf([x, y, heading_rad], time_s) {
     battery: reading(0.83),
     touch: null,
     scans: [{ age_s: 0.05, ranges_m: rays.map((ray) => (Math.abs(ray) < 1 ? null : 3 + Math.sin(5 * ray))) }],
-    looks: [{ sensor: 0, age_s: 0 }],
+    observations: [{ sensor: 0, age_s: 0 }],
     contacts: [{ kind: 0, range_m: 2, bearing_rad: 0.4, age_s: 0 }],
     neighbours: [{ range_m: 3, bearing_rad: -2, course_rad: null, age_s: 0.1, id: { kind: 0, index: 2 } }],
     inbox: [{ age_s: 0.2, message: { about: { goal: {} }, confidence: 1 } }],

@@ -276,7 +276,7 @@ export interface Percept {
   battery: Reading<number> | null;
   touch: Reading<boolean> | null;
   scans: { age_s: number | null; ranges_m: (number | null)[] }[];
-  looks: { sensor: number; age_s: number }[];
+  observations: { sensor: number; age_s: number }[];
   contacts: Contact[];
   neighbours: Neighbour[];
   inbox: { age_s: number; message: RobotMessage }[];

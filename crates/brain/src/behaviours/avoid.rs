@@ -218,10 +218,10 @@ impl Ready {
     }
 
     fn turn_from_touch(&self, memory: &mut Memory, situation: &Situation) -> Motion {
-        let mut dice = situation.dice();
+        let mut random_words = situation.random_words();
         // The first number is for the side.
-        dice.unit();
-        let least_rad = dice.between(FRAC_PI_4, PI);
+        random_words.unit();
+        let least_rad = random_words.between(FRAC_PI_4, PI);
         self.turn(memory, self.nearest_m(situation), least_rad, situation)
     }
 
@@ -238,7 +238,7 @@ impl Ready {
         let is_left = if differs {
             left_m > right_m
         } else {
-            situation.dice().below(2) == 0
+            situation.random_words().below(2) == 0
         };
         *memory = Memory::Turning {
             is_left,
@@ -317,13 +317,13 @@ mod tests {
         Brain::new(Arc::new(spec), Arc::new(body.clone()))
     }
 
-    fn percept(ranges: &[(usize, f64)], dice: u32, touches: bool) -> Percept {
+    fn percept(ranges: &[(usize, f64)], random_words: u32, touches: bool) -> Percept {
         let mut ranges_m = vec![2.0; 16];
         for (ray, range_m) in ranges {
             ranges_m[*ray] = *range_m;
         }
         Percept {
-            dice: [dice; 4],
+            random_words: [random_words; 4],
             touch: Some(now(touches)),
             scans: vec![Scan {
                 age_s: Some(0.0),
@@ -335,10 +335,10 @@ mod tests {
 
     proptest! {
         #[test]
-        fn it_turns_to_the_freer_side(dice: u32, near in 0.25_f64..0.35, far in 0.5_f64..2.0) {
+        fn it_turns_to_the_freer_side(random_words: u32, near in 0.25_f64..0.35, far in 0.5_f64..2.0) {
             for (near_ray, sign) in [(1, -1.0), (15, 1.0)] {
                 let ranges = [(near_ray, near), (16 - near_ray, far)];
-                let motion = brain(&rover()).step(&percept(&ranges, dice, false)).motion;
+                let motion = brain(&rover()).step(&percept(&ranges, random_words, false)).motion;
                 prop_assert_eq!(motion.speed_m_s, 0.0);
                 prop_assert!(motion.turn_rate_rad_s * sign > 1.0);
             }
@@ -353,8 +353,8 @@ mod tests {
 
     #[test]
     fn between_sides_that_are_the_same_the_dice_decide() {
-        let turn = |dice| {
-            let percept = percept(&[(0, 0.3)], dice, false);
+        let turn = |random_words| {
+            let percept = percept(&[(0, 0.3)], random_words, false);
             brain(&rover()).step(&percept).motion.turn_rate_rad_s
         };
         assert!(turn(0) > 1.0 && turn(u32::MAX) < -1.0);

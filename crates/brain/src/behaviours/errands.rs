@@ -127,7 +127,7 @@ mod tests {
     fn each_goes_to_the_nearest_place_that_nobody_else_goes_to() {
         let (mut errands, mut mates) = (all(), Peers::default());
         assert_eq!(next(&mut errands, 1, 2.0, &mates), Some(3.0));
-        mates.goes(robot(0), at(3.0), CommitmentStatus::Going, 0.0);
+        mates.goes(robot(0), at(3.0), CommitmentStatus::Active, 0.0);
         assert_eq!(next(&mut errands, 1, 2.0, &mates), Some(0.0));
     }
 
@@ -135,7 +135,7 @@ mod tests {
     fn of_two_who_go_to_the_same_place_the_first_goes_on() {
         let (mut errands, mut mates) = (all(), Peers::default());
         assert_eq!(next(&mut errands, 1, 2.0, &mates), Some(3.0));
-        mates.goes(robot(2), at(3.0), CommitmentStatus::Going, 0.0);
+        mates.goes(robot(2), at(3.0), CommitmentStatus::Active, 0.0);
         assert_eq!(next(&mut errands, 1, 2.0, &mates), Some(3.0));
     }
 
@@ -168,7 +168,7 @@ mod tests {
     #[test]
     fn who_is_not_heard_of_any_more_leaves_its_place_to_others() {
         let (mut errands, mut mates) = (Errands::new(vec![1]), Peers::default());
-        mates.goes(robot(0), at(3.0), CommitmentStatus::Going, 0.0);
+        mates.goes(robot(0), at(3.0), CommitmentStatus::Active, 0.0);
         assert_eq!(next(&mut errands, 1, 2.0, &mates), None);
         mates.pass(11.0);
         assert_eq!(next(&mut errands, 1, 2.0, &mates), Some(3.0));

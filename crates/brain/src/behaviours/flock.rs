@@ -136,18 +136,18 @@ impl Ready {
     }
 
     /// How fast a robot turns whose course is `front`, of length 1, given those near it, in rad/s;
-    /// `dice` gives it its chance, if it takes any.
+    /// `random_words` gives it its chance, if it takes any.
     #[inline]
     pub fn turn_rate_rad_s(
         &self,
         front: Point,
         sums: &Sums,
-        dice: impl FnOnce() -> RandomWords,
+        random_words: impl FnOnce() -> RandomWords,
     ) -> f64 {
         let course = front.plus(self.steering(sums));
         let turn_rad = libm::atan2(front.cross(course), front.dot(course));
         let turn_rad = if self.noise_rad > 0.0 {
-            wrapped(turn_rad + self.noise_rad * dice().between(-0.5, 0.5))
+            wrapped(turn_rad + self.noise_rad * random_words().between(-0.5, 0.5))
         } else {
             turn_rad
         };
@@ -219,7 +219,7 @@ impl Behaviour for Ready {
         let front = Point { x: 1.0, y: 0.0 };
         let motion = Motion {
             speed_m_s: self.speed_m_s,
-            turn_rate_rad_s: self.turn_rate_rad_s(front, &sums, || situation.dice()),
+            turn_rate_rad_s: self.turn_rate_rad_s(front, &sums, || situation.random_words()),
         };
         Some(motion.into())
     }

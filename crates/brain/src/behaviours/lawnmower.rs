@@ -237,7 +237,7 @@ impl Behaviour for Ready {
         let beliefs = situation.beliefs?;
         let pose = beliefs.pose()?;
         let field = &beliefs.map.as_ref()?.field;
-        let robots = situation.percept.of_kind.max(1);
+        let robots = situation.percept.team_size.max(1);
         let part = [situation.percept.id.index % robots, robots];
         let progress = memory.get_or_insert_with(|| Box::new(Progress::of(part)));
         if progress.part != part {

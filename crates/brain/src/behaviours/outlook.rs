@@ -129,7 +129,7 @@ mod tests {
             at: HERE,
             heading_rad: 0.0,
             trust: 1.0,
-            looks: 1.0,
+            observations: 1.0,
             blur_m: 0.0,
         }
     }

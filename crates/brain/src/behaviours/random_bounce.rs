@@ -138,7 +138,7 @@ impl Ready {
     /// The angle to a new course, from -pi to pi: that of a ray that is free for longer than it
     /// turns at, or else of the longest, and up to half way to the next ray.
     fn new_course_rad(&self, situation: &Situation) -> f64 {
-        let mut dice = situation.dice();
+        let mut random_words = situation.random_words();
         let free_m = situation.body.radius_m + self.turn_at_m;
         let is_free = |(_, _, range_m): &(&Ring, usize, f64)| *range_m > free_m;
         let count = rays(situation)
@@ -146,11 +146,11 @@ impl Ready {
             .fold(0, |count, _| count + 1);
         let chosen = rays(situation)
             .filter(is_free)
-            .nth(dice.below(count) as usize);
+            .nth(random_words.below(count) as usize);
         let longest = || rays(situation).max_by(|a, b| a.2.total_cmp(&b.2));
         let angle_rad = match chosen.or_else(longest) {
-            Some((ring, ray, _)) => ring.about_rad(ray, dice.between(-0.5, 0.5)),
-            None => dice.between(LEAST_BLIND_RAD, TAU - LEAST_BLIND_RAD),
+            Some((ring, ray, _)) => ring.about_rad(ray, random_words.between(-0.5, 0.5)),
+            None => random_words.between(LEAST_BLIND_RAD, TAU - LEAST_BLIND_RAD),
         };
         wrapped(angle_rad)
     }
@@ -257,13 +257,13 @@ mod tests {
     }
 
     /// The angle by which it turns when it stands before what it sees, with a compass or without.
-    fn turn_rad(ranges_m: &[f64], dice: [u32; 4], has_compass: bool) -> f64 {
+    fn turn_rad(ranges_m: &[f64], random_words: [u32; 4], has_compass: bool) -> f64 {
         let body = rover();
         let mut brain = brain(&body, RandomBounce::default());
         let mut turned_rad = 0.0;
         for step in 0..60 {
             let command = brain.step(&Percept {
-                dice,
+                random_words,
                 heading_rad: has_compass.then(|| now(wrapped(3.0 + turned_rad))),
                 scans: vec![Scan {
                     age_s: Some(0.0),
@@ -281,34 +281,34 @@ mod tests {
 
     proptest! {
         #[test]
-        fn it_turns_to_a_course_that_is_free(dice: [u32; 4], has_compass: bool, free in 1_usize..16) {
+        fn it_turns_to_a_course_that_is_free(random_words: [u32; 4], has_compass: bool, free in 1_usize..16) {
             let mut ranges = [0.5; 16];
             ranges[free] = 2.0;
             let bearing = wrapped(f64::from(u32::try_from(free).unwrap()) * TAU / 16.0);
-            let off = wrapped(turn_rad(&ranges, dice, has_compass) - bearing);
+            let off = wrapped(turn_rad(&ranges, random_words, has_compass) - bearing);
             prop_assert!(off.abs() <= TAU / 32.0 + 0.03, "{off}");
         }
 
         #[test]
-        fn with_nothing_free_it_turns_to_where_it_sees_farthest(dice: [u32; 4]) {
+        fn with_nothing_free_it_turns_to_where_it_sees_farthest(random_words: [u32; 4]) {
             let mut ranges = [0.5; 16];
             ranges[4] = 0.6;
-            let off = turn_rad(&ranges, dice, false) - TAU / 4.0;
+            let off = turn_rad(&ranges, random_words, false) - TAU / 4.0;
             prop_assert!(off.abs() <= TAU / 32.0 + 0.03, "{off}");
         }
     }
 
     #[test]
     fn all_free_courses_are_drawn_alike() {
-        // Seven free rays, 7000 draws, one for each of evenly spread dice: off by one at most.
+        // Seven free rays, 7000 draws, one for each of evenly spread random_words: off by one at most.
         let mut ranges = [2.0; 16];
         for ray in [0, 1, 2, 3, 4, 12, 13, 14, 15] {
             ranges[ray] = 0.5;
         }
         let mut counts = [0_u32; 7];
         for draw in 0..7000_u32 {
-            let dice = [draw * (u32::MAX / 7000), 1 << 31, 0, 0];
-            let bearing = turn_rad(&ranges, dice, false).rem_euclid(TAU);
+            let random_words = [draw * (u32::MAX / 7000), 1 << 31, 0, 0];
+            let bearing = turn_rad(&ranges, random_words, false).rem_euclid(TAU);
             #[expect(
                 clippy::cast_possible_truncation,
                 clippy::cast_sign_loss,

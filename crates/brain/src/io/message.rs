@@ -27,7 +27,7 @@ pub enum About {
         at: Point,
         /// The observations behind the report.
         #[serde(default)]
-        seen: Provenance,
+        provenance: Provenance,
     },
     /// The sender itself.
     Sender {
@@ -37,14 +37,14 @@ pub enum About {
         heading_rad: f64,
         /// Number of measurements of its item detectors so far on its way here.
         #[serde(default)]
-        looks: u32,
+        observations: u32,
     },
     /// A destination of the sender.
     Goal {
         /// Its position in the world.
         at: Point,
         /// The status of the commitment.
-        stand: CommitmentStatus,
+        status: CommitmentStatus,
     },
 }
 
@@ -56,11 +56,11 @@ pub enum About {
 #[serde(deny_unknown_fields)]
 pub struct Provenance {
     /// The observer.
-    pub by: RobotId,
-    /// The observer's own number for the item.
-    pub mark: u32,
-    /// Number of observations: of two reports with the same mark, the one with more counts.
-    pub looks: u32,
+    pub observer: RobotId,
+    /// The number that the observer gave the item.
+    pub track_id: u32,
+    /// Number of observations: of two reports with the same track id, the one with more counts.
+    pub observations: u32,
 }
 
 /// The status of a commitment to a destination.
@@ -68,9 +68,9 @@ pub struct Provenance {
 #[serde(rename_all = "snake_case")]
 pub enum CommitmentStatus {
     /// The sender is on its way: no other robot needs to go.
-    Going,
+    Active,
     /// The sender has been there: no other robot needs to go.
     Done,
     /// The sender gave it up without having been there: other robots may go.
-    Left,
+    Released,
 }

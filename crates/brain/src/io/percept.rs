@@ -17,11 +17,11 @@ pub struct Percept {
     /// Time since the mission began.
     pub time_s: f64,
     /// Random bits of this step, the only source of randomness of a brain.
-    pub dice: [u32; 4],
+    pub random_words: [u32; 4],
     /// The id of the robot, known before the mission.
     pub id: RobotId,
     /// Number of robots of its kind, itself included; 0 if unknown.
-    pub of_kind: u32,
+    pub team_size: u32,
     /// Its position in the world.
     pub position: Option<Reading<Point>>,
     /// Its heading: 0 along x, anticlockwise.
@@ -37,7 +37,7 @@ pub struct Percept {
     /// Scans of its range rings, in the order of the body.
     pub scans: Vec<Scan>,
     /// Measurements of its item detectors since the last step, including those without a contact.
-    pub looks: Vec<Look>,
+    pub observations: Vec<Observation>,
     /// Contacts since the last step: detected items, and false alarms.
     pub contacts: Vec<Contact>,
     /// Robots that its sensors detected since the last step.
@@ -72,7 +72,7 @@ pub struct Scan {
 /// A measurement of an item detector.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Look {
+pub struct Observation {
     /// Index of the sensor in [`Body::sensors`](crate::Body::sensors).
     pub sensor: u16,
     /// Time since the measurement.

@@ -1,6 +1,6 @@
 //! Uniform numbers from the random bits of a percept.
 
-/// Uniform numbers made of a percept's [`dice`](crate::Percept::dice), in a fixed order.
+/// Uniform numbers made of a percept's [`random_words`](crate::Percept::random_words), in a fixed order.
 ///
 /// The first four are its four words; whoever needs more gets these mixed anew.
 #[derive(Debug, Clone)]
@@ -65,20 +65,20 @@ mod tests {
     proptest! {
         #[test]
         fn numbers_lie_within_their_bounds(words: [u32; 4], end in 1_u32..1000) {
-            let mut dice = RandomWords::new(words);
+            let mut random_words = RandomWords::new(words);
             for _ in 0..20 {
-                prop_assert!((0.0..1.0).contains(&dice.unit()));
-                prop_assert!((-3.0..2.0).contains(&dice.between(-3.0, 2.0)));
-                prop_assert!(dice.below(end) < end);
+                prop_assert!((0.0..1.0).contains(&random_words.unit()));
+                prop_assert!((-3.0..2.0).contains(&random_words.between(-3.0, 2.0)));
+                prop_assert!(random_words.below(end) < end);
             }
-            prop_assert_eq!(dice.below(0), 0);
+            prop_assert_eq!(random_words.below(0), 0);
         }
 
         #[test]
         fn the_first_four_numbers_are_the_words(words: [u32; 4]) {
-            let mut dice = RandomWords::new(words);
+            let mut random_words = RandomWords::new(words);
             for word in words {
-                prop_assert_eq!(dice.unit().to_bits(), (f64::from(word) / 4_294_967_296.0).to_bits());
+                prop_assert_eq!(random_words.unit().to_bits(), (f64::from(word) / 4_294_967_296.0).to_bits());
             }
         }
     }
@@ -90,9 +90,9 @@ mod tests {
         let mut random = stream(1, 0, Entity { kind: 0, index: 0 }, Purpose::Start);
         let mut bins = [[0_u32; 16]; 12];
         for _ in 0..16_000 {
-            let mut dice = RandomWords::new(std::array::from_fn(|_| random.next_u32()));
+            let mut random_words = RandomWords::new(std::array::from_fn(|_| random.next_u32()));
             for bins in &mut bins {
-                bins[dice.below(16) as usize] += 1;
+                bins[random_words.below(16) as usize] += 1;
             }
         }
         for (place, bins) in bins.iter().enumerate() {
@@ -106,8 +106,11 @@ mod tests {
 
     #[test]
     fn dice_of_zeros_do_not_stay_zeros() {
-        let mut dice = RandomWords::new([0; 4]);
-        let later: Vec<u32> = (0..8).map(|_| dice.below(1 << 30)).skip(4).collect();
+        let mut random_words = RandomWords::new([0; 4]);
+        let later: Vec<u32> = (0..8)
+            .map(|_| random_words.below(1 << 30))
+            .skip(4)
+            .collect();
         assert!(later.iter().all(|number| *number > 0), "{later:?}");
     }
 }

@@ -111,7 +111,7 @@ impl Navigator {
             hits: &self.hits,
             movers: &beliefs.others.movers,
         };
-        let target = self.shunting.redirect(&step, situation.dice());
+        let target = self.shunting.redirect(&step, situation.random_words());
         let stop_within_m = step.remaining_m - destination.tolerance_m / 2.0;
         let max_m_s = if self.shunting.is_yielding() {
             destination.max_speed_m_s

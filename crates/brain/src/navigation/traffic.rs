@@ -171,7 +171,7 @@ fn line(own: &Segment, lag_m: f64, mover: &Mover, body: &Body) -> Option<Line> {
     let half_m = (body.radius_m + mover.radius_m + CLEARANCE_M + error_m) / 2.0;
     // Robots that are too near already must not come nearer. The same holds for a mover that was
     // observed only once, whose velocity is unknown.
-    let free_m = if mover.looks > 1 {
+    let free_m = if mover.observations > 1 {
         (gap_m / 2.0 - half_m - lag_m).max(0.0)
     } else {
         0.0

@@ -49,8 +49,8 @@ impl Situation<'_> {
     }
 
     /// Uniform numbers; every call begins with the first.
-    pub(crate) fn dice(&self) -> RandomWords {
-        RandomWords::new(self.percept.dice)
+    pub(crate) fn random_words(&self) -> RandomWords {
+        RandomWords::new(self.percept.random_words)
     }
 
     /// So far it still goes if it brakes now.

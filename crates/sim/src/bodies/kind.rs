@@ -75,7 +75,7 @@ impl Flocking {
         &self,
         front: Point,
         sums: &Sums,
-        dice: impl FnOnce() -> RandomWords,
+        random_words: impl FnOnce() -> RandomWords,
     ) -> f64 {
         let course = if self.sees_courses {
             sums.course
@@ -83,7 +83,7 @@ impl Flocking {
             Point::default()
         };
         let sums = Sums { course, ..*sums };
-        self.rule.turn_rate_rad_s(front, &sums, dice)
+        self.rule.turn_rate_rad_s(front, &sums, random_words)
     }
 }
 

@@ -73,15 +73,15 @@ impl Agent {
     /// Makes room for detections of a step in which the brain does not step.
     pub(crate) fn forget(&mut self, now: u64) {
         if let Some(backlog) = &mut self.backlog {
-            backlog.looks.forget(now);
+            backlog.observations.forget(now);
             backlog.contacts.forget(now);
             backlog.neighbours.forget(now);
         }
     }
 
-    pub(crate) fn wait_look(&mut self, late: Pending<brain::Look>) {
+    pub(crate) fn wait_look(&mut self, late: Pending<brain::Observation>) {
         if let Some(backlog) = &mut self.backlog {
-            backlog.looks.entries.push(late);
+            backlog.observations.entries.push(late);
         }
     }
 

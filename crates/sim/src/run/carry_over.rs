@@ -59,13 +59,16 @@ pub(super) fn still_sayable(
         return false;
     };
     heard.from = *sender;
-    let About::Item { kind, seen, .. } = &mut heard.message.about else {
+    let About::Item {
+        kind, provenance, ..
+    } = &mut heard.message.about
+    else {
         return true;
     };
-    let Some(looker) = ids.get(&seen.by) else {
+    let Some(looker) = ids.get(&provenance.observer) else {
         return false;
     };
-    seen.by = *looker;
+    provenance.observer = *looker;
     let Some(was) = from.items.get(usize::from(*kind)) else {
         // It names no kind that existed: it stays as it is.
         return usize::from(*kind) >= to.items.len();

@@ -9,7 +9,7 @@ use brain::{self, Contact, Heard, Neighbour, Percept};
 pub(crate) struct Backlog {
     /// By sensor; empty for one without delay.
     kept: Vec<Vec<Look>>,
-    pub(crate) looks: PendingQueue<brain::Look>,
+    pub(crate) observations: PendingQueue<brain::Observation>,
     pub(crate) contacts: PendingQueue<(Contact, Option<u32>)>,
     pub(crate) neighbours: PendingQueue<Neighbour>,
     pub(crate) inbox: PendingQueue<Heard>,
@@ -58,9 +58,10 @@ impl Backlog {
         to: &mut Percept,
         mut found: impl FnMut(Option<u32>),
     ) {
-        self.looks.tell(now, |late| {
+        self.observations.tell(now, |late| {
             let age_s = age_s(late.taken, now, step_s);
-            to.looks.push(brain::Look { age_s, ..late.what });
+            to.observations
+                .push(brain::Observation { age_s, ..late.what });
         });
         self.contacts.tell(now, |late| {
             let (contact, item) = late.what;

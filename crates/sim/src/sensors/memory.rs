@@ -10,7 +10,7 @@ use brain::{Contact, Heard, Neighbour};
 pub(crate) const CONTACT_BYTES: usize = size_of::<Pending<(Contact, Option<u32>)>>();
 
 /// A measurement of an item detector in the queue of a brain, without its contacts.
-pub(crate) const OBSERVATION_BYTES: usize = size_of::<Pending<brain::Look>>();
+pub(crate) const OBSERVATION_BYTES: usize = size_of::<Pending<brain::Observation>>();
 
 /// A detected robot in the queue of a brain.
 pub(crate) const NEIGHBOUR_BYTES: usize = size_of::<Pending<Neighbour>>();

@@ -140,7 +140,7 @@ impl WorkerScratch {
         let percept = &mut self.percept;
         percept.position = None;
         percept.heading_rad = None;
-        percept.looks.clear();
+        percept.observations.clear();
         percept.contacts.clear();
         percept.neighbours.clear();
         percept.inbox.clear();
@@ -164,8 +164,8 @@ impl WorkerScratch {
         let percept = &mut self.percept;
         percept.time_s = view.time_s();
         percept.id = view.ids[robot];
-        percept.of_kind = view.kind(robot).count;
-        percept.dice = view.noises[robot].words(NoisePurpose::RandomWords as u32, beat, 0);
+        percept.team_size = view.kind(robot).count;
+        percept.random_words = view.noises[robot].words(NoisePurpose::RandomWords as u32, beat, 0);
         percept.touch = now(body_state.is_pressed);
         percept.motion = now(Motion {
             speed_m_s: body_state.speed_m_s,

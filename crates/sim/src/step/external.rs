@@ -64,7 +64,7 @@ radio = { range_m = 5 }
             about: About::Item {
                 kind: 0,
                 at: Point::default(),
-                seen: Provenance::default(),
+                provenance: Provenance::default(),
             },
             confidence: 1.0,
         };

@@ -102,14 +102,15 @@ fn compute_some(view: &View, flock: &Flock, first: usize, turn_rates: &mut [f64]
     flock.sums(first, limits, sums);
     for ((place, sums), turn_rate) in (first..).zip(sums).zip(turn_rates) {
         if let Some(flocking) = flocking(flock.kinds[place]) {
-            let dice = || dice(view.noises[flock.robots[place] as usize], view.tick);
-            *turn_rate = flocking.turn_rate_rad_s(flock.course(place), sums, dice);
+            let random_words =
+                || random_words(view.noises[flock.robots[place] as usize], view.tick);
+            *turn_rate = flocking.turn_rate_rad_s(flock.course(place), sums, random_words);
         }
     }
 }
 
 /// The random words of a brain that steps in each step.
-fn dice(noise: Noise, tick: u64) -> RandomWords {
+fn random_words(noise: Noise, tick: u64) -> RandomWords {
     RandomWords::new(noise.words(NoisePurpose::RandomWords as u32, tick, 0))
 }
 
@@ -126,7 +127,7 @@ impl Flocking {
         if agent.is_on(0) {
             return self.motion(turn_rate_rad_s);
         }
-        let dice = || dice(noise, tick);
-        self.motion(self.turn_rate_rad_s(course.front, &Sums::default(), dice))
+        let random_words = || random_words(noise, tick);
+        self.motion(self.turn_rate_rad_s(course.front, &Sums::default(), random_words))
     }
 }

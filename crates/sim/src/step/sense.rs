@@ -228,12 +228,12 @@ impl Look<'_> {
         let is_there = |place| scenario.torus.is_some() || scenario.world.contains(place);
         let is_immediate = self.sensor.latency_steps == 0;
         let mut percept = percept.filter(|_| is_immediate);
-        let look = brain::Look {
+        let look = brain::Observation {
             sensor: self.place(),
             age_s: 0.0,
         };
         match percept.as_deref_mut() {
-            Some(percept) => percept.looks.push(look),
+            Some(percept) => percept.observations.push(look),
             None => agent.wait_look(self.late(look)),
         }
         detector.look(&self.frame, self.view.items, |way, kind, item| {

@@ -10,8 +10,8 @@ use allocation_counter::measure;
 use base::document::Document;
 use base::geometry::Point;
 use brain::{
-    About, Body, Brain, BrainSpec, Command, Contact, Detector, Heard, Look, Message, Neighbour,
-    Percept, Provenance, RangeRing, Reading, RobotId, Scan,
+    About, Body, Brain, BrainSpec, Command, Contact, Detector, Heard, Message, Neighbour,
+    Observation, Percept, Provenance, RangeRing, Reading, RobotId, Scan,
 };
 use sim::scenario::ScenarioSpec;
 use sim::simulation::Simulation;
@@ -59,7 +59,7 @@ fn commands(messages: usize) -> BTreeMap<RobotId, Command> {
         about: About::Item {
             kind: 0,
             at: Point::default(),
-            seen: Provenance::default(),
+            provenance: Provenance::default(),
         },
         confidence: 0.5,
     };
@@ -154,16 +154,16 @@ fn throng(step: u32, rays: u32) -> Percept {
                 About::Sender {
                     at: place(number),
                     heading_rad: 0.0,
-                    looks: step,
+                    observations: step,
                 }
             } else {
                 About::Item {
                     kind: 0,
                     at: place(number),
-                    seen: Provenance {
-                        by: id(number),
-                        mark: number,
-                        looks: step + 1,
+                    provenance: Provenance {
+                        observer: id(number),
+                        track_id: number,
+                        observations: step + 1,
                     },
                 }
             },
@@ -183,7 +183,7 @@ fn throng(step: u32, rays: u32) -> Percept {
             age_s: Some(0.0),
             ranges_m: (0..rays).map(|ray| 0.3 + 4.0 * spread(ray)).collect(),
         }],
-        looks: vec![Look {
+        observations: vec![Observation {
             sensor: 0,
             age_s: 0.0,
         }],

@@ -73,7 +73,7 @@ pub(crate) fn message(number: f64) -> Message {
         about: About::Item {
             kind: 0,
             at,
-            seen: Provenance::default(),
+            provenance: Provenance::default(),
         },
         confidence: 0.5,
     }

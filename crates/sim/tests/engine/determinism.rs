@@ -47,7 +47,7 @@ pub(crate) fn commands(simulation: &Simulation, step: u32) -> BTreeMap<RobotId, 
                     about: About::Item {
                         kind: 0,
                         at: Point::default(),
-                        seen: Provenance::default(),
+                        provenance: Provenance::default(),
                     },
                     confidence: f64::from(number),
                 };
@@ -227,7 +227,7 @@ fn a_robot_more_or_a_kind_more_changes_nothing_for_the_others_at_first() {
             let percepts_now = (0..6).map(|index| simulation.percept(id(0, index)).unwrap());
             // How many it is one of is told to each.
             percepts
-                .extend(percepts_now.map(|percept| percept.map(|p| Percept { of_kind: 0, ..p })));
+                .extend(percepts_now.map(|percept| percept.map(|p| Percept { team_size: 0, ..p })));
             simulation.step();
         }
         let items = simulation.state().each_item(simulation.scenario());

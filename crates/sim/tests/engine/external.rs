@@ -124,7 +124,7 @@ fn commands_are_those_of_a_brain_that_is_given_the_percepts() {
             ranges_m,
         };
         let percept = Percept {
-            dice: [0; 4].map(|_: u32| random.below(u32::MAX)),
+            random_words: [0; 4].map(|_: u32| random.below(u32::MAX)),
             touch: now(random.below(10) == 0),
             scans: vec![scan],
             ..at(5.5, 6.5)

@@ -37,12 +37,12 @@ fn command(random: &mut Random) -> Command {
         0 => About::Item {
             kind: 3,
             at,
-            seen: Provenance::default(),
+            provenance: Provenance::default(),
         },
         _ => About::Sender {
             at,
             heading_rad: 1.0,
-            looks: random.below(9),
+            observations: random.below(9),
         },
     };
     let message = Message {

@@ -67,7 +67,7 @@ fn hello() -> Message {
     let about = About::Item {
         kind: 0,
         at: CALLER,
-        seen: Provenance::default(),
+        provenance: Provenance::default(),
     };
     Message {
         about,

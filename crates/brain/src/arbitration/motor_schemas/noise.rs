@@ -79,7 +79,7 @@ impl Noise {
     }
 
     fn draw(&mut self, situation: &Situation) {
-        let mut random = situation.dice();
+        let mut random = situation.random_words();
         // The first four numbers belong to the behaviours.
         (0..4).for_each(|_| {
             random.unit();
@@ -134,7 +134,7 @@ mod tests {
         let mut heading_rad = 0.0;
         let directions = (0..80_u32).map(|step| {
             let percept = Percept {
-                dice: [step; 4],
+                random_words: [step; 4],
                 ..Percept::default()
             };
             heading_rad += 0.05;

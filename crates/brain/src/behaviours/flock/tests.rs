@@ -173,7 +173,7 @@ fn noise_is_uniform_over_its_width() {
     let mut brain = brain(swarm);
     let mut turn_rad = |word: u32| {
         let percept = Percept {
-            dice: [word; 4],
+            random_words: [word; 4],
             ..Percept::default()
         };
         brain.step(&percept).motion.turn_rate_rad_s
@@ -241,12 +241,12 @@ proptest! {
     fn whatever_it_is_told_it_wants_what_its_body_can(
         neighbours in prop::collection::vec(any_neighbour(), 0..30),
         (separation, alignment, cohesion) in (0.0..=1000.0, 0.0..=1000.0, 0.0..=1000.0),
-        (steering_limit, noise_deg) in (0.0..=1e9, 0.0..=360.0), averages: bool, dice: [u32; 4],
+        (steering_limit, noise_deg) in (0.0..=1e9, 0.0..=360.0), averages: bool, random_words: [u32; 4],
     ) {
         let swarm = Flock {
             separation, alignment, cohesion, averages, steering_limit, noise_deg, ..NOTHING
         };
-        let percept = Percept { dice, neighbours, ..Percept::default() };
+        let percept = Percept { random_words, neighbours, ..Percept::default() };
         let motion = brain(swarm).step(&percept).motion;
         prop_assert!((motion.speed_m_s - 2.0).abs() < 1e-12);
         prop_assert!(motion.turn_rate_rad_s.abs() <= 4.0);

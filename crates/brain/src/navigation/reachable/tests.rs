@@ -21,7 +21,7 @@ fn mover() -> impl Strategy<Value = Mover> {
         radius_m: 0.3,
         braking_m_s2: 1.0,
         age_s: 0.0,
-        looks: 2,
+        observations: 2,
     })
 }
 

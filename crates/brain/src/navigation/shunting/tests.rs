@@ -31,7 +31,7 @@ fn mover(velocity: [f64; 2]) -> Mover {
         radius_m: 0.25,
         braking_m_s2: 1.0,
         age_s: 0.0,
-        looks: 2,
+        observations: 2,
     }
 }
 

@@ -9,7 +9,7 @@ use alloc::vec::Vec;
 use base::geometry::Point;
 use core::f64::consts::{PI, TAU};
 
-/// For each cell, the probability that all looks so far would have missed an item there.
+/// For each cell, the probability that all observations so far would have missed an item there.
 ///
 /// Each look at a cell multiplies it by 1 - p, with the detector's own p at that distance (Koopman,
 /// *Search and screening*, 1946). If items are anywhere with the same density, an unseen one is in a
@@ -18,7 +18,7 @@ use core::f64::consts::{PI, TAU};
 /// Looks that others tell of were taken with the probability that they are trusted, else they tell nothing:
 ///
 /// ```text
-/// missed = 1 - trust (1 - (1 - p)^looks)
+/// missed = 1 - trust (1 - (1 - p)^observations)
 /// ```
 ///
 /// over all messages together: each takes away of what is left above 1 - trust, and what is below it stays.
@@ -72,11 +72,11 @@ fn margin_m(field: &Field, range_m: f64) -> f64 {
     MARGIN * field.cell_m.min(range_m / 2.0)
 }
 
-/// No look is surer than this to see what is there: what is said of detectors errs, and where it looks from.
-/// So who has looked at all goes on, first where there were fewest looks.
+/// No look is surer than this to see what is there: what is said of detectors errs, and where it observations from.
+/// So who has looked at all goes on, first where there were fewest observations.
 pub(crate) const SUREST: f64 = 0.8;
 
-/// No cell is emptier than this, after some fifty sure looks: more are not told apart, and no smaller number
+/// No cell is emptier than this, after some fifty sure observations: more are not told apart, and no smaller number
 /// is as fast to reckon with.
 const LEAST: f32 = 1e-36;
 
@@ -88,8 +88,8 @@ pub(crate) struct Glance<'g> {
     pub(crate) heading_rad: f64,
     /// How far its giver is trusted, 0 to 1.
     pub(crate) trust: f64,
-    /// It counts as so many looks.
-    pub(crate) looks: f64,
+    /// It counts as so many observations.
+    pub(crate) observations: f64,
     /// What is no farther behind something than this is not hidden for sure.
     pub(crate) blur_m: f64,
 }
@@ -102,7 +102,7 @@ impl CoverageMap {
             at,
             heading_rad,
             trust,
-            looks,
+            observations,
             blur_m,
         } = *glance;
         let view = View::new(detector, heading_rad);
@@ -123,31 +123,31 @@ impl CoverageMap {
                 if is_in_view && (!may_hide || filled.sees(field, at, place, blur_m)) {
                     let seen = detector.least_probability(way.length());
                     let above = self.missed[cell] - floor;
-                    self.missed[cell] = floor + above * missed(seen, looks);
+                    self.missed[cell] = floor + above * missed(seen, observations);
                 }
             }
         }
     }
 }
 
-/// Probability that looks were not taken that are trusted so much.
+/// Probability that observations were not taken that are trusted so much.
 #[expect(clippy::cast_possible_truncation, reason = "kept short")]
 fn untold(trust: f64) -> f32 {
     (1.0 - trust).clamp(0.0, 1.0) as f32
 }
 
-/// Probability that so many looks miss what each sees with a probability.
+/// Probability that so many observations miss what each sees with a probability.
 #[expect(clippy::cast_possible_truncation, reason = "kept short")]
-fn missed(seen: f64, looks: f64) -> f32 {
+fn missed(seen: f64, observations: f64) -> f32 {
     let left = 1.0 - seen.min(SUREST);
-    if looks <= 1.0 {
+    if observations <= 1.0 {
         left as f32
     } else {
-        libm::pow(left, looks) as f32
+        libm::pow(left, observations) as f32
     }
 }
 
-/// What a detector looks at, in the world.
+/// What a detector observations at, in the world.
 pub(crate) struct View {
     range_m: f64,
     /// The directions of its right and its left edge.
@@ -289,7 +289,7 @@ pub(crate) mod tests {
             at: Point { x, y: 10.0 },
             heading_rad: 0.0,
             trust,
-            looks: 1.0,
+            observations: 1.0,
             blur_m: 0.0,
         };
         unseen.take_in(&map.field, &map.filled, &glance);
@@ -370,9 +370,9 @@ pub(crate) mod tests {
         let (map, eye) = (map(), detector(2.0, 7.0, 0.5));
         for trust in [0.05, 0.5, 0.9] {
             let mut unseen = CoverageMap::new(map.field.cells());
-            for looks in 1..100 {
+            for observations in 1..100 {
                 look(&mut unseen, &map, &eye, 13.0, trust);
-                let expected = trust * (1.0 - libm::pow(0.5, f64::from(looks)));
+                let expected = trust * (1.0 - libm::pow(0.5, f64::from(observations)));
                 assert!((seen(&map, &unseen, 13.0, 11.0) - expected).abs() < 1e-5);
             }
         }

@@ -1,18 +1,18 @@
 //! Items: where they are believed to be, how surely, and who says so.
 //!
-//! Every belief is made of sources: for each robot that looked at the item, what its looks together say,
+//! Every belief is made of sources: for each robot that looked at the item, what its observations together say,
 //! and how many there were. A report carries the same, so that it may come any number of times, over
-//! any number of others, and each look counts once: of one source the report with the most looks holds.
+//! any number of others, and each look counts once: of one source the report with the most observations holds.
 //!
 //! ```text
-//! log odds = log odds before its looks + sum over sources of their log likelihood ratios
+//! log odds = log odds before its observations + sum over sources of their log likelihood ratios
 //! a contact adds    ln(p N(d; S) / f)    p: probability of detection at that distance,
 //! a miss adds       ln(1 - p)            N: normal density of its being d off, f: false contacts a m2
 //! a report counts   as t x its confidence + (1 - t) x the confidence before
 //!                   t: trust in who tells it, times that in who looked if it was another
 //! ```
 //!
-//! Before an item's looks it is as likely as items are dense, and as looks that saw nothing there would
+//! Before an item's observations it is as likely as items are dense, and as observations that saw nothing there would
 //! have missed it.
 
 use super::Map;
@@ -33,7 +33,7 @@ pub(crate) use reports::{Reception, Report};
 /// So many items are kept in mind; the least believed is forgotten first.
 const MOST: usize = 64;
 
-/// So many robots' looks are kept apart for each item.
+/// So many robots' observations are kept apart for each item.
 const SOURCES: usize = 6;
 
 /// A contact is of an item it is not farther off than so many standard deviations.
@@ -64,23 +64,23 @@ pub(crate) struct Track {
     before: f64,
     sources: [Source; SOURCES],
     count: usize,
-    /// Logarithm of the probability that all looks at the edge of what was seen missed it.
+    /// Logarithm of the probability that all observations at the edge of what was seen missed it.
     edge: f64,
 }
 
-/// What the looks of one robot say.
+/// What the observations of one robot say.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 struct Source {
-    seen: Provenance,
+    provenance: Provenance,
     /// Who told of them; of own ones, the robot itself.
     from: RobotId,
-    /// Log odds before its looks, beside what others say of the same item.
+    /// Log odds before its observations, beside what others say of the same item.
     before: f64,
-    /// Log likelihood ratio of all its looks.
+    /// Log likelihood ratio of all its observations.
     odds: f64,
     /// What others were told last; 0 if nothing. Kept short: there are hundreds of these.
     told: f32,
-    /// Whether own looks have confirmed or refuted it: each counts once, whoever told it later.
+    /// Whether own observations have confirmed or refuted it: each counts once, whoever told it later.
     is_judged: bool,
 }
 
@@ -88,7 +88,7 @@ struct Source {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Items {
     pub(crate) tracks: Vec<Track>,
-    marks: u32,
+    last_track_id: u32,
     /// Place of the item that others are told of again next.
     again: usize,
     /// A bit for each item of which others may not know yet, and for each whose reports may be judged.
@@ -99,7 +99,7 @@ pub(crate) struct Items {
 /// One look of an own detector.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct OwnLook<'l> {
-    pub(crate) by: RobotId,
+    pub(crate) observer: RobotId,
     pub(crate) detector: &'l Detector,
     /// Where the robot was.
     pub(crate) pose: Pose,
@@ -127,7 +127,7 @@ impl Items {
                 let in_view = track.in_view(&view, look, map);
                 if in_view > 0.0 {
                     let odds = track.miss(look, in_view);
-                    track.add((look.by, track.before), &mut self.marks, odds);
+                    track.add((look.observer, track.before), &mut self.last_track_id, odds);
                     told |= 1 << number;
                 }
             }
@@ -167,7 +167,7 @@ impl Items {
         let track = &mut self.tracks[place];
         let odds = track.likelihood(look, at, variance_m2, contact.range_m);
         let before = track.before_another(at, variance_m2, of(look.per_m2, contact.kind));
-        track.add((look.by, before), &mut self.marks, odds);
+        track.add((look.observer, before), &mut self.last_track_id, odds);
         track.correct(at, variance_m2);
         1 << place
     }
@@ -215,7 +215,7 @@ impl Items {
             let mut kept = 0;
             for place in 0..track.count {
                 let mut source = track.sources[place];
-                if keep(&mut source.seen.by) && keep(&mut source.from) {
+                if keep(&mut source.provenance.observer) && keep(&mut source.from) {
                     track.sources[kept] = source;
                     kept += 1;
                 }
@@ -300,7 +300,7 @@ impl Track {
         odds.max(-MOST_A_LOOK).min(MOST_AT_ALL - self.before)
     }
 
-    /// Log odds before the looks of one more robot that says that it is at a place.
+    /// Log odds before the observations of one more robot that says that it is at a place.
     ///
     /// ```text
     /// odds = odds of the one x odds of the other x N(d; S) / density of items
@@ -317,20 +317,20 @@ impl Track {
         log_before(all_m2, per_m2) + off
     }
 
-    /// Adds to what own looks say; `before` holds if these are the first.
-    fn add(&mut self, (by, before): (RobotId, f64), marks: &mut u32, odds: f64) {
+    /// Adds to what own observations say; `before` holds if these are the first.
+    fn add(&mut self, (observer, before): (RobotId, f64), last_track_id: &mut u32, odds: f64) {
         let own = self.sources[..self.count]
             .iter()
-            .position(|source| source.seen.by == by);
+            .position(|source| source.provenance.observer == observer);
         let place = own.unwrap_or_else(|| {
-            *marks = marks.wrapping_add(1);
-            let seen = Provenance {
-                by,
-                mark: *marks,
-                looks: 0,
+            *last_track_id = last_track_id.wrapping_add(1);
+            let provenance = Provenance {
+                observer,
+                track_id: *last_track_id,
+                observations: 0,
             };
-            self.room(by, f64::INFINITY).map_or(0, |place| {
-                (self.sources[place].seen, self.sources[place].from) = (seen, by);
+            self.room(observer, f64::INFINITY).map_or(0, |place| {
+                (self.sources[place].provenance, self.sources[place].from) = (provenance, observer);
                 self.sources[place].before = before;
                 place
             })
@@ -339,18 +339,18 @@ impl Track {
         source.odds = (source.odds + odds)
             .max(-MOST_AT_ALL)
             .min(MOST_AT_ALL - self.before);
-        source.seen.looks = source.seen.looks.saturating_add(1);
+        source.provenance.observations = source.provenance.observations.saturating_add(1);
     }
 
     /// The place of a new source that says so much, in place of the least telling one if there is no room;
-    /// `None` if all others say more. Own looks are never forgotten.
+    /// `None` if all others say more. Own observations are never forgotten.
     fn room(&mut self, own: RobotId, odds: f64) -> Option<usize> {
         let place = if self.count < SOURCES {
             self.count += 1;
             self.count - 1
         } else {
             let others = self.sources.iter().enumerate();
-            let others = others.filter(|(_, source)| source.seen.by != own);
+            let others = others.filter(|(_, source)| source.provenance.observer != own);
             let strengths = others.map(|(number, source)| (source.odds.abs(), number));
             let least = strengths.min_by(|one, other| one.0.total_cmp(&other.0));
             least.filter(|(least, _)| *least < odds.abs())?.1
@@ -359,20 +359,23 @@ impl Track {
         Some(place)
     }
 
-    fn place_of(&self, seen: Provenance) -> Option<usize> {
+    fn place_of(&self, provenance: Provenance) -> Option<usize> {
         let sources = self.sources[..self.count].iter();
-        let is_same = |source: &Source| source.seen.by == seen.by && source.seen.mark == seen.mark;
+        let is_same = |source: &Source| {
+            source.provenance.observer == provenance.observer
+                && source.provenance.track_id == provenance.track_id
+        };
         sources.into_iter().position(is_same)
     }
 
     fn has_looked(&self, own: RobotId) -> bool {
         let mut sources = self.sources[..self.count].iter();
-        sources.any(|source| source.seen.by == own)
+        sources.any(|source| source.provenance.observer == own)
     }
 
     /// Corrects where it is.
     fn correct(&mut self, at: Point, variance_m2: f64) {
-        if self.count == 1 && self.sources[0].seen.looks <= 1 {
+        if self.count == 1 && self.sources[0].provenance.observations <= 1 {
             (self.at, self.variance_m2) = (at, variance_m2);
             return;
         }
@@ -426,7 +429,7 @@ impl Track {
 }
 
 impl Source {
-    /// Log odds by its looks alone.
+    /// Log odds by its observations alone.
     fn says(&self) -> f64 {
         self.before + self.odds
     }

@@ -30,7 +30,7 @@ const ITEMS_A_STEP: usize = 2;
 /// A team mate's way since its last message is looked at from at most so many places.
 const MOST_PLACES: f64 = 16.0;
 
-/// Nobody looks oftener with one detector, in looks a second: cameras see, and robots tell of it, more slowly.
+/// Nobody looks oftener with one detector, in observations a second: cameras see, and robots tell of it, more slowly.
 const MOST_LOOKS_S: f64 = 50.0;
 
 /// Kinds of robots begin so far apart, as a share of [`AGAIN_S`]: multiples of the golden ratio fall evenly.
@@ -44,7 +44,7 @@ const FARTHEST_M: f64 = 1e7;
 pub(crate) struct Told {
     goal: Option<Destination>,
     heading_rad: f64,
-    looks: u32,
+    observations: u32,
     /// `None` before the first time.
     age_s: Option<f64>,
     times: u8,
@@ -59,11 +59,15 @@ impl Beliefs {
         }
         let counts = self.trust.of(heard.from, &self.prior.trust) * confidence;
         match heard.message.about {
-            About::Item { kind, at, seen } if is_place(at) => {
+            About::Item {
+                kind,
+                at,
+                provenance,
+            } if is_place(at) => {
                 let report = Report {
                     kind,
                     at,
-                    seen: own_look(heard, seen, at),
+                    provenance: own_look(heard, provenance, at),
                     confidence,
                     from: heard.from,
                 };
@@ -75,16 +79,16 @@ impl Beliefs {
             About::Sender {
                 at,
                 heading_rad,
-                looks,
+                observations,
             } if is_place(at) && heading_rad.abs() < 1e4 => {
                 if counts >= ENOUGH {
                     self.peers.stands(heard.from, at, heard.age_s);
                 }
                 let glance = (at, heading_rad);
-                self.hear_looks((heard, counts), body, glance, looks);
+                self.hear_looks((heard, counts), body, glance, observations);
             }
-            About::Goal { at, stand } if is_place(at) && counts >= ENOUGH => {
-                self.peers.goes(heard.from, at, stand, heard.age_s);
+            About::Goal { at, status } if is_place(at) && counts >= ENOUGH => {
+                self.peers.goes(heard.from, at, status, heard.age_s);
             }
             _ => {}
         }
@@ -97,23 +101,23 @@ impl Beliefs {
         (heard, counts): (&Heard, f64),
         body: &Body,
         (at, heading_rad): (Point, f64),
-        looks: u32,
+        observations: u32,
     ) {
         let told = Reading {
-            value: (at, looks),
+            value: (at, observations),
             age_s: heard.age_s,
         };
         let (from, since, in_s) = self.peers.looked(heard.from, told);
         let other = body.others.get(usize::from(heard.from.kind));
         let detectors = other.map_or(&body.detectors, |other| &other.detectors);
-        let looks = believable(since, in_s, detectors.len());
-        let Some(detector) = detectors.first().filter(|_| looks >= 1.0) else {
+        let observations = believable(since, in_s, detectors.len());
+        let Some(detector) = detectors.first().filter(|_| observations >= 1.0) else {
             return;
         };
         let way = from.to(at);
         let apart_m = (detector.range_m / 2.0).max(1e-3);
-        let places = libm::ceil(way.length() / apart_m).clamp(1.0, MOST_PLACES.min(looks));
-        let each = looks / places;
+        let places = libm::ceil(way.length() / apart_m).clamp(1.0, MOST_PLACES.min(observations));
+        let each = observations / places;
         let mut place = 1.0;
         while place <= places {
             let there = from.plus(way.times(place / places));
@@ -136,13 +140,14 @@ impl Beliefs {
         let is_time_for_all = is_time && self.told.times == 0;
         self.told.tell_goal(goal, pose.at, is_time_for_all, outbox);
         let turned_rad = wrapped(pose.heading_rad - self.told.heading_rad).abs();
-        let looks_elsewhere = turned_rad >= TURNED_RAD && self.looks != self.told.looks;
+        let looks_elsewhere =
+            turned_rad >= TURNED_RAD && self.observations != self.told.observations;
         if is_time || looks_elsewhere {
-            (self.told.heading_rad, self.told.looks) = (pose.heading_rad, self.looks);
+            (self.told.heading_rad, self.told.observations) = (pose.heading_rad, self.observations);
             outbox.push(sure(About::Sender {
                 at: pose.at,
                 heading_rad: pose.heading_rad,
-                looks: self.looks,
+                observations: self.observations,
             }));
         }
         if is_time_for_all {
@@ -181,16 +186,16 @@ impl Told {
         if !is_new && !is_time {
             return;
         }
-        let say = |aim: Destination, stand| sure(About::Goal { at: aim.at, stand });
+        let say = |aim: Destination, status| sure(About::Goal { at: aim.at, status });
         if let Some(ended) = before.filter(|_| is_new) {
             if at.to(ended.at).length() <= ended.tolerance_m {
                 outbox.push(say(ended, CommitmentStatus::Done));
             } else if goal.is_none() {
                 // Who goes elsewhere has left too.
-                outbox.push(say(ended, CommitmentStatus::Left));
+                outbox.push(say(ended, CommitmentStatus::Released));
             }
         }
-        outbox.extend(goal.map(|aim| say(aim, CommitmentStatus::Going)));
+        outbox.extend(goal.map(|aim| say(aim, CommitmentStatus::Active)));
         self.goal = goal;
     }
 }
@@ -203,13 +208,13 @@ fn phase(own: RobotId, period_s: f64) -> f64 {
     place - libm::floor(place)
 }
 
-/// So many of the looks that a team mate says that it took in a time, in seconds, with so many detectors can
+/// So many of the observations that a team mate says that it took in a time, in seconds, with so many detectors can
 /// have been taken.
-fn believable(looks: u32, in_s: f64, detectors: usize) -> f64 {
+fn believable(observations: u32, in_s: f64, detectors: usize) -> f64 {
     let detectors = u32::try_from(detectors).unwrap_or(u32::MAX);
     // Ages are sums of periods.
     let most = libm::floor(in_s * MOST_LOOKS_S * f64::from(detectors) + 1e-3);
-    f64::from(looks).min(most)
+    f64::from(observations).min(most)
 }
 
 pub(super) fn ears<'t>(own: RobotId, trust: &'t Trust, prior: &'t Prior) -> Reception<'t> {
@@ -224,21 +229,21 @@ fn sure(about: About) -> Message {
     }
 }
 
-/// Whose looks a report is of: if it tells of none, of one of its sender at that place.
+/// Whose observations a report is of: if it tells of none, of one of its sender at that place.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
     reason = "only to be told apart"
 )]
-fn own_look(heard: &Heard, seen: Provenance, at: Point) -> Provenance {
-    if seen.looks > 0 {
-        return seen;
+fn own_look(heard: &Heard, provenance: Provenance, at: Point) -> Provenance {
+    if provenance.observations > 0 {
+        return provenance;
     }
     let [x, y] = [at.x, at.y].map(|along_m| libm::round(along_m) as i32 as u32);
     Provenance {
-        by: heard.from,
-        mark: x.wrapping_mul(0x9e37_79b9) ^ y,
-        looks: 1,
+        observer: heard.from,
+        track_id: x.wrapping_mul(0x9e37_79b9) ^ y,
+        observations: 1,
     }
 }
 

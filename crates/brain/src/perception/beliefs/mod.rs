@@ -21,7 +21,7 @@ pub(crate) mod trust;
 pub use trust::TrustSpec;
 
 use crate::io::body::{Body, Detector, RobotId};
-use crate::io::percept::{Look, Percept};
+use crate::io::percept::{Observation, Percept};
 use crate::perception::believed::BelievedItem;
 use crate::perception::rays::{Ring, frees_m};
 use crate::perception::sector::direction;
@@ -106,7 +106,7 @@ pub(crate) struct Beliefs {
     pub(crate) map: Option<Map>,
     speed_m_s: f64,
     /// How often it has looked for items, and for how long it has been on.
-    looks: u32,
+    observations: u32,
     on_s: f64,
     told: Told,
 }
@@ -172,7 +172,7 @@ impl Beliefs {
             drain: Drain::default(),
             map: area.map(|area| Map::new(spec, &area)),
             speed_m_s: 0.0,
-            looks: 0,
+            observations: 0,
             on_s: 0.0,
             told: Told::default(),
         }
@@ -195,7 +195,7 @@ impl Beliefs {
 
     /// Time from one look for items to the next.
     pub(crate) fn look_s(&self) -> f64 {
-        self.on_s / f64::from(self.looks.max(1))
+        self.on_s / f64::from(self.observations.max(1))
     }
 
     /// Robots have other numbers from now on; what is known of one that is gone is forgotten.
@@ -257,7 +257,7 @@ impl Beliefs {
         };
         self.fill_map(percept, &pose, rings, body.period_s);
         let rate_rad_s = turned_rad / body.period_s.max(f64::MIN_POSITIVE);
-        for look in &percept.looks {
+        for look in &percept.observations {
             let then = earlier(&pose, [now_m_s, rate_rad_s], look.age_s);
             self.take_look(look, percept, body, then);
         }
@@ -300,14 +300,14 @@ impl Beliefs {
     }
 
     /// Takes in a look for items, and its contacts.
-    fn take_look(&mut self, look: &Look, percept: &Percept, body: &Body, pose: Pose) {
+    fn take_look(&mut self, look: &Observation, percept: &Percept, body: &Body, pose: Pose) {
         let mut detectors = body.detectors.iter();
         let Some(detector) = detectors.find(|detector| detector.sensor == look.sensor) else {
             return;
         };
-        self.looks = self.looks.saturating_add(1);
+        self.observations = self.observations.saturating_add(1);
         let own = OwnLook {
-            by: self.id,
+            observer: self.id,
             detector,
             pose,
             per_m2: &self.prior.per_m2,
@@ -325,7 +325,7 @@ impl Beliefs {
         &mut self,
         detector: &Detector,
         (at, heading_rad): (Point, f64),
-        [trust, looks]: [f64; 2],
+        [trust, observations]: [f64; 2],
     ) {
         if let Some(Map {
             field,
@@ -340,7 +340,7 @@ impl Beliefs {
                 at,
                 heading_rad,
                 trust,
-                looks,
+                observations,
                 blur_m,
             };
             unseen.take_in(field, filled, &glance);

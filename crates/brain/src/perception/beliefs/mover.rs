@@ -27,7 +27,7 @@ pub(crate) struct Mover {
     /// Time since it was last seen.
     pub(crate) age_s: f64,
     /// Looks at it so far: only two make a velocity.
-    pub(crate) looks: u32,
+    pub(crate) observations: u32,
 }
 
 impl Mover {
@@ -41,7 +41,7 @@ impl Mover {
         let velocity = self.velocity_m_s;
         let guess = velocity.times(age_s).to(self.at);
         let change = guess.to(at).times(1.0 / between_s);
-        let share = if self.looks == 1 { 1.0 } else { share };
+        let share = if self.observations == 1 { 1.0 } else { share };
         let corrected = velocity.plus(change.times(share));
         if corrected.length_squared() <= FASTEST_M_S * FASTEST_M_S {
             self.velocity_m_s = corrected;
@@ -52,7 +52,7 @@ impl Mover {
         }
         self.at = at.plus(self.velocity_m_s.times(age_s));
         self.age_s = age_s;
-        self.looks = self.looks.saturating_add(1);
+        self.observations = self.observations.saturating_add(1);
     }
 
     /// So far it still goes if it brakes now.

@@ -44,7 +44,7 @@ struct Thing {
     radius_m: f64,
     /// How fast its distance falls more than this robot goes towards it.
     falls_m_s: f64,
-    looks: u32,
+    observations: u32,
     age_s: f64,
 }
 
@@ -101,14 +101,14 @@ impl Things {
             let rate_m_s = (thing.at.length() - ray.range_m) / thing.age_s;
             let rate_m_s = rate_m_s.clamp(-FASTEST_M_S, FASTEST_M_S);
             thing.falls_m_s += SHARE * (rate_m_s - thing.falls_m_s);
-            thing.looks = thing.looks.saturating_add(1);
+            thing.observations = thing.observations.saturating_add(1);
             (thing.at, thing.radius_m, thing.age_s) = (at, radius_m, 0.0);
         } else if self.things.len() < MOST {
             self.things.push(Thing {
                 at,
                 radius_m,
                 falls_m_s: 0.0,
-                looks: 1,
+                observations: 1,
                 age_s: 0.0,
             });
         }
@@ -116,7 +116,8 @@ impl Things {
 
     /// Those that are believed to move.
     pub(crate) fn moving(&self) -> impl Iterator<Item = Mover> {
-        let moves = |thing: &&Thing| thing.looks >= LOOKS && thing.falls_m_s.abs() >= MOVES_M_S;
+        let moves =
+            |thing: &&Thing| thing.observations >= LOOKS && thing.falls_m_s.abs() >= MOVES_M_S;
         self.things.iter().filter(moves).map(|thing| {
             let away_m = thing.at.length().max(f64::MIN_POSITIVE);
             let towards = thing.at.times(-1.0 / away_m);
@@ -128,7 +129,7 @@ impl Things {
                 radius_m: thing.radius_m,
                 braking_m_s2: f64::INFINITY,
                 age_s: thing.age_s,
-                looks: thing.looks,
+                observations: thing.observations,
             }
         })
     }

@@ -121,7 +121,7 @@ impl Others {
                     other.max_acceleration_m_s2
                 }),
                 age_s: neighbour.age_s,
-                looks: 1,
+                observations: 1,
             }),
         }
     }

@@ -57,11 +57,11 @@ impl Peers {
         id: RobotId,
         Reading { value, age_s }: Reading<(Point, u32)>,
     ) -> (Point, u32, f64) {
-        let (at, looks) = value;
+        let (at, observations) = value;
         let peer = self.peer(id);
         let Some(before) = peer.looked else {
             peer.looked = Some(Reading { value, age_s });
-            return (at, looks.min(1), f64::INFINITY);
+            return (at, observations.min(1), f64::INFINITY);
         };
         if is_outdated(peer.looked, age_s) {
             return (at, 0, 0.0);
@@ -69,7 +69,7 @@ impl Peers {
         peer.looked = Some(Reading { value, age_s });
         let (from, had) = before.value;
         // Who has been switched off and on begins anew.
-        let since = looks.saturating_sub(had);
+        let since = observations.saturating_sub(had);
         (from, since, (before.age_s - age_s).max(0.0))
     }
 
@@ -85,15 +85,15 @@ impl Peers {
     }
 
     /// Notes where one was going, or no longer, an age ago in seconds. Where it has been it has been for ever.
-    pub(crate) fn goes(&mut self, id: RobotId, at: Point, stand: CommitmentStatus, age_s: f64) {
-        if stand == CommitmentStatus::Done {
+    pub(crate) fn goes(&mut self, id: RobotId, at: Point, status: CommitmentStatus, age_s: f64) {
+        if status == CommitmentStatus::Done {
             self.visit(at);
         }
         if age_s > FORGOTTEN_S {
             return;
         }
         let peer = self.peer(id);
-        let value = (stand == CommitmentStatus::Going).then_some(at);
+        let value = (status == CommitmentStatus::Active).then_some(at);
         if !is_outdated(peer.aim, age_s) && (value.is_some() || peer.is_going_to(at)) {
             peer.aim = Some(Reading { value, age_s });
         }

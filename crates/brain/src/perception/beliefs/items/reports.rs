@@ -1,6 +1,6 @@
 //! What others tell of items, what they are told, and how far it is believed.
 //!
-//! Who tells of looks, his own or another's, answers for them: see [`Trust`](super::super::trust::Trust).
+//! Who tells of observations, his own or another's, answers for them: see [`Trust`](super::super::trust::Trust).
 
 use super::{Items, MOST_AT_ALL, Source, Track, bits, log_odds, of, probability};
 use crate::io::body::RobotId;
@@ -11,7 +11,7 @@ use base::geometry::Point;
 use core::f64::consts::LN_10;
 use core::mem;
 
-/// Own looks that say 90% confirm or refute a report.
+/// Own observations that say 90% confirm or refute a report.
 const SURE: f64 = 2.0 * LN_10 * 0.477;
 
 /// Others are told again when what they were told is off by this.
@@ -22,7 +22,7 @@ const TOLD_AGAIN: f64 = 0.05;
 pub(crate) struct Report {
     pub(crate) kind: u16,
     pub(crate) at: Point,
-    pub(crate) seen: Provenance,
+    pub(crate) provenance: Provenance,
     pub(crate) confidence: f64,
     /// Who tells it.
     pub(crate) from: RobotId,
@@ -49,7 +49,7 @@ impl Reception<'_> {
 }
 
 impl Items {
-    /// Takes in a report, unless it is of own looks; its place errs by a variance.
+    /// Takes in a report, unless it is of own observations; its place errs by a variance.
     pub(crate) fn hear(
         &mut self,
         ears: &Reception,
@@ -57,10 +57,10 @@ impl Items {
         variance_m2: f64,
         per_m2: &[f64],
     ) {
-        if report.seen.by == ears.own {
+        if report.provenance.observer == ears.own {
             return;
         }
-        let of_source = |track: &Track| track.place_of(report.seen).is_some();
+        let of_source = |track: &Track| track.place_of(report.provenance).is_some();
         let known = self.tracks.iter().position(of_source);
         let near = || self.nearest(report.kind, report.at, variance_m2, 0);
         let place = match known.or_else(near) {
@@ -69,7 +69,7 @@ impl Items {
         };
         let track = &mut self.tracks[place];
         let before = track.before_another(report.at, variance_m2, of(per_m2, report.kind));
-        let is_new = track.place_of(report.seen).is_none();
+        let is_new = track.place_of(report.provenance).is_none();
         if track.replace(ears, report, before) {
             if !track.has_looked(ears.own) {
                 track.place_by_report(report.at, variance_m2, is_new);
@@ -78,7 +78,7 @@ impl Items {
         }
     }
 
-    /// Learns from own looks whose reports were right.
+    /// Learns from own observations whose reports were right.
     pub(crate) fn learn(&mut self, own: RobotId, trust: &mut Trust, spec: &TrustSpec) {
         for number in bits(mem::take(&mut self.unjudged)) {
             let Some(track) = self.tracks.get_mut(number) else {
@@ -88,7 +88,7 @@ impl Items {
                 continue;
             };
             for source in &mut track.sources[..track.count] {
-                let is_report = source.seen.by != own && source.says() > 0.0;
+                let is_report = source.provenance.observer != own && source.says() > 0.0;
                 if is_report && !source.is_judged {
                     source.is_judged = true;
                     trust.learn(source.from, verdict, spec);
@@ -97,7 +97,7 @@ impl Items {
         }
     }
 
-    /// What others are to be told, at most so many messages: own looks, and those that others who are trusted
+    /// What others are to be told, at most so many messages: own observations, and those that others who are trusted
     /// told of.
     pub(crate) fn tell(&mut self, ears: &Reception, outbox: &mut Vec<Message>, most: usize) {
         let mut left = most;
@@ -113,9 +113,13 @@ impl Items {
                 }
                 source.note_told(confidence);
                 left -= 1;
-                let seen = source.seen;
+                let provenance = source.provenance;
                 outbox.push(Message {
-                    about: About::Item { kind, at, seen },
+                    about: About::Item {
+                        kind,
+                        at,
+                        provenance,
+                    },
                     confidence,
                 });
             }
@@ -154,29 +158,37 @@ impl Track {
         let counting = numbers.filter(|number| self.is_first_hand(*number));
         let odds = counting.map(|number| {
             let Source {
-                seen, odds, before, ..
+                provenance,
+                odds,
+                before,
+                ..
             } = self.sources[number];
-            if seen.by == from {
+            if provenance.observer == from {
                 odds
             } else {
-                discounted(before, odds, ears.trust_in(seen.by))
+                discounted(before, odds, ears.trust_in(provenance.observer))
             }
         });
         odds.sum()
     }
 
-    /// Whether a looker told it itself, or no other told of his looks here before: they count once.
+    /// Whether a looker told it itself, or no other told of his observations here before: they count once.
     fn is_first_hand(&self, number: usize) -> bool {
-        let Source { seen, from, .. } = self.sources[number];
+        let Source {
+            provenance, from, ..
+        } = self.sources[number];
         let others = self.sources[..self.count].iter().enumerate();
-        let mut same = others.filter(|(_, other)| other.seen.by == seen.by && other.from != from);
-        seen.by == from || same.all(|(place, other)| place > number && other.from != seen.by)
+        let mut same = others.filter(|(_, other)| {
+            other.provenance.observer == provenance.observer && other.from != from
+        });
+        provenance.observer == from
+            || same.all(|(place, other)| place > number && other.from != provenance.observer)
     }
 
-    /// Takes in what looks of a source say, if it says more than before; `before` holds if it is new.
+    /// Takes in what observations of a source say, if it says more than before; `before` holds if it is new.
     fn replace(&mut self, ears: &Reception, report: &Report, before: f64) -> bool {
-        let seen = report.seen;
-        let known = self.place_of(seen);
+        let provenance = report.provenance;
+        let known = self.place_of(provenance);
         if known.is_some_and(|place| !self.sources[place].gives_way(ears, report)) {
             return false;
         }
@@ -186,15 +198,15 @@ impl Track {
             return false;
         };
         let source = &mut self.sources[place];
-        (source.seen, source.from, source.before) = (seen, report.from, before);
+        (source.provenance, source.from, source.before) = (provenance, report.from, before);
         source.odds = odds.max(-MOST_AT_ALL).min(MOST_AT_ALL - before);
         true
     }
 
-    /// Whether own looks say that it is there, if they say something for sure.
+    /// Whether own observations say that it is there, if they say something for sure.
     fn own_verdict(&self, own: RobotId) -> Option<bool> {
         let mut sources = self.sources[..self.count].iter();
-        let source = sources.find(|source| source.seen.by == own)?;
+        let source = sources.find(|source| source.provenance.observer == own)?;
         if source.says() > SURE {
             Some(true)
         } else if source.odds < -SURE {
@@ -215,15 +227,15 @@ impl Track {
 }
 
 impl Source {
-    /// Whether a report of the same looks holds in its place: the one of more looks does, but what the looker
+    /// Whether a report of the same observations holds in its place: the one of more observations does, but what the looker
     /// says himself goes before what others say of him, and those must be trusted to contradict anybody.
     fn gives_way(&self, ears: &Reception, report: &Report) -> bool {
-        let by = self.seen.by;
-        if report.from == by && self.from != by {
+        let observer = self.provenance.observer;
+        if report.from == observer && self.from != observer {
             return true;
         }
         let may = report.from == self.from || ears.trusts(report.from);
-        may && report.seen.looks > self.seen.looks
+        may && report.provenance.observations > self.provenance.observations
     }
 
     /// Whether others know that it is so likely, as far as they need to.
@@ -238,7 +250,7 @@ impl Source {
 
     /// Whether it is passed on.
     fn is_trusted(&self, ears: &Reception) -> bool {
-        ears.trusts(self.from) && ears.trusts(self.seen.by)
+        ears.trusts(self.from) && ears.trusts(self.provenance.observer)
     }
 }
 

@@ -47,18 +47,18 @@ fn contact(from: Point, at: Point) -> Contact {
     }
 }
 
-fn look(items: &mut Items, by: RobotId, from: Point, contacts: &[Contact]) {
-    look_with(items, by, from, (contacts, None));
+fn look(items: &mut Items, observer: RobotId, from: Point, contacts: &[Contact]) {
+    look_with(items, observer, from, (contacts, None));
 }
 
 fn look_with(
     items: &mut Items,
-    by: RobotId,
+    observer: RobotId,
     from: Point,
     (contacts, map): (&[Contact], Option<&Map>),
 ) {
     let look = OwnLook {
-        by,
+        observer,
         detector: &eye(),
         pose: pose(from),
         per_m2: &[PER_M2],
@@ -66,17 +66,17 @@ fn look_with(
     items.look(&look, contacts.iter(), map);
 }
 
-fn hit(items: &mut Items, by: RobotId) {
+fn hit(items: &mut Items, observer: RobotId) {
     look(
         items,
-        by,
+        observer,
         Point::default(),
         &[contact(Point::default(), PLACE)],
     );
 }
 
-fn miss(items: &mut Items, by: RobotId) {
-    look(items, by, Point::default(), &[]);
+fn miss(items: &mut Items, observer: RobotId) {
+    look(items, observer, Point::default(), &[]);
 }
 
 fn confidence(items: &Items, own: RobotId) -> f64 {
@@ -87,12 +87,16 @@ fn told(items: &mut Items) -> Vec<Report> {
     let mut outbox = Vec::new();
     trusting(ME, |ears| items.tell(ears, &mut outbox, 100));
     let report = |message: Message| match message.about {
-        About::Item { kind, at, seen } => Some(Report {
+        About::Item {
             kind,
             at,
-            seen,
+            provenance,
+        } => Some(Report {
+            kind,
+            at,
+            provenance,
             confidence: message.confidence,
-            from: seen.by,
+            from: provenance.observer,
         }),
         _ => None,
     };
@@ -120,17 +124,17 @@ fn robot(index: u32) -> RobotId {
     RobotId { kind: 0, index }
 }
 
-fn report(by: u32, confidence: f64) -> Report {
+fn report(observer: u32, confidence: f64) -> Report {
     Report {
         kind: 0,
         at: PLACE,
-        seen: Provenance {
-            by: robot(by),
-            mark: 1,
-            looks: 1,
+        provenance: Provenance {
+            observer: robot(observer),
+            track_id: 1,
+            observations: 1,
         },
         confidence,
-        from: robot(by),
+        from: robot(observer),
     }
 }
 
@@ -162,7 +166,7 @@ fn what_is_seen_again_and_again_without_false_contacts_is_there_however_rare_it_
         ..eye()
     };
     let look = OwnLook {
-        by: ME,
+        observer: ME,
         detector: &sure,
         pose: pose(Point::default()),
         per_m2: &[1e-7],
@@ -223,14 +227,14 @@ fn a_report_of_anothers_looks_counts_as_both_are_trusted() {
 #[test]
 fn whomever_one_names_he_is_believed_no_more_than_he_is_trusted() {
     let mut items = Items::default();
-    for by in 1..6 {
+    for observer in 1..6 {
         let from = robot(7);
         hear(
             &mut items,
             ME,
             &Report {
                 from,
-                ..report(by, 0.99)
+                ..report(observer, 0.99)
             },
         );
     }
@@ -242,9 +246,9 @@ fn what_one_says_himself_holds_against_what_others_say_of_him() {
     let mut items = Items::default();
     let more = |from: u32| Report {
         from: robot(from),
-        seen: Provenance {
-            looks: 9,
-            ..report(1, 0.5).seen
+        provenance: Provenance {
+            observations: 9,
+            ..report(1, 0.5).provenance
         },
         ..report(1, 1e-3)
     };
@@ -276,21 +280,21 @@ fn who_is_not_trusted_is_not_passed_on() {
         trust: &trust,
         spec: &spec,
     };
-    for (mark, from, by) in [(1, 7, 1), (2, 1, 7), (3, 1, 2)] {
-        let seen = Provenance {
-            mark,
-            ..report(by, 0.9).seen
+    for (track_id, from, observer) in [(1, 7, 1), (2, 1, 7), (3, 1, 2)] {
+        let provenance = Provenance {
+            track_id,
+            ..report(observer, 0.9).provenance
         };
         let told = Report {
             from: robot(from),
-            seen,
-            ..report(by, 0.9)
+            provenance,
+            ..report(observer, 0.9)
         };
         items.hear(&ears, &told, 0.01, &[PER_M2]);
     }
     let mut outbox = Vec::new();
     items.tell(&ears, &mut outbox, 100);
-    let is_of_2 = |message: &Message| matches!(message.about, About::Item { seen, .. } if seen.by == robot(2));
+    let is_of_2 = |message: &Message| matches!(message.about, About::Item { provenance, .. } if provenance.observer == robot(2));
     assert!(
         outbox.len() == 1 && outbox.iter().all(is_of_2),
         "{outbox:?}"
@@ -328,7 +332,7 @@ fn what_a_crowd_tells_of_one_item_ends_and_leaves_own_looks_alone() {
     let mut items = Items::default();
     hit(&mut items, ME);
     let reports: Vec<Report> = (1..20)
-        .map(|by| report(by, 0.3 + 0.03 * f64::from(by)))
+        .map(|observer| report(observer, 0.3 + 0.03 * f64::from(observer)))
         .collect();
     for _ in 0..10 {
         for report in &reports {
@@ -395,37 +399,39 @@ fn a_thousand_contacts_take_bounded_memory() {
     assert_eq!(outbox.len(), 2);
 }
 
-/// Three robots look at an item and gossip: in each step one of them looks, tells, or hears any message
-/// that any of them ever sent. Returns them, and the last that each told of its own looks.
+/// Three robots look at an item and gossip: in each step one of them observations, tells, or hears any message
+/// that any of them ever sent. Returns them, and the last that each told of its own observations.
 fn gossip(seed: u64, steps: u32) -> (Vec<Items>, Vec<Report>) {
     let mut random = random(seed);
     let mut team = vec![Items::default(); 3];
     let mut air: Vec<Report> = Vec::new();
-    for (items, by) in team.iter_mut().zip(0..) {
-        hit(items, robot(by));
+    for (items, observer) in team.iter_mut().zip(0..) {
+        hit(items, robot(observer));
     }
     for _ in 0..steps {
-        let by = random.bounded(3);
-        let items = &mut team[by as usize];
+        let observer = random.bounded(3);
+        let items = &mut team[observer as usize];
         match random.bounded(6) {
-            0 => hit(items, robot(by)),
-            1 => miss(items, robot(by)),
+            0 => hit(items, robot(observer)),
+            1 => miss(items, robot(observer)),
             2 => {
-                let from = robot(by);
+                let from = robot(observer);
                 let told = told(items).into_iter();
                 air.extend(told.map(|report| Report { from, ..report }));
             }
             _ if air.is_empty() => {}
             _ => {
                 let any = random.bounded(u32::try_from(air.len()).unwrap()) as usize;
-                hear(items, robot(by), &air[any]);
+                hear(items, robot(observer), &air[any]);
             }
         }
     }
-    let last = |by: u32| {
-        let is_own = |report: &&Report| [report.seen.by, report.from] == [robot(by); 2];
+    let last = |observer: u32| {
+        let is_own =
+            |report: &&Report| [report.provenance.observer, report.from] == [robot(observer); 2];
         let own = air.iter().filter(is_own);
-        own.max_by_key(|report| report.seen.looks).copied()
+        own.max_by_key(|report| report.provenance.observations)
+            .copied()
     };
     (team, (0..3).filter_map(last).collect())
 }
@@ -442,13 +448,13 @@ proptest! {
             }
             prop_assert_eq!(items.tracks.len(), 1);
             let track = &items.tracks[0];
-            let looks = &track.sources[track.place_by(own)];
-            let reports = last.iter().filter(|report| report.seen.by != own);
+            let observations = &track.sources[track.place_by(own)];
+            let reports = last.iter().filter(|report| report.provenance.observer != own);
             let said = reports.map(|report| {
-                let before = track.sources[track.place_by(report.seen.by)].before;
+                let before = track.sources[track.place_by(report.provenance.observer)].before;
                 log_odds(0.9 * report.confidence + 0.1 * probability(before)) - before
             });
-            let expected = probability(track.before + looks.odds + said.sum::<f64>());
+            let expected = probability(track.before + observations.odds + said.sum::<f64>());
             prop_assert!((confidence(items, own) - expected).abs() < 1e-6, "{}", expected);
         }
     }
@@ -490,7 +496,7 @@ fn honest_look(
         at: from,
         heading_rad: 0.0,
         trust: 1.0,
-        looks: 1.0,
+        observations: 1.0,
         blur_m: 0.0,
     };
     map.unseen.take_in(&map.field, &map.filled, &glance);
@@ -506,7 +512,7 @@ fn field() -> Map {
     Map::new(&spec, &Rectangle::spanned(corners[0], corners[1]))
 }
 
-/// Confidences after some looks at many worlds, each with whether an item is there.
+/// Confidences after some observations at many worlds, each with whether an item is there.
 fn believed(worlds: u64) -> Vec<(f64, bool)> {
     let mut all = Vec::new();
     for number in 0..worlds {
@@ -561,6 +567,8 @@ fn of_what_is_believed_with_a_confidence_that_share_is_there() {
 impl Track {
     fn place_by(&self, own: RobotId) -> usize {
         let mut sources = self.sources[..self.count].iter();
-        sources.position(|source| source.seen.by == own).unwrap()
+        sources
+            .position(|source| source.provenance.observer == own)
+            .unwrap()
     }
 }

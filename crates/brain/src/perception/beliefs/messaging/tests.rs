@@ -1,7 +1,7 @@
 use super::*;
 use crate::io::body::{Detector, RobotId};
 use crate::io::message::Provenance;
-use crate::io::percept::{Look, Percept};
+use crate::io::percept::{Observation, Percept};
 use crate::perception::beliefs::coverage_map::SUREST;
 use crate::perception::beliefs::coverage_map::tests::detector;
 use crate::perception::beliefs::{BeliefsSpec, TrustSpec};
@@ -46,9 +46,9 @@ impl Robot {
         }
     }
 
-    /// Stands at (8, 10), and perhaps looks.
-    fn step(&mut self, looks: bool, inbox: Vec<Heard>) {
-        let look = Look {
+    /// Stands at (8, 10), and perhaps observations.
+    fn step(&mut self, observations: bool, inbox: Vec<Heard>) {
+        let look = Observation {
             sensor: 0,
             age_s: 0.0,
         };
@@ -56,7 +56,7 @@ impl Robot {
             id: ME,
             position: Some(now(Point { x: 8.0, y: 10.0 })),
             heading_rad: Some(now(0.0)),
-            looks: if looks { vec![look] } else { Vec::new() },
+            observations: if observations { vec![look] } else { Vec::new() },
             inbox,
             ..Percept::default()
         };
@@ -88,27 +88,34 @@ fn heard(about: About, confidence: f64) -> Heard {
 }
 
 /// A mate tells where it is, and how often it has looked.
-fn mate(x: f64, y: f64, looks: u32, confidence: f64) -> Heard {
+fn mate(x: f64, y: f64, observations: u32, confidence: f64) -> Heard {
     let at = Point { x, y };
     let heading_rad = 0.0;
     heard(
         About::Sender {
             at,
             heading_rad,
-            looks,
+            observations,
         },
         confidence,
     )
 }
 
-fn item(x: f64, y: f64, mark: u32) -> Heard {
-    let seen = Provenance {
-        by: MATE,
-        mark,
-        looks: 1,
+fn item(x: f64, y: f64, track_id: u32) -> Heard {
+    let provenance = Provenance {
+        observer: MATE,
+        track_id,
+        observations: 1,
     };
     let at = Point { x, y };
-    heard(About::Item { kind: 0, at, seen }, 0.95)
+    heard(
+        About::Item {
+            kind: 0,
+            at,
+            provenance,
+        },
+        0.95,
+    )
 }
 
 /// The thesis's example: a range of 2, and a sender 5 away with a range of 2 that is quite sure.
@@ -140,15 +147,15 @@ fn a_report_counts_as_its_confidence_times_the_trust_in_its_sender() {
 #[test]
 fn looks_of_a_lost_message_are_made_up_for_by_the_next() {
     let (mut all, mut last) = (Robot::new(0.3, 0.9), Robot::new(0.3, 0.9));
-    for looks in [1, 4, 6] {
-        all.step(false, vec![mate(13.0, 10.0, looks, 1.0)]);
-        let is_lost = looks == 4;
+    for observations in [1, 4, 6] {
+        all.step(false, vec![mate(13.0, 10.0, observations, 1.0)]);
+        let is_lost = observations == 4;
         last.step(
             false,
             if is_lost {
                 Vec::new()
             } else {
-                vec![mate(13.0, 10.0, looks, 1.0)]
+                vec![mate(13.0, 10.0, observations, 1.0)]
             },
         );
     }
@@ -175,9 +182,12 @@ fn who_tells_of_what_is_not_there_is_trusted_less_and_less() {
     let mut robot = Robot::new(0.8, 0.9);
     let spec = robot.beliefs.prior.trust.clone();
     let mut before = 0.9;
-    for mark in 1..5 {
+    for track_id in 1..5 {
         // In view, each time elsewhere.
-        robot.step(false, vec![item(7.0 + 0.5 * f64::from(mark), 9.5, mark)]);
+        robot.step(
+            false,
+            vec![item(7.0 + 0.5 * f64::from(track_id), 9.5, track_id)],
+        );
         let told = robot.beliefs.believed_items().last().unwrap().confidence;
         (0..8).for_each(|_| robot.step(true, Vec::new()));
         let trust = robot.beliefs.trust.of(MATE, &spec);
@@ -199,9 +209,15 @@ fn who_does_not_know_where_he_is_tells_nothing_and_who_does_tells_it_once_a_seco
     for _ in 0..30 {
         robot.beliefs.tell(None, 0.1, &mut outbox);
     }
-    let senders = outbox
-        .iter()
-        .filter(|m| matches!(m.about, About::Sender { looks: 1, .. }));
+    let senders = outbox.iter().filter(|m| {
+        matches!(
+            m.about,
+            About::Sender {
+                observations: 1,
+                ..
+            }
+        )
+    });
     assert_eq!(senders.count(), 3, "{outbox:?}");
 }
 
@@ -213,7 +229,7 @@ fn who_turns_tells_at_once_as_others_take_it_to_look_the_way_that_it_told_last()
             id: ME,
             position: Some(now(Point { x: 8.0, y: 10.0 })),
             heading_rad: Some(now(heading_rad)),
-            looks: vec![Look {
+            observations: vec![Observation {
                 sensor: 0,
                 age_s: 0.0,
             }],
@@ -243,29 +259,29 @@ fn where_one_goes_is_told_at_once_and_whether_it_has_been_there() {
             value: 1.0,
         });
         robot.beliefs.tell(aim, 0.01, &mut outbox);
-        outbox.iter().filter_map(stand).collect::<Vec<_>>()
+        outbox.iter().filter_map(status).collect::<Vec<_>>()
     };
     let (far, here) = (Point { x: 1.0, y: 2.0 }, Point { x: 8.3, y: 10.0 });
     assert_eq!(
         goals(&mut robot, Some(far)),
-        [(far, CommitmentStatus::Going)]
+        [(far, CommitmentStatus::Active)]
     );
     assert_eq!(goals(&mut robot, Some(far)), []);
     assert_eq!(
         goals(&mut robot, Some(here)),
-        [(here, CommitmentStatus::Going)]
+        [(here, CommitmentStatus::Active)]
     );
     let ended = [
         (here, CommitmentStatus::Done),
-        (far, CommitmentStatus::Going),
+        (far, CommitmentStatus::Active),
     ];
     assert_eq!(goals(&mut robot, Some(far)), ended);
-    assert_eq!(goals(&mut robot, None), [(far, CommitmentStatus::Left)]);
+    assert_eq!(goals(&mut robot, None), [(far, CommitmentStatus::Released)]);
 }
 
-fn stand(message: &Message) -> Option<(Point, CommitmentStatus)> {
+fn status(message: &Message) -> Option<(Point, CommitmentStatus)> {
     match message.about {
-        About::Goal { at, stand } => Some((at, stand)),
+        About::Goal { at, status } => Some((at, status)),
         _ => None,
     }
 }
@@ -285,7 +301,7 @@ fn nonsense_is_not_believed() {
 /// A step, from when robots are on, and who tells in it, in which order.
 type Tellers = (u32, Vec<RobotId>);
 
-/// Who tells in each step of a time, in seconds, of robots that all stand and go somewhere.
+/// Who tells in each step of a time, in seconds, of robots that all stand still and have a destination somewhere.
 fn tellers(own: &[RobotId], period_s: f64, for_s: f64) -> Vec<Tellers> {
     let mut told = vec![Told::default(); own.len()];
     #[expect(
@@ -349,13 +365,24 @@ fn robots_of_several_kinds_tell_at_moments_of_their_own_too() {
     assert!(most <= Some(3), "{most:?}");
 }
 
-/// A mate tells of looks of another at a place, or of his own.
-fn relayed(from: RobotId, by: RobotId, x: f64, mark: u32) -> Heard {
-    let (at, looks) = (Point { x, y: 9.5 }, 1);
-    let seen = Provenance { by, mark, looks };
+/// A mate tells of observations of another at a place, or of his own.
+fn relayed(from: RobotId, observer: RobotId, x: f64, track_id: u32) -> Heard {
+    let (at, observations) = (Point { x, y: 9.5 }, 1);
+    let provenance = Provenance {
+        observer,
+        track_id,
+        observations,
+    };
     Heard {
         from,
-        ..heard(About::Item { kind: 0, at, seen }, 0.95)
+        ..heard(
+            About::Item {
+                kind: 0,
+                at,
+                provenance,
+            },
+            0.95,
+        )
     }
 }
 
@@ -363,10 +390,15 @@ fn relayed(from: RobotId, by: RobotId, x: f64, mark: u32) -> Heard {
 fn who_names_another_for_what_is_not_there_is_trusted_less_himself() {
     let (mut robot, innocent) = (Robot::new(0.8, 0.9), RobotId { kind: 0, index: 3 });
     let spec = robot.beliefs.prior.trust.clone();
-    for mark in 1..5 {
+    for track_id in 1..5 {
         robot.step(
             false,
-            vec![relayed(MATE, innocent, 7.0 + 0.5 * f64::from(mark), mark)],
+            vec![relayed(
+                MATE,
+                innocent,
+                7.0 + 0.5 * f64::from(track_id),
+                track_id,
+            )],
         );
         (0..8).for_each(|_| robot.step(true, Vec::new()));
     }

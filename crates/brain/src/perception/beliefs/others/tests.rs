@@ -66,14 +66,14 @@ proptest! {
     ) {
         let (mover, velocity) = followed(own, Point { x: vx, y: vy }, steps);
         prop_assert!(mover.velocity_m_s.to(velocity).length() < 1e-6, "{mover:?} {velocity:?}");
-        prop_assert_eq!(mover.looks, steps);
+        prop_assert_eq!(mover.observations, steps);
     }
 }
 
 #[test]
 fn after_one_look_nobody_knows_how_another_moves() {
     let (mover, _) = followed([1.0, 0.5], Point { x: 1.0, y: 0.0 }, 1);
-    assert!(mover.speed_m_s() < 1e-12 && mover.looks == 1);
+    assert!(mover.speed_m_s() < 1e-12 && mover.observations == 1);
 }
 
 #[test]
@@ -175,5 +175,5 @@ fn who_has_another_number_is_the_same_and_who_is_gone_is_forgotten() {
         [Some(robot(1))]
     );
     beliefs.take_in(&both(1), &body, &[], [0.0, 0.0]);
-    assert_eq!(beliefs.others.movers[0].looks, 2);
+    assert_eq!(beliefs.others.movers[0].observations, 2);
 }

@@ -4,8 +4,8 @@ const MATE: RobotId = RobotId { kind: 0, index: 1 };
 const HERE: Point = Point { x: 1.0, y: 1.0 };
 const THERE: Point = Point { x: 3.0, y: 1.0 };
 
-fn looked(peers: &mut Peers, at: Point, looks: u32, age_s: f64) -> (Point, u32, f64) {
-    let value = (at, looks);
+fn looked(peers: &mut Peers, at: Point, observations: u32, age_s: f64) -> (Point, u32, f64) {
+    let value = (at, observations);
     peers.looked(MATE, Reading { value, age_s })
 }
 
@@ -41,14 +41,14 @@ fn a_message_that_was_overtaken_tells_no_more_looks_and_no_place() {
 #[test]
 fn where_one_goes_is_known_until_it_is_there_or_not_heard_of() {
     let mut peers = Peers::default();
-    peers.goes(MATE, THERE, CommitmentStatus::Going, 0.0);
+    peers.goes(MATE, THERE, CommitmentStatus::Active, 0.0);
     assert!(is_taken(&peers, THERE) && !peers.anybody_goes(THERE, |id| id != MATE));
-    for stand in [CommitmentStatus::Done, CommitmentStatus::Left] {
-        peers.goes(MATE, THERE, CommitmentStatus::Going, 0.0);
-        peers.goes(MATE, THERE, stand, 0.0);
+    for status in [CommitmentStatus::Done, CommitmentStatus::Released] {
+        peers.goes(MATE, THERE, CommitmentStatus::Active, 0.0);
+        peers.goes(MATE, THERE, status, 0.0);
         assert!(!is_taken(&peers, THERE));
     }
-    peers.goes(MATE, THERE, CommitmentStatus::Going, 0.0);
+    peers.goes(MATE, THERE, CommitmentStatus::Active, 0.0);
     peers.pass(9.9);
     assert!(is_taken(&peers, THERE));
     peers.pass(0.2);
@@ -58,7 +58,7 @@ fn where_one_goes_is_known_until_it_is_there_or_not_heard_of() {
 #[test]
 fn who_goes_on_telling_where_it_is_holds_no_place_for_that() {
     let mut peers = Peers::default();
-    peers.goes(MATE, THERE, CommitmentStatus::Going, 0.0);
+    peers.goes(MATE, THERE, CommitmentStatus::Active, 0.0);
     for _ in 0..11 {
         peers.pass(1.0);
         peers.stands(MATE, HERE, 0.0);
@@ -70,10 +70,10 @@ fn who_goes_on_telling_where_it_is_holds_no_place_for_that() {
 #[test]
 fn an_age_begins_at_that_of_the_message_and_what_is_too_old_is_not_taken() {
     let mut peers = Peers::default();
-    peers.goes(MATE, THERE, CommitmentStatus::Going, 500.0);
+    peers.goes(MATE, THERE, CommitmentStatus::Active, 500.0);
     peers.stands(MATE, HERE, 500.0);
     assert!(!is_taken(&peers, THERE) && place(&peers).is_none());
-    peers.goes(MATE, THERE, CommitmentStatus::Going, 9.0);
+    peers.goes(MATE, THERE, CommitmentStatus::Active, 9.0);
     peers.stands(MATE, HERE, 9.0);
     assert!(is_taken(&peers, THERE) && place(&peers) == Some(HERE));
     peers.pass(1.1);
@@ -83,12 +83,12 @@ fn an_age_begins_at_that_of_the_message_and_what_is_too_old_is_not_taken() {
 #[test]
 fn an_old_message_takes_back_nothing_that_was_said_after_it() {
     let mut peers = Peers::default();
-    peers.goes(MATE, HERE, CommitmentStatus::Going, 1.0);
-    peers.goes(MATE, THERE, CommitmentStatus::Going, 4.0);
-    peers.goes(MATE, HERE, CommitmentStatus::Left, 2.0);
+    peers.goes(MATE, HERE, CommitmentStatus::Active, 1.0);
+    peers.goes(MATE, THERE, CommitmentStatus::Active, 4.0);
+    peers.goes(MATE, HERE, CommitmentStatus::Released, 2.0);
     assert!(is_taken(&peers, HERE) && !is_taken(&peers, THERE));
-    peers.goes(MATE, HERE, CommitmentStatus::Left, 0.5);
-    peers.goes(MATE, HERE, CommitmentStatus::Going, 1.0);
+    peers.goes(MATE, HERE, CommitmentStatus::Released, 0.5);
+    peers.goes(MATE, HERE, CommitmentStatus::Active, 1.0);
     assert!(!is_taken(&peers, HERE));
 }
 
@@ -101,7 +101,7 @@ fn where_others_have_been_is_told_once() {
             y: 0.0,
         };
         peers.goes(MATE, at, CommitmentStatus::Done, 100.0);
-        peers.goes(MATE, at, CommitmentStatus::Left, 0.0);
+        peers.goes(MATE, at, CommitmentStatus::Released, 0.0);
         if x < 50 {
             assert_eq!(peers.visits_since(&mut since), [at]);
             assert_eq!(peers.visits_since(&mut since), []);
@@ -116,7 +116,7 @@ fn a_crowd_takes_bounded_memory() {
     let mut peers = Peers::default();
     for index in 0..1000 {
         let id = RobotId { kind: 0, index };
-        peers.goes(id, Point::default(), CommitmentStatus::Going, 0.0);
+        peers.goes(id, Point::default(), CommitmentStatus::Active, 0.0);
     }
     assert_eq!(peers.mates.len(), MOST);
 }
