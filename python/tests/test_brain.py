@@ -130,7 +130,10 @@ HEARD = {"from": {"kind": 0, "index": 0}, "age_s": 0.0}
         ),
         ({"scans": [{"ranges_m": [1.0, math.nan]}]}, "percept.scans[0].ranges_m[1] = nan: must be"),
         ({"touch": {"value": 3, "age_s": 0.0}}, "percept.touch.value = 3: must be True or False"),
-        ({"random_words": [1, 2, 3]}, "percept.random_words = [1, 2, 3]: must be a list of 4 whole"),
+        (
+            {"random_words": [1, 2, 3]},
+            "percept.random_words = [1, 2, 3]: must be a list of 4 whole",
+        ),
         ({"time_s": object}, "percept.time_s = <class 'object'>: must be a number"),
         ("far", 'percept = "far": must be a dict'),
     ],

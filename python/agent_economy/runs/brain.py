@@ -1,9 +1,9 @@
 """A robot's mind, for whoever has percepts of their own: live robots, other simulators, learning.
 
-A percept comes in, a command goes out, and nothing else: no clock, no files, no chance but the
-percept's random words. The same percepts give the same commands. Both are plain dicts, with the names and
-units of the scenario: metres, seconds and radians, angles anticlockwise from the robot's front
-unless said otherwise.
+A brain takes percepts and returns commands, and has no other input or output: no clock, no files,
+and no random numbers but the random words of the percept. The same percepts give the same commands.
+Both are plain dicts, with the names and units of the scenario: metres, seconds and radians; angles
+are anticlockwise from the robot's front unless stated otherwise.
 """
 
 from collections.abc import Mapping, Sequence

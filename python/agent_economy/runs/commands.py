@@ -162,7 +162,9 @@ def outbox(commands: Table, robots: int) -> Outbox:
     heading_rad = table.numbers("heading_rad", row.shape) if has_course else np.zeros(row.shape)
     observations = np.zeros(row.shape, np.uint32)
     if "observations" in table:
-        observations = table.whole("observations", row.shape, (0, MAX_OBSERVATIONS)).astype(np.uint32)
+        observations = table.whole("observations", row.shape, (0, MAX_OBSERVATIONS)).astype(
+            np.uint32
+        )
     status = np.zeros(row.shape, np.uint8)
     if "status" in table:
         status = table.whole("status", row.shape, (ACTIVE, RELEASED)).astype(np.uint8)
