@@ -40,6 +40,7 @@ python-lint: .venv/installed
 	$(BIN)/lint-imports --no-cache
 	$(BIN)/python scripts/check_tree.py
 	$(BIN)/python scripts/check_cycles.py
+	$(BIN)/python scripts/generate_types.py --check
 
 # A toolchain without rustup may lack the target: the check is then skipped with a message.
 wasm: ## Check that the metric simulator and the brain compile for browsers
@@ -117,9 +118,11 @@ golden: ## Check that an unoptimised and a release build give the same runs, byt
 replication: .venv/installed ## Recompute every figure of docs/replication.md
 	$(BIN)/python scripts/replication.py
 
-schemas: ## Regenerate the JSON Schema and the scenario reference from the Rust types
+schemas: ## Generate the JSON Schemas, the reference of scenarios, and the types of Python and TypeScript
 	RENEW_SCHEMAS=1 cargo test --locked -p agent-economy-sim --test schemas -- --test-threads=1
 	RENEW_SCHEMAS=1 cargo test --locked -p agent-economy-classic --test schema
+	RENEW_SCHEMAS=1 cargo test --locked -p agent-economy-protocol --test schemas
+	$(BIN)/python scripts/generate_types.py
 
 web: ## Build the page of `agent-economy ui` (needs Node 20 or newer)
 	$(PYTHON) packaging/backend.py

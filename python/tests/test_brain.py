@@ -1,14 +1,12 @@
 """Brains in Python: what enters and leaves them has the names of Rust's, and faults are told."""
 
 import math
-import typing
 from typing import Any
 
 import numpy as np
 import pytest
 
 import agent_economy as ae
-from agent_economy.runs import belief_state, brain
 from agent_economy.runs.brain import Body, Percept
 
 ROVER: Body = {
@@ -184,34 +182,3 @@ def test_a_percept_that_holds_itself_is_told() -> None:
 def test_a_kind_that_is_no_text_is_told(kind: Any) -> None:
     with pytest.raises(ae.InputError, match=r"kind = .*: must be the name of a kind of robots"):
         ae.Brain.of("search", kind)
-
-
-def names(schema: dict[str, Any]) -> set[str]:
-    return set(schema.get("properties", {}))
-
-
-@pytest.mark.parametrize("name", ["Body", "Percept", "Command", "BeliefState"])
-def test_the_types_have_the_names_of_the_rust_types(name: str) -> None:
-    schema = brain.schemas()[name]
-    for each, here in [(name, schema), *schema.get("$defs", {}).items()]:
-        if "properties" not in here:
-            continue
-        python_name = "Reading" if each.startswith("Reading") else each
-        python_type = getattr(brain, python_name, None) or getattr(belief_state, python_name)
-        assert names(here) == set(python_type.__annotations__), each
-
-
-def test_what_must_be_in_a_body_is_what_rust_needs() -> None:
-    for each in ("Body", "RangeRing"):
-        schema = brain.schemas()["Body"]
-        schema = schema if each == "Body" else schema["$defs"][each]
-        assert set(schema["required"]) == getattr(brain, each).__required_keys__
-
-
-def test_a_message_is_about_what_rust_knows() -> None:
-    about = brain.schemas()["Command"]["$defs"]["About"]["oneOf"]
-    kinds = {kind: here for each in about for kind, here in each["properties"].items()}
-    hints = typing.get_type_hints(brain.About)
-    assert kinds.keys() == hints.keys()
-    for kind, here in kinds.items():
-        assert names(here) == set(hints[kind].__annotations__)

@@ -73,7 +73,7 @@ class Page:
             raise ConnectionClosedError
         return json.dumps(said)
 
-    async def send(self, said: Said) -> None:
+    async def send(self, said: Any) -> None:
         """Keep it, and go on once what was said is done."""
         self.sent.append(said)
         if said["type"] == "refused" or (said["type"] == "state" and said["tick"] == self.tick):
@@ -83,7 +83,7 @@ class Page:
         """Keep it, and say of frames that they are drawn."""
         self.sent.append(frame)
         if self.draws and kind_of(frame) == FRAME:
-            self.said.put_nowait({"type": "got", "frame": number_of(frame)})
+            self.said.put_nowait({"type": "acknowledge", "frame": number_of(frame)})
 
 
 def kind_of(sent: bytes) -> int:
@@ -253,7 +253,7 @@ def test_layers_that_are_none_are_refused_in_words(tmp_path: Path) -> None:
     asyncio.run(serve())
     (refused,) = page.sent
     assert isinstance(refused, dict)
-    assert "layers.links = 1: must be true or false" in refused["faults"][0]["message"]
+    assert "layers.links = 1: must be true or false" in refused["errors"][0]["message"]
 
 
 @pytest.mark.parametrize("name", ["open-field", "flock"])

@@ -5,8 +5,8 @@ from dataclasses import dataclass, field
 import pytest
 
 from agent_economy import InputError
-from agent_economy.server.messages import Change, Message, Pause, Play, Seek, Step, Undo
 from agent_economy.server.runs.player import Idle, Paused, Player, Playing, Seeking
+from agent_economy.types.page import Change, PageMessage, Pause, Play, Seek, Step, Undo
 
 STEP_S = 0.1
 SLICE_STEPS = 40
@@ -64,7 +64,7 @@ class Story:
         self.player.open(self.run, tick)
         self.settle()
 
-    def say(self, *messages: Message) -> None:
+    def say(self, *messages: PageMessage) -> None:
         """Hand messages to the player."""
         for message in messages:
             if not self.player.defers(message):

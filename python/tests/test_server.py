@@ -57,7 +57,7 @@ def test_a_scenario_with_faults_is_in_the_gallery_and_tells_them_when_it_is_open
     rows = {row["id"]: row for row in client.get("/api/scenarios").json()}
     assert rows["broken.toml"]["summary"] == "Mine."
     page.say("open", scenario="broken.toml")
-    assert "clock is missing" in page.until("refused")["faults"][0]["message"]
+    assert "clock is missing" in page.until("refused")["errors"][0]["message"]
 
 
 @pytest.mark.parametrize("name", ["classic", "search", "open-field", "flock"])
@@ -78,7 +78,7 @@ def test_nothing_outside_of_the_folder_is_opened(
     (tmp_path / "link.toml").symlink_to(secret)
     told = client.get("/api/pictures", params={"scenario": name})
     assert told.status_code == 404
-    assert "one of the gallery" in told.json()["faults"][0]["message"]
+    assert "one of the gallery" in told.json()["errors"][0]["message"]
 
 
 def test_a_map_outside_of_the_folder_is_not_read(client: TestClient) -> None:
@@ -94,7 +94,7 @@ def test_faults_of_a_text_are_told_with_their_lines(client: TestClient) -> None:
     wrong = text.replace("time_limit_s = 120", "time_limit_s = -1").replace(
         "count = 4", "cuont = 4", 1
     )
-    faults = client.post("/api/check", content=wrong).json()["faults"]
+    faults = client.post("/api/check", content=wrong).json()["errors"]
     told = {fault["path"].split(".")[-1]: fault for fault in faults}
     line = 1 + wrong[: wrong.index("time_limit_s = -1")].count("\n")
     assert told["time_limit_s"]["line"] == line
@@ -105,22 +105,22 @@ def test_faults_of_a_text_are_told_with_their_lines(client: TestClient) -> None:
 def test_what_is_no_scenario_is_told(client: TestClient, content: bytes) -> None:
     told = client.post("/api/check", content=content)
     assert told.status_code in (413, 422)
-    assert told.json()["faults"][0]["message"]
+    assert told.json()["errors"][0]["message"]
 
 
 def test_a_run_is_opened_played_and_paused(page: Page) -> None:
     page.open()
     page.say("play", speed=None)
-    over = page.until("state", over=True, playing=False)
+    over = page.until("state", is_over=True, is_playing=False)
     assert over["outcome"]["complete"]
     expected = ae.run("search-beliefs", seed=7)
     assert over["outcome"]["time_s"] == expected.time_s
-    page.say("go", tick=50)
+    page.say("seek", tick=50)
     simulation = ae.Simulation("search-beliefs", 7)
     simulation.step(50)
     told = page.until("state", tick=50)
     assert told["hash"] == f"{simulation.hash:016x}"
-    assert told["edge"] == over["tick"]
+    assert told["latest_tick"] == over["tick"]
 
 
 def test_a_frame_is_of_where_the_robots_are(page: Page) -> None:
@@ -140,14 +140,14 @@ def test_a_classic_run_is_opened_played_changed_and_taken_again(page: Page) -> N
     page.open(scenario="classic", tick=30)
     page.say("select", robot="wanderer/1")
     told = page.until("state")
-    assert told["mind"] is None
-    assert dict(told["robot"]["facts"])["Decides"] == "in 4 paints"
-    assert len(told["robot"]["looks"]) == 6
+    assert told["inspection"] is None
+    assert dict(told["robot"]["facts"])["Next decision"] == "in 4 paints"
+    assert len(told["robot"]["examined_cells"]) == 6
     page.say("change", path="robots.wanderer.count", value=7)
     setting = page.until("setting")
     assert len(setting["robots"]) == setting["kinds"][0]["count"] == 7
     page.say("play", speed=None)
-    over = page.until("state", over=True, playing=False)
+    over = page.until("state", is_over=True, is_playing=False)
     assert over["outcome"]["complete"]
     again = page.open(scenario="classic", changes=setting["changes"], tick=over["tick"])
     assert (again["hash"], again["outcome"]) == (over["hash"], over["outcome"])
@@ -156,7 +156,7 @@ def test_a_classic_run_is_opened_played_changed_and_taken_again(page: Page) -> N
 def test_a_classic_run_is_the_one_that_run_gives(page: Page) -> None:
     page.open(scenario="classic", seed="3")
     page.say("play", speed=None)
-    over = page.until("state", over=True, playing=False)
+    over = page.until("state", is_over=True, is_playing=False)
     assert over["outcome"] == ae.run("classic", seed=3).row
 
 
@@ -201,7 +201,7 @@ def test_the_clock_of_a_classic_run_can_be_changed_while_it_plays(page: Page) ->
     page.say("change", path="clock.paints_per_s", value=560)
     assert page.until("setting")["step_s"] == 1 / 560
     page.say("pause")
-    told = page.until("state", playing=False)
+    told = page.until("state", is_playing=False)
     assert told["time_s"] == pytest.approx(told["tick"] / 560)
 
 
@@ -214,7 +214,7 @@ def test_each_engine_has_a_schema(client: TestClient, engine: str) -> None:
 def test_of_other_engines_there_is_no_schema(client: TestClient) -> None:
     told = client.get("/api/schema", params={"engine": "../secret"})
     assert told.status_code == 404
-    assert "metric, classic" in told.json()["faults"][0]["message"]
+    assert "metric, classic" in told.json()["errors"][0]["message"]
 
 
 def test_the_picture_of_2003_has_its_walls_and_its_items(client: TestClient) -> None:
@@ -273,32 +273,34 @@ def test_a_change_in_the_run_is_seen_and_its_log_gives_the_run_again(page: Page)
 def test_kinds_that_fly_are_told_from_those_that_do_not(page: Page) -> None:
     page.open(scenario="search")
     page.say("change", path="robots.rover.layer", value="air")
-    assert page.until("setting")["kinds"][0]["flies"] is True
+    assert page.until("setting")["kinds"][0]["is_flying"] is True
     page.say("undo")
-    assert page.until("setting", changes=[])["kinds"][0]["flies"] is False
+    assert page.until("setting", changes=[])["kinds"][0]["is_flying"] is False
 
 
 def test_the_mind_of_a_selected_robot_is_told(page: Page) -> None:
     page.open(tick=30)
     page.say("select", robot="rover/1")
-    mind = page.until("state")["mind"]
+    mind = page.until("state")["inspection"]
     simulation = ae.Simulation("search-beliefs", 7)
     simulation.step(30)
     simulation.watch("rover/1")
-    expected = simulation.watched()
-    assert expected is not None
-    assert mind == json.loads(json.dumps({"robot": "rover/1", **expected}))
+    decided = simulation.watched()
+    assert decided is not None
+    expected = {"robot": "rover/1", "belief_state": decided["thoughts"], **decided}
+    assert mind == {key: json.loads(json.dumps(expected[key])) for key in mind}
+    assert mind.keys() | {"thoughts"} == expected.keys()
     page.say("select", robot="rover/99")
-    assert page.until("state")["mind"] is None
+    assert page.until("state")["inspection"] is None
 
 
 def test_what_is_told_of_a_map_comes_to_all_of_it(page: Page) -> None:
     page.open(tick=30)
     page.say("select", robot="rover/1")
     page.until("map", robot="rover/1")
-    for said, tick in (({"type": "step", "steps": 2}, 32), ({"type": "go", "tick": 20}, 20)):
+    for said, tick in (({"type": "step", "steps": 2}, 32), ({"type": "seek", "tick": 20}, 20)):
         page.socket.send_text(json.dumps(said))
-        page.until("state", tick=tick, playing=False)
+        page.until("state", tick=tick, is_playing=False)
     # A map comes behind the state that it is of.
     page.say("pause")
     page.until("state")
@@ -323,13 +325,13 @@ def test_what_is_told_of_a_map_comes_to_all_of_it(page: Page) -> None:
 def test_a_robot_without_a_mind_has_a_percept_and_a_command_and_no_map(page: Page) -> None:
     page.open(scenario="search", tick=6)
     page.say("select", robot="rover/0")
-    mind = page.until("state")["mind"]
+    mind = page.until("state")["inspection"]
     assert mind["percept"]["scans"]
     assert mind["command"]["motion"]
     assert mind["leading"] is not None
-    assert mind["thoughts"] is None
+    assert mind["belief_state"] is None
     page.say("select", robot=None)
-    assert page.until("state")["mind"] is None
+    assert page.until("state")["inspection"] is None
     assert not [said for said in page.said if said["type"] == "map"]
 
 
@@ -342,9 +344,9 @@ def test_a_robot_without_a_mind_has_a_percept_and_a_command_and_no_map(page: Pag
         ("[" * 100_000, "in JSON"),
         ('{"type": "play", "speed": "fast"}', "play.speed"),
         ('{"type": "play", "speed": NaN}', "play.speed"),
-        ('{"type": "go", "tick": 1}', "after an open"),
+        ('{"type": "seek", "tick": 1}', "after an open"),
         ('{"type": "open"}', "either a scenario or a text"),
-        ('{"type": "open", "scenario": "search", "seed": 7}', "as a text"),
+        ('{"type": "open", "scenario": "search", "seed": 7}', "as a string"),
         ('{"type": "open", "scenario": "search", "seed": "99999999999999999999"}', "seed"),
         ('{"type": "open", "scenario": "nothing"}', "one of the gallery"),
         ('{"type": "open", "scenario": "search", "changes": [[1, 2]]}', "[tick, path, value]"),
@@ -354,15 +356,15 @@ def test_a_robot_without_a_mind_has_a_percept_and_a_command_and_no_map(page: Pag
 def test_what_a_page_may_not_say_is_refused_in_words(page: Page, said: str, told: str) -> None:
     page.socket.send_text(said)
     refused = page.until("refused")
-    assert told in refused["faults"][0]["message"]
+    assert told in refused["errors"][0]["message"]
     page.open()
 
 
-@pytest.mark.parametrize("said", ["pause", "cancel", "select"])
+@pytest.mark.parametrize("said", ["pause", "cancel_save", "select"])
 def test_what_is_said_before_a_run_is_opened_holds_nobody_up(
     client: TestClient, page: Page, said: str
 ) -> None:
-    page.say(said, robot=None)
+    page.say(said, **({"robot": None} if said == "select" else {}))
     with client.websocket_connect(WS) as other:
         Page(other).open()
     page.open()
@@ -388,7 +390,7 @@ def test_a_page_that_goes_as_it_speaks_leaves_nothing_behind(tmp_path: Path) -> 
                 await self.has_seen.wait()
             return json.dumps(message)
 
-        async def send(self, told: dict[str, Any]) -> None:
+        async def send(self, told: Any) -> None:
             if told["type"] == "state":
                 # Not before the run stands and what is said next is waited for.
                 asyncio.get_running_loop().call_later(0.1, self.has_seen.set)
@@ -429,7 +431,7 @@ def test_a_page_that_draws_nothing_gets_three_frames_and_the_run_goes_on(
             waited += len(page.frames) >= MAX_IN_FLIGHT
         assert len(page.frames) == MAX_IN_FLIGHT
         page.draws = True
-        page.say("got", frame=MAX_IN_FLIGHT)
+        page.say("acknowledge", frame=MAX_IN_FLIGHT)
         assert page.until("state")["tick"] > 0
 
 
@@ -438,7 +440,7 @@ def test_no_more_than_so_many_runs_are_open(client: TestClient) -> None:
     for socket in sockets:
         socket.__enter__()
     with client.websocket_connect(WS) as socket:
-        assert Page(socket).next()["why"] == "full"
+        assert Page(socket).next()["reason"] == "full"
     sockets[0].__exit__(None, None, None)
     with client.websocket_connect(WS) as socket:
         Page(socket).open()

@@ -63,7 +63,7 @@ class Folder:
         """Ask what is not allowed, and return its faults."""
         told = self.client.post(address, json=said)
         assert told.status_code == 422
-        faults: list[Told] = told.json()["faults"]
+        faults: list[Told] = told.json()["errors"]
         return faults
 
     def watched(self, name: str, runs: float = float("inf")) -> list[Told]:
@@ -121,7 +121,7 @@ def test_what_the_page_asks_is_answered_as_the_command_line_does(
 
 def test_progress_only_grows_and_ends_with_the_answer(answered: Answered) -> None:
     folder, said = answered
-    for name in ("round", "runs", "computed", "seconds"):
+    for name in ("rounds", "runs", "computed", "seconds"):
         values = [each[name] for each in said]
         assert values == sorted(values), name
     assert said[0]["labels"][2] == "3 wanderers"
@@ -193,7 +193,7 @@ def test_runs_that_there_are_not_are_refused(answered: Answered, query: Told, to
     query = {"id": "studies/classic", **query}
     refused = folder.client.get("/api/study/runs", params=query)
     assert refused.status_code == 422
-    assert told in refused.json()["faults"][0]["message"]
+    assert told in refused.json()["errors"][0]["message"]
 
 
 def test_the_report_and_the_answer_can_be_kept(answered: Answered) -> None:
@@ -259,7 +259,7 @@ def test_a_study_stopped_in_its_first_round_has_no_runs_in_the_list_nor_for_watc
     assert folder.watched(name, runs=1)[-1]["runs"] > 0
     assert folder.post("/api/studies/stop", id=name)["runs"] == 0
     last = folder.watched(name)[-1]
-    assert (last["runs"], last["round"], last["survivors"]) == (0, 0, 400)
+    assert (last["runs"], last["rounds"], last["remaining"]) == (0, 0, 400)
 
 
 def test_a_study_that_is_stopped_while_it_starts_says_nothing(
@@ -272,11 +272,13 @@ def test_a_study_that_is_stopped_while_it_starts_says_nothing(
 
 
 def test_who_is_put_out_after_the_estimate_stands_no_more(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(job, "TELL_S", 0.0)
-    monkeypatch.setattr(job, "RANGES_S", 1e9)
+    monkeypatch.setattr(job, "REPORT_S", 0.0)
+    monkeypatch.setattr(job, "ESTIMATE_S", 1e9)
     theirs, mine = multiprocessing.Pipe()
     teller = job.ProgressReporter(mine)
-    monkeypatch.setattr(job, "estimated", lambda _: {"standings": [[0], [1]], "left_runs": None})
+    monkeypatch.setattr(
+        job, "estimates", lambda _: {"standings": [[0], [1]], "remaining_runs": None}
+    )
     for gone in ([], [[1, 0, 20]]):
         facts = {"runs": 40, "survivors": 2, "leaders": [], "eliminated": gone, "is_over": False}
         teller(study.Progress.of_facts(1, facts, 40, 1.0))
@@ -299,7 +301,7 @@ def test_before_its_first_round_all_are_still_in(folder: Folder) -> None:
     scenario = Scenario.load("classic")
     (place / "study.toml").write_text(study.make_plan(scenario).text(), encoding="utf-8")
     (last,) = folder.watched("studies/asked")
-    assert (last["state"], last["survivors"], last["runs"]) == ("stopped", 8, 0)
+    assert (last["state"], last["remaining"], last["runs"]) == ("stopped", 8, 0)
 
 
 def test_no_more_than_so_many_pages_watch_studies(
@@ -308,9 +310,9 @@ def test_no_more_than_so_many_pages_watch_studies(
     monkeypatch.setattr(import_module("agent_economy.server.app"), "MAX_WATCHERS", 1)
     name = folder.post("/api/studies", **LONG)["id"]
     with folder.client.websocket_connect(f"{WS}?study={name}") as first:
-        assert first.receive_json()["type"] == "studying"
+        assert first.receive_json()["type"] == "study_progress"
         with folder.client.websocket_connect(f"{WS}?study={name}") as second:
-            assert second.receive_json()["why"] == "full"
+            assert second.receive_json()["reason"] == "full"
     folder.post("/api/studies/stop", id=name)
     assert folder.watched(name)[-1]["state"] == "stopped"
 
@@ -324,7 +326,7 @@ def test_a_run_of_a_study_can_be_watched_and_is_the_very_same(folder: Folder) ->
         member = {"id": name, "configuration": 1}
         socket.send_json({"type": "open", "study": member, "run": "1"})
         assert socket.receive_json()["seed"] == "7"
-        socket.send_json({"type": "go", "tick": 10**6})
+        socket.send_json({"type": "seek", "tick": 10**6})
         socket.send_json({"type": "play", "speed": None})
         state = over(socket)
     assert {name: state["outcome"][name] for name in stored if name not in ("run", "failed")} == {
@@ -339,10 +341,10 @@ def over(socket: Any) -> Told:
         message = socket.receive()
         if message.get("bytes") is not None:
             frame = int.from_bytes(message["bytes"][36:40], "little")
-            socket.send_json({"type": "got", "frame": frame})
+            socket.send_json({"type": "acknowledge", "frame": frame})
             continue
         said: Told = json.loads(message["text"])
-        if said["type"] == "state" and said["over"] and not said["playing"]:
+        if said["type"] == "state" and said["is_over"] and not said["is_playing"]:
             return said
 
 
@@ -354,7 +356,7 @@ def test_no_more_than_two_run_at_a_time_and_all_end_with_the_server(tmp_path: Pa
         assert all(name in fault["message"] for name in names)
         assert "stop one" in fault["message"]
         (again,) = folder.refused("/api/studies", **LONG, seed="1")
-        assert "is being worked on" in again["message"]
+        assert "is running already" in again["message"]
         for name in names:
             folder.watched(name, runs=1)
             assert study.is_locked(tmp_path / name)
@@ -442,12 +444,12 @@ def test_no_study_outside_of_the_folder_is_opened(folder: Folder, name: str) -> 
     assert [row["id"] for row in folder.get("/api/studies")["studies"]] == ["here"]
     for address in ("study", "study/runs", "study/report", "study/answer"):
         told = folder.client.get(f"/api/{address}", params={"id": name, "configuration": 0})
-        assert "in the list" in told.json()["faults"][0]["message"]
+        assert "in the list" in told.json()["errors"][0]["message"]
     for address in ("stop", "resume"):
         (fault,) = folder.refused(f"/api/studies/{address}", id=name)
         assert "in the list" in fault["message"]
     (fault,) = folder.refused("/api/studies/stop", id=7)
-    assert "as a text" in fault["message"]
+    assert "as a string" in fault["message"]
 
 
 def test_a_folder_of_studies_that_leads_elsewhere_is_not_written_to(folder: Folder) -> None:
@@ -510,9 +512,9 @@ def test_all_that_is_wrong_with_a_question_is_told_at_once(folder: Folder) -> No
         ({"scenario": "../x.toml"}, "one of the gallery"),
         ({"text": "= 3"}, "scenario.toml"),
         ({"scenario": "classic", "vary": [1]}, "an object of values"),
-        ({"scenario": "classic", "vary": {TEAM: 4}}, "a text"),
+        ({"scenario": "classic", "vary": {TEAM: 4}}, "a string"),
         ({"scenario": "classic", "vary": {TEAM: "1..5"}, "max_runs": 3}, "50 or more"),
-        ({"scenario": "classic", "design": 3}, "a text"),
+        ({"scenario": "classic", "design": 3}, "a string"),
     ],
 )
 def test_what_cannot_be_asked_is_told(folder: Folder, said: Told, told: str) -> None:
@@ -523,7 +525,7 @@ def test_what_cannot_be_asked_is_told(folder: Folder, said: Told, told: str) -> 
 def test_what_is_no_question_is_told(folder: Folder, content: bytes) -> None:
     told = folder.client.post("/api/plan", content=content)
     assert told.status_code in (413, 422)
-    assert told.json()["faults"][0]["message"]
+    assert told.json()["errors"][0]["message"]
 
 
 def test_pages_of_others_can_ask_nothing(folder: Folder) -> None:

@@ -78,7 +78,7 @@ def test_a_saved_run_is_the_run_that_was_seen_with_all_its_changes(
 ) -> None:
     told = changed(page)
     row = saved(page)
-    assert (row["of"]["steps"], row["of"]["seed"], row["fault"]) == (70, "7", None)
+    assert (row["run"]["steps"], row["run"]["seed"], row["error"]) == (70, "7", None)
     again = ae.rerun(tmp_path / row["id"])
     assert again.agrees
     assert again.is_whole
@@ -95,14 +95,22 @@ def test_a_saved_classic_run_is_the_run_that_was_seen_and_is_opened_as_that(
     told = page.until("state", tick=100)
     row = saved(page)
     assert client.get("/api/recordings").json() == [row]
-    assert (row["of"]["scenario"], row["of"]["steps"], row["fault"]) == ("classic.toml", 100, None)
-    assert row["of"]["length_s"] == pytest.approx(60 / 56 + 40 / 28)
+    assert (row["run"]["scenario"], row["run"]["steps"], row["error"]) == (
+        "classic.toml",
+        100,
+        None,
+    )
+    assert row["run"]["length_s"] == pytest.approx(60 / 56 + 40 / 28)
     again = ae.rerun(tmp_path / row["id"])
     assert (again.agrees, again.tick, again.hash) == (True, 100, told["hash"])
     page.say("open", recording=row["id"], tick=100)
     page.until("opened")
     opened = page.until("state", tick=100)
-    assert (opened["hash"], opened["edge"], opened["differs_at"]) == (told["hash"], 100, None)
+    assert (opened["hash"], opened["latest_tick"], opened["mismatch_tick"]) == (
+        told["hash"],
+        100,
+        None,
+    )
     page.say("undo")
     assert page.until("setting")["step_s"] == 1 / 56
     assert saved(page)["id"] != row["id"]
@@ -121,7 +129,7 @@ def test_a_classic_run_that_is_not_as_recorded_is_told_with_its_tick(
         recording.step(20)
     page.say("open", recording="behind.mcap", tick=40)
     page.until("opened")
-    assert page.until("state", tick=40)["differs_at"] == ae.rerun(path).differs_at == 32
+    assert page.until("state", tick=40)["mismatch_tick"] == ae.rerun(path).differs_at == 32
 
 
 def test_the_same_run_saved_again_is_the_same_file(page: Page, client: TestClient) -> None:
@@ -138,12 +146,12 @@ def test_a_recording_is_opened_at_any_tick_and_goes_on(page: Page) -> None:
     assert (opened["seed"], opened["recording"]["id"]) == ("7", name)
     setting = page.until("setting")
     assert (setting["log"], setting["changes"]) == (None, [[40, COUNT, 7]])
-    assert page.until("state", tick=50)["edge"] == 70
-    page.say("go", tick=70)
+    assert page.until("state", tick=50)["latest_tick"] == 70
+    page.say("seek", tick=70)
     last = page.until("state", tick=70)
-    assert (last["hash"], last["differs_at"]) == (told["hash"], None)
+    assert (last["hash"], last["mismatch_tick"]) == (told["hash"], None)
     page.say("step", steps=5)
-    page.until("state", tick=75, edge=75)
+    page.until("state", tick=75, latest_tick=75)
 
 
 def test_a_recording_with_other_changes_is_opened_as_that_run(page: Page) -> None:
@@ -197,10 +205,10 @@ def test_a_run_that_is_not_as_recorded_is_told_with_its_tick(tmp_path: Path) -> 
 def test_what_is_cancelled_leaves_nothing(page: Page, tmp_path: Path) -> None:
     page.open()
     page.say("play", speed=None)
-    page.until("state", over=True, playing=False)
+    page.until("state", is_over=True, is_playing=False)
     page.say("save")
     page.until("saving")
-    page.say("cancel")
+    page.say("cancel_save")
     assert page.until("saved")["recording"] is None
     assert list((tmp_path / FOLDER).iterdir()) == []
 
@@ -209,11 +217,11 @@ def test_what_is_cancelled_leaves_nothing(page: Page, tmp_path: Path) -> None:
 def test_one_recording_at_a_time_is_saved(page: Page) -> None:
     page.open()
     page.say("play", speed=None)
-    page.until("state", over=True, playing=False)
+    page.until("state", is_over=True, is_playing=False)
     page.say("save")
     page.say("save")
-    assert "one recording at a time" in page.until("refused")["faults"][0]["message"]
-    assert page.until("saved")["recording"]["fault"] is None
+    assert "one recording at a time" in page.until("refused")["errors"][0]["message"]
+    assert page.until("saved")["recording"]["error"] is None
 
 
 @pytest.mark.usefixtures("slowly")
@@ -222,7 +230,7 @@ def test_a_page_that_goes_leaves_nothing(client: TestClient, tmp_path: Path) -> 
         page = Page(socket)
         page.open()
         page.say("play", speed=None)
-        page.until("state", over=True, playing=False)
+        page.until("state", is_over=True, is_playing=False)
         page.say("save")
         until_there_are(1, tmp_path)
     until_there_are(0, tmp_path)
@@ -306,7 +314,7 @@ def test_a_folder_that_cannot_be_written_is_told(page: Page, tmp_path: Path) -> 
     (tmp_path / FOLDER).write_text("not a folder")
     page.open(tick=5)
     page.say("save")
-    told = page.until("refused", about="save")["faults"][0]["message"]
+    told = page.until("refused", about="save")["errors"][0]["message"]
     assert f"{FOLDER}: cannot be written" in told
 
 
@@ -316,7 +324,7 @@ def test_a_link_to_elsewhere_is_no_place_for_recordings(
     (tmp_path / FOLDER).symlink_to(tmp_path_factory.mktemp("elsewhere"))
     page.open(tick=5)
     page.say("save")
-    assert "not below the folder" in page.until("refused")["faults"][0]["message"]
+    assert "not below the folder" in page.until("refused")["errors"][0]["message"]
 
 
 def test_a_full_disk_is_told_and_leaves_nothing(
@@ -350,12 +358,12 @@ def test_recordings_are_listed_newest_first_with_what_they_are_of(
     rows = client.get("/api/recordings").json()
     assert [row["id"] for row in rows] == names[:4]
     steps = ae.rerun(tmp_path / names[0]).tick
-    of = rows[0]["of"]
+    of = rows[0]["run"]
     assert (of["scenario"], of["seed"], of["run"]) == ("search-beliefs.toml", str(2**64 - 1), "0")
     assert of["steps"] == steps
     assert of["length_s"] == pytest.approx(steps / 10)
-    assert rows[2]["of"]["steps"] is None
-    assert "no MCAP file" in rows[3]["fault"]
+    assert rows[2]["run"]["steps"] is None
+    assert "no MCAP file" in rows[3]["error"]
 
 
 def test_a_recording_that_is_cut_is_opened_as_far_as_it_goes(page: Page, tmp_path: Path) -> None:
@@ -365,10 +373,10 @@ def test_a_recording_that_is_cut_is_opened_as_far_as_it_goes(page: Page, tmp_pat
     path.write_bytes(whole[: 2 * len(whole) // 3])
     page.say("open", recording="cut.mcap")
     page.until("opened")
-    edge = page.until("state", tick=0)["edge"]
+    edge = page.until("state", tick=0)["latest_tick"]
     assert edge > 0
-    page.say("go", tick=edge)
-    assert page.until("state", tick=edge)["differs_at"] is None
+    page.say("seek", tick=edge)
+    assert page.until("state", tick=edge)["mismatch_tick"] is None
 
 
 @pytest.mark.parametrize(
@@ -382,7 +390,7 @@ def test_no_recording_outside_of_the_folder_is_opened_or_sent(
     (tmp_path / "link.mcap").symlink_to(secret)
     assert client.get("/api/recordings/file", params={"id": name}).status_code == 404
     page.say("open", recording=name)
-    assert "below the folder" in page.until("refused")["faults"][0]["message"]
+    assert "below the folder" in page.until("refused")["errors"][0]["message"]
 
 
 def test_a_recording_is_sent_whole(client: TestClient, page: Page, tmp_path: Path) -> None:

@@ -34,7 +34,7 @@ class Page:
             if message.get("bytes") is not None:
                 self.frames.append(message["bytes"])
                 if self.draws:
-                    self.say("got", frame=HEADER.unpack_from(message["bytes"])[6])
+                    self.say("acknowledge", frame=HEADER.unpack_from(message["bytes"])[6])
                 continue
             self.said.append(json.loads(message["text"]))
             return self.said[-1]

@@ -80,7 +80,7 @@ async function check(request, answer) {
     answer,
     errors.length > 0 ? 422 : 200,
     "application/json",
-    JSON.stringify(errors.length > 0 ? { faults: errors } : good),
+    JSON.stringify(errors.length > 0 ? { errors } : good),
   );
 }
 

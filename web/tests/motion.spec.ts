@@ -14,7 +14,7 @@ async function play(page: Page, url: string): Promise<() => Promise<[pictures: n
   });
   let frames = 0;
   page.on("websocket", (socket) =>
-    socket.on("framesent", ({ payload }) => (frames += String(payload).includes('"got"') ? 1 : 0)),
+    socket.on("framesent", ({ payload }) => (frames += String(payload).includes('"acknowledge"') ? 1 : 0)),
   );
   await page.goto(url);
   await expect(page.locator("#status")).toContainText("4 robots");

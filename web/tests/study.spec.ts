@@ -160,7 +160,7 @@ test("a study that another page resumed is displayed as running", async ({ page,
   await page.getByRole("button", { name: "Stop" }).click();
   await expect(page.getByRole("button", { name: "Resume" })).toBeVisible();
   await page.request.post(`${fake.url}/api/studies/resume`, { data: { id, confidence: null } });
-  await page.route("**/api/studies/resume", (route) => route.fulfill({ status: 422, json: { faults: [] } }));
+  await page.route("**/api/studies/resume", (route) => route.fulfill({ status: 422, json: { errors: [] } }));
   await page.getByRole("button", { name: "Resume" }).click();
   await expect(page.getByRole("button", { name: "Stop" })).toBeVisible();
 });

@@ -97,19 +97,28 @@ fn read<T: DeserializeOwned + JsonSchema>(
     given: &Bound<PyAny>,
     errors: &mut Vec<InputError>,
 ) -> PyResult<Option<T>> {
-    let mut document = Document::default();
-    document.set(
-        &[],
-        value_without_none(&[name.to_owned()], given, name)?,
-        "",
-    );
-    let read = document.typed(&Schema::of::<T>());
-    let wrong = read.as_ref().err().into_iter().flat_map(|errors| &errors.0);
+    let read = checked(name, given)?;
+    let wrong = read.as_ref().err().into_iter().flatten();
     errors.extend(wrong.map(|error| InputError {
-        origin: None,
-        path: below(name, &error.path),
         allowed: as_in_python(&error.allowed),
         ..error.clone()
     }));
     Ok(read.ok())
+}
+
+/// The same, with the errors in the words of documents.
+pub(crate) fn checked<T: DeserializeOwned + JsonSchema>(
+    name: &str,
+    given: &Bound<PyAny>,
+) -> PyResult<Result<T, Vec<InputError>>> {
+    let mut document = Document::default();
+    let value = value_without_none(&[name.to_owned()], given, name)?;
+    document.set(&[], value, "");
+    let read = document.typed(&Schema::of::<T>());
+    let named = |error: InputError| InputError {
+        origin: None,
+        path: below(name, &error.path),
+        ..error
+    };
+    Ok(read.map_err(|errors| errors.0.into_iter().map(named).collect()))
 }

@@ -18,6 +18,7 @@ mod inspect;
 mod long_work;
 mod metric_scenario;
 mod overlay;
+mod page;
 mod percept_check;
 mod python_brain;
 mod recording;
@@ -54,6 +55,8 @@ mod _core {
     use crate::metric_scenario::{MetricScenario, body, read_metric};
     #[pymodule_export]
     use crate::overlay::{drawn_footprints, drawn_links, footprints, links};
+    #[pymodule_export]
+    use crate::page::check_page_message;
     #[pymodule_export]
     use crate::recording::{recorded_moment, recorded_setting};
     #[pymodule_export]

@@ -11,8 +11,7 @@ import pyarrow as pa
 from numpy.typing import NDArray
 
 from agent_economy import _core
-from agent_economy.runs.belief_state import BeliefState, BelievedMap
-from agent_economy.runs.brain import Command, Percept, Watched
+from agent_economy.runs.brain import BeliefState, BelievedMap, Command, Percept, Watched
 from agent_economy.runs.outcome import Outcome
 from agent_economy.runs.python_brains import Brains, changed_minds, minds
 from agent_economy.runs.stepped import Change, Stepped

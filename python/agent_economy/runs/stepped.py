@@ -5,9 +5,9 @@ from collections.abc import Mapping
 from threading import RLock
 from typing import Any, NamedTuple, Protocol
 
-from agent_economy.runs.belief_state import BeliefState
 from agent_economy.runs.outcome import Columns, Outcome, so_far
 from agent_economy.scenario import Scenario, TomlValue
+from agent_economy.types.brain import BeliefState
 
 
 class Change(NamedTuple):

@@ -1,7 +1,7 @@
-"""The server of the page: it shows runs and changes them; what it shows is computed elsewhere.
+"""The server of the page: it shows and changes runs and studies, which are computed elsewhere.
 
-A page opens one WebSocket; behind it is a `Session` with one `Timeline`, a run that can be gone
-back and forth in. `messages` says what they say to each other, `guard` who may.
+`app` has the addresses. A page that follows a run has a WebSocket and a session (`runs`); the
+messages are those of `agent_economy.types.page`. `guard` rejects requests of other sites.
 """
 
 from agent_economy.server.app import app

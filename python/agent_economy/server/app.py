@@ -1,4 +1,13 @@
-"""What can be asked of the server, by address."""
+"""The addresses of the server.
+
+GET `/api/scenarios`: the gallery. `/api/pictures?scenario=`: a thumbnail, SVG.
+GET `/api/schema?engine=`: the JSON Schema of a scenario. POST `/api/check`: a scenario's text; its
+errors are the response, with status 422.
+GET `/api/recordings`: the recordings below the server's folder, the newest first.
+`/api/recordings/file?id=`: the file of one.
+`/ws`: a run (see `agent_economy.types.page`), or the progress of a study with `?study=ID`.
+The addresses of studies are in `studies.routes`.
+"""
 
 import asyncio
 import contextlib
@@ -19,63 +28,64 @@ from starlette.websockets import WebSocket
 from agent_economy import _core
 from agent_economy._core import InputError
 from agent_economy.server.guard import Guard
-from agent_economy.server.messages import faults_of
+from agent_economy.server.messages import errors_of
 from agent_economy.server.recordings.store import RecordingStore
-from agent_economy.server.request_body import RequestBodyError, refused, text
+from agent_economy.server.request_body import RequestBodyError, errors_response, text
 from agent_economy.server.runs.engines import ENGINES
 from agent_economy.server.runs.session import Session
 from agent_economy.server.runs.thumbnail import thumbnail
 from agent_economy.server.studies.factors import schema
 from agent_economy.server.studies.manager import StudyManager
-from agent_economy.server.studies.progress import watch
+from agent_economy.server.studies.progress import send_progress
 from agent_economy.server.studies.routes import Routes
 from agent_economy.server.transport import Connection, ConnectionClosedError
 from agent_economy.server.workspace import Workspace
 
 MAX_SESSIONS = 16
-"""Runs at a time; each has a thread of its own, so that none waits for another's."""
+"""Maximum number of open runs; each has a thread of its own, so that none delays another."""
 
 MAX_WATCHERS = 64
-"""Pages at a time that watch studies; each reads its study's folder now and then."""
+"""Maximum number of pages that follow studies; each reads its study's folder regularly."""
 
 NOT_BUILT = """<!doctype html><meta charset="utf-8"><title>Agent Economy</title>
 <p>The page has not been built. In a clone: <code>make web</code>, then reload this page.</p>"""
 
 
-def app(places: Workspace, host: str, token: str | None = None) -> ASGIApp:
+def app(workspace: Workspace, host: str, token: str | None = None) -> ASGIApp:
     """Return the application.
 
     Args:
-        places: Where scenarios are.
-        host: The name or address that is bound.
-        token: What pages on other machines must show; None if only this machine can reach it.
+        workspace: The folder of scenarios, studies and recordings.
+        host: The host name or address that the server is bound to.
+        token: The token that pages on other machines need; None if only this machine can connect.
     """
     web = Path(str(files("agent_economy") / "web"))
-    return Guard(Server(places, web, StudyManager(places)).routed(), host, token)
+    server = Server(workspace, web, StudyManager(workspace))
+    return Guard(server.application(), host, token)
 
 
 @dataclass
 class Server:
-    """What all requests have in common."""
+    """What all requests share."""
 
-    places: Workspace
+    workspace: Workspace
     web: Path
     studies: StudyManager
     sessions: int = 0
     watchers: int = 0
 
-    def routed(self) -> Starlette:
+    def application(self) -> Starlette:
         """Return the application without its guard."""
         routes = [
             Route("/", self.page),
             Route("/api/scenarios", self.scenarios),
-            Route("/api/pictures", self.pictures),
+            Route("/api/pictures", self.picture),
             Route("/api/recordings", self.recordings),
             Route("/api/recordings/file", self.recording),
             Route("/api/schema", self.schema),
             Route("/api/check", self.check, methods=["POST"]),
-            *Routes(self.studies, self.places).all(),
-            WebSocketRoute("/ws", self.speak),
+            *Routes(self.studies, self.workspace).all(),
+            WebSocketRoute("/ws", self.connect),
         ]
         if self.web.is_dir():
             routes.append(Mount("/", StaticFiles(directory=self.web)))
@@ -83,7 +93,7 @@ class Server:
 
     @contextlib.asynccontextmanager
     async def lifespan(self, _: Starlette) -> AsyncIterator[None]:
-        """Have threads for as many runs as there may be, and to save each; end studies at last."""
+        """Provide threads, two for each run: one saves it; stop all studies at the end."""
         with ThreadPoolExecutor(2 * MAX_SESSIONS, "run") as self.threads:
             try:
                 yield
@@ -99,28 +109,28 @@ class Server:
 
     async def scenarios(self, _: Request) -> Response:
         """Return the gallery."""
-        return JSONResponse(await asyncio.to_thread(self.places.listed))
+        return JSONResponse(await asyncio.to_thread(self.workspace.listed))
 
-    async def pictures(self, request: Request) -> Response:
-        """Return the picture of a scenario, as SVG."""
+    async def picture(self, request: Request) -> Response:
+        """Return the thumbnail of a scenario, as SVG."""
         name = request.query_params.get("scenario", "")
         try:
-            svg = await asyncio.to_thread(lambda: thumbnail(self.places.load(name)))
+            svg = await asyncio.to_thread(lambda: thumbnail(self.workspace.load(name)))
         except InputError as error:
-            return refused(faults_of(error), 404)
+            return errors_response(errors_of(error), 404)
         return Response(svg, media_type="image/svg+xml")
 
     async def recordings(self, _: Request) -> Response:
         """Return the recordings."""
-        return JSONResponse(await asyncio.to_thread(RecordingStore(self.places).listed))
+        return JSONResponse(await asyncio.to_thread(RecordingStore(self.workspace).listed))
 
     async def recording(self, request: Request) -> Response:
-        """Return a recording's file."""
+        """Return the file of a recording."""
         name = request.query_params.get("id", "")
         try:
-            file = RecordingStore(self.places).find(name)
+            file = RecordingStore(self.workspace).find(name)
         except InputError as error:
-            return refused(faults_of(error), 404)
+            return errors_response(errors_of(error), 404)
         return FileResponse(file, media_type="application/octet-stream", filename=file.name)
 
     async def schema(self, request: Request) -> Response:
@@ -128,56 +138,56 @@ class Server:
         engine = request.query_params.get("engine", "metric")
         if engine not in ENGINES:
             known = f"one of {', '.join(ENGINES)}"
-            return refused(faults_of(_core.refusal("engine", engine, known)), 404)
+            return errors_response(errors_of(_core.refusal("engine", engine, known)), 404)
         return JSONResponse(schema(engine), media_type="application/schema+json")
 
     async def check(self, request: Request) -> Response:
-        """Say what is wrong with a scenario."""
+        """Return what a scenario's text describes, or its errors."""
         try:
-            given = await text(request)
-            scenario = await asyncio.to_thread(lambda: self.places.read(given))
+            body = await text(request)
+            scenario = await asyncio.to_thread(lambda: self.workspace.read(body))
         except RequestBodyError as error:
             return error.response
         except InputError as error:
-            return refused(faults_of(error))
-        about = {"name": scenario.name, "engine": scenario.engine, "summary": scenario.summary}
-        return JSONResponse(about)
+            return errors_response(errors_of(error))
+        checked = {"name": scenario.name, "engine": scenario.engine, "summary": scenario.summary}
+        return JSONResponse(checked)
 
-    async def speak(self, socket: WebSocket) -> None:
-        """Serve a page."""
+    async def connect(self, socket: WebSocket) -> None:
+        """Serve a page that follows a run or a study."""
         await socket.accept()
         page = Connection(socket)
         name = socket.query_params.get("study")
-        await (self.run(page) if name is None else self.race(page, name))
+        await (self.follow_run(page) if name is None else self.follow_study(page, name))
 
-    async def run(self, page: Connection) -> None:
-        """Serve a page that watches a run."""
+    async def follow_run(self, page: Connection) -> None:
+        """Serve a page that follows a run."""
         if self.sessions >= MAX_SESSIONS:
-            await turn_away(page, f"{MAX_SESSIONS} runs")
+            await reject(page, f"{MAX_SESSIONS} runs")
             return
         self.sessions += 1
         try:
-            await Session(page, self.places, self.threads).run()
+            await Session(page, self.workspace, self.threads).run()
         finally:
             self.sessions -= 1
         await page.close()
 
-    async def race(self, page: Connection, name: str) -> None:
-        """Serve a page that watches a study."""
+    async def follow_study(self, page: Connection, name: str) -> None:
+        """Serve a page that follows a study."""
         if self.watchers >= MAX_WATCHERS:
-            await turn_away(page, f"{MAX_WATCHERS} pages of studies")
+            await reject(page, f"{MAX_WATCHERS} pages of studies")
             return
         self.watchers += 1
         try:
-            await watch(page, self.studies, name)
+            await send_progress(page, self.studies, name)
         finally:
             self.watchers -= 1
         await page.close()
 
 
-async def turn_away(page: Connection, held: str) -> None:
-    """Say that no more can be served."""
-    message = f"This server has {held} open, which is all it may. Close one."
+async def reject(page: Connection, limit: str) -> None:
+    """Tell a page that the server is full."""
+    message = f"This server has {limit} open, which is its maximum. Close one."
     with contextlib.suppress(ConnectionClosedError):
-        await page.send({"type": "ended", "why": "full", "message": message})
+        await page.send({"type": "ended", "reason": "full", "message": message})
     await page.close(1013)

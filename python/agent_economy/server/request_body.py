@@ -1,4 +1,4 @@
-"""What comes with a request, and what is wrong with it."""
+"""The body of a request, and the response to one that has errors."""
 
 import json
 from typing import Any
@@ -7,26 +7,26 @@ from starlette.requests import Request
 from starlette.responses import JSONResponse
 
 from agent_economy._core import InputError
-from agent_economy.server.messages import Fault, faults_of
+from agent_economy.server.messages import Error, errors_of
 
 MAX_BYTES = 1_000_000
-"""What a page sends has no more."""
+"""Maximum size of a request body."""
 
 
 class RequestBodyError(Exception):
-    """What came cannot be taken; `response` says why."""
+    """A request body cannot be read; `response` says why."""
 
     def __init__(self, status: int, message: str) -> None:
-        """Say what is wrong with all of it."""
+        """Set the response."""
         super().__init__(message)
-        self.response = refused(faults_of(InputError(message)), status)
+        self.response = errors_response(errors_of(InputError(message)), status)
 
 
 async def text(request: Request) -> str:
-    """Return the text that came with a request.
+    """Return the body of a request as text.
 
     Raises:
-        RequestBodyError: If it is too long, or none.
+        RequestBodyError: If it is too large, or not UTF-8.
     """
     data = bytearray()
     async for part in request.stream():
@@ -39,21 +39,21 @@ async def text(request: Request) -> str:
         raise RequestBodyError(422, "The file is not UTF-8 text.") from None
 
 
-async def asked(request: Request) -> dict[str, Any]:
-    """Return the object in JSON that came with a request.
+async def json_object(request: Request) -> dict[str, Any]:
+    """Return the JSON object in the body of a request.
 
     Raises:
-        RequestBodyError: If it is too long, or none.
+        RequestBodyError: If it is too large, or not a JSON object.
     """
     try:
-        said = json.loads(await text(request))
+        body = json.loads(await text(request))
     except (ValueError, RecursionError):
-        said = None
-    if not isinstance(said, dict):
-        raise RequestBodyError(422, "What is asked must be an object, in JSON.")
-    return said
+        body = None
+    if not isinstance(body, dict):
+        raise RequestBodyError(422, "The request body must be a JSON object.")
+    return body
 
 
-def refused(faults: list[Fault], status: int = 422) -> JSONResponse:
-    """Return the answer to what is not allowed."""
-    return JSONResponse({"faults": faults}, status)
+def errors_response(errors: list[Error], status: int = 422) -> JSONResponse:
+    """Return the response to a request that has errors."""
+    return JSONResponse({"errors": errors}, status)

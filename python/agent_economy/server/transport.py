@@ -1,12 +1,14 @@
 """The WebSocket that connects the server to a page."""
 
 import contextlib
-import json
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Protocol
 
+import msgspec
 from starlette.websockets import WebSocket, WebSocketDisconnect
+
+from agent_economy.types.page import ServerMessage
 
 
 class ConnectionClosedError(Exception):
@@ -19,7 +21,7 @@ class Page(Protocol):
     async def receive(self) -> str:
         """Return the next message of the page."""
 
-    async def send(self, message: dict[str, Any]) -> None:
+    async def send(self, message: ServerMessage) -> None:
         """Send a message."""
 
     async def send_bytes(self, data: bytes) -> None:
@@ -39,10 +41,10 @@ class Connection:
         except (WebSocketDisconnect, RuntimeError, KeyError):
             raise ConnectionClosedError from None
 
-    async def send(self, message: dict[str, Any]) -> None:
+    async def send(self, message: ServerMessage) -> None:
         """Send a message."""
         with closed_if_disconnected():
-            await self.socket.send_text(json.dumps(message, allow_nan=False))
+            await self.socket.send_text(msgspec.json.encode(message).decode())
 
     async def send_bytes(self, data: bytes) -> None:
         """Send a frame or an overlay."""

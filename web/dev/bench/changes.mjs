@@ -14,7 +14,7 @@ function watch() {
   );
   const { send } = WebSocket.prototype;
   WebSocket.prototype.send = function (data) {
-    if (seen.isPending && seen.isNew && String(data).includes('"got"')) {
+    if (seen.isPending && seen.isNew && String(data).includes('"acknowledge"')) {
       seen.took_ms.push(performance.now() - seen.at);
       seen.isPending = false;
     }

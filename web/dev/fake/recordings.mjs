@@ -5,9 +5,9 @@ export class FakeRecordings {
     this.damaged = {
       id: "old/damaged.mcap",
       bytes: 19,
-      saved_s: 1.6e9,
-      of: null,
-      fault: "is no MCAP file, or damaged: not a valid MCAP file",
+      saved_at_s: 1.6e9,
+      run: null,
+      error: "is no MCAP file, or damaged: not a valid MCAP file",
     };
     const made = { scenario: "search", text: null, seed: "3", run: "0" };
     this.put("field.mcap", { ...made, changes: [[20, "robots.rover.count", 6]], edge: 200 });
@@ -28,9 +28,9 @@ export class FakeRecordings {
     return {
       id,
       bytes,
-      saved_s: 1.7e9 + this.runs.size,
-      of: { ...of, steps: edge, length_s: edge / 10 },
-      fault: null,
+      saved_at_s: 1.7e9 + this.runs.size,
+      run: { ...of, steps: edge, length_s: edge / 10 },
+      error: null,
     };
   }
 

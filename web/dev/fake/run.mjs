@@ -99,11 +99,11 @@ export class FakeRun {
     return buffer;
   }
 
-  mind(robot) {
+  inspection(robot) {
     const i = this.nameOf().indexOf(robot);
     if (i < 0) return null;
     const [x, y, heading_rad] = this.robots.subarray(4 * i, 4 * i + 3);
-    const thoughts = {
+    const beliefState = {
       pose: { at: [x + 0.2, y - 0.1], heading_rad, deviation_m: 0.3, deviation_rad: 0.05, age_s: 0.1 },
       items: this.items.slice(0, 2).map((item, k) => ({
         kind: 0,
@@ -130,14 +130,14 @@ export class FakeRun {
       },
       leading: 0,
       holds_s: [0, 0, 1.5],
-      thoughts: has ? thoughts : null,
+      belief_state: has ? beliefState : null,
     };
   }
 
   /** A map with a known strip, as wide as the robot's distance travelled, and walls at its edges. */
   map(robot) {
     const i = this.nameOf().indexOf(robot);
-    if (i < 0 || !this.mind(robot).thoughts) return null;
+    if (i < 0 || !this.inspection(robot).belief_state) return null;
     const [columns, rows] = this.size.map((size) => Math.ceil(size));
     const [x, y] = this.robots.subarray(4 * i, 4 * i + 2);
     const occupancy = Buffer.alloc(columns * rows, 255);
@@ -205,7 +205,7 @@ function kindsOf(document) {
     name,
     count: robot.count,
     radius: robot.radius_m ?? 0.27,
-    flies: robot.model === "quadrotor",
+    is_flying: robot.model === "quadrotor",
     radio_range_m: 12,
     rings: robot.radius_m ? [] : [{ bearings_rad: rays, range_m: 6 }],
     sensors: robot.radius_m

@@ -29,7 +29,7 @@ export class FakeRunConnection {
 
   hear(message) {
     if (message.type === "open") return this.open(message);
-    if (message.type === "got") return this.got(message.frame);
+    if (message.type === "acknowledge") return this.got(message.frame);
     this[`hear_${message.type}`]?.(message);
     if (message.type !== "select") this.dirty = true;
     this.tell();
@@ -51,7 +51,7 @@ export class FakeRunConnection {
         type: "refused",
         about: "open",
         path: null,
-        faults: [
+        errors: [
           {
             file: null,
             line: 7,
@@ -65,7 +65,7 @@ export class FakeRunConnection {
       });
     }
     if (scenario === "full") {
-      this.say({ type: "ended", why: "full", message: "As many runs are open as this server takes." });
+      this.say({ type: "ended", reason: "full", message: "As many runs are open as this server takes." });
       return this.socket.close();
     }
     this.base = documentOf(text === null ? scenario : "search");
@@ -126,7 +126,7 @@ export class FakeRunConnection {
     this.go(Math.max(0, this.run.tick + steps));
     this.edge = Math.max(this.edge, this.run.tick);
   }
-  hear_go({ tick }) {
+  hear_seek({ tick }) {
     this.playing = false;
     this.go(Math.min(tick, this.edge));
   }
@@ -141,12 +141,12 @@ export class FakeRunConnection {
   hear_layers({ links, footprints }) {
     this.layers = { links, footprints };
   }
-  hear_change({ path, value, instead }) {
+  hear_change({ path, value, replaces_last }) {
     if (path.endsWith("behaviours") && value.some((one) => one.kind === "flock"))
       return this.refuse("change", `${path}: flock needs a sensor of kind robots, and rover has none`, path);
     const made = this.changes.filter(([at]) => at <= this.run.tick);
     const last = made.at(-1);
-    if (instead && last?.[0] === this.run.tick && last[1] === path) made.pop();
+    if (replaces_last && last?.[0] === this.run.tick && last[1] === path) made.pop();
     this.changes = [...made, [this.run.tick, path, value]];
     this.edge = this.run.tick;
     this.build(this.run.tick);
@@ -167,7 +167,7 @@ export class FakeRunConnection {
       this.say({ type: "saved", recording: this.recordings.put(id, run) });
     }, 400);
   }
-  hear_cancel() {
+  hear_cancel_save() {
     clearTimeout(this.saving);
     this.say({ type: "saved", recording: null });
   }
@@ -180,7 +180,7 @@ export class FakeRunConnection {
       type: "refused",
       about,
       path,
-      faults: [
+      errors: [
         { file: null, line: null, path: path ?? "", value: null, allowed: "", suggestion: null, message },
       ],
     });
@@ -202,22 +202,22 @@ export class FakeRunConnection {
     this.toldAt = Date.now();
     const { run, edge, playing, speed } = this;
     const hash = ((run.tick * 2654435761) >>> 0).toString(16).padStart(16, "0");
-    const mind = this.selected === null ? null : run.mind(this.selected);
+    const inspection = this.selected === null ? null : run.inspection(this.selected);
     const time_s = run.tick * run.step_s;
     this.say({
       type: "state",
       tick: run.tick,
-      edge,
+      latest_tick: edge,
       time_s,
       hash,
-      playing,
+      is_playing: playing,
       speed,
-      real: playing ? (speed ?? 30) : 0,
-      over: run.over(),
-      aim: null,
-      differs_at: null,
+      measured_speed: playing ? (speed ?? 30) : 0,
+      is_over: run.over(),
+      target_tick: null,
+      mismatch_tick: null,
       outcome: run.outcome(),
-      mind,
+      inspection,
       robot: null,
     });
     const map = this.selected === null ? null : run.map(this.selected);

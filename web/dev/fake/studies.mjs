@@ -22,7 +22,7 @@ export class FakeStudies {
 
   "POST /api/plan"(ask) {
     const { errors, planned } = planOf(ask);
-    if (errors) return [422, { faults: errors }];
+    if (errors) return [422, { errors }];
     return [200, { ...planned, state: this.all.get(planned.id)?.state ?? null }];
   }
 
@@ -33,7 +33,7 @@ export class FakeStudies {
 
   "POST /api/studies"(ask) {
     const { errors, planned } = planOf(ask);
-    if (errors) return [422, { faults: errors }];
+    if (errors) return [422, { errors }];
     const running = [...this.all].filter(([id, one]) => one.state === "running" && id !== planned.id);
     if (running.length >= maxRunning)
       return refused(
@@ -84,7 +84,7 @@ export class FakeStudies {
     const study = this.all.get(id);
     if (study) return study.follow(socket);
     socket.send(
-      JSON.stringify({ type: "studying", state: "damaged", standings: [], eliminated: [], labels: [] }),
+      JSON.stringify({ type: "study_progress", state: "damaged", standings: [], eliminated: [], labels: [] }),
     );
     socket.close(1000);
   }
@@ -101,5 +101,5 @@ export class FakeStudies {
 }
 
 function refused(...errors) {
-  return [422, { faults: errors }];
+  return [422, { errors }];
 }

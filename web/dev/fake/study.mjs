@@ -187,17 +187,17 @@ export class FakeStudy {
     const survivors = this.ranked().filter((arm) => arm.runs > 0);
     const left_s = Math.max(0, 3 - seconds);
     return {
-      type: "studying",
+      type: "study_progress",
       state,
       message,
-      round,
+      rounds: round,
       runs,
       computed: runs,
       seconds,
       runs_per_s: Math.round(runs / Math.max(0.1, seconds)),
-      survivors: this.remaining.length,
-      left_runs: null,
-      left_s: state === "running" && left_s > 0 ? left_s : null,
+      remaining: this.remaining.length,
+      remaining_runs: null,
+      remaining_s: state === "running" && left_s > 0 ? left_s : null,
       standings: survivors.slice(0, 50).map((arm) => [arm.number, arm.runs, ...this.interval(arm)]),
       eliminated,
     };

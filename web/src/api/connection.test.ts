@@ -1,6 +1,6 @@
 import { beforeEach, expect, test } from "vitest";
 import { Connection, type Socket } from "./connection";
-import type { Message } from "./messages";
+import type { ServerMessage } from "./protocol";
 
 class FakeSocket implements Socket {
   binaryType = "";
@@ -34,7 +34,7 @@ beforeEach(() => {
     {
       ready: () => events.push("ready"),
       lost: () => events.push("lost"),
-      message: (message: Message) => events.push(message.type),
+      message: (message: ServerMessage) => events.push(message.type),
       frame: (frame) => events.push(`frame ${frame.number}`),
     },
     {

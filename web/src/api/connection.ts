@@ -1,8 +1,8 @@
 import { FrameError } from "./frame_error";
 import { type Frame, readFrame } from "./frames";
 import { overlayKind, readOverlay, type OverlayData } from "./overlay";
-import { type Message, readMessage } from "./messages";
-import type { Command } from "./protocol";
+import { readMessage } from "./messages";
+import type { PageMessage, ServerMessage } from "./protocol";
 
 /** The part of `WebSocket` that is used; tests substitute it. */
 export interface Socket {
@@ -25,7 +25,7 @@ export interface Listener {
   ready(): void;
   /** The connection is lost; the next attempt is in `retry_ms` milliseconds. */
   lost(retry_ms: number): void;
-  message(message: Message): void;
+  message(message: ServerMessage): void;
   frame(frame: Frame): void;
 }
 
@@ -62,7 +62,7 @@ export class Connection {
   }
 
   /** Sends a command; false if the connection is not open. */
-  send(command: Command): boolean {
+  send(command: PageMessage): boolean {
     if (!this.isOpen || !this.socket) return false;
     this.socket.send(JSON.stringify(command));
     return true;
@@ -87,7 +87,7 @@ export class Connection {
   private receivedText(text: string): void {
     const message = readMessage(text);
     if (!message) return;
-    if (message.type === "opened" || message.type === "studying") this.failures = 0;
+    if (message.type === "opened" || message.type === "study_progress") this.failures = 0;
     this.listener.message(message);
   }
 

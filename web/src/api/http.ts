@@ -23,7 +23,7 @@ export function picture(scenario: string): string {
   return `api/pictures?scenario=${encodeURIComponent(scenario)}`;
 }
 
-export type CheckResult = { scenario: ScenarioSummary } | { faults: InputError[] };
+export type CheckResult = { scenario: ScenarioSummary } | { errors: InputError[] };
 
 /** Checks the text of a scenario. */
 export async function check(text: string): Promise<CheckResult> {
@@ -32,7 +32,7 @@ export async function check(text: string): Promise<CheckResult> {
     headers: { "Content-Type": "application/toml" },
     body: text,
   });
-  if (response.status === 422) return (await response.json()) as { faults: InputError[] };
+  if (response.status === 422) return (await response.json()) as { errors: InputError[] };
   if (!response.ok) throw new Error(`The server responded ${response.status} ${response.statusText}.`);
   return { scenario: (await response.json()) as ScenarioSummary };
 }
@@ -41,7 +41,7 @@ export async function check(text: string): Promise<CheckResult> {
 export async function request(path: string, options: RequestInit = {}): Promise<Response> {
   const response = await fetch(path, options);
   if (response.ok) return response;
-  const body = (await response.json().catch(() => null)) as { faults?: InputError[] } | null;
-  if (body?.faults) throw new RequestError(body.faults);
+  const body = (await response.json().catch(() => null)) as { errors?: InputError[] } | null;
+  if (body?.errors) throw new RequestError(body.errors);
   throw new Error(`The server responded ${response.status} ${response.statusText}.`);
 }

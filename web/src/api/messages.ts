@@ -14,7 +14,7 @@ const types = [
   "saved",
   "exported",
   "ended",
-  "studying",
+  "study_progress",
 ];
 
 /** Decodes a message of the server; null if its type is unknown. */

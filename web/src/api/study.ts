@@ -1,7 +1,8 @@
 /** Messages about studies. Names and shapes are those of the server. */
-import type { Engine, InputError } from "./protocol";
+import type { Engine, InputError, StudyProgress, StudyState } from "./protocol";
 
-export type StudyState = "running" | "answered" | "stopped" | "damaged";
+export type { StudyProgress, StudyState };
+
 export type Value = number | string | boolean;
 export type Guarantee = "indifference" | "pgs";
 
@@ -141,35 +142,8 @@ export interface StudyRuns {
   runs: StudyRun[];
 }
 
-export type Standing = [
-  configuration: number,
-  runs: number,
-  value: number | null,
-  low: number | null,
-  high: number | null,
-];
-export type Elimination = [configuration: number, by: number, runs: number];
-
-/** Progress of a study, at most five times per second. */
-export interface StudyProgress {
-  type: "studying";
-  state: StudyState;
-  message: string | null;
-  round: number;
-  runs: number;
-  computed: number;
-  seconds: number;
-  runs_per_s: number;
-  survivors: number;
-  left_runs: number | null;
-  left_s: number | null;
-  /** The remaining configurations, best first, at most 50. */
-  standings: Standing[];
-  /** All so far, in order. */
-  eliminated: Elimination[];
-  /** Labels of all configurations; in the first message only. */
-  labels: string[] | null;
-}
+export type Standing = StudyProgress["standings"][number];
+export type Elimination = StudyProgress["eliminated"][number];
 
 /** The server refused a request. */
 export class RequestError extends Error {

@@ -22,7 +22,7 @@ export interface Host {
 /** The run that is drawn, and what a pointer on the canvas changes in it. */
 export interface DrawnRun {
   readonly setting: Setting | null;
-  readonly state: Pick<State, "playing" | "mind" | "robot"> | null;
+  readonly state: Pick<State, "is_playing" | "inspection" | "robot"> | null;
   readonly map: BelievedMap | null;
   readonly selected: string | null;
   readonly frames: FrameQueue;

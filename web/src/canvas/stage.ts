@@ -171,7 +171,7 @@ export class Stage {
     if (!setting) return null;
     const frame = this.interpolation.at(
       performance.now(),
-      state?.playing === true && !prefersReducedMotion.matches,
+      state?.is_playing === true && !prefersReducedMotion.matches,
     );
     if (this.worldSetting !== setting) {
       this.world = worldOf(setting);
@@ -182,7 +182,7 @@ export class Stage {
       setting,
       world: this.world ?? worldOf(setting),
       frame: frame?.generation === setting.generation ? frame : null,
-      inspection: state?.mind ?? null,
+      inspection: state?.inspection ?? null,
       map,
       robot: state?.robot ?? null,
       selected: selected === null ? -1 : setting.robots.indexOf(selected),

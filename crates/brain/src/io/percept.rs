@@ -49,6 +49,7 @@ pub struct Percept {
 /// A value, and its age.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(rename = "{T}Reading")]
 pub struct Reading<T> {
     /// The measured value.
     pub value: T,

@@ -4,7 +4,6 @@ import asyncio
 import contextlib
 from collections.abc import Awaitable, Callable
 from concurrent.futures import Executor
-from typing import Any
 
 from agent_economy._core import InputError
 from agent_economy.scenario import validation
@@ -12,11 +11,12 @@ from agent_economy.server.messages import refused
 from agent_economy.server.recordings.history import RunHistory
 from agent_economy.server.recordings.store import RecordingStore
 from agent_economy.server.recordings.writer import RecordingWriter
+from agent_economy.types.page import ServerMessage
 
 PROGRESS_S = 0.25
 """Time between two progress messages."""
 
-Send = Callable[[dict[str, Any]], Awaitable[None]]
+Send = Callable[[ServerMessage], Awaitable[None]]
 
 
 class Saver:

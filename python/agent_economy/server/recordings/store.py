@@ -12,6 +12,7 @@ from agent_economy.recording.recorder import ENDING
 from agent_economy.recording.summary import summarise
 from agent_economy.scenario import validation
 from agent_economy.server.workspace import OUTSIDE, Workspace, is_file
+from agent_economy.types.page import RecordingEntry
 
 FOLDER = "recordings"
 """The folder of new recordings, below the server's folder."""
@@ -42,7 +43,7 @@ class RecordingStore:
         )
         return folder
 
-    def listed(self) -> list[dict[str, Any]]:
+    def listed(self) -> list[RecordingEntry]:
         """Return a row for each recording, the newest first."""
         times: dict[Path, float] = {}
         for file in self.workspace.files(ENDING):
@@ -51,23 +52,26 @@ class RecordingStore:
         newest = sorted(times, key=lambda file: (-times[file], file))[:MAX_LISTED]
         return [row for row in map(self.row, newest) if row]
 
-    def row(self, file: Path) -> dict[str, Any]:
-        """Return a recording's row in the list; empty if the file has been removed."""
+    def row(self, file: Path) -> RecordingEntry | None:
+        """Return a recording's row in the list; None if the file has been removed."""
         try:
             state = file.stat()
         except OSError:
-            return {}
-        row: dict[str, Any] = {
+            return None
+        row: Any = {
             "id": str(file.relative_to(self.workspace.folder)),
             "bytes": state.st_size,
-            "saved_s": state.st_mtime,
+            "saved_at_s": state.st_mtime,
         }
         try:
             run = asdict(summarise(file))
         except InputError as error:
-            return row | {"of": None, "fault": str(error).removeprefix(f"{file}: ")}
-        # JavaScript's numbers have 53 bits.
-        return row | {"of": run | {key: str(run[key]) for key in ("seed", "run")}, "fault": None}
+            row |= {"run": None, "error": str(error).removeprefix(f"{file}: ")}
+        else:
+            # JavaScript's numbers have 53 bits.
+            row |= {"run": run | {key: str(run[key]) for key in ("seed", "run")}, "error": None}
+        entry: RecordingEntry = row
+        return entry
 
     def find(self, name: str) -> Path:
         """Return the file of a recording by its id.

@@ -1,46 +1,47 @@
-"""What a page is told of the robot that it looks at: what it perceives, decides and believes."""
+"""The robot that a page has selected in a run of the metric engine, and what it believes."""
 
 import base64
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from agent_economy._core import InputError
-from agent_economy.runs.belief_state import BelievedMap
-from agent_economy.runs.brain import Watched
+from agent_economy.runs.brain import BelievedMap, Watched
 from agent_economy.runs.simulation import Simulation
+from agent_economy.types.page import Inspection, MapPart
 
 
 class Selected:
-    """The robot that a page looks at, and what the page knows of its map.
+    """The selected robot, and what the page has been sent of its belief map.
 
-    A map has up to 65,000 cells, and a look changes few of them: so what is told is the smallest
-    rectangle with all that has changed.
+    A map has up to 65,000 cells, and a step changes few of them: the page is sent the smallest
+    rectangle that contains all changes.
     """
 
     def __init__(self) -> None:
-        """Begin with none."""
+        """Begin with no robot selected."""
         self._robot: str | None = None
         self._map: BelievedMap | None = None
 
     def choose(self, robot: str | None) -> None:
-        """Look at a robot, or at none; nothing is told of one that is not there."""
+        """Select a robot, or none; of a robot that does not exist nothing is sent."""
         self._robot, self._map = robot, None
 
-    def mind(self, simulation: Simulation) -> dict[str, Any] | None:
-        """Return what the robot perceived, decided and believes, as `messages` says."""
+    def inspection(self, simulation: Simulation) -> Inspection | None:
+        """Return what the robot perceives, decides and believes."""
         robot = self._watch(simulation)
         if robot is None:
             return None
-        told = simulation.watched()
-        if told is None:
-            nothing = dict.fromkeys(Watched.__annotations__)
-            return {**nothing, "robot": robot, "thoughts": simulation.thoughts(robot)}
-        return {**told, "robot": robot}
+        decided: Any = simulation.watched()
+        if decided is None:
+            decided = dict.fromkeys(Watched.__annotations__)
+            decided["thoughts"] = simulation.thoughts(robot)
+        belief_state = decided.pop("thoughts")
+        return cast("Inspection", {**decided, "belief_state": belief_state, "robot": robot})
 
-    def map(self, simulation: Simulation) -> dict[str, Any] | None:
-        """Return what of the robot's map the page does not know; None if it knows all."""
+    def map(self, simulation: Simulation) -> MapPart | None:
+        """Return the changes of the robot's map since the last call; None if there are none."""
         robot = self._watch(simulation)
         if robot is None:
             return None
@@ -65,11 +66,11 @@ class Selected:
             "unseen": packed(now["unseen"][low:high, left:right]),
         }
 
-    def told(self, simulation: Simulation) -> None:
-        """Return None: its mind says all."""
+    def details(self, simulation: Simulation) -> None:
+        """Return None: the inspection contains everything."""
 
     def _watch(self, simulation: Simulation) -> str | None:
-        """Return the robot, watched from now on; None if there is none of that name now."""
+        """Watch the robot from now on, and return its name; None if it does not exist now."""
         try:
             simulation.watch(self._robot)
         except InputError:
@@ -78,11 +79,11 @@ class Selected:
 
 
 Span = tuple[int, int]
-"""From one number to before another; the same if there is nothing."""
+"""A half-open range of indices; both ends are the same if it is empty."""
 
 
 def changed(before: BelievedMap | None, now: BelievedMap) -> tuple[Span, Span]:
-    """Return the columns and the rows in which a map has changed; all, if it is another."""
+    """Return the columns and rows in which a map has changed: all if it is another map."""
     rows, columns = now["occupancy"].shape
     if before is None or any(before[key] != now[key] for key in ("corner", "cell_m")):
         return (0, columns), (0, rows)
@@ -93,7 +94,7 @@ def changed(before: BelievedMap | None, now: BelievedMap) -> tuple[Span, Span]:
 
 
 def span(marked: NDArray[np.bool_]) -> Span:
-    """Return from the first that is marked to behind the last."""
+    """Return the range from the first to the last marked index."""
     places = np.flatnonzero(marked)
     return (int(places[0]), int(places[-1]) + 1) if len(places) else (0, 0)
 

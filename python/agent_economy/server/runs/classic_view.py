@@ -1,7 +1,7 @@
-"""What a page draws of a run of the classic engine: the window of 2003 in its pixels, y upwards.
+"""What a page draws of a run of the classic engine: the window of 2003 in pixels, y upwards.
 
-As in the original a robot's place on the cell that it stands on is the upper left corner of the
-square that is drawn of that cell; it has left the cell when it is nearer to another's.
+As in the original program, the position of a robot on its cell is the upper left corner of the
+square that is drawn for the cell; the robot has left the cell when it is closer to another one.
 """
 
 import base64
@@ -10,16 +10,17 @@ from typing import Any
 from agent_economy.runs import classic_world
 from agent_economy.runs.classic_simulation import KIND, ClassicSimulation
 from agent_economy.runs.classic_world import CELL_PX, CELLS, RADIUS, WORLD, Cell, Place
+from agent_economy.types.page import ItemView, MapView, RobotView
 
 SIDE_PX = CELLS * CELL_PX
 RADIUS_PX = RADIUS * CELL_PX
 
-FREE, FILLED = 0, 2
-"""As maps say it."""
+FREE, OCCUPIED = 0, 2
+"""States of cells, as in `MapView`."""
 
 BODY: dict[str, Any] = {
     "radius": RADIUS_PX,
-    "flies": False,
+    "is_flying": False,
     "radio_range_m": None,
     "rings": [],
     "sensors": [],
@@ -27,12 +28,12 @@ BODY: dict[str, Any] = {
 
 
 def drawn(simulation: ClassicSimulation) -> bytes:
-    """Return one moment."""
+    """Return the current moment."""
     return simulation._run.frame()  # noqa: SLF001  (ours)
 
 
 def still(simulation: ClassicSimulation) -> dict[str, Any]:
-    """Return the world, what is in it, and robots as they are made."""
+    """Return the world, its items, and the robot kinds."""
     side = {"size": [SIDE_PX, SIDE_PX], "periodic": False, "unit": "px", "cell": CELL_PX}
     robots = {"name": KIND, "count": simulation.scenario.robots[KIND]}
     return {
@@ -43,61 +44,61 @@ def still(simulation: ClassicSimulation) -> dict[str, Any]:
             for cell, contacts in zip(WORLD["items"], simulation.contacts, strict=True)
         ],
         "item_kinds": ["item"],
-        "maps": [filled()],
+        "maps": [obstacle_map()],
     }
 
 
 class Selected:
-    """The robot that a page looks at; it has no mind, and draws no map."""
+    """The selected robot; it has no beliefs and draws no map."""
 
     def __init__(self) -> None:
-        """Begin with none."""
+        """Begin with no robot selected."""
         self._robot: str | None = None
 
     def choose(self, robot: str | None) -> None:
-        """Look at a robot, or at none; nothing is told of one that is not there."""
+        """Select a robot, or none; of a robot that does not exist nothing is sent."""
         self._robot = robot
 
-    def mind(self, simulation: ClassicSimulation) -> None:
+    def inspection(self, simulation: ClassicSimulation) -> None:
         """Return None."""
 
     def map(self, simulation: ClassicSimulation) -> None:
         """Return None."""
 
-    def told(self, simulation: ClassicSimulation) -> dict[str, Any] | None:
-        """Return what the robot has; None if there is no robot of that name now."""
+    def details(self, simulation: ClassicSimulation) -> RobotView | None:
+        """Return the state of the robot; None if it does not exist now."""
         robot = self._robot
-        return told(simulation, robot) if robot in simulation.robots else None
+        return None if robot not in simulation.robots else details(simulation, str(robot))
 
 
-def told(simulation: ClassicSimulation, robot: str) -> dict[str, Any]:
-    """Return what a robot has, in words, and the cells that it would look at."""
+def details(simulation: ClassicSimulation, robot: str) -> RobotView:
+    """Return the state of a robot in words, and the cells that it would examine."""
     state = simulation.team.to_pylist()[simulation.robots.index(robot)]
     return {
         "name": robot,
         "facts": [
             ["Cell", f"column {state['column']}, row {state['row']} from the top"],
             ["Heading", f"{state['heading_deg']}° from up, clockwise"],
-            ["Speed", counted(state["speed"], "cell") + " a decision"],
-            ["Decides", "in " + counted(simulation.decides_in, "paint")],
+            ["Speed", counted(state["speed"], "cell") + " per decision"],
+            ["Next decision", "in " + counted(simulation.decides_in, "paint")],
             ["Turns that count", f"{state['left_turns']} left, {state['right_turns']} right"],
             ["Carry, of all robots", str(simulation.carry)],
         ],
-        "looks": [outline(cell) for cell in simulation.looks(robot)],
+        "examined_cells": [outline(cell) for cell in simulation.looks(robot)],
     }
 
 
-def item(cell: Cell, contacts: list[Cell]) -> dict[str, Any]:
-    """Return an item, and outlines of where robots must be to find it."""
+def item(cell: Cell, contacts: list[Cell]) -> ItemView:
+    """Return an item, and outlines of the places from which a robot finds it."""
     contact = [outline((column - 0.5, row - 0.5)) for column, row in contacts]
     return {"kind": "item", "at": middle(cell), "target": True, "contact": contact}
 
 
-def filled() -> dict[str, Any]:
-    """Return a map of what robots cannot enter: walls, and items, which to robots are walls."""
+def obstacle_map() -> MapView:
+    """Return a map of the cells that robots cannot enter: walls and items."""
     cells = {*WORLD["walls"], *WORLD["items"]}
     states = [
-        FILLED if (column, row) in cells else FREE
+        OCCUPIED if (column, row) in cells else FREE
         for row in reversed(range(CELLS))
         for column in range(CELLS)
     ]
@@ -121,10 +122,10 @@ def middle(cell: Cell) -> list[float]:
 
 
 def in_px(place: Place) -> list[float]:
-    """Return a place that is given in cells."""
+    """Convert a position from cells to pixels."""
     return [each * CELL_PX for each in place]
 
 
 def counted(number: int, word: str) -> str:
-    """Return a number of things."""
+    """Return a number with its noun, in the plural unless it is 1."""
     return f"{number} {word}{'' if number == 1 else 's'}"

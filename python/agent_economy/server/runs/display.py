@@ -4,15 +4,14 @@ A page that draws slowly is sent fewer frames: at most `MAX_IN_FLIGHT` are not a
 """
 
 from collections import deque
-from typing import Any
 
-from agent_economy.server.messages import Layers
 from agent_economy.server.runs import engines
 from agent_economy.server.runs.belief_view import Selected
 from agent_economy.server.runs.frames import frame, setting
 from agent_economy.server.runs.overlay import Overlay
 from agent_economy.server.runs.player import Player
 from agent_economy.server.runs.timeline import Timeline
+from agent_economy.types.page import Layers, ServerMessage, State
 
 FRAME_S, STATE_S, MAP_S = 0.03, 0.1, 0.25
 """Minimum time between two frames, two states, and two maps of a robot. Steps of 1/30 s get a frame
@@ -21,7 +20,7 @@ each."""
 MAX_IN_FLIGHT = 3
 """Frames that the page has not acknowledged."""
 
-Output = dict[str, Any] | bytes
+Output = ServerMessage | bytes
 
 
 class Display:
@@ -80,8 +79,8 @@ class Display:
             outputs.append(self._state(timeline, player))
         if is_at_rest or now_s - self._map_at_s >= MAP_S:
             self._map_at_s = now_s
-            if changes := self._selected.map(timeline.simulation):
-                outputs.append(changes)
+            if part := self._selected.map(timeline.simulation):
+                outputs.append(part)
         return outputs
 
     def _setting(self, timeline: Timeline) -> list[Output]:
@@ -103,21 +102,21 @@ class Display:
             return [drawn]
         return [self._overlay.over(simulation, self._number), drawn]
 
-    def _state(self, timeline: Timeline, player: Player) -> Output:
+    def _state(self, timeline: Timeline, player: Player) -> State:
         simulation = timeline.simulation
         return {
             "type": "state",
             "tick": simulation.tick,
-            "edge": timeline.latest_tick,
+            "latest_tick": timeline.latest_tick,
             "time_s": simulation.time_s,
             "hash": f"{simulation.hash:016x}",
-            "playing": player.is_playing,
+            "is_playing": player.is_playing,
             "speed": player.clock.speed,
-            "real": player.clock.measured_speed,
-            "aim": player.target_tick,
-            "over": simulation.is_over,
-            "differs_at": timeline.recorded.mismatch_tick,
+            "measured_speed": player.clock.measured_speed,
+            "target_tick": player.target_tick,
+            "is_over": simulation.is_over,
+            "mismatch_tick": timeline.recorded.mismatch_tick,
             "outcome": simulation.outcome().row,
-            "mind": self._selected.mind(simulation),
-            "robot": self._selected.told(simulation),
+            "inspection": self._selected.inspection(simulation),
+            "robot": self._selected.details(simulation),
         }

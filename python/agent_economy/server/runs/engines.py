@@ -1,48 +1,49 @@
-"""The engines, as a page sees them: what is drawn of a run of each."""
+"""The engines as a page sees them: what is drawn of a run of each."""
 
 from collections.abc import Callable
 from typing import Any, NamedTuple, Protocol
 
 from agent_economy.runs.stepped import Stepped
 from agent_economy.server.runs import belief_view, classic_view, metric_overlay, metric_view
+from agent_economy.types.page import Inspection, MapPart, RobotView
 
 
 class Selection(Protocol):
-    """What tells of the robot that a page looks at, as `messages` says."""
+    """The robot that a page has selected."""
 
     def choose(self, robot: str | None) -> None:
-        """Look at a robot, or at none."""
+        """Select a robot, or none."""
 
-    def mind(self, simulation: Any) -> dict[str, Any] | None:
-        """Return what the robot perceived, decided and believes; None if there is no such."""
+    def inspection(self, simulation: Any) -> Inspection | None:
+        """Return what the robot perceives, decides and believes; None if there is none."""
 
-    def map(self, simulation: Any) -> dict[str, Any] | None:
-        """Return what of the robot's map the page does not know; None if it knows all."""
+    def map(self, simulation: Any) -> MapPart | None:
+        """Return the changes of the robot's map since the last call; None if there are none."""
 
-    def told(self, simulation: Any) -> dict[str, Any] | None:
+    def details(self, simulation: Any) -> RobotView | None:
         """Return what else the engine knows of the robot."""
 
 
-Overlaid = Callable[[Any, str | None], bytes]
-"""What lies over a moment of a run, of which a robot may be selected."""
+DrawOverlay = Callable[[Any, str | None], bytes]
+"""Draws an overlay of the current moment of a run, with a robot selected or None."""
 
 
 class Engine(NamedTuple):
-    """What one engine gives; its functions take runs of its own.
+    """The functions of one engine, which take its own runs.
 
     Attributes:
-        drawn: One moment of it, as `messages` says.
-        still: What a setting has that is the engine's own: `world`, `kinds`, `items`, `maps`.
-        selected: Makes what tells of the robot that a page looks at.
-        links: Who hears whom, as `messages` says; None if robots have no radios.
-        footprints: What sensors cover, as `messages` says; None if robots have none.
+        drawn: Draws the current moment, encoded as in `frames`.
+        still: Returns what a setting contains of the engine: `world`, `kinds`, `items`, `maps`.
+        selected: Returns the selection of a new run.
+        links: Draws the radio links, encoded as in `overlay`; None if robots have no radios.
+        footprints: Draws the areas that sensors cover; None if robots have no sensors.
     """
 
     drawn: Callable[[Any], bytes]
     still: Callable[[Any], dict[str, Any]]
     selected: Callable[[], Selection]
-    links: Overlaid | None
-    footprints: Overlaid | None
+    links: DrawOverlay | None
+    footprints: DrawOverlay | None
 
 
 ENGINES = {

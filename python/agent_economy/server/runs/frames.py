@@ -1,4 +1,9 @@
-"""Frames of a run, and the setting that they are drawn in."""
+"""Frames of a run, and the setting that they are drawn in.
+
+A frame in little endian is a header of eight numbers, `u32` except the time: 1, generation of the
+setting, tick, robots, time in seconds (`f64`), items, number of the frame; then what `_core.frame`
+or the frame of a classic run contains.
+"""
 
 import struct
 from typing import Any
@@ -7,6 +12,7 @@ from agent_economy import _core
 from agent_economy.runs.stepped import Stepped
 from agent_economy.server.runs import engines
 from agent_economy.server.runs.timeline import Timeline
+from agent_economy.types.page import Setting
 
 KIND = 1
 """The first number of a frame; a frame of another layout would have another."""
@@ -14,26 +20,29 @@ KIND = 1
 HEADER = struct.Struct("<4Id2I")
 """Kind, generation, tick, robots; time in seconds; items, number of the frame."""
 
+ROBOT_BYTES = 16
+
 
 def frame(simulation: Stepped, generation: int, number: int) -> bytes:
-    """Return the frame of the current moment, encoded as in `messages`."""
+    """Return the frame of the current moment."""
     drawn = engines.of(simulation).drawn(simulation)
     robots = sum(simulation.scenario.robots.values())
-    items = len(drawn) - 16 * robots
+    items = len(drawn) - ROBOT_BYTES * robots
     tick, time_s = simulation.tick, simulation.time_s
     return HEADER.pack(KIND, generation, tick, robots, time_s, items, number) + drawn
 
 
-def setting(timeline: Timeline, generation: int) -> dict[str, Any]:
+def setting(timeline: Timeline, generation: int) -> Setting:
     """Return everything that stays the same from frame to frame until the scenario changes."""
     simulation, log = timeline.simulation, timeline.log
-    return {
+    own: Any = {
         "type": "setting",
         "generation": generation,
         "step_s": simulation.step_s,
         "document": _core.read_filled(simulation.scenario.source),
-        "robots": list(simulation.robots),
-        "changes": [list(change) for change in simulation.changes],
-        "log": None if timeline.is_recorded else [list(change) for change in log],
-        **engines.of(simulation).still(simulation),
+        "robots": simulation.robots,
+        "changes": simulation.changes,
+        "log": None if timeline.is_recorded else log,
     }
+    whole: Setting = own | engines.of(simulation).still(simulation)
+    return whole

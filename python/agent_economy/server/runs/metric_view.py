@@ -8,15 +8,16 @@ from typing import Any
 from agent_economy import _core
 from agent_economy.recording.static_scene import states
 from agent_economy.runs.simulation import Simulation
+from agent_economy.types.page import KindView, MapView, SensorView
 
 
 def drawn(simulation: Simulation) -> bytes:
-    """Return one moment: see `_core.frame`."""
+    """Return the current moment: see `_core.frame`."""
     return _core.frame(simulation._run)  # noqa: SLF001  (ours)
 
 
 def still(simulation: Simulation) -> dict[str, Any]:
-    """Return the world, what is in it, and robots as they are made."""
+    """Return the world, its items and maps, and the robot kinds."""
     document = simulation.scenario.to_dict()
     recorded = _core.recorded_setting(simulation._run)  # noqa: SLF001  (ours)
     items = simulation.items
@@ -33,7 +34,7 @@ def still(simulation: Simulation) -> dict[str, Any]:
             "cell": None,
         },
         "kinds": [
-            kind(name, count, recorded) for name, count in simulation.scenario.robots.items()
+            kind_view(name, count, recorded) for name, count in simulation.scenario.robots.items()
         ],
         "items": [
             {
@@ -45,51 +46,57 @@ def still(simulation: Simulation) -> dict[str, Any]:
             for name, x, y in places
         ],
         "item_kinds": sorted(kinds),
-        "maps": [map_of(each) for each in recorded["maps"]],
+        "maps": [map_view(each) for each in recorded["maps"]],
     }
 
 
-def kind(name: str, count: int, recorded: Mapping[str, Any]) -> dict[str, Any]:
+def kind_view(name: str, count: int, recorded: Mapping[str, Any]) -> KindView:
     """Return what is drawn of a robot kind."""
     body = recorded["bodies"][name]
     return {
         "name": name,
         "count": count,
         "radius": body["radius_m"],
-        "flies": recorded["flies"][name],
+        "is_flying": recorded["flies"][name],
         "radio_range_m": recorded["radio_m"][name],
         "rings": [
-            {key: each[key] for key in ("bearings_rad", "range_m")} for each in body["rings"]
+            {"bearings_rad": each["bearings_rad"], "range_m": each["range_m"]}
+            for each in body["rings"]
         ],
         "sensors": [
-            *map(ring, body["rings"]),
-            *(detector(body, each) for each in body["detectors"]),
+            *map(ring_sector, body["rings"]),
+            *(detector_sector(body, each) for each in body["detectors"]),
         ],
     }
 
 
-def ring(given: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the sector that a range ring sees, a beam's width beyond its outermost beams."""
-    bearings = given["bearings_rad"]
+def ring_sector(ring: Mapping[str, Any]) -> SensorView:
+    """Return the sector of a range ring: half a beam wider than its outermost beams."""
+    bearings = ring["bearings_rad"]
     first, last = bearings[0], bearings[-1]
     apart = (last - first) / max(1, len(bearings) - 1)
     return {
         "name": "range",
         "kind": "range",
-        "range_m": given["range_m"],
+        "range_m": ring["range_m"],
         "width_rad": min(math.tau, last - first + apart),
         "facing_rad": (first + last) / 2,
     }
 
 
-def detector(body: Mapping[str, Any], given: Mapping[str, Any]) -> dict[str, Any]:
+def detector_sector(body: Mapping[str, Any], detector: Mapping[str, Any]) -> SensorView:
     """Return the sector in which a detector finds items."""
-    sector = {key: given[key] for key in ("range_m", "width_rad", "facing_rad")}
-    return {"name": body["sensors"][given["sensor"]], "kind": "items", **sector}
+    return {
+        "name": body["sensors"][detector["sensor"]],
+        "kind": "items",
+        "range_m": detector["range_m"],
+        "width_rad": detector["width_rad"],
+        "facing_rad": detector["facing_rad"],
+    }
 
 
-def map_of(recorded: Mapping[str, Any]) -> dict[str, Any]:
-    """Return a map: of each cell, the lowest row first, 0 free, 1 unknown, 2 occupied."""
+def map_view(recorded: Mapping[str, Any]) -> MapView:
+    """Return an obstacle map, the lowest row first."""
     occupancy = recorded["occupancy"]
     rows, columns = occupancy.shape
     return {

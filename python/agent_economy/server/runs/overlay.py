@@ -1,10 +1,15 @@
-"""Overlays: what a page draws over a frame, of the layers that it has turned on."""
+"""Overlays: what a page draws over a frame, of the layers that it has turned on.
+
+An overlay is sent right before its frame. In little endian it is three `u32`: 2, the number of the
+frame, the number of links; then the links and the footprints, as `_core.drawn_links` and
+`_core.drawn_footprints` encode them.
+"""
 
 import struct
 
 from agent_economy.runs.stepped import Stepped
-from agent_economy.server.messages import Layers
 from agent_economy.server.runs import engines
+from agent_economy.types.page import Layers
 
 KIND = 2
 """The first number of an overlay, which tells it from a frame."""
@@ -36,13 +41,13 @@ class Overlay:
         return any(self._layers_of(simulation))
 
     def over(self, simulation: Stepped, frame: int) -> bytes:
-        """Return the overlay of the frame of the current moment, encoded as in `messages`."""
+        """Return the overlay of the frame of the current moment."""
         links, footprints = (
             draw(simulation, self._robot) if draw else b"" for draw in self._layers_of(simulation)
         )
         return HEADER.pack(KIND, frame, len(links) // LINK_BYTES) + links + footprints
 
-    def _layers_of(self, simulation: Stepped) -> list[engines.Overlaid | None]:
+    def _layers_of(self, simulation: Stepped) -> list[engines.DrawOverlay | None]:
         engine, layers = engines.of(simulation), self._layers
         return [
             engine.links if layers.links else None,

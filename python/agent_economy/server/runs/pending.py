@@ -1,9 +1,10 @@
 """Messages that wait until the run arrives at the tick that it is seeking."""
 
 from collections import deque
-from dataclasses import replace
 
-from agent_economy.server.messages import Change, Message, Play, Seek, Step, Undo
+from msgspec.structs import replace
+
+from agent_economy.types.page import Change, PageMessage, Play, Seek, Step, Undo
 
 MAX_PENDING = 256
 """The number of messages that can wait; a page that sends more is not read until there is room."""
@@ -14,7 +15,7 @@ class PendingQueue:
 
     def __init__(self) -> None:
         """Begin empty."""
-        self._messages: deque[Message] = deque()
+        self._messages: deque[PageMessage] = deque()
 
     def __bool__(self) -> bool:
         """Whether a message is waiting."""
@@ -25,7 +26,7 @@ class PendingQueue:
         """Whether no other message can wait."""
         return len(self._messages) >= MAX_PENDING
 
-    def waits(self, message: Message, *, has_changes_ahead: bool) -> bool:
+    def waits(self, message: PageMessage, *, has_changes_ahead: bool) -> bool:
         """Return whether a message has to wait while the run is seeking.
 
         A change is made, and playback continues, at the tick that the run is seeking. Another seek
@@ -38,7 +39,7 @@ class PendingQueue:
             isinstance(message, Step | Seek) and bool(self)
         )
 
-    def put(self, message: Message) -> None:
+    def put(self, message: PageMessage) -> None:
         """Add a message; of changes that replace each other only the last is kept."""
         match (self._messages[-1] if self._messages else None), message:
             case Change(path=path) as last, Change(replaces_last=True) if path == message.path:
@@ -46,7 +47,7 @@ class PendingQueue:
             case _:
                 self._messages.append(message)
 
-    def take(self) -> Message:
+    def take(self) -> PageMessage:
         """Remove and return the first message."""
         return self._messages.popleft()
 

@@ -11,9 +11,12 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from agent_economy.scenario import TomlValue, validation
-from agent_economy.server.messages import MAX_TICK, Change, Message, Pause, Play, Seek, Step, Undo
 from agent_economy.server.runs.pending import PendingQueue
 from agent_economy.server.runs.playback_clock import PlaybackClock
+from agent_economy.types.page import Change, PageMessage, Pause, Play, Seek, Step, Undo
+
+FOREVER = 2**53
+"""A tick that no run reaches."""
 
 
 class Run(Protocol):
@@ -127,7 +130,7 @@ class Player:
         """Whether there is room for another message to wait."""
         return not self._pending.is_full
 
-    def defers(self, message: Message) -> bool:
+    def defers(self, message: PageMessage) -> bool:
         """Keep a message that has to wait until the run arrives; return whether it does."""
         if not isinstance(self.state, Seeking) or not self._pending.waits(
             message, has_changes_ahead=self.run.has_changes_ahead
@@ -136,7 +139,7 @@ class Player:
         self._pending.put(message)
         return True
 
-    def take_ready(self) -> Message | None:
+    def take_ready(self) -> PageMessage | None:
         """Remove and return the next deferred message, once the run has arrived."""
         return self._pending.take() if self._pending and self.target_tick is None else None
 
@@ -149,7 +152,7 @@ class Player:
         self._run, self.state = run, Seeking(tick)
         self.clock = PlaybackClock(run.step_s)
 
-    def handle(self, message: Message, now_s: float) -> None:
+    def handle(self, message: PageMessage, now_s: float) -> None:
         """Carry out what a page requests of the run; other messages do nothing.
 
         Raises:
@@ -184,7 +187,7 @@ class Player:
             case Playing():
                 self.clock.set_step(self.run.step_s, now_s, self.run.tick)
                 due = self.clock.target(now_s, self.run.tick)
-                return MAX_TICK if due is None else due
+                return FOREVER if due is None else due
             case _:
                 return None
 

@@ -14,7 +14,6 @@ from typing import Any, TypeVar
 
 from agent_economy._core import InputError
 from agent_economy.server import messages
-from agent_economy.server.messages import Message
 from agent_economy.server.recordings.saver import Saver
 from agent_economy.server.recordings.store import RecordingStore
 from agent_economy.server.runs.display import Display
@@ -24,6 +23,8 @@ from agent_economy.server.runs.player import Player
 from agent_economy.server.runs.timeline import Timeline
 from agent_economy.server.transport import ConnectionClosedError, Page
 from agent_economy.server.workspace import Workspace
+from agent_economy.types import page
+from agent_economy.types.page import PageMessage
 
 SLICE_S = 0.025
 """A run is advanced for this long before messages are read again."""
@@ -40,11 +41,11 @@ T = TypeVar("T")
 class Session:
     """The connection between one page and its run."""
 
-    def __init__(self, page: Page, workspace: Workspace, threads: Executor) -> None:
+    def __init__(self, connection: Page, workspace: Workspace, threads: Executor) -> None:
         """Begin without a run."""
-        self._page, self._workspace, self._threads = page, workspace, threads
-        self._received: asyncio.Queue[Message | InputError] = asyncio.Queue(MAX_RECEIVED)
-        self._saver = Saver(page.send, RecordingStore(workspace), threads)
+        self._page, self._workspace, self._threads = connection, workspace, threads
+        self._received: asyncio.Queue[PageMessage | InputError] = asyncio.Queue(MAX_RECEIVED)
+        self._saver = Saver(connection.send, RecordingStore(workspace), threads)
         self._timeline: Timeline | None = None
         self._player, self._display = Player(), Display()
 
@@ -66,7 +67,7 @@ class Session:
         while True:
             text = await self._page.receive()
             try:
-                message: Message | InputError = messages.read(text)
+                message: PageMessage | InputError = messages.read(text)
             except InputError as error:
                 message = error
             await self._received.put(message)
@@ -109,42 +110,42 @@ class Session:
 
     async def _disconnect(self) -> None:
         message = "Nothing was done for half an hour. Reload the page to go on."
-        await self._page.send({"type": "ended", "why": "idle", "message": message})
+        await self._page.send({"type": "ended", "reason": "idle", "message": message})
         raise ConnectionClosedError
 
-    async def _accept(self, message: Message | InputError) -> None:
+    async def _accept(self, message: PageMessage | InputError) -> None:
         if isinstance(message, InputError):
             # An `open` that cannot be read is refused like one that cannot be opened.
-            about = messages.faults_of(message)[0]["path"].partition(".")[0]
+            about = messages.errors_of(message)[0]["path"].partition(".")[0]
             await self._page.send(messages.refused(about, message))
-        elif isinstance(message, messages.Acknowledge):
+        elif isinstance(message, page.Acknowledge):
             self._display.acknowledge(message.frame)
         elif not self._player.defers(message):
             await self._try(message)
 
-    async def _try(self, message: Message) -> None:
+    async def _try(self, message: PageMessage) -> None:
         try:
             await self._carry_out(message)
         except InputError as error:
-            path = message.path if isinstance(message, messages.Change) else None
+            path = message.path if isinstance(message, page.Change) else None
             await self._page.send(messages.refused(messages.type_of(message), error, path))
         else:
             self._display.refresh()
 
-    async def _carry_out(self, message: Message) -> None:
+    async def _carry_out(self, message: PageMessage) -> None:
         match message:
-            case messages.Open():
+            case page.Open():
                 await self._open(message)
-            case messages.Save():
+            case page.Save():
                 self._saver.begin(self._opened().history)
-            case messages.Cancel():
+            case page.CancelSave():
                 self._saver.cancel()
-            case messages.Export():
+            case page.Export():
                 text = await self._in_thread(lambda: as_toml(self._opened().simulation))
                 await self._page.send({"type": "exported", "text": text})
-            case messages.Select(robot=robot):
+            case page.Select(robot=robot):
                 self._display.select(robot)
-            case messages.Layers():
+            case page.Layers():
                 self._display.set_layers(message)
             case _:
                 await self._in_thread(lambda: self._player.handle(message, time.monotonic()))
@@ -159,7 +160,7 @@ class Session:
         assert self._timeline is not None  # noqa: S101  (checked above)
         return self._timeline
 
-    async def _open(self, message: messages.Open) -> None:
+    async def _open(self, message: page.Open) -> None:
         self._player.clear_pending()
         timeline, program = await self._in_thread(lambda: open_timeline(self._workspace, message))
         self._timeline = timeline
@@ -177,7 +178,7 @@ class Session:
             has_arrived = await self._in_thread(lambda: timeline.seek(target, SLICE_S))
         except InputError as error:
             self._player.failed()
-            await self._page.send(messages.refused("go", error))
+            await self._page.send(messages.refused("seek", error))
             return
         self._player.advanced(time.monotonic(), has_arrived=has_arrived)
         if is_seeking or timeline.tick != before:
@@ -200,20 +201,22 @@ class Session:
         return await asyncio.get_running_loop().run_in_executor(self._threads, work)
 
 
-def opened(timeline: Timeline, message: messages.Open, program: str | None) -> dict[str, Any]:
+def opened(timeline: Timeline, message: page.Open, program: str | None) -> page.Opened:
     """Return the message that a run is open; `program` is the version that recorded it."""
     simulation = timeline.simulation
     scenario = simulation.scenario
+    engine: Any = scenario.engine
+    recording: Any = None if program is None else {"id": message.recording, "program": program}
     return {
         "type": "opened",
         "scenario": {
             "id": message.scenario,
             "name": scenario.name,
-            "engine": scenario.engine,
+            "engine": engine,
             "summary": scenario.summary,
             "time_limit_s": scenario.time_limit_s,
         },
         "seed": str(simulation.seed),
         "run": str(simulation.run),
-        "recording": None if program is None else {"id": message.recording, "program": program},
+        "recording": recording,
     }

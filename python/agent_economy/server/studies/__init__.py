@@ -1,6 +1,6 @@
-"""StudyManager that the page asks, watches, stops and shows.
+"""Studies that pages start, follow, stop and show.
 
-`routes` are the addresses; `asks` reads what a page asks, with the `factors` that there are;
-`keeper` starts and stops studies, each at `work` in a process of its own, and says what is known of
-each (`summary`); `watched` tells how one goes on, `shown` and `runs` what it came to.
+`routes` has the addresses; `requests` reads what a page requests, with the `factors` that a study
+can vary; `manager` starts and stops studies, each a `job` in a process of its own, and summarises
+them (`summary`); `progress` is that of a running study, `detail` and `run_rows` are its results.
 """

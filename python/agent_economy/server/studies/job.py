@@ -1,7 +1,7 @@
-"""A study at work in a process of its own, which its server hears and can stop.
+"""A study that runs in a process of its own, which reports its progress and can be stopped.
 
-The process is gentle to others, and ends with the server. To stop it is to interrupt it as Ctrl-C
-does: the store keeps what it has.
+The process has a low priority, and ends with the server. It is stopped by an interrupt, like
+Ctrl-C: the store keeps all runs.
 """
 
 import contextlib
@@ -20,77 +20,83 @@ from agent_economy.study import Plan, Progress
 from agent_economy.study.errors import StudyError
 from agent_economy.study.store.folder import QUESTION
 
-GENTLE = 10
-"""What `nice` adds: runs that somebody watches go first."""
+NICENESS = 10
+"""Added to the niceness of the process: runs that a page follows have priority."""
 
-TELL_S = 0.25
-"""Between two tellings, at least."""
+REPORT_S = 0.25
+"""Minimum time between two reports."""
 
-RANGES_S = 1.0
-RANGES_SHARE = 0.05
-"""Between two estimates of ranges and of what is left, at least; and the time share they take."""
+ESTIMATE_S = 1.0
+ESTIMATE_SHARE = 0.05
+"""Minimum time between two estimates of intervals and remaining runs; their share of all time."""
 
-LOOK_S = 0.02
-"""Between two looks for a folder that is being made."""
+POLL_S = 0.02
+"""Time between two looks for the folder of a new study."""
 
 STOP_S = 10.0
-"""A process that was interrupted has so long until it is killed."""
+"""A process that does not end within this time after an interrupt is killed."""
 
-COUNTS = ("round", "runs", "computed", "seconds", "survivors")
-"""What is told of a study's progress as it is."""
+COUNTS = {
+    "rounds": "round",
+    "runs": "runs",
+    "computed": "computed",
+    "seconds": "seconds",
+    "remaining": "survivors",
+}
+"""Entries of the progress that are reported unchanged, by their names in messages."""
 
-NOTHING: dict[str, Any] = {
-    "round": 0,
+NO_PROGRESS: dict[str, Any] = {
+    "rounds": 0,
     "runs": 0,
     "computed": 0,
     "seconds": 0.0,
-    "survivors": 0,
-    "left_runs": None,
+    "remaining": 0,
+    "remaining_runs": None,
     "standings": [],
     "eliminated": [],
 }
-"""What is known of a study that has only begun."""
+"""The progress of a study that has just begun."""
 
 
 class StudyJob:
-    """A study at work.
+    """A running study.
 
     Attributes:
-        plan: What is asked.
-        said: How far it is, as `ProgressReporter` says.
-        message: Why it ended, if not because it was done or stopped.
+        plan: The plan of the study.
+        progress: The progress, as `ProgressReporter` reports it.
+        message: Why it failed; None if it was completed or stopped.
     """
 
     def __init__(self, plan: Plan, folder: Path) -> None:
-        """Begin."""
+        """Start the process."""
         self.plan, self._folder = plan, folder
-        self.said = {**NOTHING, "survivors": len(plan.configurations)}
+        self.progress = {**NO_PROGRESS, "remaining": len(plan.configurations)}
         self.message: str | None = None
         self._is_stopped = False
-        self._is_heard = threading.Event()
+        self._has_reported = threading.Event()
         self._ended = threading.Event()
         context = multiprocessing.get_context("spawn")
         self._line, line = context.Pipe(duplex=False)
-        self._process = context.Process(target=work, args=(plan, folder, line), daemon=True)
+        self._process = context.Process(target=run, args=(plan, folder, line), daemon=True)
         self._process.start()
         line.close()
         threading.Thread(target=self._listen, daemon=True).start()
 
     @property
     def is_alive(self) -> bool:
-        """Whether it goes on."""
+        """Whether it is running."""
         return not self._ended.is_set()
 
     def wait_until_begun(self) -> None:
-        """Wait until its folder is there, or it has ended."""
-        while not ((self._folder / QUESTION).exists() or self._ended.wait(LOOK_S)):
+        """Wait until its folder exists, or it has ended."""
+        while not ((self._folder / QUESTION).exists() or self._ended.wait(POLL_S)):
             pass
 
     def stop(self) -> None:
         """Interrupt it, and wait until it has ended."""
         self._is_stopped = True
-        # Before it is heard it is only being made, and an interrupt would be lost, or printed.
-        self._is_heard.wait(STOP_S)
+        # Before the first report, Python is starting: an interrupt would be lost or printed.
+        self._has_reported.wait(STOP_S)
         if self.is_alive and self._process.pid is not None:
             with contextlib.suppress(ProcessLookupError):
                 os.kill(self._process.pid, signal.SIGINT)
@@ -101,34 +107,34 @@ class StudyJob:
     def _listen(self) -> None:
         with contextlib.suppress(EOFError, OSError), self._line:
             while True:
-                self._hear(self._line.recv())
-        self._is_heard.set()
+                self._receive(self._line.recv())
+        self._has_reported.set()
         self._process.join()
         if self.message is None and not self._is_stopped:
-            self.message = why(self._process.exitcode or 0)
+            self.message = failure(self._process.exitcode or 0)
         self._ended.set()
 
-    def _hear(self, said: dict[str, Any]) -> None:
-        self._is_heard.set()
-        self.message = said.pop("message", None)
-        gone = self.said["eliminated"] + said.pop("eliminated", [])
-        self.said = {**self.said, **said, "eliminated": gone}
+    def _receive(self, report: dict[str, Any]) -> None:
+        self._has_reported.set()
+        self.message = report.pop("message", None)
+        eliminated = self.progress["eliminated"] + report.pop("eliminated", [])
+        self.progress = {**self.progress, **report, "eliminated": eliminated}
 
 
-def why(code: int) -> str | None:
-    """Return why a process ended, if not well."""
+def failure(code: int) -> str | None:
+    """Return why a process failed; None if it did not."""
     if code == 0:
         return None
     how = f"was killed by signal {-code}" if code < 0 else f"ended with code {code}"
-    return f"The process of this study {how}. What it had stored is kept: go on with it."
+    return f"The process of this study {how}. Its stored runs are kept: resume it."
 
 
-def work(plan: Plan, folder: Path, line: Connection) -> None:
-    """Run a study, or go on with it; this is what the process does."""
-    os.nice(GENTLE)
+def run(plan: Plan, folder: Path, line: Connection) -> None:
+    """Run or resume a study; the main function of the process."""
+    os.nice(NICENESS)
     threading.Thread(target=end_with_server, daemon=True).start()
     with contextlib.suppress(KeyboardInterrupt, ConnectionError):
-        # A shell that starts the server in the background may have it ignored.
+        # SIGINT is ignored if a shell has started the server in the background.
         signal.signal(signal.SIGINT, interrupted)
         line.send({})
         try:
@@ -138,7 +144,7 @@ def work(plan: Plan, folder: Path, line: Connection) -> None:
 
 
 def interrupted(*_: object) -> None:
-    """Interrupt this process once: Ctrl-C in a terminal reaches it, and its server that asks again.
+    """Interrupt this process once: Ctrl-C in a terminal reaches it, and then the server's signal.
 
     Raises:
         KeyboardInterrupt: Always.
@@ -158,42 +164,41 @@ def end_with_server() -> None:
 
 
 class ProgressReporter:
-    """Tells the server how far a study is, not too often."""
+    """Reports the progress of a study to the server, at most once every `REPORT_S`."""
 
     def __init__(self, line: Connection) -> None:
-        """Begin with nothing told."""
+        """Begin with nothing reported."""
         self._line = line
-        self._eliminated: list[list[int]] = []
-        self._gone: set[int] = set()
-        self._estimated: dict[str, Any] = {}
-        self._tell_at_s = self._estimate_at_s = 0.0
+        self._new: list[list[int]] = []
+        self._eliminated: set[int] = set()
+        self._estimates: dict[str, Any] = {}
+        self._report_at_s = self._estimate_at_s = 0.0
 
     def __call__(self, now: Progress) -> None:
-        """Tell, if it is time."""
-        self._eliminated += [[each.configuration, each.by, each.runs] for each in now.eliminated]
-        self._gone |= {each.configuration for each in now.eliminated}
+        """Report the progress if it is due."""
+        self._new += [[each.configuration, each.by, each.runs] for each in now.eliminated]
+        self._eliminated |= {each.configuration for each in now.eliminated}
         now_s = time.monotonic()
-        if now_s < self._tell_at_s and not now.is_over:
+        if now_s < self._report_at_s and not now.is_over:
             return
         if now_s >= self._estimate_at_s:
-            self._estimated = estimated(now)
+            self._estimates = estimates(now)
             took_s = time.monotonic() - now_s
-            self._estimate_at_s = now_s + max(RANGES_S, took_s / RANGES_SHARE)
-        counts = {name: getattr(now, name) for name in COUNTS}
-        # Some may have been put out since the estimate.
-        left = [row for row in self._estimated["standings"] if row[0] not in self._gone]
-        told = {**counts, **self._estimated, "standings": left, "eliminated": self._eliminated}
-        self._line.send(told)
-        self._eliminated = []
-        self._tell_at_s = time.monotonic() + TELL_S
+            self._estimate_at_s = now_s + max(ESTIMATE_S, took_s / ESTIMATE_SHARE)
+        counts = {name: getattr(now, source) for name, source in COUNTS.items()}
+        # Some may have been eliminated since the estimate.
+        left = [row for row in self._estimates["standings"] if row[0] not in self._eliminated]
+        self._line.send({**counts, **self._estimates, "standings": left, "eliminated": self._new})
+        self._new = []
+        self._report_at_s = time.monotonic() + REPORT_S
 
 
-def estimated(now: Progress) -> dict[str, Any]:
-    """Return what takes a moment to say: the best with their ranges, and the runs left."""
+def estimates(now: Progress) -> dict[str, Any]:
+    """Return what takes time to compute: the best with their intervals, and remaining runs."""
     return {
         "standings": [
             [leader.configuration, leader.runs, leader.merit, merit.low, merit.high]
             for leader, merit in now.intervals()
         ],
-        "left_runs": None if now.is_over else now.estimate_remaining(),
+        "remaining_runs": None if now.is_over else now.estimate_remaining(),
     }

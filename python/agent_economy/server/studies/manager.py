@@ -1,4 +1,4 @@
-"""The studies of a server: those in its folder, and those that it has at work."""
+"""The studies of a server: those in its folder, and those that it runs."""
 
 import threading
 import time
@@ -17,51 +17,51 @@ from agent_economy.study.plan import with_confidence
 from agent_economy.study.question import usual_folder
 from agent_economy.study.store.folder import disk_errors, is_locked
 
-MAX_AT_WORK = 2
-"""StudyManager at work at a time: each uses all processors."""
+MAX_RUNNING = 2
+"""Maximum number of studies that run at the same time: each uses all processors."""
 
 
 class StudyManager:
     """All studies of a server; its methods may be called in any thread."""
 
-    def __init__(self, places: Workspace) -> None:
-        """Begin with none at work."""
-        self._places = places
-        self._works: dict[str, StudyJob] = {}
+    def __init__(self, workspace: Workspace) -> None:
+        """Begin with none running."""
+        self._workspace = workspace
+        self._jobs: dict[str, StudyJob] = {}
         self._summaries = Summaries()
         self._lock = threading.Lock()
 
     def listed(self) -> list[dict[str, Any]]:
         """Return all studies, the newest first."""
-        rows = [self.of(name) for name, _ in self._places.studies()]
+        rows = [self.of(name) for name, _ in self._workspace.studies()]
         return sorted(rows, key=lambda row: (-row["changed_s"], row["id"]))
 
     def of(self, name: str) -> dict[str, Any]:
-        """Return a study by its id, as a page takes it.
+        """Return the row of a study in the list by its id.
 
         Raises:
             InputError: If there is none.
         """
-        work = self._works.get(name)
-        if work and work.is_alive:
-            row = of_plan(work.plan, work.said["runs"], time.time()).listed(name)
+        job = self._jobs.get(name)
+        if job and job.is_alive:
+            row = of_plan(job.plan, job.progress["runs"], time.time()).listed(name)
             return {**row, "state": "running"}
-        folder = self._places.study(name)
+        folder = self._workspace.study(name)
         row = self._summaries.of(folder).listed(name)
         if row["state"] == "damaged":
             return row
         if is_locked(folder):
             return {**row, "state": "running"}
-        return {**row, "message": work.message if work else None}
+        return {**row, "message": job.message if job else None}
 
     def plan(self, name: str) -> Plan:
-        """Return what a study asks.
+        """Return the plan of a study.
 
         Raises:
             InputError: If there is no such study, or it is damaged.
         """
-        work = self._works.get(name)
-        return work.plan if work and work.is_alive else study.load_plan(self._places.study(name))
+        job = self._jobs.get(name)
+        return job.plan if job and job.is_alive else study.load_plan(self._workspace.study(name))
 
     def folder(self, name: str) -> Path:
         """Return the folder of a study.
@@ -69,87 +69,87 @@ class StudyManager:
         Raises:
             InputError: If there is no such study.
         """
-        return self._places.study(name)
+        return self._workspace.study(name)
 
-    def work(self, name: str) -> StudyJob | None:
-        """Return a study that this server has, or had, at work."""
-        return self._works.get(name)
+    def job(self, name: str) -> StudyJob | None:
+        """Return the job of a study that this server has started."""
+        return self._jobs.get(name)
 
     def id_of(self, plan: Plan) -> str:
-        """Return the id of the folder that a plan's study is kept in.
+        """Return the id of the folder of a plan's study.
 
         Raises:
             InputError: If that is outside of the server's folder, or cannot be read.
         """
-        with disk_errors(self._places.folder, "read"):
-            return self._places.id_of_study(usual_folder(plan, self._places.folder))
+        with disk_errors(self._workspace.folder, "read"):
+            return self._workspace.id_of_study(usual_folder(plan, self._workspace.folder))
 
     def state(self, name: str) -> str | None:
-        """Return the state of the study that has an id, None if there is none."""
-        is_there = is_study(self._places.folder / name)
-        return str(self.of(name)["state"]) if is_there else None
+        """Return the state of a study by its id; None if there is none."""
+        exists = is_study(self._workspace.folder / name)
+        return str(self.of(name)["state"]) if exists else None
 
     def start(self, plan: Plan) -> dict[str, Any]:
-        """Begin a study, or go on with it.
+        """Start or resume a study.
 
         Raises:
-            InputError: If too many are at work, or another process works on it.
+            InputError: If too many studies are running, or another process runs this one.
         """
         name = self.id_of(plan)
         self._begin(name, lambda: plan)
         return self.of(name)
 
     def resume(self, name: str, confidence: float | None) -> dict[str, Any]:
-        """Go on with a study, or tighten it.
+        """Resume a study, with a higher confidence unless that is None.
 
         Raises:
             InputError: As `start` and `plan`; or if the confidence is not allowed.
         """
-        folder = self._places.study(name)
+        folder = self._workspace.study(name)
 
-        def wanted() -> Plan:
+        def resumed() -> Plan:
             plan = study.load_plan(folder)
             return plan if confidence is None else with_confidence(plan, confidence)
 
-        self._begin(name, wanted)
+        self._begin(name, resumed)
         return self.of(name)
 
     def stop(self, name: str) -> dict[str, Any]:
         """Stop a study; its runs are kept.
 
         Raises:
-            InputError: If there is no such study, or another process works on it.
+            InputError: If there is no such study, or another process runs it.
         """
-        work = self._works.get(name)
-        if work:
-            work.stop()
+        job = self._jobs.get(name)
+        if job:
+            job.stop()
         row = self.of(name)
         if row["state"] == "running":
-            message = f"{name}: another process works on it: stop it there, with Ctrl-C"
+            message = f"{name}: another process runs it: stop that process with Ctrl-C"
             raise InputError(message)
         return row
 
     def close(self) -> None:
-        """Stop all that are at work."""
-        works = [work for work in self._works.values() if work.is_alive]
-        with ThreadPoolExecutor(MAX_AT_WORK) as threads:
-            list(threads.map(StudyJob.stop, works))
+        """Stop all running studies."""
+        jobs = [job for job in self._jobs.values() if job.is_alive]
+        with ThreadPoolExecutor(MAX_RUNNING) as threads:
+            list(threads.map(StudyJob.stop, jobs))
 
-    def _begin(self, name: str, wanted: Callable[[], Plan]) -> None:
-        folder: Path = self._places.folder / name
+    def _begin(self, name: str, plan: Callable[[], Plan]) -> None:
+        folder: Path = self._workspace.folder / name
         with self._lock:
-            at_work = [each for each, work in self._works.items() if work.is_alive]
-            if name in at_work or is_locked(folder):
-                message = f"{name}: is being worked on: stop it first, or wait for its answer"
+            running = [each for each, job in self._jobs.items() if job.is_alive]
+            if name in running or is_locked(folder):
+                message = f"{name}: is running already: stop it first, or wait for its answer"
                 raise InputError(message)
-            if len(at_work) >= MAX_AT_WORK:
+            if len(running) >= MAX_RUNNING:
                 message = (
-                    f"{' and '.join(at_work)} are running, and this server runs {MAX_AT_WORK} "
-                    "studies at a time: stop one, or wait for its answer"
+                    f"{' and '.join(running)} are running, and this server runs at most "
+                    f"{MAX_RUNNING} studies at a time: stop one, or wait for its answer"
                 )
                 raise InputError(message)
-            work = StudyJob(wanted(), folder)
-            work.wait_until_begun()
-            if work.message:
-                raise InputError(work.message)
-            self._works[name] = work
+            job = StudyJob(plan(), folder)
+            job.wait_until_begun()
+            if job.message:
+                raise InputError(job.message)
+            self._jobs[name] = job

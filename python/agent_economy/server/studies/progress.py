@@ -1,4 +1,4 @@
-"""How a study goes on, told to a page that watches it."""
+"""Sends the progress of a study to a page that follows it."""
 
 import asyncio
 import contextlib
@@ -7,22 +7,25 @@ from typing import Any
 
 from agent_economy import study
 from agent_economy._core import InputError
-from agent_economy.server.studies.job import NOTHING
+from agent_economy.server.studies.job import NO_PROGRESS
 from agent_economy.server.studies.manager import StudyManager
 from agent_economy.server.studies.summary import read_answer
 from agent_economy.server.transport import Connection, ConnectionClosedError
 from agent_economy.study.answer.labels import label
 
 MAX_STANDINGS = 50
-"""Configurations that are told with their merit."""
+"""Maximum number of configurations whose merit is sent."""
 
-LOOK_S = 0.2
-"""Between two looks at a study, and two tellings, at least."""
+POLL_S = 0.2
+"""Time between two looks at a study."""
 
 
-async def watch(page: Connection, studies: StudyManager, name: str) -> None:
-    """Tell a page how a study goes on, until it ends or the page has gone."""
-    tasks = {asyncio.create_task(tell(page, studies, name)), asyncio.create_task(hear(page))}
+async def send_progress(page: Connection, studies: StudyManager, name: str) -> None:
+    """Send the progress of a study until it ends or the page disconnects."""
+    tasks = {
+        asyncio.create_task(send_changes(page, studies, name)),
+        asyncio.create_task(wait_until_closed(page)),
+    }
     try:
         done, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
         for task in done:
@@ -34,67 +37,68 @@ async def watch(page: Connection, studies: StudyManager, name: str) -> None:
         await asyncio.wait(tasks)
 
 
-async def hear(page: Connection) -> None:
-    """Wait until a page has gone: what it says is not listened to."""
+async def wait_until_closed(page: Connection) -> None:
+    """Wait until a page disconnects; its messages are ignored."""
     with contextlib.suppress(ConnectionClosedError):
         while True:
             await page.receive()
 
 
-async def tell(page: Connection, studies: StudyManager, name: str) -> None:
-    """Tell a page what has changed, until the study does not go on."""
+async def send_changes(page: Connection, studies: StudyManager, name: str) -> None:
+    """Send the progress whenever it has changed, until the study is no longer running."""
     labels: list[str] | None = await asyncio.to_thread(labels_of, studies, name)
     before = None
     while True:
-        now = await asyncio.to_thread(seen, studies, name)
+        now: Any = await asyncio.to_thread(progress, studies, name)
         if now != before:
-            await page.send({"type": "studying", **now, "labels": labels})
+            message: Any = now | {"type": "study_progress", "labels": labels}
+            await page.send(message)
             labels, before = None, now
         if now["state"] != "running":
             return
-        await asyncio.sleep(LOOK_S)
+        await asyncio.sleep(POLL_S)
 
 
 def labels_of(studies: StudyManager, name: str) -> list[str]:
-    """Return what the configurations of a study are called; nothing if nobody can say."""
+    """Return the labels of the configurations of a study; empty if its plan cannot be read."""
     try:
         return [label(values) for values in studies.plan(name).configurations]
     except InputError:
         return []
 
 
-def seen(studies: StudyManager, name: str) -> dict[str, Any]:
-    """Return how far a study is."""
-    work = studies.work(name)
-    said = work.said if work else NOTHING
+def progress(studies: StudyManager, name: str) -> dict[str, Any]:
+    """Return the progress of a study."""
+    job = studies.job(name)
+    counts = job.progress if job else NO_PROGRESS
     try:
         row = studies.of(name)
-        begun = {**NOTHING, "survivors": row["configurations"]}
-        if not work:
-            said = begun
-        if row["state"] != "damaged" and not (work and work.is_alive):
-            said = {**said, **(stored(studies.folder(name)) or begun)}
+        begun = {**NO_PROGRESS, "remaining": row["configurations"]}
+        if not job:
+            counts = begun
+        if row["state"] != "damaged" and not (job and job.is_alive):
+            counts = {**counts, **(stored(studies.folder(name)) or begun)}
     except InputError as error:
         row = {"state": "damaged", "message": str(error)}
-    return {"state": row["state"], "message": row["message"], **rates(said)}
+    return {"state": row["state"], "message": row["message"], **with_rates(counts)}
 
 
-def rates(said: dict[str, Any]) -> dict[str, Any]:
-    """Return how far a study is, with how fast it is."""
-    seconds, left = said["seconds"], said["left_runs"]
-    rate = said["computed"] / seconds if seconds else 0.0
-    left_s = left / rate if rate and left is not None else None
-    return {**said, "runs_per_s": rate, "left_s": left_s}
+def with_rates(counts: dict[str, Any]) -> dict[str, Any]:
+    """Return the progress of a study with its rate, and the time that remains."""
+    seconds, remaining_runs = counts["seconds"], counts["remaining_runs"]
+    rate = counts["computed"] / seconds if seconds else 0.0
+    remaining_s = remaining_runs / rate if rate and remaining_runs is not None else None
+    return {**counts, "runs_per_s": rate, "remaining_s": remaining_s}
 
 
 def stored(folder: Path) -> dict[str, Any]:
-    """Return how far a study is as its folder has it: after its last round, or with its answer.
+    """Return the progress that a study's folder contains: after its last round, or its answer.
 
     Returns:
-        Nothing before its first round is over.
+        An empty dict before the end of the first round.
 
     Raises:
-        InputError: If it is damaged.
+        InputError: If the folder is damaged.
     """
     decisions = study.open(folder).decisions()
     if not decisions:
@@ -102,21 +106,21 @@ def stored(folder: Path) -> dict[str, Any]:
     facts = decisions[-1].facts
     answer = read_answer(folder)
     if answer:
-        standings = answered(answer)
+        standings = final_standings(answer)
     else:
         standings = [[*leader, None, None] for leader in facts["leaders"]]
     return {
-        "round": len(decisions),
+        "rounds": len(decisions),
         "runs": facts["runs"],
-        "survivors": facts["survivors"],
-        "left_runs": None,
+        "remaining": facts["survivors"],
+        "remaining_runs": None,
         "standings": standings,
         "eliminated": [row for each in decisions for row in each.facts["eliminated"]],
     }
 
 
-def answered(answer: dict[str, Any]) -> list[list[Any]]:
-    """Return the best that were never put out, with their ranges, as an answer has them."""
-    left = [row for row in answer["results"] if row["eliminated"] is None]
-    best = sorted(left, key=lambda row: -row["merit"]["value"])[:MAX_STANDINGS]
+def final_standings(answer: dict[str, Any]) -> list[list[Any]]:
+    """Return the best of the configurations that were not eliminated, with their intervals."""
+    remaining = [row for row in answer["results"] if row["eliminated"] is None]
+    best = sorted(remaining, key=lambda row: -row["merit"]["value"])[:MAX_STANDINGS]
     return [[row["configuration"], row["runs"], *row["merit"].values()] for row in best]

@@ -1,4 +1,4 @@
-"""What a page asks of a study, read: all that is wrong with it at once."""
+"""Reads the study that a page requests, and reports all errors at once."""
 
 from collections.abc import Callable, Mapping
 from typing import Any, TypeVar
@@ -7,7 +7,7 @@ from agent_economy import study
 from agent_economy._core import InputError
 from agent_economy.scenario import Override, Scenario, validation
 from agent_economy.scenario.source import check_path
-from agent_economy.server.messages import Fault, faults_of, number, source_of
+from agent_economy.server.messages import EITHER, Error, errors_of, number
 from agent_economy.server.workspace import Workspace
 from agent_economy.study import Plan
 from agent_economy.study.answer.labels import label
@@ -17,100 +17,108 @@ from agent_economy.study.question import Question
 T = TypeVar("T")
 
 MAX_LABELS = 50
-"""Configurations of a plan that are named."""
+"""Maximum number of configurations of a plan that are labelled."""
 
 
 class StudyRequestError(Exception):
-    """What a page asks is not allowed."""
+    """The study that a page requests has errors."""
 
-    def __init__(self, faults: list[Fault]) -> None:
-        """Say all that is wrong."""
-        super().__init__(faults)
-        self.faults = faults
+    def __init__(self, errors: list[Error]) -> None:
+        """Keep all errors."""
+        super().__init__(errors)
+        self.errors = errors
 
 
-class Faults(list[Fault]):
-    """What is wrong, found by several who look."""
+class Errors(list[Error]):
+    """The errors that several checks have found."""
 
-    def gather(self, look: Callable[[], T]) -> T | None:
-        """Return what one finds, or keep what it says is wrong."""
+    def gather(self, check: Callable[[], T]) -> T | None:
+        """Return the result of a check, or keep its errors."""
         try:
-            return look()
+            return check()
         except InputError as error:
-            self.extend(each for fault in faults_of(error) for each in by_line(fault))
+            self.extend(each for row in errors_of(error) for each in by_line(row))
             return None
 
 
-def by_line(fault: Fault) -> list[Fault]:
-    """Return a fault of several lines, as studies tell them, as several; each names its path."""
-    if fault["path"]:
-        return [fault]
-    lines = str(fault["message"]).splitlines()
-    return [{**fault, "message": line, "path": path_of(line)} for line in lines]
+def by_line(error: Error) -> list[Error]:
+    """Return an error of several lines, as studies report them, as several with their paths."""
+    if error["path"]:
+        return [error]
+    lines = str(error["message"]).splitlines()
+    return [{**error, "message": line, "path": path_of(line)} for line in lines]
 
 
 def path_of(line: str) -> str:
-    """Return the path of "delta = -1: must be ...": nothing if a line begins with none."""
+    """Return the path of "delta = -1: must be ..."; empty if a line does not begin with one."""
     path, equals, _ = line.partition(" = ")
     return path if equals and " " not in path else ""
 
 
-def plan(said: Any, places: Workspace) -> Plan:
-    """Return the plan that a page asks for.
+def plan(request: Any, workspace: Workspace) -> Plan:
+    """Return the plan of the study that a page requests.
 
     Raises:
-        StudyRequestError: If anything is not allowed; all faults at once.
-        InputError: If it is no object.
+        StudyRequestError: If it has errors; all at once.
+        InputError: If the request is not an object.
     """
-    validation.of_kind("ask", said, dict, "an object")
-    faults = Faults()
-    scenario = faults.gather(lambda: scenario_of(said, places))
-    changed = faults.gather(lambda: scenario.changed(changes(said))) if scenario else None
-    seed = faults.gather(lambda: number("seed", said.get("seed", "0")))
-    told = {name: said.get(name) for name in ("delta", "confidence", "runs")}
-    told["guarantee"] = "indifference" if said.get("guarantee") is None else said["guarantee"]
-    faults.gather(lambda: check_question(seed=seed or 0, **told))
-    if not faults and changed is not None:
-        made = faults.gather(
-            lambda: study.make_plan(changed, seed=seed or 0, max_runs=said.get("max_runs"), **told)
+    validation.of_kind("request", request, dict, "an object")
+    errors = Errors()
+    scenario = errors.gather(lambda: scenario_of(request, workspace))
+    changed = errors.gather(lambda: scenario.changed(overrides(request))) if scenario else None
+    seed = errors.gather(lambda: number("seed", request.get("seed", "0")))
+    question = {name: request.get(name) for name in ("delta", "confidence", "runs")}
+    guarantee = request.get("guarantee")
+    question["guarantee"] = "indifference" if guarantee is None else guarantee
+    errors.gather(lambda: check_question(seed=seed or 0, **question))
+    if not errors and changed is not None:
+        max_runs = request.get("max_runs")
+        made = errors.gather(
+            lambda: study.make_plan(changed, seed=seed or 0, max_runs=max_runs, **question)
         )
         if made is not None:
             return made
-    raise StudyRequestError(faults)
+    raise StudyRequestError(errors)
 
 
-def scenario_of(said: Mapping[str, Any], places: Workspace) -> Scenario:
-    """Return the scenario that a page names, or the one of its text.
-
-    Raises:
-        InputError: If there is none, or it is wrong.
-    """
-    scenario, text = source_of("ask", said)
-    return places.read(text or "") if scenario is None else places.load(scenario)
-
-
-def changes(said: Mapping[str, Any]) -> tuple[Override, ...]:
-    """Return what is asked, as values put over the scenario's.
+def scenario_of(request: Mapping[str, Any], workspace: Workspace) -> Scenario:
+    """Return the scenario that a request names or contains.
 
     Raises:
-        InputError: If something cannot be.
+        InputError: If there is none, or it has errors.
     """
-    vary = said.get("vary") or {}
-    validation.of_kind("vary", vary, dict, "an object of values by their paths")
+    name, text = request.get("scenario"), request.get("text")
+    is_one = (name is None) != (text is None)
+    validation.check(is_one, "request", [name, text], EITHER)
+    each = name if text is None else text
+    validation.check(validation.is_text(each), "request", each, "a string")
+    return workspace.read(str(text)) if name is None else workspace.load(name)
+
+
+def overrides(request: Mapping[str, Any]) -> tuple[Override, ...]:
+    """Return what a request overrides in the scenario.
+
+    Raises:
+        InputError: If a key or value is not allowed.
+    """
+    vary = request.get("vary") or {}
+    validation.of_kind("vary", vary, dict, "an object of values by path")
     for path, values in vary.items():
         check_path("vary", path)
-        validation.check(validation.is_text(values), f"vary.{path}", values, 'a text, as "1..40"')
-    texts = {("merit",): said.get("merit"), ("study", "design"): said.get("design")}
+        validation.check(
+            validation.is_text(values), f"vary.{path}", values, 'a string such as "1..40"'
+        )
+    texts = {("merit",): request.get("merit"), ("study", "design"): request.get("design")}
     for path, text in texts.items():
-        validation.check(text is None or validation.is_text(text), path[-1], text, "a text")
-    # Together they are all that is varied: what the scenario varies besides stays as it is.
+        validation.check(text is None or validation.is_text(text), path[-1], text, "a string")
+    # They replace all factors of the scenario, not only those with the same paths.
     varied = [Override(("study", "vary"), vary, "vary")] if vary else []
-    told = [Override(path, text, path[-1]) for path, text in texts.items() if text is not None]
-    return (*varied, *told)
+    others = [Override(path, text, path[-1]) for path, text in texts.items() if text is not None]
+    return (*varied, *others)
 
 
 def planned(plan: Plan, name: str, state: str | None) -> dict[str, Any]:
-    """Return a plan as a page takes it; `name` is the id of its folder."""
+    """Return a plan as the page takes it; `name` is the id of its folder."""
     return {
         "id": name,
         "name": plan.scenario.name,

@@ -1,4 +1,14 @@
-"""What can be asked about studies, by address."""
+"""The addresses of studies; a study's id is its folder below the server's, as `studies/classic`.
+
+POST `/api/factors`: what a study of a scenario can vary. `/api/plan`: what a study would compare.
+`/api/studies`: start or resume a study. The body of these three is read by `requests`.
+POST `/api/studies/stop`: `id`. `/api/studies/resume`: `id`, and a higher `confidence` or null.
+GET `/api/studies`: all studies, the newest first. `/api/study?id=`: one with its plan and answer.
+`/api/study/report?id=` and `/api/study/answer?id=`: its files.
+`/api/study/runs?id=&configuration=`: its runs, `first` and `count`, or a `sample` of them from the
+worst to the best.
+The response to a request with errors is `errors`, with status 422.
+"""
 
 import asyncio
 from collections.abc import Callable, Coroutine
@@ -13,8 +23,8 @@ from starlette.routing import Route
 from agent_economy._core import InputError
 from agent_economy.scenario import Scenario, bundled
 from agent_economy.scenario.validation import check
-from agent_economy.server.messages import faults_of, number
-from agent_economy.server.request_body import RequestBodyError, asked, refused
+from agent_economy.server.messages import errors_of, number
+from agent_economy.server.request_body import RequestBodyError, errors_response, json_object
 from agent_economy.server.studies import requests, run_rows
 from agent_economy.server.studies.detail import AnswerCache
 from agent_economy.server.studies.factors import described
@@ -23,11 +33,11 @@ from agent_economy.server.studies.requests import StudyRequestError
 from agent_economy.server.workspace import Workspace
 from agent_economy.study.store.folder import ANSWER, REPORT
 
-USUAL_COUNT = "500"
-"""Runs that are told if nobody says how many."""
+DEFAULT_COUNT = "500"
+"""Number of runs in a response, by default."""
 
-Work = Callable[[Any], Response]
-"""What answers: in a thread, since it reads files and computes."""
+Handler = Callable[[Any], Response]
+"""Returns a response; it runs in a thread, since it reads files and computes."""
 
 
 @dataclass(frozen=True)
@@ -35,31 +45,31 @@ class Routes:
     """The addresses of studies."""
 
     studies: StudyManager
-    places: Workspace
+    workspace: Workspace
     answers: AnswerCache = field(default_factory=AnswerCache)
 
     def all(self) -> list[Route]:
-        """Return them."""
+        """Return all routes."""
         return [
-            Route("/api/factors", posted(self.factors), methods=["POST"]),
-            Route("/api/plan", posted(self.plan), methods=["POST"]),
-            Route("/api/studies", got(self.listed), methods=["GET"]),
-            Route("/api/studies", posted(self.start), methods=["POST"]),
-            Route("/api/studies/stop", posted(self.stop), methods=["POST"]),
-            Route("/api/studies/resume", posted(self.resume), methods=["POST"]),
-            Route("/api/study", got(self.study)),
-            Route("/api/study/runs", got(self.runs)),
-            Route("/api/study/report", got(lambda told: self.file(told, REPORT))),
-            Route("/api/study/answer", got(lambda told: self.file(told, ANSWER))),
+            Route("/api/factors", post(self.factors), methods=["POST"]),
+            Route("/api/plan", post(self.plan), methods=["POST"]),
+            Route("/api/studies", get(self.listed), methods=["GET"]),
+            Route("/api/studies", post(self.start), methods=["POST"]),
+            Route("/api/studies/stop", post(self.stop), methods=["POST"]),
+            Route("/api/studies/resume", post(self.resume), methods=["POST"]),
+            Route("/api/study", get(self.study)),
+            Route("/api/study/runs", get(self.runs)),
+            Route("/api/study/report", get(lambda query: self.file(query, REPORT))),
+            Route("/api/study/answer", get(lambda query: self.file(query, ANSWER))),
         ]
 
-    def factors(self, said: dict[str, Any]) -> Response:
-        """Return what can be varied in a scenario."""
-        return JSONResponse(described(requests.scenario_of(said, self.places)))
+    def factors(self, body: dict[str, Any]) -> Response:
+        """Return what a study of a scenario can vary."""
+        return JSONResponse(described(requests.scenario_of(body, self.workspace)))
 
-    def plan(self, said: dict[str, Any]) -> Response:
+    def plan(self, body: dict[str, Any]) -> Response:
         """Return what a study would compare."""
-        plan = requests.plan(said, self.places)
+        plan = requests.plan(body, self.workspace)
         name = self.studies.id_of(plan)
         return JSONResponse(requests.planned(plan, name, self.studies.state(name)))
 
@@ -67,104 +77,104 @@ class Routes:
         """Return all studies."""
         return JSONResponse({"studies": self.studies.listed()})
 
-    def start(self, said: dict[str, Any]) -> Response:
-        """Begin a study, or go on with it."""
-        return JSONResponse(self.studies.start(requests.plan(said, self.places)), 201)
+    def start(self, body: dict[str, Any]) -> Response:
+        """Start or resume a study."""
+        return JSONResponse(self.studies.start(requests.plan(body, self.workspace)), 201)
 
-    def stop(self, said: dict[str, Any]) -> Response:
+    def stop(self, body: dict[str, Any]) -> Response:
         """Stop a study."""
-        return JSONResponse(self.studies.stop(id_of(said)))
+        return JSONResponse(self.studies.stop(id_of(body)))
 
-    def resume(self, said: dict[str, Any]) -> Response:
-        """Go on with a study, or tighten it."""
-        return JSONResponse(self.studies.resume(id_of(said), said.get("confidence")))
+    def resume(self, body: dict[str, Any]) -> Response:
+        """Resume a study, or raise its confidence."""
+        return JSONResponse(self.studies.resume(id_of(body), body.get("confidence")))
 
-    def study(self, told: dict[str, str]) -> Response:
+    def study(self, query: dict[str, str]) -> Response:
         """Return a study with its answer, if it has one."""
-        name = id_of(told)
+        name = id_of(query)
         row, plan = self.studies.of(name), self.studies.plan(name)
         return JSONResponse(
             {
                 **row,
                 "planned": requests.planned(plan, name, row["state"]),
-                "source": {"scenario": gallery_id(plan.scenario, self.places)},
+                "source": {"scenario": gallery_id(plan.scenario, self.workspace)},
                 "answer": self.answers.of(self.studies.folder(name)),
             }
         )
 
-    def runs(self, told: dict[str, str]) -> Response:
+    def runs(self, query: dict[str, str]) -> Response:
         """Return runs of a configuration of a study."""
-        name = id_of(told)
+        name = id_of(query)
         plan, folder = self.studies.plan(name), self.studies.folder(name)
-        configuration = number("configuration", told.get("configuration"))
-        if "sample" in told:
-            sample = number("sample", told["sample"])
+        configuration = number("configuration", query.get("configuration"))
+        if "sample" in query:
+            sample = number("sample", query["sample"])
             return JSONResponse(run_rows.sampled(plan, folder, configuration, sample))
-        first = number("first", told.get("first", "0"))
-        count = number("count", told.get("count", USUAL_COUNT))
+        first = number("first", query.get("first", "0"))
+        count = number("count", query.get("count", DEFAULT_COUNT))
         return JSONResponse(run_rows.listed(plan, folder, configuration, first, count))
 
-    def file(self, told: dict[str, str], name: str) -> Response:
-        """Return a file of a study, to be kept."""
-        file = self.studies.folder(id_of(told)) / name
-        check(file.is_file(), "id", told["id"], f"a study that has its {name}")
+    def file(self, query: dict[str, str], name: str) -> Response:
+        """Return a file of a study as a download."""
+        file = self.studies.folder(id_of(query)) / name
+        check(file.is_file(), "id", query["id"], f"a study that has its {name}")
         return FileResponse(file, filename=f"{file.parent.name}-{name}")
 
 
-def id_of(told: dict[str, Any]) -> str:
-    """Return the id of a study that a page names.
+def id_of(request: dict[str, Any]) -> str:
+    """Return the id of the study that a request names.
 
     Raises:
         InputError: If it names none.
     """
-    name = told.get("id")
-    check(isinstance(name, str), "id", name, "the id of a study, as a text")
+    name = request.get("id")
+    check(isinstance(name, str), "id", name, "the id of a study, as a string")
     return str(name)
 
 
-def gallery_id(scenario: Scenario, places: Workspace) -> str | None:
-    """Return the id in the gallery of the scenario that a study was asked of; None if it is gone.
+def gallery_id(scenario: Scenario, workspace: Workspace) -> str | None:
+    """Return the id in the gallery of the scenario of a study; None if it is gone.
 
-    A study keeps the text of its scenario, and the name of its file: no folder.
+    A study keeps the text of its scenario and the name of its file, but not the folder.
     """
     file = Path(scenario.source.file)
-    shipping = [scenario.name] if scenario.name in bundled.scenarios() else []
-    for name in (*shipping, file.name):
+    builtin = [scenario.name] if scenario.name in bundled.scenarios() else []
+    for name in (*builtin, file.name):
         try:
-            if places.text(name) == scenario.source.text:
+            if workspace.text(name) == scenario.source.text:
                 return name
         except InputError:
             continue
     return None
 
 
-def posted(work: Work) -> Callable[[Request], Coroutine[Any, Any, Response]]:
-    """Return what answers to an object that is sent."""
+def post(handler: Handler) -> Callable[[Request], Coroutine[Any, Any, Response]]:
+    """Return the endpoint that passes the JSON object in the body to a handler."""
 
-    async def answer(request: Request) -> Response:
+    async def respond(request: Request) -> Response:
         try:
-            said = await asked(request)
+            body = await json_object(request)
         except RequestBodyError as error:
             return error.response
-        return await answered(work, said)
+        return await handled(handler, body)
 
-    return answer
-
-
-def got(work: Work) -> Callable[[Request], Coroutine[Any, Any, Response]]:
-    """Return what answers to an address."""
-
-    async def answer(request: Request) -> Response:
-        return await answered(work, dict(request.query_params))
-
-    return answer
+    return respond
 
 
-async def answered(work: Work, told: dict[str, Any]) -> Response:
-    """Return the answer, or what is wrong with what is asked."""
+def get(handler: Handler) -> Callable[[Request], Coroutine[Any, Any, Response]]:
+    """Return the endpoint that passes the query to a handler."""
+
+    async def respond(request: Request) -> Response:
+        return await handled(handler, dict(request.query_params))
+
+    return respond
+
+
+async def handled(handler: Handler, request: dict[str, Any]) -> Response:
+    """Return the response of a handler, or the errors of the request."""
     try:
-        return await asyncio.to_thread(work, told)
+        return await asyncio.to_thread(handler, request)
     except StudyRequestError as error:
-        return refused(error.faults)
+        return errors_response(error.errors)
     except InputError as error:
-        return refused(faults_of(error))
+        return errors_response(errors_of(error))

@@ -13,10 +13,10 @@ export const beliefs: Layer = {
   on: true,
   place: "over",
   only: "metric",
-  active: (scene) => !!scene.inspection?.thoughts && scene.selected >= 0,
+  active: (scene) => !!scene.inspection?.belief_state && scene.selected >= 0,
   draw(pen, scene) {
     const isOfSelected = scene.inspection?.robot === scene.setting.robots[scene.selected];
-    const beliefState = isOfSelected ? scene.inspection?.thoughts : null;
+    const beliefState = isOfSelected ? scene.inspection?.belief_state : null;
     const pose = poseOf(scene, scene.selected);
     if (!beliefState || !pose) return;
     const { context, colours } = pen;

@@ -11,10 +11,10 @@ export const headings: Layer = {
   on: true,
   place: "over",
   only: "metric",
-  active: ({ inspection, selected }) => selected >= 0 && !!inspection?.thoughts?.reach,
+  active: ({ inspection, selected }) => selected >= 0 && !!inspection?.belief_state?.reach,
   draw(pen, { inspection, setting, selected }) {
-    const thoughts = inspection?.robot === setting.robots[selected] ? inspection?.thoughts : null;
-    if (thoughts?.pose && thoughts.reach) drawOptions(pen, thoughts.pose, thoughts.reach);
+    const beliefState = inspection?.robot === setting.robots[selected] ? inspection?.belief_state : null;
+    if (beliefState?.pose && beliefState.reach) drawOptions(pen, beliefState.pose, beliefState.reach);
   },
 };
 

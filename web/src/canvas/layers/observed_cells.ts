@@ -8,12 +8,12 @@ export const observedCells: Layer = {
   on: true,
   place: "over",
   only: "classic",
-  active: ({ robot }) => (robot?.looks.length ?? 0) > 0,
+  active: ({ robot }) => (robot?.examined_cells.length ?? 0) > 0,
   draw(pen, { robot, setting, selected }) {
     if (!robot || robot.name !== setting.robots[selected]) return;
     const { context, colours, camera } = pen;
     const path = new Path2D();
-    for (const cell of robot.looks) outline(path, cell);
+    for (const cell of robot.examined_cells) outline(path, cell);
     inWorld(pen, () => {
       context.globalAlpha = 0.16;
       context.fillStyle = context.strokeStyle = colours["sense-items"];

@@ -1,4 +1,5 @@
 import { expect, test } from "vitest";
+import type { RobotMessage } from "../../api/protocol";
 import { bearingText, messageCounts, rayEnds, turnText } from "./percept";
 
 test("rays end at their reading, or at the sensor's range", () => {
@@ -10,7 +11,7 @@ test("rays end at their reading, or at the sensor's range", () => {
 });
 
 test("messages are counted by subject", () => {
-  const about = (kind: string) => ({ about: { [kind]: null }, confidence: 1 });
+  const about = (kind: string) => ({ about: { [kind]: null }, confidence: 1 }) as unknown as RobotMessage;
   expect(messageCounts([about("item"), about("sender"), about("item")])).toBe(
     "2 about items, 1 about the sender",
   );

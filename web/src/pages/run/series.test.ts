@@ -2,22 +2,22 @@ import { expect, test } from "vitest";
 import type { State } from "../../api/protocol";
 import { Series } from "./series";
 
-function state(tick: number, found: number, edge = tick): State {
+function state(tick: number, found: number, latest_tick = tick): State {
   const outcome = { found, status: "running" };
   return {
     type: "state",
     tick,
-    edge,
+    latest_tick,
     time_s: tick / 10,
     hash: "",
-    playing: true,
+    is_playing: true,
     speed: 1,
-    real: 1,
-    over: false,
-    aim: null,
-    differs_at: null,
+    measured_speed: 1,
+    is_over: false,
+    target_tick: null,
+    mismatch_tick: null,
     outcome,
-    mind: null,
+    inspection: null,
     robot: null,
   };
 }

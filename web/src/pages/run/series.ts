@@ -13,7 +13,7 @@ export class Series {
 
   /** Adds the outcome of a state. Rows beyond its edge are removed: a change has discarded that future. */
   add(state: State): void {
-    while ((this.rows.at(-1)?.tick ?? -1) > state.edge) this.rows.pop();
+    while ((this.rows.at(-1)?.tick ?? -1) > state.latest_tick) this.rows.pop();
     const row = { tick: state.tick, time_s: state.time_s, values: numbers(state.outcome) };
     const place = this.placeOf(state.tick);
     const replaced = this.rows[place]?.tick === state.tick ? 1 : 0;

@@ -1,9 +1,9 @@
 import { Connection, type Listener } from "../../api/connection";
 import type { Frame } from "../../api/frames";
-import type { Message } from "../../api/messages";
+import type { ServerMessage } from "../../api/protocol";
 import type {
   Change,
-  Command,
+  PageMessage,
   Ended,
   InputError,
   Json,
@@ -33,7 +33,7 @@ export type Source = Omit<Link, "text" | "view"> & { text: string | null };
 interface PendingChange {
   value: Json;
   /** Whether it replaces the previous change of this path, if the run has not advanced since. */
-  instead: boolean;
+  replaces_last: boolean;
 }
 
 const changes_ms = 50;
@@ -69,7 +69,7 @@ export class Session implements Listener {
   drawnVersion = $state(0);
   series = new Series();
 
-  readonly frames = new FrameQueue((frame) => this.send({ type: "got", frame }));
+  readonly frames = new FrameQueue((frame) => this.send({ type: "acknowledge", frame }));
   /** Called when there is something new to draw. */
   onFrame = () => {};
 
@@ -77,7 +77,7 @@ export class Session implements Listener {
   private readonly changes = new Throttle<PendingChange>(
     changes_ms,
     (path, put) => this.send({ type: "change", path, ...put }),
-    (passed, latest) => ({ ...latest, instead: passed.instead }),
+    (passed, latest) => ({ ...latest, replaces_last: passed.replaces_last }),
   );
   private drawnAt_ms = 0;
   private stateAt_ms = 0;
@@ -111,12 +111,12 @@ export class Session implements Listener {
 
   /** The tick that is displayed, or that the run is computing towards. */
   get tick(): number {
-    return this.state?.aim ?? this.state?.tick ?? this.source.tick;
+    return this.state?.target_tick ?? this.state?.tick ?? this.source.tick;
   }
 
   /** Whether the run is playing or computing towards a tick. */
   get isAdvancing(): boolean {
-    return this.state !== null && (this.state.playing || this.state.aim !== null);
+    return this.state !== null && (this.state.is_playing || this.state.target_tick !== null);
   }
 
   /** The classic engine has robots of its own and a world that cannot be edited. */
@@ -139,12 +139,12 @@ export class Session implements Listener {
   }
 
   go(tick: number): void {
-    this.send({ type: "go", tick });
+    this.send({ type: "seek", tick });
   }
 
-  /** Changes the scenario; `instead` replaces the previous value of the same drag. */
-  change(path: string, value: Json, instead = false): void {
-    this.changes.put(path, { value, instead });
+  /** Changes the scenario; `replaces_last` replaces the previous value of the same drag. */
+  change(path: string, value: Json, replaces_last = false): void {
+    this.changes.put(path, { value, replaces_last });
   }
 
   undo(): void {
@@ -160,7 +160,7 @@ export class Session implements Listener {
   }
 
   cancelSaving(): void {
-    this.send({ type: "cancel" });
+    this.send({ type: "cancel_save" });
   }
 
   /** Identifies the changes of this run. */
@@ -202,7 +202,7 @@ export class Session implements Listener {
       return;
     }
     this.saving = null;
-    if (this.phase === "open") this.resumeSpeed = this.state?.playing ? this.state.speed : undefined;
+    if (this.phase === "open") this.resumeSpeed = this.state?.is_playing ? this.state.speed : undefined;
     this.phase = "lost";
     this.retry_ms = retry_ms;
   }
@@ -212,7 +212,7 @@ export class Session implements Listener {
     this.onFrame();
   }
 
-  message(message: Message): void {
+  message(message: ServerMessage): void {
     if (message.type === "opened") this.receiveOpened(message);
     else if (message.type === "setting") this.receiveSetting(message);
     else if (message.type === "state") this.receiveState(message);
@@ -227,7 +227,7 @@ export class Session implements Listener {
   /** The latest frame has been drawn. */
   drew(): void {
     const now = performance.now();
-    if (this.state?.playing && now - this.drawnAt_ms < text_ms) return;
+    if (this.state?.is_playing && now - this.drawnAt_ms < text_ms) return;
     this.drawnAt_ms = now;
     this.drawnVersion += 1;
   }
@@ -252,7 +252,7 @@ export class Session implements Listener {
     this.series.add(state);
     const now = performance.now();
     // While playing, the next state follows soon; starts and stops are displayed at once.
-    if (state.playing && this.state?.playing && now - this.stateAt_ms < states_ms) return;
+    if (state.is_playing && this.state?.is_playing && now - this.stateAt_ms < states_ms) return;
     this.stateAt_ms = now;
     this.state = state;
     this.seriesVersion += 1;
@@ -269,15 +269,15 @@ export class Session implements Listener {
     if (recording) this.saved = { recording, changes: this.savedChanges };
   }
 
-  private receiveRefusal({ about, path, faults }: Refused): void {
+  private receiveRefusal({ about, path, errors }: Refused): void {
     if (about === "save") this.saving = null;
     if (about === "open") {
-      this.errors = faults;
+      this.errors = errors;
       this.phase = "refused";
       this.connection.close();
       return;
     }
-    const text = faults.map((error) => error.message).join(" ");
+    const text = errors.map((error) => error.message).join(" ");
     this.refusals = { ...this.refusals, [path ?? about]: text };
   }
 
@@ -288,7 +288,7 @@ export class Session implements Listener {
   }
 
   /** Opens the run at its current state, so that it continues after reconnecting. */
-  private opening(): Command {
+  private opening(): PageMessage {
     const { scenario, text, study, recording, seed, run } = this.source;
     const changes: Change[] | null = this.setting ? this.setting.log : this.source.changes;
     const { tick } = this;
@@ -296,7 +296,7 @@ export class Session implements Listener {
     return { type: "open", scenario, text, study, recording, ...seedField, run, changes, tick };
   }
 
-  private send(command: Command): void {
+  private send(command: PageMessage): void {
     this.connection.send(command);
   }
 }

@@ -5,17 +5,17 @@ import { statusText } from "./status";
 const state: State = {
   type: "state",
   tick: 123,
-  edge: 123,
+  latest_tick: 123,
   time_s: 12.34,
   hash: "",
-  playing: true,
+  is_playing: true,
   speed: 3,
-  real: 3.14,
-  over: false,
-  aim: null,
-  differs_at: null,
+  measured_speed: 3.14,
+  is_over: false,
+  target_tick: null,
+  mismatch_tick: null,
   outcome: { found: 2 },
-  mind: null,
+  inspection: null,
   robot: null,
 };
 
@@ -26,7 +26,7 @@ test("the status summarises the run in one sentence", () => {
 });
 
 test("items and robot states are left out where there are none", () => {
-  const paused = { ...state, playing: false };
+  const paused = { ...state, is_playing: false };
   expect(statusText(paused, [0, 0, 0, 0, 0], 0, "open")).toBe("12.3 s, 0 robots; paused.");
   expect(statusText(paused, [1, 0, 0, 0, 0], 0, "open")).toBe("12.3 s, 1 robot: all clear; paused.");
 });

@@ -21,7 +21,7 @@ function robotText(counts: number[]): string {
 }
 
 function motion(state: State): string {
-  if (state.over) return "finished";
-  if (state.playing) return `running at ${times(state.real)} × real time`;
-  return state.aim === null ? "paused" : "computing";
+  if (state.is_over) return "finished";
+  if (state.is_playing) return `running at ${times(state.measured_speed)} × real time`;
+  return state.target_tick === null ? "paused" : "computing";
 }

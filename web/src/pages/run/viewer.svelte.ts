@@ -52,7 +52,7 @@ export class Viewer implements Host {
 
   setSpeed(speed: number | null): void {
     this.speed = speed;
-    if (this.session.state?.playing) this.session.play(speed);
+    if (this.session.state?.is_playing) this.session.play(speed);
   }
 
   private async loadLabel({ id, configuration }: StudyConfiguration): Promise<void> {

@@ -4,17 +4,17 @@ import { ago, decimal, duration, raceFigures, places, raceSummary, errorText } f
 
 const bounds: Interval = [-1.66, -1.7, -1.6];
 const race: StudyProgress = {
-  type: "studying",
+  type: "study_progress",
   state: "running",
   message: null,
-  round: 36,
+  rounds: 36,
   runs: 2031,
   computed: 2031,
   seconds: 12,
   runs_per_s: 3033,
-  survivors: 3,
-  left_runs: 9000,
-  left_s: 3.2,
+  remaining: 3,
+  remaining_runs: 9000,
+  remaining_s: 3.2,
   standings: [[3, 405, ...bounds]],
   eliminated: [],
   labels: null,
@@ -33,7 +33,7 @@ test("a stopped race has no speed and no time left", () => {
 });
 
 test("a race in another process has no known speed", () => {
-  const words = raceFigures({ ...race, seconds: 0, runs_per_s: 0, left_s: null }, 8);
+  const words = raceFigures({ ...race, seconds: 0, runs_per_s: 0, remaining_s: null }, 8);
   expect(words.slice(3)).toEqual([
     ["–", "runs per second"],
     ["–", "time left (estimate)"],

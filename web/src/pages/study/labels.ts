@@ -10,9 +10,9 @@ export const stateLabels: Record<StudyState, string> = {
 
 /** The state of the race in one sentence, for screen readers. */
 export function raceSummary(race: StudyProgress, total: number, labels: string[]): string {
-  const parts = [`${plural(race.survivors, "configuration")} of ${count(total)} remaining`];
+  const parts = [`${plural(race.remaining, "configuration")} of ${count(total)} remaining`];
   parts.push(plural(race.runs, "run"));
-  if (race.left_s !== null) parts.push(`about ${duration(race.left_s)} left`);
+  if (race.remaining_s !== null) parts.push(`about ${duration(race.remaining_s)} left`);
   const [best] = race.standings;
   const leads = best ? ` Leading: ${nameOf(labels, best[0])}.` : "";
   return `${stateLabels[race.state]}: ${parts.join(", ")}.${leads}`;
@@ -21,13 +21,13 @@ export function raceSummary(race: StudyProgress, total: number, labels: string[]
 /** The key figures of a race, with labels. */
 export function raceFigures(race: StudyProgress, total: number): [value: string, label: string][] {
   const first: [string, string][] = [
-    [`${count(race.survivors)} of ${count(total)}`, "remaining"],
+    [`${count(race.remaining)} of ${count(total)}`, "remaining"],
     [count(race.runs), "runs"],
-    [count(race.round), "round"],
+    [count(race.rounds), "round"],
   ];
   if (race.state !== "running")
     return [...first, [race.seconds > 0 ? duration(race.seconds) : "–", "elapsed"]];
-  const left = race.left_s === null ? "–" : duration(race.left_s);
+  const left = race.remaining_s === null ? "–" : duration(race.remaining_s);
   // Unknown if another process computes the runs.
   const rate = race.seconds > 0 ? count(race.runs_per_s) : "–";
   return [...first, [rate, "runs per second"], [left, "time left (estimate)"]];

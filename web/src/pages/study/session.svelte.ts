@@ -1,5 +1,5 @@
 import { browserTransport, Connection, type Listener } from "../../api/connection";
-import type { Message } from "../../api/messages";
+import type { ServerMessage } from "../../api/protocol";
 import { resume, stop, study } from "../../api/studies";
 import { RequestError, type Study, type StudyState, type StudyProgress } from "../../api/study";
 import { updatedRace } from "./standings";
@@ -80,9 +80,9 @@ export class StudySession implements Listener {
 
   frame(): void {}
 
-  message(message: Message): void {
+  message(message: ServerMessage): void {
     if (message.type === "ended") this.reject(message.message);
-    if (message.type !== "studying") return;
+    if (message.type !== "study_progress") return;
     this.phase = "open";
     if (message.labels) this.labels = message.labels;
     this.race = updatedRace(this.race, message);

@@ -28,7 +28,7 @@ const rover: KindView = {
   count: 4,
   radius: 0.27,
   rings: [],
-  flies: false,
+  is_flying: false,
   radio_range_m: 20,
   sensors: [{ name: "camera", kind: "items", range_m: 3, width_rad: Math.PI / 2, facing_rad: 0 }],
 };

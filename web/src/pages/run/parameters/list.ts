@@ -70,7 +70,7 @@ function knownOf(kinds: KindView[]): Table {
       },
     ]);
     const radio: Table = kind.radio_range_m === null ? {} : { radio: { range_m: kind.radio_range_m } };
-    const layer = kind.flies ? "air" : "ground";
+    const layer = kind.is_flying ? "air" : "ground";
     return [kind.name, { layer, radius_m: kind.radius, sensors: Object.fromEntries(sensors), ...radio }];
   });
   return { robots: Object.fromEntries(robots) };

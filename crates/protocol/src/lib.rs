@@ -1,0 +1,27 @@
+//! The messages between the server and the page, as types only.
+//!
+//! Messages are JSON texts on a WebSocket, each with its `type`; frames and overlays are binary. The
+//! JSON Schema of these types ([`page_schema`]) and that of brains ([`brain_schema`]) are the
+//! source of the Python types of the server and of the TypeScript types of the page.
+//!
+//! Seeds and run numbers can have 64 bits, which JavaScript's numbers cannot hold: they are strings.
+
+mod lists;
+mod page;
+mod schema;
+mod server;
+mod setting;
+mod study;
+
+pub use lists::{Checked, Engine, InputError, Origin, RecordedRun, RecordingEntry, ScenarioEntry};
+pub use page::{
+    Acknowledge, Change, Empty, Json, Layers, LoggedChange, Open, PageMessage, Play, Seek, Select,
+    Step, StudyMember,
+};
+pub use schema::{brain_schema, page_schema};
+pub use server::{
+    Ended, Exported, Inspection, MapPart, Opened, OpenedRecording, OpenedScenario, Refused,
+    RobotView, Saved, Saving, ServerMessage, State,
+};
+pub use setting::{ItemView, KindView, MapView, RingView, SensorView, Setting, Unit, WorldView};
+pub use study::{Standing, StudyProgress, StudyState};

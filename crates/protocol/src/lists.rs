@@ -1,0 +1,102 @@
+//! Entries of the lists that the server gives, and errors of input.
+
+use schemars::JsonSchema;
+use serde::Serialize;
+
+/// A simulator.
+#[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Engine {
+    /// Metres, seconds and joules.
+    Metric,
+    /// The grid simulator of 2003.
+    Classic,
+}
+
+/// Where a scenario is.
+#[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Origin {
+    /// Part of the program.
+    Shipped,
+    /// A file below the server's folder.
+    Folder,
+}
+
+/// A scenario of the gallery.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct ScenarioEntry {
+    /// Its id.
+    pub id: String,
+    /// Its name.
+    pub name: String,
+    /// The simulator that runs it.
+    pub engine: Engine,
+    /// Its summary.
+    pub summary: String,
+    /// Where it is.
+    #[serde(rename = "where")]
+    pub origin: Origin,
+}
+
+/// An error of input.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct InputError {
+    /// The file that contains it.
+    pub file: Option<String>,
+    /// The line of the file, from 1.
+    pub line: Option<u32>,
+    /// The keys from the root, separated by dots.
+    pub path: String,
+    /// The value that was given.
+    pub value: Option<String>,
+    /// What is allowed, as the end of "must be ...".
+    pub allowed: String,
+    /// The nearest allowed name.
+    pub suggestion: Option<String>,
+    /// All of this in one sentence.
+    pub message: String,
+}
+
+/// A scenario that has no errors.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct Checked {
+    /// Its name.
+    pub name: String,
+    /// The simulator that runs it.
+    pub engine: Engine,
+    /// Its summary.
+    pub summary: String,
+}
+
+/// A recording.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct RecordingEntry {
+    /// Its id.
+    pub id: String,
+    /// The size of the file.
+    pub bytes: u64,
+    /// When it was saved, in seconds since 1970.
+    pub saved_at_s: f64,
+    /// The run; null if `error` says what is wrong.
+    pub run: Option<RecordedRun>,
+    /// Why the recording cannot be opened.
+    pub error: Option<String>,
+}
+
+/// The run of a recording.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct RecordedRun {
+    /// The name of its scenario file.
+    pub scenario: String,
+    /// The seed as a decimal number.
+    pub seed: String,
+    /// The number of the run as a decimal number.
+    pub run: String,
+    /// The version that recorded it.
+    pub program: String,
+    /// Its steps; null if the file is truncated.
+    pub steps: Option<u64>,
+    /// Its simulated time; null if the file is truncated.
+    pub length_s: Option<f64>,
+}

@@ -1,0 +1,164 @@
+//! What the page sends to the server of a run.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A message of the page.
+///
+/// `open`, `step`, `seek` and `undo` move the run to a tick, which can take a while. A message that
+/// changes the run meanwhile is carried out on arrival; `pause`, `seek` and `open` take effect at
+/// once.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(tag = "type", rename_all = "snake_case")]
+pub enum PageMessage {
+    /// Open a run, paused at a tick.
+    Open(Open),
+    /// Play the run.
+    Play(Play),
+    /// Pause the run.
+    Pause {},
+    /// Take steps, and pause.
+    Step(Step),
+    /// Move to a tick, and pause there.
+    Seek(Seek),
+    /// Set a value of the scenario from now on.
+    Change(Change),
+    /// Remove the last change: the run is at the same tick as if the change had not been made.
+    Undo {},
+    /// Save the run up to its latest tick as a recording.
+    Save {},
+    /// Cancel the recording that is being saved.
+    CancelSave {},
+    /// Request the scenario as it is now.
+    Export {},
+    /// Select the robot that states and maps describe.
+    Select(Select),
+    /// Select what frames are sent with.
+    Layers(Layers),
+    /// Acknowledge that a frame has been drawn, and all before it. At most three frames are not
+    /// acknowledged.
+    Acknowledge(Acknowledge),
+}
+
+/// A message without content.
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Empty {}
+
+/// Which run to open; exactly one of `scenario`, `text`, `study` and `recording` is given.
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Open {
+    /// A scenario by its id in the gallery.
+    pub scenario: Option<String>,
+    /// The text of a scenario, TOML.
+    pub text: Option<String>,
+    /// A configuration of a study: the run is the one that the study has.
+    pub study: Option<StudyMember>,
+    /// A recording by its id.
+    pub recording: Option<String>,
+    /// The seed as a decimal number; by default that of the study, or 0. A recording has its own.
+    #[schemars(regex(pattern = r"^[0-9]{1,20}$"))]
+    pub seed: Option<String>,
+    /// The number of the run as a decimal number; 0 by default. A recording has its own.
+    #[schemars(regex(pattern = r"^[0-9]{1,20}$"))]
+    pub run: Option<String>,
+    /// Changes to make when the run reaches their ticks; by default those of the recording.
+    pub changes: Option<Vec<LoggedChange>>,
+    /// The tick to move to.
+    #[schemars(range(min = 0, max = 9_007_199_254_740_992_u64))]
+    pub tick: u64,
+}
+
+/// A configuration of a study.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StudyMember {
+    /// The id of the study.
+    pub id: String,
+    /// The index of the configuration.
+    #[schemars(range(min = 0, max = 9_007_199_254_740_992_u64))]
+    pub configuration: u64,
+}
+
+/// A change of the scenario: the tick, the path and the new value.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct LoggedChange(pub u64, pub String, pub Json);
+
+/// Any value of JSON.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Json(pub serde_json::Value);
+
+/// The playback speed.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Play {
+    /// A multiple of real time; null for as fast as possible.
+    #[schemars(range(min = 0.01, max = 100_000.0))]
+    pub speed: Option<f64>,
+}
+
+/// How many steps to take.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct Step {
+    /// Steps forward, or backward if negative.
+    #[schemars(range(min = -9_007_199_254_740_992_i64, max = 1_000_000))]
+    pub steps: i64,
+}
+
+impl Default for Step {
+    fn default() -> Self {
+        Self { steps: 1 }
+    }
+}
+
+/// Where to move.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Seek {
+    /// The tick.
+    #[schemars(range(min = 0, max = 9_007_199_254_740_992_u64))]
+    pub tick: u64,
+}
+
+/// A new value of the scenario.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Change {
+    /// The keys from the root, separated by dots, such as `clock.time_limit_s`.
+    pub path: String,
+    /// A value as in the scenario file.
+    pub value: Json,
+    /// Whether it replaces the last change of this path if the run has not gone on since, as while
+    /// a slider is dragged.
+    #[serde(default)]
+    pub replaces_last: bool,
+}
+
+/// The selected robot.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Select {
+    /// Its name, KIND/INDEX; null for none.
+    pub robot: Option<String>,
+}
+
+/// What frames are sent with; nothing at first.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Layers {
+    /// Radio links between robots.
+    pub links: bool,
+    /// Areas that sensors cover.
+    pub footprints: bool,
+}
+
+/// A frame that has been drawn.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Acknowledge {
+    /// The number of the frame.
+    #[schemars(range(min = 0, max = 9_007_199_254_740_992_u64))]
+    pub frame: u64,
+}

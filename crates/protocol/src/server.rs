@@ -1,0 +1,204 @@
+//! What the server sends to the page of a run.
+
+use crate::lists::{Engine, InputError, RecordingEntry};
+use crate::page::Json;
+use crate::setting::Setting;
+use crate::study::StudyProgress;
+use base::geometry::Point;
+use brain::{BeliefState, Command, Percept};
+use schemars::JsonSchema;
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// A message of the server.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+#[serde(tag = "type", rename_all = "snake_case")]
+pub enum ServerMessage {
+    /// A run is open.
+    Opened(Opened),
+    /// What frames are drawn in; sent whenever the scenario has changed.
+    Setting(Setting),
+    /// The state of the run, at most ten times a second.
+    State(Box<State>),
+    /// The belief map of the selected robot, at most four times a second.
+    Map(MapPart),
+    /// The progress of saving a recording.
+    Saving(Saving),
+    /// A recording has been saved or cancelled.
+    Saved(Saved),
+    /// The scenario as it is now.
+    Exported(Exported),
+    /// A message was refused; it changed nothing.
+    Refused(Refused),
+    /// The server is about to disconnect.
+    Ended(Ended),
+    /// The progress of a study.
+    StudyProgress(StudyProgress),
+}
+
+/// A run that has been opened.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct Opened {
+    /// Its scenario.
+    pub scenario: OpenedScenario,
+    /// The seed as a decimal number.
+    pub seed: String,
+    /// The number of the run as a decimal number.
+    pub run: String,
+    /// The recording that it was opened from, if any.
+    pub recording: Option<OpenedRecording>,
+}
+
+/// The scenario of an opened run.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct OpenedScenario {
+    /// Its id in the gallery, if it was opened by that.
+    pub id: Option<String>,
+    /// Its name.
+    pub name: String,
+    /// The simulator that runs it.
+    pub engine: Engine,
+    /// Its summary.
+    pub summary: String,
+    /// The time limit of a run.
+    pub time_limit_s: f64,
+}
+
+/// The recording of an opened run.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct OpenedRecording {
+    /// Its id.
+    pub id: String,
+    /// The version that recorded it.
+    pub program: String,
+}
+
+/// The state of a run at a moment.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct State {
+    /// The current tick.
+    pub tick: u64,
+    /// The last tick that was reached or recorded.
+    pub latest_tick: u64,
+    /// The simulated time.
+    pub time_s: f64,
+    /// A hash of the state: 16 hexadecimal digits.
+    pub hash: String,
+    /// Whether the run is playing.
+    pub is_playing: bool,
+    /// The requested speed as a multiple of real time; null for as fast as possible.
+    pub speed: Option<f64>,
+    /// The measured speed as a multiple of real time.
+    pub measured_speed: f64,
+    /// The tick that the run is moving to; null unless it is seeking one.
+    pub target_tick: Option<u64>,
+    /// Whether the run is over.
+    pub is_over: bool,
+    /// The first tick at which the run was found to differ from its recording.
+    pub mismatch_tick: Option<u64>,
+    /// The outcome if the run ended now: values by column.
+    pub outcome: BTreeMap<String, Json>,
+    /// What the selected robot perceives, decides and believes; null if there is no such robot.
+    pub inspection: Option<Inspection>,
+    /// What else the simulator knows of the selected robot.
+    pub robot: Option<RobotView>,
+}
+
+/// What a robot perceived and decided in its last step, and what it believes.
+///
+/// All but `belief_state` is null if its brain has not stepped since it was selected.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct Inspection {
+    /// The name of the robot, KIND/INDEX.
+    pub robot: String,
+    /// The tick before that step.
+    pub tick: Option<u64>,
+    /// What it perceived.
+    pub percept: Option<Percept>,
+    /// What it decided.
+    pub command: Option<Command>,
+    /// The index of the behaviour in control; null if none is, or if all are blended.
+    pub leading: Option<u32>,
+    /// For each behaviour, how much longer it keeps control.
+    pub holds_s: Option<Vec<f64>>,
+    /// What it believes; null if it has no beliefs.
+    pub belief_state: Option<BeliefState>,
+}
+
+/// A part of the belief map of a robot: a rectangle of cells; all others have not changed. The first
+/// part of a robot contains all cells.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct MapPart {
+    /// The name of the robot, KIND/INDEX.
+    pub robot: String,
+    /// The lower left corner of the map.
+    pub corner: Point,
+    /// The side of a cell.
+    pub cell_m: f64,
+    /// Columns of the map.
+    pub columns: u32,
+    /// Rows of the map.
+    pub rows: u32,
+    /// The first column and row of the rectangle.
+    pub from: [u32; 2],
+    /// Columns and rows of the rectangle.
+    pub size: [u32; 2],
+    /// Base64 of a byte a cell, the lowest row first: 0 to 100 percent occupied, 255 unknown.
+    pub occupancy: String,
+    /// Base64 of a byte a cell: 0 to 100 percent that an item there has not been seen.
+    pub unseen: String,
+}
+
+/// What a simulator knows of a robot, in words.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct RobotView {
+    /// The name of the robot, KIND/INDEX.
+    pub name: String,
+    /// Labels and values.
+    pub facts: Vec<[String; 2]>,
+    /// Outlines of the cells that it would examine if it decided now.
+    pub examined_cells: Vec<Vec<Point>>,
+}
+
+/// The progress of saving a recording.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct Saving {
+    /// Steps that are saved.
+    pub done: u64,
+    /// Steps in all.
+    pub steps: u64,
+}
+
+/// A recording that has been saved.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct Saved {
+    /// The recording; null if it was cancelled.
+    pub recording: Option<RecordingEntry>,
+}
+
+/// A scenario as a file.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct Exported {
+    /// Its text, TOML.
+    pub text: String,
+}
+
+/// A message that was refused.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct Refused {
+    /// The type of the message.
+    pub about: String,
+    /// The path of a refused change.
+    pub path: Option<String>,
+    /// What is wrong.
+    pub errors: Vec<InputError>,
+}
+
+/// Why the server disconnects.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct Ended {
+    /// `idle` or `full`.
+    pub reason: String,
+    /// The same for people.
+    pub message: String,
+}

@@ -1,0 +1,31 @@
+//! Messages of the page that cannot be decoded: what is wrong with them.
+
+use crate::brain::checked;
+use crate::error::input_error;
+use base::error::InputErrors;
+use protocol::{Acknowledge, Change, Empty, Layers, Open, Play, Seek, Select, Step};
+use pyo3::prelude::*;
+use schemars::JsonSchema;
+use serde::de::DeserializeOwned;
+
+/// Raises what is wrong with a message of the page, if anything: a dict without its `type`.
+#[pyfunction]
+pub(crate) fn check_page_message(kind: &str, message: &Bound<PyAny>) -> PyResult<()> {
+    match kind {
+        "open" => check::<Open>(kind, message),
+        "play" => check::<Play>(kind, message),
+        "step" => check::<Step>(kind, message),
+        "seek" => check::<Seek>(kind, message),
+        "change" => check::<Change>(kind, message),
+        "select" => check::<Select>(kind, message),
+        "layers" => check::<Layers>(kind, message),
+        "acknowledge" => check::<Acknowledge>(kind, message),
+        _ => check::<Empty>(kind, message),
+    }
+}
+
+fn check<T: DeserializeOwned + JsonSchema>(kind: &str, message: &Bound<PyAny>) -> PyResult<()> {
+    let read = checked::<T>(kind, message)?;
+    read.map(drop)
+        .map_err(|errors| input_error(&InputErrors(errors), ""))
+}

@@ -1,0 +1,1 @@
+"""Types of brains and of the page's messages, generated from the Rust types by `make schemas`."""
