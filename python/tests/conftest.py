@@ -7,8 +7,8 @@ from pathlib import Path
 import dask_cluster
 import pytest
 from dask_cluster import Cluster
+from page_client import OWN, WS, Page
 from starlette.testclient import TestClient
-from watching import OWN, WS, Page
 
 from agent_economy.server import Workspace, app
 

@@ -1,4 +1,4 @@
-"""What lies over frames: who hears whom, and what sensors cover."""
+"""Overlays of frames: radio links and the areas that sensors cover."""
 
 import asyncio
 import json
@@ -17,7 +17,7 @@ from agent_economy.server.runs.display import MAX_IN_FLIGHT
 from agent_economy.server.runs.session import Session
 from agent_economy.server.transport import ConnectionClosedError
 
-Said = dict[str, Any]
+Message = dict[str, Any]
 
 Corners = list[list[float]]
 """Of an outline: bearings in radians and distances in metres."""
@@ -53,37 +53,38 @@ sensors.camera = {{ kind = "items", range_m = 3, fov_deg = 90 }}
 
 
 class Page:
-    """A page that says one thing after the other, each once the one before is done at its tick."""
+    """A page that sends messages in order, each when the one before has reached its tick."""
 
-    def __init__(self, script: Sequence[tuple[Said, int]], *, draws: bool = True) -> None:
-        """Begin with the first thing to be said."""
+    def __init__(self, script: Sequence[tuple[Message, int]], *, draws: bool = True) -> None:
+        """Begin with the first message."""
         self.script, self.draws = iter(script), draws
-        self.sent: list[bytes | Said] = []
-        self.said: asyncio.Queue[Said | None] = asyncio.Queue()
-        self._say_next()
+        self.sent: list[bytes | Message] = []
+        self.outgoing: asyncio.Queue[Message | None] = asyncio.Queue()
+        self._send_next()
 
-    def _say_next(self) -> None:
-        said, self.tick = next(self.script, (None, -1))
-        self.said.put_nowait(said)
+    def _send_next(self) -> None:
+        message, self.tick = next(self.script, (None, -1))
+        self.outgoing.put_nowait(message)
 
     async def receive(self) -> str:
-        """Say what is next; go when all is said."""
-        said = await self.said.get()
-        if said is None:
+        """Return the next message; disconnect after the last one."""
+        message = await self.outgoing.get()
+        if message is None:
             raise ConnectionClosedError
-        return json.dumps(said)
+        return json.dumps(message)
 
-    async def send(self, said: Any) -> None:
-        """Keep it, and go on once what was said is done."""
-        self.sent.append(said)
-        if said["type"] == "refused" or (said["type"] == "state" and said["tick"] == self.tick):
-            self._say_next()
+    async def send(self, message: Any) -> None:
+        """Keep a message of the server, and send the next one when the tick is reached."""
+        self.sent.append(message)
+        is_reached = message["type"] == "state" and message["tick"] == self.tick
+        if is_reached or message["type"] == "refused":
+            self._send_next()
 
     async def send_bytes(self, frame: bytes) -> None:
-        """Keep it, and say of frames that they are drawn."""
+        """Keep a frame or an overlay, and acknowledge frames."""
         self.sent.append(frame)
         if self.draws and kind_of(frame) == FRAME:
-            self.said.put_nowait({"type": "acknowledge", "frame": number_of(frame)})
+            self.outgoing.put_nowait({"type": "acknowledge", "frame": number_of(frame)})
 
 
 def kind_of(sent: bytes) -> int:
@@ -94,8 +95,10 @@ def number_of(sent: bytes) -> int:
     return int(struct.unpack_from("<I", sent, 28 if kind_of(sent) == FRAME else 4)[0])
 
 
-def served(folder: Path, script: Sequence[tuple[Said, int]], *, draws: bool = True) -> list[bytes]:
-    """Return the bytes that a page is sent which says all this."""
+def served(
+    folder: Path, script: Sequence[tuple[Message, int]], *, draws: bool = True
+) -> list[bytes]:
+    """Return the frames and overlays that a page with this script receives."""
     page = Page(script, draws=draws)
 
     async def serve() -> None:
@@ -106,13 +109,13 @@ def served(folder: Path, script: Sequence[tuple[Said, int]], *, draws: bool = Tr
     return [sent for sent in page.sent if isinstance(sent, bytes)]
 
 
-def opening(scenario: str, tick: int = 0) -> tuple[Said, int]:
+def opening(scenario: str, tick: int = 0) -> tuple[Message, int]:
     """Return an `open`, of the text of a scenario or of one that ships."""
     key = "text" if "\n" in scenario else "scenario"
     return {"type": "open", key: scenario, "seed": "7", "tick": tick}, tick
 
 
-def layers(*, links: bool, footprints: bool) -> Said:
+def layers(*, links: bool, footprints: bool) -> Message:
     return {"type": "layers", "links": links, "footprints": footprints}
 
 
@@ -129,7 +132,7 @@ def read(overlay: bytes) -> tuple[list[list[int]], list[tuple[int, int, float, C
     return links.tolist(), footprints
 
 
-def test_frames_come_with_an_overlay_as_long_as_it_is_asked_for(tmp_path: Path) -> None:
+def test_frames_have_an_overlay_while_a_layer_is_on(tmp_path: Path) -> None:
     script = [
         opening("open-field"),
         ({"type": "step", "steps": 5}, 5),
@@ -154,7 +157,7 @@ def test_frames_come_with_an_overlay_as_long_as_it_is_asked_for(tmp_path: Path) 
         assert not footprints
 
 
-def test_an_overlay_is_of_the_moment_of_its_frame(tmp_path: Path) -> None:
+def test_an_overlay_shows_the_tick_of_its_frame(tmp_path: Path) -> None:
     script = [
         opening("open-field", 40),
         ({"type": "select", "robot": "rover/0"}, 40),
@@ -183,17 +186,19 @@ def test_an_overlay_is_of_the_moment_of_its_frame(tmp_path: Path) -> None:
 
 
 def test_a_wall_cuts_links_and_footprints(tmp_path: Path) -> None:
-    asking = (layers(links=True, footprints=True), 0)
-    links, footprints = read(served(tmp_path, [opening(field(obstacles=WALL)), asking])[-2])
+    request_overlays = (layers(links=True, footprints=True), 0)
+    links, footprints = read(
+        served(tmp_path, [opening(field(obstacles=WALL)), request_overlays])[-2]
+    )
     assert links == []
     (nearest,) = (min(at[1] for at in corners) for robot, *_, corners in footprints if robot == 0)
     assert nearest < 1.5
-    links, footprints = read(served(tmp_path, [opening(field()), asking])[-2])
+    links, footprints = read(served(tmp_path, [opening(field()), request_overlays])[-2])
     assert links == [[0, 1, 1]]
     assert [at[1] for *_, corners in footprints for at in corners] == [3] * 4
 
 
-def test_of_many_robots_only_the_selected_one_is_told_of(tmp_path: Path) -> None:
+def test_overlays_of_large_teams_contain_the_selected_robot_only(tmp_path: Path) -> None:
     script = [
         opening(field(301)),
         (layers(links=True, footprints=True), 0),
@@ -211,7 +216,7 @@ def test_of_many_robots_only_the_selected_one_is_told_of(tmp_path: Path) -> None
     assert len(all_of_300[0]) > len(selected[0])
 
 
-def test_links_are_no_more_than_4000_with_all_of_the_selected_robot(tmp_path: Path) -> None:
+def test_at_most_4000_links_are_sent_with_all_of_the_selected_robot(tmp_path: Path) -> None:
     script = [
         opening(field(300, range_m=100)),
         (layers(links=True, footprints=False), 0),
@@ -243,7 +248,7 @@ def test_a_page_that_draws_nothing_gets_no_more_overlays_than_frames(tmp_path: P
     assert [kind_of(each) for each in sent].count(OVERLAY) == MAX_IN_FLIGHT - 1
 
 
-def test_layers_that_are_none_are_refused_in_words(tmp_path: Path) -> None:
+def test_invalid_layers_are_refused_with_a_reason(tmp_path: Path) -> None:
     page = Page([({"type": "layers", "links": 1}, 0)])
 
     async def serve() -> None:
@@ -257,24 +262,24 @@ def test_layers_that_are_none_are_refused_in_words(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("name", ["open-field", "flock"])
-def test_to_ask_who_hears_and_sees_what_changes_nothing(name: str) -> None:
-    asked, not_asked = (ae.Simulation(name, 3) for _ in range(2))
+def test_queries_of_links_and_footprints_change_nothing(name: str) -> None:
+    queried, other = (ae.Simulation(name, 3) for _ in range(2))
     for _ in range(40):
-        asked.step(5)
-        not_asked.step(5)
-        assert asked.links().shape[1] == 3
-        for robot in asked.robots:
-            asked.footprints(robot)
-        assert asked.hash == not_asked.hash
-    assert asked.outcome() == not_asked.outcome()
+        queried.step(5)
+        other.step(5)
+        assert queried.links().shape[1] == 3
+        for robot in queried.robots:
+            queried.footprints(robot)
+        assert queried.hash == other.hash
+    assert queried.outcome() == other.outcome()
 
 
-def test_links_of_one_are_its_own_and_who_is_not_there_is_said() -> None:
+def test_links_of_a_robot_are_its_own_and_unknown_robots_are_rejected() -> None:
     simulation = ae.Simulation(ae.Scenario.loads(field()), 7)
     assert simulation.links().dtype == np.uint32
     assert simulation.links("rover/1").tolist() == [[0, 1, 1]]
     camera = simulation.footprints("rover/0")["camera"]
     assert camera.bearings_rad.shape == camera.ranges_m.shape
-    for ask in (simulation.links, simulation.footprints):
+    for query in (simulation.links, simulation.footprints):
         with pytest.raises(ae.InputError, match="rover/9"):
-            ask("rover/9")
+            query("rover/9")

@@ -126,7 +126,7 @@ def test_a_playing_run_follows_the_clock_until_it_is_paused() -> None:
     assert story.at() == (60, Paused())
 
 
-def test_the_next_step_of_a_playing_run_is_waited_for() -> None:
+def test_a_playing_run_waits_for_its_next_step() -> None:
     story = Story()
     story.say(Play(1.0))
     assert story.player.wait_s(story.now_s) == pytest.approx(STEP_S)
@@ -135,7 +135,7 @@ def test_the_next_step_of_a_playing_run_is_waited_for() -> None:
     assert story.player.wait_s(story.now_s) == 0.0
 
 
-def test_a_run_without_a_speed_goes_as_far_as_each_slice_allows_and_pauses_at_its_end() -> None:
+def test_a_run_at_full_speed_uses_its_time_slices_and_pauses_at_its_end() -> None:
     story = Story(FakeRun(last_tick=100))
     story.say(Play(None))
     story.advance()
@@ -154,7 +154,7 @@ def test_a_run_that_lags_does_not_catch_up_more_than_a_quarter_of_a_second() -> 
     assert story.run.tick == 13
 
 
-def test_a_change_of_speed_goes_on_from_the_current_tick() -> None:
+def test_a_change_of_speed_continues_from_the_current_tick() -> None:
     story = Story()
     story.say(Play(1.0))
     story.wait(2.0)
@@ -163,7 +163,7 @@ def test_a_change_of_speed_goes_on_from_the_current_tick() -> None:
     assert story.run.tick == 120
 
 
-def test_steps_add_up_while_earlier_ones_are_on_their_way_and_end_playback() -> None:
+def test_pending_steps_add_up_and_end_playback() -> None:
     story = Story()
     story.say(Play(1.0), *[Step(30)] * 5)
     assert story.at() == (0, Seeking(150))
@@ -218,7 +218,7 @@ def test_of_deferred_changes_that_replace_each_other_only_the_last_is_made() -> 
     assert story.run.changes == [100]
 
 
-def test_undoing_returns_to_the_tick_and_goes_on_playing() -> None:
+def test_undoing_returns_to_the_tick_and_continues_playback() -> None:
     story = Story(tick=100)
     story.say(Change("a", 1, replaces_last=False), Play(1.0))
     story.wait(10.0)
@@ -272,7 +272,7 @@ def test_opening_another_run_begins_with_its_own_clock() -> None:
     assert (story.player.clock.speed, story.player.clock.measured_speed) == (1.0, 0.0)
 
 
-def test_messages_are_accepted_until_as_many_wait_as_there_is_room_for() -> None:
+def test_messages_are_accepted_until_the_queue_is_full() -> None:
     story = Story()
     story.say(Step(500))
     for value in range(256):

@@ -1,4 +1,4 @@
-"""What the page's server answers, and whom."""
+"""The server of the page: its responses, and the clients that it admits."""
 
 import asyncio
 import base64
@@ -12,9 +12,9 @@ from typing import Any
 
 import numpy as np
 import pytest
+from page_client import HEADER, OWN, WS, Page
 from starlette.testclient import TestClient
 from starlette.websockets import WebSocketDisconnect
-from watching import HEADER, OWN, WS, Page
 
 import agent_economy as ae
 from agent_economy.server import Workspace, app
@@ -26,7 +26,7 @@ from agent_economy.server.runs.thumbnail import ITEM, ROBOT, WALL
 from agent_economy.server.transport import ConnectionClosedError
 
 
-def test_the_gallery_has_what_ships_and_what_is_in_the_folder(
+def test_the_gallery_lists_bundled_scenarios_and_those_of_the_folder(
     client: TestClient, tmp_path: Path
 ) -> None:
     text = ae.Scenario.load("search").source.text
@@ -50,23 +50,23 @@ def test_the_gallery_has_what_ships_and_what_is_in_the_folder(
     assert not {"other.toml", ".hidden/field.toml"} & rows.keys()
 
 
-def test_a_scenario_with_faults_is_in_the_gallery_and_tells_them_when_it_is_opened(
+def test_an_invalid_scenario_is_listed_and_its_errors_are_reported_when_it_is_opened(
     client: TestClient, page: Page, tmp_path: Path
 ) -> None:
     (tmp_path / "broken.toml").write_text('engine = "metric"\nsummary = "Mine."\n')
     rows = {row["id"]: row for row in client.get("/api/scenarios").json()}
     assert rows["broken.toml"]["summary"] == "Mine."
-    page.say("open", scenario="broken.toml")
-    assert "clock is missing" in page.until("refused")["errors"][0]["message"]
+    page.send("open", scenario="broken.toml")
+    assert "clock is missing" in page.wait_for("refused")["errors"][0]["message"]
 
 
 @pytest.mark.parametrize("name", ["classic", "search", "open-field", "flock"])
-def test_each_scenario_has_a_picture(client: TestClient, name: str) -> None:
-    told = client.get("/api/pictures", params={"scenario": name})
-    assert told.status_code == 200
-    assert told.headers["content-type"] == "image/svg+xml"
-    assert told.text.startswith("<svg")
-    assert "polygon" in told.text
+def test_each_scenario_has_a_thumbnail(client: TestClient, name: str) -> None:
+    response = client.get("/api/pictures", params={"scenario": name})
+    assert response.status_code == 200
+    assert response.headers["content-type"] == "image/svg+xml"
+    assert response.text.startswith("<svg")
+    assert "polygon" in response.text
 
 
 @pytest.mark.parametrize("name", ["../secret.toml", "/etc/passwd", "link.toml", "nothing", "a\0b"])
@@ -76,87 +76,90 @@ def test_nothing_outside_of_the_folder_is_opened(
     secret = tmp_path.parent / "secret.toml"
     secret.write_text(ae.Scenario.load("search").source.text)
     (tmp_path / "link.toml").symlink_to(secret)
-    told = client.get("/api/pictures", params={"scenario": name})
-    assert told.status_code == 404
-    assert "one of the gallery" in told.json()["errors"][0]["message"]
+    response = client.get("/api/pictures", params={"scenario": name})
+    assert response.status_code == 404
+    assert "one of the gallery" in response.json()["errors"][0]["message"]
 
 
 def test_a_map_outside_of_the_folder_is_not_read(client: TestClient) -> None:
     text = ae.Scenario.load("open-field").source.text
-    told = client.post("/api/check", content=text.replace('"open-field.yaml"', '"../map.yaml"'))
-    assert told.status_code == 422
-    assert "not below the folder" in told.text
+    response = client.post("/api/check", content=text.replace('"open-field.yaml"', '"../map.yaml"'))
+    assert response.status_code == 422
+    assert "not below the folder" in response.text
 
 
-def test_faults_of_a_text_are_told_with_their_lines(client: TestClient) -> None:
+def test_errors_of_a_scenario_are_reported_with_their_lines(client: TestClient) -> None:
     text = ae.Scenario.load("search").source.text
     assert client.post("/api/check", content=text).json()["engine"] == "metric"
     wrong = text.replace("time_limit_s = 120", "time_limit_s = -1").replace(
         "count = 4", "cuont = 4", 1
     )
-    faults = client.post("/api/check", content=wrong).json()["errors"]
-    told = {fault["path"].split(".")[-1]: fault for fault in faults}
+    errors = client.post("/api/check", content=wrong).json()["errors"]
+    response = {error["path"].split(".")[-1]: error for error in errors}
     line = 1 + wrong[: wrong.index("time_limit_s = -1")].count("\n")
-    assert told["time_limit_s"]["line"] == line
-    assert told["cuont"]["suggestion"] == "count"
+    assert response["time_limit_s"]["line"] == line
+    assert response["cuont"]["suggestion"] == "count"
 
 
 @pytest.mark.parametrize("content", [b"\xff\xfe", b"x" * (MAX_BYTES + 1), b"= 3", b""])
-def test_what_is_no_scenario_is_told(client: TestClient, content: bytes) -> None:
-    told = client.post("/api/check", content=content)
-    assert told.status_code in (413, 422)
-    assert told.json()["errors"][0]["message"]
+def test_content_that_is_not_a_scenario_is_rejected(client: TestClient, content: bytes) -> None:
+    response = client.post("/api/check", content=content)
+    assert response.status_code in (413, 422)
+    assert response.json()["errors"][0]["message"]
 
 
 def test_a_run_is_opened_played_and_paused(page: Page) -> None:
     page.open()
-    page.say("play", speed=None)
-    over = page.until("state", is_over=True, is_playing=False)
+    page.send("play", speed=None)
+    over = page.wait_for("state", is_over=True, is_playing=False)
     assert over["outcome"]["complete"]
     expected = ae.run("search-beliefs", seed=7)
     assert over["outcome"]["time_s"] == expected.time_s
-    page.say("seek", tick=50)
+    page.send("seek", tick=50)
     simulation = ae.Simulation("search-beliefs", 7)
     simulation.step(50)
-    told = page.until("state", tick=50)
-    assert told["hash"] == f"{simulation.hash:016x}"
-    assert told["latest_tick"] == over["tick"]
+    response = page.wait_for("state", tick=50)
+    assert response["hash"] == f"{simulation.hash:016x}"
+    assert response["latest_tick"] == over["tick"]
 
 
-def test_a_frame_is_of_where_the_robots_are(page: Page) -> None:
+def test_a_frame_contains_the_poses_of_the_robots(page: Page) -> None:
     page.open(tick=30)
     simulation = ae.Simulation("search-beliefs", 7)
     simulation.step(30)
     kind, generation, tick, robots, time_s, items, _ = HEADER.unpack_from(page.frames[-1])
     assert (kind, tick, robots, items) == (1, 30, 4, 4)
-    assert generation == [each for each in page.said if each["type"] == "setting"][-1]["generation"]
+    assert (
+        generation
+        == [each for each in page.received if each["type"] == "setting"][-1]["generation"]
+    )
     assert time_s == pytest.approx(3.0)
     drawn = np.frombuffer(page.frames[-1], np.float32, 16, HEADER.size).reshape(4, 4)
     assert drawn[:, :3] == pytest.approx(simulation.poses.astype(np.float32))
     assert len(page.frames[-1]) == HEADER.size + 16 * robots + items
 
 
-def test_a_classic_run_is_opened_played_changed_and_taken_again(page: Page) -> None:
+def test_a_classic_run_is_opened_played_changed_and_replayed(page: Page) -> None:
     page.open(scenario="classic", tick=30)
-    page.say("select", robot="wanderer/1")
-    told = page.until("state")
-    assert told["inspection"] is None
-    assert dict(told["robot"]["facts"])["Next decision"] == "in 4 paints"
-    assert len(told["robot"]["examined_cells"]) == 6
-    page.say("change", path="robots.wanderer.count", value=7)
-    setting = page.until("setting")
+    page.send("select", robot="wanderer/1")
+    response = page.wait_for("state")
+    assert response["inspection"] is None
+    assert dict(response["robot"]["facts"])["Next decision"] == "in 4 paints"
+    assert len(response["robot"]["examined_cells"]) == 6
+    page.send("change", path="robots.wanderer.count", value=7)
+    setting = page.wait_for("setting")
     assert len(setting["robots"]) == setting["kinds"][0]["count"] == 7
-    page.say("play", speed=None)
-    over = page.until("state", is_over=True, is_playing=False)
+    page.send("play", speed=None)
+    over = page.wait_for("state", is_over=True, is_playing=False)
     assert over["outcome"]["complete"]
     again = page.open(scenario="classic", changes=setting["changes"], tick=over["tick"])
     assert (again["hash"], again["outcome"]) == (over["hash"], over["outcome"])
 
 
-def test_a_classic_run_is_the_one_that_run_gives(page: Page) -> None:
+def test_a_classic_run_is_the_same_as_that_of_run(page: Page) -> None:
     page.open(scenario="classic", seed="3")
-    page.say("play", speed=None)
-    over = page.until("state", is_over=True, is_playing=False)
+    page.send("play", speed=None)
+    over = page.wait_for("state", is_over=True, is_playing=False)
     assert over["outcome"] == ae.run("classic", seed=3).row
 
 
@@ -171,7 +174,7 @@ def test_a_frame_of_a_classic_run_is_its_window_with_y_upwards(page: Page) -> No
     assert drawn[:, 2] == pytest.approx(np.radians(90 - np.array(team["heading_deg"])))
     looks = ["blue", "yellow", "red"]
     assert drawn[:, 3].tolist() == [looks.index(colour) for colour in team["colour"]]
-    setting = next(each for each in page.said if each["type"] == "setting")
+    setting = next(each for each in page.received if each["type"] == "setting")
     assert setting["world"] == {"size": [500, 500], "periodic": False, "unit": "px", "cell": 20}
     assert setting["items"][0] == {
         "kind": "item",
@@ -185,24 +188,24 @@ def test_a_frame_of_a_classic_run_is_its_window_with_y_upwards(page: Page) -> No
     assert cells[7 * 25 + 3] == 2
 
 
-def test_a_classic_run_is_exported_as_the_scenario_that_it_came_to(page: Page) -> None:
+def test_a_classic_run_is_exported_as_its_current_scenario(page: Page) -> None:
     page.open(scenario="classic", tick=20)
-    page.say("change", path="robots.wanderer.count", value=9)
-    page.until("setting")
-    page.say("export")
-    text = page.until("exported")["text"]
+    page.send("change", path="robots.wanderer.count", value=9)
+    page.wait_for("setting")
+    page.send("export")
+    text = page.wait_for("exported")["text"]
     assert ae.Scenario.loads(text).robots == {"wanderer": 9}
 
 
 def test_the_clock_of_a_classic_run_can_be_changed_while_it_plays(page: Page) -> None:
     page.open(scenario="classic", tick=56)
-    assert page.said[-1]["time_s"] == 1
-    page.say("play", speed=1)
-    page.say("change", path="clock.paints_per_s", value=560)
-    assert page.until("setting")["step_s"] == 1 / 560
-    page.say("pause")
-    told = page.until("state", is_playing=False)
-    assert told["time_s"] == pytest.approx(told["tick"] / 560)
+    assert page.received[-1]["time_s"] == 1
+    page.send("play", speed=1)
+    page.send("change", path="clock.paints_per_s", value=560)
+    assert page.wait_for("setting")["step_s"] == 1 / 560
+    page.send("pause")
+    response = page.wait_for("state", is_playing=False)
+    assert response["time_s"] == pytest.approx(response["tick"] / 560)
 
 
 @pytest.mark.parametrize("engine", ["metric", "classic"])
@@ -211,13 +214,13 @@ def test_each_engine_has_a_schema(client: TestClient, engine: str) -> None:
     assert schema["properties"]["engine"]["const"] == engine
 
 
-def test_of_other_engines_there_is_no_schema(client: TestClient) -> None:
-    told = client.get("/api/schema", params={"engine": "../secret"})
-    assert told.status_code == 404
-    assert "metric, classic" in told.json()["errors"][0]["message"]
+def test_unknown_engines_have_no_schema(client: TestClient) -> None:
+    response = client.get("/api/schema", params={"engine": "../secret"})
+    assert response.status_code == 404
+    assert "metric, classic" in response.json()["errors"][0]["message"]
 
 
-def test_the_picture_of_2003_has_its_walls_and_its_items(client: TestClient) -> None:
+def test_the_thumbnail_of_2003_contains_its_walls_and_items(client: TestClient) -> None:
     svg = client.get("/api/pictures", params={"scenario": "classic"}).text
     walls, items = (re.search(f'd="([^"]*)" fill="{colour}"', svg) for colour in (WALL, ITEM))
     assert walls
@@ -228,89 +231,89 @@ def test_the_picture_of_2003_has_its_walls_and_its_items(client: TestClient) -> 
     assert svg.count(ROBOT) == 4
 
 
-def test_where_an_item_can_be_found_is_told_and_follows_the_contact(page: Page) -> None:
+def test_contact_outlines_of_an_item_follow_the_contact_rule(page: Page) -> None:
     page.open(scenario="classic")
-    page.say("change", path="contact", value="neighbour")
-    contact = page.until("setting")["items"][0]["contact"]
+    page.send("change", path="contact", value="neighbour")
+    contact = page.wait_for("setting")["items"][0]["contact"]
     # A robot on the item's own cell would be at the upper left corner of the square drawn.
     assert len(contact) == 9
     assert [[50, 150], [70, 150], [70, 170], [50, 170]] in contact
 
 
-def test_steps_go_forth_and_back(page: Page) -> None:
+def test_steps_go_forward_and_back(page: Page) -> None:
     page.open()
-    page.say("step", steps=3)
-    page.until("state", tick=3)
-    page.say("step", steps=-2)
-    page.until("state", tick=1)
-    page.say("step", steps=-9)
-    page.until("state", tick=0)
+    page.send("step", steps=3)
+    page.wait_for("state", tick=3)
+    page.send("step", steps=-2)
+    page.wait_for("state", tick=1)
+    page.send("step", steps=-9)
+    page.wait_for("state", tick=0)
 
 
-def test_steps_said_fast_are_all_taken(page: Page) -> None:
+def test_steps_requested_in_quick_succession_are_all_taken(page: Page) -> None:
     page.open()
     for _ in range(20):
-        page.say("step", steps=1)
-    page.until("state", tick=20)
+        page.send("step", steps=1)
+    page.wait_for("state", tick=20)
 
 
-def test_a_change_in_the_run_is_seen_and_its_log_gives_the_run_again(page: Page) -> None:
+def test_a_change_is_displayed_and_its_log_replays_the_run(page: Page) -> None:
     page.open(tick=40)
-    page.say("change", path="robots.rover.count", value=7)
-    setting = page.until("setting")
+    page.send("change", path="robots.rover.count", value=7)
+    setting = page.wait_for("setting")
     assert setting["kinds"][0]["count"] == len(setting["robots"]) == 7
-    page.say("step", steps=20)
-    told = page.until("state", tick=60)
+    page.send("step", steps=20)
+    response = page.wait_for("state", tick=60)
     again = page.open(changes=setting["changes"], tick=60)
-    assert again["hash"] == told["hash"]
-    page.say("undo")
-    assert page.until("setting", changes=[])["log"] == []
+    assert again["hash"] == response["hash"]
+    page.send("undo")
+    assert page.wait_for("setting", changes=[])["log"] == []
     simulation = ae.Simulation("search-beliefs", 7)
     simulation.step(60)
-    assert page.until("state", tick=60)["hash"] == f"{simulation.hash:016x}"
+    assert page.wait_for("state", tick=60)["hash"] == f"{simulation.hash:016x}"
 
 
-def test_kinds_that_fly_are_told_from_those_that_do_not(page: Page) -> None:
+def test_settings_distinguish_flying_kinds(page: Page) -> None:
     page.open(scenario="search")
-    page.say("change", path="robots.rover.layer", value="air")
-    assert page.until("setting")["kinds"][0]["is_flying"] is True
-    page.say("undo")
-    assert page.until("setting", changes=[])["kinds"][0]["is_flying"] is False
+    page.send("change", path="robots.rover.layer", value="air")
+    assert page.wait_for("setting")["kinds"][0]["is_flying"] is True
+    page.send("undo")
+    assert page.wait_for("setting", changes=[])["kinds"][0]["is_flying"] is False
 
 
-def test_the_mind_of_a_selected_robot_is_told(page: Page) -> None:
+def test_the_state_contains_the_inspection_of_the_selected_robot(page: Page) -> None:
     page.open(tick=30)
-    page.say("select", robot="rover/1")
-    mind = page.until("state")["inspection"]
+    page.send("select", robot="rover/1")
+    inspection = page.wait_for("state")["inspection"]
     simulation = ae.Simulation("search-beliefs", 7)
     simulation.step(30)
     simulation.watch("rover/1")
     decided = simulation.watched()
     assert decided is not None
     expected = {"robot": "rover/1", "belief_state": decided["thoughts"], **decided}
-    assert mind == {key: json.loads(json.dumps(expected[key])) for key in mind}
-    assert mind.keys() | {"thoughts"} == expected.keys()
-    page.say("select", robot="rover/99")
-    assert page.until("state")["inspection"] is None
+    assert inspection == {key: json.loads(json.dumps(expected[key])) for key in inspection}
+    assert inspection.keys() | {"thoughts"} == expected.keys()
+    page.send("select", robot="rover/99")
+    assert page.wait_for("state")["inspection"] is None
 
 
-def test_what_is_told_of_a_map_comes_to_all_of_it(page: Page) -> None:
+def test_the_parts_of_a_map_add_up_to_the_whole_map(page: Page) -> None:
     page.open(tick=30)
-    page.say("select", robot="rover/1")
-    page.until("map", robot="rover/1")
-    for said, tick in (({"type": "step", "steps": 2}, 32), ({"type": "seek", "tick": 20}, 20)):
-        page.socket.send_text(json.dumps(said))
-        page.until("state", tick=tick, is_playing=False)
+    page.send("select", robot="rover/1")
+    page.wait_for("map", robot="rover/1")
+    for message, tick in (({"type": "step", "steps": 2}, 32), ({"type": "seek", "tick": 20}, 20)):
+        page.socket.send_text(json.dumps(message))
+        page.wait_for("state", tick=tick, is_playing=False)
     # A map comes behind the state that it is of.
-    page.say("pause")
-    page.until("state")
-    maps = [said for said in page.said if said["type"] == "map"]
+    page.send("pause")
+    page.wait_for("state")
+    maps = [message for message in page.received if message["type"] == "map"]
     shape = (maps[0]["rows"], maps[0]["columns"])
     believed = {"occupancy": np.zeros(shape, np.int8), "unseen": np.zeros(shape, np.uint8)}
-    for told in maps:
-        (left, low), (columns, rows) = told["from"], told["size"]
+    for response in maps:
+        (left, low), (columns, rows) = response["from"], response["size"]
         for key, cells in believed.items():
-            part = np.frombuffer(base64.b64decode(told[key]), cells.dtype)
+            part = np.frombuffer(base64.b64decode(response[key]), cells.dtype)
             cells[low : low + rows, left : left + columns] = part.reshape(rows, columns)
     simulation = ae.Simulation("search-beliefs", 7)
     simulation.step(20)
@@ -322,21 +325,21 @@ def test_what_is_told_of_a_map_comes_to_all_of_it(page: Page) -> None:
     assert math.prod(maps[1]["size"]) < math.prod(shape) / 2
 
 
-def test_a_robot_without_a_mind_has_a_percept_and_a_command_and_no_map(page: Page) -> None:
+def test_a_robot_without_beliefs_has_a_percept_and_a_command_and_no_map(page: Page) -> None:
     page.open(scenario="search", tick=6)
-    page.say("select", robot="rover/0")
-    mind = page.until("state")["inspection"]
-    assert mind["percept"]["scans"]
-    assert mind["command"]["motion"]
-    assert mind["leading"] is not None
-    assert mind["belief_state"] is None
-    page.say("select", robot=None)
-    assert page.until("state")["inspection"] is None
-    assert not [said for said in page.said if said["type"] == "map"]
+    page.send("select", robot="rover/0")
+    inspection = page.wait_for("state")["inspection"]
+    assert inspection["percept"]["scans"]
+    assert inspection["command"]["motion"]
+    assert inspection["leading"] is not None
+    assert inspection["belief_state"] is None
+    page.send("select", robot=None)
+    assert page.wait_for("state")["inspection"] is None
+    assert not [message for message in page.received if message["type"] == "map"]
 
 
 @pytest.mark.parametrize(
-    ("said", "told"),
+    ("text", "response"),
     [
         ('{"type": "bogus"}', "one of open, play"),
         ('{"type": ["open"]}', "one of open, play"),
@@ -345,7 +348,7 @@ def test_a_robot_without_a_mind_has_a_percept_and_a_command_and_no_map(page: Pag
         ('{"type": "play", "speed": "fast"}', "play.speed"),
         ('{"type": "play", "speed": NaN}', "play.speed"),
         ('{"type": "seek", "tick": 1}', "after an open"),
-        ('{"type": "open"}', "either a scenario or a text"),
+        ('{"type": "open"}', "exactly one of `scenario` and `text`"),
         ('{"type": "open", "scenario": "search", "seed": 7}', "as a string"),
         ('{"type": "open", "scenario": "search", "seed": "99999999999999999999"}', "seed"),
         ('{"type": "open", "scenario": "nothing"}', "one of the gallery"),
@@ -353,46 +356,46 @@ def test_a_robot_without_a_mind_has_a_percept_and_a_command_and_no_map(page: Pag
         (f'{{"type": "open", "recording": "{"a" * 300}.mcap"}}', "one below the folder"),
     ],
 )
-def test_what_a_page_may_not_say_is_refused_in_words(page: Page, said: str, told: str) -> None:
-    page.socket.send_text(said)
-    refused = page.until("refused")
-    assert told in refused["errors"][0]["message"]
+def test_invalid_messages_are_refused_with_a_reason(page: Page, text: str, response: str) -> None:
+    page.socket.send_text(text)
+    refused = page.wait_for("refused")
+    assert response in refused["errors"][0]["message"]
     page.open()
 
 
-@pytest.mark.parametrize("said", ["pause", "cancel_save", "select"])
-def test_what_is_said_before_a_run_is_opened_holds_nobody_up(
-    client: TestClient, page: Page, said: str
+@pytest.mark.parametrize("text", ["pause", "cancel_save", "select"])
+def test_messages_before_a_run_is_opened_block_nothing(
+    client: TestClient, page: Page, text: str
 ) -> None:
-    page.say(said, **({"robot": None} if said == "select" else {}))
+    page.send(text, **({"robot": None} if text == "select" else {}))
     with client.websocket_connect(WS) as other:
         Page(other).open()
     page.open()
 
 
-def test_an_open_that_cannot_be_read_is_refused_as_one(page: Page) -> None:
-    page.say("open", scenario="search", tick=10**20)
-    assert page.until("refused")["about"] == "open"
+def test_an_invalid_open_is_refused_as_an_open(page: Page) -> None:
+    page.send("open", scenario="search", tick=10**20)
+    assert page.wait_for("refused")["about"] == "open"
 
 
-def test_a_page_that_goes_as_it_speaks_leaves_nothing_behind(tmp_path: Path) -> None:
-    said = iter([{"type": "open", "scenario": "search"}, {"type": "pause"}])
+def test_a_page_that_disconnects_while_it_sends_leaves_nothing_behind(tmp_path: Path) -> None:
+    text = iter([{"type": "open", "scenario": "search"}, {"type": "pause"}])
 
     class Hasty:
         def __init__(self) -> None:
             self.has_seen = asyncio.Event()
 
         async def receive(self) -> str:
-            message = next(said, None)
+            message = next(text, None)
             if message is None:
                 raise ConnectionClosedError
             if message["type"] == "pause":
                 await self.has_seen.wait()
             return json.dumps(message)
 
-        async def send(self, told: Any) -> None:
-            if told["type"] == "state":
-                # Not before the run stands and what is said next is waited for.
+        async def send(self, response: Any) -> None:
+            if response["type"] == "state":
+                # After the session has begun to wait for the next message.
                 asyncio.get_running_loop().call_later(0.1, self.has_seen.set)
 
         async def send_bytes(self, frame: bytes) -> None:
@@ -409,33 +412,33 @@ def test_a_page_that_goes_as_it_speaks_leaves_nothing_behind(tmp_path: Path) -> 
 def test_a_change_that_is_not_allowed_changes_nothing(page: Page) -> None:
     before = page.open(tick=10)
     for path, value in [("robots.rover.count", -1), ("clock.step_s", 1), ("a", None)]:
-        page.say("change", path=path, value=value)
-        assert page.until("refused")["path"] in (path, None)
-    page.say("step", steps=0)
-    assert page.until("state")["hash"] == before["hash"]
+        page.send("change", path=path, value=value)
+        assert page.wait_for("refused")["path"] in (path, None)
+    page.send("step", steps=0)
+    assert page.wait_for("state")["hash"] == before["hash"]
 
 
-def test_a_page_that_draws_nothing_gets_three_frames_and_the_run_goes_on(
+def test_a_page_that_draws_nothing_gets_three_frames_and_the_run_continues(
     client: TestClient,
 ) -> None:
     with client.websocket_connect(WS) as socket:
         page = Page(socket, draws=False)
         page.open()
-        page.say("play", speed=0.5)
-        # Refusals are told in any case: so it is known when frames could have come.
+        page.send("play", speed=0.5)
+        # Refusals are response in any case: so it is known when frames could have come.
         waited = 0
         while waited < 30:
             time.sleep(0.02)
-            page.say("bogus")
-            page.until("refused")
+            page.send("bogus")
+            page.wait_for("refused")
             waited += len(page.frames) >= MAX_IN_FLIGHT
         assert len(page.frames) == MAX_IN_FLIGHT
         page.draws = True
-        page.say("acknowledge", frame=MAX_IN_FLIGHT)
-        assert page.until("state")["tick"] > 0
+        page.send("acknowledge", frame=MAX_IN_FLIGHT)
+        assert page.wait_for("state")["tick"] > 0
 
 
-def test_no_more_than_so_many_runs_are_open(client: TestClient) -> None:
+def test_the_number_of_open_runs_is_limited(client: TestClient) -> None:
     sockets = [client.websocket_connect(WS) for _ in range(MAX_SESSIONS)]
     for socket in sockets:
         socket.__enter__()
@@ -465,7 +468,7 @@ def test_no_more_than_so_many_runs_are_open(client: TestClient) -> None:
         ({"host": "["}, False),
     ],
 )
-def test_only_its_own_pages_on_this_machine_are_let_in(
+def test_only_pages_of_this_server_on_this_machine_are_admitted(
     client: TestClient, headers: dict[str, str], *, is_let_in: bool
 ) -> None:
     assert (client.get("/api/scenarios", headers=headers).status_code == 200) == is_let_in
@@ -476,7 +479,7 @@ def test_only_its_own_pages_on_this_machine_are_let_in(
         pass
 
 
-def test_from_elsewhere_a_token_is_needed_and_kept(tmp_path: Path) -> None:
+def test_other_machines_need_a_token_which_is_kept_in_a_cookie(tmp_path: Path) -> None:
     served = app(Workspace(tmp_path), "192.168.0.7", "secret")
     with TestClient(served, "http://192.168.0.7:8765") as client:
         assert client.get("/api/scenarios").status_code == 403
@@ -494,7 +497,7 @@ def test_from_elsewhere_a_token_is_needed_and_kept(tmp_path: Path) -> None:
             pass
 
 
-def test_pages_may_load_nothing_from_elsewhere(client: TestClient) -> None:
+def test_pages_load_nothing_from_other_sites(client: TestClient) -> None:
     headers = client.get("/api/scenarios").headers
     assert "default-src 'self'" in headers["content-security-policy"]
     assert headers["x-content-type-options"] == "nosniff"

@@ -1,4 +1,4 @@
-"""StudyManager that are asked, watched, stopped and shown by the page's server."""
+"""Studies that pages start, follow, stop and open through the server."""
 
 import json
 import multiprocessing
@@ -35,48 +35,48 @@ METRIC = {"scenario": "search", "vary": SIZES, "delta": 0.01, "max_runs": RUNS}
 """A study that takes some seconds, however fast the machine, to be stopped and killed meanwhile."""
 FIRST_ROUND = 4 * FIRST_LOOK
 
-Told = dict[str, Any]
+Response = dict[str, Any]
 
 
 class Folder:
-    """A server's folder, and a page that asks."""
+    """A server's folder, and a client of its studies."""
 
     def __init__(self, client: TestClient, path: Path) -> None:
-        """Begin with what is there."""
+        """Keep the client and the folder."""
         self.client, self.path = client, path
 
-    def post(self, address: str, **said: Any) -> Told:
-        """Ask, and return what is answered."""
-        told = self.client.post(address, json=said)
-        assert told.status_code in (200, 201), told.text
-        answer: Told = told.json()
+    def post(self, address: str, **body: Any) -> Response:
+        """Post a request, and return the response."""
+        response = self.client.post(address, json=body)
+        assert response.status_code in (200, 201), response.text
+        answer: Response = response.json()
         return answer
 
-    def get(self, address: str, **query: Any) -> Told:
-        """Return what an address has."""
-        told = self.client.get(address, params=query)
-        assert told.status_code == 200, told.text
-        answer: Told = told.json()
+    def get(self, address: str, **query: Any) -> Response:
+        """Return the response of an address."""
+        response = self.client.get(address, params=query)
+        assert response.status_code == 200, response.text
+        answer: Response = response.json()
         return answer
 
-    def refused(self, address: str, **said: Any) -> list[Told]:
-        """Ask what is not allowed, and return its faults."""
-        told = self.client.post(address, json=said)
-        assert told.status_code == 422
-        faults: list[Told] = told.json()["errors"]
-        return faults
+    def refused(self, address: str, **body: Any) -> list[Response]:
+        """Post a request that is refused, and return its errors."""
+        response = self.client.post(address, json=body)
+        assert response.status_code == 422
+        errors: list[Response] = response.json()["errors"]
+        return errors
 
-    def watched(self, name: str, runs: float = float("inf")) -> list[Told]:
-        """Watch a study until its end, or until it has so many runs."""
-        said: list[Told] = []
+    def watched(self, name: str, runs: float = float("inf")) -> list[Response]:
+        """Follow a study until its end, or until it has this number of runs."""
+        received: list[Response] = []
         with self.client.websocket_connect(f"{WS}?study={name}") as socket:
-            while not said or said[-1]["runs"] < runs:
+            while not received or received[-1]["runs"] < runs:
                 message = socket.receive()
                 if message["type"] == "websocket.close":
                     assert message["code"] == 1000
                     break
-                said.append(json.loads(message["text"]))
-        return said
+                received.append(json.loads(message["text"]))
+        return received
 
 
 def served(path: Path) -> TestClient:
@@ -90,8 +90,8 @@ def folder(tmp_path: Path) -> Iterator[Folder]:
 
 
 @pytest.fixture(scope="module")
-def answered(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Folder, list[Told]]]:
-    """Return a folder with a study that the page has asked, and all that it was told meanwhile."""
+def answered(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Folder, list[Response]]]:
+    """Return a folder with a completed study, and the progress that was received."""
     path = tmp_path_factory.mktemp("answered")
     with served(path) as client:
         folder = Folder(client, path)
@@ -100,10 +100,10 @@ def answered(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Folder,
         yield folder, folder.watched(name)
 
 
-Answered = tuple[Folder, list[Told]]
+Answered = tuple[Folder, list[Response]]
 
 
-def test_what_the_page_asks_is_answered_as_the_command_line_does(
+def test_the_page_and_the_command_line_give_the_same_answer(
     answered: Answered, tmp_path: Path
 ) -> None:
     folder, _ = answered
@@ -119,15 +119,15 @@ def test_what_the_page_asks_is_answered_as_the_command_line_does(
     assert [row["state"] for row in folder.get("/api/studies")["studies"]] == ["answered"]
 
 
-def test_progress_only_grows_and_ends_with_the_answer(answered: Answered) -> None:
-    folder, said = answered
+def test_progress_is_monotonic_and_ends_with_the_answer(answered: Answered) -> None:
+    folder, progress = answered
     for name in ("rounds", "runs", "computed", "seconds"):
-        values = [each[name] for each in said]
+        values = [each[name] for each in progress]
         assert values == sorted(values), name
-    assert said[0]["labels"][2] == "3 wanderers"
-    assert all(each["labels"] is None for each in said[1:])
-    assert {each["state"] for each in said[:-1]} <= {"running"}
-    last, shown = said[-1], folder.get("/api/study", id="studies/classic")
+    assert progress[0]["labels"][2] == "3 wanderers"
+    assert all(each["labels"] is None for each in progress[1:])
+    assert {each["state"] for each in progress[:-1]} <= {"running"}
+    last, shown = progress[-1], folder.get("/api/study", id="studies/classic")
     assert last["state"] == "answered"
     assert last["runs"] == shown["runs"]
     outs = {row["configuration"] for row in shown["answer"]["results"] if row["eliminated"]}
@@ -136,10 +136,10 @@ def test_progress_only_grows_and_ends_with_the_answer(answered: Answered) -> Non
     assert last["standings"][0] == [best["configuration"], best["runs"], *best["merit"]]
 
 
-def test_who_comes_late_sees_the_present(answered: Answered) -> None:
-    folder, said = answered
+def test_a_page_that_connects_late_gets_the_current_progress(answered: Answered) -> None:
+    folder, progress = answered
     (late,) = folder.watched("studies/classic")
-    assert late == {**said[-1], "labels": said[0]["labels"]}
+    assert late == {**progress[-1], "labels": progress[0]["labels"]}
 
 
 def test_an_answer_has_the_reports_own_sections_charts_and_tables(answered: Answered) -> None:
@@ -160,19 +160,19 @@ def test_an_answer_has_the_reports_own_sections_charts_and_tables(answered: Answ
     assert shown["sections"][0]["tables"][0]["configurations"] == [0, 1, 2, 3, 4]
 
 
-def test_runs_are_told_with_their_merit_as_the_study_scored_them(answered: Answered) -> None:
+def test_runs_are_listed_with_the_merit_that_the_study_computed(answered: Answered) -> None:
     folder, _ = answered
-    asked = {"id": "studies/classic", "configuration": 2}
-    told = folder.get("/api/study/runs", **asked, first=3, count=4)
-    assert [run["run"] for run in told["runs"]] == ["3", "4", "5", "6"]
-    assert told["label"] == "3 wanderers"
+    query = {"id": "studies/classic", "configuration": 2}
+    response = folder.get("/api/study/runs", **query, first=3, count=4)
+    assert [run["run"] for run in response["runs"]] == ["3", "4", "5", "6"]
+    assert response["label"] == "3 wanderers"
     shown = folder.get("/api/study", id="studies/classic")
-    everything = folder.get("/api/study/runs", **asked, count=1000)["runs"]
+    everything = folder.get("/api/study/runs", **query, count=1000)["runs"]
     result = shown["answer"]["results"][2]
-    assert len(everything) == told["total"] == result["runs"]
+    assert len(everything) == response["total"] == result["runs"]
     merits = [run["merit"] for run in everything]
     assert sum(merits) / len(merits) == pytest.approx(result["merit"][0])
-    sample = folder.get("/api/study/runs", **asked, sample=5)["runs"]
+    sample = folder.get("/api/study/runs", **query, sample=5)["runs"]
     assert [run["quantile"] for run in sample] == [0, 0.25, 0.5, 0.75, 1]
     assert [run["merit"] for run in sample] == sorted(run["merit"] for run in sample)
     assert sample[0]["merit"] == min(merits)
@@ -180,7 +180,7 @@ def test_runs_are_told_with_their_merit_as_the_study_scored_them(answered: Answe
 
 
 @pytest.mark.parametrize(
-    ("query", "told"),
+    ("query", "response"),
     [
         ({"configuration": 5}, "from 0 to 4"),
         ({"configuration": "x"}, "a whole number"),
@@ -188,23 +188,25 @@ def test_runs_are_told_with_their_merit_as_the_study_scored_them(answered: Answe
         ({"configuration": 0, "sample": 0}, "from 1 to 1000"),
     ],
 )
-def test_runs_that_there_are_not_are_refused(answered: Answered, query: Told, told: str) -> None:
+def test_requests_for_missing_runs_are_refused(
+    answered: Answered, query: Response, response: str
+) -> None:
     folder, _ = answered
     query = {"id": "studies/classic", **query}
     refused = folder.client.get("/api/study/runs", params=query)
     assert refused.status_code == 422
-    assert told in refused.json()["errors"][0]["message"]
+    assert response in refused.json()["errors"][0]["message"]
 
 
-def test_the_report_and_the_answer_can_be_kept(answered: Answered) -> None:
+def test_the_report_and_the_answer_can_be_downloaded(answered: Answered) -> None:
     folder, _ = answered
     for address, name in (("report", "report.html"), ("answer", "answer.json")):
-        told = folder.client.get(f"/api/study/{address}", params={"id": "studies/classic"})
-        assert told.content == (folder.path / "studies" / "classic" / name).read_bytes()
-        assert "attachment" in told.headers["content-disposition"]
+        response = folder.client.get(f"/api/study/{address}", params={"id": "studies/classic"})
+        assert response.content == (folder.path / "studies" / "classic" / name).read_bytes()
+        assert "attachment" in response.headers["content-disposition"]
 
 
-def test_a_tightened_study_is_a_fresh_one_at_that_confidence(
+def test_raising_the_confidence_gives_the_answer_of_a_new_study_at_that_confidence(
     answered: Answered, tmp_path: Path
 ) -> None:
     folder, _ = answered
@@ -221,7 +223,7 @@ def test_a_tightened_study_is_a_fresh_one_at_that_confidence(
     assert mine == (tmp_path / "answer.json").read_bytes()
 
 
-def test_a_stopped_or_killed_study_keeps_its_runs_and_goes_on_to_the_same_bytes(
+def test_a_stopped_or_killed_study_resumes_to_the_same_bytes(
     folder: Folder, tmp_path: Path
 ) -> None:
     name = folder.post("/api/studies", **METRIC)["id"]
@@ -251,7 +253,7 @@ def test_a_stopped_or_killed_study_keeps_its_runs_and_goes_on_to_the_same_bytes(
     assert mine == (tmp_path / "whole" / "answer.json").read_bytes()
 
 
-def test_a_study_stopped_in_its_first_round_has_no_runs_in_the_list_nor_for_watchers(
+def test_a_study_stopped_in_its_first_round_is_listed_without_runs(
     folder: Folder,
 ) -> None:
     slow = {"scenario": "search", "vary": {"robots.rover.count": "1..400"}}
@@ -262,7 +264,7 @@ def test_a_study_stopped_in_its_first_round_has_no_runs_in_the_list_nor_for_watc
     assert (last["runs"], last["rounds"], last["remaining"]) == (0, 0, 400)
 
 
-def test_a_study_that_is_stopped_while_it_starts_says_nothing(
+def test_a_study_that_is_stopped_while_it_starts_prints_nothing(
     tmp_path: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:
     begun = job.StudyJob(study.make_plan(Scenario.load("classic")), tmp_path / "study")
@@ -271,7 +273,9 @@ def test_a_study_that_is_stopped_while_it_starts_says_nothing(
     assert capfd.readouterr().err == ""
 
 
-def test_who_is_put_out_after_the_estimate_stands_no_more(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_configuration_eliminated_after_the_estimate_is_not_among_the_standings(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     monkeypatch.setattr(job, "REPORT_S", 0.0)
     monkeypatch.setattr(job, "ESTIMATE_S", 1e9)
     theirs, mine = multiprocessing.Pipe()
@@ -295,16 +299,16 @@ def test_a_study_is_interrupted_once() -> None:
         signal.signal(signal.SIGINT, before)
 
 
-def test_before_its_first_round_all_are_still_in(folder: Folder) -> None:
-    place = folder.path / "studies" / "asked"
+def test_all_configurations_remain_before_the_first_round(folder: Folder) -> None:
+    place = folder.path / "studies" / "pending"
     place.mkdir(parents=True)
     scenario = Scenario.load("classic")
     (place / "study.toml").write_text(study.make_plan(scenario).text(), encoding="utf-8")
-    (last,) = folder.watched("studies/asked")
+    (last,) = folder.watched("studies/pending")
     assert (last["state"], last["remaining"], last["runs"]) == ("stopped", 8, 0)
 
 
-def test_no_more_than_so_many_pages_watch_studies(
+def test_the_number_of_pages_that_follow_studies_is_limited(
     folder: Folder, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(import_module("agent_economy.server.app"), "MAX_WATCHERS", 1)
@@ -317,9 +321,9 @@ def test_no_more_than_so_many_pages_watch_studies(
     assert folder.watched(name)[-1]["state"] == "stopped"
 
 
-def test_a_run_of_a_study_can_be_watched_and_is_the_very_same(folder: Folder) -> None:
-    asked = {**METRIC, "max_runs": None, "runs": 2, "seed": "7"}
-    name = folder.post("/api/studies", **asked)["id"]
+def test_a_run_opened_from_a_study_is_the_run_of_the_study(folder: Folder) -> None:
+    query = {**METRIC, "max_runs": None, "runs": 2, "seed": "7"}
+    name = folder.post("/api/studies", **query)["id"]
     assert folder.watched(name)[-1]["state"] == "answered"
     stored = folder.get("/api/study/runs", id=name, configuration=1)["runs"][1]
     with folder.client.websocket_connect(WS) as socket:
@@ -335,26 +339,26 @@ def test_a_run_of_a_study_can_be_watched_and_is_the_very_same(folder: Folder) ->
     assert state["outcome"]["complete"] is not stored["failed"]
 
 
-def over(socket: Any) -> Told:
-    """Return the state in which a run has come to its end."""
+def over(socket: Any) -> Response:
+    """Return the state at the end of a run."""
     while True:
         message = socket.receive()
         if message.get("bytes") is not None:
             frame = int.from_bytes(message["bytes"][36:40], "little")
             socket.send_json({"type": "acknowledge", "frame": frame})
             continue
-        said: Told = json.loads(message["text"])
-        if said["type"] == "state" and said["is_over"] and not said["is_playing"]:
-            return said
+        state: Response = json.loads(message["text"])
+        if state["type"] == "state" and state["is_over"] and not state["is_playing"]:
+            return state
 
 
-def test_no_more_than_two_run_at_a_time_and_all_end_with_the_server(tmp_path: Path) -> None:
+def test_at_most_two_studies_run_at_a_time_and_all_end_with_the_server(tmp_path: Path) -> None:
     with served(tmp_path) as client:
         folder = Folder(client, tmp_path)
         names = [folder.post("/api/studies", **LONG, seed=seed)["id"] for seed in ("1", "2")]
-        (fault,) = folder.refused("/api/studies", **LONG, seed="3")
-        assert all(name in fault["message"] for name in names)
-        assert "stop one" in fault["message"]
+        (error,) = folder.refused("/api/studies", **LONG, seed="3")
+        assert all(name in error["message"] for name in names)
+        assert "stop one" in error["message"]
         (again,) = folder.refused("/api/studies", **LONG, seed="1")
         assert "is running already" in again["message"]
         for name in names:
@@ -384,14 +388,14 @@ def test_a_study_ends_when_its_server_is_killed(tmp_path: Path) -> None:
     wait_until(lambda: not study.is_locked(place))
 
 
-def wait_until(holds: Any, most_s: float = 30) -> None:
-    end_s = time.monotonic() + most_s
+def wait_until(holds: Any, max_s: float = 30) -> None:
+    end_s = time.monotonic() + max_s
     while not holds():
         assert time.monotonic() < end_s
         time.sleep(0.05)
 
 
-def test_another_processs_study_is_shown_as_running_and_not_stopped(
+def test_a_study_of_another_process_is_listed_as_running_and_cannot_be_stopped(
     answered: Answered, tmp_path: Path
 ) -> None:
     shutil.copytree(answered[0].path / "studies", tmp_path / "studies")
@@ -402,8 +406,8 @@ def test_another_processs_study_is_shown_as_running_and_not_stopped(
         def look(_: study.Progress) -> None:
             (row,) = folder.get("/api/studies")["studies"]
             assert row["state"] == "running"
-            (fault,) = folder.refused("/api/studies/stop", id=row["id"])
-            assert "another process" in fault["message"]
+            (error,) = folder.refused("/api/studies/stop", id=row["id"])
+            assert "another process" in error["message"]
             raise KeyboardInterrupt
 
         with pytest.raises(KeyboardInterrupt):
@@ -411,7 +415,7 @@ def test_another_processs_study_is_shown_as_running_and_not_stopped(
         assert folder.get("/api/studies")["studies"][0]["state"] == "answered"
 
 
-def test_a_list_checks_no_scenario_and_computes_nothing(
+def test_listing_studies_checks_no_scenario_and_computes_nothing(
     answered: Answered, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     for number in range(3):
@@ -443,21 +447,21 @@ def test_no_study_outside_of_the_folder_is_opened(folder: Folder, name: str) -> 
     (folder.path / "link").symlink_to(secret)
     assert [row["id"] for row in folder.get("/api/studies")["studies"]] == ["here"]
     for address in ("study", "study/runs", "study/report", "study/answer"):
-        told = folder.client.get(f"/api/{address}", params={"id": name, "configuration": 0})
-        assert "in the list" in told.json()["errors"][0]["message"]
+        response = folder.client.get(f"/api/{address}", params={"id": name, "configuration": 0})
+        assert "in the list" in response.json()["errors"][0]["message"]
     for address in ("stop", "resume"):
-        (fault,) = folder.refused(f"/api/studies/{address}", id=name)
-        assert "in the list" in fault["message"]
-    (fault,) = folder.refused("/api/studies/stop", id=7)
-    assert "as a string" in fault["message"]
+        (error,) = folder.refused(f"/api/studies/{address}", id=name)
+        assert "in the list" in error["message"]
+    (error,) = folder.refused("/api/studies/stop", id=7)
+    assert "as a string" in error["message"]
 
 
-def test_a_folder_of_studies_that_leads_elsewhere_is_not_written_to(folder: Folder) -> None:
+def test_a_linked_folder_of_studies_is_not_written_to(folder: Folder) -> None:
     elsewhere = folder.path.parent / "elsewhere"
     elsewhere.mkdir()
     (folder.path / "studies").symlink_to(elsewhere)
-    (fault,) = folder.refused("/api/studies", **QUICK)
-    assert "below the server's folder" in fault["message"]
+    (error,) = folder.refused("/api/studies", **QUICK)
+    assert "below the server's folder" in error["message"]
     assert list(elsewhere.iterdir()) == []
 
 
@@ -470,7 +474,7 @@ def test_a_folder_of_studies_that_leads_elsewhere_is_not_written_to(folder: Fold
         ("answer.json", "[]"),
     ],
 )
-def test_a_damaged_study_is_listed_with_what_is_wrong(
+def test_a_damaged_study_is_listed_with_its_error(
     answered: Answered, tmp_path: Path, file: str, text: str
 ) -> None:
     shutil.copytree(answered[0].path / "studies", tmp_path / "studies")
@@ -486,8 +490,8 @@ def test_a_damaged_study_is_listed_with_what_is_wrong(
         assert file in last["message"]
 
 
-def test_all_that_is_wrong_with_a_question_is_told_at_once(folder: Folder) -> None:
-    asked = {
+def test_all_errors_of_a_study_request_are_reported_at_once(folder: Folder) -> None:
+    query = {
         "scenario": "classic",
         "vary": {"robots.wanderer.cuont": "1..5", "contact": "tuch"},
         "merit": "equation-5",
@@ -498,17 +502,17 @@ def test_all_that_is_wrong_with_a_question_is_told_at_once(folder: Folder) -> No
         "seed": 7,
     }
     for address in ("/api/plan", "/api/studies"):
-        paths = {fault["path"] for fault in folder.refused(address, **asked)}
+        paths = {error["path"] for error in folder.refused(address, **query)}
         assert paths >= {"merit", "delta", "confidence", "guarantee", "runs", "seed"}
         assert any("cuont" in path for path in paths)
     assert not (folder.path / "studies").exists()
 
 
 @pytest.mark.parametrize(
-    ("said", "told"),
+    ("body", "reason"),
     [
-        ({}, "either a scenario or a text"),
-        ({"scenario": "classic", "text": "x"}, "either a scenario or a text"),
+        ({}, "exactly one of `scenario` and `text`"),
+        ({"scenario": "classic", "text": "x"}, "exactly one of `scenario` and `text`"),
         ({"scenario": "../x.toml"}, "one of the gallery"),
         ({"text": "= 3"}, "scenario.toml"),
         ({"scenario": "classic", "vary": [1]}, "an object of values"),
@@ -517,22 +521,24 @@ def test_all_that_is_wrong_with_a_question_is_told_at_once(folder: Folder) -> No
         ({"scenario": "classic", "design": 3}, "a string"),
     ],
 )
-def test_what_cannot_be_asked_is_told(folder: Folder, said: Told, told: str) -> None:
-    assert told in folder.refused("/api/plan", **said)[0]["message"]
+def test_invalid_study_requests_are_refused_with_a_reason(
+    folder: Folder, body: Response, reason: str
+) -> None:
+    assert reason in folder.refused("/api/plan", **body)[0]["message"]
 
 
 @pytest.mark.parametrize("content", [b"[]", b"{", b"\xff", b"[" * 100_000, b"x" * 1_000_001])
-def test_what_is_no_question_is_told(folder: Folder, content: bytes) -> None:
-    told = folder.client.post("/api/plan", content=content)
-    assert told.status_code in (413, 422)
-    assert told.json()["errors"][0]["message"]
+def test_requests_that_are_not_objects_are_refused(folder: Folder, content: bytes) -> None:
+    response = folder.client.post("/api/plan", content=content)
+    assert response.status_code in (413, 422)
+    assert response.json()["errors"][0]["message"]
 
 
-def test_pages_of_others_can_ask_nothing(folder: Folder) -> None:
+def test_pages_of_other_sites_cannot_request_studies(folder: Folder) -> None:
     headers = {"origin": "https://evil.example"}
     for address in ("factors", "plan", "studies", "studies/stop", "studies/resume"):
-        told = folder.client.post(f"/api/{address}", json=QUICK, headers=headers)
-        assert told.status_code == 403
+        response = folder.client.post(f"/api/{address}", json=QUICK, headers=headers)
+        assert response.status_code == 403
     with (
         pytest.raises(WebSocketDisconnect),
         folder.client.websocket_connect(f"{WS}?study=x", headers=headers),
@@ -541,12 +547,12 @@ def test_pages_of_others_can_ask_nothing(folder: Folder) -> None:
     assert not (folder.path / "studies").exists()
 
 
-def test_a_plan_says_what_is_compared_where_and_whether_it_is_there(answered: Answered) -> None:
+def test_a_plan_contains_its_configurations_its_folder_and_its_state(answered: Answered) -> None:
     folder, _ = answered
-    told = folder.post("/api/plan", **QUICK)
-    assert told["id"] == "studies/classic"
-    assert told["state"] == "answered"
-    assert told["labels"] == [f"{n} wanderer{'s' * (n > 1)}" for n in range(1, 6)]
+    response = folder.post("/api/plan", **QUICK)
+    assert response["id"] == "studies/classic"
+    assert response["state"] == "answered"
+    assert response["labels"] == [f"{n} wanderer{'s' * (n > 1)}" for n in range(1, 6)]
     other = folder.post("/api/plan", **{**QUICK, "vary": {"contact": "touch,ahead"}})
     assert other["factors"] == [
         {"path": "contact", "values": ["touch", "ahead"], "range": None},
@@ -555,11 +561,11 @@ def test_a_plan_says_what_is_compared_where_and_whether_it_is_there(answered: An
     assert other["state"] is None
 
 
-def test_what_can_be_varied_is_told_with_its_bounds(folder: Folder) -> None:
-    told = folder.post("/api/factors", scenario="classic")
-    assert told["merits"] == ["equation-5.2", "appendix"]
-    assert told["delta"] == 0.01
-    team, *others = told["factors"]
+def test_factors_are_listed_with_their_bounds(folder: Folder) -> None:
+    response = folder.post("/api/factors", scenario="classic")
+    assert response["merits"] == ["equation-5.2", "appendix"]
+    assert response["delta"] == 0.01
+    team, *others = response["factors"]
     assert team == {
         "path": TEAM,
         "value": 4,
@@ -575,13 +581,13 @@ def test_what_can_be_varied_is_told_with_its_bounds(folder: Folder) -> None:
         "contact",
     }
     text = Scenario.load("search").source.text
-    told = folder.post("/api/factors", text=text)
-    speed = next(each for each in told["factors"] if each["path"].endswith("max_speed_m_s"))
+    response = folder.post("/api/factors", text=text)
+    speed = next(each for each in response["factors"] if each["path"].endswith("max_speed_m_s"))
     assert (speed["low"], speed["high"], speed["whole"], speed["value"]) == (0, 100, False, 1)
 
 
 @pytest.mark.parametrize("name", ["classic", "search", "search-beliefs", "open-field", "flock"])
-def test_all_that_is_told_can_be_varied(name: str) -> None:
+def test_every_listed_factor_can_be_varied(name: str) -> None:
     scenario = Scenario.load(name)
     found = factors(scenario)
     assert found

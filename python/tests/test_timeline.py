@@ -1,4 +1,4 @@
-"""Going back and forth in a run."""
+"""Seeking back and forth in a run."""
 
 from contextlib import suppress
 
@@ -21,12 +21,12 @@ def begun(log: tuple[Change, ...] = ()) -> Timeline:
 
 
 def hashes(timeline: Timeline, ticks: range | list[int]) -> list[int]:
-    told = []
+    visited = []
     for tick in ticks:
         assert timeline.seek(tick, FOREVER_S)
         assert timeline.tick == tick
-        told.append(timeline.simulation.hash)
-    return told
+        visited.append(timeline.simulation.hash)
+    return visited
 
 
 def test_back_and_forth_gives_the_same_run() -> None:
@@ -56,7 +56,7 @@ def test_back_and_forth_gives_the_same_classic_run() -> None:
     assert again.simulation.scenario.to_dict()["contact"] == "touch"
 
 
-def test_a_classic_run_that_is_over_goes_on_after_a_change() -> None:
+def test_a_classic_run_that_is_over_continues_after_a_change() -> None:
     timeline = Timeline(ae.Scenario.load("classic").replace("clock.time_limit_s", 5), 7)
     assert timeline.seek(100_000, FOREVER_S)
     assert timeline.tick == 5 * 56
@@ -65,7 +65,7 @@ def test_a_classic_run_that_is_over_goes_on_after_a_change() -> None:
     assert timeline.tick == 300
 
 
-def test_a_classic_run_that_ends_before_its_recording_stands_there_and_is_told() -> None:
+def test_a_classic_run_that_ends_before_its_recording_is_reported() -> None:
     scenario = ae.Scenario.load("classic").replace("clock.time_limit_s", 1)
     simulation = ae.ClassicSimulation("classic", 7)
     points = []
@@ -78,7 +78,7 @@ def test_a_classic_run_that_ends_before_its_recording_stands_there_and_is_told()
     assert (timeline.tick, timeline.latest_tick, timeline.recorded.mismatch_tick) == (56, 56, 57)
 
 
-def test_a_change_makes_void_what_came_after_it_and_its_log_gives_the_run_again() -> None:
+def test_a_change_discards_later_ticks_and_its_log_replays_the_run() -> None:
     timeline = begun()
     hashes(timeline, [150, 60])
     timeline.change("robots.rover.count", 6)
@@ -100,18 +100,18 @@ def test_before_a_change_the_scenario_is_the_old_one_and_after_it_the_new_one() 
     assert counts == [4, 6, 6, 4]
 
 
-def test_what_is_put_where_it_is_already_changes_nothing() -> None:
+def test_setting_the_same_value_changes_nothing() -> None:
     timeline = begun()
     hashes(timeline, [30, 10])
     timeline.change("robots.rover.count", 4)
     assert (timeline.latest_tick, timeline.log) == (30, ())
 
 
-def test_undo_gives_the_run_in_which_nothing_had_been_changed() -> None:
+def test_undo_restores_the_run_without_the_change() -> None:
     timeline = begun()
     once = hashes(timeline, [40, 70])
     timeline.seek(40, FOREVER_S)
-    # The scenario says nothing of this one: there is no value that could be put back.
+    # The scenario does not contain this key: there is no value to restore.
     timeline.change("robots.rover.radius_m", 0.3)
     assert hashes(timeline, [70]) != once[1:]
     timeline.undo()
@@ -121,7 +121,7 @@ def test_undo_gives_the_run_in_which_nothing_had_been_changed() -> None:
 
 
 @pytest.mark.parametrize("tick", [0, 60])
-def test_undo_takes_back_one_change_after_another(tick: int) -> None:
+def test_undo_removes_one_change_after_another(tick: int) -> None:
     timeline = begun()
     before = hashes(timeline, [tick])
     for count in (6, 5):
@@ -136,7 +136,7 @@ def test_undo_takes_back_one_change_after_another(tick: int) -> None:
 
 
 @pytest.mark.parametrize("tick", [0, 60])
-def test_a_value_instead_of_another_is_as_if_that_had_never_been(tick: int) -> None:
+def test_a_replaced_value_leaves_no_trace(tick: int) -> None:
     timeline, straight = begun(), begun()
     for each in (timeline, straight):
         hashes(each, [tick])
@@ -151,7 +151,7 @@ def test_a_value_instead_of_another_is_as_if_that_had_never_been(tick: int) -> N
     assert [change.path for change in timeline.log] == ["clock.time_limit_s"]
 
 
-def test_a_value_instead_that_is_not_allowed_leaves_the_one_that_is() -> None:
+def test_an_invalid_replacement_keeps_the_current_value() -> None:
     timeline = begun()
     hashes(timeline, [30])
     timeline.change("robots.rover.count", 6)
@@ -163,7 +163,7 @@ def test_a_value_instead_that_is_not_allowed_leaves_the_one_that_is() -> None:
     assert [change.value for change in timeline.log] == [6]
 
 
-def test_drawn_back_to_where_it_began_nothing_has_changed() -> None:
+def test_a_slider_dragged_back_to_its_start_changes_nothing() -> None:
     timeline = begun()
     before = hashes(timeline, [30])
     timeline.change("robots.rover.count", 6)
@@ -172,7 +172,7 @@ def test_drawn_back_to_where_it_began_nothing_has_changed() -> None:
     assert hashes(timeline, [30]) == before
 
 
-def test_a_value_instead_stands_beside_those_of_other_paths_and_ticks() -> None:
+def test_a_replacement_keeps_values_of_other_paths_and_ticks() -> None:
     timeline = begun()
     timeline.change("robots.rover.count", 6, replaces_last=True)
     timeline.change("clock.time_limit_s", 300, replaces_last=True)
@@ -182,7 +182,7 @@ def test_a_value_instead_stands_beside_those_of_other_paths_and_ticks() -> None:
 
 
 @pytest.mark.parametrize("first", [500_000, 6])
-def test_what_was_not_put_there_is_not_what_the_next_value_takes_the_place_of(first: int) -> None:
+def test_a_replacement_does_not_replace_a_refused_value(first: int) -> None:
     timeline = begun()
     timeline.change("robots.rover.count", 6)
     with suppress(ae.InputError):
@@ -191,7 +191,7 @@ def test_what_was_not_put_there_is_not_what_the_next_value_takes_the_place_of(fi
     assert [change.value for change in timeline.log] == [6, 8]
 
 
-def test_a_value_takes_the_place_of_the_last_also_if_the_run_was_elsewhere_meanwhile() -> None:
+def test_a_value_replaces_the_last_one_after_a_seek_and_return() -> None:
     timeline = begun()
     hashes(timeline, [30])
     timeline.change("robots.rover.count", 6)
@@ -204,14 +204,14 @@ def test_a_value_takes_the_place_of_the_last_also_if_the_run_was_elsewhere_meanw
     assert hashes(timeline, [30, 60]) == hashes(straight, [30, 60])
 
 
-def test_true_is_no_number_that_is_there_already() -> None:
+def test_true_differs_from_one() -> None:
     timeline = begun()
     timeline.change("robots.rover.count", 1)
     with pytest.raises(ae.InputError):
         timeline.change("robots.rover.count", True)  # noqa: FBT003
 
 
-def test_however_few_snapshots_there_may_be_the_one_of_before_a_change_is_kept(
+def test_the_snapshot_before_a_change_is_always_kept(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(snapshots, "capacity", lambda _: 3)
@@ -223,12 +223,12 @@ def test_however_few_snapshots_there_may_be_the_one_of_before_a_change_is_kept(
     assert [change.value for change in timeline.log] == [11, 21, 31, 41]
 
 
-def test_undo_after_nothing_is_told() -> None:
+def test_undo_without_a_change_is_refused() -> None:
     with pytest.raises(ae.InputError, match="must be after a change"):
         begun().undo()
 
 
-def test_what_a_robots_model_says_already_changes_nothing() -> None:
+def test_setting_the_value_of_a_robot_model_changes_nothing() -> None:
     timeline = begun()
     document = _core.read_filled(timeline.simulation.scenario.source)
     timeline.change("robots.rover.radius_m", document["robots"]["rover"]["radius_m"])
@@ -236,7 +236,7 @@ def test_what_a_robots_model_says_already_changes_nothing() -> None:
 
 
 @pytest.mark.parametrize("name", ["search", "search-beliefs", "flock", "classic"])
-def test_a_run_ends_where_it_is_over_however_fast_it_goes(name: str) -> None:
+def test_a_run_ends_at_the_same_tick_at_any_speed(name: str) -> None:
     scenario = ae.Scenario.load(name)
     timeline = Timeline(scenario, 7)
     assert timeline.seek(10_000, FOREVER_S)
@@ -247,7 +247,7 @@ def test_a_run_ends_where_it_is_over_however_fast_it_goes(name: str) -> None:
     assert timeline.simulation.hash == simulation.hash
 
 
-def test_a_long_way_is_gone_in_pieces_of_the_time_that_there_is() -> None:
+def test_a_long_seek_is_divided_into_time_slices() -> None:
     timeline = Timeline(ae.Scenario.load("search-beliefs").replace("clock.time_limit_s", 10_000), 1)
     pieces = 0
     while not timeline.seek(2_000, 0.0):
@@ -255,7 +255,7 @@ def test_a_long_way_is_gone_in_pieces_of_the_time_that_there_is() -> None:
     assert pieces > 1
 
 
-def test_snapshots_are_thinned_out_and_all_moments_can_still_be_gone_to() -> None:
+def test_snapshots_are_thinned_and_every_tick_remains_reachable() -> None:
     long = (
         ae.Scenario.load("search")
         .replace("clock.time_limit_s", 10_000)
@@ -268,7 +268,7 @@ def test_snapshots_are_thinned_out_and_all_moments_can_still_be_gone_to() -> Non
     assert hashes(timeline, [17, end])[1:] == last
 
 
-def test_a_change_that_has_no_room_is_told_when_its_tick_comes() -> None:
+def test_a_change_without_room_is_reported_at_its_tick() -> None:
     log = (Change(20, "robots.rover.count", 100_000),)
     timeline = begun(log)
     with pytest.raises(ae.InputError):

@@ -186,7 +186,7 @@ class Server:
 
 
 async def reject(page: Connection, limit: str) -> None:
-    """Tell a page that the server is full."""
+    """Disconnect a page because the server is full."""
     message = f"This server has {limit} open, which is its maximum. Close one."
     with contextlib.suppress(ConnectionClosedError):
         await page.send({"type": "ended", "reason": "full", "message": message})

@@ -110,7 +110,7 @@ def is_loopback(host: str) -> bool:
 
 
 def address_of(name: str) -> IPv4Address | IPv6Address | None:
-    """Return a text as an address; None if it is not one."""
+    """Parse an IP address; None if the name is not one."""
     try:
         return ip_address(name)
     except ValueError:

@@ -20,8 +20,8 @@ MESSAGES: dict[str, type[PageMessage]] = {
 }
 """The messages of the page by their types."""
 
-EITHER = "with either a scenario or a text"
-"""What a request that needs a scenario has to come with."""
+ONE_SOURCE = "exactly one of `scenario` and `text`"
+"""What a request for a scenario contains."""
 
 SHOWN = 80
 """Characters of a message that is not JSON that its error shows."""
@@ -90,7 +90,7 @@ def check_open(message: page.Open) -> None:
     if message.study is None and message.recording is None:
         sources = [message.scenario, message.text]
         is_one = (message.scenario is None) != (message.text is None)
-        validation.check(is_one, "open", sources, EITHER)
+        validation.check(is_one, "open", sources, ONE_SOURCE)
     for _, _, value in message.changes or ():
         check_value("open.changes", value)
 

@@ -14,7 +14,7 @@ MAX_BYTES = 1_000_000
 
 
 class RequestBodyError(Exception):
-    """A request body cannot be read; `response` says why."""
+    """A request body cannot be read; `response` contains the reason."""
 
     def __init__(self, status: int, message: str) -> None:
         """Set the response."""

@@ -60,7 +60,7 @@ class Workspace:
         return lines(data.decode(errors="replace"))
 
     def read(self, text: str, name: str = "scenario.toml") -> Scenario:
-        """Return the scenario of a text; the files that it names are read from the folder.
+        """Parse a scenario; the files that it names are read from the folder.
 
         Raises:
             InputError: If it has errors, or a file is outside of the folder.
@@ -130,7 +130,7 @@ class Workspace:
 
 
 def lines(text: str) -> str:
-    """Return a text with Unix line endings."""
+    """Return text with Unix line endings."""
     return text.replace("\r\n", "\n")
 
 

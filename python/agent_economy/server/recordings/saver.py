@@ -1,4 +1,4 @@
-"""Saves the run of a page while the page goes on, one recording at a time."""
+"""Saves the run of a page in the background, one recording at a time."""
 
 import asyncio
 import contextlib

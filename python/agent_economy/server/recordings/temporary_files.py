@@ -9,7 +9,7 @@ from uuid import uuid4
 
 try:
     import fcntl
-except ImportError:  # Without file locks nobody can tell which files are still being written.
+except ImportError:  # Without file locks, files that are being written cannot be identified.
     fcntl = None  # type: ignore[assignment]
 
 PREFIX = ".unfinished-"

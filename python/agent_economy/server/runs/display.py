@@ -24,7 +24,7 @@ Output = ServerMessage | bytes
 
 
 class Display:
-    """What a page has been sent of its run, and what it wants to see."""
+    """What a page has been sent of its run, and what it requested."""
 
     def __init__(self) -> None:
         """Begin with nothing sent."""

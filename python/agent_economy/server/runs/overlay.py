@@ -12,7 +12,7 @@ from agent_economy.server.runs import engines
 from agent_economy.types.page import Layers
 
 KIND = 2
-"""The first number of an overlay, which tells it from a frame."""
+"""The first number of an overlay, which distinguishes it from a frame."""
 
 HEADER = struct.Struct("<3I")
 """Kind, number of the frame, number of links."""

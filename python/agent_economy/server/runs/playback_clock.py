@@ -27,7 +27,7 @@ class PlaybackClock:
     _last: tuple[float, int] = field(default=(0.0, 0), repr=False)
 
     def play(self, speed: float | None, now_s: float, tick: int, *, is_running: bool) -> None:
-        """Play from a tick on; measure anew unless the run is already playing."""
+        """Play from a tick on; restart the measurement unless the run is already playing."""
         if not is_running:
             self.measured_speed, self._last = 0.0, (now_s, tick)
         self.speed = speed

@@ -1,6 +1,6 @@
 """The state machine of a run that a page watches: it decides where the run goes next.
 
-It has no clock, thread or socket: time is an argument, and whoever drives the player advances the
+It has no clock, thread or socket: time is an argument, and its caller advances the
 run between `target` and `advanced`.
 
     Idle --open--> Seeking --arrived--> Paused --play--> Playing --pause, end of run--> Paused
@@ -166,7 +166,7 @@ class Player:
                 self._pending.remove_plays()
                 self._pause()
             case Step(steps=steps):
-                # Steps add up while earlier ones are still on their way.
+                # Steps add up while earlier ones are still pending.
                 self.state = Seeking(max(0, self._destination() + steps))
             case Seek(tick=tick):
                 self.state = Seeking(min(tick, self.run.latest_tick))

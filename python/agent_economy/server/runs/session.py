@@ -109,7 +109,7 @@ class Session:
         )
 
     async def _disconnect(self) -> None:
-        message = "Nothing was done for half an hour. Reload the page to go on."
+        message = "The page was idle for half an hour. Reload it to continue."
         await self._page.send({"type": "ended", "reason": "idle", "message": message})
         raise ConnectionClosedError
 

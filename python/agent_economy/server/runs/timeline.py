@@ -1,4 +1,4 @@
-"""A run that can be moved back and forth, and changed on the way."""
+"""A run that can be moved back and forth in time, and changed at any tick."""
 
 import time
 from collections.abc import Iterable
@@ -160,8 +160,8 @@ class Timeline:
     def undo(self) -> None:
         """Remove the last change, and go back to its tick.
 
-        From there the run goes on as if the change had never been made: no value has to be put
-        back, and the log does not contain one.
+        The run continues as if the change had never been made: no value has to be restored, and
+        the log does not contain one.
 
         Raises:
             InputError: If there is no change.
@@ -214,7 +214,7 @@ class Timeline:
         return min(stops)
 
     def _step(self, steps: int) -> None:
-        """Take steps, but none after the end, where a run of the metric engine would go on."""
+        """Take steps, but none after the end, where a run of the metric engine would continue."""
         before = self.tick
         if inputs := self.recorded.input(before):
             # Only runs of the metric engine have external bodies.
@@ -242,7 +242,7 @@ class Timeline:
                 raise
 
     def _discard_future(self, before: Any) -> None:
-        """Go on from a change; the snapshot before it is kept, so that it can be undone at once."""
+        """Continue from a change; the snapshot before it is kept for an immediate undo."""
         self.log = self.simulation.changes
         self.latest_tick = self.tick
         self._snapshots.discard_after(self.tick, self.log)

@@ -7,7 +7,7 @@ from agent_economy import study
 from agent_economy._core import InputError
 from agent_economy.scenario import Override, Scenario, validation
 from agent_economy.scenario.source import check_path
-from agent_economy.server.messages import EITHER, Error, errors_of, number
+from agent_economy.server.messages import ONE_SOURCE, Error, errors_of, number
 from agent_economy.server.workspace import Workspace
 from agent_economy.study import Plan
 from agent_economy.study.answer.labels import label
@@ -89,7 +89,7 @@ def scenario_of(request: Mapping[str, Any], workspace: Workspace) -> Scenario:
     """
     name, text = request.get("scenario"), request.get("text")
     is_one = (name is None) != (text is None)
-    validation.check(is_one, "request", [name, text], EITHER)
+    validation.check(is_one, "request", [name, text], ONE_SOURCE)
     each = name if text is None else text
     validation.check(validation.is_text(each), "request", each, "a string")
     return workspace.read(str(text)) if name is None else workspace.load(name)

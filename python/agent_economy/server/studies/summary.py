@@ -116,14 +116,14 @@ def answered(folder: Path, answer: Mapping[str, Any], changed_s: float) -> Summa
     """
     scenario = answer["scenario"]
     try:
-        asked = tomllib.loads(study.open(folder).question)
+        stored = tomllib.loads(study.open(folder).question)
         question = Question(
             scenario["design"],
             len(answer["results"]),
-            asked["question"]["delta"],
-            asked["question"]["confidence"],
-            asked["question"]["guarantee"],
-            asked["data"].get("runs"),
+            stored["question"]["delta"],
+            stored["question"]["confidence"],
+            stored["question"]["guarantee"],
+            stored["data"].get("runs"),
         )
     except tomllib.TOMLDecodeError as error:
         message = f"{folder / QUESTION}: is not a study: {error}"

@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import Any, cast
 
 import pytest
+from page_client import WS, Page
 from starlette.testclient import TestClient
-from watching import WS, Page
 
 import agent_economy as ae
 from agent_economy import _core
@@ -40,18 +40,18 @@ def slowly(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def saved(page: Page) -> dict[str, Any]:
     """Save a run, and return its recording's row."""
-    page.say("save")
-    row = page.until("saved")["recording"]
+    page.send("save")
+    row = page.wait_for("saved")["recording"]
     assert isinstance(row, dict)
     return row
 
 
 def changed(page: Page) -> dict[str, Any]:
-    """Open a run that is changed on its way, and return its last state."""
+    """Open a run that is changed twice, and return its last state."""
     page.open(changes=[[40, COUNT, 7]], tick=60)
-    page.say("change", path="robots.rover.radius_m", value=0.3)
-    page.say("step", steps=10)
-    return page.until("state", tick=70)
+    page.send("change", path="robots.rover.radius_m", value=0.3)
+    page.send("step", steps=10)
+    return page.wait_for("state", tick=70)
 
 
 def until_there_are(files: int, folder: Path) -> None:
@@ -73,26 +73,24 @@ def begun(tick: int = 30) -> Timeline:
     return timeline
 
 
-def test_a_saved_run_is_the_run_that_was_seen_with_all_its_changes(
-    page: Page, tmp_path: Path
-) -> None:
-    told = changed(page)
+def test_a_saved_run_is_the_displayed_run_with_all_its_changes(page: Page, tmp_path: Path) -> None:
+    state = changed(page)
     row = saved(page)
     assert (row["run"]["steps"], row["run"]["seed"], row["error"]) == (70, "7", None)
     again = ae.rerun(tmp_path / row["id"])
     assert again.agrees
     assert again.is_whole
-    assert (again.tick, again.hash) == (70, told["hash"])
+    assert (again.tick, again.hash) == (70, state["hash"])
 
 
-def test_a_saved_classic_run_is_the_run_that_was_seen_and_is_opened_as_that(
+def test_a_saved_classic_run_is_the_displayed_run_and_can_be_opened(
     page: Page, client: TestClient, tmp_path: Path
 ) -> None:
     page.open(scenario="classic", tick=60)
-    page.say("change", path="robots.wanderer.count", value=7)
-    page.say("change", path="clock.paints_per_s", value=28)
-    page.say("step", steps=40)
-    told = page.until("state", tick=100)
+    page.send("change", path="robots.wanderer.count", value=7)
+    page.send("change", path="clock.paints_per_s", value=28)
+    page.send("step", steps=40)
+    state = page.wait_for("state", tick=100)
     row = saved(page)
     assert client.get("/api/recordings").json() == [row]
     assert (row["run"]["scenario"], row["run"]["steps"], row["error"]) == (
@@ -102,21 +100,21 @@ def test_a_saved_classic_run_is_the_run_that_was_seen_and_is_opened_as_that(
     )
     assert row["run"]["length_s"] == pytest.approx(60 / 56 + 40 / 28)
     again = ae.rerun(tmp_path / row["id"])
-    assert (again.agrees, again.tick, again.hash) == (True, 100, told["hash"])
-    page.say("open", recording=row["id"], tick=100)
-    page.until("opened")
-    opened = page.until("state", tick=100)
+    assert (again.agrees, again.tick, again.hash) == (True, 100, state["hash"])
+    page.send("open", recording=row["id"], tick=100)
+    page.wait_for("opened")
+    opened = page.wait_for("state", tick=100)
     assert (opened["hash"], opened["latest_tick"], opened["mismatch_tick"]) == (
-        told["hash"],
+        state["hash"],
         100,
         None,
     )
-    page.say("undo")
-    assert page.until("setting")["step_s"] == 1 / 56
+    page.send("undo")
+    assert page.wait_for("setting")["step_s"] == 1 / 56
     assert saved(page)["id"] != row["id"]
 
 
-def test_a_classic_run_that_is_not_as_recorded_is_told_with_its_tick(
+def test_a_classic_run_that_differs_from_its_recording_is_reported_with_its_tick(
     page: Page, tmp_path: Path
 ) -> None:
     path = tmp_path / "behind.mcap"
@@ -124,12 +122,12 @@ def test_a_classic_run_that_is_not_as_recorded_is_told_with_its_tick(
     with ae.Recording(simulation, path) as recording:
         recording.step(30)
         other.step(31)
-        # Behind the recording's back: it does not say of this that it became another run.
+        # The recording does not contain this: from here on it is another run.
         simulation.restore(other.snapshot())
         recording.step(20)
-    page.say("open", recording="behind.mcap", tick=40)
-    page.until("opened")
-    assert page.until("state", tick=40)["mismatch_tick"] == ae.rerun(path).differs_at == 32
+    page.send("open", recording="behind.mcap", tick=40)
+    page.wait_for("opened")
+    assert page.wait_for("state", tick=40)["mismatch_tick"] == ae.rerun(path).differs_at == 32
 
 
 def test_the_same_run_saved_again_is_the_same_file(page: Page, client: TestClient) -> None:
@@ -138,37 +136,37 @@ def test_the_same_run_saved_again_is_the_same_file(page: Page, client: TestClien
     assert len(client.get("/api/recordings").json()) == 1
 
 
-def test_a_recording_is_opened_at_any_tick_and_goes_on(page: Page) -> None:
-    told = changed(page)
+def test_a_recording_is_opened_at_any_tick_and_continues(page: Page) -> None:
+    state = changed(page)
     name = saved(page)["id"]
-    page.say("open", recording=name, tick=50)
-    opened = page.until("opened")
+    page.send("open", recording=name, tick=50)
+    opened = page.wait_for("opened")
     assert (opened["seed"], opened["recording"]["id"]) == ("7", name)
-    setting = page.until("setting")
+    setting = page.wait_for("setting")
     assert (setting["log"], setting["changes"]) == (None, [[40, COUNT, 7]])
-    assert page.until("state", tick=50)["latest_tick"] == 70
-    page.say("seek", tick=70)
-    last = page.until("state", tick=70)
-    assert (last["hash"], last["mismatch_tick"]) == (told["hash"], None)
-    page.say("step", steps=5)
-    page.until("state", tick=75, latest_tick=75)
+    assert page.wait_for("state", tick=50)["latest_tick"] == 70
+    page.send("seek", tick=70)
+    last = page.wait_for("state", tick=70)
+    assert (last["hash"], last["mismatch_tick"]) == (state["hash"], None)
+    page.send("step", steps=5)
+    page.wait_for("state", tick=75, latest_tick=75)
 
 
 def test_a_recording_with_other_changes_is_opened_as_that_run(page: Page) -> None:
     changed(page)
     name = saved(page)["id"]
-    page.say("open", recording=name, tick=45)
-    page.until("state", tick=45)
-    page.say("change", path=COUNT, value=2)
-    log = page.until("setting", log=[[40, COUNT, 7], [45, COUNT, 2]])["log"]
-    page.say("step", steps=15)
-    told = page.until("state", tick=60)
-    page.say("open", recording=name, changes=log, tick=60)
-    page.until("opened")
-    assert page.until("state", tick=60)["hash"] == told["hash"]
+    page.send("open", recording=name, tick=45)
+    page.wait_for("state", tick=45)
+    page.send("change", path=COUNT, value=2)
+    log = page.wait_for("setting", log=[[40, COUNT, 7], [45, COUNT, 2]])["log"]
+    page.send("step", steps=15)
+    state = page.wait_for("state", tick=60)
+    page.send("open", recording=name, changes=log, tick=60)
+    page.wait_for("opened")
+    assert page.wait_for("state", tick=60)["hash"] == state["hash"]
 
 
-def test_what_came_from_outside_comes_again(tmp_path: Path) -> None:
+def test_external_percepts_are_replayed(tmp_path: Path) -> None:
     path = tmp_path / "outside.mcap"
     with ae.Recording(ae.Simulation("search-beliefs", 7), path) as recording:
         recording.step(10)
@@ -187,12 +185,12 @@ def test_what_came_from_outside_comes_again(tmp_path: Path) -> None:
     assert ae.rerun(again).hash == f"{expected:016x}"
 
 
-def test_a_run_that_is_not_as_recorded_is_told_with_its_tick(tmp_path: Path) -> None:
+def test_a_run_that_differs_from_its_recording_is_reported_with_its_tick(tmp_path: Path) -> None:
     path = tmp_path / "behind.mcap"
     simulation = ae.Simulation("search-beliefs", 7)
     with ae.Recording(simulation, path) as recording:
         recording.step(10)
-        # Behind the recording's back: it does not say of this what was done.
+        # The recording does not contain this command.
         simulation.step(commands={"rover/0": turning(1.0)})
         recording.step(10)
     which, recorded = RecordingStore(Workspace(tmp_path)).load("behind.mcap")
@@ -202,36 +200,36 @@ def test_a_run_that_is_not_as_recorded_is_told_with_its_tick(tmp_path: Path) -> 
 
 
 @pytest.mark.usefixtures("slowly")
-def test_what_is_cancelled_leaves_nothing(page: Page, tmp_path: Path) -> None:
+def test_a_cancelled_recording_leaves_no_file(page: Page, tmp_path: Path) -> None:
     page.open()
-    page.say("play", speed=None)
-    page.until("state", is_over=True, is_playing=False)
-    page.say("save")
-    page.until("saving")
-    page.say("cancel_save")
-    assert page.until("saved")["recording"] is None
+    page.send("play", speed=None)
+    page.wait_for("state", is_over=True, is_playing=False)
+    page.send("save")
+    page.wait_for("saving")
+    page.send("cancel_save")
+    assert page.wait_for("saved")["recording"] is None
     assert list((tmp_path / FOLDER).iterdir()) == []
 
 
 @pytest.mark.usefixtures("slowly")
 def test_one_recording_at_a_time_is_saved(page: Page) -> None:
     page.open()
-    page.say("play", speed=None)
-    page.until("state", is_over=True, is_playing=False)
-    page.say("save")
-    page.say("save")
-    assert "one recording at a time" in page.until("refused")["errors"][0]["message"]
-    assert page.until("saved")["recording"]["error"] is None
+    page.send("play", speed=None)
+    page.wait_for("state", is_over=True, is_playing=False)
+    page.send("save")
+    page.send("save")
+    assert "one recording at a time" in page.wait_for("refused")["errors"][0]["message"]
+    assert page.wait_for("saved")["recording"]["error"] is None
 
 
 @pytest.mark.usefixtures("slowly")
-def test_a_page_that_goes_leaves_nothing(client: TestClient, tmp_path: Path) -> None:
+def test_a_page_that_disconnects_leaves_no_file(client: TestClient, tmp_path: Path) -> None:
     with client.websocket_connect(WS) as socket:
         page = Page(socket)
         page.open()
-        page.say("play", speed=None)
-        page.until("state", is_over=True, is_playing=False)
-        page.say("save")
+        page.send("play", speed=None)
+        page.wait_for("state", is_over=True, is_playing=False)
+        page.send("save")
         until_there_are(1, tmp_path)
     until_there_are(0, tmp_path)
 
@@ -269,8 +267,8 @@ def another_that_saves(folder: Path) -> Iterator[subprocess.Popen[bytes]]:
         process.wait()
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="nobody can tell there who writes a file")
-def test_what_a_killed_server_left_is_removed_and_what_another_writes_is_not(
+@pytest.mark.skipif(sys.platform == "win32", reason="no file locks")
+def test_files_of_a_killed_server_are_removed_and_those_being_written_are_kept(
     tmp_path: Path,
 ) -> None:
     with another_that_saves(tmp_path) as killed:
@@ -295,7 +293,7 @@ def test_without_locks_nothing_is_removed(tmp_path: Path, monkeypatch: pytest.Mo
     assert set(tmp_path.iterdir()) == {left, file}
 
 
-def test_what_only_has_such_a_name_stays(tmp_path: Path) -> None:
+def test_files_that_only_look_temporary_are_kept(tmp_path: Path) -> None:
     (folder := tmp_path / ".unfinished-folder.mcap").mkdir()
     (link := tmp_path / ".unfinished-link.mcap").symlink_to(tmp_path / "elsewhere")
     (other := tmp_path / ".unfinished-notes.txt").touch()
@@ -310,24 +308,24 @@ def test_a_run_that_is_too_long_is_refused(tmp_path: Path, monkeypatch: pytest.M
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_folder_that_cannot_be_written_is_told(page: Page, tmp_path: Path) -> None:
+def test_a_folder_without_write_permission_is_reported(page: Page, tmp_path: Path) -> None:
     (tmp_path / FOLDER).write_text("not a folder")
     page.open(tick=5)
-    page.say("save")
-    told = page.until("refused", about="save")["errors"][0]["message"]
-    assert f"{FOLDER}: cannot be written" in told
+    page.send("save")
+    state = page.wait_for("refused", about="save")["errors"][0]["message"]
+    assert f"{FOLDER}: cannot be written" in state
 
 
-def test_a_link_to_elsewhere_is_no_place_for_recordings(
+def test_a_link_out_of_the_folder_is_rejected(
     page: Page, tmp_path: Path, tmp_path_factory: pytest.TempPathFactory
 ) -> None:
     (tmp_path / FOLDER).symlink_to(tmp_path_factory.mktemp("elsewhere"))
     page.open(tick=5)
-    page.say("save")
-    assert "not below the folder" in page.until("refused")["errors"][0]["message"]
+    page.send("save")
+    assert "not below the folder" in page.wait_for("refused")["errors"][0]["message"]
 
 
-def test_a_full_disk_is_told_and_leaves_nothing(
+def test_a_full_disk_is_reported_and_leaves_no_file(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def full(*_: object) -> None:
@@ -341,7 +339,7 @@ def test_a_full_disk_is_told_and_leaves_nothing(
     assert list(tmp_path.iterdir()) == []
 
 
-def test_recordings_are_listed_newest_first_with_what_they_are_of(
+def test_recordings_are_listed_newest_first_with_their_runs(
     client: TestClient, tmp_path: Path
 ) -> None:
     (tmp_path / "deep" / "er").mkdir(parents=True)
@@ -366,17 +364,17 @@ def test_recordings_are_listed_newest_first_with_what_they_are_of(
     assert "no MCAP file" in rows[3]["error"]
 
 
-def test_a_recording_that_is_cut_is_opened_as_far_as_it_goes(page: Page, tmp_path: Path) -> None:
+def test_a_truncated_recording_is_opened_up_to_its_end(page: Page, tmp_path: Path) -> None:
     path = tmp_path / "cut.mcap"
     ae.run("search-beliefs", seed=7, record=path)
     whole = path.read_bytes()
     path.write_bytes(whole[: 2 * len(whole) // 3])
-    page.say("open", recording="cut.mcap")
-    page.until("opened")
-    edge = page.until("state", tick=0)["latest_tick"]
+    page.send("open", recording="cut.mcap")
+    page.wait_for("opened")
+    edge = page.wait_for("state", tick=0)["latest_tick"]
     assert edge > 0
-    page.say("seek", tick=edge)
-    assert page.until("state", tick=edge)["mismatch_tick"] is None
+    page.send("seek", tick=edge)
+    assert page.wait_for("state", tick=edge)["mismatch_tick"] is None
 
 
 @pytest.mark.parametrize(
@@ -389,30 +387,30 @@ def test_no_recording_outside_of_the_folder_is_opened_or_sent(
     secret.write_bytes(b"secret")
     (tmp_path / "link.mcap").symlink_to(secret)
     assert client.get("/api/recordings/file", params={"id": name}).status_code == 404
-    page.say("open", recording=name)
-    assert "below the folder" in page.until("refused")["errors"][0]["message"]
+    page.send("open", recording=name)
+    assert "below the folder" in page.wait_for("refused")["errors"][0]["message"]
 
 
-def test_a_recording_is_sent_whole(client: TestClient, page: Page, tmp_path: Path) -> None:
+def test_a_recording_can_be_downloaded(client: TestClient, page: Page, tmp_path: Path) -> None:
     page.open(tick=5)
     name = saved(page)["id"]
-    told = client.get("/api/recordings/file", params={"id": name})
-    assert told.content == (tmp_path / name).read_bytes()
-    assert "attachment" in told.headers["content-disposition"]
+    state = client.get("/api/recordings/file", params={"id": name})
+    assert state.content == (tmp_path / name).read_bytes()
+    assert "attachment" in state.headers["content-disposition"]
 
 
 def exported(page: Page) -> str:
-    page.say("export")
-    text = page.until("exported")["text"]
+    page.send("export")
+    text = page.wait_for("exported")["text"]
     assert isinstance(text, str)
     return text
 
 
-def test_the_exported_text_is_the_scenario_as_it_was_changed(page: Page) -> None:
+def test_the_exported_scenario_contains_the_changes(page: Page) -> None:
     page.open(tick=20)
     obstacles = ae.Scenario.load("search-beliefs").to_dict()["world"]["obstacles"]
-    page.say("change", path="robots.rover.sensors.camera.range_m", value=2.5)
-    page.say("change", path="world.obstacles", value=obstacles[1:])
+    page.send("change", path="robots.rover.sensors.camera.range_m", value=2.5)
+    page.send("change", path="world.obstacles", value=obstacles[1:])
     text = exported(page)
     expected = ae.Scenario.load("search-beliefs")
     expected = expected.replace("robots.rover.sensors.camera.range_m", 2.5)
@@ -421,16 +419,16 @@ def test_the_exported_text_is_the_scenario_as_it_was_changed(page: Page) -> None
     assert text.startswith("# From search-beliefs, seed 7, run 0, at tick 20 (2 s).\n")
 
 
-def test_the_exported_text_of_what_was_not_changed_keeps_its_comments(page: Page) -> None:
+def test_an_unchanged_scenario_is_exported_with_its_comments(page: Page) -> None:
     page.open()
     source = ae.Scenario.load("search-beliefs").source.text
     assert exported(page).endswith(source)
     assert tomllib.loads(exported(page)) == tomllib.loads(source)
 
 
-def test_a_setting_has_what_robots_models_say_and_the_kinds_of_items(page: Page) -> None:
+def test_a_setting_contains_the_values_of_robot_models_and_the_item_kinds(page: Page) -> None:
     page.open(scenario="open-field")
-    setting = [each for each in page.said if each["type"] == "setting"][-1]
+    setting = [each for each in page.received if each["type"] == "setting"][-1]
     source = ae.Scenario.load("open-field").source
     assert setting["document"] == _core.read_filled(source)
     assert {"radius_m", "drive"} <= setting["document"]["robots"]["rover"].keys()
