@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from agent_economy import classic, study
     from agent_economy._core import InputError
     from agent_economy.api import replicate, run
-    from agent_economy.recording import Recording, Rerun, rerun
+    from agent_economy.recording import Recording, Replay, replay
     from agent_economy.runs.batch import Batch
     from agent_economy.runs.brain import Brain
     from agent_economy.runs.classic_simulation import ClassicSimulation
@@ -29,14 +29,14 @@ __all__ = [
     "InputError",
     "Outcome",
     "Recording",
-    "Rerun",
+    "Replay",
     "Scenario",
     "Simulation",
     "StudyError",
     "__version__",
     "classic",
+    "replay",
     "replicate",
-    "rerun",
     "run",
     "study",
 ]
@@ -48,12 +48,12 @@ _HOMES = {
     "InputError": "agent_economy._core",
     "Outcome": "agent_economy.runs.outcome",
     "Recording": "agent_economy.recording",
-    "Rerun": "agent_economy.recording",
+    "Replay": "agent_economy.recording",
     "Scenario": "agent_economy.scenario",
     "Simulation": "agent_economy.runs.simulation",
     "StudyError": "agent_economy.study.errors",
+    "replay": "agent_economy.recording",
     "replicate": "agent_economy.api",
-    "rerun": "agent_economy.recording",
     "run": "agent_economy.api",
 }
 

@@ -10,7 +10,7 @@ from unittest import mock
 
 FORKS = multiprocessing.get_context("forkserver")
 # Each process loads the main module, which is pytest's, again; here it is loaded already.
-FORKS.set_forkserver_preload(["made_up", "pytest", "scipy.special", "small"])
+FORKS.set_forkserver_preload(["synthetic_runs", "pytest", "scipy.special", "small_study"])
 
 
 def started(work: Callable[..., None], *args: object) -> BaseProcess:

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 
-import by_hand
+import in_memory_study
 import numpy as np
 import pytest
 
@@ -112,10 +112,10 @@ def test_another_factor_is_held_where_the_best_has_it() -> None:
 
 
 def test_the_effort_foretold_is_right_within_a_factor_of_three() -> None:
-    sizes: list[by_hand.Values] = [{TEAM: robots} for robots in range(1, 21)]
-    coarse, seen = by_hand.study(sizes, by_hand.synthetic, delta=0.4)
+    sizes: list[in_memory_study.Values] = [{TEAM: robots} for robots in range(1, 21)]
+    coarse, seen = in_memory_study.study(sizes, in_memory_study.synthetic, delta=0.4)
     for effort in efforts(seen, coarse.best, 0.4):
-        taken = by_hand.study(sizes, by_hand.synthetic, delta=effort.delta)[0].runs
+        taken = in_memory_study.study(sizes, in_memory_study.synthetic, delta=effort.delta)[0].runs
         assert 1 / 3 < effort.runs / taken < 3
 
 

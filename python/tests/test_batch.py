@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 from alarm import ringing
-from bumpers import SMALL, Ahead, Talker
+from example_brains import SMALL, Ahead, Talker
 from metric import ENDLESS, search
 
 import agent_economy as ae

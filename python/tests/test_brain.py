@@ -74,7 +74,7 @@ def test_all_faults_of_spec_and_body_are_told_at_once_with_their_paths() -> None
 def test_thoughts_are_what_a_mind_believes_and_wants_and_none_without_one() -> None:
     spec = {"arbitration": {"kind": "goals"}, "behaviours": [NAVIGATE]}
     rover = ae.Brain(spec, ROVER)
-    before = rover.thoughts()
+    before = rover.belief_state()
     assert before is not None
     assert before["pose"] is None
     here: Percept = {
@@ -82,13 +82,13 @@ def test_thoughts_are_what_a_mind_believes_and_wants_and_none_without_one() -> N
         "heading_rad": {"value": 0.5, "age_s": 0.0},
     }
     rover.step(OPEN | here)
-    told = rover.thoughts()
+    told = rover.belief_state()
     assert told is not None
     assert told["pose"] is not None
     assert (told["pose"]["at"], told["pose"]["heading_rad"]) == ([1.0, 2.0], 0.5)
     assert [goal["to"] for goal in told["goals"]] == [[9.0, 2.0]]
-    assert rover.copy().thoughts() == told
-    assert ae.Brain(None, ROVER).thoughts() is None
+    assert rover.copy().belief_state() == told
+    assert ae.Brain(None, ROVER).belief_state() is None
 
 
 def test_none_in_body_and_spec_is_as_if_it_were_left_out() -> None:
@@ -180,5 +180,5 @@ def test_a_percept_that_holds_itself_is_told() -> None:
 
 @pytest.mark.parametrize("kind", [None, 0, ["rover"]])
 def test_a_kind_that_is_no_text_is_told(kind: Any) -> None:
-    with pytest.raises(ae.InputError, match=r"kind = .*: must be the name of a kind of robots"):
+    with pytest.raises(ae.InputError, match=r"kind = .*: must be the name of a robot kind"):
         ae.Brain.of("search", kind)

@@ -134,9 +134,9 @@ def test_a_robot_looks_at_three_cells_near_and_three_far() -> None:
     near = [(column + side, row - 1) for side in (-1, 0, 1)]
     far = [(column + 2 * side, row - 2) for side in (-1, 0, 1)]
     assert state["heading_deg"] == 0
-    assert simulation.looks("wanderer/0") == near + far
+    assert simulation.examined_cells("wanderer/0") == near + far
     with pytest.raises(ae.InputError, match="wanderer/0 to wanderer/3"):
-        simulation.looks("wanderer/4")
+        simulation.examined_cells("wanderer/4")
 
 
 def test_each_engine_says_which_runs_are_its_own() -> None:

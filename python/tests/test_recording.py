@@ -85,7 +85,7 @@ def test_the_file_alone_is_enough_to_take_the_run_again(
     ae.run(scenario, seed=2**64 - 1, run=7, record=tmp_path / "run.mcap")
     shutil.rmtree(there)
     monkeypatch.chdir(tmp_path)
-    again = ae.rerun("run.mcap")
+    again = ae.replay("run.mcap")
     assert (again.agrees, again.is_whole, again.tick) == (True, True, 200)
     assert (again.seed, again.run, again.scenario.name) == (2**64 - 1, 7, "open-field")
     assert again.outcome == ae.run(again.scenario, 2**64 - 1, 7)
@@ -99,7 +99,7 @@ def test_changes_in_mid_run_are_taken_again(tmp_path: Path) -> None:
         simulation.change("robots.rover.count", 2)
         simulation.change("world.obstacles", [{"circle": {"at_m": [12, 12], "radius_m": 1}}])
         recording.step(30)
-    again = ae.rerun(tmp_path / "run.mcap")
+    again = ae.replay(tmp_path / "run.mcap")
     assert again.agrees
     assert int(again.hash, 16) == simulation.hash
     topics = contents(tmp_path / "run.mcap").topics
@@ -120,7 +120,7 @@ def test_what_comes_from_outside_is_taken_again(tmp_path: Path) -> None:
         answers = recording.step(percepts={"rover/1": percept})
         recording.step(5)
     assert set(answers) == {"rover/1"}
-    assert ae.rerun(tmp_path / "run.mcap").agrees
+    assert ae.replay(tmp_path / "run.mcap").agrees
     assert len(contents(tmp_path / "run.mcap").topics["/input"]) == 2
 
 
@@ -136,7 +136,7 @@ def test_a_scan_from_outside_of_any_age_is_shown_within_the_run(
     scan = contents(tmp_path / "run.mcap").topics["/scan/rover/1/0"][-1].content
     taken_ns = scan.timestamp.seconds * SECOND_NS + scan.timestamp.nanos
     assert taken_ns == (2.5 - min(max(age_s, 0), 2.5)) * SECOND_NS
-    assert ae.rerun(tmp_path / "run.mcap").agrees
+    assert ae.replay(tmp_path / "run.mcap").agrees
 
 
 def test_a_step_that_is_refused_is_not_recorded(tmp_path: Path) -> None:
@@ -145,7 +145,7 @@ def test_a_step_that_is_refused_is_not_recorded(tmp_path: Path) -> None:
             recording.step(commands={"rover/9": DRIVE})
         recording.step(2)
     assert "/input" not in contents(tmp_path / "run.mcap").topics
-    assert ae.rerun(tmp_path / "run.mcap").agrees
+    assert ae.replay(tmp_path / "run.mcap").agrees
 
 
 def test_a_run_that_was_meddled_with_does_not_agree(tmp_path: Path) -> None:
@@ -154,7 +154,7 @@ def test_a_run_that_was_meddled_with_does_not_agree(tmp_path: Path) -> None:
         recording.step(20)
         simulation.step(commands={"rover/0": DRIVE})
         recording.step(20)
-    again = ae.rerun(tmp_path / "run.mcap")
+    again = ae.replay(tmp_path / "run.mcap")
     assert (again.agrees, again.differs_at) == (False, 22)
 
 
@@ -298,7 +298,7 @@ def test_every_nth_moment_is_recorded_and_the_first_and_the_last(
         recording.step(steps)
     ticks = [each.content["tick"] for each in contents(tmp_path / "run.mcap").topics["/run"]]
     assert ticks == sorted({*range(0, steps, every), steps})
-    assert ae.rerun(tmp_path / "run.mcap").agrees
+    assert ae.replay(tmp_path / "run.mcap").agrees
 
 
 def test_a_run_put_back_is_not_recorded_any_further(tmp_path: Path) -> None:
@@ -348,7 +348,7 @@ def test_a_recording_that_is_closed_takes_no_step(tmp_path: Path) -> None:
         recording.step(commands={"rover/0": DRIVE})
     recording.close()
     assert simulation.tick == 2
-    assert ae.rerun(tmp_path / "run.mcap").tick == 2
+    assert ae.replay(tmp_path / "run.mcap").tick == 2
 
 
 def test_a_recording_never_takes_the_place_of_what_is_none(tmp_path: Path) -> None:
@@ -377,7 +377,7 @@ def test_a_run_without_robots_is_recorded_and_has_nobodys_percepts(tmp_path: Pat
         ae.Recording(nobody, tmp_path / "run.mcap", percepts=["rover/0"])
     with ae.Recording(nobody, tmp_path / "run.mcap") as recording:
         recording.step(3)
-    assert ae.rerun(tmp_path / "run.mcap").agrees
+    assert ae.replay(tmp_path / "run.mcap").agrees
 
 
 FILLS = """
@@ -405,7 +405,7 @@ def test_a_disk_that_fills_is_told_with_the_file_and_what_helps(tmp_path: Path) 
     full, closed = given.stdout.splitlines()
     assert full.startswith(f"{path}: cannot be written any further: File too large: make room")
     assert closed.startswith("the recording is closed")
-    again = ae.rerun(path)
+    again = ae.replay(path)
     assert (again.agrees, again.is_whole) == (True, False)
     assert again.tick > 0
 
@@ -441,7 +441,7 @@ def test_a_killed_process_leaves_what_it_had_recorded(tmp_path: Path) -> None:
     finally:
         process.kill()
         process.wait()
-    again = ae.rerun(path)
+    again = ae.replay(path)
     assert (again.agrees, again.is_whole) == (True, False)
     assert again.tick >= 100
     assert again.scenario.to_dict() == search(ENDLESS).to_dict()

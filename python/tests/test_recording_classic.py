@@ -40,7 +40,7 @@ def changed(path: Path, every: int = 1) -> ClassicSimulation:
 def test_a_recorded_run_is_the_run_and_is_taken_again(tmp_path: Path) -> None:
     recorded = ae.run("classic", 3, 1, record=tmp_path / "run.mcap")
     assert recorded == ae.run("classic", 3, 1)
-    again = ae.rerun(tmp_path / "run.mcap")
+    again = ae.replay(tmp_path / "run.mcap")
     assert (again.agrees, again.is_whole, again.seed, again.run) == (True, True, 3, 1)
     assert again.outcome == recorded
     assert again.tick == recorded.row["paints"]
@@ -49,7 +49,7 @@ def test_a_recorded_run_is_the_run_and_is_taken_again(tmp_path: Path) -> None:
 @pytest.mark.parametrize("every", [1, 7])
 def test_a_run_that_is_changed_is_taken_again(tmp_path: Path, every: int) -> None:
     simulation = changed(tmp_path / "run.mcap", every)
-    again = ae.rerun(tmp_path / "run.mcap")
+    again = ae.replay(tmp_path / "run.mcap")
     assert again.agrees
     assert (again.tick, again.hash) == (simulation.tick, f"{simulation.hash:016x}")
     assert again.outcome == simulation.outcome()
@@ -197,7 +197,7 @@ def test_a_run_that_is_over_stands_and_a_change_lets_it_go_on(tmp_path: Path) ->
         recording.finish()
     ticks = [each.content["tick"] for each in contents(tmp_path / "run.mcap").topics["/run"]]
     assert ticks == [*range(57), *range(56, 113)]
-    assert ae.rerun(tmp_path / "run.mcap").agrees
+    assert ae.replay(tmp_path / "run.mcap").agrees
 
 
 def test_robots_without_minds_have_no_percepts_and_take_no_commands(tmp_path: Path) -> None:
@@ -211,7 +211,7 @@ def test_robots_without_minds_have_no_percepts_and_take_no_commands(tmp_path: Pa
             with pytest.raises(InputError, match=f"{name} = .*: must be none: robots of 2003 hav"):
                 recording.step(**given)
         recording.step(3)
-    assert ae.rerun(path).tick == 3
+    assert ae.replay(path).tick == 3
 
 
 def test_a_run_that_is_not_the_recorded_one_differs_where_it_ends(tmp_path: Path) -> None:
@@ -222,7 +222,7 @@ def test_a_run_that_is_not_the_recorded_one_differs_where_it_ends(tmp_path: Path
         long.step(20)
         short.restore(long.snapshot())
         recording.step(80)
-    again = ae.rerun(path)
+    again = ae.replay(path)
     assert (again.differs_at, again.tick) == (57, 56)
 
 
@@ -242,7 +242,7 @@ def test_a_killed_process_leaves_what_it_had_recorded(tmp_path: Path) -> None:
     path = tmp_path / "run.mcap"
     killed = subprocess.run([sys.executable, "-c", KILLED, str(path)], check=False)
     assert killed.returncode != 0
-    again = ae.rerun(path)
+    again = ae.replay(path)
     assert (again.agrees, again.is_whole) == (True, False)
     assert 600 - 5 * 56 < again.tick <= 600
 

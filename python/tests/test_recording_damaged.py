@@ -74,7 +74,7 @@ def told(path: Path) -> list[str]:
     """Return what is wrong with a file, by all that reads it; nothing but that comes out of it."""
     words = []
     read: Callable[[Path], object]
-    for read in (ae.rerun, summarise):
+    for read in (ae.replay, summarise):
         try:
             read(path)
         except InputError as error:
@@ -183,7 +183,7 @@ def test_input_for_robots_that_take_none_is_told(tmp_path: Path) -> None:
     file.write_json("/input", {"tick": 0, "percepts": {}, "commands": {"wanderer/0": {}}}, 0)
     file.close()
     with pytest.raises(InputError, match=r"run\.mcap: is damaged: it has percepts or commands for"):
-        ae.rerun(path)
+        ae.replay(path)
 
 
 def test_a_file_that_is_cut_is_compared_as_far_as_it_goes(tmp_path: Path) -> None:
@@ -193,7 +193,7 @@ def test_a_file_that_is_cut_is_compared_as_far_as_it_goes(tmp_path: Path) -> Non
     for length in np.linspace(len(whole) - 1, 0, 24, dtype=int).tolist():
         cut.write_bytes(whole[:length])
         try:
-            again = ae.rerun(cut)
+            again = ae.replay(cut)
         except InputError as error:
             assert "is no recording of a run" in str(error) or "lacks its sc" in str(error)  # noqa: PT017
         else:
@@ -217,7 +217,7 @@ def test_a_file_that_is_cut_within_an_index_is_no_damaged_one(tmp_path: Path) ->
     inside = [each.chunk_start_offset + each.chunk_length + 20 for each in chunks]
     for length in (*inside, *range(end - 400, end, 7)):
         path.write_bytes(whole[:length])
-        again = ae.rerun(path)
+        again = ae.replay(path)
         assert (again.agrees, again.is_whole) == (True, False)
 
 
@@ -240,7 +240,7 @@ def test_damage_never_ends_in_anything_but_a_word(recorded: Path, tmp_path: Path
 def test_what_is_no_recording_is_refused(tmp_path: Path, content: bytes) -> None:
     (tmp_path / "other").write_bytes(content)
     with pytest.raises(InputError, match="other: is no "):
-        ae.rerun(tmp_path / "other")
+        ae.replay(tmp_path / "other")
 
 
 def test_a_recording_does_not_make_the_program_read_other_files(tmp_path: Path) -> None:
@@ -252,4 +252,4 @@ def test_a_recording_does_not_make_the_program_read_other_files(tmp_path: Path) 
     file.note("agent_economy.run", {**run, "overrides": "[]", "seed": "0", "run": "0"})
     file.close()
     with pytest.raises(InputError, match=r"lacks what the scenario names: open-field\.yaml"):
-        ae.rerun(path)
+        ae.replay(path)

@@ -6,11 +6,11 @@ from itertools import product
 from pathlib import Path
 
 import altair as alt
-import by_hand
+import in_memory_study
 import numpy as np
 import pytest
 import vl_convert
-from by_hand import WANDERERS
+from in_memory_study import WANDERERS
 
 from agent_economy.study import files, report
 from agent_economy.study.answer.conclude import Answer
@@ -40,21 +40,23 @@ def script() -> str:
 @pytest.fixture(scope="module")
 def teams() -> Study:
     """Return the 2003 experiment, raced."""
-    return by_hand.study([{WANDERERS: robots} for robots in range(1, 9)], by_hand.classic)
+    return in_memory_study.study(
+        [{WANDERERS: robots} for robots in range(1, 9)], in_memory_study.classic
+    )
 
 
 @pytest.fixture(scope="module")
 def alone() -> Study:
     """Return a study of one configuration."""
-    return by_hand.study([{}], by_hand.classic)
+    return in_memory_study.study([{}], in_memory_study.classic)
 
 
 @pytest.fixture(scope="module")
 def thousand() -> Study:
     """Return a study of a thousand configurations, with ten runs of each."""
     grid = product(range(25), range(1, 41))
-    given: list[by_hand.Values] = [{MIX: mix, ROVERS: robots} for mix, robots in grid]
-    answer, evidence = by_hand.study(given, by_hand.synthetic, runs=10)
+    given: list[in_memory_study.Values] = [{MIX: mix, ROVERS: robots} for mix, robots in grid]
+    answer, evidence = in_memory_study.study(given, in_memory_study.synthetic, runs=10)
     return answer, evidence
 
 
@@ -62,8 +64,8 @@ def thousand() -> Study:
 def words() -> Study:
     """Return a study of a factor of words and a team size, every pair of them."""
     grid = product(CONTACTS, (2, 3, 4))
-    given: list[by_hand.Values] = [{"contact": name, WANDERERS: n} for name, n in grid]
-    return by_hand.study(given, by_hand.classic, delta=0.3)
+    given: list[in_memory_study.Values] = [{"contact": name, WANDERERS: n} for name, n in grid]
+    return in_memory_study.study(given, in_memory_study.classic, delta=0.3)
 
 
 @pytest.fixture(params=["teams", "alone", "thousand", "words"])
@@ -235,7 +237,9 @@ def test_a_column_that_is_not_finite_is_not_known_rather_than_a_number(
 
 
 def test_what_the_runs_leave_open_is_called_undecided(script: str) -> None:
-    few = by_hand.study([{WANDERERS: robots} for robots in (3, 4, 5)], by_hand.classic, runs=20)
+    few = in_memory_study.study(
+        [{WANDERERS: robots} for robots in (3, 4, 5)], in_memory_study.classic, runs=20
+    )
     page = body(report.html(*few, script))
     assert page.count('<td class="words">undecided</td>') == 2
     assert "Undecided between 3 and 5" in page
@@ -244,8 +248,8 @@ def test_what_the_runs_leave_open_is_called_undecided(script: str) -> None:
 
 def test_what_the_runs_prove_is_said(script: str) -> None:
     # Two teams of the same merit in every run, and one that is always worse.
-    answer, evidence = by_hand.study(
-        [{WANDERERS: robots} for robots in (3, 4, 5)], by_hand.classic, runs=4000
+    answer, evidence = in_memory_study.study(
+        [{WANDERERS: robots} for robots in (3, 4, 5)], in_memory_study.classic, runs=4000
     )
     merit, worse = evidence.samples[0].columns["merit"], np.full(4000, -9.0)
     limits = {**evidence.samples[0].limits, "merit": (-10.0, 0.0)}
@@ -254,7 +258,7 @@ def test_what_the_runs_prove_is_said(script: str) -> None:
         for sample, given in zip(evidence.samples, (merit, merit, worse), strict=True)
     )
     ending = Ending(0, (Elimination(2, 0, 10),), answer.guarantee, is_guaranteed=True)
-    proved = by_hand.conclude(Evidence(samples, 0.95), ending)
+    proved = in_memory_study.conclude(Evidence(samples, 0.95), ending)
     page = body(report.html(proved, Evidence(samples, 0.95), script))
     assert '<td class="words">tied within delta</td>' in page
     assert '<td class="words">worse</td>' in page
@@ -281,8 +285,8 @@ def test_factors_that_matter_are_shown_with_the_share_of_chance(
     script: str,
 ) -> None:
     grid = product(range(4), range(1, 11))
-    given: list[by_hand.Values] = [{MIX: 8 * mix, ROVERS: robots} for mix, robots in grid]
-    found = by_hand.study(given, by_hand.synthetic, runs=20)
+    given: list[in_memory_study.Values] = [{MIX: 8 * mix, ROVERS: robots} for mix, robots in grid]
+    found = in_memory_study.study(given, in_memory_study.synthetic, runs=20)
     page = body(report.html(*found, script))
     assert "of that variance is noise of means" in page
     rows = charts.specifications(*found)["sensitivity"]["data"]["values"]

@@ -77,7 +77,7 @@ def test_a_saved_run_is_the_displayed_run_with_all_its_changes(page: Page, tmp_p
     state = changed(page)
     row = saved(page)
     assert (row["run"]["steps"], row["run"]["seed"], row["error"]) == (70, "7", None)
-    again = ae.rerun(tmp_path / row["id"])
+    again = ae.replay(tmp_path / row["id"])
     assert again.agrees
     assert again.is_whole
     assert (again.tick, again.hash) == (70, state["hash"])
@@ -99,7 +99,7 @@ def test_a_saved_classic_run_is_the_displayed_run_and_can_be_opened(
         None,
     )
     assert row["run"]["length_s"] == pytest.approx(60 / 56 + 40 / 28)
-    again = ae.rerun(tmp_path / row["id"])
+    again = ae.replay(tmp_path / row["id"])
     assert (again.agrees, again.tick, again.hash) == (True, 100, state["hash"])
     page.send("open", recording=row["id"], tick=100)
     page.wait_for("opened")
@@ -127,7 +127,7 @@ def test_a_classic_run_that_differs_from_its_recording_is_reported_with_its_tick
         recording.step(20)
     page.send("open", recording="behind.mcap", tick=40)
     page.wait_for("opened")
-    assert page.wait_for("state", tick=40)["mismatch_tick"] == ae.rerun(path).differs_at == 32
+    assert page.wait_for("state", tick=40)["mismatch_tick"] == ae.replay(path).differs_at == 32
 
 
 def test_the_same_run_saved_again_is_the_same_file(page: Page, client: TestClient) -> None:
@@ -182,7 +182,7 @@ def test_external_percepts_are_replayed(tmp_path: Path) -> None:
     assert timeline.recorded.mismatch_tick is None
     again = RecordingWriter(timeline.history, tmp_path).write()
     assert again is not None
-    assert ae.rerun(again).hash == f"{expected:016x}"
+    assert ae.replay(again).hash == f"{expected:016x}"
 
 
 def test_a_run_that_differs_from_its_recording_is_reported_with_its_tick(tmp_path: Path) -> None:
@@ -196,7 +196,7 @@ def test_a_run_that_differs_from_its_recording_is_reported_with_its_tick(tmp_pat
     which, recorded = RecordingStore(Workspace(tmp_path)).load("behind.mcap")
     timeline = Timeline(which.scenario, which.seed, which.run, recorded=recorded)
     assert timeline.seek(21, FOREVER_S)
-    assert timeline.recorded.mismatch_tick == ae.rerun(path).differs_at
+    assert timeline.recorded.mismatch_tick == ae.replay(path).differs_at
 
 
 @pytest.mark.usefixtures("slowly")
@@ -355,7 +355,7 @@ def test_recordings_are_listed_newest_first_with_their_runs(
         os.utime(tmp_path / name, (1000 - age, 1000 - age))
     rows = client.get("/api/recordings").json()
     assert [row["id"] for row in rows] == names[:4]
-    steps = ae.rerun(tmp_path / names[0]).tick
+    steps = ae.replay(tmp_path / names[0]).tick
     of = rows[0]["run"]
     assert (of["scenario"], of["seed"], of["run"]) == ("search-beliefs.toml", str(2**64 - 1), "0")
     assert of["steps"] == steps

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from made_up import COLUMNS, outcomes, same, write_study
+from synthetic_runs import COLUMNS, outcomes, same, write_study
 
 from agent_economy import InputError
 from agent_economy.study.run_block import Columns, RunBlock, numbers, spans
@@ -300,7 +300,7 @@ def test_an_interrupted_computation_leaves_the_store_usable(study: Path) -> None
 def test_one_process_at_a_time_writes(study: Path) -> None:
     hold = (
         "import sys, time; from pathlib import Path; sys.path[:0] = sys.argv[1:2];"
-        "from made_up import COLUMNS; from agent_economy.study.store import Store;"
+        "from synthetic_runs import COLUMNS; from agent_economy.study.store import Store;"
         "Store.open(Path(sys.argv[2]), sys.argv[3], COLUMNS); print('held', flush=True);"
         "time.sleep(60)"
     )
@@ -429,8 +429,8 @@ def test_a_study_leaves_no_files_but_its_own(tmp_path: Path) -> None:
 
 
 def test_a_study_is_written_and_read_without_pandas(tmp_path: Path) -> None:
-    code = "import made_up, pathlib, sys; folder = pathlib.Path(sys.argv[1]);"
-    code += "made_up.write_study(folder); made_up.write_study(folder);"
+    code = "import synthetic_runs, pathlib, sys; folder = pathlib.Path(sys.argv[1]);"
+    code += "synthetic_runs.write_study(folder); synthetic_runs.write_study(folder);"
     code += "sys.exit('pandas' in sys.modules)"
     arguments = [sys.executable, "-c", code, str(tmp_path)]
     assert subprocess.run(arguments, cwd=Path(__file__).parent, check=False).returncode == 0

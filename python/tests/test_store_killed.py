@@ -5,8 +5,8 @@ import random
 import signal
 from pathlib import Path
 
-import made_up
 import pytest
+import synthetic_runs
 from forks import FORKS, started
 
 from agent_economy.study.store import read
@@ -41,7 +41,7 @@ def entered(folder: Path) -> dict[str, str]:
 
 def whole(folder: Path, *boundaries: int) -> dict[str, str]:
     """Return the blocks of a study that nobody killed."""
-    made_up.write_study(folder, *boundaries)
+    synthetic_runs.write_study(folder, *boundaries)
     return blocks(folder)
 
 
@@ -49,7 +49,7 @@ def test_a_study_killed_at_random_ends_with_the_same_bytes(tmp_path: Path) -> No
     chance = random.Random(SEED)  # noqa: S311
     kills, before = 0, dict[str, str]()
     while True:
-        process = started(made_up.write_study, tmp_path / "study", ROUNDS)
+        process = started(synthetic_runs.write_study, tmp_path / "study", ROUNDS)
         process.join(chance.uniform(0.01, 0.08) if kills < KILLS else None)
         process.kill()
         process.join()
@@ -68,13 +68,13 @@ def test_a_study_killed_at_every_touch_of_the_disk_goes_on(tmp_path: Path) -> No
     blocks_of_whole = whole(tmp_path / "whole", 3)
     for calls in range(200):
         folder = tmp_path / str(calls)
-        process = started(made_up.write_and_die, folder, calls)
+        process = started(synthetic_runs.write_and_die, folder, calls)
         process.join()
         if process.exitcode == 0:
             break
         assert process.exitcode == -signal.SIGKILL
         there = entered(folder)
-        made_up.write_study(folder, 3)
+        synthetic_runs.write_study(folder, 3)
         assert there.items() <= blocks(folder).items()
         assert blocks(folder) == blocks_of_whole
     else:
@@ -86,12 +86,12 @@ def test_a_study_on_a_full_disk_says_so_and_goes_on_when_there_is_room(
     tmp_path: Path, most_bytes: int
 ) -> None:
     answer = FORKS.Queue()
-    process = started(made_up.write_on_a_small_disk, tmp_path / "study", most_bytes, answer)
+    process = started(synthetic_runs.write_on_a_small_disk, tmp_path / "study", most_bytes, answer)
     message = answer.get(timeout=60)
     process.join()
     assert str(tmp_path) in message
     assert "cannot be" in message
     there = entered(tmp_path / "study")
-    made_up.write_study(tmp_path / "study")
+    synthetic_runs.write_study(tmp_path / "study")
     assert there.items() <= blocks(tmp_path / "study").items()
     assert blocks(tmp_path / "study") == whole(tmp_path / "whole")

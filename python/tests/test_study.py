@@ -4,10 +4,10 @@ import json
 from pathlib import Path
 from typing import Any
 
-import made_up
 import numpy as np
 import pytest
-import small
+import small_study
+import synthetic_runs
 
 import agent_economy as ae
 from agent_economy import InputError, Scenario, study
@@ -223,10 +223,10 @@ def test_an_answer_has_no_time_path_host_or_threads_in_it(
 ) -> None:
     study.run(scenario, delta=0.3, out=tmp_path)
     text = (tmp_path / "answer.json").read_text()
-    assert str(small.ROOT) not in text
+    assert str(small_study.ROOT) not in text
     assert str(tmp_path) not in text
     asked = (tmp_path / "study.toml").read_text()
-    assert str(small.ROOT) not in asked
+    assert str(small_study.ROOT) not in asked
     assert json.loads(text)["versions"].keys() >= {"agent-economy", "numpy", "python"}
 
 
@@ -326,8 +326,8 @@ def test_a_long_round_is_told_of_while_it_goes_on(monkeypatch: pytest.MonkeyPatc
 def test_pieces_together_are_the_whole() -> None:
     area = RunBlock(tuple(range(4)), 3, 1400)
     seen: list[int] = []
-    compute = in_chunks(made_up.slow_outcomes, seen.append)
-    assert made_up.same(compute(area), made_up.outcomes(area))
+    compute = in_chunks(synthetic_runs.slow_outcomes, seen.append)
+    assert synthetic_runs.same(compute(area), synthetic_runs.outcomes(area))
     assert seen == sorted(set(seen))
     assert 0 < seen[0] <= MIN_ROWS
     assert seen[-1] < area.rows

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-import small
+import small_study
 from dask_cluster import Cluster
 
 from agent_economy import study
@@ -12,7 +12,7 @@ def test_a_dask_worker_killed_in_mid_study_changes_no_byte(
     cluster: Cluster, tmp_path: Path
 ) -> None:
     address, (_, victim, _) = cluster
-    asked = small.plan()
+    asked = small_study.plan()
 
     def kill(now: study.Progress) -> None:
         if now.round == 7:

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-import small
+import small_study
 from forks import started
 
 from agent_economy import study
@@ -22,7 +22,7 @@ SEED = 11
 def undisturbed(folder: Path) -> float:
     """Run the small study to its end; return the seconds it took."""
     begin = time.monotonic()
-    process = started(small.run_plan, folder)
+    process = started(small_study.run_plan, folder)
     process.join()
     assert process.exitcode == 0
     return time.monotonic() - begin
@@ -59,7 +59,7 @@ def test_200_kills_lose_nothing_double_nothing_and_change_no_byte(quick_path: Pa
         folders += 1
         killed_here = 0
         while True:
-            process = started(small.run_plan, folder)
+            process = started(small_study.run_plan, folder)
             # From before anything is written to after the end; then it is left to finish.
             process.join(chance.uniform(0, 1.1 * seconds) if killed_here < KILLS_A_FOLDER else None)
             process.kill()

@@ -11,12 +11,12 @@ from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from functools import partial
 from pathlib import Path
 
-import made_up
 import pytest
+import synthetic_runs
 from dask_cluster import Cluster, free_port
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from made_up import outcomes, same
+from synthetic_runs import outcomes, same
 
 from agent_economy import InputError, StudyError
 from agent_economy.study.executors import LocalExecutor, dask_executor
@@ -79,7 +79,7 @@ def test_pieces_take_about_a_second_once_the_rate_is_known() -> None:
 
 
 def test_every_run_is_computed_once(tmp_path: Path) -> None:
-    with Workers(two_processes, 2, partial(made_up.logged, tmp_path)) as workers:
+    with Workers(two_processes, 2, partial(synthetic_runs.logged, tmp_path)) as workers:
         assert same(workers.columns(AREA), outcomes(AREA))
     rows = Counter[int]()
     for path in tmp_path.iterdir():
@@ -92,7 +92,7 @@ def test_every_run_is_computed_once(tmp_path: Path) -> None:
 
 
 def test_a_killed_worker_changes_no_result(tmp_path: Path) -> None:
-    with Workers(two_processes, 2, partial(made_up.killed_once, tmp_path)) as workers:
+    with Workers(two_processes, 2, partial(synthetic_runs.killed_once, tmp_path)) as workers:
         assert same(workers.columns(AREA), outcomes(AREA))
         assert (tmp_path / "killed").exists()
         assert same(workers.columns(AREA), outcomes(AREA))
@@ -100,7 +100,7 @@ def test_a_killed_worker_changes_no_result(tmp_path: Path) -> None:
 
 def test_runs_that_always_fail_end_the_study_by_name() -> None:
     with (
-        Workers(two_processes, 2, made_up.failing) as workers,
+        Workers(two_processes, 2, synthetic_runs.failing) as workers,
         pytest.raises(StudyError) as caught,
     ):
         workers.columns(AREA)
@@ -114,7 +114,7 @@ def test_runs_that_always_fail_end_the_study_by_name() -> None:
 def test_runs_that_always_kill_their_worker_end_the_study_by_name() -> None:
     area = RunBlock(tuple(range(8)), 0, 400)
     with (
-        Workers(two_processes, 2, made_up.killed_always) as workers,
+        Workers(two_processes, 2, synthetic_runs.killed_always) as workers,
         pytest.raises(StudyError, match="3 times, the last time with BrokenProcessPool") as caught,
     ):
         workers.columns(area)
@@ -157,7 +157,7 @@ def test_a_task_that_gives_less_ends_the_study(task: partial[Columns], reason: s
 
 INTERRUPTED = """
 import os, time
-from made_up import RunBlock
+from synthetic_runs import RunBlock
 from agent_economy.study.executors import LocalExecutor
 from agent_economy.study.workers import Workers
 
@@ -222,7 +222,7 @@ def ends(group: int) -> bool:
 
 def test_a_killed_dask_worker_changes_no_result(cluster: Cluster, tmp_path: Path) -> None:
     address, _ = cluster
-    task = partial(made_up.killed_once, tmp_path)
+    task = partial(synthetic_runs.killed_once, tmp_path)
     with Workers(partial(dask_executor, address), 2, task) as workers:
         assert same(workers.columns(AREA), outcomes(AREA))
         assert (tmp_path / "killed").exists()
@@ -232,7 +232,7 @@ def test_a_killed_dask_worker_changes_no_result(cluster: Cluster, tmp_path: Path
 def test_runs_that_always_fail_on_dask_end_the_study_by_name(cluster: Cluster) -> None:
     address, _ = cluster
     with (
-        Workers(partial(dask_executor, address), 2, made_up.failing) as workers,
+        Workers(partial(dask_executor, address), 2, synthetic_runs.failing) as workers,
         pytest.raises(StudyError, match="the last time with ValueError: the brain has no goal"),
     ):
         workers.columns(AREA)
@@ -243,7 +243,7 @@ def test_a_scheduler_that_dies_ends_the_study(
 ) -> None:
     address, processes = cluster
     monkeypatch.setattr("agent_economy.study.executors.CONNECT_S", 2)
-    with Workers(partial(dask_executor, address), 2, made_up.slow_outcomes) as workers:
+    with Workers(partial(dask_executor, address), 2, synthetic_runs.slow_outcomes) as workers:
         assert same(workers.columns(AREA), outcomes(AREA))
         processes[0].kill()
         with pytest.raises(StudyError, match=f"{address}: the Dask scheduler is lost"):

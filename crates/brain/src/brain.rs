@@ -92,13 +92,13 @@ impl Brain {
 
     /// Whether it has beliefs and goals.
     #[must_use]
-    pub fn has_mind(&self) -> bool {
+    pub fn has_beliefs(&self) -> bool {
         self.beliefs.is_some()
     }
 
     /// Its beliefs and goals; `None` if it has none.
     #[must_use]
-    pub fn thoughts(&self) -> Option<BeliefState> {
+    pub fn belief_state(&self) -> Option<BeliefState> {
         self.beliefs.as_deref().map(BeliefState::of)
     }
 
@@ -119,7 +119,7 @@ impl Brain {
             command,
             leading: leading.and_then(|place| u32::try_from(place).ok()),
             holds_s: brain.layers.iter().map(Layer::holds_s).collect(),
-            thoughts: brain.thoughts(),
+            belief_state: brain.belief_state(),
         }
     }
 

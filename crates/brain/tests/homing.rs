@@ -48,8 +48,9 @@ fn goes_home(brain: &mut Brain, left: f64, age_s: f64) -> bool {
         ..Percept::default()
     };
     brain.step(&percept);
-    let thoughts = brain.thoughts();
-    thoughts.is_some_and(|thoughts| thoughts.goals.iter().any(|goal| goal.behaviour == 1))
+    let belief_state = brain.belief_state();
+    belief_state
+        .is_some_and(|belief_state| belief_state.goals.iter().any(|goal| goal.behaviour == 1))
 }
 
 /// The same after so many readings of the same.

@@ -310,25 +310,25 @@ fn check_outbox(outbox: &[Message]) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-fn check_thoughts(brain: &Brain) -> Result<(), TestCaseError> {
-    let thoughts = brain.thoughts().unwrap_or_default();
+fn check_belief_state(brain: &Brain) -> Result<(), TestCaseError> {
+    let belief_state = brain.belief_state().unwrap_or_default();
     let sizes = [
-        thoughts.items.len(),
-        thoughts.robots.len(),
-        thoughts.goals.len(),
+        belief_state.items.len(),
+        belief_state.robots.len(),
+        belief_state.goals.len(),
     ];
     prop_assert!(
         sizes[0] <= 64 && sizes[1] <= 16 && sizes[2] <= 11,
         "{sizes:?}"
     );
-    for item in &thoughts.items {
+    for item in &belief_state.items {
         prop_assert!((0.0..=1.0).contains(&item.confidence), "{item:?}");
         prop_assert!(
             item.deviation_m.is_finite() && item.at.x.is_finite(),
             "{item:?}"
         );
     }
-    for robot in &thoughts.robots {
+    for robot in &belief_state.robots {
         let numbers = [
             robot.at.x,
             robot.at.y,
@@ -424,11 +424,11 @@ proptest! {
             prop_assert!((-1.5..=1.5).contains(&motion.turn_rate_rad_s), "{motion:?}");
             check_outbox(&outbox)?;
         }
-        check_thoughts(&brain)?;
+        check_belief_state(&brain)?;
     }
 
     #[test]
-    fn the_same_percepts_give_minds_the_same_thoughts_and_commands(
+    fn the_same_percepts_give_the_same_beliefs_and_commands(
         percepts in proptest::collection::vec(percept(absurd), 2..40),
         arbitration in arbitration(), turn in 0_usize..11, at in 0_usize..40,
     ) {
@@ -446,8 +446,8 @@ proptest! {
             prop_assert_eq!(&step(&mut again, percept), &command);
             prop_assert_eq!(&step(&mut clone, percept), &command);
         }
-        let thoughts = format!("{:?}", first.thoughts());
-        prop_assert_eq!(format!("{:?}", clone.thoughts()), thoughts);
+        let belief_state = format!("{:?}", first.belief_state());
+        prop_assert_eq!(format!("{:?}", clone.belief_state()), belief_state);
     }
 
     #[test]
@@ -462,7 +462,7 @@ proptest! {
                 (id.index != gone).then_some(RobotId { index, ..id })
             });
         }
-        check_thoughts(&brain)?;
+        check_belief_state(&brain)?;
     }
 
     #[test]

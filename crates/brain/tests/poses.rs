@@ -72,7 +72,10 @@ fn wheels(speed_m_s: f64, turn_rate_rad_s: f64, age_s: f64) -> Percept {
 
 #[expect(clippy::unwrap_used, reason = "tests panic when there is none")]
 fn pose(brain: &Brain) -> Pose {
-    brain.thoughts().and_then(|thoughts| thoughts.pose).unwrap()
+    brain
+        .belief_state()
+        .and_then(|belief_state| belief_state.pose)
+        .unwrap()
 }
 
 /// What it believes after so many of the same percept.

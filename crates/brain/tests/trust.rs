@@ -207,8 +207,8 @@ fn nobody_follows_where_its_leader_was_long_ago() {
         let mut steps = 1..200;
         let wants = |brain: &mut Brain| {
             step(brain, Vec::new());
-            let thoughts = brain.thoughts().unwrap_or_default();
-            !thoughts.goals.is_empty()
+            let belief_state = brain.belief_state().unwrap_or_default();
+            !belief_state.goals.is_empty()
         };
         let ends = steps.find(|_| !wants(&mut brain)).unwrap_or(200) - 1;
         assert!(for_steps.contains(&ends), "{age_s}: {ends}");

@@ -59,10 +59,10 @@ impl Brain {
     }
 
     /// What it believes and wants; None if it has no mind.
-    fn thoughts<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
-        let thoughts = self.with(|brain| brain.thoughts());
-        thoughts
-            .map(|thoughts| convert::write(py, &thoughts))
+    fn belief_state<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
+        let belief_state = self.with(|brain| brain.belief_state());
+        belief_state
+            .map(|belief_state| convert::write(py, &belief_state))
             .transpose()
     }
 

@@ -208,8 +208,8 @@ impl ClassicSimulation {
         cells.map(Iterator::collect).collect()
     }
 
-    /// The cells (columns and rows) that a robot would look at in a decision now.
-    fn looks(&self, py: Python, robot: usize) -> Vec<(i32, i32)> {
+    /// The cells (columns and rows) that a robot would examine in a decision now.
+    fn examined_cells(&self, py: Python, robot: usize) -> Vec<(i32, i32)> {
         let run = self.locked(py);
         let robot = run.search().simulation().robots().get(robot);
         let cells = robot.into_iter().flat_map(Robot::looks);

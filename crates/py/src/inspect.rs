@@ -9,9 +9,9 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use sim::simulation::{Inspected, Simulation as Run};
 
-/// Watches a robot from now on, or none.
+/// Selects a robot for inspection from now on; `None` selects none.
 #[pyfunction]
-pub(crate) fn watch<'py>(
+pub(crate) fn inspect<'py>(
     py: Python<'py>,
     simulation: &Bound<'py, Simulation>,
     robot: Option<Bound<'py, PyAny>>,
@@ -22,10 +22,10 @@ pub(crate) fn watch<'py>(
     Ok(())
 }
 
-/// What a robot's brain perceives and decides, and why, if it is watched, as it is from now on; None if
-/// there is nothing to tell, or the robot is gone.
+/// The percept and the decision of a robot's brain in the next step, with the reasons. Selects the robot
+/// for inspection. `None` if its brain has not stepped since then, or the robot no longer exists.
 #[pyfunction]
-pub(crate) fn watched<'py>(
+pub(crate) fn inspection<'py>(
     py: Python<'py>,
     simulation: &Bound<'py, Simulation>,
     robot: &Bound<'py, PyAny>,
@@ -34,7 +34,7 @@ pub(crate) fn watched<'py>(
     let run: &mut Run = &mut locked;
     // A change of the run may have given it another number.
     run.inspect(id_of(run.scenario(), robot).ok());
-    let Some(told) = py.detach(|| run.inspection()) else {
+    let Some(inspected) = py.detach(|| run.inspection()) else {
         return Ok(None);
     };
     let Inspected {
@@ -42,18 +42,18 @@ pub(crate) fn watched<'py>(
         percept,
         decision,
         ..
-    } = told;
+    } = inspected;
     let dict = PyDict::new(py);
     dict.set_item("tick", tick)?;
     dict.set_item("percept", convert::write(py, &percept)?)?;
     dict.set_item("command", convert::write(py, &decision.command)?)?;
     dict.set_item("leading", decision.leading)?;
     dict.set_item("holds_s", decision.holds_s)?;
-    dict.set_item("thoughts", convert::write(py, &decision.thoughts)?)?;
+    dict.set_item("belief_state", convert::write(py, &decision.belief_state)?)?;
     Ok(Some(dict))
 }
 
-/// The map in a robot's mind; None if it has none.
+/// The map that a robot believes; `None` if it has none.
 #[pyfunction]
 pub(crate) fn believed_map<'py>(
     py: Python<'py>,

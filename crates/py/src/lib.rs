@@ -50,7 +50,7 @@ mod _core {
     #[pymodule_export]
     use crate::frame::frame;
     #[pymodule_export]
-    use crate::inspect::{believed_map, watch, watched};
+    use crate::inspect::{believed_map, inspect, inspection};
     #[pymodule_export]
     use crate::metric_scenario::{MetricScenario, body, read_metric};
     #[pymodule_export]

@@ -149,15 +149,15 @@ impl Simulation {
     }
 
     /// What a robot believes and wants; None if it has no mind.
-    fn thoughts<'py>(
+    fn belief_state<'py>(
         &self,
         py: Python<'py>,
         robot: &Bound<'py, PyAny>,
     ) -> PyResult<Option<Bound<'py, PyAny>>> {
         let run = self.locked(py)?;
-        let thoughts = run.state().thoughts(id_of(run.scenario(), robot)?);
-        thoughts
-            .map(|thoughts| convert::write(py, &thoughts))
+        let belief_state = run.state().belief_state(id_of(run.scenario(), robot)?);
+        belief_state
+            .map(|belief_state| convert::write(py, &belief_state))
             .transpose()
     }
 
@@ -270,7 +270,7 @@ impl Simulation {
 
     /// Whether the body of each robot is external.
     #[getter]
-    fn outside<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<bool>>> {
+    fn external<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<bool>>> {
         Ok(self.each(py, |robot| robot.is_external)?.into_pyarray(py))
     }
 

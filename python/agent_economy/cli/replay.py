@@ -10,7 +10,7 @@ from agent_economy import __version__
 from agent_economy.cli.errors import FAILED, error_exits
 
 if TYPE_CHECKING:
-    from agent_economy.recording import Rerun
+    from agent_economy.recording import Replay
 
 
 def replay(
@@ -39,13 +39,13 @@ def replay(
     from agent_economy import recording  # noqa: PLC0415
 
     with error_exits():
-        result = recording.rerun(file)
+        result = recording.replay(file)
     typer.echo(json.dumps(as_dict(result), indent=2) if as_json else as_sentence(result))
     if verify and not result.agrees:
         raise typer.Exit(FAILED)
 
 
-def as_sentence(result: "Rerun") -> str:
+def as_sentence(result: "Replay") -> str:
     """Return the result of a replay in words."""
     which = f"{result.scenario.name}, seed {result.seed}, run {result.run}"
     if result.agrees:
@@ -60,7 +60,7 @@ def as_sentence(result: "Rerun") -> str:
     return f"{which}: {verdict}{end}"
 
 
-def as_dict(result: "Rerun") -> dict[str, object]:
+def as_dict(result: "Replay") -> dict[str, object]:
     """Return the result of a replay for programs."""
     names = ("seed", "run", "program", "is_whole", "tick", "hash", "agrees", "differs_at")
     return {

@@ -25,7 +25,7 @@ FLUSH_NS = 5 * SECOND_NS
 
 
 class Recording:
-    """A run on its way into a file in MCAP, which Foxglove shows and `rerun` takes again.
+    """A run on its way into a file in MCAP, which Foxglove shows and `replay` takes again.
 
     Use it as a context manager, and step it instead of the simulation.
 

@@ -14,7 +14,7 @@ from agent_economy.scenario import Scenario, validation
 
 
 @dataclass(frozen=True)
-class Rerun:
+class Replay:
     """A recorded run, taken again.
 
     Attributes:
@@ -45,7 +45,7 @@ class Rerun:
         return self.differs_at is None
 
 
-def rerun(path: str | Path) -> Rerun:
+def replay(path: str | Path) -> Replay:
     """Take a recorded run again, from its file alone; Ctrl-C stops it between two steps.
 
     Args:
@@ -62,7 +62,7 @@ def rerun(path: str | Path) -> Rerun:
         return compared(simulation, identity, recorded)
 
 
-def compared(simulation: Stepped, identity: Identity, recorded: Recorded) -> Rerun:
+def compared(simulation: Stepped, identity: Identity, recorded: Recorded) -> Replay:
     """Take a run again, and compare it with what was recorded."""
     differs_at = None
     for point in recorded.points:
@@ -71,7 +71,7 @@ def compared(simulation: Stepped, identity: Identity, recorded: Recorded) -> Rer
             pass
         if differs_at is None and f"{simulation.hash:016x}" != point.hash:
             differs_at = point.tick
-    return Rerun(
+    return Replay(
         scenario=identity.scenario,
         seed=identity.seed,
         run=identity.run,

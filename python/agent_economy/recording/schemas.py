@@ -105,7 +105,7 @@ CLASSIC_ROBOTS = of_object(
 
 INPUT = of_object(
     "agent_economy.Input",
-    "What came into the next step from outside, by robots: without it there is no rerun.",
+    "What came into the next step from outside, by robots: without it there is no replay.",
     {
         "tick": INTEGER | {"description": "Steps that had been taken."},
         "percepts": {"type": "object", "description": "Of robots whose bodies are outside."},

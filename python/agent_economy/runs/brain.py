@@ -23,23 +23,23 @@ __all__ = [
     "Body",
     "Brain",
     "Command",
+    "Inspection",
     "Percept",
-    "Watched",
     "schemas",
 ]
 
 
-class Watched(TypedDict):
-    """What a robot perceived in one step, what its brain made of it, and why.
+class Inspection(TypedDict):
+    """The percept and the decision of a robot in one step, with the reasons.
 
     Attributes:
-        tick: Steps of the run before that one.
-        percept: What it perceived.
-        command: What it decided.
-        leading: Place in the brain's list of the behaviour that has its way; None if nothing is to
-            be done, or all count together.
-        holds_s: For so long each behaviour keeps control though it has nothing to do.
-        thoughts: What it believes and wants then; None if it has no mind.
+        tick: Number of steps of the run before that step.
+        percept: The percept.
+        command: The command.
+        leading: Index of the active behaviour in the brain's list; None if there is nothing to do,
+            or if all behaviours are blended.
+        holds_s: Remaining hold time of each behaviour.
+        belief_state: Its beliefs and goals; None if its brain has no beliefs.
     """
 
     tick: int
@@ -47,18 +47,18 @@ class Watched(TypedDict):
     command: Command
     leading: int | None
     holds_s: list[float]
-    thoughts: BeliefState | None
+    belief_state: BeliefState | None
 
 
 class BelievedMap(TypedDict):
-    """What a robot believes to fill its mission's field, and where it has not looked.
+    """The map that a robot believes, of the area of its mission.
 
     Attributes:
-        corner: Where the first cell's least corner is, in the world.
+        corner: Corner of the first cell with the smallest x and y, in world coordinates.
         cell_m: Width of a cell.
-        occupancy: How likely each cell is filled, in percent; -1 where nothing says either. Shape
-            (rows, columns), the lowest row first.
-        unseen: How likely an item in each cell would not have been seen, in percent; same shape.
+        occupancy: Probability that each cell is occupied, in percent; -1 where it is unknown.
+            Shape (rows, columns), the row with the smallest y first.
+        unseen: Probability that an item in each cell was not detected, in percent; same shape.
     """
 
     corner: Point
@@ -68,15 +68,16 @@ class BelievedMap(TypedDict):
 
 
 class Brain:
-    """The mind of one robot.
+    """The brain of one robot, for percepts of your own.
 
     Args:
-        spec: What a scenario says under `[robots.KIND.brain]`; None for the default brain, which
-            searches: ahead, at obstacles a random turn, and out of the way of what is too near.
-        body: What it knows of its body. None in either is as if it were left out.
+        spec: The brain as in `[robots.KIND.brain]` of a scenario; None for the default brain,
+            which goes straight ahead, turns by a random angle at obstacles, and avoids what is
+            near.
+        body: The body. An entry that is None counts as omitted, here and in `spec`.
 
     Raises:
-        InputError: If anything in either is wrong; all faults at once.
+        InputError: If there are errors in either; it lists all of them.
 
     Example:
         >>> from agent_economy import Brain
@@ -87,52 +88,51 @@ class Brain:
     """
 
     def __init__(self, spec: Mapping[str, Any] | None, body: Body) -> None:
-        """Make a mind that has just been switched on."""
-        self._mind = _core.Brain({} if spec is None else spec, body)
+        """Create a brain in its initial state."""
+        self._brain = _core.Brain({} if spec is None else spec, body)
 
     @classmethod
     def of(cls, scenario: Scenario | str | Path, kind: str) -> "Brain":
-        """Return a brain as a scenario's robots of a kind have it, in their body.
+        """Return the brain of a robot kind of a scenario, in its body.
 
         Args:
-            scenario: A scenario of the metric engine, its file, or the name of one that ships.
-            kind: Name of a kind of robots.
+            scenario: A scenario of the metric engine, its file, or the name of a bundled one.
+            kind: Name of the robot kind.
 
         Raises:
-            InputError: If the scenario is wrong or of another engine, or has no such kind.
+            InputError: If the scenario has errors, is of another engine, or has no such kind.
         """
-        validation.of_kind("kind", kind, str, "the name of a kind of robots")
+        validation.of_kind("kind", kind, str, "the name of a robot kind")
         brain = cls.__new__(cls)
-        vars(brain)["_mind"] = _core.Brain.of(as_scenario(scenario).metric(), kind)
+        vars(brain)["_brain"] = _core.Brain.of(as_scenario(scenario).metric(), kind)
         return brain
 
     def step(self, percept: Percept) -> Command:
-        """Return what the robot is to do; to be called once in each of the body's periods.
+        """Return the command for a percept. Call it once per period of the body.
 
         Raises:
-            InputError: If the percept has a wrong name, or something of a wrong kind.
+            InputError: If an entry of the percept is unknown or has an invalid value.
         """
-        return cast("Command", self._mind.step(percept))
+        return cast("Command", self._brain.step(percept))
 
-    def thoughts(self) -> BeliefState | None:
-        """Return what it believes and wants, as of its last step.
+    def belief_state(self) -> BeliefState | None:
+        """Return the beliefs and goals of the brain, as of its last step.
 
         Returns:
-            None if it has no mind: neither beliefs, nor a behaviour that needs them.
+            None if the brain has no beliefs.
         """
-        return cast("BeliefState | None", self._mind.thoughts())
+        return cast("BeliefState | None", self._brain.belief_state())
 
     def copy(self) -> "Brain":
-        """Return a brain with the same memories, which then goes its own way."""
+        """Return an independent copy in the same state."""
         brain = Brain.__new__(Brain)
-        vars(brain)["_mind"] = self._mind.copy()
+        vars(brain)["_brain"] = self._brain.copy()
         return brain
 
 
 def schemas() -> dict[str, dict[str, Any]]:
     """Return the JSON Schemas of brains, for other languages.
 
-    They are those of all that enters and leaves one, BrainSpec, Body, Percept and Command, and of
-    BeliefState.
+    By name: `BrainSpec`, `Body`, `Percept`, `Command` and `BeliefState`.
     """
     return _core.Brain.schemas()

@@ -110,7 +110,7 @@ class ClassicSimulation(Stepped):
             self.scenario, self._changes = snapshot.scenario, snapshot.changes
             self.seed, self.run = snapshot.seed, snapshot.run
 
-    def thoughts(self, robot: str) -> None:
+    def belief_state(self, robot: str) -> None:
         """Return None: robots of 2003 believe nothing and want nothing.
 
         Raises:
@@ -118,13 +118,13 @@ class ClassicSimulation(Stepped):
         """
         self._number(robot)
 
-    def looks(self, robot: str) -> list[tuple[int, int]]:
-        """Return the cells, columns and rows, that a robot would look at if it decided now.
+    def examined_cells(self, robot: str) -> list[tuple[int, int]]:
+        """Return the cells (columns and rows) that a robot would examine if it decided now.
 
         Raises:
             InputError: If there is no such robot.
         """
-        return self._run.looks(self._number(robot))
+        return self._run.examined_cells(self._number(robot))
 
     def _number(self, robot: str) -> int:
         allowed = f"one of {KIND}/0 to {KIND}/{len(self.robots) - 1}"

@@ -11,7 +11,7 @@ import pyarrow as pa
 from numpy.typing import NDArray
 
 from agent_economy import _core
-from agent_economy.runs.brain import BeliefState, BelievedMap, Command, Percept, Watched
+from agent_economy.runs.brain import BeliefState, BelievedMap, Command, Inspection, Percept
 from agent_economy.runs.outcome import Outcome
 from agent_economy.runs.python_brains import Brains, changed_minds, minds
 from agent_economy.runs.stepped import Change, Stepped
@@ -96,7 +96,7 @@ class Simulation(Stepped):
         metric = self.scenario.metric()
         self._run = _core.Simulation(metric, seed=seed, run=run, threads=threads)
         self._minds = minds(brains, metric, self.scenario.robots)
-        self._watches: str | None = None
+        self._inspected: str | None = None
 
     def step(
         self,
@@ -163,61 +163,61 @@ class Simulation(Stepped):
         """
         return cast("Percept | None", self._run.percept(robot))
 
-    def thoughts(self, robot: str) -> BeliefState | None:
-        """Return what a robot believes and wants, as of its brain's last step.
+    def belief_state(self, robot: str) -> BeliefState | None:
+        """Return what a robot believes and its goals, as of the last step of its brain.
 
         Args:
-            robot: Its name.
+            robot: Name of the robot.
 
         Returns:
-            None if it has no mind, or one in Python.
+            None if its brain has no beliefs, or is a Python brain.
 
         Raises:
             InputError: If there is no such robot.
         """
-        thoughts = self._run.thoughts(robot)
-        return None if self._is_in_python(robot) else cast("BeliefState | None", thoughts)
+        belief_state = self._run.belief_state(robot)
+        return None if self._is_in_python(robot) else cast("BeliefState | None", belief_state)
 
     def believed_map(self, robot: str) -> BelievedMap | None:
-        """Return the map in a robot's mind, as of its brain's last step.
+        """Return the map that a robot believes, as of the last step of its brain.
 
         Args:
-            robot: Its name.
+            robot: Name of the robot.
 
         Returns:
-            None if it has none, or a mind in Python.
+            None if its brain has no map, or is a Python brain.
 
         Raises:
             InputError: If there is no such robot.
         """
-        told = _core.believed_map(self._run, robot)
-        return None if self._is_in_python(robot) else cast("BelievedMap | None", told)
+        believed = _core.believed_map(self._run, robot)
+        return None if self._is_in_python(robot) else cast("BelievedMap | None", believed)
 
-    def watch(self, robot: str | None) -> None:
-        """Watch a robot from now on, or none: `watched` tells of it. The run stays the same.
+    def inspect(self, robot: str | None) -> None:
+        """Select a robot for `inspection`. It does not change the run.
 
         Args:
-            robot: Its name, or None.
+            robot: Name of the robot; None to select none.
 
         Raises:
             InputError: If there is no such robot.
         """
-        _core.watch(self._run, robot)
-        self._watches = robot
+        _core.inspect(self._run, robot)
+        self._inspected = robot
 
-    def watched(self) -> Watched | None:
-        """Return what the watched robot perceives and decides in the next step, and why.
+    def inspection(self) -> Inspection | None:
+        """Return the percept and the decision of the selected robot in the next step, with reasons.
 
-        If its brain does not step then, it is what it perceived and decided when it stepped last.
+        If its brain does not step then, they are those of its last step.
 
         Returns:
-            None if no robot is watched, its brain is in Python or has not stepped since it is
-            watched, or the robot cannot go on.
+            None if no robot is selected, if its brain is a Python brain or has not stepped since
+            the robot was selected, or if the robot is empty, broken or no longer in the team.
         """
-        robot = self._watches
+        robot = self._inspected
         if robot is None or self._is_in_python(robot):
             return None
-        return cast("Watched | None", _core.watched(self._run, robot))
+        return cast("Inspection | None", _core.inspection(self._run, robot))
 
     def links(self, robot: str | None = None) -> NDArray[np.uint32]:
         """Return who hears whom now, but for messages that are lost by chance.
@@ -346,9 +346,9 @@ class Simulation(Stepped):
         return STATUSES[self._run.status]
 
     @property
-    def outside(self) -> NDArray[np.bool_]:
-        """Whether each robot's body is outside, shape (robots,): see `step`."""
-        return self._run.outside
+    def external(self) -> NDArray[np.bool_]:
+        """Whether the body of each robot is external, shape (robots,): see `step`."""
+        return self._run.external
 
     @property
     def battery(self) -> Floats:

@@ -83,7 +83,7 @@ class Stepped(ABC):
         """Put a value into the scenario, and go on with that."""
 
     @abstractmethod
-    def thoughts(self, robot: str) -> BeliefState | None:
+    def belief_state(self, robot: str) -> BeliefState | None:
         """Return what a robot believes and wants; None if it has no mind."""
 
     @abstractmethod

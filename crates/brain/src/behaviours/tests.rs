@@ -261,7 +261,7 @@ fn along_frontiers_one_looks_at_all_of_a_room_and_has_nothing_more_to_do() {
     let errand = BehaviourSpec::Frontier(Frontier::default());
     let robot = looks_at_all_of_a_room_with_a_wall(errand, 280);
     assert!(robot.walk.speed_m_s.abs() < 1e-6);
-    let goals = robot.brain.thoughts().unwrap().goals;
+    let goals = robot.brain.belief_state().unwrap().goals;
     assert!(goals.is_empty(), "{goals:?}");
 }
 

@@ -17,5 +17,5 @@ pub struct Decision {
     /// Remaining hold time of each behaviour.
     pub holds_s: Vec<f64>,
     /// What it believes and wants; none without beliefs.
-    pub thoughts: Option<BeliefState>,
+    pub belief_state: Option<BeliefState>,
 }

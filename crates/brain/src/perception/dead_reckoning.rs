@@ -208,7 +208,10 @@ mod tests {
                 ..Percept::default()
             });
         }
-        let pose = brain.thoughts().and_then(|thoughts| thoughts.pose).unwrap();
+        let pose = brain
+            .belief_state()
+            .and_then(|belief_state| belief_state.pose)
+            .unwrap();
         assert!(pose.heading_rad.abs() < 0.01, "{pose:?}");
         assert!((pose.deviation_rad - 0.005).abs() < 0.001, "{pose:?}");
     }

@@ -61,9 +61,9 @@ impl State {
     /// What a robot believes and wants; `None` if there is no such robot, or its brain has no
     /// beliefs.
     #[must_use]
-    pub fn thoughts(&self, id: RobotId) -> Option<BeliefState> {
+    pub fn belief_state(&self, id: RobotId) -> Option<BeliefState> {
         let robot = self.ids.binary_search(&id).ok()?;
-        self.agents[robot].brain.thoughts()
+        self.agents[robot].brain.belief_state()
     }
 
     /// The map of a robot; `None` if there is no such robot, or it has none.

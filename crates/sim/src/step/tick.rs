@@ -44,7 +44,7 @@ impl StepScratch {
             decisions: PendingDecisions::default(),
             moves: Moves::default(),
             may_share,
-            has_beliefs: scenario.kinds.iter().any(|kind| kind.brain.has_mind()),
+            has_beliefs: scenario.kinds.iter().any(|kind| kind.brain.has_beliefs()),
         }
     }
 

@@ -230,7 +230,10 @@ fn a_mind_keeps_no_more_than_is_said_whatever_it_perceives() {
             bytes <= most,
             "{cells} cells, {rays} rays: {bytes} of {most}"
         );
-        let thoughts = kept.unwrap().thoughts().unwrap();
-        assert_eq!((thoughts.items.len(), thoughts.robots.len()), (64, 16));
+        let belief_state = kept.unwrap().belief_state().unwrap();
+        assert_eq!(
+            (belief_state.items.len(), belief_state.robots.len()),
+            (64, 16)
+        );
     }
 }

@@ -85,20 +85,20 @@ fn why_it_goes_there_is_told() {
     for _ in 0..300 {
         simulation.step();
         let decision = simulation.inspection().unwrap().decision;
-        let thoughts = decision.thoughts.unwrap();
-        for goal in &thoughts.goals {
+        let belief_state = decision.belief_state.unwrap();
+        for goal in &belief_state.goals {
             let [time_s, value] = [goal.time_s, goal.value];
             let precedence = value * goal.likely / (1.0 + time_s / 10.0);
             assert!((goal.precedence - precedence).abs() < 1e-9, "{goal:?}");
             assert!(goal.best_m <= goal.left_m + 0.1, "{goal:?}");
         }
         let leads = |behaviour| decision.leading == Some(behaviour);
-        let first = thoughts.goals.iter().find(|goal| goal.is_pursued);
+        let first = belief_state.goals.iter().find(|goal| goal.is_pursued);
         pursued += u32::from(first.is_some_and(|goal| leads(goal.behaviour)));
         // Its reflex, or the behaviour whose goal it has; a place is chosen only on the way to one.
         assert!(leads(2) || first.is_none_or(|goal| leads(goal.behaviour)));
-        assert!(thoughts.reach.is_none() || !leads(2));
-        reached += u32::from(thoughts.reach.is_some());
+        assert!(belief_state.reach.is_none() || !leads(2));
+        reached += u32::from(belief_state.reach.is_some());
     }
     assert!(reached > 200 && pursued > 200, "{reached} {pursued}");
 }

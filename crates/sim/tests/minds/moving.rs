@@ -36,8 +36,8 @@ fn simulation(rest: &str, run: u64) -> Simulation {
 /// What the watcher believes to move after a step.
 fn step(simulation: &mut Simulation) -> Vec<BelievedRobot> {
     simulation.step();
-    let thoughts = simulation.state().thoughts(WATCHER).unwrap();
-    thoughts.robots
+    let belief_state = simulation.state().belief_state(WATCHER).unwrap();
+    belief_state.robots
 }
 
 #[test]

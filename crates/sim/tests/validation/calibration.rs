@@ -57,8 +57,8 @@ fn asked(simulation: &Simulation) -> Vec<Belief> {
     let each = simulation.state().each_item(simulation.scenario());
     let items: Vec<(u16, Point)> = each.map(|item| (item.kind, item.at)).collect();
     let ids = robots(simulation).into_iter().map(|robot| robot.id);
-    let thoughts = ids.filter_map(|id| simulation.state().thoughts(id));
-    let believed = thoughts.flat_map(|thoughts| thoughts.items);
+    let belief_state = ids.filter_map(|id| simulation.state().belief_state(id));
+    let believed = belief_state.flat_map(|belief_state| belief_state.items);
     let belief = |item: brain::BelievedItem| {
         let near_m = 3.0 * item.deviation_m + NEAR_M;
         let is_it =

@@ -7,7 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from agent_economy._core import InputError
-from agent_economy.runs.brain import BelievedMap, Watched
+from agent_economy.runs import brain
+from agent_economy.runs.brain import BelievedMap
 from agent_economy.runs.simulation import Simulation
 from agent_economy.types.page import Inspection, MapPart
 
@@ -30,19 +31,18 @@ class Selected:
 
     def inspection(self, simulation: Simulation) -> Inspection | None:
         """Return what the robot perceives, decides and believes."""
-        robot = self._watch(simulation)
+        robot = self._select(simulation)
         if robot is None:
             return None
-        decided: Any = simulation.watched()
-        if decided is None:
-            decided = dict.fromkeys(Watched.__annotations__)
-            decided["thoughts"] = simulation.thoughts(robot)
-        belief_state = decided.pop("thoughts")
-        return cast("Inspection", {**decided, "belief_state": belief_state, "robot": robot})
+        inspection: Any = simulation.inspection()
+        if inspection is None:
+            inspection = dict.fromkeys(brain.Inspection.__annotations__)
+            inspection["belief_state"] = simulation.belief_state(robot)
+        return cast("Inspection", {**inspection, "robot": robot})
 
     def map(self, simulation: Simulation) -> MapPart | None:
         """Return the changes of the robot's map since the last call; None if there are none."""
-        robot = self._watch(simulation)
+        robot = self._select(simulation)
         if robot is None:
             return None
         before, now = self._map, simulation.believed_map(robot)
@@ -69,10 +69,10 @@ class Selected:
     def details(self, simulation: Simulation) -> None:
         """Return None: the inspection contains everything."""
 
-    def _watch(self, simulation: Simulation) -> str | None:
-        """Watch the robot from now on, and return its name; None if it does not exist now."""
+    def _select(self, simulation: Simulation) -> str | None:
+        """Select the robot for inspection, and return its name; None if it does not exist now."""
         try:
-            simulation.watch(self._robot)
+            simulation.inspect(self._robot)
         except InputError:
             return None
         return self._robot

@@ -84,7 +84,7 @@ def details(simulation: ClassicSimulation, robot: str) -> RobotView:
             ["Turns that count", f"{state['left_turns']} left, {state['right_turns']} right"],
             ["Carry, of all robots", str(simulation.carry)],
         ],
-        "examined_cells": [outline(cell) for cell in simulation.looks(robot)],
+        "examined_cells": [outline(cell) for cell in simulation.examined_cells(robot)],
     }
 
 

@@ -72,4 +72,4 @@ def capacity(simulation: Stepped) -> int:
 
 def has_beliefs(simulation: Stepped, kind: str) -> bool:
     """Return whether robots of a kind have a belief state."""
-    return simulation.thoughts(f"{kind}/0") is not None
+    return simulation.belief_state(f"{kind}/0") is not None

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from alarm import ringing
-from bumpers import AHEAD, SMALL, Ahead, Bumper, Talker
+from example_brains import AHEAD, SMALL, Ahead, Bumper, Talker
 from metric import ENDLESS, FULL, search
 
 import agent_economy as ae
@@ -119,7 +119,7 @@ def test_a_run_without_room_is_quarantined_with_brains_in_python_too() -> None:
 def test_a_recording_holds_what_brains_in_python_decided(tmp_path: Path) -> None:
     scenario = Scenario.loads(SMALL).replace("clock.time_limit_s", 10)
     outcome = ae.run(scenario, 3, record=tmp_path / "talk.mcap", brains={"bumper": Talker})
-    again = ae.rerun(tmp_path / "talk.mcap")
+    again = ae.replay(tmp_path / "talk.mcap")
     assert again.agrees
     assert again.outcome.row == outcome.row
 

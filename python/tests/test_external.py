@@ -36,7 +36,7 @@ def test_a_body_outside_is_where_its_percepts_say() -> None:
     others = simulation.poses[[0, 2, 3]]
     simulation.step(percepts={"rover/1": percept_at(3.5, 7.25, 0.5)})
     np.testing.assert_allclose(simulation.poses[1], [3.5, 7.25, 0.5])
-    assert simulation.outside.tolist() == [False, True, False, False]
+    assert simulation.external.tolist() == [False, True, False, False]
     assert (simulation.poses[[0, 2, 3]] != others).any()
     simulation.step(10)
     np.testing.assert_allclose(simulation.poses[1], [3.5, 7.25, 0.5])
@@ -96,7 +96,7 @@ def test_commands_of_scenarios_brains_for_what_robots_perceive_are_the_run() -> 
         assert by_hand.step(commands=commands) == {}
         plain.step()
     assert by_hand.hash == plain.hash
-    assert not by_hand.outside.any()
+    assert not by_hand.external.any()
 
 
 def test_looking_at_percepts_changes_nothing() -> None:
@@ -138,7 +138,7 @@ def test_what_comes_from_outside_is_part_of_a_snapshot() -> None:
     simulation.step(20)
     after = simulation.hash
     simulation.restore(snapshot)
-    assert simulation.outside[0]
+    assert simulation.external[0]
     simulation.step(percepts={"rover/0": percept_at(6, 6, 1)})
     simulation.step(20)
     assert simulation.hash == after
@@ -180,7 +180,7 @@ def test_what_is_not_allowed_is_told_and_no_step_is_taken(
     with pytest.raises(InputError, match=told):
         simulation.step(**arguments)
     assert simulation.hash == before
-    assert not simulation.outside.any()
+    assert not simulation.external.any()
 
 
 def test_faults_of_several_robots_are_told_at_once() -> None:

@@ -44,7 +44,7 @@ def answer(**arguments: Any) -> study.Answer:
         (lambda: loads().replace("a" + ".a" * 20_000, 1), r"path = 'a\.a.*; at most 32$"),
         (lambda: loads().replace("\ud800", 1), r"path = '\\ud800': must be keys from the root"),
         (lambda: ae.Simulation("search").change([1], 1), r"path = \[1\]: must be keys"),  # type: ignore[arg-type]
-        (lambda: ae.rerun(NO), rf"^path = 5: {PATH}$"),
+        (lambda: ae.replay(NO), rf"^path = 5: {PATH}$"),
         (lambda: ae.run("search", record=NO), rf"^record = 5: {PATH}$"),
         (lambda: ae.run("search", seed="a"), r"^seed = 'a': must be a whole number from 0"),  # type: ignore[arg-type]
         (lambda: ae.replicate("search", runs="many"), r"^runs = 'many': must be a whole number"),  # type: ignore[arg-type]
