@@ -1,4 +1,4 @@
-"""A robot's mind, for whoever has percepts of their own: live robots, other simulators, learning.
+"""The brain of one robot, for percepts of your own: real robots, other simulators, learning.
 
 A brain takes percepts and returns commands, and has no other input or output: no clock, no files,
 and no random numbers but the random words of the percept. The same percepts give the same commands.
