@@ -25,15 +25,15 @@ test("the experiment of 2003 opens from the gallery and runs until all items are
 
 test("a step is a paint, and steps back lead to the same state", async ({ page, server }) => {
   await open(page, server, "&tick=10&robot=wanderer/2");
-  const decides = page.locator("dt", { hasText: "Decides" }).locator("+ dd");
-  await expect(decides).toHaveText("in 2 paints");
+  const nextDecision = page.locator("dt", { hasText: "Next decision" }).locator("+ dd");
+  await expect(nextDecision).toHaveText("in 2 paints");
   const there = await hash(page);
   await page.keyboard.press(".");
-  await expect(decides).toHaveText("in 1 paint");
+  await expect(nextDecision).toHaveText("in 1 paint");
   await page.keyboard.press(".");
-  await expect(decides).toHaveText("in 11 paints");
+  await expect(nextDecision).toHaveText("in 11 paints");
   for (let i = 0; i < 2; i += 1) await page.keyboard.press(",");
-  await expect(decides).toHaveText("in 2 paints");
+  await expect(nextDecision).toHaveText("in 2 paints");
   await expect.poll(() => hash(page)).toBe(there);
 });
 

@@ -81,8 +81,8 @@ def details(simulation: ClassicSimulation, robot: str) -> RobotView:
             ["Heading", f"{state['heading_deg']}° from up, clockwise"],
             ["Speed", counted(state["speed"], "cell") + " per decision"],
             ["Next decision", "in " + counted(simulation.decides_in, "paint")],
-            ["Turns that count", f"{state['left_turns']} left, {state['right_turns']} right"],
-            ["Carry, of all robots", str(simulation.carry)],
+            ["Counted turns", f"{state['left_turns']} left, {state['right_turns']} right"],
+            ["Carry (all robots)", str(simulation.carry)],
         ],
         "examined_cells": [outline(cell) for cell in simulation.examined_cells(robot)],
     }

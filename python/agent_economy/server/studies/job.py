@@ -131,9 +131,9 @@ def failure(code: int) -> str | None:
 
 def run(plan: Plan, folder: Path, line: Connection) -> None:
     """Run or resume a study; the main function of the process."""
-    os.nice(NICENESS)
-    threading.Thread(target=end_with_server, daemon=True).start()
     with contextlib.suppress(KeyboardInterrupt, ConnectionError):
+        os.nice(NICENESS)
+        threading.Thread(target=end_with_server, daemon=True).start()
         # SIGINT is ignored if a shell has started the server in the background.
         signal.signal(signal.SIGINT, interrupted)
         line.send({})
