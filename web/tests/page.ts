@@ -19,7 +19,10 @@ export const test = base.extend<{ fake: Fake; consoleErrors: string[] }>({
       const consoleErrors: string[] = [];
       page.on("pageerror", (error) => consoleErrors.push(error.message));
       page.on("console", (message) => {
-        if (message.type() === "error" && !/422|ERR_(CONNECTION|EMPTY_RESPONSE|INTERNET)/.test(message.text()))
+        if (
+          message.type() === "error" &&
+          !/422|ERR_(CONNECTION|EMPTY_RESPONSE|INTERNET)/.test(message.text())
+        )
           consoleErrors.push(message.text());
       });
       await use(consoleErrors);
