@@ -1,7 +1,7 @@
-"""How many robots, of which kinds, does this job need? Answered by fast simulation.
+"""How many robots, of which kinds, does a job need? The answer comes from fast simulation.
 
-`Scenario` reads what a job is; `run`, `replicate` and `Simulation` run it; `study` answers;
-`ClassicSimulation` and `classic` are of the 2003 grid simulator.
+`Scenario` describes the job; `run`, `replicate` and `Simulation` simulate it; `study` selects the
+best team. `ClassicSimulation` and `classic` run the 2003 grid simulator.
 """
 
 from importlib import import_module
@@ -61,8 +61,8 @@ _HOMES = {
 def __getattr__(name: str) -> object:
     """Load a public name when it is first used.
 
-    numpy, pyarrow and scipy take half a second to load; the command must be able to say its
-    version, and to end at Ctrl-C without a traceback, before they have.
+    numpy, pyarrow and scipy take half a second to load. Before that, the command line must be able
+    to print its version, and to stop at Ctrl-C without a traceback.
     """
     if name == "__version__":
         return import_module("importlib.metadata").version("agent-economy")

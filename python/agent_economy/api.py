@@ -1,4 +1,4 @@
-"""Runs of a scenario, of whatever engine: one, or a table of many."""
+"""Runs of a scenario of either engine: a single one, or a table of many."""
 
 from collections.abc import Callable
 from functools import partial
@@ -23,21 +23,22 @@ def run(
     record: str | Path | None = None,
     brains: Brains | None = None,
 ) -> Outcome:
-    """Run a scenario once; Ctrl-C stops it within a second.
+    """Run a scenario once. Ctrl-C stops it within a second.
 
     Args:
-        scenario: A scenario, its file, or the name of one that ships.
-        seed: Of all chance, 0 to 2^64 - 1.
-        run: Its number, 0 to 2^63 - 10,000,001; each is another world.
-        record: A file for a recording of all of it, NAME.mcap (see `agent_economy.recording`).
-        brains: By kind of robots, what makes their brains in Python: see `Simulation`.
+        scenario: A scenario, its file, or the name of a bundled one.
+        seed: Seed of all random numbers, 0 to 2^64 - 1.
+        run: Run number, 0 to 2^63 - 10,000,001. Each number is a different world.
+        record: File for a recording of the whole run, NAME.mcap (see `agent_economy.recording`).
+        brains: Python brains by robot kind: see `Simulation`.
 
     Returns:
-        The same, on any machine, as row `run` of `replicate`.
+        The outcome. It equals row `run` of `replicate`, on any machine.
 
     Raises:
-        InputError: If the scenario is wrong, or an argument out of range; all faults at once. If
-            the file cannot be written, or a run to be recorded has no room for its team or items.
+        InputError: If the scenario has errors or an argument is out of range; it lists all errors.
+            If the file cannot be written, or a run to be recorded has no room for its team or
+            items.
     """
     scenario = as_scenario(scenario)
     if record is not None:
@@ -49,8 +50,8 @@ def run(
         row = replicate(scenario, 1, seed, first_run=run, brains=brains)
         return Outcome.of(row.to_pylist()[0])
     configuration = scenario.configuration({})
-    told = _core.run_one(configuration, seed=seed, run=run)
-    values = {name: np.array([value]) for name, value in told.items()}
+    outcome = _core.run_one(configuration, seed=seed, run=run)
+    values = {name: np.array([value]) for name, value in outcome.items()}
     return Outcome.of(table(configuration.columns, values, scenario.merit, run).to_pylist()[0])
 
 
@@ -63,61 +64,62 @@ def replicate(  # noqa: PLR0913  (keywords with defaults)
     *,
     brains: Brains | None = None,
 ) -> pa.Table:
-    """Run a scenario many times; Ctrl-C stops it within a second.
+    """Run a scenario many times. Ctrl-C stops it within a second.
 
     Args:
-        scenario: A scenario, its file, or the name of one that ships.
-        runs: How many, 0 to 10,000,000.
-        seed: Of all chance, 0 to 2^64 - 1.
-        threads: 1 to 1024; None for as many as there are processors. It changes no result.
-        first_run: The number of the first; the others follow.
-        brains: By kind of robots, what makes their brains in Python: see `Simulation`. Runs are
-            then taken one after the other, by this process, and each has new brains.
+        scenario: A scenario, its file, or the name of a bundled one.
+        runs: Number of runs, 0 to 10,000,000.
+        seed: Seed of all random numbers, 0 to 2^64 - 1.
+        threads: Number of threads, 1 to 1024; None for one per processor. It changes no result.
+        first_run: Number of the first run; the others follow.
+        brains: Python brains by robot kind: see `Simulation`. The runs are then executed one after
+            the other in this process, and each gets new brains.
 
     Returns:
-        A row a run: `run`, `time_s` (of the last find; the cap if not all was found), `complete`
-        (whether it was), then what else the engine tells, and `merit`. Of the metric engine that is
-        `robots`, `price`, `found` and `missed` (of the targets), `false_alarms`, `collisions`,
-        `energy_j`, `distance_m`, `robots_stopped`, and `found_KIND` and `missed_KIND` of each kind
-        of items. Counts are int64, `complete` is a bool. A run that is quarantined (see
-        `Outcome.status`) has nulls everywhere but in `run`; what never happened is null.
+        One row per run: `run`, `time_s` (time of the last find; the time limit if a target was not
+        found), `complete` (whether all targets were found), the other columns of the engine, and
+        `merit`. The metric engine has `robots`, `price`, `found` and `missed` (of the targets),
+        `false_alarms`, `collisions`, `energy_j`, `distance_m`, `robots_stopped`, and `found_KIND`
+        and `missed_KIND` for each item kind. Counts are int64, `complete` is a bool. In a
+        quarantined run (see `Outcome.status`), all columns but `run` are null; a time of something
+        that never happened is null.
 
     Raises:
-        InputError: If the scenario is wrong, or an argument out of range; all faults at once.
+        InputError: If the scenario has errors or an argument is out of range; it lists all errors.
     """
     scenario = as_scenario(scenario)
     configuration = scenario.configuration({})
     if brains is not None:
-        begin = partial(Simulation, scenario, seed, threads=threads, brains=brains)
-        rows = one_by_one(begin, first_run, runs)
+        create = partial(Simulation, scenario, seed, threads=threads, brains=brains)
+        rows = run_in_sequence(create, first_run, runs)
         names = [name for name, *_ in configuration.columns]
         values = {name: np.array([row.get(name, np.nan) for row in rows]) for name in names}
     else:
-        told = _core.run_block(
+        block = _core.run_block(
             [configuration], seed=seed, first_run=first_run, runs=runs, threads=threads
         )
-        values = {name: array[0] for name, array in told.items()}
+        values = {name: array[0] for name, array in block.items()}
     return table(configuration.columns, values, scenario.merit, first_run)
 
 
-def one_by_one(
-    begin: Callable[[int], Simulation], first_run: int, runs: int
+def run_in_sequence(
+    create: Callable[[int], Simulation], first_run: int, runs: int
 ) -> list[dict[str, float]]:
-    """Return what each run gives, by column; nothing of one that is quarantined."""
-    most = _core.MAX_RUNS
+    """Return the outcome of each run by column; empty for a quarantined run."""
+    limit = _core.MAX_RUNS
     validation.check(
-        validation.is_whole(runs, 0, most), "runs", runs, f"a whole number from 0 to {most}"
+        validation.is_whole(runs, 0, limit), "runs", runs, f"a whole number from 0 to {limit}"
     )
     validation.check(
         validation.is_whole(first_run, 0), "first_run", first_run, "a whole number, 0 or more"
     )
-    return [told_by(begin, first_run + number) for number in range(runs)]
+    return [finished(create, first_run + number) for number in range(runs)]
 
 
-def told_by(begin: Callable[[int], Simulation], run: int) -> dict[str, float]:
-    """Return what a run gives, by column; nothing if it is quarantined."""
+def finished(create: Callable[[int], Simulation], run: int) -> dict[str, float]:
+    """Return the outcome of a run by column; empty if it is quarantined."""
     try:
-        simulation = begin(run)
+        simulation = create(run)
     except _core.NoRoomError:
         return {}
     simulation.finish()
@@ -125,8 +127,8 @@ def told_by(begin: Callable[[int], Simulation], run: int) -> dict[str, float]:
 
 
 def recorded(simulation: Stepped, path: Path) -> Outcome:
-    """Run to the end, and record it."""
-    # What writes recordings takes longer to load than most runs take.
+    """Run a simulation to its end and record it."""
+    # Importing the writer takes longer than a typical run.
     from agent_economy.recording import Recording  # noqa: PLC0415
 
     with Recording(simulation, path) as recording:

@@ -222,7 +222,7 @@ def test_a_batch_goes_on_through_a_change() -> None:
 STAND = {"speed_m_s": 0.0, "turn_rate_rad_s": 0.0}
 FAULTS: list[tuple[Any, str]] = [
     (None, r"brains.rover\(\) = None: must be a dict with motion, requests, outbox"),
-    ({"speed": 1}, r"brains.rover\(\).speed = 1: must be one of the known: motion"),
+    ({"speed": 1}, r"brains.rover\(\).speed = 1: must be one of motion"),
     ({}, r"motion.speed_m_s = None: must be one value for all, or an array of shape \(4,\)"),
     ({"motion": STAND | {"speed_m_s": [1, 2]}}, r"motion.speed_m_s = \[1, 2\]: must be one value"),
     ({"motion": STAND | {"speed_m_s": "fast"}}, r"motion.speed_m_s = 'fast': must be one value"),
@@ -266,7 +266,7 @@ def test_what_a_batch_raises_comes_out_with_its_traceback() -> None:
 
     with pytest.raises(KeyError) as caught:
         ae.run("search", brains={"rover": Batch(wrong)})
-    assert caught.value.__notes__ == ["in the brain of all of rover, at 0 s"]
+    assert caught.value.__notes__ == ["in the brain of all robots of kind rover, at 0 s"]
     frames = traceback.extract_tb(caught.value.__traceback__)
     assert frames[-1].name == "wrong"
 

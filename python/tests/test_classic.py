@@ -107,7 +107,7 @@ def test_replicate_has_the_stated_columns_and_ranges() -> None:
     assert [row["run"] for row in rows] == list(range(1000))
     assert table["paints"].null_count > 0
     for row in rows:
-        in_time = row["paints"] is not None and row["paints"] <= classic.CAP_PAINTS
+        in_time = row["paints"] is not None and row["paints"] <= classic.TIME_LIMIT_PAINTS
         assert (row["found"] == 4) == in_time
         assert 0 <= row["collisions"] <= 2 * 610
 

@@ -149,7 +149,7 @@ FAULTS: list[tuple[dict[str, Any], str]] = [
     ({"percepts": {"rover/4": {}}}, r"must be one of the run's robots: rover/0 to rover/3"),
     ({"percepts": {"rover/01": {}}}, "must be one of the run's robots"),
     ({"percepts": {1: {}}}, 'percepts = "1": must be one of'),
-    ({"percepts": [1]}, r"percepts = \[1\]: must be a dict by the names of robots"),
+    ({"percepts": [1]}, r"percepts = \[1\]: must be a dict by robot names"),
     ({"commands": "rover/1"}, "commands = 'rover/1': must be a dict"),
     (
         {"percepts": {"rover/1": {"tiem_s": 1}}},

@@ -136,11 +136,14 @@ def saying(what: Any) -> Callable[[Body], Any]:
 
 
 FAULTS: list[tuple[Any, str]] = [
-    ([Ahead], r"brains = \[.*\]: must be a dict by the names of kinds of robots"),
+    ([Ahead], r"brains = \[.*\]: must be a dict by the names of robot kinds"),
     ({"rvoer": Ahead}, r'brains = "rvoer": must be one of "rover"; did you mean "rover"\?'),
-    ({7: Ahead}, "brains = 7: must be a dict by the names of kinds"),
-    ({"rover": 7}, "brains.rover = 7: must be a Batch, or a class or function that makes"),
-    ({"rover": lambda body: body}, r"brains.rover = \{.*: must be what makes objects with a step"),
+    ({7: Ahead}, "brains = 7: must be a dict by the names of robot kinds"),
+    ({"rover": 7}, "brains.rover = 7: must be a Batch, or a class or function that returns"),
+    (
+        {"rover": lambda body: body},
+        r"brains.rover = \{.*: must be a class or function that returns objects",
+    ),
     ({"rover": saying(None)}, r'brains."rover/0".step\(\) = null: must be a dict'),
     (
         {"rover": saying({"motoin": {}})},
@@ -212,7 +215,7 @@ def test_a_brain_that_cannot_be_made_is_told_with_its_robot() -> None:
 
     with pytest.raises(SometimesError) as caught:
         Simulation("search", brains={"rover": make})
-    assert caught.value.__notes__ == ["when the brain of rover/0 was made of its body"]
+    assert caught.value.__notes__ == ["while making the brain of rover/0 from its body"]
 
 
 def test_a_brain_that_looks_at_its_run_is_told_and_nothing_hangs() -> None:

@@ -17,7 +17,7 @@ from agent_economy.recording.robot_scene import BLUE, RED, YELLOW, Frames, robot
 from agent_economy.recording.static_scene import OBSTACLE, WALL_M, half_turn_of
 from agent_economy.runs.brain import Command, Percept
 from agent_economy.runs.classic_simulation import COLOURS, ClassicSimulation
-from agent_economy.runs.classic_world import CELL_PX, CELLS, RADIUS, WORLD, middle
+from agent_economy.runs.classic_world import CELL_PX, CELLS, RADIUS, WORLD, centre
 from agent_economy.scenario import validation
 
 TOPICS = {
@@ -120,13 +120,13 @@ def faults(_: ClassicSimulation, percepts: Sequence[str]) -> list[str]:
 def walls() -> SceneEntity:
     """Return what stands in the world for ever; items, which to robots stand too, are no part."""
     size_m = (1.0, 1.0, WALL_M)
-    cubes = [cube(middle(cell), size_m, color(OBSTACLE)) for cell in WORLD["walls"]]
+    cubes = [cube(centre(cell), size_m, color(OBSTACLE)) for cell in WORLD["walls"]]
     return SceneEntity(frame_id=FRAME, id="walls", cubes=cubes)
 
 
 def items() -> pa.Table:
     """Return the items as those of the metric engine are."""
-    x_m, y_m = zip(*map(middle, WORLD["items"]), strict=True)
+    x_m, y_m = zip(*map(centre, WORLD["items"]), strict=True)
     return pa.table({"kind": ["item"] * len(x_m), "x_m": x_m, "y_m": y_m})
 
 

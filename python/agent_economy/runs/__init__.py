@@ -1,6 +1,6 @@
-"""Runs stepped by hand, what they return, and the brains in them.
+"""Interactive runs, their outcomes, and the brains in them.
 
-`simulation` and `classic_simulation` are runs of the two engines (`factory` creates the one of a
-scenario); `outcome` is what a run returns; `brain` is a robot's brain on its own; `python_brains`,
-`batch` and `commands` are brains written in Python.
+`simulation` and `classic_simulation` are runs of the two engines; `factory` creates the one that a
+scenario names. `outcome` is the result of a run, `brain` a single brain without a simulation.
+`python_brains`, `batch` and `commands` are brains written in Python.
 """

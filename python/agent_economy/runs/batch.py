@@ -1,8 +1,11 @@
-"""A brain for all robots of a kind at once: a function on arrays.
+"""One brain for all robots of a kind: a function on arrays.
 
-Arrays have the names, units and order of a single brain's percept and command (see
-`agent_economy.runs.brain`), with an entry for each robot whose brain steps now. Missing values are
-NaN or False, and their age is NaN. The range of a ray that meets nothing is `math.inf`.
+Arrays have the names and units of the percept and command of a single brain (see
+`agent_economy.runs.brain`), with one entry per robot whose brain steps. Missing values are NaN or
+False, with the age NaN. The range of a ray without a return is `math.inf`.
+
+Lists of different lengths, such as contacts, are concatenated: `row` holds the index of the robot
+of each entry in the arrays of robots.
 """
 
 from collections.abc import Callable
@@ -17,79 +20,80 @@ from agent_economy.scenario import validation
 
 T = TypeVar("T")
 Floats: TypeAlias = NDArray[np.float64]
-Whole: TypeAlias = NDArray[np.int64]
-Truths: TypeAlias = NDArray[np.bool_]
+Integers: TypeAlias = NDArray[np.int64]
+Booleans: TypeAlias = NDArray[np.bool_]
 
 
 class Readings(TypedDict, Generic[T]):
-    """A value of each robot, and how old each is, shape (n,)."""
+    """A value of each robot, and its age, shape (n,)."""
 
     value: T
     age_s: Floats
 
 
 class Motions(TypedDict):
-    """How each robot moves, shape (n,): ahead, and anticlockwise."""
+    """Motion of each robot, shape (n,): forward speed, and anticlockwise turn rate."""
 
     speed_m_s: Floats
     turn_rate_rad_s: Floats
 
 
 class Scans(TypedDict):
-    """What a range ring of each robot measured: ages (n,), and ranges (n, rays)."""
+    """Scans of a range ring of each robot: ages (n,), and ranges (n, rays)."""
 
     age_s: Floats
     ranges_m: Floats
 
 
 class Observations(TypedDict):
-    """Measurements of item detectors: of the robot in a `row`, the `sensor` of `Body.sensors`."""
+    """Measurements of item detectors; `sensor` is an index in `Body.sensors`."""
 
-    row: Whole
-    sensor: Whole
+    row: Integers
+    sensor: Integers
     age_s: Floats
 
 
 class Contacts(TypedDict):
-    """Items that sensors recognised; `row` is the place of the robot in the arrays of robots."""
+    """Detected items, including false alarms; `kind` is an index in `Body.item_kinds`."""
 
-    row: Whole
-    kind: Whole
-    sensor: Whole
+    row: Integers
+    kind: Integers
+    sensor: Integers
     range_m: Floats
     bearing_rad: Floats
     age_s: Floats
 
 
 class Neighbours(TypedDict):
-    """Robots that sensors recognised, `kind` and `index` as in `RobotId`.
+    """Detected robots; `kind` and `index` are those of `RobotId`.
 
     Attributes:
-        course_rad: Where it goes, from the robot's front; NaN if the sensor tells no courses.
+        course_rad: Direction of motion, relative to the observer's front; NaN if the sensor does
+            not measure it.
     """
 
-    row: Whole
+    row: Integers
     range_m: Floats
     bearing_rad: Floats
     course_rad: Floats
     age_s: Floats
-    kind: Whole
-    index: Whole
+    kind: Integers
+    index: Integers
 
 
 class Inbox(TypedDict):
-    """Messages that came in.
+    """Received messages.
 
     Attributes:
-        row: Place of the robot that hears, in the arrays of robots.
+        row: Index of the receiver in the arrays of robots.
         from_kind: Kind of the sender, counted from 0.
-        from_index: Place of the sender in its kind.
+        from_index: Index of the sender within its kind.
         age_s: Time since it was sent.
-        confidence: How sure the sender is, 0 to 1.
-        item_kind: Kind of the item that it is about; -1 if it is about the sender, -2 if it is
-            about a place where the sender wants to be.
-        at: Where that is, shape (messages, 2).
-        heading_rad: The sender's course; NaN if it is not about the sender.
+        confidence: Confidence of the sender, 0 to 1.
+        item_kind: Kind of the item that it reports; -1 for a message about the sender, -2 for one
+            about its destination.
+        at: Position of the item, sender or destination, shape (messages, 2).
+        heading_rad: Heading of the sender; NaN if it is not about the sender.
         observations: Number of observations of the item by the observer, or of all observations
             by the sender.
         observer_kind: Kind of the robot that observed the item.
@@ -98,53 +102,53 @@ class Inbox(TypedDict):
         status: Status of the sender's commitment to a destination: 0 active, 1 done, 2 released.
     """
 
-    row: Whole
-    from_kind: Whole
-    from_index: Whole
+    row: Integers
+    from_kind: Integers
+    from_index: Integers
     age_s: Floats
     confidence: Floats
-    item_kind: Whole
+    item_kind: Integers
     at: Floats
     heading_rad: Floats
-    observations: Whole
-    observer_kind: Whole
-    observer_index: Whole
-    track_id: Whole
-    status: Whole
+    observations: Integers
+    observer_kind: Integers
+    observer_index: Integers
+    track_id: Integers
+    status: Integers
 
 
 class Percepts(TypedDict):
-    """What all robots of a kind perceive whose brains step now; there are n of them.
+    """The percepts of the n robots of a kind whose brains step.
 
     Attributes:
-        body: What is known of the body, the same for all and in each step.
-        count: Robots of the kind that there are in the run, also those that do not step now.
-        time_s: Time since the mission began.
-        robots: Which robots step, shape (n,): their indices, below `count`, rising.
-        random_words: Four random integers below 2^32 for each, shape (n, 4).
-        position: Where each is in the world; values have the shape (n, 2).
-        heading_rad: The course of each; 0 along x.
-        motion: How each moves, from its wheels or rotors.
-        battery: Share of each battery's capacity that is left, 0 to 1.
-        touch: Whether each touches something.
-        scans: Of each range ring of the body.
+        body: The body, the same for all robots and in each step.
+        count: Number of robots of the kind in the run, including those that do not step.
+        time_s: Time since the start of the mission.
+        robots: Indices of the robots that step, ascending and below `count`, shape (n,).
+        random_words: Four random integers below 2^32 per robot, shape (n, 4).
+        position: Measured position in the world; values have the shape (n, 2).
+        heading_rad: Measured heading; 0 along x.
+        motion: Measured motion, from wheels or rotors.
+        battery: State of charge, 0 to 1.
+        touch: Whether the robot touches something.
+        scans: Scans, one entry per range ring of the body.
         observations: Measurements of item detectors since the last step, including those without
             a contact.
-        contacts: Items that sensors recognised since the last step, or took for such.
-        neighbours: Robots that sensors recognised since the last step.
-        inbox: What other robots told since the last step.
+        contacts: Items detected since the last step, including false alarms.
+        neighbours: Robots detected since the last step.
+        inbox: Messages received since the last step.
     """
 
     body: Body
     count: int
     time_s: float
-    robots: Whole
+    robots: Integers
     random_words: NDArray[np.uint32]
     position: Readings[Floats]
     heading_rad: Readings[Floats]
     motion: Readings[Motions]
     battery: Readings[Floats]
-    touch: Readings[Truths]
+    touch: Readings[Booleans]
     scans: list[Scans]
     observations: Observations
     contacts: Contacts
@@ -152,15 +156,15 @@ class Percepts(TypedDict):
     inbox: Inbox
 
 
-class WantedMotion(TypedDict):
-    """How each robot is to move: arrays with the shape (n,), or one number for all."""
+class MotionCommands(TypedDict):
+    """Commanded motion: arrays of shape (n,), or one number for all robots."""
 
     speed_m_s: ArrayLike
     turn_rate_rad_s: ArrayLike
 
 
 class Requests(TypedDict):
-    """Sensors to switch: of the robot in a `row`, the `sensor` of `Body.sensors`, `on` or off."""
+    """Sensors to switch on or off; `sensor` is an index in `Body.sensors`."""
 
     row: ArrayLike
     sensor: ArrayLike
@@ -168,7 +172,7 @@ class Requests(TypedDict):
 
 
 class Outbox(TypedDict):
-    """What robots are to tell others; as in `Inbox`, the last three where they mean something."""
+    """Messages to send, as in `Inbox`; the last three entries only where they apply."""
 
     row: ArrayLike
     confidence: ArrayLike
@@ -180,21 +184,20 @@ class Outbox(TypedDict):
 
 
 class Commands(TypedDict):
-    """What all robots that step now are to do."""
+    """The commands of the robots that step."""
 
-    motion: WantedMotion
+    motion: MotionCommands
     requests: NotRequired[Requests]
     outbox: NotRequired[Outbox]
 
 
 @dataclass(frozen=True)
 class Batch:
-    """A brain for all robots of a kind at once.
+    """One brain for all robots of a kind.
 
     Attributes:
-        function: What is called in each step of the robots' brains, with their percepts, as arrays,
-            and with a dict for whatever is to be remembered, which is empty when a run begins. It
-            returns their commands.
+        function: It is called in each step with the percepts of the robots that step, and with a
+            dict for its memory, which is empty at the start of a run. It returns their commands.
 
     Example:
         >>> from agent_economy import Batch, run
@@ -207,9 +210,9 @@ class Batch:
     function: Callable[[Percepts, dict[str, Any]], Commands]
 
     def __post_init__(self) -> None:
-        """See to it that it can be called.
+        """Check that it can be called.
 
         Raises:
-            InputError: If not.
+            InputError: If it cannot.
         """
         validation.check(callable(self.function), "Batch", self.function, "a function on arrays")

@@ -102,7 +102,7 @@ class Brain:
         Raises:
             InputError: If the scenario has errors, is of another engine, or has no such kind.
         """
-        validation.of_kind("kind", kind, str, "the name of a robot kind")
+        validation.of_type("kind", kind, str, "the name of a robot kind")
         brain = cls.__new__(cls)
         vars(brain)["_brain"] = _core.Brain.of(as_scenario(scenario).metric(), kind)
         return brain

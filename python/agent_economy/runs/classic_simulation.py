@@ -1,4 +1,4 @@
-"""A run of the classic engine, stepped by hand."""
+"""An interactive run of the classic engine."""
 
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -12,78 +12,79 @@ from agent_economy.runs.stepped import Change, Stepped
 from agent_economy.scenario import Override, Scenario, TomlValue, as_scenario, validation
 
 COLOURS = np.array(["blue", "yellow", "red"])
-"""What a robot can look like, by the compiled part's numbers."""
+"""Colours of robots, by their number in the compiled part."""
 
 KIND = "wanderer"
-"""All robots of 2003 are of one kind."""
+"""The only robot kind of the classic engine."""
 
 
 @dataclass(frozen=True)
 class ClassicSnapshot:
-    """A whole run at one moment, for `ClassicSimulation.restore`."""
+    """The state of a run at one step, for `ClassicSimulation.restore`."""
 
     scenario: Scenario
     seed: int
     run: int
     changes: tuple[Change, ...]
-    _inside: _core.ClassicSnapshot = field(repr=False)
+    _state: _core.ClassicSnapshot = field(repr=False)
 
 
 class ClassicSimulation(Stepped):
-    """A run of the classic engine, stepped by hand: it is `run`, paint by paint.
+    """A run of the classic engine in single steps, with the same results as `agent_economy.run`.
 
-    A step is a paint of the original's window; the team decides in paints 12, 23, 34, ... The run
-    is over, and stands, when all items are found, when the cap is reached, or when its state has
-    come again, so that what is not found never will be. A change may let it go on.
+    A step is one paint of the original program's window. The team decides in paints 12, 23, 34, ...
+    The run ends when all items are found, at the time limit, or when its state recurs, so that no
+    further item can be found. It then no longer advances, unless a change makes that possible.
 
     Attributes:
-        scenario: What the run is of, with all changes so far.
-        seed: Of all chance.
-        run: Its number.
+        scenario: The scenario, with all changes made during the run.
+        seed: Seed of the start positions.
+        run: Run number.
     """
 
     _run: _core.ClassicSimulation
 
     def __init__(self, scenario: Scenario | str | Path, seed: int = 0, run: int = 0) -> None:
-        """Begin a run.
+        """Create a run at its first step.
 
         Args:
-            scenario: A scenario of the classic engine, its file, or the name of one that ships.
-            seed: Of all chance, 0 to 2^64 - 1.
-            run: Its number, 0 to 2^63 - 10,000,001; each has other starts.
+            scenario: A scenario of the classic engine, its file, or the name of a bundled one.
+            seed: Seed of the start positions, 0 to 2^64 - 1.
+            run: Run number, 0 to 2^63 - 10,000,001. Each number has different start positions.
 
         Raises:
-            InputError: If the scenario is wrong or of another engine, or an argument out of range.
+            InputError: If the scenario has errors or is of another engine, or an argument is out of
+                range.
         """
         super().__init__(as_scenario(scenario), seed, run)
         self._run = _core.ClassicSimulation(self.scenario.classic(), seed=seed, run=run)
 
     def step(self, steps: int = 1) -> None:
-        """Take steps, 0 or more, until the run is over; Ctrl-C stops between two.
+        """Advance by `steps`, 0 or more, or to the end of the run. Ctrl-C stops between two steps.
 
         Raises:
-            InputError: If it is not how many.
+            InputError: If `steps` is not a whole number, 0 or more.
         """
         self._run.step(steps)
 
     def finish(self) -> Outcome:
-        """Take steps until the run is over; Ctrl-C stops between two."""
+        """Advance to the end of the run. Ctrl-C stops between two steps."""
         while not self.is_over:
             self._run.step(10_000)
         return self.outcome()
 
     def change(self, path: str, value: TomlValue) -> None:
-        """Put a value into the scenario, and go on with that.
+        """Change a value of the scenario, and continue with it.
 
-        Robots that are in both teams stay as they are; those with the highest numbers leave, or
-        more come in where they would have started. What was found stays found.
+        Robots that are in both teams stay as they are. A smaller team loses the robots with the
+        highest indices; additional robots appear at their start positions. Found items stay found.
 
         Args:
-            path: Keys from the root, with dots between, such as "robots.wanderer.count".
-            value: As the file could have it.
+            path: Keys from the root, separated by dots, such as "robots.wanderer.count".
+            value: The new value, as in the file.
 
         Raises:
-            InputError: If the value is not allowed there; nothing has changed then.
+            InputError: If the value is not allowed. The run is then unchanged.
         """
         override = Override.at(path, value, "change")
         with self._lock:
@@ -93,25 +94,25 @@ class ClassicSimulation(Stepped):
             self._changes += (Change(tick, path, value),)
 
     def snapshot(self) -> ClassicSnapshot:
-        """Return the whole run as it is now."""
+        """Return a copy of the complete state of the run."""
         with self._lock:
-            inside = self._run.snapshot()
-            return ClassicSnapshot(self.scenario, self.seed, self.run, self._changes, inside)
+            state = self._run.snapshot()
+            return ClassicSnapshot(self.scenario, self.seed, self.run, self._changes, state)
 
     def restore(self, snapshot: ClassicSnapshot) -> None:
-        """Be the run that a snapshot is of: its scenario, its seed, its moment, its changes.
+        """Return to a snapshot: its state, scenario, seed, run number and changes.
 
         Raises:
-            InputError: If it is no `ClassicSnapshot`.
+            InputError: If `snapshot` is not a `ClassicSnapshot`.
         """
-        validation.of_kind("snapshot", snapshot, ClassicSnapshot, "what snapshot() returned")
+        validation.of_type("snapshot", snapshot, ClassicSnapshot, "what snapshot() returned")
         with self._lock:
-            self._run.restore(snapshot._inside)  # noqa: SLF001  (ours)
+            self._run.restore(snapshot._state)  # noqa: SLF001  (ours)
             self.scenario, self._changes = snapshot.scenario, snapshot.changes
             self.seed, self.run = snapshot.seed, snapshot.run
 
     def belief_state(self, robot: str) -> None:
-        """Return None: robots of 2003 believe nothing and want nothing.
+        """Return None: robots of the classic engine have no beliefs.
 
         Raises:
             InputError: If there is no such robot.
@@ -133,12 +134,12 @@ class ClassicSimulation(Stepped):
 
     @property
     def carry(self) -> int:
-        """The left-slow score with which the next robot that decides begins."""
+        """The left-slow score that the next robot to decide starts with."""
         return self._run.carry
 
     @property
     def decides_in(self) -> int:
-        """Paints until the team decides next."""
+        """Paints until the next decision of the team."""
         return self._run.decides_in
 
     @property
@@ -148,27 +149,27 @@ class ClassicSimulation(Stepped):
 
     @property
     def team(self) -> pa.Table:
-        """A row a robot.
+        """One row per robot.
 
-        `x_px` and `y_px` to the right and down, the `column` and `row` of its cell, `heading_deg`
-        clockwise from up, `speed` in cells a decision, `left_turns` and `right_turns` as far as
-        they count, and the `colour` since the last decision: "blue", "yellow" (something is near)
-        or "red" (on a shared cell).
+        `x_px` to the right and `y_px` down, `column` and `row` of its cell, `heading_deg` clockwise
+        from up, `speed` in cells per decision, `left_turns` and `right_turns`, its counters of
+        turns, and its `colour` since the last decision: "blue", "yellow" (something is near) or
+        "red" (on a shared cell).
         """
         robots = self._run.robots
         return pa.table({**robots, "colour": COLOURS[robots["colour"]]})
 
     @property
     def contacts(self) -> list[list[tuple[int, int]]]:
-        """For each item the cells, columns and rows, on which a robot can find it.
+        """For each item, the cells (columns and rows) on which a robot can find it.
 
-        None where contact is judged by what is drawn, as "touch" is.
+        Empty if contact depends on the drawn positions, as with "touch".
         """
         return self._run.contacts
 
     @property
     def items(self) -> pa.Table:
-        """A row an item: the cell's `column` and `row`, and `found_s`, null until it is found."""
+        """One row per item: `column` and `row` of its cell, and `found_s`, null if not found."""
         columns, rows = zip(*_core.classic_world()["items"], strict=True)
         found_s = pa.array(self._run.found_s, pa.float64())
         return pa.table({"column": columns, "row": rows, "found_s": found_s})

@@ -1,4 +1,4 @@
-"""What runs give: one, or a table of many."""
+"""Outcomes of runs: a single one, or a table of many."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -13,35 +13,35 @@ from agent_economy.scenario.merit import Merit
 Status = Literal["complete", "incomplete", "quarantined", "running"]
 
 Columns = Sequence[tuple[str, str, float | None, float | None]]
-"""What an engine's runs tell: name, kind, least and greatest of each column."""
+"""The outcome columns of an engine: name, kind, minimum and maximum of each."""
 
-MINE = ("time_s", "failed")
-"""Columns of every engine that a table of runs has in front, or under another name."""
+COMMON = ("time_s", "failed")
+"""Columns of every engine: a table of runs has them first, `failed` as `complete`."""
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """What a run gave; None where it gave nothing, as for what its engine does not tell.
+    """The outcome of a run. Quantities that its engine does not have are None.
 
     Attributes:
-        run: Its number.
-        status: "complete": all targets were found. "incomplete": not so. "quarantined": the
-            world had no room for the team or its items, or numbers went beyond all bounds; the run
-            gave nothing. "running": of a `Simulation` that is not over; all is as if it ended now.
-        time_s: Until the last find; the scenario's cap if the run is not complete.
+        run: Run number.
+        status: "complete": all targets were found. "incomplete": some were not. "quarantined": the
+            world had no room for the team or its items, or a number was not finite; there is no
+            outcome. "running": the outcome of a `Simulation` as if it ended at its current step.
+        time_s: Time of the last find; the time limit if the run is not complete.
         complete: Whether all targets were found.
-        merit: The run's score in the scenario's figure of merit.
-        found: Items found, by kind. Of an engine whose items have no kinds: all, as "item".
+        merit: The figure of merit of the run.
+        found: Items found, by kind; all as "item" if the engine has no item kinds.
         missed: Items not found, by kind.
         robots: Team size.
-        price: Of the team.
-        false_alarms: Finds of nothing.
-        collisions: New contacts of two robots, or of a robot with what stands; for the classic
-            engine, robot-decisions spent on a shared cell.
-        energy_j: Of all robots.
-        distance_m: Of all robots.
-        robots_stopped: Robots that could not go on: empty or broken.
-        row: All of it as `replicate` has it, by column.
+        price: Price of the team.
+        false_alarms: Reported finds without an item.
+        collisions: New contacts between two robots, or of a robot with an obstacle; in the classic
+            engine, decisions of robots on shared cells.
+        energy_j: Energy used by all robots.
+        distance_m: Distance travelled by all robots.
+        robots_stopped: Robots that stopped because they were empty or broken.
+        row: The complete outcome by column, as in `replicate`.
     """
 
     run: int
@@ -63,27 +63,27 @@ class Outcome:
     @classmethod
     def of(cls, row: dict[str, Any], status: Status | None = None) -> "Outcome":
         """Return a row of a table of runs as an outcome."""
-        told: dict[str, Any] = {name: row.get(name) for name in cls.__dataclass_fields__}
-        told |= {name: by_kind(row, name) for name in ("found", "missed")}
-        told |= {"status": status or status_of(row), "row": row}
-        return cls(**told)
+        fields: dict[str, Any] = {name: row.get(name) for name in cls.__dataclass_fields__}
+        fields |= {name: by_kind(row, name) for name in ("found", "missed")}
+        fields |= {"status": status or status_of(row), "row": row}
+        return cls(**fields)
 
 
-def so_far(
-    columns: Columns, told: Mapping[str, float], merit: Merit, run: int, status: Status | None
+def outcome_of(
+    columns: Columns, values: Mapping[str, float], merit: Merit, run: int, status: Status | None
 ) -> Outcome:
-    """Return what one run has told, by column, as an outcome; if nothing, it is quarantined."""
-    values = {name: np.array([told.get(name, np.nan)]) for name, *_ in columns}
-    row = table(columns, values, merit, run).to_pylist()[0]
-    return Outcome.of(row, status if told else None)
+    """Return the outcome of one run from its columns; it is quarantined if there are none."""
+    arrays = {name: np.array([values.get(name, np.nan)]) for name, *_ in columns}
+    row = table(columns, arrays, merit, run).to_pylist()[0]
+    return Outcome.of(row, status if values else None)
 
 
 def table(
     columns: Columns, values: Mapping[str, NDArray[np.float64]], merit: Merit, first_run: int
 ) -> pa.Table:
-    """Return outcomes as a table; what is not finite is null."""
-    time_s, failed = (values[name] for name in MINE)
-    others = [(name, kind) for name, kind, _, _ in columns if name not in MINE]
+    """Return outcomes as a table, with null for values that are not finite."""
+    time_s, failed = (values[name] for name in COMMON)
+    others = [(name, kind) for name, kind, _, _ in columns if name not in COMMON]
     return pa.table(
         {
             "run": first_run + np.arange(len(time_s), dtype=np.int64),
@@ -96,21 +96,21 @@ def table(
 
 
 def as_array(values: NDArray[np.float64], kind: str) -> pa.Array:
-    """Return a column as Arrow has it."""
+    """Return a column as an Arrow array of its kind."""
     is_missing = ~np.isfinite(values)
     types = {"whole": np.int64, "flag": np.bool_, "real": np.float64}
     return pa.array(np.where(is_missing, 0, values).astype(types[kind]), mask=is_missing)
 
 
 def status_of(row: Mapping[str, Any]) -> Status:
-    """Return how a run ended."""
+    """Return the status of a run that is over."""
     if row["complete"] is None:
         return "quarantined"
     return "complete" if row["complete"] else "incomplete"
 
 
 def by_kind(row: Mapping[str, Any], name: str) -> dict[str, int | None]:
-    """Return counts by kind of items, of a name such as "found"."""
-    begin = f"{name}_"
-    kinds = {key.removeprefix(begin): row[key] for key in row if key.startswith(begin)}
+    """Return the counts by item kind of a column family such as "found"."""
+    prefix = f"{name}_"
+    kinds = {key.removeprefix(prefix): row[key] for key in row if key.startswith(prefix)}
     return kinds or ({"item": row[name]} if name in row and "missed" not in row else {})

@@ -1,4 +1,4 @@
-"""Brains in Python, in place of those that a scenario's robots have."""
+"""Brains in Python that replace those of a scenario."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
@@ -10,32 +10,33 @@ from agent_economy.runs.brain import Body, Command, Percept
 from agent_economy.runs.commands import Commands, commands
 from agent_economy.scenario import validation
 
-BY_KIND = "a dict by the names of kinds of robots"
-MAKES = "a Batch, or a class or function that makes a robot's brain when it is called with its body"
+BY_KIND = "a dict by the names of robot kinds"
+FACTORY = "a Batch, or a class or function that returns a robot's brain when called with its body"
+RETURNS = "a class or function that returns objects with a step method"
 
 
 class BrainLike(Protocol):
-    """Whatever decides for one robot; `Brain` is one."""
+    """An object that decides for one robot, such as `Brain`."""
 
     def step(self, percept: Percept) -> Command:
-        """Return what the robot is to do."""
+        """Return the command for a percept."""
 
 
 Make: TypeAlias = Callable[[Body], BrainLike]
-"""A class or function that makes the brain of a robot when it is called with its body."""
+"""A class or function that returns the brain of a robot when called with its body."""
 
 Brains: TypeAlias = Mapping[str, Make | Batch]
-"""What makes the brains of robots, or is the brain of all, by kind."""
+"""By robot kind: what makes the brain of each robot, or one brain for all of them."""
 
 
 @dataclass(frozen=True)
-class Each:
-    """A brain for each robot of a kind.
+class SingleBrains:
+    """One brain for each robot of a kind.
 
     Attributes:
         kind: Name of the kind.
-        make: What makes its brains.
-        brains: Of the robots, in their order.
+        make: Makes a brain.
+        brains: The brains by the index of their robot.
     """
 
     kind: str
@@ -43,14 +44,14 @@ class Each:
     brains: tuple[BrainLike, ...] = ()
     is_in_arrays: ClassVar[bool] = False
 
-    def of(self, body: Body, count: int) -> "Each":
-        """Return the same for so many robots: those that are there, and new ones."""
-        news = range(len(self.brains), count)
-        made = tuple(self._made(index, body) for index in news)
+    def resized(self, body: Body, count: int) -> "SingleBrains":
+        """Return the same for `count` robots: existing brains are kept, missing ones are made."""
+        missing = range(len(self.brains), count)
+        made = tuple(self._make(index, body) for index in missing)
         return replace(self, brains=self.brains[:count] + made)
 
     def step(self, index: int, percept: Percept) -> Command:
-        """Return what a robot is to do."""
+        """Return the command of a robot."""
         time_s = percept["time_s"]
         try:
             return self.brains[index].step(percept)
@@ -58,84 +59,85 @@ class Each:
             error.add_note(f"in the brain of {self.kind}/{index}, at {time_s:g} s")
             raise
 
-    def _made(self, index: int, body: Body) -> BrainLike:
+    def _make(self, index: int, body: Body) -> BrainLike:
         try:
             brain = self.make(body)
         except Exception as error:
-            error.add_note(f"when the brain of {self.kind}/{index} was made of its body")
+            error.add_note(f"while making the brain of {self.kind}/{index} from its body")
             raise
         is_brain = callable(getattr(brain, "step", None))
-        validation.check(is_brain, f"brains.{self.kind}", brain, "what makes objects with a step")
+        validation.check(is_brain, f"brains.{self.kind}", brain, RETURNS)
         return brain
 
 
 @dataclass(frozen=True)
-class All:
-    """A brain for all robots of a kind at once.
+class BatchBrain:
+    """One brain for all robots of a kind.
 
     Attributes:
         kind: Name of the kind.
-        batch: What decides.
-        memory: What it remembers.
-        always: What is in its percepts besides what robots perceive.
+        batch: The brain.
+        memory: The memory of the brain.
+        constants: Entries of its percepts that are the same in each step.
     """
 
     kind: str
     batch: Batch
     memory: dict[str, Any] = field(default_factory=dict)
-    always: dict[str, Any] = field(default_factory=dict)
+    constants: dict[str, Any] = field(default_factory=dict)
     is_in_arrays: ClassVar[bool] = True
 
-    def of(self, body: Body, count: int) -> "All":
-        """Return the same for so many robots."""
-        return replace(self, always={"body": body, "count": count})
+    def resized(self, body: Body, count: int) -> "BatchBrain":
+        """Return the same for `count` robots."""
+        return replace(self, constants={"body": body, "count": count})
 
     def step(self, percepts: dict[str, Any]) -> Commands:
-        """Return what robots are to do."""
+        """Return the commands of the robots that step."""
         time_s, robots = percepts["time_s"], len(percepts["robots"])
-        whole = cast("Percepts", self.always | percepts)
+        complete = cast("Percepts", self.constants | percepts)
         try:
-            told = self.batch.function(whole, self.memory)
+            returned = self.batch.function(complete, self.memory)
         except Exception as error:
-            error.add_note(f"in the brain of all of {self.kind}, at {time_s:g} s")
+            error.add_note(f"in the brain of all robots of kind {self.kind}, at {time_s:g} s")
             raise
-        return commands(f"brains.{self.kind}()", told, robots)
+        return commands(f"brains.{self.kind}()", returned, robots)
 
 
-Mind: TypeAlias = Each | All
-"""What decides for the robots of a kind."""
+PythonBrains: TypeAlias = SingleBrains | BatchBrain
+"""The Python brains of a robot kind."""
 
 
-def minds(
+def python_brains(
     brains: Brains | None, metric: _core.MetricScenario, robots: Mapping[str, int]
-) -> list[Mind]:
-    """Return what decides for the robots of some kinds, at the beginning of a run.
+) -> list[PythonBrains]:
+    """Return the Python brains of some kinds, for a new run.
 
     Raises:
-        InputError: If there is no such kind of robots, or nothing that makes brains.
+        InputError: If a kind does not exist, or its brains cannot be made.
     """
     if brains is None:
         return []
-    validation.of_kind("brains", brains, Mapping, BY_KIND)
-    return changed_minds([mind(*each) for each in brains.items()], metric, robots)
+    validation.of_type("brains", brains, Mapping, BY_KIND)
+    return resized([without_robots(*each) for each in brains.items()], metric, robots)
 
 
-def mind(kind: str, make: Make | Batch) -> Mind:
-    """Return what decides for the robots of a kind, before there are any."""
-    validation.of_kind("brains", kind, str, BY_KIND)
+def without_robots(kind: str, make: Make | Batch) -> PythonBrains:
+    """Return the Python brains of a kind that has no robots yet."""
+    validation.of_type("brains", kind, str, BY_KIND)
     if isinstance(make, Batch):
-        return All(kind, make)
-    validation.check(callable(make), f"brains.{kind}", make, MAKES)
-    return Each(kind, make)
+        return BatchBrain(kind, make)
+    validation.check(callable(make), f"brains.{kind}", make, FACTORY)
+    return SingleBrains(kind, make)
 
 
-def changed_minds(
-    minds: list[Mind], metric: _core.MetricScenario, robots: Mapping[str, int]
-) -> list[Mind]:
-    """Return what decides from now on: robots that stay keep their brains, others get new ones.
+def resized(
+    brains: list[PythonBrains], metric: _core.MetricScenario, robots: Mapping[str, int]
+) -> list[PythonBrains]:
+    """Return the brains for a team: robots of the old team keep theirs, others get new ones.
 
     Raises:
-        InputError: If there is no such kind of robots.
+        InputError: If a kind does not exist.
     """
-    bodies = [cast("Body", _core.body(metric, "brains", mind.kind)) for mind in minds]
-    return [mind.of(body, robots[mind.kind]) for mind, body in zip(minds, bodies, strict=True)]
+    bodies = [cast("Body", _core.body(metric, "brains", each.kind)) for each in brains]
+    pairs = zip(brains, bodies, strict=True)
+    return [each.resized(body, robots[each.kind]) for each, body in pairs]

@@ -1,4 +1,4 @@
-"""A run of the metric engine, stepped by hand."""
+"""An interactive run of the metric engine."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -13,26 +13,26 @@ from numpy.typing import NDArray
 from agent_economy import _core
 from agent_economy.runs.brain import BeliefState, BelievedMap, Command, Inspection, Percept
 from agent_economy.runs.outcome import Outcome
-from agent_economy.runs.python_brains import Brains, changed_minds, minds
+from agent_economy.runs.python_brains import Brains, python_brains, resized
 from agent_economy.runs.stepped import Change, Stepped
 from agent_economy.scenario import Override, Scenario, TomlValue, as_scenario, validation
 
 Floats = NDArray[np.float64]
 
 STATUSES = np.array(["active", "empty", "broken"])
-"""What a robot can be, by the compiled part's numbers."""
+"""Status of a robot, by its number in the compiled part."""
 
 
 FIXED = ("clock.step_s", "world.size_m", "world.periodic")
-"""What stays: times are counted in steps, and every place is within the world and its sides."""
+"""Keys that cannot change in a run: times are counted in steps, and positions lie in the world."""
 
 
 class Footprint(NamedTuple):
-    """What a sensor covers: how far it sees in each direction, past all that hides things from it.
+    """The area that a sensor covers, with occlusion.
 
     Attributes:
-        bearings_rad: Directions from the robot's front, one a degree, from -pi to pi.
-        ranges_m: How far it sees along each, at most as far as it sees at all.
+        bearings_rad: Directions relative to the robot's front, one per degree, from -pi to pi.
+        ranges_m: Visible distance in each direction, up to the range of the sensor.
     """
 
     bearings_rad: Floats
@@ -41,28 +41,29 @@ class Footprint(NamedTuple):
 
 @dataclass(frozen=True)
 class Snapshot:
-    """A whole run at one moment, for `Simulation.restore` of any simulation of this process.
+    """The state of a run at one step, for `Simulation.restore` of any simulation of this process.
 
-    It cannot be pickled: keep the scenario, the seed, the run and its `changes`, and step again.
+    It cannot be pickled. To keep a run, store its scenario, seed, run number and `changes`, and
+    step again.
     """
 
     scenario: Scenario
     seed: int
     run: int
     changes: tuple[Change, ...]
-    _inside: _core.Snapshot = field(repr=False)
+    _state: _core.Snapshot = field(repr=False)
 
 
 class Simulation(Stepped):
-    """A run of the metric engine, stepped by hand: it is `run`, step by step.
+    """A run of the metric engine in single steps, with the same results as `agent_economy.run`.
 
-    Arrays and tables are copies: they stay as they are when the run goes on. Threads may share a
-    simulation; each call waits until another thread's is done.
+    Arrays and tables are copies: later steps do not change them. Threads may share a simulation;
+    each call waits until that of another thread has returned.
 
     Attributes:
-        scenario: What the run is of, with all changes so far.
-        seed: Of all chance.
-        run: Its number.
+        scenario: The scenario, with all changes made during the run.
+        seed: Seed of all random numbers.
+        run: Run number.
     """
 
     _run: _core.Simulation
@@ -75,27 +76,27 @@ class Simulation(Stepped):
         threads: int | None = None,
         brains: Brains | None = None,
     ) -> None:
-        """Begin a run.
+        """Create a run at its first step.
 
         Args:
-            scenario: A scenario of the metric engine, its file, or the name of one that ships.
-            seed: Of all chance, 0 to 2^64 - 1.
-            run: Its number, 0 to 2^63 - 10,000,001; each is another world.
-            threads: 1 to 1024, for worlds of thousands of robots; None for as many as there are
-                processors. It changes no result.
-            brains: By kind of robots, a class or function that makes a brain in Python when it is
-                called with a robot's body: an object whose `step(percept)` returns a command, as
-                that of `Brain` does. It decides for that robot in place of the scenario's brain,
-                in the same steps. Or a `Batch`, which decides for all robots of the kind at once.
+            scenario: A scenario of the metric engine, its file, or the name of a bundled one.
+            seed: Seed of all random numbers, 0 to 2^64 - 1.
+            run: Run number, 0 to 2^63 - 10,000,001. Each number is a different world.
+            threads: Number of threads, 1 to 1024; None for one per processor. It changes no result,
+                and matters only with thousands of robots.
+            brains: Python brains by robot kind. Either a class or function that is called with
+                the body of a robot and returns its brain: an object with a method `step(percept)`
+                that returns a command, as `Brain` has. It decides instead of the scenario's brain,
+                at the same steps. Or a `Batch`, which decides for all robots of the kind at once.
 
         Raises:
-            InputError: If the scenario is wrong or of another engine, an argument out of range, or
-                the world has no room for the team or the items.
+            InputError: If the scenario has errors or is of another engine, an argument is out of
+                range, or the world has no room for the team or the items.
         """
         super().__init__(as_scenario(scenario), seed, run)
         metric = self.scenario.metric()
         self._run = _core.Simulation(metric, seed=seed, run=run, threads=threads)
-        self._minds = minds(brains, metric, self.scenario.robots)
+        self._brains = python_brains(brains, metric, self.scenario.robots)
         self._inspected: str | None = None
 
     def step(
@@ -105,27 +106,28 @@ class Simulation(Stepped):
         percepts: Mapping[str, Percept] | None = None,
         commands: Mapping[str, Command] | None = None,
     ) -> dict[str, Command]:
-        """Take steps, also after the run is over; Ctrl-C stops between two.
+        """Advance by `steps`, also after the end of the run. Ctrl-C stops between two steps.
 
-        A body can be outside: from the first percept given for a robot on, it is where its percepts
-        say, its brain steps with each of them, and the command is returned instead of carried out.
-        The run adds what other robots told it to the percept, and counts as found what the percept
-        has contacts of. In a step without a percept for it, it stands, and its brain does not step.
+        A robot in `percepts` has an external body from then on: its pose comes from its percepts,
+        each percept triggers one step of its brain, and the command is returned instead of being
+        executed. The run adds the messages of other robots to the percept, and counts the items of
+        its contacts as found. In a step without a percept, the robot does not move and its brain
+        does not step.
 
         Args:
-            steps: How many, 0 or more; 1 with percepts or commands.
-            percepts: By name, what robots perceive whose bodies are outside.
-            commands: By name, what other robots are to do from this step on, whatever their brains
-                would decide in it, until their brains decide again: in the next step, or later if
-                they are slower than the steps. Sensors and bodies stay as they are.
+            steps: Number of steps, 0 or more; 1 with percepts or commands.
+            percepts: Percepts of external bodies, by robot name.
+            commands: Commands for other robots, by robot name. A command replaces the decision of
+                the robot's brain in this step, and holds until the brain steps again.
 
         Returns:
-            By name, what the brains of the robots in `percepts` want of their bodies; one that is
-            empty or broken wants nothing.
+            The commands of the robots in `percepts`, by name. The command of an empty or broken
+            robot is zero.
 
         Raises:
-            InputError: If anything is not allowed, all faults at once; no step is taken then. Nor
-                is it if a brain in Python raises something: what it raises comes out here.
+            InputError: If an argument is not allowed; it lists all errors. The run does not
+                advance. An exception of a Python brain leaves this call unchanged, and the run does
+                not advance either.
         """
         if percepts is None and commands is None:
             self._step(steps)
@@ -133,30 +135,30 @@ class Simulation(Stepped):
         is_one = isinstance(steps, Integral) and steps == 1
         validation.check(is_one, "steps", steps, "1 with percepts or commands")
         both = as_dict("percepts", percepts), as_dict("commands", commands)
-        return cast("dict[str, Command]", self._run.step_with(*both, self._minds))
+        return cast("dict[str, Command]", self._run.step_with(*both, self._brains))
 
     def _step(self, steps: int) -> None:
-        if not self._minds:
+        if not self._brains:
             self._run.step(steps)
             return
         validation.check(validation.is_whole(steps, 0), "steps", steps, "a whole number, 0 or more")
         for _ in range(steps):
-            self._run.step_with({}, {}, self._minds)
+            self._run.step_with({}, {}, self._brains)
 
     @property
     def decided(self) -> dict[str, Command]:
-        """By robot, what the brains in Python that stepped in the last step decided."""
+        """The commands of Python brains in the last step, by robot name."""
         return cast("dict[str, Command]", self._run.decided)
 
     def percept(self, robot: str) -> Percept | None:
-        """Return what a robot will perceive in the next step; the run does not go on.
+        """Return the percept of a robot in the next step. It does not change the run.
 
         Args:
-            robot: Its name.
+            robot: Name of the robot.
 
         Returns:
-            None if its brain does not step then, as between two of its periods, or if it is empty
-            or broken, or its body outside. Of a ray that meets nothing the range is None.
+            None if its brain does not step then, because of its rate or because the robot is empty
+            or broken, or if its body is external. The range of a ray without a return is None.
 
         Raises:
             InputError: If there is no such robot.
@@ -220,16 +222,14 @@ class Simulation(Stepped):
         return cast("Inspection | None", _core.inspection(self._run, robot))
 
     def links(self, robot: str | None = None) -> NDArray[np.uint32]:
-        """Return who hears whom now, but for messages that are lost by chance.
-
-        The run stays the same.
+        """Return the current radio links, without random losses. It does not change the run.
 
         Args:
-            robot: The name of one whose links are asked for; None for those of all.
+            robot: Name of a robot, for its links only; None for all links.
 
         Returns:
-            A row a pair, shape (links, 3): the places in `robots` of who is heard and of who hears,
-            and 1 if each hears the other, 0 if not. Who is broken or empty has no links.
+            One row per pair, shape (links, 3): the indices of sender and receiver in `robots`, and
+            1 if the link works both ways, otherwise 0. Empty and broken robots have no links.
 
         Raises:
             InputError: If there is no such robot.
@@ -237,112 +237,112 @@ class Simulation(Stepped):
         return _core.links(self._run, robot)
 
     def footprints(self, robot: str) -> dict[str, Footprint]:
-        """Return what a robot's range rings and detectors of items cover now.
+        """Return the areas that the range rings and item detectors of a robot cover now.
 
-        Obstacles cut what a detector covers if it needs a line of sight, and all that rays meet,
-        robots too, what a ring does; errors and chances are left out. The run stays the same.
+        Obstacles limit a detector that needs a line of sight. Obstacles and robots limit a range
+        ring. Sensor errors are not included. It does not change the run.
 
         Args:
-            robot: Its name.
+            robot: Name of the robot.
 
         Returns:
-            By the names of the sensors that are on; empty if the robot is empty or broken, or its
-            body outside.
+            One footprint per sensor that is on, by sensor name; empty if the robot is empty or
+            broken, or its body is external.
 
         Raises:
             InputError: If there is no such robot.
         """
-        told = _core.footprints(self._run, robot)
-        return {sensor: Footprint(*each) for sensor, each in told.items()}
+        footprints = _core.footprints(self._run, robot)
+        return {sensor: Footprint(*each) for sensor, each in footprints.items()}
 
     def _is_in_python(self, robot: str) -> bool:
-        return any(robot.startswith(f"{mind.kind}/") for mind in self._minds)
+        return any(robot.startswith(f"{each.kind}/") for each in self._brains)
 
     def finish(self) -> Outcome:
-        """Take steps until the run is over; Ctrl-C stops between two."""
-        while self._minds and not self._run.is_over:
+        """Advance to the end of the run. Ctrl-C stops between two steps."""
+        while self._brains and not self._run.is_over:
             self._step(1)
         self._run.finish()
         return self.outcome()
 
     def change(self, path: str, value: TomlValue) -> None:
-        """Put a value into the scenario, and go on with that.
+        """Change a value of the scenario, and continue with it.
 
-        Robots and items that are in both scenarios, by kind and index, stay as they are; others
-        come in where they would start, or go. A robot whose brain, body or sensors are now others
-        begins with a new mind; one in Python it keeps. Messages on their way are lost if the team
-        changes.
+        Robots and items that exist before and after, by kind and index, stay as they are. New ones
+        appear at their start positions, others disappear. A robot with a changed brain, body or
+        sensors gets a new brain; a Python brain is kept. A change of the team loses the messages
+        that are being transmitted.
 
         Args:
-            path: Keys from the root, with dots between, such as "robots.rover.count"; any but
+            path: Keys from the root, separated by dots, such as "robots.rover.count". Not allowed:
                 `clock.step_s`, `world.size_m` and `world.periodic`.
-            value: As the file could have it.
+            value: The new value, as in the file.
 
         Raises:
-            InputError: If the value is not allowed there, or there is no room for what comes in;
-                nothing has changed then.
+            InputError: If the value is not allowed, or there is no room for a new robot or item.
+                The run is then unchanged.
         """
         override = Override.at(path, value, "change")
-        stays = path in FIXED
-        validation.check(not stays, f"change: {path}", value, "as it was when the run began")
+        is_fixed = path in FIXED
+        validation.check(not is_fixed, f"change: {path}", value, "as it was when the run began")
         with self._lock:
             changed = self.scenario.changed((override,))
             metric = changed.metric()
-            after = changed_minds(self._minds, metric, changed.robots)
+            brains = resized(self._brains, metric, changed.robots)
             tick = self._run.change(metric)
-            self.scenario, self._minds = changed, after
+            self.scenario, self._brains = changed, brains
             self._changes += (Change(tick, path, value),)
 
     def snapshot(self) -> Snapshot:
-        """Return the whole run as it is now; it costs as much memory as the run.
+        """Return a copy of the complete state of the run. It takes as much memory as the run.
 
         Raises:
-            InputError: If it has brains in Python: what they remember is theirs.
+            InputError: If the run has Python brains, whose memory a snapshot cannot contain.
         """
-        self._have_no_minds("snapshot")
+        self._check_no_python_brains("snapshot")
         with self._lock:
-            inside = self._run.snapshot()
-            return Snapshot(self.scenario, self.seed, self.run, self._changes, inside)
+            state = self._run.snapshot()
+            return Snapshot(self.scenario, self.seed, self.run, self._changes, state)
 
     def restore(self, snapshot: Snapshot) -> None:
-        """Be the run that a snapshot is of: its scenario, its seed, its moment, its changes.
+        """Return to a snapshot: its state, scenario, seed, run number and changes.
 
         Raises:
-            InputError: If it is no `Snapshot`, or the run has brains in Python.
+            InputError: If `snapshot` is not a `Snapshot`, or the run has Python brains.
         """
-        self._have_no_minds("restore")
-        validation.of_kind("snapshot", snapshot, Snapshot, "what snapshot() returned")
+        self._check_no_python_brains("restore")
+        validation.of_type("snapshot", snapshot, Snapshot, "what snapshot() returned")
         with self._lock:
-            self._run.restore(snapshot._inside)  # noqa: SLF001  (ours)
+            self._run.restore(snapshot._state)  # noqa: SLF001  (ours)
             self.scenario, self._changes = snapshot.scenario, snapshot.changes
             self.seed, self.run = snapshot.seed, snapshot.run
 
-    def _have_no_minds(self, what: str) -> None:
-        kinds = [mind.kind for mind in self._minds]
-        allowed = "none: what brains in Python remember is in no snapshot; begin the run again"
-        validation.check(not kinds, f"{what}: brains", kinds, allowed)
+    def _check_no_python_brains(self, method: str) -> None:
+        kinds = [each.kind for each in self._brains]
+        allowed = "none: a snapshot cannot contain the memory of Python brains; restart the run"
+        validation.check(not kinds, f"{method}: brains", kinds, allowed)
 
     @property
     def robots(self) -> tuple[str, ...]:
-        """Names of the robots, KIND/INDEX, in the order of all arrays of robots."""
+        """Names of the robots, KIND/INDEX, in the order of all arrays with one entry per robot."""
         return tuple(self._run.robots)
 
     @property
     def poses(self) -> Floats:
-        """Where each robot is, shape (robots, 3): x and y in metres, heading in radians.
+        """Pose of each robot, shape (robots, 3): x and y in metres, heading in radians.
 
-        A heading is 0 along x, anticlockwise, from -pi to pi.
+        The heading is 0 along x, anticlockwise, from -pi to pi.
         """
         return self._run.poses
 
     @property
     def speeds(self) -> Floats:
-        """How fast each robot goes ahead, in metres a second, shape (robots,)."""
+        """Forward speed of each robot in m/s, shape (robots,)."""
         return self._run.speeds
 
     @property
     def status(self) -> NDArray[np.str_]:
-        """Whether each robot can go on, shape (robots,): "active", or "empty" or "broken"."""
+        """Status of each robot, shape (robots,): "active", "empty" (battery) or "broken"."""
         return STATUSES[self._run.status]
 
     @property
@@ -352,15 +352,15 @@ class Simulation(Stepped):
 
     @property
     def battery(self) -> Floats:
-        """Share of each robot's battery that is left, shape (robots,), 0 to 1.
+        """State of charge of each robot, shape (robots,), 0 to 1.
 
-        A robot whose battery never empties, or that has none, has 1.
+        It is 1 for a robot without a battery, or whose battery has no limited capacity.
         """
         return self._run.battery
 
     @property
     def items(self) -> pa.Table:
-        """A row an item: `kind`, `x_m`, `y_m`, and `found_s`, null until it is found."""
+        """One row per item: `kind`, `x_m`, `y_m`, and `found_s`, null if not found."""
         items: dict[str, Any] = self._run.items
         return pa.table(
             {
@@ -373,12 +373,12 @@ class Simulation(Stepped):
 
 
 def as_dict(name: str, mapping: Mapping[str, Any] | None) -> dict[str, Any]:
-    """Return a mapping as a dict; None is an empty one.
+    """Return a mapping as a dict; None as an empty one.
 
     Raises:
-        InputError: If it is no mapping.
+        InputError: If it is not a mapping.
     """
     if mapping is None:
         return {}
-    validation.of_kind(name, mapping, Mapping, "a dict by the names of robots")
+    validation.of_type(name, mapping, Mapping, "a dict by robot names")
     return dict(mapping)

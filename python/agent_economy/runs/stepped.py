@@ -1,22 +1,22 @@
-"""What runs have in common that are stepped by hand and changed on the way, of either engine."""
+"""The common base of interactive runs of both engines: they step and take changes."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from threading import RLock
 from typing import Any, NamedTuple, Protocol
 
-from agent_economy.runs.outcome import Columns, Outcome, so_far
+from agent_economy.runs.outcome import Columns, Outcome, Status, outcome_of
 from agent_economy.scenario import Scenario, TomlValue
 from agent_economy.types.brain import BeliefState
 
 
 class Change(NamedTuple):
-    """A value that was put into a scenario in the middle of a run.
+    """A change of a scenario during a run.
 
     Attributes:
-        tick: Steps that had been taken.
-        path: Keys from the scenario's root, with dots between.
-        value: What was put there.
+        tick: Number of steps before the change.
+        path: Keys from the scenario's root, separated by dots.
+        value: The new value.
     """
 
     tick: int
@@ -24,8 +24,8 @@ class Change(NamedTuple):
     value: TomlValue
 
 
-class Inside(Protocol):
-    """What of a run is compiled, of either engine; its properties are those of `Stepped`."""
+class CompiledRun(Protocol):
+    """The compiled part of a run, of either engine; its properties are those of `Stepped`."""
 
     @property
     def columns(self) -> Columns: ...  # noqa: D102
@@ -43,29 +43,29 @@ class Inside(Protocol):
 
 
 class Stepped(ABC):
-    """A run that is stepped by hand: `Simulation` and `ClassicSimulation` are such.
+    """An interactive run: the base of `Simulation` and `ClassicSimulation`.
 
-    Threads may share one; each call waits until another thread's is done.
+    Threads may share a run; each call waits until that of another thread has returned.
 
     Attributes:
-        scenario: What the run is of, with all changes so far.
-        seed: Of all chance.
-        run: Its number.
+        scenario: The scenario, with all changes made during the run.
+        seed: Seed of all random numbers.
+        run: Run number.
     """
 
     scenario: Scenario
     seed: int
     run: int
-    _run: Inside
+    _run: CompiledRun
 
     def __init__(self, scenario: Scenario, seed: int, run: int) -> None:
-        """Begin without changes."""
+        """Create a run without changes."""
         self.scenario, self.seed, self.run = scenario, seed, run
         self._changes: tuple[Change, ...] = ()
         self._lock = RLock()
 
     def __repr__(self) -> str:
-        """Return which run it is, and where."""
+        """Return the scenario, seed, run number and current step."""
         which = f"{self.scenario.name!r}, seed={self.seed}, run={self.run}"
         return f"<{type(self).__name__} of {which}: tick {self.tick}>"
 
@@ -76,57 +76,61 @@ class Stepped(ABC):
 
     @abstractmethod
     def step(self, steps: int = 1) -> Any:
-        """Take steps."""
+        """Advance the run."""
 
     @abstractmethod
     def change(self, path: str, value: TomlValue) -> None:
-        """Put a value into the scenario, and go on with that."""
+        """Change a value of the scenario, and continue with it."""
 
     @abstractmethod
     def belief_state(self, robot: str) -> BeliefState | None:
-        """Return what a robot believes and wants; None if it has no mind."""
+        """Return what a robot believes and its goals; None if its brain has no beliefs."""
 
     @abstractmethod
     def snapshot(self) -> Any:
-        """Return the whole run as it is now."""
+        """Return a copy of the complete state of the run."""
 
     @abstractmethod
     def restore(self, snapshot: Any) -> None:
-        """Be the run that a snapshot is of."""
+        """Return to the state of a snapshot."""
 
     def outcome(self) -> Outcome:
-        """Return what the run has given so far; once it is over, what `run` returns."""
+        """Return the outcome at the current step; at the end of the run, it is that of `run`."""
         with self._lock:
-            columns, told = self._run.columns, self._run.outcome()
+            columns, values = self._run.columns, self._run.outcome()
             is_over, merit = self._run.is_over, self.scenario.merit
-        return so_far(columns, told or {}, merit, self.run, None if is_over else "running")
+        status: Status | None = None if is_over else "running"
+        return outcome_of(columns, values or {}, merit, self.run, status)
 
     @property
     def changes(self) -> tuple[Change, ...]:
-        """What was changed, in order: with it a run can be taken again."""
+        """The changes in order.
+
+        A run can be replayed from them, its initial scenario, its seed and its run number.
+        """
         return self._changes
 
     @property
     def tick(self) -> int:
-        """Steps that have been taken."""
+        """Number of steps taken."""
         return self._run.tick
 
     @property
     def step_s(self) -> float:
-        """Time in the world that one takes."""
+        """Simulated time per step, in seconds."""
         return self._run.step_s
 
     @property
     def time_s(self) -> float:
-        """Time in the world that they took; of the classic engine's, as its clock goes now."""
+        """Simulated time in seconds; of the classic engine, at the current paints per second."""
         return self._run.time_s
 
     @property
     def is_over(self) -> bool:
-        """Whether nothing more can come."""
+        """Whether the run has ended."""
         return self._run.is_over
 
     @property
     def hash(self) -> int:
-        """A number of 64 bits that tells runs apart that differ in anything that shows."""
+        """A 64-bit hash of the state: equal for runs without a visible difference."""
         return self._run.hash

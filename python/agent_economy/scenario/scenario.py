@@ -125,7 +125,7 @@ class Scenario:
         Raises:
             InputError: If anything in it is wrong. It lists all errors.
         """
-        validation.of_kind("source", source, Source, "a Source, such as Scenario.source")
+        validation.of_type("source", source, Source, "a Source, such as Scenario.source")
         source = source.complete()
         fields = _core.read_scenario(source)
         return cls(
@@ -171,7 +171,7 @@ class Scenario:
             InputError: If a path cannot be varied, or a value is not allowed there, alone or in
                 combination. It lists all errors.
         """
-        validation.of_kind("values", values, Mapping, "a dict of values by path")
+        validation.of_type("values", values, Mapping, "a dict of values by path")
         for path in values:
             check_path("values", path)
         return _core.read_configuration(self.source, dict(values))
@@ -210,7 +210,7 @@ def as_scenario(scenario: Scenario | str | Path) -> Scenario:
     if isinstance(scenario, Scenario):
         return scenario
     allowed = "a Scenario, a file, or the name of a bundled scenario"
-    validation.of_kind("scenario", scenario, str | Path, allowed)
+    validation.of_type("scenario", scenario, str | Path, allowed)
     return Scenario.load(scenario)
 
 

@@ -134,9 +134,9 @@ def check_overrides(overrides: tuple[Override, ...]) -> tuple[Override, ...]:
         InputError: If it is not a sequence of `Override`.
     """
     allowed = "a tuple of Override"
-    validation.of_kind("overrides", overrides, tuple | list, allowed)
+    validation.of_type("overrides", overrides, tuple | list, allowed)
     for each in overrides:
-        validation.of_kind("overrides", each, Override, allowed)
+        validation.of_type("overrides", each, Override, allowed)
     return tuple(overrides)
 
 

@@ -23,7 +23,7 @@ def check(is_allowed: bool, name: str, value: object, allowed: str) -> None:  # 
         raise _core.refusal(name, value, allowed)
 
 
-def of_kind(name: str, value: object, kinds: Kinds, allowed: str) -> None:
+def of_type(name: str, value: object, kinds: Kinds, allowed: str) -> None:
     """Raise an error unless an argument is an instance of one of some types.
 
     Raises:

@@ -68,7 +68,7 @@ def check_message(message: Any) -> None:
     Raises:
         InputError: If anything is.
     """
-    validation.of_kind("message", message, dict, "an object with a type, in JSON")
+    validation.of_type("message", message, dict, "an object with a type, in JSON")
     kind = message.pop("type", None)
     is_known = isinstance(kind, str) and kind in MESSAGES
     validation.check(is_known, "message.type", kind, f"one of {', '.join(MESSAGES)}")

@@ -61,8 +61,8 @@ def run(  # noqa: PLR0913  (keywords with defaults)
         InputError: If an argument is invalid; or the folder contains another study, is damaged, or
             cannot be written.
     """
-    validation.of_kind("scenario", scenario, Scenario, "a Scenario")
-    validation.of_kind("vary", vary, Mapping | None, "a dict of values by their paths")
+    validation.of_type("scenario", scenario, Scenario, "a Scenario")
+    validation.of_type("vary", vary, Mapping | None, "a dict of values by their paths")
     changes = [varied(path, values) for path, values in (vary or {}).items()]
     if design is not None:
         changes.append(Override(("study", "design"), design, "design"))
@@ -137,7 +137,7 @@ def run_plan(
     Raises:
         InputError: As in `run`.
     """
-    validation.of_kind("plan", plan, Plan, "a Plan, as make_plan returns")
+    validation.of_type("plan", plan, Plan, "a Plan, as make_plan returns")
     place = validation.path("folder", folder)
     with ChartScript() as script:
 
@@ -155,7 +155,7 @@ def varied(path: str, values: str | Iterable[Value]) -> Override:
         InputError: If the path is not a string, or the values are not a list.
     """
     check_path("vary", path)
-    validation.of_kind(
+    validation.of_type(
         f"vary: {path}", values, Iterable, 'a list of values or a string, such as "1..40"'
     )
     return Override(("study", "vary", path), written(values), "vary")

@@ -118,7 +118,7 @@ def outline(cell: Place) -> list[list[float]]:
 
 def middle(cell: Cell) -> list[float]:
     """Return the middle of a cell as drawn."""
-    return in_px(classic_world.middle(cell))
+    return in_px(classic_world.centre(cell))
 
 
 def in_px(place: Place) -> list[float]:

@@ -62,7 +62,7 @@ def plan(request: Any, workspace: Workspace) -> Plan:
         StudyRequestError: If it has errors; all at once.
         InputError: If the request is not an object.
     """
-    validation.of_kind("request", request, dict, "an object")
+    validation.of_type("request", request, dict, "an object")
     errors = Errors()
     scenario = errors.gather(lambda: scenario_of(request, workspace))
     changed = errors.gather(lambda: scenario.changed(overrides(request))) if scenario else None
@@ -102,7 +102,7 @@ def overrides(request: Mapping[str, Any]) -> tuple[Override, ...]:
         InputError: If a key or value is not allowed.
     """
     vary = request.get("vary") or {}
-    validation.of_kind("vary", vary, dict, "an object of values by path")
+    validation.of_type("vary", vary, dict, "an object of values by path")
     for path, values in vary.items():
         check_path("vary", path)
         validation.check(
