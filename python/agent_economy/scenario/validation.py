@@ -57,7 +57,7 @@ def path(name: str, value: str | PathLike[str]) -> Path:
     Raises:
         InputError: If it is not a string or a path.
     """
-    of_kind(name, value, str | PathLike, "the path of a file or folder")
+    of_type(name, value, str | PathLike, "the path of a file or folder")
     return Path(value)
 
 
@@ -67,7 +67,7 @@ def texts(name: str, value: Iterable[str], allowed: str) -> tuple[str, ...]:
     Raises:
         InputError: If it is not an iterable of strings.
     """
-    of_kind(name, value, Iterable, allowed)
+    of_type(name, value, Iterable, allowed)
     check(not isinstance(value, str), name, value, allowed)
     values = tuple(value)
     check(all(isinstance(each, str) for each in values), name, value, allowed)

@@ -18,7 +18,7 @@ import tomli_w
 
 from agent_economy._core import InputError
 from agent_economy.scenario import Override, Scenario, Source
-from agent_economy.scenario.validation import check, errors_unless, is_whole, of_kind
+from agent_economy.scenario.validation import check, errors_unless, is_whole, of_type
 from agent_economy.study import design
 from agent_economy.study.arguments import (
     FIRST_LOOK,
@@ -194,7 +194,7 @@ def draft(  # noqa: PLR0913  (as in make)
     Raises:
         InputError: If an argument is invalid.
     """
-    of_kind("scenario", scenario, Scenario, "a Scenario")
+    of_type("scenario", scenario, Scenario, "a Scenario")
     confidence = confidence if confidence is not None else scenario.confidence
     check_question(seed=seed, delta=delta, confidence=confidence, guarantee=guarantee, runs=runs)
     configurations = tuple(design.points(scenario.factors, scenario.design, seed))
