@@ -10,7 +10,7 @@ import agent_economy as ae
 from agent_economy import study
 
 NO: Any = 5
-NAMES = r"must be a list of robots' names"
+NAMES = r"must be a list of robot names"
 PATH = r"must be the path of a file or folder"
 
 

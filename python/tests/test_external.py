@@ -49,7 +49,7 @@ def test_a_command_holds_until_the_brain_decides_again(rate_hz: float, steps: in
     simulation.step(20)
     simulation.step(commands={"rover/0": STOP})
     held = 0
-    while moment_of(simulation)["wanted"][0].tolist() == [0, 0]:
+    while moment_of(simulation)["commanded"][0].tolist() == [0, 0]:
         simulation.step()
         held += 1
     assert held == steps

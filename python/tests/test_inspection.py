@@ -68,7 +68,7 @@ def test_what_is_watched_is_what_the_robot_perceives_and_then_wants() -> None:
         assert told is not None
         assert percept is None or (percept, simulation.tick) == (told["percept"], told["tick"])
         simulation.step()
-        wanted = moment_of(simulation)["wanted"][1]
+        wanted = moment_of(simulation)["commanded"][1]
         assert tuple(wanted) == tuple(told["command"]["motion"].values())
         belief_state = simulation.belief_state("rover/1")
         assert belief_state == told["belief_state"]

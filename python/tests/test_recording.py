@@ -86,7 +86,7 @@ def test_the_file_alone_is_enough_to_take_the_run_again(
     shutil.rmtree(there)
     monkeypatch.chdir(tmp_path)
     again = ae.replay("run.mcap")
-    assert (again.agrees, again.is_whole, again.tick) == (True, True, 200)
+    assert (again.agrees, again.is_complete, again.tick) == (True, True, 200)
     assert (again.seed, again.run, again.scenario.name) == (2**64 - 1, 7, "open-field")
     assert again.outcome == ae.run(again.scenario, 2**64 - 1, 7)
 
@@ -155,7 +155,7 @@ def test_a_run_that_was_meddled_with_does_not_agree(tmp_path: Path) -> None:
         simulation.step(commands={"rover/0": DRIVE})
         recording.step(20)
     again = ae.replay(tmp_path / "run.mcap")
-    assert (again.agrees, again.differs_at) == (False, 22)
+    assert (again.agrees, again.mismatch_tick) == (False, 22)
 
 
 def test_a_brain_gives_the_recorded_commands_for_the_recorded_percepts(tmp_path: Path) -> None:
@@ -307,14 +307,14 @@ def test_a_run_put_back_is_not_recorded_any_further(tmp_path: Path) -> None:
     before = simulation.snapshot()
     recording.step(5)
     simulation.restore(before)
-    with pytest.raises(InputError, match="put back"):
+    with pytest.raises(InputError, match="restored to an earlier step"):
         recording.step()
 
 
 def test_wrong_arguments_are_told_together(tmp_path: Path) -> None:
     with pytest.raises(InputError) as told:
         ae.Recording(ae.Simulation("search"), tmp_path / "run", every=0, percepts=["rover/4"])
-    assert f"{tmp_path}/run: a recording's name must end in .mcap" in str(told.value)
+    assert f"{tmp_path}/run: the name of a recording must end in .mcap" in str(told.value)
     assert "every = 0: must be a whole number, 1 or more" in str(told.value)
     assert "'rover/4': must be among the run's robots: rover/0 to rover/3" in str(told.value)
     assert not (tmp_path / "run").exists()
@@ -360,9 +360,11 @@ def test_a_recording_never_takes_the_place_of_what_is_none(tmp_path: Path) -> No
     (tmp_path / "link.mcap").symlink_to(own)
     before = {file: file.read_bytes() for file in tmp_path.iterdir()}
     for name in ("own.mcap", "link.mcap", "map.mcap"):
-        with pytest.raises(InputError, match=f"{name}: must be another file than what the scen"):
+        with pytest.raises(InputError, match=f"{name}: must not be a file that the scenario was"):
             ae.run(own, record=tmp_path / name)
-    with pytest.raises(InputError, match=r"open-field.pgm: a recording's name must end in \.mcap"):
+    with pytest.raises(
+        InputError, match=r"open-field.pgm: the name of a recording must end in \.mcap"
+    ):
         ae.run(own, record=tmp_path / "open-field.pgm")
     assert {file: file.read_bytes() for file in tmp_path.iterdir()} == before
     ae.run(own, record=tmp_path / "run.mcap")
@@ -403,10 +405,10 @@ def test_a_disk_that_fills_is_told_with_the_file_and_what_helps(tmp_path: Path) 
     given = subprocess.run(script, capture_output=True, text=True, check=False)
     assert (given.returncode, given.stderr) == (0, "")
     full, closed = given.stdout.splitlines()
-    assert full.startswith(f"{path}: cannot be written any further: File too large: make room")
+    assert full.startswith(f"{path}: recording stopped: File too large: free some space")
     assert closed.startswith("the recording is closed")
     again = ae.replay(path)
-    assert (again.agrees, again.is_whole) == (True, False)
+    assert (again.agrees, again.is_complete) == (True, False)
     assert again.tick > 0
 
 
@@ -416,7 +418,7 @@ def test_the_command_line_says_that_a_disk_is_full(tmp_path: Path) -> None:
     path.symlink_to("/dev/full")
     given = run("run", "search", "--record", str(path))
     assert given.returncode == 1
-    assert given.stderr.startswith(f"{path}: cannot be written any further: No space left")
+    assert given.stderr.startswith(f"{path}: recording stopped: No space left")
     assert len(given.stderr.splitlines()) == 1
     assert "1 the recording cannot be written" in " ".join(run("run", "--help").stdout.split())
 
@@ -442,7 +444,7 @@ def test_a_killed_process_leaves_what_it_had_recorded(tmp_path: Path) -> None:
         process.kill()
         process.wait()
     again = ae.replay(path)
-    assert (again.agrees, again.is_whole) == (True, False)
+    assert (again.agrees, again.is_complete) == (True, False)
     assert again.tick >= 100
     assert again.scenario.to_dict() == search(ENDLESS).to_dict()
 
@@ -468,7 +470,7 @@ def test_the_command_line_records_and_takes_again(tmp_path: Path) -> None:
     assert (again.returncode, again.stderr) == (0, "")
     assert again.stdout.startswith("search, seed 7, run 0: reproduced up to step 100")
     told = json.loads(run("replay", path, "--json").stdout)
-    assert (told["agrees"], told["differs_at"], told["tick"]) == (True, None, 100)
+    assert (told["agrees"], told["mismatch_tick"], told["tick"]) == (True, None, 100)
     refused = run("replay", "README.md")
     assert refused.returncode == 2
     assert "Traceback" not in refused.stderr

@@ -41,7 +41,7 @@ def test_a_recorded_run_is_the_run_and_is_taken_again(tmp_path: Path) -> None:
     recorded = ae.run("classic", 3, 1, record=tmp_path / "run.mcap")
     assert recorded == ae.run("classic", 3, 1)
     again = ae.replay(tmp_path / "run.mcap")
-    assert (again.agrees, again.is_whole, again.seed, again.run) == (True, True, 3, 1)
+    assert (again.agrees, again.is_complete, again.seed, again.run) == (True, True, 3, 1)
     assert again.outcome == recorded
     assert again.tick == recorded.row["paints"]
 
@@ -202,13 +202,13 @@ def test_a_run_that_is_over_stands_and_a_change_lets_it_go_on(tmp_path: Path) ->
 
 def test_robots_without_minds_have_no_percepts_and_take_no_commands(tmp_path: Path) -> None:
     path = tmp_path / "run.mcap"
-    with pytest.raises(InputError, match=r"percepts = .*: must be none: robots of 2003 have no"):
+    with pytest.raises(InputError, match=r"percepts = .*: must be none: robots of the classic"):
         ae.Recording(ClassicSimulation("classic"), path, percepts=["wanderer/0"])
     assert not path.exists()
     with ae.Recording(ClassicSimulation("classic"), path) as recording:
         for name in ("percepts", "commands"):
             given: dict[str, Any] = {name: {}}
-            with pytest.raises(InputError, match=f"{name} = .*: must be none: robots of 2003 hav"):
+            with pytest.raises(InputError, match=f"{name} = .*: must be none: robots of the cla"):
                 recording.step(**given)
         recording.step(3)
     assert ae.replay(path).tick == 3
@@ -223,7 +223,7 @@ def test_a_run_that_is_not_the_recorded_one_differs_where_it_ends(tmp_path: Path
         short.restore(long.snapshot())
         recording.step(80)
     again = ae.replay(path)
-    assert (again.differs_at, again.tick) == (57, 56)
+    assert (again.mismatch_tick, again.tick) == (57, 56)
 
 
 def capped(time_limit_s: float) -> Scenario:
@@ -243,7 +243,7 @@ def test_a_killed_process_leaves_what_it_had_recorded(tmp_path: Path) -> None:
     killed = subprocess.run([sys.executable, "-c", KILLED, str(path)], check=False)
     assert killed.returncode != 0
     again = ae.replay(path)
-    assert (again.agrees, again.is_whole) == (True, False)
+    assert (again.agrees, again.is_complete) == (True, False)
     assert 600 - 5 * 56 < again.tick <= 600
 
 
@@ -259,4 +259,4 @@ def test_the_command_line_records_and_takes_again(tmp_path: Path) -> None:
     assert again.stdout.startswith(f"classic, seed 7, run 0: reproduced up to step {steps}")
     refused = run("run", "classic", "--record", path, "--percepts", "wanderer/0")
     assert refused.returncode == 2
-    assert "robots of 2003 have no minds" in refused.stderr
+    assert "robots of the classic engine have no percepts or commands" in refused.stderr

@@ -195,9 +195,9 @@ def test_a_file_that_is_cut_is_compared_as_far_as_it_goes(tmp_path: Path) -> Non
         try:
             again = ae.replay(cut)
         except InputError as error:
-            assert "is no recording of a run" in str(error) or "lacks its sc" in str(error)  # noqa: PT017
+            assert "is not a recording of a run" in str(error) or "lacks its sc" in str(error)  # noqa: PT017
         else:
-            assert (again.agrees, again.is_whole) == (True, False)
+            assert (again.agrees, again.is_complete) == (True, False)
             ticks.append(again.tick)
     assert ticks == sorted(ticks, reverse=True)
     assert ticks[0] == 100
@@ -218,7 +218,7 @@ def test_a_file_that_is_cut_within_an_index_is_no_damaged_one(tmp_path: Path) ->
     for length in (*inside, *range(end - 400, end, 7)):
         path.write_bytes(whole[:length])
         again = ae.replay(path)
-        assert (again.agrees, again.is_whole) == (True, False)
+        assert (again.agrees, again.is_complete) == (True, False)
 
 
 def test_damage_never_ends_in_anything_but_a_word(recorded: Path, tmp_path: Path) -> None:
@@ -239,7 +239,7 @@ def test_damage_never_ends_in_anything_but_a_word(recorded: Path, tmp_path: Path
 @pytest.mark.parametrize("content", [b"", b"engine = 'metric'", b"\x89MCAP0\r\n", b"\x00" * 100])
 def test_what_is_no_recording_is_refused(tmp_path: Path, content: bytes) -> None:
     (tmp_path / "other").write_bytes(content)
-    with pytest.raises(InputError, match="other: is no "):
+    with pytest.raises(InputError, match="other: is not an? "):
         ae.replay(tmp_path / "other")
 
 
@@ -251,5 +251,7 @@ def test_a_recording_does_not_make_the_program_read_other_files(tmp_path: Path) 
     run = {"format": "1", "program": "0", "scenario": "open-field.toml"}
     file.note("agent_economy.run", {**run, "overrides": "[]", "seed": "0", "run": "0"})
     file.close()
-    with pytest.raises(InputError, match=r"lacks what the scenario names: open-field\.yaml"):
+    with pytest.raises(
+        InputError, match=r"lacks files that the scenario refers to: open-field\.yaml"
+    ):
         ae.replay(path)

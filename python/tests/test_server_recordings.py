@@ -79,7 +79,7 @@ def test_a_saved_run_is_the_displayed_run_with_all_its_changes(page: Page, tmp_p
     assert (row["run"]["steps"], row["run"]["seed"], row["error"]) == (70, "7", None)
     again = ae.replay(tmp_path / row["id"])
     assert again.agrees
-    assert again.is_whole
+    assert again.is_complete
     assert (again.tick, again.hash) == (70, state["hash"])
 
 
@@ -127,7 +127,7 @@ def test_a_classic_run_that_differs_from_its_recording_is_reported_with_its_tick
         recording.step(20)
     page.send("open", recording="behind.mcap", tick=40)
     page.wait_for("opened")
-    assert page.wait_for("state", tick=40)["mismatch_tick"] == ae.replay(path).differs_at == 32
+    assert page.wait_for("state", tick=40)["mismatch_tick"] == ae.replay(path).mismatch_tick == 32
 
 
 def test_the_same_run_saved_again_is_the_same_file(page: Page, client: TestClient) -> None:
@@ -196,7 +196,7 @@ def test_a_run_that_differs_from_its_recording_is_reported_with_its_tick(tmp_pat
     which, recorded = RecordingStore(Workspace(tmp_path)).load("behind.mcap")
     timeline = Timeline(which.scenario, which.seed, which.run, recorded=recorded)
     assert timeline.seek(21, FOREVER_S)
-    assert timeline.recorded.mismatch_tick == ae.replay(path).differs_at
+    assert timeline.recorded.mismatch_tick == ae.replay(path).mismatch_tick
 
 
 @pytest.mark.usefixtures("slowly")
@@ -361,7 +361,7 @@ def test_recordings_are_listed_newest_first_with_their_runs(
     assert of["steps"] == steps
     assert of["length_s"] == pytest.approx(steps / 10)
     assert rows[2]["run"]["steps"] is None
-    assert "no MCAP file" in rows[3]["error"]
+    assert "not an MCAP file" in rows[3]["error"]
 
 
 def test_a_truncated_recording_is_opened_up_to_its_end(page: Page, tmp_path: Path) -> None:

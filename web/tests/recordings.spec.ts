@@ -43,7 +43,7 @@ test("the error of a failed save is displayed", async ({ page, fake }) => {
 test("recordings are listed, opened and downloaded", async ({ page, fake }) => {
   await page.goto(fake.url);
   await page.getByRole("link", { name: "Recordings" }).click();
-  await expect(page.getByRole("cell", { name: /Cannot be opened: it is no MCAP file/ })).toBeVisible();
+  await expect(page.getByRole("cell", { name: /Cannot be opened: it is not an MCAP file/ })).toBeVisible();
   await expectAccessible(page);
   const [file] = await Promise.all([
     page.waitForEvent("download"),

@@ -50,7 +50,7 @@ pub use inspect::{BeliefState, BelievedMap, Decision, GoalState, HeadingOption, 
 pub use io::body::{Body, Detector, Other, RangeRing, RobotId};
 pub use io::command::{Command, Motion, SensorRequest};
 pub use io::message::{About, CommitmentStatus, Message, Provenance};
-pub use io::percept::{Contact, Heard, Neighbour, Observation, Percept, Reading, Scan};
+pub use io::percept::{Contact, Neighbour, Observation, Percept, Reading, ReceivedMessage, Scan};
 pub use io::random_words::RandomWords;
 pub use perception::beliefs::pose::Pose;
 pub use perception::beliefs::{BeliefsSpec, TrustSpec};

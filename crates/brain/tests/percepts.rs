@@ -7,8 +7,8 @@ use brain::behaviours::{
 };
 use brain::{
     About, Arbitration, BeliefsSpec, Body, Brain, BrainSpec, Command, CommitmentStatus, Contact,
-    Detector, Heard, Message, Motion, Neighbour, Observation, Other, Percept, Provenance,
-    RangeRing, Reading, RobotId, Scan, SensorRequest,
+    Detector, Message, Motion, Neighbour, Observation, Other, Percept, Provenance, RangeRing,
+    Reading, ReceivedMessage, RobotId, Scan, SensorRequest,
 };
 use proptest::prelude::*;
 use std::sync::Arc;
@@ -205,7 +205,9 @@ fn known_robot() -> impl Strategy<Value = RobotId> {
 }
 
 /// What is about others: items, robots, messages.
-fn others(number: Numbers) -> impl Strategy<Value = (Vec<Contact>, Vec<Neighbour>, Vec<Heard>)> {
+fn others(
+    number: Numbers,
+) -> impl Strategy<Value = (Vec<Contact>, Vec<Neighbour>, Vec<ReceivedMessage>)> {
     let seen = move || (number(0.0, 9.0), number(-3.0, 3.0), number(0.0, 1.0));
     let contact =
         (any::<u16>(), seen()).prop_map(|(kind, (range_m, bearing_rad, age_s))| Contact {
@@ -227,7 +229,7 @@ fn others(number: Numbers) -> impl Strategy<Value = (Vec<Contact>, Vec<Neighbour
     );
     let heard =
         (known_robot(), number(0.0, 1.0), message(number)).prop_map(|(from, age_s, message)| {
-            Heard {
+            ReceivedMessage {
                 from,
                 age_s,
                 message,

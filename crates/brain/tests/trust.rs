@@ -2,8 +2,8 @@
 
 use base::geometry::{Point, Rectangle};
 use brain::{
-    About, Body, Brain, BrainSpec, CommitmentStatus, Detector, Heard, Message, Motion, Observation,
-    Other, Percept, Provenance, Reading, RobotId,
+    About, Body, Brain, BrainSpec, CommitmentStatus, Detector, Message, Motion, Observation, Other,
+    Percept, Provenance, Reading, ReceivedMessage, RobotId,
 };
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -62,7 +62,7 @@ const fn now<T>(value: T) -> Reading<T> {
 }
 
 /// A step at (10, 10); returns what is told of goals.
-fn step(brain: &mut Brain, inbox: Vec<Heard>) -> Vec<(Point, CommitmentStatus)> {
+fn step(brain: &mut Brain, inbox: Vec<ReceivedMessage>) -> Vec<(Point, CommitmentStatus)> {
     let percept = Percept {
         id: ME,
         team_size: 8,
@@ -101,9 +101,9 @@ fn goes_anywhere(brain: &mut Brain) -> bool {
     })
 }
 
-fn heard(from: RobotId, about: About, [age_s, confidence]: [f64; 2]) -> Heard {
+fn heard(from: RobotId, about: About, [age_s, confidence]: [f64; 2]) -> ReceivedMessage {
     let message = Message { about, confidence };
-    Heard {
+    ReceivedMessage {
         from,
         age_s,
         message,
@@ -130,7 +130,7 @@ fn all_over() -> impl Iterator<Item = Point> {
 const PLACE: Point = Point { x: 15.0, y: 10.0 };
 const ERRAND: &str = r#"{"kind": "navigate", "assignment": "shared", "waypoints_m": [[15, 10]]}"#;
 
-fn done(confidence: f64) -> Heard {
+fn done(confidence: f64) -> ReceivedMessage {
     let (at, status) = (PLACE, CommitmentStatus::Done);
     heard(LEADER, About::Goal { at, status }, [0.0, confidence])
 }

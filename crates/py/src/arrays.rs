@@ -1,13 +1,13 @@
 //! Percepts of all robots of a kind as arrays, with one entry per robot.
 
 use base::geometry::Point;
-use brain::{About, CommitmentStatus, Heard, Motion, Percept, Provenance, Reading};
+use brain::{About, CommitmentStatus, Motion, Percept, Provenance, Reading, ReceivedMessage};
 use numpy::{Element, IntoPyArray, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use sim::step::PendingDecision;
 
-/// Codes in place of an item kind, for messages about a sender or about its goal.
+/// Codes in place of an item kind: messages about their sender, and about its goal.
 pub(crate) const SENDER: i64 = -1;
 pub(crate) const GOAL: i64 = -2;
 
@@ -18,63 +18,73 @@ pub(crate) const STATUSES: [CommitmentStatus; 3] = [
     CommitmentStatus::Released,
 ];
 
-/// The provenance of messages: of one that is not about an item, its sender.
-fn provenance(entries: &Entries<Heard>) -> PyResult<()> {
-    let of = |heard: &Heard| match heard.message.about {
+/// The provenance of messages; a message that is not about an item has its sender as the observer.
+fn provenance(entries: &Entries<ReceivedMessage>) -> PyResult<()> {
+    let of = |received: &ReceivedMessage| match received.message.about {
         About::Item { provenance, .. } => provenance,
         _ => Provenance {
-            observer: heard.from,
+            observer: received.from,
             ..Provenance::default()
         },
     };
-    entries.put("observer_kind", |heard| i64::from(of(heard).observer.kind))?;
-    entries.put("observer_index", |heard| {
-        i64::from(of(heard).observer.index)
+    entries.put("observer_kind", |received| {
+        i64::from(of(received).observer.kind)
     })?;
-    entries.put("track_id", |heard| i64::from(of(heard).track_id))
+    entries.put("observer_index", |received| {
+        i64::from(of(received).observer.index)
+    })?;
+    entries.put("track_id", |received| i64::from(of(received).track_id))
 }
 
-/// The percepts of the robots of a kind, by the names of a percept; NaN or false marks a missing value.
+/// The percepts of the robots of a kind, by the fields of a percept; NaN or false marks a missing value.
 ///
 /// Lists of variable length, such as contacts, are concatenated; `row` holds the index of the robot of
 /// each entry.
 pub(crate) fn percepts<'py>(
     py: Python<'py>,
-    asked: &[PendingDecision],
+    decisions: &[PendingDecision],
 ) -> PyResult<Bound<'py, PyDict>> {
-    let told = Told {
+    let fields = PerceptArrays {
         py,
-        asked,
+        decisions,
         dict: PyDict::new(py),
     };
-    let time_s = asked.first().map_or(0.0, |first| first.percept.time_s);
-    told.dict.set_item("time_s", time_s)?;
-    let indices = asked.iter().map(|asked| i64::from(asked.robot.index));
-    told.put("robots", array(py, indices))?;
-    told.put(
+    let time_s = decisions.first().map_or(0.0, |first| first.percept.time_s);
+    fields.dict.set_item("time_s", time_s)?;
+    let indices = decisions
+        .iter()
+        .map(|decision| i64::from(decision.robot.index));
+    fields.put("robots", array(py, indices))?;
+    fields.put(
         "random_words",
-        table(py, asked.iter().map(|asked| asked.percept.random_words))?,
+        table(
+            py,
+            decisions
+                .iter()
+                .map(|decision| decision.percept.random_words),
+        )?,
     )?;
-    told.reading("position", |percept| percept.position)?;
-    told.reading("heading_rad", |percept| percept.heading_rad)?;
-    told.reading("motion", |percept| percept.motion)?;
-    told.reading("battery", |percept| percept.battery)?;
-    told.reading("touch", |percept| percept.touch)?;
-    told.put("scans", scans(py, asked)?)?;
-    told.put("observations", observations(py, asked)?)?;
-    told.put("contacts", contacts(py, asked)?)?;
-    told.put("neighbours", neighbours(py, asked)?)?;
-    told.put("inbox", inbox(py, asked)?)?;
-    Ok(told.dict)
+    fields.reading("position", |percept| percept.position)?;
+    fields.reading("heading_rad", |percept| percept.heading_rad)?;
+    fields.reading("motion", |percept| percept.motion)?;
+    fields.reading("battery", |percept| percept.battery)?;
+    fields.reading("touch", |percept| percept.touch)?;
+    fields.put("scans", scans(py, decisions)?)?;
+    fields.put("observations", observations(py, decisions)?)?;
+    fields.put("contacts", contacts(py, decisions)?)?;
+    fields.put("neighbours", neighbours(py, decisions)?)?;
+    fields.put("inbox", inbox(py, decisions)?)?;
+    Ok(fields.dict)
 }
 
-struct Told<'a, 'py> {
+/// The dict of percepts while it is filled.
+struct PerceptArrays<'a, 'py> {
     py: Python<'py>,
-    asked: &'a [PendingDecision],
+    decisions: &'a [PendingDecision],
     dict: Bound<'py, PyDict>,
 }
 
-impl<'py> Told<'_, 'py> {
+impl<'py> PerceptArrays<'_, 'py> {
     fn put(&self, name: &str, what: impl IntoPyObject<'py>) -> PyResult<()> {
         self.dict.set_item(name, what)
     }
@@ -85,7 +95,7 @@ impl<'py> Told<'_, 'py> {
         name: &str,
         of: impl Fn(&Percept) -> Option<Reading<T>>,
     ) -> PyResult<()> {
-        let readings = self.asked.iter().map(|asked| of(&asked.percept));
+        let readings = self.decisions.iter().map(|decision| of(&decision.percept));
         let readings: Vec<Option<Reading<T>>> = readings.collect();
         let ages = readings
             .iter()
@@ -170,21 +180,23 @@ fn table<T: Element, const N: usize>(
 }
 
 /// `age_s` and `ranges_m` of each ring, with one row per robot.
-fn scans<'py>(py: Python<'py>, asked: &[PendingDecision]) -> PyResult<Bound<'py, PyList>> {
-    let rings = asked.first().map_or(0, |first| first.percept.scans.len());
+fn scans<'py>(py: Python<'py>, decisions: &[PendingDecision]) -> PyResult<Bound<'py, PyList>> {
+    let rings = decisions
+        .first()
+        .map_or(0, |first| first.percept.scans.len());
     let scan = |ring: usize| {
         let scans = || {
-            asked
+            decisions
                 .iter()
-                .filter_map(|asked| asked.percept.scans.get(ring))
+                .filter_map(|decision| decision.percept.scans.get(ring))
         };
         let rays = scans().map(|scan| scan.ranges_m.len()).max().unwrap_or(0);
-        let mut ranges_m = Vec::with_capacity(asked.len() * rays);
+        let mut ranges_m = Vec::with_capacity(decisions.len() * rays);
         for (row, scan) in scans().enumerate() {
             ranges_m.extend_from_slice(&scan.ranges_m);
             ranges_m.resize((row + 1) * rays, f64::NAN);
         }
-        let ranges_m = ranges_m.into_pyarray(py).reshape([asked.len(), rays])?;
+        let ranges_m = ranges_m.into_pyarray(py).reshape([decisions.len(), rays])?;
         let dict = PyDict::new(py);
         let ages = scans().map(|scan| scan.age_s.unwrap_or(f64::NAN));
         dict.set_item("age_s", array(py, ages))?;
@@ -194,15 +206,18 @@ fn scans<'py>(py: Python<'py>, asked: &[PendingDecision]) -> PyResult<Bound<'py,
     PyList::new(py, (0..rings).map(scan).collect::<PyResult<Vec<_>>>()?)
 }
 
-fn observations<'py>(py: Python<'py>, asked: &[PendingDecision]) -> PyResult<Bound<'py, PyDict>> {
-    let entries = Entries::new(py, asked, |percept| &percept.observations)?;
-    entries.put("sensor", |look| i64::from(look.sensor))?;
-    entries.put("age_s", |look| look.age_s)?;
+fn observations<'py>(
+    py: Python<'py>,
+    decisions: &[PendingDecision],
+) -> PyResult<Bound<'py, PyDict>> {
+    let entries = Entries::new(py, decisions, |percept| &percept.observations)?;
+    entries.put("sensor", |observation| i64::from(observation.sensor))?;
+    entries.put("age_s", |observation| observation.age_s)?;
     Ok(entries.dict)
 }
 
-fn contacts<'py>(py: Python<'py>, asked: &[PendingDecision]) -> PyResult<Bound<'py, PyDict>> {
-    let entries = Entries::new(py, asked, |percept| &percept.contacts)?;
+fn contacts<'py>(py: Python<'py>, decisions: &[PendingDecision]) -> PyResult<Bound<'py, PyDict>> {
+    let entries = Entries::new(py, decisions, |percept| &percept.contacts)?;
     entries.put("kind", |contact| i64::from(contact.kind))?;
     entries.put("sensor", |contact| i64::from(contact.sensor))?;
     entries.put("range_m", |contact| contact.range_m)?;
@@ -211,8 +226,8 @@ fn contacts<'py>(py: Python<'py>, asked: &[PendingDecision]) -> PyResult<Bound<'
     Ok(entries.dict)
 }
 
-fn neighbours<'py>(py: Python<'py>, asked: &[PendingDecision]) -> PyResult<Bound<'py, PyDict>> {
-    let entries = Entries::new(py, asked, |percept| &percept.neighbours)?;
+fn neighbours<'py>(py: Python<'py>, decisions: &[PendingDecision]) -> PyResult<Bound<'py, PyDict>> {
+    let entries = Entries::new(py, decisions, |percept| &percept.neighbours)?;
     entries.put("range_m", |neighbour| neighbour.range_m)?;
     entries.put("bearing_rad", |neighbour| neighbour.bearing_rad)?;
     entries.put("course_rad", |neighbour| {
@@ -224,29 +239,29 @@ fn neighbours<'py>(py: Python<'py>, asked: &[PendingDecision]) -> PyResult<Bound
     Ok(entries.dict)
 }
 
-fn inbox<'py>(py: Python<'py>, asked: &[PendingDecision]) -> PyResult<Bound<'py, PyDict>> {
-    let entries = Entries::new(py, asked, |percept| &percept.inbox)?;
-    entries.put("from_kind", |heard| i64::from(heard.from.kind))?;
-    entries.put("from_index", |heard| i64::from(heard.from.index))?;
-    entries.put("age_s", |heard| heard.age_s)?;
-    entries.put("confidence", |heard| heard.message.confidence)?;
-    entries.put("item_kind", |heard| match heard.message.about {
+fn inbox<'py>(py: Python<'py>, decisions: &[PendingDecision]) -> PyResult<Bound<'py, PyDict>> {
+    let entries = Entries::new(py, decisions, |percept| &percept.inbox)?;
+    entries.put("from_kind", |received| i64::from(received.from.kind))?;
+    entries.put("from_index", |received| i64::from(received.from.index))?;
+    entries.put("age_s", |received| received.age_s)?;
+    entries.put("confidence", |received| received.message.confidence)?;
+    entries.put("item_kind", |received| match received.message.about {
         About::Item { kind, .. } => kind.into(),
         About::Sender { .. } => SENDER,
         About::Goal { .. } => GOAL,
     })?;
-    entries.put("heading_rad", |heard| match heard.message.about {
+    entries.put("heading_rad", |received| match received.message.about {
         About::Sender { heading_rad, .. } => heading_rad,
         About::Item { .. } | About::Goal { .. } => f64::NAN,
     })?;
-    entries.put("observations", |heard| match heard.message.about {
+    entries.put("observations", |received| match received.message.about {
         About::Item { provenance, .. } => provenance.observations.into(),
         About::Sender { observations, .. } => observations.into(),
         About::Goal { .. } => 0_i64,
     })?;
     provenance(&entries)?;
-    entries.put("status", |heard| {
-        let About::Goal { status, .. } = heard.message.about else {
+    entries.put("status", |received| {
+        let About::Goal { status, .. } = received.message.about else {
             return 0_i64;
         };
         status as i64
@@ -254,7 +269,7 @@ fn inbox<'py>(py: Python<'py>, asked: &[PendingDecision]) -> PyResult<Bound<'py,
     let places = entries
         .all
         .iter()
-        .map(|(_, heard)| match heard.message.about {
+        .map(|(_, received)| match received.message.about {
             About::Item { at, .. } | About::Sender { at, .. } | About::Goal { at, .. } => {
                 [at.x, at.y]
             }
@@ -273,12 +288,12 @@ struct Entries<'a, 'py, T> {
 impl<'a, 'py, T> Entries<'a, 'py, T> {
     fn new(
         py: Python<'py>,
-        asked: &'a [PendingDecision],
+        decisions: &'a [PendingDecision],
         of: impl Fn(&'a Percept) -> &'a Vec<T>,
     ) -> PyResult<Self> {
-        let robots = (0..).zip(asked);
-        let all =
-            robots.flat_map(|(row, asked)| of(&asked.percept).iter().map(move |each| (row, each)));
+        let robots = (0..).zip(decisions);
+        let all = robots
+            .flat_map(|(row, decision)| of(&decision.percept).iter().map(move |each| (row, each)));
         let all: Vec<(i64, &T)> = all.collect();
         let dict = PyDict::new(py);
         dict.set_item("row", array(py, all.iter().map(|(row, _)| *row)))?;

@@ -58,7 +58,7 @@ impl Brain {
         convert::write(percept.py(), &command)
     }
 
-    /// What it believes and wants; None if it has no mind.
+    /// Its beliefs and goals; None if it has no beliefs.
     fn belief_state<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
         let belief_state = self.with(|brain| brain.belief_state());
         belief_state
@@ -66,12 +66,13 @@ impl Brain {
             .transpose()
     }
 
-    /// A brain with the same memories, which then goes its own way.
+    /// An independent copy in the same state.
     fn copy(&self) -> Self {
         Self(Mutex::new(self.with(|brain| brain.clone())))
     }
 
-    /// The JSON Schemas of all that enters and leaves a brain, and of what it thinks, by name.
+    /// The JSON Schemas of the specification, inputs and outputs of a brain, and of its belief state, by
+    /// name.
     #[staticmethod]
     fn schemas(py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
         let schemas = [
@@ -106,7 +107,7 @@ fn read<T: DeserializeOwned + JsonSchema>(
     Ok(read.ok())
 }
 
-/// The same, with the errors in the words of documents.
+/// The same, with errors in the terms of documents.
 pub(crate) fn checked<T: DeserializeOwned + JsonSchema>(
     name: &str,
     given: &Bound<PyAny>,

@@ -46,7 +46,7 @@ pub(crate) fn classic_world(py: Python) -> PyResult<Bound<PyDict>> {
     Ok(dict)
 }
 
-/// A copy of a run at one moment.
+/// A copy of a run at one step.
 #[pyclass(frozen, module = "agent_economy._core")]
 pub(crate) struct ClassicSnapshot(Run);
 
@@ -89,7 +89,7 @@ impl ClassicSimulation {
         interruptible(py, None, go)
     }
 
-    /// Continues with another scenario; returns the number of steps so far.
+    /// Continues with another scenario; returns the number of steps taken.
     fn change(&self, py: Python, scenario: &Bound<ClassicScenario>) -> u64 {
         let mut run = self.locked(py);
         run.change(scenario.get().0);
@@ -104,7 +104,7 @@ impl ClassicSimulation {
         *self.locked(py) = snapshot.get().0.clone();
     }
 
-    /// The outcome so far, by column; after the run is over, the same as of `run_one`.
+    /// The outcome at the current step, by column; at the end of the run, it is that of `run_one`.
     fn outcome<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let locked = self.locked(py);
         let run: &Run = &locked;
@@ -124,7 +124,7 @@ impl ClassicSimulation {
         columns.iter().map(as_tuple).collect()
     }
 
-    /// Number of paints so far.
+    /// Number of paints.
     #[getter]
     fn tick(&self, py: Python) -> u64 {
         self.locked(py).paint()
@@ -169,8 +169,8 @@ impl ClassicSimulation {
         self.locked(py).found_s().to_vec()
     }
 
-    /// For each robot, `x_px` and `y_px` (right and down), the cell's `column` and `row`, `heading_deg` (clockwise from up), `speed`
-    /// (cells per decision), `left_turns`, `right_turns` and `colour` (0 blue, 1 yellow, 2 red).
+    /// For each robot, `x_px` and `y_px` (right and down), the `column` and `row` of its cell, `heading_deg`
+    /// (clockwise from up), `speed` (cells per decision), `left_turns`, `right_turns` and `colour` (0 blue, 1 yellow, 2 red).
     #[getter]
     fn robots<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let run = self.locked(py);
@@ -216,7 +216,7 @@ impl ClassicSimulation {
         cells.map(|cell| (cell.x, cell.y)).collect()
     }
 
-    /// One moment, for display, in the layout of [`crate::frame::frame`], in pixels with y upwards.
+    /// The current step for display, in the layout of [`crate::frame::frame`], in pixels with y upwards.
     fn frame<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
         PyBytes::new(py, &drawn(&self.locked(py)))
     }

@@ -35,38 +35,38 @@ struct Outbox<'py> {
 }
 
 impl Commands<'_> {
-    /// Distributes the commands to the robots.
-    pub(crate) fn give(&self, asked: &mut [PendingDecision]) {
+    /// Sets the commands of the robots.
+    pub(crate) fn apply(&self, decisions: &mut [PendingDecision]) {
         let speeds = self.speed_m_s.as_array();
         let turns = self.turn_rate_rad_s.as_array();
-        for (asked, (speed, turn)) in asked.iter_mut().zip(speeds.iter().zip(turns)) {
-            asked.command.motion = Motion {
+        for (decision, (speed, turn)) in decisions.iter_mut().zip(speeds.iter().zip(turns)) {
+            decision.command.motion = Motion {
                 speed_m_s: *speed,
                 turn_rate_rad_s: *turn,
             };
         }
-        self.requests.give(asked);
-        self.outbox.give(asked);
+        self.requests.apply(decisions);
+        self.outbox.apply(decisions);
     }
 }
 
 impl Requests<'_> {
-    fn give(&self, asked: &mut [PendingDecision]) {
+    fn apply(&self, decisions: &mut [PendingDecision]) {
         let switches = self.sensor.as_array().into_iter().zip(self.on.as_array());
         for (row, (sensor, on)) in self.row.as_array().iter().zip(switches) {
             let request = SensorRequest {
                 sensor: *sensor,
                 on: *on,
             };
-            if let Some(asked) = at_row(asked, *row) {
-                asked.command.requests.push(request);
+            if let Some(decision) = at_row(decisions, *row) {
+                decision.command.requests.push(request);
             }
         }
     }
 }
 
 impl Outbox<'_> {
-    fn give(&self, asked: &mut [PendingDecision]) {
+    fn apply(&self, decisions: &mut [PendingDecision]) {
         let places = self.at.as_array();
         let places = places
             .rows()
@@ -82,7 +82,7 @@ impl Outbox<'_> {
         let abouts = abouts.zip(more).map(|((at, (kind, heading_rad)), more)| {
             let (observations, status) = (*more.0, *more.1);
             match u16::try_from(*kind) {
-                // By its sender: who hears it counts it so.
+                // A receiver then counts it as observed by the sender.
                 Ok(kind) => About::Item {
                     kind,
                     at,
@@ -105,13 +105,13 @@ impl Outbox<'_> {
             confidence: *confidence,
         });
         for (row, message) in self.row.as_array().iter().zip(messages) {
-            if let Some(asked) = at_row(asked, *row) {
-                asked.command.outbox.push(message);
+            if let Some(decision) = at_row(decisions, *row) {
+                decision.command.outbox.push(message);
             }
         }
     }
 }
 
-fn at_row(asked: &mut [PendingDecision], row: i64) -> Option<&mut PendingDecision> {
-    asked.get_mut(usize::try_from(row).ok()?)
+fn at_row(decisions: &mut [PendingDecision], row: i64) -> Option<&mut PendingDecision> {
+    decisions.get_mut(usize::try_from(row).ok()?)
 }

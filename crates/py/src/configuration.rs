@@ -73,7 +73,7 @@ pub(crate) fn read_configuration(
     })
 }
 
-/// Runs of each configuration, from `first_run` on: by column, an array (configurations, runs).
+/// The runs of several configurations from `first_run` on: by column, an array (configurations, runs).
 #[pyfunction]
 #[pyo3(signature = (configurations, *, seed, first_run, runs, threads))]
 #[expect(

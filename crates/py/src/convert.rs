@@ -46,9 +46,9 @@ pub(crate) fn read<T: DeserializeOwned + JsonSchema>(
 }
 
 /// Converts a value to Python.
-pub(crate) fn write<'py>(py: Python<'py>, told: &impl Serialize) -> PyResult<Bound<'py, PyAny>> {
+pub(crate) fn write<'py>(py: Python<'py>, object: &impl Serialize) -> PyResult<Bound<'py, PyAny>> {
     // All keys are strings and all values are JSON values, so it cannot fail.
-    as_python(py, &serde_json::to_value(told).unwrap_or_default())
+    as_python(py, &serde_json::to_value(object).unwrap_or_default())
 }
 
 pub(crate) fn below(at: &str, path: &str) -> String {
@@ -119,7 +119,7 @@ fn number(at: &str, given: &Bound<PyAny>) -> Result<Json, InputError> {
     }
     let number = number.and_then(Number::from_f64).map(Json::Number);
     let allowed = if given.is_instance_of::<PyFloat>() {
-        "a finite number, or inf for a ray that meets nothing"
+        "a finite number, or inf for a ray without a return"
     } else {
         "a number, a string, True, False, None, or a list or dict of these"
     };

@@ -17,7 +17,7 @@ use std::collections::{BTreeMap, BTreeSet};
 /// A value for each of several robots.
 pub(crate) type ByRobot<T> = BTreeMap<RobotId, T>;
 
-/// Reads the percepts and commands of a step. The kinds in `elsewhere` have Python brains.
+/// Reads the percepts and commands of a step. The kinds in `in_python` have Python brains.
 ///
 /// # Errors
 /// The first error of each percept and command.
@@ -25,7 +25,7 @@ pub(crate) fn read(
     run: &Run,
     percepts: &Bound<PyDict>,
     commands: &Bound<PyDict>,
-    elsewhere: &[u8],
+    in_python: &[u8],
 ) -> Result<(ByRobot<Percept>, ByRobot<Command>), InputErrors> {
     let mut errors = Vec::new();
     let scenario = run.scenario();
@@ -36,8 +36,8 @@ pub(crate) fn read(
     let percepts = by_robot(scenario, ("percepts", percepts), fits, &mut errors);
     let as_it_is = |_: &str, _, command| Ok(command);
     let commands = by_robot(scenario, ("commands", commands), as_it_is, &mut errors);
-    errors.extend(commanded_outside(run, &percepts, &commands));
-    errors.extend(without_brain(scenario, &percepts, elsewhere));
+    errors.extend(commands_of_external(run, &percepts, &commands));
+    errors.extend(without_brain(scenario, &percepts, in_python));
     InputErrors::or(errors, Some((percepts, commands)))
 }
 
@@ -59,8 +59,8 @@ fn by_robot<T: DeserializeOwned + JsonSchema>(
         .collect()
 }
 
-/// An external body obeys its own brain: it returns a command and takes none.
-fn commanded_outside(
+/// Rejects commands for external bodies: these return the commands of their own brains.
+fn commands_of_external(
     run: &Run,
     percepts: &ByRobot<Percept>,
     commands: &ByRobot<Command>,
@@ -69,27 +69,27 @@ fn commanded_outside(
         return Vec::new();
     }
     let robots = run.state().each_robot(run.scenario());
-    let outside = robots.filter(|robot| robot.is_external);
-    let outside: BTreeSet<RobotId> = outside.map(|robot| robot.id).collect();
-    let of_outside = commands
+    let external = robots.filter(|robot| robot.is_external);
+    let external: BTreeSet<RobotId> = external.map(|robot| robot.id).collect();
+    let rejected = commands
         .keys()
-        .filter(|id| outside.contains(id) || percepts.contains_key(id));
+        .filter(|id| external.contains(id) || percepts.contains_key(id));
     let error = |id: &RobotId| {
         let name = format!("{:?}", name_of(run.scenario(), *id));
         let allowed =
             "a robot without an external body: an external body takes no commands, it returns them";
         InputError::new("commands".to_owned(), Some(name), allowed.to_owned())
     };
-    of_outside.map(error).collect()
+    rejected.map(error).collect()
 }
 
 /// Percepts are only accepted for robots with the brain of the scenario.
 fn without_brain(
     scenario: &Scenario,
     percepts: &ByRobot<Percept>,
-    elsewhere: &[u8],
+    in_python: &[u8],
 ) -> impl Iterator<Item = InputError> {
-    let given = percepts.keys().filter(|id| elsewhere.contains(&id.kind));
+    let given = percepts.keys().filter(|id| in_python.contains(&id.kind));
     given.map(|id| {
         let name = format!("{:?}", name_of(scenario, *id));
         let allowed =
@@ -102,11 +102,11 @@ fn without_brain(
 pub(crate) fn write<'py, T: serde::Serialize>(
     py: Python<'py>,
     scenario: &Scenario,
-    told: &ByRobot<T>,
+    values: &ByRobot<T>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let dict = PyDict::new(py);
-    for (id, told) in told {
-        dict.set_item(name_of(scenario, *id), convert::write(py, told)?)?;
+    for (id, value) in values {
+        dict.set_item(name_of(scenario, *id), convert::write(py, value)?)?;
     }
     Ok(dict)
 }

@@ -6,12 +6,12 @@ use pyo3::types::PyBytes;
 use sim::run::{Robot, Status};
 use sim::simulation::Simulation as Run;
 
-/// One moment of a run, to be drawn, in little endian: of each robot four 32-bit floats, then of each
-/// item a byte.
+/// The current step of a run for display, in little endian: four 32-bit floats per robot, then one byte per
+/// item.
 ///
-/// A robot's floats are x and y in metres, its heading in radians, and its look: 0 clear, 1 about to
-/// run into something, 2 stopped by something, 3 its battery is empty, 4 broken. An item's byte is 0
-/// not found, 1 found, 2 missed: the run is over.
+/// The floats of a robot are x and y in metres, its heading in radians, and its display state: 0 clear, 1
+/// close to a collision, 2 stopped by a contact, 3 empty, 4 broken. The byte of an item is 0 if it has not
+/// been found, 1 if it has, and 2 if it was missed because the run is over.
 #[pyfunction]
 pub(crate) fn frame<'py>(
     py: Python<'py>,
@@ -29,9 +29,9 @@ fn drawn(run: &mut Run) -> Vec<u8> {
     let robots = state.each_robot(scenario).zip(in_danger);
     let mut bytes = Vec::with_capacity(16 * state.robots());
     for (robot, is_in_danger) in robots {
-        #[expect(clippy::cast_possible_truncation, reason = "to be drawn")]
+        #[expect(clippy::cast_possible_truncation, reason = "for display")]
         let [x, y, heading] = [robot.at.x, robot.at.y, robot.heading_rad].map(|it| it as f32);
-        for number in [x, y, heading, look(&robot, is_in_danger)] {
+        for number in [x, y, heading, display_state(&robot, is_in_danger)] {
             bytes.extend(number.to_le_bytes());
         }
     }
@@ -44,7 +44,7 @@ fn drawn(run: &mut Run) -> Vec<u8> {
     bytes
 }
 
-fn look(robot: &Robot, is_in_danger: bool) -> f32 {
+fn display_state(robot: &Robot, is_in_danger: bool) -> f32 {
     match robot.status {
         Status::Broken => 4.0,
         Status::Empty => 3.0,

@@ -9,11 +9,11 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-/// Runs between two checks for Ctrl-C: some hundredths of a second for most teams.
+/// Runs between two checks for Ctrl-C, which take some hundredths of a second for typical teams.
 const NUMBERS_PER_BLOCK: u64 = 8192;
 
 /// Time between two checks for Ctrl-C.
-const BETWEEN_LOOKS: Duration = Duration::from_millis(50);
+const POLL_INTERVAL: Duration = Duration::from_millis(50);
 
 /// The concatenated results of `block` for consecutive parts of `numbers`.
 ///
@@ -62,11 +62,11 @@ pub(crate) fn interruptible<T: Send>(
 
 fn result_or_stop<T>(results: &Receiver<T>, stop: &AtomicBool) -> PyResult<T> {
     loop {
-        match results.recv_timeout(BETWEEN_LOOKS) {
+        match results.recv_timeout(POLL_INTERVAL) {
             Ok(result) => return Ok(result),
             // The work panicked; the scope propagates that.
             Err(RecvTimeoutError::Disconnected) => {
-                return Err(PyRuntimeError::new_err("the work gave nothing"));
+                return Err(PyRuntimeError::new_err("the computation returned nothing"));
             }
             Err(RecvTimeoutError::Timeout) => {
                 Python::attach(look_for_signals)

@@ -9,8 +9,8 @@ use pyo3::types::{PyBytes, PyDict};
 use sim::simulation::{Footprint, Link, Sensors, Simulation as Run};
 use std::iter;
 
-/// Links of a robot, or of all, shape (links, 3): the number of who is heard, of who hears, and 1
-/// if both hear each other, else 0.
+/// The radio links of a robot, or of all, shape (links, 3): the numbers of sender and receiver, and 1 if
+/// the link works both ways, else 0.
 #[pyfunction]
 pub(crate) fn links<'py>(
     py: Python<'py>,
@@ -27,7 +27,8 @@ pub(crate) fn links<'py>(
     rows(&links).into_pyarray(py).reshape([links.len(), 3])
 }
 
-/// By the names of a robot's sensors, bearings in radians and how far it sees along them in metres.
+/// The footprints of a robot's sensors, by sensor name: bearings in radians, and the visible distance along
+/// each in metres.
 #[pyfunction]
 pub(crate) fn footprints<'py>(
     py: Python<'py>,
@@ -50,33 +51,34 @@ pub(crate) fn footprints<'py>(
     Ok(dict)
 }
 
-/// Links for display, at most `limit`, each as three 32-bit numbers in little endian, as [`links`] has
-/// them: of the `selected` robot, if it is there, or of `everyone`, and then its own are never left out.
+/// Up to `limit` links for display, each as three little-endian 32-bit numbers as in [`links`]: with
+/// `all_robots` those of all robots, otherwise those of the `selected` one, if it exists. Links of the
+/// selected robot are never omitted.
 #[pyfunction]
 pub(crate) fn drawn_links<'py>(
     py: Python<'py>,
     simulation: &Bound<'py, Simulation>,
     selected: Option<Bound<'py, PyAny>>,
-    everyone: bool,
+    all_robots: bool,
     limit: usize,
 ) -> PyResult<Bound<'py, PyBytes>> {
     let mut locked = simulation.get().locked(py)?;
     let run: &mut Run = &mut locked;
     let selected = selected.and_then(|robot| id_of(run.scenario(), &robot).ok());
-    let links = py.detach(|| to_draw(run, selected, everyone, limit));
+    let links = py.detach(|| to_draw(run, selected, all_robots, limit));
     let numbers = rows(&links).into_iter();
     let bytes: Vec<u8> = numbers.flat_map(u32::to_le_bytes).collect();
     Ok(PyBytes::new(py, &bytes))
 }
 
-fn to_draw(run: &mut Run, selected: Option<RobotId>, everyone: bool, limit: usize) -> Vec<Link> {
+fn to_draw(run: &mut Run, selected: Option<RobotId>, all_robots: bool, limit: usize) -> Vec<Link> {
     let mut of = |robot| run.links(robot, limit).unwrap_or_default();
     let mut links = match selected {
-        _ if everyone => of(None),
+        _ if all_robots => of(None),
         Some(id) => of(Some(id)),
         None => Vec::new(),
     };
-    if everyone && selected.is_some() && links.len() == limit {
+    if all_robots && selected.is_some() && links.len() == limit {
         let own = of(selected);
         links.retain(|link| !own.contains(link));
         links.splice(..0, own);
@@ -90,31 +92,31 @@ fn rows(links: &[Link]) -> Vec<u32> {
     links.iter().flat_map(row).collect()
 }
 
-/// Footprints to be drawn, in little endian: of the `selected` robot, if it is there, those of all its
-/// sensors, and if those of `everyone` are asked for, of the others those of their detectors of items.
+/// Footprints for display, in little endian: all sensors of the `selected` robot, if it exists, and with
+/// `all_robots` the item detectors of the other robots.
 ///
-/// Each is four 32-bit numbers, the last a float: the robot's, 1 if it finds items and else 0, how many
-/// corners follow, and its range in metres; then of each corner two floats: its bearing from the robot's
-/// front in radians, and its distance in metres, as [`Footprint::corners`] says.
+/// Each starts with four 32-bit numbers: the number of the robot, 1 if the sensor detects items or else 0,
+/// the number of corners, and the range in metres as a float. Two floats per corner follow: its bearing
+/// from the robot's front in radians, and its distance in metres, see [`Footprint::corners`].
 #[pyfunction]
 pub(crate) fn drawn_footprints<'py>(
     py: Python<'py>,
     simulation: &Bound<'py, Simulation>,
     selected: Option<Bound<'py, PyAny>>,
-    everyone: bool,
+    all_robots: bool,
 ) -> PyResult<Bound<'py, PyBytes>> {
     let mut locked = simulation.get().locked(py)?;
     let run: &mut Run = &mut locked;
     let selected = selected.and_then(|robot| id_of(run.scenario(), &robot).ok());
-    let bytes = py.detach(|| drawn(run, selected, everyone));
+    let bytes = py.detach(|| drawn(run, selected, all_robots));
     Ok(PyBytes::new(py, &bytes))
 }
 
-fn drawn(run: &mut Run, selected: Option<RobotId>, everyone: bool) -> Vec<u8> {
+fn drawn(run: &mut Run, selected: Option<RobotId>, all_robots: bool) -> Vec<u8> {
     let robots = run.state().each_robot(run.scenario());
     let ids = (0..).zip(robots.map(|robot| robot.id));
     let ids: Vec<(u32, RobotId)> = ids
-        .filter(|(_, id)| everyone || selected == Some(*id))
+        .filter(|(_, id)| all_robots || selected == Some(*id))
         .collect();
     let mut bytes = Vec::new();
     for (number, id) in ids {
@@ -132,7 +134,7 @@ fn drawn(run: &mut Run, selected: Option<RobotId>, everyone: bool) -> Vec<u8> {
 
 #[expect(
     clippy::cast_possible_truncation,
-    reason = "to be drawn; 361 corners at most"
+    reason = "for display; a maximum of 361 corners"
 )]
 fn draw(robot: u32, footprint: &Footprint, bytes: &mut Vec<u8>) {
     let corners = footprint.corners();

@@ -1,4 +1,4 @@
-//! Messages of the page that cannot be decoded: what is wrong with them.
+//! The errors of messages of the page that cannot be decoded.
 
 use crate::brain::checked;
 use crate::error::input_error;
@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 
-/// Raises what is wrong with a message of the page, if anything: a dict without its `type`.
+/// Raises the errors of a message of the page, which is a dict without its `type`.
 #[pyfunction]
 pub(crate) fn check_page_message(kind: &str, message: &Bound<PyAny>) -> PyResult<()> {
     match kind {

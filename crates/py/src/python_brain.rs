@@ -29,40 +29,40 @@ impl PythonBrain<'_> {
         kind_of(scenario, "brains", &self.kind).ok()
     }
 
-    fn decide(&self, scenario: &Scenario, asked: &mut [PendingDecision]) -> PyResult<()> {
+    fn decide(&self, scenario: &Scenario, decisions: &mut [PendingDecision]) -> PyResult<()> {
         if self.is_in_arrays {
-            let percepts = arrays::percepts(self.step.py(), asked)?;
+            let percepts = arrays::percepts(self.step.py(), decisions)?;
             let commands: Commands = self.step.call1((percepts,))?.extract()?;
-            commands.give(asked);
+            commands.apply(decisions);
             return Ok(());
         }
-        asked
+        decisions
             .iter_mut()
-            .try_for_each(|asked| self.decide_for(scenario, asked))
+            .try_for_each(|decision| self.decide_for(scenario, decision))
     }
 
-    fn decide_for(&self, scenario: &Scenario, asked: &mut PendingDecision) -> PyResult<()> {
-        let percept = convert::write(self.step.py(), &asked.percept)?;
-        let command = self.step.call1((asked.robot.index, percept))?;
-        let at = path_of("brains", &name_of(scenario, asked.robot));
+    fn decide_for(&self, scenario: &Scenario, decision: &mut PendingDecision) -> PyResult<()> {
+        let percept = convert::write(self.step.py(), &decision.percept)?;
+        let command = self.step.call1((decision.robot.index, percept))?;
+        let at = path_of("brains", &name_of(scenario, decision.robot));
         let read = convert::read::<Command>(&format!("{at}.step()"), &command);
-        asked.command = read.map_err(|error| input_error(&InputErrors(vec![error]), ""))?;
+        decision.command = read.map_err(|error| input_error(&InputErrors(vec![error]), ""))?;
         Ok(())
     }
 }
 
-/// Asks brains in Python what the robots of a step are to do.
+/// Runs the Python brains of the robots that step, which sets their commands.
 pub(crate) fn decide(
     scenario: &Scenario,
     brains: &[PythonBrain],
-    outside: &mut ExternalInputs,
+    inputs: &mut ExternalInputs,
 ) -> PyResult<()> {
-    let robots = outside.decisions();
-    for asked in robots.chunk_by_mut(|one, other| one.robot.kind == other.robot.kind) {
-        let kind = asked.first().map(|first| first.robot.kind);
-        let mut of_kind = brains.iter().filter(|brain| brain.kind(scenario) == kind);
-        if let Some(brain) = of_kind.next() {
-            brain.decide(scenario, asked)?;
+    let robots = inputs.decisions();
+    for decisions in robots.chunk_by_mut(|one, other| one.robot.kind == other.robot.kind) {
+        let kind = decisions.first().map(|first| first.robot.kind);
+        let mut matching = brains.iter().filter(|brain| brain.kind(scenario) == kind);
+        if let Some(brain) = matching.next() {
+            brain.decide(scenario, decisions)?;
         }
     }
     Ok(())

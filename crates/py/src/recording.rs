@@ -12,10 +12,10 @@ use sim::run::Robot;
 use sim::scenario::Scenario;
 use sim::world::obstacles::Solid;
 
-/// The state at one moment; arrays have one entry per robot.
+/// The state at the current step; arrays have one entry per robot.
 ///
 /// `tick`, `hash`, `poses` (`x_m`, `y_m`, `heading_rad`), `half_turns` (sine and cosine of half the
-/// heading, the same on every machine), `speeds`, `wanted` (`speed_m_s`, `turn_rate_rad_s`),
+/// heading, the same on every machine), `speeds`, `commanded` (`speed_m_s`, `turn_rate_rad_s`),
 /// `status`, `battery` and `collisions` as `Simulation` has them; `found_s` has one entry per item.
 #[pyfunction]
 pub(crate) fn recorded_moment<'py>(
@@ -29,7 +29,7 @@ pub(crate) fn recorded_moment<'py>(
     dict.set_item("hash", run.state().hash())?;
     dict.set_item("poses", rows(py, &robots, pose)?)?;
     dict.set_item("half_turns", rows(py, &robots, half_turn)?)?;
-    dict.set_item("wanted", rows(py, &robots, wanted)?)?;
+    dict.set_item("commanded", rows(py, &robots, commanded)?)?;
     dict.set_item("speeds", each(py, &robots, |robot| robot.speed_m_s))?;
     dict.set_item("status", each(py, &robots, |robot| robot.status as u8))?;
     dict.set_item(
@@ -51,7 +51,7 @@ fn half_turn(robot: &Robot) -> [f64; 2] {
     sin_cos(robot.heading_rad / 2.0).into()
 }
 
-fn wanted(robot: &Robot) -> [f64; 2] {
+fn commanded(robot: &Robot) -> [f64; 2] {
     [robot.wanted.speed_m_s, robot.wanted.turn_rate_rad_s]
 }
 
@@ -74,8 +74,8 @@ fn rows<'py, const N: usize>(
         .reshape([robots.len(), N])
 }
 
-/// The part of the state that only changes with the scenario: for each robot `radius_m` and `is_flying`; `bodies`, what
-/// brains know of them, `radio_m`, how far their radios reach, and `flies`, by kind; and `maps`, the
+/// The part of the state that only changes with the scenario: `radius_m` and `is_flying` of each robot;
+/// `bodies` (as brains know them), `radio_m` (range of the radio) and `flies` by kind; and `maps`, the
 /// obstacles that are maps, in their order: `corners_m` anticlockwise from the origin, `resolution_m`, and
 /// `occupancy`, shape (rows, columns), the lowest row first.
 #[pyfunction]

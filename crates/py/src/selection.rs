@@ -43,19 +43,19 @@ impl Procedure {
             let message = format!("merits have shape {shape:?}: must be a row for each of {rows}");
             return Err(InputError::new_err(message));
         }
-        // Copied, so that the procedure can work without Python's lock.
+        // Copied, so that the procedure can run without holding the interpreter.
         let merits: Vec<f64> = merits.readonly().as_array().iter().copied().collect();
         py.detach(|| self.with(|procedure| procedure.record(&merits)));
         Ok(())
     }
 
-    /// The configuration selected, or leading so far.
+    /// The selected configuration, or the currently leading one.
     #[getter]
     fn best(&self) -> usize {
         self.with(|procedure| procedure.best())
     }
 
-    /// Runs of each configuration so far.
+    /// Number of runs per configuration.
     #[getter]
     fn runs<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i64>> {
         let runs = self.with(|procedure| procedure.runs());
@@ -69,7 +69,7 @@ impl Procedure {
         indices(py, self.with(|procedure| procedure.survivors()))
     }
 
-    /// (configuration, by which, after how many runs) of the eliminated ones, in that order.
+    /// The eliminations in order: (configuration, the one that eliminated it, its number of runs).
     #[getter]
     fn eliminations(&self) -> Vec<(usize, usize, u64)> {
         let eliminations = self.with(|procedure| procedure.eliminations());
@@ -134,8 +134,8 @@ fn rows(bounds: &Bound<PyArray2<f64>>) -> PyResult<Vec<Bounds>> {
     Ok(rows.collect())
 }
 
-/// Lower and upper bound of the mean of values within `lowest`..`highest`, at any moment; each is
-/// wrong with a probability of at most `alpha`.
+/// Anytime-valid lower and upper bound of the mean of values within `lowest`..`highest`; each is wrong
+/// with a probability of at most `alpha`.
 #[pyfunction]
 pub(crate) fn mean_bounds(
     py: Python,
@@ -152,8 +152,8 @@ pub(crate) fn mean_bounds(
     py.detach(|| bounds_of_mean(&values, bounds, alpha))
 }
 
-/// Whether the mean of values within `bounds` is above `candidate`, at any moment; `true` is
-/// wrong with a probability of at most `alpha`.
+/// Whether the mean of values within `bounds` is proved to be above `candidate`; valid at any time. `true`
+/// is wrong with a probability of at most `alpha`.
 #[pyfunction]
 pub(crate) fn mean_exceeds(
     py: Python,

@@ -44,7 +44,7 @@ pub(crate) fn as_in_python(allowed: &str) -> String {
         })
 }
 
-/// As documents have it, which have no None: it is nothing that a schema allows.
+/// The value as documents have it. They have no None; its substitute is a value that no schema allows.
 fn value(json: &Json) -> Value {
     let node = |json| Node {
         value: value(json),

@@ -28,9 +28,9 @@ use std::time::Duration;
 const SHORT: u64 = 1024;
 
 /// Time between two checks whether another thread has finished.
-const BETWEEN_LOOKS: Duration = Duration::from_millis(1);
+const POLL_INTERVAL: Duration = Duration::from_millis(1);
 
-/// A copy of a run at one moment.
+/// A copy of a run at one step.
 #[pyclass(frozen, module = "agent_economy._core")]
 pub(crate) struct Snapshot(Run);
 
@@ -39,8 +39,8 @@ pub(crate) struct Snapshot(Run);
 pub(crate) struct Simulation {
     run: Mutex<Run>,
     threads: Option<usize>,
-    /// The thread in which Python brains run at the moment.
-    asking: Mutex<Option<ThreadId>>,
+    /// The thread in which Python brains are running.
+    brain_thread: Mutex<Option<ThreadId>>,
 }
 
 #[pymethods]
@@ -68,7 +68,7 @@ impl Simulation {
         Ok(Self {
             run: Mutex::new(begun),
             threads,
-            asking: Mutex::new(None),
+            brain_thread: Mutex::new(None),
         })
     }
 
@@ -80,7 +80,7 @@ impl Simulation {
         let mut run = self.locked(py)?;
         let work = robots(&run).max(1).saturating_mul(steps);
         let steps = 0..steps;
-        self.take(py, &mut run, work, |run, stop| {
+        self.advance(py, &mut run, work, |run, stop| {
             for _ in steps.take_while(|_| !stop.load(Ordering::Relaxed)) {
                 run.step();
             }
@@ -90,7 +90,7 @@ impl Simulation {
     /// Advances until the run is over. Ctrl-C stops it between two steps.
     fn finish(&self, py: Python) -> PyResult<()> {
         let mut run = self.locked(py)?;
-        self.take(py, &mut run, u64::MAX, |run, stop| {
+        self.advance(py, &mut run, u64::MAX, |run, stop| {
             while !stop.load(Ordering::Relaxed) && !run.state().is_over(run.scenario()) {
                 run.step();
             }
@@ -100,7 +100,7 @@ impl Simulation {
     /// Advances by one step with the percepts of external bodies and with commands for other robots, as
     /// dicts by robot name, and with Python `brains` for some kinds. Returns the commands for external
     /// bodies. If a brain raises, the run does not advance.
-    #[expect(clippy::needless_pass_by_value, reason = "as Python hands it over")]
+    #[expect(clippy::needless_pass_by_value, reason = "PyO3 passes an owned list")]
     fn step_with<'py>(
         &self,
         py: Python<'py>,
@@ -114,12 +114,12 @@ impl Simulation {
         let read = external::read(&run, percepts, commands, &kinds);
         let (percepts, commands) = read.map_err(|errors| input_error(&errors, ""))?;
         let work = robots(&run);
-        let begun = self.take(py, &mut run, work, |run, _| {
+        let begun = self.advance(py, &mut run, work, |run, _| {
             run.begin_step(percepts, commands, &kinds)
         })?;
         let mut begun = begun.map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
-        self.ask(run.scenario(), &brains, &mut begun)?;
-        let answers = self.take(py, &mut run, work, |run, _| run.finish_step(begun))?;
+        self.run_brains(run.scenario(), &brains, &mut begun)?;
+        let answers = self.advance(py, &mut run, work, |run, _| run.finish_step(begun))?;
         external::write(py, run.scenario(), &answers)
     }
 
@@ -128,7 +128,9 @@ impl Simulation {
     fn decided<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let run = self.locked(py)?;
         let decided = run.decided().iter();
-        let decided = decided.map(|asked| (asked.robot, &asked.command)).collect();
+        let decided = decided
+            .map(|decision| (decision.robot, &decision.command))
+            .collect();
         external::write(py, run.scenario(), &decided)
     }
 
@@ -141,14 +143,14 @@ impl Simulation {
         let mut run = self.locked(py)?;
         let id = id_of(run.scenario(), robot)?;
         let work = robots(&run);
-        let percept = self.take(py, &mut run, work, |run, _| run.percept(id))?;
+        let percept = self.advance(py, &mut run, work, |run, _| run.percept(id))?;
         let percept = percept.map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
         percept
             .map(|percept| convert::write(py, &percept))
             .transpose()
     }
 
-    /// What a robot believes and wants; None if it has no mind.
+    /// The beliefs and goals of a robot; None if its brain has no beliefs.
     fn belief_state<'py>(
         &self,
         py: Python<'py>,
@@ -161,7 +163,7 @@ impl Simulation {
             .transpose()
     }
 
-    /// The outcome so far, by column; None if it is not finite.
+    /// The outcome at the current step, by column; None if it is not finite.
     fn outcome<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
         let run = self.locked(py)?;
         let runs = Runs(Arc::clone(run.scenario()));
@@ -182,7 +184,7 @@ impl Simulation {
         Ok(runs.columns().iter().map(as_tuple).collect())
     }
 
-    /// Continues with another scenario; returns the number of steps so far. After Ctrl-C, the run is
+    /// Continues with another scenario; returns the number of steps taken. After Ctrl-C, the run is
     /// unchanged.
     fn change(&self, py: Python, scenario: &Bound<MetricScenario>) -> PyResult<u64> {
         let mut run = self.locked(py)?;
@@ -190,7 +192,7 @@ impl Simulation {
         let errors = unchangeable(run.scenario(), to);
         InputErrors::or(errors, Some(())).map_err(|errors| input_error(&errors, ""))?;
         let work = robots(&run).saturating_add(to.robots() as u64);
-        let changed = self.take(py, &mut run, work, |run, _| {
+        let changed = self.advance(py, &mut run, work, |run, _| {
             run.state().changed(run.scenario(), to)
         })?;
         // Only now: Ctrl-C must leave the run unchanged.
@@ -204,15 +206,15 @@ impl Simulation {
 
     fn restore(&self, py: Python, snapshot: &Bound<Snapshot>) -> PyResult<()> {
         let mut run = self.locked(py)?;
-        let (watches, scenario) = (run.inspected_robot(), Arc::clone(run.scenario()));
+        let (inspected, scenario) = (run.inspected_robot(), Arc::clone(run.scenario()));
         *run = snapshot.get().0.clone();
-        // In another scenario robots may have other numbers.
+        // In another scenario, robots may have other numbers.
         let is_same = Arc::ptr_eq(&scenario, run.scenario());
-        run.inspect(watches.filter(|_| is_same));
+        run.inspect(inspected.filter(|_| is_same));
         Ok(())
     }
 
-    /// Number of steps so far.
+    /// Number of steps taken.
     #[getter]
     fn tick(&self, py: Python) -> PyResult<u64> {
         Ok(self.locked(py)?.state().tick())
@@ -310,40 +312,44 @@ impl Simulation {
                 Ok(run) => return Ok(run),
                 // A panic in another thread is reported there.
                 Err(TryLockError::Poisoned(run)) => return Ok(run.into_inner()),
-                Err(TryLockError::WouldBlock) if *self.asking() == Some(thread::current().id()) => {
+                Err(TryLockError::WouldBlock)
+                    if *self.brain_thread() == Some(thread::current().id()) =>
+                {
                     let sentence = "a brain must not access or step the run that it is part of: it \
                                     only knows its percept";
                     let error = InputError::new(String::new(), None, sentence.to_owned());
                     return Err(input_error(&InputErrors(vec![error]), ""));
                 }
                 Err(TryLockError::WouldBlock) => {
-                    py.detach(|| thread::sleep(BETWEEN_LOOKS));
+                    py.detach(|| thread::sleep(POLL_INTERVAL));
                     py.check_signals()?;
                 }
             }
         }
     }
 
-    /// Runs Python brains, in this thread: Python delivers Ctrl-C to no other one.
-    fn ask(
+    /// Runs Python brains in this thread, the only one to which Python delivers Ctrl-C.
+    fn run_brains(
         &self,
         scenario: &Scenario,
         brains: &[PythonBrain],
         begun: &mut ExternalInputs,
     ) -> PyResult<()> {
-        *self.asking() = Some(thread::current().id());
+        *self.brain_thread() = Some(thread::current().id());
         let decided = python_brain::decide(scenario, brains, begun);
-        *self.asking() = None;
+        *self.brain_thread() = None;
         decided
     }
 
-    fn asking(&self) -> MutexGuard<'_, Option<ThreadId>> {
-        self.asking.lock().unwrap_or_else(PoisonError::into_inner)
+    fn brain_thread(&self) -> MutexGuard<'_, Option<ThreadId>> {
+        self.brain_thread
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Advances a run: in this thread if that is little `work` (robots times steps), otherwise on a thread
-    /// pool, with checks for Ctrl-C.
-    fn take<T: Send>(
+    /// Advances a run: in this thread for little `work` (robots times steps), otherwise on a thread pool,
+    /// with checks for Ctrl-C.
+    fn advance<T: Send>(
         &self,
         py: Python,
         run: &mut Run,
@@ -357,7 +363,7 @@ impl Simulation {
         interruptible(py, self.threads, |stop| go(run, stop))
     }
 
-    /// A value of each robot, in their order.
+    /// A value of each robot, in order.
     fn each<T>(&self, py: Python, of: impl Fn(&Robot) -> T) -> PyResult<Vec<T>> {
         let run = self.locked(py)?;
         let robots = run.state().each_robot(run.scenario());
@@ -369,7 +375,7 @@ fn robots(run: &Run) -> u64 {
     run.state().robots() as u64
 }
 
-/// The changes that a run does not allow: its times are counted in steps, and all places are within its
+/// The changes that a run does not allow: its times are counted in steps, and all positions lie within its
 /// world.
 fn unchangeable(from: &Scenario, to: &Scenario) -> Vec<InputError> {
     let error = |path: &str, given: String, was: String| {

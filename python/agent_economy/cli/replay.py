@@ -51,18 +51,20 @@ def as_sentence(result: "Replay") -> str:
     if result.agrees:
         verdict = f"reproduced up to step {result.tick:,} (hash {result.hash})"
     else:
-        verdict = f"differs from the recording from step {result.differs_at:,} on"
+        verdict = f"differs from the recording from step {result.mismatch_tick:,} on"
         if result.program != __version__:
             verdict += f"; recorded by version {result.program}, replayed by {__version__}"
     end = (
-        "" if result.is_whole else f"; the recording is truncated: it ends at step {result.tick:,}"
+        ""
+        if result.is_complete
+        else f"; the recording is truncated: it ends at step {result.tick:,}"
     )
     return f"{which}: {verdict}{end}"
 
 
 def as_dict(result: "Replay") -> dict[str, object]:
     """Return the result of a replay for programs."""
-    names = ("seed", "run", "program", "is_whole", "tick", "hash", "agrees", "differs_at")
+    names = ("seed", "run", "program", "is_complete", "tick", "hash", "agrees", "mismatch_tick")
     return {
         "scenario": result.scenario.name,
         **{name: getattr(result, name) for name in names},

@@ -1,6 +1,6 @@
-"""Recordings of runs: MCAP files that Foxglove shows, and that are enough to take the run again.
+"""Recordings of runs: MCAP files that Foxglove displays, and that suffice to replay the run.
 
-`Recording` writes one, `replay` takes its run again; docs/simulation.md says what is in it.
+`Recording` writes a recording, `replay` replays it. docs/simulation.md describes the topics.
 """
 
 from agent_economy.recording.file import RecordingError

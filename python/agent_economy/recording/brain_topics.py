@@ -1,4 +1,4 @@
-"""What chosen robots perceive, and what their brains want then."""
+"""The topics of selected robots: their percepts, commands and scans."""
 
 import json
 from collections.abc import Mapping, Sequence
@@ -14,24 +14,24 @@ from agent_economy.runs.brain import Command, Percept
 from agent_economy.runs.simulation import Simulation
 
 
-class Minds:
-    """What goes into and comes out of the brains of some robots, in every step."""
+class BrainTopics:
+    """Writes the percepts and commands of selected robots, in each step."""
 
     def __init__(
         self,
         file: File,
         simulation: Simulation,
-        chosen: Sequence[str],
+        selected: Sequence[str],
         bodies: Mapping[str, Mapping[str, Any]],
     ) -> None:
-        """Declare what will be written of each of the chosen robots that is in the team."""
-        places = {name: place for place, name in enumerate(simulation.robots)}
-        self._robots = {name: places[name] for name in chosen if name in places}
+        """Declare the topics of the selected robots that are in the team."""
+        indices = {name: index for index, name in enumerate(simulation.robots)}
+        self._robots = {name: indices[name] for name in selected if name in indices}
         self._file, self._simulation = file, simulation
         self._bearings: dict[str, list[list[float]]] = {}
         for name in self._robots:
             body = bodies[name.rpartition("/")[0]]
-            # A ring's bearings may pass from pi to -pi; those of a scan only grow.
+            # The bearings of a ring may wrap from pi to -pi; those of a scan must ascend.
             rings = body["rings"]
             self._bearings[name] = [np.unwrap(ring["bearings_rad"]).tolist() for ring in rings]
             about = {"robot": name, "body": json.dumps(body)}
@@ -45,14 +45,14 @@ class Minds:
         commands: Mapping[str, Command] | None,
         time_ns: int,
     ) -> dict[str, Command]:
-        """Take steps, and write what came into them from outside, and what chosen robots had."""
+        """Advance the simulation, and write its external inputs and the topics."""
         simulation = self._simulation
         tick = simulation.tick
         perceived = self._perceive(percepts or {})
         try:
             return simulation.step(steps, percepts=percepts, commands=commands)
         finally:
-            # Also after Ctrl-C: a step that was taken cannot be taken again without its input.
+            # Also after Ctrl-C: a completed step cannot be replayed without its inputs.
             if simulation.tick > tick:
                 decided = {**simulation.decided, **(commands or {})}
                 inputs = {"percepts": percepts or {}, "commands": decided}
@@ -61,22 +61,22 @@ class Minds:
                 if perceived:
                     self._write(perceived, time_ns)
 
-    def _perceive(self, outside: Mapping[str, Percept]) -> dict[str, Mapping[str, Any]]:
-        """Return what they will perceive in the next step, who decide in it."""
-        given = strict({name: outside[name] for name in self._robots if name in outside})
+    def _perceive(self, external: Mapping[str, Percept]) -> dict[str, Mapping[str, Any]]:
+        """Return the percepts in the next step, of the robots whose brains step in it."""
+        given = strict({name: external[name] for name in self._robots if name in external})
         percepts = {
             name: given.get(name) or self._simulation.percept(name) for name in self._robots
         }
         return {name: percept for name, percept in percepts.items() if percept is not None}
 
     def _write(self, percepts: Mapping[str, Mapping[str, Any]], time_ns: int) -> None:
-        """Write what they perceived, and what they wanted then."""
+        """Write the percepts, the scans, and the resulting motion commands."""
         moment = _core.recorded_moment(self._simulation._run)  # noqa: SLF001  (ours)
-        wanted = moment["wanted"].tolist()
+        motions = moment["commanded"].tolist()
         for name, percept in percepts.items():
             self._file.write_json(f"/percept/{name}", percept, time_ns)
             self._write_scans(name, percept, time_ns)
-            speed_m_s, turn_rate_rad_s = wanted[self._robots[name]]
+            speed_m_s, turn_rate_rad_s = motions[self._robots[name]]
             motion = {"speed_m_s": speed_m_s, "turn_rate_rad_s": turn_rate_rad_s}
             self._file.write_json(f"/command/{name}", {"motion": motion}, time_ns)
 
@@ -86,7 +86,7 @@ class Minds:
             if age_s is None:
                 continue
             ranges = [np.inf if value is None else float(value) for value in each["ranges_m"]]
-            # No viewer has times before the run; a body outside may say any age.
+            # A time before the run is invalid; the age in an external percept can be any number.
             taken_ns = time_ns - round(min(max(age_s, 0.0), time_ns / SECOND_NS) * SECOND_NS)
             message = scan(name, taken_ns, self._bearings[name][number], ranges)
             self._file.write(f"/scan/{name}/{number}", message, time_ns)

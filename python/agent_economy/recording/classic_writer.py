@@ -1,4 +1,4 @@
-"""What is written of a run of the classic engine: a cell is drawn a metre wide, with y upwards."""
+"""Recordings of the classic engine: a cell is drawn one metre wide, with y upwards."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -28,40 +28,40 @@ TOPICS = {
 }
 
 PAINTS = (BLUE, YELLOW, RED)
-"""By the compiled part's numbers of colours."""
+"""Colours of robots, by their number in the compiled part."""
 
 AHEAD = ((0, 1), (1, 1), (1, 0), (1, -1), (0, -1), (-1, -1), (-1, 0), (-1, 1))
-"""To the right and upwards, by heading: eighths of a turn from up, clockwise."""
+"""Direction (right, up) by heading: eighths of a turn clockwise from up."""
 
 HALF_TURNS = np.array([half_turn_of([(0, 0), ahead]) for ahead in AHEAD])
-"""By heading: sine and cosine of half the angle from x."""
+"""Sine and cosine of half the angle from x, by heading."""
 
 EIGHTH_DEG, LEFT_DEG = 45, 270
 
-AS_TOLD = ("column", "row", "speed", "left_turns", "right_turns")
+UNCHANGED = ("column", "row", "speed", "left_turns", "right_turns")
 
-MINDLESS = "none: robots of 2003 have no minds"
+NO_BRAINS = "none: robots of the classic engine have no percepts or commands"
 
 
 class ClassicMoments:
-    """The moments of a run, as long as its scenario does not change: see `engines.Moments`."""
+    """The steps of a run until its scenario changes: see `engines.Moments`."""
 
     def __init__(
         self,
         file: File,
         simulation: ClassicSimulation,
         _: Sequence[str],
-        told: set[str],
+        logged: set[str],
         time_ns: int,
     ) -> None:
-        """Write what stays as it is, and the first moment; see `engines.Engine`."""
+        """Write the static topics and the first step; see `engines.Engine`."""
         for topic, schema in TOPICS.items():
             file.declare(topic, schema)
         self._file, self._simulation = file, simulation
         self._changes = len(simulation.changes)
         self._names = simulation.robots
         self._frames = Frames(self._names)
-        self._items = Items(file, items(), {"item": True}, told)
+        self._items = Items(file, items(), {"item": True}, logged)
         self._colours: list[int] = []
         robots = len(self._names)
         bodies = {"radius_m": [RADIUS] * robots, "is_flying": [False] * robots}
@@ -77,18 +77,18 @@ class ClassicMoments:
         commands: Mapping[str, Command] | None,
         _: int,
     ) -> dict[str, Command]:
-        """Take steps as `ClassicSimulation.step` does, which nothing goes into.
+        """Advance as `ClassicSimulation.step` does.
 
         Raises:
             InputError: If there are percepts or commands.
         """
         for name, each in {"percepts": percepts, "commands": commands}.items():
-            validation.check(each is None, name, each, MINDLESS)
+            validation.check(each is None, name, each, NO_BRAINS)
         self._simulation.step(steps)
         return {}
 
     def write(self, time_ns: int) -> None:
-        """Write the run as it is now."""
+        """Write the current step."""
         simulation = self._simulation
         robots = simulation._run.robots  # noqa: SLF001  (ours)
         found = found_s(simulation)
@@ -112,48 +112,48 @@ class ClassicMoments:
         self._items.write_finds(found, time_ns)
 
 
-def faults(_: ClassicSimulation, percepts: Sequence[str]) -> list[str]:
-    """Return what is wrong with the names of robots whose percepts are to be recorded."""
-    return validation.errors_unless(not percepts, "percepts", list(percepts), MINDLESS)
+def errors(_: ClassicSimulation, percepts: Sequence[str]) -> list[str]:
+    """Return the errors of the names of robots whose percepts are to be recorded."""
+    return validation.errors_unless(not percepts, "percepts", list(percepts), NO_BRAINS)
 
 
 def walls() -> SceneEntity:
-    """Return what stands in the world for ever; items, which to robots stand too, are no part."""
+    """Return the walls; items, which also block robots, are written separately."""
     size_m = (1.0, 1.0, WALL_M)
     cubes = [cube(centre(cell), size_m, color(OBSTACLE)) for cell in WORLD["walls"]]
     return SceneEntity(frame_id=FRAME, id="walls", cubes=cubes)
 
 
 def items() -> pa.Table:
-    """Return the items as those of the metric engine are."""
+    """Return the items in the format of the metric engine."""
     x_m, y_m = zip(*map(centre, WORLD["items"]), strict=True)
     return pa.table({"kind": ["item"] * len(x_m), "x_m": x_m, "y_m": y_m})
 
 
 def found_s(simulation: ClassicSimulation) -> Floats:
-    """Return when each item was found; what is not found has no number."""
+    """Return the time at which each item was found; NaN if it has not been."""
     found = simulation._run.found_s  # noqa: SLF001  (ours)
     return np.array(found, np.float64)  # None becomes NaN
 
 
 def placed(robots: Mapping[str, list[float]]) -> tuple[Floats, Floats]:
-    """Return poses, shape (robots, 3), and of half their headings sine and cosine."""
+    """Return the poses, shape (robots, 3), and the sine and cosine of half their headings."""
     half_turns = HALF_TURNS[np.array(robots["heading_deg"]) // EIGHTH_DEG % len(AHEAD)]
-    told = states(robots)
-    return np.column_stack([told[name] for name in ("x_m", "y_m", "heading_rad")]), half_turns
+    columns = states(robots)
+    return np.column_stack([columns[name] for name in ("x_m", "y_m", "heading_rad")]), half_turns
 
 
 def states(robots: Mapping[str, list[Any]]) -> dict[str, list[Any]]:
-    """Return how each robot is, as lists."""
+    """Return the state of each robot, as lists."""
     return {
         "x_m": [x_px / CELL_PX for x_px in robots["x_px"]],
         "y_m": [CELLS - y_px / CELL_PX for y_px in robots["y_px"]],
         "heading_rad": [heading_rad(degrees) for degrees in robots["heading_deg"]],
-        **{name: robots[name] for name in AS_TOLD},
+        **{name: robots[name] for name in UNCHANGED},
         "colour": COLOURS[robots["colour"]].tolist(),
     }
 
 
 def heading_rad(degrees: float) -> float:
-    """Return a heading, given clockwise from up, as it is anticlockwise from x."""
+    """Convert a heading from degrees clockwise from up to radians anticlockwise from x."""
     return math.radians(90 - degrees if degrees < LEFT_DEG else 450 - degrees)

@@ -1,4 +1,4 @@
-"""What recordings hold of a run, by its engine."""
+"""Writers of recordings, by engine."""
 
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple, Protocol
@@ -13,15 +13,15 @@ from agent_economy.runs.simulation import Simulation
 
 
 class Moments(Protocol):
-    """A run on its way into a file, as long as its scenario does not change."""
+    """Writes the steps of a run to a file until its scenario changes."""
 
     @property
     def tick(self) -> int:
-        """Of the moment that was written last."""
+        """Tick of the step written last."""
 
     @property
     def hash(self) -> int:
-        """Of the moment that was written last."""
+        """Hash of the step written last."""
 
     def step(
         self,
@@ -31,33 +31,33 @@ class Moments(Protocol):
         time_ns: int,
         /,
     ) -> dict[str, Command]:
-        """Take steps, and write what went into them."""
+        """Advance the simulation, and write its external inputs."""
 
     def write(self, time_ns: int) -> None:
-        """Write the run as it is now."""
+        """Write the current step."""
 
 
 class Engine(NamedTuple):
-    """What one engine gives; its functions take runs of its own.
+    """The functions of an engine, which take its own runs.
 
     Attributes:
-        moments: Writes what stays as it is, and the first moment. It takes the file, the run, the
-            names of robots whose percepts are recorded, those of items whose finds were told
-            before, and the time.
-        faults: What is wrong with the names of robots whose percepts are to be recorded.
+        moments: Writes the static topics and the first step. It takes the file, the run, the names
+            of robots whose percepts are recorded, the names of items whose finds are already in the
+            log, and the time.
+        errors: Returns the errors of the names of robots whose percepts are to be recorded.
     """
 
     moments: Callable[[File, Any, Sequence[str], set[str], int], Moments]
-    faults: Callable[[Any, Sequence[str]], list[str]]
+    errors: Callable[[Any, Sequence[str]], list[str]]
 
 
 ENGINES: dict[type, Engine] = {
-    Simulation: Engine(MetricMoments, metric_writer.faults),
-    ClassicSimulation: Engine(ClassicMoments, classic_writer.faults),
+    Simulation: Engine(MetricMoments, metric_writer.errors),
+    ClassicSimulation: Engine(ClassicMoments, classic_writer.errors),
 }
 
 
 def of(simulation: object) -> Engine | None:
-    """Return the engine of a run; None if it is no run."""
+    """Return the engine of a run; None if the object is not a run."""
     engines = (engine for kind, engine in ENGINES.items() if isinstance(simulation, kind))
     return next(engines, None)

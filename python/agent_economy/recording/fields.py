@@ -1,4 +1,4 @@
-"""Entries of what is read from a recording, seen to: a damaged file may lack any."""
+"""Typed access to the entries of a recording, any of which a damaged file may lack."""
 
 import json
 from collections.abc import Mapping
@@ -8,20 +8,20 @@ from agent_economy._core import InputError
 from agent_economy.scenario import validation
 
 DIGITS = 20
-"""Of 2^64, and no number of a recording is larger."""
+"""Digits of 2^64, the largest number in a recording."""
 
-SHOWN = 80
-"""Letters of a text that is told."""
+MAX_SHOWN = 80
+"""Maximum number of characters of a value in an error message."""
 
 
 class Entries:
-    """Metadata or a message of a recording, by name; what is wrong in it is told with its name."""
+    """Metadata or a message of a recording; errors name the entry."""
 
     def __init__(self, where: str, values: object) -> None:
-        """Begin with what was read.
+        """Wrap decoded values; `where` is their name in errors.
 
         Raises:
-            InputError: If it has no entries.
+            InputError: If they are not a mapping.
         """
         self._where = where
         if not isinstance(values, Mapping):
@@ -29,51 +29,59 @@ class Entries:
         self._values: Mapping[str, Any] = values
 
     def text(self, name: str) -> str:
-        """Return a text.
+        """Return a string.
 
         Raises:
-            InputError: If there is none.
+            InputError: If it is missing or not a string.
         """
         value = self._of(name)
         return (
-            value if validation.is_text(value) else self.refuse(f"{name} = {shown(value)}, no text")
+            value
+            if validation.is_text(value)
+            else self.refuse(f"{name} = {shown(value)}, not a string")
         )
 
     def whole(self, name: str) -> int:
-        """Return a whole number, 0 or more; metadata has such as texts.
+        """Return a whole number, 0 or more; metadata contains numbers as strings.
 
         Raises:
-            InputError: If it is none.
+            InputError: If it is missing or not a whole number.
         """
         value = self._of(name)
         if isinstance(value, str) and value.isascii() and value.isdigit() and len(value) <= DIGITS:
             return int(value)
         is_whole = validation.is_whole(value, 0)
-        return int(value) if is_whole else self.refuse(f"{name} = {shown(value)}, no whole number")
+        return (
+            int(value) if is_whole else self.refuse(f"{name} = {shown(value)}, not a whole number")
+        )
 
     def json(self, name: str) -> Any:
-        """Return what a text says as JSON.
+        """Return the value of a string that contains JSON.
 
         Raises:
-            InputError: If it is no JSON.
+            InputError: If it is missing or not JSON.
         """
         text = self.text(name)
         try:
             return json.loads(text)
         except (ValueError, RecursionError):
-            self.refuse(f"{name} = {shown(text)}, no JSON")
+            self.refuse(f"{name} = {shown(text)}, not JSON")
 
     def by_name(self, name: str) -> dict[str, Any]:
-        """Return what there is of each robot.
+        """Return a mapping by robot name.
 
         Raises:
-            InputError: If it is nothing of the kind.
+            InputError: If it is missing or not a mapping.
         """
         value = self._of(name)
-        return value if isinstance(value, dict) else self.refuse(f"{name} that are of no robots")
+        return (
+            value
+            if isinstance(value, dict)
+            else self.refuse(f"{name} = {shown(value)}, not a mapping by robot name")
+        )
 
     def refuse(self, what: str) -> NoReturn:
-        """Say what is wrong.
+        """Raise an error about an entry.
 
         Raises:
             InputError: Always.
@@ -86,6 +94,6 @@ class Entries:
 
 
 def shown(value: object) -> str:
-    """Return a value as it is told, not longer than a line."""
+    """Return a value for an error message, shortened to fit on a line."""
     text = repr(value)
-    return text if len(text) <= SHOWN else f"{text[:SHOWN]}..."
+    return text if len(text) <= MAX_SHOWN else f"{text[:MAX_SHOWN]}..."

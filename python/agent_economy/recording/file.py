@@ -1,4 +1,4 @@
-"""A file in MCAP: messages by topic, metadata, and what is attached.
+"""An MCAP file: messages by topic, metadata, and attachments.
 
 Source: the specification of MCAP (mcap.dev/spec).
 """
@@ -22,23 +22,23 @@ CHUNK_BYTES = 2**20
 
 
 class RecordingError(InputError):
-    """A recording cannot go on, as its disk is full or gone: not what was asked is wrong.
+    """The recording cannot continue because its disk is full or missing.
 
-    It is an `InputError` too, so that who calls from Python catches all that a file can be.
+    It is also an `InputError`, so that one `except` covers all errors of files.
     """
 
 
 class Output:
-    """Where a file's bytes go; a fault names the file, and closes it.
+    """The stream of a file; an error names the file, and closes it.
 
     Attributes:
-        is_open: Whether more can be written.
+        is_open: Whether the file accepts more bytes.
     """
 
     is_open: bool
 
     def __init__(self, path: Path) -> None:
-        """Begin a file in the place of any that was there.
+        """Create a file, replacing an existing one.
 
         Raises:
             InputError: If it cannot be written.
@@ -51,27 +51,27 @@ class Output:
         self._path, self.is_open = path, True
 
     def write(self, data: bytes) -> int:
-        """Write all bytes, or into the buffer."""
-        with self._told():
+        """Write or buffer all bytes."""
+        with self._errors_named():
             return self._stream.write(data)
 
     def tell(self) -> int:
-        """Return how many bytes there are."""
+        """Return the number of bytes written."""
         return self._stream.tell()
 
     def flush(self) -> None:
-        """Hand all to the system."""
-        with self._told():
+        """Flush the buffer to the operating system."""
+        with self._errors_named():
             self._stream.flush()
 
     def close(self) -> None:
-        """Hand all to the system; nothing can be written after that."""
+        """Flush the buffer and close the file."""
         self.is_open = False
-        with self._told():
+        with self._errors_named():
             self._stream.close()
 
     @contextmanager
-    def _told(self) -> Iterator[None]:
+    def _errors_named(self) -> Iterator[None]:
         try:
             yield
         except OSError as error:
@@ -79,24 +79,24 @@ class Output:
             with suppress(OSError):
                 self._stream.close()
             message = (
-                f"{self._path}: cannot be written any further: {error.strerror or error}: make "
-                "room, write it elsewhere, or record fewer moments (every = 10, --every 10); what "
-                "is there can be taken again with agent-economy replay"
+                f"{self._path}: recording stopped: {error.strerror or error}: free some space, "
+                "write to another disk, or record fewer steps (every = 10, --every 10); the steps "
+                "recorded so far can be replayed with agent-economy replay"
             )
             raise RecordingError(message) from None
 
 
 class File:
-    """A file on its way to the disk; nothing in it depends on when or where it is written."""
+    """A file that is being written. Its bytes do not depend on when or where it is written."""
 
     def __init__(self, path: Path) -> None:
-        """Begin a file in the place of any that was there.
+        """Create a file, replacing an existing one.
 
         Raises:
             InputError: If it cannot be written.
         """
         self._output = Output(path)
-        output = cast("IO[bytes]", self._output)  # the writer needs no more of a stream
+        output = cast("IO[bytes]", self._output)  # the writer uses only these methods
         self._writer = Writer(output, chunk_size=CHUNK_BYTES)
         self._writer.start(library=f"agent-economy/{__version__} {LIBRARY_IDENTIFIER}")
         self._schemas: dict[str, int] = {}
@@ -104,7 +104,7 @@ class File:
 
     @property
     def is_open(self) -> bool:
-        """Whether more can be written: it is neither closed nor has its disk refused anything."""
+        """Whether the file accepts more messages: it is not closed, and no write has failed."""
         return self._output.is_open
 
     def attach(self, name: str, media_type: str, data: bytes) -> None:
@@ -116,19 +116,19 @@ class File:
         self._writer.add_metadata(name, dict(values))
 
     def has(self, topic: str) -> bool:
-        """Return whether anything was written on a topic, or declared."""
+        """Return whether a topic has been declared or written."""
         return topic in self._channels
 
     def write(self, topic: str, message: Message, time_ns: int) -> None:
-        """Write a message of one of Foxglove's schemas."""
+        """Write a message with a Foxglove schema."""
         self.write_parts(topic, type(message), [message], time_ns)
 
     def write_parts(
         self, topic: str, kind: type[Message], parts: Iterable[Message], time_ns: int
     ) -> None:
-        """Write one message whose lists are those of all parts, one after another.
+        """Write one message that consists of all parts, with their lists concatenated.
 
-        What is in Python at once is a part; as bytes a message takes a tenth of that room.
+        Only one part at a time is a Python object; serialised, it takes a tenth of the memory.
         """
         channel = self._channels.get(topic)
         if channel is None:
@@ -136,12 +136,12 @@ class File:
             if name not in self._schemas:
                 self._schemas[name] = register_schema(self._writer, kind)
             channel = self._open(topic, "protobuf", self._schemas[name])
-        # In Protobuf, bytes of messages one after another are those of the messages merged.
+        # In Protobuf, concatenated bytes of messages are the bytes of the merged message.
         data = b"".join(part.SerializeToString() for part in parts)
         self._writer.add_message(channel, time_ns, data, time_ns)
 
     def declare(self, topic: str, schema: str, about: Mapping[str, str] | None = None) -> None:
-        """Say what is written on a topic as JSON, once."""
+        """Declare a topic with JSON messages, unless it is declared already."""
         if topic in self._channels:
             return
         if schema not in self._schemas:
@@ -150,7 +150,7 @@ class File:
         self._open(topic, "json", self._schemas[schema], about)
 
     def write_json(self, topic: str, message: object, time_ns: int) -> None:
-        """Write JSON on a topic that has been declared; what is not finite is null."""
+        """Write JSON to a declared topic, with null for numbers that are not finite."""
         try:
             text = json.dumps(message, separators=(",", ":"), allow_nan=False)
         except ValueError:
@@ -158,7 +158,7 @@ class File:
         self._writer.add_message(self._channels[topic], time_ns, text.encode(), time_ns)
 
     def flush(self) -> None:
-        """Hand all that is written to the system: it is there even if this process is killed."""
+        """Flush all messages to the operating system; they survive a kill of this process."""
         self._writer.flush()  # type: ignore[no-untyped-call]
 
     def close(self) -> None:
@@ -178,7 +178,7 @@ class File:
 
 
 def strict(value: Any) -> Any:
-    """Return a value as JSON has it: arrays are lists, and what is not finite is null."""
+    """Return a value for JSON: arrays become lists, numbers that are not finite become null."""
     if isinstance(value, np.generic | np.ndarray):
         value = value.tolist()
     if isinstance(value, float) and not math.isfinite(value):

@@ -1,7 +1,7 @@
-"""Messages of Foxglove's schemas: what its panels show without being told how.
+"""Messages with Foxglove's schemas, which its panels display without configuration.
 
-Places are in metres and angles in radians, in the frame "world": x to the right, y up, z towards
-who looks. Each robot has a frame of its own, under its name: x ahead, y to its left.
+Positions are in metres and angles in radians, in the frame "world": x to the right, y up, z towards
+the viewer. Each robot has its own frame, under its name: x to the front, y to the left.
 
 Source: the schemas of Foxglove (docs.foxglove.dev, "Message schemas").
 """
@@ -26,7 +26,7 @@ from foxglove_schemas_protobuf.Vector3_pb2 import Vector3
 from google.protobuf.timestamp_pb2 import Timestamp
 
 WORLD = "world"
-"""The frame that everything is in."""
+"""Name of the world frame."""
 
 SECOND_NS = 1_000_000_000
 
@@ -37,18 +37,18 @@ LINE_PX = 2.0
 
 
 def stamp(time_ns: int) -> Timestamp:
-    """Return a time as messages have it."""
+    """Convert a time to a message."""
     return Timestamp(seconds=time_ns // SECOND_NS, nanos=time_ns % SECOND_NS)
 
 
 def color(text: str, alpha: float = 1.0) -> Color:
-    """Return a colour that is written as #rrggbb."""
+    """Convert a colour from #rrggbb."""
     red, green, blue = bytes.fromhex(text.removeprefix("#"))
     return Color(r=red / 255, g=green / 255, b=blue / 255, a=alpha)
 
 
 def pose(at: Place = (0, 0), z_m: float = 0, half_turn: tuple[float, float] = (0, 1)) -> Pose:
-    """Return where something is; `half_turn` is sine and cosine of half its heading."""
+    """Return a pose; `half_turn` is the sine and cosine of half its heading."""
     return Pose(
         position=Vector3(x=at[0], y=at[1], z=z_m),
         orientation=Quaternion(z=half_turn[0], w=half_turn[1]),
@@ -56,7 +56,7 @@ def pose(at: Place = (0, 0), z_m: float = 0, half_turn: tuple[float, float] = (0
 
 
 def loop(corners: Sequence[Place], paint: Color) -> LinePrimitive:
-    """Return a closed line, as thick on the screen from afar as from near."""
+    """Return a closed line with a constant width on the screen."""
     return LinePrimitive(
         type=LinePrimitive.LINE_LOOP,
         pose=pose(),
@@ -70,7 +70,7 @@ def loop(corners: Sequence[Place], paint: Color) -> LinePrimitive:
 def cylinder(
     at: Place, radius_m: float, heights_m: tuple[float, float], paint: Color
 ) -> CylinderPrimitive:
-    """Return an upright cylinder from one height to another."""
+    """Return an upright cylinder between two heights."""
     low_m, high_m = heights_m
     return CylinderPrimitive(
         pose=pose(at, (low_m + high_m) / 2),
@@ -82,13 +82,13 @@ def cylinder(
 
 
 def cube(at: Place, size_m: tuple[float, float, float], paint: Color) -> CubePrimitive:
-    """Return a block that stands on the ground."""
+    """Return a block on the ground."""
     x_m, y_m, z_m = size_m
     return CubePrimitive(pose=pose(at, z_m / 2), size=Vector3(x=x_m, y=y_m, z=z_m), color=paint)
 
 
 def sphere(at: Place, radius_m: float, paint: Color) -> SpherePrimitive:
-    """Return a sphere that lies on the ground."""
+    """Return a sphere on the ground."""
     side = 2 * radius_m
     return SpherePrimitive(
         pose=pose(at, radius_m), size=Vector3(x=side, y=side, z=side), color=paint
@@ -96,7 +96,7 @@ def sphere(at: Place, radius_m: float, paint: Color) -> SpherePrimitive:
 
 
 def arrow(length_m: float, z_m: float, paint: Color) -> ArrowPrimitive:
-    """Return an arrow ahead, from the centre."""
+    """Return an arrow from the centre to the front."""
     return ArrowPrimitive(
         pose=pose(z_m=z_m),
         shaft_length=0.6 * length_m,
@@ -108,7 +108,7 @@ def arrow(length_m: float, z_m: float, paint: Color) -> ArrowPrimitive:
 
 
 def scene(entities: Sequence[SceneEntity], time_ns: int) -> SceneUpdate:
-    """Return a scene that takes the place of all that came before on its topic."""
+    """Return a scene that replaces all earlier ones on its topic."""
     begin = stamp(time_ns)
     for entity in entities:
         entity.timestamp.CopyFrom(begin)
@@ -119,7 +119,7 @@ def scene(entities: Sequence[SceneEntity], time_ns: int) -> SceneUpdate:
 
 
 def scan(frame: str, time_ns: int, bearings_rad: Sequence[float], ranges: list[float]) -> LaserScan:
-    """Return what a range ring measured; infinite where nothing came back."""
+    """Return the scan of a range ring; the range of a ray without a return is infinite."""
     return LaserScan(
         timestamp=stamp(time_ns),
         frame_id=frame,
@@ -130,6 +130,6 @@ def scan(frame: str, time_ns: int, bearings_rad: Sequence[float], ranges: list[f
     )
 
 
-def log(time_ns: int, level: Log.Level.ValueType, name: str, words: str) -> Log:
-    """Return a line of the log."""
-    return Log(timestamp=stamp(time_ns), level=level, name=name, message=words)
+def log(time_ns: int, level: Log.Level.ValueType, name: str, message: str) -> Log:
+    """Return an entry of the log."""
+    return Log(timestamp=stamp(time_ns), level=level, name=name, message=message)

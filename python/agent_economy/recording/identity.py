@@ -1,4 +1,4 @@
-"""Which run a recording is of: written so that the file alone is enough to take it again."""
+"""The identity of a recorded run, complete enough to replay it from the file alone."""
 
 import json
 from collections.abc import Mapping
@@ -15,21 +15,21 @@ from agent_economy.scenario import Override, Scenario, Source, validation
 FORMAT = "1"
 
 RUN, CHANGE, END = "agent_economy.run", "agent_economy.change", "agent_economy.end"
-"""Names of metadata: which run it is, a change in the middle, and how it stands at its end."""
+"""Names of metadata: the identity of the run, a change during the run, and its final state."""
 
 FILES = "files/"
-"""What the names of attachments begin with that a scenario names."""
+"""Prefix of the attachments that the scenario refers to."""
 
 
 @dataclass(frozen=True)
 class Identity:
-    """Which run a recording is of.
+    """The identity of a recorded run.
 
     Attributes:
-        scenario: What it began with.
-        seed: Of all chance.
-        run: Its number.
-        program: The version that recorded it.
+        scenario: The initial scenario.
+        seed: Seed of all random numbers.
+        run: Run number.
+        program: The version of the program that recorded it.
     """
 
     scenario: Scenario
@@ -39,9 +39,9 @@ class Identity:
 
 
 def write_identity(file: File, simulation: Stepped) -> None:
-    """Write which run it is, before its first message."""
+    """Write the identity of a run, before its first message."""
     source = simulation.scenario.source
-    began = source.overrides[: len(source.overrides) - len(simulation.changes)]
+    initial = source.overrides[: len(source.overrides) - len(simulation.changes)]
     name = Path(source.file).name
     file.note(
         RUN,
@@ -49,7 +49,7 @@ def write_identity(file: File, simulation: Stepped) -> None:
             "format": FORMAT,
             "program": __version__,
             "scenario": name,
-            "overrides": json.dumps([[list(each.path), strict(each.value)] for each in began]),
+            "overrides": json.dumps([[list(each.path), strict(each.value)] for each in initial]),
             "seed": str(simulation.seed),
             "run": str(simulation.run),
         },
@@ -58,7 +58,7 @@ def write_identity(file: File, simulation: Stepped) -> None:
 
 
 def write_files(file: File, files: Mapping[str, bytes | str], before: set[str]) -> None:
-    """Attach the files that a scenario names, but those that were attached before."""
+    """Attach the files that a scenario refers to, except those already attached."""
     for name in sorted(files.keys() - before):
         data = files[name]
         if isinstance(data, bytes):
@@ -76,34 +76,34 @@ def write_change(file: File, change: Change) -> None:
 
 
 def write_end(file: File, tick: int, state_hash: int) -> None:
-    """Write how the run stands where the recording ends."""
+    """Write the final state of the recording."""
     file.note(END, {"tick": str(tick), "hash": f"{state_hash:016x}"})
 
 
 def read_run(values: object) -> Entries:
-    """Return what metadata says of which run it is.
+    """Return the entries that identify a run.
 
     Raises:
-        InputError: If it is of another format.
+        InputError: If they have another format.
     """
     run = Entries(f"metadata {RUN!r}", values)
     if (found := run.text("format")) != FORMAT:
-        message = f"is of format {found!r}: must be {FORMAT!r}"
+        message = f"has the format {found!r}: must be {FORMAT!r}"
         raise InputError(message)
     return run
 
 
 def read_identity(values: Mapping[str, str], attached: Mapping[str, bytes]) -> Identity:
-    """Return which run a recording is of, from its metadata and attachments; no other file is read.
+    """Return the identity of a run from metadata and attachments. No other file is read.
 
     Raises:
-        InputError: If anything of it is missing, or of another format.
+        InputError: If a part of it is missing, or has another format.
     """
     run = read_run(values)
     name = run.text("scenario")
     own = attached.get(f"scenario/{name}")
     if own is None:
-        message = f"lacks its scenario, {name}: nothing of the run is there"
+        message = f"lacks its scenario, {name}, without which the run cannot be replayed"
         raise InputError(message)
     files: dict[str, bytes | str] = {
         key.removeprefix(FILES): data for key, data in attached.items() if key.startswith(FILES)
@@ -115,22 +115,22 @@ def read_identity(values: Mapping[str, str], attached: Mapping[str, bytes]) -> I
         raise InputError(message) from None
     source = Source(name, text, read_overrides(run), files)
     if missing := _core.files_wanted(source):
-        message = f"lacks what the scenario names: {', '.join(missing)}"
+        message = f"lacks files that the scenario refers to: {', '.join(missing)}"
         raise InputError(message)
     seed, number = run.whole("seed"), run.whole("run")
     return Identity(Scenario.of(source), seed, number, run.text("program"))
 
 
 def read_overrides(run: Entries) -> tuple[Override, ...]:
-    """Return what was put over the scenario before the run began."""
+    """Return the overrides of the scenario at the start of the run."""
     rows = run.json("overrides")
     if not (isinstance(rows, list) and all(map(is_override, rows))):
-        run.refuse("overrides that are no list of paths and values")
+        run.refuse("overrides that are not a list of paths and values")
     return tuple(Override(tuple(keys), value, "recording") for keys, value in rows)
 
 
 def is_override(row: object) -> bool:
-    """Return whether something is a path, as keys, and a value."""
+    """Return whether an object is a path, as a list of keys, and a value."""
     match row:
         case [[_, *_] as keys, _]:
             return all(map(validation.is_text, keys))
@@ -139,6 +139,6 @@ def is_override(row: object) -> bool:
 
 
 def read_change(values: Mapping[str, str]) -> Change:
-    """Return a change that was written."""
+    """Return a recorded change."""
     change = Entries(f"metadata {CHANGE!r}", values)
     return Change(change.whole("tick"), change.text("path"), change.json("value"))

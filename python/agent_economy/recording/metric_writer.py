@@ -1,4 +1,4 @@
-"""What is written of a run of the metric engine: where all are, how they are, what has happened."""
+"""Recordings of the metric engine."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -8,7 +8,7 @@ from foxglove_schemas_protobuf.Log_pb2 import Log
 
 from agent_economy import _core
 from agent_economy.recording import schemas
-from agent_economy.recording.brain_topics import Minds
+from agent_economy.recording.brain_topics import BrainTopics
 from agent_economy.recording.file import File
 from agent_economy.recording.foxglove import log, scene
 from agent_economy.recording.item_scene import Items
@@ -18,7 +18,7 @@ from agent_economy.runs.brain import Command, Percept
 from agent_economy.runs.simulation import STATUSES, Simulation
 
 Moment = Mapping[str, Any]
-"""What changes in a run: see `recorded_moment` of the compiled part."""
+"""The state of a run at one step: see `recorded_moment` of the compiled part."""
 
 TOPICS = {
     "/run": schemas.RUN,
@@ -29,24 +29,24 @@ TOPICS = {
 }
 
 PAINTS = {"active": BLUE, "empty": YELLOW, "broken": RED}
-"""By status."""
+"""Colours of robots, by status."""
 
 LEVELS = {"empty": Log.WARNING, "broken": Log.ERROR}
 
 AIR_M = 1.5
-"""How high a flying robot is drawn: the simulator has no heights."""
+"""Drawn height of a flying robot; the simulator has no heights."""
 
 
 def moment_of(simulation: Simulation) -> Moment:
-    """Return how a run is now."""
+    """Return the state of a run at its current step."""
     return _core.recorded_moment(simulation._run)  # noqa: SLF001  (ours)
 
 
 class MetricMoments:
-    """The moments of a run, as long as its scenario does not change: see `engines.Moments`.
+    """The steps of a run until its scenario changes: see `engines.Moments`.
 
-    A viewer that jumps in time shows the last message of each topic: so each is whole, and what
-    changes seldom has a topic of its own and is written when it does.
+    A viewer that jumps in time displays the last message of each topic. Therefore, each message is
+    complete, and rarely changing data has its own topic, which is written when the data changes.
     """
 
     def __init__(
@@ -54,12 +54,12 @@ class MetricMoments:
         file: File,
         simulation: Simulation,
         percepts: Sequence[str],
-        told: set[str],
+        logged: set[str],
         time_ns: int,
     ) -> None:
-        """Write what stays as it is, and the first moment; see `engines.Engine`."""
+        """Write the static topics and the first step; see `engines.Engine`."""
         setting = _core.recorded_setting(simulation._run)  # noqa: SLF001  (ours)
-        self._minds = Minds(file, simulation, percepts, setting["bodies"])
+        self._brains = BrainTopics(file, simulation, percepts, setting["bodies"])
         for topic, schema in TOPICS.items():
             file.declare(topic, schema)
         self._file, self._simulation = file, simulation
@@ -70,7 +70,7 @@ class MetricMoments:
         document = simulation.scenario.to_dict()
         kinds = document.get("items", {})
         target = {name: kind.get("target", True) for name, kind in kinds.items()}
-        self._items = Items(file, simulation.items, target, told)
+        self._items = Items(file, simulation.items, target, logged)
         self._last = moment_of(simulation)
         file.write_json("/team", {"robots": self._names, **self._bodies}, time_ns)
         file.write("/scene/world", scene(still(document), time_ns), time_ns)
@@ -82,12 +82,12 @@ class MetricMoments:
 
     @property
     def tick(self) -> int:
-        """Of the moment that was written last."""
+        """Tick of the step written last."""
         return int(self._last["tick"])
 
     @property
     def hash(self) -> int:
-        """Of the moment that was written last."""
+        """Hash of the step written last."""
         return int(self._last["hash"])
 
     def step(
@@ -97,11 +97,11 @@ class MetricMoments:
         commands: Mapping[str, Command] | None,
         time_ns: int,
     ) -> dict[str, Command]:
-        """Take steps as `Simulation.step` does, and write what went into them."""
-        return self._minds.step(steps, percepts, commands, time_ns)
+        """Advance as `Simulation.step` does, and write the external inputs."""
+        return self._brains.step(steps, percepts, commands, time_ns)
 
     def write(self, time_ns: int) -> None:
-        """Write the run as it is now."""
+        """Write the current step."""
         before, self._last = self._last, moment_of(self._simulation)
         moment = self._last
         self._write_numbers(moment, time_ns)
@@ -132,18 +132,18 @@ class MetricMoments:
         self._file.write("/scene/robots", scene(bodies, time_ns), time_ns)
 
     def _log_events(self, before: Moment, moment: Moment, time_ns: int) -> None:
-        """Tell what has happened to robots since the moment before."""
-        for place in np.flatnonzero(moment["collisions"] > before["collisions"]).tolist():
-            words = f"collision, {moment['collisions'][place]} so far"
-            self._file.write("/log", log(time_ns, Log.WARNING, self._names[place], words), time_ns)
-        for place in np.flatnonzero(moment["status"] != before["status"]).tolist():
-            status = str(STATUSES[moment["status"][place]])
+        """Write the collisions and changes of status since the previous step to the log."""
+        for index in np.flatnonzero(moment["collisions"] > before["collisions"]).tolist():
+            words = f"collision, {moment['collisions'][index]} in total"
+            self._file.write("/log", log(time_ns, Log.WARNING, self._names[index], words), time_ns)
+        for index in np.flatnonzero(moment["status"] != before["status"]).tolist():
+            status = str(STATUSES[moment["status"][index]])
             level = LEVELS.get(status, Log.INFO)
-            self._file.write("/log", log(time_ns, level, self._names[place], status), time_ns)
+            self._file.write("/log", log(time_ns, level, self._names[index], status), time_ns)
 
 
-def faults(simulation: Simulation, percepts: Sequence[str]) -> list[str]:
-    """Return what is wrong with the names of robots whose percepts are to be recorded."""
+def errors(simulation: Simulation, percepts: Sequence[str]) -> list[str]:
+    """Return the errors of the names of robots whose percepts are to be recorded."""
     unknown = set(percepts) - set(simulation.robots)
     if not unknown:
         return []
@@ -154,16 +154,16 @@ def faults(simulation: Simulation, percepts: Sequence[str]) -> list[str]:
 
 
 def states(moment: Moment) -> dict[str, list[Any]]:
-    """Return how each robot is, as lists."""
+    """Return the state of each robot, as lists."""
     x_m, y_m, heading_rad = moment["poses"].T.tolist()
-    speed_m_s, turn_rate_rad_s = moment["wanted"].T.tolist()
+    speed_m_s, turn_rate_rad_s = moment["commanded"].T.tolist()
     return {
         "x_m": x_m,
         "y_m": y_m,
         "heading_rad": heading_rad,
         "speed_m_s": moment["speeds"].tolist(),
-        "wanted_speed_m_s": speed_m_s,
-        "wanted_turn_rate_rad_s": turn_rate_rad_s,
+        "commanded_speed_m_s": speed_m_s,
+        "commanded_turn_rate_rad_s": turn_rate_rad_s,
         "status": STATUSES[moment["status"]].tolist(),
         "battery": moment["battery"].tolist(),
         "collisions": moment["collisions"].tolist(),

@@ -1,4 +1,4 @@
-"""What a recording says of its run: read from the file alone, as far as that goes."""
+"""Reads the run of a recording from its file alone, up to where the file is truncated."""
 
 import json
 from collections.abc import Iterator, Mapping
@@ -18,17 +18,17 @@ from agent_economy.recording.identity import CHANGE, RUN, Identity, read_change,
 from agent_economy.runs.stepped import Change
 
 MAX_BYTES = 2**30
-"""Of one record: an attached map and some more."""
+"""Maximum size of one record, such as an attached map."""
 
 
 @dataclass(frozen=True)
 class Point:
-    """A state that was recorded.
+    """A recorded state.
 
     Attributes:
-        tick: Steps that had been taken.
-        changes: Changes of the scenario until then.
-        hash: Of the state, 64 bits, hexadecimal.
+        tick: Number of steps before it.
+        changes: Number of changes of the scenario before it.
+        hash: Hash of the state: 64 bits, hexadecimal.
     """
 
     tick: int
@@ -38,34 +38,34 @@ class Point:
 
 @dataclass
 class Recorded:
-    """What a recording says of its run.
+    """The contents of a recording.
 
     Attributes:
-        points: States, in their order.
-        changes: Of the scenario, in their order.
-        inputs: What came from outside, by the tick.
-        is_whole: Whether the file has its end.
+        points: The recorded states, in order.
+        changes: The changes of the scenario, in order.
+        inputs: The external inputs, by tick.
+        is_complete: Whether the file has its end, that is, it is not truncated.
     """
 
     points: list[Point] = field(default_factory=list)
     changes: list[Change] = field(default_factory=list)
     inputs: dict[int, dict[str, Any]] = field(default_factory=dict)
-    is_whole: bool = False
+    is_complete: bool = False
     _run: Mapping[str, str] | None = None
     _attached: dict[str, bytes] = field(default_factory=dict)
     _topics: dict[int, str] = field(default_factory=dict)
 
-    def take_all(self, stream: IO[bytes]) -> None:
-        """Add what a file says up to its end, or where it is cut."""
-        unbroken = cast("IO[bytes]", Unbroken(stream))  # the reader needs no more of a stream
-        reader = StreamReader(unbroken, validate_crcs=True, record_size_limit=MAX_BYTES)
+    def read_all(self, stream: IO[bytes]) -> None:
+        """Add the records of a file, up to its end or to where it is truncated."""
+        exact = cast("IO[bytes]", ExactStream(stream))  # the reader uses only this method
+        reader = StreamReader(exact, validate_crcs=True, record_size_limit=MAX_BYTES)
         with suppress(EndOfFile):
             for record in reader.records:
-                self.take(record)
-            self.is_whole = True
+                self.add(record)
+            self.is_complete = True
 
-    def take(self, record: McapRecord) -> None:
-        """Add what a record says; most say nothing of what is needed here."""
+    def add(self, record: McapRecord) -> None:
+        """Add the contents of a record; most records are for viewers only."""
         match record:
             case Metadata() if record.name == RUN:
                 self._run = record.metadata
@@ -76,62 +76,62 @@ class Recorded:
             case Channel():
                 self._topics[record.id] = record.topic
             case Message():
-                self._take_message(self._topics.get(record.channel_id, ""), record.data)
+                self._add_message(self._topics.get(record.channel_id, ""), record.data)
 
     def identity(self) -> Identity:
-        """Return which run it is.
+        """Return the identity of the run.
 
         Raises:
-            InputError: If what was read does not say so.
+            InputError: If it is missing, or contradicts the other contents.
         """
         if self._run is None:
-            message = f"is no recording of a run: it has no metadata {RUN!r}"
+            message = f"is not a recording of a run: it has no metadata {RUN!r}"
             raise InputError(message)
         identity = read_identity(self._run, self._attached)
-        most = max((point.changes for point in self.points), default=0)
-        if most > len(self.changes):
+        changes = max((point.changes for point in self.points), default=0)
+        if changes > len(self.changes):
             message = (
-                f"is damaged: it has states after {most} changes, and {len(self.changes)} changes"
+                f"is damaged: its states have {changes} changes, but it has {len(self.changes)}"
             )
             raise InputError(message)
         if self.inputs and identity.scenario.engine != "metric":
-            message = "is damaged: it has percepts or commands for robots that take none"
+            message = "is damaged: it has percepts or commands for robots that accept none"
             raise InputError(message)
         return identity
 
-    def _take_message(self, topic: str, data: bytes) -> None:
+    def _add_message(self, topic: str, data: bytes) -> None:
         if topic == "/run":
             run = Entries(f"topic {topic}", json.loads(data))
             self.points.append(Point(run.whole("tick"), run.whole("changes"), run.text("hash")))
         elif topic == "/input":
-            self._take_input(Entries(f"topic {topic}", json.loads(data)))
+            self._add_input(Entries(f"topic {topic}", json.loads(data)))
 
-    def _take_input(self, came: Entries) -> None:
-        each = {name: came.by_name(name) for name in ("percepts", "commands")}
-        self.inputs[came.whole("tick")] = each
+    def _add_input(self, entries: Entries) -> None:
+        each = {name: entries.by_name(name) for name in ("percepts", "commands")}
+        self.inputs[entries.whole("tick")] = each
 
 
 def read(path: Path) -> tuple[Identity, Recorded]:
-    """Read which run a recording is of, and what it says of it.
+    """Read the identity and the contents of a recording.
 
-    A file that is cut, as by a process that was killed, is read as far as it goes.
+    A truncated file, for example of a killed process, is read up to its end.
 
     Raises:
-        InputError: If it cannot be read, is damaged, or is no recording of a run of this program.
+        InputError: If it cannot be read, is damaged, or is not a recording of a run.
     """
     recorded = Recorded()
-    with told(path), path.open("rb") as stream:
-        recorded.take_all(stream)
+    with file_errors(path), path.open("rb") as stream:
+        recorded.read_all(stream)
         identity = recorded.identity()
     return identity, recorded
 
 
 @contextmanager
 def named(path: Path) -> Iterator[None]:
-    """Say of which file it is that something in it cannot be taken.
+    """Add the name of the file to errors of its contents.
 
     Raises:
-        InputError: If so.
+        InputError: If there is such an error.
     """
     try:
         yield
@@ -141,11 +141,11 @@ def named(path: Path) -> Iterator[None]:
 
 
 @contextmanager
-def told(path: Path) -> Iterator[None]:
-    """Say of which file it is, and what is wrong with it, if it cannot be read.
+def file_errors(path: Path) -> Iterator[None]:
+    """Convert all errors of reading a file to one that names it.
 
     Raises:
-        InputError: If so.
+        InputError: If there is such an error.
     """
     try:
         with named(path):
@@ -154,30 +154,30 @@ def told(path: Path) -> Iterator[None]:
         raise
     except OSError as error:
         message = f"{path}: cannot be read: {error.strerror or error}"
-        if error.errno == EINVAL:  # an index sent the reader to before the file's beginning
+        if error.errno == EINVAL:  # an index points to before the start of the file
             message = f"{path}: is damaged: parts are missing"
-    # What libraries raise for damaged bytes is listed nowhere.
+    # The exceptions that the libraries raise for damaged bytes are not documented.
     except Exception as error:  # noqa: BLE001
         is_missing = isinstance(error, EndOfFile | LookupError)
         why = "parts are missing" if is_missing else str(error) or type(error).__name__
-        message = f"{path}: is no MCAP file, or damaged: {why}"
+        message = f"{path}: is not an MCAP file, or is damaged: {why}"
     else:
         return
     raise InputError(message)
 
 
-class Unbroken:
-    """A stream that gives all of what is asked for, or says that it is cut.
+class ExactStream:
+    """A stream that returns exactly the requested number of bytes, or raises `EndOfFile`.
 
-    The reader takes a cut for damage where it is in the middle of a number.
+    Otherwise, the reader reports damage if the file is truncated within a number.
     """
 
     def __init__(self, stream: IO[bytes]) -> None:
-        """Begin where a stream is."""
+        """Wrap a stream at its current position."""
         self._stream = stream
 
     def read(self, length: int) -> bytes:
-        """Return so many bytes.
+        """Return the next `length` bytes.
 
         Raises:
             EndOfFile: If there are fewer.

@@ -1,4 +1,4 @@
-"""A run on its way into a file."""
+"""Records a run."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -17,20 +17,20 @@ from agent_economy.runs.outcome import Outcome
 from agent_economy.runs.stepped import Stepped
 from agent_economy.scenario import Source, validation
 
-ENDING = ".mcap"
-"""Of the names of recordings."""
+SUFFIX = ".mcap"
+"""Suffix of the file names of recordings."""
 
 FLUSH_NS = 5 * SECOND_NS
-"""What is simulated in this time is lost if the process is killed; shorter takes more room."""
+"""Simulated time that a kill of the process loses; shorter intervals make larger files."""
 
 
 class Recording:
-    """A run on its way into a file in MCAP, which Foxglove shows and `replay` takes again.
+    """Records a run to an MCAP file, which Foxglove displays and `replay` replays.
 
-    Use it as a context manager, and step it instead of the simulation.
+    Use it as a context manager, and step the recording instead of the simulation.
 
     Attributes:
-        simulation: The run; between two steps it can be looked at and changed.
+        simulation: The run; it can be inspected and changed between two steps.
     """
 
     simulation: Stepped
@@ -43,36 +43,35 @@ class Recording:
         every: int = 1,
         percepts: Sequence[str] = (),
     ) -> None:
-        """Begin a recording, with the run as it is now.
+        """Start a recording at the current step of the run.
 
         Args:
-            simulation: The run, a `Simulation` or a `ClassicSimulation`; at its beginning, or what
-                came before cannot be taken again but for its changes.
-            path: The file, NAME.mcap; one that is there is written anew, but for one that the
-                scenario was read from.
-            every: Steps from one recorded moment to the next, 1 or more.
-            percepts: Names of robots, KIND/INDEX, of which all is recorded that their brains
-                perceive and want, and their range scans, in every step. None by default: those of
-                all robots take some twenty times the room of all the rest. Robots of the classic
-                engine have none.
+            simulation: The run, a `Simulation` or a `ClassicSimulation`, at its first step. Of a
+                later start, only the changes of the scenario can be replayed, not other inputs.
+            path: The file, NAME.mcap. It replaces an existing file, unless the scenario was read
+                from that file.
+            every: Number of steps per recorded step, 1 or more.
+            percepts: Names of robots, KIND/INDEX, of which the percepts, commands and range scans
+                are recorded in each step. None by default: those of all robots take about twenty
+                times the space of everything else. Not available for the classic engine.
 
         Raises:
             InputError: If an argument is not allowed, or the file cannot be written.
         """
-        chosen = validation.texts("percepts", percepts, "a list of robots' names")
+        selected = validation.texts("percepts", percepts, "a list of robot names")
         path = validation.path("path", path)
-        self._engine = check(simulation, path, every, chosen)
+        self._engine = check(simulation, path, every, selected)
         self.simulation = simulation
-        self._every, self._chosen = every, chosen
+        self._every, self._selected = every, selected
         self._clock = Clock(simulation.step_s)
         self._file = File(path)
         self._flushed_ns = self._clock.time_ns(simulation.tick)
         self._changes = simulation.changes[:0]
         self._files: set[str] = set()
-        self._found: set[str] = set()
+        self._logged: set[str] = set()
         write_identity(self._file, simulation)
-        self._take_in_scenario()
-        # Whoever finds the file of a killed process can see which run it was.
+        self._write_scenario()
+        # The file of a killed process must identify its run.
         self._file.flush()
 
     def step(
@@ -82,39 +81,39 @@ class Recording:
         percepts: Mapping[str, Percept] | None = None,
         commands: Mapping[str, Command] | None = None,
     ) -> dict[str, Command]:
-        """Take steps as `step` of the simulation does, and record them.
+        """Advance as `step` of the simulation does, and record the steps.
 
         Raises:
-            InputError: If anything is not allowed, as percepts and commands for robots of the
-                classic engine, the recording is closed, or the simulation was put back to an
-                earlier moment.
-            RecordingError: If the disk takes no more; the recording is closed then.
+            InputError: If an argument is not allowed (the classic engine takes no percepts or
+                commands), the recording is closed, or the simulation was restored to an earlier
+                step.
+            RecordingError: If the file cannot be written. The recording is then closed.
         """
-        self._keep_up()
+        self._check_simulation()
         if percepts is not None or commands is not None:
             return self._step(steps, percepts, commands)
         validation.check(validation.is_whole(steps, 0), "steps", steps, "a whole number, 0 or more")
         for _ in range(steps):
             tick = self.simulation.tick
             self._step(1, None, None)
-            if self.simulation.tick == tick:  # a classic run that is over stands
+            if self.simulation.tick == tick:  # a finished classic run does not advance
                 break
         return {}
 
     def finish(self) -> Outcome:
-        """Take steps until the run is over, and record them; Ctrl-C stops between two."""
+        """Advance to the end of the run, and record all steps. Ctrl-C stops between two steps."""
         while not self.simulation.is_over:
             self.step()
         return self.simulation.outcome()
 
     def note(self) -> None:
-        """Record the run as it is now, for whoever steps the simulation itself.
+        """Record the current step, if you step the simulation itself.
 
         Raises:
-            InputError: If the recording is closed, or the simulation was put back to an earlier
-                moment.
+            InputError: If the recording is closed, or the simulation was restored to an earlier
+                step.
         """
-        self._keep_up()
+        self._check_simulation()
         time_ns = self._clock.time_ns(self.simulation.tick)
         if self.simulation.tick != self._moments.tick:
             self._moments.write(time_ns)
@@ -123,7 +122,7 @@ class Recording:
             self._flushed_ns = time_ns
 
     def close(self) -> None:
-        """Record the last moment and the outcome so far, and close the file."""
+        """Record the current step and the outcome, and close the file."""
         if not self._file.is_open:
             return
         try:
@@ -141,7 +140,7 @@ class Recording:
         return self
 
     def __exit__(self, *_: object) -> None:
-        """Close it, whatever has happened."""
+        """Close the recording, also after an exception."""
         self.close()
 
     def _step(
@@ -150,7 +149,7 @@ class Recording:
         percepts: Mapping[str, Percept] | None,
         commands: Mapping[str, Command] | None,
     ) -> dict[str, Command]:
-        self._keep_up()
+        self._check_simulation()
         tick = self.simulation.tick
         try:
             return self._moments.step(steps, percepts, commands, self._clock.time_ns(tick))
@@ -158,62 +157,67 @@ class Recording:
             if self.simulation.tick > tick and self.simulation.tick % self._every == 0:
                 self.note()
 
-    def _keep_up(self) -> None:
-        """Take in what was done to the simulation since the last step."""
+    def _check_simulation(self) -> None:
+        """Check that the simulation continues from the recorded step, and write its changes."""
         if not self._file.is_open:
-            message = "the recording is closed: step the simulation itself, or record it anew"
+            message = (
+                "the recording is closed: step the simulation itself, or start a new recording"
+            )
             raise InputError(message)
         simulation, seen = self.simulation, self._changes
         if simulation.tick < self._moments.tick or simulation.changes[: len(seen)] != seen:
-            message = "the simulation was put back: must go on from where it was recorded last"
+            message = (
+                "the simulation was restored to an earlier step: it must continue from the "
+                "last recorded step"
+            )
             raise InputError(message)
         if simulation.changes != seen:
-            self._take_in_scenario()
+            self._write_scenario()
 
-    def _take_in_scenario(self) -> None:
-        """Write what was changed, the files that came with it, and the scene as it now is."""
+    def _write_scenario(self) -> None:
+        """Write the changes, newly referenced files, and the scene."""
         simulation = self.simulation
-        self._clock.go_on(simulation.tick, simulation.step_s)
+        self._clock.set_step(simulation.tick, simulation.step_s)
         time_ns = self._clock.time_ns(simulation.tick)
         files = simulation.scenario.source.files
         write_files(self._file, files, self._files)
         self._files |= files.keys()
         for change in simulation.changes[len(self._changes) :]:
             write_change(self._file, change)
-            words = f"{change.path} = {change.value!r}"
-            self._file.write("/log", log(time_ns, Log.INFO, "scenario", words), time_ns)
+            message = f"{change.path} = {change.value!r}"
+            self._file.write("/log", log(time_ns, Log.INFO, "scenario", message), time_ns)
         self._changes = simulation.changes
         self._moments = self._engine.moments(
-            self._file, simulation, self._chosen, self._found, time_ns
+            self._file, simulation, self._selected, self._logged, time_ns
         )
 
 
 def check(simulation: Stepped, path: Path, every: int, percepts: Sequence[str]) -> engines.Engine:
-    """See to it that arguments are allowed, and return what is recorded of such runs.
+    """Check the arguments of a recording, and return the engine of the run.
 
     Raises:
-        InputError: If one is not; all faults at once.
+        InputError: If an argument is not allowed; it lists all errors.
     """
     engine = engines.of(simulation)
-    faults = []
-    if path.suffix != ENDING:
-        faults.append(f"{path}: a recording's name must end in {ENDING}")
+    errors = []
+    if path.suffix != SUFFIX:
+        errors.append(f"{path}: the name of a recording must end in {SUFFIX}")
     elif engine and is_read_from(simulation.scenario.source, path):
-        faults.append(f"{path}: must be another file than what the scenario is read from")
+        errors.append(f"{path}: must not be a file that the scenario was read from")
     if engine:
-        faults += engine.faults(simulation, percepts)
+        errors += engine.errors(simulation, percepts)
     runs = "a Simulation or a ClassicSimulation"
-    faults += validation.errors_unless(engine is not None, "simulation", simulation, runs)
-    faults += validation.errors_unless(
+    errors += validation.errors_unless(engine is not None, "simulation", simulation, runs)
+    errors += validation.errors_unless(
         validation.is_whole(every, 1), "every", every, "a whole number, 1 or more"
     )
-    if faults or engine is None:
-        raise InputError("\n".join(faults))
+    if errors or engine is None:
+        raise InputError("\n".join(errors))
     return engine
 
 
 def is_read_from(source: Source, path: Path) -> bool:
-    """Return whether a file is a scenario's own, or one that it names."""
+    """Return whether a file is that of a scenario, or one that it refers to."""
     own = Path(source.file)
     files = (own, *(own.parent / name for name in source.files))
     return path.exists() and any(file.exists() and file.samefile(path) for file in files)

@@ -1,4 +1,4 @@
-"""Taking a recorded run again, to see whether the same comes of it."""
+"""Replays a recorded run and verifies that it is reproduced."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -15,45 +15,46 @@ from agent_economy.scenario import Scenario, validation
 
 @dataclass(frozen=True)
 class Replay:
-    """A recorded run, taken again.
+    """The result of replaying a recorded run.
 
     Attributes:
-        scenario: What the run began with.
-        seed: Of all chance.
-        run: Its number.
-        program: The version that recorded it.
-        is_whole: Whether the file has its end; of one that is cut, what is there was compared.
-        tick: Steps to the last state that was compared.
-        hash: Of that state, as it is now: 64 bits, hexadecimal.
-        differs_at: Steps to the first recorded state that is not the same now; None if all are.
-        outcome: What the run has given.
+        scenario: The initial scenario.
+        seed: Seed of all random numbers.
+        run: Run number.
+        program: The version of the program that recorded it.
+        is_complete: Whether the file is complete; a truncated file is compared up to its end.
+        tick: Tick of the last compared state.
+        hash: Hash of that state in the replay: 64 bits, hexadecimal.
+        mismatch_tick: Tick of the first recorded state that the replay does not reproduce; None if
+            it reproduces all.
+        outcome: The outcome of the replay.
     """
 
     scenario: Scenario
     seed: int
     run: int
     program: str
-    is_whole: bool
+    is_complete: bool
     tick: int
     hash: str
-    differs_at: int | None
+    mismatch_tick: int | None
     outcome: Outcome
 
     @property
     def agrees(self) -> bool:
-        """Whether every recorded state came again."""
-        return self.differs_at is None
+        """Whether the replay reproduces all recorded states."""
+        return self.mismatch_tick is None
 
 
 def replay(path: str | Path) -> Replay:
-    """Take a recorded run again, from its file alone; Ctrl-C stops it between two steps.
+    """Replay a recorded run from its file alone. Ctrl-C stops it between two steps.
 
     Args:
-        path: A file that `Recording` wrote; one that is cut is compared as far as it goes.
+        path: A recording. A truncated file is compared up to its end.
 
     Raises:
-        InputError: If the file cannot be read, is damaged, is no recording of a run, or this
-            version does not take its scenario any more.
+        InputError: If the file cannot be read, is damaged, is not a recording of a run, or contains
+            a scenario that this version does not accept.
     """
     path = validation.path("path", path)
     identity, recorded = read(path)
@@ -63,23 +64,23 @@ def replay(path: str | Path) -> Replay:
 
 
 def compared(simulation: Stepped, identity: Identity, recorded: Recorded) -> Replay:
-    """Take a run again, and compare it with what was recorded."""
-    differs_at = None
+    """Replay a run, and compare it with the recorded states."""
+    mismatch_tick = None
     for point in recorded.points:
         changes = recorded.changes[: point.changes]
         for _ in replay_steps(simulation, simulation.step, changes, recorded.inputs, point.tick):
             pass
-        if differs_at is None and f"{simulation.hash:016x}" != point.hash:
-            differs_at = point.tick
+        if mismatch_tick is None and f"{simulation.hash:016x}" != point.hash:
+            mismatch_tick = point.tick
     return Replay(
         scenario=identity.scenario,
         seed=identity.seed,
         run=identity.run,
         program=identity.program,
-        is_whole=recorded.is_whole,
+        is_complete=recorded.is_complete,
         tick=simulation.tick,
         hash=f"{simulation.hash:016x}",
-        differs_at=differs_at,
+        mismatch_tick=mismatch_tick,
         outcome=simulation.outcome(),
     )
 
@@ -91,14 +92,14 @@ def replay_steps(
     inputs: Mapping[int, Mapping[str, Any]],
     until: int,
 ) -> Iterator[int]:
-    """Take a run again up to a tick, or as far as it goes; yield each tick that has been come to.
+    """Replay a run up to a tick or to its end; yield each tick that it reaches.
 
     Args:
-        simulation: The run, where it is.
-        step: What steps it, as `Simulation.step` does.
-        changes: All of its changes, in order; those that it does not have yet are made.
-        inputs: What came into it from outside, by the tick, as `step` takes it.
-        until: The tick.
+        simulation: The run, which is advanced.
+        step: Advances it, as `Simulation.step` does.
+        changes: All changes of the recorded run, in order; those still missing are made.
+        inputs: The external inputs by tick, as keyword arguments of `step`.
+        until: The last tick.
     """
     while True:
         tick = simulation.tick
@@ -107,6 +108,6 @@ def replay_steps(
         if tick >= until:
             return
         step(1, **inputs.get(tick, {}))
-        if simulation.tick == tick:  # a classic run that is over stands
+        if simulation.tick == tick:  # a finished classic run does not advance
             return
         yield simulation.tick

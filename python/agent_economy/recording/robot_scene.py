@@ -1,4 +1,4 @@
-"""What moves in a scene: robots."""
+"""The robots of a scene."""
 
 from collections.abc import Sequence
 
@@ -21,10 +21,10 @@ Floats = NDArray[np.float64]
 
 
 class Frames:
-    """The robots' frames: the same message again and again, with other numbers in it."""
+    """The frames of the robots: one message object, updated for each step."""
 
     def __init__(self, names: Sequence[str]) -> None:
-        """Begin with the robots' names, which are those of their frames."""
+        """Create the frames, which have the names of the robots."""
         self._message = FrameTransforms(
             transforms=[
                 FrameTransform(
@@ -40,7 +40,7 @@ class Frames:
         self._parts = [(one.timestamp, one.translation, one.rotation) for one in each]
 
     def at(self, time_ns: int, poses: Floats, half_turns: Floats) -> FrameTransforms:
-        """Return where the robots are; the next call changes what this one returned."""
+        """Return the frames at one time; the next call changes the returned object."""
         now = stamp(time_ns)
         rows = zip(self._parts, poses.tolist(), half_turns.tolist(), strict=True)
         for (when, place, turn), (x, y, _), (sine, cosine) in rows:
@@ -51,7 +51,7 @@ class Frames:
 
 
 def robot(name: str, paint: str, radius_m: float, low_m: float = 0) -> SceneEntity:
-    """Return a robot's body, which goes where its frame goes; drawn from a height on."""
+    """Return the body of a robot in its frame, drawn from a height upwards."""
     high_m = low_m + radius_m
     body = cylinder((0, 0), radius_m, (low_m, high_m), color(paint, 0.9))
     ahead = arrow(1.5 * radius_m, high_m, color(AHEAD))

@@ -1,4 +1,4 @@
-"""JSON Schemas of what recordings hold that Foxglove has no schema for."""
+"""JSON Schemas of the topics for which Foxglove has no schema."""
 
 import json
 from collections.abc import Mapping
@@ -10,13 +10,13 @@ from agent_economy import _core
 NUMBER = {"type": "number"}
 INTEGER = {"type": "integer", "minimum": 0}
 SIGNED = {"type": "integer"}
-TEXT = {"type": "string"}
+STRING = {"type": "string"}
 
 Schema = Mapping[str, Any]
 
 
 def of_object(title: str, description: str, properties: Mapping[str, Schema]) -> str:
-    """Return the schema of an object that has all of these properties and no others."""
+    """Return the schema of an object with exactly these properties."""
     return json.dumps(
         {
             "$schema": "https://json-schema.org/draft/2020-12/schema",
@@ -31,73 +31,78 @@ def of_object(title: str, description: str, properties: Mapping[str, Schema]) ->
 
 
 def each(description: str, kind: Schema = NUMBER) -> Schema:
-    """Return the schema of a list with an entry a robot."""
+    """Return the schema of a list with one entry per robot."""
     return {"type": "array", "items": kind, "description": description}
 
 
-OF_ALL_RUNS: dict[str, Schema] = {
-    "tick": INTEGER | {"description": "Steps that have been taken."},
-    "hash": TEXT | {"description": "Tells states apart: 64 bits, hexadecimal."},
-    "changes": INTEGER | {"description": "Changes of the scenario so far."},
-    "found": INTEGER | {"description": "Items found so far."},
+OF_ALL_ENGINES: dict[str, Schema] = {
+    "tick": INTEGER | {"description": "Number of steps taken."},
+    "hash": STRING | {"description": "Hash of the state: 64 bits, hexadecimal."},
+    "changes": INTEGER | {"description": "Number of changes of the scenario."},
+    "found": INTEGER | {"description": "Number of items found."},
 }
 
 RUN = of_object(
     "agent_economy.Run",
-    "Where a run is.",
-    {**OF_ALL_RUNS, "stopped": INTEGER | {"description": "Robots that cannot go on."}},
+    "The progress of a run.",
+    {
+        **OF_ALL_ENGINES,
+        "stopped": INTEGER | {"description": "Number of robots that are empty or broken."},
+    },
 )
 
 CLASSIC_RUN = of_object(
     "agent_economy.ClassicRun",
-    "Where a run of the classic engine is.",
+    "The progress of a run of the classic engine.",
     {
-        **OF_ALL_RUNS,
-        "carry": SIGNED | {"description": "The score with which the next robot begins to decide."},
-        "decides_in": INTEGER | {"description": "Steps until the team decides next."},
+        **OF_ALL_ENGINES,
+        "carry": SIGNED
+        | {"description": "The left-slow score that the next robot to decide starts with."},
+        "decides_in": INTEGER
+        | {"description": "Number of steps until the next decision of the team."},
     },
 )
 
 TEAM = of_object(
     "agent_economy.Team",
-    "The robots, in the order of all lists of robots.",
+    "The robots, in the order of all lists with one entry per robot.",
     {
-        "robots": each("KIND/INDEX, which is also the name of the robot's frame.", TEXT),
-        "radius_m": each("Of the disc that it covers."),
-        "is_flying": each("Whether it is in the air.", {"type": "boolean"}),
+        "robots": each("Name, KIND/INDEX, which is also the name of the robot's frame.", STRING),
+        "radius_m": each("Radius of the footprint."),
+        "is_flying": each("Whether it flies.", {"type": "boolean"}),
     },
 )
 
 ROBOTS = of_object(
     "agent_economy.Robots",
-    "How each robot is.",
+    "The state of each robot.",
     {
-        "x_m": each("Where its centre is."),
-        "y_m": each("Where its centre is."),
-        "heading_rad": each("Its course: 0 along x, anticlockwise, from -pi to pi."),
-        "speed_m_s": each("Ahead."),
-        "wanted_speed_m_s": each("What its brain wants."),
-        "wanted_turn_rate_rad_s": each("What its brain wants, anticlockwise."),
-        "status": each("Whether it can go on.", {"enum": ["active", "empty", "broken"]}),
-        "battery": each("Share that is left; 1 if it never empties."),
-        "collisions": each("New contacts that it has had.", INTEGER),
+        "x_m": each("Position of the centre."),
+        "y_m": each("Position of the centre."),
+        "heading_rad": each("Heading: 0 along x, anticlockwise, from -pi to pi."),
+        "speed_m_s": each("Forward speed."),
+        "commanded_speed_m_s": each("Forward speed commanded by the brain."),
+        "commanded_turn_rate_rad_s": each("Turn rate commanded by the brain, anticlockwise."),
+        "status": each("Status of the robot.", {"enum": ["active", "empty", "broken"]}),
+        "battery": each("State of charge, 0 to 1; 1 for a battery without a limited capacity."),
+        "collisions": each("Number of collisions.", INTEGER),
     },
 )
 
 CLASSIC_ROBOTS = of_object(
     "agent_economy.ClassicRobots",
-    "How each robot of the classic engine is; a cell is a metre.",
+    "The state of each robot of the classic engine; a cell is one metre wide.",
     {
-        "x_m": each("Where it is drawn."),
-        "y_m": each("Where it is drawn, upwards."),
-        "heading_rad": each("Where it goes: 0 along x, anticlockwise, above -pi, to pi."),
-        "column": each("Of its cell, to the right.", SIGNED),
-        "row": each("Of its cell, downwards.", SIGNED),
-        "speed": each("Cells a decision.", SIGNED),
-        "left_turns": each("As far as they count.", SIGNED),
-        "right_turns": each("As far as they count.", SIGNED),
+        "x_m": each("Drawn position."),
+        "y_m": each("Drawn position, upwards."),
+        "heading_rad": each("Heading: 0 along x, anticlockwise, above -pi, up to pi."),
+        "column": each("Column of its cell, to the right.", SIGNED),
+        "row": each("Row of its cell, downwards.", SIGNED),
+        "speed": each("Cells per decision.", SIGNED),
+        "left_turns": each("Counter of left turns.", SIGNED),
+        "right_turns": each("Counter of right turns.", SIGNED),
         "colour": each(
-            "Since the last decision: yellow if something is near, red if on a shared cell.",
+            "Colour since the last decision: yellow if something is near, red on a shared cell.",
             {"enum": ["blue", "yellow", "red"]},
         ),
     },
@@ -105,11 +110,14 @@ CLASSIC_ROBOTS = of_object(
 
 INPUT = of_object(
     "agent_economy.Input",
-    "What came into the next step from outside, by robots: without it there is no replay.",
+    "The external inputs of the next step, by robot name. A replay needs them.",
     {
-        "tick": INTEGER | {"description": "Steps that had been taken."},
-        "percepts": {"type": "object", "description": "Of robots whose bodies are outside."},
-        "commands": {"type": "object", "description": "Instead of what brains would decide."},
+        "tick": INTEGER | {"description": "Number of steps taken."},
+        "percepts": {"type": "object", "description": "Percepts of external bodies."},
+        "commands": {
+            "type": "object",
+            "description": "Commands that replace the decisions of brains.",
+        },
     },
 )
 
@@ -117,7 +125,7 @@ OUTCOME = json.dumps(
     {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "agent_economy.Outcome",
-        "description": "What a run has given, by the columns of a table of runs.",
+        "description": "The outcome of a run, by the columns of a table of runs.",
         "type": "object",
         "required": ["status"],
     }
@@ -126,6 +134,6 @@ OUTCOME = json.dumps(
 
 @cache
 def exchanged(name: str) -> str:
-    """Return the schema of what enters or leaves a brain: "Percept" or "Command"."""
+    """Return the schema of a message of brains: "Percept" or "Command"."""
     schema = _core.Brain.schemas()[name]
     return json.dumps(schema | {"title": f"agent_economy.{name}"})

@@ -1,4 +1,4 @@
-"""What stands still in a scene, as long as the scenario does not change."""
+"""The static parts of a scene, which change only with the scenario."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
@@ -24,20 +24,20 @@ from agent_economy.recording.foxglove import (
 )
 
 WALL_M = 0.5
-"""How high obstacles are drawn: the simulator has no heights."""
+"""Drawn height of obstacles; the simulator has no heights."""
 
 FONT_PX = 12.0
 
 BORDER, OBSTACLE, GROUND = "#4c566a", "#7b8494", "#a3773f"
 
 FREE, UNKNOWN, OCCUPIED = (236, 239, 244, 255), (176, 182, 192, 255), (59, 66, 82, 255)
-"""Red, green, blue and alpha of a map's cells."""
+"""Red, green, blue and alpha of the cells of a map."""
 
-WHOLLY_OCCUPIED = 100
+FULLY_OCCUPIED = 100
 
 
 def still(document: Mapping[str, Any]) -> list[SceneEntity]:
-    """Return the border, the obstacles but maps, and kinds of ground of a scenario's document."""
+    """Return the border, the obstacles except maps, and the terrain of a scenario's document."""
     width_m, height_m = document["world"]["size_m"]
     corners = [(0, 0), (width_m, 0), (width_m, height_m), (0, height_m)]
     border = SceneEntity(frame_id=WORLD, id="border", lines=[loop(corners, color(BORDER))])
@@ -51,7 +51,7 @@ def still(document: Mapping[str, Any]) -> list[SceneEntity]:
 
 
 def obstacle(name: str, given: Mapping[str, Any]) -> SceneEntity:
-    """Return a polygon or a circle as something that stands on the ground."""
+    """Return a polygon or a circle as a solid on the ground."""
     paint = color(OBSTACLE)
     if "circle" in given:
         circle = given["circle"]
@@ -64,7 +64,7 @@ def obstacle(name: str, given: Mapping[str, Any]) -> SceneEntity:
 
 
 def walls_of(corners: Sequence[Place]) -> Iterator[Point3]:
-    """Yield the corners of two triangles for each side of a polygon."""
+    """Yield the corners of two triangles per side of a polygon."""
     for (x, y), (next_x, next_y) in zip(corners, [*corners[1:], corners[0]], strict=True):
         low, high = Point3(x=x, y=y), Point3(x=x, y=y, z=WALL_M)
         next_low, next_high = Point3(x=next_x, y=next_y), Point3(x=next_x, y=next_y, z=WALL_M)
@@ -72,7 +72,7 @@ def walls_of(corners: Sequence[Place]) -> Iterator[Point3]:
 
 
 def areas(name: str, polygons: Sequence[Sequence[Place]]) -> Iterator[SceneEntity]:
-    """Yield the areas of a kind of ground, each with its name."""
+    """Yield the areas of a terrain class, each with its name."""
     paint = color(GROUND)
     for number, corners in enumerate(polygons):
         at = np.mean(corners, axis=0)
@@ -83,7 +83,7 @@ def areas(name: str, polygons: Sequence[Sequence[Place]]) -> Iterator[SceneEntit
 
 
 def grid(given: Mapping[str, Any], time_ns: int) -> Grid:
-    """Return a map with colours of its own: panels show them without being told how."""
+    """Return a map with explicit colours, which panels display without configuration."""
     occupancy: NDArray[np.int8] = given["occupancy"]
     side_m = given["resolution_m"]
     names = ("red", "green", "blue", "alpha")
@@ -113,15 +113,15 @@ def painted(occupancy: NDArray[np.int8]) -> NDArray[np.uint8]:
 
 
 def states(occupancy: NDArray[np.int8]) -> NDArray[np.uint8]:
-    """Return of each cell, shape (rows, columns), 0 if it is free, 1 unknown, 2 occupied."""
-    each: NDArray[np.uint8] = (occupancy != 0).astype(np.uint8) + (occupancy == WHOLLY_OCCUPIED)
+    """Return the state of each cell, shape (rows, columns): 0 free, 1 unknown, 2 occupied."""
+    each: NDArray[np.uint8] = (occupancy != 0).astype(np.uint8) + (occupancy == FULLY_OCCUPIED)
     return each
 
 
 def half_turn_of(corners_m: Sequence[Place]) -> tuple[float, float]:
-    """Return sine and cosine of half the angle from x to a map's lower side.
+    """Return the sine and cosine of half the angle from x to the lower side of a map.
 
-    By square roots alone, which are the same on every machine.
+    It uses only square roots, which are the same on every machine.
     """
     (x, y), (end_x, end_y) = corners_m[:2]
     along, across = end_x - x, end_y - y

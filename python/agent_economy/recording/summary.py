@@ -1,4 +1,4 @@
-"""What a recording is of, from its two ends: for lists of many, however large each is."""
+"""Summaries of recordings, read from the start and end of each file, however large it is."""
 
 import os
 from dataclasses import dataclass
@@ -13,23 +13,23 @@ from agent_economy._core import InputError
 from agent_economy.recording.fields import Entries
 from agent_economy.recording.foxglove import SECOND_NS
 from agent_economy.recording.identity import END, RUN, read_run
-from agent_economy.recording.reading import MAX_BYTES, Unbroken, told
+from agent_economy.recording.reading import MAX_BYTES, ExactStream, file_errors
 
 MAGIC = b"\x89MCAP0\r\n"
-"""What files in MCAP begin and end with."""
+"""First and last bytes of an MCAP file."""
 
 
 @dataclass(frozen=True)
 class RecordingSummary:
-    """What a recording is of.
+    """The summary of a recording.
 
     Attributes:
-        scenario: The name of the file that the scenario was read from.
-        seed: Of all chance.
-        run: Its number.
-        program: The version that recorded it.
-        steps: How long it is; None if the file is cut, so that this takes reading it all.
-        length_s: The same in the world.
+        scenario: Name of the file that the scenario was read from.
+        seed: Seed of all random numbers.
+        run: Run number.
+        program: The version of the program that recorded it.
+        steps: Number of steps; None if the file is truncated, because that requires reading it all.
+        length_s: Simulated time of the steps; None as for `steps`.
     """
 
     scenario: str
@@ -41,12 +41,12 @@ class RecordingSummary:
 
 
 def summarise(path: Path) -> RecordingSummary:
-    """Read what a recording is of, without what is between its ends.
+    """Read the summary of a recording.
 
     Raises:
-        InputError: If it cannot be read, is damaged, or is no recording of a run of this format.
+        InputError: If it cannot be read, is damaged, or is not a recording of a run.
     """
-    with told(path), path.open("rb") as stream:
+    with file_errors(path), path.open("rb") as stream:
         run = beginning(stream)
         end = ending(stream)
         return RecordingSummary(
@@ -59,23 +59,23 @@ def summarise(path: Path) -> RecordingSummary:
 
 
 def beginning(stream: IO[bytes]) -> Entries:
-    """Return which run it is, which is written before all else.
+    """Return the entries that identify the run, which are the first of a recording.
 
     Raises:
-        InputError: If it is no recording of a run, or of another format.
+        InputError: If it is not a recording of a run, or has another format.
     """
-    unbroken = cast("IO[bytes]", Unbroken(stream))  # the reader needs no more of a stream
-    records = StreamReader(unbroken, record_size_limit=MAX_BYTES).records
+    exact = cast("IO[bytes]", ExactStream(stream))  # the reader uses only this method
+    records = StreamReader(exact, record_size_limit=MAX_BYTES).records
     next(records)  # the header
     first = next(records)
     if not isinstance(first, Metadata) or first.name != RUN:
-        message = f"is no recording of a run: it does not begin with metadata {RUN!r}"
+        message = f"is not a recording of a run: it does not begin with metadata {RUN!r}"
         raise InputError(message)
     return read_run(first.metadata)
 
 
 def ending(stream: IO[bytes]) -> tuple[int, float] | None:
-    """Return how many steps there are, and seconds in the world; None if the file is cut."""
+    """Return the number of steps and the simulated time; None if the file is truncated."""
     stream.seek(-len(MAGIC), os.SEEK_END)
     if stream.read() != MAGIC:
         return None
@@ -89,7 +89,7 @@ def ending(stream: IO[bytes]) -> tuple[int, float] | None:
     stream.seek(places[-1])
     end = next(StreamReader(stream, skip_magic=True, record_size_limit=MAX_BYTES).records)
     if not isinstance(end, Metadata):
-        message = f"is damaged: its index says of another record that it is metadata {END!r}"
+        message = f"is damaged: its index refers to another record as metadata {END!r}"
         raise InputError(message)
     tick = Entries(f"metadata {END!r}", end.metadata).whole("tick")
     return tick, summary.statistics.message_end_time / SECOND_NS

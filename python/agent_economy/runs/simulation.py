@@ -121,8 +121,7 @@ class Simulation(Stepped):
                 the robot's brain in this step, and holds until the brain steps again.
 
         Returns:
-            The commands of the robots in `percepts`, by name. The command of an empty or broken
-            robot is zero.
+            The commands of the robots in `percepts`, by name. Empty and broken robots have none.
 
         Raises:
             InputError: If an argument is not allowed; it lists all errors. The run does not

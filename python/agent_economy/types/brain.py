@@ -411,16 +411,6 @@ class Contact(TypedDict):
     age_s: float
 
 
-Heard = TypedDict("Heard", {"from": RobotId, "age_s": float, "message": Message})
-"""A received message.
-
-Attributes:
-    from: The sender.
-    age_s: Time since it was sent.
-    message: The message.
-"""
-
-
 class MotionReading(TypedDict):
     """A value, and its age.
 
@@ -514,6 +504,18 @@ class Scan(TypedDict):
     ranges_m: NotRequired[Sequence[float | None]]
 
 
+ReceivedMessage = TypedDict(
+    "ReceivedMessage", {"from": RobotId, "age_s": float, "message": Message}
+)
+"""A received message.
+
+Attributes:
+    from: The sender.
+    age_s: Time since it was sent.
+    message: The message.
+"""
+
+
 class Percept(TypedDict):
     """All that a robot knows at one moment; any part may be missing.
 
@@ -552,4 +554,4 @@ class Percept(TypedDict):
     observations: NotRequired[Sequence[Observation]]
     contacts: NotRequired[Sequence[Contact]]
     neighbours: NotRequired[Sequence[Neighbour]]
-    inbox: NotRequired[Sequence[Heard]]
+    inbox: NotRequired[Sequence[ReceivedMessage]]

@@ -7,7 +7,7 @@ export class FakeRecordings {
       bytes: 19,
       saved_at_s: 1.6e9,
       run: null,
-      error: "is no MCAP file, or damaged: not a valid MCAP file",
+      error: "is not an MCAP file, or is damaged: not a valid MCAP file",
     };
     const made = { scenario: "search", text: null, seed: "3", run: "0" };
     this.put("field.mcap", { ...made, changes: [[20, "robots.rover.count", 6]], edge: 200 });

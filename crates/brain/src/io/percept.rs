@@ -43,7 +43,7 @@ pub struct Percept {
     /// Robots that its sensors detected since the last step.
     pub neighbours: Vec<Neighbour>,
     /// Messages received since the last step.
-    pub inbox: Vec<Heard>,
+    pub inbox: Vec<ReceivedMessage>,
 }
 
 /// A value, and its age.
@@ -118,7 +118,7 @@ pub struct Neighbour {
 /// A received message.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Heard {
+pub struct ReceivedMessage {
     /// The sender.
     pub from: RobotId,
     /// Time since it was sent.

@@ -1,6 +1,6 @@
 //! Messages in transit.
 
-use brain::{Heard, Message};
+use brain::{Message, ReceivedMessage};
 use std::collections::VecDeque;
 
 /// Messages in transit, by the step in which they arrive.
@@ -19,7 +19,7 @@ pub(crate) struct RadioChannel {
 pub(crate) struct Transmission {
     pub(crate) to: u32,
     pub(crate) at: u64,
-    pub(crate) heard: Heard,
+    pub(crate) heard: ReceivedMessage,
 }
 
 /// A message that a robot sends, and its number among those that it sends in this step.
@@ -45,7 +45,7 @@ impl RadioChannel {
     }
 
     /// Keeps the messages for which `is_kept` returns true; it may change them.
-    pub(crate) fn retain(&mut self, mut is_kept: impl FnMut(&mut Heard) -> bool) {
+    pub(crate) fn retain(&mut self, mut is_kept: impl FnMut(&mut ReceivedMessage) -> bool) {
         for list in &mut self.due {
             list.retain_mut(|sent| is_kept(&mut sent.heard));
         }
@@ -55,7 +55,7 @@ impl RadioChannel {
     /// least 1.
     pub(crate) fn send(
         &mut self,
-        sent: Heard,
+        sent: ReceivedMessage,
         (tick, delay_steps): (u64, u64),
         receivers: impl Iterator<Item = u32>,
     ) {

@@ -2,7 +2,7 @@
 
 use super::state::{BodyState, State};
 use crate::scenario::Scenario;
-use brain::{About, Heard, RobotId};
+use brain::{About, ReceivedMessage, RobotId};
 use std::collections::BTreeMap;
 
 /// For each robot of `next` its number in `before`, by the name of its kind and its index; `None`
@@ -50,7 +50,7 @@ pub(super) fn ids_of(
 
 /// Whether a message in transit still has a meaning, by names; it then gets the new numbers.
 pub(super) fn still_sayable(
-    heard: &mut Heard,
+    heard: &mut ReceivedMessage,
     ids: &BTreeMap<RobotId, RobotId>,
     from: &Scenario,
     to: &Scenario,

@@ -2,7 +2,7 @@
 
 use super::pending::PendingQueue;
 use super::{Measure, Sensor};
-use brain::{self, Contact, Heard, Neighbour, Percept};
+use brain::{self, Contact, Neighbour, Percept, ReceivedMessage};
 
 /// Readings and messages that have not reached the brain yet.
 #[derive(Debug, Clone, Default)]
@@ -12,7 +12,7 @@ pub(crate) struct Backlog {
     pub(crate) observations: PendingQueue<brain::Observation>,
     pub(crate) contacts: PendingQueue<(Contact, Option<u32>)>,
     pub(crate) neighbours: PendingQueue<Neighbour>,
-    pub(crate) inbox: PendingQueue<Heard>,
+    pub(crate) inbox: PendingQueue<ReceivedMessage>,
 }
 
 /// A measurement that the next one replaces.
@@ -79,7 +79,7 @@ impl Backlog {
     pub(crate) fn tell_messages(&mut self, now: u64, step_s: f64, to: &mut Percept) {
         self.inbox.tell(now, |late| {
             let age_s = age_s(late.taken, now, step_s);
-            to.inbox.push(Heard { age_s, ..late.what });
+            to.inbox.push(ReceivedMessage { age_s, ..late.what });
         });
     }
 }

@@ -4,7 +4,7 @@
 use super::backlog;
 use super::pending::{self, Pending};
 use crate::radio::channel::Transmission;
-use brain::{Contact, Heard, Neighbour};
+use brain::{Contact, Neighbour, ReceivedMessage};
 
 /// A contact in the queue of a brain.
 pub(crate) const CONTACT_BYTES: usize = size_of::<Pending<(Contact, Option<u32>)>>();
@@ -16,7 +16,7 @@ pub(crate) const OBSERVATION_BYTES: usize = size_of::<Pending<brain::Observation
 pub(crate) const NEIGHBOUR_BYTES: usize = size_of::<Pending<Neighbour>>();
 
 /// A message in the queue of a brain.
-pub(crate) const MESSAGE_BYTES: usize = size_of::<Pending<Heard>>();
+pub(crate) const MESSAGE_BYTES: usize = size_of::<Pending<ReceivedMessage>>();
 
 /// A message in transit to one robot.
 pub(crate) const SENT_BYTES: usize = size_of::<Transmission>();

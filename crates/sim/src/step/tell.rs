@@ -9,7 +9,7 @@ use crate::run::state::{State, Status};
 use crate::scenario::Scenario;
 use crate::sensors::sensor_frame::NoisePurpose;
 use base::noise::share;
-use brain::Heard;
+use brain::ReceivedMessage;
 
 /// Sends the messages of all robots, each to the robots that receive it.
 pub(crate) fn send(
@@ -26,7 +26,7 @@ pub(crate) fn send(
     for outgoing in workers.iter().flat_map(|worker| &worker.outbox) {
         let from = outgoing.from as usize;
         if let Some(radio) = &view.kind(from).radio {
-            let heard = Heard {
+            let heard = ReceivedMessage {
                 from: view.ids[from],
                 age_s: 0.0,
                 message: outgoing.message,

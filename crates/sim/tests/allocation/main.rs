@@ -10,8 +10,8 @@ use allocation_counter::measure;
 use base::document::Document;
 use base::geometry::Point;
 use brain::{
-    About, Body, Brain, BrainSpec, Command, Contact, Detector, Heard, Message, Neighbour,
-    Observation, Percept, Provenance, RangeRing, Reading, RobotId, Scan,
+    About, Body, Brain, BrainSpec, Command, Contact, Detector, Message, Neighbour, Observation,
+    Percept, Provenance, RangeRing, Reading, ReceivedMessage, RobotId, Scan,
 };
 use sim::scenario::ScenarioSpec;
 use sim::simulation::Simulation;
@@ -146,7 +146,7 @@ fn throng(step: u32, rays: u32) -> Percept {
         x: 40.0 * spread(number) - 20.0,
         y: 40.0 * spread(number + 500) - 20.0,
     };
-    let message = |number: u32| Heard {
+    let message = |number: u32| ReceivedMessage {
         from: id(number),
         age_s: 0.0,
         message: Message {

@@ -1,7 +1,7 @@
 //! Going on with another scenario in the middle of a run.
 
 use crate::common::{drive, first, id, message, replaced, robots, say, scenario, start, told};
-use brain::{About, Heard, Percept};
+use brain::{About, Percept, ReceivedMessage};
 use sim::run::{Item, NoRoom, Robot, Status};
 use sim::simulation::Simulation;
 use std::time::{Duration, Instant};
@@ -413,7 +413,7 @@ fn told_within(simulation: &mut Simulation, steps: u32, robot: brain::RobotId) -
     percepts
 }
 
-fn inbox_of(percepts: &[Percept]) -> Vec<Heard> {
+fn inbox_of(percepts: &[Percept]) -> Vec<ReceivedMessage> {
     percepts
         .iter()
         .flat_map(|percept| percept.inbox.clone())

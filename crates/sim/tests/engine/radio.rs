@@ -1,7 +1,7 @@
 //! Who hears what, and when.
 
 use crate::common::{id, message, say, start, told};
-use brain::{About, Heard, Message, RobotId};
+use brain::{About, Message, ReceivedMessage, RobotId};
 use sim::simulation::Simulation;
 
 /// Robots at places on a line through the middle of a field of 40 m, with a wall at 30 m.
@@ -19,14 +19,14 @@ fn line(radio: &str, waypoints_m: &[f64], more: &str) -> String {
     )
 }
 
-fn number(heard: &Heard) -> f64 {
+fn number(heard: &ReceivedMessage) -> f64 {
     match heard.message.about {
         About::Item { at, .. } => at.x,
         About::Sender { .. } | About::Goal { .. } => f64::NAN,
     }
 }
 
-fn inbox(simulation: &mut Simulation, id: RobotId) -> Vec<Heard> {
+fn inbox(simulation: &mut Simulation, id: RobotId) -> Vec<ReceivedMessage> {
     let percept = simulation.percept(id).unwrap();
     percept.map_or(Vec::new(), |percept| percept.inbox)
 }

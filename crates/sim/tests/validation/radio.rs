@@ -4,7 +4,7 @@ use crate::rows::{Row, assert_published, assert_right, assert_wrong};
 use crate::setup::{circle, places, run, scenario, whole};
 use base::document::Value;
 use base::geometry::Point;
-use brain::{About, Command, Heard, Message, Provenance, RobotId};
+use brain::{About, Command, Message, Provenance, ReceivedMessage, RobotId};
 use std::collections::BTreeMap;
 
 const TEXT: &str = include_str!("../../../../docs/validation/radio.toml");
@@ -36,7 +36,7 @@ impl Air {
     }
 
     /// What each listener hears, message by message.
-    fn heard(&self) -> Vec<Vec<Heard>> {
+    fn heard(&self) -> Vec<Vec<ReceivedMessage>> {
         let mut simulation = run(&scenario(TEXT, &self.changes), 1, 0);
         let robot = |kind, index| RobotId { kind, index };
         let calls = Command {
@@ -191,7 +191,7 @@ fn by_delay() -> Vec<Row> {
         };
         let heard = &air.heard()[0];
         // Every message takes as long, but for the rounding of products.
-        let is_in_time = |heard: &Heard| (heard.age_s - steps_s).abs() < 1e-12;
+        let is_in_time = |heard: &ReceivedMessage| (heard.age_s - steps_s).abs() < 1e-12;
         assert!(heard.iter().all(is_in_time));
         let age_s = (heard[0].age_s * 1e9).round() / 1e9;
         Row::exact("age when heard", delay_s, age_s, steps_s)
@@ -210,7 +210,7 @@ fn by_age() -> Vec<Row> {
     let all = u32::try_from(heard.len()).unwrap();
     let rows = (2..=6_u32).map(|steps| {
         let age_s = 0.1 * f64::from(steps);
-        let is_so_old = |heard: &&Heard| (heard.age_s - age_s).abs() < 1e-9;
+        let is_so_old = |heard: &&ReceivedMessage| (heard.age_s - age_s).abs() < 1e-9;
         let count = u32::try_from(heard.iter().filter(is_so_old).count()).unwrap();
         Row::share("ages at a slow brain", age_s, count, all, 0.2)
     });

@@ -8,7 +8,7 @@ from typing import Any
 from agent_economy._core import InputError
 from agent_economy.recording.identity import Identity
 from agent_economy.recording.reading import Recorded, read
-from agent_economy.recording.recorder import ENDING
+from agent_economy.recording.recorder import SUFFIX
 from agent_economy.recording.summary import summarise
 from agent_economy.scenario import validation
 from agent_economy.server.workspace import OUTSIDE, Workspace, is_file
@@ -46,7 +46,7 @@ class RecordingStore:
     def listed(self) -> list[RecordingEntry]:
         """Return a row for each recording, the newest first."""
         times: dict[Path, float] = {}
-        for file in self.workspace.files(ENDING):
+        for file in self.workspace.files(SUFFIX):
             with suppress(OSError):  # The file has been removed meanwhile.
                 times[file] = file.stat().st_mtime
         newest = sorted(times, key=lambda file: (-times[file], file))[:MAX_LISTED]
@@ -80,7 +80,7 @@ class RecordingStore:
             InputError: If there is none, or it is outside of the server's folder.
         """
         file = self.workspace.folder / name
-        is_here = self.workspace.has(file) and file.suffix == ENDING and is_file(file)
+        is_here = self.workspace.has(file) and file.suffix == SUFFIX and is_file(file)
         validation.check(is_here, "recording", name, "one below the folder of the server")
         return file
 

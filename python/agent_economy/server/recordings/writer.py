@@ -9,7 +9,7 @@ from pathlib import Path
 
 from agent_economy._core import InputError
 from agent_economy.recording import Recording, RecordingError
-from agent_economy.recording.recorder import ENDING
+from agent_economy.recording.recorder import SUFFIX
 from agent_economy.recording.replayer import replay_steps
 from agent_economy.runs import factory
 from agent_economy.runs.stepped import Stepped
@@ -59,8 +59,8 @@ class RecordingWriter:
         check_size(history.latest_tick * size_of_step(simulation))
         with write_errors(self._folder):
             self._folder.mkdir(exist_ok=True)
-            remove_abandoned(self._folder, ENDING)
-            with temporary_file(self._folder, ENDING) as file:
+            remove_abandoned(self._folder, SUFFIX)
+            with temporary_file(self._folder, SUFFIX) as file:
                 is_complete = self._record(simulation, file)
                 return rename_complete(file, stem(history)) if is_complete else None
 
@@ -122,7 +122,7 @@ def rename_complete(file: Path, name: str) -> Path:
     with file.open("rb") as stream:
         digest = hashlib.file_digest(stream, "sha256").hexdigest()[:DIGEST_DIGITS]
         os.fsync(stream.fileno())
-    return file.replace(file.with_name(f"{name}-{digest}{ENDING}"))
+    return file.replace(file.with_name(f"{name}-{digest}{SUFFIX}"))
 
 
 def stem(history: RunHistory) -> str:

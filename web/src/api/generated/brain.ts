@@ -120,16 +120,6 @@ export interface HeadingOptions {
   courses: HeadingOption[];
 }
 
-/** A received message. */
-export interface Heard {
-  /** The sender. */
-  from: RobotId;
-  /** Time since it was sent. */
-  age_s: number;
-  /** The message. */
-  message: Message;
-}
-
 /** A message from one robot to others. */
 export interface Message {
   /** Its content. */
@@ -205,7 +195,7 @@ export interface Percept {
   /** Robots that its sensors detected since the last step. */
   neighbours: Neighbour[];
   /** Messages received since the last step. */
-  inbox: Heard[];
+  inbox: ReceivedMessage[];
 }
 
 /** A point or a vector; in files `[x, y]`. */
@@ -241,6 +231,16 @@ export interface Provenance {
   track_id: number;
   /** Number of observations: of two reports with the same track id, the one with more counts. */
   observations: number;
+}
+
+/** A received message. */
+export interface ReceivedMessage {
+  /** The sender. */
+  from: RobotId;
+  /** Time since it was sent. */
+  age_s: number;
+  /** The message. */
+  message: Message;
 }
 
 /** The id of a robot: the `index`-th of its kind, both counted from 0. */

@@ -7,7 +7,7 @@ use super::{Beliefs, Body, Prior, Trust};
 use crate::goals::proposal::Destination;
 use crate::io::body::RobotId;
 use crate::io::message::{About, CommitmentStatus, Message, Provenance};
-use crate::io::percept::{Heard, Reading};
+use crate::io::percept::{Reading, ReceivedMessage};
 use alloc::vec::Vec;
 use base::geometry::Point;
 use base::trig::wrapped;
@@ -52,7 +52,7 @@ pub(crate) struct Told {
 
 impl Beliefs {
     /// Takes in a message.
-    pub(super) fn hear(&mut self, heard: &Heard, body: &Body, pose: &Pose) {
+    pub(super) fn hear(&mut self, heard: &ReceivedMessage, body: &Body, pose: &Pose) {
         let confidence = heard.message.confidence;
         if !(0.0..=1.0).contains(&confidence) || !is_age(heard.age_s) {
             return;
@@ -98,7 +98,7 @@ impl Beliefs {
     /// ago that was, it has looked; but no oftener than can be.
     fn hear_looks(
         &mut self,
-        (heard, counts): (&Heard, f64),
+        (heard, counts): (&ReceivedMessage, f64),
         body: &Body,
         (at, heading_rad): (Point, f64),
         observations: u32,
@@ -235,7 +235,7 @@ fn sure(about: About) -> Message {
     clippy::cast_sign_loss,
     reason = "only to be told apart"
 )]
-fn own_look(heard: &Heard, provenance: Provenance, at: Point) -> Provenance {
+fn own_look(heard: &ReceivedMessage, provenance: Provenance, at: Point) -> Provenance {
     if provenance.observations > 0 {
         return provenance;
     }

@@ -47,7 +47,7 @@ impl Robot {
     }
 
     /// Stands at (8, 10), and perhaps observations.
-    fn step(&mut self, observations: bool, inbox: Vec<Heard>) {
+    fn step(&mut self, observations: bool, inbox: Vec<ReceivedMessage>) {
         let look = Observation {
             sensor: 0,
             age_s: 0.0,
@@ -79,8 +79,8 @@ impl Robot {
     }
 }
 
-fn heard(about: About, confidence: f64) -> Heard {
-    Heard {
+fn heard(about: About, confidence: f64) -> ReceivedMessage {
+    ReceivedMessage {
         from: MATE,
         age_s: 0.0,
         message: Message { about, confidence },
@@ -88,7 +88,7 @@ fn heard(about: About, confidence: f64) -> Heard {
 }
 
 /// A mate tells where it is, and how often it has looked.
-fn mate(x: f64, y: f64, observations: u32, confidence: f64) -> Heard {
+fn mate(x: f64, y: f64, observations: u32, confidence: f64) -> ReceivedMessage {
     let at = Point { x, y };
     let heading_rad = 0.0;
     heard(
@@ -101,7 +101,7 @@ fn mate(x: f64, y: f64, observations: u32, confidence: f64) -> Heard {
     )
 }
 
-fn item(x: f64, y: f64, track_id: u32) -> Heard {
+fn item(x: f64, y: f64, track_id: u32) -> ReceivedMessage {
     let provenance = Provenance {
         observer: MATE,
         track_id,
@@ -366,14 +366,14 @@ fn robots_of_several_kinds_tell_at_moments_of_their_own_too() {
 }
 
 /// A mate tells of observations of another at a place, or of his own.
-fn relayed(from: RobotId, observer: RobotId, x: f64, track_id: u32) -> Heard {
+fn relayed(from: RobotId, observer: RobotId, x: f64, track_id: u32) -> ReceivedMessage {
     let (at, observations) = (Point { x, y: 9.5 }, 1);
     let provenance = Provenance {
         observer,
         track_id,
         observations,
     };
-    Heard {
+    ReceivedMessage {
         from,
         ..heard(
             About::Item {
@@ -448,7 +448,7 @@ fn what_has_no_age_is_not_believed_and_looks_count_however_long_ago() {
         let mut robot = Robot::new(1.0, 1.0);
         robot.step(
             false,
-            vec![Heard {
+            vec![ReceivedMessage {
                 age_s,
                 ..mate(13.0, 10.0, 1, 1.0)
             }],
