@@ -146,7 +146,7 @@ def show(scenario: Scenario, seed: int, outcome: Outcome) -> None:
 
 
 def lines(scenario: Scenario, outcome: Outcome) -> list[tuple[str, str]]:
-    """Return the rows of an outcome: names and texts."""
+    """Return the rows of an outcome: pairs of a name and a formatted value."""
     if outcome.status == "quarantined":
         return [
             ("", "No outcome: there was no room for the team or items, or a value was not finite.")
@@ -177,5 +177,5 @@ def number(value: float | None, unit: str = "") -> str | None:
     """Return a number with a readable number of digits; None for None."""
     if value is None:
         return None
-    digits = 0 if isinstance(value, int) or value >= 100 or value.is_integer() else 1  # noqa: PLR2004  (a look)
+    digits = 0 if isinstance(value, int) or value >= 100 or value.is_integer() else 1  # noqa: PLR2004  (a matter of display)
     return f"{value:,.{digits}f} {unit}".strip()

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 Bounds = tuple[float | None, float | None]
-"""Least and greatest value of a column; None where there is no bound."""
+"""Minimum and maximum of a column; None where there is no bound."""
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,7 @@ class Term:
         return self.weight * (values if self.max is None else np.minimum(values, self.max))
 
     def bounds(self, least: float | None, greatest: float | None) -> tuple[float, float]:
-        """Return the least and the most that values within bounds add."""
+        """Return the minimum and maximum contribution of values within bounds."""
         ends = np.array(
             [-np.inf if least is None else least, np.inf if greatest is None else greatest]
         )

@@ -66,7 +66,7 @@ class Scenario:
         merit: The figure of merit that scores runs.
         robots: Number of robots in a single run, by kind.
         time_limit_s: A run that takes longer has failed, and counts as this long.
-        facts: Further constants of the scenario for display: pairs of a name and a text.
+        facts: Further constants of the scenario for display: pairs of a name and a string.
         factors: What a study varies; empty if nothing. The order is fixed.
         design: Which configurations it compares: "factorial", "lhs:N" or "sobol:N" (N points).
         delta: Indifference zone: the smallest difference in merit that matters, above 0; None if

@@ -144,7 +144,7 @@ def decode(file: Path, data: bytes) -> str:
     """Return the text of a scenario file, with line feeds as line endings.
 
     Raises:
-        ValueError: If the bytes are not UTF-8; the message says what they are instead.
+        ValueError: If the bytes are not UTF-8; the message names the first invalid byte.
     """
     try:
         return data.decode().replace("\r\n", "\n").replace("\r", "\n")

@@ -1,4 +1,4 @@
-"""A study: runs of each configuration until its question is answered.
+"""A study: configurations are run until its question is answered.
 
 The data flows one way: `api` -> `plan` (the question; `design`, `engine`) -> `race` (the loop: the
 procedure of `selection` requests runs, `store` reads them, `engine` or `workers` compute missing

@@ -55,7 +55,7 @@ def run(  # noqa: PLR0913  (keywords with defaults)
         out: Folder in which the study is stored; None stores nothing.
         compute: Computes blocks of runs, such as `Workers.columns`; None for threads of this
             process.
-        on_progress: Called after each round, and about once a second during a long one.
+        on_progress: Called after each round, and about every second during a long one.
 
     Raises:
         InputError: If an argument is invalid; or the folder contains another study, is damaged, or

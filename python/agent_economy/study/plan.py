@@ -135,7 +135,7 @@ class Plan:
         """The hash of all that determines the runs: plans with the same identity share a folder.
 
         It covers the version of the program, the seed, the configurations in their order, and the
-        scenario except for the keys that affect only scores and texts.
+        scenario except for the keys that affect only scores and descriptions.
         """
         document = self.scenario.to_dict()
         runs = {key: value for key, value in document.items() if key not in WITHOUT_RUNS}

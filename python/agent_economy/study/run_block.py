@@ -19,7 +19,7 @@ class RunBlock:
     Attributes:
         configurations: Their numbers, 0 to 2^31 - 1, each once, in any order.
         first_run: 0 or more.
-        runs: Runs of each, 1 or more.
+        runs: Number of runs per configuration, 1 or more.
     """
 
     configurations: tuple[int, ...]
@@ -42,7 +42,7 @@ class RunBlock:
 
     @property
     def shape(self) -> tuple[int, int]:
-        """Number of configurations and of runs of each."""
+        """Number of configurations, and of runs per configuration."""
         return len(self.configurations), self.runs
 
     @property
@@ -70,7 +70,7 @@ def spans(numbers: Iterable[int]) -> str:
 
 
 def numbers(text: str) -> tuple[int, ...]:
-    """Return the numbers of a text that `spans` returned."""
+    """Return the numbers of a string that `spans` returned."""
     parts = (part.partition("-") for part in text.split(","))
     return tuple(
         number for first, _, last in parts for number in range(int(first), int(last or first) + 1)

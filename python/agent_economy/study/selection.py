@@ -42,14 +42,14 @@ class Selection:
 
     Attributes:
         best: Index of the selected configuration.
-        runs: Number of runs of each configuration; shape (k,).
+        runs: Number of runs per configuration; shape (k,).
         mean: Mean merit of each; shape (k,).
         lower: Lower bounds of the true means, shape (k,). All bounds hold simultaneously and at any
             time, with the stated confidence.
-        upper: Upper bounds likewise.
+        upper: Upper bounds of the true means, in the same way.
         eliminations: The eliminated configurations, in the order of their elimination.
         survivors: The remaining configurations: only `best`, unless stopped.
-        quarantined: Runs of each without a finite merit, which count as the worst; shape (k,).
+        quarantined: Number of runs without a finite merit, which count as the worst; shape (k,).
         stopped: Whether the run budget was reached first; then there is no guarantee.
         guarantee: The guarantee in words.
     """

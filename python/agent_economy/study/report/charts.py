@@ -77,7 +77,7 @@ def merit(view: View) -> Spec:
 
 
 def failed(view: View) -> Spec:
-    """Return the chart of the share of failed runs of each configuration."""
+    """Return the chart of the share of failed runs per configuration."""
     rows = [judged(view, index, view.result(index).failed) for index in view.shown]
     title = {
         "title": "share of runs that failed",
@@ -163,7 +163,7 @@ def place_on_front(view: View, index: int) -> str:
 
 
 def runs(view: View) -> Spec:
-    """Return the chart of the runs of each configuration."""
+    """Return the chart of the number of runs per configuration."""
     rows: Rows = [
         {**row_of(view, index), "runs": view.result(index).runs, "state": state(view, index)}
         for index in view.by_runs

@@ -24,8 +24,8 @@ def html(answer: Answer, evidence: Evidence, javascript: str) -> str:
     Args:
         answer: What is reported.
         evidence: The runs that the answer follows from.
-        javascript: The text of `ChartScript`. If it is empty, the page has its tables and says that
-            the charts are missing.
+        javascript: The text of `ChartScript`. If it is empty, the page has its tables and a note
+            that the charts are missing.
     """
     environment = jinja2.Environment(
         loader=jinja2.PackageLoader("agent_economy.study.report", "."),

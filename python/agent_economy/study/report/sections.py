@@ -186,7 +186,7 @@ def history(view: View) -> Section:
             "configuration is eliminated when the runs prove that it is not better than another by "
             "delta."
         )
-    picture = Picture("runs", "Runs of each configuration until its elimination")
+    picture = Picture("runs", "Runs per configuration until its elimination")
     notes = (f"{note} {cut(view, 'those with the most runs')}".strip(),)
     return Section("Eliminations", notes, (picture,), (tables.history(view),))
 

@@ -93,7 +93,7 @@ class View:
 
     @cached_property
     def by_runs(self) -> tuple[int, ...]:
-        """Those with the most runs; of equals, the better one first."""
+        """Configurations by their number of runs, descending; of equals, the better one first."""
         return tuple(sorted(self.ranked, key=lambda index: -self.result(index).runs))[:MAX_SHOWN]
 
     @cached_property

@@ -219,18 +219,18 @@ def check_files(folder: Path, block_files: Sequence[BlockFile]) -> None:
     Raises:
         StoreError: If there are any; it names all.
     """
-    faults = []
+    errors = []
     for file in block_files:
         path = folder / files.BLOCKS / file.name
         try:
             if path.stat().st_size != file.bytes:
-                faults.append(damaged(path))
+                errors.append(damaged(path))
         except FileNotFoundError:
-            faults.append(f"{path}: is missing: restore it, or use another folder")
+            errors.append(f"{path}: is missing: restore it, or use another folder")
         except OSError as error:
-            faults.append(f"{path}: cannot be read ({error.strerror})")
-    if faults:
-        raise StoreError("\n".join(faults))
+            errors.append(f"{path}: cannot be read ({error.strerror})")
+    if errors:
+        raise StoreError("\n".join(errors))
 
 
 def damaged(path: Path) -> str:
