@@ -164,7 +164,8 @@ impl Brain {
         command.outbox.clear();
         let (leading, motion) = self.motion(percept);
         command.motion = motion;
-        self.odometry.told(command.motion, &self.kind.body);
+        self.odometry
+            .record_command(command.motion, &self.kind.body);
         if let Some(brain) = &mut self.beliefs {
             brain.publish(self.kind.body.period_s, &mut command.outbox);
         }
@@ -180,12 +181,12 @@ impl Brain {
             behaviours,
             sum,
         } = &*self.kind;
-        let mut turned_rad = self.odometry.take_in(percept, body);
+        let mut turned_rad = self.odometry.update(percept, body);
         let now_m_s = self.odometry.now_m_s(percept, body);
         if let Some(brain) = &mut self.beliefs {
             let odometry = &self.odometry;
-            turned_rad = odometry.turned_beside_compass_rad(turned_rad, percept, body);
-            let moved = [odometry.gone_m_s(percept, body), turned_rad];
+            turned_rad = odometry.turned_without_compass_rad(turned_rad, percept, body);
+            let moved = [odometry.likely_speed_m_s(percept, body), turned_rad];
             brain.beliefs.take_in(percept, body, &governor.rings, moved);
         }
         let (beliefs, mut selection) = match self.beliefs.as_deref_mut() {

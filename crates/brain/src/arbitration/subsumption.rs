@@ -196,7 +196,7 @@ mod tests {
         };
         for _ in 0..600 {
             let percept = walk.percept();
-            let turned_rad = odometry.take_in(&percept, &body);
+            let turned_rad = odometry.update(&percept, &body);
             let now_m_s = odometry.now_m_s(&percept, &body);
             let situation = Situation {
                 percept: &percept,
@@ -209,7 +209,7 @@ mod tests {
             };
             let wanted = motion(arbitrate(&behaviours, &mut layers, &situation));
             let motion = governor.limit(wanted, &situation, &odometry);
-            odometry.told(motion, &body);
+            odometry.record_command(motion, &body);
             walk.step(motion);
         }
         walk

@@ -5,7 +5,7 @@ use crate::behaviours::behaviour::Behaviour;
 use crate::goals::proposal::Proposal;
 use crate::io::body::{Body, RangeRing};
 use crate::io::command::Motion;
-use crate::perception::rays::sensible_m;
+use crate::perception::rays::valid_m;
 use crate::perception::situation::Situation;
 use alloc::vec::Vec;
 use core::f64::consts::{FRAC_PI_4, PI, TAU};
@@ -127,7 +127,7 @@ impl Ready {
 fn shortest_m(ranges_m: &[f64], rays: &[usize]) -> f64 {
     let mut shortest_m = f64::INFINITY;
     for ray in rays {
-        let length_m = sensible_m(ranges_m.get(*ray).copied().unwrap_or_default());
+        let length_m = valid_m(ranges_m.get(*ray).copied().unwrap_or_default());
         if length_m < shortest_m {
             shortest_m = length_m;
         }

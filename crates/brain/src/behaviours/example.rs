@@ -42,7 +42,7 @@ mod tests {
         let mut walk = Walk::new(body.clone(), room(size_m, size_m), [2.0, 2.0], 0.0);
         let step = |_| {
             let percept = walk.percept();
-            let turned_rad = moved.take_in(&percept, &body);
+            let turned_rad = moved.update(&percept, &body);
             let now_m_s = moved.now_m_s(&percept, &body);
             let situation = Situation {
                 percept: &percept,
@@ -59,7 +59,7 @@ mod tests {
             };
             let most = body.max_turn_rate_rad_s;
             motion.turn_rate_rad_s = motion.turn_rate_rad_s.clamp(-most, most);
-            moved.told(motion, &body);
+            moved.record_command(motion, &body);
             walk.step(motion);
             (walk.at, walk.heading_rad)
         };

@@ -115,8 +115,8 @@ impl Ready {
                 let straight_s = f64::from(*since_s);
                 *since_s += situation.period_s();
                 let near_m = (self.turn_at_m + situation.stopping_m()).min(self.half_sight_m);
-                let is_stopped =
-                    situation.stands_ahead(near_m, straight_s) || situation.touches(straight_s);
+                let is_stopped = situation.is_obstacle_ahead(near_m, straight_s)
+                    || situation.touches(straight_s);
                 is_stopped.then(|| self.turn(memory, situation))
             }
             Memory::Turning(turn) => {

@@ -46,8 +46,8 @@ impl SpeedGovernor {
         let rings: Vec<Ring> = body.rings.iter().map(ring).collect();
         Self {
             half_width_m,
-            covers_front: rings.iter().any(|ring| ring.looks_ahead),
-            covers_back: rings.iter().any(|ring| ring.looks_behind),
+            covers_front: rings.iter().any(|ring| ring.covers_front),
+            covers_back: rings.iter().any(|ring| ring.covers_back),
             rings,
             stopping_s2_m: 0.5 / (BRAKING * body.max_acceleration_m_s2),
         }
@@ -162,9 +162,9 @@ impl SpeedGovernor {
                 continue;
             };
             let covers = if sign > 0.0 {
-                ring.looks_ahead
+                ring.covers_front
             } else {
-                ring.looks_behind
+                ring.covers_back
             };
             let free_m = free_m(ring, age_s, ranges_m);
             let Some(free_m) = free_m.filter(|free_m| covers || *free_m < ring.range_m()) else {
@@ -352,7 +352,7 @@ mod tests {
                 };
                 let wanted = Motion { speed_m_s: body.max_speed_m_s, turn_rate_rad_s: rate };
                 let motion = governor.limit(wanted, &situation, &odometry);
-                odometry.told(motion, &body);
+                odometry.record_command(motion, &body);
                 walk.step(motion);
             }
             prop_assert!(walk.min_gap_m > 0.0, "{} m", walk.min_gap_m);

@@ -1,32 +1,32 @@
-//! Items and robots as a robot believes them to be.
+//! Estimates of items and robots, as the belief state shows them.
 
 use crate::io::body::RobotId;
 use base::geometry::Point;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// An item, as it is believed to be.
+/// The estimate of an item.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct BelievedItem {
-    /// Place of its kind in [`Body::item_kinds`](crate::Body::item_kinds).
+    /// Index of its kind in [`Body::item_kinds`](crate::Body::item_kinds).
     pub kind: u16,
-    /// Where in the world.
+    /// Its position in the world.
     pub at: Point,
-    /// Standard deviation of that along each axis.
+    /// Standard deviation of the position along each axis.
     pub deviation_m: f64,
-    /// How surely it is there, 0 to 1.
+    /// Probability that it exists, 0 to 1.
     pub confidence: f64,
 }
 
-/// A robot, as it is believed to be.
+/// The estimate of another robot.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct BelievedRobot {
-    /// Which, if it is known for one.
+    /// Its id, if it was identified.
     pub id: Option<RobotId>,
-    /// From the robot's front.
+    /// Its position in the robot's frame: x forwards, y to the left.
     pub at: Point,
-    /// Over ground, along the robot's front and left.
+    /// Its velocity over ground, in the same frame.
     pub velocity_m_s: Point,
-    /// Time since it was last seen.
+    /// Time since it was last detected.
     pub age_s: f64,
 }

@@ -1,88 +1,89 @@
-//! How the body has moved since the brain last looked, as far as the brain can tell.
+//! Dead reckoning: the motion of the body since the previous step, from commands, wheels and compass.
 
 use crate::io::body::Body;
 use crate::io::command::Motion;
 use crate::io::percept::{Percept, Reading};
 use base::trig::wrapped;
 
-/// Readings older than this say nothing of now.
+/// Maximum age of a reading that is used, in seconds.
 const OLDEST_S: f64 = 1.0;
 
-/// Wheels that say more than so many times what the body can do are broken; the fastest ground there is
-/// makes it ten times as fast.
-const MOST_TIMES: f64 = 10.0;
+/// Wheel odometry above this multiple of the body's own limit is discarded as invalid. The fastest terrain
+/// makes a body ten times as fast.
+const MAX_WHEEL_FACTOR: f64 = 10.0;
 
-/// A compass that says more than this many radians is broken.
+/// Compass readings above this absolute value are discarded as invalid.
 const MAX_HEADING_RAD: f64 = 1e4;
 
-/// Dead reckoning from commands, and what wheels and compass say.
+/// Estimate of the body's motion from its commands, wheel odometry and compass.
 ///
-/// A world can hold a million brains, so these are short numbers.
+/// Single precision: a world can hold a million brains.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct DeadReckoning {
-    /// What the body has come to if it does what it is told.
+    /// Speed that the body has reached if it follows its commands.
     speed_m_s: f32,
-    /// Of the last turn.
+    /// Turn rate of the most recent turn.
     turn_rate_rad_s: f32,
-    /// Time since that turn ended; 0 while it lasts.
+    /// Time since the end of that turn; 0 while it lasts.
     straight_s: f32,
-    /// The compass's course when the brain last looked.
-    course_rad: Option<f32>,
+    /// Compass heading in the previous step.
+    heading_rad: Option<f32>,
 }
 
 impl DeadReckoning {
-    /// At most so fast it now goes, in m/s; negative if backwards. What it was told, or what the
-    /// wheels say if that is more: who brakes too early is safe. To reckon where it is, see
-    /// [`DeadReckoning::gone_m_s`].
+    /// Upper bound of the current speed, in m/s; negative in reverse. It is the larger of the
+    /// commanded and the measured speed, because braking too early is safe. For localisation, see
+    /// [`DeadReckoning::likely_speed_m_s`].
     #[inline]
     pub(crate) fn now_m_s(&self, percept: &Percept, body: &Body) -> f64 {
-        let told = f64::from(self.speed_m_s);
-        let most = body.max_speed_m_s;
+        let commanded = f64::from(self.speed_m_s);
+        let max = body.max_speed_m_s;
         match wheels_m_s(percept, body) {
-            Some(wheels) if wheels.abs() > told.abs() => wheels.max(-most).min(most),
-            _ => told,
+            Some(wheels) if wheels.abs() > commanded.abs() => wheels.max(-max).min(max),
+            _ => commanded,
         }
     }
 
-    /// So fast it goes in all likelihood, in m/s; negative if backwards. What the wheels say, if they
-    /// do: sand slows who is told to go fast. Else what it was told.
+    /// Most likely current speed, in m/s; negative in reverse. It is the measured speed if there is
+    /// one, since terrain can slow the body down, and otherwise the commanded speed.
     #[inline]
-    pub(crate) fn gone_m_s(&self, percept: &Percept, body: &Body) -> f64 {
+    pub(crate) fn likely_speed_m_s(&self, percept: &Percept, body: &Body) -> f64 {
         wheels_m_s(percept, body).unwrap_or(f64::from(self.speed_m_s))
     }
 
-    /// Angle by which it has turned within the last `age_s`.
+    /// Angle by which the body has turned within the last `age_s`, by its commands.
     #[inline]
     pub(crate) fn turned_within_rad(&self, age_s: f64) -> f64 {
         let turning_s = (age_s - f64::from(self.straight_s)).max(0.0);
         f64::from(self.turn_rate_rad_s) * turning_s
     }
 
-    /// Takes in what the percept says of the body's motion, at the beginning of a step. Returns the
-    /// angle by which it has turned since the last one: from the compass if there is one, else from
-    /// the wheels, else as it was told.
+    /// Updates the estimate with a percept, at the start of a step. Returns the angle by which the
+    /// body has turned since the previous step: from the compass if there is one, else from the
+    /// wheels, else from the command.
     #[inline]
-    #[expect(clippy::cast_possible_truncation, reason = "kept short")]
-    pub(crate) fn take_in(&mut self, percept: &Percept, body: &Body) -> f64 {
+    #[expect(clippy::cast_possible_truncation, reason = "single precision is enough")]
+    pub(crate) fn update(&mut self, percept: &Percept, body: &Body) -> f64 {
         if percept.touch.is_some_and(|touch| touch.value) {
-            // What it ran into has stopped it, whatever it was told.
+            // A collision has stopped the body, whatever its command.
             self.speed_m_s = 0.0;
         }
         let rate = self.turn_rate_rad_s(percept, body);
         let heading = percept.heading_rad.filter(is_of_now);
         let heading = heading.filter(|reading| reading.value.abs() <= MAX_HEADING_RAD);
-        // The compass may lag.
-        let course = heading.map(|reading| wrapped(reading.value + rate * reading.age_s) as f32);
-        let before = core::mem::replace(&mut self.course_rad, course);
-        match (before, course) {
+        // Compensates the latency of the compass.
+        let heading_now =
+            heading.map(|reading| wrapped(reading.value + rate * reading.age_s) as f32);
+        let before = core::mem::replace(&mut self.heading_rad, heading_now);
+        match (before, heading_now) {
             (Some(before), Some(now)) => wrapped(f64::from(now) - f64::from(before)),
             _ => rate * body.period_s,
         }
     }
 
-    /// As [`DeadReckoning::take_in`] said, but from the wheels or as it was told if the compass errs: whoever
-    /// corrects the course by the compass must not have carried it on by the same compass.
-    pub(crate) fn turned_beside_compass_rad(
+    /// The angle that [`DeadReckoning::update`] returned, or that of wheels or command if the compass is
+    /// noisy: a filter that corrects the heading with the compass must not predict it with the same readings.
+    pub(crate) fn turned_without_compass_rad(
         &self,
         turned_rad: f64,
         percept: &Percept,
@@ -96,24 +97,24 @@ impl DeadReckoning {
     }
 
     fn turn_rate_rad_s(&self, percept: &Percept, body: &Body) -> f64 {
-        let told = if self.straight_s > 0.0 {
+        let commanded = if self.straight_s > 0.0 {
             0.0
         } else {
             f64::from(self.turn_rate_rad_s)
         };
         let wheels = percept.motion.filter(is_of_now);
         let wheels = wheels.map(|motion| motion.value.turn_rate_rad_s);
-        let wheels = wheels.filter(|rate| can_be(*rate, body.max_turn_rate_rad_s));
-        wheels.unwrap_or(told)
+        let wheels = wheels.filter(|rate| is_plausible(*rate, body.max_turn_rate_rad_s));
+        wheels.unwrap_or(commanded)
     }
 
-    /// Notes what the body was told to do until the next step.
+    /// Records the motion commanded until the next step.
     #[inline]
-    #[expect(clippy::cast_possible_truncation, reason = "kept short")]
-    pub(crate) fn told(&mut self, motion: Motion, body: &Body) {
-        let most = (body.max_acceleration_m_s2 * body.period_s) as f32;
+    #[expect(clippy::cast_possible_truncation, reason = "single precision is enough")]
+    pub(crate) fn record_command(&mut self, motion: Motion, body: &Body) {
+        let max_change = (body.max_acceleration_m_s2 * body.period_s) as f32;
         let change = motion.speed_m_s as f32 - self.speed_m_s;
-        self.speed_m_s += change.max(-most).min(most);
+        self.speed_m_s += change.max(-max_change).min(max_change);
         if motion.turn_rate_rad_s == 0.0 {
             self.straight_s += body.period_s as f32;
         } else {
@@ -123,16 +124,16 @@ impl DeadReckoning {
     }
 }
 
-/// What wheels say, if they say it of now and can be right.
+/// Measured speed, if it is current and plausible.
 #[inline]
 fn wheels_m_s(percept: &Percept, body: &Body) -> Option<f64> {
     let wheels = percept.motion.filter(is_of_now)?.value.speed_m_s;
-    let most = body.max_speed_m_s.max(body.max_reverse_speed_m_s);
-    can_be(wheels, most).then_some(wheels)
+    let max = body.max_speed_m_s.max(body.max_reverse_speed_m_s);
+    is_plausible(wheels, max).then_some(wheels)
 }
 
-fn can_be(wheels: f64, most: f64) -> bool {
-    wheels.is_finite() && wheels.abs() <= MOST_TIMES * most
+fn is_plausible(wheels: f64, max: f64) -> bool {
+    wheels.is_finite() && wheels.abs() <= MAX_WHEEL_FACTOR * max
 }
 
 fn is_of_now<T>(reading: &Reading<T>) -> bool {
@@ -153,22 +154,22 @@ mod tests {
     };
 
     fn turned_rad(percepts: &[Percept]) -> f64 {
-        let (mut reckoning, body) = (DeadReckoning::default(), rover());
+        let (mut odometry, body) = (DeadReckoning::default(), rover());
         let mut sum = 0.0;
         for percept in percepts {
-            sum += reckoning.take_in(percept, &body);
-            reckoning.told(TURN, &body);
+            sum += odometry.update(percept, &body);
+            odometry.record_command(TURN, &body);
         }
         sum
     }
 
     #[test]
-    fn without_compass_and_wheels_it_has_turned_as_it_was_told() {
+    fn without_compass_and_wheels_the_turn_is_the_commanded_one() {
         assert!((turned_rad(&vec![Percept::default(); 11]) - 1.0).abs() < 1e-6);
     }
 
     #[test]
-    fn wheels_know_better_than_commands_and_a_compass_better_than_wheels() {
+    fn wheels_take_precedence_over_commands_and_a_compass_over_wheels() {
         let value = Motion {
             turn_rate_rad_s: 0.5,
             ..TURN
@@ -186,12 +187,12 @@ mod tests {
                 percept.clone()
             })
             .collect();
-        // At its first look it has nothing to compare with.
+        // The first reading has no predecessor to compare with.
         assert!((turned_rad(&with_compass) - 0.25).abs() < 1e-6);
     }
 
     #[test]
-    fn a_compass_that_errs_says_where_it_points_and_wheels_how_far_it_has_turned() {
+    fn with_a_noisy_compass_the_heading_comes_from_the_compass_and_the_turn_from_wheels() {
         let mut body = rover();
         body.heading_noise_rad = 0.1;
         let spec = BrainSpec {
@@ -217,10 +218,10 @@ mod tests {
     }
 
     #[test]
-    fn a_compass_that_lags_is_carried_on() {
+    fn the_latency_of_a_compass_is_compensated() {
         let percepts: Vec<Percept> = (0..11)
             .map(|step| {
-                // One look in five steps.
+                // One measurement every five steps.
                 let age_s = 0.1 * f64::from(step % 5);
                 let value = 0.1 * f64::from(step) - age_s;
                 let heading_rad = Some(Reading { value, age_s });
@@ -234,13 +235,13 @@ mod tests {
     }
 
     #[test]
-    fn it_remembers_when_it_last_turned() {
-        let (mut reckoning, body) = (DeadReckoning::default(), rover());
-        reckoning.told(TURN, &body);
-        assert!((reckoning.turned_within_rad(0.3) - 0.3).abs() < 1e-6);
-        reckoning.told(Motion::default(), &body);
-        reckoning.told(Motion::default(), &body);
-        assert!((reckoning.turned_within_rad(0.3) - 0.1).abs() < 1e-6);
-        assert!(reckoning.turned_within_rad(0.1).abs() < 1e-6);
+    fn the_time_of_the_most_recent_turn_is_remembered() {
+        let (mut odometry, body) = (DeadReckoning::default(), rover());
+        odometry.record_command(TURN, &body);
+        assert!((odometry.turned_within_rad(0.3) - 0.3).abs() < 1e-6);
+        odometry.record_command(Motion::default(), &body);
+        odometry.record_command(Motion::default(), &body);
+        assert!((odometry.turned_within_rad(0.3) - 0.1).abs() < 1e-6);
+        assert!(odometry.turned_within_rad(0.1).abs() < 1e-6);
     }
 }

@@ -1,4 +1,4 @@
-//! Perception: percepts become beliefs, and a situation for the behaviours of one step.
+//! Perception: turns percepts into beliefs, and into the situation that behaviours read in one step.
 
 pub(crate) mod beliefs;
 pub(crate) mod believed;

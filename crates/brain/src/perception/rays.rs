@@ -1,8 +1,8 @@
-//! What the rays of a ring leave free.
+//! The free space around a robot, from the rays of a range ring.
 //!
-//! Between two neighbouring rays nothing was measured. So what counts as free is the polygon through
-//! the ends of the rays: a flat wall that two of them meet is exactly its side, and where nothing
-//! came back it ends where the sensor does. An obstacle thinner than the gap may be inside.
+//! Nothing is measured between two neighbouring rays. Free space is therefore the polygon through the
+//! ends of the rays: a flat wall that two rays hit is exactly one of its sides, and without a return it
+//! ends at the range of the sensor. An obstacle thinner than the gap between rays may be inside.
 
 use crate::io::body::RangeRing;
 use crate::io::percept::Scan;
@@ -12,16 +12,16 @@ use base::geometry::{Point, Segment};
 use base::trig::{sin_cos, wrapped};
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
 
-/// Rays farther from each other than this are no neighbours: an eighth of a turn, and a bit.
+/// Maximum angle between neighbouring rays: an eighth of a turn, with a margin for rounding.
 const NEIGHBOURS_RAD: f64 = FRAC_PI_4 + 1e-9;
 
-/// A ring looks where it has a ray this near.
-const LOOKS_RAD: f64 = FRAC_PI_4 + 1e-9;
+/// A ring covers a direction if one of its rays is within this angle of it.
+const COVERAGE_RAD: f64 = FRAC_PI_4 + 1e-9;
 
-/// A scan is forgotten when so many should have come since.
+/// A scan expires after this number of scan periods.
 const FRESH_SCANS: f64 = 3.0;
 
-/// A range ring, with what can be said of it once for all.
+/// A range ring, with its precomputed geometry.
 #[derive(Debug, Clone)]
 pub(crate) struct Ring {
     range_m: f64,
@@ -29,42 +29,42 @@ pub(crate) struct Ring {
     fresh_s: f64,
     bearings_rad: Vec<f64>,
     directions: Vec<Point>,
-    /// Between the two nearest rays.
+    /// Smallest angle between two neighbouring rays.
     gap_rad: f64,
     chords: Vec<Chord>,
-    /// No chord is nearer than this share of the shortest ray.
+    /// No chord is closer than this fraction of the shortest ray.
     nearest_share: f64,
-    /// So many of the first chords are all that can lie ahead.
+    /// Number of chords, the first ones, that can lie ahead.
     ahead: usize,
-    /// The way straight ahead.
+    /// The area swept straight ahead.
     lane: Sector,
-    /// Whether it has rays about its front, and about its back.
-    pub(crate) looks_ahead: bool,
-    pub(crate) looks_behind: bool,
+    /// Whether its rays cover the front, and the back.
+    pub(crate) covers_front: bool,
+    pub(crate) covers_back: bool,
 }
 
-/// Two neighbouring rays, or twice the same if it has no neighbours on one side.
+/// Two neighbouring rays, or the same ray twice if it has no neighbour on one side.
 #[derive(Debug, Clone, Copy)]
 struct Chord {
     rays: [usize; 2],
     directions: [Point; 2],
-    /// A chord between rays of at least some length is nowhere nearer than this share of it.
+    /// A chord is nowhere closer than this fraction of its shorter ray.
     nearest_share: f64,
-    /// Where both rays are longer than this, the whole chord is beside the way straight ahead.
+    /// If both rays are longer than this, the whole chord is beside the area swept straight ahead.
     beside_m: [f64; 2],
-    /// Of the ray nearest to the front.
+    /// Angle between the front and the closer ray.
     off_front_rad: f64,
     gap_rad: f64,
 }
 
-/// One ray of a ring.
+/// One measured ray of a ring.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Ray {
-    /// From the robot's front.
+    /// Angle from the robot's front, anticlockwise.
     pub(crate) bearing_rad: f64,
-    /// The same, of length 1.
+    /// Unit vector of the bearing.
     pub(crate) direction: Point,
-    /// Where it ends.
+    /// Its length.
     pub(crate) range_m: f64,
 }
 
@@ -78,18 +78,18 @@ impl Ray {
         }
     }
 
-    /// Where it ends, from the robot's front.
+    /// Its end in the robot's frame.
     #[inline]
     pub(crate) fn end(&self) -> Point {
         self.direction.times(self.range_m)
     }
 }
 
-/// How far each ray and its neighbours on both sides go.
+/// The free distance along each ray: the minimum of its range and those of both neighbours.
 ///
-/// A ray that passes a wall at a small angle goes through cells that the wall fills in part, of which
-/// the ray beside it says so.
-pub(crate) fn frees_m(ranges_m: &[f64]) -> impl Iterator<Item = f64> {
+/// A ray that passes a wall at a small angle crosses cells that the wall partly fills, where the ray
+/// beside it ends.
+pub(crate) fn free_ranges_m(ranges_m: &[f64]) -> impl Iterator<Item = f64> {
     let at = |ray: usize| ranges_m.get(ray).copied().unwrap_or(f64::INFINITY);
     (0..ranges_m.len()).map(move |ray| {
         let before_m = ray.checked_sub(1).map_or(f64::INFINITY, at);
@@ -98,18 +98,18 @@ pub(crate) fn frees_m(ranges_m: &[f64]) -> impl Iterator<Item = f64> {
 }
 
 impl Ring {
-    /// On a body of this half width, with a brain of this period.
+    /// The ring on a body of this half width, with a brain of this period.
     pub(crate) fn new(ring: &RangeRing, half_width_m: f64, period_s: f64) -> Self {
         let mut chords = chords(&ring.bearings_rad);
         for chord in &mut chords {
             chord.beside_m = chord.beside_m(half_width_m, ring.range_m);
         }
         chords.sort_by(|a, b| a.off_front_rad.total_cmp(&b.off_front_rad));
-        let looks = |towards_rad: f64| {
+        let covers = |towards_rad: f64| {
             let off = |bearing: &f64| wrapped(bearing - towards_rad).abs();
             ring.bearings_rad
                 .iter()
-                .any(|bearing| off(bearing) <= LOOKS_RAD)
+                .any(|bearing| off(bearing) <= COVERAGE_RAD)
         };
         Self {
             range_m: ring.range_m,
@@ -120,7 +120,7 @@ impl Ring {
             gap_rad: chords
                 .iter()
                 .map(|chord| chord.gap_rad)
-                .fold(LOOKS_RAD, f64::min),
+                .fold(COVERAGE_RAD, f64::min),
             ahead: chords.partition_point(|chord| chord.off_front_rad < FRAC_PI_2),
             nearest_share: chords
                 .iter()
@@ -128,12 +128,12 @@ impl Ring {
                 .fold(1.0, f64::min),
             chords,
             lane: Sector::new(0.0, 0.0, half_width_m),
-            looks_ahead: looks(0.0),
-            looks_behind: looks(PI),
+            covers_front: covers(0.0),
+            covers_back: covers(PI),
         }
     }
 
-    /// Age of the scan, and its ranges, if it is whole and not too old.
+    /// Age and ranges of a scan, if it is complete and not expired.
     #[inline]
     pub(crate) fn fresh<'p>(&self, scan: Option<&'p Scan>) -> Option<(f64, &'p [f64])> {
         let scan = scan?;
@@ -143,7 +143,7 @@ impl Ring {
         (is_whole && age_s <= self.fresh_s).then_some((age_s, &scan.ranges_m))
     }
 
-    /// All rays, at most as long as the sensor sees.
+    /// All rays, limited to the range of the sensor.
     #[inline]
     pub(crate) fn rays(&self, ranges_m: &[f64]) -> impl Iterator<Item = Ray> {
         let bearings = self.bearings_rad.iter().zip(&self.directions);
@@ -151,76 +151,77 @@ impl Ring {
         rays.map(|((bearing_rad, direction), range_m)| Ray {
             bearing_rad: *bearing_rad,
             direction: *direction,
-            range_m: lesser(sensible_m(*range_m), self.range_m),
+            range_m: lesser(valid_m(*range_m), self.range_m),
         })
     }
 
-    /// Whether the first ray is the neighbour of the last.
+    /// Whether the first and the last ray are neighbours.
     pub(crate) fn is_round(&self) -> bool {
         let ends = self.bearings_rad.first().zip(self.bearings_rad.last());
         ends.is_some_and(|(first, last)| wrapped(first - last).abs() <= 1.5 * self.gap_rad)
     }
 
-    /// Time from a scan until the brain has it.
+    /// Time from a scan until the brain receives it.
     pub(crate) fn latency_s(&self) -> f64 {
         self.latency_s
     }
 
-    /// Nothing farther is seen.
+    /// Maximum range of the sensor.
     pub(crate) fn range_m(&self) -> f64 {
         self.range_m
     }
 
-    /// A ray's range, at most what the sensor sees.
+    /// Measured range of a ray, limited to the range of the sensor.
     #[inline]
     pub(crate) fn ray_m(&self, ranges_m: &[f64], ray: usize) -> f64 {
         let measured_m = ranges_m.get(ray).copied().unwrap_or_default();
-        lesser(sensible_m(measured_m), self.range_m)
+        lesser(valid_m(measured_m), self.range_m)
     }
 
-    /// A bearing off a ray, by a share of the angle to the next.
+    /// A bearing beside a ray, offset by a fraction of the angle between rays.
     pub(crate) fn about_rad(&self, ray: usize, share: f64) -> f64 {
         let bearing_rad = self.bearings_rad.get(ray).copied().unwrap_or_default();
         bearing_rad + share * self.gap_rad
     }
 
-    /// Distance from the robot's centre to the nearest that it sees, and maybe less.
+    /// Lower bound of the distance from the robot's centre to the nearest obstacle.
     #[inline]
     pub(crate) fn nearest_m(&self, ranges_m: &[f64]) -> f64 {
         let nearest_m = ranges_m.iter().fold(self.range_m, |nearest_m, range_m| {
-            lesser(sensible_m(*range_m), nearest_m)
+            lesser(valid_m(*range_m), nearest_m)
         });
         nearest_m * self.nearest_share
     }
 
-    /// Distance from the robot's centre to what is not known to be free, straight ahead.
+    /// Distance from the robot's centre to the nearest place straight ahead that is not known to be free.
     ///
-    /// It is asked at each step, so chords beside the way are left out at once, and beyond half its
-    /// sight a chord counts as being as near as its rays allow. Whether one is nearer than that is
-    /// as good as random: a branch would cost more than all the rest, so it is first decided for
-    /// all, and then near ones are looked at in turn.
+    /// It runs in every step. Chords beside the swept area are skipped at once, and beyond half the
+    /// sensor's range a chord counts as being as close as its rays allow. Whether a chord is closer
+    /// than that is unpredictable, and a mispredicted branch would cost more than all the rest:
+    /// therefore the first pass decides it for all chords without branches, and the second examines
+    /// the close ones.
     #[inline]
     pub(crate) fn free_ahead_m(&self, ranges_m: &[f64]) -> f64 {
         let mut nearest = Nearest::new(self.range_m);
         let chords = self.chords.get(..self.ahead).unwrap_or_default();
         for chords in chords.chunks(64) {
-            let mut near = self.look_roughly(chords, ranges_m, &mut nearest);
+            let mut near = self.bound_far(chords, ranges_m, &mut nearest);
             while let Some(chord) = chords.get(near.trailing_zeros() as usize) {
                 let ends_m = chord.rays.map(|ray| self.ray_m(ranges_m, ray));
-                nearest.look(chord, ends_m, &self.lane);
+                nearest.update(chord, ends_m, &self.lane);
                 near &= near - 1;
             }
         }
         nearest.m()
     }
 
-    /// Looks at chords that are far away; returns those that are near, as bits.
+    /// Bounds the distance of far chords; returns the near ones as bits.
     #[inline]
     #[expect(
         clippy::needless_bitwise_bool,
         reason = "a branch would be mispredicted"
     )]
-    fn look_roughly(&self, chords: &[Chord], ranges_m: &[f64], nearest: &mut Nearest) -> u64 {
+    fn bound_far(&self, chords: &[Chord], ranges_m: &[f64], nearest: &mut Nearest) -> u64 {
         let far_m = self.range_m / 2.0;
         let mut near = 0;
         for (number, chord) in chords.iter().enumerate() {
@@ -232,43 +233,39 @@ impl Ring {
                 continue;
             }
             let is_far = (from > far_m) & (to > far_m);
-            let least_m = lesser(lesser(from, to), self.range_m) * chord.nearest_share;
-            let squared_m2 = if is_far {
-                least_m * least_m
-            } else {
-                f64::INFINITY
-            };
+            let min_m = lesser(lesser(from, to), self.range_m) * chord.nearest_share;
+            let squared_m2 = if is_far { min_m * min_m } else { f64::INFINITY };
             nearest.squared_m2 = lesser(squared_m2, nearest.squared_m2);
             near |= u64::from(!is_far) << number;
         }
         near
     }
 
-    /// Distance from the robot's centre to what is not known to be free within a sector.
+    /// Distance from the robot's centre to the nearest place in a sector that is not known to be free.
     pub(crate) fn free_m(&self, ranges_m: &[f64], sector: &Sector) -> f64 {
         let mut nearest = Nearest::new(self.range_m);
         for chord in &self.chords {
             let ends_m = chord.rays.map(|ray| self.ray_m(ranges_m, ray));
-            nearest.look(chord, ends_m, sector);
+            nearest.update(chord, ends_m, sector);
         }
         nearest.m()
     }
 }
 
-/// The range that counts: a ray that measured nonsense sees something right here, since nobody
-/// knows better.
+/// The range to use for a measured value: an invalid one counts as an obstacle at distance 0, which is
+/// the safe assumption.
 #[inline]
-pub(crate) fn sensible_m(measured_m: f64) -> f64 {
+pub(crate) fn valid_m(measured_m: f64) -> f64 {
     if measured_m > 0.0 { measured_m } else { 0.0 }
 }
 
-/// Of two numbers; unlike `min` it need not know of what is none.
+/// The smaller of two numbers; without the handling of NaN that `min` has.
 #[inline]
 fn lesser(one: f64, other: f64) -> f64 {
     if one < other { one } else { other }
 }
 
-/// Square of the distance to the nearest so far.
+/// Square of the shortest distance so far.
 struct Nearest {
     squared_m2: f64,
 }
@@ -281,9 +278,9 @@ impl Nearest {
     }
 
     #[inline]
-    fn look(&mut self, chord: &Chord, ends_m: [f64; 2], sector: &Sector) {
-        let least_m = ends_m[0].min(ends_m[1]) * chord.nearest_share;
-        if least_m * least_m >= self.squared_m2 {
+    fn update(&mut self, chord: &Chord, ends_m: [f64; 2], sector: &Sector) {
+        let min_m = ends_m[0].min(ends_m[1]) * chord.nearest_share;
+        if min_m * min_m >= self.squared_m2 {
             return;
         }
         let [from, to] = chord.directions;
@@ -302,7 +299,7 @@ impl Nearest {
     }
 }
 
-/// The chords of neighbouring rays, and the rays without neighbours.
+/// The chords between neighbouring rays, and one for each side of a ray without a neighbour.
 fn chords(bearings_rad: &[f64]) -> Vec<Chord> {
     let mut rays: Vec<usize> = (0..bearings_rad.len()).collect();
     rays.sort_by(|a, b| bearings_rad[*a].total_cmp(&bearings_rad[*b]));
@@ -320,7 +317,7 @@ fn chords(bearings_rad: &[f64]) -> Vec<Chord> {
     chords.map(|rays| Chord::new(rays, bearings_rad)).collect()
 }
 
-/// The same angle, from 0 to a turn.
+/// The same angle, from 0 to 2 pi.
 fn anticlockwise(angle_rad: f64) -> f64 {
     let near = wrapped(angle_rad);
     if near < 0.0 { near + TAU } else { near }
@@ -341,7 +338,7 @@ impl Chord {
         }
     }
 
-    /// Infinite where that cannot be told from the lengths, or the rays are never so long.
+    /// Infinite where ray lengths do not decide it, or exceed the range of the sensor.
     fn beside_m(&self, half_width_m: f64, range_m: f64) -> [f64; 2] {
         let asides = self.directions.map(|direction| direction.y);
         let is_one_side = asides[0] * asides[1] > 0.0;
@@ -369,14 +366,14 @@ mod tests {
     }
 
     #[test]
-    fn a_wall_ahead_is_as_far_as_its_ray_says() {
+    fn the_distance_of_a_wall_ahead_is_that_of_its_ray() {
         let mut ranges = [f64::INFINITY; 16];
         ranges[0] = 1.0;
         assert!((free_m(&ring(16, 3.0), &ranges, AHEAD) - 1.0).abs() < 1e-12);
     }
 
     #[test]
-    fn a_wall_behind_is_not_seen_ahead() {
+    fn a_wall_behind_does_not_limit_the_free_distance_ahead() {
         let mut ranges = [f64::INFINITY; 16];
         ranges[5..=11].fill(0.3);
         let ring = ring(16, 3.0);
@@ -385,7 +382,7 @@ mod tests {
     }
 
     #[test]
-    fn walls_beside_a_lane_wider_than_the_body_are_not_in_its_way() {
+    fn walls_of_a_lane_wider_than_the_body_leave_it_free() {
         let lane = |half_width: f64| -> Vec<f64> {
             let bearings = ring(64, 30.0).bearings_rad;
             let ranges = bearings
@@ -407,7 +404,7 @@ mod tests {
     }
 
     #[test]
-    fn a_curve_to_the_left_sees_what_is_on_the_left() {
+    fn a_curve_to_the_left_is_limited_by_obstacles_on_the_left() {
         let mut ranges = [f64::INFINITY; 16];
         ranges[3] = 1.0;
         let ring = ring(16, 3.0);
@@ -418,7 +415,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn the_free_way_towards_a_flat_wall_is_never_too_long(
+        fn the_free_distance_to_a_flat_wall_is_never_too_long(
             wall_m in 0.3..3.0_f64, normal_rad in -1.5..1.5_f64, rays in 8_usize..64,
         ) {
             let ring = ring(rays, 4.0);
@@ -427,9 +424,9 @@ mod tests {
                 if towards > 0.0 && wall_m / towards < 4.0 { wall_m / towards } else { f64::INFINITY }
             };
             let ranges: Vec<f64> = ring.bearings_rad.iter().map(range).collect();
-            // The disc touches when its centre is its radius from the wall.
-            let way_m = (wall_m - 0.25) / normal_rad.cos();
-            prop_assert!(free_m(&ring, &ranges, AHEAD) - 0.25 <= way_m + 1e-9);
+            // The disc touches the wall when its centre is one radius away.
+            let contact_m = (wall_m - 0.25) / normal_rad.cos();
+            prop_assert!(free_m(&ring, &ranges, AHEAD) - 0.25 <= contact_m + 1e-9);
         }
     }
 }

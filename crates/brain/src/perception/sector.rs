@@ -1,9 +1,10 @@
-//! Where a body can get on its way.
+//! The area that a moving body can sweep.
 
 use base::geometry::{Point, Segment};
 use base::trig::sin_cos;
 
-/// Where a body can get: within half its width of a way with any course between two.
+/// The area that a body can sweep: everything within half its width of a straight path in any direction
+/// between two.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Sector {
     sides: [Side; 3],
@@ -17,15 +18,15 @@ struct Side {
 }
 
 impl Sector {
-    /// Courses from `from_rad` anticlockwise to `to_rad`, at most half a turn; a body of this half
-    /// width.
+    /// Directions from `from_rad` anticlockwise to `to_rad`, at most half a turn apart, for a body of
+    /// this half width.
     pub(crate) fn new(from_rad: f64, to_rad: f64, half_width_m: f64) -> Self {
-        let right_of = |course: Point| Point {
-            x: course.y,
-            y: -course.x,
+        let right_of = |ahead: Point| Point {
+            x: ahead.y,
+            y: -ahead.x,
         };
         let behind = direction(f64::midpoint(from_rad, to_rad)).times(-1.0);
-        // Right beside the body on its outermost courses.
+        // Directly beside the body in its outermost directions.
         let (beside, _) = sin_cos((to_rad - from_rad) / 2.0);
         let side = |normal, at| Side { normal, at };
         Self {
@@ -37,13 +38,13 @@ impl Sector {
         }
     }
 
-    /// The part of a segment that lies within.
+    /// The part of a segment that lies inside, if any.
     #[inline]
-    pub(crate) fn part(&self, whole: Segment) -> Option<Segment> {
+    pub(crate) fn part(&self, segment: Segment) -> Option<Segment> {
         let (mut first, mut last) = (0.0_f64, 1.0_f64);
         for side in &self.sides {
-            let from = side.normal.dot(whole.from) - side.at;
-            let to = side.normal.dot(whole.to) - side.at;
+            let from = side.normal.dot(segment.from) - side.at;
+            let to = side.normal.dot(segment.to) - side.at;
             if from > 0.0 && to > 0.0 {
                 return None;
             } else if from > 0.0 {
@@ -52,7 +53,7 @@ impl Sector {
                 last = last.min(from / (from - to));
             }
         }
-        let along = |share: f64| whole.from.plus(whole.way().times(share));
+        let along = |share: f64| segment.from.plus(segment.way().times(share));
         (first <= last).then(|| Segment {
             from: along(first),
             to: along(last),
@@ -60,7 +61,7 @@ impl Sector {
     }
 }
 
-/// Of length 1.
+/// The unit vector of a bearing.
 pub(crate) fn direction(bearing_rad: f64) -> Point {
     let (y, x) = sin_cos(bearing_rad);
     Point { x, y }

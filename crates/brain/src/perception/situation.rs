@@ -1,4 +1,4 @@
-//! What behaviours are given of a step.
+//! The situation of one step, as behaviours read it.
 
 use crate::io::body::Body;
 use crate::io::percept::Percept;
@@ -6,89 +6,93 @@ use crate::io::random_words::RandomWords;
 use crate::perception::beliefs::Beliefs;
 use crate::perception::rays::Ring;
 
-/// Touch is believed again so long after a turn: the body needs time to leave what it touched.
-const LEAVING_S: f64 = 0.5;
+/// Time for which touch is ignored after a turn, in seconds: the body needs it to leave what it touched.
+const CLEARING_S: f64 = 0.5;
 
-/// What was seen in some direction.
+/// Free distance in some direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct ClearAhead {
-    /// From the hull, and a little room, to what is not known to be free, now; negative if nothing is certain.
+    /// Current distance from the body and its clearance to the nearest place that is not known to be
+    /// free; negative if none of it is certain.
     pub(crate) free_m: f64,
-    /// Time since the oldest scan of it was measured.
+    /// Age of the oldest scan that contributed.
     pub(crate) age_s: f64,
 }
 
-/// A step's percept, with what the brain has made of it for all behaviours together.
+/// The percept of a step, with everything derived from it that behaviours share.
 #[derive(Debug)]
 pub(crate) struct Situation<'s> {
     pub(crate) percept: &'s Percept,
     pub(crate) body: &'s Body,
-    /// What a mind makes of all percepts so far; `None` without a mind.
+    /// Beliefs from all percepts so far; `None` in a brain without beliefs.
     pub(crate) beliefs: Option<&'s Beliefs>,
     pub(crate) rings: &'s [Ring],
-    /// What is seen straight ahead; `None` if nothing looks there or nothing came in.
+    /// Free distance straight ahead; `None` without a sensor to the front or without a fresh scan.
     pub(crate) ahead: Option<ClearAhead>,
-    /// Angle by which the body turned since the last step.
+    /// Angle by which the body has turned since the previous step.
     pub(crate) turned_rad: f64,
-    /// At most so fast it now goes; negative if backwards.
+    /// Upper bound of the current speed; negative in reverse.
     pub(crate) now_m_s: f64,
 }
 
 impl Situation<'_> {
-    /// Time between two steps, as short as memories keep it.
+    /// Time between two steps, in single precision, as behaviours store times.
     #[inline]
-    #[expect(clippy::cast_possible_truncation, reason = "kept short")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "single precision is enough"
+    )]
     pub(crate) fn period_s(&self) -> f32 {
         self.body.period_s as f32
     }
 
-    /// Whether it still touches something; a collision may hold it, and it gets nowhere meanwhile.
+    /// Whether the body still touches something: it may be stopped by a collision and unable to move.
     #[inline]
     pub(crate) fn is_held(&self) -> bool {
         self.touches(f64::INFINITY)
     }
 
-    /// Uniform numbers; every call begins with the first.
+    /// The uniform random numbers of this step; every call starts with the first.
     pub(crate) fn random_words(&self) -> RandomWords {
         RandomWords::new(self.percept.random_words)
     }
 
-    /// So far it still goes if it brakes now.
+    /// Stopping distance if the body brakes now.
     #[inline]
     pub(crate) fn stopping_m(&self) -> f64 {
         self.now_m_s * self.now_m_s / (2.0 * self.body.max_acceleration_m_s2)
     }
 
-    /// Whether something stands nearer ahead than `near_m`, to one who has gone straight for
-    /// `straight_s`: what was seen before that says nothing.
+    /// Whether there is an obstacle within `near_m` straight ahead. Scans from before the last
+    /// `straight_s`, for which the body has moved straight, show another direction and are ignored.
     #[inline]
-    pub(crate) fn stands_ahead(&self, near_m: f64, straight_s: f64) -> bool {
+    pub(crate) fn is_obstacle_ahead(&self, near_m: f64, straight_s: f64) -> bool {
         self.ahead
-            .is_some_and(|seen| seen.free_m < near_m && seen.age_s <= straight_s)
+            .is_some_and(|clear| clear.free_m < near_m && clear.age_s <= straight_s)
     }
 
-    /// Whether the body touches something, to one who has gone on for `since_s`.
+    /// Whether the body touches something, if its last turn ended `since_s` ago.
     #[inline]
     pub(crate) fn touches(&self, since_s: f64) -> bool {
         self.percept
             .touch
-            .is_some_and(|touch| touch.value && touch.age_s <= since_s - LEAVING_S)
+            .is_some_and(|touch| touch.value && touch.age_s <= since_s - CLEARING_S)
     }
 
-    /// Fresh scans: the ranges, and what a behaviour knows of the ring.
+    /// The ranges of each fresh scan, with the element of `per_ring` that belongs to its ring.
     #[inline]
     pub(crate) fn scans_with<'a, T>(
         &'a self,
-        known: &'a [T],
+        per_ring: &'a [T],
     ) -> impl Iterator<Item = (&'a [f64], &'a T)> {
-        let rings = self.rings.iter().zip(&self.percept.scans).zip(known);
-        rings.filter_map(|((ring, scan), known)| {
+        let rings = self.rings.iter().zip(&self.percept.scans).zip(per_ring);
+        rings.filter_map(|((ring, scan), of_ring)| {
             let (_, ranges_m) = ring.fresh(Some(scan))?;
-            Some((ranges_m, known))
+            Some((ranges_m, of_ring))
         })
     }
 
-    /// Fresh scans: the ring, and its ranges.
+    /// Each fresh scan: its ring and its ranges.
     pub(crate) fn scans(&self) -> impl Iterator<Item = (&Ring, &[f64])> {
         let rings = self.rings.iter().zip(&self.percept.scans);
         rings.filter_map(|(ring, scan)| Some((ring, ring.fresh(Some(scan))?.1)))

@@ -23,7 +23,7 @@ pub use trust::TrustSpec;
 use crate::io::body::{Body, Detector, RobotId};
 use crate::io::percept::{Observation, Percept};
 use crate::perception::believed::BelievedItem;
-use crate::perception::rays::{Ring, frees_m};
+use crate::perception::rays::{Ring, free_ranges_m};
 use crate::perception::sector::direction;
 use alloc::collections::BTreeMap;
 use alloc::string::String;
@@ -279,8 +279,8 @@ impl Beliefs {
         let there = |end: Point| pose.at.plus(turned(end, front));
         for (ring, ranges_m) in new_scans(percept, rings, period_s) {
             map.filled.begin_scan();
-            let frees_m = frees_m(ranges_m);
-            for (ray, free_m) in ring.rays(ranges_m).zip(frees_m) {
+            let free_m = free_ranges_m(ranges_m);
+            for (ray, free_m) in ring.rays(ranges_m).zip(free_m) {
                 let end = ray.end();
                 let is_hit = ray.range_m < ring.range_m() && !self.others.is_on_one(end);
                 let free = there(ray.direction.times(free_m.min(ray.range_m)));
