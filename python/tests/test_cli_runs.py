@@ -134,7 +134,7 @@ def test_a_recording_in_place_of_a_scenario_is_to_be_taken_again(tmp_path: Path)
         (["run", "serach"], "did you mean search?"),
         (["run", "search", "--set", "robots.rover.cuont=3"], "did you mean count?"),
         (["run", "search", "--run", "9223372036854775807"], "run = 9223372036854775807: must be"),
-        (["run", "search", "--record", "search.toml"], "recording's name must end in .mcap"),
+        (["run", "search", "--record", "search.toml"], "name of a recording must end in .mcap"),
         (["run", "search", "--every", "1"], "--every: requires --record FILE"),
         (
             ["run", "search", "--percepts", "no/1", "--every", "5"],

@@ -37,7 +37,7 @@ def test_every_fault_is_told_at_once_with_file_line_value_and_what_is_allowed(
         classic_toml.read_text()
         .replace('contact = "touch"', 'contact = "tuch"')
         .replace("count = 4", 'count = "four"')
-        .replace("time_limit_s = 120  ", "time_limit_s = -1  ")
+        .replace("time_limit_s = 120 #", "time_limit_s = -1 #")
         .replace("choice = 3", "chioce = 3")
     )
     with pytest.raises(InputError) as caught:
@@ -88,7 +88,7 @@ def test_a_name_that_ships_is_a_scenario_and_a_slip_of_it_is_told(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     assert Scenario.load("classic").source.text == classic_toml.read_text()
-    own = classic_toml.read_text().replace("time_limit_s = 120  ", "time_limit_s = 60  ")
+    own = classic_toml.read_text().replace("time_limit_s = 120 #", "time_limit_s = 60 #")
     (tmp_path / "classic").write_text(own)
     assert Scenario.load("classic").time_limit_s == 60
     with pytest.raises(InputError, match="clasic: cannot be read: .*; did you mean classic?"):

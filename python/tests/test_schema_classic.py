@@ -48,7 +48,7 @@ def is_taken(text: str) -> bool:
     ("good", "bad"),
     [
         ("", ""),
-        ("time_limit_s = 120       #", "cpa_s = 120       #"),
+        ("time_limit_s = 120 #", "cpa_s = 120 #"),
         ("count = 4", ""),
         ("count = 4", "count = 4.5"),
         ("count = 4", 'count = "four"'),
