@@ -187,7 +187,7 @@ impl Brain {
             let odometry = &self.odometry;
             turned_rad = odometry.turned_without_compass_rad(turned_rad, percept, body);
             let moved = [odometry.likely_speed_m_s(percept, body), turned_rad];
-            brain.beliefs.take_in(percept, body, &governor.rings, moved);
+            brain.beliefs.update(percept, body, &governor.rings, moved);
         }
         let (beliefs, mut selection) = match self.beliefs.as_deref_mut() {
             Some(BeliefBrain { beliefs, selection }) => (Some(&*beliefs), Some(selection)),

@@ -91,20 +91,20 @@ class About(TypedDict, total=False):
 
 
 class Pose(TypedDict):
-    """A position and a course, each with its standard deviation.
+    """An estimated position and heading, each with its standard deviation.
 
-    Both are carried on by what the wheels say, and corrected by each new reading in proportion
-    to the variances (Kalman, *A new approach to linear filtering and prediction problems*,
-    1960, in one dimension): gain = own variance / (own variance + the sensor's). A reading that
-    is five deviations off is left out, unless three in a row agree: then the robot begins anew
-    with the last.
+    Both are predicted by odometry and corrected by each new reading in proportion to the
+    variances (Kalman, *A new approach to linear filtering and prediction problems*, 1960, in
+    one dimension): gain = own variance / (own variance + variance of the sensor). A reading
+    that differs by more than five standard deviations is ignored, unless three in a row agree:
+    then the estimate is reset to the last one.
 
     Attributes:
-        at: In the world.
-        heading_rad: 0 along x, anticlockwise, from -pi to pi.
-        deviation_m: Of its position, along each axis.
-        deviation_rad: Of its course.
-        age_s: Time since the last position came in.
+        at: Position in the world.
+        heading_rad: Heading: 0 along x, anticlockwise, from -pi to pi.
+        deviation_m: Standard deviation of the position, along each axis.
+        deviation_rad: Standard deviation of the heading.
+        age_s: Age of the last position reading.
     """
 
     at: Point
@@ -115,13 +115,13 @@ class Pose(TypedDict):
 
 
 class BelievedItem(TypedDict):
-    """An item, as it is believed to be.
+    """The estimate of an item.
 
     Attributes:
-        kind: Place of its kind in `Body.item_kinds`.
-        at: Where in the world.
-        deviation_m: Standard deviation of that along each axis.
-        confidence: How surely it is there, 0 to 1.
+        kind: Index of its kind in `Body.item_kinds`.
+        at: Its position in the world.
+        deviation_m: Standard deviation of the position along each axis.
+        confidence: Probability that it exists, 0 to 1.
     """
 
     kind: int
@@ -131,13 +131,13 @@ class BelievedItem(TypedDict):
 
 
 class BelievedRobot(TypedDict):
-    """A robot, as it is believed to be.
+    """The estimate of another robot.
 
     Attributes:
-        id: Which, if it is known for one.
-        at: From the robot's front.
-        velocity_m_s: Over ground, along the robot's front and left.
-        age_s: Time since it was last seen.
+        id: Its id, if it was identified.
+        at: Its position in the robot's frame: x forwards, y to the left.
+        velocity_m_s: Its velocity over ground, in the same frame.
+        age_s: Time since it was last detected.
     """
 
     id: RobotId | None

@@ -46,7 +46,8 @@ impl BeliefBrain {
 
     /// Adds the messages of this step to the outbox.
     pub(crate) fn publish(&mut self, period_s: f64, outbox: &mut Vec<Message>) {
-        self.beliefs.tell(self.selection.pursued, period_s, outbox);
+        self.beliefs
+            .broadcast(self.selection.pursued, period_s, outbox);
     }
 }
 

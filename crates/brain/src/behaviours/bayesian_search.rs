@@ -90,7 +90,7 @@ impl Ready {
         let Known { map, pose, beliefs } = known;
         let (Search { survey, part, .. }, outlook) = (search, &self.outlook);
         part.renew(beliefs, map);
-        let stop_duration_s = STOP_S + outlook.looks(LOOKED) * beliefs.look_s();
+        let stop_duration_s = STOP_S + outlook.looks(LOOKED) * beliefs.observation_period_s();
         let time_s =
             |way_m: f64| stop_duration_s + way_m / self.destination.max_speed_m_s.max(1e-6);
         let apart = apart(situation.body, map);
@@ -119,7 +119,7 @@ impl Ready {
 
 /// How long it turns until it faces a place.
 fn turn_s(pose: &Pose, place: Point) -> f64 {
-    let way = pose.own(place);
+    let way = pose.in_own_frame(place);
     TURN_S_RAD * libm::atan2(way.y, way.x).abs()
 }
 

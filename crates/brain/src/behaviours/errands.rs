@@ -63,7 +63,7 @@ impl Errands {
             self.dismiss(places, *visited);
         }
         let has_better = |id: RobotId| id < own;
-        let is_taken = |to| mates.anybody_goes(to, has_better);
+        let is_taken = |to| mates.is_any_going_to(to, has_better);
         if !self.is_chosen || self.next(places).is_some_and(is_taken) {
             self.choose(places, at, mates);
         }
@@ -87,7 +87,7 @@ impl Errands {
         let offered = self.left.iter().enumerate().skip(self.declined);
         let free = offered.filter_map(|(number, place)| {
             let to = *places.get(*place as usize)?;
-            let is_free = !mates.anybody_goes(to, |_| true);
+            let is_free = !mates.is_any_going_to(to, |_| true);
             is_free.then(|| (at.to(to).length_squared(), number))
         });
         let nearest = free.min_by(|one, other| one.0.total_cmp(&other.0));
@@ -127,7 +127,7 @@ mod tests {
     fn each_goes_to_the_nearest_place_that_nobody_else_goes_to() {
         let (mut errands, mut mates) = (all(), Peers::default());
         assert_eq!(next(&mut errands, 1, 2.0, &mates), Some(3.0));
-        mates.goes(robot(0), at(3.0), CommitmentStatus::Active, 0.0);
+        mates.update_destination(robot(0), at(3.0), CommitmentStatus::Active, 0.0);
         assert_eq!(next(&mut errands, 1, 2.0, &mates), Some(0.0));
     }
 
@@ -135,7 +135,7 @@ mod tests {
     fn of_two_who_go_to_the_same_place_the_first_goes_on() {
         let (mut errands, mut mates) = (all(), Peers::default());
         assert_eq!(next(&mut errands, 1, 2.0, &mates), Some(3.0));
-        mates.goes(robot(2), at(3.0), CommitmentStatus::Active, 0.0);
+        mates.update_destination(robot(2), at(3.0), CommitmentStatus::Active, 0.0);
         assert_eq!(next(&mut errands, 1, 2.0, &mates), Some(3.0));
     }
 
@@ -149,7 +149,7 @@ mod tests {
             (0.0, Some(9.0)),
             (9.0, None),
         ] {
-            mates.goes(robot(2), at(x), CommitmentStatus::Done, 0.0);
+            mates.update_destination(robot(2), at(x), CommitmentStatus::Done, 0.0);
             assert_eq!(next(&mut errands, 1, 2.0, &mates), then);
         }
     }
@@ -168,9 +168,9 @@ mod tests {
     #[test]
     fn who_is_not_heard_of_any_more_leaves_its_place_to_others() {
         let (mut errands, mut mates) = (Errands::new(vec![1]), Peers::default());
-        mates.goes(robot(0), at(3.0), CommitmentStatus::Active, 0.0);
+        mates.update_destination(robot(0), at(3.0), CommitmentStatus::Active, 0.0);
         assert_eq!(next(&mut errands, 1, 2.0, &mates), None);
-        mates.pass(11.0);
+        mates.advance(11.0);
         assert_eq!(next(&mut errands, 1, 2.0, &mates), Some(3.0));
     }
 }

@@ -81,7 +81,7 @@ impl Behaviour for Ready {
         let beliefs = situation.beliefs?;
         let pose = beliefs.pose()?;
         let leader = self.leader(situation.percept.id)?;
-        let at: Point = beliefs.whereabouts(leader)?;
+        let at: Point = beliefs.position_of(leader)?;
         let way = at.to(pose.at);
         let away_m = way.length();
         if away_m <= self.apart_m {

@@ -64,7 +64,7 @@ fn nearest(
     let (at, near_m) = (beliefs.pose()?.at, 4.0 * map.field.cell_m);
     let nearness = |way_m: f64| 1.0 / way_m.max(map.field.cell_m);
     let worth = |cell, way_m, _| {
-        if map.unseen.of(cell) > UNSEEN {
+        if map.coverage.of(cell) > UNSEEN {
             nearness(way_m) * share(beliefs, at, map.field.centre(cell), near_m)
         } else {
             0.0
@@ -74,7 +74,7 @@ fn nearest(
 }
 
 fn is_unseen(map: &Map, place: Point) -> bool {
-    map.unseen.of(map.field.nearest_cell(place)) > UNSEEN
+    map.coverage.of(map.field.nearest_cell(place)) > UNSEEN
 }
 
 impl Behaviour for Ready {

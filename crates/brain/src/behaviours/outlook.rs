@@ -2,7 +2,7 @@
 
 use crate::io::body::Detector;
 use crate::perception::beliefs::Map;
-use crate::perception::beliefs::coverage_map::{SUREST, View};
+use crate::perception::beliefs::coverage_map::{MAX_DETECTION, View};
 use crate::perception::beliefs::pose::turned;
 use crate::perception::sector::direction;
 use alloc::vec::Vec;
@@ -53,7 +53,7 @@ impl Outlook {
             .map(|sample| sample.area_m2)
             .sum::<f64>();
         let seen = self.most / all_m2.max(f64::MIN_POSITIVE);
-        nats / -libm::log1p(-seen.clamp(LEAST_SEEN, SUREST))
+        nats / -libm::log1p(-seen.clamp(LEAST_SEEN, MAX_DETECTION))
     }
 
     /// How many items a look from a place would find at the end of a way there, if there were an unseen one
@@ -65,7 +65,7 @@ impl Outlook {
     /// The same of what nothing hides.
     pub(crate) fn promises(&self, map: &Map, at: Point, way: Point, blur_m: f64) -> f64 {
         self.sum(map, at, way, |place| {
-            !self.needs_line_of_sight || map.filled.sees(&map.field, at, place, blur_m)
+            !self.needs_line_of_sight || map.occupancy.is_visible(&map.field, at, place, blur_m)
         })
     }
 
@@ -80,7 +80,7 @@ impl Outlook {
         let found = self.samples.iter().filter_map(|sample| {
             let place = at.plus(turned(sample.at, front));
             let cell = map.field.cell(place)?;
-            let left = sample.area_m2 * sample.seen * map.unseen.of(cell);
+            let left = sample.area_m2 * sample.seen * map.coverage.of(cell);
             (left > 0.0 && counts(place)).then_some(left)
         });
         found.sum()
@@ -100,7 +100,7 @@ fn samples(detector: &Detector) -> impl Iterator<Item = Sample> {
         .map(move |at| Sample {
             at,
             area_m2: apart_m * apart_m,
-            seen: detector.least_probability(at.length()),
+            seen: detector.min_probability(at.length()),
         })
 }
 
@@ -108,7 +108,7 @@ fn samples(detector: &Detector) -> impl Iterator<Item = Sample> {
 mod tests {
     use super::*;
     use crate::perception::beliefs::BeliefsSpec;
-    use crate::perception::beliefs::coverage_map::Glance;
+    use crate::perception::beliefs::coverage_map::DetectorScan;
     use crate::perception::beliefs::coverage_map::tests::{detector, map};
     use crate::perception::beliefs::occupancy::Ray;
     use base::geometry::{Rectangle, Segment};
@@ -123,8 +123,8 @@ mod tests {
         }
     }
 
-    fn glance(eye: &Detector) -> Glance<'_> {
-        Glance {
+    fn glance(eye: &Detector) -> DetectorScan<'_> {
+        DetectorScan {
             detector: eye,
             at: HERE,
             heading_rad: 0.0,
@@ -144,7 +144,8 @@ mod tests {
         let [ahead, back] = [AHEAD, AHEAD.times(-1.0)];
         let [before, behind] = [ahead, back].map(|way| promises(&map, way, 0.0));
         assert!((before - 5.4).abs() < 0.8, "{before}");
-        map.unseen.take_in(&map.field, &map.filled, &glance(&eye));
+        map.coverage
+            .update(&map.field, &map.occupancy, &glance(&eye));
         assert!(promises(&map, ahead, 0.0) < 0.5 * before);
         assert!((promises(&map, back, 0.0) - behind).abs() < 1e-9);
     }
@@ -162,7 +163,7 @@ mod tests {
                 way: Segment { from: HERE, to },
                 hit: Some(to),
             };
-            (0..5).for_each(|_| map.filled.take_in(&map.field, &ray));
+            (0..5).for_each(|_| map.occupancy.add_ray(&map.field, &ray));
         }
         let [sure, unsure] = [0.0, 0.5].map(|blur_m| promises(&map, AHEAD, blur_m));
         assert!(

@@ -65,12 +65,14 @@ impl Part {
     }
 
     fn sum_up(&mut self, map: &Map) {
-        let Map { field, unseen, .. } = map;
+        let Map {
+            field, coverage, ..
+        } = map;
         self.left.clear();
         self.left.resize(BLOCKS * BLOCKS, 0.0);
         for row in 0..field.rows {
             let blocks = row * BLOCKS / field.rows * BLOCKS..;
-            let cells = unseen.row(field, row);
+            let cells = coverage.row(field, row);
             let mut first = 0;
             for (number, left) in self.left[blocks].iter_mut().take(BLOCKS).enumerate() {
                 // The first column of the next block.
@@ -112,7 +114,7 @@ impl Part {
 }
 
 /// A robot and all the team mates that it remembers.
-const MOST: usize = 1 + crate::perception::beliefs::peers::MOST;
+const MOST: usize = 1 + crate::perception::beliefs::peers::MAX_PEERS;
 
 #[inline]
 fn block_of(field: &Field, cell: usize) -> usize {

@@ -75,7 +75,7 @@ impl Ready {
 
     /// The least that was left since it went home, if it is still to go there.
     fn low_since(&self, low: Option<f64>, way_m: f64, beliefs: &Beliefs) -> Option<f64> {
-        let left = beliefs.battery_left()?;
+        let left = beliefs.battery_charge()?;
         let way_s = way_m / self.destination.max_speed_m_s.max(1e-6);
         let is_low =
             left <= self.spec.min_charge || beliefs.battery_s() < self.spec.reserve_factor * way_s;

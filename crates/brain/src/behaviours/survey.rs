@@ -45,7 +45,7 @@ impl Survey {
         at_most: impl Fn(f64) -> f64,
     ) -> Option<Point> {
         let room_m = body.radius_m + CELL_ROOM * map.field.cell_m;
-        let (known, given_up) = ((&map.field, &map.filled), &self.given_up);
+        let (known, given_up) = ((&map.field, &map.occupancy), &self.given_up);
         let mut best = Best::default();
         let mut offer = |cell, way_m| {
             let worth = worth(cell, way_m, best.worth);
@@ -70,7 +70,7 @@ impl Survey {
             let place = field.centre(cell);
             let is_worth_it = worth(cell, 0.0, best.worth) > best.worth;
             if let Some((_, way_m)) = is_worth_it
-                .then(|| self.wavefront.exit(field, &map.filled, place))
+                .then(|| self.wavefront.exit(field, &map.occupancy, place))
                 .flatten()
             {
                 best.offer(
@@ -124,8 +124,8 @@ pub(crate) fn share(beliefs: &Beliefs, at: Point, place: Point, near_m: f64) -> 
     let away = at.to(place).length_squared();
     let takes = |peer: &Peer| {
         let goes = peer
-            .aim()
-            .is_some_and(|aim| aim.to(place).length_squared() < near_m * near_m);
+            .destination()
+            .is_some_and(|destination| destination.to(place).length_squared() < near_m * near_m);
         let is_nearer = peer
             .at()
             .is_some_and(|there| there.to(place).length_squared() < away);

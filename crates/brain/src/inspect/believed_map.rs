@@ -29,8 +29,8 @@ impl BelievedMap {
             cell_m: map.field.cell_m,
             columns: map.field.columns,
             rows: map.field.rows,
-            occupancy: map.filled.percent().collect(),
-            unseen: map.unseen.percent().collect(),
+            occupancy: map.occupancy.percent().collect(),
+            unseen: map.coverage.percent().collect(),
         }
     }
 }
@@ -56,8 +56,8 @@ mod tests {
             hit: Some(way.to),
         };
         (0..3).for_each(|_| {
-            map.filled.begin_scan();
-            map.filled.take_in(&map.field, &ray);
+            map.occupancy.begin_scan();
+            map.occupancy.add_ray(&map.field, &ray);
         });
         let told = BelievedMap::of(&map);
         assert_eq!((told.corner, told.cell_m), (corner, 0.25));
@@ -68,7 +68,7 @@ mod tests {
         assert_eq!(percent(Point { x: 3.0, y: 3.1 }), 32);
         assert_eq!(percent(Point { x: 3.0, y: 5.1 }), -1);
         for (cell, percent) in told.occupancy.iter().enumerate() {
-            assert_eq!(map.filled.is_filled(cell), *percent >= 73);
+            assert_eq!(map.occupancy.is_occupied(cell), *percent >= 73);
         }
         assert!(told.unseen.iter().all(|percent| *percent == 100));
     }

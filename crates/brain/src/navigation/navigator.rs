@@ -12,7 +12,7 @@ use super::traffic::Traffic;
 use crate::goals::proposal::Destination;
 use crate::io::command::Motion;
 use crate::perception::beliefs::pose::Pose;
-use crate::perception::beliefs::{Beliefs, Map, standing};
+use crate::perception::beliefs::{Beliefs, Map, static_hits};
 use crate::perception::rays::Ray;
 use crate::perception::situation::Situation;
 use alloc::vec::Vec;
@@ -100,10 +100,10 @@ impl Navigator {
         let Some(waypoint) = waypoint else {
             return Motion::default();
         };
-        standing(beliefs, situation.rings, situation.percept, &mut self.hits);
+        static_hits(beliefs, situation.rings, situation.percept, &mut self.hits);
         let step = Step {
             goal,
-            target: pose.own(waypoint),
+            target: pose.in_own_frame(waypoint),
             remaining_m: self.remaining_m(pose.at, goal),
             turned_rad: situation.turned_rad,
             period_s: situation.body.period_s,
@@ -153,7 +153,7 @@ impl Navigator {
         let waypoint = match self.waypoint_source(goal, pose.at, map) {
             Source::Plan(plan) => return self.keep(plan, body.period_s),
             Source::StraightLine => Some(goal),
-            Source::LastSearch => self.wavefront.waypoint(&map.field, &map.filled, pose.at),
+            Source::LastSearch => self.wavefront.waypoint(&map.field, &map.occupancy, pose.at),
             Source::NewSearch => self.search(goal, pose.at, map, body.radius_m),
         };
         self.plan = Some(Plan {
@@ -161,7 +161,7 @@ impl Navigator {
             waypoint,
             beyond_m: self.beyond_m(waypoint, goal, map),
             age_s: 0.0,
-            map_changes: map.filled.changes,
+            map_changes: map.occupancy.changes,
         });
         waypoint
     }
@@ -171,11 +171,11 @@ impl Navigator {
         if let Some(plan) = plan.filter(|plan| !plan.is_due(at, map.field.cell_m)) {
             return Source::Plan(plan);
         }
-        if map.filled.is_free_between(&map.field, at, goal) {
+        if map.occupancy.is_free_between(&map.field, at, goal) {
             return Source::StraightLine;
         }
-        let is_valid =
-            plan.is_some_and(|plan| plan.map_changes == map.filled.changes && !plan.is_straight());
+        let is_valid = plan
+            .is_some_and(|plan| plan.map_changes == map.occupancy.changes && !plan.is_straight());
         if is_valid && self.wavefront.covers(&map.field, at) {
             Source::LastSearch
         } else {
@@ -201,10 +201,10 @@ impl Navigator {
             (radius_m - TIGHT_CLEARANCE * cell_m).max(0.0),
         ];
         clearances_m.into_iter().find_map(|clearance_m| {
-            let known = (&map.field, &map.filled);
+            let known = (&map.field, &map.occupancy);
             self.wavefront
                 .expand(known, goal, clearance_m, |cell, _| cell != here);
-            self.wavefront.waypoint(&map.field, &map.filled, at)
+            self.wavefront.waypoint(&map.field, &map.occupancy, at)
         })
     }
 

@@ -86,7 +86,7 @@ impl Wavefront {
         let max_cells = field.columns.max(field.rows) as f64;
         let clearance = (clearance_m / field.cell_m).max(0.0).min(max_cells);
         self.inflation = clearance as i32 + 1;
-        for occupied in map.filled() {
+        for occupied in map.occupied() {
             let [column, row] = field.column_and_row_of(occupied);
             for up in 1 - self.inflation..self.inflation {
                 for right in 1 - self.inflation..self.inflation {
@@ -291,8 +291,8 @@ fn distance_m(field: &Field, cost: u16) -> f64 {
 
 /// Whether no obstacle lies between an open cell and a point near it, which may be occupied itself.
 fn is_connected(field: &Field, map: &Occupancy, open: Point, at: Point) -> bool {
-    if map.is_filled(field.nearest_cell(at)) {
-        map.sees(field, open, at, 0.0)
+    if map.is_occupied(field.nearest_cell(at)) {
+        map.is_visible(field, open, at, 0.0)
     } else {
         map.is_free_between(field, open, at)
     }

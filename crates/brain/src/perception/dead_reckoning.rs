@@ -62,7 +62,10 @@ impl DeadReckoning {
     /// body has turned since the previous step: from the compass if there is one, else from the
     /// wheels, else from the command.
     #[inline]
-    #[expect(clippy::cast_possible_truncation, reason = "single precision is enough")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "single precision is enough"
+    )]
     pub(crate) fn update(&mut self, percept: &Percept, body: &Body) -> f64 {
         if percept.touch.is_some_and(|touch| touch.value) {
             // A collision has stopped the body, whatever its command.
@@ -110,7 +113,10 @@ impl DeadReckoning {
 
     /// Records the motion commanded until the next step.
     #[inline]
-    #[expect(clippy::cast_possible_truncation, reason = "single precision is enough")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "single precision is enough"
+    )]
     pub(crate) fn record_command(&mut self, motion: Motion, body: &Body) {
         let max_change = (body.max_acceleration_m_s2 * body.period_s) as f32;
         let change = motion.speed_m_s as f32 - self.speed_m_s;

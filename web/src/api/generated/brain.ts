@@ -17,27 +17,27 @@ export interface BeliefState {
   reach: HeadingOptions | null;
 }
 
-/** An item, as it is believed to be. */
+/** The estimate of an item. */
 export interface BelievedItem {
-  /** Place of its kind in `Body.item_kinds`. */
+  /** Index of its kind in `Body.item_kinds`. */
   kind: number;
-  /** Where in the world. */
+  /** Its position in the world. */
   at: Point;
-  /** Standard deviation of that along each axis. */
+  /** Standard deviation of the position along each axis. */
   deviation_m: number;
-  /** How surely it is there, 0 to 1. */
+  /** Probability that it exists, 0 to 1. */
   confidence: number;
 }
 
-/** A robot, as it is believed to be. */
+/** The estimate of another robot. */
 export interface BelievedRobot {
-  /** Which, if it is known for one. */
+  /** Its id, if it was identified. */
   id: RobotId | null;
-  /** From the robot's front. */
+  /** Its position in the robot's frame: x forwards, y to the left. */
   at: Point;
-  /** Over ground, along the robot's front and left. */
+  /** Its velocity over ground, in the same frame. */
   velocity_m_s: Point;
-  /** Time since it was last seen. */
+  /** Time since it was last detected. */
   age_s: number;
 }
 
@@ -209,17 +209,17 @@ export interface PointReading {
   age_s: number;
 }
 
-/** A position and a course, each with its standard deviation. Both are carried on by what the wheels say, and corrected by each new reading in proportion to the variances (Kalman, *A new approach to linear filtering and prediction problems*, 1960, in one dimension): gain = own variance / (own variance + the sensor's). A reading that is five deviations off is left out, unless three in a row agree: then the robot begins anew with the last. */
+/** An estimated position and heading, each with its standard deviation. Both are predicted by odometry and corrected by each new reading in proportion to the variances (Kalman, *A new approach to linear filtering and prediction problems*, 1960, in one dimension): gain = own variance / (own variance + variance of the sensor). A reading that differs by more than five standard deviations is ignored, unless three in a row agree: then the estimate is reset to the last one. */
 export interface Pose {
-  /** In the world. */
+  /** Position in the world. */
   at: Point;
-  /** 0 along x, anticlockwise, from -pi to pi. */
+  /** Heading: 0 along x, anticlockwise, from -pi to pi. */
   heading_rad: number;
-  /** Of its position, along each axis. */
+  /** Standard deviation of the position, along each axis. */
   deviation_m: number;
-  /** Of its course. */
+  /** Standard deviation of the heading. */
   deviation_rad: number;
-  /** Time since the last position came in. */
+  /** Age of the last position reading. */
   age_s: number;
 }
 

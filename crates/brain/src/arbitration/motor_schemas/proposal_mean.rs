@@ -64,7 +64,7 @@ fn destination_vector(destination: &Destination, situation: &Situation) -> (Poin
     let Some(pose) = situation.beliefs.and_then(Beliefs::pose) else {
         return (Point::default(), 0.0);
     };
-    let line = pose.own(destination.at);
+    let line = pose.in_own_frame(destination.at);
     let distance_m = line.length();
     if distance_m <= 0.0 || max_m_s <= 0.0 {
         return (Point::default(), 0.0);

@@ -13,16 +13,16 @@ fn field() -> Field {
     Field::new(&Rectangle::spanned(Point::default(), corner), CELL_M, 1000)
 }
 
-fn map(is_filled: impl Fn(usize, usize) -> bool) -> Occupancy {
+fn map(is_occupied: impl Fn(usize, usize) -> bool) -> Occupancy {
     let field = field();
     let mut map = Occupancy::new(&field);
-    for cell in (0..field.cells()).filter(|cell| is_filled(cell % COLUMNS, cell / COLUMNS)) {
+    for cell in (0..field.cells()).filter(|cell| is_occupied(cell % COLUMNS, cell / COLUMNS)) {
         let centre = field.centre(cell);
         let way = Segment {
             from: centre,
             to: centre,
         };
-        map.take_in(
+        map.add_ray(
             &field,
             &Ray {
                 way,
@@ -54,7 +54,7 @@ fn open_cells(map: &Occupancy, radius_m: f64) -> Vec<bool> {
     let is_near =
         |cell: usize, other: usize| field.centre(cell).to(field.centre(other)).length() <= radius_m;
     let fits = |cell| {
-        !map.filled()
+        !map.occupied()
             .any(|other| other == cell || is_near(cell, other))
     };
     (0..field.cells()).map(fits).collect()
@@ -140,7 +140,7 @@ proptest! {
             prop_assert!(path.iter().all(|cell| is_open[*cell]));
             let last = field.centre(*path.last().unwrap());
             prop_assert!(!is_open[from] || last == field.centre(from));
-            prop_assert!(map.sees(&field, last, field.centre(from), 0.0));
+            prop_assert!(map.is_visible(&field, last, field.centre(from), 0.0));
             prop_assert_eq!(wavefront.waypoint(&field, &map, last), Some(field.centre(from)));
         }
     }
@@ -155,7 +155,7 @@ proptest! {
         prop_assume!(wavefront.is_blocked(&field, at));
         let at = field.centre(at);
         if let Some((exit, path_m)) = wavefront.exit(&field, &map, at) {
-            prop_assert!(map.sees(&field, field.centre(exit), at, 0.0));
+            prop_assert!(map.is_visible(&field, field.centre(exit), at, 0.0));
             prop_assert!(path_m > wavefront.cell_distance_m(&field, exit).unwrap());
             prop_assert_eq!(wavefront.waypoint(&field, &map, at), Some(field.centre(exit)));
         }

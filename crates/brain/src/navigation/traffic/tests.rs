@@ -93,7 +93,7 @@ impl TestRobot {
     fn decide(&mut self, percept: &Percept, wanted: Motion) -> Motion {
         let way = direction(self.turned_rad / 2.0).times(self.moved_m);
         let (body, turned_rad) = (&self.body, self.turned_rad);
-        self.others.take_in(percept, body, way, turned_rad);
+        self.others.update(percept, body, way, turned_rad);
         let now_m_s = self.speed_m_s;
         self.traffic
             .update(&self.others.movers, body, [now_m_s, turned_rad]);

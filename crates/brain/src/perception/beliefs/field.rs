@@ -1,41 +1,41 @@
-//! The mission's field in cells.
+//! The grid of cells over the mission area.
 
 use base::geometry::{Point, Rectangle};
 use core::ops::Range;
 
-/// Places between cells are told in so many binary digits.
+/// Fractional bits of fixed-point coordinates.
 const FIXED: u32 = 20;
 
-/// A rectangle of square cells, row by row from the least corner.
+/// A rectangle of square cells, row by row from the lower left corner.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Field {
     area: Rectangle,
     pub(crate) cell_m: f64,
-    cells_a_m: f64,
+    cells_per_m: f64,
     pub(crate) columns: usize,
     pub(crate) rows: usize,
 }
 
 impl Field {
-    /// Cells over `area`, as small as `least_cell_m` if that makes no more than `most` of them.
+    /// Covers `area` with at most `max_cells` cells that are at least `min_cell_m` wide.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
         clippy::cast_precision_loss,
         reason = "at most some thousands"
     )]
-    pub(crate) fn new(area: &Rectangle, least_cell_m: f64, most: usize) -> Self {
+    pub(crate) fn new(area: &Rectangle, min_cell_m: f64, max_cells: usize) -> Self {
         let size = area.size();
-        // (width / cell + 1) (height / cell + 1) = most, since both are rounded up.
+        // (width / cell + 1) (height / cell + 1) = max_cells, since both are rounded up.
         let (sum_m, area_m2) = (size.x + size.y, size.x * size.y);
-        let root = libm::sqrt(sum_m * sum_m + 4.0 * area_m2 * (most.max(4) as f64 - 1.0));
+        let root = libm::sqrt(sum_m * sum_m + 4.0 * area_m2 * (max_cells.max(4) as f64 - 1.0));
         let sparse_m = 2.0 * area_m2 / (root - sum_m);
-        let cell_m = least_cell_m.max(sparse_m);
+        let cell_m = min_cell_m.max(sparse_m);
         let count = |length_m: f64| (libm::ceil(length_m / cell_m) as usize).max(1);
         Self {
             area: *area,
             cell_m,
-            cells_a_m: 1.0 / cell_m,
+            cells_per_m: 1.0 / cell_m,
             columns: count(size.x),
             rows: count(size.y),
         }
@@ -45,14 +45,14 @@ impl Field {
         self.columns * self.rows
     }
 
-    /// The cell that holds a place, if one does.
+    /// The cell that contains a position, if any.
     #[inline]
     pub(crate) fn cell(&self, place: Point) -> Option<usize> {
         let [column, row] = self.column_and_row(place);
         self.number(column, row)
     }
 
-    /// The cell nearest to a place.
+    /// The cell nearest to a position.
     pub(crate) fn nearest_cell(&self, place: Point) -> usize {
         let [column, row] = self.column_and_row(place);
         let within =
@@ -60,18 +60,18 @@ impl Field {
         within(row, self.rows) * self.columns + within(column, self.columns)
     }
 
-    /// Column and row of a place, also beyond the edges.
+    /// Column and row of a position, also outside the field.
     #[inline]
     pub(crate) fn column_and_row(&self, place: Point) -> [i32; 2] {
         let [right, up] = self.in_cells(place);
         [whole(right), whole(up)]
     }
 
-    /// A place as so many cells from the least corner.
+    /// A position in units of cells from the lower left corner.
     #[inline]
     pub(crate) fn in_cells(&self, place: Point) -> [f64; 2] {
         let way = self.area.min().to(place);
-        [way.x * self.cells_a_m, way.y * self.cells_a_m]
+        [way.x * self.cells_per_m, way.y * self.cells_per_m]
     }
 
     /// Column and row of a cell.
@@ -102,7 +102,7 @@ impl Field {
         })
     }
 
-    /// Its least corner.
+    /// Its lower left corner.
     pub(crate) fn corner(&self) -> Point {
         self.area.min()
     }
@@ -112,7 +112,7 @@ impl Field {
         self.area.size()
     }
 
-    /// The place so far to the right of its least corner, and so far up.
+    /// The position at an offset from its lower left corner.
     pub(crate) fn place(&self, [right_m, up_m]: [f64; 2]) -> Point {
         self.area.min().plus(Point {
             x: right_m,
@@ -120,24 +120,23 @@ impl Field {
         })
     }
 
-    /// How far a place within is from the edge.
+    /// Distance of a position inside the field from its boundary.
     #[inline]
     pub(crate) fn edge_m(&self, place: Point) -> f64 {
         let (low, high) = (self.area.min().to(place), place.to(self.area.max()));
         low.x.min(low.y).min(high.x).min(high.y)
     }
 
-    /// The place in it that is nearest to one.
+    /// The position in the field that is nearest to another.
     pub(crate) fn nearest(&self, place: Point) -> Point {
-        let (least, most) = (self.area.min(), self.area.max());
+        let (min, max) = (self.area.min(), self.area.max());
         Point {
-            x: place.x.max(least.x).min(most.x),
-            y: place.y.max(least.y).min(most.y),
+            x: place.x.max(min.x).min(max.x),
+            y: place.y.max(min.y).min(max.y),
         }
     }
 
-    /// Cells of it that a straight way crosses, but for the one where it begins: one in each column that it
-    /// passes, or in each row if those are more.
+    /// The cells on a straight line, without the first: one per column, or one per row if there are more rows.
     #[inline]
     #[expect(
         clippy::cast_possible_truncation,
@@ -149,15 +148,15 @@ impl Field {
         let ([right, up], [to_right, to_up]) = (self.in_cells(from), self.in_cells(to));
         let way = [to_right - right, to_up - up];
         let steps = way[0].abs().max(way[1].abs());
-        let a_step = 1.0 / steps.max(f64::MIN_POSITIVE);
-        let stride = way.map(|way| way * a_step);
+        let per_step = 1.0 / steps.max(f64::MIN_POSITIVE);
+        let stride = way.map(|way| way * per_step);
         let count = match (self.cell(from), self.cell(to)) {
             (Some(_), Some(_)) => steps,
             (Some(_), None) => steps.min(self.steps_within([right, up], stride)),
             (None, _) => 0.0,
         };
         let count = if count.is_finite() { count as u32 } else { 0 };
-        // In whole numbers of 2^-20 of a cell, of which no sum errs.
+        // Fixed-point numbers with 20 fractional bits: sums have no rounding errors.
         let fixed = |cells: f64| (cells * f64::from(1 << FIXED)) as i64;
         let (mut at, stride) = ([fixed(right), fixed(up)], stride.map(fixed));
         let (columns, cells) = (self.columns as i64, self.cells());
@@ -168,7 +167,7 @@ impl Field {
         })
     }
 
-    /// So many strides from a place within, it is outside.
+    /// Number of strides from a position inside the field to its boundary.
     #[expect(clippy::cast_precision_loss, reason = "at most some thousands")]
     fn steps_within(&self, [right, up]: [f64; 2], stride: [f64; 2]) -> f64 {
         let within = |at: f64, stride: f64, count: usize| {
@@ -178,7 +177,7 @@ impl Field {
         within(right, stride[0], self.columns).min(within(up, stride[1], self.rows))
     }
 
-    /// Cells at most so many columns and rows from one, and that itself.
+    /// The cells within `reach` columns and rows of a cell, itself included.
     pub(crate) fn around(&self, cell: usize, reach: i32) -> impl Iterator<Item = usize> + use<> {
         let [column, row] = self.column_and_row_of(cell);
         let field = *self;
@@ -189,7 +188,7 @@ impl Field {
         })
     }
 
-    /// Cells of it on a way, from half a cell along it: `way` is of length 1. Some come twice.
+    /// The cells along a direction of length 1, sampled every half cell; some occur twice.
     #[inline]
     pub(crate) fn along(
         &self,
@@ -200,7 +199,7 @@ impl Field {
         let [mut right, mut up] = self.in_cells(from);
         let (columns, rows) = (self.columns, self.rows);
         let count = 2.0 * length_m / self.cell_m;
-        // Nobody sees farther than all cells.
+        // Enough for the whole field.
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
@@ -223,7 +222,7 @@ impl Field {
         })
     }
 
-    /// Columns and rows that come into a box between two corners.
+    /// The columns and rows that a box between two corners touches.
     pub(crate) fn columns_and_rows(&self, low: Point, high: Point) -> [Range<usize>; 2] {
         let ([left, bottom], [right, top]) = (self.column_and_row(low), self.column_and_row(high));
         let span = |first: i32, last: i32, count: usize| {
@@ -237,7 +236,7 @@ impl Field {
     }
 }
 
-/// The greatest whole number that is no more; faster than the library's without help of the processor.
+/// The floor; faster than the library function on processors without an instruction for it.
 #[inline]
 #[expect(clippy::cast_possible_truncation, reason = "a cast saturates")]
 fn whole(number: f64) -> i32 {
@@ -252,12 +251,12 @@ mod tests {
 
     proptest! {
         #[test]
-        fn there_are_never_more_cells_than_allowed_and_each_holds_its_centre(
-            width in 0.1_f64..1e5, height in 0.1_f64..1e5, most in 4_usize..5000,
+        fn the_number_of_cells_is_limited_and_each_cell_contains_its_centre(
+            width in 0.1_f64..1e5, height in 0.1_f64..1e5, max_cells in 4_usize..5000,
         ) {
             let corner = Point { x: width, y: height };
-            let field = Field::new(&Rectangle::spanned(Point::default(), corner), 0.25, most);
-            prop_assert!(field.cells() <= most, "{field:?}");
+            let field = Field::new(&Rectangle::spanned(Point::default(), corner), 0.25, max_cells);
+            prop_assert!(field.cells() <= max_cells, "{field:?}");
             let last = field.cells() - 1;
             for cell in [0, last / 2, last] {
                 prop_assert_eq!(field.cell(field.centre(cell)), Some(cell));

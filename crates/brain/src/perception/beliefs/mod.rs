@@ -1,22 +1,22 @@
-//! What a robot believes, made of percepts: the *identifier* of a mind (after Rodin and Amin, who
-//! layer one into an identifier, a [goal selector](crate::goals) and an [adapter](crate::navigation::navigator)).
+//! The beliefs of a robot, computed from percepts: the *identifier* of Rodin and Amin's architecture, which
+//! has an identifier, a [goal selector](crate::goals) and an [adapter](crate::navigation::navigator).
 //!
-//! Bounded: with its goals and ways a mind takes at most 40 kB, twenty bytes a cell of at most
-//! [`BeliefsSpec::cells`], and forty a ray. A test counts them.
+//! Memory is bounded: with its goals and paths, a brain needs at most 40 kB, plus 20 bytes for each of at
+//! most [`BeliefsSpec::cells`] cells, plus 40 bytes per ray. A test measures this.
 
+mod battery;
 pub(crate) mod coverage_map;
-mod doubt;
-mod drain;
 pub(crate) mod field;
 pub(crate) mod items;
 mod messaging;
 pub(crate) mod mover;
-mod moving;
 pub(crate) mod occupancy;
 pub(crate) mod others;
 pub(crate) mod peers;
 pub(crate) mod pose;
+mod scan_objects;
 pub(crate) mod trust;
+mod validation_gate;
 
 pub use trust::TrustSpec;
 
@@ -31,11 +31,11 @@ use alloc::sync::Arc;
 use alloc::vec::Vec;
 use base::geometry::{Point, Rectangle, Segment};
 use base::trig::wrapped;
-use coverage_map::{CoverageMap, Glance};
-use drain::Drain;
+use battery::Battery;
+use coverage_map::{CoverageMap, DetectorScan};
 use field::Field;
-use items::{Items, OwnLook};
-use messaging::Told;
+use items::{Items, OwnObservation};
+use messaging::BroadcastState;
 use occupancy::{Occupancy, Ray};
 use others::Others;
 use peers::Peers;
@@ -44,30 +44,30 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use trust::Trust;
 
-/// Contacts of a look have its age, but for rounding.
-const SAME_S: f64 = 1e-6;
+/// Rounding tolerance between the ages of an observation and of its contacts.
+const AGE_TOLERANCE_S: f64 = 1e-6;
 
-/// Scans are drawn into the map when the robot has moved by this share of a cell, has turned so far, or
-/// after so long.
-const DRAWN_CELLS: f64 = 0.25;
-const DRAWN_RAD: f64 = 0.1;
-const DRAWN_S: f64 = 0.5;
+/// Scans are integrated into the map when the robot has moved by this fraction of a cell, has turned by this
+/// angle, or after this time.
+const MAP_UPDATE_CELLS: f64 = 0.25;
+const MAP_UPDATE_RAD: f64 = 0.1;
+const MAP_UPDATE_S: f64 = 0.5;
 
-/// What a mind believes, and how finely.
+/// The beliefs of a brain: their area, resolution and priors.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct BeliefsSpec {
-    /// Where it searches and what it maps, two opposite corners in metres; left out, the whole world.
+    /// The area that it searches and maps, two opposite corners in metres; the whole world by default.
     pub area_m: Option<Rectangle>,
-    /// Its maps have cells at least so wide, in metres.
+    /// Minimum cell width of its maps, in metres.
     #[schemars(range(min = 0.05, max = 1000.0))]
     pub cell_m: f64,
-    /// Its maps have at most so many cells; each takes a robot some twenty bytes.
+    /// Maximum number of cells of its maps; each needs about 20 bytes per robot.
     #[schemars(range(min = 16, max = 65_000))]
     pub cells: u32,
-    /// How many items of each kind it expects before it has looked; left out, one of each kind.
+    /// Expected number of items of each kind before any observation; one of each kind by default.
     pub prior_count: BTreeMap<String, f64>,
-    /// How far it trusts what others tell.
+    /// Trust in the reports of other robots.
     pub trust: TrustSpec,
 }
 
@@ -83,75 +83,75 @@ impl Default for BeliefsSpec {
     }
 }
 
-/// What is the same for all robots of a kind.
+/// The priors, shared by all robots of a kind.
 #[derive(Debug)]
 struct Prior {
     trust: TrustSpec,
-    /// Items of each kind in a square metre.
+    /// Prior density of items of each kind.
     per_m2: Vec<f64>,
 }
 
-/// All that one robot believes.
+/// The beliefs of one robot.
 #[derive(Debug, Clone)]
 pub(crate) struct Beliefs {
     prior: Arc<Prior>,
     id: RobotId,
-    here: Localisation,
+    localisation: Localisation,
     pub(crate) others: Others,
     pub(crate) peers: Peers,
     pub(crate) items: Items,
     trust: Trust,
-    drain: Drain,
-    /// If it knows where its mission is.
+    battery: Battery,
+    /// `None` if the mission area is unknown.
     pub(crate) map: Option<Map>,
     speed_m_s: f64,
-    /// How often it has looked for items, and for how long it has been on.
+    /// Number of item observations so far, and time since the brain was started.
     observations: u32,
     on_s: f64,
-    told: Told,
+    broadcast: BroadcastState,
 }
 
-/// The mission's field, what fills it, and where nobody has looked.
+/// The maps of the mission area: occupancy and coverage.
 #[derive(Debug, Clone)]
 pub(crate) struct Map {
     pub(crate) field: Field,
-    pub(crate) filled: Occupancy,
-    pub(crate) unseen: CoverageMap,
-    /// From where scans were drawn last, and how long ago.
-    drawn: Option<(Pose, f64)>,
+    pub(crate) occupancy: Occupancy,
+    pub(crate) coverage: CoverageMap,
+    /// Pose of the last map update, and the time since.
+    last_update: Option<(Pose, f64)>,
 }
 
 impl Map {
     pub(crate) fn new(spec: &BeliefsSpec, area: &Rectangle) -> Self {
         let field = Field::new(area, spec.cell_m, spec.cells as usize);
         Self {
-            filled: Occupancy::new(&field),
-            unseen: CoverageMap::new(field.cells()),
-            drawn: None,
+            occupancy: Occupancy::new(&field),
+            coverage: CoverageMap::new(field.cells()),
+            last_update: None,
             field,
         }
     }
 }
 
 impl Map {
-    /// Whether scans tell something new: from where the last were taken, they err as those did.
-    fn is_worth_drawing(&mut self, pose: &Pose, period_s: f64) -> bool {
-        if let Some((last, age_s)) = &mut self.drawn {
+    /// Whether scans are integrated: from about the same pose, they would only repeat the same errors.
+    fn is_update_due(&mut self, pose: &Pose, period_s: f64) -> bool {
+        if let Some((last, age_s)) = &mut self.last_update {
             *age_s += period_s;
             let moved_m2 = last.at.to(pose.at).length_squared();
             let turned_rad = wrapped(pose.heading_rad - last.heading_rad).abs();
-            let apart_m = DRAWN_CELLS * self.field.cell_m;
-            if *age_s < DRAWN_S && moved_m2 < apart_m * apart_m && turned_rad < DRAWN_RAD {
+            let min_m = MAP_UPDATE_CELLS * self.field.cell_m;
+            if *age_s < MAP_UPDATE_S && moved_m2 < min_m * min_m && turned_rad < MAP_UPDATE_RAD {
                 return false;
             }
         }
-        self.drawn = Some((*pose, 0.0));
+        self.last_update = Some((*pose, 0.0));
         true
     }
 }
 
 impl Beliefs {
-    /// Those of a robot that has just been switched on.
+    /// The initial beliefs.
     pub(crate) fn new(spec: &BeliefsSpec, body: &Body) -> Self {
         let area = spec.area_m.or(body.field);
         let area_m2 = area.map_or(1.0, |area| area.area_m2().max(1.0));
@@ -164,41 +164,41 @@ impl Beliefs {
         Self {
             prior: Arc::new(prior),
             id: RobotId::default(),
-            here: Localisation::default(),
+            localisation: Localisation::default(),
             others: Others::default(),
             peers: Peers::default(),
             items: Items::default(),
             trust: Trust::default(),
-            drain: Drain::default(),
+            battery: Battery::default(),
             map: area.map(|area| Map::new(spec, &area)),
             speed_m_s: 0.0,
             observations: 0,
             on_s: 0.0,
-            told: Told::default(),
+            broadcast: BroadcastState::default(),
         }
     }
 
-    /// Where it is, if it knows.
+    /// The estimated pose, if known.
     pub(crate) fn pose(&self) -> Option<Pose> {
-        self.here.pose()
+        self.localisation.pose()
     }
 
-    /// So long the battery lasts, in seconds; infinite if nobody knows.
+    /// Estimated remaining time of the battery, in seconds; infinite if unknown.
     pub(crate) fn battery_s(&self) -> f64 {
-        self.drain.lasts_s()
+        self.battery.remaining_s()
     }
 
-    /// Share of the battery that is left, if it is known; one misreading says nothing.
-    pub(crate) fn battery_left(&self) -> Option<f64> {
-        self.drain.left()
+    /// Estimated charge of the battery, 0 to 1, if known.
+    pub(crate) fn battery_charge(&self) -> Option<f64> {
+        self.battery.charge()
     }
 
-    /// Time from one look for items to the next.
-    pub(crate) fn look_s(&self) -> f64 {
+    /// Mean time between two item observations.
+    pub(crate) fn observation_period_s(&self) -> f64 {
         self.on_s / f64::from(self.observations.max(1))
     }
 
-    /// Robots have other numbers from now on; what is known of one that is gone is forgotten.
+    /// Renumbers the robots; information about removed robots is dropped.
     pub(crate) fn renumber(&mut self, now: &impl Fn(RobotId) -> Option<RobotId>) {
         let keep = |id: &mut RobotId| now(*id).map(|now| *id = now).is_some();
         self.others
@@ -209,31 +209,34 @@ impl Beliefs {
         self.items.renumber(keep);
     }
 
-    /// Items, by how surely they are there.
+    /// The items with their probabilities.
     pub(crate) fn believed_items(&self) -> impl Iterator<Item = BelievedItem> {
-        let ears = messaging::ears(self.id, &self.trust, &self.prior);
+        let reception = messaging::reception(self.id, &self.trust, &self.prior);
         self.items.tracks.iter().map(move |track| BelievedItem {
             kind: track.kind,
             at: track.at,
             deviation_m: libm::sqrt(track.variance_m2),
-            confidence: track.confidence(&ears),
+            confidence: track.confidence(&reception),
         })
     }
 
-    /// Where another robot is in the world, if it is seen, or has told of late.
-    pub(crate) fn whereabouts(&self, id: RobotId) -> Option<Point> {
+    /// The position of another robot in the world, if it is tracked or has reported it recently.
+    pub(crate) fn position_of(&self, id: RobotId) -> Option<Point> {
         let pose = self.pose()?;
-        let mut seen = self.others.movers.iter();
-        let seen = seen.find(|mover| mover.id == Some(id));
-        let told = || {
+        let mut movers = self.others.movers.iter();
+        let tracked = movers.find(|mover| mover.id == Some(id));
+        let reported = || {
             let mut mates = self.peers.mates.iter();
             mates.find(|peer| peer.id == id)?.at()
         };
-        seen.map(|mover| pose.world_of(mover.at)).or_else(told)
+        tracked
+            .map(|mover| pose.in_world(mover.at))
+            .or_else(reported)
     }
 
-    /// Takes in a step: `now_m_s` is its likely speed, and `turned_rad` what it turned since the last.
-    pub(crate) fn take_in(
+    /// Updates the beliefs after a step: `now_m_s` is the estimated speed, `turned_rad` the turn since the
+    /// last step.
+    pub(crate) fn update(
         &mut self,
         percept: &Percept,
         body: &Body,
@@ -242,86 +245,95 @@ impl Beliefs {
     ) {
         self.id = percept.id;
         self.on_s += body.period_s;
-        let way_m = way_m([self.speed_m_s, now_m_s], body);
+        let travelled_m = travelled_m([self.speed_m_s, now_m_s], body);
         self.speed_m_s = now_m_s;
-        self.here.take_in(percept, body, way_m, turned_rad);
-        let way = direction(turned_rad / 2.0).times(way_m);
-        self.others.take_in(percept, body, way, turned_rad);
+        self.localisation
+            .update(percept, body, travelled_m, turned_rad);
+        let way = direction(turned_rad / 2.0).times(travelled_m);
+        self.others.update(percept, body, way, turned_rad);
         for (ring, ranges_m) in new_scans(percept, rings, body.period_s) {
             self.others.scan(ring, ranges_m);
         }
-        self.peers.pass(body.period_s);
-        self.drain.take_in(percept, body.period_s);
-        let Some(pose) = self.here.pose() else {
+        self.peers.advance(body.period_s);
+        self.battery.update(percept, body.period_s);
+        let Some(pose) = self.localisation.pose() else {
             return;
         };
-        self.fill_map(percept, &pose, rings, body.period_s);
+        self.update_map(percept, &pose, rings, body.period_s);
         let rate_rad_s = turned_rad / body.period_s.max(f64::MIN_POSITIVE);
-        for look in &percept.observations {
-            let then = earlier(&pose, [now_m_s, rate_rad_s], look.age_s);
-            self.take_look(look, percept, body, then);
+        for observation in &percept.observations {
+            let then = earlier(&pose, [now_m_s, rate_rad_s], observation.age_s);
+            self.update_items(observation, percept, body, then);
         }
-        for heard in &percept.inbox {
-            self.hear(heard, body, &pose);
+        for received in &percept.inbox {
+            self.receive(received, body, &pose);
         }
         self.items
             .learn(self.id, &mut self.trust, &self.prior.trust);
     }
 
-    fn fill_map(&mut self, percept: &Percept, pose: &Pose, rings: &[Ring], period_s: f64) {
+    fn update_map(&mut self, percept: &Percept, pose: &Pose, rings: &[Ring], period_s: f64) {
         let Some(map) = &mut self.map else {
             return;
         };
-        if !map.is_worth_drawing(pose, period_s) {
+        if !map.is_update_due(pose, period_s) {
             return;
         }
         let front = direction(pose.heading_rad);
-        let there = |end: Point| pose.at.plus(turned(end, front));
+        let in_world = |end: Point| pose.at.plus(turned(end, front));
         for (ring, ranges_m) in new_scans(percept, rings, period_s) {
-            map.filled.begin_scan();
+            map.occupancy.begin_scan();
             let free_m = free_ranges_m(ranges_m);
             for (ray, free_m) in ring.rays(ranges_m).zip(free_m) {
                 let end = ray.end();
-                let is_hit = ray.range_m < ring.range_m() && !self.others.is_on_one(end);
-                let free = there(ray.direction.times(free_m.min(ray.range_m)));
+                let is_hit = ray.range_m < ring.range_m() && !self.others.is_on_mover(end);
+                let free = in_world(ray.direction.times(free_m.min(ray.range_m)));
                 let way = Segment {
                     from: pose.at,
                     to: free,
                 };
-                map.filled.take_in(
+                map.occupancy.add_ray(
                     &map.field,
                     &Ray {
                         way,
-                        hit: is_hit.then(|| there(end)),
+                        hit: is_hit.then(|| in_world(end)),
                     },
                 );
             }
         }
     }
 
-    /// Takes in a look for items, and its contacts.
-    fn take_look(&mut self, look: &Observation, percept: &Percept, body: &Body, pose: Pose) {
+    /// Updates items and coverage with an observation of an own detector, and its contacts.
+    fn update_items(
+        &mut self,
+        observation: &Observation,
+        percept: &Percept,
+        body: &Body,
+        pose: Pose,
+    ) {
         let mut detectors = body.detectors.iter();
-        let Some(detector) = detectors.find(|detector| detector.sensor == look.sensor) else {
+        let Some(detector) = detectors.find(|detector| detector.sensor == observation.sensor)
+        else {
             return;
         };
         self.observations = self.observations.saturating_add(1);
-        let own = OwnLook {
+        let own = OwnObservation {
             observer: self.id,
             detector,
             pose,
             per_m2: &self.prior.per_m2,
         };
-        let is_of_it = |contact: &&crate::io::percept::Contact| {
-            contact.sensor == look.sensor && (contact.age_s - look.age_s).abs() < SAME_S
+        let belongs = |contact: &&crate::io::percept::Contact| {
+            contact.sensor == observation.sensor
+                && (contact.age_s - observation.age_s).abs() < AGE_TOLERANCE_S
         };
-        let contacts = percept.contacts.iter().filter(is_of_it);
-        self.items.look(&own, contacts, self.map.as_ref());
-        self.look_at_cells(detector, (pose.at, pose.heading_rad), [1.0, 1.0]);
+        let contacts = percept.contacts.iter().filter(belongs);
+        self.items.observe(&own, contacts, self.map.as_ref());
+        self.update_coverage(detector, (pose.at, pose.heading_rad), [1.0, 1.0]);
     }
 
-    /// Notes what a look that is so much trusted, and counts as so many, has seen of the field.
-    fn look_at_cells(
+    /// Updates the coverage map with a number of observations from a pose, weighted by trust.
+    fn update_coverage(
         &mut self,
         detector: &Detector,
         (at, heading_rad): (Point, f64),
@@ -329,13 +341,13 @@ impl Beliefs {
     ) {
         if let Some(Map {
             field,
-            filled,
-            unseen,
+            occupancy,
+            coverage,
             ..
         }) = &mut self.map
         {
-            let blur_m = self.here.pose().map_or(0.0, |pose| pose.blur_m());
-            let glance = Glance {
+            let blur_m = self.localisation.pose().map_or(0.0, |pose| pose.blur_m());
+            let scan = DetectorScan {
                 detector,
                 at,
                 heading_rad,
@@ -343,22 +355,21 @@ impl Beliefs {
                 observations,
                 blur_m,
             };
-            unseen.take_in(field, filled, &glance);
+            coverage.update(field, occupancy, &scan);
         }
     }
 }
 
-/// The way of a step at the end of which it is so fast: at once to the new speed, as far as that goes, and
-/// then on with it.
-fn way_m([before_m_s, now_m_s]: [f64; 2], body: &Body) -> f64 {
+/// The distance travelled in a step: acceleration to the new speed first, then motion at that speed.
+fn travelled_m([before_m_s, now_m_s]: [f64; 2], body: &Body) -> f64 {
     let change_m_s = now_m_s - before_m_s;
     let change_s = change_m_s.abs() / body.max_acceleration_m_s2.max(f64::MIN_POSITIVE);
     now_m_s * body.period_s - change_m_s * change_s.min(body.period_s) / 2.0
 }
 
-/// Where it was some time ago, at a speed and a rate of turn.
+/// The pose some time ago, at a constant speed and turn rate.
 fn earlier(pose: &Pose, [speed_m_s, rate_rad_s]: [f64; 2], age_s: f64) -> Pose {
-    // What is no age is none.
+    // Invalid ages count as 0.
     let age_s = if (0.0..=60.0).contains(&age_s) {
         age_s
     } else {
@@ -373,7 +384,7 @@ fn earlier(pose: &Pose, [speed_m_s, rate_rad_s]: [f64; 2], age_s: f64) -> Pose {
     }
 }
 
-/// Scans that have not been taken in before.
+/// Scans that have not been used before.
 fn new_scans<'p>(
     percept: &'p Percept,
     rings: &'p [Ring],
@@ -386,8 +397,8 @@ fn new_scans<'p>(
     })
 }
 
-/// Things that stand, as rays see them now: their bearings and how far they are from the centre.
-pub(crate) fn standing(
+/// Collects the rays that currently hit static obstacles.
+pub(crate) fn static_hits(
     beliefs: &Beliefs,
     rings: &[Ring],
     percept: &Percept,
@@ -398,9 +409,9 @@ pub(crate) fn standing(
         let Some((_, ranges_m)) = ring.fresh(Some(scan)) else {
             continue;
         };
-        let still = |ray: &crate::perception::rays::Ray| {
-            ray.range_m < ring.range_m() && !beliefs.others.is_on_one(ray.end())
+        let is_static = |ray: &crate::perception::rays::Ray| {
+            ray.range_m < ring.range_m() && !beliefs.others.is_on_mover(ray.end())
         };
-        into.extend(ring.rays(ranges_m).filter(still));
+        into.extend(ring.rays(ranges_m).filter(is_static));
     }
 }

@@ -1,4 +1,4 @@
-//! What is filled, as far as ranges tell.
+//! The occupancy grid that range scans are integrated into.
 
 use super::field::Field;
 use alloc::vec;
@@ -6,39 +6,38 @@ use alloc::vec::Vec;
 use base::geometry::{Point, Segment};
 use core::ops::Range;
 
-/// What a ray that ends in a cell says for its being filled, and one that passes, against it: steps
-/// of a quarter of the natural logarithm of the odds.
+/// Change of the log odds of a cell in which a ray ends, and of one that it passes, in quarters of a nat.
 const HIT: i8 = 4;
 const PASS: i8 = -1;
 
-/// More than this nobody is sure, so that what moves away is forgotten: odds of e^5.
-const MOST: i8 = 20;
+/// Limit of the log odds, so that obstacles that disappear are forgotten: odds of e^5.
+const MAX_LOG_ODDS: i8 = 20;
 
-/// From here on a cell counts as filled: odds of e^1, 73%.
-const FILLED: i8 = 4;
+/// From these log odds on, a cell counts as occupied: odds of e^1, 73%.
+const OCCUPIED: i8 = 4;
 
-/// Cells of a field, each with the odds that it is filled.
+/// The cells of a field, each with the log odds that it is occupied.
 ///
 /// After Moravec and Elfes, *High resolution maps from wide angle sonar*, ICRA 1985, with log odds:
-/// each ray adds [`HIT`] to where it ends and [`PASS`] to where it passes. A byte a cell.
+/// each ray adds [`HIT`] to the cell in which it ends and [`PASS`] to those that it passes. One byte per cell.
 ///
-/// A wall seen at a small angle ends few rays, while many pass through cells that it fills in part. So a
-/// ray passes only as far as its neighbours go too, and, as near as is told soon, no cell twice in a scan.
+/// A wall at a grazing angle ends few rays, while many pass through cells that it occupies in part. A ray
+/// therefore clears cells only as far as its neighbours reach, and each cell about once per scan.
 #[derive(Debug, Clone)]
 pub(crate) struct Occupancy {
     quarter_nats: Vec<i8>,
-    /// Cells that the ray before has passed, by their places along it.
+    /// The cells that the previous ray passed, in order.
     passed: Vec<usize>,
-    /// Grows whenever a cell turns to be filled or free.
+    /// Number of cells that have become occupied or free so far.
     pub(crate) changes: u32,
 }
 
-/// A ray as it was measured.
+/// A measured ray.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Ray {
-    /// From where it begins to where it, or one of its neighbours, ends.
+    /// Its free part, limited by its neighbours.
     pub(crate) way: Segment,
-    /// Where something stands.
+    /// The position of the obstacle, if any.
     pub(crate) hit: Option<Point>,
 }
 
@@ -51,15 +50,15 @@ impl Occupancy {
         }
     }
 
-    /// Whether a cell counts as filled.
+    /// Whether a cell counts as occupied.
     #[inline]
-    pub(crate) fn is_filled(&self, cell: usize) -> bool {
+    pub(crate) fn is_occupied(&self, cell: usize) -> bool {
         self.quarter_nats
             .get(cell)
-            .is_some_and(|odds| *odds >= FILLED)
+            .is_some_and(|odds| *odds >= OCCUPIED)
     }
 
-    /// Whether any cell of some columns and rows counts as filled.
+    /// Whether any cell within columns and rows counts as occupied.
     pub(crate) fn is_any_in(
         &self,
         field: &Field,
@@ -71,35 +70,35 @@ impl Occupancy {
             let cells = self
                 .quarter_nats
                 .get(first + columns.start..first + columns.end);
-            cells.is_some_and(|cells| cells.iter().any(|odds| *odds >= FILLED))
+            cells.is_some_and(|cells| cells.iter().any(|odds| *odds >= OCCUPIED))
         })
     }
 
-    /// All cells that count as filled.
-    pub(crate) fn filled(&self) -> impl Iterator<Item = usize> {
+    /// All cells that count as occupied.
+    pub(crate) fn occupied(&self) -> impl Iterator<Item = usize> {
         let cells = self.quarter_nats.iter().enumerate();
         cells
-            .filter(|(_, odds)| **odds >= FILLED)
+            .filter(|(_, odds)| **odds >= OCCUPIED)
             .map(|(cell, _)| cell)
     }
 
-    /// How likely each cell is filled, in percent; -1 where nothing says either.
+    /// Probability that each cell is occupied, in percent; -1 if unknown.
     pub(crate) fn percent(&self) -> impl Iterator<Item = i8> {
-        let percents: [i8; 2 * MOST as usize + 1] = core::array::from_fn(percent);
-        let place = |odds: i8| usize::from((odds + MOST).unsigned_abs());
+        let percents: [i8; 2 * MAX_LOG_ODDS as usize + 1] = core::array::from_fn(percent);
+        let place = |odds: i8| usize::from((odds + MAX_LOG_ODDS).unsigned_abs());
         self.quarter_nats
             .iter()
             .map(move |odds| percents[place(*odds)])
     }
 
-    /// Begins a scan, whose rays follow each other.
+    /// Starts a new scan; its rays are added in order.
     pub(crate) fn begin_scan(&mut self) {
         self.passed.clear();
     }
 
-    /// Takes in a ray of a scan.
+    /// Adds a ray of the current scan.
     #[inline]
-    pub(crate) fn take_in(&mut self, field: &Field, ray: &Ray) {
+    pub(crate) fn add_ray(&mut self, field: &Field, ray: &Ray) {
         let hit = ray.hit.and_then(|hit| field.cell(hit));
         for (place, cell) in field.crossed(ray.way.from, ray.way.to).enumerate() {
             let before = self.passed.get(place).copied();
@@ -119,27 +118,27 @@ impl Occupancy {
     #[inline]
     fn add(&mut self, cell: usize, change: i8) {
         if let Some(odds) = self.quarter_nats.get_mut(cell) {
-            let was_filled = *odds >= FILLED;
-            *odds = (*odds + change).clamp(-MOST, MOST);
-            let is_changed = was_filled != (*odds >= FILLED);
+            let was_occupied = *odds >= OCCUPIED;
+            *odds = (*odds + change).clamp(-MAX_LOG_ODDS, MAX_LOG_ODDS);
+            let is_changed = was_occupied != (*odds >= OCCUPIED);
             self.changes = self.changes.wrapping_add(u32::from(is_changed));
         }
     }
 
-    /// Whether nothing hides a place from another, as far as is known: what fills the place itself, or stands
-    /// so little before it, does not.
-    pub(crate) fn sees(&self, field: &Field, from: Point, to: Point, blur_m: f64) -> bool {
+    /// Whether no known obstacle hides a position from another. Obstacles at the position itself, or closer to
+    /// it than `blur_m`, do not hide it.
+    pub(crate) fn is_visible(&self, field: &Field, from: Point, to: Point, blur_m: f64) -> bool {
         let way = from.to(to);
         let length_m = way.length();
-        let most_m = length_m - field.cell_m - blur_m;
-        most_m <= 0.0 || {
-            let before = from.plus(way.times(most_m / length_m));
+        let clear_m = length_m - field.cell_m - blur_m;
+        clear_m <= 0.0 || {
+            let before = from.plus(way.times(clear_m / length_m));
             self.is_free_between(field, from, before)
         }
     }
 
-    /// Whether the straight way between two places is free as far as is known: it passes no filled cell,
-    /// nor between two that touch at a corner.
+    /// Whether the straight line between two positions crosses no occupied cell, and does not pass between two
+    /// that touch at a corner.
     pub(crate) fn is_free_between(&self, field: &Field, from: Point, to: Point) -> bool {
         let way = from.to(to);
         let length_m = way.length();
@@ -147,33 +146,33 @@ impl Occupancy {
         let mut last = field.cell(from);
         field.along(from, direction, length_m).all(|cell| {
             let before = last.replace(cell).unwrap_or(cell);
-            !self.is_filled(cell) && !self.is_crack(field, before, cell)
+            !self.is_occupied(cell) && !self.is_diagonal_gap(field, before, cell)
         })
     }
 
-    /// Whether two cells touch at a corner only, and both that lie beside it are filled.
-    fn is_crack(&self, field: &Field, one: usize, other: usize) -> bool {
+    /// Whether two cells touch at a corner only, and both cells beside that corner are occupied.
+    fn is_diagonal_gap(&self, field: &Field, one: usize, other: usize) -> bool {
         let across = one.abs_diff(other).abs_diff(field.columns);
         across == 1 && {
             let [[left, low], [right, high]] =
                 [one, other].map(|cell| field.column_and_row_of(cell));
-            let is_filled = |column, row| {
+            let is_occupied = |column, row| {
                 let cell = field.number(column, row);
-                cell.is_some_and(|cell| self.is_filled(cell))
+                cell.is_some_and(|cell| self.is_occupied(cell))
             };
-            is_filled(left, high) && is_filled(right, low)
+            is_occupied(left, high) && is_occupied(right, low)
         }
     }
 }
 
-/// How likely a cell is filled whose odds are so many quarter nats above the least; -1 if they are even.
+/// Probability in percent for log odds in quarter nats above the minimum; -1 if they are even.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_precision_loss,
-    reason = "0 to 100, of some forty"
+    reason = "0 to 100, from 0 to 40"
 )]
-fn percent(above_least: usize) -> i8 {
-    let nats = (above_least as f64 - f64::from(MOST)) / 4.0;
+fn percent(above_min: usize) -> i8 {
+    let nats = (above_min as f64 - f64::from(MAX_LOG_ODDS)) / 4.0;
     if nats == 0.0 {
         return -1;
     }
@@ -190,7 +189,7 @@ mod tests {
         Field::new(&Rectangle::spanned(Point::default(), corner), 0.5, 10_000)
     }
 
-    fn look(map: &mut Occupancy, free_m: f64, is_hit: bool) {
+    fn scan(map: &mut Occupancy, free_m: f64, is_hit: bool) {
         let way = Segment {
             from: Point { x: 1.0, y: 5.25 },
             to: Point {
@@ -200,47 +199,47 @@ mod tests {
         };
         map.begin_scan();
         let hit = is_hit.then_some(way.to);
-        map.take_in(&field(), &Ray { way, hit });
+        map.add_ray(&field(), &Ray { way, hit });
     }
 
-    fn is_filled(map: &Occupancy, x: f64) -> bool {
-        map.is_filled(field().cell(Point { x, y: 5.25 }).unwrap())
+    fn is_occupied(map: &Occupancy, x: f64) -> bool {
+        map.is_occupied(field().cell(Point { x, y: 5.25 }).unwrap())
     }
 
     #[test]
-    fn a_wall_is_filled_and_what_is_before_it_free() {
+    fn a_wall_is_occupied_and_the_cells_before_it_are_free() {
         let mut map = Occupancy::new(&field());
-        look(&mut map, 4.1, true);
-        assert!(is_filled(&map, 5.1) && map.changes == 1);
-        assert!((2..10).all(|half| !is_filled(&map, 0.1 + 0.5 * f64::from(half))));
+        scan(&mut map, 4.1, true);
+        assert!(is_occupied(&map, 5.1) && map.changes == 1);
+        assert!((2..10).all(|half| !is_occupied(&map, 0.1 + 0.5 * f64::from(half))));
         let (near, far) = (Point { x: 1.0, y: 5.25 }, Point { x: 9.0, y: 5.25 });
         assert!(!map.is_free_between(&field(), near, far));
         assert!(map.is_free_between(&field(), near, Point { x: 4.9, y: 5.25 }));
     }
 
     #[test]
-    fn what_has_gone_is_forgotten_in_some_looks() {
+    fn a_removed_obstacle_is_forgotten_within_twenty_scans() {
         let mut map = Occupancy::new(&field());
-        (0..100).for_each(|_| look(&mut map, 4.1, true));
-        let looks = (0..).take_while(|_| {
-            look(&mut map, 8.0, false);
-            is_filled(&map, 5.1)
+        (0..100).for_each(|_| scan(&mut map, 4.1, true));
+        let scans = (0..).take_while(|_| {
+            scan(&mut map, 8.0, false);
+            is_occupied(&map, 5.1)
         });
-        assert!((10..20).contains(&looks.count()));
+        assert!((10..20).contains(&scans.count()));
     }
 
     #[test]
-    fn one_lost_echo_opens_no_wall() {
+    fn one_missing_return_does_not_clear_a_wall() {
         let mut map = Occupancy::new(&field());
-        (0..3).for_each(|_| look(&mut map, 4.1, true));
-        look(&mut map, 8.0, false);
-        assert!(is_filled(&map, 5.1));
+        (0..3).for_each(|_| scan(&mut map, 4.1, true));
+        scan(&mut map, 8.0, false);
+        assert!(is_occupied(&map, 5.1));
     }
 
     #[test]
-    fn what_is_beyond_the_field_is_left_alone() {
+    fn rays_beyond_the_field_change_nothing() {
         let mut map = Occupancy::new(&field());
-        look(&mut map, 1e3, true);
+        scan(&mut map, 1e3, true);
         assert_eq!(map.changes, 0);
     }
 }

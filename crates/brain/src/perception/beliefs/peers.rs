@@ -1,6 +1,6 @@
-//! Team mates: where they are, what they have looked at, and where they are going.
+//! Team mates: their positions, observations and destinations, as received by radio.
 //!
-//! Each of these has its own age, which begins at the age of the message that told of it.
+//! Each of these has its own age, which starts at the age of its message.
 
 use crate::io::body::RobotId;
 use crate::io::message::CommitmentStatus;
@@ -8,74 +8,74 @@ use crate::io::percept::Reading;
 use alloc::vec::Vec;
 use base::geometry::Point;
 
-/// So many are remembered; who was heard of longest ago is forgotten first.
-pub(crate) const MOST: usize = 32;
+/// Maximum number of team mates; the one with the oldest message is dropped first.
+pub(crate) const MAX_PEERS: usize = 32;
 
-/// So many places where others have been are remembered, the newest.
-const MOST_VISITS: usize = 64;
+/// Maximum number of visited destinations that are remembered; the oldest is dropped first.
+const MAX_VISITS: usize = 64;
 
-/// What was so long ago holds no more, in seconds.
-const FORGOTTEN_S: f64 = 10.0;
+/// Positions and destinations expire after this time.
+const MAX_AGE_S: f64 = 10.0;
 
-/// Ages are of one moment if they differ by no more, but for rounding; in seconds.
-const SAME_S: f64 = 1e-6;
+/// Rounding tolerance of ages.
+const AGE_TOLERANCE_S: f64 = 1e-6;
 
-/// A team mate, as its messages tell.
+/// A team mate, as known from its messages.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Peer {
     pub(crate) id: RobotId,
-    /// Where it said that it was, and how often it had looked for items by then: believed or not.
-    looked: Option<Reading<(Point, u32)>>,
-    /// Where it was, by what is believed.
+    /// Its last reported position and number of observations, whether trusted or not.
+    reported: Option<Reading<(Point, u32)>>,
+    /// Its last trusted position.
     at: Option<Reading<Point>>,
-    /// Where it is going, or that it goes nowhere.
-    aim: Option<Reading<Option<Point>>>,
+    /// Its last trusted destination, or that it has none.
+    destination: Option<Reading<Option<Point>>>,
 }
 
-/// All of whom something was heard.
+/// All robots from which a message was received.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Peers {
     pub(crate) mates: Vec<Peer>,
     visits: Vec<Point>,
-    /// How many there have been.
+    /// Total number of visits.
     visited: u32,
 }
 
 impl Peers {
-    pub(crate) fn pass(&mut self, period_s: f64) {
+    pub(crate) fn advance(&mut self, period_s: f64) {
         for peer in &mut self.mates {
-            pass(&mut peer.looked, period_s);
-            pass(&mut peer.at, period_s);
-            pass(&mut peer.aim, period_s);
+            advance(&mut peer.reported, period_s);
+            advance(&mut peer.at, period_s);
+            advance(&mut peer.destination, period_s);
         }
     }
 
-    /// Notes that one looked as often on its way to a place; returns where it was before, how often it says
-    /// that it has looked since, and in what time, in seconds.
-    pub(crate) fn looked(
+    /// Updates the reported position and number of observations of a robot. Returns its previous position,
+    /// the number of observations since then, and the time between the two reports in seconds.
+    pub(crate) fn update_observations(
         &mut self,
         id: RobotId,
         Reading { value, age_s }: Reading<(Point, u32)>,
     ) -> (Point, u32, f64) {
         let (at, observations) = value;
         let peer = self.peer(id);
-        let Some(before) = peer.looked else {
-            peer.looked = Some(Reading { value, age_s });
+        let Some(before) = peer.reported else {
+            peer.reported = Some(Reading { value, age_s });
             return (at, observations.min(1), f64::INFINITY);
         };
-        if is_outdated(peer.looked, age_s) {
+        if is_outdated(peer.reported, age_s) {
             return (at, 0, 0.0);
         }
-        peer.looked = Some(Reading { value, age_s });
-        let (from, had) = before.value;
-        // Who has been switched off and on begins anew.
-        let since = observations.saturating_sub(had);
+        peer.reported = Some(Reading { value, age_s });
+        let (from, observations_before) = before.value;
+        // The count restarts when the robot is restarted.
+        let since = observations.saturating_sub(observations_before);
         (from, since, (before.age_s - age_s).max(0.0))
     }
 
-    /// Notes where one was, an age ago in seconds.
-    pub(crate) fn stands(&mut self, id: RobotId, at: Point, age_s: f64) {
-        if age_s > FORGOTTEN_S {
+    /// Updates the position of a robot with a report of a given age.
+    pub(crate) fn update_position(&mut self, id: RobotId, at: Point, age_s: f64) {
+        if age_s > MAX_AGE_S {
             return;
         }
         let peer = self.peer(id);
@@ -84,47 +84,52 @@ impl Peers {
         }
     }
 
-    /// Notes where one was going, or no longer, an age ago in seconds. Where it has been it has been for ever.
-    pub(crate) fn goes(&mut self, id: RobotId, at: Point, status: CommitmentStatus, age_s: f64) {
+    /// Updates the destination of a robot with a report of a given age. Visits never expire.
+    pub(crate) fn update_destination(
+        &mut self,
+        id: RobotId,
+        at: Point,
+        status: CommitmentStatus,
+        age_s: f64,
+    ) {
         if status == CommitmentStatus::Done {
-            self.visit(at);
+            self.add_visit(at);
         }
-        if age_s > FORGOTTEN_S {
+        if age_s > MAX_AGE_S {
             return;
         }
         let peer = self.peer(id);
         let value = (status == CommitmentStatus::Active).then_some(at);
-        if !is_outdated(peer.aim, age_s) && (value.is_some() || peer.is_going_to(at)) {
-            peer.aim = Some(Reading { value, age_s });
+        if !is_outdated(peer.destination, age_s) && (value.is_some() || peer.is_going_to(at)) {
+            peer.destination = Some(Reading { value, age_s });
         }
     }
 
-    fn visit(&mut self, at: Point) {
-        if self.visits.len() == MOST_VISITS {
+    fn add_visit(&mut self, at: Point) {
+        if self.visits.len() == MAX_VISITS {
             self.visits.remove(0);
         }
         self.visits.push(at);
         self.visited = self.visited.wrapping_add(1);
     }
 
-    /// Where others have been since so many visits, as far as they are remembered; `since` is then how many
-    /// there have been by now.
+    /// Returns the remembered visits after the first `since`, and sets `since` to the total number.
     pub(crate) fn visits_since(&self, since: &mut u32) -> &[Point] {
         let new = self.visited.wrapping_sub(*since) as usize;
         *since = self.visited;
         &self.visits[self.visits.len().saturating_sub(new)..]
     }
 
-    /// Whether somebody is going to a place for whom `counts` holds.
-    pub(crate) fn anybody_goes(&self, to: Point, counts: impl Fn(RobotId) -> bool) -> bool {
+    /// Returns whether a robot that fulfils a condition is going to a place.
+    pub(crate) fn is_any_going_to(&self, to: Point, condition: impl Fn(RobotId) -> bool) -> bool {
         let mut mates = self.mates.iter();
-        mates.any(|peer| peer.is_going_to(to) && counts(peer.id))
+        mates.any(|peer| peer.is_going_to(to) && condition(peer.id))
     }
 
     fn peer(&mut self, id: RobotId) -> &mut Peer {
         let known = self.mates.iter().position(|peer| peer.id == id);
-        let place = known.unwrap_or_else(|| {
-            if self.mates.len() == MOST {
+        let index = known.unwrap_or_else(|| {
+            if self.mates.len() == MAX_PEERS {
                 let numbered = self.mates.iter().enumerate();
                 let ages = numbered.map(|(number, peer)| (peer.age_s(), number));
                 let oldest = ages.max_by(|one, other| one.0.total_cmp(&other.0));
@@ -132,39 +137,43 @@ impl Peers {
             }
             self.mates.push(Peer {
                 id,
-                looked: None,
+                reported: None,
                 at: None,
-                aim: None,
+                destination: None,
             });
             self.mates.len() - 1
         });
-        &mut self.mates[place]
+        &mut self.mates[index]
     }
 }
 
 impl Peer {
-    /// Where it was of late.
+    /// Its position, unless it is too old.
     pub(crate) fn at(&self) -> Option<Point> {
         fresh(self.at)
     }
 
-    /// Where it is going, as it said of late.
-    pub(crate) fn aim(&self) -> Option<Point> {
-        fresh(self.aim).flatten()
+    /// Its destination, unless it is too old.
+    pub(crate) fn destination(&self) -> Option<Point> {
+        fresh(self.destination).flatten()
     }
 
     fn is_going_to(&self, to: Point) -> bool {
-        self.aim() == Some(to)
+        self.destination() == Some(to)
     }
 
-    /// Time since it sent the newest of what is remembered of it, in seconds.
+    /// Age of its newest message, in seconds.
     fn age_s(&self) -> f64 {
-        let ages = [age_s(self.looked), age_s(self.at), age_s(self.aim)];
+        let ages = [
+            age_s(self.reported),
+            age_s(self.at),
+            age_s(self.destination),
+        ];
         ages.into_iter().fold(f64::INFINITY, f64::min)
     }
 }
 
-fn pass<T>(reading: &mut Option<Reading<T>>, period_s: f64) {
+fn advance<T>(reading: &mut Option<Reading<T>>, period_s: f64) {
     if let Some(reading) = reading {
         reading.age_s += period_s;
     }
@@ -175,13 +184,13 @@ fn age_s<T>(reading: Option<Reading<T>>) -> f64 {
 }
 
 fn fresh<T>(reading: Option<Reading<T>>) -> Option<T> {
-    let reading = reading.filter(|reading| reading.age_s <= FORGOTTEN_S);
+    let reading = reading.filter(|reading| reading.age_s <= MAX_AGE_S);
     reading.map(|reading| reading.value)
 }
 
-/// Whether something newer is known than what is so old: messages may overtake each other.
-fn is_outdated<T>(known: Option<Reading<T>>, of_s: f64) -> bool {
-    age_s(known) + SAME_S < of_s
+/// Whether a newer reading is known: messages may arrive out of order.
+fn is_outdated<T>(known: Option<Reading<T>>, new_age_s: f64) -> bool {
+    age_s(known) + AGE_TOLERANCE_S < new_age_s
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
-//! Where the robot believes itself to be.
+//! Localisation: the estimated pose of the robot.
 
-use super::doubt::{Doubted, Off, Verdict};
+use super::validation_gate::{Innovation, ValidationGate, Verdict};
 use crate::io::body::Body;
 use crate::io::percept::{Percept, Reading};
 use crate::perception::sector::direction;
@@ -9,50 +9,49 @@ use base::trig::wrapped;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Wheels err by this share of the way, and of the turn.
-const DRIFT: f64 = 0.02;
+/// Relative odometry error, of the distance and of the turn.
+const ODOMETRY_ERROR: f64 = 0.02;
 
-/// Also one that stands may be pushed, by some millimetre and some hundredth of a degree in a second: the
-/// variances grow by at least so much a second, in m^2 and rad^2. So a robot that has stood for long still
-/// follows its sensors.
-const PUSHED_M2_S: f64 = 1e-6;
-const PUSHED_RAD2_S: f64 = 1e-8;
+/// Minimum process noise, also at rest: about a millimetre and some hundredths of a degree per second. It
+/// keeps the gain above zero, so that a robot that has been at rest for long still follows its sensors.
+const PROCESS_NOISE_M2_S: f64 = 1e-6;
+const PROCESS_NOISE_RAD2_S: f64 = 1e-8;
 
-/// Readings older than this are not of now.
-const OLDEST_S: f64 = 5.0;
+/// Older readings are ignored.
+const MAX_AGE_S: f64 = 5.0;
 
-/// What is farther away than this is nonsense, in metres.
-const FARTHEST_M: f64 = 1e7;
+/// Readings farther from the origin than this are ignored.
+const MAX_COORDINATE_M: f64 = 1e7;
 
-/// A position and a course, each with its standard deviation.
+/// An estimated position and heading, each with its standard deviation.
 ///
-/// Both are carried on by what the wheels say, and corrected by each new reading in proportion to
-/// the variances (Kalman, *A new approach to linear filtering and prediction problems*, 1960, in one
-/// dimension): gain = own variance / (own variance + the sensor's). A reading that is five deviations off
-/// is left out, unless three in a row agree: then the robot begins anew with the last.
+/// Both are predicted by odometry and corrected by each new reading in proportion to the variances (Kalman,
+/// *A new approach to linear filtering and prediction problems*, 1960, in one dimension): gain = own
+/// variance / (own variance + variance of the sensor). A reading that differs by more than five standard
+/// deviations is ignored, unless three in a row agree: then the estimate is reset to the last one.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Pose {
-    /// In the world.
+    /// Position in the world.
     pub at: Point,
-    /// 0 along x, anticlockwise, from -pi to pi.
+    /// Heading: 0 along x, anticlockwise, from -pi to pi.
     pub heading_rad: f64,
-    /// Of its position, along each axis.
+    /// Standard deviation of the position, along each axis.
     pub deviation_m: f64,
-    /// Of its course.
+    /// Standard deviation of the heading.
     pub deviation_rad: f64,
-    /// Time since the last position came in.
+    /// Age of the last position reading.
     pub age_s: f64,
 }
 
-/// What is known of the pose so far.
+/// The state of the pose filter; position and heading with their variances.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Localisation {
     at: Option<(Point, f64)>,
     heading: Option<(f64, f64)>,
-    /// Covariance of position and course: who goes on in a wrong course is off to the side.
-    aside: Point,
-    other_at: Doubted<Point>,
-    other_heading: Doubted<f64>,
+    /// Covariance of position and heading: a heading error leads to a lateral position error.
+    covariance: Point,
+    position_gate: ValidationGate<Point>,
+    heading_gate: ValidationGate<f64>,
     /// Ages of the last readings.
     position_s: Option<f64>,
     heading_s: Option<f64>,
@@ -60,7 +59,7 @@ pub(crate) struct Localisation {
 }
 
 impl Localisation {
-    /// The pose, once a position and a course have come in.
+    /// The pose, once a position and a heading are known.
     pub(crate) fn pose(&self) -> Option<Pose> {
         let ((at, at_variance), (heading_rad, variance)) = (self.at?, self.heading?);
         Some(Pose {
@@ -72,143 +71,159 @@ impl Localisation {
         })
     }
 
-    /// Takes in a step in which the body went `way_m` and turned.
-    pub(crate) fn take_in(&mut self, percept: &Percept, body: &Body, way_m: f64, turned_rad: f64) {
-        self.carry_on(way_m, turned_rad, body.period_s);
+    /// Updates the pose after a step in which the body moved `travelled_m` and turned.
+    pub(crate) fn update(
+        &mut self,
+        percept: &Percept,
+        body: &Body,
+        travelled_m: f64,
+        turned_rad: f64,
+    ) {
+        self.predict(travelled_m, turned_rad, body.period_s);
         self.age_s += body.period_s;
         if let Some(heading) = fresh(percept.heading_rad, &mut self.heading_s, body.period_s) {
-            self.take_heading(
+            self.update_heading(
                 &heading,
                 body,
                 turned_rad / body.period_s.max(f64::MIN_POSITIVE),
             );
         }
         if let Some(position) = fresh(percept.position, &mut self.position_s, body.period_s) {
-            self.take_position(
+            self.update_position(
                 &position,
                 body,
-                way_m / body.period_s.max(f64::MIN_POSITIVE),
+                travelled_m / body.period_s.max(f64::MIN_POSITIVE),
             );
         }
     }
 
-    /// Takes a course that was read while the body turned at `rate_rad_s`.
-    fn take_heading(&mut self, heading: &Reading<f64>, body: &Body, rate_rad_s: f64) {
+    /// Corrects the heading with a reading that was measured while the body turned at `rate_rad_s`.
+    fn update_heading(&mut self, heading: &Reading<f64>, body: &Body, rate_rad_s: f64) {
         let since_rad = rate_rad_s * heading.age_s;
-        // It may have turned the other way.
-        let room_rad = since_rad.abs() + body.max_turn_rate_rad_s * heading.age_s;
-        self.correct_heading(heading.value + since_rad, body.heading_noise_rad, room_rad);
+        // The body may have turned in the other direction.
+        let tolerance_rad = since_rad.abs() + body.max_turn_rate_rad_s * heading.age_s;
+        self.correct_heading(
+            heading.value + since_rad,
+            body.heading_noise_rad,
+            tolerance_rad,
+        );
     }
 
-    /// Takes a position that was read while the body went at `speed_m_s`.
-    fn take_position(&mut self, position: &Reading<Point>, body: &Body, speed_m_s: f64) {
+    /// Corrects the position with a reading that was measured while the body moved at `speed_m_s`.
+    fn update_position(&mut self, position: &Reading<Point>, body: &Body, speed_m_s: f64) {
         let since_m = speed_m_s * position.age_s;
         let heading_rad = self.heading.map_or(0.0, |(heading_rad, _)| heading_rad);
-        let read = position.value.plus(direction(heading_rad).times(since_m));
-        // It may have gone the other way.
-        let room_m = since_m.abs() + body.max_speed_m_s * position.age_s;
-        if self.correct_position(read, body.position_noise_m, room_m) {
+        let measured = position.value.plus(direction(heading_rad).times(since_m));
+        // The body may have moved in the other direction.
+        let tolerance_m = since_m.abs() + body.max_speed_m_s * position.age_s;
+        if self.correct_position(measured, body.position_noise_m, tolerance_m) {
             self.age_s = position.age_s;
         }
     }
 
-    fn carry_on(&mut self, way_m: f64, turned_rad: f64, period_s: f64) {
-        if let (Some((at, variance)), Some((heading_rad, of_heading))) =
+    fn predict(&mut self, travelled_m: f64, turned_rad: f64, period_s: f64) {
+        if let (Some((at, variance)), Some((heading_rad, heading_variance))) =
             (&mut self.at, self.heading)
         {
-            // Along the chord of its arc.
-            let way = direction(heading_rad + turned_rad / 2.0).times(way_m);
+            // Along the chord of the arc.
+            let way = direction(heading_rad + turned_rad / 2.0).times(travelled_m);
             *at = at.plus(way);
-            *variance += (DRIFT * way_m) * (DRIFT * way_m) + PUSHED_M2_S * period_s;
-            // P' = F P F^T with d(at)/d(course) = the way turned to the left, the mean of both axes.
-            *variance += way.cross(self.aside) + way_m * way_m * of_heading / 2.0;
+            *variance += (ODOMETRY_ERROR * travelled_m) * (ODOMETRY_ERROR * travelled_m)
+                + PROCESS_NOISE_M2_S * period_s;
+            // P' = F P F^T with d(at)/d(heading) = the displacement turned left; the mean of both axes.
+            *variance +=
+                way.cross(self.covariance) + travelled_m * travelled_m * heading_variance / 2.0;
             *variance = variance.max(0.0);
             let left = Point {
                 x: -way.y,
                 y: way.x,
             };
-            self.aside = self.aside.plus(left.times(of_heading));
-            self.other_at.carry_on(|at| at.plus(way));
+            self.covariance = self.covariance.plus(left.times(heading_variance));
+            self.position_gate.predict(|at| at.plus(way));
         }
         if let Some((heading_rad, variance)) = &mut self.heading {
             *heading_rad = wrapped(*heading_rad + turned_rad);
-            *variance += (DRIFT * turned_rad) * (DRIFT * turned_rad) + PUSHED_RAD2_S * period_s;
-            self.other_heading.carry_on(|heading| heading + turned_rad);
+            *variance += (ODOMETRY_ERROR * turned_rad) * (ODOMETRY_ERROR * turned_rad)
+                + PROCESS_NOISE_RAD2_S * period_s;
+            self.heading_gate.predict(|heading| heading + turned_rad);
         }
     }
 
-    fn correct_heading(&mut self, read_rad: f64, noise_rad: f64, room_rad: f64) {
-        if !read_rad.is_finite() || read_rad.abs() > 1e4 {
+    fn correct_heading(&mut self, measured_rad: f64, noise_rad: f64, tolerance_rad: f64) {
+        if !measured_rad.is_finite() || measured_rad.abs() > 1e4 {
             return;
         }
         let sensor = noise_rad * noise_rad;
-        let (before_rad, own) = self.heading.unwrap_or((read_rad, f64::INFINITY));
-        let off_rad = wrapped(read_rad - before_rad);
-        let off = Off {
-            by: off_rad.abs(),
+        let (before_rad, own) = self.heading.unwrap_or((measured_rad, f64::INFINITY));
+        let difference_rad = wrapped(measured_rad - before_rad);
+        let innovation = Innovation {
+            distance: difference_rad.abs(),
             variances: [own, sensor],
-            room: room_rad,
+            tolerance: tolerance_rad,
         };
-        let apart_rad = |last: &f64| wrapped(read_rad - last).abs();
-        let verdict = self.other_heading.judge(read_rad, &off, apart_rad);
-        if let Some(own) = variance_then(verdict, own) {
+        let distance_rad = |last: &f64| wrapped(measured_rad - last).abs();
+        let verdict = self
+            .heading_gate
+            .check(measured_rad, &innovation, distance_rad);
+        if let Some(own) = prior_variance(verdict, own) {
             let gain = gain(own, sensor);
-            let heading_rad = wrapped(before_rad + gain * off_rad);
-            self.heading = Some((heading_rad, own_after(own, sensor)));
-            self.aside = self.aside.times(1.0 - gain);
+            let heading_rad = wrapped(before_rad + gain * difference_rad);
+            self.heading = Some((heading_rad, posterior_variance(own, sensor)));
+            self.covariance = self.covariance.times(1.0 - gain);
         }
     }
 
-    /// Whether it was taken.
-    fn correct_position(&mut self, read: Point, noise_m: f64, room_m: f64) -> bool {
-        // Whatever is not a number is not near.
-        let is_sensible = read.x.abs() <= FARTHEST_M && read.y.abs() <= FARTHEST_M;
+    /// Returns whether the reading was used.
+    fn correct_position(&mut self, measured: Point, noise_m: f64, tolerance_m: f64) -> bool {
+        // False for NaN.
+        let is_sensible =
+            measured.x.abs() <= MAX_COORDINATE_M && measured.y.abs() <= MAX_COORDINATE_M;
         if !is_sensible {
             return false;
         }
         let sensor = noise_m * noise_m;
-        // Without a course nothing has carried it on.
-        let carried = self.at.filter(|_| self.heading.is_some());
-        let (before, own) = carried.unwrap_or((read, f64::INFINITY));
-        let off = Off {
-            by: before.to(read).length(),
+        // Without a heading, the position was not predicted.
+        let predicted = self.at.filter(|_| self.heading.is_some());
+        let (before, own) = predicted.unwrap_or((measured, f64::INFINITY));
+        let innovation = Innovation {
+            distance: before.to(measured).length(),
             variances: [own, sensor],
-            room: room_m,
+            tolerance: tolerance_m,
         };
-        let apart_m = |last: &Point| last.to(read).length();
-        let verdict = self.other_at.judge(read, &off, apart_m);
-        if let Some(own) = variance_then(verdict, own) {
+        let distance_m = |last: &Point| last.to(measured).length();
+        let verdict = self.position_gate.check(measured, &innovation, distance_m);
+        if let Some(own) = prior_variance(verdict, own) {
             let gain = gain(own, sensor);
-            let at = before.plus(before.to(read).times(gain));
-            self.at = Some((at, own_after(own, sensor)));
-            self.aside = self.aside.times(1.0 - gain);
+            let at = before.plus(before.to(measured).times(gain));
+            self.at = Some((at, posterior_variance(own, sensor)));
+            self.covariance = self.covariance.times(1.0 - gain);
         }
-        verdict != Verdict::Far
+        verdict != Verdict::Reject
     }
 }
 
-/// How sure one then is of what is believed before the reading; `None` if that is left out.
-fn variance_then(verdict: Verdict, own: f64) -> Option<f64> {
+/// The variance of the estimate before the correction; `None` if the reading is ignored.
+fn prior_variance(verdict: Verdict, own: f64) -> Option<f64> {
     match verdict {
-        Verdict::Near => Some(own),
-        Verdict::Instead => Some(f64::INFINITY),
-        Verdict::Far => None,
+        Verdict::Accept => Some(own),
+        Verdict::Reset => Some(f64::INFINITY),
+        Verdict::Reject => None,
     }
 }
 
-/// A reading that was not taken in before: one that was told of before is older by a period.
+/// A reading that was not used before: a repeated one is older by one period.
 pub(crate) fn fresh<T: Copy>(
     reading: Option<Reading<T>>,
     last_age_s: &mut Option<f64>,
     period_s: f64,
 ) -> Option<Reading<T>> {
-    let reading = reading.filter(|reading| (0.0..=OLDEST_S).contains(&reading.age_s));
+    let reading = reading.filter(|reading| (0.0..=MAX_AGE_S).contains(&reading.age_s));
     let before_s = core::mem::replace(last_age_s, reading.map(|reading| reading.age_s));
     let is_new = |age_s: f64| before_s.is_none_or(|before_s| age_s < before_s + 0.999 * period_s);
     reading.filter(|reading| is_new(reading.age_s))
 }
 
-/// How far to go from what is believed to what is read, 0 to 1.
+/// The Kalman gain, 0 to 1.
 fn gain(own: f64, sensor: f64) -> f64 {
     if own.is_infinite() || sensor == 0.0 {
         1.0
@@ -217,8 +232,8 @@ fn gain(own: f64, sensor: f64) -> f64 {
     }
 }
 
-/// The variance after a reading.
-fn own_after(own: f64, sensor: f64) -> f64 {
+/// The variance after a correction.
+fn posterior_variance(own: f64, sensor: f64) -> f64 {
     if own.is_infinite() {
         sensor
     } else {
@@ -227,21 +242,21 @@ fn own_after(own: f64, sensor: f64) -> f64 {
 }
 
 impl Pose {
-    /// So far behind what seems to stand before it a place may still be in view: where it stands, and so
-    /// where it has put things on its map, errs by more than two deviations only once in twenty times.
+    /// Tolerance of visibility tests: two standard deviations, which the errors of the robot's position and
+    /// of obstacles on its map exceed in one of twenty cases.
     pub(crate) fn blur_m(&self) -> f64 {
         2.0 * self.deviation_m
     }
 
-    /// Where in the world what lies at `way` from the robot's front is.
+    /// Transforms a position from the robot's frame to the world.
     #[inline]
-    pub(crate) fn world_of(&self, way: Point) -> Point {
-        self.at.plus(turned(way, direction(self.heading_rad)))
+    pub(crate) fn in_world(&self, at: Point) -> Point {
+        self.at.plus(turned(at, direction(self.heading_rad)))
     }
 
-    /// The way from the robot to a place in the world, from its front.
+    /// Transforms a position from the world to the robot's frame.
     #[inline]
-    pub(crate) fn own(&self, place: Point) -> Point {
+    pub(crate) fn in_own_frame(&self, place: Point) -> Point {
         let front = direction(self.heading_rad);
         let back = Point {
             x: front.x,
@@ -251,7 +266,7 @@ impl Pose {
     }
 }
 
-/// `way` turned as x is turned to `front`, which is of length 1.
+/// `way` rotated by the angle from the x axis to `front`, which has length 1.
 #[inline]
 pub(crate) fn turned(way: Point, front: Point) -> Point {
     Point {
@@ -274,67 +289,67 @@ mod tests {
     }
 
     #[test]
-    fn without_a_position_or_without_a_course_nobody_knows_where_he_is() {
-        let mut here = Localisation::default();
-        let only_place = Percept {
+    fn the_pose_is_unknown_without_a_position_or_without_a_heading() {
+        let mut localisation = Localisation::default();
+        let only_position = Percept {
             heading_rad: None,
             ..percept(1.0, 2.0, 0.0)
         };
-        here.take_in(&only_place, &rover(), 0.0, 0.0);
-        assert_eq!(here.pose(), None);
-        here.take_in(&percept(1.0, 2.0, 0.0), &rover(), 0.0, 0.0);
-        assert_eq!(here.pose().unwrap().at, Point { x: 1.0, y: 2.0 });
+        localisation.update(&only_position, &rover(), 0.0, 0.0);
+        assert_eq!(localisation.pose(), None);
+        localisation.update(&percept(1.0, 2.0, 0.0), &rover(), 0.0, 0.0);
+        assert_eq!(localisation.pose().unwrap().at, Point { x: 1.0, y: 2.0 });
     }
 
     #[test]
-    fn it_goes_on_by_its_wheels_and_is_less_and_less_sure() {
-        let mut here = Localisation::default();
-        here.take_in(&percept(0.0, 0.0, 0.0), &rover(), 0.0, 0.0);
+    fn odometry_predicts_the_pose_with_growing_deviation() {
+        let mut localisation = Localisation::default();
+        localisation.update(&percept(0.0, 0.0, 0.0), &rover(), 0.0, 0.0);
         let mut before_m = 0.0;
         for _ in 0..50 {
-            here.take_in(&Percept::default(), &rover(), 0.1, 0.0);
-            let pose = here.pose().unwrap();
+            localisation.update(&Percept::default(), &rover(), 0.1, 0.0);
+            let pose = localisation.pose().unwrap();
             assert!(pose.deviation_m > before_m);
             before_m = pose.deviation_m;
         }
-        let pose = here.pose().unwrap();
+        let pose = localisation.pose().unwrap();
         assert!((pose.at.x - 5.0).abs() < 1e-9 && (pose.age_s - 5.0).abs() < 1e-9);
     }
 
     #[test]
-    fn of_many_bad_readings_it_makes_a_good_one() {
+    fn many_noisy_readings_give_a_precise_position() {
         let mut body = rover();
         body.position_noise_m = 2.0;
-        let mut here = Localisation::default();
+        let mut localisation = Localisation::default();
         for step in 0..400 {
             let off = if step % 2 == 0 { 2.0 } else { -2.0 };
-            here.take_in(&percept(off, -off, 0.0), &body, 0.0, 0.0);
+            localisation.update(&percept(off, -off, 0.0), &body, 0.0, 0.0);
         }
-        let pose = here.pose().unwrap();
+        let pose = localisation.pose().unwrap();
         assert!(pose.at.length() < 0.05, "{pose:?}");
         assert!((pose.deviation_m - 0.1).abs() < 0.01, "{pose:?}");
     }
 
     #[test]
-    fn a_reading_that_is_told_of_again_and_again_counts_once() {
+    fn a_repeated_reading_counts_once() {
         let mut body = rover();
         body.position_noise_m = 2.0;
-        let mut here = Localisation::default();
-        let mut told = percept(0.0, 0.0, 0.0);
+        let mut localisation = Localisation::default();
+        let mut repeated = percept(0.0, 0.0, 0.0);
         for step in 0..10 {
-            told.position = Some(Reading {
+            repeated.position = Some(Reading {
                 value: Point::default(),
                 age_s: 0.2 + 0.1 * f64::from(step),
             });
-            here.take_in(&told, &body, 0.0, 0.0);
+            localisation.update(&repeated, &body, 0.0, 0.0);
         }
-        assert!((here.pose().unwrap().deviation_m - 2.0).abs() < 1e-4);
+        assert!((localisation.pose().unwrap().deviation_m - 2.0).abs() < 1e-4);
     }
 
     #[test]
-    fn a_late_reading_is_carried_on_by_what_it_went_since() {
-        let mut here = Localisation::default();
-        here.take_in(&percept(0.0, 0.0, 0.0), &rover(), 0.0, 0.0);
+    fn a_delayed_reading_is_compensated_by_the_distance_since() {
+        let mut localisation = Localisation::default();
+        localisation.update(&percept(0.0, 0.0, 0.0), &rover(), 0.0, 0.0);
         let late = Percept {
             position: Some(Reading {
                 value: Point { x: 4.0, y: 0.0 },
@@ -342,18 +357,18 @@ mod tests {
             }),
             ..percept(0.0, 0.0, 0.0)
         };
-        here.take_in(&late, &rover(), 0.1, 0.0);
-        assert!((here.pose().unwrap().at.x - 4.05).abs() < 1e-9);
+        localisation.update(&late, &rover(), 0.1, 0.0);
+        assert!((localisation.pose().unwrap().at.x - 4.05).abs() < 1e-9);
     }
 
     #[test]
-    fn nonsense_moves_nobody() {
-        let mut here = Localisation::default();
-        here.take_in(&percept(1.0, 1.0, 1.0), &rover(), 0.0, 0.0);
-        let before = here.pose();
+    fn invalid_readings_are_ignored() {
+        let mut localisation = Localisation::default();
+        localisation.update(&percept(1.0, 1.0, 1.0), &rover(), 0.0, 0.0);
+        let before = localisation.pose();
         for bad in [f64::NAN, f64::INFINITY, -1e300] {
-            here.take_in(&percept(bad, 0.0, bad), &rover(), 0.0, 0.0);
-            assert_eq!(here.pose().unwrap().at, before.unwrap().at);
+            localisation.update(&percept(bad, 0.0, bad), &rover(), 0.0, 0.0);
+            assert_eq!(localisation.pose().unwrap().at, before.unwrap().at);
         }
     }
 }

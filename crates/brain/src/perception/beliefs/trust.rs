@@ -1,27 +1,27 @@
-//! How far others are trusted.
+//! Trust in other robots.
 
 use crate::io::body::RobotId;
 use alloc::vec::Vec;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// So many others are remembered; who was heard of first is forgotten first.
-const MOST: usize = 64;
+/// Maximum number of robots with a record; the oldest record is dropped first.
+const MAX_RECORDS: usize = 64;
 
-/// A report that is confirmed or refuted counts as much as one in so many that came before.
-const BEFORE: f32 = 4.0;
+/// Weight of the initial trust, in reports.
+const PRIOR_WEIGHT: f32 = 4.0;
 
-/// Nobody acts on what he is told, or passes it on, if he trusts it less: it is more likely wrong than right.
-pub(crate) const ENOUGH: f64 = 0.5;
+/// Information with less trust is neither acted on nor relayed: it is more likely wrong than right.
+pub(crate) const MIN_TRUST: f64 = 0.5;
 
-/// How far a mind trusts what others tell.
+/// How far a brain trusts the reports of other robots.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct TrustSpec {
-    /// In one of whom nothing is known yet, 0 to 1.
+    /// Initial trust in a robot, 0 to 1.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub initial: f64,
-    /// Whether it changes when own looks confirm or refute reports.
+    /// Whether trust changes when the robot's own observations confirm or refute reports.
     pub adaptive: bool,
 }
 
@@ -34,7 +34,7 @@ impl Default for TrustSpec {
     }
 }
 
-/// Trust in each of the others: the mean of a beta distribution,
+/// Trust in each other robot: the mean of a beta distribution,
 ///
 /// ```text
 /// trust = (4 initial + confirmed) / (4 + confirmed + refuted)
@@ -42,16 +42,17 @@ impl Default for TrustSpec {
 ///
 /// (Jøsang and Ismail, *The beta reputation system*, 2002).
 ///
-/// Experience is with whoever told, his own looks or those of others: who passes something on answers for it,
-/// and nobody's trust falls for what another says of him. Looks that are passed on count as
+/// The sender of a report is accountable for it, whether the observations are its own or relayed; the trust
+/// in a robot never changes because of what another robot reports about it. Relayed observations have the
+/// weight
 ///
 /// ```text
-/// trust in the one who tells of them x trust in the one who took them
+/// trust in the sender x trust in the observer
 /// ```
 ///
-/// So what is wrong by mistake counts against both its looker, where he tells it, and who passes it on, and
-/// what is right counts for them alike: for each of them trust is the share of what he told that was right.
-/// What counts no more than [`ENOUGH`] is acted on by nobody, as far as places to go to are concerned.
+/// A wrong report therefore counts against the observer where it sent the report itself, and against each
+/// robot that relayed it; a correct one counts for them in the same way. For each robot, trust is the share
+/// of its reports that were correct. Destinations with no more weight than [`MIN_TRUST`] are ignored.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Trust {
     records: Vec<Record>,
@@ -59,46 +60,46 @@ pub(crate) struct Trust {
 
 #[derive(Debug, Clone)]
 struct Record {
-    of: RobotId,
+    id: RobotId,
     confirmed: f32,
     refuted: f32,
 }
 
 impl Trust {
-    /// In a robot, 0 to 1.
-    #[expect(clippy::cast_possible_truncation, reason = "kept short")]
+    /// Returns the trust in a robot, 0 to 1.
+    #[expect(clippy::cast_possible_truncation, reason = "stored as f32")]
     pub(crate) fn of(&self, robot: RobotId, spec: &TrustSpec) -> f64 {
         let initial = spec.initial as f32;
-        let record = self.records.iter().find(|record| record.of == robot);
+        let record = self.records.iter().find(|record| record.id == robot);
         record.map_or(spec.initial, |record| {
-            let all = BEFORE + record.confirmed + record.refuted;
-            f64::from((BEFORE * initial + record.confirmed) / all)
+            let weight = PRIOR_WEIGHT + record.confirmed + record.refuted;
+            f64::from((PRIOR_WEIGHT * initial + record.confirmed) / weight)
         })
     }
 
-    /// Keeps what is known of those that `keep` has a number for.
+    /// Renumbers the robots, and drops the records of those for which `keep` returns false.
     pub(crate) fn renumber(&mut self, keep: impl Fn(&mut RobotId) -> bool) {
-        self.records.retain_mut(|record| keep(&mut record.of));
+        self.records.retain_mut(|record| keep(&mut record.id));
     }
 
-    /// Notes that a robot's report was confirmed, or refuted.
+    /// Records that a report of a robot was confirmed or refuted.
     pub(crate) fn learn(&mut self, robot: RobotId, is_confirmed: bool, spec: &TrustSpec) {
         if !spec.adaptive {
             return;
         }
-        let known = self.records.iter().position(|record| record.of == robot);
-        let place = known.unwrap_or_else(|| {
-            if self.records.len() == MOST {
+        let known = self.records.iter().position(|record| record.id == robot);
+        let index = known.unwrap_or_else(|| {
+            if self.records.len() == MAX_RECORDS {
                 self.records.remove(0);
             }
             self.records.push(Record {
-                of: robot,
+                id: robot,
                 confirmed: 0.0,
                 refuted: 0.0,
             });
             self.records.len() - 1
         });
-        let record = &mut self.records[place];
+        let record = &mut self.records[index];
         if is_confirmed {
             record.confirmed += 1.0;
         } else {
@@ -125,7 +126,7 @@ mod tests {
     }
 
     #[test]
-    fn who_does_not_learn_trusts_as_he_was_told() {
+    fn trust_that_is_not_adaptive_stays_at_its_initial_value() {
         let spec = TrustSpec {
             initial: 0.3,
             adaptive: false,
@@ -136,11 +137,11 @@ mod tests {
     }
 
     #[test]
-    fn a_crowd_takes_bounded_memory() {
+    fn memory_is_bounded_for_any_number_of_robots() {
         let (mut trust, spec) = (Trust::default(), TrustSpec::default());
         for index in 0..1000 {
             trust.learn(RobotId { kind: 0, index }, false, &spec);
         }
-        assert_eq!(trust.records.len(), MOST);
+        assert_eq!(trust.records.len(), MAX_RECORDS);
     }
 }

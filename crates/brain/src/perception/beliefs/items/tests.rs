@@ -1,7 +1,7 @@
 use super::*;
 use crate::io::message::{About, Message};
 use crate::perception::beliefs::BeliefsSpec;
-use crate::perception::beliefs::coverage_map::Glance;
+use crate::perception::beliefs::coverage_map::DetectorScan;
 use crate::perception::beliefs::coverage_map::tests::detector;
 use crate::perception::beliefs::trust::{Trust, TrustSpec};
 use base::geometry::Rectangle;
@@ -13,12 +13,12 @@ use proptest::prelude::*;
 const ME: RobotId = RobotId { kind: 0, index: 0 };
 const PLACE: Point = Point { x: 3.0, y: 0.0 };
 
-/// Items and false contacts in a square metre.
+/// Density of items and of false alarms.
 const PER_M2: f64 = 0.01;
 const FALSE_PER_M2: f64 = 0.02;
 
-/// Recognises 70% all around, as far as 5 m.
-fn eye() -> Detector {
+/// Detects 70% all around, up to 5 m.
+fn camera() -> Detector {
     Detector {
         false_alarms_per_m2: vec![FALSE_PER_M2],
         noise_m: 0.1,
@@ -47,27 +47,27 @@ fn contact(from: Point, at: Point) -> Contact {
     }
 }
 
-fn look(items: &mut Items, observer: RobotId, from: Point, contacts: &[Contact]) {
-    look_with(items, observer, from, (contacts, None));
+fn observe(items: &mut Items, observer: RobotId, from: Point, contacts: &[Contact]) {
+    observe_with(items, observer, from, (contacts, None));
 }
 
-fn look_with(
+fn observe_with(
     items: &mut Items,
     observer: RobotId,
     from: Point,
     (contacts, map): (&[Contact], Option<&Map>),
 ) {
-    let look = OwnLook {
+    let look = OwnObservation {
         observer,
-        detector: &eye(),
+        detector: &camera(),
         pose: pose(from),
         per_m2: &[PER_M2],
     };
-    items.look(&look, contacts.iter(), map);
+    items.observe(&look, contacts.iter(), map);
 }
 
 fn hit(items: &mut Items, observer: RobotId) {
-    look(
+    observe(
         items,
         observer,
         Point::default(),
@@ -76,16 +76,16 @@ fn hit(items: &mut Items, observer: RobotId) {
 }
 
 fn miss(items: &mut Items, observer: RobotId) {
-    look(items, observer, Point::default(), &[]);
+    observe(items, observer, Point::default(), &[]);
 }
 
 fn confidence(items: &Items, own: RobotId) -> f64 {
     confidence_of(&items.tracks[0], own)
 }
 
-fn told(items: &mut Items) -> Vec<Report> {
+fn sent(items: &mut Items) -> Vec<Report> {
     let mut outbox = Vec::new();
-    trusting(ME, |ears| items.tell(ears, &mut outbox, 100));
+    with_initial_trust(ME, |reception| items.report(reception, &mut outbox, 100));
     let report = |message: Message| match message.about {
         About::Item {
             kind,
@@ -103,21 +103,23 @@ fn told(items: &mut Items) -> Vec<Report> {
     outbox.into_iter().filter_map(report).collect()
 }
 
-/// What one robot has come to after nine lies of another.
+/// The trust after nine refuted reports of a robot.
 fn distrust_of(liar: RobotId) -> (Trust, TrustSpec) {
     let (mut trust, spec) = (Trust::default(), TrustSpec::default());
     (0..9).for_each(|_| trust.learn(liar, false, &spec));
     (trust, spec)
 }
 
-/// Who trusts everybody as one does at first.
-fn trusting<T>(own: RobotId, then: impl FnOnce(&Reception) -> T) -> T {
+/// Calls a function with the initial trust in all robots.
+fn with_initial_trust<T>(own: RobotId, then: impl FnOnce(&Reception) -> T) -> T {
     let (trust, spec) = (&Trust::default(), &TrustSpec::default());
     then(&Reception { own, trust, spec })
 }
 
-fn hear(items: &mut Items, own: RobotId, report: &Report) {
-    trusting(own, |ears| items.hear(ears, report, 0.01, &[PER_M2]));
+fn receive(items: &mut Items, own: RobotId, report: &Report) {
+    with_initial_trust(own, |reception| {
+        items.receive(reception, report, 0.01, &[PER_M2]);
+    });
 }
 
 fn robot(index: u32) -> RobotId {
@@ -143,14 +145,14 @@ fn random(run: u64) -> Stream {
 }
 
 #[test]
-fn a_contact_counts_as_bayes_says() {
+fn a_contact_is_weighted_by_bayes_rule() {
     let mut items = Items::default();
     hit(&mut items, ME);
-    // Of contacts at one place, 0.7 x 0.01 a square metre are items, and 0.02 are not.
+    // Of all contacts at a position, 0.7 x 0.01 per square metre are items, and 0.02 are false alarms.
     let odds = 0.7 * PER_M2 / FALSE_PER_M2 / (1.0 - TAU * 0.01 * PER_M2);
     assert!((confidence(&items, ME) - odds / (1.0 + odds)).abs() < 1e-9);
     hit(&mut items, ME);
-    // A second one at the same place: both err by 0.1 along each axis.
+    // A second one at the same position; the standard deviation of both is 0.1 along each axis.
     let odds = odds * 0.7 / (TAU * 0.02 * FALSE_PER_M2);
     assert!((confidence(&items, ME) - odds / (1.0 + odds)).abs() < 1e-9);
     miss(&mut items, ME);
@@ -160,19 +162,19 @@ fn a_contact_counts_as_bayes_says() {
 }
 
 #[test]
-fn what_is_seen_again_and_again_without_false_contacts_is_there_however_rare_it_is() {
+fn repeated_contacts_without_false_alarms_prove_even_rare_items() {
     let sure = Detector {
         false_alarms_per_m2: vec![0.0],
-        ..eye()
+        ..camera()
     };
-    let look = OwnLook {
+    let look = OwnObservation {
         observer: ME,
         detector: &sure,
         pose: pose(Point::default()),
         per_m2: &[1e-7],
     };
     let mut items = Items::default();
-    (0..5).for_each(|_| items.look(&look, [contact(Point::default(), PLACE)].iter(), None));
+    (0..5).for_each(|_| items.observe(&look, [contact(Point::default(), PLACE)].iter(), None));
     assert!(confidence(&items, ME) > 0.99, "{}", confidence(&items, ME));
 }
 
@@ -194,42 +196,42 @@ fn a_contact_raises_confidence_and_a_miss_lowers_it() {
 }
 
 #[test]
-fn what_was_out_of_view_was_not_missed() {
+fn items_out_of_view_are_not_missed() {
     let mut items = Items::default();
     hit(&mut items, ME);
     let before = confidence(&items, ME);
-    look(&mut items, ME, Point { x: -3.0, y: 0.0 }, &[]);
+    observe(&mut items, ME, Point { x: -3.0, y: 0.0 }, &[]);
     assert!((confidence(&items, ME) - before).abs() < 1e-12);
 }
 
 #[test]
-fn a_report_counts_as_much_as_its_sender_is_trusted() {
+fn a_report_is_weighted_by_the_trust_in_its_sender() {
     let mut items = Items::default();
-    hear(&mut items, ME, &report(1, 0.8));
+    receive(&mut items, ME, &report(1, 0.8));
     let before = TAU * 0.01 * PER_M2;
     assert!((confidence(&items, ME) - (0.9 * 0.8 + 0.1 * before)).abs() < 1e-9);
 }
 
 #[test]
-fn a_report_of_anothers_looks_counts_as_both_are_trusted() {
+fn a_relayed_report_is_weighted_by_the_trust_in_sender_and_observer() {
     let mut items = Items::default();
     let relayed = Report {
         from: robot(2),
         ..report(1, 0.8)
     };
-    hear(&mut items, ME, &relayed);
+    receive(&mut items, ME, &relayed);
     let before = TAU * 0.01 * PER_M2;
     assert!((confidence(&items, ME) - (0.81 * 0.8 + 0.19 * before)).abs() < 1e-9);
-    hear(&mut items, ME, &report(1, 0.8));
+    receive(&mut items, ME, &report(1, 0.8));
     assert!((confidence(&items, ME) - (0.9 * 0.8 + 0.1 * before)).abs() < 1e-9);
 }
 
 #[test]
-fn whomever_one_names_he_is_believed_no_more_than_he_is_trusted() {
+fn a_sender_is_believed_no_more_than_it_is_trusted_whichever_observers_it_names() {
     let mut items = Items::default();
     for observer in 1..6 {
         let from = robot(7);
-        hear(
+        receive(
             &mut items,
             ME,
             &Report {
@@ -242,7 +244,7 @@ fn whomever_one_names_he_is_believed_no_more_than_he_is_trusted() {
 }
 
 #[test]
-fn what_one_says_himself_holds_against_what_others_say_of_him() {
+fn a_report_of_the_observer_itself_precedes_relayed_ones() {
     let mut items = Items::default();
     let more = |from: u32| Report {
         from: robot(from),
@@ -253,29 +255,35 @@ fn what_one_says_himself_holds_against_what_others_say_of_him() {
         ..report(1, 1e-3)
     };
     let (trust, spec) = distrust_of(robot(7));
-    let ears = Reception {
+    let reception = Reception {
         own: ME,
         trust: &trust,
         spec: &spec,
     };
-    let mut hear = |report: &Report| {
-        items.hear(&ears, report, 0.01, &[PER_M2]);
-        items.tracks[0].confidence(&ears)
+    let mut confidence_after = |report: &Report| {
+        items.receive(&reception, report, 0.01, &[PER_M2]);
+        items.tracks[0].confidence(&reception)
     };
-    let told = hear(&report(1, 0.9));
-    assert!((hear(&more(7)) - told).abs() < 1e-12, "a liar is not heard");
-    assert!(hear(&more(2)) < 0.1, "one who is trusted knows more");
+    let first = confidence_after(&report(1, 0.9));
     assert!(
-        (hear(&report(1, 0.9)) - told).abs() < 1e-12,
-        "it says so again"
+        (confidence_after(&more(7)) - first).abs() < 1e-12,
+        "a distrusted sender is ignored"
+    );
+    assert!(
+        confidence_after(&more(2)) < 0.1,
+        "a trusted sender with more observations replaces the report"
+    );
+    assert!(
+        (confidence_after(&report(1, 0.9)) - first).abs() < 1e-12,
+        "the observer itself takes precedence"
     );
 }
 
 #[test]
-fn who_is_not_trusted_is_not_passed_on() {
+fn reports_of_distrusted_robots_are_not_relayed() {
     let mut items = Items::default();
     let (trust, spec) = distrust_of(robot(7));
-    let ears = Reception {
+    let reception = Reception {
         own: ME,
         trust: &trust,
         spec: &spec,
@@ -290,10 +298,10 @@ fn who_is_not_trusted_is_not_passed_on() {
             provenance,
             ..report(observer, 0.9)
         };
-        items.hear(&ears, &told, 0.01, &[PER_M2]);
+        items.receive(&reception, &told, 0.01, &[PER_M2]);
     }
     let mut outbox = Vec::new();
-    items.tell(&ears, &mut outbox, 100);
+    items.report(&reception, &mut outbox, 100);
     let is_of_2 = |message: &Message| matches!(message.about, About::Item { provenance, .. } if provenance.observer == robot(2));
     assert!(
         outbox.len() == 1 && outbox.iter().all(is_of_2),
@@ -302,33 +310,33 @@ fn who_is_not_trusted_is_not_passed_on() {
 }
 
 #[test]
-fn of_two_robots_that_contradict_each_other_neither_has_it_all_his_way() {
+fn contradicting_reports_give_a_confidence_between_both() {
     let mut items = Items::default();
-    hear(&mut items, ME, &report(1, 0.9));
+    receive(&mut items, ME, &report(1, 0.9));
     let alone = confidence(&items, ME);
-    hear(&mut items, ME, &report(2, 1e-4));
+    receive(&mut items, ME, &report(2, 1e-4));
     let both = confidence(&items, ME);
     assert!(both < alone && both > 0.01, "{alone} {both}");
-    hear(&mut items, ME, &report(3, 0.9));
+    receive(&mut items, ME, &report(3, 0.9));
     assert!(confidence(&items, ME) > both);
 }
 
 #[test]
-fn own_looks_that_others_tell_of_change_nothing() {
+fn relayed_own_observations_change_nothing() {
     let (mut mine, mut theirs) = (Items::default(), Items::default());
     hit(&mut mine, ME);
-    for report in told(&mut mine) {
-        hear(&mut theirs, robot(1), &report);
+    for report in sent(&mut mine) {
+        receive(&mut theirs, robot(1), &report);
     }
     let before = mine.clone().tracks;
-    for report in told(&mut theirs) {
-        hear(&mut mine, ME, &report);
+    for report in sent(&mut theirs) {
+        receive(&mut mine, ME, &report);
     }
     assert_eq!(mine.tracks, before);
 }
 
 #[test]
-fn what_a_crowd_tells_of_one_item_ends_and_leaves_own_looks_alone() {
+fn the_sources_of_an_item_are_bounded_and_own_observations_are_kept() {
     let mut items = Items::default();
     hit(&mut items, ME);
     let reports: Vec<Report> = (1..20)
@@ -336,55 +344,55 @@ fn what_a_crowd_tells_of_one_item_ends_and_leaves_own_looks_alone() {
         .collect();
     for _ in 0..10 {
         for report in &reports {
-            hear(&mut items, ME, report);
+            receive(&mut items, ME, report);
         }
     }
-    assert!(items.tracks.len() == 1 && items.tracks[0].has_looked(ME));
-    told(&mut items);
+    assert!(items.tracks.len() == 1 && items.tracks[0].is_observed_by(ME));
+    sent(&mut items);
     for _ in 0..10 {
         for report in &reports {
-            hear(&mut items, ME, report);
+            receive(&mut items, ME, report);
         }
-        assert!(told(&mut items).is_empty());
+        assert!(sent(&mut items).is_empty());
     }
 }
 
 #[test]
-fn who_comes_into_reach_later_hears_of_all_items_in_time() {
+fn all_items_are_repeated_for_robots_that_come_into_range_later() {
     let (mut items, mut later) = (Items::default(), Items::default());
     for number in 0..20 {
         let at = Point {
             x: f64::from(number),
             y: 0.0,
         };
-        look(&mut items, ME, at, &[contact(at, at)]);
-        told(&mut items);
+        observe(&mut items, ME, at, &[contact(at, at)]);
+        sent(&mut items);
     }
     for _ in 0..20 {
-        assert!(told(&mut items).is_empty());
-        items.tell_again();
-        for report in told(&mut items) {
-            hear(&mut later, robot(1), &report);
+        assert!(sent(&mut items).is_empty());
+        items.repeat_next();
+        for report in sent(&mut items) {
+            receive(&mut later, robot(1), &report);
         }
     }
     assert_eq!(later.tracks.len(), 20);
 }
 
 #[test]
-fn a_thousand_contacts_take_bounded_memory() {
+fn memory_is_bounded_for_a_thousand_contacts() {
     let (mut items, mut random) = (Items::default(), random(1));
     for number in 0..1000 {
         let at = Point {
             x: 200.0 * unit(&mut random),
             y: 200.0 * unit(&mut random),
         };
-        look(
+        observe(
             &mut items,
             ME,
             at,
             &[contact(at, at), contact(at, at.plus(PLACE))],
         );
-        hear(
+        receive(
             &mut items,
             ME,
             &Report {
@@ -393,14 +401,14 @@ fn a_thousand_contacts_take_bounded_memory() {
             },
         );
     }
-    assert_eq!(items.tracks.len(), MOST);
+    assert_eq!(items.tracks.len(), MAX_TRACKS);
     let mut outbox = Vec::new();
-    trusting(ME, |ears| items.tell(ears, &mut outbox, 2));
+    with_initial_trust(ME, |reception| items.report(reception, &mut outbox, 2));
     assert_eq!(outbox.len(), 2);
 }
 
-/// Three robots look at an item and gossip: in each step one of them observations, tells, or hears any message
-/// that any of them ever sent. Returns them, and the last that each told of its own observations.
+/// Three robots observe an item and relay reports: in each step one of them observes, sends, or receives any
+/// message that was ever sent. Returns their items, and each robot's last report of its own observations.
 fn gossip(seed: u64, steps: u32) -> (Vec<Items>, Vec<Report>) {
     let mut random = random(seed);
     let mut team = vec![Items::default(); 3];
@@ -416,13 +424,13 @@ fn gossip(seed: u64, steps: u32) -> (Vec<Items>, Vec<Report>) {
             1 => miss(items, robot(observer)),
             2 => {
                 let from = robot(observer);
-                let told = told(items).into_iter();
+                let told = sent(items).into_iter();
                 air.extend(told.map(|report| Report { from, ..report }));
             }
             _ if air.is_empty() => {}
             _ => {
                 let any = random.bounded(u32::try_from(air.len()).unwrap()) as usize;
-                hear(items, robot(observer), &air[any]);
+                receive(items, robot(observer), &air[any]);
             }
         }
     }
@@ -438,29 +446,29 @@ fn gossip(seed: u64, steps: u32) -> (Vec<Items>, Vec<Report>) {
 
 proptest! {
     #[test]
-    fn however_often_and_over_whomever_a_look_is_told_of_it_counts_once(
+    fn observations_count_once_however_often_and_by_whichever_route_they_are_reported(
         seed: u64, steps in 1_u32..300,
     ) {
         let (mut team, last) = gossip(seed, steps);
         for (items, own) in team.iter_mut().zip((0..).map(robot)) {
             for report in &last {
-                hear(items, own, report);
+                receive(items, own, report);
             }
             prop_assert_eq!(items.tracks.len(), 1);
             let track = &items.tracks[0];
             let observations = &track.sources[track.place_by(own)];
             let reports = last.iter().filter(|report| report.provenance.observer != own);
-            let said = reports.map(|report| {
-                let before = track.sources[track.place_by(report.provenance.observer)].before;
-                log_odds(0.9 * report.confidence + 0.1 * probability(before)) - before
+            let reported = reports.map(|report| {
+                let prior = track.sources[track.place_by(report.provenance.observer)].prior;
+                log_odds(0.9 * report.confidence + 0.1 * probability(prior)) - prior
             });
-            let expected = probability(track.before + observations.odds + said.sum::<f64>());
+            let expected = probability(track.prior + observations.log_ratio + reported.sum::<f64>());
             prop_assert!((confidence(items, own) - expected).abs() < 1e-6, "{}", expected);
         }
     }
 }
 
-/// A number of the Poisson distribution (Knuth, *Seminumerical algorithms*, 3.4.1).
+/// A random number from the Poisson distribution (Knuth, *Seminumerical algorithms*, 3.4.1).
 fn poisson(mean: f64, random: &mut Stream) -> u32 {
     let (least, mut product, mut number) = (libm::exp(-mean), unit(random), 0);
     while product > least {
@@ -470,14 +478,14 @@ fn poisson(mean: f64, random: &mut Stream) -> u32 {
     number
 }
 
-/// A look at a world as the detector is said to be.
-fn honest_look(
+/// An observation of a world, distributed as in the detector's specification.
+fn model_observation(
     (items, map): (&mut Items, &mut Map),
     world: &[Point],
     from: Point,
     random: &mut Stream,
 ) {
-    let eye = eye();
+    let eye = camera();
     let mut contacts = Vec::new();
     for at in world {
         let [x, y] = normal_pair([random.next_u32(), random.next_u32()]).map(|z| z * eye.noise_m);
@@ -490,8 +498,8 @@ fn honest_look(
         let at = from.plus(direction(TAU * unit(random)).times(away_m));
         contacts.push(contact(from, at));
     }
-    look_with(items, ME, from, (&contacts, Some(map)));
-    let glance = Glance {
+    observe_with(items, ME, from, (&contacts, Some(map)));
+    let scan = DetectorScan {
         detector: &eye,
         at: from,
         heading_rad: 0.0,
@@ -499,10 +507,10 @@ fn honest_look(
         observations: 1.0,
         blur_m: 0.0,
     };
-    map.unseen.take_in(&map.field, &map.filled, &glance);
+    map.coverage.update(&map.field, &map.occupancy, &scan);
 }
 
-/// From -8 to 8 both ways, in cells of half a metre.
+/// From -8 to 8 along both axes, in cells of half a metre.
 fn field() -> Map {
     let corners = [Point { x: -8.0, y: -8.0 }, Point { x: 8.0, y: 8.0 }];
     let spec = BeliefsSpec {
@@ -512,21 +520,21 @@ fn field() -> Map {
     Map::new(&spec, &Rectangle::spanned(corners[0], corners[1]))
 }
 
-/// Confidences after some observations at many worlds, each with whether an item is there.
-fn believed(worlds: u64) -> Vec<(f64, bool)> {
+/// Confidences after some observations in many worlds, each with whether the item exists.
+fn confidences(worlds: u64) -> Vec<(f64, bool)> {
     let mut all = Vec::new();
     for number in 0..worlds {
         let mut random = random(number);
         let count = poisson(PER_M2 * 256.0, &mut random);
-        let mut anywhere = |half_m: f64| Point {
-            x: half_m * (2.0 * unit(&mut random) - 1.0),
-            y: half_m * (2.0 * unit(&mut random) - 1.0),
+        let mut anywhere = |half_width_m: f64| Point {
+            x: half_width_m * (2.0 * unit(&mut random) - 1.0),
+            y: half_width_m * (2.0 * unit(&mut random) - 1.0),
         };
         let world: Vec<Point> = (0..count).map(|_| anywhere(8.0)).collect();
         let stands: Vec<Point> = (0..=number % 5).map(|_| anywhere(2.0)).collect();
         let (mut items, mut map) = (Items::default(), field());
         for from in stands {
-            honest_look((&mut items, &mut map), &world, from, &mut random);
+            model_observation((&mut items, &mut map), &world, from, &mut random);
         }
         all.extend(items.tracks.iter().map(|track| {
             let is_there = world.iter().any(|at| at.to(track.at).length() < 0.35);
@@ -537,12 +545,12 @@ fn believed(worlds: u64) -> Vec<(f64, bool)> {
 }
 
 fn confidence_of(track: &Track, own: RobotId) -> f64 {
-    trusting(own, |ears| track.confidence(ears))
+    with_initial_trust(own, |reception| track.confidence(reception))
 }
 
 #[test]
-fn of_what_is_believed_with_a_confidence_that_share_is_there() {
-    let believed = believed(4000);
+fn confidences_are_calibrated() {
+    let believed = confidences(4000);
     for tenth in 0..10 {
         let low = 0.1 * f64::from(tenth);
         let within = |confidence: f64| (low..low + 0.1).contains(&confidence);
@@ -554,11 +562,11 @@ fn of_what_is_believed_with_a_confidence_that_share_is_there() {
         let there: f64 = bin
             .map(|(_, is_there)| f64::from(u8::from(*is_there)))
             .sum();
-        // 99% of all times.
-        let most = 2.58 * libm::sqrt(variance);
-        assert!(variance > 1.0, "{low:.1}: too few to tell");
+        // 99% of all samples.
+        let max = 2.58 * libm::sqrt(variance);
+        assert!(variance > 1.0, "{low:.1}: too few samples");
         assert!(
-            (there - expected).abs() < most,
+            (there - expected).abs() < max,
             "{low:.1}: {there} {expected}"
         );
     }

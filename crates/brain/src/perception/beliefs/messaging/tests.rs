@@ -2,7 +2,7 @@ use super::*;
 use crate::io::body::{Detector, RobotId};
 use crate::io::message::Provenance;
 use crate::io::percept::{Observation, Percept};
-use crate::perception::beliefs::coverage_map::SUREST;
+use crate::perception::beliefs::coverage_map::MAX_DETECTION;
 use crate::perception::beliefs::coverage_map::tests::detector;
 use crate::perception::beliefs::{BeliefsSpec, TrustSpec};
 use crate::world_of_walls::{now, rover};
@@ -11,7 +11,7 @@ use base::geometry::Rectangle;
 const ME: RobotId = RobotId { kind: 0, index: 0 };
 const MATE: RobotId = RobotId { kind: 0, index: 1 };
 
-/// A robot that recognises items all around as far as 2 m, on a field of 20 m by 20 m.
+/// A robot that detects items all around, up to 2 m, on a field of 20 m by 20 m.
 fn body(probability: f64) -> Body {
     let corner = Point { x: 20.0, y: 20.0 };
     Body {
@@ -46,7 +46,7 @@ impl Robot {
         }
     }
 
-    /// Stands at (8, 10), and perhaps observations.
+    /// One step at (8, 10), with or without an observation.
     fn step(&mut self, observations: bool, inbox: Vec<ReceivedMessage>) {
         let look = Observation {
             sensor: 0,
@@ -60,10 +60,10 @@ impl Robot {
             inbox,
             ..Percept::default()
         };
-        self.beliefs.take_in(&percept, &self.body, &[], [0.0, 0.0]);
+        self.beliefs.update(&percept, &self.body, &[], [0.0, 0.0]);
     }
 
-    /// Stands and hears nothing for so long, in seconds.
+    /// Steps without messages for a duration in seconds.
     fn wait(&mut self, for_s: f64) {
         let mut left_s = for_s - self.body.period_s / 2.0;
         while left_s > 0.0 {
@@ -72,14 +72,14 @@ impl Robot {
         }
     }
 
-    /// How surely an item at a place would have been seen.
-    fn seen(&self, x: f64, y: f64) -> f64 {
+    /// Probability that an item at a position would have been detected.
+    fn detected(&self, x: f64, y: f64) -> f64 {
         let map = self.beliefs.map.as_ref().unwrap();
-        1.0 - map.unseen.of(map.field.cell(Point { x, y }).unwrap())
+        1.0 - map.coverage.of(map.field.cell(Point { x, y }).unwrap())
     }
 }
 
-fn heard(about: About, confidence: f64) -> ReceivedMessage {
+fn received(about: About, confidence: f64) -> ReceivedMessage {
     ReceivedMessage {
         from: MATE,
         age_s: 0.0,
@@ -87,11 +87,11 @@ fn heard(about: About, confidence: f64) -> ReceivedMessage {
     }
 }
 
-/// A mate tells where it is, and how often it has looked.
+/// A message of a team mate about its pose and number of observations.
 fn mate(x: f64, y: f64, observations: u32, confidence: f64) -> ReceivedMessage {
     let at = Point { x, y };
     let heading_rad = 0.0;
-    heard(
+    received(
         About::Sender {
             at,
             heading_rad,
@@ -108,7 +108,7 @@ fn item(x: f64, y: f64, track_id: u32) -> ReceivedMessage {
         observations: 1,
     };
     let at = Point { x, y };
-    heard(
+    received(
         About::Item {
             kind: 0,
             at,
@@ -118,13 +118,13 @@ fn item(x: f64, y: f64, track_id: u32) -> ReceivedMessage {
     )
 }
 
-/// The thesis's example: a range of 2, and a sender 5 away with a range of 2 that is quite sure.
+/// The thesis's example: a range of 2, and a fully confident sender 5 away with a range of 2.
 #[test]
-fn a_report_extends_the_picture_towards_its_sender_but_not_to_a_full_disc() {
+fn a_report_extends_the_map_around_its_sender_but_not_to_a_full_disc() {
     let mut robot = Robot::new(1.0, 1.0);
     robot.step(true, vec![mate(13.0, 10.0, 1, 1.0)]);
     for x in [6.2, 8.0, 9.8, 11.2, 13.0, 14.8] {
-        assert!(robot.seen(x, 10.0) > SUREST - 1e-6, "{x}");
+        assert!(robot.detected(x, 10.0) > MAX_DETECTION - 1e-6, "{x}");
     }
     for (x, y) in [
         (8.0, 13.0),
@@ -133,19 +133,19 @@ fn a_report_extends_the_picture_towards_its_sender_but_not_to_a_full_disc() {
         (10.5, 11.0),
         (12.0, 13.0),
     ] {
-        assert!(robot.seen(x, y) < 0.01, "{x} {y}");
+        assert!(robot.detected(x, y) < 0.01, "{x} {y}");
     }
 }
 
 #[test]
-fn a_report_counts_as_its_confidence_times_the_trust_in_its_sender() {
+fn a_report_is_weighted_by_its_confidence_times_the_trust_in_its_sender() {
     let mut robot = Robot::new(1.0, 0.8);
     robot.step(false, vec![mate(13.0, 10.0, 1, 0.5)]);
-    assert!((robot.seen(13.0, 10.5) - 0.4 * SUREST).abs() < 1e-6);
+    assert!((robot.detected(13.0, 10.5) - 0.4 * MAX_DETECTION).abs() < 1e-6);
 }
 
 #[test]
-fn looks_of_a_lost_message_are_made_up_for_by_the_next() {
+fn observations_of_a_lost_message_are_included_in_the_next() {
     let (mut all, mut last) = (Robot::new(0.3, 0.9), Robot::new(0.3, 0.9));
     for observations in [1, 4, 6] {
         all.step(false, vec![mate(13.0, 10.0, observations, 1.0)]);
@@ -161,53 +161,53 @@ fn looks_of_a_lost_message_are_made_up_for_by_the_next() {
     }
     let expected = 0.9 * (1.0 - libm::pow(0.7, 6.0));
     for robot in [&all, &last] {
-        assert!((robot.seen(13.0, 10.5) - expected).abs() < 1e-6);
+        assert!((robot.detected(13.0, 10.5) - expected).abs() < 1e-6);
     }
 }
 
 #[test]
-fn what_a_mate_saw_on_its_way_was_seen_too() {
+fn observations_on_the_path_of_a_team_mate_extend_the_map() {
     let mut robot = Robot::new(1.0, 1.0);
     robot.step(false, vec![mate(4.0, 4.0, 1, 1.0)]);
     robot.wait(10.0);
     robot.step(false, vec![mate(14.0, 4.0, 40, 1.0)]);
     for x in [3.0, 6.0, 9.0, 12.0, 15.0] {
-        assert!(robot.seen(x, 4.0) > SUREST - 1e-6, "{x}");
+        assert!(robot.detected(x, 4.0) > MAX_DETECTION - 1e-6, "{x}");
     }
-    assert!(robot.seen(9.0, 7.0) < 0.01);
+    assert!(robot.detected(9.0, 7.0) < 0.01);
 }
 
 #[test]
-fn who_tells_of_what_is_not_there_is_trusted_less_and_less() {
+fn trust_in_a_sender_of_false_reports_falls() {
     let mut robot = Robot::new(0.8, 0.9);
     let spec = robot.beliefs.prior.trust.clone();
     let mut before = 0.9;
     for track_id in 1..5 {
-        // In view, each time elsewhere.
+        // In view, at a different position each time.
         robot.step(
             false,
             vec![item(7.0 + 0.5 * f64::from(track_id), 9.5, track_id)],
         );
-        let told = robot.beliefs.believed_items().last().unwrap().confidence;
+        let sent = robot.beliefs.believed_items().last().unwrap().confidence;
         (0..8).for_each(|_| robot.step(true, Vec::new()));
         let trust = robot.beliefs.trust.of(MATE, &spec);
         assert!(trust < before, "{trust}");
         before = trust;
         let refuted = robot.beliefs.believed_items().last().unwrap().confidence;
-        assert!(refuted < 0.1 * told, "{told} {refuted}");
+        assert!(refuted < 0.1 * sent, "{sent} {refuted}");
     }
     assert!((before - 4.0 * 0.9 / 8.0).abs() < 1e-6, "{before}");
 }
 
 #[test]
-fn who_does_not_know_where_he_is_tells_nothing_and_who_does_tells_it_once_a_second() {
+fn a_robot_broadcasts_once_per_second_if_its_pose_is_known() {
     let mut robot = Robot::new(1.0, 1.0);
     let mut outbox = Vec::new();
-    robot.beliefs.tell(None, 0.1, &mut outbox);
+    robot.beliefs.broadcast(None, 0.1, &mut outbox);
     assert!(outbox.is_empty());
     robot.step(true, Vec::new());
     for _ in 0..30 {
-        robot.beliefs.tell(None, 0.1, &mut outbox);
+        robot.beliefs.broadcast(None, 0.1, &mut outbox);
     }
     let senders = outbox.iter().filter(|m| {
         matches!(
@@ -222,7 +222,7 @@ fn who_does_not_know_where_he_is_tells_nothing_and_who_does_tells_it_once_a_seco
 }
 
 #[test]
-fn who_turns_tells_at_once_as_others_take_it_to_look_the_way_that_it_told_last() {
+fn a_turning_robot_broadcasts_its_heading_at_once() {
     let mut robot = Robot::new(1.0, 1.0);
     let turned = |heading_rad: f64| {
         let percept = Percept {
@@ -236,18 +236,18 @@ fn who_turns_tells_at_once_as_others_take_it_to_look_the_way_that_it_told_last()
             ..Percept::default()
         };
         let body = robot.body.clone();
-        robot.beliefs.take_in(&percept, &body, &[], [0.0, 0.0]);
+        robot.beliefs.update(&percept, &body, &[], [0.0, 0.0]);
         let mut outbox = Vec::new();
-        robot.beliefs.tell(None, 0.1, &mut outbox);
+        robot.beliefs.broadcast(None, 0.1, &mut outbox);
         let is_sender = |message: &Message| matches!(message.about, About::Sender { .. });
         outbox.iter().any(is_sender)
     };
-    let told = [0.0, 0.1, 0.5, 0.6, 0.1].map(turned);
-    assert_eq!(told, [false, false, true, false, true]);
+    let sent = [0.0, 0.1, 0.5, 0.6, 0.1].map(turned);
+    assert_eq!(sent, [false, false, true, false, true]);
 }
 
 #[test]
-fn where_one_goes_is_told_at_once_and_whether_it_has_been_there() {
+fn a_new_destination_and_an_arrival_are_broadcast_at_once() {
     let mut robot = Robot::new(1.0, 1.0);
     robot.step(true, Vec::new());
     let goals = |robot: &mut Robot, goal: Option<Point>| {
@@ -258,7 +258,7 @@ fn where_one_goes_is_told_at_once_and_whether_it_has_been_there() {
             max_speed_m_s: 1.0,
             value: 1.0,
         });
-        robot.beliefs.tell(aim, 0.01, &mut outbox);
+        robot.beliefs.broadcast(aim, 0.01, &mut outbox);
         outbox.iter().filter_map(status).collect::<Vec<_>>()
     };
     let (far, here) = (Point { x: 1.0, y: 2.0 }, Point { x: 8.3, y: 10.0 });
@@ -287,7 +287,7 @@ fn status(message: &Message) -> Option<(Point, CommitmentStatus)> {
 }
 
 #[test]
-fn nonsense_is_not_believed() {
+fn invalid_messages_are_ignored() {
     let mut robot = Robot::new(1.0, 1.0);
     for bad in [f64::NAN, f64::INFINITY, -1.0, 1.5] {
         robot.step(
@@ -295,15 +295,15 @@ fn nonsense_is_not_believed() {
             vec![mate(13.0, 10.0, 1, bad), mate(13.0, bad * 1e8, 2, 1.0)],
         );
     }
-    assert!(robot.seen(13.0, 10.5) < 1e-9);
+    assert!(robot.detected(13.0, 10.5) < 1e-9);
 }
 
-/// A step, from when robots are on, and who tells in it, in which order.
-type Tellers = (u32, Vec<RobotId>);
+/// A step, and the robots that broadcast in it, in order.
+type Senders = (u32, Vec<RobotId>);
 
-/// Who tells in each step of a time, in seconds, of robots that all stand still and have a destination somewhere.
-fn tellers(own: &[RobotId], period_s: f64, for_s: f64) -> Vec<Tellers> {
-    let mut told = vec![Told::default(); own.len()];
+/// The robots that broadcast in each step of a duration in seconds; all are stationary and have a destination.
+fn senders(own: &[RobotId], period_s: f64, for_s: f64) -> Vec<Senders> {
+    let mut sent = vec![BroadcastState::default(); own.len()];
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -311,9 +311,9 @@ fn tellers(own: &[RobotId], period_s: f64, for_s: f64) -> Vec<Tellers> {
     )]
     let steps = libm::round(for_s / period_s) as u32;
     let in_step = |step| {
-        let each = own.iter().zip(&mut told);
-        let telling = each.filter_map(|(id, told)| told.is_time(*id, period_s).then_some(*id));
-        (step, telling.collect())
+        let each = own.iter().zip(&mut sent);
+        let sending = each.filter_map(|(id, sent)| sent.is_due(*id, period_s).then_some(*id));
+        (step, sending.collect())
     };
     (1..=steps).map(in_step).collect()
 }
@@ -323,10 +323,10 @@ fn robots(kind: u8, count: u32) -> Vec<RobotId> {
 }
 
 #[test]
-fn whatever_the_period_each_tells_once_a_second() {
+fn each_robot_broadcasts_once_per_second_for_any_period() {
     for (period_s, apart) in [(0.1, 10..=10), (0.05, 20..=20), (0.3, 3..=4), (1.0, 1..=1)] {
         let mates = robots(0, 3);
-        let steps = tellers(&mates, period_s, 60.0);
+        let steps = senders(&mates, period_s, 60.0);
         for mate in &mates {
             let own = steps.iter().filter(|(_, all)| all.contains(mate));
             let own: Vec<u32> = own.map(|(step, _)| *step).collect();
@@ -339,16 +339,16 @@ fn whatever_the_period_each_tells_once_a_second() {
     }
 }
 
-/// Each says where it is and where it goes; of what is said in a step, four messages are heard.
+/// Each robot broadcasts its pose and its destination; four messages are received per step.
 #[test]
-fn of_many_robots_each_is_heard_equally_often_by_one_that_hears_four_messages_a_step() {
+fn a_receiver_of_four_messages_per_step_receives_all_robots_equally_often() {
     let mates = robots(0, 16);
-    let steps = tellers(&mates, 0.1, 60.0);
-    let heard = |mate: &RobotId| {
-        let hears = |all: &[RobotId]| all.iter().take(2).any(|one| one == mate);
-        steps.iter().filter(|(_, all)| hears(all)).count()
+    let steps = senders(&mates, 0.1, 60.0);
+    let received = |mate: &RobotId| {
+        let receives = |all: &[RobotId]| all.iter().take(2).any(|one| one == mate);
+        steps.iter().filter(|(_, all)| receives(all)).count()
     };
-    let counts: Vec<usize> = mates.iter().map(heard).collect();
+    let counts: Vec<usize> = mates.iter().map(received).collect();
     assert!(
         counts.iter().all(|count| (59..=60).contains(count)),
         "{counts:?}"
@@ -356,16 +356,16 @@ fn of_many_robots_each_is_heard_equally_often_by_one_that_hears_four_messages_a_
 }
 
 #[test]
-fn robots_of_several_kinds_tell_at_moments_of_their_own_too() {
+fn robots_of_several_kinds_have_different_phases() {
     let mates = [robots(0, 5), robots(1, 5), robots(2, 5)].concat();
-    let most = tellers(&mates, 0.1, 60.0)
+    let most = senders(&mates, 0.1, 60.0)
         .into_iter()
         .map(|(_, all)| all.len())
         .max();
     assert!(most <= Some(3), "{most:?}");
 }
 
-/// A mate tells of observations of another at a place, or of his own.
+/// A report by a team mate of its own or another robot's observations.
 fn relayed(from: RobotId, observer: RobotId, x: f64, track_id: u32) -> ReceivedMessage {
     let (at, observations) = (Point { x, y: 9.5 }, 1);
     let provenance = Provenance {
@@ -375,7 +375,7 @@ fn relayed(from: RobotId, observer: RobotId, x: f64, track_id: u32) -> ReceivedM
     };
     ReceivedMessage {
         from,
-        ..heard(
+        ..received(
             About::Item {
                 kind: 0,
                 at,
@@ -387,7 +387,7 @@ fn relayed(from: RobotId, observer: RobotId, x: f64, track_id: u32) -> ReceivedM
 }
 
 #[test]
-fn who_names_another_for_what_is_not_there_is_trusted_less_himself() {
+fn a_false_relayed_report_lowers_the_trust_in_its_sender() {
     let (mut robot, innocent) = (Robot::new(0.8, 0.9), RobotId { kind: 0, index: 3 });
     let spec = robot.beliefs.prior.trust.clone();
     for track_id in 1..5 {
@@ -407,7 +407,7 @@ fn who_names_another_for_what_is_not_there_is_trusted_less_himself() {
 }
 
 #[test]
-fn what_is_passed_on_after_it_was_heard_counts_for_the_first() {
+fn a_report_that_is_relayed_later_counts_for_its_first_sender() {
     let (mut robot, other) = (Robot::new(0.8, 0.9), RobotId { kind: 0, index: 3 });
     let spec = robot.beliefs.prior.trust.clone();
     robot.step(
@@ -420,7 +420,7 @@ fn what_is_passed_on_after_it_was_heard_counts_for_the_first() {
 }
 
 #[test]
-fn nobody_looks_oftener_than_can_be() {
+fn implausibly_many_observations_are_limited() {
     let mut robot = Robot::new(0.01, 1.0);
     robot.step(false, vec![mate(13.0, 10.0, 1, 1.0)]);
     robot.wait(0.9);
@@ -431,13 +431,13 @@ fn nobody_looks_oftener_than_can_be() {
             mate(13.0, 10.0, 900_000, 1.0),
         ],
     );
-    let most = 1.0 - libm::pow(0.99, 1.0 + MOST_LOOKS_S);
-    let seen = robot.seen(13.0, 10.5);
+    let most = 1.0 - libm::pow(0.99, 1.0 + MAX_OBSERVATION_RATE_HZ);
+    let seen = robot.detected(13.0, 10.5);
     assert!((seen - most).abs() < 1e-5, "{seen} {most}");
 }
 
 #[test]
-fn what_has_no_age_is_not_believed_and_looks_count_however_long_ago() {
+fn messages_with_invalid_ages_are_ignored_and_old_observations_count() {
     for (age_s, is_believed) in [
         (0.0, true),
         (500.0, true),
@@ -453,6 +453,6 @@ fn what_has_no_age_is_not_believed_and_looks_count_however_long_ago() {
                 ..mate(13.0, 10.0, 1, 1.0)
             }],
         );
-        assert_eq!(robot.seen(13.0, 10.5) > 0.5, is_believed, "{age_s}");
+        assert_eq!(robot.detected(13.0, 10.5) > 0.5, is_believed, "{age_s}");
     }
 }

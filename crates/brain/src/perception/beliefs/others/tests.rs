@@ -26,13 +26,13 @@ fn percept(neighbours: Vec<Neighbour>) -> Percept {
     }
 }
 
-/// Looks once, standing.
-fn seen(others: &mut Others, neighbours: Vec<Neighbour>) {
-    others.take_in(&percept(neighbours), &rover(), Point::default(), 0.0);
+/// One observation at rest.
+fn observe(others: &mut Others, neighbours: Vec<Neighbour>) {
+    others.update(&percept(neighbours), &rover(), Point::default(), 0.0);
 }
 
-/// What a robot that goes and turns believes of another that goes straight on, after some steps in each
-/// of which it sees exactly where he is; and his true velocity from its front then.
+/// The track of a robot with a constant velocity after a number of exact observations by a moving and turning
+/// robot, and the true relative velocity.
 fn followed([speed, rate]: [f64; 2], velocity: Point, steps: u32) -> (Mover, Point) {
     let mut others = Others::default();
     let (mut at, mut heading_rad) = (Point::default(), 0.3);
@@ -48,7 +48,7 @@ fn followed([speed, rate]: [f64; 2], velocity: Point, steps: u32) -> (Mover, Poi
         let seen = turned(at.to(other), direction(-heading_rad));
         let way = if step > 0 { own_way } else { Point::default() };
         let percept = percept(vec![neighbour(OTHER, seen)]);
-        others.take_in(
+        others.update(
             &percept,
             &rover(),
             way,
@@ -60,7 +60,7 @@ fn followed([speed, rate]: [f64; 2], velocity: Point, steps: u32) -> (Mover, Poi
 
 proptest! {
     #[test]
-    fn two_exact_looks_tell_how_another_moves_however_one_moves_oneself(
+    fn two_exact_observations_give_the_velocity_for_any_own_motion(
         own in [-1.0_f64..1.0, -1.5_f64..1.5], vx in -2.0_f64..2.0, vy in -2.0_f64..2.0,
         steps in 2_u32..20,
     ) {
@@ -71,28 +71,28 @@ proptest! {
 }
 
 #[test]
-fn after_one_look_nobody_knows_how_another_moves() {
+fn one_observation_gives_no_velocity() {
     let (mover, _) = followed([1.0, 0.5], Point { x: 1.0, y: 0.0 }, 1);
     assert!(mover.speed_m_s() < 1e-12 && mover.observations == 1);
 }
 
 #[test]
-fn who_is_out_of_sight_goes_on_in_mind_for_a_second() {
+fn a_track_without_observations_is_predicted_for_a_second() {
     let mut others = Others::default();
     for x in [2.0, 2.1] {
-        seen(&mut others, vec![neighbour(OTHER, Point { x, y: 0.0 })]);
+        observe(&mut others, vec![neighbour(OTHER, Point { x, y: 0.0 })]);
     }
     for _ in 0..9 {
-        seen(&mut others, Vec::new());
+        observe(&mut others, Vec::new());
     }
     assert!((others.movers[0].at.x - 3.0).abs() < 1e-9);
-    seen(&mut others, Vec::new());
-    seen(&mut others, Vec::new());
+    observe(&mut others, Vec::new());
+    observe(&mut others, Vec::new());
     assert!(others.movers.is_empty());
 }
 
 #[test]
-fn a_late_look_is_carried_on() {
+fn a_delayed_observation_is_compensated() {
     let mut others = Others::default();
     for step in 0..4 {
         let late = Neighbour {
@@ -105,19 +105,19 @@ fn a_late_look_is_carried_on() {
                 },
             )
         };
-        seen(&mut others, vec![late]);
+        observe(&mut others, vec![late]);
     }
     let mover = others.movers[0];
     assert!((mover.velocity_m_s.x - 1.0).abs() < 1e-9 && (mover.at.x - 2.35).abs() < 1e-9);
 }
 
 #[test]
-fn nonsense_and_who_flies_above_is_in_nobodys_way() {
+fn invalid_neighbours_and_flying_ones_are_ignored() {
     let mut body = rover();
     body.others = vec![Other::default()];
     let near = neighbour(OTHER, Point { x: 1.0, y: 0.0 });
     let mut others = Others::default();
-    others.take_in(&percept(vec![near]), &body, Point::default(), 0.0);
+    others.update(&percept(vec![near]), &body, Point::default(), 0.0);
     for bad in [f64::NAN, f64::INFINITY, -1.0] {
         let off = [
             Neighbour {
@@ -131,13 +131,13 @@ fn nonsense_and_who_flies_above_is_in_nobodys_way() {
             },
             Neighbour { age_s: bad, ..near },
         ];
-        seen(&mut others, off.into());
+        observe(&mut others, off.into());
     }
     assert!(others.movers.is_empty());
 }
 
 #[test]
-fn of_a_crowd_those_are_kept_that_it_could_soonest_run_into() {
+fn the_tracks_with_the_earliest_possible_collision_are_kept() {
     let mut others = Others::default();
     let robot = |index| RobotId { kind: 0, index };
     let step = |number: u32| {
@@ -147,16 +147,16 @@ fn of_a_crowd_those_are_kept_that_it_could_soonest_run_into() {
         let rushing = neighbour(robot(99), Point { x, y: 0.0 });
         still.chain([rushing]).collect::<Vec<_>>()
     };
-    // Alone at first, so that it is known how he goes.
-    seen(&mut others, step(0).split_off(20));
-    (1..4).for_each(|number| seen(&mut others, step(number)));
+    // Alone at first, so that its velocity is known.
+    observe(&mut others, step(0).split_off(20));
+    (1..4).for_each(|number| observe(&mut others, step(number)));
     let ids: Vec<RobotId> = others.movers.iter().filter_map(|mover| mover.id).collect();
-    assert_eq!(ids.len(), MOST);
+    assert_eq!(ids.len(), MAX_MOVERS);
     assert!(ids.contains(&robot(99)) && ids.contains(&robot(0)) && !ids.contains(&robot(19)));
 }
 
 #[test]
-fn who_has_another_number_is_the_same_and_who_is_gone_is_forgotten() {
+fn renumbered_robots_keep_their_tracks_and_removed_ones_lose_them() {
     let body = rover();
     let mut beliefs = Beliefs::new(&BeliefsSpec::default(), &body);
     let robot = |index| RobotId { kind: 0, index };
@@ -167,13 +167,13 @@ fn who_has_another_number_is_the_same_and_who_is_gone_is_forgotten() {
             neighbour(robot(5), place(1.0)),
         ])
     };
-    beliefs.take_in(&both(3), &body, &[], [0.0, 0.0]);
+    beliefs.update(&both(3), &body, &[], [0.0, 0.0]);
     beliefs.renumber(&|id: RobotId| (id.index == 3).then_some(robot(1)));
     let movers = &beliefs.others.movers;
     assert_eq!(
         movers.iter().map(|mover| mover.id).collect::<Vec<_>>(),
         [Some(robot(1))]
     );
-    beliefs.take_in(&both(1), &body, &[], [0.0, 0.0]);
+    beliefs.update(&both(1), &body, &[], [0.0, 0.0]);
     assert_eq!(beliefs.others.movers[0].observations, 2);
 }

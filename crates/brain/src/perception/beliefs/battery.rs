@@ -1,0 +1,168 @@
+//! The battery: its charge and the estimated remaining time.
+
+use super::pose::fresh;
+use crate::io::percept::Percept;
+
+/// Minimum time over which the rate of discharge is estimated.
+const MIN_INTERVAL_S: f64 = 5.0;
+
+/// An increase by more than this fraction is taken as charging, not as noise of the gauge.
+const MIN_CHARGE_GAIN: f64 = 0.1;
+
+/// A charge, as a fraction of the capacity, and its time in seconds since the brain was started.
+#[derive(Debug, Clone, Copy)]
+struct Level {
+    share: f64,
+    at_s: f64,
+}
+
+/// The charge of the battery: the median of the previous estimate and the last two readings, so that a single
+/// outlier has no effect, and two in a row are accepted.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Battery {
+    /// The start of the discharge.
+    first: Option<Level>,
+    left: Option<Level>,
+    /// The minimum charge since then.
+    min_charge: f64,
+    last: Option<Level>,
+    /// Age of the last reading.
+    age_s: Option<f64>,
+    on_s: f64,
+}
+
+impl Battery {
+    pub(crate) fn update(&mut self, percept: &Percept, period_s: f64) {
+        self.on_s += period_s;
+        let is_valid = |share: &f64| (0.0..=1.0).contains(share);
+        let battery = percept.battery.filter(|battery| is_valid(&battery.value));
+        let Some(battery) = fresh(battery, &mut self.age_s, period_s) else {
+            return;
+        };
+        let read = Level {
+            share: battery.value,
+            at_s: self.on_s - battery.age_s,
+        };
+        if let Some(before) = self.last.replace(read) {
+            self.correct(before, read);
+        }
+    }
+
+    /// Updates the estimate with the last two readings.
+    fn correct(&mut self, one: Level, other: Level) {
+        let (low, high) = if one.share <= other.share {
+            (one, other)
+        } else {
+            (other, one)
+        };
+        let left = match self.left {
+            Some(left) if left.share < low.share => low,
+            Some(left) if left.share <= high.share => left,
+            _ => high,
+        };
+        self.left = Some(left);
+        self.min_charge = self.min_charge.min(left.share);
+        // The rate of discharge is estimated from the last charging on.
+        let is_charged =
+            |first: Level| left.share > first.share.min(self.min_charge + MIN_CHARGE_GAIN);
+        if self.first.is_none_or(is_charged) {
+            (self.first, self.min_charge) = (Some(left), left.share);
+        }
+    }
+
+    /// The charge, 0 to 1, once there have been two readings.
+    pub(crate) fn charge(&self) -> Option<f64> {
+        self.left.map(|left| left.share)
+    }
+
+    /// The remaining time at the mean rate so far, charge x time / used; infinite if unknown.
+    pub(crate) fn remaining_s(&self) -> f64 {
+        let Some((first, left)) = self.first.zip(self.left) else {
+            return f64::INFINITY;
+        };
+        let (used, in_s) = (first.share - left.share, left.at_s - first.at_s);
+        if used > 0.0 && in_s >= MIN_INTERVAL_S {
+            (left.share * in_s / used - (self.on_s - left.at_s)).max(0.0)
+        } else {
+            f64::INFINITY
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::world_of_walls::now;
+
+    fn read(battery: &mut Battery, share: f64) {
+        let percept = Percept {
+            battery: Some(now(share)),
+            ..Percept::default()
+        };
+        battery.update(&percept, 1.0);
+    }
+
+    #[test]
+    fn a_battery_that_lost_a_tenth_in_ten_seconds_lasts_ninety_more_seconds() {
+        let mut battery = Battery::default();
+        (0..=10).for_each(|second| read(&mut battery, 1.0 - 0.01 * f64::from(second)));
+        assert!(
+            (battery.remaining_s() - 90.0).abs() < 1e-6,
+            "{}",
+            battery.remaining_s()
+        );
+    }
+
+    #[test]
+    fn the_remaining_time_is_unknown_without_enough_readings() {
+        let mut battery = Battery::default();
+        battery.update(&Percept::default(), 100.0);
+        assert!(battery.remaining_s().is_infinite());
+        read(&mut battery, 0.9);
+        read(&mut battery, 0.8);
+        assert!(battery.remaining_s().is_infinite());
+        read(&mut battery, f64::NAN);
+    }
+
+    #[test]
+    fn a_single_outlier_changes_nothing_and_two_in_a_row_do() {
+        for outlier in [0.0, 1.0] {
+            let mut battery = Battery::default();
+            (0..20).for_each(|_| read(&mut battery, 0.5));
+            read(&mut battery, outlier);
+            assert_eq!(battery.charge(), Some(0.5));
+            read(&mut battery, 0.5);
+            assert_eq!(battery.charge(), Some(0.5));
+            (0..2).for_each(|_| read(&mut battery, outlier));
+            assert_eq!(battery.charge(), Some(outlier));
+        }
+    }
+
+    #[test]
+    fn outdated_and_repeated_readings_do_not_count() {
+        let mut battery = Battery::default();
+        (0..20).for_each(|_| read(&mut battery, 0.5));
+        for age_s in [0.0, 1.0, 2.0, 100.0, 1e6, f64::NAN, -1.0] {
+            let reading = crate::io::percept::Reading { value: 0.0, age_s };
+            let percept = Percept {
+                battery: Some(reading),
+                ..Percept::default()
+            };
+            battery.update(&percept, 1.0);
+            assert_eq!(battery.charge(), Some(0.5), "{age_s}");
+        }
+    }
+
+    #[test]
+    fn charging_restarts_the_estimate() {
+        let mut battery = Battery::default();
+        (0..50).for_each(|second| read(&mut battery, 0.5 - 0.01 * f64::from(second)));
+        (0..12).for_each(|second| read(&mut battery, 0.9 - 0.02 * f64::from(second)));
+        // 0.68 at 0.02 per second.
+        assert!(
+            (battery.remaining_s() - 34.0).abs() < 1e-6,
+            "{}",
+            battery.remaining_s()
+        );
+    }
+}
