@@ -1,4 +1,4 @@
-"""A signal that comes while something runs, as Ctrl-C does."""
+"""A signal that arrives during a call, as Ctrl-C does."""
 
 import signal
 import time
@@ -8,12 +8,12 @@ from types import FrameType
 
 
 class AlarmError(Exception):
-    """What the signal raises."""
+    """Raised by the signal."""
 
 
 @contextmanager
 def ringing(after_s: float) -> Iterator[None]:
-    """Let a signal come after so long, and see that what runs ends within a second of it."""
+    """Send a signal after `after_s`, and check that the code ends within a second of it."""
 
     def ring(_number: int, _frame: FrameType | None) -> None:
         raise AlarmError
@@ -23,10 +23,10 @@ def ringing(after_s: float) -> Iterator[None]:
     try:
         signal.setitimer(signal.ITIMER_REAL, after_s)
         yield
-        message = "it ended before the signal came"
+        message = "the code ended before the signal arrived"
         raise AssertionError(message)
     except AlarmError:
-        # The promise is one second; the bound allows for a busy machine.
+        # The documented limit is one second; this one allows for a busy machine.
         assert time.monotonic() - begin < after_s + 3
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0)

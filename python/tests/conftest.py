@@ -1,4 +1,4 @@
-"""What tests share."""
+"""Fixtures of several test files."""
 
 import signal
 from collections.abc import Iterator
@@ -16,16 +16,16 @@ ROOT = Path(__file__).resolve().parents[2]
 
 
 def pytest_configure() -> None:
-    """Restore Ctrl-C: a shell that runs the tests in the background has it ignored.
+    """Restore the handling of Ctrl-C, which a shell disables for a background process.
 
-    Processes that tests start, and send it to, would inherit that.
+    The processes that tests start would inherit that.
     """
     signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @pytest.fixture
 def classic_toml() -> Path:
-    """Return the 2003 experiment's scenario."""
+    """Return the file of the scenario of the 2003 experiment."""
     return ROOT / "scenarios" / "classic.toml"
 
 
@@ -39,7 +39,7 @@ def cluster() -> Iterator[Cluster]:
 
 @pytest.fixture
 def client(tmp_path: Path) -> Iterator[TestClient]:
-    """Return who asks a server whose folder is the test's own."""
+    """Return a client of a server with its own folder."""
     with TestClient(app(Workspace(tmp_path), "127.0.0.1"), OWN) as client:
         yield client
 

@@ -1,4 +1,4 @@
-"""A Dask cluster of this machine, on loopback."""
+"""A Dask cluster on this machine, reachable on loopback only."""
 
 import os
 import socket
@@ -13,14 +13,14 @@ from agent_economy.study.executors import dask_executor
 
 
 def free_port() -> int:
-    """Return a port of loopback that nobody has."""
+    """Return a free port of loopback."""
     with closing(socket.socket()) as taken:
         taken.bind(("127.0.0.1", 0))
         return int(taken.getsockname()[1])
 
 
 def started(stack: ExitStack, *arguments: str) -> subprocess.Popen[bytes]:
-    """Start a part of a Dask cluster, which ends with the stack."""
+    """Start a process of a Dask cluster, which ends with the stack."""
     environment = {**os.environ, "PYTHONPATH": str(Path(__file__).parent)}
     process = subprocess.Popen(
         [sys.executable, "-m", *arguments],
@@ -38,7 +38,7 @@ Cluster = tuple[str, list[subprocess.Popen[bytes]]]
 
 @contextmanager
 def running() -> Iterator[Cluster]:
-    """Start a Dask scheduler and two workers; return its address, and all three."""
+    """Start a Dask scheduler and two workers; return its address and the three processes."""
     with ExitStack() as stack:
         port = free_port()
         address = f"tcp://127.0.0.1:{port}"

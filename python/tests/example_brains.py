@@ -1,4 +1,4 @@
-"""Brains in Python for tests, and small robots to have them."""
+"""Python brains for tests, and a scenario with simple robots."""
 
 import math
 from typing import Any
@@ -37,7 +37,7 @@ mine = 0.5
 rate_hz = 4
 behaviours = [{ kind = "cruise" }, { kind = "random_bounce" }]
 """
-"""Blind robots that bounce off what they touch, see late, hear late and take nothing for mines."""
+"""Robots without range sensors that bounce off contacts, with latencies and false alarms."""
 
 AHEAD: Command = {
     "motion": {"speed_m_s": 9.0, "turn_rate_rad_s": 0.1},
@@ -47,37 +47,37 @@ AHEAD: Command = {
 
 
 class Ahead:
-    """Goes ahead, along an arc."""
+    """Drives along an arc."""
 
     def __init__(self, body: Body) -> None:
-        """Begin in a body."""
+        """Create the brain of a body."""
         self.body = body
 
     def step(self, percept: Percept) -> Command:
-        """Return what the robot is to do."""
+        """Return the command for a percept."""
         del percept
         return AHEAD
 
 
 class Talker(Ahead):
-    """Tells of each contact where it began, turns away from whoever told it one, and blinks."""
+    """Reports each contact at a fixed place, turns by its messages, and switches a sensor."""
 
     def __init__(self, body: Body) -> None:
-        """Begin in a body."""
+        """Create the brain of a body."""
         super().__init__(body)
         self.steps = 0
 
     def step(self, percept: Percept) -> Command:
-        """Return what the robot is to do."""
+        """Return the command for a percept."""
         self.steps += 1
-        heard = sum(each["from"]["index"] + 1 for each in percept["inbox"])
-        # As if it told of nobody's looks: a batch cannot.
+        senders = sum(each["from"]["index"] + 1 for each in percept["inbox"])
+        # Without an observation of its own, which a batch cannot send either.
         provenance = {"observer": {"kind": 0, "index": 0}, "track_id": 0, "observations": 0}
         about: Any = {"item": {"kind": 0, "at": [1.0, 2.0], "provenance": provenance}}
         return {
             "motion": {
                 "speed_m_s": 0.1 + 0.1 * len(percept["neighbours"]),
-                "turn_rate_rad_s": 0.2 * heard + percept["random_words"][0] / 2**33,
+                "turn_rate_rad_s": 0.2 * senders + percept["random_words"][0] / 2**33,
             },
             "requests": [{"sensor": 1, "on": self.steps % 5 != 0}],
             "outbox": [{"about": about, "confidence": 0.5} for _ in percept["contacts"]],
@@ -85,10 +85,10 @@ class Talker(Ahead):
 
 
 class Bumper:
-    """Cruises and bounces as the shipped behaviours do in a body without eyes and compass."""
+    """Reproduces `cruise` and `random_bounce` in a body without a range sensor and a compass."""
 
     def __init__(self, body: Body) -> None:
-        """Begin in a body."""
+        """Create the brain of a body."""
         self.body = body
         self.period_s = np.float32(body["period_s"])
         self.since_s = np.float32(0)
@@ -96,7 +96,7 @@ class Bumper:
         self.patience_s = np.float32(0)
 
     def step(self, percept: Percept) -> Command:
-        """Return what the robot is to do."""
+        """Return the command for a percept."""
         touch, wheels = percept["touch"], percept["motion"]
         assert touch is not None
         assert wheels is not None
@@ -109,7 +109,7 @@ class Bumper:
         return {"motion": motion, "requests": [], "outbox": []}  # type: ignore[typeddict-item]
 
     def left(self, random_words: Any, turned_rad: float, *, is_held: bool) -> float:
-        """Return how far it has still to turn; 0 if it goes ahead."""
+        """Return the remaining angle of a turn; 0 while it drives straight."""
         if self.left_rad is not None:
             self.left_rad -= np.float32(turned_rad)
             self.patience_s -= np.float32(0) if is_held else self.period_s

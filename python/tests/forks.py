@@ -1,4 +1,4 @@
-"""Processes that tests start and kill by the hundred, from one that has loaded all they need."""
+"""Processes that tests start and kill by the hundred; a server process preloads their modules."""
 
 import multiprocessing
 import os
@@ -9,13 +9,13 @@ from pathlib import Path
 from unittest import mock
 
 FORKS = multiprocessing.get_context("forkserver")
-# Each process loads the main module, which is pytest's, again; here it is loaded already.
+# Each process imports the main module, which is pytest; the server has already done so.
 FORKS.set_forkserver_preload(["synthetic_runs", "pytest", "scipy.special", "small_study"])
 
 
 def started(work: Callable[..., None], *args: object) -> BaseProcess:
-    """Start work in a process of its own."""
-    # The server does not take over sys.path, and passes in silence over what it cannot load.
+    """Start a function in a new process."""
+    # The server does not inherit sys.path, and silently skips modules that it cannot import.
     with mock.patch.dict(os.environ, {"PYTHONPATH": str(Path(__file__).parent)}):
         forkserver.ensure_running()
     process = FORKS.Process(target=work, args=args)

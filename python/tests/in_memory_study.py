@@ -1,4 +1,4 @@
-"""Answers of studies made by hand: a race over given runs, without plan and store."""
+"""Studies in memory: a race over simulated runs, without a plan and a store."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -26,7 +26,7 @@ WANDERERS = "robots.wanderer.count"
 CLASSIC = Path(__file__).resolve().parents[2] / "scenarios/classic.toml"
 LONGEST_S = 120.0
 FEW = 50
-"""Configurations of which the sensitivity takes seconds, not minutes."""
+"""Number of configurations up to which the sensitivity takes seconds, not minutes."""
 WEIGHTS = {"time_s": -0.03, "robots": -0.2, "failed": -5.0}
 
 
@@ -52,7 +52,7 @@ def classic(values: Values, first_run: int, runs: int) -> Columns:
 
 
 def synthetic(values: Values, first_run: int, runs: int) -> Columns:
-    """Return runs of a made-up search: larger teams are faster, up to a point; mixes are slower."""
+    """Return runs of a synthetic search: larger teams are faster to a point, mixes slower."""
     robots, mix = float(values.get("robots.rover.count", 4)), float(values.get("mix", 0))
     one, two = np.random.default_rng(first_run).uniform(size=(2, runs))
     times = 10 + 0.4 * mix + 60 / robots**0.5 - (260 * (1 + 0.03 * mix) / robots) * np.log(one)
@@ -65,12 +65,12 @@ def synthetic(values: Values, first_run: int, runs: int) -> Columns:
 
 
 def merit(columns: Columns) -> Floats:
-    """Return the merit of each run, as the classic scenario has it."""
+    """Return the merit of each run, as in the classic scenario."""
     return sum((weight * columns[name] for name, weight in WEIGHTS.items()), np.zeros(1))
 
 
 def limits(robots: float) -> dict[str, tuple[float, float]]:
-    """Return between which values the columns of a configuration lie."""
+    """Return the bounds of the columns of a configuration."""
     worst = WEIGHTS["time_s"] * LONGEST_S + WEIGHTS["failed"]
     price = WEIGHTS["robots"] * robots
     return {
@@ -84,7 +84,7 @@ def limits(robots: float) -> dict[str, tuple[float, float]]:
 def study(
     configurations: list[Values], simulator: Simulator, delta: float = 0.05, runs: int | None = None
 ) -> tuple[Answer, Evidence]:
-    """Return answer and evidence of a race; of so many runs of each where `runs` is given."""
+    """Return the answer and evidence of a race, or of `runs` runs per configuration."""
     blocks: list[list[Columns]] = [[] for _ in configurations]
 
     def block(index: int, first_run: int, count: int) -> Floats:
@@ -93,17 +93,17 @@ def study(
         blocks[index].append(columns)
         return columns["merit"]
 
-    def ask(asked: NDArray[np.int64], first_run: int, count: int) -> Floats:
-        return np.stack([block(index, first_run, count) for index in asked.tolist()])
+    def sample(indices: NDArray[np.int64], first_run: int, count: int) -> Floats:
+        return np.stack([block(index, first_run, count) for index in indices.tolist()])
 
     teams = [float(simulator(each, 0, 1)["robots"][0]) for each in configurations]
     bounds = np.array([limits(robots)["merit"] for robots in teams])
     procedure = _core.selection(bounds, delta=delta, confidence=0.95, guarantee="indifference")
     if runs is None:
-        for _ in drive(procedure, ask):
+        for _ in drive(procedure, sample):
             pass
     else:
-        ask(np.arange(len(configurations)), 0, runs)
+        sample(np.arange(len(configurations)), 0, runs)
     samples = tuple(
         Sample(
             values,
@@ -127,7 +127,7 @@ def study(
 
 
 def conclude(evidence: Evidence, ending: Ending, delta: float = 0.05) -> Answer:
-    """Return the answer that evidence gives."""
+    """Return the answer that follows from evidence."""
     scenario = Scenario.load(CLASSIC)
     found = results(evidence, ending, delta)
     return Answer(

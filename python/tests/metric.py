@@ -10,7 +10,7 @@ ENDLESS = {
     "items.mine.target": False,
     "robots.rover.battery.capacity_j": 1e12,
 }
-"""Nobody looks for anything for weeks."""
+"""A run of weeks without targets."""
 
 HUGE = {"robots.rover.count": 3000, "world.size_m": [300, 300], "clock.time_limit_s": 1}
 """Enough robots for threads to share a step."""
@@ -43,6 +43,6 @@ start = { kind = "uniform", within_m = [[4.9, 4.9], [5.1, 5.1]] }
 
 
 def search(changes: dict[str, Any] | None = None) -> Scenario:
-    """Return the shipped search, with other values at paths."""
+    """Return the bundled search with other values at paths."""
     overrides = [Override.at(path, value, "test") for path, value in (changes or {}).items()]
     return Scenario.load("search", tuple(overrides))

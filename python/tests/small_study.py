@@ -1,4 +1,4 @@
-"""A small study, for processes that are killed while they work on it."""
+"""A small study, for processes that are killed while they run it."""
 
 from pathlib import Path
 
@@ -8,7 +8,7 @@ ROOT = Path(__file__).resolve().parents[2]
 
 
 def plan(delta: float = 0.3) -> study.Plan:
-    """Return what the small study asks: one to five wanderers."""
+    """Return the plan of the small study: one to five wanderers."""
     scenario = Scenario.load(ROOT / "scenarios" / "classic.toml")
     return study.make_plan(
         scenario.replace("study.vary.robots.wanderer.count", "1..5"), delta=delta
@@ -16,5 +16,5 @@ def plan(delta: float = 0.3) -> study.Plan:
 
 
 def run_plan(folder: Path) -> None:
-    """Run the small study, or go on with it."""
+    """Run or resume the small study."""
     study.run_plan(plan(), folder)

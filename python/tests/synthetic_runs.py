@@ -1,4 +1,4 @@
-"""Outcomes that tests make up: the same for the same run of the same configuration."""
+"""Synthetic outcomes, which depend only on the configuration and the run."""
 
 import itertools
 import os
@@ -20,7 +20,7 @@ COLUMNS = (Column("time_s", "real"), Column("failed", "flag"), Column("paints", 
 
 
 def outcomes(area: RunBlock) -> Columns:
-    """Return outcomes among which some are never and some quarantined."""
+    """Return outcomes, with some times infinite and some runs quarantined."""
     configuration = np.array(area.configurations, dtype=np.float64)[:, None]
     run = np.arange(area.first_run, area.end, dtype=np.float64)[None, :]
     mixed = np.floor(np.modf(np.sin(configuration * 12.9898 + run * 78.233) * 43758.5453)[0] * 1000)
@@ -31,7 +31,7 @@ def outcomes(area: RunBlock) -> Columns:
 
 
 def slow_outcomes(area: RunBlock) -> Columns:
-    """Return outcomes after a tenth of a millisecond a run."""
+    """Return outcomes after a tenth of a millisecond per run."""
     time.sleep(area.rows * 1e-4)
     return outcomes(area)
 
@@ -64,21 +64,21 @@ def failing(area: RunBlock) -> Columns:
 
 
 def logged(place: Path, area: RunBlock) -> Columns:
-    """Return outcomes, and leave a file that says which were computed, and by whom."""
+    """Return outcomes, and create a file named after the block and the process."""
     name = f"{area.configurations[0]}-{len(area.configurations)}-{area.first_run}-{area.runs}"
     (place / f"{name}-{os.getpid()}-{time.monotonic_ns()}").touch()
     return slow_outcomes(area)
 
 
 def same(left: Columns, right: Columns) -> bool:
-    """Return whether outcomes are the same, NaN and infinity too."""
+    """Return whether outcomes are equal, including NaN and infinity."""
     return left.keys() == right.keys() and all(
         np.array_equal(left[name], right[name], equal_nan=True) for name in left
     )
 
 
-def asked(boundaries: int) -> list[RunBlock]:
-    """Return what a race of eight configurations asks for, of which ever fewer are left."""
+def requested(boundaries: int) -> list[RunBlock]:
+    """Return the blocks that a race of eight configurations requests while it eliminates them."""
     first, blocks = 0, []
     for number in range(boundaries):
         runs = max(10, first // 10)
@@ -90,7 +90,7 @@ def asked(boundaries: int) -> list[RunBlock]:
 def write_study(folder: Path, boundaries: int = 8) -> None:
     """Compute a whole study into a folder, or what is not there of it."""
     with Store.open(folder, "seed = 1\n", COLUMNS) as store:
-        for number, block in enumerate(asked(boundaries)):
+        for number, block in enumerate(requested(boundaries)):
             data = store.block(block, outcomes)
             assert same(data, outcomes(block))
             store.note(number, {"survivors": list(block.configurations)})
@@ -115,9 +115,9 @@ def write_and_die(folder: Path, calls: int) -> None:
     write_study(folder, 3)
 
 
-def write_on_a_small_disk(folder: Path, most_bytes: int, answer: "Queue[str]") -> None:
+def write_on_a_small_disk(folder: Path, max_bytes: int, answer: "Queue[str]") -> None:
     """Compute a study where no file may be larger than some bytes."""
-    resource.setrlimit(resource.RLIMIT_FSIZE, (most_bytes, most_bytes))
+    resource.setrlimit(resource.RLIMIT_FSIZE, (max_bytes, max_bytes))
     try:
         write_study(folder)
     except InputError as error:

@@ -1,4 +1,4 @@
-"""What an answer says of runs, and when it says that they leave it open."""
+"""Answers: verdicts, dominance, saturation, sensitivity and predicted efforts."""
 
 from collections.abc import Mapping
 
@@ -21,7 +21,7 @@ UNIT = (0.0, 1.0)
 def sample(
     mean: float, runs: int, values: Mapping[str, float | str] | None = None, **columns: float
 ) -> Sample:
-    """Return runs whose merits are 0 or 1 with a mean, and other columns likewise."""
+    """Return runs with merits of 0 or 1 and a given mean; other columns in the same way."""
     rng = np.random.default_rng(round(1e6 * mean) + runs)
     means = {"merit": mean, "time_s": 0.5, "failed": 0.5, "robots": 1.0, **columns}
     shuffled = {
@@ -47,7 +47,7 @@ def evidence(*samples: Sample) -> Evidence:
         (0.4, 400, 0.15, "not better"),
     ],
 )
-def test_a_verdict_is_what_the_runs_prove(
+def test_verdicts_follow_from_the_runs(
     mean: float, runs: int, delta: float, verdict: Verdict
 ) -> None:
     found = standings(evidence(sample(0.5, runs), sample(mean, runs)), 0, delta)
@@ -89,19 +89,19 @@ def teams(means: list[float], runs: int) -> Evidence:
     return evidence(*(sample(mean, runs, {TEAM: size}) for size, mean in enumerate(means, start=1)))
 
 
-def test_saturation_is_where_no_larger_team_is_worth_its_robots() -> None:
+def test_saturation_is_the_size_beyond_which_no_larger_team_gains_delta() -> None:
     (found,) = saturations(teams([0.2, 0.5, 0.8, 0.6, 0.5], 5000), 2, 0.05)
     assert (found.possible, found.proved) == (3, 3)
     assert set(found.gains) == {4, 5}
     assert all(gain.high < 0 for gain in found.gains.values())
 
 
-def test_saturation_is_undecided_where_the_runs_are_few() -> None:
+def test_saturation_is_undecided_with_few_runs() -> None:
     (found,) = saturations(teams([0.2, 0.5, 0.8, 0.75, 0.5], 60), 2, 0.05)
     assert found.possible <= 3 < found.proved
 
 
-def test_another_factor_is_held_where_the_best_has_it() -> None:
+def test_saturation_holds_other_factors_at_their_selected_values() -> None:
     samples = [
         sample(mean, 5000, {TEAM: size, "mode": mode})
         for mode, means in (("a", [0.2, 0.3]), ("b", [0.8, 0.4]))
@@ -111,7 +111,7 @@ def test_another_factor_is_held_where_the_best_has_it() -> None:
     assert (found.path, found.proved) == (TEAM, 1)
 
 
-def test_the_effort_foretold_is_right_within_a_factor_of_three() -> None:
+def test_predicted_efforts_are_within_a_factor_of_three() -> None:
     sizes: list[in_memory_study.Values] = [{TEAM: robots} for robots in range(1, 21)]
     coarse, seen = in_memory_study.study(sizes, in_memory_study.synthetic, delta=0.4)
     for effort in efforts(seen, coarse.best, 0.4):
@@ -120,12 +120,12 @@ def test_the_effort_foretold_is_right_within_a_factor_of_three() -> None:
 
 
 @pytest.mark.parametrize("delta", [1e-300, 1e308])
-def test_the_effort_of_any_delta_can_be_said(delta: float) -> None:
+def test_the_effort_of_any_delta_is_finite(delta: float) -> None:
     seen = evidence(sample(0.5, 40, {TEAM: 1}), sample(0.6, 40, {TEAM: 2}))
     assert [effort.delta < delta for effort in efforts(seen, 1, delta)] == [True] * 3
 
 
-def test_the_factor_that_does_nothing_has_no_influence() -> None:
+def test_a_factor_without_effect_has_no_influence() -> None:
     rng = np.random.default_rng(2)
     samples = []
     for size in range(8):
@@ -143,7 +143,7 @@ def test_the_factor_that_does_nothing_has_no_influence() -> None:
     assert found.noise < 0.02
 
 
-def test_a_configuration_is_named_as_people_name_it() -> None:
+def test_labels_of_configurations_read_naturally() -> None:
     assert label({TEAM: 1}) == "1 rover"
     assert label({TEAM: 4, "contact": "touch"}) == "4 rovers, contact touch"
     assert label({"a.range_m": 1.5, "b.range_m": 2}) == "a.range_m 1.5, b.range_m 2"

@@ -1,4 +1,4 @@
-"""Arguments of another type than they should be are told as wrong values are."""
+"""Arguments of the wrong type raise the same errors as invalid values."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -31,7 +31,7 @@ def answer(**arguments: Any) -> study.Answer:
 
 
 @pytest.mark.parametrize(
-    ("call", "told"),
+    ("call", "message"),
     [
         (lambda: ae.Scenario.load(NO), rf"^file = 5: {PATH}$"),
         (lambda: loads(text=NO), r"^text = 5: must be a string of TOML$"),
@@ -70,11 +70,11 @@ def answer(**arguments: Any) -> study.Answer:
         ),
     ],
 )
-def test_an_argument_of_another_type_is_told_by_its_name(
-    call: Callable[[], object], told: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+def test_an_argument_of_the_wrong_type_is_named(
+    call: Callable[[], object], message: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    with pytest.raises(ae.InputError, match=told):
+    with pytest.raises(ae.InputError, match=message):
         call()
     assert list(tmp_path.iterdir()) == []
 
@@ -87,7 +87,7 @@ def test_an_argument_that_is_missing_or_unknown_is_a_type_error() -> None:
         call("search", sede=7)
 
 
-def test_a_megabyte_is_not_echoed() -> None:
+def test_long_values_are_shortened_in_errors() -> None:
     long = "x" * 2**20
     given: list[tuple[Callable[[], object], str]] = [
         (lambda: loads().replace(f"robots.{long}.count", 3), "replace: robots.xxx"),
@@ -96,8 +96,8 @@ def test_a_megabyte_is_not_echoed() -> None:
         (lambda: ae.Brain(None, {long: 1}), "body.xxx"),  # type: ignore[misc]
         (lambda: ae.Simulation("search", seed=[0] * 2**20), "seed = [0, 0"),  # type: ignore[arg-type]
     ]
-    for call, told in given:
+    for call, message in given:
         with pytest.raises(ae.InputError) as caught:
             call()
-        assert told in str(caught.value)
+        assert message in str(caught.value)
         assert all(len(line) < 500 for line in str(caught.value).splitlines())

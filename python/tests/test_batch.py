@@ -1,4 +1,4 @@
-"""A brain for all robots of a kind at once decides as one for each of them does."""
+"""One brain for all robots of a kind decides as one brain per robot does."""
 
 import math
 import traceback
@@ -18,10 +18,10 @@ from agent_economy.runs.brain import Body, Command, Percept
 
 
 class Shy(Ahead):
-    """Turns away from what the nearest ray meets, the slower the nearer it is."""
+    """Turns away from the closest obstacle, and slows down near it."""
 
     def step(self, percept: Percept) -> Command:
-        """Return what the robot is to do."""
+        """Return the command for a percept."""
         ranges = [math.inf if far is None else far for far in percept["scans"][0]["ranges_m"]]
         bearings = self.body["rings"][0]["bearings_rad"]
         nearest_m = min([2.0, *ranges])
@@ -36,7 +36,7 @@ class Shy(Ahead):
 
 
 def shy(percepts: Percepts, memory: dict[str, Any]) -> Commands:
-    """Return what `Shy` decides, for all robots at once."""
+    """Return the commands of `Shy` for all robots."""
     del memory
     ranges_m = percepts["scans"][0]["ranges_m"]
     ranges_m = np.where(np.isnan(ranges_m), math.inf, ranges_m)
@@ -49,14 +49,14 @@ def shy(percepts: Percepts, memory: dict[str, Any]) -> Commands:
 
 
 def talk(percepts: Percepts, memory: dict[str, Any]) -> Commands:
-    """Return what `Talker` decides, for all robots at once."""
+    """Return the commands of `Talker` for all robots."""
     robots = percepts["robots"]
     steps = memory.setdefault("steps", np.zeros(percepts["count"], dtype=int))
     steps[robots] += 1
     inbox, rows = percepts["inbox"], np.arange(len(robots))
-    heard = np.bincount(inbox["row"], inbox["from_index"] + 1, len(robots))
+    received = np.bincount(inbox["row"], inbox["from_index"] + 1, len(robots))
     mates = np.bincount(percepts["neighbours"]["row"], minlength=len(robots))
-    turn_rate_rad_s = 0.2 * heard + percepts["random_words"][:, 0] / 2**33
+    turn_rate_rad_s = 0.2 * received + percepts["random_words"][:, 0] / 2**33
     seen = percepts["contacts"]["row"]
     return {
         "motion": {"speed_m_s": 0.1 + 0.1 * mates, "turn_rate_rad_s": turn_rate_rad_s},
@@ -66,7 +66,7 @@ def talk(percepts: Percepts, memory: dict[str, Any]) -> Commands:
 
 
 def finished(scenario: Scenario, brains: Any, run: int = 2) -> Simulation:
-    """Return a run that is over."""
+    """Return a finished run."""
     simulation = Simulation(scenario, 7, run, brains=brains)
     simulation.finish()
     return simulation
@@ -80,17 +80,17 @@ def test_a_batch_is_the_same_run_as_a_class_with_the_same_rule(run: int) -> None
     assert one.outcome() == all_at_once.outcome()
 
 
-def test_what_a_batch_tells_switches_and_remembers_is_as_a_class_does() -> None:
+def test_messages_requests_and_memory_of_a_batch_equal_those_of_a_class() -> None:
     scenario = Scenario.loads(SMALL)
     one, all_at_once = (Simulation(scenario, brains={"bumper": x}) for x in (Talker, Batch(talk)))
-    said = 0
+    messages = 0
     for _ in range(300):
         one.step()
         all_at_once.step()
         assert all_at_once.decided == one.decided
-        said += sum(len(command["outbox"]) for command in one.decided.values())
+        messages += sum(len(command["outbox"]) for command in one.decided.values())
     assert one.hash == all_at_once.hash
-    assert said > 10
+    assert messages > 10
 
 
 def test_threads_that_share_a_step_change_no_byte() -> None:
@@ -101,28 +101,28 @@ def test_threads_that_share_a_step_change_no_byte() -> None:
 
 
 def as_rows(percepts: Any, row: int) -> Any:
-    """Return what one robot perceives, as it would come to a brain of its own."""
+    """Return the percept of one robot, as its own brain would get it."""
 
-    def reading(told: Any) -> Any:
-        if math.isnan(told["age_s"][row]):
+    def reading(readings: Any) -> Any:
+        if math.isnan(readings["age_s"][row]):
             return None
-        value = told["value"]
+        value = readings["value"]
         if isinstance(value, dict):
             value = {name: part[row].item() for name, part in value.items()}
         else:
             value = value[row].tolist()
-        return {"value": value, "age_s": told["age_s"][row].item()}
+        return {"value": value, "age_s": readings["age_s"][row].item()}
 
     names = ("position", "heading_rad", "motion", "battery", "touch")
     return {name: reading(percepts[name]) for name in names}
 
 
-def test_arrays_hold_what_each_robot_perceives() -> None:
-    told: list[Percepts] = []
+def test_arrays_contain_the_percept_of_each_robot() -> None:
+    noted: list[Percepts] = []
 
     def note(percepts: Percepts, memory: dict[str, Any]) -> Commands:
         del memory
-        told.append(percepts)
+        noted.append(percepts)
         return shy(percepts, {})
 
     simulation = Simulation("open-field", brains={"rover": Batch(note)})
@@ -130,7 +130,7 @@ def test_arrays_hold_what_each_robot_perceives() -> None:
     for _ in range(400):
         alone = [simulation.percept(f"rover/{index}") for index in range(3)]
         simulation.step()
-        percepts = told[-1]
+        percepts = noted[-1]
         assert percepts["robots"].tolist() == [0, 1, 2]
         assert percepts["count"] == 3
         for row, percept in enumerate(alone):
@@ -158,39 +158,39 @@ def test_arrays_hold_what_each_robot_perceives() -> None:
     assert seen > 5
 
 
-def test_arrays_have_the_names_of_percepts_and_of_their_types() -> None:
-    told: list[Any] = []
+def test_arrays_have_the_fields_of_percepts() -> None:
+    noted: list[Any] = []
 
     def note(percepts: Percepts, memory: dict[str, Any]) -> Commands:
-        told.append(percepts)
+        noted.append(percepts)
         return talk(percepts, memory)
 
     Simulation(Scenario.loads(SMALL), brains={"bumper": Batch(note)}).step()
-    assert told[0].keys() == Percepts.__annotations__.keys()
-    # Of all robots of a kind together.
+    assert noted[0].keys() == Percepts.__annotations__.keys()
+    # Entries of which all robots of a kind share one.
     together = {"id": "robots", "team_size": "count"}
     percept = {together.get(name, name) for name in Percept.__annotations__}
-    assert told[0].keys() >= percept
+    assert noted[0].keys() >= percept
     for name in ("observations", "contacts", "neighbours", "inbox"):
         entries = getattr(batch, name.capitalize())
-        assert told[0][name].keys() == entries.__annotations__.keys()
+        assert noted[0][name].keys() == entries.__annotations__.keys()
 
 
-def test_robots_that_cannot_go_on_are_not_in_the_arrays() -> None:
-    told: list[list[int]] = []
+def test_stopped_robots_are_not_in_the_arrays() -> None:
+    noted: list[list[int]] = []
 
     def note(percepts: Percepts, memory: dict[str, Any]) -> Commands:
         del memory
-        told.append(percepts["robots"].tolist())
+        noted.append(percepts["robots"].tolist())
         return {"motion": {"speed_m_s": percepts["robots"] * 0.5, "turn_rate_rad_s": 0.0}}
 
     scenario = search({"robots.rover.battery.capacity_j": 500.0})
     ae.run(scenario, brains={"rover": Batch(note)})
-    assert told[0] == [0, 1, 2, 3]
-    assert 0 < len(told[-1]) < 4
+    assert noted[0] == [0, 1, 2, 3]
+    assert 0 < len(noted[-1]) < 4
 
 
-def test_each_run_begins_with_an_empty_memory() -> None:
+def test_each_run_starts_with_an_empty_memory() -> None:
     found: list[int] = []
 
     def note(percepts: Percepts, memory: dict[str, Any]) -> Commands:
@@ -203,7 +203,7 @@ def test_each_run_begins_with_an_empty_memory() -> None:
     assert found == [0, 0, 0]
 
 
-def test_a_batch_goes_on_through_a_change() -> None:
+def test_a_batch_continues_after_a_change() -> None:
     counts: list[int] = []
 
     def note(percepts: Percepts, memory: dict[str, Any]) -> Commands:
@@ -220,7 +220,7 @@ def test_a_batch_goes_on_through_a_change() -> None:
 
 
 STAND = {"speed_m_s": 0.0, "turn_rate_rad_s": 0.0}
-FAULTS: list[tuple[Any, str]] = [
+ERRORS: list[tuple[Any, str]] = [
     (None, r"brains.rover\(\) = None: must be a dict with motion, requests, outbox"),
     ({"speed": 1}, r"brains.rover\(\).speed = 1: must be one of motion"),
     ({}, r"motion.speed_m_s = None: must be one value for all, or an array of shape \(4,\)"),
@@ -246,20 +246,20 @@ FAULTS: list[tuple[Any, str]] = [
 ]
 
 
-@pytest.mark.parametrize(("told", "words"), FAULTS)
-def test_what_is_wrong_with_commands_is_told_and_no_step_is_taken(told: Any, words: str) -> None:
-    simulation = Simulation("search", brains={"rover": Batch(lambda *_: told)})
+@pytest.mark.parametrize(("commands", "words"), ERRORS)
+def test_invalid_commands_are_named_and_the_run_does_not_advance(commands: Any, words: str) -> None:
+    simulation = Simulation("search", brains={"rover": Batch(lambda *_: commands)})
     with pytest.raises(InputError, match=words):
         simulation.step()
     assert simulation.tick == 0
 
 
-def test_what_cannot_be_called_is_no_batch() -> None:
+def test_a_batch_must_be_callable() -> None:
     with pytest.raises(InputError, match="Batch = 3: must be a function on arrays"):
         Batch(3)  # type: ignore[arg-type]
 
 
-def test_what_a_batch_raises_comes_out_with_its_traceback() -> None:
+def test_exceptions_of_a_batch_keep_their_traceback() -> None:
     def wrong(percepts: Percepts, memory: dict[str, Any]) -> Commands:
         del percepts
         return memory["nothing"]  # type: ignore[no-any-return]
@@ -271,17 +271,17 @@ def test_what_a_batch_raises_comes_out_with_its_traceback() -> None:
     assert frames[-1].name == "wrong"
 
 
-def test_a_signal_ends_runs_with_a_batch_soon() -> None:
+def test_a_signal_stops_runs_with_a_batch() -> None:
     with ringing(0.3):
         ae.run(search(ENDLESS), brains={"rover": Batch(shy)})
 
 
-def test_only_the_sender_itself_has_a_course() -> None:
-    heard: list[Any] = []
+def test_only_messages_about_the_sender_have_a_heading() -> None:
+    received: list[Any] = []
 
     def tell(percepts: Percepts, memory: dict[str, Any]) -> Commands:
         del memory
-        heard.append(percepts["inbox"])
+        received.append(percepts["inbox"])
         rows = [0, 0]
         outbox = {"row": rows, "confidence": 1.0, "item_kind": [-1, 0], "at": [3, 4]}
         return {"motion": STAND, "outbox": {**outbox, "heading_rad": 0.5}}  # type: ignore[typeddict-item]
@@ -291,12 +291,12 @@ def test_only_the_sender_itself_has_a_course() -> None:
     )
     simulation = Simulation(simulation.scenario, brains={"bumper": Batch(tell)})
     simulation.step(40)
-    courses = [told["heading_rad"].tolist() for told in heard if len(told["row"])]
+    courses = [inbox["heading_rad"].tolist() for inbox in received if len(inbox["row"])]
     assert courses
     assert {tuple(map(str, each[:2])) for each in courses} == {("0.5", "nan")}
 
 
-def test_bodies_are_those_of_the_class_way() -> None:
+def test_a_batch_gets_the_same_body_as_a_class() -> None:
     bodies: list[Body] = []
 
     def note(percepts: Percepts, memory: dict[str, Any]) -> Commands:

@@ -1,4 +1,4 @@
-"""Brains in Python: what enters and leaves them has the names of Rust's, and faults are told."""
+"""Single brains: percepts and commands have the names of the Rust types, and errors name paths."""
 
 import math
 from typing import Any
@@ -29,7 +29,7 @@ NAVIGATE = {"kind": "navigate", "waypoints_m": [[9, 2]]}
 WALLED: Percept = {"random_words": [7, 7, 7, 7], "scans": [{"age_s": 0.0, "ranges_m": [0.5] * 16}]}
 
 
-def test_a_brain_goes_where_it_sees_that_it_is_free() -> None:
+def test_a_brain_drives_into_free_space() -> None:
     rover = ae.Brain(None, ROVER)
     command = rover.step(OPEN)
     assert command["motion"] == {"speed_m_s": 1.0, "turn_rate_rad_s": 0.0}
@@ -37,7 +37,7 @@ def test_a_brain_goes_where_it_sees_that_it_is_free() -> None:
     assert ae.Brain(None, ROVER).step({})["motion"]["speed_m_s"] == 0.0
 
 
-def test_a_copy_has_the_same_future_and_then_goes_its_own_way() -> None:
+def test_a_copy_is_equal_and_independent() -> None:
     rover = ae.Brain(None, ROVER)
     rover.step(OPEN)
     rover.step(WALLED)
@@ -47,7 +47,7 @@ def test_a_copy_has_the_same_future_and_then_goes_its_own_way() -> None:
     assert commands[0]["motion"]["turn_rate_rad_s"] != 0.0
 
 
-def test_arrays_none_and_whole_numbers_are_read_as_lists_nothing_and_numbers() -> None:
+def test_arrays_none_and_integers_are_read_as_lists_missing_values_and_numbers() -> None:
     arrays: Any = {
         "touch": None,
         "random_words": np.zeros(4, dtype=np.uint32),
@@ -56,22 +56,22 @@ def test_arrays_none_and_whole_numbers_are_read_as_lists_nothing_and_numbers() -
     assert ae.Brain(None, ROVER).step(arrays) == ae.Brain(None, ROVER).step(OPEN)
 
 
-def test_all_faults_of_spec_and_body_are_told_at_once_with_their_paths() -> None:
+def test_all_errors_of_spec_and_body_are_reported_with_their_paths() -> None:
     spec = {"rate_hz": -1, "behaviours": [{"kind": "cruise"}, {"kind": "avoid", "neer_m": 0.2}]}
     body: Any = {name: value for name, value in ROVER.items() if name != "radius_m"}
     body["period_s"] = 0
     with pytest.raises(ae.InputError) as caught:
         ae.Brain(spec, body)
-    told = str(caught.value).splitlines()
-    assert len(told) == 4
-    assert told[0].startswith("brain.behaviours[1].neer_m is not a known key: expected")
-    assert told[0].endswith("did you mean near_m?")
-    assert told[1].startswith("brain.rate_hz = -1: must be")
-    assert told[2].startswith("body.period_s = 0: must be")
-    assert told[3].startswith("body.radius_m is missing")
+    lines = str(caught.value).splitlines()
+    assert len(lines) == 4
+    assert lines[0].startswith("brain.behaviours[1].neer_m is not a known key: expected")
+    assert lines[0].endswith("did you mean near_m?")
+    assert lines[1].startswith("brain.rate_hz = -1: must be")
+    assert lines[2].startswith("body.period_s = 0: must be")
+    assert lines[3].startswith("body.radius_m is missing")
 
 
-def test_thoughts_are_what_a_mind_believes_and_wants_and_none_without_one() -> None:
+def test_the_belief_state_has_beliefs_and_goals_and_is_none_without_beliefs() -> None:
     spec = {"arbitration": {"kind": "goals"}, "behaviours": [NAVIGATE]}
     rover = ae.Brain(spec, ROVER)
     before = rover.belief_state()
@@ -82,16 +82,16 @@ def test_thoughts_are_what_a_mind_believes_and_wants_and_none_without_one() -> N
         "heading_rad": {"value": 0.5, "age_s": 0.0},
     }
     rover.step(OPEN | here)
-    told = rover.belief_state()
-    assert told is not None
-    assert told["pose"] is not None
-    assert (told["pose"]["at"], told["pose"]["heading_rad"]) == ([1.0, 2.0], 0.5)
-    assert [goal["to"] for goal in told["goals"]] == [[9.0, 2.0]]
-    assert rover.copy().belief_state() == told
+    beliefs = rover.belief_state()
+    assert beliefs is not None
+    assert beliefs["pose"] is not None
+    assert (beliefs["pose"]["at"], beliefs["pose"]["heading_rad"]) == ([1.0, 2.0], 0.5)
+    assert [goal["to"] for goal in beliefs["goals"]] == [[9.0, 2.0]]
+    assert rover.copy().belief_state() == beliefs
     assert ae.Brain(None, ROVER).belief_state() is None
 
 
-def test_none_in_body_and_spec_is_as_if_it_were_left_out() -> None:
+def test_none_in_body_and_spec_counts_as_omitted() -> None:
     other = {"radius_m": 0.2, "is_in_the_way": True, "max_acceleration_m_s2": None}
     body: Any = ROVER | {"field": None, "others": [other]}
     spec = {"beliefs": {"area_m": None}, "behaviours": [{"kind": "cruise", "speed_m_s": None}]}
@@ -108,11 +108,11 @@ def test_none_in_body_and_spec_is_as_if_it_were_left_out() -> None:
 
 
 CONTACT = {"kind": 0, "range_m": 1.0, "bearing_rad": 0.0, "age_s": 0.0}
-HEARD = {"from": {"kind": 0, "index": 0}, "age_s": 0.0}
+RECEIVED = {"from": {"kind": 0, "index": 0}, "age_s": 0.0}
 
 
 @pytest.mark.parametrize(
-    ("percept", "told"),
+    ("percept", "expected"),
     [
         ({"scanz": []}, "percept.scanz is not a known key: expected one of time_s, random_words, "),
         ({"time_s": "x"}, 'percept.time_s = "x": must be a number'),
@@ -123,7 +123,7 @@ HEARD = {"from": {"kind": 0, "index": 0}, "age_s": 0.0}
         ({"scans": 5}, "percept.scans = 5: must be a list of dicts"),
         ({"heading_rad": 1.0}, "percept.heading_rad = 1.0: must be a dict with value and age_s"),
         (
-            {"inbox": [HEARD | {"message": {"about": {}}}]},
+            {"inbox": [RECEIVED | {"message": {"about": {}}}]},
             "must be a dict with item, a dict with sender or a dict with goal",
         ),
         ({"scans": [{"ranges_m": [1.0, math.nan]}]}, "percept.scans[0].ranges_m[1] = nan: must be"),
@@ -136,16 +136,18 @@ HEARD = {"from": {"kind": 0, "index": 0}, "age_s": 0.0}
         ("far", 'percept = "far": must be a dict'),
     ],
 )
-def test_a_fault_of_a_percept_names_its_path_and_what_is_allowed(percept: Any, told: str) -> None:
+def test_an_error_of_a_percept_names_its_path_and_what_is_allowed(
+    percept: Any, expected: str
+) -> None:
     with pytest.raises(ae.InputError) as caught:
         ae.Brain(None, ROVER).step(percept)
-    assert told in str(caught.value)
+    assert expected in str(caught.value)
     rust = ("invalid", "struct", "field", "f64", "u16")
     assert not any(word in str(caught.value) for word in rust)
 
 
 @pytest.mark.parametrize(
-    ("percept", "told"),
+    ("percept", "expected"),
     [
         (
             {"scans": [{"age_s": 0.0, "ranges_m": [1.0] * 15}]},
@@ -158,8 +160,8 @@ def test_a_fault_of_a_percept_names_its_path_and_what_is_allowed(percept: Any, t
         ({"contacts": [CONTACT]}, r"percept\.contacts\[0\]\.kind = 0: must be a number below 0"),
     ],
 )
-def test_a_percept_of_another_body_is_told(percept: Any, told: str) -> None:
-    with pytest.raises(ae.InputError, match=told):
+def test_a_percept_of_another_body_is_an_error(percept: Any, expected: str) -> None:
+    with pytest.raises(ae.InputError, match=expected):
         ae.Brain(None, ROVER).step(percept)
     simulation = ae.Simulation("search", seed=7)
     percept["scans"] = [{"age_s": 0.0, "ranges_m": [1.0]}]
@@ -167,7 +169,7 @@ def test_a_percept_of_another_body_is_told(percept: Any, told: str) -> None:
         simulation.step(percepts={"rover/0": {"scans": percept["scans"]}})
 
 
-def test_a_percept_that_holds_itself_is_told() -> None:
+def test_a_percept_that_contains_itself_is_an_error() -> None:
     ring: list[Any] = []
     ring.append(ring)
     knot: dict[str, Any] = {}
@@ -179,6 +181,6 @@ def test_a_percept_that_holds_itself_is_told() -> None:
 
 
 @pytest.mark.parametrize("kind", [None, 0, ["rover"]])
-def test_a_kind_that_is_no_text_is_told(kind: Any) -> None:
+def test_a_kind_must_be_a_string(kind: Any) -> None:
     with pytest.raises(ae.InputError, match=r"kind = .*: must be the name of a robot kind"):
         ae.Brain.of("search", kind)

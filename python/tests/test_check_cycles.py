@@ -1,4 +1,4 @@
-"""The check of import circles reads what Rust modules take from each other."""
+"""The check of import circles reads the uses among Rust modules."""
 
 import sys
 from pathlib import Path
@@ -12,7 +12,7 @@ from rust_modules import Crate, Module
 
 
 def uses(folder: Path, **files: str) -> dict[Module, set[Module]]:
-    """Return who uses whom in a crate of files, whose names have __ for a slash."""
+    """Return the uses among the modules of a crate; file names have __ for a slash."""
     for name, code in files.items():
         file = folder / f"{name.replace('__', '/')}.rs"
         file.parent.mkdir(exist_ok=True)
@@ -32,7 +32,7 @@ def uses(folder: Path, **files: str) -> dict[Module, set[Module]]:
         "use crate::B; fn f(b: B) {}",
     ],
 )
-def test_a_use_is_seen_however_it_is_written(tmp_path: Path, code: str) -> None:
+def test_a_use_is_found_in_every_notation(tmp_path: Path, code: str) -> None:
     found = uses(tmp_path, lib="mod a; mod b; pub use b::B;", a=code, b="pub struct B;")
     assert found[("a",)] == {("b",)}
 
@@ -47,11 +47,11 @@ def test_a_use_is_seen_however_it_is_written(tmp_path: Path, code: str) -> None:
         "pub use crate::b::B;",
     ],
 )
-def test_comments_text_tests_and_mere_exports_are_no_uses(tmp_path: Path, code: str) -> None:
+def test_comments_strings_tests_and_exports_are_not_uses(tmp_path: Path, code: str) -> None:
     assert not uses(tmp_path, lib="mod a; mod b;", a=code, b="pub struct B;")[("a",)]
 
 
-def test_a_name_of_a_folder_is_that_of_the_file_which_defines_it(tmp_path: Path) -> None:
+def test_a_reexported_name_belongs_to_the_file_that_defines_it(tmp_path: Path) -> None:
     found = uses(
         tmp_path,
         lib="mod a; mod folder;",
@@ -65,13 +65,13 @@ def test_a_name_of_a_folder_is_that_of_the_file_which_defines_it(tmp_path: Path)
     assert found[("folder", "b")] == {("a",)}
 
 
-def test_what_the_mod_rs_of_its_own_folder_defines_is_part_of_a_module(tmp_path: Path) -> None:
+def test_definitions_in_its_own_mod_rs_are_part_of_a_module(tmp_path: Path) -> None:
     code = "pub struct B; fn f(a: super::Shared) {}"
     found = uses(tmp_path, lib="mod a; struct Shared; fn g(b: a::B) {}", a=code)
     assert found == {(): {("a",)}, ("a",): set()}
 
 
-def test_a_circle_is_found_through_others_and_apart_from_what_only_uses_it() -> None:
+def test_circles_are_found_without_the_modules_that_only_use_them() -> None:
     graph = {"a": {"b"}, "b": {"c"}, "c": {"a", "d"}, "d": set[str](), "e": {"a"}, "f": {"f"}}
     assert list(cycles(graph)) == [["a", "b", "c"], ["f"]]
     assert not list(cycles({"a": {"b", "c"}, "b": {"c"}, "c": set[str]()}))

@@ -13,7 +13,7 @@ def stage(name: str, code: str, *needs: str) -> Stage:
     return Stage(name, (sys.executable, "-c", code), needs)
 
 
-def test_a_stage_waits_for_those_that_it_needs_and_is_left_out_when_one_fails() -> None:
+def test_a_stage_waits_for_its_requirements_and_is_skipped_if_one_fails() -> None:
     stages = [
         stage("last", "print('last')", "first"),
         stage("first", "print('first')"),

@@ -22,7 +22,7 @@ def test_traces_equal_the_golden_files_value_for_value(file: Path) -> None:
     assert trace == {key: case[key] for key in ("start_grid", "paints", "decisions")}
 
 
-def test_a_trace_has_as_many_decisions_as_asked_and_always_34_paints() -> None:
+def test_a_trace_has_the_requested_decisions_and_34_paints() -> None:
     start = classic.start(2, seed=1, run=5)
     for decisions in (0, 1, 2, 50):
         trace = classic.trace(start, decisions)
@@ -30,8 +30,8 @@ def test_a_trace_has_as_many_decisions_as_asked_and_always_34_paints() -> None:
         assert len(trace["paints"]) == 34
 
 
-def test_start_gives_the_team_that_replicate_runs() -> None:
-    # With a cap of 0 paints, what is found is what the start is near to, which is told by hand.
+def test_start_returns_the_team_that_replicate_runs() -> None:
+    # With a time limit of 0 paints, a run finds only items close to the start, counted here.
     items = [(3, 17), (9, 5), (14, 22), (21, 8)]
     _, found, _ = _core.replicate(
         3, 300, contact="within-3", time_limit_paints=0, seed=4, first_run=0, threads=None
@@ -138,24 +138,24 @@ BAD_STARTS = [
 
 
 @pytest.mark.parametrize(("start", "message"), BAD_STARTS)
-def test_a_bad_start_is_named_with_what_is_allowed(start: Any, message: str) -> None:
+def test_an_invalid_start_is_named_with_what_is_allowed(start: Any, message: str) -> None:
     with pytest.raises(InputError) as caught:
         classic.trace(start, 1)
     assert message in str(caught.value)
 
 
-def test_a_trace_too_long_to_hold_is_told() -> None:
+def test_a_trace_has_a_maximum_length() -> None:
     with pytest.raises(InputError, match="decisions = 1000000: must be .* from 0 to 500000"):
         classic.trace(classic.start(2), 1_000_000)
 
 
-def test_a_long_value_is_cut_in_its_message() -> None:
+def test_a_long_value_is_shortened_in_its_message() -> None:
     with pytest.raises(InputError) as caught:
         classic.trace(classic.start(250) * 2, 1)
     assert len(str(caught.value)) < 200
 
 
-def test_all_faults_of_a_call_are_told_at_once() -> None:
+def test_all_errors_of_a_call_are_reported() -> None:
     with pytest.raises(InputError) as caught:
         classic.replicate(0, -3, contact="tuoch", seed=-1, threads=0)
     message = str(caught.value)

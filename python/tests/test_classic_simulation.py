@@ -1,4 +1,4 @@
-"""Runs of the classic engine, stepped by hand."""
+"""Interactive runs of the classic engine."""
 
 from typing import Any
 
@@ -35,12 +35,12 @@ def test_its_robots_are_those_of_the_trace() -> None:
     carry, _, *robots = trace["decisions"][-1]
     assert (simulation.tick, simulation.decides_in, simulation.carry) == (34, 11, carry)
     names = ("heading_deg", "speed", "left_turns", "right_turns")
-    told = [list(row) for row in zip(*(team[name].to_pylist() for name in names), strict=True)]
-    assert told == [robot[2:6] for robot in robots]
+    expected = [list(row) for row in zip(*(team[name].to_pylist() for name in names), strict=True)]
+    assert expected == [robot[2:6] for robot in robots]
     assert [colour[0] for colour in team["colour"].to_pylist()] == [robot[6] for robot in robots]
 
 
-def test_a_run_in_pieces_is_the_run_in_one_go() -> None:
+def test_a_run_in_parts_equals_the_run_in_one_call() -> None:
     one, other = ae.ClassicSimulation("classic", 7), ae.ClassicSimulation("classic", 7)
     one.step(500)
     for steps in (0, 1, 11, 488):
@@ -50,7 +50,7 @@ def test_a_run_in_pieces_is_the_run_in_one_go() -> None:
     assert one.hash != other.hash
 
 
-def test_a_run_that_is_over_stands_and_a_change_may_let_it_go_on() -> None:
+def test_a_finished_run_does_not_advance_unless_a_change_allows_it() -> None:
     simulation = ae.ClassicSimulation(classic(clock__time_limit_s=5), 1)
     assert simulation.finish().status == "incomplete"
     assert simulation.tick == 5 * 56
@@ -62,7 +62,7 @@ def test_a_run_that_is_over_stands_and_a_change_may_let_it_go_on() -> None:
     assert simulation.finish() == ae.run("classic", seed=1)
 
 
-def test_what_was_changed_is_logged_and_gives_the_run_again() -> None:
+def test_changes_are_logged_and_reproduce_the_run() -> None:
     changes: list[tuple[int, str, Any]] = [
         (10, "robots.wanderer.count", 200),
         (31, "contact", "ahead"),
@@ -88,7 +88,7 @@ def test_what_was_changed_is_logged_and_gives_the_run_again() -> None:
 
 
 @pytest.mark.parametrize(
-    ("path", "value", "told"),
+    ("path", "value", "expected"),
     [
         ("robots.wanderer.count", 0, "a whole number from 1 to 250"),
         ("robots.wanderer.count", 251, "a whole number from 1 to 250"),
@@ -99,17 +99,17 @@ def test_what_was_changed_is_logged_and_gives_the_run_again() -> None:
         ("engine", "metric", "is not a known key"),
     ],
 )
-def test_what_is_not_allowed_is_told_and_changes_nothing(
-    path: str, value: str | float, told: str
+def test_invalid_changes_are_named_and_change_nothing(
+    path: str, value: str | float, expected: str
 ) -> None:
     simulation = ae.ClassicSimulation("classic")
     before = (simulation.hash, simulation.scenario)
-    with pytest.raises(ae.InputError, match=told):
+    with pytest.raises(ae.InputError, match=expected):
         simulation.change(path, value)
     assert (simulation.hash, simulation.scenario, simulation.changes) == (*before, ())
 
 
-def test_a_snapshot_is_gone_back_to_with_its_scenario_and_its_changes() -> None:
+def test_restoring_a_snapshot_restores_its_scenario_and_changes() -> None:
     simulation = ae.ClassicSimulation("classic", 4)
     simulation.step(20)
     simulation.change("robots.wanderer.count", 9)
@@ -120,14 +120,14 @@ def test_a_snapshot_is_gone_back_to_with_its_scenario_and_its_changes() -> None:
     assert (simulation.hash, len(simulation.robots), len(simulation.changes)) == (hash_, 9, 1)
 
 
-def test_items_are_found_at_a_time() -> None:
+def test_found_items_have_a_time() -> None:
     simulation = ae.ClassicSimulation("classic", 1)
     assert simulation.items["found_s"].null_count == 4
     outcome = simulation.finish()
     assert max(simulation.items["found_s"].to_pylist()) == outcome.time_s
 
 
-def test_a_robot_looks_at_three_cells_near_and_three_far() -> None:
+def test_a_robot_examines_three_near_and_three_far_cells() -> None:
     simulation = ae.ClassicSimulation("classic", 1)
     state = simulation.team.to_pylist()[0]
     column, row = state["column"], state["row"]
@@ -139,7 +139,7 @@ def test_a_robot_looks_at_three_cells_near_and_three_far() -> None:
         simulation.examined_cells("wanderer/4")
 
 
-def test_each_engine_says_which_runs_are_its_own() -> None:
+def test_each_engine_rejects_scenarios_of_the_other() -> None:
     with pytest.raises(ae.InputError, match="ClassicSimulation"):
         ae.Simulation("classic")
     with pytest.raises(ae.InputError, match="use Simulation"):

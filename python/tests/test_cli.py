@@ -1,4 +1,4 @@
-"""The command line, as a user meets it."""
+"""The command line: its output, files and exit codes."""
 
 import json
 import os
@@ -70,7 +70,7 @@ def test_study_prints_table_answer_and_path_and_leaves_its_files(
     assert left >= {"answer.json", "report.html", "study.toml", "ledger.sqlite", "blocks"}
 
 
-def test_options_go_before_the_file(classic_toml: Path, tmp_path: Path) -> None:
+def test_options_replace_values_of_the_file(classic_toml: Path, tmp_path: Path) -> None:
     options = ["--vary", "robots.wanderer.count=2,5", "--runs", "100", "--set", "contact=ahead"]
     more = ["--merit", "appendix", "--seed", "9", "--out", str(tmp_path / "here"), "--json"]
     given = run("study", classic_toml, *options, *more)
@@ -87,7 +87,9 @@ def test_options_go_before_the_file(classic_toml: Path, tmp_path: Path) -> None:
     assert given.stdout == (tmp_path / "here/answer.json").read_text()
 
 
-def test_a_value_that_is_set_wins_and_is_kept(classic_toml: Path, tmp_path: Path) -> None:
+def test_a_value_of_set_replaces_the_files_and_is_stored(
+    classic_toml: Path, tmp_path: Path
+) -> None:
     options = ["--set", "clock.time_limit_s=60", "--set", "study.vary.robots.wanderer.count=2,3"]
     given = run("study", classic_toml, *options, "--runs", "20", "--json", "--out", tmp_path)
     assert given.returncode == 0, given.stderr
@@ -98,7 +100,7 @@ def test_a_value_that_is_set_wins_and_is_kept(classic_toml: Path, tmp_path: Path
     assert again.stdout == given.stdout
 
 
-def test_check_says_that_nothing_is_wrong(classic_toml: Path, tmp_path: Path) -> None:
+def test_check_reports_valid_scenarios(classic_toml: Path, tmp_path: Path) -> None:
     given = run("check", classic_toml, "classic", cwd=tmp_path)
     assert (given.returncode, given.stderr) == (0, "")
     right = "valid: engine classic, factorial: 8 configurations"
@@ -108,7 +110,7 @@ def test_check_says_that_nothing_is_wrong(classic_toml: Path, tmp_path: Path) ->
     assert list(tmp_path.iterdir()) == []
 
 
-def test_check_tells_every_fault_of_every_file(classic_toml: Path, tmp_path: Path) -> None:
+def test_check_reports_all_errors_of_all_files(classic_toml: Path, tmp_path: Path) -> None:
     bad = tmp_path / "bad.toml"
     bad.write_text(classic_toml.read_text().replace("count = 4", "cuont = 4"))
     wide = tmp_path / "wide.toml"
@@ -119,18 +121,18 @@ def test_check_tells_every_fault_of_every_file(classic_toml: Path, tmp_path: Pat
     given = run("check", *files, "--set", "study.delta=0.5")
     assert given.returncode == 2
     assert len(given.stdout.splitlines()) == 1
-    told = given.stderr.splitlines()
-    assert told[0].startswith(f"{bad}:18: robots.wanderer.cuont is not a known key: expected")
+    lines = given.stderr.splitlines()
+    assert lines[0].startswith(f"{bad}:18: robots.wanderer.cuont is not a known key: expected")
     missing = f"{bad}:17: robots.wanderer.count is missing: expected a whole number"
-    assert told[1].startswith(missing)
-    assert told[2] == f"{tmp_path}/none.toml: cannot be read: No such file or directory"
-    assert "250 x 1000 values = 250000 configurations: must be at most 100000" in told[3]
-    assert len(told) == 4
+    assert lines[1].startswith(missing)
+    assert lines[2] == f"{tmp_path}/none.toml: cannot be read: No such file or directory"
+    assert "250 x 1000 values = 250000 configurations: must be at most 100000" in lines[3]
+    assert len(lines) == 4
     listed = run("check", *files, "--json")
     assert listed.returncode == 2
-    faults = json.loads(listed.stdout)
-    assert [fault["file"] for fault in faults] == list(map(str, [bad, bad, files[1], wide]))
-    assert faults[0] == {
+    errors_of = json.loads(listed.stdout)
+    assert [error["file"] for error in errors_of] == list(map(str, [bad, bad, files[1], wide]))
+    assert errors_of[0] == {
         "origin": f"{bad}:18",
         "file": str(bad),
         "line": 18,
@@ -138,11 +140,11 @@ def test_check_tells_every_fault_of_every_file(classic_toml: Path, tmp_path: Pat
         "value": "4",
         "allowed": "one of count",
         "suggestion": "count",
-        "message": told[0],
+        "message": lines[0],
     }
 
 
-def test_the_scenarios_that_ship_are_listed_and_right(tmp_path: Path) -> None:
+def test_bundled_scenarios_are_listed_and_valid(tmp_path: Path) -> None:
     given = run("scenarios", cwd=tmp_path)
     assert given.returncode == 0, given.stderr
     rows = json.loads(run("scenarios", "--json", cwd=tmp_path).stdout)
@@ -154,7 +156,7 @@ def test_the_scenarios_that_ship_are_listed_and_right(tmp_path: Path) -> None:
     assert checked.returncode == 0, checked.stderr
 
 
-def test_weights_on_the_command_line_are_the_merit(classic_toml: Path, tmp_path: Path) -> None:
+def test_weights_on_the_command_line_define_the_merit(classic_toml: Path, tmp_path: Path) -> None:
     weights = ["--merit", "time=-0.03,robots=-0.2,failed=-5", "--json", "--runs", "20"]
     given = run("study", classic_toml, *weights, "--out", tmp_path / "a")
     named = run("study", classic_toml, "--json", "--runs", "20", "--out", tmp_path / "b")
@@ -162,7 +164,7 @@ def test_weights_on_the_command_line_are_the_merit(classic_toml: Path, tmp_path:
     assert one == two
 
 
-def test_the_same_seed_leaves_the_same_bytes_whoever_computes(
+def test_the_same_seed_gives_the_same_bytes_with_any_workers(
     classic_toml: Path, tmp_path: Path
 ) -> None:
     where: dict[str, list[str]] = {"a": [], "b": ["--workers", "2"]}
@@ -178,7 +180,7 @@ def test_the_same_seed_leaves_the_same_bytes_whoever_computes(
     assert a == b
 
 
-def test_a_finished_study_is_answered_watched_and_tightened(
+def test_a_finished_study_is_reported_watched_and_resumed_at_a_higher_confidence(
     classic_toml: Path, tmp_path: Path
 ) -> None:
     out = tmp_path / "out"
@@ -203,12 +205,12 @@ def test_a_finished_study_is_answered_watched_and_tightened(
     assert "with 99.9% confidence" in " ".join(tightened.stdout.split())
 
 
-def test_each_question_has_a_folder_of_its_own(classic_toml: Path, tmp_path: Path) -> None:
+def test_each_question_has_its_own_folder(classic_toml: Path, tmp_path: Path) -> None:
     questions: list[list[str]] = [[], ["--seed", "1"], [], ["--seed", "1"], ["--merit", "appendix"]]
     for options in questions:
         given = run("study", classic_toml, "--delta", "0.5", *options, cwd=tmp_path)
         assert given.returncode == 0, given.stderr
-    # Another merit is another question about the same runs.
+    # A different merit is a different question about the same runs.
     folders = sorted(folder.name for folder in (tmp_path / "studies").iterdir())
     assert len(folders) == 2
     assert folders[0] == "classic"
@@ -216,16 +218,14 @@ def test_each_question_has_a_folder_of_its_own(classic_toml: Path, tmp_path: Pat
 
 
 @pytest.mark.parametrize("option", [["--seed", "0"], ["--guarantee", "pgs"], ["--delta", "0"]])
-def test_what_is_asked_stands_in_the_folder_and_nowhere_else(
-    option: list[str], tmp_path: Path
-) -> None:
+def test_resume_reads_the_question_from_the_folder_only(option: list[str], tmp_path: Path) -> None:
     given = run("study", "--resume", tmp_path, *option)
     assert given.returncode == 2
     assert "--resume: cannot be combined with" in given.stderr
 
 
 @pytest.mark.parametrize("command", [["report"], ["watch"], ["study", "--resume"]])
-def test_a_folder_without_a_study_is_told(command: list[str], tmp_path: Path) -> None:
+def test_a_folder_without_a_study_is_an_error(command: list[str], tmp_path: Path) -> None:
     given = run(*command, tmp_path)
     assert given.returncode == 2
     assert f"{tmp_path}" in given.stderr
@@ -277,7 +277,7 @@ def test_a_folder_without_a_study_is_told(command: list[str], tmp_path: Path) ->
         (["--runs", "many"], "Invalid value for '--runs'"),
     ],
 )
-def test_bad_options_are_told_and_leave_nothing(
+def test_invalid_options_are_named_and_create_no_files(
     options: list[str], part: str, classic_toml: Path, tmp_path: Path
 ) -> None:
     given = run("study", classic_toml, *options, cwd=tmp_path)
@@ -287,7 +287,7 @@ def test_bad_options_are_told_and_leave_nothing(
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_missing_scenario_is_told(tmp_path: Path) -> None:
+def test_a_missing_scenario_is_named(tmp_path: Path) -> None:
     given = run("study", "none.toml", cwd=tmp_path)
     assert given.returncode == 2
     assert given.stderr.strip() == "none.toml: cannot be read: No such file or directory"
@@ -299,7 +299,7 @@ def test_a_study_needs_a_scenario() -> None:
     assert "SCENARIO is missing: expected a TOML file" in given.stderr
 
 
-def test_an_output_folder_that_cannot_be_is_told_before_any_run(
+def test_an_invalid_output_folder_is_reported_before_the_first_run(
     classic_toml: Path, tmp_path: Path
 ) -> None:
     (tmp_path / "file").write_text("not a folder")
@@ -309,7 +309,7 @@ def test_an_output_folder_that_cannot_be_is_told_before_any_run(
     assert "round" not in given.stderr
 
 
-def test_ctrl_c_ends_within_a_second_and_the_study_goes_on_from_there(
+def test_ctrl_c_stops_within_a_second_and_the_study_can_be_resumed(
     classic_toml: Path, tmp_path: Path
 ) -> None:
     out = tmp_path / "out"
@@ -331,7 +331,7 @@ def test_ctrl_c_ends_within_a_second_and_the_study_goes_on_from_there(
     finally:
         process.kill()
     assert process.returncode == 130
-    # The promise is one second; the bound allows for a busy machine.
+    # The documented limit is one second; this one allows for a busy machine.
     assert seconds < 3
     assert re.search(r"Stopped after [\d,]+ runs; all are stored\.", errors)
     assert f"agent-economy study --resume {out}" in errors.replace("\n", "")
@@ -343,7 +343,7 @@ def test_ctrl_c_ends_within_a_second_and_the_study_goes_on_from_there(
     assert run("study", "--resume", out).returncode == 0
 
 
-def test_a_study_at_work_is_watched_and_no_second_process_gets_in(
+def test_a_running_study_is_watched_and_excludes_a_second_process(
     classic_toml: Path, tmp_path: Path
 ) -> None:
     out = tmp_path / "out"
@@ -361,19 +361,17 @@ def test_a_study_at_work_is_watched_and_no_second_process_gets_in(
     finally:
         process.kill()
         process.wait()
-    said, errors = watcher.communicate(timeout=60)
+    printed, errors = watcher.communicate(timeout=60)
     assert second.returncode == 1
     assert "another process is using it" in second.stderr
-    # The study was killed, so it is not over, and nobody works on it.
+    # The study was killed: it is not finished, and no process runs it.
     assert watcher.returncode == 1
     assert "remaining" in errors
     assert f"no process is working on it. Resume with: agent-economy study --resume {out}" in errors
-    assert said == ""
+    assert printed == ""
 
 
-def test_a_damaged_study_is_refused_with_its_own_exit_code(
-    classic_toml: Path, tmp_path: Path
-) -> None:
+def test_a_damaged_study_has_its_own_exit_code(classic_toml: Path, tmp_path: Path) -> None:
     assert run("study", classic_toml, "--delta", "0.5", "--out", tmp_path).returncode == 0
     block = min((tmp_path / "blocks").iterdir())
     data = bytearray(block.read_bytes())
@@ -386,7 +384,7 @@ def test_a_damaged_study_is_refused_with_its_own_exit_code(
         assert "Traceback" not in given.stderr
 
 
-def test_the_table_of_an_answer_can_be_read_in_eighty_columns(
+def test_the_table_of_an_answer_fits_into_eighty_columns(
     classic_toml: Path, tmp_path: Path
 ) -> None:
     environment = os.environ | {"COLUMNS": "80", "FORCE_COLOR": "1", "NO_COLOR": "1"}
@@ -423,7 +421,7 @@ main()
     assert given.stderr == "\nStopped.\n"
 
 
-def test_a_summary_is_text_and_not_markup(classic_toml: Path, tmp_path: Path) -> None:
+def test_a_summary_is_not_interpreted_as_markup(classic_toml: Path, tmp_path: Path) -> None:
     odd = tmp_path / "odd.toml"
     summary = "A [/oops] <b>test</b>"
     text = classic_toml.read_text()
@@ -434,7 +432,7 @@ def test_a_summary_is_text_and_not_markup(classic_toml: Path, tmp_path: Path) ->
     assert "<b>test" not in (tmp_path / "out/report.html").read_text()
 
 
-def test_any_encoding_of_the_terminal_will_do(classic_toml: Path, tmp_path: Path) -> None:
+def test_any_encoding_of_the_terminal_works(classic_toml: Path, tmp_path: Path) -> None:
     environment = os.environ | {"PYTHONIOENCODING": "latin-1", "LC_ALL": "C"}
     command = [*COMMAND, "study", str(classic_toml), "--runs", "10", "--out", str(tmp_path)]
     given = subprocess.run(command, capture_output=True, env=environment, check=False, timeout=60)

@@ -1,4 +1,4 @@
-"""The commands that run scenarios, as a user meets them."""
+"""The commands that run scenarios: their output, files and exit codes."""
 
 import json
 import os
@@ -16,7 +16,7 @@ from pyarrow import csv, parquet
 import agent_economy as ae
 
 
-def test_run_tells_what_came_of_it() -> None:
+def test_run_prints_the_outcome() -> None:
     given = run("run", "search", "--seed", "7", "--run", "1")
     outcome = ae.run("search", 7, 1)
     assert (given.returncode, given.stderr) == (0, "")
@@ -32,11 +32,11 @@ def test_run_as_json_is_the_row_of_replicate() -> None:
     given = run("run", "search", "--run", "3", "--seed", "5", "--json")
     assert given.returncode == 0, given.stderr
     row = ae.replicate("search", 1, seed=5, first_run=3).to_pylist()[0]
-    told = json.loads(given.stdout)
-    assert told == {"seed": 5, "status": ae.run("search", 5, 3).status, **row}
+    printed = json.loads(given.stdout)
+    assert printed == {"seed": 5, "status": ae.run("search", 5, 3).status, **row}
 
 
-def test_run_takes_the_classic_engine_and_values() -> None:
+def test_run_accepts_the_classic_engine_and_values() -> None:
     given = run("run", "classic", "--set", "robots.wanderer.count=9", "--json")
     assert json.loads(given.stdout)["robots"] == 9
     shown = run("run", "classic")
@@ -44,7 +44,7 @@ def test_run_takes_the_classic_engine_and_values() -> None:
     assert "energy" not in shown.stdout
 
 
-def test_replicate_tells_means_and_leaves_a_table(tmp_path: Path) -> None:
+def test_replicate_prints_means_and_writes_a_table(tmp_path: Path) -> None:
     out = tmp_path / "runs.parquet"
     given = run("replicate", "search", "--runs", "30", "--seed", "4", "--out", out)
     assert given.returncode == 0, given.stderr
@@ -59,14 +59,14 @@ def test_replicate_tells_means_and_leaves_a_table(tmp_path: Path) -> None:
     assert given.stdout.splitlines()[-1] == f"All runs: {out}"
 
 
-def test_replicate_as_json_has_an_interval_round_each_mean(tmp_path: Path) -> None:
+def test_replicate_as_json_has_an_interval_of_each_mean(tmp_path: Path) -> None:
     out = tmp_path / "runs.csv"
     options = ["--runs", "25", "--threads", "1", "--json", "--out", str(out)]
     given = run("replicate", "classic", *options)
     assert given.returncode == 0, given.stderr
-    told = json.loads(given.stdout)
-    assert (told["scenario"], told["seed"], told["runs"]) == ("classic", 0, 25)
-    columns = {each["column"]: each for each in told["columns"]}
+    printed = json.loads(given.stdout)
+    assert (printed["scenario"], printed["seed"], printed["runs"]) == ("classic", 0, 25)
+    columns = {each["column"]: each for each in printed["columns"]}
     assert columns["time_s"]["low"] < columns["time_s"]["mean"] < columns["time_s"]["high"]
     assert columns["time_s"]["minimum"] <= columns["time_s"]["low"]
     assert 0 <= columns["complete"]["low"] <= columns["complete"]["mean"] <= 1
@@ -74,30 +74,30 @@ def test_replicate_as_json_has_an_interval_round_each_mean(tmp_path: Path) -> No
 
 
 def test_a_single_run_has_a_mean_and_no_interval() -> None:
-    told = json.loads(run("replicate", "search", "--runs", "1", "--json").stdout)
-    time_s = next(each for each in told["columns"] if each["column"] == "time_s")
+    printed = json.loads(run("replicate", "search", "--runs", "1", "--json").stdout)
+    time_s = next(each for each in printed["columns"] if each["column"] == "time_s")
     assert time_s["mean"] == ae.run("search").time_s
     assert (time_s["low"], time_s["high"]) == (None, None)
 
 
-def test_runs_that_gave_nothing_are_told_and_not_counted(tmp_path: Path) -> None:
+def test_quarantined_runs_are_reported_and_not_counted(tmp_path: Path) -> None:
     full = tmp_path / "full.toml"
     full.write_text(FULL)
-    told = json.loads(run("replicate", full, "--runs", "3", "--json").stdout)
-    assert {each["runs"] for each in told["columns"]} == {0}
+    printed = json.loads(run("replicate", full, "--runs", "3", "--json").stdout)
+    assert {each["runs"] for each in printed["columns"]} == {0}
     alone = run("run", full)
     assert alone.returncode == 0
     assert "run 0: quarantined" in alone.stdout
     assert "robots.second: the run has no room for second/0" in alone.stderr
     outcome = ae.run(full)
-    told = json.loads(run("run", full, "--json").stdout)
-    assert told == {"seed": 0, "status": "quarantined", **outcome.row}
+    printed = json.loads(run("run", full, "--json").stdout)
+    assert printed == {"seed": 0, "status": "quarantined", **outcome.row}
     recorded = run("run", full, "--record", "none.mcap", cwd=tmp_path)
     assert recorded.returncode == 2
     assert "the run has no room for second/0" in recorded.stderr
 
 
-def test_a_recording_in_place_of_a_scenario_is_to_be_taken_again(tmp_path: Path) -> None:
+def test_a_recording_instead_of_a_scenario_suggests_replay(tmp_path: Path) -> None:
     recorded = tmp_path / "run.mcap"
     short = ["--set", "clock.time_limit_s=1", "--record", str(recorded)]
     assert run("run", "search", *short).returncode == 0
@@ -108,7 +108,7 @@ def test_a_recording_in_place_of_a_scenario_is_to_be_taken_again(tmp_path: Path)
 
 
 @pytest.mark.parametrize(
-    ("arguments", "told"),
+    ("arguments", "printed"),
     [
         (
             ["run", "search", "--set", "robots.rovr.radius_m=3"],
@@ -146,17 +146,17 @@ def test_a_recording_in_place_of_a_scenario_is_to_be_taken_again(tmp_path: Path)
         (["replicate", "search", "--out", "/proc/x.parquet"], "is not writable"),
     ],
 )
-def test_what_is_not_allowed_is_told(arguments: list[str], told: str, tmp_path: Path) -> None:
+def test_invalid_arguments_are_named(arguments: list[str], printed: str, tmp_path: Path) -> None:
     given = run(*arguments, cwd=tmp_path)
     assert given.returncode == 2
-    assert told in " ".join(given.stderr.split())
+    assert printed in " ".join(given.stderr.split())
     assert "Traceback" not in given.stderr
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_table_that_cannot_be_written_is_told_before_the_first_run(tmp_path: Path) -> None:
+def test_an_unwritable_table_is_reported_before_the_first_run(tmp_path: Path) -> None:
     (tmp_path / "runs.csv").mkdir()
-    # So many runs would take longer than `run` waits.
+    # This number of runs would exceed the timeout of `run`.
     given = run("replicate", "search", "--runs", "10000000", "--out", tmp_path / "runs.csv")
     assert given.returncode == 2
     assert given.stderr == f"--out {tmp_path}/runs.csv: must be a file; it is a folder\n"
@@ -164,9 +164,7 @@ def test_a_table_that_cannot_be_written_is_told_before_the_first_run(tmp_path: P
 
 
 @pytest.mark.parametrize("command", ["run", "replicate"])
-def test_long_runs_tell_how_far_they_are_and_ctrl_c_ends_them_soon(
-    command: str, tmp_path: Path
-) -> None:
+def test_long_runs_print_their_progress_and_ctrl_c_stops_them(command: str, tmp_path: Path) -> None:
     out = ["--out", str(tmp_path / "runs.csv")] if command == "replicate" else []
     endless = [f"--set={path}={json.dumps(value)}" for path, value in ENDLESS.items()]
     values = endless if command == "run" else ["--runs", "10000000"]
@@ -185,14 +183,14 @@ def test_long_runs_tell_how_far_they_are_and_ctrl_c_ends_them_soon(
     assert " of 1" in first
     assert " left" in first
     assert process.returncode == 130
-    # The promise is one second; the bound allows for a busy machine.
+    # The documented limit is one second; this one allows for a busy machine.
     assert time.monotonic() - begin < 3
     assert errors.endswith("Stopped.\n")
     assert "Traceback" not in errors
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_table_of_a_command_has_the_types_of_the_api(tmp_path: Path) -> None:
+def test_a_written_table_has_the_types_of_the_api(tmp_path: Path) -> None:
     out = tmp_path / "runs.parquet"
     run("replicate", "search", "--runs", "2", "--out", out)
     assert parquet.read_schema(out).field("complete").type == pa.bool_()

@@ -35,7 +35,7 @@ def block(configurations: list[_core.Configuration], **changes: Any) -> dict[str
 
 
 def test_columns_have_names_kinds_and_bounds(scenario: Scenario) -> None:
-    # A team decides in paints 12, 23, ..., 6711 of 6720: 610 times.
+    # A team decides 610 times: in paints 12, 23, ..., 6711 of 6720.
     assert scenario.configuration({"robots.wanderer.count": 3}).columns == [
         ("time_s", "real", 0.0, 120.0),
         ("failed", "flag", 0.0, 1.0),
@@ -46,7 +46,7 @@ def test_columns_have_names_kinds_and_bounds(scenario: Scenario) -> None:
     ]
 
 
-def test_a_block_is_what_replicate_gives_team_by_team(scenario: Scenario) -> None:
+def test_a_block_equals_replicate_for_each_team(scenario: Scenario) -> None:
     sizes = (1, 3, 17)
     given = block(teams(scenario, *sizes), seed=9, first_run=70, runs=100)
     assert list(given) == COLUMNS
@@ -70,7 +70,7 @@ def test_a_block_is_what_replicate_gives_team_by_team(scenario: Scenario) -> Non
     assert np.isinf(given["paints"]).any()
 
 
-def test_every_factor_changes_what_is_run(scenario: Scenario) -> None:
+def test_every_factor_changes_the_runs(scenario: Scenario) -> None:
     same = block([scenario.configuration({})])
     values: dict[str, str | float] = {
         "robots.wanderer.count": 5,
@@ -94,7 +94,7 @@ def test_threads_and_neighbours_change_no_byte(scenario: Scenario) -> None:
         np.testing.assert_array_equal(part[name][0], one[name][4, 50:57])
 
 
-def test_scores_of_a_block_are_within_the_configurations_bounds(scenario: Scenario) -> None:
+def test_merits_of_a_block_are_within_the_bounds_of_the_configuration(scenario: Scenario) -> None:
     scenario = scenario.replace("study.vary.contact", "touch,ahead,within-3")
     merit = scenario.replace(
         "merit", {"time": -0.03, "collisions": -0.7, "paints": {"weight": -0.1, "max": 500}}
@@ -108,11 +108,11 @@ def test_scores_of_a_block_are_within_the_configurations_bounds(scenario: Scenar
         assert np.all((low <= row) & (row <= high))
 
 
-def test_no_runs_are_a_block_too(scenario: Scenario) -> None:
+def test_a_block_may_have_no_runs(scenario: Scenario) -> None:
     assert block(teams(scenario, 1, 2), runs=0)["paints"].shape == (2, 0)
 
 
-def test_replace_gives_the_scenario_with_another_value(scenario: Scenario) -> None:
+def test_replace_returns_the_scenario_with_another_value(scenario: Scenario) -> None:
     changed = scenario.replace("clock.time_limit_s", 60).replace("contact", "ahead")
     changed = changed.replace("study.vary.clock.paints_per_s", "50,41.5")
     assert (changed.time_limit_s, changed.facts[0], scenario.time_limit_s) == (
@@ -130,21 +130,21 @@ def test_replace_gives_the_scenario_with_another_value(scenario: Scenario) -> No
         scenario.replace("clock.time_limit_s", -1)
 
 
-def test_what_a_study_may_also_say_is_read(scenario: Scenario) -> None:
+def test_optional_keys_of_a_study_are_read(scenario: Scenario) -> None:
     assert (scenario.design, scenario.delta, scenario.confidence) == ("factorial", 0.01, 0.95)
-    said = scenario.replace("study.design", "lhs:200").replace("study.delta", 0.05)
-    said = said.replace("study.confidence", 0.99)
-    said = said.replace("study.vary.clock.paints_per_s", "41.0..57.0")
-    assert (said.design, said.delta, said.confidence) == ("lhs:200", 0.05, 0.99)
-    assert said.factors[1].range == (41.0, 57.0)
+    given = scenario.replace("study.design", "lhs:200").replace("study.delta", 0.05)
+    given = given.replace("study.confidence", 0.99)
+    given = given.replace("study.vary.clock.paints_per_s", "41.0..57.0")
+    assert (given.design, given.delta, given.confidence) == ("lhs:200", 0.05, 0.99)
+    assert given.factors[1].range == (41.0, 57.0)
 
 
-def test_values_that_no_configuration_can_have_are_told_at_once(scenario: Scenario) -> None:
+def test_all_invalid_values_of_a_configuration_are_reported(scenario: Scenario) -> None:
     with pytest.raises(InputError) as caught:
         scenario.configuration({"robots.wanderer.count": 0, "contact": "tuoch"})
-    told = str(caught.value)
-    assert "study.vary: robots.wanderer.count = 0: must be a whole number from 1 to 250" in told
-    assert 'did you mean "touch"?' in told
+    message = str(caught.value)
+    assert "study.vary: robots.wanderer.count = 0: must be a whole number from 1 to 250" in message
+    assert 'did you mean "touch"?' in message
     with pytest.raises(InputError) as caught:
         scenario.configuration({"robots.rover.count": 1})
     assert str(caught.value) == (
@@ -152,16 +152,16 @@ def test_values_that_no_configuration_can_have_are_told_at_once(scenario: Scenar
         "robots.wanderer.count, clock.paints_per_s, clock.time_limit_s, contact; did you mean "
         "robots.wanderer.count?"
     )
-    # Either value is allowed; a million and more paints are not.
+    # Each value is allowed, but a time limit over a million paints is not.
     with pytest.raises(InputError, match="must be at most 1000000 paints at 1000 paints per sec"):
         scenario.configuration({"clock.paints_per_s": 1000, "clock.time_limit_s": 1001})
 
 
-def test_bad_arguments_of_a_block_are_told_at_once(scenario: Scenario) -> None:
+def test_all_invalid_arguments_of_a_block_are_reported(scenario: Scenario) -> None:
     anything: Any = [teams(scenario, 1)[0], 7, "x"]
     with pytest.raises(InputError) as caught:
         block(anything, seed=-1, first_run=1.5, runs=True, threads=0)
-    told = str(caught.value)
+    message = str(caught.value)
     for part in (
         "configurations[1] = 7: must be a Configuration",
         "configurations[2] = 'x': must be a Configuration",
@@ -170,14 +170,14 @@ def test_bad_arguments_of_a_block_are_told_at_once(scenario: Scenario) -> None:
         "runs = True: must be",
         "threads = 0: must be a whole number from 1 to 1024",
     ):
-        assert part in told
+        assert part in message
     with pytest.raises(InputError, match=r"configurations = \[\]: must be a list of at least one"):
         block([])
     with pytest.raises(InputError, match="runs = 5000001: must be .* from 0 to 5000000"):
         block(teams(scenario, 1, 2), runs=5_000_001)
 
 
-def test_a_signal_ends_a_long_block_soon(scenario: Scenario) -> None:
+def test_a_signal_stops_a_long_block(scenario: Scenario) -> None:
     with ringing(0.3):
         block(teams(scenario, *range(100, 140)), runs=100_000)
     assert block(teams(scenario, 2), runs=3)["robots"].tolist() == [[2, 2, 2]]
@@ -193,7 +193,7 @@ def test_other_threads_run_while_a_block_is_computed(scenario: Scenario) -> None
     assert len(ticks) > 10
 
 
-def test_a_forked_process_has_threads_of_its_own(classic_toml: Path) -> None:
+def test_a_forked_process_has_its_own_threads(classic_toml: Path) -> None:
     forked = f"""
 import os
 from agent_economy import Scenario, _core

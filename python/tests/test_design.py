@@ -14,7 +14,7 @@ CONTACT = Factor("contact", ("touch", "ahead"))
 RATE = Factor("clock.paints_per_s", (), (41.0, 57.0))
 
 
-def test_a_factorial_has_each_with_each_and_the_first_factor_varies_slowest() -> None:
+def test_a_factorial_has_all_combinations_and_the_first_factor_varies_slowest() -> None:
     rows = [tuple(point.values()) for point in design.points([TEAM, CONTACT])]
     assert rows == [
         (1, "touch"),
@@ -28,7 +28,7 @@ def test_a_factorial_has_each_with_each_and_the_first_factor_varies_slowest() ->
 
 
 @pytest.mark.parametrize("name", ["factorial", "lhs:5", "sobol:8"])
-def test_without_factors_there_is_the_one_configuration(name: str) -> None:
+def test_a_design_without_factors_has_one_configuration(name: str) -> None:
     assert design.points([], name) == [{}]
 
 
@@ -39,13 +39,13 @@ def test_points_fill_a_range_evenly_and_stay_within(name: str) -> None:
     assert len(points) == 64
     assert rates.min() >= 41
     assert rates.max() <= 57
-    # Both kinds put as many points in each half, each quarter, ... of every factor.
+    # Both designs put equally many points into each half, each quarter, ... of every factor.
     assert np.histogram(rates, bins=8, range=(41, 57))[0].tolist() == [8] * 8
     assert {point[TEAM.path] for point in points} == {1, 2, 4}
 
 
 @pytest.mark.parametrize("name", ["lhs:100", "sobol:128"])
-def test_points_that_fall_together_are_one_configuration(name: str) -> None:
+def test_equal_points_are_one_configuration(name: str) -> None:
     points = design.points([TEAM, CONTACT], name)
     assert len(points) == 6
     assert {tuple(point.values()) for point in points} == {
@@ -56,7 +56,7 @@ def test_points_that_fall_together_are_one_configuration(name: str) -> None:
     assert design.describe(name, len(points)) == text
 
 
-def test_a_design_without_duplicates_says_how_many_it_has() -> None:
+def test_a_design_is_described_with_its_number_of_distinct_points() -> None:
     assert design.describe("factorial", len(design.points([TEAM]))) == "factorial: 3 configurations"
     assert (
         design.describe("lhs:7", len(design.points([RATE], "lhs:7"))) == "lhs:7: 7 configurations"
@@ -72,18 +72,18 @@ def test_the_same_factors_design_and_seed_give_the_same_points(name: str, seed: 
 
 
 def test_values_keep_their_types() -> None:
-    # A whole number that became a float would be told as a fault of a team size.
+    # A whole number that became a float would be rejected as a team size.
     for point in design.points([TEAM, RATE, CONTACT], "lhs:9"):
         assert [type(value) for value in point.values()] == [int, float, str]
 
 
-def test_too_many_configurations_are_told() -> None:
+def test_too_many_configurations_are_an_error() -> None:
     many = Factor("clock.time_limit_s", tuple(range(1000)))
     with pytest.raises(InputError, match=r"1000 x 1000 values = 1000000 configurations: must be"):
         design.points([many, many])
     assert len(design.points([Factor("clock.time_limit_s", tuple(range(100_000)))])) == 100_000
 
 
-def test_a_range_in_a_factorial_is_told() -> None:
+def test_a_range_in_a_factorial_is_an_error() -> None:
     with pytest.raises(InputError, match="clock.paints_per_s: must be a list of values"):
         design.points([TEAM, RATE])

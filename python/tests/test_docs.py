@@ -1,4 +1,4 @@
-"""Documents say what the program does."""
+"""Documents agree with the program."""
 
 import re
 import shlex
@@ -14,32 +14,32 @@ from agent_economy import Scenario, study
 ROOT = Path(__file__).resolve().parents[2]
 
 
-def test_every_table_of_the_replication_page_is_what_the_program_gives() -> None:
+def test_every_table_of_the_replication_page_is_reproduced() -> None:
     command = [sys.executable, str(ROOT / "scripts/replication.py"), "--check"]
     given = subprocess.run(command, capture_output=True, text=True, check=False, timeout=300)
     assert given.returncode == 0, given.stderr
 
 
-def test_the_validation_page_and_its_pictures_are_drawn_from_what_was_measured() -> None:
+def test_the_validation_page_and_its_charts_follow_from_the_measurements() -> None:
     command = [sys.executable, str(ROOT / "scripts/validation.py"), "--check"]
     given = subprocess.run(command, capture_output=True, text=True, check=False, timeout=300)
     assert given.returncode == 0, given.stderr
 
 
-def test_the_brain_comparison_page_and_its_pictures_are_drawn_from_what_was_measured() -> None:
+def test_the_brain_comparison_page_and_its_charts_follow_from_the_measurements() -> None:
     command = [sys.executable, str(ROOT / "scripts/brain_comparison.py"), "--check"]
     given = subprocess.run(command, capture_output=True, text=True, check=False, timeout=300)
     assert given.returncode == 0, given.stderr
 
 
-def test_the_readme_quotes_the_answer_that_make_study_gives() -> None:
+def test_the_readme_quotes_the_answer_of_make_study() -> None:
     answer = study.run(Scenario.load(ROOT / "scenarios/classic.toml"))
     quoted = " ".join((ROOT / "README.md").read_text().replace("\n> ", " ").split())
     assert answer.sentence in quoted
 
 
 def run_blocks(page: str) -> None:
-    """Run what stands in a page's blocks, in order: Python, or commands."""
+    """Run the code blocks of a page in order: Python, or commands."""
     blocks = re.findall(r"^```(python)?\n(.*?)^```$", page, re.DOTALL | re.MULTILINE)
     names: dict[str, Any] = {}
     for language, text in blocks:
@@ -53,7 +53,7 @@ def run_blocks(page: str) -> None:
 
 
 @pytest.mark.parametrize(("name", "prints"), [("simulation", 3), ("brains", 2)])
-def test_the_examples_of_a_page_run_and_print_what_it_says(
+def test_the_examples_of_a_page_run_and_print_the_stated_output(
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],

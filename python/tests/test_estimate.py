@@ -1,4 +1,4 @@
-"""Intervals against scipy's own, and against the truth."""
+"""Intervals compared with scipy's, and their coverage."""
 
 import numpy as np
 import pytest
@@ -27,7 +27,7 @@ def test_mean_is_students_interval() -> None:
     assert (given.low, given.high) == pytest.approx((expected.low, expected.high))
 
 
-def test_share_covers_the_truth_at_least_as_often_as_it_says() -> None:
+def test_share_has_at_least_its_nominal_coverage() -> None:
     # 20,000 intervals of a true 1%: the count that cover is at least binomial(20,000, 0.95), so
     # fewer than 18,900 has a probability below 1e-3; the seed is fixed.
     failures = np.random.default_rng(1).binomial(200, 0.01, 20_000)

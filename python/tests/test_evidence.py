@@ -1,4 +1,4 @@
-"""What the runs of a study say for sure."""
+"""Conclusions that the runs of a study prove."""
 
 import numpy as np
 import pytest
@@ -11,8 +11,8 @@ def sample(values: list[float]) -> Sample:
     return Sample({}, {"merit": np.array(values)}, {"merit": (-1.0, 1.0)}, quarantined=0)
 
 
-def test_ranges_that_do_not_meet_decide_a_difference_that_few_common_runs_leave_open() -> None:
-    # Ten common runs alone leave it open; that the first had many more says that it is better.
+def test_disjoint_ranges_prove_a_difference_that_few_common_runs_do_not() -> None:
+    # Ten common runs do not decide; the many further runs of the first prove that it is better.
     evidence = Evidence((sample([0.9] * 2000), sample([-0.9] * 10)), 0.95)
     first, second = evidence.interval(0, "merit"), evidence.interval(1, "merit")
     assert first.low > second.high

@@ -1,4 +1,4 @@
-"""Examples print what stands beside them."""
+"""Examples print the output that is stored beside them."""
 
 import os
 import subprocess
@@ -12,7 +12,7 @@ SCRIPTS = sorted(EXAMPLES.glob("*.py"))
 
 
 @pytest.mark.parametrize("script", SCRIPTS, ids=lambda script: script.name)
-def test_an_example_prints_what_stands_beside_it(script: Path, tmp_path: Path) -> None:
+def test_an_example_prints_its_expected_output(script: Path, tmp_path: Path) -> None:
     command = [sys.executable, str(script)]
     given = subprocess.run(
         command, cwd=tmp_path, capture_output=True, text=True, check=False, timeout=100
@@ -21,10 +21,12 @@ def test_an_example_prints_what_stands_beside_it(script: Path, tmp_path: Path) -
     expected = script.with_suffix(".out")
     if os.environ.get("RENEW_EXAMPLES"):
         expected.write_text(given.stdout, encoding="utf-8")
-    assert given.stdout == expected.read_text(encoding="utf-8"), "if so it shall be: make examples"
+    assert given.stdout == expected.read_text(encoding="utf-8"), (
+        "if that is intended: make examples"
+    )
 
 
-def test_the_index_names_every_example_and_nothing_else_is_printed() -> None:
+def test_the_index_names_every_example_with_its_output() -> None:
     index = (EXAMPLES / "README.md").read_text(encoding="utf-8")
     assert all(f"[{script.name}]({script.name})" in index for script in SCRIPTS)
     assert {out.stem for out in EXAMPLES.glob("*.out")} == {script.stem for script in SCRIPTS}

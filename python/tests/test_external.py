@@ -1,4 +1,4 @@
-"""What comes into a run from outside: percepts of bodies, commands for robots."""
+"""External inputs of a run: percepts of external bodies, and commands for robots."""
 
 import math
 from typing import Any
@@ -15,7 +15,7 @@ STOP: Command = {"motion": {"speed_m_s": 0.0, "turn_rate_rad_s": 0.0}, "requests
 
 
 def percept_at(x_m: float, y_m: float, heading_rad: float, **more: Any) -> Percept:
-    """Return what a body perceives that is somewhere."""
+    """Return the percept of a body at a pose."""
     percept: Percept = {
         "position": {"value": [x_m, y_m], "age_s": 0.0},
         "heading_rad": {"value": heading_rad, "age_s": 0.0},
@@ -24,14 +24,14 @@ def percept_at(x_m: float, y_m: float, heading_rad: float, **more: Any) -> Perce
 
 
 def scans(far_m: float | None) -> list[dict[str, Any]]:
-    """Return what a rover's scanner measures where everything is equally far away."""
+    """Return a scan of a rover with the same range in all directions."""
     first = Simulation("search").percept("rover/0")
     assert first is not None
     rays = len(first["scans"][0]["ranges_m"])
     return [{"age_s": 0.0, "ranges_m": [far_m] * rays}]
 
 
-def test_a_body_outside_is_where_its_percepts_say() -> None:
+def test_an_external_body_has_the_pose_of_its_percepts() -> None:
     simulation = Simulation("search", seed=2)
     others = simulation.poses[[0, 2, 3]]
     simulation.step(percepts={"rover/1": percept_at(3.5, 7.25, 0.5)})
@@ -55,11 +55,11 @@ def test_a_command_holds_until_the_brain_decides_again(rate_hz: float, steps: in
     assert held == steps
 
 
-def test_the_command_of_a_body_outside_is_that_of_its_brain() -> None:
+def test_the_command_of_an_external_body_is_that_of_its_brain() -> None:
     simulation = Simulation("search", seed=2)
     brain = Brain.of("search", "rover")
     near, far = scans(0.4), scans(3.0)
-    wanted = set()
+    motions = set()
     for step in range(80):
         percept = percept_at(
             5 + step / 100,
@@ -71,11 +71,11 @@ def test_the_command_of_a_body_outside_is_that_of_its_brain() -> None:
         )
         command = brain.step(percept)
         assert simulation.step(percepts={"rover/0": percept}) == {"rover/0": command}
-        wanted.add(tuple(command["motion"].values()))
-    assert len(wanted) == 2, "ahead, and a turn"
+        motions.add(tuple(command["motion"].values()))
+    assert len(motions) == 2, "straight ahead, and a turn"
 
 
-def test_what_a_body_outside_has_found_is_found() -> None:
+def test_items_in_the_contacts_of_an_external_body_are_found() -> None:
     simulation = Simulation("search", seed=2)
     item = simulation.items.to_pylist()[0]
     contact = {"kind": 0, "range_m": 0.5, "bearing_rad": 0.0, "age_s": 0.0}
@@ -85,31 +85,31 @@ def test_what_a_body_outside_has_found_is_found() -> None:
     assert simulation.outcome().found == {"mine": 1}
 
 
-def test_commands_of_scenarios_brains_for_what_robots_perceive_are_the_run() -> None:
-    by_hand, plain = (Simulation("search", seed=4) for _ in range(2))
-    brains = {robot: Brain.of(by_hand.scenario, "rover") for robot in by_hand.robots}
+def test_commands_of_equal_brains_give_the_same_run() -> None:
+    scripted, plain = (Simulation("search", seed=4) for _ in range(2))
+    brains = {robot: Brain.of(scripted.scenario, "rover") for robot in scripted.robots}
     for _ in range(150):
-        percepts = {robot: by_hand.percept(robot) for robot in by_hand.robots}
+        percepts = {robot: scripted.percept(robot) for robot in scripted.robots}
         commands = {
             robot: brains[robot].step(percept) for robot, percept in percepts.items() if percept
         }
-        assert by_hand.step(commands=commands) == {}
+        assert scripted.step(commands=commands) == {}
         plain.step()
-    assert by_hand.hash == plain.hash
-    assert not by_hand.external.any()
+    assert scripted.hash == plain.hash
+    assert not scripted.external.any()
 
 
-def test_looking_at_percepts_changes_nothing() -> None:
-    looked, plain = (Simulation("open-field", seed=4) for _ in range(2))
+def test_reading_percepts_changes_nothing() -> None:
+    read, plain = (Simulation("open-field", seed=4) for _ in range(2))
     for _ in range(40):
-        for robot in looked.robots:
-            looked.percept(robot)
-        looked.step()
+        for robot in read.robots:
+            read.percept(robot)
+        read.step()
         plain.step()
-    assert looked.hash == plain.hash
+    assert read.hash == plain.hash
 
 
-def test_between_two_steps_of_its_brain_a_robot_perceives_nothing() -> None:
+def test_a_robot_has_percepts_only_when_its_brain_steps() -> None:
     simulation = Simulation(search({"robots.rover.brain.rate_hz": 5}), seed=4)
     perceived = []
     for _ in range(10):
@@ -119,7 +119,7 @@ def test_between_two_steps_of_its_brain_a_robot_perceives_nothing() -> None:
     assert perceived[:2] in ([True, False], [False, True])
 
 
-def test_scripted_robots_do_what_they_are_told() -> None:
+def test_scripted_robots_execute_their_commands() -> None:
     simulation = Simulation("search", seed=4)
     begun = simulation.poses
     for _ in range(30):
@@ -130,7 +130,7 @@ def test_scripted_robots_do_what_they_are_told() -> None:
     assert np.abs(simulation.poses[2] - begun[2]).sum() > 0.01
 
 
-def test_what_comes_from_outside_is_part_of_a_snapshot() -> None:
+def test_external_poses_are_part_of_a_snapshot() -> None:
     simulation = Simulation("search", seed=4)
     simulation.step(percepts={"rover/0": percept_at(4, 4, 1)})
     snapshot = simulation.snapshot()
@@ -144,7 +144,7 @@ def test_what_comes_from_outside_is_part_of_a_snapshot() -> None:
     assert simulation.hash == after
 
 
-FAULTS: list[tuple[dict[str, Any], str]] = [
+ERRORS: list[tuple[dict[str, Any], str]] = [
     ({"percepts": {"rvoer/1": {}}}, r'percepts = "rvoer/1": must be .*did you mean rover/1\?'),
     ({"percepts": {"rover/4": {}}}, r"must be one of the run's robots: rover/0 to rover/3"),
     ({"percepts": {"rover/01": {}}}, "must be one of the run's robots"),
@@ -171,19 +171,19 @@ FAULTS: list[tuple[dict[str, Any], str]] = [
 ]
 
 
-@pytest.mark.parametrize(("arguments", "told"), FAULTS)
-def test_what_is_not_allowed_is_told_and_no_step_is_taken(
-    arguments: dict[str, Any], told: str
+@pytest.mark.parametrize(("arguments", "expected"), ERRORS)
+def test_invalid_inputs_are_named_and_the_run_does_not_advance(
+    arguments: dict[str, Any], expected: str
 ) -> None:
     simulation = Simulation("search", seed=4)
     before = simulation.hash
-    with pytest.raises(InputError, match=told):
+    with pytest.raises(InputError, match=expected):
         simulation.step(**arguments)
     assert simulation.hash == before
     assert not simulation.external.any()
 
 
-def test_faults_of_several_robots_are_told_at_once() -> None:
+def test_errors_of_several_robots_are_reported_together() -> None:
     percepts: Any = {"rover/1": {"random_words": 3}, "rover/9": {}}
     with pytest.raises(InputError) as caught:
         Simulation("search").step(percepts=percepts, commands={"rover/7": STOP})
@@ -191,7 +191,7 @@ def test_faults_of_several_robots_are_told_at_once() -> None:
     assert len(caught.value.errors) == 3
 
 
-def test_a_body_far_outside_of_the_world_does_no_harm() -> None:
+def test_an_external_body_may_be_far_outside_the_world() -> None:
     simulation = Simulation("search", seed=4)
     for far in (1e308, -1e308, 25.5, -0.1):
         simulation.step(percepts={"rover/0": percept_at(far, far, far)})
@@ -199,19 +199,19 @@ def test_a_body_far_outside_of_the_world_does_no_harm() -> None:
     assert simulation.finish().status in {"complete", "incomplete"}
 
 
-def test_a_robot_that_is_not_there_perceives_nothing() -> None:
+def test_an_unknown_robot_has_no_percept() -> None:
     with pytest.raises(InputError, match=r'robot = "rover/7": must be one of the run\'s robots'):
         Simulation("search").percept("rover/7")
 
 
-def test_a_kind_that_is_not_there_has_no_brain() -> None:
+def test_an_unknown_kind_has_no_brain() -> None:
     with pytest.raises(InputError, match=r'kind = "rovre": .*did you mean "rover"\?'):
         Brain.of("search", "rovre")
     with pytest.raises(InputError, match="engine = 'classic': must be 'metric'"):
         Brain.of("classic", "wanderer")
 
 
-def test_a_brain_of_a_scenario_is_as_the_scenario_says() -> None:
+def test_a_brain_of_a_scenario_has_the_body_of_its_kind() -> None:
     slow = search({"robots.rover.drive.max_speed_m_s": 0.25})
     open_space: Any = {"scans": scans(None)}
     commands = [

@@ -1,4 +1,4 @@
-"""What robots with minds think, told while they run."""
+"""Belief states, and the inspection of robots while they run."""
 
 import math
 from typing import Any
@@ -14,15 +14,15 @@ SEEK = {"robots.rover.brain.behaviours": [{"kind": "bayesian_search"}, {"kind": 
 
 
 def seeking(**arguments: Any) -> Simulation:
-    """Return a search by robots with minds, after ten seconds."""
+    """Return a search with belief-based brains, after ten seconds."""
     simulation = Simulation(search(SEEK), seed=7, **arguments)
     simulation.step(100)
     return simulation
 
 
-def test_a_robot_with_a_mind_knows_where_it_is_and_what_it_wants() -> None:
+def test_a_belief_state_has_the_pose_and_the_goals() -> None:
     simulation = seeking()
-    # It thinks in every second step, of where it is before it moves.
+    # Brains run in every second step, with the pose before the motion.
     poses = simulation.poses.copy()
     simulation.step()
     for robot, true in zip(simulation.robots, poses, strict=True):
@@ -39,7 +39,7 @@ def test_a_robot_with_a_mind_knows_where_it_is_and_what_it_wants() -> None:
     assert any(simulation.belief_state(robot)["goals"] for robot in simulation.robots)  # type: ignore[index]
 
 
-def test_in_what_one_robot_found_and_told_all_believe() -> None:
+def test_all_robots_believe_in_items_that_one_reports() -> None:
     simulation = seeking()
     simulation.finish()
     for robot in simulation.robots:
@@ -50,82 +50,83 @@ def test_in_what_one_robot_found_and_told_all_believe() -> None:
         assert all(item["kind"] == 0 and 0 <= item["confidence"] <= 1 for item in items)
 
 
-def test_to_look_at_thoughts_changes_nothing() -> None:
-    looked, not_looked = seeking(), seeking()
-    for robot in looked.robots:
-        assert looked.belief_state(robot) == not_looked.belief_state(robot)
-    looked.step(50)
-    not_looked.step(50)
-    assert looked.hash == not_looked.hash
+def test_reading_belief_states_changes_nothing() -> None:
+    read, plain = seeking(), seeking()
+    for robot in read.robots:
+        assert read.belief_state(robot) == plain.belief_state(robot)
+    read.step(50)
+    plain.step(50)
+    assert read.hash == plain.hash
 
 
-def test_what_is_watched_is_what_the_robot_perceives_and_then_wants() -> None:
+def test_an_inspection_has_the_percept_and_the_command_of_the_step() -> None:
     simulation = seeking()
     simulation.inspect("rover/1")
     for _ in range(20):
         percept = simulation.percept("rover/1")
-        told = simulation.inspection()
-        assert told is not None
-        assert percept is None or (percept, simulation.tick) == (told["percept"], told["tick"])
+        inspection = simulation.inspection()
+        assert inspection is not None
+        inspected = (inspection["percept"], inspection["tick"])
+        assert percept is None or (percept, simulation.tick) == inspected
         simulation.step()
-        wanted = moment_of(simulation)["commanded"][1]
-        assert tuple(wanted) == tuple(told["command"]["motion"].values())
+        motion = moment_of(simulation)["commanded"][1]
+        assert tuple(motion) == tuple(inspection["command"]["motion"].values())
         belief_state = simulation.belief_state("rover/1")
-        assert belief_state == told["belief_state"]
+        assert belief_state == inspection["belief_state"]
 
 
-def test_to_watch_changes_nothing_and_holds_when_the_run_is_put_back() -> None:
-    watched, free = seeking(), seeking()
-    watched.inspect("rover/0")
-    before = watched.snapshot()
-    for simulation in (watched, free):
+def test_inspecting_changes_nothing_and_survives_a_restored_snapshot() -> None:
+    inspected, plain = seeking(), seeking()
+    inspected.inspect("rover/0")
+    before = inspected.snapshot()
+    for simulation in (inspected, plain):
         simulation.step(51)
-    told = watched.inspection()
-    assert watched.hash == free.hash
-    watched.restore(before)
-    watched.step(51)
-    assert watched.inspection() == told
-    watched.change("robots.rover.count", 6)
-    assert watched.inspection() is None
-    watched.step(2)
-    assert watched.inspection() is not None
-    watched.change("robots.rover.count", 0)
-    assert watched.inspection() is None
-    watched.inspect(None)
-    assert watched.inspection() is None
+    inspection = inspected.inspection()
+    assert inspected.hash == plain.hash
+    inspected.restore(before)
+    inspected.step(51)
+    assert inspected.inspection() == inspection
+    inspected.change("robots.rover.count", 6)
+    assert inspected.inspection() is None
+    inspected.step(2)
+    assert inspected.inspection() is not None
+    inspected.change("robots.rover.count", 0)
+    assert inspected.inspection() is None
+    inspected.inspect(None)
+    assert inspected.inspection() is None
 
 
-def test_of_the_places_around_it_a_robot_takes_the_one_that_is_worth_most() -> None:
+def test_a_robot_takes_the_heading_of_the_highest_utility() -> None:
     simulation = seeking()
     simulation.inspect("rover/0")
-    looked = 0
+    choices = 0
     for _ in range(100):
         simulation.step()
-        told = simulation.inspection()
-        assert told is not None
-        assert told["belief_state"] is not None
-        reach = told["belief_state"]["reach"]
+        inspection = simulation.inspection()
+        assert inspection is not None
+        assert inspection["belief_state"] is not None
+        reach = inspection["belief_state"]["reach"]
         if reach is not None:
-            looked += 1
-            most = max(course["utility"] for course in reach["courses"])
-            assert reach["courses"][reach["taken"]]["utility"] == pytest.approx(most)
-    assert looked > 50
+            choices += 1
+            highest = max(course["utility"] for course in reach["courses"])
+            assert reach["courses"][reach["taken"]]["utility"] == pytest.approx(highest)
+    assert choices > 50
 
 
-def test_a_map_says_what_is_free_and_what_nobody_has_seen() -> None:
+def test_a_map_has_free_and_unobserved_cells() -> None:
     simulation = seeking()
-    told = simulation.believed_map("rover/0")
-    assert told is not None
-    assert told["occupancy"].shape == told["unseen"].shape
-    assert told["occupancy"].min() == -1
-    assert 0 <= told["unseen"].min() < told["unseen"].max() == 100
+    believed = simulation.believed_map("rover/0")
+    assert believed is not None
+    assert believed["occupancy"].shape == believed["unseen"].shape
+    assert believed["occupancy"].min() == -1
+    assert 0 <= believed["unseen"].min() < believed["unseen"].max() == 100
     x, y, _ = simulation.poses[0]
-    (left, low), cell_m = told["corner"], told["cell_m"]
-    here = told["occupancy"][int((y - low) / cell_m), int((x - left) / cell_m)]
+    (left, low), cell_m = believed["corner"], believed["cell_m"]
+    here = believed["occupancy"][int((y - low) / cell_m), int((x - left) / cell_m)]
     assert 0 <= here < 50
 
 
-def test_who_has_no_mind_or_one_in_python_has_no_thoughts() -> None:
+def test_robots_without_beliefs_or_with_python_brains_have_no_belief_state() -> None:
     assert Simulation("search").believed_map("rover/0") is None
     assert seeking(brains={"rover": Bumper}).believed_map("rover/0") is None
     bumpers = seeking(brains={"rover": Bumper})
@@ -136,7 +137,7 @@ def test_who_has_no_mind_or_one_in_python_has_no_thoughts() -> None:
 
 
 @pytest.mark.parametrize("robot", ["rover/7", "rovre/0", 3, None])
-def test_a_robot_that_is_not_there_thinks_nothing(robot: Any) -> None:
+def test_an_unknown_robot_has_no_belief_state(robot: Any) -> None:
     with pytest.raises(InputError, match="robot = .*must be one of the run's robots"):
         Simulation("search").belief_state(robot)
     with pytest.raises(InputError, match="robot = .*must be one of the run's robots"):

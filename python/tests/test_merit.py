@@ -51,11 +51,11 @@ def test_the_bounds_are_reached() -> None:
     assert merit.bounds({"time_s": (0, 120), "found": (0, 4)}) == (-0.03 * 120, 6)
 
 
-def test_a_column_without_bound_leaves_the_score_without_one() -> None:
+def test_a_column_without_a_bound_gives_a_score_without_one() -> None:
     assert Merit("m", (Term("paints", "paints", -1),)).bounds({"paints": (0, None)}) == (-np.inf, 0)
 
 
-def test_scores_are_of_configurations_and_runs_and_a_quarantined_run_has_none() -> None:
+def test_scores_have_the_shape_of_the_runs_and_a_quarantined_run_has_none() -> None:
     merit = Merit("m", (Term("time", "time_s", -1), Term("paints", "paints", -0.5, max=10)))
     columns = {
         "time_s": np.array([[1, 2], [np.nan, 4]]),
@@ -82,15 +82,15 @@ def test_a_terms_max_is_read_and_shown(classic_toml: Path) -> None:
     assert digits.name == "time=-0.123456789,found=100000"
 
 
-def test_bad_weights_are_told_all_at_once(classic_toml: Path) -> None:
+def test_all_invalid_weights_are_reported(classic_toml: Path) -> None:
     bad = {"tiem": 1, "failed": float("inf"), "paints": -1}
     with pytest.raises(InputError) as caught:
         Scenario.load(classic_toml).replace("merit", bad)
-    told = str(caught.value).splitlines()
-    assert len(told) == 3
-    assert told[0].endswith("did you mean time?")
-    assert told[1] == "replace: merit.failed = inf: must be a number from -1000000 to 1000000"
-    assert "merit.paints = -1: must be a table with a max, such as" in told[2]
+    lines = str(caught.value).splitlines()
+    assert len(lines) == 3
+    assert lines[0].endswith("did you mean time?")
+    assert lines[1] == "replace: merit.failed = inf: must be a number from -1000000 to 1000000"
+    assert "merit.paints = -1: must be a table with a max, such as" in lines[2]
 
 
 def test_a_study_scores_with_weights_of_any_column(classic_toml: Path, tmp_path: Path) -> None:

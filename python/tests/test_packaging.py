@@ -1,4 +1,4 @@
-"""What is built to be installed: the page must be in it."""
+"""Built distributions contain the page."""
 
 import os
 import shutil
@@ -18,7 +18,7 @@ needs_npm = pytest.mark.skipif(
 
 
 def built(kind: str, folder: Path) -> Path:
-    """Return what the build backend makes of this clone."""
+    """Build a distribution of this clone."""
     code = f"import backend, sys; backend.build_{kind}(sys.argv[1])"
     done = subprocess.run(
         [sys.executable, "-c", code, str(folder)],
@@ -34,21 +34,21 @@ def built(kind: str, folder: Path) -> Path:
 
 
 def check_page(index: str, names: set[str], inside: str) -> None:
-    """See to it that all that the page begins with is there."""
-    wanted = [part.split('"')[0] for part in index.split('="./')[1:]]
-    assert any(name.endswith(".js") for name in wanted)
-    assert {f"{inside}/{name}" for name in wanted} <= names
+    """Check that all files to which the page refers are present."""
+    referenced = [part.split('"')[0] for part in index.split('="./')[1:]]
+    assert any(name.endswith(".js") for name in referenced)
+    assert {f"{inside}/{name}" for name in referenced} <= names
 
 
 @needs_npm
-def test_a_wheel_carries_the_built_page(tmp_path: Path) -> None:
+def test_a_wheel_contains_the_built_page(tmp_path: Path) -> None:
     with zipfile.ZipFile(built("wheel", tmp_path)) as wheel:
         index = wheel.read("agent_economy/web/index.html").decode()
         check_page(index, set(wheel.namelist()), "agent_economy/web")
 
 
 @needs_npm
-def test_an_sdist_carries_the_built_page(tmp_path: Path) -> None:
+def test_an_sdist_contains_the_built_page(tmp_path: Path) -> None:
     with tarfile.open(built("sdist", tmp_path)) as sdist:
         names = set(sdist.getnames())
         root = min(names, key=len).split("/")[0]

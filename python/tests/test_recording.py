@@ -1,4 +1,4 @@
-"""Recordings of runs, and runs taken again from them."""
+"""Recordings of the metric engine, and their replay."""
 
 import json
 import math
@@ -36,25 +36,25 @@ DRIVE: Command = {
 
 
 def short(path: Path, seed: int = 1) -> Path:
-    """Record ten seconds of the shipped search."""
+    """Record ten seconds of the bundled search."""
     ae.run(search(SHORT), seed, record=path)
     return path
 
 
-def test_a_recorded_run_is_the_run(tmp_path: Path) -> None:
+def test_recording_does_not_change_the_run(tmp_path: Path) -> None:
     recorded = ae.run("open-field", 3, 1, record=tmp_path / "run.mcap")
     assert recorded == ae.run("open-field", 3, 1)
 
 
-def test_poses_are_those_of_the_run_in_every_step(tmp_path: Path) -> None:
+def test_recorded_poses_are_those_of_each_step(tmp_path: Path) -> None:
     topics = contents(short(tmp_path / "run.mcap")).topics
     simulation = ae.Simulation(search(SHORT), 1)
     assert len(topics["/tf"]) == len(topics["/robots"]) == len(topics["/run"])
     for frames, robots, at in zip(topics["/tf"], topics["/robots"], topics["/run"], strict=True):
         assert frames.time_ns == robots.time_ns == at.time_ns == simulation.tick * SECOND_NS // 10
         assert at.content["hash"] == f"{simulation.hash:016x}"
-        told = [robots.content[name] for name in ("x_m", "y_m", "heading_rad")]
-        assert np.array_equal(np.transpose(told), simulation.poses)
+        poses = [robots.content[name] for name in ("x_m", "y_m", "heading_rad")]
+        assert np.array_equal(np.transpose(poses), simulation.poses)
         assert robots.content["speed_m_s"] == simulation.speeds.tolist()
         assert robots.content["battery"] == simulation.battery.tolist()
         assert robots.content["status"] == simulation.status.tolist()
@@ -70,13 +70,13 @@ def test_poses_are_those_of_the_run_in_every_step(tmp_path: Path) -> None:
     assert topics["/run"][-1].content["tick"] == simulation.tick - 1 == 100
 
 
-def test_the_same_run_is_the_same_bytes(tmp_path: Path) -> None:
+def test_the_same_run_gives_the_same_bytes(tmp_path: Path) -> None:
     first, again, other = (tmp_path / f"{name}.mcap" for name in ("first", "again", "other"))
     assert short(first).read_bytes() == short(again).read_bytes()
     assert short(other, seed=2).read_bytes() != first.read_bytes()
 
 
-def test_the_file_alone_is_enough_to_take_the_run_again(
+def test_the_file_alone_suffices_for_a_replay(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     there = tmp_path / "there"
@@ -91,7 +91,7 @@ def test_the_file_alone_is_enough_to_take_the_run_again(
     assert again.outcome == ae.run(again.scenario, 2**64 - 1, 7)
 
 
-def test_changes_in_mid_run_are_taken_again(tmp_path: Path) -> None:
+def test_changes_are_replayed(tmp_path: Path) -> None:
     simulation = ae.Simulation(search(), 4)
     simulation.change("robots.rover.count", 5)
     with ae.Recording(simulation, tmp_path / "run.mcap") as recording:
@@ -105,11 +105,11 @@ def test_changes_in_mid_run_are_taken_again(tmp_path: Path) -> None:
     topics = contents(tmp_path / "run.mcap").topics
     assert [len(each.content["robots"]) for each in topics["/team"]] == [5, 2]
     assert [len(each.content.entities) for each in topics["/scene/robots"]] == [5, 2]
-    said = [each.content.message for each in topics["/log"] if each.content.name == "scenario"]
-    assert said[:2] == ["robots.rover.count = 5", "robots.rover.count = 2"]
+    changes = [each.content.message for each in topics["/log"] if each.content.name == "scenario"]
+    assert changes[:2] == ["robots.rover.count = 5", "robots.rover.count = 2"]
 
 
-def test_what_comes_from_outside_is_taken_again(tmp_path: Path) -> None:
+def test_external_inputs_are_replayed(tmp_path: Path) -> None:
     simulation = ae.Simulation(search(), 4)
     percept: Percept = {
         "position": {"value": (3.0, 4.0), "age_s": 0.0},
@@ -125,7 +125,7 @@ def test_what_comes_from_outside_is_taken_again(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("age_s", [-1e308, -5.0, 1.0, 1e308])
-def test_a_scan_from_outside_of_any_age_is_shown_within_the_run(
+def test_an_external_scan_of_any_age_has_a_time_within_the_run(
     tmp_path: Path, age_s: float
 ) -> None:
     simulation = ae.Simulation("search", 4)
@@ -139,7 +139,7 @@ def test_a_scan_from_outside_of_any_age_is_shown_within_the_run(
     assert ae.replay(tmp_path / "run.mcap").agrees
 
 
-def test_a_step_that_is_refused_is_not_recorded(tmp_path: Path) -> None:
+def test_a_rejected_step_is_not_recorded(tmp_path: Path) -> None:
     with ae.Recording(ae.Simulation("search"), tmp_path / "run.mcap") as recording:
         with pytest.raises(InputError):
             recording.step(commands={"rover/9": DRIVE})
@@ -148,7 +148,7 @@ def test_a_step_that_is_refused_is_not_recorded(tmp_path: Path) -> None:
     assert ae.replay(tmp_path / "run.mcap").agrees
 
 
-def test_a_run_that_was_meddled_with_does_not_agree(tmp_path: Path) -> None:
+def test_a_manipulated_run_does_not_agree(tmp_path: Path) -> None:
     simulation = ae.Simulation("search")
     with ae.Recording(simulation, tmp_path / "run.mcap") as recording:
         recording.step(20)
@@ -177,7 +177,7 @@ def test_a_brain_gives_the_recorded_commands_for_the_recorded_percepts(tmp_path:
             assert brain.step(percept)["motion"] == command.content["motion"]
 
 
-def test_scans_are_what_was_perceived_along_the_bearings_of_the_body(tmp_path: Path) -> None:
+def test_scans_have_the_ranges_of_percepts_and_the_bearings_of_the_body(tmp_path: Path) -> None:
     simulation = ae.Simulation("search", 5)
     with ae.Recording(simulation, tmp_path / "run.mcap", percepts=["rover/0"]) as recording:
         recording.step(20)
@@ -196,7 +196,7 @@ def test_scans_are_what_was_perceived_along_the_bearings_of_the_body(tmp_path: P
         assert np.allclose(np.exp(1j * steps), np.exp(1j * np.array(bearings)), atol=1e-12)
 
 
-def test_the_scene_is_the_scenarios_and_shows_what_is_found(tmp_path: Path) -> None:
+def test_the_scene_shows_the_scenario_and_the_finds(tmp_path: Path) -> None:
     outcome = ae.run("open-field", 3, record=tmp_path / "run.mcap")
     topics = contents(tmp_path / "run.mcap").topics
     world = {each.id: each for each in topics["/scene/world"][0].content.entities}
@@ -213,16 +213,16 @@ def test_the_scene_is_the_scenarios_and_shows_what_is_found(tmp_path: Path) -> N
     counts = {each.id: len(each.spheres) for each in items.content.entities}
     assert counts == {"flag/0-1": 2, "mine/0-5": 6, "scrap/0-9": 10}
     repainted = [each.id for each in topics["/scene/found/0"][-1].content.entities]
-    told = [each.content.name for each in topics["/log"] if "found" in each.content.message]
-    assert sorted(told) == sorted(repainted)
-    assert sum(found or 0 for found in outcome.found.values()) == len(told) > 0
+    logged = [each.content.name for each in topics["/log"] if "found" in each.content.message]
+    assert sorted(logged) == sorted(repainted)
+    assert sum(found or 0 for found in outcome.found.values()) == len(logged) > 0
 
 
 MANY = {"items.mine.count": 3000, "robots.rover.count": 20, "clock.time_limit_s": 60}
 
 
 def found_at(topics: Mapping[str, list[Message]], time_ns: int) -> list[str]:
-    """Return what a viewer shows as found that jumps to a time: the last message of each topic."""
+    """Return the finds that a viewer shows after a jump: the last message of each topic."""
     found = []
     for topic in (name for name in topics if name.startswith("/scene/found/")):
         until = [each.content for each in topics[topic] if each.time_ns <= time_ns]
@@ -230,7 +230,7 @@ def found_at(topics: Mapping[str, list[Message]], time_ns: int) -> list[str]:
     return sorted(found)
 
 
-def test_wherever_a_viewer_jumps_to_it_shows_what_is_found_by_then(tmp_path: Path) -> None:
+def test_a_viewer_that_jumps_in_time_shows_the_finds_until_then(tmp_path: Path) -> None:
     simulation = ae.Simulation(search(MANY), 1)
     with ae.Recording(simulation, tmp_path / "run.mcap") as recording:
         recording.step(400)
@@ -251,7 +251,7 @@ def test_wherever_a_viewer_jumps_to_it_shows_what_is_found_by_then(tmp_path: Pat
     assert found_at(topics, moments[-1].time_ns) == expected
 
 
-def test_each_find_is_written_some_twenty_times_a_topic_and_not_all_items(tmp_path: Path) -> None:
+def test_the_number_of_writes_per_find_is_bounded(tmp_path: Path) -> None:
     outcome = ae.run(search(MANY), 1, record=tmp_path / "run.mcap")
     topics = contents(tmp_path / "run.mcap").topics
     assert len(topics["/scene/items"]) == 1
@@ -260,7 +260,7 @@ def test_each_find_is_written_some_twenty_times_a_topic_and_not_all_items(tmp_pa
     assert 0 < written < 20 * len(found) * sum(each or 0 for each in outcome.found.values())
 
 
-def test_what_happens_to_robots_is_in_the_log_and_in_their_colours(tmp_path: Path) -> None:
+def test_collisions_and_status_changes_are_in_the_log_and_the_colours(tmp_path: Path) -> None:
     crowded = search(
         {"robots.rover.count": 20, "robots.rover.collision.max_collisions": 1, **SHORT}
     )
@@ -273,7 +273,7 @@ def test_what_happens_to_robots_is_in_the_log_and_in_their_colours(tmp_path: Pat
     assert topics["/outcome"][0].content["robots_stopped"] == outcome.robots_stopped
 
 
-def test_what_is_json_holds_to_its_schema(tmp_path: Path) -> None:
+def test_json_messages_conform_to_their_schemas(tmp_path: Path) -> None:
     simulation = ae.Simulation("open-field", 2)
     with ae.Recording(simulation, tmp_path / "run.mcap", percepts=["rover/0"]) as recording:
         recording.step(5, commands=None)
@@ -291,7 +291,7 @@ def test_what_is_json_holds_to_its_schema(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(("every", "steps"), [(1, 25), (10, 25), (10, 30), (100, 7)])
-def test_every_nth_moment_is_recorded_and_the_first_and_the_last(
+def test_every_nth_step_is_recorded_and_the_first_and_the_last(
     tmp_path: Path, every: int, steps: int
 ) -> None:
     with ae.Recording(ae.Simulation("search"), tmp_path / "run.mcap", every=every) as recording:
@@ -301,7 +301,7 @@ def test_every_nth_moment_is_recorded_and_the_first_and_the_last(
     assert ae.replay(tmp_path / "run.mcap").agrees
 
 
-def test_a_run_put_back_is_not_recorded_any_further(tmp_path: Path) -> None:
+def test_a_run_restored_to_an_earlier_step_cannot_be_recorded(tmp_path: Path) -> None:
     simulation = ae.Simulation("search")
     recording = ae.Recording(simulation, tmp_path / "run.mcap")
     before = simulation.snapshot()
@@ -311,12 +311,12 @@ def test_a_run_put_back_is_not_recorded_any_further(tmp_path: Path) -> None:
         recording.step()
 
 
-def test_wrong_arguments_are_told_together(tmp_path: Path) -> None:
-    with pytest.raises(InputError) as told:
+def test_all_invalid_arguments_are_reported(tmp_path: Path) -> None:
+    with pytest.raises(InputError) as caught:
         ae.Recording(ae.Simulation("search"), tmp_path / "run", every=0, percepts=["rover/4"])
-    assert f"{tmp_path}/run: the name of a recording must end in .mcap" in str(told.value)
-    assert "every = 0: must be a whole number, 1 or more" in str(told.value)
-    assert "'rover/4': must be among the run's robots: rover/0 to rover/3" in str(told.value)
+    assert f"{tmp_path}/run: the name of a recording must end in .mcap" in str(caught.value)
+    assert "every = 0: must be a whole number, 1 or more" in str(caught.value)
+    assert "'rover/4': must be among the run's robots: rover/0 to rover/3" in str(caught.value)
     assert not (tmp_path / "run").exists()
     with pytest.raises(InputError, match="cannot be written: No such file"):
         ae.run("search", record=tmp_path / "none" / "run.mcap")
@@ -325,7 +325,7 @@ def test_wrong_arguments_are_told_together(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("steps", [-1, 1.5, "1", True, None])
-def test_a_recording_takes_no_other_numbers_of_steps_than_a_simulation(
+def test_a_recording_accepts_the_same_numbers_of_steps_as_a_simulation(
     tmp_path: Path, steps: Any
 ) -> None:
     simulation = ae.Simulation("search")
@@ -337,7 +337,7 @@ def test_a_recording_takes_no_other_numbers_of_steps_than_a_simulation(
     assert simulation.tick == 2
 
 
-def test_a_recording_that_is_closed_takes_no_step(tmp_path: Path) -> None:
+def test_a_closed_recording_does_not_step(tmp_path: Path) -> None:
     simulation = ae.Simulation("search")
     with ae.Recording(simulation, tmp_path / "run.mcap") as recording:
         recording.step(2)
@@ -351,7 +351,7 @@ def test_a_recording_that_is_closed_takes_no_step(tmp_path: Path) -> None:
     assert ae.replay(tmp_path / "run.mcap").tick == 2
 
 
-def test_a_recording_never_takes_the_place_of_what_is_none(tmp_path: Path) -> None:
+def test_a_recording_never_replaces_a_file_of_its_scenario(tmp_path: Path) -> None:
     text = (SCENARIOS / "open-field.toml").read_text().replace("open-field.yaml", "map.mcap")
     (tmp_path / "map.mcap").write_bytes((SCENARIOS / "open-field.yaml").read_bytes())
     shutil.copy(SCENARIOS / "open-field.pgm", tmp_path)
@@ -371,13 +371,13 @@ def test_a_recording_never_takes_the_place_of_what_is_none(tmp_path: Path) -> No
     assert ae.run(own, record=tmp_path / "run.mcap") == ae.run(own)
 
 
-def test_a_run_without_robots_is_recorded_and_has_nobodys_percepts(tmp_path: Path) -> None:
-    nobody = ae.Simulation(search({"robots.rover.count": 0}))
+def test_a_run_without_robots_is_recorded_without_percepts(tmp_path: Path) -> None:
+    empty = ae.Simulation(search({"robots.rover.count": 0}))
     with pytest.raises(
         InputError, match="'rover/0': must be among the run's robots, and it has no"
     ):
-        ae.Recording(nobody, tmp_path / "run.mcap", percepts=["rover/0"])
-    with ae.Recording(nobody, tmp_path / "run.mcap") as recording:
+        ae.Recording(empty, tmp_path / "run.mcap", percepts=["rover/0"])
+    with ae.Recording(empty, tmp_path / "run.mcap") as recording:
         recording.step(3)
     assert ae.replay(tmp_path / "run.mcap").agrees
 
@@ -399,7 +399,7 @@ except ae.InputError as error:
 """
 
 
-def test_a_disk_that_fills_is_told_with_the_file_and_what_helps(tmp_path: Path) -> None:
+def test_a_full_disk_is_reported_with_the_file_and_the_remedies(tmp_path: Path) -> None:
     path = tmp_path / "run.mcap"
     script = [sys.executable, "-c", FILLS, str(path)]
     given = subprocess.run(script, capture_output=True, text=True, check=False)
@@ -413,7 +413,7 @@ def test_a_disk_that_fills_is_told_with_the_file_and_what_helps(tmp_path: Path) 
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="no device that is always full")
-def test_the_command_line_says_that_a_disk_is_full(tmp_path: Path) -> None:
+def test_the_command_line_reports_a_full_disk(tmp_path: Path) -> None:
     path = tmp_path / "run.mcap"
     path.symlink_to("/dev/full")
     given = run("run", "search", "--record", str(path))
@@ -432,7 +432,7 @@ with ae.Recording(ae.Simulation(search(ENDLESS)), sys.argv[1]) as recording:
 """
 
 
-def test_a_killed_process_leaves_what_it_had_recorded(tmp_path: Path) -> None:
+def test_a_killed_process_leaves_a_readable_recording(tmp_path: Path) -> None:
     path = tmp_path / "run.mcap"
     script = [sys.executable, "-c", KILLED, str(path)]
     process = subprocess.Popen(script, cwd=Path(__file__).parent)
@@ -449,7 +449,7 @@ def test_a_killed_process_leaves_what_it_had_recorded(tmp_path: Path) -> None:
     assert again.scenario.to_dict() == search(ENDLESS).to_dict()
 
 
-def test_recording_off_loads_nothing_of_it() -> None:
+def test_runs_without_a_recording_do_not_import_the_writer() -> None:
     script = (
         "import sys, agent_economy as ae; ae.run('search'); ae.Simulation('search').step();"
         "print([name for name in sys.modules if name.startswith(('mcap', 'google.protobuf'))])"
@@ -460,7 +460,7 @@ def test_recording_off_loads_nothing_of_it() -> None:
     assert given.stdout.strip() == "[]"
 
 
-def test_the_command_line_records_and_takes_again(tmp_path: Path) -> None:
+def test_the_command_line_records_and_replays(tmp_path: Path) -> None:
     path = str(tmp_path / "run.mcap")
     args = ("search", "--seed", "7", "--set", "clock.time_limit_s=10", "--every", "5")
     given = run("run", *args, "--record", path, "--percepts", "rover/0")
@@ -469,14 +469,14 @@ def test_the_command_line_records_and_takes_again(tmp_path: Path) -> None:
     again = run("replay", path)
     assert (again.returncode, again.stderr) == (0, "")
     assert again.stdout.startswith("search, seed 7, run 0: reproduced up to step 100")
-    told = json.loads(run("replay", path, "--json").stdout)
-    assert (told["agrees"], told["mismatch_tick"], told["tick"]) == (True, None, 100)
+    result = json.loads(run("replay", path, "--json").stdout)
+    assert (result["agrees"], result["mismatch_tick"], result["tick"]) == (True, None, 100)
     refused = run("replay", "README.md")
     assert refused.returncode == 2
     assert "Traceback" not in refused.stderr
 
 
-def test_the_command_line_says_when_a_run_is_not_the_same(tmp_path: Path) -> None:
+def test_the_command_line_reports_a_mismatch(tmp_path: Path) -> None:
     simulation = ae.Simulation("search")
     with ae.Recording(simulation, tmp_path / "run.mcap") as recording:
         simulation.step(commands={"rover/0": DRIVE})

@@ -1,4 +1,4 @@
-"""Recordings of runs of the classic engine, and such runs taken again from them."""
+"""Recordings of the classic engine, and their replay."""
 
 import json
 import math
@@ -27,7 +27,7 @@ CHANGES: list[tuple[int, str, Any]] = [
 
 
 def changed(path: Path, every: int = 1) -> ClassicSimulation:
-    """Record a run with changes on its way, until it is over."""
+    """Record a run with changes to its end."""
     simulation = ClassicSimulation(Scenario.load("classic").replace("contact", "ahead"), 3)
     with ae.Recording(simulation, path, every=every) as recording:
         for tick, name, value in CHANGES:
@@ -37,7 +37,7 @@ def changed(path: Path, every: int = 1) -> ClassicSimulation:
     return simulation
 
 
-def test_a_recorded_run_is_the_run_and_is_taken_again(tmp_path: Path) -> None:
+def test_recording_does_not_change_the_run_and_can_be_replayed(tmp_path: Path) -> None:
     recorded = ae.run("classic", 3, 1, record=tmp_path / "run.mcap")
     assert recorded == ae.run("classic", 3, 1)
     again = ae.replay(tmp_path / "run.mcap")
@@ -47,7 +47,7 @@ def test_a_recorded_run_is_the_run_and_is_taken_again(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("every", [1, 7])
-def test_a_run_that_is_changed_is_taken_again(tmp_path: Path, every: int) -> None:
+def test_a_run_with_changes_is_replayed(tmp_path: Path, every: int) -> None:
     simulation = changed(tmp_path / "run.mcap", every)
     again = ae.replay(tmp_path / "run.mcap")
     assert again.agrees
@@ -55,7 +55,7 @@ def test_a_run_that_is_changed_is_taken_again(tmp_path: Path, every: int) -> Non
     assert again.outcome == simulation.outcome()
 
 
-def test_the_same_run_is_the_same_bytes(tmp_path: Path) -> None:
+def test_the_same_run_gives_the_same_bytes(tmp_path: Path) -> None:
     first, again, other = (tmp_path / f"{name}.mcap" for name in ("first", "again", "other"))
     changed(first), changed(again)
     assert first.read_bytes() == again.read_bytes()
@@ -64,7 +64,7 @@ def test_the_same_run_is_the_same_bytes(tmp_path: Path) -> None:
     assert first.read_bytes() != other.read_bytes()
 
 
-def test_every_paint_is_recorded_with_the_robots_that_the_run_has_then(tmp_path: Path) -> None:
+def test_every_paint_is_recorded_with_its_robots(tmp_path: Path) -> None:
     ae.run("classic", 5, record=tmp_path / "run.mcap")
     topics = contents(tmp_path / "run.mcap").topics
     simulation = ClassicSimulation("classic", 5)
@@ -78,26 +78,26 @@ def test_every_paint_is_recorded_with_the_robots_that_the_run_has_then(tmp_path:
             simulation.decides_in,
         )
         team = simulation.team.to_pydict()
-        told = robots.content
-        assert told["x_m"] == (np.array(team["x_px"]) / 20).tolist()
-        assert told["y_m"] == (25 - np.array(team["y_px"]) / 20).tolist()
+        state = robots.content
+        assert state["x_m"] == (np.array(team["x_px"]) / 20).tolist()
+        assert state["y_m"] == (25 - np.array(team["y_px"]) / 20).tolist()
         for name in ("column", "row", "speed", "left_turns", "right_turns", "colour"):
-            assert told[name] == team[name]
+            assert state[name] == team[name]
         for number, frame in enumerate(frames.content.transforms):
             assert frame.child_frame_id == simulation.robots[number]
-            assert frame.translation.x == told["x_m"][number]
-            assert frame.translation.y == told["y_m"][number]
+            assert frame.translation.x == state["x_m"][number]
+            assert frame.translation.y == state["y_m"][number]
             turn = 2 * math.atan2(frame.rotation.z, frame.rotation.w)
             upwards = math.radians(90 - team["heading_deg"][number])
             assert math.cos(turn - upwards) == pytest.approx(1, abs=1e-15)
-            assert math.cos(told["heading_rad"][number] - upwards) == pytest.approx(1, abs=1e-15)
-            assert -math.pi < told["heading_rad"][number] <= math.pi
+            assert math.cos(state["heading_rad"][number] - upwards) == pytest.approx(1, abs=1e-15)
+            assert -math.pi < state["heading_rad"][number] <= math.pi
         simulation.step()
     assert simulation.is_over
     assert topics["/run"][-1].content["tick"] == simulation.tick
 
 
-def test_the_scene_is_the_world_of_2003_with_y_upwards(tmp_path: Path) -> None:
+def test_the_scene_is_the_classic_world_with_y_upwards(tmp_path: Path) -> None:
     ae.run("classic", 5, record=tmp_path / "run.mcap")
     topics = contents(tmp_path / "run.mcap").topics
     assert set(topics) == {
@@ -117,7 +117,7 @@ def test_the_scene_is_the_world_of_2003_with_y_upwards(tmp_path: Path) -> None:
     assert [each.frame_id for each in bodies] == [f"wanderer/{number}" for number in range(4)]
 
 
-def test_bodies_have_the_colours_that_robots_have_then(tmp_path: Path) -> None:
+def test_bodies_have_the_colours_of_the_robots(tmp_path: Path) -> None:
     ae.run("classic", 5, record=tmp_path / "run.mcap")
     topics = contents(tmp_path / "run.mcap").topics
     states = {each.time_ns: each.content["colour"] for each in topics["/robots"]}
@@ -132,7 +132,7 @@ def test_bodies_have_the_colours_that_robots_have_then(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("every", [1, 25])
-def test_every_find_is_in_the_log_when_it_was_made(tmp_path: Path, every: int) -> None:
+def test_every_find_is_in_the_log_at_its_time(tmp_path: Path, every: int) -> None:
     simulation = changed(tmp_path / "run.mcap", every)
     topics = contents(tmp_path / "run.mcap").topics
     finds = [each.content for each in topics["/log"] if each.content.name != "scenario"]
@@ -147,16 +147,16 @@ def test_finds_in_the_log_have_their_seconds(tmp_path: Path) -> None:
     with ae.Recording(simulation, tmp_path / "run.mcap") as recording:
         recording.finish()
     log = contents(tmp_path / "run.mcap").topics["/log"]
-    told = {each.content.name: (each.content.message, each.time_ns) for each in log}
+    finds = {each.content.name: (each.content.message, each.time_ns) for each in log}
     found_s = simulation.items["found_s"].to_pylist()
-    assert told == {
+    assert finds == {
         f"item/{place}": (f"found at {at_s:.3f} s", round(at_s * SECOND_NS))
         for place, at_s in enumerate(found_s)
     }
     assert 0 in found_s  # one beside the start
 
 
-def test_times_only_grow_also_if_paints_become_shorter(tmp_path: Path) -> None:
+def test_times_ascend_also_if_paints_become_shorter(tmp_path: Path) -> None:
     simulation = changed(tmp_path / "run.mcap")
     runs = contents(tmp_path / "run.mcap").topics["/run"]
     times_ns = [each.time_ns for each in runs]
@@ -168,13 +168,13 @@ def test_times_only_grow_also_if_paints_become_shorter(tmp_path: Path) -> None:
 def test_changes_are_in_the_log_and_teams_follow_them(tmp_path: Path) -> None:
     changed(tmp_path / "run.mcap")
     topics = contents(tmp_path / "run.mcap").topics
-    said = [each.content.message for each in topics["/log"] if each.content.name == "scenario"]
-    assert said == [f"{name} = {value!r}" for _, name, value in CHANGES]
+    changes = [each.content.message for each in topics["/log"] if each.content.name == "scenario"]
+    assert changes == [f"{name} = {value!r}" for _, name, value in CHANGES]
     teams = [len(each.content["robots"]) for each in topics["/team"]]
     assert teams == [4, 6, 9, 9, 9, 9, 9]
 
 
-def test_what_is_json_holds_to_its_schema(tmp_path: Path) -> None:
+def test_json_messages_conform_to_their_schemas(tmp_path: Path) -> None:
     changed(tmp_path / "run.mcap")
     topics, schemas, *_ = contents(tmp_path / "run.mcap")
     declared = {
@@ -188,7 +188,7 @@ def test_what_is_json_holds_to_its_schema(tmp_path: Path) -> None:
             jsonschema.validate(message.content, schema)
 
 
-def test_a_run_that_is_over_stands_and_a_change_lets_it_go_on(tmp_path: Path) -> None:
+def test_a_finished_run_does_not_advance_until_a_change(tmp_path: Path) -> None:
     simulation = ClassicSimulation(Scenario.load("classic").replace("clock.time_limit_s", 1), 1)
     with ae.Recording(simulation, tmp_path / "run.mcap") as recording:
         recording.step(10**12)
@@ -200,7 +200,7 @@ def test_a_run_that_is_over_stands_and_a_change_lets_it_go_on(tmp_path: Path) ->
     assert ae.replay(tmp_path / "run.mcap").agrees
 
 
-def test_robots_without_minds_have_no_percepts_and_take_no_commands(tmp_path: Path) -> None:
+def test_robots_of_the_classic_engine_have_no_percepts_and_commands(tmp_path: Path) -> None:
     path = tmp_path / "run.mcap"
     with pytest.raises(InputError, match=r"percepts = .*: must be none: robots of the classic"):
         ae.Recording(ClassicSimulation("classic"), path, percepts=["wanderer/0"])
@@ -214,7 +214,7 @@ def test_robots_without_minds_have_no_percepts_and_take_no_commands(tmp_path: Pa
     assert ae.replay(path).tick == 3
 
 
-def test_a_run_that_is_not_the_recorded_one_differs_where_it_ends(tmp_path: Path) -> None:
+def test_a_different_run_mismatches_at_its_end(tmp_path: Path) -> None:
     path = tmp_path / "run.mcap"
     short, long = (ClassicSimulation(capped(time_limit_s), 1) for time_limit_s in (1, 5))
     with ae.Recording(short, path) as recording:
@@ -238,7 +238,7 @@ os.kill(os.getpid(), signal.SIGKILL)
 """
 
 
-def test_a_killed_process_leaves_what_it_had_recorded(tmp_path: Path) -> None:
+def test_a_killed_process_leaves_a_readable_recording(tmp_path: Path) -> None:
     path = tmp_path / "run.mcap"
     killed = subprocess.run([sys.executable, "-c", KILLED, str(path)], check=False)
     assert killed.returncode != 0
@@ -247,7 +247,7 @@ def test_a_killed_process_leaves_what_it_had_recorded(tmp_path: Path) -> None:
     assert 600 - 5 * 56 < again.tick <= 600
 
 
-def test_the_command_line_records_and_takes_again(tmp_path: Path) -> None:
+def test_the_command_line_records_and_replays(tmp_path: Path) -> None:
     path = str(tmp_path / "run.mcap")
     given = run("run", "classic", "--seed", "7", "--record", path, "--every", "5", "--json")
     assert (given.returncode, given.stderr) == (0, "")

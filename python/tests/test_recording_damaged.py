@@ -1,4 +1,4 @@
-"""Recordings that are cut, damaged or of others: each is read as far as it goes, or told of."""
+"""Truncated, damaged and foreign recordings: they are read up to their end, or rejected."""
 
 import json
 import random
@@ -33,7 +33,7 @@ JUNK = (
     '[[["robots"], null]]',
     "\0",
 )
-"""Instead of an entry of metadata."""
+"""Invalid values of metadata."""
 
 WRONG: tuple[Any, ...] = (
     None,
@@ -46,14 +46,14 @@ WRONG: tuple[Any, ...] = (
     {"tick": 1, "percepts": {"rover/0": 1}, "commands": {}},
     {"tick": 1, "percepts": {}, "commands": {"rover/0": 1}},
 )
-"""Instead of a message on /run or /input."""
+"""Invalid messages on /run or /input."""
 
 Records = list[Any]
 
 
 @pytest.fixture(scope="module", params=["metric", "classic"])
 def recorded(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A short recording with a change, and of the metric engine with input."""
+    """Return a short recording with a change, and for the metric engine with external inputs."""
     path = tmp_path_factory.mktemp("recorded") / "run.mcap"
     if request.param == "classic":
         classic = ae.ClassicSimulation("classic", 1)
@@ -70,8 +70,8 @@ def recorded(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFa
     return path
 
 
-def told(path: Path) -> list[str]:
-    """Return what is wrong with a file, by all that reads it; nothing but that comes out of it."""
+def errors(path: Path) -> list[str]:
+    """Return the errors of a file from all readers, which raise no other exceptions."""
     words = []
     read: Callable[[Path], object]
     for read in (ae.replay, summarise):
@@ -89,7 +89,7 @@ def records_of(path: Path) -> Records:
 
 
 def written(path: Path, records: Iterable[Any]) -> Path:
-    """Write a file of some records."""
+    """Write a file with given records."""
     schemas, channels = {0: 0}, {}
     with path.open("wb") as stream:
         writer = Writer(stream)
@@ -126,31 +126,27 @@ def with_entry(records: Records, name: str, key: str, value: str | None) -> Reco
     return [edited(record) for record in records]
 
 
-def test_what_metadata_lacks_is_told_by_name(recorded: Path, tmp_path: Path) -> None:
+def test_missing_metadata_is_named(recorded: Path, tmp_path: Path) -> None:
     records = records_of(recorded)
     metadata = [each for each in records if isinstance(each, Metadata)]
     entries = {(each.name, key) for each in metadata for key in each.metadata}
     assert len(entries) == 6 + 3 + 2
     for name, key in entries - {("agent_economy.end", "hash")}:
         path = written(tmp_path / "lacks.mcap", with_entry(records, name, key, None))
-        assert f"{path}: is damaged: its metadata {name!r} has no entry {key!r}" in told(path)
+        assert f"{path}: is damaged: its metadata {name!r} has no entry {key!r}" in errors(path)
 
 
-def test_metadata_that_says_nonsense_never_ends_in_anything_but_a_word(
-    recorded: Path, tmp_path: Path
-) -> None:
+def test_invalid_metadata_raises_input_errors_only(recorded: Path, tmp_path: Path) -> None:
     records = records_of(recorded)
     refused = 0
     for name, key in [("run", "overrides"), ("run", "seed"), ("change", "tick"), ("end", "tick")]:
         for junk in JUNK:
             edited = with_entry(records, f"agent_economy.{name}", key, junk)
-            refused += bool(told(written(tmp_path / "junk.mcap", edited)))
+            refused += bool(errors(written(tmp_path / "junk.mcap", edited)))
     assert refused > 3 * len(JUNK)
 
 
-def test_messages_that_say_nonsense_never_end_in_anything_but_a_word(
-    recorded: Path, tmp_path: Path
-) -> None:
+def test_invalid_messages_raise_input_errors_only(recorded: Path, tmp_path: Path) -> None:
     records = records_of(recorded)
     topics = {each.id: each.topic for each in records if isinstance(each, Channel)}
     for topic in {"/run", "/input"} & set(topics.values()):
@@ -162,18 +158,18 @@ def test_messages_that_say_nonsense_never_end_in_anything_but_a_word(
                 else each
                 for each in records
             ]
-            assert told(written(tmp_path / "wrong.mcap", edited)), (topic, wrong)
+            assert errors(written(tmp_path / "wrong.mcap", edited)), (topic, wrong)
 
 
-def test_a_file_without_a_part_of_it_is_told_or_has_none(recorded: Path, tmp_path: Path) -> None:
+def test_a_file_without_one_of_its_parts_is_rejected(recorded: Path, tmp_path: Path) -> None:
     records = records_of(recorded)
     for place, each in enumerate(records):
         if isinstance(each, Metadata | Attachment):
             path = written(tmp_path / "part.mcap", [*records[:place], *records[place + 1 :]])
-            assert bool(told(path)) is (each.name != "agent_economy.end")
+            assert bool(errors(path)) is (each.name != "agent_economy.end")
 
 
-def test_input_for_robots_that_take_none_is_told(tmp_path: Path) -> None:
+def test_inputs_of_the_classic_engine_are_rejected(tmp_path: Path) -> None:
     path = tmp_path / "run.mcap"
     file = File(path)
     file.attach("scenario/classic.toml", "", (SCENARIOS / "classic.toml").read_bytes())
@@ -186,7 +182,7 @@ def test_input_for_robots_that_take_none_is_told(tmp_path: Path) -> None:
         ae.replay(path)
 
 
-def test_a_file_that_is_cut_is_compared_as_far_as_it_goes(tmp_path: Path) -> None:
+def test_a_truncated_file_is_compared_up_to_its_end(tmp_path: Path) -> None:
     whole = short(tmp_path / "run.mcap").read_bytes()
     (cut := tmp_path / "cut.mcap").touch()
     ticks = []
@@ -203,7 +199,7 @@ def test_a_file_that_is_cut_is_compared_as_far_as_it_goes(tmp_path: Path) -> Non
     assert ticks[0] == 100
 
 
-def test_a_file_that_is_cut_within_an_index_is_no_damaged_one(tmp_path: Path) -> None:
+def test_a_file_truncated_within_its_index_is_not_damaged(tmp_path: Path) -> None:
     path = tmp_path / "run.mcap"
     with ae.Recording(ae.Simulation(search(SHORT), 1), path) as recording:
         recording.step(60)
@@ -221,29 +217,29 @@ def test_a_file_that_is_cut_within_an_index_is_no_damaged_one(tmp_path: Path) ->
         assert (again.agrees, again.is_complete) == (True, False)
 
 
-def test_damage_never_ends_in_anything_but_a_word(recorded: Path, tmp_path: Path) -> None:
+def test_damaged_bytes_raise_input_errors_only(recorded: Path, tmp_path: Path) -> None:
     whole = recorded.read_bytes()
-    dice = random.Random(1)  # noqa: S311
+    random_source = random.Random(1)  # noqa: S311
     refused = 0
     for _ in range(150):
         damaged = bytearray(whole)
-        damaged[dice.randrange(len(whole))] ^= 1 << dice.randrange(8)
-        if dice.random() < 1 / 3:
-            first = dice.randrange(len(whole))
-            del damaged[first : first + dice.randrange(60)]
+        damaged[random_source.randrange(len(whole))] ^= 1 << random_source.randrange(8)
+        if random_source.random() < 1 / 3:
+            first = random_source.randrange(len(whole))
+            del damaged[first : first + random_source.randrange(60)]
         (tmp_path / "damaged.mcap").write_bytes(damaged)
-        refused += bool(told(tmp_path / "damaged.mcap"))
+        refused += bool(errors(tmp_path / "damaged.mcap"))
     assert refused > 60
 
 
 @pytest.mark.parametrize("content", [b"", b"engine = 'metric'", b"\x89MCAP0\r\n", b"\x00" * 100])
-def test_what_is_no_recording_is_refused(tmp_path: Path, content: bytes) -> None:
+def test_other_files_are_rejected(tmp_path: Path, content: bytes) -> None:
     (tmp_path / "other").write_bytes(content)
     with pytest.raises(InputError, match="other: is not an? "):
         ae.replay(tmp_path / "other")
 
 
-def test_a_recording_does_not_make_the_program_read_other_files(tmp_path: Path) -> None:
+def test_a_replay_reads_no_other_files(tmp_path: Path) -> None:
     path = tmp_path / "run.mcap"
     file = File(path)
     text = (SCENARIOS / "open-field.toml").read_bytes()

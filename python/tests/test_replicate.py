@@ -24,7 +24,7 @@ def bytes_of(table: pa.Table) -> bytes:
     return bytes(sink.getvalue())
 
 
-def test_a_table_has_a_row_a_run_with_types_that_fit() -> None:
+def test_a_table_has_one_row_per_run_and_fitting_types() -> None:
     whole, real = pa.int64(), pa.float64()
     table = ae.replicate("open-field", 3, seed=4, first_run=7)
     expected = HEAD | {
@@ -49,7 +49,7 @@ def test_a_table_has_a_row_a_run_with_types_that_fit() -> None:
     assert table["run"].to_pylist() == [7, 8, 9]
 
 
-def test_the_classic_engine_tells_what_it_knows() -> None:
+def test_the_classic_engine_has_its_own_columns() -> None:
     table = ae.replicate("classic", 20, seed=4)
     assert list(types(table)) == [*HEAD, "robots", "found", "collisions", "paints", "merit"]
     in_full = ae.classic.replicate(4, 20, seed=4)
@@ -67,12 +67,12 @@ def test_threads_that_share_a_step_change_no_byte() -> None:
     assert len({bytes_of(ae.replicate(huge, 1, 3, threads)) for threads in (1, 2, 8)}) == 1
 
 
-def test_a_run_does_not_depend_on_those_beside_it() -> None:
+def test_a_run_does_not_depend_on_other_runs() -> None:
     whole = ae.replicate("search", 40, seed=8)
     assert ae.replicate("search", 7, seed=8, first_run=20).equals(whole.slice(20, 7))
 
 
-def test_no_runs_are_a_table_with_the_same_columns() -> None:
+def test_a_table_without_runs_has_the_same_columns() -> None:
     none = ae.replicate("search", 0)
     assert none.num_rows == 0
     assert types(none) == types(ae.replicate("search", 1))
@@ -92,14 +92,14 @@ def test_merit_is_that_of_the_scenario() -> None:
     assert [row["merit"] for row in rows] == expected
 
 
-def test_faults_of_arguments_are_told_at_once() -> None:
+def test_all_invalid_arguments_are_reported() -> None:
     with pytest.raises(InputError) as caught:
         ae.replicate("search", -1, seed=2**64, threads=0, first_run=2**63)
-    told = str(caught.value).splitlines()
-    assert [line.partition(" = ")[0] for line in told] == ["seed", "runs", "first_run", "threads"]
+    lines = str(caught.value).splitlines()
+    assert [line.partition(" = ")[0] for line in lines] == ["seed", "runs", "first_run", "threads"]
 
 
-def test_a_signal_ends_long_runs_soon() -> None:
+def test_a_signal_stops_long_runs() -> None:
     endless = search(ENDLESS)
     with ringing(0.5):
         ae.replicate(endless, 100)

@@ -53,7 +53,7 @@ def alone() -> Study:
 
 @pytest.fixture(scope="module")
 def thousand() -> Study:
-    """Return a study of a thousand configurations, with ten runs of each."""
+    """Return a study of a thousand configurations, with ten runs per configuration."""
     grid = product(range(25), range(1, 41))
     given: list[in_memory_study.Values] = [{MIX: mix, ROVERS: robots} for mix, robots in grid]
     answer, evidence = in_memory_study.study(given, in_memory_study.synthetic, runs=10)
@@ -62,7 +62,7 @@ def thousand() -> Study:
 
 @pytest.fixture(scope="module")
 def words() -> Study:
-    """Return a study of a factor of words and a team size, every pair of them."""
+    """Return a full factorial study of a factor with names and a team size."""
     grid = product(CONTACTS, (2, 3, 4))
     given: list[in_memory_study.Values] = [{"contact": name, WANDERERS: n} for name, n in grid]
     return in_memory_study.study(given, in_memory_study.classic, delta=0.3)
@@ -76,7 +76,7 @@ def any_study(request: pytest.FixtureRequest) -> Study:
 
 
 def body(page: str) -> str:
-    """Return a page without its scripts, as a reader without JavaScript has it."""
+    """Return a page without its scripts, as shown without JavaScript."""
     return re.sub(r"<script>.*?</script>", "", page, flags=re.DOTALL)
 
 
@@ -99,7 +99,7 @@ def test_the_same_answer_gives_the_same_bytes(any_study: Study, script: str) -> 
     assert report.html(*any_study, script) == report.html(*any_study, script)
 
 
-def test_the_answer_comes_first_then_what_is_guaranteed_and_how_many_runs_it_took(
+def test_the_answer_is_first_then_the_guarantee_and_the_number_of_runs(
     teams: Study, script: str
 ) -> None:
     answer, _ = teams
@@ -110,7 +110,7 @@ def test_the_answer_comes_first_then_what_is_guaranteed_and_how_many_runs_it_too
     assert text.index("Figure of merit") > places[-1]
 
 
-def test_sections_come_in_the_order_in_which_people_ask(teams: Study) -> None:
+def test_sections_are_in_order_of_importance(teams: Study) -> None:
     assert [section.heading for section in sections(View(*teams))] == [
         "Figure of merit",
         "Failures",
@@ -140,9 +140,7 @@ def test_every_chart_is_a_valid_specification_and_can_be_drawn(any_study: Study)
         assert "NaN" not in svg, name
 
 
-def test_every_chart_has_a_place_and_a_table_and_every_place_a_chart(
-    any_study: Study, script: str
-) -> None:
+def test_every_chart_has_an_element_and_a_table(any_study: Study, script: str) -> None:
     page = body(report.html(*any_study, script))
     made = charts.specifications(*any_study)
     assert sorted(re.findall(r'class="chart" id="([^"]+)"', page)) == sorted(made)
@@ -150,7 +148,7 @@ def test_every_chart_has_a_place_and_a_table_and_every_place_a_chart(
         assert section.tables
 
 
-def test_a_table_says_what_its_chart_draws(teams: Study) -> None:
+def test_a_table_contains_the_data_of_its_chart(teams: Study) -> None:
     drawn = charts.specifications(*teams)["merit"]["data"]["values"]
     table = next(sections(View(*teams))).tables[0]
     assert [row.cells[0].text for row in table.rows] == [row["label"] for row in drawn]
@@ -159,14 +157,14 @@ def test_a_table_says_what_its_chart_draws(teams: Study) -> None:
     assert written == pytest.approx([row["value"] for row in drawn], abs=0.0005)
 
 
-def test_one_configuration_has_nothing_to_be_compared_with(alone: Study) -> None:
+def test_a_single_configuration_has_no_comparisons(alone: Study) -> None:
     assert list(charts.specifications(*alone)) == ["times"]
     headings = [section.heading for section in sections(View(*alone))]
     assert "Eliminations" not in headings
     assert "Price, time and failures" not in headings
 
 
-def test_of_a_thousand_configurations_the_best_fifty_are_shown_and_the_page_says_so(
+def test_the_best_fifty_of_a_thousand_configurations_are_shown_with_a_note(
     thousand: Study, script: str
 ) -> None:
     answer, _ = thousand
@@ -188,7 +186,7 @@ def test_a_full_grid_of_two_factors_has_a_map_and_other_designs_have_none(
     assert not View(gap, evidence).is_grid
 
 
-def test_one_number_is_an_axis_and_several_factors_are_ranked_names(
+def test_a_single_number_is_an_axis_and_several_factors_are_ranked_names(
     teams: Study, words: Study
 ) -> None:
     points = charts.specifications(*teams)["merit"]
@@ -201,7 +199,7 @@ def test_one_number_is_an_axis_and_several_factors_are_ranked_names(
     )
 
 
-def test_two_configurations_of_the_same_name_stay_two(teams: Study) -> None:
+def test_two_configurations_of_the_same_name_stay_separate(teams: Study) -> None:
     answer, evidence = teams
     twins = tuple(replace(result, label="twin") for result in answer.results[:2])
     twinned = replace(answer, results=(*twins, *answer.results[2:]))
@@ -209,7 +207,7 @@ def test_two_configurations_of_the_same_name_stay_two(teams: Study) -> None:
     assert len({row["label"] for row in rows}) == 8
 
 
-def test_quarantined_runs_are_said_and_counted(teams: Study, script: str) -> None:
+def test_quarantined_runs_are_reported_and_counted(teams: Study, script: str) -> None:
     answer, evidence = teams
     assert "quarantined:" not in body(report.html(answer, evidence, script))
     first, *others = answer.results
@@ -220,9 +218,7 @@ def test_quarantined_runs_are_said_and_counted(teams: Study, script: str) -> Non
     assert "quarantined runs</th>" in page
 
 
-def test_a_column_that_is_not_finite_is_not_known_rather_than_a_number(
-    teams: Study, script: str
-) -> None:
+def test_a_column_that_is_not_finite_is_shown_as_unknown(teams: Study, script: str) -> None:
     answer, evidence = teams
     first, *others = evidence.samples
     times_s = np.full(first.runs, np.nan)
@@ -236,7 +232,7 @@ def test_a_column_that_is_not_finite_is_not_known_rather_than_a_number(
     assert ending.best == answer.best
 
 
-def test_what_the_runs_leave_open_is_called_undecided(script: str) -> None:
+def test_unproved_comparisons_are_called_undecided(script: str) -> None:
     few = in_memory_study.study(
         [{WANDERERS: robots} for robots in (3, 4, 5)], in_memory_study.classic, runs=20
     )
@@ -246,7 +242,7 @@ def test_what_the_runs_leave_open_is_called_undecided(script: str) -> None:
     assert "No configuration was eliminated" in page
 
 
-def test_what_the_runs_prove_is_said(script: str) -> None:
+def test_proved_comparisons_are_stated(script: str) -> None:
     # Two teams of the same merit in every run, and one that is always worse.
     answer, evidence = in_memory_study.study(
         [{WANDERERS: robots} for robots in (3, 4, 5)], in_memory_study.classic, runs=4000
@@ -266,7 +262,7 @@ def test_what_the_runs_prove_is_said(script: str) -> None:
     assert "eliminated after 10 runs" in page
 
 
-def test_a_largest_team_that_beats_all_is_not_called_enough(teams: Study) -> None:
+def test_a_largest_team_that_is_best_is_not_called_enough(teams: Study) -> None:
     view = View(*teams)
     beaten = replace(view.saturations[0], proved=8, possible=8)
     assert saturation_in_words(view, beaten).startswith("Not reached")
@@ -281,7 +277,7 @@ def test_without_published_results_none_are_shown(teams: Study, script: str) -> 
     assert "published" not in charts.specifications(bare, evidence)
 
 
-def test_factors_that_matter_are_shown_with_the_share_of_chance(
+def test_influential_factors_are_shown_with_the_share_of_noise(
     script: str,
 ) -> None:
     grid = product(range(4), range(1, 11))
@@ -295,12 +291,12 @@ def test_factors_that_matter_are_shown_with_the_share_of_chance(
 
 @pytest.fixture
 def empty_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Return a cache folder of the test's own."""
+    """Return an empty cache folder."""
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     return tmp_path
 
 
-def test_the_script_is_bundled_once_whole_by_however_many_processes(
+def test_the_script_is_bundled_once_by_any_number_of_processes(
     empty_cache: Path, script: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(chart_script, "BUNDLE", f"print({script[:5000]!r}, end='')")
@@ -313,7 +309,7 @@ def test_the_script_is_bundled_once_whole_by_however_many_processes(
         assert third.text() == script[:5000]
 
 
-def test_where_nothing_can_be_cached_the_script_is_bundled_each_time(
+def test_without_a_cache_folder_the_script_is_bundled_each_time(
     empty_cache: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     (empty_cache / "agent-economy").touch()
@@ -324,7 +320,7 @@ def test_where_nothing_can_be_cached_the_script_is_bundled_each_time(
 
 
 @pytest.mark.usefixtures("empty_cache")
-def test_a_script_that_cannot_be_bundled_is_an_error_and_its_report_says_so(
+def test_a_script_that_cannot_be_bundled_is_an_error_and_noted_in_the_report(
     teams: Study, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(chart_script, "BUNDLE", "raise SystemExit('no memory')")

@@ -13,12 +13,12 @@ from agent_economy import InputError, Scenario
 
 
 @pytest.mark.parametrize("name", ["search", "classic"])
-def test_a_run_is_its_row_of_replicate(name: str) -> None:
+def test_a_run_equals_its_row_of_replicate(name: str) -> None:
     rows = ae.replicate(name, 12, seed=5, first_run=40).to_pylist()
     assert [ae.run(name, seed=5, run=40 + index).row for index in range(12)] == rows
 
 
-def test_an_outcome_says_what_its_row_says() -> None:
+def test_an_outcome_agrees_with_its_row() -> None:
     outcomes = [ae.run("search", seed=1, run=run) for run in range(12)]
     assert {each.status for each in outcomes} == {"complete", "incomplete"}
     for each in outcomes:
@@ -45,7 +45,7 @@ def test_each_run_and_each_seed_is_another_world() -> None:
     assert len(set(worlds)) == 4
 
 
-def test_a_scenario_is_given_as_such_or_by_file_or_by_name(classic_toml: Path) -> None:
+def test_a_scenario_may_be_an_object_a_file_or_a_name(classic_toml: Path) -> None:
     loaded = Scenario.load("classic")
     given: list[Scenario | str | Path] = [loaded, classic_toml, str(classic_toml), "classic"]
     outcomes = [ae.run(each, 3, 4) for each in given]
@@ -54,7 +54,7 @@ def test_a_scenario_is_given_as_such_or_by_file_or_by_name(classic_toml: Path) -
     assert outcomes[0].energy_j is None
 
 
-def test_what_never_happens_is_none() -> None:
+def test_events_that_never_happen_are_none() -> None:
     lonely = Scenario.load("classic").replace("robots.wanderer.count", 1)
     table = ae.replicate(lonely, 200)
     never = table["paints"].to_pylist().index(None)
@@ -64,7 +64,7 @@ def test_what_never_happens_is_none() -> None:
     assert outcome.time_s == 120
 
 
-def test_a_run_without_room_is_quarantined_and_none_but_never_nan() -> None:
+def test_a_quarantined_run_has_none_and_never_nan() -> None:
     outcome = ae.run(Scenario.loads(FULL), run=9)
     assert (outcome.status, outcome.run) == ("quarantined", 9)
     assert outcome.found == {"mine": None}
@@ -72,7 +72,7 @@ def test_a_run_without_room_is_quarantined_and_none_but_never_nan() -> None:
     assert set(values.values()) == {None}
 
 
-def test_no_row_holds_what_is_not_finite() -> None:
+def test_all_numbers_of_a_row_are_finite() -> None:
     rows = (
         ae.replicate("classic", 300).to_pylist() + ae.replicate(Scenario.loads(FULL), 3).to_pylist()
     )
@@ -81,37 +81,37 @@ def test_no_row_holds_what_is_not_finite() -> None:
     assert all(map(math.isfinite, floats))
 
 
-def test_a_world_of_thousands_is_the_same_on_its_own_and_in_a_crowd() -> None:
+def test_a_large_run_is_the_same_alone_and_among_others() -> None:
     huge = search(HUGE)
     rows = ae.replicate(huge, 4, seed=2, threads=1).to_pylist()
     assert ae.run(huge, 2, 3).row == rows[3]
 
 
-def test_faults_of_arguments_are_told_at_once() -> None:
+def test_all_invalid_arguments_are_reported() -> None:
     with pytest.raises(InputError) as caught:
         ae.run("search", seed=-1, run=1.5)  # type: ignore[arg-type]
-    told = str(caught.value).splitlines()
-    assert told[0].startswith("seed = -1: must be a whole number from 0 to 18446744073709551615")
-    assert told[1].startswith("run = 1.5: must be a whole number from 0 to 922337203")
-    assert len(told) == 2
+    lines = str(caught.value).splitlines()
+    assert lines[0].startswith("seed = -1: must be a whole number from 0 to 18446744073709551615")
+    assert lines[1].startswith("run = 1.5: must be a whole number from 0 to 922337203")
+    assert len(lines) == 2
     with pytest.raises(InputError, match="run = True: must be"):
         ae.run("search", run=True)
 
 
-def test_what_is_no_scenario_is_told() -> None:
+def test_other_types_than_scenarios_are_named() -> None:
     with pytest.raises(InputError, match="scenario = 7: must be a Scenario, a file, or the name"):
         ae.run(7)  # type: ignore[arg-type]
     with pytest.raises(InputError, match=r"serach: cannot be read: .*did you mean search\?"):
         ae.run("serach")
 
 
-def test_a_signal_ends_a_long_run_soon() -> None:
+def test_a_signal_stops_a_long_run() -> None:
     endless = search(ENDLESS)
     with ringing(0.5):
         ae.run(endless)
 
 
-def test_a_signal_ends_a_huge_run_soon() -> None:
+def test_a_signal_stops_a_huge_run() -> None:
     endless = search(HUGE | ENDLESS)
     with ringing(0.5):
         ae.run(endless)

@@ -1,4 +1,4 @@
-"""Scenarios: what is read, and what is told when it is wrong."""
+"""Scenarios: what is read from them, and the errors."""
 
 import tomllib
 from pathlib import Path
@@ -11,7 +11,7 @@ from agent_economy import InputError, Scenario
 from agent_economy.scenario import Override
 
 
-def test_the_shipped_scenario_is_the_2003_experiment(classic_toml: Path) -> None:
+def test_the_bundled_scenario_is_the_2003_experiment(classic_toml: Path) -> None:
     scenario = Scenario.load(classic_toml)
     assert (scenario.engine, scenario.time_limit_s) == ("classic", 120)
     assert scenario.robots == {"wanderer": 4}
@@ -30,7 +30,7 @@ def test_the_shipped_scenario_is_the_2003_experiment(classic_toml: Path) -> None
     assert means == {1: 69, 2: 81, 3: 37, 4: 37, 5: 69, 6: 120, 7: 120, 8: 120}
 
 
-def test_every_fault_is_told_at_once_with_file_line_value_and_what_is_allowed(
+def test_all_errors_are_reported_with_file_line_value_and_what_is_allowed(
     classic_toml: Path,
 ) -> None:
     text = (
@@ -66,13 +66,13 @@ def test_every_fault_is_told_at_once_with_file_line_value_and_what_is_allowed(
         ('engine = "clasic"', 'must be one of "classic", "metric"; did you mean "classic"?'),
     ],
 )
-def test_broken_toml_is_told(text: str, part: str) -> None:
+def test_invalid_toml_is_an_error(text: str, part: str) -> None:
     with pytest.raises(InputError) as caught:
         Scenario.loads(text, file="t.toml")
     assert part in str(caught.value)
 
 
-def test_files_that_cannot_be_read_are_told(tmp_path: Path) -> None:
+def test_unreadable_files_are_named(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="none.toml: cannot be read: No such file"):
         Scenario.load(tmp_path / "none.toml")
     with pytest.raises(InputError, match="cannot be read: Is a directory"):
@@ -83,7 +83,7 @@ def test_files_that_cannot_be_read_are_told(tmp_path: Path) -> None:
         Scenario.load(binary)
 
 
-def test_a_name_that_ships_is_a_scenario_and_a_slip_of_it_is_told(
+def test_bundled_names_are_scenarios_and_similar_names_are_suggested(
     classic_toml: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
@@ -95,26 +95,26 @@ def test_a_name_that_ships_is_a_scenario_and_a_slip_of_it_is_told(
         Scenario.load("clasic")
 
 
-def test_faults_are_there_one_by_one_with_their_places(classic_toml: Path) -> None:
+def test_errors_have_their_files_and_lines(classic_toml: Path) -> None:
     text = classic_toml.read_text().replace('"touch"', '"tuoch"').replace("summary", "#")
     path = ("clock", "time_limit_s")
     with pytest.raises(InputError) as caught:
         Scenario.loads(text, "my.toml", (Override(path, -1, "--set clock.time_limit_s"),))
-    assert "\n".join(fault["message"] for fault in caught.value.errors) == str(caught.value)
-    places = {fault["path"]: (fault["file"], fault["line"]) for fault in caught.value.errors}
+    assert "\n".join(error["message"] for error in caught.value.errors) == str(caught.value)
+    places = {error["path"]: (error["file"], error["line"]) for error in caught.value.errors}
     assert places == {
         "contact": ("my.toml", 7),
         "summary": ("my.toml", None),
         "clock.time_limit_s": (None, None),
     }
-    (contact,) = (fault for fault in caught.value.errors if fault["path"] == "contact")
+    (contact,) = (error for error in caught.value.errors if error["path"] == "contact")
     assert (contact["origin"], contact["value"]) == ("my.toml:7", '"tuoch"')
     assert contact["suggestion"] == '"touch"'
     assert "one of" in contact["allowed"]
     assert InputError("of another kind").errors == ()
 
 
-def test_a_scenario_is_a_plain_dict_with_what_was_put_over_it(classic_toml: Path) -> None:
+def test_a_scenario_is_available_as_a_dict_with_its_overrides(classic_toml: Path) -> None:
     scenario = Scenario.load(classic_toml)
     assert scenario.to_dict() == tomllib.loads(classic_toml.read_text())
     changed = scenario.replace("merit", {"time": -1, "found": {"weight": 2}})
@@ -127,7 +127,7 @@ def test_a_scenario_is_a_plain_dict_with_what_was_put_over_it(classic_toml: Path
     assert changed.to_dict() == given
 
 
-def test_any_kind_of_value_reaches_the_check(classic_toml: Path) -> None:
+def test_values_of_any_type_are_checked(classic_toml: Path) -> None:
     scenario = Scenario.load(classic_toml)
     given: dict[str, Any] = {
         "[true, [1, 0.5], {...}]": [True, [1, 0.5], {"a": "b"}],
@@ -151,7 +151,7 @@ def nested(depth: int) -> list[Any]:
     return given
 
 
-def test_a_value_that_holds_itself_is_told(classic_toml: Path) -> None:
+def test_a_value_that_contains_itself_is_an_error(classic_toml: Path) -> None:
     scenario = Scenario.load(classic_toml)
     ring: list[Any] = []
     ring.append(ring)
@@ -177,19 +177,19 @@ def test_values_are_ranges_and_lists(
 
 
 @pytest.mark.parametrize("values", ["", "3..1", "1...3", "1,,2", "a b"])
-def test_a_text_that_is_no_values_is_told(classic_toml: Path, values: str) -> None:
+def test_an_invalid_list_of_values_is_an_error(classic_toml: Path, values: str) -> None:
     path = ("study", "vary", "robots.wanderer.count")
     with pytest.raises(InputError, match="--vary: .*must be a string of values"):
         Scenario.load(classic_toml, (Override(path, values, "--vary"),))
 
 
 @pytest.mark.parametrize("values", ["0..3", "1..251", "x", "-1", "1.0..3.0"])
-def test_values_that_a_factor_cannot_have_are_told(classic_toml: Path, values: str) -> None:
+def test_values_that_a_factor_cannot_have_are_named(classic_toml: Path, values: str) -> None:
     path = ("study", "vary", "robots.wanderer.count")
     changes = (
         Override(path, values, "--vary"),
         Override(("study", "design"), "lhs:9", "--design"),
     )
-    told = r"^--vary: robots.wanderer.count = \S+: must be a whole number from 1 to 250"
-    with pytest.raises(InputError, match=told):
+    message = r"^--vary: robots.wanderer.count = \S+: must be a whole number from 1 to 250"
+    with pytest.raises(InputError, match=message):
         Scenario.load(classic_toml, changes)

@@ -1,4 +1,4 @@
-"""Claims about files that a scenario names, such as maps: they travel with it."""
+"""Files that a scenario refers to, such as maps: they are stored with it."""
 
 import os
 import shutil
@@ -48,7 +48,7 @@ def room(tmp_path: Path) -> Path:
     return file
 
 
-def test_a_scenario_needs_its_files_no_more_once_it_is_read(room: Path) -> None:
+def test_a_loaded_scenario_no_longer_needs_its_files(room: Path) -> None:
     scenario = ae.Scenario.load(room)
     assert set(scenario.source.files) == {"maps/room.yaml", "maps/room.pgm"}
     shutil.rmtree(room.parent / "maps")
@@ -56,14 +56,14 @@ def test_a_scenario_needs_its_files_no_more_once_it_is_read(room: Path) -> None:
     assert scenario.configuration({"robots.rover.count": 2}).columns
 
 
-def test_a_study_goes_on_without_the_files_beside_its_scenario(room: Path) -> None:
+def test_a_study_continues_without_the_files_of_its_scenario(room: Path) -> None:
     out = room.parent / "study"
     first = study.run(ae.Scenario.load(room), out=out)
     shutil.rmtree(room.parent / "maps")
     assert study.resume(out).sentence == first.sentence
 
 
-def test_a_study_whose_map_has_changed_is_another_study(room: Path) -> None:
+def test_a_study_with_a_changed_map_is_another_study(room: Path) -> None:
     out = room.parent / "study"
     study.run(ae.Scenario.load(room), out=out)
     (room.parent / "maps" / "room.pgm").write_text("P2 2 1 255  254 0")
@@ -71,7 +71,7 @@ def test_a_study_whose_map_has_changed_is_another_study(room: Path) -> None:
         study.run(ae.Scenario.load(room), out=out)
 
 
-def test_a_studys_file_that_is_damaged_is_told(room: Path) -> None:
+def test_a_damaged_file_of_a_study_is_named(room: Path) -> None:
     out = room.parent / "study"
     study.run(ae.Scenario.load(room), out=out)
     damaged = min((out / "files").iterdir())
@@ -80,31 +80,31 @@ def test_a_studys_file_that_is_damaged_is_told(room: Path) -> None:
         study.resume(out)
 
 
-def test_a_file_that_is_not_there_is_told_at_its_line(room: Path) -> None:
+def test_a_missing_file_is_reported_at_its_line(room: Path) -> None:
     (room.parent / "maps" / "room.pgm").unlink()
-    with pytest.raises(ae.InputError) as told:
+    with pytest.raises(ae.InputError) as caught:
         ae.Scenario.load(room)
-    assert "maps/room.yaml:1: image" in str(told.value)
+    assert "maps/room.yaml:1: image" in str(caught.value)
     (room.parent / "maps" / "room.yaml").unlink()
-    with pytest.raises(ae.InputError) as told:
+    with pytest.raises(ae.InputError) as caught:
         ae.Scenario.load(room)
-    assert 'room.toml:6: world.obstacles[0].map = "maps/room.yaml"' in str(told.value)
-    assert "No such file" in str(told.value)
+    assert 'room.toml:6: world.obstacles[0].map = "maps/room.yaml"' in str(caught.value)
+    assert "No such file" in str(caught.value)
 
 
 @pytest.mark.parametrize("name", ["maps/room.yaml", "maps/room.pgm", "room.toml"])
 @pytest.mark.parametrize("other", ["/dev/zero", "pipe"])
-def test_what_may_never_end_is_not_read(room: Path, name: str, other: str) -> None:
+def test_pipes_and_devices_are_not_read(room: Path, name: str, other: str) -> None:
     os.mkfifo(room.parent / "pipe")
     (room.parent / name).unlink()
     (room.parent / name).symlink_to(room.parent / other)
-    with pytest.raises(ae.InputError) as told:
+    with pytest.raises(ae.InputError) as caught:
         ae.Scenario.load(room)
-    assert Path(name).name in str(told.value)
-    assert "is a pipe or a device; save its output to a file and pass that" in str(told.value)
+    assert Path(name).name in str(caught.value)
+    assert "is a pipe or a device; save its output to a file and pass that" in str(caught.value)
 
 
-def test_a_map_may_be_as_large_as_its_reader_takes(
+def test_a_map_may_have_the_maximum_size_of_its_reader(
     room: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     assert _core.MAX_IMAGE_BYTES == 5 * 64_000_000
@@ -118,7 +118,7 @@ def test_a_map_may_be_as_large_as_its_reader_takes(
         ae.Scenario.load(room)
 
 
-def test_a_file_that_is_too_large_for_a_scenario_is_not_read_to_its_end(tmp_path: Path) -> None:
+def test_a_file_that_is_too_large_is_not_read_to_its_end(tmp_path: Path) -> None:
     with (tmp_path / "large.toml").open("wb") as large:
         large.truncate(2**40)
     with pytest.raises(
@@ -131,12 +131,12 @@ def test_a_file_that_is_too_large_for_a_scenario_is_not_read_to_its_end(tmp_path
         ae.Scenario.load(tmp_path / "large.toml")
 
 
-def test_a_name_that_no_file_can_have_is_told(room: Path) -> None:
+def test_an_impossible_file_name_is_an_error(room: Path) -> None:
     room.write_text(TEXT.replace("maps/room.yaml", "maps/\\u0000.yaml"))
     with pytest.raises(ae.InputError, match="room.toml:6: .* null"):
         ae.Scenario.load(room)
 
 
-def test_shipped_maps_are_found_by_the_name_of_their_scenario() -> None:
+def test_bundled_maps_are_found_by_the_name_of_their_scenario() -> None:
     assert find("open-field").with_suffix(".yaml").exists()
     assert ae.Scenario.load("open-field").source.files

@@ -1,4 +1,4 @@
-"""The JSON Schema of scenarios works in other people's validators."""
+"""The JSON Schema of scenarios works in a standard validator."""
 
 import json
 import tomllib
@@ -24,7 +24,7 @@ def validator() -> Draft7Validator:
 
 
 @pytest.mark.parametrize("file", METRIC, ids=lambda file: file.stem)
-def test_shipped_scenarios_are_valid_and_name_their_schema(
+def test_bundled_scenarios_are_valid_and_name_their_schema(
     file: Path, validator: Draft7Validator
 ) -> None:
     text = file.read_text(encoding="utf-8")
@@ -50,7 +50,9 @@ SPOILED = [
 
 
 @pytest.mark.parametrize(("good", "bad"), SPOILED)
-def test_spoiled_scenarios_are_not_valid(good: str, bad: str, validator: Draft7Validator) -> None:
+def test_scenarios_with_errors_are_not_valid(
+    good: str, bad: str, validator: Draft7Validator
+) -> None:
     text = bundled.scenarios()["search"].read_text(encoding="utf-8")
     assert good in text
     assert not validator.is_valid(tomllib.loads(text.replace(good, bad)))
@@ -71,6 +73,6 @@ def objects(part: Any) -> Iterator[dict[str, Any]]:
 def test_every_key_is_described(validator: Draft7Validator) -> None:
     keys = [item for table in objects(validator.schema) for item in table.items()]
     assert len(keys) > 100
-    told = ("description", "$ref", "const")
-    bare = [key for key, part in keys if not any(word in part for word in told)]
+    explained = ("description", "$ref", "const")
+    bare = [key for key, part in keys if not any(word in part for word in explained)]
     assert bare == []

@@ -1,4 +1,4 @@
-"""The JSON Schema of classic scenarios says what the engine takes, no more and no less."""
+"""The JSON Schema of classic scenarios accepts exactly what the engine accepts."""
 
 import json
 import math
@@ -62,7 +62,7 @@ def is_taken(text: str) -> bool:
         ('engine = "classic"', 'engine = "classic"\nextra = 1'),
     ],
 )
-def test_the_schema_and_the_engine_take_the_same(
+def test_the_schema_and_the_engine_accept_the_same(
     schema: dict[str, Any], good: str, bad: str
 ) -> None:
     assert good in TEXT
@@ -71,9 +71,9 @@ def test_the_schema_and_the_engine_take_the_same(
 
 
 @pytest.mark.parametrize("path", NUMBERS)
-def test_bounds_are_the_engines(schema: dict[str, Any], path: str) -> None:
+def test_the_schema_has_the_bounds_of_the_engine(schema: dict[str, Any], path: str) -> None:
     bounds = part(schema, *NUMBERS[path])
-    # Few paints a second: a cap is of a million paints at most.
+    # Few paints per second: the time limit is at most a million paints.
     scenario = Scenario.loads(TEXT).replace("clock.paints_per_s", 0.1)
     for bound, beyond in (("minimum", -math.inf), ("maximum", math.inf)):
         value = bounds[bound]
@@ -86,7 +86,7 @@ def test_bounds_are_the_engines(schema: dict[str, Any], path: str) -> None:
             scenario.configuration({path: over})
 
 
-def test_names_are_the_engines(schema: dict[str, Any]) -> None:
+def test_the_schema_has_the_names_of_the_engine(schema: dict[str, Any]) -> None:
     assert part(schema, "contact")["enum"] == _core.CONTACTS
     named = part(schema, "merit")["anyOf"][0]["enum"]
     with pytest.raises(InputError) as error:

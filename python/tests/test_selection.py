@@ -39,7 +39,7 @@ FLEET_BOUNDS = np.array([[-0.2 * robots - 8.6, -0.2 * robots] for robots in rang
 
 
 @pytest.mark.parametrize("guarantee", ["indifference", "pgs"])
-def test_the_best_of_forty_teams_is_found_with_a_fifth_of_the_runs_of_equal_shares(
+def test_the_best_of_forty_teams_takes_a_fifth_of_the_runs_of_equal_allocation(
     guarantee: Any,
 ) -> None:
     found = select_best(fleet, 40, bounds=FLEET_BOUNDS, delta=0.05, guarantee=guarantee)
@@ -61,8 +61,8 @@ def test_the_same_problem_gives_the_same_selection() -> None:
 
 
 def test_a_higher_confidence_and_a_smaller_delta_take_more_runs() -> None:
-    def runs(**asked: float) -> int:
-        arguments: dict[str, Any] = {"delta": 0.1, **asked}
+    def runs(**changes: float) -> int:
+        arguments: dict[str, Any] = {"delta": 0.1, **changes}
         found = select_best(bernoulli([0.4, 0.5, 0.6]), 3, bounds=(0, 1), **arguments)
         assert found.best == 2
         return int(found.runs.sum())
@@ -71,22 +71,22 @@ def test_a_higher_confidence_and_a_smaller_delta_take_more_runs() -> None:
     assert runs() < runs(delta=0.01)
 
 
-def test_no_run_number_is_asked_twice_without_common_random_numbers() -> None:
-    asked: list[tuple[int, int]] = []
+def test_no_run_number_is_requested_twice_without_common_random_numbers() -> None:
+    requests: list[tuple[int, int]] = []
 
     def sample(configurations: Integers, first_run: int, runs: int) -> Floats:
         assert len(configurations) == 1
-        asked.append((first_run, runs))
+        requests.append((first_run, runs))
         return np.full((1, runs), float(configurations[0]))
 
     found = select_best(sample, 3, bounds=(0, 2), delta=0.5, common_random_numbers=False, seed=5)
-    numbers = [first + run for first, runs in asked for run in range(runs)]
+    numbers = [first + run for first, runs in requests for run in range(runs)]
     assert found.best == 2
     assert len(numbers) == len(set(numbers)) == found.runs.sum()
     assert min(numbers) == 15 * LANE
 
 
-def test_a_seed_asks_for_other_runs() -> None:
+def test_a_seed_selects_other_runs() -> None:
     firsts = set()
 
     def sample(configurations: Integers, first_run: int, runs: int) -> Floats:
@@ -98,7 +98,7 @@ def test_a_seed_asks_for_other_runs() -> None:
     assert firsts == {0, LANE, (2**31 - 1) * LANE}
 
 
-def test_max_runs_stops_it_and_nothing_is_claimed() -> None:
+def test_max_runs_stops_the_selection_without_a_guarantee() -> None:
     found = select_best(fleet, 40, bounds=FLEET_BOUNDS, delta=0.05, max_runs=1000)
     assert found.stopped
     assert 400 <= found.runs.sum() <= 1000
@@ -120,7 +120,7 @@ def test_a_run_without_a_finite_merit_counts_as_the_worst_and_is_counted() -> No
     assert found.quarantined[0] == 0 < found.quarantined[2] < found.runs[2]
 
 
-def test_bounds_that_settle_it_need_the_first_look_only() -> None:
+def test_decisive_bounds_need_the_first_round_only() -> None:
     zeros = bernoulli([0, 0, 0])
 
     def sample(configurations: Integers, first_run: int, runs: int) -> Floats:
@@ -135,7 +135,7 @@ def test_bounds_that_settle_it_need_the_first_look_only() -> None:
 
 @pytest.mark.parametrize("guarantee", ["indifference", "pgs"])
 @pytest.mark.parametrize("delta", [0.1, 0.3 - 0.2, 5.0])
-def test_the_better_of_two_is_selected_where_bounds_leave_delta_and_no_more(
+def test_the_better_of_two_is_selected_if_bounds_allow_exactly_delta(
     guarantee: Any, delta: float
 ) -> None:
     found = select_best(
@@ -149,7 +149,7 @@ def test_the_better_of_two_is_selected_where_bounds_leave_delta_and_no_more(
 
 
 @pytest.mark.parametrize("guarantee", ["indifference", "pgs"])
-def test_merits_far_from_zero_are_compared_as_near_it(guarantee: Any) -> None:
+def test_merits_far_from_zero_are_compared_exactly(guarantee: Any) -> None:
     far = 1e15
 
     def sample(configurations: Integers, _: int, runs: int) -> Floats:
@@ -161,7 +161,7 @@ def test_merits_far_from_zero_are_compared_as_near_it(guarantee: Any) -> None:
     assert (found.best, found.stopped) == (1, False)
 
 
-def test_a_sampler_may_spoil_its_arguments() -> None:
+def test_a_sampler_may_modify_its_arguments() -> None:
     def sample(configurations: Integers, _: int, runs: int) -> Floats:
         merits = np.repeat(0.5 * configurations[:, np.newaxis], runs, axis=1)
         configurations[:] = 0
@@ -181,14 +181,14 @@ def test_a_lead_far_above_delta_costs_little_more_for_a_tiny_delta() -> None:
     assert runs(1e-6) < 3 * runs(0.02)
 
 
-def test_of_more_than_a_hundred_only_the_leaders_duel_and_the_best_is_found() -> None:
+def test_with_more_than_a_hundred_configurations_the_best_is_found() -> None:
     shares = [0.3 + 0.4 * (each == 77) for each in range(150)]
     found = select_best(bernoulli(shares), 150, bounds=(0, 1), delta=0.1)
     assert found.best == 77
     assert found.runs.sum() < 15_000
 
 
-def test_equals_are_told_apart_from_nothing_but_the_study_ends() -> None:
+def test_a_selection_among_equals_ends() -> None:
     found = select_best(bernoulli([0.5] * 4), 4, bounds=(0, 1), delta=0.2)
     assert len(found.survivors) == 1
 
@@ -206,7 +206,7 @@ def test_without_noise_the_best_is_selected(merits: list[float], guarantee: Any)
 
 
 @pytest.mark.parametrize(
-    ("change", "told"),
+    ("change", "expected"),
     [
         ({"k": 0}, "k = 0: must be a whole number from 1 to 100000"),
         ({"k": True}, "k = True: must be a whole number"),
@@ -225,34 +225,34 @@ def test_without_noise_the_best_is_selected(merits: list[float], guarantee: Any)
         ({"bounds": np.zeros((3, 2))}, "as a pair or an array of shape (2, 2)"),
     ],
 )
-def test_a_bad_argument_is_told(change: dict[str, Any], told: str) -> None:
+def test_an_invalid_argument_is_named(change: dict[str, Any], expected: str) -> None:
     arguments: dict[str, Any] = {"k": 2, "bounds": (0, 1), "delta": 0.1, **change}
     with pytest.raises(InputError) as error:
         select_best(bernoulli([0.1, 0.9]), **arguments)
-    assert told in str(error.value)
+    assert expected in str(error.value)
 
 
-def test_all_bad_arguments_are_told_at_once() -> None:
+def test_all_invalid_arguments_are_reported() -> None:
     with pytest.raises(InputError) as error:
         select_best(bernoulli([]), -1, bounds=(0, 1), delta=-1, confidence=2, seed=-1)
     assert len(str(error.value).splitlines()) == 4
 
 
 @pytest.mark.parametrize(
-    ("returned", "told"),
+    ("returned", "expected"),
     [
         (np.zeros(20), "the sampler returned shape (20,): must be (2, 10)"),
         ([[0.5] * 10, [0.5]], "the sampler must return an array of numbers of shape (2, 10)"),
         (np.full((2, 10), 1.5), "configuration 0 had a merit of 1.5: must be from 0 to 1"),
     ],
 )
-def test_a_sampler_that_breaks_its_word_is_told(returned: Floats, told: str) -> None:
+def test_an_invalid_result_of_the_sampler_is_an_error(returned: Floats, expected: str) -> None:
     with pytest.raises(InputError) as error:
         select_best(lambda *_: returned, 2, bounds=(0, 1), delta=0.1)
-    assert told in str(error.value)
+    assert expected in str(error.value)
 
 
-def test_what_the_sampler_raises_is_passed_on() -> None:
+def test_exceptions_of_the_sampler_are_propagated() -> None:
     def sample(*_: object) -> Floats:
         raise ZeroDivisionError
 

@@ -1,4 +1,4 @@
-"""A run of the metric engine, stepped by hand."""
+"""Interactive runs of the metric engine."""
 
 import pickle
 import threading
@@ -21,18 +21,18 @@ def stepped(steps: int, **arguments: Any) -> Simulation:
 
 
 @pytest.mark.parametrize("name", ["search", "open-field"])
-def test_a_run_stepped_by_hand_is_the_run(name: str) -> None:
-    by_hand = Simulation(name, seed=7, run=1)
-    while not by_hand.is_over:
-        assert by_hand.outcome().status == "running"
-        by_hand.step()
+def test_a_run_in_single_steps_equals_the_run(name: str) -> None:
+    stepwise = Simulation(name, seed=7, run=1)
+    while not stepwise.is_over:
+        assert stepwise.outcome().status == "running"
+        stepwise.step()
     at_once = Simulation(name, seed=7, run=1)
-    assert at_once.finish() == by_hand.outcome() == ae.run(name, 7, 1)
-    assert at_once.hash == by_hand.hash
-    assert at_once.tick == by_hand.tick
+    assert at_once.finish() == stepwise.outcome() == ae.run(name, 7, 1)
+    assert at_once.hash == stepwise.hash
+    assert at_once.tick == stepwise.tick
 
 
-def test_many_steps_are_one_step_many_times() -> None:
+def test_several_steps_equal_as_many_single_steps() -> None:
     one_by_one = stepped(0)
     for _ in range(60):
         one_by_one.step()
@@ -40,7 +40,7 @@ def test_many_steps_are_one_step_many_times() -> None:
     assert stepped(61).hash != one_by_one.hash
 
 
-def test_threads_change_no_step() -> None:
+def test_threads_change_no_result() -> None:
     huge = search(HUGE)
     hashes = set()
     for threads in (1, 2, 8, None):
@@ -50,7 +50,7 @@ def test_threads_change_no_step() -> None:
     assert len(hashes) == 1
 
 
-def test_arrays_have_a_row_a_robot_in_the_order_of_names() -> None:
+def test_arrays_have_one_row_per_robot_in_the_order_of_names() -> None:
     simulation = Simulation("open-field")
     assert simulation.robots == ("bird/0", "rover/0", "rover/1", "rover/2")
     simulation.step(30)
@@ -63,14 +63,14 @@ def test_arrays_have_a_row_a_robot_in_the_order_of_names() -> None:
     assert simulation.speeds.max() > 0
 
 
-def test_robots_begin_where_the_scenario_says() -> None:
+def test_robots_start_at_the_positions_of_the_scenario() -> None:
     simulation = Simulation("open-field")
     begun = simulation.poses[1:]
     np.testing.assert_allclose(begun[:, :2], [[2, 2], [4, 2], [6, 2]])
     np.testing.assert_allclose(begun[:, 2], np.deg2rad([45, 45, 45]))
 
 
-def test_a_battery_that_never_empties_is_full() -> None:
+def test_a_battery_without_a_capacity_is_full() -> None:
     tireless = search({"robots.rover.battery.capacity_j": 1.0})
     simulation = Simulation(tireless)
     simulation.finish()
@@ -90,7 +90,7 @@ def test_arrays_are_copies() -> None:
     assert items["found_s"].null_count == 4
 
 
-def test_items_are_found_when_the_outcome_says() -> None:
+def test_times_of_finds_agree_with_the_outcome() -> None:
     simulation = Simulation("search", seed=1)
     run = next(run for run in range(20) if ae.run("search", 1, run).complete)
     simulation = Simulation("search", seed=1, run=run)
@@ -102,12 +102,12 @@ def test_items_are_found_when_the_outcome_says() -> None:
     assert max(after["found_s"].to_pylist()) == outcome.time_s
 
 
-def test_time_goes_by_steps() -> None:
+def test_time_is_the_number_of_steps_times_their_length() -> None:
     simulation = stepped(25)
     assert (simulation.tick, simulation.time_s) == (25, 2.5)
 
 
-def test_times_are_the_decimals_that_people_expect() -> None:
+def test_times_are_exact_decimals() -> None:
     simulation = Simulation("search", seed=7, run=2)
     outcome = simulation.finish()
     assert repr(outcome.time_s) == "56.4"
@@ -115,7 +115,7 @@ def test_times_are_the_decimals_that_people_expect() -> None:
     assert [repr(each) for each in found_s] == [f"{each:.1f}" for each in found_s]
 
 
-def test_steps_go_on_after_the_end() -> None:
+def test_steps_continue_after_the_end() -> None:
     simulation = stepped(0)
     outcome = simulation.finish()
     tick = simulation.tick
@@ -124,7 +124,7 @@ def test_steps_go_on_after_the_end() -> None:
     assert simulation.outcome().time_s == outcome.time_s
 
 
-def test_a_snapshot_is_the_whole_run() -> None:
+def test_a_snapshot_contains_the_complete_run() -> None:
     simulation = stepped(40)
     snapshot = simulation.snapshot()
     first = (simulation.finish(), simulation.hash)
@@ -134,7 +134,7 @@ def test_a_snapshot_is_the_whole_run() -> None:
         assert (simulation.finish(), simulation.hash) == first
 
 
-def test_a_snapshot_keeps_what_was_changed() -> None:
+def test_a_snapshot_contains_the_changes() -> None:
     simulation = stepped(20)
     simulation.change("robots.rover.count", 6)
     snapshot = simulation.snapshot()
@@ -149,7 +149,7 @@ def test_a_snapshot_keeps_what_was_changed() -> None:
     assert simulation.hash == hash_of_six
 
 
-def test_a_snapshot_goes_into_another_simulation() -> None:
+def test_a_snapshot_can_be_restored_in_another_simulation() -> None:
     here, there = stepped(33), Simulation("open-field", seed=99)
     there.restore(here.snapshot())
     assert (there.seed, there.run, there.tick) == (1, 3, 33)
@@ -157,14 +157,14 @@ def test_a_snapshot_goes_into_another_simulation() -> None:
     assert there.hash == here.hash
 
 
-def test_what_is_no_snapshot_is_told() -> None:
+def test_other_types_than_snapshots_are_named() -> None:
     with pytest.raises(InputError, match=r"snapshot = 7: must be what snapshot\(\) returned"):
         stepped(0).restore(7)  # type: ignore[arg-type]
     with pytest.raises(TypeError):
         pickle.dumps(stepped(0).snapshot())
 
 
-def test_a_larger_team_leaves_the_others_where_they_are() -> None:
+def test_a_larger_team_does_not_move_existing_robots() -> None:
     simulation = stepped(30)
     before, battery = simulation.poses, simulation.battery
     simulation.change("robots.rover.count", 7)
@@ -177,7 +177,7 @@ def test_a_larger_team_leaves_the_others_where_they_are() -> None:
     assert simulation.finish().robots == 3
 
 
-def test_any_path_can_be_changed_and_what_comes_of_it_is_new() -> None:
+def test_any_path_can_be_changed() -> None:
     simulation, same = stepped(30), stepped(30)
     simulation.change("robots.rover.drive.max_speed_m_s", 0.2)
     simulation.step(30)
@@ -186,7 +186,7 @@ def test_any_path_can_be_changed_and_what_comes_of_it_is_new() -> None:
     assert (same.speeds > 0.2).any()
 
 
-def test_the_cap_can_be_moved() -> None:
+def test_the_time_limit_can_be_changed() -> None:
     simulation = stepped(30)
     simulation.change("clock.time_limit_s", 2.5)
     assert simulation.is_over
@@ -194,7 +194,7 @@ def test_the_cap_can_be_moved() -> None:
     assert simulation.outcome().time_s == 2.5
 
 
-def test_changes_are_a_record_that_gives_the_same_run() -> None:
+def test_changes_reproduce_the_run() -> None:
     simulation = stepped(10)
     simulation.change("robots.rover.count", 6)
     simulation.step(10)
@@ -213,7 +213,7 @@ def test_changes_are_a_record_that_gives_the_same_run() -> None:
 
 
 @pytest.mark.parametrize(
-    ("path", "value", "told"),
+    ("path", "value", "expected"),
     [
         (
             "clock.step_s",
@@ -242,10 +242,10 @@ def test_changes_are_a_record_that_gives_the_same_run() -> None:
         ("engine", "classic", "engine = 'classic': must be 'metric'|is not a known key"),
     ],
 )
-def test_a_change_that_is_not_allowed_changes_nothing(path: str, value: Any, told: str) -> None:
+def test_an_invalid_change_changes_nothing(path: str, value: Any, expected: str) -> None:
     simulation = stepped(15)
     before = simulation.hash
-    with pytest.raises(InputError, match=told):
+    with pytest.raises(InputError, match=expected):
         simulation.change(path, value)
     assert simulation.hash == before
     assert simulation.changes == ()
@@ -253,7 +253,7 @@ def test_a_change_that_is_not_allowed_changes_nothing(path: str, value: Any, tol
 
 
 @pytest.mark.parametrize("path", [None, 1, ["clock", "time_limit_s"]])
-def test_a_path_that_is_no_text_is_told(path: Any) -> None:
+def test_a_path_must_be_a_string(path: Any) -> None:
     simulation = Simulation("search")
     for act in (simulation.change, simulation.scenario.replace):
         with pytest.raises(InputError, match=r"path = .*: must be keys from the root"):
@@ -261,34 +261,34 @@ def test_a_path_that_is_no_text_is_told(path: Any) -> None:
     assert simulation.changes == ()
 
 
-def test_a_team_without_room_is_told_by_name() -> None:
-    told = "robots.second: the run has no room for second/0: no free position found"
-    with pytest.raises(InputError, match=told):
+def test_a_team_without_room_is_named() -> None:
+    message = "robots.second: the run has no room for second/0: no free position found"
+    with pytest.raises(InputError, match=message):
         Simulation(Scenario.loads(FULL))
     alone = Simulation(Scenario.loads(FULL).replace("robots.second.count", 0))
     before = alone.hash
-    with pytest.raises(InputError, match=told):
+    with pytest.raises(InputError, match=message):
         alone.change("robots.second.count", 1)
     assert alone.hash == before
     assert alone.robots == ("first/0",)
 
 
-def test_the_classic_engine_is_not_stepped_by_hand() -> None:
+def test_the_classic_engine_has_its_own_simulation() -> None:
     with pytest.raises(InputError, match="engine = 'classic': must be 'metric'"):
         Simulation("classic")
 
 
-def test_faults_of_arguments_are_told_at_once() -> None:
+def test_all_invalid_arguments_are_reported() -> None:
     with pytest.raises(InputError) as caught:
         Simulation("search", seed=-1, run=2**63, threads=5000)
-    told = str(caught.value).splitlines()
-    assert [line.partition(" = ")[0] for line in told] == ["seed", "run", "threads"]
+    lines = str(caught.value).splitlines()
+    assert [line.partition(" = ")[0] for line in lines] == ["seed", "run", "threads"]
     for steps in (-1, 1.5, True, "3"):
         with pytest.raises(InputError, match="steps = .*: must be a whole number from 0"):
             stepped(0).step(steps)  # type: ignore[arg-type]
 
 
-def test_a_signal_ends_many_steps_between_two() -> None:
+def test_a_signal_stops_between_two_steps() -> None:
     simulation = Simulation(search(ENDLESS))
     with ringing(0.3):
         simulation.step(2**60)
@@ -310,5 +310,5 @@ def test_threads_can_share_a_simulation() -> None:
     assert simulation.tick == 6
 
 
-def test_a_simulation_says_which_run_it_is() -> None:
+def test_the_representation_of_a_simulation_identifies_the_run() -> None:
     assert repr(stepped(4)) == "<Simulation of 'search', seed=1, run=3: tick 4>"

@@ -1,4 +1,4 @@
-"""A study's store: what is in it, what it refuses, and what watchers see."""
+"""The store of a study: its contents, what it rejects, and what readers see."""
 
 import errno
 import os
@@ -27,12 +27,12 @@ QUESTION = 'scenario = "classic"\nseed = 1\n'
 
 
 def refuse(area: RunBlock) -> Columns:
-    """Fail: what should be stored was asked for."""
+    """Fail, because all requested runs should be stored already."""
     pytest.fail(f"{area} is computed again")
 
 
 def opened(folder: Path) -> Store:
-    """Return a store of made-up columns."""
+    """Return a store with synthetic columns."""
     return Store.open(folder, QUESTION, COLUMNS)
 
 
@@ -45,12 +45,12 @@ def study(tmp_path: Path) -> Path:
 
 
 def only_block(folder: Path) -> Path:
-    """Return the file of a study's only block."""
+    """Return the file of the only block of a study."""
     (path,) = (folder / "blocks").iterdir()
     return path
 
 
-def test_what_was_computed_is_read_back_exactly(study: Path) -> None:
+def test_computed_runs_are_read_back_exactly(study: Path) -> None:
     there = outcomes(AREA)
     for values in (there["time_s"], there["paints"]):
         assert np.isnan(values).any()
@@ -60,14 +60,14 @@ def test_what_was_computed_is_read_back_exactly(study: Path) -> None:
         assert (store.rows, store.computed) == (120, 0)
 
 
-def test_rows_come_in_the_order_asked_for(study: Path) -> None:
+def test_rows_are_in_the_requested_order(study: Path) -> None:
     turned = RunBlock((7, 3), 10, 40)
     with opened(study) as store:
         assert same(store.block(turned, refuse), outcomes(turned))
 
 
-def test_only_what_is_missing_is_computed(study: Path) -> None:
-    wanted = RunBlock((5, 7, 1, 0), 10, 40)
+def test_only_missing_runs_are_computed(study: Path) -> None:
+    requested = RunBlock((5, 7, 1, 0), 10, 40)
     seen = []
 
     def compute(area: RunBlock) -> Columns:
@@ -75,12 +75,12 @@ def test_only_what_is_missing_is_computed(study: Path) -> None:
         return outcomes(area)
 
     with opened(study) as store:
-        assert same(store.block(wanted, compute), outcomes(wanted))
+        assert same(store.block(requested, compute), outcomes(requested))
         assert store.computed == 80
     assert seen == [RunBlock((1, 5), 10, 40)]
 
 
-def test_a_computed_block_is_returned_as_it_will_be_read(tmp_path: Path) -> None:
+def test_a_computed_block_is_returned_as_it_is_read_later(tmp_path: Path) -> None:
     area = RunBlock((0,), 0, 4)
     data = {
         "time_s": np.array([[-0.0, np.inf, np.nan, 1e-300]]),
@@ -97,14 +97,14 @@ def test_a_computed_block_is_returned_as_it_will_be_read(tmp_path: Path) -> None
 @pytest.mark.parametrize(
     ("name", "value"), [("failed", 2.0), ("paints", 0.5), ("paints", -np.inf), ("paints", 2.0**53)]
 )
-def test_a_value_that_would_not_survive_is_refused(tmp_path: Path, name: str, value: float) -> None:
+def test_a_value_that_cannot_be_stored_is_rejected(tmp_path: Path, name: str, value: float) -> None:
     data = outcomes(AREA)
     data[name][1, 2] = value
     with opened(tmp_path) as store, pytest.raises(ValueError, match=rf"column {name} \("):
         store.block(AREA, lambda _: data)
 
 
-def test_a_task_that_gives_other_columns_is_refused(tmp_path: Path) -> None:
+def test_other_columns_of_a_task_are_rejected(tmp_path: Path) -> None:
     with opened(tmp_path) as store:
         with pytest.raises(ValueError, match="not those of the store"):
             store.block(AREA, lambda _: {"time_s": np.zeros((3, 40))})
@@ -122,7 +122,7 @@ def test_the_same_outcomes_give_the_same_bytes(tmp_path: Path) -> None:
     assert files_of[0] == files_of[1]
 
 
-def test_large_rectangles_are_cut_by_what_is_asked_for_only(
+def test_large_blocks_are_split_by_the_request_only(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(coverage, "MAX_ROWS", 100)
@@ -149,7 +149,7 @@ areas = st.builds(
 
 @settings(max_examples=25, deadline=None)
 @given(st.lists(st.tuples(areas, st.booleans()), max_size=12))
-def test_any_rectangles_in_any_order_are_computed_once(asked: list[tuple[RunBlock, bool]]) -> None:
+def test_any_blocks_in_any_order_are_computed_once(requests: list[tuple[RunBlock, bool]]) -> None:
     times: Counter[tuple[int, int]] = Counter()
 
     def compute(area: RunBlock) -> Columns:
@@ -162,7 +162,7 @@ def test_any_rectangles_in_any_order_are_computed_once(asked: list[tuple[RunBloc
         patch.setattr(coverage, "MAX_ROWS", 64)
         patch.setattr(os, "fsync", lambda _: None)
         store = opened(Path(place))
-        for area, again in asked:
+        for area, again in requests:
             if again:
                 store.close()
                 store = opened(Path(place))
@@ -175,7 +175,7 @@ def test_any_rectangles_in_any_order_are_computed_once(asked: list[tuple[RunBloc
         assert sorted(found) == sorted(times)
 
 
-def test_runs_that_overlap_stored_ones_are_refused(study: Path) -> None:
+def test_runs_that_overlap_stored_ones_are_rejected(study: Path) -> None:
     with opened(study) as store:
         for first_run, runs in ((10, 41), (0, 11), (49, 5), (11, 2), (0, 100)):
             with pytest.raises(InputError, match="stores runs 10-49 as one block"):
@@ -184,7 +184,7 @@ def test_runs_that_overlap_stored_ones_are_refused(study: Path) -> None:
         assert store.block(RunBlock((0,), 0, 10), outcomes)
 
 
-def test_another_study_is_refused_with_what_differs(study: Path) -> None:
+def test_another_study_is_rejected_with_the_differences(study: Path) -> None:
     with pytest.raises(InputError) as caught:
         Store.open(study, QUESTION.replace("seed = 1", "seed = 2"), COLUMNS)
     message = str(caught.value)
@@ -194,7 +194,7 @@ def test_another_study_is_refused_with_what_differs(study: Path) -> None:
     assert "classic" not in message
 
 
-def test_a_study_that_lost_what_was_asked_is_refused(study: Path) -> None:
+def test_a_study_without_its_question_is_rejected(study: Path) -> None:
     (study / "study.toml").unlink()
     with pytest.raises(InputError, match="study.toml: is missing, but there are results"):
         opened(study)
@@ -202,18 +202,18 @@ def test_a_study_that_lost_what_was_asked_is_refused(study: Path) -> None:
         read(study)
 
 
-def test_other_columns_are_refused(study: Path) -> None:
+def test_other_columns_are_rejected(study: Path) -> None:
     with pytest.raises(InputError, match=r"other columns \(time_s \(real\)"):
         Store.open(study, QUESTION, [*COLUMNS[:2], Column("paints", "real")])
 
 
-def test_a_column_named_as_one_of_the_stores_is_refused(tmp_path: Path) -> None:
+def test_a_reserved_column_name_is_rejected(tmp_path: Path) -> None:
     for names in ((), ("run",), ("a", "a"), tuple(f"c{i}" for i in range(63))):
         with pytest.raises(ValueError, match="1 to 62 columns"):
             Store.open(tmp_path, QUESTION, [Column(name, "real") for name in names])
 
 
-def test_a_newer_ledger_is_refused(study: Path) -> None:
+def test_a_newer_ledger_is_rejected(study: Path) -> None:
     with sqlite3.connect(study / "ledger.sqlite") as connection:
         connection.execute("PRAGMA user_version = 2")
     connection.close()
@@ -222,7 +222,7 @@ def test_a_newer_ledger_is_refused(study: Path) -> None:
             attempt(study)
 
 
-def test_a_ledger_of_another_program_is_refused(tmp_path: Path) -> None:
+def test_a_ledger_of_another_program_is_rejected(tmp_path: Path) -> None:
     (tmp_path / "study.toml").write_text(QUESTION)
     with sqlite3.connect(tmp_path / "ledger.sqlite") as connection:
         connection.execute("CREATE TABLE block (name)")
@@ -231,14 +231,14 @@ def test_a_ledger_of_another_program_is_refused(tmp_path: Path) -> None:
         opened(tmp_path)
 
 
-def test_a_ledger_that_is_no_database_is_refused(study: Path) -> None:
+def test_a_ledger_must_be_a_database(study: Path) -> None:
     (study / "ledger.sqlite").write_text("These are not the rows you are looking for. " * 100)
     for attempt in (opened, lambda folder: read(folder).runs()):
         with pytest.raises(InputError, match="ledger.sqlite: cannot be .*not a database"):
             attempt(study)
 
 
-def test_a_changed_block_is_refused(study: Path) -> None:
+def test_a_changed_block_is_rejected(study: Path) -> None:
     data = bytearray(only_block(study).read_bytes())
     data[100] ^= 1
     only_block(study).write_bytes(data)
@@ -262,7 +262,7 @@ def test_missing_and_shortened_blocks_are_all_named(study: Path) -> None:
         assert f"{second}: is damaged" in str(caught.value)
 
 
-def test_other_outcomes_of_the_same_runs_are_refused(study: Path) -> None:
+def test_other_outcomes_of_the_same_runs_are_rejected(study: Path) -> None:
     entered = read(study).block_files()[0]
     with opened(study) as store:
         store._ledger.enter(entered)
@@ -271,7 +271,7 @@ def test_other_outcomes_of_the_same_runs_are_refused(study: Path) -> None:
     assert read(study).block_files() == [entered]
 
 
-def test_a_block_that_was_not_entered_is_overwritten(study: Path) -> None:
+def test_a_block_without_a_ledger_entry_is_overwritten(study: Path) -> None:
     there = only_block(study).read_bytes()
     with sqlite3.connect(study / "ledger.sqlite") as connection:
         connection.execute("DELETE FROM block")
@@ -297,7 +297,7 @@ def test_an_interrupted_computation_leaves_the_store_usable(study: Path) -> None
         assert same(store.block(other, outcomes), outcomes(other))
 
 
-def test_one_process_at_a_time_writes(study: Path) -> None:
+def test_only_one_process_writes(study: Path) -> None:
     hold = (
         "import sys, time; from pathlib import Path; sys.path[:0] = sys.argv[1:2];"
         "from synthetic_runs import COLUMNS; from agent_economy.study.store import Store;"
@@ -316,7 +316,7 @@ def test_one_process_at_a_time_writes(study: Path) -> None:
         assert store.rows == 120
 
 
-def test_a_full_disk_is_told_and_the_study_goes_on(
+def test_a_full_disk_is_an_error_and_the_study_can_continue(
     study: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     other = RunBlock((0, 1), 50, 10)
@@ -337,7 +337,7 @@ def test_a_full_disk_is_told_and_the_study_goes_on(
         assert same(store.block(other, outcomes), outcomes(other))
 
 
-def test_a_ledger_on_a_full_disk_loses_nothing_that_it_had(study: Path) -> None:
+def test_a_ledger_on_a_full_disk_keeps_its_entries(study: Path) -> None:
     with opened(study) as store:
         pages = store._ledger._connection.execute("PRAGMA page_count").fetchone()[0]
         store._ledger._connection.execute(f"PRAGMA max_page_count = {pages}")
@@ -350,9 +350,7 @@ def test_a_ledger_on_a_full_disk_loses_nothing_that_it_had(study: Path) -> None:
         assert same(store.block(AREA, refuse), outcomes(AREA))
 
 
-def test_a_folder_that_cannot_be_written_in_is_told(
-    study: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_read_only_folder_is_named(study: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def read_only(*_: object, **__: object) -> None:
         raise OSError(errno.EROFS, "Read-only file system")
 
@@ -366,7 +364,7 @@ def test_a_folder_that_cannot_be_written_in_is_told(
     assert opened(study).rows == 120
 
 
-def test_a_folder_that_cannot_be_written_in_can_be_read(study: Path) -> None:
+def test_a_read_only_folder_can_be_read(study: Path) -> None:
     if os.geteuid() == 0:
         pytest.skip("the superuser can write anywhere")
     study.chmod(0o555)
@@ -376,7 +374,7 @@ def test_a_folder_that_cannot_be_written_in_can_be_read(study: Path) -> None:
         study.chmod(0o755)
 
 
-def test_watchers_read_while_another_writes(tmp_path: Path) -> None:
+def test_a_study_can_be_read_while_it_is_written(tmp_path: Path) -> None:
     with opened(tmp_path) as store:
         watcher = read(tmp_path)
         assert watcher.question == QUESTION
@@ -391,7 +389,7 @@ def test_watchers_read_while_another_writes(tmp_path: Path) -> None:
             assert len(watcher.decisions()) == number + 1
 
 
-def test_runs_can_be_asked_in_sql(study: Path) -> None:
+def test_runs_can_be_queried_in_sql(study: Path) -> None:
     runs = read(study).runs()
     assert runs.types == ["INTEGER", "BIGINT", "DOUBLE", "BOOLEAN", "BIGINT", "BOOLEAN"]
     there = outcomes(AREA)
@@ -422,7 +420,7 @@ def test_decisions_replayed_change_nothing(tmp_path: Path) -> None:
     ]
 
 
-def test_a_study_leaves_no_files_but_its_own(tmp_path: Path) -> None:
+def test_a_study_creates_its_own_files_only(tmp_path: Path) -> None:
     write_study(tmp_path)
     names = {path.name for path in tmp_path.iterdir()}
     assert names == {".lock", "blocks", "ledger.sqlite", "study.toml"}
@@ -436,14 +434,14 @@ def test_a_study_is_written_and_read_without_pandas(tmp_path: Path) -> None:
     assert subprocess.run(arguments, cwd=Path(__file__).parent, check=False).returncode == 0
 
 
-def test_watching_loads_no_query_engine_until_it_asks() -> None:
+def test_the_query_engine_is_imported_at_the_first_query() -> None:
     code = "import agent_economy.study.store, agent_economy.study.executors, sys;"
     code += "sys.exit('duckdb' in sys.modules or 'distributed' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
 
 
 @given(st.sets(st.integers(0, 2**31 - 1), min_size=1))
-def test_numbers_survive_as_spans(given_numbers: set[int]) -> None:
+def test_numbers_can_be_converted_to_spans_and_back(given_numbers: set[int]) -> None:
     assert numbers(spans(given_numbers)) == tuple(sorted(given_numbers))
 
 
@@ -452,12 +450,12 @@ def test_spans_are_short() -> None:
 
 
 @pytest.mark.parametrize("area", [((), 0, 1), ((1, 1), 0, 1), ((0,), 0, 0), ((-1,), 0, 1)])
-def test_no_rectangle_is_empty_or_twice_the_same(area: tuple[tuple[int, ...], int, int]) -> None:
+def test_a_block_is_not_empty_and_has_no_duplicates(area: tuple[tuple[int, ...], int, int]) -> None:
     with pytest.raises(ValueError, match="a block has"):
         RunBlock(*area)
 
 
-def test_a_study_that_has_not_begun_has_no_runs(tmp_path: Path) -> None:
+def test_a_study_that_has_not_started_has_no_runs(tmp_path: Path) -> None:
     (tmp_path / "study.toml").write_text(QUESTION)
     assert read(tmp_path).block_files() == []
     sqlite3.connect(tmp_path / "ledger.sqlite").execute("PRAGMA journal_mode = WAL").close()
@@ -465,7 +463,7 @@ def test_a_study_that_has_not_begun_has_no_runs(tmp_path: Path) -> None:
     assert read(tmp_path).runs().columns == ["configuration", "run", "quarantined"]
 
 
-def test_a_ledger_killed_while_it_was_made_is_made_again(tmp_path: Path) -> None:
+def test_a_partly_created_ledger_is_created_again(tmp_path: Path) -> None:
     files.make(tmp_path)
     (tmp_path / "ledger.sqlite").touch()
     (tmp_path / "study.toml").write_text(QUESTION)

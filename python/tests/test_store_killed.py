@@ -1,4 +1,4 @@
-"""A study that is killed at any moment goes on to the same bytes."""
+"""A study that is killed at any time continues to the same bytes."""
 
 import hashlib
 import random
@@ -25,7 +25,7 @@ def blocks(folder: Path) -> dict[str, str]:
 
 
 def entered(folder: Path) -> dict[str, str]:
-    """Return what the ledger says of each block, after seeing that all rows are there, once."""
+    """Return the ledger's hash of each block, after checking that each row exists exactly once."""
     if not (folder / "study.toml").exists():
         return {}
     there = read(folder).block_files()
@@ -40,7 +40,7 @@ def entered(folder: Path) -> dict[str, str]:
 
 
 def whole(folder: Path, *boundaries: int) -> dict[str, str]:
-    """Return the blocks of a study that nobody killed."""
+    """Return the blocks of a study that was not killed."""
     synthetic_runs.write_study(folder, *boundaries)
     return blocks(folder)
 
@@ -64,7 +64,7 @@ def test_a_study_killed_at_random_ends_with_the_same_bytes(tmp_path: Path) -> No
     assert blocks(tmp_path / "study") == whole(tmp_path / "whole", ROUNDS) == before
 
 
-def test_a_study_killed_at_every_touch_of_the_disk_goes_on(tmp_path: Path) -> None:
+def test_a_study_killed_at_every_disk_access_continues(tmp_path: Path) -> None:
     blocks_of_whole = whole(tmp_path / "whole", 3)
     for calls in range(200):
         folder = tmp_path / str(calls)
@@ -81,12 +81,12 @@ def test_a_study_killed_at_every_touch_of_the_disk_goes_on(tmp_path: Path) -> No
         pytest.fail("a study touches the disk less often")
 
 
-@pytest.mark.parametrize("most_bytes", [0, 6, 1000, 3000, 4096, 20_000, 50_000])
-def test_a_study_on_a_full_disk_says_so_and_goes_on_when_there_is_room(
-    tmp_path: Path, most_bytes: int
+@pytest.mark.parametrize("max_bytes", [0, 6, 1000, 3000, 4096, 20_000, 50_000])
+def test_a_study_on_a_full_disk_reports_it_and_continues_with_more_space(
+    tmp_path: Path, max_bytes: int
 ) -> None:
     answer = FORKS.Queue()
-    process = started(synthetic_runs.write_on_a_small_disk, tmp_path / "study", most_bytes, answer)
+    process = started(synthetic_runs.write_on_a_small_disk, tmp_path / "study", max_bytes, answer)
     message = answer.get(timeout=60)
     process.join()
     assert str(tmp_path) in message

@@ -1,4 +1,4 @@
-"""A study from the question to the answer, as Python sees it."""
+"""Studies from the question to the answer, through the Python API."""
 
 import json
 from pathlib import Path
@@ -24,7 +24,7 @@ def scenario(classic_toml: Path) -> Scenario:
     return Scenario.load(classic_toml)
 
 
-def test_forty_teams_are_settled_in_a_few_thousand_runs(scenario: Scenario) -> None:
+def test_forty_teams_are_decided_in_a_few_thousand_runs(scenario: Scenario) -> None:
     answer = study.run(scenario, vary={TEAM: ["1..40"]}, delta=0.1)
     assert answer.results[answer.best].values[TEAM] in {4, 5}
     assert answer.runs < 8000
@@ -32,11 +32,11 @@ def test_forty_teams_are_settled_in_a_few_thousand_runs(scenario: Scenario) -> N
     assert answer.sentence.startswith(f"Send {answer.results[answer.best].label}. ")
 
 
-def test_without_a_delta_it_is_two_percent_of_the_merits_range(scenario: Scenario) -> None:
-    asked = study.make_plan(scenario.replace("study.delta", 0.3))
-    assert asked.delta == 0.3
+def test_the_default_delta_is_two_percent_of_the_range_of_merits(scenario: Scenario) -> None:
+    plan = study.make_plan(scenario.replace("study.delta", 0.3))
+    assert plan.delta == 0.3
     text = scenario.source.text.replace("delta = 0.01", "")
-    # From -0.2 (one robot, at once) to -10.2 (eight, 120 s, failed).
+    # From -0.2 (one robot, immediately) to -10.2 (eight robots, 120 s, failed).
     assert study.make_plan(Scenario.loads(text)).delta == pytest.approx(0.02 * 10)
 
 
@@ -53,7 +53,7 @@ def test_the_same_question_again_computes_nothing(scenario: Scenario, tmp_path: 
     assert study.rebuild(tmp_path).runs == first.runs
 
 
-def test_a_stopped_study_goes_on_to_the_same_bytes(scenario: Scenario, tmp_path: Path) -> None:
+def test_a_stopped_study_continues_to_the_same_bytes(scenario: Scenario, tmp_path: Path) -> None:
     def stop(now: study.Progress) -> None:
         if now.round == 5:
             raise KeyboardInterrupt
@@ -69,7 +69,7 @@ def test_a_stopped_study_goes_on_to_the_same_bytes(scenario: Scenario, tmp_path:
         assert (tmp_path / "stopped" / name).read_bytes() == whole
 
 
-def test_a_tightened_study_is_a_fresh_one_at_that_confidence(
+def test_a_study_resumed_at_a_higher_confidence_equals_a_new_one(
     scenario: Scenario, tmp_path: Path
 ) -> None:
     study.run(scenario, delta=0.2, out=tmp_path / "more")
@@ -86,7 +86,7 @@ def test_a_tightened_study_is_a_fresh_one_at_that_confidence(
     assert 0 < computed[-1] < fresh.runs
 
 
-def test_another_delta_uses_the_runs_there_are(scenario: Scenario, tmp_path: Path) -> None:
+def test_another_delta_uses_the_stored_runs(scenario: Scenario, tmp_path: Path) -> None:
     study.run(scenario, delta=0.1, out=tmp_path)
     computed: list[int] = []
     study.run(
@@ -95,7 +95,7 @@ def test_another_delta_uses_the_runs_there_are(scenario: Scenario, tmp_path: Pat
     assert computed[-1] == 0
 
 
-def test_another_merit_uses_the_runs_there_are(scenario: Scenario, tmp_path: Path) -> None:
+def test_another_merit_uses_the_stored_runs(scenario: Scenario, tmp_path: Path) -> None:
     study.run(scenario, delta=0.1, out=tmp_path)
     computed: list[int] = []
     other = study.run(
@@ -108,7 +108,9 @@ def test_another_merit_uses_the_runs_there_are(scenario: Scenario, tmp_path: Pat
     assert other.results[0].merit.value > -4.5
 
 
-def test_the_strict_guarantee_is_asked_and_told(scenario: Scenario, tmp_path: Path) -> None:
+def test_the_strict_guarantee_can_be_selected_and_is_stated(
+    scenario: Scenario, tmp_path: Path
+) -> None:
     answer = study.run(scenario, delta=0.2, guarantee="pgs", out=tmp_path)
     assert answer.guarantee == (
         "The selected configuration is within 0.2 of the best with 95% confidence."
@@ -116,7 +118,7 @@ def test_the_strict_guarantee_is_asked_and_told(scenario: Scenario, tmp_path: Pa
     assert study.rebuild(tmp_path).sentence == answer.sentence
 
 
-def test_a_study_that_must_stop_first_guarantees_nothing(
+def test_a_study_that_reaches_its_budget_has_no_guarantee(
     scenario: Scenario, tmp_path: Path
 ) -> None:
     answer = study.run(scenario, delta=0.001, max_runs=900, out=tmp_path)
@@ -129,7 +131,7 @@ def test_a_study_that_must_stop_first_guarantees_nothing(
         study.run(scenario, max_runs=79)
 
 
-def test_runs_of_another_program_are_not_mixed_with_ours(
+def test_runs_of_another_version_are_not_mixed_in(
     scenario: Scenario, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     study.run(scenario, delta=0.3, out=tmp_path)
@@ -142,7 +144,7 @@ def test_runs_of_another_program_are_not_mixed_with_ours(
     ("there", "edited"),
     [('contact = \\"touch', 'contact = \\"ahead'), ('seed = "0"', 'seed = "5"')],
 )
-def test_a_study_toml_edited_to_ask_for_other_runs_is_refused(
+def test_a_study_toml_edited_for_other_runs_is_rejected(
     there: str, edited: str, scenario: Scenario, tmp_path: Path
 ) -> None:
     study.run(scenario, delta=0.3, out=tmp_path)
@@ -155,14 +157,14 @@ def test_a_study_toml_edited_to_ask_for_other_runs_is_refused(
             ask_again(tmp_path)
 
 
-def test_values_may_be_a_text_and_numbers_of_numpy(scenario: Scenario, tmp_path: Path) -> None:
-    asked: Any = {"delta": np.float32(0.5), "seed": np.int64(0)}
+def test_values_may_be_a_string_or_numpy_numbers(scenario: Scenario, tmp_path: Path) -> None:
+    options: Any = {"delta": np.float32(0.5), "seed": np.int64(0)}
     texts = study.run(scenario, vary={TEAM: "3..5"}, delta=0.5, out=tmp_path)
-    numbers = study.run(scenario, vary={TEAM: range(3, 6)}, out=tmp_path, **asked)
+    numbers = study.run(scenario, vary={TEAM: range(3, 6)}, out=tmp_path, **options)
     assert files.as_json(texts) == files.as_json(numbers)
 
 
-def test_a_study_toml_that_is_no_text_is_told(scenario: Scenario, tmp_path: Path) -> None:
+def test_a_study_toml_must_be_text(scenario: Scenario, tmp_path: Path) -> None:
     study.run(scenario, delta=0.5, out=tmp_path)
     (tmp_path / "study.toml").write_bytes(b"\xff\xfe")
     with pytest.raises(InputError, match="is not UTF-8 text"):
@@ -172,7 +174,7 @@ def test_a_study_toml_that_is_no_text_is_told(scenario: Scenario, tmp_path: Path
 @pytest.mark.parametrize(
     "change", [{"seed": 1}, {"runs": 20}, {"vary": {TEAM: ["1..3"]}}], ids=["seed", "runs", "vary"]
 )
-def test_a_folder_with_other_runs_is_refused(
+def test_a_folder_with_other_runs_is_rejected(
     change: dict[str, Any], scenario: Scenario, tmp_path: Path
 ) -> None:
     study.run(scenario, delta=0.3, out=tmp_path)
@@ -181,7 +183,7 @@ def test_a_folder_with_other_runs_is_refused(
 
 
 @pytest.mark.parametrize(
-    ("change", "told"),
+    ("change", "expected"),
     [
         ({"delta": 0.0}, "delta = 0.0: must be a number above 0"),
         ({"confidence": 1.5}, "confidence = 1.5: must be a number from 0.5 to below 1"),
@@ -192,15 +194,15 @@ def test_a_folder_with_other_runs_is_refused(
         ({"vary": {"robots.rover.count": [1]}}, "did you mean robots.wanderer.count?"),
     ],
 )
-def test_what_cannot_be_asked_is_told(
-    change: dict[str, Any], told: str, scenario: Scenario
+def test_invalid_questions_are_named(
+    change: dict[str, Any], expected: str, scenario: Scenario
 ) -> None:
     with pytest.raises(InputError) as error:
         study.run(scenario, **change)
-    assert told in str(error.value)
+    assert expected in str(error.value)
 
 
-def test_the_runs_can_be_asked_in_sql(scenario: Scenario, tmp_path: Path) -> None:
+def test_the_runs_can_be_queried_in_sql(scenario: Scenario, tmp_path: Path) -> None:
     answer = study.run(scenario, delta=0.3, out=tmp_path)
     runs = study.open(tmp_path).runs()
     assert runs.count("*").fetchall() == [(answer.runs,)]
@@ -209,7 +211,7 @@ def test_the_runs_can_be_asked_in_sql(scenario: Scenario, tmp_path: Path) -> Non
         assert mean_s == pytest.approx(result.time_s.value)
 
 
-def test_run_r_is_the_same_run_as_replicates(scenario: Scenario, tmp_path: Path) -> None:
+def test_a_run_of_a_study_equals_that_of_replicate(scenario: Scenario, tmp_path: Path) -> None:
     from agent_economy import classic  # noqa: PLC0415
 
     study.run(scenario, delta=0.3, seed=5, out=tmp_path)
@@ -218,19 +220,19 @@ def test_run_r_is_the_same_run_as_replicates(scenario: Scenario, tmp_path: Path)
     assert mine["collisions"].tolist() == theirs["collisions"].to_pylist()
 
 
-def test_an_answer_has_no_time_path_host_or_threads_in_it(
+def test_an_answer_contains_no_time_path_host_or_thread_count(
     scenario: Scenario, tmp_path: Path
 ) -> None:
     study.run(scenario, delta=0.3, out=tmp_path)
     text = (tmp_path / "answer.json").read_text()
     assert str(small_study.ROOT) not in text
     assert str(tmp_path) not in text
-    asked = (tmp_path / "study.toml").read_text()
-    assert str(small_study.ROOT) not in asked
+    stored = (tmp_path / "study.toml").read_text()
+    assert str(small_study.ROOT) not in stored
     assert json.loads(text)["versions"].keys() >= {"agent-economy", "numpy", "python"}
 
 
-def test_one_configuration_has_nothing_to_be_compared_with(scenario: Scenario) -> None:
+def test_a_single_configuration_has_no_comparisons(scenario: Scenario) -> None:
     answer = study.run(scenario, vary={TEAM: [4]}, runs=50)
     assert answer.best == 0
     assert answer.results[0].standing.verdict == "best"
@@ -253,7 +255,7 @@ def test_several_factors_are_compared_together(scenario: Scenario) -> None:
     assert " with " in answer.sentence
 
 
-def test_points_that_fill_the_space_are_compared(scenario: Scenario) -> None:
+def test_space_filling_points_are_compared(scenario: Scenario) -> None:
     vary = {TEAM: ["1..20"], "clock.paints_per_s": ["41.0..57.0"]}
     answer = study.run(scenario, vary=vary, design="lhs:40", delta=0.5)
     assert 30 < len(answer.results) <= 40
@@ -270,20 +272,20 @@ def test_merit_weights_decide_the_answer(scenario: Scenario) -> None:
     assert best({"time": -1}) == 8
 
 
-def test_a_run_that_went_wrong_counts_as_the_worst_and_is_counted(
+def test_a_quarantined_run_counts_as_the_worst_and_is_reported(
     scenario: Scenario, tmp_path: Path
 ) -> None:
-    asked = study.make_plan(scenario.replace(f"study.vary.{TEAM}", "3,4,5"), delta=0.3)
+    plan = study.make_plan(scenario.replace(f"study.vary.{TEAM}", "3,4,5"), delta=0.3)
 
     def compute(block: Any) -> Any:
-        columns = asked.engine(block)
+        columns = plan.engine(block)
         for row, configuration in enumerate(block.configurations):
             if configuration == 1:
                 for values in columns.values():
                     values[row] = float("nan")
         return columns
 
-    answer = study.run_plan(asked, tmp_path, compute=compute)
+    answer = study.run_plan(plan, tmp_path, compute=compute)
     four = answer.results[1]
     assert answer.best != 1
     assert four.quarantined == four.runs > 0
@@ -292,7 +294,7 @@ def test_a_run_that_went_wrong_counts_as_the_worst_and_is_counted(
     assert answer.results[0].quarantined == 0
 
 
-def test_the_last_ranges_that_watchers_see_are_those_of_the_answer(scenario: Scenario) -> None:
+def test_the_last_ranges_of_the_progress_are_those_of_the_answer(scenario: Scenario) -> None:
     seen: list[study.Progress] = []
     answer = study.run(scenario, delta=0.5, on_progress=seen.append)
     ranged = seen[-1].intervals()
@@ -302,7 +304,7 @@ def test_the_last_ranges_that_watchers_see_are_those_of_the_answer(scenario: Sce
         assert (leader.runs, merit) == (result.runs, result.merit)
 
 
-def test_a_long_round_is_told_of_while_it_goes_on(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_long_round_reports_its_progress(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(race, "ROUND_S", 0.0)
     seen: list[study.Progress] = []
     left: list[float | None] = []
@@ -323,7 +325,7 @@ def test_a_long_round_is_told_of_while_it_goes_on(monkeypatch: pytest.MonkeyPatc
     assert seen[0].leaders == ()
 
 
-def test_pieces_together_are_the_whole() -> None:
+def test_chunks_together_are_the_block() -> None:
     area = RunBlock(tuple(range(4)), 3, 1400)
     seen: list[int] = []
     compute = in_chunks(synthetic_runs.slow_outcomes, seen.append)
@@ -333,9 +335,7 @@ def test_pieces_together_are_the_whole() -> None:
     assert seen[-1] < area.rows
 
 
-def test_an_answer_that_is_there_is_to_what_was_asked_last(
-    scenario: Scenario, tmp_path: Path
-) -> None:
+def test_a_new_question_removes_the_old_answer(scenario: Scenario, tmp_path: Path) -> None:
     def stop(_: study.Progress) -> None:
         raise KeyboardInterrupt
 
@@ -350,12 +350,12 @@ def test_an_answer_that_is_there_is_to_what_was_asked_last(
 
 
 def written(folder: Path) -> dict[Path, int]:
-    """Return when each file was written, but for those by which readers of SQLite agree."""
+    """Return the modification times of files, except the coordination files of SQLite."""
     own = [path for path in folder.rglob("*") if path.suffix not in (".sqlite-shm", ".sqlite-wal")]
     return {path: path.stat().st_mtime_ns for path in own if path.is_file()}
 
 
-def test_to_look_at_a_finished_study_gives_its_answer_and_writes_nothing(
+def test_loading_the_answer_of_a_finished_study_writes_nothing(
     scenario: Scenario, tmp_path: Path
 ) -> None:
     answer = study.run(scenario, delta=0.5, out=tmp_path)
@@ -369,7 +369,7 @@ def test_to_look_at_a_finished_study_gives_its_answer_and_writes_nothing(
         study.load_answer(tmp_path)
 
 
-def test_a_configuration_alone_has_the_very_runs_of_the_study(tmp_path: Path) -> None:
+def test_a_single_configuration_has_the_same_runs_as_in_the_study(tmp_path: Path) -> None:
     search = Scenario.load("search").replace("clock.time_limit_s", 5)
     vary = {"robots.rover.count": "1,2", "items.mine.count": "3"}
     study.run(search, vary=vary, runs=2, seed=5, out=tmp_path)

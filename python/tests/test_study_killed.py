@@ -1,4 +1,4 @@
-"""A study that is killed at any moment, however often, comes to the same answer."""
+"""A study that is killed repeatedly, at any time, gives the same answer."""
 
 import os
 import random
@@ -20,7 +20,7 @@ SEED = 11
 
 
 def undisturbed(folder: Path) -> float:
-    """Run the small study to its end; return the seconds it took."""
+    """Run the small study to its end, and return its duration in seconds."""
     begin = time.monotonic()
     process = started(small_study.run_plan, folder)
     process.join()
@@ -35,7 +35,7 @@ def rows(folder: Path) -> list[tuple[object, ...]]:
 
 @pytest.fixture
 def quick_path(tmp_path: Path) -> Iterator[Path]:
-    """Return a folder in memory, where there is such: a kill loses no pages, unlike a power cut."""
+    """Return a folder in memory if possible: unlike a power failure, a kill loses no pages."""
     memory = Path("/dev/shm")  # noqa: S108
     if not os.access(memory, os.W_OK):
         yield tmp_path
@@ -44,7 +44,7 @@ def quick_path(tmp_path: Path) -> Iterator[Path]:
         yield Path(folder)
 
 
-def test_200_kills_lose_nothing_double_nothing_and_change_no_byte(quick_path: Path) -> None:
+def test_200_kills_lose_and_duplicate_nothing_and_change_no_byte(quick_path: Path) -> None:
     tmp_path = quick_path
     undisturbed(tmp_path / "warm-up")
     seconds = undisturbed(tmp_path / "whole")
@@ -60,7 +60,7 @@ def test_200_kills_lose_nothing_double_nothing_and_change_no_byte(quick_path: Pa
         killed_here = 0
         while True:
             process = started(small_study.run_plan, folder)
-            # From before anything is written to after the end; then it is left to finish.
+            # From before the first write to after the end; finally, it may finish.
             process.join(chance.uniform(0, 1.1 * seconds) if killed_here < KILLS_A_FOLDER else None)
             process.kill()
             process.join()

@@ -1,4 +1,4 @@
-"""Workers: how a block is cut shows in no result, and a worker that dies loses none."""
+"""Workers: results do not depend on chunks, and a killed worker loses none."""
 
 import os
 import re
@@ -37,7 +37,7 @@ def two_processes() -> Executor:
     st.integers(1, 300),
     st.integers(1, 5),
 )
-def test_how_it_was_cut_shows_in_no_result(names: list[int], runs: int, count: int) -> None:
+def test_results_do_not_depend_on_the_chunks(names: list[int], runs: int, count: int) -> None:
     areas = [RunBlock(tuple(names), 70, runs), RunBlock(tuple(names[:1]), 0, runs)]
     with Workers(lambda: ThreadPoolExecutor(count), count, outcomes) as workers:
         for area in areas:
@@ -50,7 +50,7 @@ def test_how_it_was_cut_shows_in_no_result(names: list[int], runs: int, count: i
     st.integers(1, 256),
     st.floats(1e-3, 1e9),
 )
-def test_pieces_cover_a_rectangle_once_and_are_not_thousands(
+def test_chunks_cover_a_block_once_and_are_limited_in_number(
     configurations: int, runs: int, workers: int, rate: float
 ) -> None:
     area = RunBlock(tuple(range(configurations)), 0, runs)
@@ -69,7 +69,7 @@ def test_pieces_cover_a_rectangle_once_and_are_not_thousands(
     assert min(workers, area.rows) <= chunks <= 3 * max(MAX_CHUNKS, workers)
 
 
-def test_pieces_take_about_a_second_once_the_rate_is_known() -> None:
+def test_chunks_take_about_a_second_at_a_known_rate() -> None:
     throughput = Throughput()
     throughput.add(500, 2.0)
     assert throughput.chunk_rows(100_000, 100_000, 2) == 250
@@ -98,20 +98,20 @@ def test_a_killed_worker_changes_no_result(tmp_path: Path) -> None:
         assert same(workers.columns(AREA), outcomes(AREA))
 
 
-def test_runs_that_always_fail_end_the_study_by_name() -> None:
+def test_runs_that_always_fail_stop_the_study_and_are_named() -> None:
     with (
         Workers(two_processes, 2, synthetic_runs.failing) as workers,
         pytest.raises(StudyError) as caught,
     ):
         workers.columns(AREA)
-    said = (
+    expected = (
         r"configurations [0-9,-]+, runs \d+-\d+ failed 3 times, "
         r"the last time with ValueError: the brain"
     )
-    assert re.match(said, str(caught.value))
+    assert re.match(expected, str(caught.value))
 
 
-def test_runs_that_always_kill_their_worker_end_the_study_by_name() -> None:
+def test_runs_that_always_kill_their_worker_stop_the_study_and_are_named() -> None:
     area = RunBlock(tuple(range(8)), 0, 400)
     with (
         Workers(two_processes, 2, synthetic_runs.killed_always) as workers,
@@ -122,15 +122,15 @@ def test_runs_that_always_kill_their_worker_end_the_study_by_name() -> None:
 
 
 class Unwilling(Executor):
-    """An executor that takes nothing."""
+    """An executor that accepts no work."""
 
     def submit(self, *_: object, **__: object) -> Future[object]:  # type: ignore[override]
-        """Refuse."""
+        """Raise an error."""
         message = "cannot schedule new futures after shutdown"
         raise RuntimeError(message)
 
 
-def test_an_executor_that_takes_nothing_ends_the_study() -> None:
+def test_an_executor_that_accepts_no_work_stops_the_study() -> None:
     with (
         Workers(Unwilling, 2, outcomes) as workers,
         pytest.raises(
@@ -147,7 +147,9 @@ def test_an_executor_that_takes_nothing_ends_the_study() -> None:
         (lambda area: {"time_s": outcomes(area)["time_s"][:, 1:]}, "has shape"),
     ],
 )
-def test_a_task_that_gives_less_ends_the_study(task: partial[Columns], reason: str) -> None:
+def test_an_incomplete_result_of_a_task_stops_the_study(
+    task: partial[Columns], reason: str
+) -> None:
     with (
         Workers(lambda: ThreadPoolExecutor(2), 2, task) as workers,
         pytest.raises(StudyError, match=reason),
@@ -172,7 +174,7 @@ if __name__ == "__main__":
 
 
 def interrupted(tmp_path: Path) -> tuple[subprocess.Popen[str], str]:
-    """Return a program whose two workers have begun a minute's work."""
+    """Return a program whose two workers have started a minute of work."""
     (tmp_path / "program.py").write_text(INTERRUPTED)
     environment = {**os.environ, "PYTHONPATH": str(Path(__file__).parent)}
     process = subprocess.Popen(
@@ -189,11 +191,11 @@ def interrupted(tmp_path: Path) -> tuple[subprocess.Popen[str], str]:
     return process, begun
 
 
-def test_ctrl_c_ends_the_workers_at_once(tmp_path: Path) -> None:
+def test_ctrl_c_stops_the_workers_immediately(tmp_path: Path) -> None:
     process, begun = interrupted(tmp_path)
     assert begun == "begun\nbegun\n"
     begin = time.monotonic()
-    os.killpg(process.pid, signal.SIGINT)  # as a terminal does: to the workers too
+    os.killpg(process.pid, signal.SIGINT)  # to the workers too, as a terminal does
     _, errors = process.communicate(timeout=30)
     assert time.monotonic() - begin < 5
     assert errors.count("Traceback") == 1
@@ -201,7 +203,7 @@ def test_ctrl_c_ends_the_workers_at_once(tmp_path: Path) -> None:
     assert ends(process.pid)
 
 
-def test_workers_end_with_a_killed_study(tmp_path: Path) -> None:
+def test_workers_stop_with_a_killed_study(tmp_path: Path) -> None:
     process, begun = interrupted(tmp_path)
     assert begun == "begun\nbegun\n"
     process.kill()
@@ -210,7 +212,7 @@ def test_workers_end_with_a_killed_study(tmp_path: Path) -> None:
 
 
 def ends(group: int) -> bool:
-    """Return whether a process group is gone within some seconds."""
+    """Return whether a process group ends within some seconds."""
     for _ in range(100):
         try:
             os.killpg(group, 0)
@@ -229,7 +231,7 @@ def test_a_killed_dask_worker_changes_no_result(cluster: Cluster, tmp_path: Path
         assert same(workers.columns(AREA), outcomes(AREA))
 
 
-def test_runs_that_always_fail_on_dask_end_the_study_by_name(cluster: Cluster) -> None:
+def test_runs_that_always_fail_on_dask_stop_the_study_and_are_named(cluster: Cluster) -> None:
     address, _ = cluster
     with (
         Workers(partial(dask_executor, address), 2, synthetic_runs.failing) as workers,
@@ -238,7 +240,7 @@ def test_runs_that_always_fail_on_dask_end_the_study_by_name(cluster: Cluster) -
         workers.columns(AREA)
 
 
-def test_a_scheduler_that_dies_ends_the_study(
+def test_a_killed_scheduler_stops_the_study(
     cluster: Cluster, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     address, processes = cluster
@@ -250,7 +252,7 @@ def test_a_scheduler_that_dies_ends_the_study(
             workers.columns(AREA)
 
 
-def test_a_scheduler_that_is_not_there_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_missing_scheduler_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("distributed", reason="Dask is an extra")
     monkeypatch.setattr("agent_economy.study.executors.CONNECT_S", 1)
     address = f"tcp://127.0.0.1:{free_port()}"
@@ -260,7 +262,7 @@ def test_a_scheduler_that_is_not_there_is_named(monkeypatch: pytest.MonkeyPatch)
         dask_executor("nowhere://")
 
 
-def test_where_dask_is_not_installed_it_says_what_to_install(
+def test_without_dask_the_error_names_the_extra(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setitem(sys.modules, "distributed", None)
