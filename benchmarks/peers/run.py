@@ -58,7 +58,7 @@ def main() -> None:
 def measure_team(works: list[list[str]]) -> None:
     """Print how fast the sensing team is in each."""
     print(
-        "| simulator | version | what a robot-update of it does | updates/s | ours then | ratio |"
+        "| simulator | version | work per robot update | updates/s | ours, alternating | ratio |"
     )
     print("|---|---|---|---|---|---|", flush=True)
     with tempfile.TemporaryDirectory() as folder:
@@ -75,7 +75,7 @@ def measure_team(works: list[list[str]]) -> None:
 
 def measure_flocks(flocks: list[tuple[int, list[str]]]) -> None:
     """Print how fast flocks are in each."""
-    print("\n| birds | simulator | version | besides | updates/s | ours then | ratio |")
+    print("\n| birds | simulator | version | remarks | updates/s | ours, alternating | ratio |")
     print("|---|---|---|---|---|---|---|", flush=True)
     for birds, command in sorted(flocks):
         before = our_flock(birds)

@@ -24,7 +24,7 @@ const PIECES: u32 = 9;
 
 /// Prints the table.
 pub(crate) fn report() {
-    println!("| birds | threads | millions of updates/s | by the clock on the wall | hash |");
+    println!("| birds | threads | millions of updates/s | millions/s, wall clock | hash |");
     println!("|---|---|---|---|---|");
     for birds in sizes() {
         let scenario = Arc::new(scenario(birds));

@@ -1,6 +1,6 @@
-//! Speed of the metric simulator, compared with a bare program that does the same work.
+//! Speed of the metric simulator, compared with a minimal program that does the same work.
 //!
-//! `make bench`, or `cargo run --release -p agent-economy-benchmarks -- [team | search | flock | minds | world]`.
+//! `make bench`, or `cargo run --release -p agent-economy-benchmarks -- [team | search | flock | brains | world]`.
 //! `-- field` prints the field of the team as JSON instead.
 //! Times are processor times; each figure is the median of many short samples, and the programs that are
 //! compared alternate. The results are in docs/speed.md.
@@ -10,10 +10,10 @@
     clippy::print_stdout,
     reason = "a benchmark may fail, and prints"
 )]
+mod brains;
 mod clock;
 mod field;
 mod flock;
-mod minds;
 mod peers;
 mod scenarios;
 mod search;
@@ -29,15 +29,15 @@ fn main() {
     if only.as_deref() == Some("field") {
         return peers::report();
     }
-    let is_wanted = |name: &str| only.as_deref().is_none_or(|only| only == name);
+    let is_selected = |name: &str| only.as_deref().is_none_or(|only| only == name);
     let reports = [
         ("team", team::report as fn()),
         ("search", search::report),
         ("flock", flock::report),
-        ("minds", minds::report),
+        ("brains", brains::report),
         ("world", world::report),
     ];
-    for (name, report) in reports.iter().filter(|(name, _)| is_wanted(name)) {
+    for (name, report) in reports.iter().filter(|(name, _)| is_selected(name)) {
         println!("\n{name}\n");
         report();
     }

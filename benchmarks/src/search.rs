@@ -21,7 +21,7 @@ const PIECES: u32 = 15;
 
 /// Prints the table.
 pub(crate) fn report() {
-    println!("| scenario | robot-updates a run | threads | runs/s | by the clock on the wall |");
+    println!("| scenario | robot updates per run | threads | runs/s | runs/s, wall clock |");
     println!("|---|---|---|---|---|");
     for name in ["search.toml", "search-beliefs.toml"] {
         compare(name);

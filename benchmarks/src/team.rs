@@ -19,13 +19,13 @@ struct Rates {
     simulator: f64,
     bare: f64,
     bare_with_noise: f64,
-    /// Ratio of the simulator to the bare program with noise.
+    /// Ratio of the simulator to the minimal program with noise.
     ratio: f64,
 }
 
 /// Prints the table.
 pub(crate) fn report() {
-    println!("| robots | simulator | bare program | bare, with noise | ratio |");
+    println!("| robots | simulator | minimal program | minimal, with noise | ratio |");
     println!("|---|---|---|---|---|");
     for robots in sizes() {
         let rates = rates(robots);

@@ -14,7 +14,7 @@ const STEPS: u32 = 12;
 
 /// Prints the table.
 pub(crate) fn report() {
-    println!("| threads | memory at most, MB | steps/s | steps/s by the clock on the wall |");
+    println!("| threads | peak memory, MB | steps/s | steps/s, wall clock |");
     println!("|---|---|---|---|");
     let field = Field::new(ROBOTS);
     let scenario = Arc::new(field.scenario());

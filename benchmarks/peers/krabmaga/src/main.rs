@@ -2,7 +2,7 @@
 //!
 //! Robots are agents on its continuous field, which tells each its neighbours within range: this is
 //! the work `neighbours`. krABMaga has no sensor; in the work `rays` each robot also casts sixteen
-//! rays against those neighbours, the pillars and the walls, by plain code of ours.
+//! rays against those neighbours, the pillars and the walls, by plain loops.
 
 mod field;
 mod flock;
@@ -38,7 +38,7 @@ fn drive(file: &str, work: &str) {
     world.init(&mut schedule);
     let rates = (0..=PIECES).map(|_| updates_per_s(robots, || schedule.step(&mut world)));
     let work = match work {
-        "rays" => "neighbours within 3 m from its field, 16 rays by plain code of ours, no noise",
+        "rays" => "neighbours within 3 m from its field, 16 rays by plain loops, no noise",
         _ => "neighbours within 3 m from its field, no rays",
     };
     report(work, robots, rates.collect());
@@ -62,7 +62,7 @@ fn fly(birds: u32) {
         updates / took_s
     };
     let rates = (0..=PIECES).map(|_| piece());
-    report("short floats", birds as usize, rates.collect());
+    report("single precision", birds as usize, rates.collect());
 }
 
 /// Prints the median of pieces of work, but for the first, which warms up.

@@ -51,25 +51,25 @@ impl Backlog {
 
     /// Moves everything that has arrived into a percept; calls `found` with the item of each
     /// contact.
-    pub(crate) fn tell(
+    pub(crate) fn deliver(
         &mut self,
         now: u64,
         step_s: f64,
         to: &mut Percept,
         mut found: impl FnMut(Option<u32>),
     ) {
-        self.observations.tell(now, |late| {
+        self.observations.deliver(now, |late| {
             let age_s = age_s(late.taken, now, step_s);
             to.observations
                 .push(brain::Observation { age_s, ..late.what });
         });
-        self.contacts.tell(now, |late| {
+        self.contacts.deliver(now, |late| {
             let (contact, item) = late.what;
             let age_s = age_s(late.taken, now, step_s);
             to.contacts.push(Contact { age_s, ..contact });
             found(item);
         });
-        self.neighbours.tell(now, |late| {
+        self.neighbours.deliver(now, |late| {
             let age_s = age_s(late.taken, now, step_s);
             to.neighbours.push(Neighbour { age_s, ..late.what });
         });
@@ -77,7 +77,7 @@ impl Backlog {
     }
 
     pub(crate) fn tell_messages(&mut self, now: u64, step_s: f64, to: &mut Percept) {
-        self.inbox.tell(now, |late| {
+        self.inbox.deliver(now, |late| {
             let age_s = age_s(late.taken, now, step_s);
             to.inbox.push(ReceivedMessage { age_s, ..late.what });
         });

@@ -32,7 +32,7 @@ impl<T> Default for PendingQueue<T> {
 impl<T: Copy> PendingQueue<T> {
     /// Removes the entries that have arrived by now, and passes them to `give`.
     #[inline]
-    pub(crate) fn tell(&mut self, now: u64, mut give: impl FnMut(Pending<T>)) {
+    pub(crate) fn deliver(&mut self, now: u64, mut give: impl FnMut(Pending<T>)) {
         let mut surplus = self.surplus(now);
         self.entries.retain(|late| {
             let is_due = late.due <= now;
@@ -85,10 +85,10 @@ mod tests {
         }));
     }
 
-    fn told(waiting: &mut PendingQueue<u64>, now: u64) -> Vec<u64> {
-        let mut told = Vec::new();
-        waiting.tell(now, |late| told.push(late.what));
-        told
+    fn delivered(waiting: &mut PendingQueue<u64>, now: u64) -> Vec<u64> {
+        let mut delivered = Vec::new();
+        waiting.deliver(now, |late| delivered.push(late.what));
+        delivered
     }
 
     #[test]
@@ -99,10 +99,10 @@ mod tests {
             wait(&mut waiting, now, 0, 3);
             assert!(waiting.entries.len() <= 2 * MAX_PENDING + 3);
         }
-        let told = told(&mut waiting, 10_000);
-        assert_eq!(told.len(), MAX_PENDING);
-        assert!(told.is_sorted());
-        assert_eq!(told[MAX_PENDING - 1], 9_999_000_002);
+        let delivered = delivered(&mut waiting, 10_000);
+        assert_eq!(delivered.len(), MAX_PENDING);
+        assert!(delivered.is_sorted());
+        assert_eq!(delivered[MAX_PENDING - 1], 9_999_000_002);
         assert!(waiting.entries.is_empty());
     }
 
@@ -114,9 +114,12 @@ mod tests {
             wait(&mut waiting, now, 3000, 2);
         }
         // The first 5000 measurements have arrived, the others are in transit.
-        assert_eq!(told(&mut waiting, 7999).len(), MAX_PENDING);
+        assert_eq!(delivered(&mut waiting, 7999).len(), MAX_PENDING);
         assert_eq!(waiting.entries.len(), 2 * 3000);
-        assert_eq!(told(&mut waiting, 8000), [5_000_000_000, 5_000_000_001]);
+        assert_eq!(
+            delivered(&mut waiting, 8000),
+            [5_000_000_000, 5_000_000_001]
+        );
     }
 
     #[test]
@@ -126,7 +129,7 @@ mod tests {
             wait(&mut waiting, now, 5, 3000);
             waiting.forget(now);
             let expected = if now < 5 { 0 } else { 3000 };
-            assert_eq!(told(&mut waiting, now).len(), expected);
+            assert_eq!(delivered(&mut waiting, now).len(), expected);
         }
     }
 }

@@ -129,7 +129,7 @@ impl WorkerScratch {
         let percept = beat.map(|_| &mut self.percept);
         sense(view, robot, agent, &mut self.detections, percept);
         if let Some(beat) = beat {
-            self.tell(view, robot, beat);
+            self.deliver(view, robot, beat);
         }
         beat.is_some()
     }
@@ -159,7 +159,7 @@ impl WorkerScratch {
     }
 
     /// Adds the robot's own state to the percept.
-    fn tell(&mut self, view: &View, robot: usize, beat: u64) {
+    fn deliver(&mut self, view: &View, robot: usize, beat: u64) {
         let (body_state, kind) = (&view.body_states[robot], view.kind(robot));
         let percept = &mut self.percept;
         percept.time_s = view.time_s();

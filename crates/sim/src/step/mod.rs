@@ -1,6 +1,7 @@
-//! One step of a run: sense, tell, decide, act, judge. [`tick`] is the table of contents.
+//! One step of a run: sense, communicate, decide, act, judge. [`tick`] is the table of contents.
 
 mod act;
+pub(crate) mod communicate;
 mod decide;
 pub(crate) mod delegated;
 mod encounters;
@@ -14,7 +15,6 @@ mod parallel;
 pub(crate) mod pending_decisions;
 mod plan;
 pub(crate) mod sense;
-pub(crate) mod tell;
 pub(crate) mod tick;
 pub(crate) mod view;
 

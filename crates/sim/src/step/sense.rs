@@ -122,7 +122,7 @@ fn tell_kept(
         }
         ring += usize::from(matches!(sensor.measure, Measure::Range(_)));
     }
-    backlog.tell(now, step_s, percept, |item| detections.note(item));
+    backlog.deliver(now, step_s, percept, |item| detections.note(item));
 }
 
 /// Writes a measurement into the percept.

@@ -1,6 +1,7 @@
-//! One step of a run: sense, tell, decide, act, judge.
+//! One step of a run: sense, communicate, decide, act, judge.
 
 use super::act::Moves;
+use super::communicate;
 use super::decide::{StepInputs, WorkerScratch};
 use super::external::ExternalInputs;
 use super::flock_step::flock_step;
@@ -10,7 +11,6 @@ use super::neighbours::Neighbours;
 use super::parallel::is_worth_sharing;
 use super::pending_decisions::{PendingDecision, PendingDecisions};
 use super::plan::{Plan, planned};
-use super::tell;
 use crate::run::agent::Agent;
 use crate::run::state::State;
 use crate::scenario::Scenario;
@@ -70,12 +70,12 @@ impl StepScratch {
         } else {
             self.refresh(scenario, state);
             self.sense_decide_and_plan(scenario, state, external);
-            tell::send(scenario, state, &self.neighbours, &self.workers);
+            communicate::send(scenario, state, &self.neighbours, &self.workers);
             judge(scenario, state, &external.decisions, &self.workers);
             self.act(scenario, state);
         }
         state.tick += 1;
-        tell::deliver(scenario, state);
+        communicate::deliver(scenario, state);
     }
 
     fn is_shared(&self, state: &State) -> bool {

@@ -1,4 +1,4 @@
-//! Tell: messages are sent by radio, and those that arrive wait for the brains of their receivers.
+//! Communication: messages are sent by radio, and wait for the brains of their receivers.
 
 use super::decide::WorkerScratch;
 use super::neighbours::Neighbours;
@@ -26,13 +26,13 @@ pub(crate) fn send(
     for outgoing in workers.iter().flat_map(|worker| &worker.outbox) {
         let from = outgoing.from as usize;
         if let Some(radio) = &view.kind(from).radio {
-            let heard = ReceivedMessage {
+            let message = ReceivedMessage {
                 from: view.ids[from],
                 age_s: 0.0,
                 message: outgoing.message,
             };
             let receivers = view.receivers(outgoing, radio);
-            channel.send(heard, (view.tick, radio.delay_steps), receivers);
+            channel.send(message, (view.tick, radio.delay_steps), receivers);
         }
     }
     state.channel = channel;

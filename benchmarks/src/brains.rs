@@ -1,7 +1,7 @@
 //! A hundred robots with beliefs, goals, trust, navigation around each other, and a reflex.
 //!
 //! They start along the walls of a hall of 70 m with pillars, and each navigates to a place further along
-//! the walls. On the way, they search for items and report them to each other.
+//! the walls. Meanwhile, they search for items and report them to each other.
 
 use crate::scenarios::read;
 use crate::threads::by_turns;
@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 const ROBOTS: u32 = 100;
 
-/// Destination of each robot, as a number of places further along: opposite, so that all meet in the
+/// Destination of each robot, as a number of positions further along: opposite, so that all meet in the
 /// middle, or across a corner.
 const CROSSINGS: [(&str, u32); 2] = [("opposite", 50), ("round a corner", 20)];
 
@@ -60,7 +60,7 @@ rate_hz = 5
 
 /// Prints the table.
 pub(crate) fn report() {
-    println!("| each wants | threads | thousands of updates/s | by the clock on the wall | hash |");
+    println!("| destination | threads | thousands of updates/s | thousands/s, wall clock | hash |");
     println!("|---|---|---|---|---|");
     for (name, further) in CROSSINGS {
         compare(name, further);
@@ -99,7 +99,7 @@ fn scenario(further: u32) -> Scenario {
         &format!("[robots.rover]\ncount = {ROBOTS}\n"),
         1,
     );
-    read("minds.toml", &text)
+    read("brains.toml", &text)
 }
 
 /// Positions along the walls, a quarter of the robots at each.
