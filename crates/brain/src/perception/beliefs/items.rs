@@ -15,8 +15,8 @@
 //! The prior follows from the density of items, and from the observations that did not detect anything at
 //! that position.
 
-use super::Map;
 use super::coverage_map::View;
+use super::map::Map;
 use super::pose::Pose;
 use crate::io::body::{Detector, RobotId};
 use crate::io::message::Provenance;

@@ -1,24 +1,17 @@
-//! Messages: when a robot broadcasts what, and how received messages change its beliefs.
+//! Messages: which ones a robot broadcasts, and how received ones change its beliefs.
 
+use super::broadcast::certain;
 use super::items::{Reception, Report};
 use super::pose::Pose;
 use super::trust::MIN_TRUST;
-use super::{Beliefs, Body, Prior, Trust};
+use super::world_model::Beliefs;
 use crate::goals::proposal::Destination;
-use crate::io::body::RobotId;
-use crate::io::message::{About, CommitmentStatus, Message, Provenance};
+use crate::io::body::Body;
+use crate::io::message::{About, Message, Provenance};
 use crate::io::percept::{Reading, ReceivedMessage};
 use alloc::vec::Vec;
 use base::geometry::Point;
 use base::trig::wrapped;
-
-/// Time between two broadcasts of the robot's own position. Each robot has its own phase within the
-/// period, because a radio receives only a limited number of messages at once.
-const BROADCAST_PERIOD_S: f64 = 1.0;
-
-/// The destination and the items are repeated with every third broadcast only: a new destination is
-/// broadcast at once, and receivers keep destinations for ten seconds and items for good.
-const BROADCASTS_PER_REPEAT: u8 = 3;
 
 /// A robot that has turned by this angle broadcasts its pose at once: receivers assume that it observed in
 /// the last heading that it sent, and a narrow field of view leaves that heading within this angle.
@@ -33,24 +26,8 @@ const MAX_POSITIONS: f64 = 16.0;
 /// Maximum plausible rate of observations per detector, in Hz: cameras and radios are slower.
 const MAX_OBSERVATION_RATE_HZ: f64 = 50.0;
 
-/// Offset between the phases of two kinds of robots, as a fraction of [`BROADCAST_PERIOD_S`]: multiples of
-/// the golden ratio are spread evenly.
-const KIND_PHASE: f64 = 0.618_033_988_749_894_9;
-
 /// Received positions farther from the origin than this are discarded.
 const MAX_COORDINATE_M: f64 = 1e7;
-
-/// What the robot broadcast last, and when.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct BroadcastState {
-    goal: Option<Destination>,
-    heading_rad: f64,
-    observations: u32,
-    /// Time since the last broadcast; `None` before the first step.
-    age_s: Option<f64>,
-    /// Broadcasts since the last repeat.
-    count: u8,
-}
 
 impl Beliefs {
     /// Updates the beliefs with a received message.
@@ -74,7 +51,11 @@ impl Beliefs {
                     from: received.from,
                 };
                 let variance_m2 = report_variance_m2(body, pose);
-                let reception = reception(self.id, &self.trust, &self.prior);
+                let reception = Reception {
+                    own: self.id,
+                    trust: &self.trust,
+                    spec: &self.prior.trust,
+                };
                 self.items
                     .receive(&reception, &report, variance_m2, &self.prior.per_m2);
             }
@@ -165,65 +146,13 @@ impl Beliefs {
         if is_repeat_due {
             self.items.repeat_next();
         }
-        let reception = reception(self.id, &self.trust, &self.prior);
+        let reception = Reception {
+            own: self.id,
+            trust: &self.trust,
+            spec: &self.prior.trust,
+        };
         self.items.report(&reception, outbox, MAX_ITEM_MESSAGES);
     }
-}
-
-impl BroadcastState {
-    /// Whether a broadcast is due after one more period. The sum of periods may be off by half a period;
-    /// the remainder counts for the next broadcast, so that the mean rate does not depend on the period.
-    fn is_due(&mut self, own: RobotId, period_s: f64) -> bool {
-        let initial_s = || BROADCAST_PERIOD_S * phase(own, period_s);
-        let age_s = self.age_s.unwrap_or_else(initial_s) + period_s;
-        let is_due = age_s >= BROADCAST_PERIOD_S - period_s / 2.0;
-        let remainder_s = (age_s - BROADCAST_PERIOD_S).min(period_s / 2.0);
-        self.age_s = Some(if is_due { remainder_s } else { age_s });
-        if is_due {
-            self.count = (self.count + 1) % BROADCASTS_PER_REPEAT;
-        }
-        is_due
-    }
-
-    /// Broadcasts the current destination, and the status of the previous one.
-    fn broadcast_goal(
-        &mut self,
-        goal: Option<Destination>,
-        at: Point,
-        is_due: bool,
-        outbox: &mut Vec<Message>,
-    ) {
-        let previous = self.goal;
-        let is_new =
-            goal.map(|destination| destination.at) != previous.map(|destination| destination.at);
-        if !is_new && !is_due {
-            return;
-        }
-        let message = |destination: Destination, status| {
-            certain(About::Goal {
-                at: destination.at,
-                status,
-            })
-        };
-        if let Some(ended) = previous.filter(|_| is_new) {
-            if at.to(ended.at).length() <= ended.tolerance_m {
-                outbox.push(message(ended, CommitmentStatus::Done));
-            } else if goal.is_none() {
-                // A new destination implies that the previous one is released.
-                outbox.push(message(ended, CommitmentStatus::Released));
-            }
-        }
-        outbox.extend(goal.map(|destination| message(destination, CommitmentStatus::Active)));
-        self.goal = goal;
-    }
-}
-
-/// The phase of a robot within [`BROADCAST_PERIOD_S`], 0 to 1: the robots of a kind are distributed evenly
-/// over the steps of the period.
-fn phase(own: RobotId, period_s: f64) -> f64 {
-    let steps = libm::round(BROADCAST_PERIOD_S / period_s).clamp(1.0, 1e9);
-    let phase = f64::from(own.index) / steps + KIND_PHASE * f64::from(own.kind);
-    phase - libm::floor(phase)
 }
 
 /// The number of reported observations that are plausible within a time and for a number of detectors.
@@ -232,18 +161,6 @@ fn plausible(observations: u32, in_s: f64, detectors: usize) -> f64 {
     // Ages are sums of periods, with rounding errors.
     let max = libm::floor(in_s * MAX_OBSERVATION_RATE_HZ * f64::from(detectors) + 1e-3);
     f64::from(observations).min(max)
-}
-
-pub(super) fn reception<'t>(own: RobotId, trust: &'t Trust, prior: &'t Prior) -> Reception<'t> {
-    let spec = &prior.trust;
-    Reception { own, trust, spec }
-}
-
-fn certain(about: About) -> Message {
-    Message {
-        about,
-        confidence: 1.0,
-    }
 }
 
 /// The provenance of a reported item; if the report has none, one observation of its sender there.

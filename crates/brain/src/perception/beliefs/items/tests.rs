@@ -293,12 +293,12 @@ fn reports_of_distrusted_robots_are_not_relayed() {
             track_id,
             ..report(observer, 0.9).provenance
         };
-        let told = Report {
+        let relayed = Report {
             from: robot(from),
             provenance,
             ..report(observer, 0.9)
         };
-        items.receive(&reception, &told, 0.01, &[PER_M2]);
+        items.receive(&reception, &relayed, 0.01, &[PER_M2]);
     }
     let mut outbox = Vec::new();
     items.report(&reception, &mut outbox, 100);

@@ -1,6 +1,6 @@
 use super::*;
 use crate::io::body::{Detector, RobotId};
-use crate::io::message::Provenance;
+use crate::io::message::CommitmentStatus;
 use crate::io::percept::{Observation, Percept};
 use crate::perception::beliefs::coverage_map::MAX_DETECTION;
 use crate::perception::beliefs::coverage_map::tests::detector;
@@ -47,8 +47,8 @@ impl Robot {
     }
 
     /// One step at (8, 10), with or without an observation.
-    fn step(&mut self, observations: bool, inbox: Vec<ReceivedMessage>) {
-        let look = Observation {
+    fn step(&mut self, observes: bool, inbox: Vec<ReceivedMessage>) {
+        let observation = Observation {
             sensor: 0,
             age_s: 0.0,
         };
@@ -56,7 +56,11 @@ impl Robot {
             id: ME,
             position: Some(now(Point { x: 8.0, y: 10.0 })),
             heading_rad: Some(now(0.0)),
-            observations: if observations { vec![look] } else { Vec::new() },
+            observations: if observes {
+                vec![observation]
+            } else {
+                Vec::new()
+            },
             inbox,
             ..Percept::default()
         };
@@ -296,73 +300,6 @@ fn invalid_messages_are_ignored() {
         );
     }
     assert!(robot.detected(13.0, 10.5) < 1e-9);
-}
-
-/// A step, and the robots that broadcast in it, in order.
-type Senders = (u32, Vec<RobotId>);
-
-/// The robots that broadcast in each step of a duration in seconds; all are stationary and have a destination.
-fn senders(own: &[RobotId], period_s: f64, for_s: f64) -> Vec<Senders> {
-    let mut sent = vec![BroadcastState::default(); own.len()];
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "few"
-    )]
-    let steps = libm::round(for_s / period_s) as u32;
-    let in_step = |step| {
-        let each = own.iter().zip(&mut sent);
-        let sending = each.filter_map(|(id, sent)| sent.is_due(*id, period_s).then_some(*id));
-        (step, sending.collect())
-    };
-    (1..=steps).map(in_step).collect()
-}
-
-fn robots(kind: u8, count: u32) -> Vec<RobotId> {
-    (0..count).map(|index| RobotId { kind, index }).collect()
-}
-
-#[test]
-fn each_robot_broadcasts_once_per_second_for_any_period() {
-    for (period_s, apart) in [(0.1, 10..=10), (0.05, 20..=20), (0.3, 3..=4), (1.0, 1..=1)] {
-        let mates = robots(0, 3);
-        let steps = senders(&mates, period_s, 60.0);
-        for mate in &mates {
-            let own = steps.iter().filter(|(_, all)| all.contains(mate));
-            let own: Vec<u32> = own.map(|(step, _)| *step).collect();
-            assert!((59..=61).contains(&own.len()), "{period_s}: {own:?}");
-            assert!(
-                own.windows(2).all(|two| apart.contains(&(two[1] - two[0]))),
-                "{own:?}"
-            );
-        }
-    }
-}
-
-/// Each robot broadcasts its pose and its destination; four messages are received per step.
-#[test]
-fn a_receiver_of_four_messages_per_step_receives_all_robots_equally_often() {
-    let mates = robots(0, 16);
-    let steps = senders(&mates, 0.1, 60.0);
-    let received = |mate: &RobotId| {
-        let receives = |all: &[RobotId]| all.iter().take(2).any(|one| one == mate);
-        steps.iter().filter(|(_, all)| receives(all)).count()
-    };
-    let counts: Vec<usize> = mates.iter().map(received).collect();
-    assert!(
-        counts.iter().all(|count| (59..=60).contains(count)),
-        "{counts:?}"
-    );
-}
-
-#[test]
-fn robots_of_several_kinds_have_different_phases() {
-    let mates = [robots(0, 5), robots(1, 5), robots(2, 5)].concat();
-    let most = senders(&mates, 0.1, 60.0)
-        .into_iter()
-        .map(|(_, all)| all.len())
-        .max();
-    assert!(most <= Some(3), "{most:?}");
 }
 
 /// A report by a team mate of its own or another robot's observations.

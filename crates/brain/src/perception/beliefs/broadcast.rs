@@ -1,0 +1,98 @@
+//! The schedule of a robot's broadcasts, and what it sent last.
+
+use crate::goals::proposal::Destination;
+use crate::io::body::RobotId;
+use crate::io::message::{About, CommitmentStatus, Message};
+use alloc::vec::Vec;
+use base::geometry::Point;
+
+/// Time between two broadcasts of the robot's own position. Each robot has its own phase within the
+/// period, because a radio receives only a limited number of messages at once.
+const BROADCAST_PERIOD_S: f64 = 1.0;
+
+/// The destination and the items are repeated with every third broadcast only: a new destination is
+/// broadcast at once, and receivers keep destinations for ten seconds and items for good.
+const BROADCASTS_PER_REPEAT: u8 = 3;
+
+/// Offset between the phases of two kinds of robots, as a fraction of [`BROADCAST_PERIOD_S`]: multiples of
+/// the golden ratio are spread evenly.
+const KIND_PHASE: f64 = 0.618_033_988_749_894_9;
+
+/// What the robot broadcast last, and when.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct BroadcastState {
+    goal: Option<Destination>,
+    pub(super) heading_rad: f64,
+    pub(super) observations: u32,
+    /// Time since the last broadcast; `None` before the first step.
+    age_s: Option<f64>,
+    /// Broadcasts since the last repeat.
+    pub(super) count: u8,
+}
+
+impl BroadcastState {
+    /// Whether a broadcast is due after one more period. The sum of periods may be off by half a period;
+    /// the remainder counts for the next broadcast, so that the mean rate does not depend on the period.
+    pub(super) fn is_due(&mut self, own: RobotId, period_s: f64) -> bool {
+        let initial_s = || BROADCAST_PERIOD_S * phase(own, period_s);
+        let age_s = self.age_s.unwrap_or_else(initial_s) + period_s;
+        let is_due = age_s >= BROADCAST_PERIOD_S - period_s / 2.0;
+        let remainder_s = (age_s - BROADCAST_PERIOD_S).min(period_s / 2.0);
+        self.age_s = Some(if is_due { remainder_s } else { age_s });
+        if is_due {
+            self.count = (self.count + 1) % BROADCASTS_PER_REPEAT;
+        }
+        is_due
+    }
+
+    /// Broadcasts the current destination, and the status of the previous one.
+    pub(super) fn broadcast_goal(
+        &mut self,
+        goal: Option<Destination>,
+        at: Point,
+        is_due: bool,
+        outbox: &mut Vec<Message>,
+    ) {
+        let previous = self.goal;
+        let is_new =
+            goal.map(|destination| destination.at) != previous.map(|destination| destination.at);
+        if !is_new && !is_due {
+            return;
+        }
+        let message = |destination: Destination, status| {
+            certain(About::Goal {
+                at: destination.at,
+                status,
+            })
+        };
+        if let Some(ended) = previous.filter(|_| is_new) {
+            if at.to(ended.at).length() <= ended.tolerance_m {
+                outbox.push(message(ended, CommitmentStatus::Done));
+            } else if goal.is_none() {
+                // A new destination implies that the previous one is released.
+                outbox.push(message(ended, CommitmentStatus::Released));
+            }
+        }
+        outbox.extend(goal.map(|destination| message(destination, CommitmentStatus::Active)));
+        self.goal = goal;
+    }
+}
+
+/// The phase of a robot within [`BROADCAST_PERIOD_S`], 0 to 1: the robots of a kind are distributed evenly
+/// over the steps of the period.
+fn phase(own: RobotId, period_s: f64) -> f64 {
+    let steps = libm::round(BROADCAST_PERIOD_S / period_s).clamp(1.0, 1e9);
+    let phase = f64::from(own.index) / steps + KIND_PHASE * f64::from(own.kind);
+    phase - libm::floor(phase)
+}
+
+/// A message with full confidence.
+pub(super) fn certain(about: About) -> Message {
+    Message {
+        about,
+        confidence: 1.0,
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,301 @@
+//! The world model of a robot: all its beliefs, and their update with each percept.
+
+use super::battery::Battery;
+use super::broadcast::BroadcastState;
+use super::coverage_map::DetectorScan;
+use super::items::{Items, OwnObservation, Reception};
+use super::map::Map;
+use super::others::Others;
+use super::peers::Peers;
+use super::pose::{Localisation, Pose};
+use super::spec::BeliefsSpec;
+use super::trust::{Trust, TrustSpec};
+use crate::io::body::{Body, Detector, RobotId};
+use crate::io::percept::{Contact, Observation, Percept};
+use crate::perception::believed::BelievedItem;
+use crate::perception::rays::{Ray, Ring};
+use crate::perception::sector::direction;
+use alloc::sync::Arc;
+use alloc::vec::Vec;
+use base::geometry::Point;
+use base::trig::wrapped;
+
+/// Rounding tolerance between the ages of an observation and of its contacts.
+const AGE_TOLERANCE_S: f64 = 1e-6;
+
+/// The priors, shared by all robots of a kind.
+#[derive(Debug)]
+pub(super) struct Prior {
+    pub(super) trust: TrustSpec,
+    /// Prior density of items of each kind.
+    pub(super) per_m2: Vec<f64>,
+}
+
+/// The beliefs of one robot.
+#[derive(Debug, Clone)]
+pub(crate) struct Beliefs {
+    pub(super) prior: Arc<Prior>,
+    pub(super) id: RobotId,
+    pub(super) localisation: Localisation,
+    pub(crate) others: Others,
+    pub(crate) peers: Peers,
+    pub(crate) items: Items,
+    pub(super) trust: Trust,
+    battery: Battery,
+    /// `None` if the mission area is unknown.
+    pub(crate) map: Option<Map>,
+    speed_m_s: f64,
+    /// Number of item observations so far, and time since the brain was started.
+    pub(super) observations: u32,
+    on_s: f64,
+    pub(super) broadcast: BroadcastState,
+}
+
+impl Beliefs {
+    /// The initial beliefs.
+    pub(crate) fn new(spec: &BeliefsSpec, body: &Body) -> Self {
+        let area = spec.area_m.or(body.field);
+        let area_m2 = area.map_or(1.0, |area| area.area_m2().max(1.0));
+        let kinds = body.item_kinds.iter();
+        let expected = kinds.map(|kind| spec.prior_count.get(kind).copied().unwrap_or(1.0));
+        let prior = Prior {
+            trust: spec.trust.clone(),
+            per_m2: expected.map(|expected| expected / area_m2).collect(),
+        };
+        Self {
+            prior: Arc::new(prior),
+            id: RobotId::default(),
+            localisation: Localisation::default(),
+            others: Others::default(),
+            peers: Peers::default(),
+            items: Items::default(),
+            trust: Trust::default(),
+            battery: Battery::default(),
+            map: area.map(|area| Map::new(spec, &area)),
+            speed_m_s: 0.0,
+            observations: 0,
+            on_s: 0.0,
+            broadcast: BroadcastState::default(),
+        }
+    }
+
+    /// The estimated pose, if known.
+    pub(crate) fn pose(&self) -> Option<Pose> {
+        self.localisation.pose()
+    }
+
+    /// Estimated remaining time of the battery, in seconds; infinite if unknown.
+    pub(crate) fn battery_s(&self) -> f64 {
+        self.battery.remaining_s()
+    }
+
+    /// Estimated charge of the battery, 0 to 1, if known.
+    pub(crate) fn battery_charge(&self) -> Option<f64> {
+        self.battery.charge()
+    }
+
+    /// Mean time between two item observations.
+    pub(crate) fn observation_period_s(&self) -> f64 {
+        self.on_s / f64::from(self.observations.max(1))
+    }
+
+    /// Renumbers the robots; information about removed robots is dropped.
+    pub(crate) fn renumber(&mut self, now: &impl Fn(RobotId) -> Option<RobotId>) {
+        let keep = |id: &mut RobotId| now(*id).map(|now| *id = now).is_some();
+        self.others
+            .movers
+            .retain_mut(|mover| mover.id.as_mut().is_none_or(keep));
+        self.peers.mates.retain_mut(|peer| keep(&mut peer.id));
+        self.trust.renumber(keep);
+        self.items.renumber(keep);
+    }
+
+    /// The items with their probabilities.
+    pub(crate) fn believed_items(&self) -> impl Iterator<Item = BelievedItem> {
+        let reception = Reception {
+            own: self.id,
+            trust: &self.trust,
+            spec: &self.prior.trust,
+        };
+        self.items.tracks.iter().map(move |track| BelievedItem {
+            kind: track.kind,
+            at: track.at,
+            deviation_m: libm::sqrt(track.variance_m2),
+            confidence: track.confidence(&reception),
+        })
+    }
+
+    /// The position of another robot in the world, if it is tracked or has reported it recently.
+    pub(crate) fn position_of(&self, id: RobotId) -> Option<Point> {
+        let pose = self.pose()?;
+        let mut movers = self.others.movers.iter();
+        let tracked = movers.find(|mover| mover.id == Some(id));
+        let reported = || {
+            let mut mates = self.peers.mates.iter();
+            mates.find(|peer| peer.id == id)?.at()
+        };
+        tracked
+            .map(|mover| pose.in_world(mover.at))
+            .or_else(reported)
+    }
+
+    /// Updates the beliefs after a step: `now_m_s` is the estimated speed, `turned_rad` the turn since the
+    /// last step.
+    pub(crate) fn update(
+        &mut self,
+        percept: &Percept,
+        body: &Body,
+        rings: &[Ring],
+        [now_m_s, turned_rad]: [f64; 2],
+    ) {
+        self.id = percept.id;
+        self.on_s += body.period_s;
+        let travelled_m = travelled_m([self.speed_m_s, now_m_s], body);
+        self.speed_m_s = now_m_s;
+        self.localisation
+            .update(percept, body, travelled_m, turned_rad);
+        let way = direction(turned_rad / 2.0).times(travelled_m);
+        self.others.update(percept, body, way, turned_rad);
+        for (ring, ranges_m) in new_scans(percept, rings, body.period_s) {
+            self.others.scan(ring, ranges_m);
+        }
+        self.peers.advance(body.period_s);
+        self.battery.update(percept, body.period_s);
+        let Some(pose) = self.localisation.pose() else {
+            return;
+        };
+        self.update_map(percept, &pose, rings, body.period_s);
+        let rate_rad_s = turned_rad / body.period_s.max(f64::MIN_POSITIVE);
+        for observation in &percept.observations {
+            let then = earlier(&pose, [now_m_s, rate_rad_s], observation.age_s);
+            self.update_items(observation, percept, body, then);
+        }
+        for received in &percept.inbox {
+            self.receive(received, body, &pose);
+        }
+        self.items
+            .learn(self.id, &mut self.trust, &self.prior.trust);
+    }
+
+    fn update_map(&mut self, percept: &Percept, pose: &Pose, rings: &[Ring], period_s: f64) {
+        let Some(map) = &mut self.map else {
+            return;
+        };
+        if map.is_update_due(pose, period_s) {
+            for scan in new_scans(percept, rings, period_s) {
+                map.update(pose, &self.others, scan);
+            }
+        }
+    }
+
+    /// Updates items and coverage with an observation of an own detector, and its contacts.
+    fn update_items(
+        &mut self,
+        observation: &Observation,
+        percept: &Percept,
+        body: &Body,
+        pose: Pose,
+    ) {
+        let mut detectors = body.detectors.iter();
+        let Some(detector) = detectors.find(|detector| detector.sensor == observation.sensor)
+        else {
+            return;
+        };
+        self.observations = self.observations.saturating_add(1);
+        let own = OwnObservation {
+            observer: self.id,
+            detector,
+            pose,
+            per_m2: &self.prior.per_m2,
+        };
+        let belongs = |contact: &&Contact| {
+            contact.sensor == observation.sensor
+                && (contact.age_s - observation.age_s).abs() < AGE_TOLERANCE_S
+        };
+        let contacts = percept.contacts.iter().filter(belongs);
+        self.items.observe(&own, contacts, self.map.as_ref());
+        self.update_coverage(detector, (pose.at, pose.heading_rad), [1.0, 1.0]);
+    }
+
+    /// Updates the coverage map with a number of observations from a pose, weighted by trust.
+    pub(super) fn update_coverage(
+        &mut self,
+        detector: &Detector,
+        (at, heading_rad): (Point, f64),
+        [trust, observations]: [f64; 2],
+    ) {
+        if let Some(Map {
+            field,
+            occupancy,
+            coverage,
+            ..
+        }) = &mut self.map
+        {
+            let blur_m = self.localisation.pose().map_or(0.0, |pose| pose.blur_m());
+            let scan = DetectorScan {
+                detector,
+                at,
+                heading_rad,
+                trust,
+                observations,
+                blur_m,
+            };
+            coverage.update(field, occupancy, &scan);
+        }
+    }
+}
+
+/// The distance travelled in a step: acceleration to the new speed first, then motion at that speed.
+fn travelled_m([before_m_s, now_m_s]: [f64; 2], body: &Body) -> f64 {
+    let change_m_s = now_m_s - before_m_s;
+    let change_s = change_m_s.abs() / body.max_acceleration_m_s2.max(f64::MIN_POSITIVE);
+    now_m_s * body.period_s - change_m_s * change_s.min(body.period_s) / 2.0
+}
+
+/// The pose some time ago, at a constant speed and turn rate.
+fn earlier(pose: &Pose, [speed_m_s, rate_rad_s]: [f64; 2], age_s: f64) -> Pose {
+    // Invalid ages count as 0.
+    let age_s = if (0.0..=60.0).contains(&age_s) {
+        age_s
+    } else {
+        0.0
+    };
+    let heading_rad = wrapped(pose.heading_rad - rate_rad_s * age_s);
+    let way = direction(heading_rad + rate_rad_s * age_s / 2.0).times(-speed_m_s * age_s);
+    Pose {
+        at: pose.at.plus(way),
+        heading_rad,
+        ..*pose
+    }
+}
+
+/// Scans that have not been used before.
+fn new_scans<'p>(
+    percept: &'p Percept,
+    rings: &'p [Ring],
+    period_s: f64,
+) -> impl Iterator<Item = (&'p Ring, &'p [f64])> {
+    let scans = rings.iter().zip(&percept.scans);
+    scans.filter_map(move |(ring, scan)| {
+        let (age_s, ranges_m) = ring.fresh(Some(scan))?;
+        (age_s < ring.latency_s() + period_s).then_some((ring, ranges_m))
+    })
+}
+
+/// Collects the rays that currently hit static obstacles.
+pub(crate) fn static_hits(
+    beliefs: &Beliefs,
+    rings: &[Ring],
+    percept: &Percept,
+    into: &mut Vec<Ray>,
+) {
+    into.clear();
+    for (ring, scan) in rings.iter().zip(&percept.scans) {
+        let Some((_, ranges_m)) = ring.fresh(Some(scan)) else {
+            continue;
+        };
+        let is_static =
+            |ray: &Ray| ray.range_m < ring.range_m() && !beliefs.others.is_on_mover(ray.end());
+        into.extend(ring.rays(ranges_m).filter(is_static));
+    }
+}
