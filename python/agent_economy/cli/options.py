@@ -9,6 +9,10 @@ from agent_economy._core import InputError
 from agent_economy.scenario import Override
 from agent_economy.scenario.validation import check
 
+ScenarioArgument = typer.Argument(
+    help="A scenario file (TOML), or the name of a bundled one.", show_default=False
+)
+
 Sets = Annotated[
     list[str] | None,
     typer.Option(

@@ -22,7 +22,7 @@ from agent_economy import api
 from agent_economy._core import InputError
 from agent_economy.cli.answer_table import WIDE
 from agent_economy.cli.errors import error_exits
-from agent_economy.cli.options import Seed, Sets, overrides
+from agent_economy.cli.options import ScenarioArgument, Seed, Sets, overrides
 from agent_economy.cli.run_progress import progress_bar
 from agent_economy.scenario import Scenario
 from agent_economy.study.answer import estimate
@@ -48,12 +48,7 @@ Summary = list[dict[str, Any]]
 
 
 def replicate(  # noqa: PLR0913  (typer's options are arguments)
-    scenario: Annotated[
-        Path,
-        typer.Argument(
-            help="A scenario file (TOML), or the name of a bundled one.", show_default=False
-        ),
-    ],
+    scenario: Annotated[Path, ScenarioArgument],
     *,
     count: Annotated[
         int, typer.Option("--runs", min=1, max=10_000_000, help="Number of runs.")

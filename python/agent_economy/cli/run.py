@@ -14,7 +14,7 @@ from rich.text import Text
 from agent_economy import api
 from agent_economy._core import InputError
 from agent_economy.cli.errors import FAILED, error_exits
-from agent_economy.cli.options import Seed, Sets, overrides
+from agent_economy.cli.options import ScenarioArgument, Seed, Sets, overrides
 from agent_economy.cli.run_progress import progress_bar
 from agent_economy.runs import factory
 from agent_economy.runs.outcome import Outcome
@@ -24,12 +24,7 @@ from agent_economy.scenario import Scenario
 
 
 def run(  # noqa: PLR0913  (typer's options are arguments)
-    scenario: Annotated[
-        Path,
-        typer.Argument(
-            help="A scenario file (TOML), or the name of a bundled one.", show_default=False
-        ),
-    ],
+    scenario: Annotated[Path, ScenarioArgument],
     *,
     seed: Seed = 0,
     number: Annotated[
@@ -51,7 +46,7 @@ def run(  # noqa: PLR0913  (typer's options are arguments)
         list[str] | None,
         typer.Option(
             metavar="ROBOT",
-            help="Also record percepts and beliefs of a robot such as rover/0; may be repeated.",
+            help="Also record percepts, commands and scans of this robot; may be repeated.",
             show_default=False,
         ),
     ] = None,

@@ -12,7 +12,7 @@ from agent_economy import study as studies
 from agent_economy._core import InputError
 from agent_economy.cli.answer_table import show
 from agent_economy.cli.errors import INTERRUPTED, error_exits
-from agent_economy.cli.options import Sets, overrides
+from agent_economy.cli.options import ScenarioArgument, Sets, overrides
 from agent_economy.cli.study_progress import ProgressDisplay
 from agent_economy.scenario import Override, Scenario
 from agent_economy.study.answer.labels import label
@@ -68,12 +68,7 @@ class ResumeStudy:
 
 
 def study(  # noqa: PLR0913  (typer's options are arguments)
-    scenario: Annotated[
-        Path | None,
-        typer.Argument(
-            help="A scenario file (TOML), or the name of a bundled one.", show_default=False
-        ),
-    ] = None,
+    scenario: Annotated[Path | None, ScenarioArgument] = None,
     *,
     vary: Annotated[
         list[str] | None,

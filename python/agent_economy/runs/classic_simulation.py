@@ -1,6 +1,5 @@
 """An interactive run of the classic engine."""
 
-from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -18,17 +17,6 @@ KIND = "wanderer"
 """The only robot kind of the classic engine."""
 
 
-@dataclass(frozen=True)
-class ClassicSnapshot:
-    """The state of a run at one step, for `ClassicSimulation.restore`."""
-
-    scenario: Scenario
-    seed: int
-    run: int
-    changes: tuple[Change, ...]
-    _state: _core.ClassicSnapshot = field(repr=False)
-
-
 class ClassicSimulation(Stepped):
     """A run of the classic engine in single steps, with the same results as `agent_economy.run`.
 
@@ -43,6 +31,7 @@ class ClassicSimulation(Stepped):
     """
 
     _run: _core.ClassicSimulation
+    _state_type = _core.ClassicSnapshot
 
     def __init__(self, scenario: Scenario | str | Path, seed: int = 0, run: int = 0) -> None:
         """Create a run at its first step.
@@ -92,24 +81,6 @@ class ClassicSimulation(Stepped):
             tick = self._run.change(changed.classic())
             self.scenario = changed
             self._changes += (Change(tick, path, value),)
-
-    def snapshot(self) -> ClassicSnapshot:
-        """Return a copy of the complete state of the run."""
-        with self._lock:
-            state = self._run.snapshot()
-            return ClassicSnapshot(self.scenario, self.seed, self.run, self._changes, state)
-
-    def restore(self, snapshot: ClassicSnapshot) -> None:
-        """Return to a snapshot: its state, scenario, seed, run number and changes.
-
-        Raises:
-            InputError: If `snapshot` is not a `ClassicSnapshot`.
-        """
-        validation.of_type("snapshot", snapshot, ClassicSnapshot, "what snapshot() returned")
-        with self._lock:
-            self._run.restore(snapshot._state)  # noqa: SLF001  (ours)
-            self.scenario, self._changes = snapshot.scenario, snapshot.changes
-            self.seed, self.run = snapshot.seed, snapshot.run
 
     def belief_state(self, robot: str) -> None:
         """Return None: robots of the classic engine have no beliefs.

@@ -1,7 +1,6 @@
 """An interactive run of the metric engine."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from numbers import Integral
 from pathlib import Path
 from typing import Any, NamedTuple, cast
@@ -14,7 +13,7 @@ from agent_economy import _core
 from agent_economy.runs.brain import BeliefState, BelievedMap, Command, Inspection, Percept
 from agent_economy.runs.outcome import Outcome
 from agent_economy.runs.python_brains import Brains, python_brains, resized
-from agent_economy.runs.stepped import Change, Stepped
+from agent_economy.runs.stepped import Change, Snapshot, Stepped
 from agent_economy.scenario import Override, Scenario, TomlValue, as_scenario, validation
 
 Floats = NDArray[np.float64]
@@ -39,21 +38,6 @@ class Footprint(NamedTuple):
     ranges_m: Floats
 
 
-@dataclass(frozen=True)
-class Snapshot:
-    """The state of a run at one step, for `Simulation.restore` of any simulation of this process.
-
-    It cannot be pickled. To keep a run, store its scenario, seed, run number and `changes`, and
-    step again.
-    """
-
-    scenario: Scenario
-    seed: int
-    run: int
-    changes: tuple[Change, ...]
-    _state: _core.Snapshot = field(repr=False)
-
-
 class Simulation(Stepped):
     """A run of the metric engine in single steps, with the same results as `agent_economy.run`.
 
@@ -67,6 +51,7 @@ class Simulation(Stepped):
     """
 
     _run: _core.Simulation
+    _state_type = _core.Snapshot
 
     def __init__(
         self,
@@ -299,22 +284,17 @@ class Simulation(Stepped):
             InputError: If the run has Python brains, whose memory a snapshot cannot contain.
         """
         self._check_no_python_brains("snapshot")
-        with self._lock:
-            state = self._run.snapshot()
-            return Snapshot(self.scenario, self.seed, self.run, self._changes, state)
+        return super().snapshot()
 
     def restore(self, snapshot: Snapshot) -> None:
         """Return to a snapshot: its state, scenario, seed, run number and changes.
 
         Raises:
-            InputError: If `snapshot` is not a `Snapshot`, or the run has Python brains.
+            InputError: If `snapshot` is not a snapshot of this engine, or the run has Python
+                brains.
         """
         self._check_no_python_brains("restore")
-        validation.of_type("snapshot", snapshot, Snapshot, "what snapshot() returned")
-        with self._lock:
-            self._run.restore(snapshot._state)  # noqa: SLF001  (ours)
-            self.scenario, self._changes = snapshot.scenario, snapshot.changes
-            self.seed, self.run = snapshot.seed, snapshot.run
+        super().restore(snapshot)
 
     def _check_no_python_brains(self, method: str) -> None:
         kinds = [each.kind for each in self._brains]

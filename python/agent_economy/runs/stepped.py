@@ -2,11 +2,12 @@
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
+from dataclasses import dataclass, field
 from threading import RLock
-from typing import Any, NamedTuple, Protocol
+from typing import Any, ClassVar, NamedTuple, Protocol
 
 from agent_economy.runs.outcome import Columns, Outcome, Status, outcome_of
-from agent_economy.scenario import Scenario, TomlValue
+from agent_economy.scenario import Scenario, TomlValue, validation
 from agent_economy.types.brain import BeliefState
 
 
@@ -22,6 +23,21 @@ class Change(NamedTuple):
     tick: int
     path: str
     value: TomlValue
+
+
+@dataclass(frozen=True)
+class Snapshot:
+    """The state of a run at one step, for `restore` of any run of its engine in this process.
+
+    It cannot be pickled. To keep a run, store its scenario, seed, run number and `changes`, and
+    step again.
+    """
+
+    scenario: Scenario
+    seed: int
+    run: int
+    changes: tuple[Change, ...]
+    _state: Any = field(repr=False)
 
 
 class CompiledRun(Protocol):
@@ -40,6 +56,8 @@ class CompiledRun(Protocol):
     @property
     def hash(self) -> int: ...  # noqa: D102
     def outcome(self) -> Mapping[str, float] | None: ...  # noqa: D102
+    def snapshot(self) -> Any: ...  # noqa: D102
+    def restore(self, snapshot: Any) -> None: ...  # noqa: D102
 
 
 class Stepped(ABC):
@@ -57,6 +75,7 @@ class Stepped(ABC):
     seed: int
     run: int
     _run: CompiledRun
+    _state_type: ClassVar[type]
 
     def __init__(self, scenario: Scenario, seed: int, run: int) -> None:
         """Create a run without changes."""
@@ -86,13 +105,25 @@ class Stepped(ABC):
     def belief_state(self, robot: str) -> BeliefState | None:
         """Return what a robot believes and its goals; None if its brain has no beliefs."""
 
-    @abstractmethod
-    def snapshot(self) -> Any:
-        """Return a copy of the complete state of the run."""
+    def snapshot(self) -> Snapshot:
+        """Return a copy of the complete state of the run. It takes as much memory as the run."""
+        with self._lock:
+            state = self._run.snapshot()
+            return Snapshot(self.scenario, self.seed, self.run, self._changes, state)
 
-    @abstractmethod
-    def restore(self, snapshot: Any) -> None:
-        """Return to the state of a snapshot."""
+    def restore(self, snapshot: Snapshot) -> None:
+        """Return to a snapshot: its state, scenario, seed, run number and changes.
+
+        Raises:
+            InputError: If `snapshot` is not a snapshot of a run of this engine.
+        """
+        state = getattr(snapshot, "_state", None)
+        is_own = isinstance(state, self._state_type)
+        validation.check(is_own, "snapshot", snapshot, "what snapshot() returned")
+        with self._lock:
+            self._run.restore(state)
+            self.scenario, self._changes = snapshot.scenario, snapshot.changes
+            self.seed, self.run = snapshot.seed, snapshot.run
 
     def outcome(self) -> Outcome:
         """Return the outcome at the current step; at the end of the run, it is that of `run`."""
