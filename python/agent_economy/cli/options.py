@@ -66,20 +66,20 @@ def once(option: str, given: list[str]) -> list[str]:
     paths = [text.partition("=")[0].strip() for text in given]
     twice = next((path for path in paths if paths.count(path) > 1), None)
     if twice:
-        such = f", such as {twice}=1..4,8" if option == "--vary" else ""
-        message = f"{option} {twice}: occurs twice: expected once{such}"
+        example = f", such as {twice}=1..4,8" if option == "--vary" else ""
+        message = f"{option} {twice}: occurs twice: expected once{example}"
         raise InputError(message)
     return given
 
 
 def assigned(text: str) -> Override:
-    """Return the override that PATH=VALUE stands for."""
+    """Return the override of PATH=VALUE."""
     path, value = parts("--set", text, "PATH=VALUE, such as clock.time_limit_s=60")
     return Override.at(path, parsed(value), f"--set {path}")
 
 
 def varied(text: str) -> Override:
-    """Return the override that PATH=VALUES stands for."""
+    """Return the override of PATH=VALUES."""
     path, values = parts("--vary", text, "PATH=VALUES, such as robots.wanderer.count=1..12")
     return Override(("study", "vary", path), values, "--vary")
 

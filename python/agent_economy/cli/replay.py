@@ -35,7 +35,7 @@ def replay(
 
     Example: agent-economy replay run.mcap
     """
-    # Importing the reader takes as long as everything else.
+    # Importing the reader doubles the start-up time.
     from agent_economy import recording  # noqa: PLC0415
 
     with error_exits():

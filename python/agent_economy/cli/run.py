@@ -107,7 +107,7 @@ def watched(scenario: Scenario, seed: int, number: int) -> Outcome:
 
 def recorded(simulation: Stepped, path: Path, every: int, percepts: Sequence[str]) -> Outcome:
     """Run once and record it; exit with a code if the recording cannot be written."""
-    # Importing the writer takes as long as everything else.
+    # Importing the writer doubles the start-up time.
     from agent_economy.recording import Recording, RecordingError  # noqa: PLC0415
 
     try:

@@ -25,7 +25,7 @@ def progress_bar(total: float, unit: str) -> Iterator[Callable[[float], None]]:
         unit: Its unit, such as "runs".
 
     Returns:
-        A function that takes the amount done; it may be called as often as you like.
+        A function that takes the amount done; it may be called at any rate.
     """
     console = Console(stderr=True)
     live = Live(console=console, transient=True, auto_refresh=False)

@@ -53,7 +53,7 @@ class ResumeStudy:
 
     Attributes:
         folder: Folder of the study.
-        confidence: A higher confidence to reach with all runs so far; None for the same.
+        confidence: A higher confidence, which reuses all runs; None to keep the confidence.
     """
 
     folder: Path
@@ -268,7 +268,7 @@ def required(scenario: Path | None) -> Path:
 
 
 def refuse_with_resume(others: dict[str, Any], changes: tuple[Override, ...]) -> None:
-    """Raise an error if anything is given that the folder of a study already has.
+    """Raise an error for options that the folder of a study already defines.
 
     Raises:
         InputError: If an option is set.

@@ -93,7 +93,7 @@ class ProgressDisplay:
         table = Table(box=box.SIMPLE_HEAD)
         table.add_column("leading")
         table.add_column("runs", justify="right")
-        table.add_column("merit so far", justify="right")
+        table.add_column("current merit", justify="right")
         for leader in progress.leaders:
             name = Text(self.names[leader.configuration])
             table.add_row(name, f"{leader.runs:,}", f"{leader.merit:.3f}")

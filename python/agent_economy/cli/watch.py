@@ -53,7 +53,7 @@ def rounds(folder: Path) -> Iterator[Progress]:
     done, begin, first_runs = 0, time.monotonic(), 0
     is_locked = True
     while is_locked:
-        # Read before the rounds: a round that ends in between is seen in the next pass.
+        # Read before the rounds: a round that ends in between is printed in the next pass.
         is_locked = study.is_locked(folder)
         decisions = store.decisions()
         first_runs = first_runs or (decisions[-1].facts["runs"] if decisions else 0)

@@ -15,8 +15,8 @@ class Term:
     """One summand of a figure of merit.
 
     Attributes:
-        name: How scenarios name it, such as "time".
-        column: What it weighs, such as "time_s".
+        name: Its name in scenarios, such as "time".
+        column: The weighted column, such as "time_s".
         weight: By how much; not 0.
         max: A value above this counts as this; None for as it is.
     """
@@ -50,7 +50,7 @@ class Merit:
 
     Attributes:
         name: How scenarios name it, or its weights.
-        terms: At least one, in the order in which they are added.
+        terms: The terms in the order of summation, at least one.
     """
 
     name: str
@@ -58,7 +58,7 @@ class Merit:
 
     @property
     def columns(self) -> tuple[str, ...]:
-        """The columns that it is made of."""
+        """The columns of its terms."""
         return tuple(term.column for term in self.terms)
 
     def score(self, columns: Mapping[str, NDArray[np.float64]]) -> NDArray[np.float64]:

@@ -24,7 +24,7 @@ from agent_economy.scenario.source import (
 
 @dataclass(frozen=True)
 class Published:
-    """Results from the literature, shown beside ours.
+    """Results from the literature, displayed with those of the study.
 
     Attributes:
         source: Where they were published.
@@ -41,7 +41,7 @@ class Published:
 
 @dataclass(frozen=True)
 class Factor:
-    """What a study varies, and over which values.
+    """A factor that a study varies, with its values.
 
     Attributes:
         path: Dotted keys from the scenario's root.
@@ -60,14 +60,14 @@ class Scenario:
 
     Attributes:
         name: The file name without its extension.
-        source: What it was read from.
+        source: Its text, overrides and files.
         engine: The simulator that runs it: "metric" or "classic".
         summary: A one-line description.
         merit: The figure of merit that scores runs.
         robots: Number of robots in a single run, by kind.
         time_limit_s: A run that takes longer has failed, and counts as this long.
         facts: Further constants of the scenario for display: pairs of a name and a string.
-        factors: What a study varies; empty if nothing. The order is fixed.
+        factors: The factors that a study varies, in a fixed order; may be empty.
         design: Which configurations it compares: "factorial", "lhs:N" or "sobol:N" (N points).
         delta: Indifference zone: the smallest difference in merit that matters, above 0; None if
             the file has none.
@@ -94,7 +94,7 @@ class Scenario:
         """Read a scenario from a file, or a bundled one by its name, such as "classic".
 
         Raises:
-            InputError: If the file cannot be read or anything in it is wrong. It lists all errors.
+            InputError: If the file cannot be read or it has errors; the message lists all of them.
         """
         file = bundled.find(validation.path("file", file))
         data = read_file(file, MAX_BYTES)
@@ -114,16 +114,16 @@ class Scenario:
         """Read a scenario from TOML text; errors name it `file`.
 
         Raises:
-            InputError: If anything in it is wrong. It lists all errors.
+            InputError: If it has errors; the message lists all of them.
         """
         return cls.of(Source(file, text, check_overrides(overrides)))
 
     @classmethod
     def of(cls, source: Source) -> "Scenario":
-        """Read a scenario from its source, with the files that the source names but does not hold.
+        """Read a scenario from its source, with files that the source only refers to.
 
         Raises:
-            InputError: If anything in it is wrong. It lists all errors.
+            InputError: If it has errors; the message lists all of them.
         """
         validation.of_type("source", source, Source, "a Source, such as Scenario.source")
         source = source.complete()
@@ -205,7 +205,7 @@ def as_scenario(scenario: Scenario | str | Path) -> Scenario:
     """Return a scenario as it is, or load the one of a file or a bundled name.
 
     Raises:
-        InputError: If it is neither, or anything in it is wrong. It lists all errors.
+        InputError: If it is neither, or it has errors; the message lists all of them.
     """
     if isinstance(scenario, Scenario):
         return scenario

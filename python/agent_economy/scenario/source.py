@@ -1,4 +1,4 @@
-"""What a scenario is read from: its text, the values set over it, and the files that it names."""
+"""The source of a scenario: its text, the overrides, and the files that it refers to."""
 
 import stat
 from collections.abc import Mapping, Sequence
@@ -13,7 +13,7 @@ Value = str | int | float
 """A value of a factor. Booleans are integers in Python."""
 
 TomlValue = Value | Sequence[Any] | Mapping[str, Any]
-"""What a scenario file can hold at a path: a value, a list or a table."""
+"""The content of a scenario file at a path: a value, a list or a table."""
 
 RECORDING_MAGIC = b"\x89MCAP"
 """The first bytes of a recording."""
@@ -34,7 +34,7 @@ class Override:
     Attributes:
         path: Keys from the scenario's root.
         value: The value, as the file could have it.
-        origin: How errors name it, such as --merit.
+        origin: Its name in errors, such as --merit.
     """
 
     path: tuple[str, ...]
@@ -61,11 +61,11 @@ class Source:
     """Everything that is needed to read a scenario again, also on another machine.
 
     Attributes:
-        file: How errors name the text.
-        text: TOML.
+        file: Name of the text in errors.
+        text: The text in TOML.
         overrides: Values that replace those of the text.
-        files: The files that it names, such as maps, by name: their bytes, or the reason that they
-            cannot be read.
+        files: The files that it refers to, such as maps, by name: their bytes, or the reason why
+            they cannot be read.
     """
 
     file: str
@@ -110,7 +110,7 @@ def read_file(path: Path, max_bytes: int) -> bytes | str:
         return error.strerror or str(error)
     except ValueError as error:  # a name that no file can have
         return str(error)
-    # A recording passed by mistake gets an error of its own, whatever its size.
+    # A recording passed by mistake gets its own error, also if it is too large.
     if len(data) > max_bytes and not data.startswith(RECORDING_MAGIC):
         return f"it is larger than the limit of {max_bytes:,} bytes"
     return data
@@ -153,7 +153,7 @@ def decode(file: Path, data: bytes) -> str:
 
 
 def not_text(file: Path, error: UnicodeDecodeError) -> str:
-    """Return what is wrong with a file that is not UTF-8 text."""
+    """Return the error message for a file that is not UTF-8 text."""
     if error.object.startswith(RECORDING_MAGIC):
         command = f"agent-economy replay {file}"
         return f"{file}: expected a scenario, got a recording; to replay it: {command}"

@@ -52,7 +52,7 @@ def run(  # noqa: PLR0913  (keywords with defaults)
         max_runs: Run budget of all configurations together; if it is reached first, the answer has
             no guarantee. None for no limit.
         seed: Seed of all random numbers, 0 to 2^64 - 1.
-        out: Folder in which the study is stored; None stores nothing.
+        out: Folder of the study; None stores nothing.
         compute: Computes blocks of runs, such as `Workers.columns`; None for threads of this
             process.
         on_progress: Called after each round, and about every second during a long one.
@@ -109,7 +109,7 @@ def rebuild(folder: str | Path) -> Answer:
 
 
 def load_answer(folder: str | Path) -> tuple[Answer, Evidence]:
-    """Return the answer of a finished study and its runs; computes and writes nothing.
+    """Return the answer of a finished study and its runs, without computing or writing anything.
 
     Raises:
         InputError: If the folder contains no study, or an unfinished one.

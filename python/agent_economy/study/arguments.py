@@ -31,7 +31,7 @@ def checked_arguments(  # noqa: PLR0913, PLR0917  (the arguments of select_best)
     """Return the bounds of each configuration, shape (k, 2).
 
     Raises:
-        InputError: If an argument is invalid; with all errors at once.
+        InputError: If an argument is invalid; it lists all errors.
     """
     whole_k = is_whole(k, 1, MAX_CONFIGURATIONS)
     min_runs = FIRST_LOOK * k if whole_k else 1

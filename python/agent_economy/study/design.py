@@ -21,7 +21,7 @@ def points(factors: Sequence[Factor], design: str = "factorial", seed: int = 0) 
     """Return the configurations of a design, the same in every call.
 
     Args:
-        factors: What is varied; without factors there is one configuration, without changes.
+        factors: The varied factors. Without any, the design has one configuration.
         design: "factorial" (all combinations of values, the first factor varies slowest), "lhs:N"
             or "sobol:N" (N space-filling points, N a power of two for sobol), as in
             `Scenario.design`. A list of values divides its axis into equal parts, one per value;

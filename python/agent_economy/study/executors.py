@@ -125,7 +125,7 @@ def dask_executor(address: str) -> DaskExecutor:
             must be installed on its workers.
 
     Raises:
-        InputError: If Dask is not installed, or nothing answers at the address.
+        InputError: If Dask is not installed, or no scheduler responds at the address.
     """
     try:
         from distributed import Client  # noqa: PLC0415  (an extra, and slow to load)

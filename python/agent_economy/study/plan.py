@@ -155,7 +155,7 @@ def make(  # noqa: PLR0913  (keywords with defaults)
     runs: int | None = None,
     max_runs: int | None = None,
 ) -> Plan:
-    """Return the plan of a scenario's study; None stands for the scenario's value or the default.
+    """Return the plan of a scenario's study; None selects the scenario's value or the default.
 
     Raises:
         InputError: If an argument or a configuration is invalid.
@@ -175,7 +175,7 @@ def make(  # noqa: PLR0913  (keywords with defaults)
 
 
 def default_delta(limits: Floats) -> float:
-    """Return the delta of a study without one of its own."""
+    """Return the default delta of a study."""
     return PART_OF_RANGE * float(limits[:, 1].max() - limits[:, 0].min()) or 1.0
 
 
@@ -216,10 +216,10 @@ def draft(  # noqa: PLR0913  (as in make)
 def check_question(
     *, seed: int, delta: float | None, confidence: float | None, guarantee: str, runs: int | None
 ) -> None:
-    """Check the question of a study; None stands for the scenario's value.
+    """Check the question of a study; None selects the scenario's value.
 
     Raises:
-        InputError: If an argument is invalid; with all errors at once.
+        InputError: If an argument is invalid; it lists all errors.
     """
     confidence = MIN_CONFIDENCE if confidence is None else confidence
     errors = question_errors(1.0 if delta is None else delta, confidence, guarantee)
@@ -231,7 +231,7 @@ def check_question(
 
 
 def check_max_runs(max_runs: int | None, runs: int | None, min_runs: int) -> None:
-    """Check a run budget: it must allow the first look, and excludes a fixed number of runs.
+    """Check a run budget: it must allow the first round, and excludes a fixed number of runs.
 
     Raises:
         InputError: If it is invalid.

@@ -10,7 +10,7 @@ from agent_economy.study.selection import Elimination
 
 @dataclass(frozen=True)
 class Leader:
-    """One of the best configurations so far."""
+    """One of the leading configurations."""
 
     configuration: int
     runs: int
@@ -30,7 +30,7 @@ class Progress:
         computed: Those of them that this process computed.
         seconds: Seconds since the start.
         survivors: Remaining configurations.
-        leaders: The best of them so far.
+        leaders: The best of them by their current estimates.
         eliminated: Configurations that the completed round eliminated.
         is_over: Whether it was the last round.
         estimate_remaining: Returns the approximate number of runs left; None if it is unknown.
@@ -64,7 +64,7 @@ class Progress:
     def of_facts(
         cls, number: int, facts: Mapping[str, Any], computed: int, seconds: float
     ) -> "Progress":
-        """Return a round from the ledger: without intervals and an estimate of what is left."""
+        """Return a round from the ledger, without intervals and an estimate of remaining work."""
         return cls(
             round=number + 1,
             runs=facts["runs"],

@@ -13,7 +13,7 @@ FOLDER = Path("studies")
 
 @dataclass(frozen=True)
 class Question:
-    """What a study compares, and with which guarantee.
+    """The configurations that a study compares, and its guarantee.
 
     Attributes:
         design: As in `Scenario.design`.

@@ -74,7 +74,7 @@ def run_race(
 
 
 def answer_of(plan: Plan, store: StoredRuns, compute: Compute) -> tuple[Answer, Evidence]:
-    """Return the answer that stored runs give; writes nothing."""
+    """Return the answer from the stored runs, without writing anything."""
     evidence, ending = Race(plan, store, compute, None).run()
     return conclude(plan, evidence, ending), evidence
 
@@ -131,7 +131,7 @@ class Race:
             self._report(self._progress())
 
     def evidence(self) -> Evidence:
-        """Return the runs so far."""
+        """Return the runs until now."""
         samples = [self._sample(index) for index in range(len(self._columns))]
         return Evidence(tuple(samples), self._plan.confidence)
 

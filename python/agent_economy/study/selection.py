@@ -29,7 +29,7 @@ ROUNDING = 1e-9
 
 @dataclass(frozen=True)
 class Elimination:
-    """An eliminated configuration, by which other, and after how many of its runs."""
+    """An elimination: the configuration, the one that eliminated it, and its number of runs."""
 
     configuration: int
     by: int
@@ -95,16 +95,16 @@ def select_best(  # noqa: PLR0913  (keywords with defaults)
             "pgs" (probability of good selection): the selected one is within delta of the best, in
             all cases (6 to 40% more runs).
         common_random_numbers: Whether run r of all configurations may share its random numbers.
-            If not, every configuration has run numbers of its own.
-        seed: 0 to 2,147,483,647; its run numbers begin at seed x 2^32 (without common random
-            numbers at seed x k x 2^32, and each configuration has 2^32 of its own).
+            Otherwise, every configuration has its own run numbers.
+        seed: 0 to 2,147,483,647. Run numbers start at seed x 2^32; without common random numbers
+            at seed x k x 2^32, with 2^32 numbers for each configuration.
         max_runs: Run budget of all configurations together; None for no limit.
 
     Returns:
         The selection; if the run budget was reached first, the leader without a guarantee.
 
     Raises:
-        InputError: If an argument is invalid, with all errors at once; or if the sampler returns
+        InputError: If an argument is invalid (it lists all errors), or if the sampler returns
             another shape, or a merit outside of `bounds`.
     """
     check(callable(sampler), "sampler", sampler, SAMPLER)

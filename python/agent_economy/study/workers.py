@@ -119,13 +119,13 @@ class Workers:
         self.stop()
 
     def stop(self) -> None:
-        """Stop the workers at once; a later block starts new ones."""
+        """Stop the workers immediately; a later block starts new ones."""
         executor, self._executor = self._executor, None
         if executor:
             executor.shutdown(wait=False, cancel_futures=True)
 
     def columns(self, block: RunBlock) -> Columns:
-        """Return the outcomes of a block, the same as if the task computed it at once.
+        """Return the outcomes of a block, the same as from a single call of the task.
 
         Raises:
             StudyError: If a chunk failed three times, or the executor is lost.
@@ -203,7 +203,7 @@ class Job:
 
     Attributes:
         block: The requested runs.
-        columns: The outcomes so far.
+        columns: The outcomes of the completed chunks.
         pending: Submitted chunks.
         retries: Chunks that failed.
         assigned: Number of rows submitted at least once.

@@ -16,7 +16,7 @@ from agent_economy.study.plan import Plan
 
 @dataclass(frozen=True)
 class Answer:
-    """The answer of a study: how many of which robots to send.
+    """The answer of a study: the selected configuration, and the results of all.
 
     Attributes:
         scenario: The scenario of the study.
@@ -55,7 +55,7 @@ class Answer:
 
 
 def conclude(plan: Plan, evidence: Evidence, ending: Ending) -> Answer:
-    """Return the answer that a study's runs give."""
+    """Return the answer that follows from the runs of a study."""
     found = results(evidence, ending, plan.delta)
     return Answer(
         scenario=plan.scenario,

@@ -22,7 +22,7 @@ SMALLEST = 1e-100
 
 @dataclass(frozen=True)
 class Target:
-    """What a test must prove, and the number of rivals in all."""
+    """The hypothesis that a test must prove, and the total number of rivals."""
 
     delta: float
     rivals: int

@@ -90,7 +90,7 @@ class Evidence:
 
     @cached_property
     def _intervals(self) -> dict[tuple[int, str], Interval]:
-        """Intervals computed so far: each is used many times."""
+        """Cache of intervals, each of which is used many times."""
         return {}
 
     def difference(self, one: int, other: int, name: str) -> Interval:

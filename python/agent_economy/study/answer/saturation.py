@@ -19,7 +19,7 @@ class Saturation:
         sizes: The compared sizes, ascending.
         proved: The smallest size for which it is proved that no larger compared one gains delta
             more than its extra robots cost. The largest size if nothing is proved.
-        possible: The smallest size for which the contrary is not proved.
+        possible: The smallest size for which the opposite is not proved.
         gains: For each size above the smaller of these two, the difference of merit from it.
     """
 

@@ -22,8 +22,8 @@ class Standing:
 
     Attributes:
         behind: The selected one's mean merit minus this one's; None for the selected one itself.
-        verdict: What is proved. "tied": the two differ by at most delta. "worse": its mean merit is
-            lower. "not better": it is not better by more than delta, but may be worse.
+        verdict: The proved statement. "tied": the two differ by at most delta. "worse": its mean
+            merit is lower. "not better": it is not better by more than delta, but may be worse.
             "undecided": none of these.
     """
 

@@ -122,7 +122,7 @@ def around(value: float, error: float) -> Interval:
 
 
 def row_of(view: View, index: int) -> dict[str, Any]:
-    """Return the number and name of a configuration, as in all of its rows."""
+    """Return the number and name of a configuration, the same in all of its rows."""
     return {"label": view.names[index], "configuration": index}
 
 

@@ -22,7 +22,7 @@ def html(answer: Answer, evidence: Evidence, javascript: str) -> str:
     """Return the report's page: the same text for the same answer and evidence.
 
     Args:
-        answer: What is reported.
+        answer: The answer of the study.
         evidence: The runs that the answer follows from.
         javascript: The text of `ChartScript`. If it is empty, the page has its tables and a note
             that the charts are missing.

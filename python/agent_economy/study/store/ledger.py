@@ -196,7 +196,7 @@ class Ledger:
 
 
 def prepare(connection: sqlite3.Connection, path: Path, columns: Iterable[Column]) -> None:
-    """Create the tables of a new ledger, all at once; check an existing one."""
+    """Create the tables of a new ledger in one transaction; check an existing one."""
     connection.execute("PRAGMA journal_mode = WAL")
     connection.execute("PRAGMA synchronous = FULL")
     if not is_empty(connection):
@@ -251,7 +251,7 @@ def connect_to_read(path: Path) -> sqlite3.Connection:
 
 
 def snapshot(path: Path) -> tuple[tuple[Column, ...], list[BlockFile], list[Decision]]:
-    """Return the current content of a ledger; all empty if the study has not begun.
+    """Return the current content of a ledger; empty if the study has not started.
 
     Raises:
         StoreError: As `Ledger.read`.

@@ -36,11 +36,11 @@ class ReadStore:
         return snapshot(self.folder / files.LEDGER)[0]
 
     def block_files(self) -> list[BlockFile]:
-        """Return the block files so far, by first run and configuration."""
+        """Return the block files, by first run and configuration."""
         return snapshot(self.folder / files.LEDGER)[1]
 
     def decisions(self) -> list[Decision]:
-        """Return the decisions so far, by round."""
+        """Return the decisions, by round."""
         return snapshot(self.folder / files.LEDGER)[2]
 
     def content(self, digest: str) -> bytes:
@@ -62,7 +62,7 @@ class ReadStore:
         return StoredRuns(self.folder, columns, Coverage(self.folder, block_files))
 
     def runs(self) -> "DuckDBPyRelation":
-        """Return the runs so far as a DuckDB relation, a row each, for SQL queries.
+        """Return the runs as a DuckDB relation with one row per run, for SQL queries.
 
         Returns:
             `configuration`, `run`, the study's columns (null = never, or quarantined) and
@@ -85,7 +85,7 @@ class ReadStore:
 
 @dataclass
 class StoredRuns:
-    """The runs of a study at one moment, with the interface of `Store`; it writes nothing.
+    """The runs of a study at the time of reading, with the interface of `Store`; read-only.
 
     Attributes:
         folder: The study's folder.
