@@ -2,7 +2,8 @@
 //!
 //! The sender of a report is accountable for it: see [`Trust`](super::super::trust::Trust).
 
-use super::{Items, MAX_LOG_ODDS, Source, Track, bits, density, log_odds, probability};
+use super::track::{MAX_LOG_ODDS, Source, Track, log_odds, probability};
+use super::tracks::{Items, bits, density};
 use crate::io::body::RobotId;
 use crate::io::message::{About, Message, Provenance};
 use crate::perception::beliefs::trust::{MIN_TRUST, Trust, TrustSpec};
@@ -61,19 +62,14 @@ impl Items {
             return;
         }
         let has_source = |track: &Track| track.slot_of(report.provenance).is_some();
+        let per_m2 = density(per_m2, report.kind);
         let known = self.tracks.iter().position(has_source);
         let near = || self.nearest(report.kind, report.at, variance_m2, 0);
-        let index = match known.or_else(near) {
-            Some(index) => index,
-            None => self.add_track(
-                report.kind,
-                report.at,
-                variance_m2,
-                density(per_m2, report.kind),
-            ),
-        };
+        let index = known.or_else(near).unwrap_or_else(|| {
+            self.add_track(Track::new(report.kind, report.at, variance_m2, per_m2))
+        });
         let track = &mut self.tracks[index];
-        let prior = track.prior_with_another(report.at, variance_m2, density(per_m2, report.kind));
+        let prior = track.prior_with_another(report.at, variance_m2, per_m2);
         let is_new = track.slot_of(report.provenance).is_none();
         if track.replace(reception, report, prior) {
             if !track.is_observed_by(reception.own) {

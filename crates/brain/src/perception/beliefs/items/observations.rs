@@ -1,0 +1,232 @@
+//! Own observations of items, and their likelihoods.
+
+use super::track::{MAX_LOG_ODDS, MIN_DEVIATION_M, Track};
+use super::tracks::{Items, density};
+use crate::io::body::{Detector, RobotId};
+use crate::io::message::Provenance;
+use crate::io::percept::Contact;
+use crate::perception::beliefs::coverage_map::View;
+use crate::perception::beliefs::map::Map;
+use crate::perception::beliefs::pose::Pose;
+use crate::perception::sector::direction;
+use base::geometry::Point;
+use core::f64::consts::PI;
+
+/// Limit of the log likelihood ratio of one observation against an item, in nats.
+const MAX_OBSERVATION_LOG_RATIO: f64 = 8.0;
+
+/// Lower limit of the factor by which unsuccessful observations reduce the density of items: detector models
+/// have errors.
+const MIN_UNSEEN: f64 = 0.01;
+
+/// One observation of an own detector.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct OwnObservation<'l> {
+    pub(crate) observer: RobotId,
+    pub(crate) detector: &'l Detector,
+    /// The pose of the robot at that time.
+    pub(crate) pose: Pose,
+    /// Prior density of items of each kind.
+    pub(crate) per_m2: &'l [f64],
+}
+
+impl Items {
+    /// Updates the tracks with an observation: its contacts, and the items in view that it missed.
+    pub(crate) fn observe<'c>(
+        &mut self,
+        observation: &OwnObservation,
+        contacts: impl Iterator<Item = &'c Contact>,
+        map: Option<&Map>,
+    ) {
+        // One bit per detected item.
+        let mut detected = 0_u64;
+        for contact in contacts {
+            detected |= self.associate(observation, contact, detected, map);
+        }
+        let view = View::new(observation.detector, observation.pose.heading_rad);
+        let mut changed = detected;
+        for (number, track) in self.tracks.iter_mut().enumerate() {
+            if detected & (1 << number) == 0 {
+                let in_view = track.probability_in_view(&view, observation, map);
+                if in_view > 0.0 {
+                    let log_ratio = track.miss_log_ratio(observation, in_view);
+                    track.add(
+                        (observation.observer, track.prior),
+                        &mut self.last_track_id,
+                        log_ratio,
+                    );
+                    changed |= 1 << number;
+                }
+            }
+        }
+        self.mark_changed(changed);
+    }
+
+    /// Associates a contact with a track that is not in `taken`, or with a new one; returns its bit.
+    fn associate(
+        &mut self,
+        observation: &OwnObservation,
+        contact: &Contact,
+        taken: u64,
+        map: Option<&Map>,
+    ) -> u64 {
+        if !(0.0..=1e6).contains(&contact.range_m) || contact.bearing_rad.abs() > 10.0 {
+            return 0;
+        }
+        let relative = direction(contact.bearing_rad).times(contact.range_m);
+        let at = observation.pose.in_world(relative);
+        let variance_m2 = observation.variance_m2(contact.range_m);
+        let nearest = self.nearest(contact.kind, at, variance_m2, taken);
+        let index = nearest.unwrap_or_else(|| {
+            let per_m2 = observation.remaining_per_m2(contact.kind, at, variance_m2, map);
+            self.add_track(Track::new(contact.kind, at, variance_m2, per_m2))
+        });
+        let track = &mut self.tracks[index];
+        let log_ratio = track.contact_log_ratio(observation, at, variance_m2, contact.range_m);
+        let prior =
+            track.prior_with_another(at, variance_m2, density(observation.per_m2, contact.kind));
+        track.add(
+            (observation.observer, prior),
+            &mut self.last_track_id,
+            log_ratio,
+        );
+        track.correct_position(at, variance_m2);
+        1 << index
+    }
+}
+
+impl OwnObservation<'_> {
+    /// Density of undetected items of a kind at a position.
+    ///
+    /// A cell at the edge of the field of view does not count as observed, though a contact may be in it, and
+    /// a contact with an error of more than half a cell may be in any of the surrounding cells. In these
+    /// cases, the best observed cell of the neighbourhood determines the density.
+    fn remaining_per_m2(&self, kind: u16, at: Point, variance_m2: f64, map: Option<&Map>) -> f64 {
+        let unseen = map.map_or(1.0, |map| {
+            let cell = map.field.nearest_cell(at);
+            let view = View::new(self.detector, self.pose.heading_rad);
+            let way = self.pose.at.to(map.field.centre(cell));
+            let half_width_m = map.field.cell_m / 2.0;
+            let is_clear =
+                view.holds_cell(&map.field, way) && variance_m2 < half_width_m * half_width_m;
+            let reach = i32::from(!is_clear);
+            let cells = map.field.around(cell, reach);
+            cells.map(|cell| map.coverage.of(cell)).fold(1.0, f64::min)
+        });
+        density(self.per_m2, kind) * unseen.max(MIN_UNSEEN)
+    }
+
+    /// Variance of the position of a contact at a distance, along each axis.
+    fn variance_m2(&self, range_m: f64) -> f64 {
+        let lateral_m = range_m * self.pose.deviation_rad;
+        let noise_m = self.detector.noise_m.max(MIN_DEVIATION_M);
+        noise_m * noise_m + lateral_m * lateral_m + self.pose.deviation_m * self.pose.deviation_m
+    }
+}
+
+impl Track {
+    /// Log likelihood ratio of a contact.
+    fn contact_log_ratio(
+        &self,
+        observation: &OwnObservation,
+        at: Point,
+        variance_m2: f64,
+        range_m: f64,
+    ) -> f64 {
+        let kind = usize::from(self.kind);
+        let detection = observation.detector.probability(kind, range_m).max(1e-6);
+        let all_m2 = variance_m2
+            + if self.count == 0 {
+                0.0
+            } else {
+                self.variance_m2
+            };
+        let distance = self.at.to(at).length_squared() / (2.0 * all_m2);
+        let false_per_m2 = observation.detector.false_alarms_per_m2.get(kind);
+        let false_per_m2 = false_per_m2.copied().unwrap_or_default().max(1e-12);
+        let log_ratio = libm::log(detection / (2.0 * PI * all_m2 * false_per_m2)) - distance;
+        log_ratio
+            .max(-MAX_OBSERVATION_LOG_RATIO)
+            .min(MAX_LOG_ODDS - self.prior)
+    }
+
+    /// Adds an own observation; `prior` is that of the first one.
+    fn add(&mut self, (observer, prior): (RobotId, f64), last_track_id: &mut u32, log_ratio: f64) {
+        let own = self.sources[..self.count]
+            .iter()
+            .position(|source| source.provenance.observer == observer);
+        let slot = own.unwrap_or_else(|| {
+            *last_track_id = last_track_id.wrapping_add(1);
+            let provenance = Provenance {
+                observer,
+                track_id: *last_track_id,
+                observations: 0,
+            };
+            self.free_slot(observer, f64::INFINITY).map_or(0, |slot| {
+                (self.sources[slot].provenance, self.sources[slot].from) = (provenance, observer);
+                self.sources[slot].prior = prior;
+                slot
+            })
+        });
+        let source = &mut self.sources[slot];
+        source.log_ratio = (source.log_ratio + log_ratio)
+            .max(-MAX_LOG_ODDS)
+            .min(MAX_LOG_ODDS - self.prior);
+        source.provenance.observations = source.provenance.observations.saturating_add(1);
+    }
+
+    /// Log likelihood ratio of a miss, if the item was in view with a probability.
+    ///
+    /// Misses at the edge of the field of view have a common cause, the error of the estimated position, and
+    /// are not independent: k of them have the likelihood `in_view (1 - p)^k + 1 - in_view`.
+    fn miss_log_ratio(&mut self, observation: &OwnObservation, in_view: f64) -> f64 {
+        let distance_m = observation.pose.at.to(self.at).length();
+        let detection = observation
+            .detector
+            .probability(self.kind.into(), distance_m);
+        let missed = libm::log1p(-detection.min(0.999));
+        if in_view >= 1.0 {
+            return missed;
+        }
+        let likelihood = |edge: f64| in_view * libm::exp(edge) + 1.0 - in_view;
+        let before = likelihood(self.edge);
+        self.edge = (self.edge + missed).max(-MAX_LOG_ODDS);
+        libm::log(likelihood(self.edge) / before)
+    }
+
+    /// Probability that the item was in view: five points with the same mean and variance represent the normal
+    /// distribution of its position.
+    fn probability_in_view(
+        &self,
+        view: &View,
+        observation: &OwnObservation,
+        map: Option<&Map>,
+    ) -> f64 {
+        let way = observation.pose.at.to(self.at);
+        let length_m = way.length().max(1e-9);
+        let error_m = 2.0 * libm::sqrt(self.variance_m2 + observation.variance_m2(length_m));
+        if length_m > observation.detector.range_m + error_m {
+            return 0.0;
+        }
+        let out = way.times(error_m / length_m);
+        let aside = Point {
+            x: -out.y,
+            y: out.x,
+        };
+        let weight = |at: Point, weight: f64| if view.holds(at) { weight } else { 0.0 };
+        let around = [way.plus(out), out.to(way), way.plus(aside), aside.to(way)];
+        let total = weight(way, 0.5) + around.map(|at| weight(at, 0.125)).iter().sum::<f64>();
+        let is_hidden = || {
+            observation.detector.needs_line_of_sight
+                && map.is_some_and(|map| {
+                    !map.occupancy
+                        .is_visible(&map.field, observation.pose.at, self.at, 0.0)
+                })
+        };
+        if total > 0.0 && is_hidden() {
+            0.0
+        } else {
+            total
+        }
+    }
+}

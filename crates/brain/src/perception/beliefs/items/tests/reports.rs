@@ -1,0 +1,276 @@
+use super::*;
+use crate::perception::beliefs::items::track::{log_odds, probability};
+use proptest::prelude::*;
+
+#[test]
+fn a_report_is_weighted_by_the_trust_in_its_sender() {
+    let mut items = Items::default();
+    receive(&mut items, ME, &report(1, 0.8));
+    let before = TAU * 0.01 * PER_M2;
+    assert!((confidence(&items, ME) - (0.9 * 0.8 + 0.1 * before)).abs() < 1e-9);
+}
+
+#[test]
+fn a_relayed_report_is_weighted_by_the_trust_in_sender_and_observer() {
+    let mut items = Items::default();
+    let relayed = Report {
+        from: robot(2),
+        ..report(1, 0.8)
+    };
+    receive(&mut items, ME, &relayed);
+    let before = TAU * 0.01 * PER_M2;
+    assert!((confidence(&items, ME) - (0.81 * 0.8 + 0.19 * before)).abs() < 1e-9);
+    receive(&mut items, ME, &report(1, 0.8));
+    assert!((confidence(&items, ME) - (0.9 * 0.8 + 0.1 * before)).abs() < 1e-9);
+}
+
+#[test]
+fn a_sender_is_believed_no_more_than_it_is_trusted_whichever_observers_it_names() {
+    let mut items = Items::default();
+    for observer in 1..6 {
+        let from = robot(7);
+        receive(
+            &mut items,
+            ME,
+            &Report {
+                from,
+                ..report(observer, 0.99)
+            },
+        );
+    }
+    assert!(items.tracks[0].count == 5 && confidence(&items, ME) < 0.901);
+}
+
+#[test]
+fn a_report_of_the_observer_itself_precedes_relayed_ones() {
+    let mut items = Items::default();
+    let more = |from: u32| Report {
+        from: robot(from),
+        provenance: Provenance {
+            observations: 9,
+            ..report(1, 0.5).provenance
+        },
+        ..report(1, 1e-3)
+    };
+    let (trust, spec) = distrust_of(robot(7));
+    let reception = Reception {
+        own: ME,
+        trust: &trust,
+        spec: &spec,
+    };
+    let mut confidence_after = |report: &Report| {
+        items.receive(&reception, report, 0.01, &[PER_M2]);
+        items.tracks[0].confidence(&reception)
+    };
+    let first = confidence_after(&report(1, 0.9));
+    assert!(
+        (confidence_after(&more(7)) - first).abs() < 1e-12,
+        "a distrusted sender is ignored"
+    );
+    assert!(
+        confidence_after(&more(2)) < 0.1,
+        "a trusted sender with more observations replaces the report"
+    );
+    assert!(
+        (confidence_after(&report(1, 0.9)) - first).abs() < 1e-12,
+        "the observer itself takes precedence"
+    );
+}
+
+#[test]
+fn reports_of_distrusted_robots_are_not_relayed() {
+    let mut items = Items::default();
+    let (trust, spec) = distrust_of(robot(7));
+    let reception = Reception {
+        own: ME,
+        trust: &trust,
+        spec: &spec,
+    };
+    for (track_id, from, observer) in [(1, 7, 1), (2, 1, 7), (3, 1, 2)] {
+        let provenance = Provenance {
+            track_id,
+            ..report(observer, 0.9).provenance
+        };
+        let relayed = Report {
+            from: robot(from),
+            provenance,
+            ..report(observer, 0.9)
+        };
+        items.receive(&reception, &relayed, 0.01, &[PER_M2]);
+    }
+    let mut outbox = Vec::new();
+    items.report(&reception, &mut outbox, 100);
+    let is_of_2 = |message: &Message| matches!(message.about, About::Item { provenance, .. } if provenance.observer == robot(2));
+    assert!(
+        outbox.len() == 1 && outbox.iter().all(is_of_2),
+        "{outbox:?}"
+    );
+}
+
+#[test]
+fn contradicting_reports_give_a_confidence_between_both() {
+    let mut items = Items::default();
+    receive(&mut items, ME, &report(1, 0.9));
+    let alone = confidence(&items, ME);
+    receive(&mut items, ME, &report(2, 1e-4));
+    let both = confidence(&items, ME);
+    assert!(both < alone && both > 0.01, "{alone} {both}");
+    receive(&mut items, ME, &report(3, 0.9));
+    assert!(confidence(&items, ME) > both);
+}
+
+#[test]
+fn relayed_own_observations_change_nothing() {
+    let (mut mine, mut theirs) = (Items::default(), Items::default());
+    hit(&mut mine, ME);
+    for report in sent(&mut mine) {
+        receive(&mut theirs, robot(1), &report);
+    }
+    let before = mine.clone().tracks;
+    for report in sent(&mut theirs) {
+        receive(&mut mine, ME, &report);
+    }
+    assert_eq!(mine.tracks, before);
+}
+
+#[test]
+fn the_sources_of_an_item_are_bounded_and_own_observations_are_kept() {
+    let mut items = Items::default();
+    hit(&mut items, ME);
+    let reports: Vec<Report> = (1..20)
+        .map(|observer| report(observer, 0.3 + 0.03 * f64::from(observer)))
+        .collect();
+    for _ in 0..10 {
+        for report in &reports {
+            receive(&mut items, ME, report);
+        }
+    }
+    assert!(items.tracks.len() == 1 && items.tracks[0].is_observed_by(ME));
+    sent(&mut items);
+    for _ in 0..10 {
+        for report in &reports {
+            receive(&mut items, ME, report);
+        }
+        assert!(sent(&mut items).is_empty());
+    }
+}
+
+#[test]
+fn all_items_are_repeated_for_robots_that_come_into_range_later() {
+    let (mut items, mut later) = (Items::default(), Items::default());
+    for number in 0..20 {
+        let at = Point {
+            x: f64::from(number),
+            y: 0.0,
+        };
+        observe(&mut items, ME, at, &[contact(at, at)]);
+        sent(&mut items);
+    }
+    for _ in 0..20 {
+        assert!(sent(&mut items).is_empty());
+        items.repeat_next();
+        for report in sent(&mut items) {
+            receive(&mut later, robot(1), &report);
+        }
+    }
+    assert_eq!(later.tracks.len(), 20);
+}
+
+#[test]
+fn memory_is_bounded_for_a_thousand_contacts() {
+    let (mut items, mut random) = (Items::default(), random(1));
+    for number in 0..1000 {
+        let at = Point {
+            x: 200.0 * unit(&mut random),
+            y: 200.0 * unit(&mut random),
+        };
+        observe(
+            &mut items,
+            ME,
+            at,
+            &[contact(at, at), contact(at, at.plus(PLACE))],
+        );
+        receive(
+            &mut items,
+            ME,
+            &Report {
+                at,
+                ..report(number, 0.4)
+            },
+        );
+    }
+    assert_eq!(items.tracks.len(), MAX_TRACKS);
+    let mut outbox = Vec::new();
+    with_initial_trust(ME, |reception| items.report(reception, &mut outbox, 2));
+    assert_eq!(outbox.len(), 2);
+}
+
+/// Three robots observe an item and relay reports: in each step one of them observes, sends, or receives any
+/// message that was ever sent. Returns their items, and each robot's last report of its own observations.
+fn gossip(seed: u64, steps: u32) -> (Vec<Items>, Vec<Report>) {
+    let mut random = random(seed);
+    let mut team = vec![Items::default(); 3];
+    let mut sent_reports: Vec<Report> = Vec::new();
+    for (items, observer) in team.iter_mut().zip(0..) {
+        hit(items, robot(observer));
+    }
+    for _ in 0..steps {
+        let observer = random.bounded(3);
+        let items = &mut team[observer as usize];
+        match random.bounded(6) {
+            0 => hit(items, robot(observer)),
+            1 => miss(items, robot(observer)),
+            2 => {
+                let from = robot(observer);
+                let reports = sent(items).into_iter();
+                sent_reports.extend(reports.map(|report| Report { from, ..report }));
+            }
+            _ if sent_reports.is_empty() => {}
+            _ => {
+                let any = random.bounded(u32::try_from(sent_reports.len()).unwrap()) as usize;
+                receive(items, robot(observer), &sent_reports[any]);
+            }
+        }
+    }
+    let last = |observer: u32| {
+        let is_own =
+            |report: &&Report| [report.provenance.observer, report.from] == [robot(observer); 2];
+        let own = sent_reports.iter().filter(is_own);
+        own.max_by_key(|report| report.provenance.observations)
+            .copied()
+    };
+    (team, (0..3).filter_map(last).collect())
+}
+
+proptest! {
+    #[test]
+    fn observations_count_once_however_often_and_by_whichever_route_they_are_reported(
+        seed: u64, steps in 1_u32..300,
+    ) {
+        let (mut team, last) = gossip(seed, steps);
+        for (items, own) in team.iter_mut().zip((0..).map(robot)) {
+            for report in &last {
+                receive(items, own, report);
+            }
+            prop_assert_eq!(items.tracks.len(), 1);
+            let track = &items.tracks[0];
+            let observations = &track.sources[track.place_by(own)];
+            let reports = last.iter().filter(|report| report.provenance.observer != own);
+            let reported = reports.map(|report| {
+                let prior = track.sources[track.place_by(report.provenance.observer)].prior;
+                log_odds(0.9 * report.confidence + 0.1 * probability(prior)) - prior
+            });
+            let expected = probability(track.prior + observations.log_ratio + reported.sum::<f64>());
+            prop_assert!((confidence(items, own) - expected).abs() < 1e-6, "{}", expected);
+        }
+    }
+}
+
+impl Track {
+    fn place_by(&self, own: RobotId) -> usize {
+        let mut sources = self.sources[..self.count].iter();
+        sources
+            .position(|source| source.provenance.observer == own)
+            .unwrap()
+    }
+}

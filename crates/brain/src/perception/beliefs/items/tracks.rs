@@ -1,0 +1,106 @@
+//! All tracks: association, replacement and bookkeeping.
+
+use super::track::Track;
+use crate::io::body::RobotId;
+use alloc::vec::Vec;
+use base::geometry::Point;
+
+/// Maximum number of tracks; the least likely one is replaced first.
+pub(super) const MAX_TRACKS: usize = 64;
+
+/// Association gate, in standard deviations.
+const GATE: f64 = 3.0;
+
+/// All item tracks of a robot.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Items {
+    pub(crate) tracks: Vec<Track>,
+    pub(super) last_track_id: u32,
+    /// Index of the track that was repeated last.
+    repeated: usize,
+    /// One bit per track: those with reports to be sent, and those with reports to be judged.
+    pub(super) unsent: u64,
+    pub(super) unjudged: u64,
+}
+
+impl Items {
+    /// Marks tracks for sending and judging.
+    pub(super) fn mark_changed(&mut self, tracks: u64) {
+        self.unsent |= tracks;
+        self.unjudged |= tracks;
+    }
+
+    /// The nearest track of a kind within the gate that is not in `taken`.
+    pub(super) fn nearest(
+        &self,
+        kind: u16,
+        at: Point,
+        variance_m2: f64,
+        taken: u64,
+    ) -> Option<usize> {
+        let tracks = self.tracks.iter().enumerate();
+        let same =
+            tracks.filter(|(number, track)| track.kind == kind && taken & (1 << number) == 0);
+        let near = same.filter_map(|(number, track)| {
+            let square = track.at.to(at).length_squared();
+            let all_m2 = variance_m2 + track.variance_m2;
+            (square <= GATE * GATE * all_m2).then_some((square, number))
+        });
+        let nearest = near.min_by(|one, other| one.0.total_cmp(&other.0));
+        nearest.map(|(_, number)| number)
+    }
+
+    /// Adds a track; returns its index.
+    pub(super) fn add_track(&mut self, track: Track) -> usize {
+        if self.tracks.len() < MAX_TRACKS {
+            self.tracks.push(track);
+            return self.tracks.len() - 1;
+        }
+        let numbered = self.tracks.iter().enumerate();
+        let log_odds = numbered.map(|(number, track)| (track.log_odds(), number));
+        let lowest = log_odds.min_by(|one, other| one.0.total_cmp(&other.0));
+        let index = lowest.map_or(0, |(_, number)| number);
+        self.tracks[index] = track;
+        index
+    }
+
+    /// Renumbers the robots, and drops the sources for which `keep` returns false.
+    pub(crate) fn renumber(&mut self, keep: impl Fn(&mut RobotId) -> bool) {
+        for track in &mut self.tracks {
+            let mut kept = 0;
+            for slot in 0..track.count {
+                let mut source = track.sources[slot];
+                if keep(&mut source.provenance.observer) && keep(&mut source.from) {
+                    track.sources[kept] = source;
+                    kept += 1;
+                }
+            }
+            track.count = kept;
+        }
+        self.tracks.retain(|track| track.count > 0);
+        self.mark_changed(u64::MAX);
+    }
+
+    /// Marks the next track for repetition, in turn: messages are lost, and robots may have come into range.
+    pub(crate) fn repeat_next(&mut self) {
+        self.repeated = (self.repeated + 1)
+            .checked_rem(self.tracks.len())
+            .unwrap_or(0);
+        if let Some(track) = self.tracks.get_mut(self.repeated) {
+            for source in &mut track.sources {
+                source.sent_confidence = f32::NEG_INFINITY;
+            }
+            self.unsent |= 1 << self.repeated;
+        }
+    }
+}
+
+/// The indices of the set bits, in increasing order.
+pub(super) fn bits(set: u64) -> impl Iterator<Item = usize> {
+    (0..MAX_TRACKS).filter(move |bit| set >> bit & 1 == 1)
+}
+
+/// The density of items of a kind.
+pub(super) fn density(per_m2: &[f64], kind: u16) -> f64 {
+    per_m2.get(usize::from(kind)).copied().unwrap_or_default()
+}
