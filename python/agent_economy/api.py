@@ -106,13 +106,8 @@ def run_in_sequence(
     create: Callable[[int], Simulation], first_run: int, runs: int
 ) -> list[dict[str, float]]:
     """Return the outcome of each run by column; empty for a quarantined run."""
-    limit = _core.MAX_RUNS
-    validation.check(
-        validation.is_whole(runs, 0, limit), "runs", runs, f"a whole number from 0 to {limit}"
-    )
-    validation.check(
-        validation.is_whole(first_run, 0), "first_run", first_run, "a whole number, 0 or more"
-    )
+    validation.whole("runs", runs, 0, _core.MAX_RUNS)
+    validation.whole("first_run", first_run, 0)
     return [finished(create, first_run + number) for number in range(runs)]
 
 

@@ -92,7 +92,7 @@ class Recording:
         self._check_simulation()
         if percepts is not None or commands is not None:
             return self._step(steps, percepts, commands)
-        validation.check(validation.is_whole(steps, 0), "steps", steps, "a whole number, 0 or more")
+        validation.whole("steps", steps, 0)
         for _ in range(steps):
             tick = self.simulation.tick
             self._step(1, None, None)

@@ -125,7 +125,7 @@ class Simulation(Stepped):
         if not self._brains:
             self._run.step(steps)
             return
-        validation.check(validation.is_whole(steps, 0), "steps", steps, "a whole number, 0 or more")
+        validation.whole("steps", steps, 0)
         for _ in range(steps):
             self._run.step_with({}, {}, self._brains)
 

@@ -51,6 +51,16 @@ def is_whole(value: object, smallest: int, largest: float = math.inf) -> bool:
     return smallest <= int(value) <= largest
 
 
+def whole(name: str, value: object, smallest: int, largest: float = math.inf) -> None:
+    """Raise an error unless an argument is an integer in a range, ends included.
+
+    Raises:
+        InputError: If it is not.
+    """
+    bounds = f", {smallest} or more" if largest == math.inf else f" from {smallest} to {largest}"
+    check(is_whole(value, smallest, largest), name, value, f"a whole number{bounds}")
+
+
 def path(name: str, value: str | PathLike[str]) -> Path:
     """Return an argument as a path.
 

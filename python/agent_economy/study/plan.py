@@ -18,7 +18,7 @@ import tomli_w
 
 from agent_economy._core import InputError
 from agent_economy.scenario import Override, Scenario, Source
-from agent_economy.scenario.validation import check, errors_unless, is_whole, of_type
+from agent_economy.scenario.validation import check, errors_unless, is_whole, of_type, whole
 from agent_economy.study import design
 from agent_economy.study.arguments import (
     FIRST_LOOK,
@@ -79,9 +79,7 @@ class Plan:
         Raises:
             InputError: If there is no such configuration.
         """
-        last = len(self.configurations) - 1
-        is_there = is_whole(configuration, 0, last)
-        check(is_there, "configuration", configuration, f"a whole number from 0 to {last}")
+        whole("configuration", configuration, 0, len(self.configurations) - 1)
         values = self.configurations[configuration].items()
         return self.scenario.changed(
             tuple(Override(tuple(path.split(".")), value, "study") for path, value in values)

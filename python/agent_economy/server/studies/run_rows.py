@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from agent_economy import study
 from agent_economy.scenario.merit import Merit
-from agent_economy.scenario.validation import check, is_whole
+from agent_economy.scenario.validation import whole
 from agent_economy.study import Plan
 from agent_economy.study.answer.labels import label
 
@@ -29,8 +29,8 @@ def listed(plan: Plan, folder: Path, configuration: int, first: int, count: int)
     Raises:
         InputError: If an argument is not allowed, or the study is damaged.
     """
-    check(is_whole(first, 0), "first", first, "a whole number from 0")
-    check(is_whole(count, 1, MAX_ROWS), "count", count, f"a whole number from 1 to {MAX_ROWS}")
+    whole("first", first, 0)
+    whole("count", count, 1, MAX_ROWS)
     runs = rows(plan, folder, configuration)
     found = runs.order("run").limit(count, first).to_arrow_table()
     return response(plan, configuration, counted(runs), found)
@@ -42,7 +42,7 @@ def sampled(plan: Plan, folder: Path, configuration: int, count: int) -> dict[st
     Raises:
         InputError: If an argument is not allowed, or the study is damaged.
     """
-    check(is_whole(count, 1, MAX_ROWS), "sample", count, f"a whole number from 1 to {MAX_ROWS}")
+    whole("sample", count, 1, MAX_ROWS)
     found = rows(plan, folder, configuration).order("run").to_arrow_table()
     merits = scores(plan.scenario.merit, found)
     # A run without a merit is the worst.
@@ -61,9 +61,7 @@ def rows(plan: Plan, folder: Path, configuration: int) -> Any:
     Raises:
         InputError: If there is no such configuration, or the study is damaged.
     """
-    last = len(plan.configurations) - 1
-    allowed = f"a whole number from 0 to {last}"
-    check(is_whole(configuration, 0, last), "configuration", configuration, allowed)
+    whole("configuration", configuration, 0, len(plan.configurations) - 1)
     return study.open(folder).runs().filter(f"configuration = {configuration}")
 
 
