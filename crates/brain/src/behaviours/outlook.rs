@@ -2,8 +2,9 @@
 
 use crate::io::body::Detector;
 use crate::perception::beliefs::Map;
-use crate::perception::beliefs::coverage_map::{MAX_DETECTION, View};
+use crate::perception::beliefs::coverage_map::MAX_DETECTION;
 use crate::perception::beliefs::pose::turned;
+use crate::perception::beliefs::view::View;
 use crate::perception::sector::direction;
 use alloc::vec::Vec;
 use base::geometry::Point;

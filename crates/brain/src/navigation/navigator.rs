@@ -100,7 +100,12 @@ impl Navigator {
         let Some(waypoint) = waypoint else {
             return Motion::default();
         };
-        static_hits(beliefs, situation.rings, situation.percept, &mut self.hits);
+        static_hits(
+            &beliefs.others,
+            situation.rings,
+            situation.percept,
+            &mut self.hits,
+        );
         let step = Step {
             goal,
             target: pose.in_own_frame(waypoint),

@@ -6,7 +6,7 @@ use crate::io::percept::{Percept, Reading};
 use base::trig::wrapped;
 
 /// Maximum age of a reading that is used, in seconds.
-const OLDEST_S: f64 = 1.0;
+const MAX_AGE_S: f64 = 1.0;
 
 /// Wheel odometry above this multiple of the body's own limit is discarded as invalid. The fastest terrain
 /// makes a body ten times as fast.
@@ -72,7 +72,7 @@ impl DeadReckoning {
             self.speed_m_s = 0.0;
         }
         let rate = self.turn_rate_rad_s(percept, body);
-        let heading = percept.heading_rad.filter(is_of_now);
+        let heading = percept.heading_rad.filter(is_current);
         let heading = heading.filter(|reading| reading.value.abs() <= MAX_HEADING_RAD);
         // Compensates the latency of the compass.
         let heading_now =
@@ -105,7 +105,7 @@ impl DeadReckoning {
         } else {
             f64::from(self.turn_rate_rad_s)
         };
-        let wheels = percept.motion.filter(is_of_now);
+        let wheels = percept.motion.filter(is_current);
         let wheels = wheels.map(|motion| motion.value.turn_rate_rad_s);
         let wheels = wheels.filter(|rate| is_plausible(*rate, body.max_turn_rate_rad_s));
         wheels.unwrap_or(commanded)
@@ -133,7 +133,7 @@ impl DeadReckoning {
 /// Measured speed, if it is current and plausible.
 #[inline]
 fn wheels_m_s(percept: &Percept, body: &Body) -> Option<f64> {
-    let wheels = percept.motion.filter(is_of_now)?.value.speed_m_s;
+    let wheels = percept.motion.filter(is_current)?.value.speed_m_s;
     let max = body.max_speed_m_s.max(body.max_reverse_speed_m_s);
     is_plausible(wheels, max).then_some(wheels)
 }
@@ -142,8 +142,8 @@ fn is_plausible(wheels: f64, max: f64) -> bool {
     wheels.is_finite() && wheels.abs() <= MAX_WHEEL_FACTOR * max
 }
 
-fn is_of_now<T>(reading: &Reading<T>) -> bool {
-    (0.0..=OLDEST_S).contains(&reading.age_s)
+fn is_current<T>(reading: &Reading<T>) -> bool {
+    (0.0..=MAX_AGE_S).contains(&reading.age_s)
 }
 
 #[cfg(test)]

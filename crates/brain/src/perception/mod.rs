@@ -2,6 +2,7 @@
 
 pub(crate) mod beliefs;
 pub(crate) mod believed;
+mod chords;
 pub(crate) mod dead_reckoning;
 pub(crate) mod rays;
 pub(crate) mod sector;

@@ -6,14 +6,12 @@
 
 use crate::io::body::RangeRing;
 use crate::io::percept::Scan;
+use crate::perception::chords::{Chord, Nearest, chords};
 use crate::perception::sector::{Sector, direction};
 use alloc::vec::Vec;
-use base::geometry::{Point, Segment};
-use base::trig::{sin_cos, wrapped};
-use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
-
-/// Maximum angle between neighbouring rays: an eighth of a turn, with a margin for rounding.
-const NEIGHBOURS_RAD: f64 = FRAC_PI_4 + 1e-9;
+use base::geometry::Point;
+use base::trig::wrapped;
+use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
 /// A ring covers a direction if one of its rays is within this angle of it.
 const COVERAGE_RAD: f64 = FRAC_PI_4 + 1e-9;
@@ -41,20 +39,6 @@ pub(crate) struct Ring {
     /// Whether its rays cover the front, and the back.
     pub(crate) covers_front: bool,
     pub(crate) covers_back: bool,
-}
-
-/// Two neighbouring rays, or the same ray twice if it has no neighbour on one side.
-#[derive(Debug, Clone, Copy)]
-struct Chord {
-    rays: [usize; 2],
-    directions: [Point; 2],
-    /// A chord is nowhere closer than this fraction of its shorter ray.
-    nearest_share: f64,
-    /// If both rays are longer than this, the whole chord is beside the area swept straight ahead.
-    beside_m: [f64; 2],
-    /// Angle between the front and the closer ray.
-    off_front_rad: f64,
-    gap_rad: f64,
 }
 
 /// One measured ray of a ring.
@@ -263,94 +247,6 @@ pub(crate) fn valid_m(measured_m: f64) -> f64 {
 #[inline]
 fn lesser(one: f64, other: f64) -> f64 {
     if one < other { one } else { other }
-}
-
-/// Square of the shortest distance so far.
-struct Nearest {
-    squared_m2: f64,
-}
-
-impl Nearest {
-    fn new(range_m: f64) -> Self {
-        Self {
-            squared_m2: range_m * range_m,
-        }
-    }
-
-    #[inline]
-    fn update(&mut self, chord: &Chord, ends_m: [f64; 2], sector: &Sector) {
-        let min_m = ends_m[0].min(ends_m[1]) * chord.nearest_share;
-        if min_m * min_m >= self.squared_m2 {
-            return;
-        }
-        let [from, to] = chord.directions;
-        let part = sector.part(Segment {
-            from: from.times(ends_m[0]),
-            to: to.times(ends_m[1]),
-        });
-        if let Some(part) = part {
-            let nearest = part.nearest(Point::default());
-            self.squared_m2 = self.squared_m2.min(nearest.length_squared());
-        }
-    }
-
-    fn m(&self) -> f64 {
-        libm::sqrt(self.squared_m2)
-    }
-}
-
-/// The chords between neighbouring rays, and one for each side of a ray without a neighbour.
-fn chords(bearings_rad: &[f64]) -> Vec<Chord> {
-    let mut rays: Vec<usize> = (0..bearings_rad.len()).collect();
-    rays.sort_by(|a, b| bearings_rad[*a].total_cmp(&bearings_rad[*b]));
-    let next = rays.iter().cycle().skip(1);
-    let pairs = rays.iter().zip(next);
-    let chords = pairs.flat_map(|(from, to)| {
-        let gap_rad = anticlockwise(bearings_rad[*to] - bearings_rad[*from]);
-        if gap_rad <= NEIGHBOURS_RAD {
-            [Some([*from, *to]), None]
-        } else {
-            [Some([*from, *from]), Some([*to, *to])]
-        }
-    });
-    let chords = chords.flatten();
-    chords.map(|rays| Chord::new(rays, bearings_rad)).collect()
-}
-
-/// The same angle, from 0 to 2 pi.
-fn anticlockwise(angle_rad: f64) -> f64 {
-    let near = wrapped(angle_rad);
-    if near < 0.0 { near + TAU } else { near }
-}
-
-impl Chord {
-    fn new(rays: [usize; 2], bearings_rad: &[f64]) -> Self {
-        let bearings = rays.map(|ray| bearings_rad[ray]);
-        let gap_rad = wrapped(bearings[1] - bearings[0]);
-        let [from, to] = bearings.map(|bearing| wrapped(bearing).abs());
-        Self {
-            rays,
-            directions: bearings.map(direction),
-            beside_m: [f64::INFINITY; 2],
-            nearest_share: sin_cos(gap_rad / 2.0).1,
-            off_front_rad: from.min(to),
-            gap_rad,
-        }
-    }
-
-    /// Infinite where ray lengths do not decide it, or exceed the range of the sensor.
-    fn beside_m(&self, half_width_m: f64, range_m: f64) -> [f64; 2] {
-        let asides = self.directions.map(|direction| direction.y);
-        let is_one_side = asides[0] * asides[1] > 0.0;
-        asides.map(|aside| {
-            let beside_m = half_width_m / aside.abs();
-            if is_one_side && beside_m < range_m {
-                beside_m
-            } else {
-                f64::INFINITY
-            }
-        })
-    }
 }
 
 #[cfg(test)]

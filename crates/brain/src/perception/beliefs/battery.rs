@@ -1,6 +1,6 @@
 //! The battery: its charge and the estimated remaining time.
 
-use super::pose::fresh;
+use super::readings::fresh;
 use crate::io::percept::Percept;
 
 /// Minimum time over which the rate of discharge is estimated.

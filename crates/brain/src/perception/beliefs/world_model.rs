@@ -4,16 +4,18 @@ use super::battery::Battery;
 use super::broadcast::BroadcastState;
 use super::coverage_map::DetectorScan;
 use super::items::{Items, OwnObservation, Reception};
+use super::localisation::Localisation;
 use super::map::Map;
 use super::others::Others;
 use super::peers::Peers;
-use super::pose::{Localisation, Pose};
+use super::pose::Pose;
+use super::scans::new_scans;
 use super::spec::BeliefsSpec;
 use super::trust::{Trust, TrustSpec};
 use crate::io::body::{Body, Detector, RobotId};
 use crate::io::percept::{Contact, Observation, Percept};
 use crate::perception::believed::BelievedItem;
-use crate::perception::rays::{Ray, Ring};
+use crate::perception::rays::Ring;
 use crate::perception::sector::direction;
 use alloc::sync::Arc;
 use alloc::vec::Vec;
@@ -266,36 +268,5 @@ fn earlier(pose: &Pose, [speed_m_s, rate_rad_s]: [f64; 2], age_s: f64) -> Pose {
         at: pose.at.plus(way),
         heading_rad,
         ..*pose
-    }
-}
-
-/// Scans that have not been used before.
-fn new_scans<'p>(
-    percept: &'p Percept,
-    rings: &'p [Ring],
-    period_s: f64,
-) -> impl Iterator<Item = (&'p Ring, &'p [f64])> {
-    let scans = rings.iter().zip(&percept.scans);
-    scans.filter_map(move |(ring, scan)| {
-        let (age_s, ranges_m) = ring.fresh(Some(scan))?;
-        (age_s < ring.latency_s() + period_s).then_some((ring, ranges_m))
-    })
-}
-
-/// Collects the rays that currently hit static obstacles.
-pub(crate) fn static_hits(
-    beliefs: &Beliefs,
-    rings: &[Ring],
-    percept: &Percept,
-    into: &mut Vec<Ray>,
-) {
-    into.clear();
-    for (ring, scan) in rings.iter().zip(&percept.scans) {
-        let Some((_, ranges_m)) = ring.fresh(Some(scan)) else {
-            continue;
-        };
-        let is_static =
-            |ray: &Ray| ray.range_m < ring.range_m() && !beliefs.others.is_on_mover(ray.end());
-        into.extend(ring.rays(ranges_m).filter(is_static));
     }
 }

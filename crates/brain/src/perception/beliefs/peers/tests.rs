@@ -4,12 +4,12 @@ const MATE: RobotId = RobotId { kind: 0, index: 1 };
 const HERE: Point = Point { x: 1.0, y: 1.0 };
 const THERE: Point = Point { x: 3.0, y: 1.0 };
 
-fn looked(peers: &mut Peers, at: Point, observations: u32, age_s: f64) -> (Point, u32, f64) {
+fn report(peers: &mut Peers, at: Point, observations: u32, age_s: f64) -> (Point, u32, f64) {
     let value = (at, observations);
     peers.update_observations(MATE, Reading { value, age_s })
 }
 
-fn place(peers: &Peers) -> Option<Point> {
+fn position(peers: &Peers) -> Option<Point> {
     peers.mates.iter().find_map(Peer::at)
 }
 
@@ -20,22 +20,22 @@ fn is_taken(peers: &Peers, to: Point) -> bool {
 #[test]
 fn the_observations_since_the_last_message_are_counted() {
     let mut peers = Peers::default();
-    assert_eq!(looked(&mut peers, HERE, 7, 0.0), (HERE, 1, f64::INFINITY));
+    assert_eq!(report(&mut peers, HERE, 7, 0.0), (HERE, 1, f64::INFINITY));
     peers.advance(2.0);
-    assert_eq!(looked(&mut peers, THERE, 12, 0.5), (HERE, 5, 1.5));
-    assert_eq!(looked(&mut peers, THERE, 12, 0.5), (THERE, 0, 0.0));
+    assert_eq!(report(&mut peers, THERE, 12, 0.5), (HERE, 5, 1.5));
+    assert_eq!(report(&mut peers, THERE, 12, 0.5), (THERE, 0, 0.0));
 }
 
 #[test]
 fn an_overtaken_message_is_ignored() {
     let mut peers = Peers::default();
-    looked(&mut peers, HERE, 7, 0.0);
+    report(&mut peers, HERE, 7, 0.0);
     peers.update_position(MATE, HERE, 0.0);
-    assert_eq!(looked(&mut peers, THERE, 20, 1.0).1, 0);
+    assert_eq!(report(&mut peers, THERE, 20, 1.0).1, 0);
     peers.update_position(MATE, THERE, 1.0);
-    assert_eq!(place(&peers), Some(HERE));
+    assert_eq!(position(&peers), Some(HERE));
     peers.advance(1.0);
-    assert_eq!(looked(&mut peers, THERE, 9, 0.0), (HERE, 2, 1.0));
+    assert_eq!(report(&mut peers, THERE, 9, 0.0), (HERE, 2, 1.0));
 }
 
 #[test]
@@ -63,7 +63,7 @@ fn position_reports_do_not_extend_a_destination() {
         peers.advance(1.0);
         peers.update_position(MATE, HERE, 0.0);
     }
-    assert_eq!(place(&peers), Some(HERE));
+    assert_eq!(position(&peers), Some(HERE));
     assert!(!is_taken(&peers, THERE));
 }
 
@@ -72,12 +72,12 @@ fn ages_start_at_the_age_of_the_message_and_old_messages_are_ignored() {
     let mut peers = Peers::default();
     peers.update_destination(MATE, THERE, CommitmentStatus::Active, 500.0);
     peers.update_position(MATE, HERE, 500.0);
-    assert!(!is_taken(&peers, THERE) && place(&peers).is_none());
+    assert!(!is_taken(&peers, THERE) && position(&peers).is_none());
     peers.update_destination(MATE, THERE, CommitmentStatus::Active, 9.0);
     peers.update_position(MATE, HERE, 9.0);
-    assert!(is_taken(&peers, THERE) && place(&peers) == Some(HERE));
+    assert!(is_taken(&peers, THERE) && position(&peers) == Some(HERE));
     peers.advance(1.1);
-    assert!(!is_taken(&peers, THERE) && place(&peers).is_none());
+    assert!(!is_taken(&peers, THERE) && position(&peers).is_none());
 }
 
 #[test]
