@@ -1,7 +1,7 @@
-"""Give robots a brain of your own: a class with `step(percept) -> command`.
+"""Give robots a brain in Python: a class with `step(percept) -> command`.
 
-Each rover gets one. It decides in place of the scenario's brain, in the same steps, and knows no
-more than that would.
+Each rover gets one object of the class. It decides instead of the scenario's brain, in the same
+steps and from the same percepts.
 """
 
 import agent_economy as ae
@@ -13,22 +13,22 @@ LONGEST_TURN_S = 3.0
 
 
 class Wanderer:
-    """Goes ahead, and turns for a random time before what stands in its way."""
+    """Drives straight, and turns for a random time in front of an obstacle."""
 
     def __init__(self, body: Body) -> None:
-        """Begin in a body; it is the same in the whole run."""
+        """Store the body, which is constant during a run."""
         bearings_rad = body["rings"][0]["bearings_rad"]
         self.ahead = [ray for ray, rad in enumerate(bearings_rad) if abs(rad) < LOOKS_RAD]
         self.body = body
         self.turns_until_s = 0.0
 
     def step(self, percept: Percept) -> Command:
-        """Return what the robot is to do until the next step."""
+        """Return the command until the next step."""
         is_turning = percept["time_s"] < self.turns_until_s
         if not is_turning and self.is_blocked(percept):
             is_turning = True
-            luck = percept["random_words"][0] / 2**32  # the only chance that a brain has
-            self.turns_until_s = percept["time_s"] + LONGEST_TURN_S * luck
+            fraction = percept["random_words"][0] / 2**32  # the only source of randomness
+            self.turns_until_s = percept["time_s"] + LONGEST_TURN_S * fraction
         return {
             "motion": {
                 "speed_m_s": 0.0 if is_turning else self.body["max_speed_m_s"],
@@ -39,7 +39,7 @@ class Wanderer:
         }
 
     def is_blocked(self, percept: Percept) -> bool:
-        """Whether something is near, ahead; a ray that meets nothing has the range None."""
+        """Return whether something ahead is near; a ray that hits nothing has the range None."""
         ranges_m = percept["scans"][0]["ranges_m"]
         if not ranges_m:  # any part of a percept may be missing
             return True
@@ -48,15 +48,15 @@ class Wanderer:
 
 
 def main() -> None:
-    """Compare it with the brain that ships."""
+    """Compare it with the bundled brain."""
     outcome = ae.run("search", seed=7, run=2, brains={"rover": Wanderer})
     print(f"run 2: {outcome.status} after {outcome.time_s} s, {outcome.collisions} collisions")
 
     mine = ae.replicate("search", runs=20, seed=7, brains={"rover": Wanderer})
-    shipped = ae.replicate("search", runs=20, seed=7)
-    for name, table in {"mine": mine, "shipped": shipped}.items():
+    bundled = ae.replicate("search", runs=20, seed=7)
+    for name, table in {"mine": mine, "bundled": bundled}.items():
         found, collisions = (table[column].to_numpy().mean() for column in ("found", "collisions"))
-        print(f"{name}: {found:.2f} of 4 found, {collisions:.2f} collisions a run")
+        print(f"{name}: {found:.2f} of 4 found, {collisions:.2f} collisions per run")
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
-//! Going in a zigzag: a behaviour of your own, in Rust.
+//! Driving in a zigzag: an example of a behaviour in Rust.
 //!
-//! It has all that a behaviour has: the type that scenarios read, what that comes to in a body (`Ready`),
-//! and what a robot remembers for it (`Memory`). `docs/brains.md` says where it goes.
+//! It has the three parts of a behaviour: the type that scenarios read, the behaviour prepared for a
+//! body (`Ready`), and the state of one robot (`Memory`). `docs/brains.md` explains how to add it.
 
 use super::turn::Turn;
 use crate::behaviours::behaviour::Behaviour;
@@ -14,13 +14,13 @@ use core::f64::consts::FRAC_PI_2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Goes straight on for a time, turns a quarter to the left, goes straight on, turns a quarter to the
-/// right, and so on: a camera that looks ahead sees more to the sides.
+/// Drives straight for a time, turns 90 degrees to the left, drives straight, turns 90 degrees to the
+/// right, and so on: a forward camera covers more of the sides.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 #[schemars(inline)]
 pub struct Zigzag {
-    /// Time that it goes straight on, in seconds.
+    /// Duration of a straight leg, in seconds.
     #[schemars(range(min = 0.1, max = 3600.0))]
     pub straight_s: f64,
 }
@@ -31,17 +31,17 @@ impl Default for Zigzag {
     }
 }
 
-/// [`Zigzag`] in a body: what is the same for all robots of a kind.
+/// [`Zigzag`] prepared for a body: shared by all robots of a kind.
 #[derive(Debug, Clone)]
 pub(crate) struct Ready {
     straight_s: f64,
     ahead: Motion,
 }
 
-/// What one robot remembers; in a box, so that robots with other behaviours take no more room for it.
+/// The state of one robot; boxed, so that robots with other behaviours need no memory for it.
 pub(crate) type Memory = Box<Leg>;
 
-/// What it is doing.
+/// The current leg or turn.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Leg {
     straight_s: f32,
@@ -68,7 +68,7 @@ impl Behaviour for Ready {
         Box::default()
     }
 
-    /// What it wishes now; `None` would leave the robot to the behaviours below.
+    /// The proposal for this step; `None` would leave the robot to lower behaviours.
     fn triggered(&self, memory: &mut Memory, situation: &Situation) -> Option<Proposal> {
         if let Some(turn) = &mut memory.turn {
             if let Some(motion) = turn.go_on(situation) {

