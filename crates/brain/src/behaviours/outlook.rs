@@ -161,7 +161,7 @@ mod tests {
                 y: 8.0 + 0.15 * f64::from(y),
             };
             let ray = Ray {
-                way: Segment { from: HERE, to },
+                free: Segment { from: HERE, to },
                 hit: Some(to),
             };
             (0..5).for_each(|_| map.occupancy.add_ray(&map.field, &ray));

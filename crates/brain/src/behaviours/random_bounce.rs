@@ -149,7 +149,7 @@ impl Ready {
             .nth(random_words.below(count) as usize);
         let longest = || rays(situation).max_by(|a, b| a.2.total_cmp(&b.2));
         let angle_rad = match chosen.or_else(longest) {
-            Some((ring, ray, _)) => ring.about_rad(ray, random_words.between(-0.5, 0.5)),
+            Some((ring, ray, _)) => ring.bearing_beside_rad(ray, random_words.between(-0.5, 0.5)),
             None => random_words.between(LEAST_BLIND_RAD, TAU - LEAST_BLIND_RAD),
         };
         wrapped(angle_rad)

@@ -47,29 +47,29 @@ mod tests {
         let corner = Point { x: -2.0, y: 1.0 };
         let area = Rectangle::spanned(corner, Point { x: 8.0, y: 6.0 });
         let mut map = Map::new(&BeliefsSpec::default(), &area);
-        let way = Segment {
+        let free = Segment {
             from: Point { x: 0.0, y: 3.1 },
             to: Point { x: 5.0, y: 3.1 },
         };
         let ray = Ray {
-            way,
-            hit: Some(way.to),
+            free,
+            hit: Some(free.to),
         };
         (0..3).for_each(|_| {
             map.occupancy.begin_scan();
             map.occupancy.add_ray(&map.field, &ray);
         });
-        let told = BelievedMap::of(&map);
-        assert_eq!((told.corner, told.cell_m), (corner, 0.25));
-        assert_eq!(told.occupancy.len(), told.columns * told.rows);
-        let percent = |at| told.occupancy[map.field.cell(at).unwrap()];
+        let believed = BelievedMap::of(&map);
+        assert_eq!((believed.corner, believed.cell_m), (corner, 0.25));
+        assert_eq!(believed.occupancy.len(), believed.columns * believed.rows);
+        let percent = |at| believed.occupancy[map.field.cell(at).unwrap()];
         // Three times four and minus one quarter nats.
-        assert_eq!(percent(way.to), 95);
+        assert_eq!(percent(free.to), 95);
         assert_eq!(percent(Point { x: 3.0, y: 3.1 }), 32);
         assert_eq!(percent(Point { x: 3.0, y: 5.1 }), -1);
-        for (cell, percent) in told.occupancy.iter().enumerate() {
+        for (cell, percent) in believed.occupancy.iter().enumerate() {
             assert_eq!(map.occupancy.is_occupied(cell), *percent >= 73);
         }
-        assert!(told.unseen.iter().all(|percent| *percent == 100));
+        assert!(believed.unseen.iter().all(|percent| *percent == 100));
     }
 }

@@ -123,8 +123,8 @@ impl Ring {
         let scan = scan?;
         let age_s = scan.age_s.filter(|age_s| *age_s >= 0.0)?;
         let age_s = age_s.max(self.latency_s);
-        let is_whole = scan.ranges_m.len() == self.bearings_rad.len();
-        (is_whole && age_s <= self.fresh_s).then_some((age_s, &scan.ranges_m))
+        let is_complete = scan.ranges_m.len() == self.bearings_rad.len();
+        (is_complete && age_s <= self.fresh_s).then_some((age_s, &scan.ranges_m))
     }
 
     /// All rays, limited to the range of the sensor.
@@ -163,7 +163,7 @@ impl Ring {
     }
 
     /// A bearing beside a ray, offset by a fraction of the angle between rays.
-    pub(crate) fn about_rad(&self, ray: usize, share: f64) -> f64 {
+    pub(crate) fn bearing_beside_rad(&self, ray: usize, share: f64) -> f64 {
         let bearing_rad = self.bearings_rad.get(ray).copied().unwrap_or_default();
         bearing_rad + share * self.gap_rad
     }

@@ -18,15 +18,15 @@ fn map(is_occupied: impl Fn(usize, usize) -> bool) -> Occupancy {
     let mut map = Occupancy::new(&field);
     for cell in (0..field.cells()).filter(|cell| is_occupied(cell % COLUMNS, cell / COLUMNS)) {
         let centre = field.centre(cell);
-        let way = Segment {
+        let free = Segment {
             from: centre,
             to: centre,
         };
         map.add_ray(
             &field,
             &Ray {
-                way,
-                hit: Some(way.to),
+                free,
+                hit: Some(free.to),
             },
         );
     }

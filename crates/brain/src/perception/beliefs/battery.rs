@@ -12,7 +12,7 @@ const MIN_CHARGE_GAIN: f64 = 0.1;
 /// A charge, as a fraction of the capacity, and its time in seconds since the brain was started.
 #[derive(Debug, Clone, Copy)]
 struct Level {
-    share: f64,
+    charge: f64,
     at_s: f64,
 }
 
@@ -22,26 +22,26 @@ struct Level {
 pub(crate) struct Battery {
     /// The start of the discharge.
     first: Option<Level>,
-    left: Option<Level>,
+    now: Option<Level>,
     /// The minimum charge since then.
     min_charge: f64,
     last: Option<Level>,
     /// Age of the last reading.
     age_s: Option<f64>,
-    on_s: f64,
+    uptime_s: f64,
 }
 
 impl Battery {
     pub(crate) fn update(&mut self, percept: &Percept, period_s: f64) {
-        self.on_s += period_s;
-        let is_valid = |share: &f64| (0.0..=1.0).contains(share);
+        self.uptime_s += period_s;
+        let is_valid = |charge: &f64| (0.0..=1.0).contains(charge);
         let battery = percept.battery.filter(|battery| is_valid(&battery.value));
         let Some(battery) = fresh(battery, &mut self.age_s, period_s) else {
             return;
         };
         let read = Level {
-            share: battery.value,
-            at_s: self.on_s - battery.age_s,
+            charge: battery.value,
+            at_s: self.uptime_s - battery.age_s,
         };
         if let Some(before) = self.last.replace(read) {
             self.correct(before, read);
@@ -50,39 +50,39 @@ impl Battery {
 
     /// Updates the estimate with the last two readings.
     fn correct(&mut self, one: Level, other: Level) {
-        let (low, high) = if one.share <= other.share {
+        let (low, high) = if one.charge <= other.charge {
             (one, other)
         } else {
             (other, one)
         };
-        let left = match self.left {
-            Some(left) if left.share < low.share => low,
-            Some(left) if left.share <= high.share => left,
+        let now = match self.now {
+            Some(now) if now.charge < low.charge => low,
+            Some(now) if now.charge <= high.charge => now,
             _ => high,
         };
-        self.left = Some(left);
-        self.min_charge = self.min_charge.min(left.share);
+        self.now = Some(now);
+        self.min_charge = self.min_charge.min(now.charge);
         // The rate of discharge is estimated from the last charging on.
         let is_charged =
-            |first: Level| left.share > first.share.min(self.min_charge + MIN_CHARGE_GAIN);
+            |first: Level| now.charge > first.charge.min(self.min_charge + MIN_CHARGE_GAIN);
         if self.first.is_none_or(is_charged) {
-            (self.first, self.min_charge) = (Some(left), left.share);
+            (self.first, self.min_charge) = (Some(now), now.charge);
         }
     }
 
     /// The charge, 0 to 1, once there have been two readings.
     pub(crate) fn charge(&self) -> Option<f64> {
-        self.left.map(|left| left.share)
+        self.now.map(|now| now.charge)
     }
 
     /// The remaining time at the mean rate so far, charge x time / used; infinite if unknown.
     pub(crate) fn remaining_s(&self) -> f64 {
-        let Some((first, left)) = self.first.zip(self.left) else {
+        let Some((first, now)) = self.first.zip(self.now) else {
             return f64::INFINITY;
         };
-        let (used, in_s) = (first.share - left.share, left.at_s - first.at_s);
+        let (used, in_s) = (first.charge - now.charge, now.at_s - first.at_s);
         if used > 0.0 && in_s >= MIN_INTERVAL_S {
-            (left.share * in_s / used - (self.on_s - left.at_s)).max(0.0)
+            (now.charge * in_s / used - (self.uptime_s - now.at_s)).max(0.0)
         } else {
             f64::INFINITY
         }
@@ -94,9 +94,9 @@ mod tests {
     use super::*;
     use crate::world_of_walls::now;
 
-    fn read(battery: &mut Battery, share: f64) {
+    fn read(battery: &mut Battery, charge: f64) {
         let percept = Percept {
-            battery: Some(now(share)),
+            battery: Some(now(charge)),
             ..Percept::default()
         };
         battery.update(&percept, 1.0);

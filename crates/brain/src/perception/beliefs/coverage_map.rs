@@ -107,12 +107,12 @@ impl CoverageMap {
                 if self.missed[cell] <= min {
                     continue;
                 }
-                let place = field.centre(cell);
-                let way = at.to(place);
-                let is_in_view = view.holds_within(way, margin_m);
-                if is_in_view && (!may_be_hidden || occupancy.is_visible(field, at, place, blur_m))
+                let centre = field.centre(cell);
+                let offset = at.to(centre);
+                let is_in_view = view.holds_within(offset, margin_m);
+                if is_in_view && (!may_be_hidden || occupancy.is_visible(field, at, centre, blur_m))
                 {
-                    let detection = detector.min_probability(way.length());
+                    let detection = detector.min_probability(offset.length());
                     let above = self.missed[cell] - floor;
                     self.missed[cell] = floor + above * missed(detection, observations);
                 }

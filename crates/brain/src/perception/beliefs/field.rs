@@ -4,7 +4,7 @@ use base::geometry::{Point, Rectangle};
 use core::ops::Range;
 
 /// Fractional bits of fixed-point coordinates.
-const FIXED: u32 = 20;
+const FRACTION_BITS: u32 = 20;
 
 /// A rectangle of square cells, row by row from the lower left corner.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,8 +29,8 @@ impl Field {
         // (width / cell + 1) (height / cell + 1) = max_cells, since both are rounded up.
         let (sum_m, area_m2) = (size.x + size.y, size.x * size.y);
         let root = libm::sqrt(sum_m * sum_m + 4.0 * area_m2 * (max_cells.max(4) as f64 - 1.0));
-        let sparse_m = 2.0 * area_m2 / (root - sum_m);
-        let cell_m = min_cell_m.max(sparse_m);
+        let coarse_m = 2.0 * area_m2 / (root - sum_m);
+        let cell_m = min_cell_m.max(coarse_m);
         let count = |length_m: f64| (libm::ceil(length_m / cell_m) as usize).max(1);
         Self {
             area: *area,
@@ -47,14 +47,14 @@ impl Field {
 
     /// The cell that contains a position, if any.
     #[inline]
-    pub(crate) fn cell(&self, place: Point) -> Option<usize> {
-        let [column, row] = self.column_and_row(place);
+    pub(crate) fn cell(&self, position: Point) -> Option<usize> {
+        let [column, row] = self.column_and_row(position);
         self.number(column, row)
     }
 
     /// The cell nearest to a position.
-    pub(crate) fn nearest_cell(&self, place: Point) -> usize {
-        let [column, row] = self.column_and_row(place);
+    pub(crate) fn nearest_cell(&self, position: Point) -> usize {
+        let [column, row] = self.column_and_row(position);
         let within =
             |number: i32, count: usize| usize::try_from(number).unwrap_or(0).min(count - 1);
         within(row, self.rows) * self.columns + within(column, self.columns)
@@ -62,16 +62,16 @@ impl Field {
 
     /// Column and row of a position, also outside the field.
     #[inline]
-    pub(crate) fn column_and_row(&self, place: Point) -> [i32; 2] {
-        let [right, up] = self.in_cells(place);
-        [whole(right), whole(up)]
+    pub(crate) fn column_and_row(&self, position: Point) -> [i32; 2] {
+        let [right, up] = self.in_cells(position);
+        [floor(right), floor(up)]
     }
 
     /// A position in units of cells from the lower left corner.
     #[inline]
-    pub(crate) fn in_cells(&self, place: Point) -> [f64; 2] {
-        let way = self.area.min().to(place);
-        [way.x * self.cells_per_m, way.y * self.cells_per_m]
+    pub(crate) fn in_cells(&self, position: Point) -> [f64; 2] {
+        let offset = self.area.min().to(position);
+        [offset.x * self.cells_per_m, offset.y * self.cells_per_m]
     }
 
     /// Column and row of a cell.
@@ -122,17 +122,17 @@ impl Field {
 
     /// Distance of a position inside the field from its boundary.
     #[inline]
-    pub(crate) fn edge_m(&self, place: Point) -> f64 {
-        let (low, high) = (self.area.min().to(place), place.to(self.area.max()));
+    pub(crate) fn edge_m(&self, position: Point) -> f64 {
+        let (low, high) = (self.area.min().to(position), position.to(self.area.max()));
         low.x.min(low.y).min(high.x).min(high.y)
     }
 
     /// The position in the field that is nearest to another.
-    pub(crate) fn nearest(&self, place: Point) -> Point {
+    pub(crate) fn nearest(&self, position: Point) -> Point {
         let (min, max) = (self.area.min(), self.area.max());
         Point {
-            x: place.x.max(min.x).min(max.x),
-            y: place.y.max(min.y).min(max.y),
+            x: position.x.max(min.x).min(max.x),
+            y: position.y.max(min.y).min(max.y),
         }
     }
 
@@ -146,10 +146,10 @@ impl Field {
     )]
     pub(crate) fn crossed(&self, from: Point, to: Point) -> impl Iterator<Item = usize> + use<> {
         let ([right, up], [to_right, to_up]) = (self.in_cells(from), self.in_cells(to));
-        let way = [to_right - right, to_up - up];
-        let steps = way[0].abs().max(way[1].abs());
+        let line = [to_right - right, to_up - up];
+        let steps = line[0].abs().max(line[1].abs());
         let per_step = 1.0 / steps.max(f64::MIN_POSITIVE);
-        let stride = way.map(|way| way * per_step);
+        let stride = line.map(|along| along * per_step);
         let count = match (self.cell(from), self.cell(to)) {
             (Some(_), Some(_)) => steps,
             (Some(_), None) => steps.min(self.steps_within([right, up], stride)),
@@ -157,12 +157,12 @@ impl Field {
         };
         let count = if count.is_finite() { count as u32 } else { 0 };
         // Fixed-point numbers with 20 fractional bits: sums have no rounding errors.
-        let fixed = |cells: f64| (cells * f64::from(1 << FIXED)) as i64;
+        let fixed = |cells: f64| (cells * f64::from(1 << FRACTION_BITS)) as i64;
         let (mut at, stride) = ([fixed(right), fixed(up)], stride.map(fixed));
         let (columns, cells) = (self.columns as i64, self.cells());
         (0..count).map(move |_| {
             at = [at[0] + stride[0], at[1] + stride[1]];
-            let cell = (at[1] >> FIXED) * columns + (at[0] >> FIXED);
+            let cell = (at[1] >> FRACTION_BITS) * columns + (at[0] >> FRACTION_BITS);
             usize::try_from(cell).unwrap_or(cells)
         })
     }
@@ -193,7 +193,7 @@ impl Field {
     pub(crate) fn along(
         &self,
         from: Point,
-        way: Point,
+        direction: Point,
         length_m: f64,
     ) -> impl Iterator<Item = usize> + use<> {
         let [mut right, mut up] = self.in_cells(from);
@@ -207,8 +207,8 @@ impl Field {
         )]
         let count = (count as usize).min(4 * (columns + rows));
         (0..count).filter_map(move |_| {
-            right += way.x / 2.0;
-            up += way.y / 2.0;
+            right += direction.x / 2.0;
+            up += direction.y / 2.0;
             if right < 0.0 || up < 0.0 {
                 return None;
             }
@@ -239,7 +239,7 @@ impl Field {
 /// The floor; faster than the library function on processors without an instruction for it.
 #[inline]
 #[expect(clippy::cast_possible_truncation, reason = "a cast saturates")]
-fn whole(number: f64) -> i32 {
+fn floor(number: f64) -> i32 {
     let towards_0 = number as i32;
     towards_0.saturating_sub(i32::from(number < f64::from(towards_0)))
 }

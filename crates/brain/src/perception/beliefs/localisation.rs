@@ -103,20 +103,20 @@ impl Localisation {
             (&mut self.at, self.heading)
         {
             // Along the chord of the arc.
-            let way = direction(heading_rad + turned_rad / 2.0).times(travelled_m);
-            *at = at.plus(way);
+            let motion = direction(heading_rad + turned_rad / 2.0).times(travelled_m);
+            *at = at.plus(motion);
             *variance += (ODOMETRY_ERROR * travelled_m) * (ODOMETRY_ERROR * travelled_m)
                 + PROCESS_NOISE_M2_S * period_s;
             // P' = F P F^T with d(at)/d(heading) = the displacement turned left; the mean of both axes.
             *variance +=
-                way.cross(self.covariance) + travelled_m * travelled_m * heading_variance / 2.0;
+                motion.cross(self.covariance) + travelled_m * travelled_m * heading_variance / 2.0;
             *variance = variance.max(0.0);
             let left = Point {
-                x: -way.y,
-                y: way.x,
+                x: -motion.y,
+                y: motion.x,
             };
             self.covariance = self.covariance.plus(left.times(heading_variance));
-            self.position_gate.predict(|at| at.plus(way));
+            self.position_gate.predict(|at| at.plus(motion));
         }
         if let Some((heading_rad, variance)) = &mut self.heading {
             *heading_rad = wrapped(*heading_rad + turned_rad);
@@ -153,9 +153,8 @@ impl Localisation {
     /// Returns whether the reading was used.
     fn correct_position(&mut self, measured: Point, noise_m: f64, tolerance_m: f64) -> bool {
         // False for NaN.
-        let is_sensible =
-            measured.x.abs() <= MAX_COORDINATE_M && measured.y.abs() <= MAX_COORDINATE_M;
-        if !is_sensible {
+        let is_valid = measured.x.abs() <= MAX_COORDINATE_M && measured.y.abs() <= MAX_COORDINATE_M;
+        if !is_valid {
             return false;
         }
         let sensor = noise_m * noise_m;

@@ -67,15 +67,15 @@ impl Map {
         for (ray, free_m) in ring.rays(ranges_m).zip(free_m) {
             let end = ray.end();
             let is_hit = ray.range_m < ring.range_m() && !others.is_on_mover(end);
-            let free = in_world(ray.direction.times(free_m.min(ray.range_m)));
-            let way = Segment {
+            let free_end = in_world(ray.direction.times(free_m.min(ray.range_m)));
+            let free = Segment {
                 from: pose.at,
-                to: free,
+                to: free_end,
             };
             self.occupancy.add_ray(
                 &self.field,
                 &Ray {
-                    way,
+                    free,
                     hit: is_hit.then(|| in_world(end)),
                 },
             );

@@ -36,7 +36,7 @@ pub(crate) struct Occupancy {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Ray {
     /// Its free part, limited by its neighbours.
-    pub(crate) way: Segment,
+    pub(crate) free: Segment,
     /// The position of the obstacle, if any.
     pub(crate) hit: Option<Point>,
 }
@@ -85,10 +85,10 @@ impl Occupancy {
     /// Probability that each cell is occupied, in percent; -1 if unknown.
     pub(crate) fn percent(&self) -> impl Iterator<Item = i8> {
         let percents: [i8; 2 * MAX_LOG_ODDS as usize + 1] = core::array::from_fn(percent);
-        let place = |odds: i8| usize::from((odds + MAX_LOG_ODDS).unsigned_abs());
+        let index = |odds: i8| usize::from((odds + MAX_LOG_ODDS).unsigned_abs());
         self.quarter_nats
             .iter()
-            .map(move |odds| percents[place(*odds)])
+            .map(move |odds| percents[index(*odds)])
     }
 
     /// Starts a new scan; its rays are added in order.
@@ -100,12 +100,12 @@ impl Occupancy {
     #[inline]
     pub(crate) fn add_ray(&mut self, field: &Field, ray: &Ray) {
         let hit = ray.hit.and_then(|hit| field.cell(hit));
-        for (place, cell) in field.crossed(ray.way.from, ray.way.to).enumerate() {
-            let before = self.passed.get(place).copied();
+        for (index, cell) in field.crossed(ray.free.from, ray.free.to).enumerate() {
+            let before = self.passed.get(index).copied();
             if before != Some(cell) && hit != Some(cell) {
                 self.add(cell, PASS);
             }
-            match self.passed.get_mut(place) {
+            match self.passed.get_mut(index) {
                 Some(passed) => *passed = cell,
                 None => self.passed.push(cell),
             }
@@ -128,11 +128,11 @@ impl Occupancy {
     /// Whether no known obstacle hides a position from another. Obstacles at the position itself, or closer to
     /// it than `blur_m`, do not hide it.
     pub(crate) fn is_visible(&self, field: &Field, from: Point, to: Point, blur_m: f64) -> bool {
-        let way = from.to(to);
-        let length_m = way.length();
+        let line = from.to(to);
+        let length_m = line.length();
         let clear_m = length_m - field.cell_m - blur_m;
         clear_m <= 0.0 || {
-            let before = from.plus(way.times(clear_m / length_m));
+            let before = from.plus(line.times(clear_m / length_m));
             self.is_free_between(field, from, before)
         }
     }
@@ -140,9 +140,9 @@ impl Occupancy {
     /// Whether the straight line between two positions crosses no occupied cell, and does not pass between two
     /// that touch at a corner.
     pub(crate) fn is_free_between(&self, field: &Field, from: Point, to: Point) -> bool {
-        let way = from.to(to);
-        let length_m = way.length();
-        let direction = way.times(1.0 / length_m.max(f64::MIN_POSITIVE));
+        let line = from.to(to);
+        let length_m = line.length();
+        let direction = line.times(1.0 / length_m.max(f64::MIN_POSITIVE));
         let mut last = field.cell(from);
         field.along(from, direction, length_m).all(|cell| {
             let before = last.replace(cell).unwrap_or(cell);
@@ -190,7 +190,7 @@ mod tests {
     }
 
     fn scan(map: &mut Occupancy, free_m: f64, is_hit: bool) {
-        let way = Segment {
+        let free = Segment {
             from: Point { x: 1.0, y: 5.25 },
             to: Point {
                 x: 1.0 + free_m,
@@ -198,8 +198,8 @@ mod tests {
             },
         };
         map.begin_scan();
-        let hit = is_hit.then_some(way.to);
-        map.add_ray(&field(), &Ray { way, hit });
+        let hit = is_hit.then_some(free.to);
+        map.add_ray(&field(), &Ray { free, hit });
     }
 
     fn is_occupied(map: &Occupancy, x: f64) -> bool {

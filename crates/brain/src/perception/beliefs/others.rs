@@ -40,22 +40,28 @@ pub(crate) struct Others {
 }
 
 impl Others {
-    /// Updates the tracks after a step in which the robot moved by `way` (in its previous frame) and turned.
-    pub(crate) fn update(&mut self, percept: &Percept, body: &Body, way: Point, turned_rad: f64) {
+    /// Updates the tracks after a step in which the robot moved by `motion` (in its previous frame) and turned.
+    pub(crate) fn update(
+        &mut self,
+        percept: &Percept,
+        body: &Body,
+        motion: Point,
+        turned_rad: f64,
+    ) {
         self.movers.retain(|mover| mover.id.is_some());
-        self.predict(body.period_s, way, turned_rad);
-        self.objects.predict(way, turned_rad, body.period_s);
+        self.predict(body.period_s, motion, turned_rad);
+        self.objects.predict(motion, turned_rad, body.period_s);
         let max_range_m = self.max_range_m(&percept.neighbours);
         let near = percept.neighbours.iter();
         for neighbour in near.filter(|neighbour| neighbour.range_m <= max_range_m) {
             self.observe(neighbour, body, turned_rad);
         }
         self.movers.retain(|mover| mover.age_s <= MAX_AGE_S);
-        let speed_m_s = way.length() / body.period_s.max(f64::MIN_POSITIVE);
+        let speed_m_s = motion.length() / body.period_s.max(f64::MIN_POSITIVE);
         let stopping_m = speed_m_s * speed_m_s / (2.0 * body.max_acceleration_m_s2);
         self.keep_nearest(&Segment {
             from: Point::default(),
-            to: direction(0.0).times(stopping_m.copysign(way.x)),
+            to: direction(0.0).times(stopping_m.copysign(motion.x)),
         });
     }
 
@@ -81,11 +87,11 @@ impl Others {
         *max_range_m
     }
 
-    fn predict(&mut self, period_s: f64, way: Point, turned_rad: f64) {
+    fn predict(&mut self, period_s: f64, motion: Point, turned_rad: f64) {
         let back = direction(-turned_rad);
         for mover in &mut self.movers {
             let moved = mover.velocity_m_s.times(period_s);
-            mover.at = turned(way.to(mover.at.plus(moved)), back);
+            mover.at = turned(motion.to(mover.at.plus(moved)), back);
             mover.velocity_m_s = turned(mover.velocity_m_s, back);
             mover.course = turned(mover.course, back);
             mover.age_s += period_s;
@@ -140,9 +146,7 @@ impl Others {
             self.movers.truncate(MAX_MOVERS);
         }
     }
-}
 
-impl Others {
     /// Whether a hit, in this robot's frame, belongs to a track.
     pub(crate) fn is_on_mover(&self, at: Point) -> bool {
         is_on_any(&self.movers, at)
@@ -152,15 +156,15 @@ impl Others {
 /// Whether a hit, in this robot's frame, belongs to one of the tracks.
 fn is_on_any(movers: &[Mover], at: Point) -> bool {
     movers.iter().any(|mover| {
-        let near_m = mover.radius_m + HIT_MARGIN_M;
-        mover.at.to(at).length_squared() <= near_m * near_m
+        let max_m = mover.radius_m + HIT_MARGIN_M;
+        mover.at.to(at).length_squared() <= max_m * max_m
     })
 }
 
 fn is_valid(neighbour: &Neighbour) -> bool {
-    let is_near = (0.0..=1e6).contains(&neighbour.range_m);
+    let is_range = (0.0..=1e6).contains(&neighbour.range_m);
     let is_angle = neighbour.bearing_rad.abs() <= 10.0;
-    is_near && is_angle && (0.0..=MAX_AGE_S).contains(&neighbour.age_s)
+    is_range && is_angle && (0.0..=MAX_AGE_S).contains(&neighbour.age_s)
 }
 
 #[cfg(test)]

@@ -40,21 +40,21 @@ impl Pose {
 
     /// Transforms a position from the world to the robot's frame.
     #[inline]
-    pub(crate) fn in_own_frame(&self, place: Point) -> Point {
+    pub(crate) fn in_own_frame(&self, at: Point) -> Point {
         let front = direction(self.heading_rad);
         let back = Point {
             x: front.x,
             y: -front.y,
         };
-        turned(self.at.to(place), back)
+        turned(self.at.to(at), back)
     }
 }
 
-/// `way` rotated by the angle from the x axis to `front`, which has length 1.
+/// `vector` rotated by the angle from the x axis to `front`, which has length 1.
 #[inline]
-pub(crate) fn turned(way: Point, front: Point) -> Point {
+pub(crate) fn turned(vector: Point, front: Point) -> Point {
     Point {
-        x: way.x * front.x - way.y * front.y,
-        y: way.x * front.y + way.y * front.x,
+        x: vector.x * front.x - vector.y * front.y,
+        y: vector.x * front.y + vector.y * front.x,
     }
 }

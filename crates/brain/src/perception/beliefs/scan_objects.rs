@@ -54,11 +54,11 @@ pub(crate) struct ScanObjects {
 }
 
 impl ScanObjects {
-    /// Predicts all objects after a step in which the robot moved by `way` (in its previous frame) and turned.
-    pub(crate) fn predict(&mut self, way: Point, turned_rad: f64, period_s: f64) {
+    /// Predicts all objects after a step in which the robot moved by `motion` (in its previous frame) and turned.
+    pub(crate) fn predict(&mut self, motion: Point, turned_rad: f64, period_s: f64) {
         let back = direction(-turned_rad);
         for object in &mut self.objects {
-            object.at = turned(way.to(object.at), back);
+            object.at = turned(motion.to(object.at), back);
             object.age_s += period_s;
         }
         self.objects.retain(|object| object.age_s <= MAX_AGE_S);
@@ -99,9 +99,9 @@ impl ScanObjects {
     /// Updates the object whose nearest point is the end of a ray, or adds a new one.
     fn associate(&mut self, ray: &Ray, radius_m: f64) {
         let at = ray.end();
-        let matches =
+        let is_same =
             |object: &ScanObject| object.age_s > 0.0 && object.at.to(at).length() <= ASSOCIATION_M;
-        let known = self.objects.iter().position(matches);
+        let known = self.objects.iter().position(is_same);
         if let Some(object) = known.map(|index| &mut self.objects[index]) {
             let rate_m_s = (object.at.length() - ray.range_m) / object.age_s;
             let rate_m_s = rate_m_s.clamp(-MAX_CLOSING_M_S, MAX_CLOSING_M_S);
@@ -121,10 +121,10 @@ impl ScanObjects {
 
     /// The objects that count as moving.
     pub(crate) fn moving(&self) -> impl Iterator<Item = Mover> {
-        let moves = |object: &&ScanObject| {
+        let is_moving = |object: &&ScanObject| {
             object.observations >= MIN_OBSERVATIONS && object.closing_m_s.abs() >= MIN_CLOSING_M_S
         };
-        self.objects.iter().filter(moves).map(|object| {
+        self.objects.iter().filter(is_moving).map(|object| {
             let distance_m = object.at.length().max(f64::MIN_POSITIVE);
             let towards = object.at.times(-1.0 / distance_m);
             Mover {

@@ -112,16 +112,16 @@ impl Trust {
 mod tests {
     use super::*;
 
-    const LIAR: RobotId = RobotId { kind: 0, index: 3 };
+    const SENDER: RobotId = RobotId { kind: 0, index: 3 };
 
     #[test]
     fn trust_falls_with_refuted_reports_and_rises_with_confirmed_ones() {
         let (mut trust, spec) = (Trust::default(), TrustSpec::default());
-        assert!((trust.of(LIAR, &spec) - 0.9).abs() < 1e-6);
-        (0..4).for_each(|_| trust.learn(LIAR, false, &spec));
-        assert!((trust.of(LIAR, &spec) - 0.45).abs() < 1e-6);
-        (0..8).for_each(|_| trust.learn(LIAR, true, &spec));
-        assert!(trust.of(LIAR, &spec) > 0.7);
+        assert!((trust.of(SENDER, &spec) - 0.9).abs() < 1e-6);
+        (0..4).for_each(|_| trust.learn(SENDER, false, &spec));
+        assert!((trust.of(SENDER, &spec) - 0.45).abs() < 1e-6);
+        (0..8).for_each(|_| trust.learn(SENDER, true, &spec));
+        assert!(trust.of(SENDER, &spec) > 0.7);
         assert!((trust.of(RobotId::default(), &spec) - 0.9).abs() < 1e-6);
     }
 
@@ -132,8 +132,8 @@ mod tests {
             adaptive: false,
         };
         let mut trust = Trust::default();
-        (0..9).for_each(|_| trust.learn(LIAR, true, &spec));
-        assert!((trust.of(LIAR, &spec) - 0.3).abs() < 1e-6);
+        (0..9).for_each(|_| trust.learn(SENDER, true, &spec));
+        assert!((trust.of(SENDER, &spec) - 0.3).abs() < 1e-6);
     }
 
     #[test]

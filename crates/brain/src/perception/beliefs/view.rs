@@ -72,28 +72,28 @@ impl View {
 
     /// Whether a relative position is in view.
     #[inline]
-    pub(crate) fn holds(&self, way: Point) -> bool {
-        self.holds_within(way, 0.0)
+    pub(crate) fn holds(&self, offset: Point) -> bool {
+        self.holds_within(offset, 0.0)
     }
 
     /// Whether most of the cell at a relative position is in view.
-    pub(crate) fn holds_cell(&self, field: &Field, way: Point) -> bool {
-        self.holds_within(way, cell_margin_m(field, self.range_m))
+    pub(crate) fn holds_cell(&self, field: &Field, offset: Point) -> bool {
+        self.holds_within(offset, cell_margin_m(field, self.range_m))
     }
 
     /// Whether a relative position is inside the field of view by a margin.
     #[inline]
-    pub(super) fn holds_within(&self, way: Point, margin_m: f64) -> bool {
+    pub(super) fn holds_within(&self, offset: Point, margin_m: f64) -> bool {
         let max_m = self.range_m - margin_m;
         let [right, left] = self.edges;
-        let is_left = right.cross(way) >= margin_m;
-        let is_right = way.cross(left) >= margin_m;
+        let is_left = right.cross(offset) >= margin_m;
+        let is_right = offset.cross(left) >= margin_m;
         let is_between = match self.width {
             Width::Narrow => is_left && is_right,
             Width::Wide => is_left || is_right,
             Width::Round => true,
         };
-        is_between && max_m > 0.0 && way.length_squared() <= max_m * max_m
+        is_between && max_m > 0.0 && offset.length_squared() <= max_m * max_m
     }
 }
 
@@ -134,13 +134,13 @@ mod tests {
         #[test]
         fn the_box_contains_the_field_of_view(
             width_rad in 0.1_f64..7.0, heading_rad in -4.0_f64..4.0,
-            way in (-3.0_f64..3.0, -3.0_f64..3.0), at in (-9.0_f64..9.0, -9.0_f64..9.0),
+            offset in (-3.0_f64..3.0, -3.0_f64..3.0), at in (-9.0_f64..9.0, -9.0_f64..9.0),
         ) {
             let view = View::new(&detector(3.0, width_rad, 1.0), heading_rad);
-            let (way, at) = (Point::from([way.0, way.1]), Point::from([at.0, at.1]));
-            let ((low, high), place) = (view.bounding_box(at), at.plus(way));
-            let is_in = low.x <= place.x && place.x <= high.x && low.y <= place.y && place.y <= high.y;
-            prop_assert!(is_in || !view.holds(way));
+            let (offset, at) = (Point::from([offset.0, offset.1]), Point::from([at.0, at.1]));
+            let ((low, high), position) = (view.bounding_box(at), at.plus(offset));
+            let is_in = low.x <= position.x && position.x <= high.x && low.y <= position.y && position.y <= high.y;
+            prop_assert!(is_in || !view.holds(offset));
         }
     }
 

@@ -49,7 +49,7 @@ pub(crate) struct Beliefs {
     speed_m_s: f64,
     /// Number of item observations so far, and time since the brain was started.
     pub(super) observations: u32,
-    on_s: f64,
+    uptime_s: f64,
     pub(super) broadcast: BroadcastState,
 }
 
@@ -76,7 +76,7 @@ impl Beliefs {
             map: area.map(|area| Map::new(spec, &area)),
             speed_m_s: 0.0,
             observations: 0,
-            on_s: 0.0,
+            uptime_s: 0.0,
             broadcast: BroadcastState::default(),
         }
     }
@@ -98,12 +98,12 @@ impl Beliefs {
 
     /// Mean time between two item observations.
     pub(crate) fn observation_period_s(&self) -> f64 {
-        self.on_s / f64::from(self.observations.max(1))
+        self.uptime_s / f64::from(self.observations.max(1))
     }
 
     /// Renumbers the robots; information about removed robots is dropped.
-    pub(crate) fn renumber(&mut self, now: &impl Fn(RobotId) -> Option<RobotId>) {
-        let keep = |id: &mut RobotId| now(*id).map(|now| *id = now).is_some();
+    pub(crate) fn renumber(&mut self, new_id: &impl Fn(RobotId) -> Option<RobotId>) {
+        let keep = |id: &mut RobotId| new_id(*id).map(|new| *id = new).is_some();
         self.others
             .movers
             .retain_mut(|mover| mover.id.as_mut().is_none_or(keep));
@@ -151,13 +151,13 @@ impl Beliefs {
         [now_m_s, turned_rad]: [f64; 2],
     ) {
         self.id = percept.id;
-        self.on_s += body.period_s;
+        self.uptime_s += body.period_s;
         let travelled_m = travelled_m([self.speed_m_s, now_m_s], body);
         self.speed_m_s = now_m_s;
         self.localisation
             .update(percept, body, travelled_m, turned_rad);
-        let way = direction(turned_rad / 2.0).times(travelled_m);
-        self.others.update(percept, body, way, turned_rad);
+        let motion = direction(turned_rad / 2.0).times(travelled_m);
+        self.others.update(percept, body, motion, turned_rad);
         for (ring, ranges_m) in new_scans(percept, rings, body.period_s) {
             self.others.scan(ring, ranges_m);
         }
@@ -263,9 +263,9 @@ fn earlier(pose: &Pose, [speed_m_s, rate_rad_s]: [f64; 2], age_s: f64) -> Pose {
         0.0
     };
     let heading_rad = wrapped(pose.heading_rad - rate_rad_s * age_s);
-    let way = direction(heading_rad + rate_rad_s * age_s / 2.0).times(-speed_m_s * age_s);
+    let backwards = direction(heading_rad + rate_rad_s * age_s / 2.0).times(-speed_m_s * age_s);
     Pose {
-        at: pose.at.plus(way),
+        at: pose.at.plus(backwards),
         heading_rad,
         ..*pose
     }

@@ -105,10 +105,10 @@ impl OwnObservation<'_> {
         let unseen = map.map_or(1.0, |map| {
             let cell = map.field.nearest_cell(at);
             let view = View::new(self.detector, self.pose.heading_rad);
-            let way = self.pose.at.to(map.field.centre(cell));
+            let offset = self.pose.at.to(map.field.centre(cell));
             let half_width_m = map.field.cell_m / 2.0;
             let is_clear =
-                view.holds_cell(&map.field, way) && variance_m2 < half_width_m * half_width_m;
+                view.holds_cell(&map.field, offset) && variance_m2 < half_width_m * half_width_m;
             let reach = i32::from(!is_clear);
             let cells = map.field.around(cell, reach);
             cells.map(|cell| map.coverage.of(cell)).fold(1.0, f64::min)
@@ -202,20 +202,25 @@ impl Track {
         observation: &OwnObservation,
         map: Option<&Map>,
     ) -> f64 {
-        let way = observation.pose.at.to(self.at);
-        let length_m = way.length().max(1e-9);
+        let offset = observation.pose.at.to(self.at);
+        let length_m = offset.length().max(1e-9);
         let error_m = 2.0 * libm::sqrt(self.variance_m2 + observation.variance_m2(length_m));
         if length_m > observation.detector.range_m + error_m {
             return 0.0;
         }
-        let out = way.times(error_m / length_m);
+        let out = offset.times(error_m / length_m);
         let aside = Point {
             x: -out.y,
             y: out.x,
         };
         let weight = |at: Point, weight: f64| if view.holds(at) { weight } else { 0.0 };
-        let around = [way.plus(out), out.to(way), way.plus(aside), aside.to(way)];
-        let total = weight(way, 0.5) + around.map(|at| weight(at, 0.125)).iter().sum::<f64>();
+        let around = [
+            offset.plus(out),
+            out.to(offset),
+            offset.plus(aside),
+            aside.to(offset),
+        ];
+        let total = weight(offset, 0.5) + around.map(|at| weight(at, 0.125)).iter().sum::<f64>();
         let is_hidden = || {
             observation.detector.needs_line_of_sight
                 && map.is_some_and(|map| {

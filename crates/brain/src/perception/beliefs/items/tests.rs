@@ -17,7 +17,7 @@ mod observations;
 mod reports;
 
 const ME: RobotId = RobotId { kind: 0, index: 0 };
-const PLACE: Point = Point { x: 3.0, y: 0.0 };
+const POSITION: Point = Point { x: 3.0, y: 0.0 };
 
 /// Density of items and of false alarms.
 const PER_M2: f64 = 0.01;
@@ -43,12 +43,12 @@ fn pose(at: Point) -> Pose {
 }
 
 fn contact(from: Point, at: Point) -> Contact {
-    let way = from.to(at);
+    let offset = from.to(at);
     Contact {
         kind: 0,
         sensor: 0,
-        range_m: way.length(),
-        bearing_rad: libm::atan2(way.y, way.x),
+        range_m: offset.length(),
+        bearing_rad: libm::atan2(offset.y, offset.x),
         age_s: 0.0,
     }
 }
@@ -77,7 +77,7 @@ fn hit(items: &mut Items, observer: RobotId) {
         items,
         observer,
         Point::default(),
-        &[contact(Point::default(), PLACE)],
+        &[contact(Point::default(), POSITION)],
     );
 }
 
@@ -110,9 +110,9 @@ fn sent(items: &mut Items) -> Vec<Report> {
 }
 
 /// The trust after nine refuted reports of a robot.
-fn distrust_of(liar: RobotId) -> (Trust, TrustSpec) {
+fn distrust_of(sender: RobotId) -> (Trust, TrustSpec) {
     let (mut trust, spec) = (Trust::default(), TrustSpec::default());
-    (0..9).for_each(|_| trust.learn(liar, false, &spec));
+    (0..9).for_each(|_| trust.learn(sender, false, &spec));
     (trust, spec)
 }
 
@@ -135,7 +135,7 @@ fn robot(index: u32) -> RobotId {
 fn report(observer: u32, confidence: f64) -> Report {
     Report {
         kind: 0,
-        at: PLACE,
+        at: POSITION,
         provenance: Provenance {
             observer: robot(observer),
             track_id: 1,

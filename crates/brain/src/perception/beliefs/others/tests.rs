@@ -33,25 +33,29 @@ fn observe(others: &mut Others, neighbours: Vec<Neighbour>) {
 
 /// The track of a robot with a constant velocity after a number of exact observations by a moving and turning
 /// robot, and the true relative velocity.
-fn followed([speed, rate]: [f64; 2], velocity: Point, steps: u32) -> (Mover, Point) {
+fn tracked([speed, rate]: [f64; 2], velocity: Point, steps: u32) -> (Mover, Point) {
     let mut others = Others::default();
     let (mut at, mut heading_rad) = (Point::default(), 0.3);
     let mut other = Point { x: 3.0, y: -1.0 };
     let turned_rad = rate * 0.1;
-    let own_way = direction(turned_rad / 2.0).times(speed * 0.1);
+    let own_motion = direction(turned_rad / 2.0).times(speed * 0.1);
     for step in 0..steps {
         if step > 0 {
-            at = at.plus(turned(own_way, direction(heading_rad)));
+            at = at.plus(turned(own_motion, direction(heading_rad)));
             heading_rad = wrapped(heading_rad + turned_rad);
             other = other.plus(velocity.times(0.1));
         }
-        let seen = turned(at.to(other), direction(-heading_rad));
-        let way = if step > 0 { own_way } else { Point::default() };
-        let percept = percept(vec![neighbour(OTHER, seen)]);
+        let observed = turned(at.to(other), direction(-heading_rad));
+        let motion = if step > 0 {
+            own_motion
+        } else {
+            Point::default()
+        };
+        let percept = percept(vec![neighbour(OTHER, observed)]);
         others.update(
             &percept,
             &rover(),
-            way,
+            motion,
             if step > 0 { turned_rad } else { 0.0 },
         );
     }
@@ -64,7 +68,7 @@ proptest! {
         own in [-1.0_f64..1.0, -1.5_f64..1.5], vx in -2.0_f64..2.0, vy in -2.0_f64..2.0,
         steps in 2_u32..20,
     ) {
-        let (mover, velocity) = followed(own, Point { x: vx, y: vy }, steps);
+        let (mover, velocity) = tracked(own, Point { x: vx, y: vy }, steps);
         prop_assert!(mover.velocity_m_s.to(velocity).length() < 1e-6, "{mover:?} {velocity:?}");
         prop_assert_eq!(mover.observations, steps);
     }
@@ -72,7 +76,7 @@ proptest! {
 
 #[test]
 fn one_observation_gives_no_velocity() {
-    let (mover, _) = followed([1.0, 0.5], Point { x: 1.0, y: 0.0 }, 1);
+    let (mover, _) = tracked([1.0, 0.5], Point { x: 1.0, y: 0.0 }, 1);
     assert!(mover.speed_m_s() < 1e-12 && mover.observations == 1);
 }
 
@@ -141,11 +145,12 @@ fn the_tracks_with_the_earliest_possible_collision_are_kept() {
     let mut others = Others::default();
     let robot = |index| RobotId { kind: 0, index };
     let step = |number: u32| {
-        let place = |index: u32| direction(f64::from(index)).times(1.0 + 0.02 * f64::from(index));
-        let still = (0..20).map(|index| neighbour(robot(index), place(index)));
+        let position =
+            |index: u32| direction(f64::from(index)).times(1.0 + 0.02 * f64::from(index));
+        let still = (0..20).map(|index| neighbour(robot(index), position(index)));
         let x = 4.0 - 0.3 * f64::from(number);
-        let rushing = neighbour(robot(99), Point { x, y: 0.0 });
-        still.chain([rushing]).collect::<Vec<_>>()
+        let approaching = neighbour(robot(99), Point { x, y: 0.0 });
+        still.chain([approaching]).collect::<Vec<_>>()
     };
     // Alone at first, so that its velocity is known.
     observe(&mut others, step(0).split_off(20));
@@ -161,10 +166,10 @@ fn renumbered_robots_keep_their_tracks_and_removed_ones_lose_them() {
     let mut beliefs = Beliefs::new(&BeliefsSpec::default(), &body);
     let robot = |index| RobotId { kind: 0, index };
     let both = |first| {
-        let place = |y| Point { x: 2.0, y };
+        let position = |y| Point { x: 2.0, y };
         percept(vec![
-            neighbour(robot(first), place(0.0)),
-            neighbour(robot(5), place(1.0)),
+            neighbour(robot(first), position(0.0)),
+            neighbour(robot(5), position(1.0)),
         ])
     };
     beliefs.update(&both(3), &body, &[], [0.0, 0.0]);

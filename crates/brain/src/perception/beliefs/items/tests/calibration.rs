@@ -33,8 +33,8 @@ fn model_observation(
         }
     }
     for _ in 0..poisson(FALSE_PER_M2 * PI * camera.range_m * camera.range_m, random) {
-        let away_m = camera.range_m * libm::sqrt(unit(random));
-        let at = from.plus(direction(TAU * unit(random)).times(away_m));
+        let distance_m = camera.range_m * libm::sqrt(unit(random));
+        let at = from.plus(direction(TAU * unit(random)).times(distance_m));
         contacts.push(contact(from, at));
     }
     observe_with(items, ME, from, (&contacts, Some(map)));

@@ -30,7 +30,7 @@ fn repeated_contacts_without_false_alarms_prove_even_rare_items() {
         per_m2: &[1e-7],
     };
     let mut items = Items::default();
-    (0..5).for_each(|_| items.observe(&look, [contact(Point::default(), PLACE)].iter(), None));
+    (0..5).for_each(|_| items.observe(&look, [contact(Point::default(), POSITION)].iter(), None));
     assert!(confidence(&items, ME) > 0.99, "{}", confidence(&items, ME));
 }
 

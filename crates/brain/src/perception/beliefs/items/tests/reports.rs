@@ -188,7 +188,7 @@ fn memory_is_bounded_for_a_thousand_contacts() {
             &mut items,
             ME,
             at,
-            &[contact(at, at), contact(at, at.plus(PLACE))],
+            &[contact(at, at), contact(at, at.plus(POSITION))],
         );
         receive(
             &mut items,
@@ -254,10 +254,10 @@ proptest! {
             }
             prop_assert_eq!(items.tracks.len(), 1);
             let track = &items.tracks[0];
-            let observations = &track.sources[track.place_by(own)];
+            let observations = &track.sources[track.slot_by(own)];
             let reports = last.iter().filter(|report| report.provenance.observer != own);
             let reported = reports.map(|report| {
-                let prior = track.sources[track.place_by(report.provenance.observer)].prior;
+                let prior = track.sources[track.slot_by(report.provenance.observer)].prior;
                 log_odds(0.9 * report.confidence + 0.1 * probability(prior)) - prior
             });
             let expected = probability(track.prior + observations.log_ratio + reported.sum::<f64>());
@@ -267,7 +267,7 @@ proptest! {
 }
 
 impl Track {
-    fn place_by(&self, own: RobotId) -> usize {
+    fn slot_by(&self, own: RobotId) -> usize {
         let mut sources = self.sources[..self.count].iter();
         sources
             .position(|source| source.provenance.observer == own)
