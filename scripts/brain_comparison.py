@@ -314,8 +314,8 @@ def studies() -> str:
 
 def guarantees() -> str:
     """Return the guarantees of the studies."""
-    said = dict.fromkeys(each.guarantee for each in read("studies", Answered))
-    return "\n\n".join(f"> {guarantee}" for guarantee in said)
+    guarantees = dict.fromkeys(each.guarantee for each in read("studies", Answered))
+    return "\n\n".join(f"> {guarantee}" for guarantee in guarantees)
 
 
 TABLES: dict[str, Callable[[], str]] = {

@@ -83,21 +83,21 @@ def turn(percepts: Percepts, memory: dict[str, Any]) -> Commands:
 
 
 WAYS: dict[str, Any] = {
-    "shipped": None,
+    "bundled": None,
     "batch": {"rover": Batch(turn)},
     "class": {"rover": Turner},
 }
 
 
 def main() -> None:
-    """Print a table of robot-updates a second of processor time, on one thread."""
-    print("| robots | the brain that ships | a function on arrays | a class for each robot |")
+    """Print a table of robot updates per second of processor time, on one thread."""
+    print("| robots | bundled brain | function on arrays | class per robot |")
     print("|---|---|---|---|")
     for robots in TEAMS:
         scenario = field(robots)
         runs = {way: Simulation(scenario, threads=1, brains=WAYS[way]) for way in WAYS}
         rates: dict[str, list[float]] = {way: [] for way in WAYS}
-        for _ in range(1 + PIECES):  # in turns, and the first warms up
+        for _ in range(1 + PIECES):  # alternating; the first round warms up
             for way, run in runs.items():
                 rates[way].append(rate(run, robots, max(1, UPDATES[way] // robots)))
         print(
@@ -108,12 +108,12 @@ def main() -> None:
 
 
 def rounded(number: float) -> str:
-    """Return a number to three figures: more of it is chance."""
+    """Return a number with three significant digits; further ones are noise."""
     return f"{float(f'{number:.3g}'):,.0f}"
 
 
 def field(robots: int) -> Scenario:
-    """Return the field for so many robots."""
+    """Return a field for a number of robots, at a constant density."""
     side_m = 20 * (robots / 100) ** 0.5
     places = np.arange(PILLAR_M / 2, side_m, PILLAR_M)
     pillars = [
@@ -125,7 +125,7 @@ def field(robots: int) -> Scenario:
 
 
 def rate(run: Simulation, robots: int, steps: int) -> float:
-    """Return robot-updates a second of so many steps."""
+    """Return the robot updates per second over a number of steps."""
     begin = time.process_time()
     run.step(steps)
     return robots * steps / (time.process_time() - begin)

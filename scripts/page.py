@@ -1,7 +1,7 @@
-"""Pages of docs whose tables and pictures are drawn from what was measured.
+"""Pages of docs with tables and charts that are generated from measurements.
 
-A table stands between `<!-- NAME -->` and `<!-- end -->`; the numbers and the pictures stand in the
-folder beside the page that has its name.
+A table is between `<!-- NAME -->` and `<!-- end -->`. The measurements and the charts are in the
+folder next to the page that has its name.
 """
 
 import re
@@ -17,19 +17,19 @@ ROOT = Path(__file__).resolve().parent.parent
 
 @dataclass(frozen=True)
 class Page:
-    """A page of docs; `make NAME` measures and draws it."""
+    """A page of docs, which `make NAME` measures and generates."""
 
     name: str
 
     @property
     def folder(self) -> Path:
-        """Return where its numbers and pictures are."""
+        """Return the folder of its measurements and charts."""
         return ROOT / "docs" / self.name
 
     def draw(self, table: Callable[[str], str], pictures: dict[str, Spec]) -> None:
-        """Write what is stale of its tables and pictures, each found by its name.
+        """Write the stale tables and charts, which are identified by their names.
 
-        With `--check` among the program's arguments it only exits with 1 if there is any.
+        With the program's argument `--check`, exit with 1 instead if there are any.
         """
         stale = {file: text for file, text in self.made(table, pictures) if is_stale(file, text)}
         if "--check" in sys.argv[1:]:
@@ -44,7 +44,7 @@ class Page:
     def made(
         self, table: Callable[[str], str], pictures: dict[str, Spec]
     ) -> Iterable[tuple[Path, str]]:
-        """Yield each picture and the page, with what should be in them."""
+        """Yield each chart and the page, with their current content."""
 
         def block(found: re.Match[str]) -> str:
             return f"<!-- {found[1]} -->\n{table(found[1])}\n<!-- end -->"
@@ -57,9 +57,9 @@ class Page:
 
 
 def is_stale(file: Path, text: str) -> bool:
-    """Return whether a file says another thing; pictures are compared by what they were drawn from.
+    """Return whether a file differs from its current content; charts are compared by their data.
 
-    How wide letters are, and so where a picture has its parts, can differ from machine to machine.
+    The widths of letters, and thus the layout of a chart, can differ among machines.
     """
     if not file.exists():
         return True

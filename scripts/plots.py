@@ -1,4 +1,4 @@
-"""How pictures of measured numbers look: points with intervals, curves, panels, in Vega-Lite."""
+"""Charts of measurements in Vega-Lite: points with intervals, curves, panels."""
 
 import hashlib
 import json
@@ -23,7 +23,7 @@ WIDTH, HEIGHT = 480, 280
 
 @dataclass(frozen=True)
 class Row:
-    """One number that was measured."""
+    """A measured number."""
 
     series: str
     x: float
@@ -33,20 +33,20 @@ class Row:
 
     @property
     def sigmas(self) -> float:
-        """Return standard errors from the closed form."""
+        """Return the distance from the closed form in standard errors."""
         if self.expected is None or self.measured == self.expected:
             return 0.0
         return (self.measured - self.expected) / self.standard_error
 
     @property
     def precision(self) -> float:
-        """Return the standard error as a share of the closed form."""
+        """Return the standard error relative to the closed form."""
         return self.standard_error / self.expected if self.expected else math.inf
 
 
 @dataclass(frozen=True)
 class Axes:
-    """What two axes are like."""
+    """The properties of two axes."""
 
     x: str = "linear"
     y: str = "linear"
@@ -55,7 +55,7 @@ class Axes:
     y_format: str = "~g"
     y_domain: tuple[float, float] | None = None
     whole: bool = False
-    """Whether x counts something."""
+    """Whether x is a count."""
 
     def horizontal(self, title: str) -> Spec:
         """Return the x axis and its scale."""
@@ -84,7 +84,7 @@ LINEAR = Axes()
 
 
 def picture(spec: Spec) -> str:
-    """Return a picture as SVG that ends with a hash of its specification."""
+    """Return a chart as SVG, with a hash of its specification at the end."""
     drawn = json.dumps(spec, sort_keys=True).encode()
     svg: str = vl_convert.vegalite_to_svg(spec)
     return f"{svg}\n<!-- {hashlib.sha256(drawn).hexdigest()} -->\n"
@@ -117,7 +117,7 @@ def points(some: Iterable[Row], *, legend: bool = True) -> list[Spec]:
 
 
 def curves(some: Iterable[Row], interpolate: str = "linear") -> list[Spec]:
-    """Return the closed forms of series as lines from number to number."""
+    """Return the closed forms of series as connected lines."""
     forms = [{**values(row), "y": row.expected} for row in some if row.expected is not None]
     curve = line()
     curve["mark"]["interpolate"] = interpolate
@@ -133,7 +133,7 @@ def line() -> Spec:
 
 
 def values(row: Row) -> dict[str, float | str]:
-    """Return what a picture needs of a row."""
+    """Return the fields of a row that a chart uses."""
     half = Z95 * row.standard_error
     low, high = row.measured - half, row.measured + half
     return {"series": row.series, "x": row.x, "y": row.measured, "low": low, "high": high}
@@ -151,13 +151,13 @@ def colour(some: list[Row], *, legend: bool) -> Spec:
 
 
 def scale(some: list[Row], looks: list[str]) -> Spec:
-    """Return looks for series, in the order in which they come."""
+    """Return the styles of series, in the order of their first occurrence."""
     series = list(dict.fromkeys(row.series for row in some))
     return {"domain": series, "range": looks[: len(series)]}
 
 
 def plain() -> Spec:
-    """Return the channels of places."""
+    """Return the channels of positions."""
     return {"x": field("x"), "y": field("y")}
 
 
@@ -190,7 +190,7 @@ def side_by_side(*panels: Spec) -> Spec:
 
 
 def page_of(body: Spec) -> Spec:
-    """Return a whole specification on light ground."""
+    """Return a complete specification with a light background."""
     return {
         "$schema": "https://vega.github.io/schema/vega-lite/v6.json",
         "background": "white",

@@ -17,7 +17,7 @@ SIZE = "900,900"
 
 
 def main() -> None:
-    """Take the picture, or say what is missing."""
+    """Take the picture; exit with an error if a requirement is missing."""
     browser = shutil.which("chromium") or shutil.which("google-chrome")
     if not browser:
         sys.exit("report_picture: needs chromium or google-chrome on the PATH")

@@ -1,4 +1,4 @@
-"""Measure how fast a study's store writes and reads, and how small its files are.
+"""Measure the speed and the file sizes of the store of studies.
 
 Example: python scripts/store_speed.py
 """
@@ -26,7 +26,7 @@ COLUMNS = (
 )
 TEAM_SIZES = tuple(range(1, 41))
 RUNS = 6_250
-"""Real runs of each team; larger blocks repeat teams, under other numbers."""
+"""Real runs per team; larger blocks repeat teams, under other numbers."""
 
 SIZES = (250_000, 500_000, 1_000_000)
 TRIALS = 15
@@ -35,9 +35,9 @@ SMALL_BLOCKS = 200
 
 
 def main() -> None:
-    """Print a table of block sizes, and what a small block costs."""
+    """Print a table of block sizes, and the cost of a small block."""
     data = outcomes()
-    print("rows a block  written rows/s  read rows/s  bytes a row")
+    print("rows/block    written rows/s  read rows/s   bytes/row ")
     for rows in SIZES:
         print("{:>12,}  {:>14,.0f}  {:>11,.0f}  {:>11.2f}".format(rows, *large(data, rows)))
     writing, reading = small(data)
@@ -46,7 +46,7 @@ def main() -> None:
 
 
 def outcomes() -> Columns:
-    """Return every column of real runs, (teams, runs)."""
+    """Return the columns of real runs, each of shape (teams, runs)."""
     kept: dict[str, list[object]] = {column.name: [] for column in COLUMNS}
     for robots in TEAM_SIZES:
         table = classic.replicate(robots, RUNS)
@@ -61,7 +61,7 @@ def outcomes() -> Columns:
 
 
 def large(data: Columns, rows: int) -> tuple[float, float, float]:
-    """Return rows written and read a second (medians), and bytes a row, of rectangles of a size."""
+    """Return the median rows written and read per second, and the bytes per row, of blocks."""
     copies = rows // (len(TEAM_SIZES) * RUNS)
     block = {name: np.tile(values, (copies, 1)) for name, values in data.items()}
     area = RunBlock(tuple(range(copies * len(TEAM_SIZES))), 0, RUNS)
@@ -77,13 +77,13 @@ def large(data: Columns, rows: int) -> tuple[float, float, float]:
 
 
 def part(outcomes: Columns, area: RunBlock) -> Columns:
-    """Return the outcomes of an area, out of those of configurations and runs 0, 1, ..."""
+    """Return the outcomes of a block, from those of configurations and runs 0, 1, ..."""
     rows = slice(area.configurations[0], area.configurations[-1] + 1)
     return {name: values[rows, area.first_run : area.end] for name, values in outcomes.items()}
 
 
 def small(data: Columns) -> tuple[float, float]:
-    """Return ms to write and to read a small block (medians)."""
+    """Return the median times, in ms, of writing and reading a small block."""
     configurations, runs = SMALL
     block = {name: values[:configurations, :runs] for name, values in data.items()}
     areas = [
@@ -100,12 +100,12 @@ def small(data: Columns) -> tuple[float, float]:
 
 
 def refuse(area: RunBlock) -> Columns:
-    """End the program: what should be read was not stored."""
-    sys.exit(f"{area} was stored, but is asked for again")
+    """Exit, because a block that should be read was not stored."""
+    sys.exit(f"{area} was stored, but is requested again")
 
 
 def seconds(work: Callable[[], object]) -> float:
-    """Return how long something takes."""
+    """Return the duration of a call."""
     begin = time.perf_counter()
     work()
     return time.perf_counter() - begin
