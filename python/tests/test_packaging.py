@@ -18,8 +18,9 @@ needs_npm = pytest.mark.skipif(
 
 
 def built(kind: str, folder: Path) -> Path:
-    """Build a distribution of this clone."""
-    code = f"import backend, sys; backend.build_{kind}(sys.argv[1])"
+    """Build a distribution of this clone, with the compiled module as it is installed for tests."""
+    settings = {"build-args": "--profile dev"} if kind == "wheel" else None
+    code = f"import backend, sys; backend.build_{kind}(sys.argv[1], {settings})"
     done = subprocess.run(
         [sys.executable, "-c", code, str(folder)],
         cwd=ROOT,
