@@ -256,12 +256,12 @@ def test_a_stopped_or_killed_study_resumes_to_the_same_bytes(
 def test_a_study_stopped_in_its_first_round_is_listed_without_runs(
     folder: Folder,
 ) -> None:
-    slow = {"scenario": "search", "vary": {"robots.rover.count": "1..400"}}
+    slow = {"scenario": "search", "vary": {"robots.rover.count": "1..120"}}
     name = folder.post("/api/studies", **slow)["id"]
     assert folder.watched(name, runs=1)[-1]["runs"] > 0
     assert folder.post("/api/studies/stop", id=name)["runs"] == 0
     last = folder.watched(name)[-1]
-    assert (last["runs"], last["rounds"], last["remaining"]) == (0, 0, 400)
+    assert (last["runs"], last["rounds"], last["remaining"]) == (0, 0, 120)
 
 
 def test_a_study_that_is_stopped_while_it_starts_prints_nothing(
