@@ -1,4 +1,4 @@
-"""Two ways to search compared in the same worlds, for docs/validation.md."""
+"""Comparison of two searches in the same worlds, for docs/validation.md."""
 
 import csv
 import math
@@ -11,41 +11,41 @@ ALL = 100
 """Percent."""
 
 CAMERAS = [(100, 600), (30, 600), (10, 2400)]
-"""What a camera sees in a look, in percent, and when a search is given up, in seconds."""
+"""Detection probability per scan in percent, and the time limit in seconds."""
 
 HEADER = [
     "camera",
-    "lanes, mean s",
-    "seek, mean s",
-    "seek / lanes, 99% interval",
-    "not all found",
+    "`lawnmower`, mean s",
+    "`bayesian_search`, mean s",
+    "ratio, 99% interval",
+    "incomplete runs",
 ]
 
 
 def compared(file: Path) -> list[list[str]]:
-    """Return a line for each camera, of the times of all worlds."""
+    """Return a line per camera, from the times of all worlds."""
     return [line(file, percent, time_limit_s) for percent, time_limit_s in CAMERAS]
 
 
 def line(file: Path, percent: int, time_limit_s: float) -> list[str]:
-    """Return how long searching by belief takes beside lanes."""
+    """Return the times of both searches with a camera."""
     both = [times(file, f"{percent}_{search}_s") for search in ("lawnmower", "bayesian_search")]
     low, ratio, high = interval(*both)
     means = [f"{sum(each) / len(each):.1f}" for each in both]
     capped = [str(sum(time >= time_limit_s for time in each)) for each in both]
-    said = f"{ratio:.3f} ({low:.3f} to {high:.3f})"
-    camera = "sees all in view" if percent == ALL else f"sees {percent}% in a look"
-    return [camera, *means, said, f"{' and '.join(capped)} by {time_limit_s:,} s"]
+    with_interval = f"{ratio:.3f} ({low:.3f} to {high:.3f})"
+    camera = "detects all in view" if percent == ALL else f"detects {percent}% per scan"
+    return [camera, *means, with_interval, f"{' and '.join(capped)} after {time_limit_s:,} s"]
 
 
 def times(file: Path, column: str) -> list[float]:
-    """Return the times of all worlds of one search."""
+    """Return the times of one search in all worlds."""
     with file.open(encoding="utf-8", newline="") as rows:
         return [float(row[column]) for row in csv.DictReader(rows)]
 
 
 def interval(slow: list[float], fast: list[float]) -> tuple[float, float, float]:
-    """Return the ratio of the means of paired numbers, between the ends of its 99% interval."""
+    """Return the ratio of the means of paired values, between the bounds of its 99% interval."""
     ratio = sum(fast) / sum(slow)
     off = [after - ratio * before for before, after in zip(slow, fast, strict=True)]
     count = len(off)

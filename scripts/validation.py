@@ -1,10 +1,10 @@
-"""Draw docs/validation.md: its pictures and its tables, from what the checks have measured.
+"""Generate the tables and charts of docs/validation.md from the measurements of the checks.
 
-What was measured stands in docs/validation/*.csv, which the simulator's tests write and compare
-(crates/sim/tests/validation). Tables stand between `<!-- NAME -->` and `<!-- end -->`. Examples:
+The measurements are docs/validation/*.csv, which the simulator's tests write and compare
+(crates/sim/tests/validation). Tables are between `<!-- NAME -->` and `<!-- end -->`. Examples:
 
-    python scripts/validation.py            write pictures and page anew
-    python scripts/validation.py --check    exit with 1 if they are not what would be written
+    python scripts/validation.py            write charts and page
+    python scripts/validation.py --check    exit with status 1 if they are out of date
 """
 
 import csv
@@ -37,7 +37,7 @@ PAGE = Page("validation")
 
 
 def main() -> None:
-    """Write pictures and page, or check them."""
+    """Write charts and page, or check them."""
     PAGE.draw(made, specifications())
 
 
@@ -49,7 +49,7 @@ def made(name: str) -> str:
 
 @cache
 def rows(name: str) -> tuple[Row, ...]:
-    """Return what a check measured."""
+    """Return the measurements of a check."""
     with (PAGE.folder / f"{name}.csv").open(encoding="utf-8", newline="") as file:
         return tuple(
             Row(
@@ -67,28 +67,28 @@ def rows(name: str) -> tuple[Row, ...]:
 
 
 def table_of(name: str) -> str:
-    """Return a table with a line for each series of a check: its surest number, its worst miss."""
+    """Return a table with a line per series: the most precise value and the largest deviation."""
     lines = [series_line(list(each)) for _, each in groupby(rows(name), key=lambda row: row.series)]
-    header = ["", "numbers", "the surest, at", "is", "closed form", "farthest off"]
+    header = ["", "values", "most precise at", "measured", "closed form", "largest deviation"]
     return table(header, lines)
 
 
 def series_line(series: list[Row]) -> list[str]:
-    """Return the line of one series."""
+    """Return the line of a series."""
     compared = [row for row in series if row.expected is not None]
-    surest = min(compared or series[-1:], key=lambda row: (row.precision, row.standard_error))
+    best = min(compared or series[-1:], key=lambda row: (row.precision, row.standard_error))
     return [
         series[0].series,
         str(len(series)),
-        f"{surest.x:g}",
-        interval(surest),
-        number(surest.expected) if surest.expected is not None else "none",
-        farthest(series),
+        f"{best.x:g}",
+        interval(best),
+        number(best.expected) if best.expected is not None else "none",
+        largest_deviation(series),
     ]
 
 
-def farthest(series: list[Row]) -> str:
-    """Return how far the worst number of a series is from the closed form."""
+def largest_deviation(series: list[Row]) -> str:
+    """Return the largest deviation of a series from the closed form."""
     compared = [row for row in series if row.expected is not None]
     if not compared:
         return ""
@@ -98,7 +98,7 @@ def farthest(series: list[Row]) -> str:
 
 
 def interval(row: Row) -> str:
-    """Return a number with its 95% interval."""
+    """Return a value with its 95% interval."""
     if row.standard_error == 0:
         return number(row.measured)
     half = Z95 * row.standard_error
@@ -112,78 +112,78 @@ def number(value: float) -> str:
 
 
 def overview() -> str:
-    """Return the page's first table: each claim, and how near the simulator is to it."""
+    """Return the first table: the claims, and the deviation of the simulator from them."""
     lines = [
-        ["random search: 1 - exp(-n w v t / A)", *nearness("random-search")],
-        ["lanes: min(1, w v t / A)", *nearness("lanes")],
-        ["looks until detection: geometric", *nearness("looks")],
-        ["false alarms in a look: Poisson", *nearness("false-alarms")],
-        ["arcs: circles", f"off by {largest('arcs'):.0e} m after 100,000 steps", "exact"],
-        ["stopping: v² / 2a", f"off by less than {relative('stopping'):.0e} of it", "exact"],
+        ["random search: 1 - exp(-n w v t / A)", *deviation("random-search")],
+        ["lanes: min(1, w v t / A)", *deviation("lanes")],
+        ["scans until detection: geometric", *deviation("looks")],
+        ["false alarms per scan: Poisson", *deviation("false-alarms")],
+        ["arcs: circles", f"{largest('arcs'):.0e} m off after 100,000 steps", "exact"],
+        ["stopping: v² / 2a", f"relative error below {relative('stopping'):.0e}", "exact"],
         [
             "battery: capacity / power",
-            f"{latest('battery'):.2f} s later at most",
+            f"up to {latest('battery'):.2f} s longer",
             "one step: 0.1 s",
         ],
-        ["radio: (1 - loss) in range, 0 beyond; delay; cut", *nearness("radio")],
-        ["collisions: a gas of discs in the plane", *nearness("collisions")],
-        ["swarms: order falls with noise (Vicsek 1995)", *nearness("vicsek")],
-        ["places: uniform where it is free", *nearness("placement")],
-        ["beliefs: of those held with c, a share of c is true", *nearness("calibration")],
+        ["radio: 1 - loss in range, 0 beyond; delay; capacity", *deviation("radio")],
+        ["collisions: two-dimensional gas of discs", *deviation("collisions")],
+        ["swarms: order falls with noise (Vicsek 1995)", *deviation("vicsek")],
+        ["placement: uniform in the free area", *deviation("placement")],
+        ["beliefs: of those with confidence c, the fraction c is true", *deviation("calibration")],
     ]
-    return table(["claim", "simulated", "farthest off"], lines)
+    return table(["claim", "simulated", "largest deviation"], lines)
 
 
 def search_minds() -> str:
-    """Return how long searching by belief takes beside lanes, over all worlds."""
+    """Return the times of both searches, over all worlds."""
     return table(HEADER, compared(PAGE.folder / "search-minds.csv"))
 
 
-def nearness(name: str) -> tuple[str, str]:
-    """Return the best precision of a check, and its worst miss in standard errors."""
+def deviation(name: str) -> tuple[str, str]:
+    """Return the best precision of a check, and its largest deviation in standard errors."""
     compared = [row for row in rows(name) if row.expected is not None and row.standard_error > 0]
     best = min(row.precision for row in compared)
     worst = max(abs(row.sigmas) for row in compared)
     return (
-        f"{len(compared)} numbers, the surest to {max(Z95 * best, 0.001):.1%}",
+        f"{len(compared)} values, the most precise to {max(Z95 * best, 0.001):.1%}",
         f"{worst:.1f} standard errors",
     )
 
 
 def largest(name: str) -> float:
-    """Return the greatest number of the simulator's own series."""
+    """Return the largest value of the simulator's own series."""
     return max(row.measured for row in rows(name) if "Euler" not in row.series)
 
 
 def relative(name: str) -> float:
-    """Return by how much of the closed form a number is off at most, to what files show."""
+    """Return the largest relative error of a check, to the precision of its file."""
     off = (abs(row.measured / row.expected - 1) for row in rows(name) if row.expected)
     return max(*off, 1e-7)
 
 
 def latest(name: str) -> float:
-    """Return by how much a number is above the closed form at most."""
+    """Return the largest excess over the closed form."""
     return max(row.measured - row.expected for row in rows(name) if row.expected is not None)
 
 
-# Pictures.
+# Charts.
 
 
 def specifications() -> dict[str, Spec]:
-    """Return each picture's specification by its name."""
+    """Return the specification of each chart by its name."""
     return {
         "random-search": random_search(),
-        "lanes": simple("lanes", "way along lanes, m", "share of items found"),
-        "looks": simple("looks", "looks", "share not detected yet", Axes(y="log", whole=True)),
+        "lanes": simple("lanes", "distance along lanes, m", "fraction of items found"),
+        "looks": simple("looks", "scans", "fraction not detected", Axes(y="log", whole=True)),
         "false-alarms": simple(
-            "false-alarms", "false alarms in a look", "share of looks", Axes(whole=True)
+            "false-alarms", "false alarms per scan", "fraction of scans", Axes(whole=True)
         ),
         "arcs": arcs(),
         "stopping": stopping(),
         "battery": battery(),
         "radio": radio(),
-        "collisions": simple("collisions", "robots", "contacts of a robot with others, 1/s"),
-        "vicsek": simple("vicsek", "width of noise, rad", "order: length of the mean course"),
+        "collisions": simple("collisions", "robots", "contacts of a robot with others per second"),
+        "vicsek": simple("vicsek", "width of noise, rad", "order (length of the mean course)"),
         "placement": placement(),
         "sense": sense(),
         "calibration": calibration(),
@@ -191,7 +191,7 @@ def specifications() -> dict[str, Spec]:
 
 
 def random_search() -> Spec:
-    """Return the share found by what has been swept, beside Koopman's law."""
+    """Return the fraction found by the swept area, and Koopman's formula."""
     swept = [step / 50 for step in range(101)]
     law = [{"x": x, "y": 1 - math.exp(-x)} for x in swept]
     measured = [row for row in rows("random-search") if row.series != "all"]
@@ -205,18 +205,18 @@ def random_search() -> Spec:
         },
         *points(measured),
     ]
-    return page_of(panel(layers, "swept: n w v t / A", "share of items found"))
+    return page_of(panel(layers, "swept area n w v t / A", "fraction of items found"))
 
 
 def simple(name: str, x: str, y: str, axes: Axes = LINEAR) -> Spec:
-    """Return a check's numbers over their closed form."""
+    """Return the values of a check and their closed form."""
     has_series = len({row.series for row in rows(name)}) > 1
     layers = [*curves(rows(name)), *points(rows(name), legend=has_series)]
     return page_of(panel(layers, x, y, axes=axes))
 
 
 def arcs() -> Spec:
-    """Return how far bodies are from their circles."""
+    """Return the distance of bodies from their circles."""
     shown = [row for row in rows("arcs") if row.measured > 0]
     layers = [{**line(), "data": {"values": [values(row) for row in shown]}}, *points(shown)]
     decades = Axes("log", "log", x_ticks=(1, 10, 100, 1000, 10_000, 100_000), y_format=".0e")
@@ -224,7 +224,7 @@ def arcs() -> Spec:
 
 
 def stopping() -> Spec:
-    """Return stopping distances, and the speed of a robot that goes towards a wall."""
+    """Return stopping distances, and the speed of a robot that drives towards a wall."""
     left = [*curves(rows("stopping"), "monotone"), *points(rows("stopping"))]
     bound = [{"x": row.x, "y": row.expected} for row in rows("sight")]
     right = [
@@ -234,13 +234,15 @@ def stopping() -> Spec:
     return page_of(
         side_by_side(
             panel(left, "speed, m/s", "stopping distance, m", width=WIDTH // 2),
-            panel(right, "from the hull to the wall, m", "speed, m/s", width=WIDTH // 2),
+            panel(
+                right, "distance from the footprint to the wall, m", "speed, m/s", width=WIDTH // 2
+            ),
         )
     )
 
 
 def battery() -> Spec:
-    """Return by how much batteries last longer than capacity by power."""
+    """Return by how much battery lives exceed capacity / power."""
     later = [
         Row(row.series, row.x, row.measured - row.expected, 0.0, None)
         for row in rows("battery")
@@ -255,19 +257,19 @@ def battery() -> Spec:
         panel(
             [step, *points(later)],
             "capacity, J",
-            "life less capacity / power, s",
+            "battery life - capacity / power, s",
             axes=Axes(x="log", x_ticks=(100, 300, 1000, 3000, 10_000)),
         )
     )
 
 
 def radio() -> Spec:
-    """Return what radios deliver: by distance, by messages, by delay, and at a slow brain."""
+    """Return delivery by distance, messages and delay, and ages at a slow brain."""
     panels = [
-        (["share delivered"], "distance, m", "share delivered"),
+        (["share delivered"], "distance, m", "fraction delivered"),
         (
             ["messages of one caller", "callers of one message"],
-            "messages in a step",
+            "messages sent per step",
             "messages heard in a step",
         ),
         (["age when heard"], "delay, s", "age when heard, s"),
@@ -283,7 +285,7 @@ def radio() -> Spec:
 
 
 def staircase() -> list[Spec]:
-    """Return delays rounded up to steps of 0.1 s, and one at least."""
+    """Return delays rounded up to steps of 0.1 s, with a minimum of one step."""
     delays = [number / 100 for number in range(101)]
     ages = [max(1, math.ceil(delay * 10 - 1e-9)) / 10 for delay in delays]
     stairs = [{"x": x, "y": y} for x, y in zip(delays, ages, strict=True)]
@@ -292,7 +294,7 @@ def staircase() -> list[Spec]:
 
 
 def placement() -> Spec:
-    """Return what of the items and robots is in each column, as a share of what should be."""
+    """Return the items and robots in each column, relative to the expected fraction."""
     columns = 20
     items = [row for row in rows("placement") if row.series == "items" and row.expected]
     by_column = [
@@ -308,12 +310,14 @@ def placement() -> Spec:
     }
     axes = Axes(y_domain=(0.75, 1.25))
     return page_of(
-        panel([one, *points(made)], "x, m", "share of all / share of the area", axes=axes)
+        panel(
+            [one, *points(made)], "x, m", "fraction in the column / fraction of the area", axes=axes
+        )
     )
 
 
 def calibration() -> Spec:
-    """Return the share of beliefs that is true by their confidence: alone, and with radio."""
+    """Return the fraction of true beliefs by confidence, alone and with radio."""
     panels = []
     for title, radio in (("alone", "alone"), ("with radio", "radio")):
         some = [row for row in rows("calibration") if radio in row.series]
@@ -324,15 +328,15 @@ def calibration() -> Spec:
             "encoding": plain(),
         }
         axes = Axes(x_ticks=(0, 0.2, 0.4, 0.6, 0.8, 1), y_domain=(0, 1))
-        x = f"believed with, {title}"
+        x = f"confidence, {title}"
         panels.append(
-            panel([diagonal, *points(some)], x, "share true", width=WIDTH // 2, axes=axes)
+            panel([diagonal, *points(some)], x, "fraction true", width=WIDTH // 2, axes=axes)
         )
     return page_of(side_by_side(*panels))
 
 
 def together(series: str, column: int, some: list[Row]) -> Row:
-    """Return several shares as one, divided by what it should be."""
+    """Return the sum of several fractions, divided by the expected sum."""
     expected = sum(row.expected or 0.0 for row in some)
     error = math.sqrt(sum(row.standard_error**2 for row in some))
     measured = sum(row.measured for row in some)
@@ -341,11 +345,11 @@ def together(series: str, column: int, some: list[Row]) -> Row:
 
 
 def sense() -> Spec:
-    """Return mean times by the number of robots, and by their speed."""
+    """Return mean times by team size, and by maximum speed."""
     panels = []
     kinds = (
         ("robots", "robots", (1.0, 2.0, 4.0, 8.0, 16.0)),
-        ("m/s", "greatest speed of four robots, m/s", (0.25, 0.5, 1.0, 2.0)),
+        ("m/s", "maximum speed of four robots, m/s", (0.25, 0.5, 1.0, 2.0)),
     )
     for series, x, ticks in kinds:
         some = [row for row in rows("sense") if row.series == series]
@@ -353,7 +357,7 @@ def sense() -> Spec:
             {**line(), "data": {"values": [values(row) for row in some]}},
             *points(some, legend=False),
         ]
-        y = "mean time until all is found, s"
+        y = "mean time until all items are found, s"
         times = (50.0, 2000.0)
         axes = Axes("log", "log", x_ticks=ticks, y_ticks=(50, 100, 200, 500, 1000), y_domain=times)
         panels.append(panel(layers, x, y, width=WIDTH // 2, axes=axes))
