@@ -40,7 +40,7 @@ PILLAR_M = 5.0
 """From one pillar to the next."""
 
 TEAMS = (100, 10_000)
-UPDATES = {"shipped": 400_000, "batch": 200_000, "class": 40_000}
+UPDATES = {"bundled": 400_000, "batch": 200_000, "class": 40_000}
 """Robot-updates of a piece of work, at least a step."""
 
 PIECES = 5

@@ -1,9 +1,9 @@
-"""Recompute every table of docs/replication.md and write them into it.
+"""Recompute every table of docs/replication.md, and write them to the page.
 
-Tables stand between `<!-- NAME -->` and `<!-- end -->`. Examples:
+Tables are between `<!-- NAME -->` and `<!-- end -->`. Examples:
 
-    python scripts/replication.py            write the page anew
-    python scripts/replication.py --check    exit with 1 if the page is not what would be written
+    python scripts/replication.py            regenerate the page
+    python scripts/replication.py --check    exit with 1 if the page is out of date
 """
 
 import tempfile
@@ -26,20 +26,20 @@ from agent_economy.study.race import run_race
 SCENARIO = ae.Scenario.load(ROOT / "scenarios" / "classic.toml")
 
 Counted = tuple[NDArray[np.float64], NDArray[np.intp]]
-"""Distinct paints to completion, and how many runs took each."""
+"""Distinct paints to completion, and the number of runs with each."""
 
 TIMED_TEAMS = (1, 2, 3, 4)
-"""Teams whose runs were surely timed: the fifth's data repeat the first's, the rest are capped."""
+"""Teams with plausible data: those of the fifth repeat the first's, the rest are all 120 s."""
 
 RUNS = 10_000
-"""Of each team of 1 to 8."""
+"""Number of runs per team of 1 to 8."""
 
 HAND_TIMING_S = 1.0
-"""Standard deviation of a time taken by hand and written down in whole seconds."""
+"""Standard deviation of a time measured by hand and rounded to seconds."""
 
 RATE_STEP = 0.5
 RATES = tuple(float(rate) for rate in np.arange(5.0, 90.5, RATE_STEP))
-"""Paints per second that are tried."""
+"""Candidate values of paints per second."""
 
 SHEET_MEANS = (-21.9, -28.76, -11.73, -12.02, -24.7, -42.2, -42.3, -43.6)
 """Figures of merit of 1 to 8 robots in the thesis's appendix."""
@@ -75,7 +75,7 @@ def medians() -> str:
 
 
 def fit() -> str:
-    """Return, for each contact, the paints per second that make the published times likeliest."""
+    """Return, for each contact, the paints per second of the highest likelihood."""
     return table(
         [
             "contact",
@@ -90,7 +90,7 @@ def fit() -> str:
 
 
 def fit_row(contact: str) -> list[str]:
-    """Return one contact's best constant and what it gives."""
+    """Return the best constant of a contact, and its results."""
     scores, good = fitted(contact)
     best = max(scores, key=scores.__getitem__)
     results = [capped(counted(contact, robots), best) for robots in TIMED_TEAMS]
@@ -107,7 +107,7 @@ def fit_row(contact: str) -> list[str]:
 
 @cache
 def fitted(contact: str) -> tuple[dict[float, float], list[float]]:
-    """Return each constant's log-likelihood, and the constants that are near the best."""
+    """Return the log-likelihood of each constant, and the constants close to the best."""
     paints = {robots: counted(contact, robots) for robots in TIMED_TEAMS}
     scores = {rate: log_likelihood(paints, rate) for rate in RATES}
     least = max(scores.values()) - float(stats.chi2.ppf(0.95, 1)) / 2
@@ -116,12 +116,12 @@ def fitted(contact: str) -> tuple[dict[float, float], list[float]]:
 
 @cache
 def counted(contact: str, robots: int) -> Counted:
-    """Return the distinct paints to completion of 100,000 runs, and how many took each."""
+    """Return the distinct paints to completion of 100,000 runs, with their frequencies."""
     return np.unique(paints_of(contact, robots, 100_000), return_counts=True)
 
 
 def pieces(rates: list[float]) -> str:
-    """Return constants as ranges, broken where one is left out."""
+    """Return constants as ranges of consecutive values."""
     starts = [rate for rate in rates if rate - RATE_STEP not in rates]
     ends = [rate for rate in rates if rate + RATE_STEP not in rates]
     ranges = zip(starts, ends, strict=True)
@@ -138,7 +138,7 @@ def log_likelihood(paints: dict[int, Counted], rate: float) -> float:
         gaps = observed[~at_time_limit, np.newaxis] - values / rate
         density = stats.norm.pdf(gaps, scale=HAND_TIMING_S) @ shares
         beyond = shares[values / rate >= SCENARIO.time_limit_s].sum()
-        # A time that no run took is as likely as half a run makes it, not impossible.
+        # A time that no run took counts as half a run, so that it is not impossible.
         least = 0.5 / counts.sum()
         total += float(np.sum(np.log(np.maximum(density, least))))
         total += float(np.sum(at_time_limit) * np.log(max(beyond, least)))
@@ -156,7 +156,7 @@ def capped(paints: Counted, rate: float) -> tuple[float, float]:
 
 
 def teams() -> str:
-    """Return our times and failures beside the published ones, at the scenario's constant."""
+    """Return our times and failures with the published ones, at the constant of the scenario."""
     answer = study_answer()
     published_by_size = {team.robots: team for team in theirs.results(SCENARIO)}
 
@@ -177,7 +177,7 @@ def teams() -> str:
 
 
 def claims() -> str:
-    """Return what the published data and our runs say of the thesis's three claims."""
+    """Return the evidence of the published data and our runs on the three claims of the thesis."""
     one, two = (np.array(published()[robots]) for robots in (1, 2))
     student = stats.ttest_ind(one, two).pvalue
     rank = stats.mannwhitneyu(one, two).pvalue
@@ -200,7 +200,7 @@ def claims() -> str:
 
 
 def three_look_best(merit: str) -> str:
-    """Return how often 3 robots win when each team of 1 to 8 is run ten times."""
+    """Return how often 3 robots are best when each team of 1 to 8 has ten runs."""
     rng = np.random.default_rng(2003)
     merits = [team.columns["merit"] for team in studied(scenario(merit))[1].samples]
     means = [rng.choice(each, (20_000, 10)).mean(axis=1) for each in merits]
@@ -208,7 +208,7 @@ def three_look_best(merit: str) -> str:
 
 
 def rates() -> str:
-    """Return the best team, and its ties, at each constant that fits the published times."""
+    """Return the best team, and its ties, at each constant that agrees with the times."""
     best_scores = {contact: max(fitted(contact)[0].values()) for contact in CONTACTS}
     likely = [each for each in CONTACTS if best_scores[each] > max(best_scores.values()) - 2]
     answers = [(contact, rate) for contact in likely for rate in fitted(contact)[1]]
@@ -231,7 +231,7 @@ def best_and_ties(contact: str, rate: float) -> tuple[str, str]:
 
 
 def studied(scenario: ae.Scenario) -> tuple[ae.study.Answer, Evidence]:
-    """Return what so many runs of each team say."""
+    """Return the answer from a number of runs per team."""
     with tempfile.TemporaryDirectory() as folder:
         return run_race(ae.study.make_plan(scenario, runs=RUNS), Path(folder))
 
@@ -243,7 +243,7 @@ def size(team: ae.study.Result) -> int:
 
 
 def slips() -> str:
-    """Return both figures of merit recomputed from the published times, beside the sheet's."""
+    """Return both figures of merit from the published times, and those of the thesis."""
     merits = {name: scored(name) for name in ("equation-5.2", "appendix")}
 
     def row(index: int, sheet: float) -> list[str]:
@@ -261,7 +261,7 @@ def slips() -> str:
 
 
 def scored(merit: str) -> list[float]:
-    """Return the published teams' figures of merit, by a definition's name."""
+    """Return the figures of merit of the published teams, by the name of a definition."""
     return [team.merit.value for team in theirs.results(scenario(merit))]
 
 
@@ -272,17 +272,17 @@ def scenario(merit: str) -> ae.Scenario:
 
 def published() -> dict[int, list[float]]:
     """Return the published times by team size."""
-    assert SCENARIO.published is not None  # noqa: S101  (the shipped scenario has them)
+    assert SCENARIO.published is not None  # noqa: S101  (the bundled scenario has them)
     return SCENARIO.published.times_s
 
 
 def study_answer() -> ae.study.Answer:
-    """Return what the scenario's own study finds with so many runs of each team."""
+    """Return the answer of the study of the scenario with a number of runs per team."""
     return studied(SCENARIO)[0]
 
 
 def paints_of(contact: str, robots: int, runs: int) -> NDArray[np.float64]:
-    """Return paints to completion, infinite where it never comes."""
+    """Return paints to completion, infinite if it never completes."""
     column = ae.classic.replicate(robots, runs, contact=contact)["paints"]
     never_done = column.is_null().to_numpy()
     paints: NDArray[np.float64] = column.fill_null(0).to_numpy().astype(float)
