@@ -95,7 +95,10 @@ class Rules:
     def load(cls, file: Path = RULES) -> "Rules":
         """Read the rules of a file."""
         table: dict[str, Any] = tomllib.loads(file.read_text(encoding="utf-8"))
-        rules = cls(allow=table.get("allow", []), skip=table.get("skip", []))
+        allow = [
+            each | {"found": found} for each in table.get("allow", []) for found in each["found"]
+        ]
+        rules = cls(allow=allow, skip=table.get("skip", []))
         for rule in table.get("phrase", []):
             for words in rule.get("except", []):
                 rules.add_phrase(words, "")
