@@ -1,4 +1,5 @@
-//! Dead reckoning: the motion of the body since the previous step, from commands, wheels and compass.
+//! Dead reckoning: the motion of the body since the previous step, from commands, wheels and
+//! compass.
 
 use crate::io::body::Body;
 use crate::io::command::Motion;
@@ -8,8 +9,8 @@ use base::trig::wrapped;
 /// Maximum age of a reading that is used, in seconds.
 const MAX_AGE_S: f64 = 1.0;
 
-/// Wheel odometry above this multiple of the body's own limit is discarded as invalid. The fastest terrain
-/// makes a body ten times as fast.
+/// Wheel odometry above this multiple of the body's own limit is discarded as invalid. The fastest
+/// terrain makes a body ten times as fast.
 const MAX_WHEEL_FACTOR: f64 = 10.0;
 
 /// Compass readings above this absolute value are discarded as invalid.
@@ -84,8 +85,9 @@ impl DeadReckoning {
         }
     }
 
-    /// The angle that [`DeadReckoning::update`] returned, or that of wheels or command if the compass is
-    /// noisy: a filter that corrects the heading with the compass must not predict it with the same readings.
+    /// The angle that [`DeadReckoning::update`] returned, or that of wheels or command if the
+    /// compass is noisy: a filter that corrects the heading with the compass must not predict it
+    /// with the same readings.
     pub(crate) fn turned_without_compass_rad(
         &self,
         turned_rad: f64,

@@ -1,4 +1,5 @@
-//! Perception: turns percepts into beliefs, and into the situation that behaviours read in one step.
+//! Perception: turns percepts into beliefs, and into the situation that behaviours read in one
+//! step.
 
 pub(crate) mod beliefs;
 pub(crate) mod believed;

@@ -1,8 +1,9 @@
 //! The free space around a robot, from the rays of a range ring.
 //!
-//! Nothing is measured between two neighbouring rays. Free space is therefore the polygon through the
-//! ends of the rays: a flat wall that two rays hit is exactly one of its sides, and without a return it
-//! ends at the range of the sensor. An obstacle thinner than the gap between rays may be inside.
+//! Nothing is measured between two neighbouring rays. Free space is therefore the polygon through
+//! the ends of the rays: a flat wall that two rays hit is exactly one of its sides, and without a
+//! return it ends at the range of the sensor. An obstacle thinner than the gap between rays may be
+//! inside.
 
 use crate::io::body::RangeRing;
 use crate::io::percept::Scan;
@@ -71,8 +72,8 @@ impl Ray {
 
 /// The free distance along each ray: the minimum of its range and those of both neighbours.
 ///
-/// A ray that passes a wall at a small angle crosses cells that the wall partly fills, where the ray
-/// beside it ends.
+/// A ray that passes a wall at a small angle crosses cells that the wall partly fills, where the
+/// ray beside it ends.
 pub(crate) fn free_ranges_m(ranges_m: &[f64]) -> impl Iterator<Item = f64> {
     let at = |ray: usize| ranges_m.get(ray).copied().unwrap_or(f64::INFINITY);
     (0..ranges_m.len()).map(move |ray| {
@@ -177,7 +178,8 @@ impl Ring {
         nearest_m * self.nearest_share
     }
 
-    /// Distance from the robot's centre to the nearest place straight ahead that is not known to be free.
+    /// Distance from the robot's centre to the nearest place straight ahead that is not known to be
+    /// free.
     ///
     /// It runs in every step. Chords beside the swept area are skipped at once, and beyond half the
     /// sensor's range a chord counts as being as close as its rays allow. Whether a chord is closer
@@ -225,7 +227,8 @@ impl Ring {
         near
     }
 
-    /// Distance from the robot's centre to the nearest place in a sector that is not known to be free.
+    /// Distance from the robot's centre to the nearest place in a sector that is not known to be
+    /// free.
     pub(crate) fn free_m(&self, ranges_m: &[f64], sector: &Sector) -> f64 {
         let mut nearest = Nearest::new(self.range_m);
         for chord in &self.chords {
@@ -236,8 +239,8 @@ impl Ring {
     }
 }
 
-/// The range to use for a measured value: an invalid one counts as an obstacle at distance 0, which is
-/// the safe assumption.
+/// The range to use for a measured value: an invalid one counts as an obstacle at distance 0, which
+/// is the safe assumption.
 #[inline]
 pub(crate) fn valid_m(measured_m: f64) -> f64 {
     if measured_m > 0.0 { measured_m } else { 0.0 }

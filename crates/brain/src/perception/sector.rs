@@ -3,8 +3,8 @@
 use base::geometry::{Point, Segment};
 use base::trig::sin_cos;
 
-/// The area that a body can sweep: everything within half its width of a straight path in any direction
-/// between two.
+/// The area that a body can sweep: everything within half its width of a straight path in any
+/// direction between two.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Sector {
     sides: [Side; 3],
@@ -18,8 +18,8 @@ struct Side {
 }
 
 impl Sector {
-    /// Directions from `from_rad` anticlockwise to `to_rad`, at most half a turn apart, for a body of
-    /// this half width.
+    /// Directions from `from_rad` anticlockwise to `to_rad`, at most half a turn apart, for a body
+    /// of this half width.
     pub(crate) fn new(from_rad: f64, to_rad: f64, half_width_m: f64) -> Self {
         let right_of = |ahead: Point| Point {
             x: ahead.y,

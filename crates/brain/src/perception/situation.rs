@@ -6,14 +6,15 @@ use crate::io::random_words::RandomWords;
 use crate::perception::beliefs::Beliefs;
 use crate::perception::rays::Ring;
 
-/// Time for which touch is ignored after a turn, in seconds: the body needs it to leave what it touched.
+/// Time for which touch is ignored after a turn, in seconds: the body needs it to leave what it
+/// touched.
 const CLEARING_S: f64 = 0.5;
 
 /// Free distance in some direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct ClearAhead {
-    /// Current distance from the body and its clearance to the nearest place that is not known to be
-    /// free; negative if none of it is certain.
+    /// Current distance from the body and its clearance to the nearest place that is not known to
+    /// be free; negative if none of it is certain.
     pub(crate) free_m: f64,
     /// Age of the oldest scan that contributed.
     pub(crate) age_s: f64,
@@ -46,7 +47,8 @@ impl Situation<'_> {
         self.body.period_s as f32
     }
 
-    /// Whether the body still touches something: it may be stopped by a collision and unable to move.
+    /// Whether the body still touches something: it may be stopped by a collision and unable to
+    /// move.
     #[inline]
     pub(crate) fn is_held(&self) -> bool {
         self.touches(f64::INFINITY)

@@ -16,8 +16,8 @@ struct Level {
     at_s: f64,
 }
 
-/// The charge of the battery: the median of the previous estimate and the last two readings, so that a single
-/// outlier has no effect, and two in a row are accepted.
+/// The charge of the battery: the median of the previous estimate and the last two readings, so
+/// that a single outlier has no effect, and two in a row are accepted.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Battery {
     /// The start of the discharge.

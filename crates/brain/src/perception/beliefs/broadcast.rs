@@ -14,8 +14,8 @@ const BROADCAST_PERIOD_S: f64 = 1.0;
 /// broadcast at once, and receivers keep destinations for ten seconds and items for good.
 const BROADCASTS_PER_REPEAT: u8 = 3;
 
-/// Offset between the phases of two kinds of robots, as a fraction of [`BROADCAST_PERIOD_S`]: multiples of
-/// the golden ratio are spread evenly.
+/// Offset between the phases of two kinds of robots, as a fraction of [`BROADCAST_PERIOD_S`]:
+/// multiples of the golden ratio are spread evenly.
 const KIND_PHASE: f64 = 0.618_033_988_749_894_9;
 
 /// What the robot broadcast last, and when.
@@ -31,8 +31,9 @@ pub(crate) struct BroadcastState {
 }
 
 impl BroadcastState {
-    /// Whether a broadcast is due after one more period. The sum of periods may be off by half a period;
-    /// the remainder counts for the next broadcast, so that the mean rate does not depend on the period.
+    /// Whether a broadcast is due after one more period. The sum of periods may be off by half a
+    /// period; the remainder counts for the next broadcast, so that the mean rate does not depend
+    /// on the period.
     pub(super) fn is_due(&mut self, own: RobotId, period_s: f64) -> bool {
         let initial_s = || BROADCAST_PERIOD_S * phase(own, period_s);
         let age_s = self.age_s.unwrap_or_else(initial_s) + period_s;
@@ -78,8 +79,8 @@ impl BroadcastState {
     }
 }
 
-/// The phase of a robot within [`BROADCAST_PERIOD_S`], 0 to 1: the robots of a kind are distributed evenly
-/// over the steps of the period.
+/// The phase of a robot within [`BROADCAST_PERIOD_S`], 0 to 1: the robots of a kind are distributed
+/// evenly over the steps of the period.
 fn phase(own: RobotId, period_s: f64) -> f64 {
     let steps = libm::round(BROADCAST_PERIOD_S / period_s).clamp(1.0, 1e9);
     let phase = f64::from(own.index) / steps + KIND_PHASE * f64::from(own.kind);

@@ -10,19 +10,21 @@ use base::geometry::Point;
 
 /// For each cell, the probability that all observations so far would have missed an item there.
 ///
-/// Each observation of a cell multiplies it by 1 - p, where p is the detector's probability of detection at
-/// that distance (Koopman, *Search and screening*, 1946). If items are distributed uniformly, the probability
-/// that an undetected item is in a cell is proportional to this value. Four bytes per cell.
+/// Each observation of a cell multiplies it by 1 - p, where p is the detector's probability of
+/// detection at that distance (Koopman, *Search and screening*, 1946). If items are distributed
+/// uniformly, the probability that an undetected item is in a cell is proportional to this value.
+/// Four bytes per cell.
 ///
-/// Reported observations are valid with the probability given by the trust in their sender, and carry no
-/// information otherwise:
+/// Reported observations are valid with the probability given by the trust in their sender, and
+/// carry no information otherwise:
 ///
 /// ```text
 /// missed = 1 - trust (1 - (1 - p)^observations)
 /// ```
 ///
-/// This holds for all messages together: each reduces only the part above 1 - trust, and values below that
-/// stay. A robot is therefore never believed more than it is trusted, however often it repeats a report.
+/// This holds for all messages together: each reduces only the part above 1 - trust, and values
+/// below that stay. A robot is therefore never believed more than it is trusted, however often it
+/// repeats a report.
 #[derive(Debug, Clone)]
 pub(crate) struct CoverageMap {
     missed: Vec<f32>,
@@ -61,12 +63,13 @@ impl CoverageMap {
     }
 }
 
-/// Maximum probability of detection of one observation: detector models and poses have errors. A robot that
-/// has observed everything therefore continues, first where there were the fewest observations.
+/// Maximum probability of detection of one observation: detector models and poses have errors. A
+/// robot that has observed everything therefore continues, first where there were the fewest
+/// observations.
 pub(crate) const MAX_DETECTION: f64 = 0.8;
 
-/// Minimum value of a cell, reached after about fifty observations; smaller numbers would be denormal, which
-/// are slow.
+/// Minimum value of a cell, reached after about fifty observations; smaller numbers would be
+/// denormal, which are slow.
 const MIN_MISSED: f32 = 1e-36;
 
 /// One or more observations of an item detector, by this robot or another.
@@ -127,7 +130,8 @@ fn distrusted(trust: f64) -> f32 {
     (1.0 - trust).clamp(0.0, 1.0) as f32
 }
 
-/// Probability that a number of observations miss an item that each detects with a given probability.
+/// Probability that a number of observations miss an item that each detects with a given
+/// probability.
 #[expect(clippy::cast_possible_truncation, reason = "stored as f32")]
 fn missed(detection: f64, observations: f64) -> f32 {
     let left = 1.0 - detection.min(MAX_DETECTION);

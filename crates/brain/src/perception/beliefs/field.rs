@@ -136,7 +136,8 @@ impl Field {
         }
     }
 
-    /// The cells on a straight line, without the first: one per column, or one per row if there are more rows.
+    /// The cells on a straight line, without the first: one per column, or one per row if there are
+    /// more rows.
     #[inline]
     #[expect(
         clippy::cast_possible_truncation,

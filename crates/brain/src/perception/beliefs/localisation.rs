@@ -12,8 +12,9 @@ use base::trig::wrapped;
 /// Relative odometry error, of the distance and of the turn.
 const ODOMETRY_ERROR: f64 = 0.02;
 
-/// Minimum process noise, also at rest: about a millimetre and some hundredths of a degree per second. It
-/// keeps the gain above zero, so that a robot that has been at rest for long still follows its sensors.
+/// Minimum process noise, also at rest: about a millimetre and some hundredths of a degree per
+/// second. It keeps the gain above zero, so that a robot that has been at rest for long still
+/// follows its sensors.
 const PROCESS_NOISE_M2_S: f64 = 1e-6;
 const PROCESS_NOISE_RAD2_S: f64 = 1e-8;
 
@@ -107,7 +108,8 @@ impl Localisation {
             *at = at.plus(motion);
             *variance += (ODOMETRY_ERROR * travelled_m) * (ODOMETRY_ERROR * travelled_m)
                 + PROCESS_NOISE_M2_S * period_s;
-            // P' = F P F^T with d(at)/d(heading) = the displacement turned left; the mean of both axes.
+            // P' = F P F^T with d(at)/d(heading) = the displacement turned left; the mean of both
+            // axes.
             *variance +=
                 motion.cross(self.covariance) + travelled_m * travelled_m * heading_variance / 2.0;
             *variance = variance.max(0.0);

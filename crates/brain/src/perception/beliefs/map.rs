@@ -11,8 +11,8 @@ use crate::perception::sector::direction;
 use base::geometry::{Point, Rectangle, Segment};
 use base::trig::wrapped;
 
-/// Scans are integrated into the map when the robot has moved by this fraction of a cell, has turned by this
-/// angle, or after this time.
+/// Scans are integrated into the map when the robot has moved by this fraction of a cell, has
+/// turned by this angle, or after this time.
 const MAP_UPDATE_CELLS: f64 = 0.25;
 const MAP_UPDATE_RAD: f64 = 0.1;
 const MAP_UPDATE_S: f64 = 0.5;
@@ -38,7 +38,8 @@ impl Map {
         }
     }
 
-    /// Whether scans are integrated: from about the same pose, they would only repeat the same errors.
+    /// Whether scans are integrated: from about the same pose, they would only repeat the same
+    /// errors.
     pub(super) fn is_update_due(&mut self, pose: &Pose, period_s: f64) -> bool {
         if let Some((last, age_s)) = &mut self.last_update {
             *age_s += period_s;

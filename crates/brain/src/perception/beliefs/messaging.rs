@@ -13,14 +13,16 @@ use alloc::vec::Vec;
 use base::geometry::Point;
 use base::trig::wrapped;
 
-/// A robot that has turned by this angle broadcasts its pose at once: receivers assume that it observed in
-/// the last heading that it sent, and a narrow field of view leaves that heading within this angle.
+/// A robot that has turned by this angle broadcasts its pose at once: receivers assume that it
+/// observed in the last heading that it sent, and a narrow field of view leaves that heading within
+/// this angle.
 const MAX_TURN_RAD: f64 = 0.3;
 
 /// Maximum number of messages about items per step.
 const MAX_ITEM_MESSAGES: usize = 2;
 
-/// Maximum number of positions at which a team mate's observations since its last message are assumed.
+/// Maximum number of positions at which a team mate's observations since its last message are
+/// assumed.
 const MAX_POSITIONS: f64 = 16.0;
 
 /// Maximum plausible rate of observations per detector, in Hz: cameras and radios are slower.
@@ -83,7 +85,8 @@ impl Beliefs {
         }
     }
 
-    /// Adds the observations that a team mate made on its path since its last message to the coverage map.
+    /// Adds the observations that a team mate made on its path since its last message to the
+    /// coverage map.
     ///
     /// Their age does not matter, but no more of them count than are plausible.
     fn receive_observations(
@@ -117,7 +120,8 @@ impl Beliefs {
         }
     }
 
-    /// Appends the messages that are due in this step to the outbox; `goal` is the current destination.
+    /// Appends the messages that are due in this step to the outbox; `goal` is the current
+    /// destination.
     pub(crate) fn broadcast(
         &mut self,
         goal: Option<Destination>,
@@ -155,7 +159,8 @@ impl Beliefs {
     }
 }
 
-/// The number of reported observations that are plausible within a time and for a number of detectors.
+/// The number of reported observations that are plausible within a time and for a number of
+/// detectors.
 fn plausible(observations: u32, in_s: f64, detectors: usize) -> f64 {
     let detectors = u32::try_from(detectors).unwrap_or(u32::MAX);
     // Ages are sums of periods, with rounding errors.
@@ -181,7 +186,8 @@ fn provenance_of(received: &ReceivedMessage, provenance: Provenance, at: Point) 
     }
 }
 
-/// Variance of a position that another robot reports: both robots may be wrong about their own pose.
+/// Variance of a position that another robot reports: both robots may be wrong about their own
+/// pose.
 fn report_variance_m2(body: &Body, pose: &Pose) -> f64 {
     let detectors = body.detectors.iter();
     let noise_m = detectors

@@ -1,8 +1,9 @@
-//! The beliefs of a robot, computed from percepts: the *identifier* of Rodin and Amin's architecture, which
-//! has an identifier, a [goal selector](crate::goals) and an [adapter](crate::navigation::navigator).
+//! The beliefs of a robot, computed from percepts: the *identifier* of Rodin and Amin's
+//! architecture, which has an identifier, a [goal selector](crate::goals) and an
+//! [adapter](crate::navigation::navigator).
 //!
-//! Memory is bounded: with its goals and paths, a brain needs at most 40 kB, plus 20 bytes for each of at
-//! most [`BeliefsSpec::cells`] cells, plus 40 bytes per ray. A test measures this.
+//! Memory is bounded: with its goals and paths, a brain needs at most 40 kB, plus 20 bytes for each
+//! of at most [`BeliefsSpec::cells`] cells, plus 40 bytes per ray. A test measures this.
 
 mod battery;
 mod broadcast;

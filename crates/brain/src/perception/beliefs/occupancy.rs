@@ -6,7 +6,8 @@ use alloc::vec::Vec;
 use base::geometry::{Point, Segment};
 use core::ops::Range;
 
-/// Change of the log odds of a cell in which a ray ends, and of one that it passes, in quarters of a nat.
+/// Change of the log odds of a cell in which a ray ends, and of one that it passes, in quarters of
+/// a nat.
 const HIT: i8 = 4;
 const PASS: i8 = -1;
 
@@ -19,10 +20,12 @@ const OCCUPIED: i8 = 4;
 /// The cells of a field, each with the log odds that it is occupied.
 ///
 /// After Moravec and Elfes, *High resolution maps from wide angle sonar*, ICRA 1985, with log odds:
-/// each ray adds [`HIT`] to the cell in which it ends and [`PASS`] to those that it passes. One byte per cell.
+/// each ray adds [`HIT`] to the cell in which it ends and [`PASS`] to those that it passes. One
+/// byte per cell.
 ///
-/// A wall at a grazing angle ends few rays, while many pass through cells that it occupies in part. A ray
-/// therefore clears cells only as far as its neighbours reach, and each cell about once per scan.
+/// A wall at a grazing angle ends few rays, while many pass through cells that it occupies in part.
+/// A ray therefore clears cells only as far as its neighbours reach, and each cell about once per
+/// scan.
 #[derive(Debug, Clone)]
 pub(crate) struct Occupancy {
     quarter_nats: Vec<i8>,
@@ -125,8 +128,8 @@ impl Occupancy {
         }
     }
 
-    /// Whether no known obstacle hides a position from another. Obstacles at the position itself, or closer to
-    /// it than `blur_m`, do not hide it.
+    /// Whether no known obstacle hides a position from another. Obstacles at the position itself,
+    /// or closer to it than `blur_m`, do not hide it.
     pub(crate) fn is_visible(&self, field: &Field, from: Point, to: Point, blur_m: f64) -> bool {
         let line = from.to(to);
         let length_m = line.length();
@@ -137,8 +140,8 @@ impl Occupancy {
         }
     }
 
-    /// Whether the straight line between two positions crosses no occupied cell, and does not pass between two
-    /// that touch at a corner.
+    /// Whether the straight line between two positions crosses no occupied cell, and does not pass
+    /// between two that touch at a corner.
     pub(crate) fn is_free_between(&self, field: &Field, from: Point, to: Point) -> bool {
         let line = from.to(to);
         let length_m = line.length();

@@ -26,11 +26,11 @@ const HIT_MARGIN_M: f64 = 0.15;
 const EXACT_GAIN: f64 = 1.0;
 const NOISY_GAIN: f64 = 0.3;
 
-/// All tracks, in the order of their first observation; beyond [`MAX_MOVERS`], those that the robot could
-/// collide with first.
+/// All tracks, in the order of their first observation; beyond [`MAX_MOVERS`], those that the robot
+/// could collide with first.
 ///
-/// They are kept in the robot's own frame and predicted by its odometry, so that collision avoidance does
-/// not need a pose in the world.
+/// They are kept in the robot's own frame and predicted by its odometry, so that collision
+/// avoidance does not need a pose in the world.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Others {
     pub(crate) movers: Vec<Mover>,
@@ -40,7 +40,8 @@ pub(crate) struct Others {
 }
 
 impl Others {
-    /// Updates the tracks after a step in which the robot moved by `motion` (in its previous frame) and turned.
+    /// Updates the tracks after a step in which the robot moved by `motion` (in its previous frame)
+    /// and turned.
     pub(crate) fn update(
         &mut self,
         percept: &Percept,

@@ -50,8 +50,9 @@ impl Peers {
         }
     }
 
-    /// Updates the reported position and number of observations of a robot. Returns its previous position,
-    /// the number of observations since then, and the time between the two reports in seconds.
+    /// Updates the reported position and number of observations of a robot. Returns its previous
+    /// position, the number of observations since then, and the time between the two reports in
+    /// seconds.
     pub(crate) fn update_observations(
         &mut self,
         id: RobotId,

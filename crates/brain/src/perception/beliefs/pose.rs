@@ -26,8 +26,8 @@ pub struct Pose {
 }
 
 impl Pose {
-    /// Tolerance of visibility tests: two standard deviations, which the errors of the robot's position and
-    /// of obstacles on its map exceed in one of twenty cases.
+    /// Tolerance of visibility tests: two standard deviations, which the errors of the robot's
+    /// position and of obstacles on its map exceed in one of twenty cases.
     pub(crate) fn blur_m(&self) -> f64 {
         2.0 * self.deviation_m
     }

@@ -1,9 +1,10 @@
-//! Moving objects in range scans, distinguished from static ones by their range rate: the range of a static
-//! object decreases no faster than the robot approaches it.
+//! Moving objects in range scans, distinguished from static ones by their range rate: the range of
+//! a static object decreases no faster than the robot approaches it.
 //!
-//! An object is a foreground segment of a scan that is no wider than [`MAX_WIDTH_M`]: the nearest point of a
-//! wall moves with the robot, so that walls cannot be distinguished from objects that keep pace. Only the
-//! range is measured precisely; objects are therefore assumed to move straight towards the robot or away.
+//! An object is a foreground segment of a scan that is no wider than [`MAX_WIDTH_M`]: the nearest
+//! point of a wall moves with the robot, so that walls cannot be distinguished from objects that
+//! keep pace. Only the range is measured precisely; objects are therefore assumed to move straight
+//! towards the robot or away.
 
 use super::mover::Mover;
 use super::pose::turned;
@@ -21,7 +22,8 @@ const MAX_WIDTH_M: f64 = 1.5;
 /// Maximum distance of an observation from the predicted position of a known object.
 const ASSOCIATION_M: f64 = 0.5;
 
-/// Gain and limit of a new closing speed: ranges are noisy, and jump when a different ray meets the object.
+/// Gain and limit of a new closing speed: ranges are noisy, and jump when a different ray meets the
+/// object.
 const GAIN: f64 = 0.08;
 const MAX_CLOSING_M_S: f64 = 1.5;
 
@@ -54,7 +56,8 @@ pub(crate) struct ScanObjects {
 }
 
 impl ScanObjects {
-    /// Predicts all objects after a step in which the robot moved by `motion` (in its previous frame) and turned.
+    /// Predicts all objects after a step in which the robot moved by `motion` (in its previous
+    /// frame) and turned.
     pub(crate) fn predict(&mut self, motion: Point, turned_rad: f64, period_s: f64) {
         let back = direction(-turned_rad);
         for object in &mut self.objects {

@@ -42,17 +42,18 @@ impl Default for TrustSpec {
 ///
 /// (Jøsang and Ismail, *The beta reputation system*, 2002).
 ///
-/// The sender of a report is accountable for it, whether the observations are its own or relayed; the trust
-/// in a robot never changes because of what another robot reports about it. Relayed observations have the
-/// weight
+/// The sender of a report is accountable for it, whether the observations are its own or relayed;
+/// the trust in a robot never changes because of what another robot reports about it. Relayed
+/// observations have the weight
 ///
 /// ```text
 /// trust in the sender x trust in the observer
 /// ```
 ///
-/// A wrong report therefore counts against the observer where it sent the report itself, and against each
-/// robot that relayed it; a correct one counts for them in the same way. For each robot, trust is the share
-/// of its reports that were correct. Destinations with no more weight than [`MIN_TRUST`] are ignored.
+/// A wrong report therefore counts against the observer where it sent the report itself, and
+/// against each robot that relayed it; a correct one counts for them in the same way. For each
+/// robot, trust is the share of its reports that were correct. Positions and destinations with less
+/// weight than [`MIN_TRUST`] are ignored.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Trust {
     records: Vec<Record>,

@@ -1,14 +1,15 @@
 //! The validation gate of readings: outliers are rejected unless several in a row agree.
 
-/// Half width of the gate, in standard deviations of the difference (Bar-Shalom and Fortmann, *Tracking and
-/// data association*, 1988). Of unbiased readings it rejects one in 1.7 million in one dimension,
-/// 2 (1 - Phi(5)), and one in 270,000 in two, exp(-5^2 / 2).
+/// Half width of the gate, in standard deviations of the difference (Bar-Shalom and Fortmann,
+/// *Tracking and data association*, 1988). Of unbiased readings it rejects one in 1.7 million in
+/// one dimension, 2 (1 - Phi(5)), and one in 270,000 in two, exp(-5^2 / 2).
 const GATE: f64 = 5.0;
 
 /// Number of consecutive outliers in agreement after which the estimate is reset.
 const RESET_AFTER: u8 = 3;
 
-/// The last rejected reading, and the number of consecutive rejected readings in agreement, itself included.
+/// The last rejected reading, and the number of consecutive rejected readings in agreement, itself
+/// included.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ValidationGate<T>(Option<(T, u8)>);
 
@@ -52,9 +53,9 @@ pub(crate) enum Verdict {
 impl<T> ValidationGate<T> {
     /// Decides what to do with a reading; `distance` is its distance from another reading.
     ///
-    /// Two readings agree if their distance is less than half the distance of the later one from the
-    /// estimate. This also recovers a body with slipping wheels, whose readings differ by more than their
-    /// noise.
+    /// Two readings agree if their distance is less than half the distance of the later one from
+    /// the estimate. This also recovers a body with slipping wheels, whose readings differ by more
+    /// than their noise.
     #[inline]
     pub(crate) fn check(
         &mut self,
@@ -89,7 +90,8 @@ impl<T> ValidationGate<T> {
 mod tests {
     use super::*;
 
-    /// The verdicts on readings in one dimension, for an estimate of 0 and a total standard deviation of 1.
+    /// The verdicts on readings in one dimension, for an estimate of 0 and a total standard
+    /// deviation of 1.
     fn verdicts(readings: &[f64]) -> Vec<Verdict> {
         let mut gate = ValidationGate::default();
         let each = readings.iter().map(|reading: &f64| {

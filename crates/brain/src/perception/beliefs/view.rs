@@ -7,8 +7,8 @@ use alloc::vec::Vec;
 use base::geometry::Point;
 use core::f64::consts::{PI, TAU};
 
-/// A cell counts as observed if its centre is inside the field of view by this fraction of its width: most of
-/// the cell is in view then.
+/// A cell counts as observed if its centre is inside the field of view by this fraction of its
+/// width: most of the cell is in view then.
 const MARGIN: f64 = 0.35;
 
 /// The margin in metres; it is smaller for detectors with a range below two cells.

@@ -141,8 +141,8 @@ impl Beliefs {
             .or_else(reported)
     }
 
-    /// Updates the beliefs after a step: `now_m_s` is the estimated speed, `turned_rad` the turn since the
-    /// last step.
+    /// Updates the beliefs after a step: `now_m_s` is the estimated speed, `turned_rad` the turn
+    /// since the last step.
     pub(crate) fn update(
         &mut self,
         percept: &Percept,
@@ -247,7 +247,8 @@ impl Beliefs {
     }
 }
 
-/// The distance travelled in a step: acceleration to the new speed first, then motion at that speed.
+/// The distance travelled in a step: acceleration to the new speed first, then motion at that
+/// speed.
 fn travelled_m([before_m_s, now_m_s]: [f64; 2], body: &Body) -> f64 {
     let change_m_s = now_m_s - before_m_s;
     let change_s = change_m_s.abs() / body.max_acceleration_m_s2.max(f64::MIN_POSITIVE);

@@ -3,7 +3,8 @@ use super::*;
 /// A step, and the robots that broadcast in it, in order.
 type Senders = (u32, Vec<RobotId>);
 
-/// The robots that broadcast in each step of a duration in seconds; all are stationary and have a destination.
+/// The robots that broadcast in each step of a duration in seconds; all are stationary and have a
+/// destination.
 fn senders(own: &[RobotId], period_s: f64, for_s: f64) -> Vec<Senders> {
     let mut sent = vec![BroadcastState::default(); own.len()];
     #[expect(

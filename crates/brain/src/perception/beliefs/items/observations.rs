@@ -15,8 +15,8 @@ use core::f64::consts::PI;
 /// Limit of the log likelihood ratio of one observation against an item, in nats.
 const MAX_OBSERVATION_LOG_RATIO: f64 = 8.0;
 
-/// Lower limit of the factor by which unsuccessful observations reduce the density of items: detector models
-/// have errors.
+/// Lower limit of the factor by which unsuccessful observations reduce the density of items:
+/// detector models have errors.
 const MIN_UNSEEN: f64 = 0.01;
 
 /// One observation of an own detector.
@@ -62,7 +62,8 @@ impl Items {
         self.mark_changed(changed);
     }
 
-    /// Associates a contact with a track that is not in `taken`, or with a new one; returns its bit.
+    /// Associates a contact with a track that is not in `taken`, or with a new one; returns its
+    /// bit.
     fn associate(
         &mut self,
         observation: &OwnObservation,
@@ -98,9 +99,9 @@ impl Items {
 impl OwnObservation<'_> {
     /// Density of undetected items of a kind at a position.
     ///
-    /// A cell at the edge of the field of view does not count as observed, though a contact may be in it, and
-    /// a contact with an error of more than half a cell may be in any of the surrounding cells. In these
-    /// cases, the best observed cell of the neighbourhood determines the density.
+    /// A cell at the edge of the field of view does not count as observed, though a contact may be
+    /// in it, and a contact with an error of more than half a cell may be in any of the surrounding
+    /// cells. In these cases, the best observed cell of the neighbourhood determines the density.
     fn remaining_per_m2(&self, kind: u16, at: Point, variance_m2: f64, map: Option<&Map>) -> f64 {
         let unseen = map.map_or(1.0, |map| {
             let cell = map.field.nearest_cell(at);
@@ -177,8 +178,9 @@ impl Track {
 
     /// Log likelihood ratio of a miss, if the item was in view with a probability.
     ///
-    /// Misses at the edge of the field of view have a common cause, the error of the estimated position, and
-    /// are not independent: k of them have the likelihood `in_view (1 - p)^k + 1 - in_view`.
+    /// Misses at the edge of the field of view have a common cause, the error of the estimated
+    /// position, and are not independent. The likelihood of k of them is
+    /// `in_view (1 - p)^k + 1 - in_view`.
     fn miss_log_ratio(&mut self, observation: &OwnObservation, in_view: f64) -> f64 {
         let distance_m = observation.pose.at.to(self.at).length();
         let detection = observation
@@ -194,8 +196,8 @@ impl Track {
         libm::log(likelihood(self.edge) / before)
     }
 
-    /// Probability that the item was in view: five points with the same mean and variance represent the normal
-    /// distribution of its position.
+    /// Probability that the item was in view: five points with the same mean and variance represent
+    /// the normal distribution of its position.
     fn probability_in_view(
         &self,
         view: &View,

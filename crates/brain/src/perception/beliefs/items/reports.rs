@@ -43,7 +43,8 @@ impl Reception<'_> {
         self.trust.of(other, self.spec)
     }
 
-    /// Whether a robot is trusted enough for its reports to be relayed, or to replace those of others.
+    /// Whether a robot is trusted enough for its reports to be relayed, or to replace those of
+    /// others.
     fn trusts(&self, other: RobotId) -> bool {
         other == self.own || self.trust_in(other) >= MIN_TRUST
     }
@@ -98,7 +99,8 @@ impl Items {
         }
     }
 
-    /// Appends reports to the outbox, at most `max`: own observations, and relayed ones of trusted robots.
+    /// Appends reports to the outbox, at most `max`: own observations, and relayed ones of trusted
+    /// robots.
     pub(crate) fn report(&mut self, reception: &Reception, outbox: &mut Vec<Message>, max: usize) {
         let mut left = max;
         for number in bits(self.unsent) {
@@ -131,9 +133,9 @@ impl Items {
 }
 
 impl Track {
-    /// Probability that the item exists, 0 to 1. All reports of one sender are combined before they are
-    /// weighted by trust, so that none is believed more than it is trusted, however often it reports and
-    /// whichever observers it names.
+    /// Probability that the item exists, 0 to 1. All reports of one sender are combined before they
+    /// are weighted by trust, so that none is believed more than it is trusted, however often it
+    /// reports and whichever observers it names.
     pub(crate) fn confidence(&self, reception: &Reception) -> f64 {
         let sources = &self.sources[..self.count];
         let is_first = |number: usize, from: RobotId| {
@@ -173,8 +175,8 @@ impl Track {
         log_ratios.sum()
     }
 
-    /// Whether a source is counted: observations count once, as reported by the observer itself, or else by the
-    /// first other sender.
+    /// Whether a source is counted: observations count once, as reported by the observer itself, or
+    /// else by the first other sender.
     fn is_counted(&self, number: usize) -> bool {
         let Source {
             provenance, from, ..
@@ -187,7 +189,8 @@ impl Track {
             || same.all(|(index, other)| index > number && other.from != provenance.observer)
     }
 
-    /// Adds or replaces the source of a report; `prior` is that of a new source. Returns whether it changed.
+    /// Adds or replaces the source of a report; `prior` is that of a new source. Returns whether it
+    /// changed.
     fn replace(&mut self, reception: &Reception, report: &Report, prior: f64) -> bool {
         let provenance = report.provenance;
         let known = self.slot_of(provenance);
@@ -229,8 +232,9 @@ impl Track {
 }
 
 impl Source {
-    /// Whether a report of the same observations replaces this one. The report with more observations wins;
-    /// reports of the observer itself precede relayed ones, and a different sender must be trusted.
+    /// Whether a report of the same observations replaces this one. The report with more
+    /// observations wins; reports of the observer itself precede relayed ones, and a different
+    /// sender must be trusted.
     fn is_replaced_by(&self, reception: &Reception, report: &Report) -> bool {
         let observer = self.provenance.observer;
         if report.from == observer && self.from != observer {
@@ -256,7 +260,8 @@ impl Source {
     }
 }
 
-/// Log likelihood ratio of a report that is true with the probability `trust`, and uninformative otherwise.
+/// Log likelihood ratio of a report that is true with the probability `trust`, and uninformative
+/// otherwise.
 fn discounted(prior: f64, log_ratio: f64, trust: f64) -> f64 {
     let reported = probability(prior + log_ratio);
     log_odds(trust * reported + (1.0 - trust) * probability(prior)) - prior

@@ -41,7 +41,8 @@ pub(super) struct Source {
     pub(super) prior: f64,
     /// Log likelihood ratio of all its observations.
     pub(super) log_ratio: f64,
-    /// Confidence of the last report that was sent; 0 if none. Single precision, because there are hundreds.
+    /// Confidence of the last report that was sent; 0 if none. Single precision, because there are
+    /// hundreds.
     pub(super) sent_confidence: f32,
     /// Whether own observations have confirmed or refuted it; each source is judged once.
     pub(super) is_judged: bool,
@@ -67,14 +68,15 @@ impl Track {
         self.prior + sources.map(|source| source.log_ratio).sum::<f64>()
     }
 
-    /// Log odds before the observations of one more robot, given that it locates the item at a position.
+    /// Log odds before the observations of one more robot, given that it locates the item at a
+    /// position.
     ///
     /// ```text
     /// odds = odds of the first x odds of the second x N(d; S) / density of items
     /// ```
     ///
-    /// Two robots that each observed an item may have observed two different ones; a distance of d with a total
-    /// variance of S is evidence for a single one.
+    /// Two robots that each observed an item may have observed two different ones; a distance of d
+    /// with a total variance of S is evidence for a single one.
     pub(super) fn prior_with_another(&self, at: Point, variance_m2: f64, per_m2: f64) -> f64 {
         if self.count == 0 {
             return self.prior;
@@ -84,8 +86,8 @@ impl Track {
         prior_log_odds(all_m2, per_m2) + distance
     }
 
-    /// A slot for a new source, replacing the weakest one if all are in use; `None` if all others are stronger.
-    /// Own observations are never replaced.
+    /// A slot for a new source, replacing the weakest one if all are in use; `None` if all others
+    /// are stronger. Own observations are never replaced.
     pub(super) fn free_slot(&mut self, own: RobotId, log_ratio: f64) -> Option<usize> {
         let slot = if self.count < SOURCES {
             self.count += 1;

@@ -81,7 +81,8 @@ impl Items {
         self.mark_changed(u64::MAX);
     }
 
-    /// Marks the next track for repetition, in turn: messages are lost, and robots may have come into range.
+    /// Marks the next track for repetition, in turn: messages are lost, and robots may have come
+    /// into range.
     pub(crate) fn repeat_next(&mut self) {
         self.repeated = (self.repeated + 1)
             .checked_rem(self.tracks.len())

@@ -31,8 +31,8 @@ fn observe(others: &mut Others, neighbours: Vec<Neighbour>) {
     others.update(&percept(neighbours), &rover(), Point::default(), 0.0);
 }
 
-/// The track of a robot with a constant velocity after a number of exact observations by a moving and turning
-/// robot, and the true relative velocity.
+/// The track of a robot with a constant velocity after a number of exact observations by a moving
+/// and turning robot, and the true relative velocity.
 fn tracked([speed, rate]: [f64; 2], velocity: Point, steps: u32) -> (Mover, Point) {
     let mut others = Others::default();
     let (mut at, mut heading_rad) = (Point::default(), 0.3);

@@ -4,7 +4,8 @@ use super::*;
 fn a_contact_is_weighted_by_bayes_rule() {
     let mut items = Items::default();
     hit(&mut items, ME);
-    // Of all contacts at a position, 0.7 x 0.01 per square metre are items, and 0.02 are false alarms.
+    // Of all contacts at a position, 0.7 x 0.01 per square metre are items, and 0.02 are false
+    // alarms.
     let odds = 0.7 * PER_M2 / FALSE_PER_M2 / (1.0 - TAU * 0.01 * PER_M2);
     assert!((confidence(&items, ME) - odds / (1.0 + odds)).abs() < 1e-9);
     hit(&mut items, ME);

@@ -205,8 +205,9 @@ fn memory_is_bounded_for_a_thousand_contacts() {
     assert_eq!(outbox.len(), 2);
 }
 
-/// Three robots observe an item and relay reports: in each step one of them observes, sends, or receives any
-/// message that was ever sent. Returns their items, and each robot's last report of its own observations.
+/// Three robots observe an item and relay reports: in each step one of them observes, sends, or
+/// receives any message that was ever sent. Returns their items, and each robot's last report of
+/// its own observations.
 fn gossip(seed: u64, steps: u32) -> (Vec<Items>, Vec<Report>) {
     let mut random = random(seed);
     let mut team = vec![Items::default(); 3];
