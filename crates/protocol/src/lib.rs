@@ -1,10 +1,10 @@
 //! The messages between the server and the page, as types only.
 //!
-//! Messages are JSON texts on a WebSocket, each with its `type`; frames and overlays are binary. The
+//! Messages are JSON on a WebSocket, each with its `type`; frames and overlays are binary. The
 //! JSON Schema of these types ([`page_schema`]) and that of brains ([`brain_schema`]) are the
 //! source of the Python types of the server and of the TypeScript types of the page.
 //!
-//! Seeds and run numbers can have 64 bits, which JavaScript's numbers cannot hold: they are strings.
+//! Seeds and run numbers can have 64 bits, which JavaScript numbers cannot hold: they are strings.
 
 mod lists;
 mod page;

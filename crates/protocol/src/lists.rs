@@ -1,4 +1,4 @@
-//! Entries of the lists that the server gives, and errors of input.
+//! Entries of the lists of the server, and errors of input.
 
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -48,7 +48,7 @@ pub struct InputError {
     pub line: Option<u32>,
     /// The keys from the root, separated by dots.
     pub path: String,
-    /// The value that was given.
+    /// The given value.
     pub value: Option<String>,
     /// What is allowed, as the end of "must be ...".
     pub allowed: String,
@@ -78,7 +78,7 @@ pub struct RecordingEntry {
     pub bytes: u64,
     /// When it was saved, in seconds since 1970.
     pub saved_at_s: f64,
-    /// The run; null if `error` says what is wrong.
+    /// The run; null if there is an `error`.
     pub run: Option<RecordedRun>,
     /// Why the recording cannot be opened.
     pub error: Option<String>,

@@ -1,4 +1,4 @@
-//! What the page sends to the server of a run.
+//! Messages from the page to the server of a run.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 /// A message of the page.
 ///
 /// `open`, `step`, `seek` and `undo` move the run to a tick, which can take a while. A message that
-/// changes the run meanwhile is carried out on arrival; `pause`, `seek` and `open` take effect at
-/// once.
+/// changes the run meanwhile is executed on arrival; `pause`, `seek` and `open` take effect
+/// immediately.
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(tag = "type", rename_all = "snake_case")]
 pub enum PageMessage {
@@ -33,7 +33,7 @@ pub enum PageMessage {
     Export {},
     /// Select the robot that states and maps describe.
     Select(Select),
-    /// Select what frames are sent with.
+    /// Select the overlays of frames.
     Layers(Layers),
     /// Acknowledge that a frame has been drawn, and all before it. At most three frames are not
     /// acknowledged.
@@ -53,7 +53,7 @@ pub struct Open {
     pub scenario: Option<String>,
     /// The text of a scenario, TOML.
     pub text: Option<String>,
-    /// A configuration of a study: the run is the one that the study has.
+    /// A configuration of a study; the run is the same as in the study.
     pub study: Option<StudyMember>,
     /// A recording by its id.
     pub recording: Option<String>,
@@ -98,7 +98,7 @@ pub struct Play {
     pub speed: Option<f64>,
 }
 
-/// How many steps to take.
+/// Steps to take.
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Step {
@@ -113,7 +113,7 @@ impl Default for Step {
     }
 }
 
-/// Where to move.
+/// The tick to move to.
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Seek {
@@ -130,8 +130,8 @@ pub struct Change {
     pub path: String,
     /// A value as in the scenario file.
     pub value: Json,
-    /// Whether it replaces the last change of this path if the run has not gone on since, as while
-    /// a slider is dragged.
+    /// Whether it replaces the last change of this path if the run has not advanced since then, as
+    /// when a slider is dragged.
     #[serde(default)]
     pub replaces_last: bool,
 }
@@ -144,7 +144,7 @@ pub struct Select {
     pub robot: Option<String>,
 }
 
-/// What frames are sent with; nothing at first.
+/// The overlays of frames; initially none.
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Layers {

@@ -7,7 +7,7 @@ use brain::{BeliefState, Body, Command, Percept};
 use schemars::generate::{SchemaGenerator, SchemaSettings};
 use serde_json::{Map, Value as Json, json};
 
-/// The definitions of all that enters and leaves a brain, and of its belief state.
+/// The definitions of the inputs and outputs of brains, and of their belief states.
 #[must_use]
 pub fn brain_schema() -> Json {
     let mut inputs = SchemaSettings::draft2020_12().into_generator();

@@ -1,4 +1,4 @@
-//! What the server sends to the page of a run.
+//! Messages from the server to the page of a run.
 
 use crate::lists::{Engine, InputError, RecordingEntry};
 use crate::page::Json;
@@ -16,11 +16,11 @@ use std::collections::BTreeMap;
 pub enum ServerMessage {
     /// A run is open.
     Opened(Opened),
-    /// What frames are drawn in; sent whenever the scenario has changed.
+    /// The setting in which frames are drawn; sent whenever the scenario has changed.
     Setting(Setting),
-    /// The state of the run, at most ten times a second.
+    /// The state of the run, with a maximum rate of 10 Hz.
     State(Box<State>),
-    /// The belief map of the selected robot, at most four times a second.
+    /// The belief map of the selected robot, with a maximum rate of 4 Hz.
     Map(MapPart),
     /// The progress of saving a recording.
     Saving(Saving),
@@ -73,7 +73,7 @@ pub struct OpenedRecording {
     pub program: String,
 }
 
-/// The state of a run at a moment.
+/// The state of a run at one step.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct State {
     /// The current tick.
@@ -98,13 +98,13 @@ pub struct State {
     pub mismatch_tick: Option<u64>,
     /// The outcome if the run ended now: values by column.
     pub outcome: BTreeMap<String, Json>,
-    /// What the selected robot perceives, decides and believes; null if there is no such robot.
+    /// The inspection of the selected robot; null if there is no such robot.
     pub inspection: Option<Inspection>,
-    /// What else the simulator knows of the selected robot.
+    /// Further details of the selected robot.
     pub robot: Option<RobotView>,
 }
 
-/// What a robot perceived and decided in its last step, and what it believes.
+/// The percept and the decision of a robot in its last step, and its beliefs.
 ///
 /// All but `belief_state` is null if its brain has not stepped since it was selected.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
@@ -113,20 +113,20 @@ pub struct Inspection {
     pub robot: String,
     /// The tick before that step.
     pub tick: Option<u64>,
-    /// What it perceived.
+    /// The percept.
     pub percept: Option<Percept>,
-    /// What it decided.
+    /// The command.
     pub command: Option<Command>,
-    /// The index of the behaviour in control; null if none is, or if all are blended.
+    /// The index of the active behaviour; null if none is, or if all are blended.
     pub leading: Option<u32>,
-    /// For each behaviour, how much longer it keeps control.
+    /// Remaining hold time of each behaviour.
     pub holds_s: Option<Vec<f64>>,
-    /// What it believes; null if it has no beliefs.
+    /// Its belief state; null if it has no beliefs.
     pub belief_state: Option<BeliefState>,
 }
 
-/// A part of the belief map of a robot: a rectangle of cells; all others have not changed. The first
-/// part of a robot contains all cells.
+/// A part of the belief map of a robot: a rectangle of cells; all others have not changed. The
+/// first part of a robot contains all cells.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct MapPart {
     /// The name of the robot, KIND/INDEX.
@@ -143,13 +143,13 @@ pub struct MapPart {
     pub from: [u32; 2],
     /// Columns and rows of the rectangle.
     pub size: [u32; 2],
-    /// Base64 of a byte a cell, the lowest row first: 0 to 100 percent occupied, 255 unknown.
+    /// Base64 of one byte per cell, the lowest row first: 0 to 100 percent occupied, 255 unknown.
     pub occupancy: String,
-    /// Base64 of a byte a cell: 0 to 100 percent that an item there has not been seen.
+    /// Base64 of one byte per cell: probability in percent that an item there was not detected.
     pub unseen: String,
 }
 
-/// What a simulator knows of a robot, in words.
+/// Details of a robot as labelled strings.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct RobotView {
     /// The name of the robot, KIND/INDEX.
@@ -163,9 +163,9 @@ pub struct RobotView {
 /// The progress of saving a recording.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct Saving {
-    /// Steps that are saved.
+    /// Saved steps.
     pub done: u64,
-    /// Steps in all.
+    /// Total number of steps.
     pub steps: u64,
 }
 
@@ -190,7 +190,7 @@ pub struct Refused {
     pub about: String,
     /// The path of a refused change.
     pub path: Option<String>,
-    /// What is wrong.
+    /// The errors.
     pub errors: Vec<InputError>,
 }
 
@@ -199,6 +199,6 @@ pub struct Refused {
 pub struct Ended {
     /// `idle` or `full`.
     pub reason: String,
-    /// The same for people.
+    /// The reason as a sentence.
     pub message: String,
 }

@@ -1,4 +1,4 @@
-//! What frames of a run are drawn in.
+//! The setting in which the frames of a run are drawn.
 
 use crate::page::{Json, LoggedChange};
 use base::geometry::Point;
@@ -111,7 +111,7 @@ pub struct ItemView {
     pub at: Point,
     /// Whether the robots search for it.
     pub target: bool,
-    /// Outlines of the places from which a robot finds it, if there are such.
+    /// Outlines of the places from which a robot finds it, if there are any.
     pub contact: Vec<Vec<Point>>,
 }
 
@@ -124,6 +124,6 @@ pub struct MapView {
     pub columns: u32,
     /// Rows.
     pub rows: u32,
-    /// Base64 of a byte a cell: 0 free, 1 unknown, 2 occupied.
+    /// Base64 of one byte per cell: 0 free, 1 unknown, 2 occupied.
     pub cells: String,
 }

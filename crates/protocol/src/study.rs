@@ -1,4 +1,4 @@
-//! The progress of a study, at most five times a second until the study ends.
+//! The progress of a study, with a maximum rate of 5 Hz until the study ends.
 
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -22,11 +22,11 @@ pub enum StudyState {
 pub struct StudyProgress {
     /// Its state.
     pub state: StudyState,
-    /// What went wrong, if anything.
+    /// The error that stopped it, if any.
     pub message: Option<String>,
-    /// Rounds so far.
+    /// Completed rounds.
     pub rounds: u64,
-    /// Runs so far.
+    /// Completed runs.
     pub runs: u64,
     /// Runs computed since the study was started or resumed.
     pub computed: u64,
@@ -42,7 +42,7 @@ pub struct StudyProgress {
     pub remaining_s: Option<f64>,
     /// The best of the remaining configurations, at most 50.
     pub standings: Vec<Standing>,
-    /// The eliminated configurations, in order: index, by which configuration, after how many runs.
+    /// The eliminations in order: configuration, the one that eliminated it, its number of runs.
     pub eliminated: Vec<(u32, u32, u64)>,
     /// The labels of all configurations; in the first message only.
     pub labels: Option<Vec<String>>,

@@ -30,7 +30,7 @@ class Ended(TypedDict):
 
     Attributes:
         reason: `idle` or `full`.
-        message: The same for people.
+        message: The reason as a sentence.
     """
 
     type: Literal["ended"]
@@ -56,7 +56,7 @@ class InputError(TypedDict):
         file: The file that contains it.
         line: The line of the file, from 1.
         path: The keys from the root, separated by dots.
-        value: The value that was given.
+        value: The given value.
         allowed: What is allowed, as the end of "must be ...".
         suggestion: The nearest allowed name.
         message: All of this in one sentence.
@@ -72,18 +72,18 @@ class InputError(TypedDict):
 
 
 class Inspection(TypedDict):
-    """What a robot perceived and decided in its last step, and what it believes.
+    """The percept and the decision of a robot in its last step, and its beliefs.
 
     All but `belief_state` is null if its brain has not stepped since it was selected.
 
     Attributes:
         robot: The name of the robot, KIND/INDEX.
         tick: The tick before that step.
-        percept: What it perceived.
-        command: What it decided.
-        leading: The index of the behaviour in control; null if none is, or if all are blended.
-        holds_s: For each behaviour, how much longer it keeps control.
-        belief_state: What it believes; null if it has no beliefs.
+        percept: The percept.
+        command: The command.
+        leading: The index of the active behaviour; null if none is, or if all are blended.
+        holds_s: Remaining hold time of each behaviour.
+        belief_state: Its belief state; null if it has no beliefs.
     """
 
     robot: str
@@ -102,7 +102,7 @@ class ItemView(TypedDict):
         kind: The name of its kind.
         at: Its position.
         target: Whether the robots search for it.
-        contact: Outlines of the places from which a robot finds it, if there are such.
+        contact: Outlines of the places from which a robot finds it, if there are any.
     """
 
     kind: str
@@ -186,7 +186,7 @@ MapPart = TypedDict(
         "unseen": str,
     },
 )
-"""The belief map of the selected robot, at most four times a second.
+"""The belief map of the selected robot, with a maximum rate of 4 Hz.
 
 Attributes:
     robot: The name of the robot, KIND/INDEX.
@@ -196,9 +196,10 @@ Attributes:
     rows: Rows of the map.
     from: The first column and row of the rectangle.
     size: Columns and rows of the rectangle.
-    occupancy: Base64 of a byte a cell, the lowest row first: 0 to 100 percent occupied, 255
-        unknown.
-    unseen: Base64 of a byte a cell: 0 to 100 percent that an item there has not been seen.
+    occupancy: Base64 of one byte per cell, the lowest row first: 0 to 100 percent occupied,
+        255 unknown.
+    unseen: Base64 of one byte per cell: probability in percent that an item there was not
+        detected.
 """
 
 
@@ -209,7 +210,7 @@ class MapView(TypedDict):
         corners: Its corners, anticlockwise; the first row is between the first two.
         columns: Columns.
         rows: Rows.
-        cells: Base64 of a byte a cell: 0 free, 1 unknown, 2 occupied.
+        cells: Base64 of one byte per cell: 0 free, 1 unknown, 2 occupied.
     """
 
     corners: Sequence[Point]
@@ -296,7 +297,7 @@ class RecordingEntry(TypedDict):
         id: Its id.
         bytes: The size of the file.
         saved_at_s: When it was saved, in seconds since 1970.
-        run: The run; null if `error` says what is wrong.
+        run: The run; null if there is an `error`.
         error: Why the recording cannot be opened.
     """
 
@@ -313,7 +314,7 @@ class Refused(TypedDict):
     Attributes:
         about: The type of the message.
         path: The path of a refused change.
-        errors: What is wrong.
+        errors: The errors.
     """
 
     type: Literal["refused"]
@@ -323,7 +324,7 @@ class Refused(TypedDict):
 
 
 class RobotView(TypedDict):
-    """What a simulator knows of a robot, in words.
+    """Details of a robot as labelled strings.
 
     Attributes:
         name: The name of the robot, KIND/INDEX.
@@ -351,8 +352,8 @@ class Saving(TypedDict):
     """The progress of saving a recording.
 
     Attributes:
-        done: Steps that are saved.
-        steps: Steps in all.
+        done: Saved steps.
+        steps: Total number of steps.
     """
 
     type: Literal["saving"]
@@ -399,7 +400,7 @@ class WorldView(TypedDict):
 
 
 class Setting(TypedDict):
-    """What frames are drawn in; sent whenever the scenario has changed.
+    """The setting in which frames are drawn; sent whenever the scenario has changed.
 
     Attributes:
         generation: Frames name the generation of the setting that they are drawn in.
@@ -436,7 +437,7 @@ null before they are computed.
 
 
 class State(TypedDict):
-    """The state of the run, at most ten times a second.
+    """The state of the run, with a maximum rate of 10 Hz.
 
     Attributes:
         tick: The current tick.
@@ -450,9 +451,8 @@ class State(TypedDict):
         is_over: Whether the run is over.
         mismatch_tick: The first tick at which the run was found to differ from its recording.
         outcome: The outcome if the run ended now: values by column.
-        inspection: What the selected robot perceives, decides and believes; null if there is no
-            such robot.
-        robot: What else the simulator knows of the selected robot.
+        inspection: The inspection of the selected robot; null if there is no such robot.
+        robot: Further details of the selected robot.
     """
 
     type: Literal["state"]
@@ -480,9 +480,9 @@ class StudyProgress(TypedDict):
 
     Attributes:
         state: Its state.
-        message: What went wrong, if anything.
-        rounds: Rounds so far.
-        runs: Runs so far.
+        message: The error that stopped it, if any.
+        rounds: Completed rounds.
+        runs: Completed runs.
         computed: Runs computed since the study was started or resumed.
         seconds: Time since then.
         runs_per_s: The rate of computation.
@@ -490,8 +490,8 @@ class StudyProgress(TypedDict):
         remaining_runs: Estimated remaining runs.
         remaining_s: Estimated remaining time.
         standings: The best of the remaining configurations, at most 50.
-        eliminated: The eliminated configurations, in order: index, by which configuration,
-            after how many runs.
+        eliminated: The eliminations in order: configuration, the one that eliminated it, its
+            number of runs.
         labels: The labels of all configurations; in the first message only.
     """
 
@@ -534,7 +534,7 @@ class Open(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag="open"):
     Attributes:
         scenario: A scenario by its id in the gallery.
         text: The text of a scenario, TOML.
-        study: A configuration of a study: the run is the one that the study has.
+        study: A configuration of a study; the run is the same as in the study.
         recording: A recording by its id.
         seed: The seed as a decimal number; by default that of the study, or 0. A recording has
             its own.
@@ -594,8 +594,8 @@ class Change(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag="chang
     Attributes:
         path: The keys from the root, separated by dots, such as `clock.time_limit_s`.
         value: A value as in the scenario file.
-        replaces_last: Whether it replaces the last change of this path if the run has not gone
-            on since, as while a slider is dragged.
+        replaces_last: Whether it replaces the last change of this path if the run has not
+            advanced since then, as when a slider is dragged.
     """
 
     path: str
@@ -630,7 +630,7 @@ class Select(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag="selec
 
 
 class Layers(msgspec.Struct, frozen=True, forbid_unknown_fields=True, tag="layers"):
-    """Select what frames are sent with.
+    """Select the overlays of frames.
 
     Attributes:
         links: Radio links between robots.

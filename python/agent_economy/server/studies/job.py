@@ -31,9 +31,9 @@ ESTIMATE_SHARE = 0.05
 """Minimum time between two estimates of intervals and remaining runs; their share of all time."""
 
 POLL_S = 0.02
-"""Time between two looks for the folder of a new study."""
+"""Time between two checks for the folder of a new study."""
 
-STOP_S = 10.0
+KILL_AFTER_S = 10.0
 """A process that does not end within this time after an interrupt is killed."""
 
 COUNTS = {
@@ -96,11 +96,11 @@ class StudyJob:
         """Interrupt it, and wait until it has ended."""
         self._is_stopped = True
         # Before the first report, Python is starting: an interrupt would be lost or printed.
-        self._has_reported.wait(STOP_S)
+        self._has_reported.wait(KILL_AFTER_S)
         if self.is_alive and self._process.pid is not None:
             with contextlib.suppress(ProcessLookupError):
                 os.kill(self._process.pid, signal.SIGINT)
-        if not self._ended.wait(STOP_S):
+        if not self._ended.wait(KILL_AFTER_S):
             self._process.kill()
             self._ended.wait()
 
@@ -159,7 +159,7 @@ def end_with_server() -> None:
     if server:
         server.join()
         os.kill(os.getpid(), signal.SIGINT)
-        time.sleep(STOP_S)
+        time.sleep(KILL_AFTER_S)
         os._exit(1)
 
 

@@ -22,7 +22,7 @@ export interface InputError {
   line: number | null;
   /** The keys from the root, separated by dots. */
   path: string;
-  /** The value that was given. */
+  /** The given value. */
   value: string | null;
   /** What is allowed, as the end of "must be ...". */
   allowed: string;
@@ -32,21 +32,21 @@ export interface InputError {
   message: string;
 }
 
-/** What a robot perceived and decided in its last step, and what it believes. All but `belief_state` is null if its brain has not stepped since it was selected. */
+/** The percept and the decision of a robot in its last step, and its beliefs. All but `belief_state` is null if its brain has not stepped since it was selected. */
 export interface Inspection {
   /** The name of the robot, KIND/INDEX. */
   robot: string;
   /** The tick before that step. */
   tick: number | null;
-  /** What it perceived. */
+  /** The percept. */
   percept: Percept | null;
-  /** What it decided. */
+  /** The command. */
   command: Command | null;
-  /** The index of the behaviour in control; null if none is, or if all are blended. */
+  /** The index of the active behaviour; null if none is, or if all are blended. */
   leading: number | null;
-  /** For each behaviour, how much longer it keeps control. */
+  /** Remaining hold time of each behaviour. */
   holds_s: number[] | null;
-  /** What it believes; null if it has no beliefs. */
+  /** Its belief state; null if it has no beliefs. */
   belief_state: BeliefState | null;
 }
 
@@ -58,7 +58,7 @@ export interface ItemView {
   at: Point;
   /** Whether the robots search for it. */
   target: boolean;
-  /** Outlines of the places from which a robot finds it, if there are such. */
+  /** Outlines of the places from which a robot finds it, if there are any. */
   contact: Point[][];
 }
 
@@ -94,7 +94,7 @@ export interface MapView {
   columns: number;
   /** Rows. */
   rows: number;
-  /** Base64 of a byte a cell: 0 free, 1 unknown, 2 occupied. */
+  /** Base64 of one byte per cell: 0 free, 1 unknown, 2 occupied. */
   cells: string;
 }
 
@@ -142,7 +142,7 @@ export interface Change {
   path: string;
   /** A value as in the scenario file. */
   value: Json;
-  /** Whether it replaces the last change of this path if the run has not gone on since, as while a slider is dragged. */
+  /** Whether it replaces the last change of this path if the run has not advanced since then, as when a slider is dragged. */
   replaces_last?: boolean;
 }
 
@@ -151,7 +151,7 @@ export interface Export {
   type: "export";
 }
 
-/** Select what frames are sent with. */
+/** Select the overlays of frames. */
 export interface Layers {
   type: "layers";
   /** Radio links between robots. */
@@ -167,7 +167,7 @@ export interface Open {
   scenario?: string | null;
   /** The text of a scenario, TOML. */
   text?: string | null;
-  /** A configuration of a study: the run is the one that the study has. */
+  /** A configuration of a study; the run is the same as in the study. */
   study?: StudyMember | null;
   /** A recording by its id. */
   recording?: string | null;
@@ -250,7 +250,7 @@ export interface RecordingEntry {
   bytes: number;
   /** When it was saved, in seconds since 1970. */
   saved_at_s: number;
-  /** The run; null if `error` says what is wrong. */
+  /** The run; null if there is an `error`. */
   run: RecordedRun | null;
   /** Why the recording cannot be opened. */
   error: string | null;
@@ -264,7 +264,7 @@ export interface RingView {
   range_m: number;
 }
 
-/** What a simulator knows of a robot, in words. */
+/** Details of a robot as labelled strings. */
 export interface RobotView {
   /** The name of the robot, KIND/INDEX. */
   name: string;
@@ -307,7 +307,7 @@ export interface Ended {
   type: "ended";
   /** `idle` or `full`. */
   reason: string;
-  /** The same for people. */
+  /** The reason as a sentence. */
   message: string;
 }
 
@@ -318,7 +318,7 @@ export interface Exported {
   text: string;
 }
 
-/** The belief map of the selected robot, at most four times a second. */
+/** The belief map of the selected robot, with a maximum rate of 4 Hz. */
 export interface MapPart {
   type: "map";
   /** The name of the robot, KIND/INDEX. */
@@ -335,9 +335,9 @@ export interface MapPart {
   from: [number, number];
   /** Columns and rows of the rectangle. */
   size: [number, number];
-  /** Base64 of a byte a cell, the lowest row first: 0 to 100 percent occupied, 255 unknown. */
+  /** Base64 of one byte per cell, the lowest row first: 0 to 100 percent occupied, 255 unknown. */
   occupancy: string;
-  /** Base64 of a byte a cell: 0 to 100 percent that an item there has not been seen. */
+  /** Base64 of one byte per cell: probability in percent that an item there was not detected. */
   unseen: string;
 }
 
@@ -361,7 +361,7 @@ export interface Refused {
   about: string;
   /** The path of a refused change. */
   path: string | null;
-  /** What is wrong. */
+  /** The errors. */
   errors: InputError[];
 }
 
@@ -375,13 +375,13 @@ export interface Saved {
 /** The progress of saving a recording. */
 export interface Saving {
   type: "saving";
-  /** Steps that are saved. */
+  /** Saved steps. */
   done: number;
-  /** Steps in all. */
+  /** Total number of steps. */
   steps: number;
 }
 
-/** What frames are drawn in; sent whenever the scenario has changed. */
+/** The setting in which frames are drawn; sent whenever the scenario has changed. */
 export interface Setting {
   type: "setting";
   /** Frames name the generation of the setting that they are drawn in. */
@@ -408,7 +408,7 @@ export interface Setting {
   maps: MapView[];
 }
 
-/** The state of the run, at most ten times a second. */
+/** The state of the run, with a maximum rate of 10 Hz. */
 export interface State {
   type: "state";
   /** The current tick. */
@@ -433,9 +433,9 @@ export interface State {
   mismatch_tick: number | null;
   /** The outcome if the run ended now: values by column. */
   outcome: Record<string, Json>;
-  /** What the selected robot perceives, decides and believes; null if there is no such robot. */
+  /** The inspection of the selected robot; null if there is no such robot. */
   inspection: Inspection | null;
-  /** What else the simulator knows of the selected robot. */
+  /** Further details of the selected robot. */
   robot: RobotView | null;
 }
 
@@ -444,11 +444,11 @@ export interface StudyProgress {
   type: "study_progress";
   /** Its state. */
   state: StudyState;
-  /** What went wrong, if anything. */
+  /** The error that stopped it, if any. */
   message: string | null;
-  /** Rounds so far. */
+  /** Completed rounds. */
   rounds: number;
-  /** Runs so far. */
+  /** Completed runs. */
   runs: number;
   /** Runs computed since the study was started or resumed. */
   computed: number;
@@ -464,7 +464,7 @@ export interface StudyProgress {
   remaining_s: number | null;
   /** The best of the remaining configurations, at most 50. */
   standings: Standing[];
-  /** The eliminated configurations, in order: index, by which configuration, after how many runs. */
+  /** The eliminations in order: configuration, the one that eliminated it, its number of runs. */
   eliminated: [number, number, number][];
   /** The labels of all configurations; in the first message only. */
   labels: string[] | null;
