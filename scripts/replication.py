@@ -79,8 +79,8 @@ def fit() -> str:
     return table(
         [
             "contact",
-            "best paints/s",
-            "within 1.92 of it",
+            "most likely paints/s",
+            "within 1.92",
             "log-likelihood",
             "mean s, 1 to 4",
             "failed, 1 to 4",
@@ -187,14 +187,20 @@ def claims() -> str:
     times = ", ".join(f"{by_size[robots].time_s.value:.1f}" for robots in (5, 6, 7, 8))
     failed = ", ".join(f"{round(by_size[robots].failed.value * RUNS)}" for robots in (5, 6, 7, 8))
     rows = [
-        ["p, two robots slower than one in its data, Student, two-sided", f"{student:.2f}"],
-        ["the same by ranks, Mann and Whitney", f"{rank:.2f}"],
-        ["merit that 3 robots are behind 4", f"{behind.value:.3f}"],
+        [
+            "p-value, two robots slower than one in the published data (Student's t, two-sided)",
+            f"{student:.2f}",
+        ],
+        ["the same with the Mann-Whitney U test", f"{rank:.2f}"],
+        ["difference of merit between 4 and 3 robots", f"{behind.value:.3f}"],
         ["its 95% interval", f"{behind.low:.3f} to {behind.high:.3f}"],
-        ["3 of 1 to 8 robots look best in ten runs, equation 5.2", three_look_best("equation-5.2")],
-        ["the same, the appendix's figure of merit", three_look_best("appendix")],
-        ["mean s of 5, 6, 7, 8 robots", times],
-        ["failed searches of 5, 6, 7, 8 robots in 10,000", failed],
+        [
+            "probability that 3 robots seem best in ten runs per team, equation 5.2",
+            three_look_best("equation-5.2"),
+        ],
+        ["the same with the appendix's figure of merit", three_look_best("appendix")],
+        ["mean time of 5, 6, 7, 8 robots, s", times],
+        ["failed searches of 5, 6, 7, 8 robots, in 10,000", failed],
     ]
     return table(["figure", "value"], rows)
 
@@ -215,7 +221,7 @@ def rates() -> str:
     rows = [(*best_and_ties(contact, rate), contact, rate) for contact, rate in answers]
     groups = groupby(rows, key=lambda row: (row[2], row[0], row[1]))
     return table(
-        ["contact", "paints/s", "best team", "not to be told apart from it"],
+        ["contact", "paints/s", "best team", "tied or undecided"],
         ([each[0], pieces([row[3] for row in group]), *each[1:]] for each, group in groups),
     )
 
@@ -256,7 +262,7 @@ def slips() -> str:
             f"{sheet - appendix:+.2f}",
         ]
 
-    header = ["robots", "equation 5.2", "with T, not T/10", "the sheet", "sheet differs by"]
+    header = ["robots", "equation 5.2", "with T instead of T/10", "spreadsheet", "difference"]
     return table(header, (row(index, sheet) for index, sheet in enumerate(SHEET_MEANS)))
 
 
