@@ -112,14 +112,14 @@ brain-comparison: .venv/installed ## Regenerate docs/brain-comparison.md and its
 	$(BIN)/python scripts/brain_comparison.py
 
 golden: ## Check that an unoptimised and a release build give the same runs, byte for byte
-	cargo test --locked --profile unoptimised -p agent-economy-sim --test engine golden
-	cargo test --locked --release -p agent-economy-sim --test engine golden
+	cargo test --locked --profile unoptimised -p agent-economy-sim --test simulator golden
+	cargo test --locked --release -p agent-economy-sim --test simulator golden
 
 replication: .venv/installed ## Recompute every figure of docs/replication.md
 	$(BIN)/python scripts/replication.py
 
 schemas: ## Generate the JSON Schemas, the reference of scenarios, and the types of Python and TypeScript
-	RENEW_SCHEMAS=1 cargo test --locked -p agent-economy-sim --test schemas -- --test-threads=1
+	RENEW_SCHEMAS=1 cargo test --locked -p agent-economy-sim --test simulator schemas -- --test-threads=1
 	RENEW_SCHEMAS=1 cargo test --locked -p agent-economy-classic --test schema
 	RENEW_SCHEMAS=1 cargo test --locked -p agent-economy-protocol --test schemas
 	$(BIN)/python scripts/generate_types.py
