@@ -43,7 +43,7 @@ def main() -> None:
 
 def made(name: str) -> str:
     """Return a table of the page."""
-    own = {"overview": overview, "search_minds": search_minds}
+    own = {"overview": overview, "belief_search": belief_search}
     return own[name]() if name in own else table_of(name.replace("_", "-"))
 
 
@@ -134,9 +134,9 @@ def overview() -> str:
     return table(["claim", "simulated", "largest deviation"], lines)
 
 
-def search_minds() -> str:
+def belief_search() -> str:
     """Return the times of both searches, over all worlds."""
-    return table(HEADER, compared(PAGE.folder / "search-minds.csv"))
+    return table(HEADER, compared(PAGE.folder / "belief-search.csv"))
 
 
 def deviation(name: str) -> tuple[str, str]:
@@ -270,15 +270,15 @@ def radio() -> Spec:
         (
             ["messages of one caller", "callers of one message"],
             "messages sent per step",
-            "messages heard in a step",
+            "messages received per step",
         ),
-        (["age when heard"], "delay, s", "age when heard, s"),
-        (["ages at a slow brain"], "age when heard, s", "share of messages"),
+        (["age at receipt"], "delay, s", "age at receipt, s"),
+        (["ages at a slow brain"], "age at receipt, s", "share of messages"),
     ]
     drawn = []
     for series, x, y in panels:
         some = [row for row in rows("radio") if row.series in series]
-        form = staircase() if series == ["age when heard"] else curves(some)
+        form = staircase() if series == ["age at receipt"] else curves(some)
         layers = [*form, *points(some, legend=len(series) > 1)]
         drawn.append(panel(layers, x, y, width=WIDTH // 2))
     return page_of({"vconcat": [side_by_side(*drawn[:2]), side_by_side(*drawn[2:])]})

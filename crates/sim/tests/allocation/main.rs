@@ -1,4 +1,4 @@
-//! Once a run has got going, a step allocates nothing.
+//! After a warm-up, a step does not allocate.
 
 #![allow(
     clippy::unwrap_used,
@@ -20,8 +20,8 @@ use std::sync::Arc;
 
 const WARM_UP: usize = 6000;
 
-/// In so many of the steps after that, some list may be longer than it has ever been.
-const NEW_MOSTS: usize = 3;
+/// The number of steps after the warm-up in which a list may exceed its previous maximum length.
+const NEW_MAXIMA: usize = 3;
 
 fn everything() -> Simulation {
     let text = include_str!("everything.toml");
@@ -31,19 +31,19 @@ fn everything() -> Simulation {
 }
 
 #[test]
-fn a_step_allocates_nothing() {
+fn a_step_does_not_allocate() {
     let mut simulation = everything();
     (0..WARM_UP).for_each(|_| simulation.step());
     let steps = (0..3000).map(|_| measure(|| simulation.step()).count_total);
     let allocating = steps.filter(|count| *count > 0).count();
-    assert!(allocating <= NEW_MOSTS, "{allocating}");
+    assert!(allocating <= NEW_MAXIMA, "{allocating}");
     let outcome = simulation.outcome();
     assert!(outcome.collisions > 10 && outcome.false_alarms > 10);
     assert!(outcome.found.iter().sum::<u32>() > 0);
 }
 
 #[test]
-fn a_flocks_step_allocates_nothing() {
+fn a_step_of_a_flock_does_not_allocate() {
     let text = include_str!("../../../../python/agent_economy/scenarios/flock.toml");
     let document = Document::parse("flock.toml", text).unwrap();
     let scenario = ScenarioSpec::read(&document).unwrap().scenario;
@@ -53,7 +53,7 @@ fn a_flocks_step_allocates_nothing() {
     assert_eq!(steps.sum::<u64>(), 0);
 }
 
-/// Commands of all rovers; what they hold is allocated before the step.
+/// Commands for all rovers, whose messages are allocated before the step.
 fn commands(messages: usize) -> BTreeMap<RobotId, Command> {
     let message = Message {
         about: About::Item {
@@ -71,9 +71,9 @@ fn commands(messages: usize) -> BTreeMap<RobotId, Command> {
     (0..12).map(|index| (id(index), command.clone())).collect()
 }
 
-/// Handing commands in takes some allocations, always as many.
+/// Passing commands takes a constant number of allocations.
 #[test]
-fn messages_are_sent_and_heard_without_allocating() {
+fn messages_are_sent_and_received_without_allocation() {
     let mut simulation = everything();
     let mut count = |messages| {
         let commands = commands(messages);
@@ -85,14 +85,14 @@ fn messages_are_sent_and_heard_without_allocating() {
     }
     let silent = count(0);
     let others = (0..1000).filter(|_| count(6) != silent).count();
-    assert!(others <= NEW_MOSTS, "{others} {silent} {}", count(6));
+    assert!(others <= NEW_MAXIMA, "{others} {silent} {}", count(6));
 }
 
-/// What a mind is said to keep at most, in bytes: in all, for each cell, and for each ray.
-const MIND: [usize; 3] = [40_000, 20, 40];
+/// Documented maximum size of beliefs in bytes: constant part, per cell, and per ray.
+const BELIEFS_BYTES: [usize; 3] = [40_000, 20, 40];
 
-/// An explorer in a field of so many cells.
-fn mind(cells: usize, rays: u32) -> Brain {
+/// A belief-based brain with a map of this number of cells.
+fn brain_with_beliefs(cells: usize, rays: u32) -> Brain {
     let spec = format!(
         r#"{{
             "arbitration": {{"kind": "goals"}},
@@ -135,8 +135,8 @@ fn mind(cells: usize, rays: u32) -> Brain {
     Brain::new(Arc::new(spec), Arc::new(body))
 }
 
-/// A percept with more of everything than a mind keeps: items, robots that are near, and senders.
-fn throng(step: u32, rays: u32) -> Percept {
+/// A percept with more items, nearby robots and senders than beliefs can hold.
+fn crowded_percept(step: u32, rays: u32) -> Percept {
     let spread = |number: u32| f64::from((number * 7919 + step * 104_729) % 1000) / 1000.0;
     let id = |number: u32| RobotId {
         kind: 0,
@@ -211,25 +211,22 @@ fn throng(step: u32, rays: u32) -> Percept {
 }
 
 #[test]
-fn a_mind_keeps_no_more_than_is_said_whatever_it_perceives() {
+fn beliefs_stay_within_their_documented_size() {
     for (cells, rays) in [(16, 16), (4096, 360), (30_000, 16)] {
-        let percepts: Vec<Percept> = (0..400).map(|step| throng(step, rays)).collect();
-        let begin = mind(cells, rays);
+        let percepts: Vec<Percept> = (0..400).map(|step| crowded_percept(step, rays)).collect();
+        let initial = brain_with_beliefs(cells, rays);
         let mut kept = None;
         let bytes = measure(|| {
-            let mut brain = begin.clone();
+            let mut brain = initial.clone();
             let mut command = Command::default();
             for percept in &percepts {
                 brain.step_into(percept, &mut command);
             }
             kept = Some(brain);
         });
-        let most = MIND[0] + MIND[1] * cells + MIND[2] * rays as usize;
+        let max = BELIEFS_BYTES[0] + BELIEFS_BYTES[1] * cells + BELIEFS_BYTES[2] * rays as usize;
         let bytes = usize::try_from(bytes.bytes_current).unwrap();
-        assert!(
-            bytes <= most,
-            "{cells} cells, {rays} rays: {bytes} of {most}"
-        );
+        assert!(bytes <= max, "{cells} cells, {rays} rays: {bytes} of {max}");
         let belief_state = kept.unwrap().belief_state().unwrap();
         assert_eq!(
             (belief_state.items.len(), belief_state.robots.len()),

@@ -1,4 +1,4 @@
-//! A constant speed and rate of turn make a circle, exactly but for rounding.
+//! A constant speed and turn rate give a circle, up to rounding errors.
 
 use crate::rows::{Row, assert_published};
 use crate::setup::{first_of, moving, only, run, scenario};
@@ -10,20 +10,20 @@ const TEXT: &str = include_str!("../../../../docs/validation/motion.toml");
 const START: Point = Point { x: 50.0, y: 50.0 };
 const STEP_S: f64 = 0.1;
 
-/// Rounding may put a body off by so much after 100,000 steps, in metres.
-const MOST_M: f64 = 1e-9;
+/// Bound on the rounding error of the position after 100,000 steps, in metres.
+const MAX_ERROR_M: f64 = 1e-9;
 
-/// Steps after which it is looked where the body is.
+/// Steps after which the position is compared.
 const STEPS: [u32; 6] = [1, 10, 100, 1_000, 10_000, 100_000];
 
-/// Speeds in m/s and rates of turn in rad/s, and a name.
+/// Speed in m/s, turn rate in rad/s, and a name.
 const ARCS: [(&str, f64, f64); 3] = [
     ("radius 0.5 m", 1.0, 2.0),
     ("radius 5 m", 2.0, -0.4),
     ("radius 20 m", 4.0, 0.2),
 ];
 
-/// Where the circle is after a time.
+/// The position on the circle after a time.
 fn on_circle(speed_m_s: f64, turn_rate_rad_s: f64, time_s: f64) -> Point {
     let angle_rad = turn_rate_rad_s * time_s;
     let radius_m = speed_m_s / turn_rate_rad_s;
@@ -33,7 +33,7 @@ fn on_circle(speed_m_s: f64, turn_rate_rad_s: f64, time_s: f64) -> Point {
     })
 }
 
-/// How far the simulator's body is from the circle.
+/// Distances of the simulated body from the exact position.
 fn simulated(speed_m_s: f64, turn_rate_rad_s: f64) -> Vec<f64> {
     let mut simulation = run(&scenario(TEXT, &[]), 1, 0);
     let command = moving(speed_m_s, turn_rate_rad_s);
@@ -51,7 +51,7 @@ fn simulated(speed_m_s: f64, turn_rate_rad_s: f64) -> Vec<f64> {
     off_m.to_vec()
 }
 
-/// The same for a body that goes straight in each step, as Euler's method has it: a wrong simulator.
+/// The same for a body that drives straight in each step (Euler's method): a wrong simulator.
 fn euler(speed_m_s: f64, turn_rate_rad_s: f64) -> Vec<f64> {
     let (mut at, mut done) = (START, 0);
     let off_m = STEPS.map(|steps| {
@@ -85,12 +85,12 @@ fn a_body_stays_on_its_circle_for_100_000_steps() {
     let (_, speed, turn) = ARCS[1];
     off.extend(rows("radius 5 m by Euler's method", euler(speed, turn)));
     assert_published("arcs.csv", &off);
-    assert!(worst_m < MOST_M, "{off:#?}");
+    assert!(worst_m < MAX_ERROR_M, "{off:#?}");
 }
 
 #[test]
-fn a_body_moved_by_eulers_method_is_off_its_circle_in_the_first_steps() {
+fn eulers_method_leaves_the_circle_in_the_first_steps() {
     for (_, speed, turn) in ARCS {
-        assert!(euler(speed, turn)[1] > 1e6 * MOST_M);
+        assert!(euler(speed, turn)[1] > 1e6 * MAX_ERROR_M);
     }
 }

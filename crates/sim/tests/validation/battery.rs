@@ -1,4 +1,4 @@
-//! A battery lasts as long as its capacity by the power, to within a step.
+//! A battery lasts for its capacity divided by the power, to within a step.
 
 use crate::rows::{Row, assert_published};
 use crate::setup::{first_of, list, moving, only, places, run, scenario, time_s};
@@ -11,10 +11,10 @@ use std::collections::BTreeMap;
 const TEXT: &str = include_str!("../../../../docs/validation/battery.toml");
 const STEP_S: f64 = 0.1;
 
-/// In the order of the rows, in joules.
+/// Capacities in joules, in the order of the rows.
 const CAPACITIES_J: [f64; 5] = [100.0, 300.0, 1000.0, 3000.0, 10_000.0];
 
-/// A body, what it does, and the power that this takes.
+/// A body, its motion, and the power that it consumes.
 struct Case {
     name: &'static str,
     changes: Vec<(&'static str, Value)>,
@@ -22,7 +22,7 @@ struct Case {
     power_w: f64,
 }
 
-/// Where idling takes 7 W, moving 3 W, and a metre 11 J.
+/// Idling consumes 7 W, moving 3 W and each metre 11 J.
 fn cases() -> Vec<Case> {
     let case = |name, changes, does, power_w| Case {
         name,
@@ -80,7 +80,7 @@ fn table(text: &str) -> Value {
     document.get(&[]).unwrap().value.clone()
 }
 
-/// How long the battery lasts.
+/// The time until the battery is empty.
 fn life_s(case: &Case, capacity_j: f64) -> f64 {
     let mut changes = case.changes.clone();
     changes.push(("robots.body.battery.capacity_j", Value::Float(capacity_j)));
@@ -103,20 +103,20 @@ fn rows() -> Vec<Row> {
     rows.collect()
 }
 
-/// It lasts until the end of the step in which it empties; rounding may add a step.
+/// It lasts until the end of the step that empties it; rounding may add a step.
 fn is_within_a_step(row: &Row, expected_s: f64) -> bool {
     let more_s = row.measured - expected_s;
     (-1e-6..=STEP_S + 1e-6).contains(&more_s)
 }
 
 #[test]
-fn a_battery_lasts_as_long_as_its_capacity_by_the_power_to_within_a_step() {
+fn a_battery_lasts_for_its_capacity_divided_by_the_power_to_within_a_step() {
     let rows = rows();
     assert_published("battery.csv", &rows);
     for row in &rows {
         let expected_s = row.expected.unwrap();
         assert!(is_within_a_step(row, expected_s), "{row:?}");
-        // A power 1% off would show at the greatest capacity.
+        // An error of 1% in the power would be detected at the largest capacity.
         let is_large = row.x == CAPACITIES_J[4];
         assert!(!is_large || !is_within_a_step(row, 1.01 * expected_s));
         assert!(!is_large || !is_within_a_step(row, 0.99 * expected_s));

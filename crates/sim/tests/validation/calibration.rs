@@ -1,4 +1,4 @@
-//! Beliefs are calibrated: of what robots with minds believe with 0.8, 80% is there.
+//! Beliefs are calibrated: of the items that robots believe in with confidence 0.8, 80% exist.
 
 use crate::rows::{Row, assert_published, assert_right, assert_wrong};
 use crate::setup::{robots, run, scenario, time_s};
@@ -11,26 +11,26 @@ const TEXT: &str = include_str!("../../../../docs/validation/calibration.toml");
 
 const RUNS: u64 = 64;
 
-/// When robots are asked, in seconds.
-const ASKED_S: [f64; 4] = [10.0, 20.0, 40.0, 80.0];
+/// Times at which beliefs are evaluated, in seconds.
+const EVALUATED_S: [f64; 4] = [10.0, 20.0, 40.0, 80.0];
 
-/// An item is where it is believed to be if it is no farther than three standard deviations and this.
+/// A belief is true if an item is within three standard deviations plus this distance.
 const NEAR_M: f64 = 0.1;
 
-/// Beliefs are taken together by tenths of confidence.
+/// Beliefs are grouped by tenths of confidence.
 const BINS: u8 = 10;
 
-/// Of beliefs that come up in fewer runs nothing is said.
-const LEAST_RUNS: usize = 20;
+/// Groups with beliefs from fewer runs are omitted.
+const MIN_RUNS: usize = 20;
 
-/// What is believed, and whether it is so.
+/// The confidence of a belief, and whether it is true.
 #[derive(Debug, Clone, Copy)]
 struct Belief {
     confidence: f64,
     is_true: bool,
 }
 
-/// What is varied.
+/// Changed values of the scenario, by path.
 type Changes = Vec<(&'static str, Value)>;
 
 fn camera() -> [(&'static str, Changes); 3] {
@@ -52,8 +52,8 @@ fn radio(range_m: f64) -> (&'static str, Value) {
     ("robots.rover.radio.range_m", Value::Float(range_m))
 }
 
-/// What all robots believe now.
-fn asked(simulation: &Simulation) -> Vec<Belief> {
+/// The current beliefs of all robots.
+fn evaluated(simulation: &Simulation) -> Vec<Belief> {
     let each = simulation.state().each_item(simulation.scenario());
     let items: Vec<(u16, Point)> = each.map(|item| (item.kind, item.at)).collect();
     let ids = robots(simulation).into_iter().map(|robot| robot.id);
@@ -71,24 +71,24 @@ fn asked(simulation: &Simulation) -> Vec<Belief> {
     believed.map(belief).collect()
 }
 
-/// What was believed in each run.
+/// The beliefs of each run.
 fn believed(changes: &[(&str, Value)]) -> Vec<Vec<Belief>> {
     let scenario = scenario(TEXT, changes);
     let of_run = |number| {
         let mut simulation = run(&scenario, 1, number);
         let mut all = Vec::new();
-        for at_s in ASKED_S {
+        for at_s in EVALUATED_S {
             while time_s(&simulation) < at_s - 1e-6 {
                 simulation.step();
             }
-            all.extend(asked(&simulation));
+            all.extend(evaluated(&simulation));
         }
         all
     };
     (0..RUNS).into_par_iter().map(of_run).collect()
 }
 
-/// Of a run's beliefs in a bin: how many, how many true, and the sum of their confidences.
+/// Of a run's beliefs in a bin: the number, the number of true ones, and the sum of confidences.
 fn sums(beliefs: &[Belief], bin: u8) -> [f64; 3] {
     let [low, high] = [bin, bin + 1].map(|edge| f64::from(edge) / f64::from(BINS));
     let is_last = bin + 1 == BINS;
@@ -101,14 +101,14 @@ fn sums(beliefs: &[Belief], bin: u8) -> [f64; 3] {
     })
 }
 
-/// The share of a bin's beliefs that is true, beside their mean confidence.
+/// The share of true beliefs in a bin, and their mean confidence.
 ///
-/// Beliefs of one run are of the same items, so runs are clusters: the standard error is that of a ratio
-/// of sums over runs, and at least that of as many independent beliefs as runs.
+/// Beliefs of one run refer to the same items, so runs are clusters: the standard error is that of a
+/// ratio of sums over runs, and at least that of one independent belief per run.
 fn share(series: &str, runs: &[Vec<Belief>], bin: u8) -> Option<Row> {
     let each = runs.iter().map(|beliefs| sums(beliefs, bin));
     let each: Vec<[f64; 3]> = each.filter(|[count, ..]| *count > 0.0).collect();
-    if each.len() < LEAST_RUNS {
+    if each.len() < MIN_RUNS {
         return None;
     }
     let [count, right, sum] =
@@ -120,12 +120,12 @@ fn share(series: &str, runs: &[Vec<Belief>], bin: u8) -> Option<Row> {
         .map(|[count, right, sum]| right - sum - off * count);
     let squares: f64 = residuals.map(|residual| residual * residual).sum();
     let error = (squares * clusters / (clusters - 1.0)).sqrt() / count;
-    let least = (believed * (1.0 - believed) / clusters).sqrt();
+    let min_error = (believed * (1.0 - believed) / clusters).sqrt();
     Some(Row {
         series: series.to_owned(),
         x: believed,
         measured: right / count,
-        error: error.max(least),
+        error: error.max(min_error),
         expected: Some(believed),
     })
 }
@@ -138,7 +138,7 @@ fn rows(series: &str, changes: &[(&str, Value)]) -> Vec<Row> {
 }
 
 #[test]
-fn of_what_is_believed_with_some_confidence_so_much_is_true() {
+fn the_share_of_true_beliefs_equals_their_confidence() {
     let mut all = Vec::new();
     for (name, mut changes) in camera() {
         changes.push(radio(0.0));
@@ -160,7 +160,7 @@ fn of_what_is_believed_with_some_confidence_so_much_is_true() {
 }
 
 #[test]
-fn minds_that_expect_ten_times_as_many_items_are_noticed() {
+fn a_tenfold_prior_count_is_detected() {
     let many = (
         "robots.rover.brain.beliefs.prior_count.mine",
         Value::Float(80.0),

@@ -1,7 +1,7 @@
-//! Blind robots run into each other as often as the molecules of a gas in the plane.
+//! Blind robots collide at the rate of molecules of a two-dimensional gas.
 
 use crate::rows::{Row, assert_published, assert_right, assert_wrong};
-use crate::setup::{Dice, away, partners, robots, run, scenario, step, whole};
+use crate::setup::{Random, away, partners, robots, run, scenario, step, whole};
 use base::document::Value;
 use brain::{Command, RobotId};
 use sim::run::Robot;
@@ -13,13 +13,13 @@ const RADIUS_M: f64 = 0.1;
 const SPEED_M_S: f64 = 1.0;
 const STEP_S: f64 = 0.25;
 
-/// Of the square to which centres of discs come.
+/// Side of the square of possible disc centres.
 const SIDE_M: f64 = 60.0;
 const RUNS: u64 = 40;
 const STEPS: u32 = 200;
 
-/// What one run of a gas gives: contacts with others of each robot in a second, and the share of the
-/// time for which robots were free.
+/// The result of a run: contacts per robot and second, and the fraction of time in which robots were
+/// free.
 struct Gas {
     rate: f64,
     free: f64,
@@ -36,12 +36,12 @@ fn gas(count: u32, changes: &[(&str, Value)], number: u64) -> Gas {
         _ => RADIUS_M,
     };
     let mut simulation = run(&scenario, u64::from(count), number);
-    let mut dice = Dice::of_run(number);
+    let mut random = Random::of_run(number);
     let mut before = robots(&simulation);
     let mut turned = BTreeMap::new();
     let (mut contacts, mut free_m) = (0, 0.0);
     for _ in 0..STEPS {
-        let commands = away(&before, &simulation, radius_m, &mut dice);
+        let commands = away(&before, &simulation, radius_m, &mut random);
         step(&mut simulation, commands.clone());
         let now = robots(&simulation);
         contacts += new_contacts(&before, &now, radius_m);
@@ -55,8 +55,8 @@ fn gas(count: u32, changes: &[(&str, Value)], number: u64) -> Gas {
     }
 }
 
-/// How far robots have gone in a step, without those that have just turned away from something: what
-/// one of them touches in this step is no new contact, since it had not let go.
+/// The total distance of robots in a step, without those that have just turned away from a contact:
+/// that contact has not ended, so that touching again in this step does not count as a new one.
 fn gone_free_m(before: &[Robot], now: &[Robot], turned: &BTreeMap<RobotId, Command>) -> f64 {
     let pairs = before.iter().zip(now);
     let free = pairs.filter(|(robot, _)| !turned.contains_key(&robot.id));
@@ -64,8 +64,8 @@ fn gone_free_m(before: &[Robot], now: &[Robot], turned: &BTreeMap<RobotId, Comma
         .sum()
 }
 
-/// Robots that have met another in a step, both free until then. One that stands, because of a
-/// contact before, can be run into, but counts no new contact.
+/// Robots that collided with another in a step, both free before. A collision with a robot that is
+/// still stopped by an earlier contact does not count as new.
 fn new_contacts(before: &[Robot], now: &[Robot], radius_m: f64) -> u32 {
     let pairs = before.iter().zip(now);
     let new = pairs.filter(|(before, now)| now.collisions > before.collisions);
@@ -76,9 +76,9 @@ fn new_contacts(before: &[Robot], now: &[Robot], radius_m: f64) -> u32 {
     u32::try_from(met.count()).unwrap()
 }
 
-/// Contacts of one robot in a second. Two robots touch when their centres are 2R apart, so each
-/// sweeps a width of 4R, at their mean relative speed of 4/pi times their own, over n - 1 others in
-/// the area of centres; if both are free, for a share of the time each.
+/// Contacts per robot and second. Two robots touch when their centres are 2R apart, so each sweeps a
+/// width of 4R at a mean relative speed of 4/pi times its own, over n - 1 others in the area of
+/// centres, during the fraction of time in which both are free.
 fn kinetic(count: u32, free: f64) -> f64 {
     let reach_m = 2.0 * RADIUS_M;
     let relative_m_s = 4.0 / PI * SPEED_M_S;
@@ -87,15 +87,15 @@ fn kinetic(count: u32, free: f64) -> f64 {
     rate * free * free * inside(reach_m) * crowding(count)
 }
 
-/// The mean share of a circle about a point anywhere in the square that is in the square too.
+/// The mean fraction of a circle around a uniform point of the square that is inside the square.
 fn inside(radius_m: f64) -> f64 {
     let share = radius_m / SIDE_M;
     1.0 - 4.0 / PI * share + share * share / PI
 }
 
-/// How much likelier discs are to be in contact than if they did not keep others away: (1 - 7/16 e) /
-/// (1 - e)^2 with the share e of the area that they cover. D. Henderson, *A simple equation of state
-/// for hard discs*, Molecular Physics 30 (1975).
+/// The pair correlation of discs at contact, (1 - 7/16 e) / (1 - e)^2, with the fraction e of the
+/// area that they cover. D. Henderson, *A simple equation of state for hard discs*, Molecular
+/// Physics 30 (1975).
 fn crowding(count: u32) -> f64 {
     let covered = f64::from(count) * PI * RADIUS_M * RADIUS_M / (SIDE_M * SIDE_M);
     (1.0 - 7.0 / 16.0 * covered) / ((1.0 - covered) * (1.0 - covered))
@@ -120,7 +120,7 @@ fn rows(series: &str, counts: &[u32], changes: &[(&str, Value)]) -> Vec<Row> {
 }
 
 #[test]
-fn blind_robots_collide_as_often_as_molecules_of_a_gas() {
+fn blind_robots_collide_at_the_rate_of_molecules_of_a_gas() {
     let counts = [100, 200, 400];
     let mut all = rows("no stop", &counts, &[]);
     let stop = [("robots.disc.collision.stop_duration_s", Value::Float(2.0))];
@@ -130,7 +130,7 @@ fn blind_robots_collide_as_often_as_molecules_of_a_gas() {
 }
 
 #[test]
-fn discs_5_percent_smaller_collide_more_rarely() {
+fn a_radius_5_percent_smaller_is_detected() {
     let smaller = [("robots.disc.radius_m", Value::Float(0.95 * RADIUS_M))];
     assert_wrong(&rows("no stop", &[400], &smaller));
 }

@@ -1,4 +1,4 @@
-//! False alarms are a Poisson process over the area in view.
+//! False alarms are a Poisson process over the visible area.
 
 use crate::rows::{Row, assert_published, assert_right, assert_wrong};
 use crate::setup::{list, places, run, scenario};
@@ -9,14 +9,14 @@ use std::f64::consts::PI;
 const TEXT: &str = include_str!("../../../../docs/validation/false-alarms.toml");
 const RANGE_M: f64 = 2.0;
 
-/// False contacts for each square metre in view in one look: 1.6 a second, ten looks a second.
+/// False alarms per measurement and square metre of visible area: 1.6 per second at 10 Hz.
 const PER_M2: f64 = 0.16;
 const LOOKS: u32 = 40_000;
 
-/// Counts from this on are taken together.
+/// Counts from this value on are grouped.
 const MANY: u64 = 6;
 
-/// The part of a disc on the centre's side of a line at a distance from it.
+/// Area of the part of a disc on its centre's side of a line at a distance.
 fn before_a_line_m2(radius_m: f64, line_m: f64) -> f64 {
     let square = radius_m * radius_m;
     let beyond =
@@ -24,10 +24,10 @@ fn before_a_line_m2(radius_m: f64, line_m: f64) -> f64 {
     PI * square - beyond
 }
 
-/// A name, what of the scenario is another, and the area in view.
+/// A name, changed values of the scenario, and the visible area.
 type View = (&'static str, Vec<(&'static str, Value)>, f64);
 
-/// Where the robot stands and what hides a part of its view, with the area that is left.
+/// Positions of the robot and obstacles that hide a part of its view, with the visible area.
 fn views() -> [View; 3] {
     let start = |x, y| ("robots.watcher.start.at_m", places([Point { x, y }]));
     let corners = [(21.0, 0.0), (22.0, 0.0), (22.0, 40.0), (21.0, 40.0)];
@@ -52,7 +52,7 @@ fn views() -> [View; 3] {
     ]
 }
 
-/// How many looks gave each count.
+/// The number of measurements with each count.
 fn counts(changes: &[(&str, Value)]) -> Vec<u32> {
     let mut simulation = run(&scenario(TEXT, changes), 1, 0);
     let mut counts = vec![0; usize::try_from(MANY).unwrap() + 1];
@@ -80,7 +80,7 @@ fn poisson(mean: f64) -> Vec<f64> {
     all
 }
 
-/// With a rate that may be another than that of the scenario.
+/// Rows for an expected rate, which may differ from that of the scenario.
 fn rows(per_m2: f64) -> Vec<Row> {
     let views = views().into_iter();
     let rows = views.flat_map(|(series, changes, area_m2)| {
@@ -95,13 +95,13 @@ fn rows(per_m2: f64) -> Vec<Row> {
 }
 
 #[test]
-fn false_alarms_in_a_look_are_poisson_with_the_mean_of_the_area_in_view() {
+fn false_alarms_per_measurement_are_poisson_with_a_mean_proportional_to_the_visible_area() {
     let rows = rows(PER_M2);
     assert_published("false-alarms.csv", &rows);
     assert_right(&rows);
 }
 
 #[test]
-fn a_rate_of_false_alarms_5_percent_off_is_noticed() {
+fn a_false_alarm_rate_5_percent_off_is_detected() {
     assert_wrong(&rows(1.05 * PER_M2));
 }

@@ -1,4 +1,4 @@
-//! Lawnmower as wide as the sweep find in proportion to time: nothing is looked at twice.
+//! With lanes as wide as the sweep, finds are proportional to time: nothing is observed twice.
 
 use crate::rows::{Row, assert_published, assert_right, assert_wrong};
 use crate::setup::{first_of, found, run, scenario, step, turning, width_of_looks};
@@ -14,18 +14,18 @@ const ITEMS: u32 = 1000;
 const RUNS: u64 = 20;
 const LANES: u32 = 20;
 
-/// A lane of 40 m, from 5 cm to 5 cm before the walls, in metres and in steps of 0.1 m.
+/// A lane of 40 m that starts and ends 5 cm from the walls, in metres and in steps of 0.1 m.
 const LANE_M: f64 = 39.9;
 const LANE_STEPS: u32 = 399;
 
-/// Items found by one run after each of the lanes.
+/// Items found in a run after each lane.
 fn mow(range_m: f64, number: u64) -> Vec<u32> {
     let range = ("robots.mower.sensors.eye.range_m", Value::Float(range_m));
     let scenario = scenario(TEXT, &[range]);
     let mut simulation = run(&scenario, 1, number);
     let mow = |lane: u32| {
         ahead(&mut simulation, LANE_STEPS);
-        // One more look, from the end of the lane, and a turn into the next.
+        // One more measurement at the end of the lane, and a turn into the next one.
         let turn_rad = if lane.is_multiple_of(2) {
             FRAC_PI_2
         } else {
@@ -54,7 +54,7 @@ fn turn(simulation: &mut Simulation, by_rad: f64) {
 fn rows(range_m: f64) -> Vec<Row> {
     let runs: Vec<Vec<u32>> = (0..RUNS).map(|number| mow(range_m, number)).collect();
     let all = ITEMS * u32::try_from(RUNS).unwrap();
-    // Between looks 0.1 m apart, a little at the edge of a lane is never looked at.
+    // Between measurements 0.1 m apart, a small area at the edge of a lane is not observed.
     let seen = width_of_looks(0.1, RANGE_M);
     let row = |(lane, done): (usize, u32)| {
         let found = runs.iter().map(|run| run[lane]).sum();
@@ -68,13 +68,13 @@ fn rows(range_m: f64) -> Vec<Row> {
 }
 
 #[test]
-fn lanes_find_in_proportion_to_the_way_gone() {
+fn finds_are_proportional_to_the_distance_driven() {
     let rows = rows(RANGE_M);
     assert_published("lanes.csv", &rows);
     assert_right(&rows);
 }
 
 #[test]
-fn lanes_with_a_sweep_5_percent_narrower_leave_something() {
+fn a_sweep_5_percent_narrower_is_detected() {
     assert_wrong(&rows(0.95 * RANGE_M));
 }

@@ -1,4 +1,4 @@
-//! Looks at an item are independent draws: the number until it is detected is geometric.
+//! Measurements are independent: the number until an item is detected is geometric.
 
 use crate::rows::{Row, assert_published, assert_right, assert_wrong};
 use crate::setup::{circle, places, run, scenario, whole};
@@ -8,23 +8,23 @@ use base::geometry::Point;
 const TEXT: &str = include_str!("../../../../docs/validation/looks.toml");
 const CENTRE: Point = Point { x: 10.0, y: 10.0 };
 
-/// Items at each distance, and runs.
+/// Number of items at each distance, and of runs.
 const ITEMS: u32 = 2000;
 const RUNS: u64 = 20;
 
-/// Looks that are followed.
+/// Number of measurements that are evaluated.
 const LOOKS: u32 = 8;
 
-/// A distance, and the probability of detection there in one look.
+/// A distance, and the detection probability there.
 type At = (f64, f64);
 
-/// Between its points the table of the scenario is linear: 0.8 is half way from 0.9 to 0.7.
+/// The table of the scenario is interpolated linearly: 0.8 is half-way from 0.9 to 0.7.
 const BY_TABLE: [At; 3] = [(1.0, 0.8), (2.5, 0.45), (4.0, 0.2)];
 
 /// The curve: 0.6 * 2^-(distance / 1.5)^2.
 const BY_CURVE: [At; 3] = [(0.0, 0.6), (1.5, 0.3), (3.0, 0.0375)];
 
-/// How many items of each distance have not been detected after each look.
+/// The number of undetected items at each distance after each measurement.
 fn left(changes: &[(&str, Value)]) -> Vec<[u32; LOOKS as usize]> {
     let distances = BY_TABLE.iter().chain(&BY_CURVE).count();
     let around = |at: &[At]| {
@@ -44,7 +44,7 @@ fn left(changes: &[(&str, Value)]) -> Vec<[u32; LOOKS as usize]> {
     for number in 0..RUNS {
         let mut simulation = run(&scenario, 1, number);
         for look in 0..LOOKS {
-            // Five looks a second: one in two steps.
+            // Measurements at 5 Hz: one in two steps.
             simulation.step();
             simulation.step();
             let items = simulation.state().each_item(&scenario);
@@ -59,7 +59,7 @@ fn left(changes: &[(&str, Value)]) -> Vec<[u32; LOOKS as usize]> {
 fn rows(changes: &[(&str, Value)]) -> Vec<Row> {
     let left = left(changes);
     let all = ITEMS * u32::try_from(RUNS).unwrap();
-    // Kinds of items are in the order of their names.
+    // Kinds of items are in alphabetical order.
     let curve = BY_CURVE.iter().map(|at| ("curve", at));
     let table = BY_TABLE.iter().map(|at| ("table", at));
     let series = curve.chain(table).zip(left);
@@ -70,7 +70,7 @@ fn rows(changes: &[(&str, Value)]) -> Vec<Row> {
             Row::share(&series, f64::from(look), left, all, expected)
         })
     });
-    // A share of a few items is no normal number.
+    // A share of few items is not normally distributed.
     let is_many = |row: &Row| {
         row.expected
             .is_some_and(|share| share * f64::from(all) > 25.0)
@@ -79,14 +79,14 @@ fn rows(changes: &[(&str, Value)]) -> Vec<Row> {
 }
 
 #[test]
-fn the_number_of_looks_until_detection_is_geometric() {
+fn the_number_of_measurements_until_detection_is_geometric() {
     let rows = rows(&[]);
     assert_published("looks.csv", &rows);
     assert_right(&rows);
 }
 
 #[test]
-fn a_probability_of_detection_5_percent_off_is_noticed() {
+fn a_detection_probability_5_percent_off_is_detected() {
     let curve = "robots.watcher.sensors.eye.detection_probability.by_curve.peak";
     assert_wrong(&rows(&[(curve, Value::Float(0.57))]));
 }

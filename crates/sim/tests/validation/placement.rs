@@ -1,4 +1,4 @@
-//! What is put anywhere is anywhere that is free, each place as likely.
+//! Uniform placement is uniform over the free area.
 
 use crate::rows::{Row, assert_published, assert_right, assert_wrong};
 use crate::setup::{places, robots, run, scenario};
@@ -8,7 +8,7 @@ use base::geometry::Point;
 const TEXT: &str = include_str!("../../../../docs/validation/placement.toml");
 const RUNS: u64 = 400;
 
-/// Squares of 1 m, 20 in each of 10 rows; a block covers two rows of four in the middle.
+/// Squares of 1 m in 10 rows of 20; a block covers two rows of four in the middle.
 const SIZE: [usize; 2] = [20, 10];
 const BLOCKED: u32 = 8;
 
@@ -26,7 +26,7 @@ fn square(place: Point) -> usize {
     (place.y as usize).min(rows - 1) * columns + (place.x as usize).min(columns - 1)
 }
 
-/// How many items and robots are in each square, of all runs.
+/// The numbers of items and robots in each square, over all runs.
 fn counts(changes: &[(&str, Value)]) -> [Vec<u32>; 2] {
     let scenario = scenario(TEXT, changes);
     let mut counts = [vec![0; SIZE[0] * SIZE[1]], vec![0; SIZE[0] * SIZE[1]]];
@@ -42,7 +42,7 @@ fn counts(changes: &[(&str, Value)]) -> [Vec<u32>; 2] {
     counts
 }
 
-/// Shares of items by square.
+/// Share of items in each square.
 fn items(counts: &[u32]) -> Vec<Row> {
     let all = counts.iter().sum();
     let free = 200 - BLOCKED;
@@ -56,8 +56,8 @@ fn items(counts: &[u32]) -> Vec<Row> {
     squares.collect()
 }
 
-/// Shares of robots by column; their centres keep 0.1 m from walls and from the block, whose corners
-/// are round for them by less than a square centimetre.
+/// Share of robots in each column. Their centres keep 0.1 m from walls and from the block; its
+/// rounded corners change the area by less than a square centimetre.
 fn robots_by_column(counts: &[u32]) -> Vec<Row> {
     const RADIUS_M: f64 = 0.1;
     let height_m = 10.0 - 2.0 * RADIUS_M;
@@ -79,7 +79,7 @@ fn robots_by_column(counts: &[u32]) -> Vec<Row> {
 }
 
 #[test]
-fn items_and_robots_are_everywhere_as_often_and_never_in_a_block() {
+fn items_and_robots_are_uniform_over_the_free_area() {
     let [in_squares, robots] = counts(&[]);
     let rows = [items(&in_squares), robots_by_column(&robots)].concat();
     assert_published("placement.csv", &rows);
@@ -89,7 +89,7 @@ fn items_and_robots_are_everywhere_as_often_and_never_in_a_block() {
 }
 
 #[test]
-fn items_that_are_only_in_99_percent_of_the_field_are_not_everywhere() {
+fn items_in_only_99_percent_of_the_field_are_detected() {
     let within = places([Point::default(), Point { x: 19.8, y: 10.0 }]);
     let [in_squares, _] = counts(&[
         ("items.target.placement.kind", Value::Text("uniform".into())),
@@ -99,7 +99,7 @@ fn items_that_are_only_in_99_percent_of_the_field_are_not_everywhere() {
 }
 
 #[test]
-fn robots_are_not_everywhere_as_often_if_they_are_fatter_than_thought() {
+fn a_larger_radius_of_robots_is_detected() {
     let [_, robots] = counts(&[("robots.rover.radius_m", Value::Float(0.5))]);
     assert_wrong(&robots_by_column(&robots));
 }

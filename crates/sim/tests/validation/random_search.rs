@@ -1,8 +1,10 @@
-//! A search at random finds as B. O. Koopman, *Search and Screening* (OEG Report 56, 1946), says.
+//! Random search follows the law of B. O. Koopman, *Search and Screening* (OEG Report 56, 1946).
 
+use crate::paths::long_path_factor;
 use crate::rows::{Row, assert_published, assert_right, assert_wrong};
-use crate::setup::{Dice, away, found, robots, run, scenario, step, time_s, whole, width_of_looks};
-use crate::ways::long_ways;
+use crate::setup::{
+    Random, away, found, robots, run, scenario, step, time_s, whole, width_of_looks,
+};
 use base::document::Value;
 use sim::simulation::Simulation;
 use std::f64::consts::PI;
@@ -16,34 +18,34 @@ const STEP_S: f64 = 0.1;
 const BOUNCE_M_S: f64 = 2.0;
 const ITEMS: f64 = 300.0;
 
-/// Where the share found is read, in areas that have been swept, each part as often as it was.
+/// Swept areas, with multiplicity and relative to the whole area, at which finds are evaluated.
 const SWEPT: [f64; 7] = [0.125, 0.25, 0.5, 0.75, 1.0, 1.5, 2.0];
 
-/// Runs of each team; their shares differ by some 0.06, since items are swept together.
+/// Runs per team; their shares have a standard deviation of about 0.06, since finds are correlated.
 const RUNS: u64 = 200;
 
-/// What one run has found so far, and should have.
+/// The share of items found in a run, and its expected value.
 #[derive(Clone, Copy)]
 struct Found {
     share: f64,
     expected: f64,
 }
 
-/// One run, by `SWEPT`.
+/// One run, at each value of `SWEPT`.
 type Search = [Found; SWEPT.len()];
 
-/// Effective width of sweep of one who looks at each step.
+/// Effective sweep width of a robot with one measurement per step.
 fn width_m() -> f64 {
     2.0 * RANGE_M * width_of_looks(SPEED_M_S * STEP_S, RANGE_M)
 }
 
-/// What a search at random finds of what is spread over an area, after so long a way of all robots:
-/// Koopman's law, what robots see from where they start, and that ways are long.
-fn koopman(robots: u32, gone_m: f64) -> f64 {
+/// Expected share found after a total distance of all robots: Koopman's law, with the areas visible
+/// from the start positions and the correction for [long paths](long_path_factor).
+fn koopman(robots: u32, driven_m: f64) -> f64 {
     let unseen = 1.0 - PI * RANGE_M * RANGE_M / AREA_M2;
     let unseen: f64 = (0..robots).map(|_| unseen).product();
-    let rate = width_m() / AREA_M2 * long_ways(width_m() / AREA_M2.sqrt());
-    1.0 - unseen * libm::exp(-rate * gone_m)
+    let rate = width_m() / AREA_M2 * long_path_factor(width_m() / AREA_M2.sqrt());
+    1.0 - unseen * libm::exp(-rate * driven_m)
 }
 
 /// The searches of a team.
@@ -55,29 +57,29 @@ fn searches(robots: u32, range_m: f64) -> Vec<Search> {
     let scenario = scenario(TEXT, &changes);
     let search = |number: u64| {
         let mut simulation = run(&scenario, u64::from(robots), number);
-        let mut dice = Dice::of_run(number);
+        let mut random = Random::of_run(number);
         SWEPT.map(|swept| {
-            let gone_m = sweep(&mut simulation, &mut dice, swept * AREA_M2 / width_m());
+            let driven_m = sweep(&mut simulation, &mut random, swept * AREA_M2 / width_m());
             Found {
                 share: f64::from(found(&simulation)) / ITEMS,
-                expected: koopman(robots, gone_m),
+                expected: koopman(robots, driven_m),
             }
         })
     };
     (0..RUNS).map(search).collect()
 }
 
-/// Goes on until looks have been had over `least_m` of all robots' ways together; returns over how
-/// much they have.
-fn sweep(simulation: &mut Simulation, dice: &mut Dice, least_m: f64) -> f64 {
+/// Continues until measurements cover `min_m` of the total distance of all robots; returns the
+/// distance covered.
+fn sweep(simulation: &mut Simulation, random: &mut Random, min_m: f64) -> f64 {
     loop {
         let robots = robots(simulation);
-        let gone_m: f64 = robots.iter().map(|robot| robot.distance_m).sum();
-        let commands = away(&robots, simulation, 0.0, dice);
+        let driven_m: f64 = robots.iter().map(|robot| robot.distance_m).sum();
+        let commands = away(&robots, simulation, 0.0, random);
         step(simulation, commands);
-        // The look of this step was from where it had begun.
-        if gone_m >= least_m {
-            return gone_m;
+        // The measurement of this step was at the start position of the step.
+        if driven_m >= min_m {
+            return driven_m;
         }
     }
 }
@@ -93,8 +95,8 @@ fn rows(series: &str, searches: &[Search]) -> Vec<Row> {
     SWEPT.iter().enumerate().map(row).collect()
 }
 
-/// What a robot with a body and the shipped brain finds, by what it would sweep at full speed; there
-/// is no closed form for it.
+/// The share found by a robot with a body and the bundled brain, by the area that it would sweep at
+/// full speed; there is no closed form for it.
 fn bounce() -> Vec<Row> {
     let scenario = scenario(BOUNCE, &[]);
     let search = |number| {
@@ -112,7 +114,7 @@ fn bounce() -> Vec<Row> {
         })
     };
     let searches: Vec<Search> = (0..RUNS / 4).map(search).collect();
-    let rows = rows("shipped brain", &searches);
+    let rows = rows("bundled brain", &searches);
     let unexpected = |row| Row {
         expected: None,
         ..row
@@ -121,7 +123,7 @@ fn bounce() -> Vec<Row> {
 }
 
 #[test]
-fn random_search_finds_as_koopman_says_whatever_the_number_of_robots() {
+fn random_search_follows_koopmans_law_for_any_number_of_robots() {
     let teams = [(1, "1 robot"), (4, "4 robots"), (16, "16 robots")];
     let teams = teams.map(|(robots, series)| (series, searches(robots, RANGE_M)));
     let each = teams.iter();
@@ -130,15 +132,15 @@ fn random_search_finds_as_koopman_says_whatever_the_number_of_robots() {
         .collect();
     all.extend(rows("all", &teams.map(|(_, searches)| searches).concat()));
     assert_right(&all);
-    let shipped = bounce();
-    // While it braked too late to turn, it went along the walls and had found 0.03.
-    assert!(shipped[SWEPT.len() - 1].measured > 0.5, "{shipped:#?}");
-    all.extend(shipped);
+    let bundled = bounce();
+    // A version that braked too late to turn followed the walls, and found only 0.03.
+    assert!(bundled[SWEPT.len() - 1].measured > 0.5, "{bundled:#?}");
+    all.extend(bundled);
     assert_published("random-search.csv", &all);
 }
 
 #[test]
-fn a_width_of_sweep_5_percent_off_is_no_random_search_of_that_width() {
+fn a_sweep_width_5_percent_off_is_detected() {
     let searches = [1, 4, 16].map(|robots| searches(robots, 0.95 * RANGE_M));
     assert_wrong(&rows("all", &searches.concat()));
 }

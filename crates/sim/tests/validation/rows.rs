@@ -1,27 +1,27 @@
-//! What was measured, beside what it should be.
+//! Measured values and their expected values.
 
 use std::fmt::Write;
 use std::path::PathBuf;
 
-/// A normal number is farther than so many standard deviations from its mean once in 26 million, a
-/// mean over 40 runs, by Student's law, than so many standard errors once in 400,000. So of a right
-/// simulator each check here fails for less than one seed in 10,000. The seeds are fixed.
+/// Tolerance in standard errors. A normal variable exceeds it with probability 1 in 26 million, and
+/// the mean of 40 runs, by Student's t distribution, 1 in 400,000. So each check fails for a correct
+/// simulator with less than one seed in 10,000. The seeds are fixed.
 pub(crate) const SIGMAS: f64 = 5.5;
 
-/// One number that was measured.
+/// One measured value.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Row {
     pub(crate) series: String,
     pub(crate) x: f64,
     pub(crate) measured: f64,
-    /// Its standard error; 0 if chance has no part in it.
+    /// Standard error; 0 for a deterministic value.
     pub(crate) error: f64,
-    /// By the closed form, if there is one.
+    /// Value of the closed form, if there is one.
     pub(crate) expected: Option<f64>,
 }
 
 impl Row {
-    /// How many of so many, each with a probability.
+    /// The share of `count` in `of` independent trials with the same expected probability.
     pub(crate) fn share(series: &str, x: f64, count: u32, of: u32, expected: f64) -> Self {
         let of = f64::from(of);
         Self {
@@ -33,7 +33,7 @@ impl Row {
         }
     }
 
-    /// The mean of independent numbers.
+    /// The mean of independent values.
     pub(crate) fn mean(series: &str, x: f64, values: &[f64], expected: Option<f64>) -> Self {
         let count = count(values);
         let mean = values.iter().sum::<f64>() / count;
@@ -47,7 +47,7 @@ impl Row {
         }
     }
 
-    /// A number in which chance has no part.
+    /// A deterministic value.
     pub(crate) fn exact(series: &str, x: f64, measured: f64, expected: f64) -> Self {
         Self {
             series: series.to_owned(),
@@ -58,7 +58,7 @@ impl Row {
         }
     }
 
-    /// Standard errors from what it should be.
+    /// Distance from the expected value, in standard errors.
     pub(crate) fn sigmas(&self) -> f64 {
         let off = self.expected.map_or(0.0, |value| self.measured - value);
         if off == 0.0 { 0.0 } else { off / self.error }
@@ -70,19 +70,19 @@ fn count(values: &[f64]) -> f64 {
     values.len() as f64
 }
 
-/// The rows that are too far from what they should be for chance.
+/// The rows whose deviation from the expected value is significant.
 pub(crate) fn misses(rows: &[Row]) -> Vec<&Row> {
     let is_miss = |row: &&Row| row.sigmas().abs() > SIGMAS;
     rows.iter().filter(is_miss).collect()
 }
 
-/// No row is farther from the closed form than chance allows.
+/// Asserts that no row deviates significantly from the closed form.
 pub(crate) fn assert_right(rows: &[Row]) {
     let misses = misses(rows);
     assert!(misses.is_empty(), "{misses:#?}");
 }
 
-/// The same check tells a wrong simulator from a right one.
+/// Asserts that the check detects a wrong simulator.
 pub(crate) fn assert_wrong(rows: &[Row]) {
     let most = rows
         .iter()
@@ -91,18 +91,18 @@ pub(crate) fn assert_wrong(rows: &[Row]) {
     assert!(most > SIGMAS, "at most {most} standard errors off");
 }
 
-/// The file behind the page says the same; with `RENEW_VALIDATION=1` it is written.
+/// Asserts that the published file has the same rows; with `RENEW_VALIDATION=1` it is written.
 pub(crate) fn assert_published(name: &str, rows: &[Row]) {
     let text = written(rows);
-    let published = written_anew(name, || text.clone());
+    let published = published(name, || text.clone());
     assert!(
         published == text,
-        "docs/validation/{name} is not what the simulator gives: `make validation` renews it"
+        "docs/validation/{name} differs from the simulator's results: run `make validation`"
     );
 }
 
-/// What a file behind the page says; with `RENEW_VALIDATION=1` it is made and written first.
-pub(crate) fn written_anew(name: &str, make: impl FnOnce() -> String) -> String {
+/// Content of a published file; with `RENEW_VALIDATION=1` it is generated and written first.
+pub(crate) fn published(name: &str, make: impl FnOnce() -> String) -> String {
     let folder = [env!("CARGO_MANIFEST_DIR"), "../../docs/validation"];
     let file = folder.iter().collect::<PathBuf>().join(name);
     if std::env::var_os("RENEW_VALIDATION").is_some() {
@@ -121,14 +121,14 @@ fn written(rows: &[Row]) -> String {
     text
 }
 
-/// With seven digits.
+/// Rounded to seven significant digits.
 fn rounded(value: f64) -> String {
     let seven: f64 = format!("{value:.6e}").parse().unwrap();
     format!("{seven:?}")
 }
 
 #[test]
-fn a_mean_six_standard_errors_off_is_a_miss_and_one_five_off_is_not() {
+fn a_deviation_of_six_standard_errors_is_a_miss_and_of_five_is_not() {
     let row = |measured| Row {
         error: 0.1,
         ..Row::exact("", 0.0, measured, 1.0)

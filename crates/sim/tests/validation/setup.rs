@@ -1,4 +1,4 @@
-//! Scenarios, and scripts for robots.
+//! Scenarios, and scripted motions of robots.
 
 use base::document::{Document, Node, Value};
 use base::geometry::Point;
@@ -12,10 +12,10 @@ use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
-/// What is nearer to a wall or another body by no more touches it, in metres.
+/// Maximum gap to a wall or another body that counts as a contact, in metres.
 const TOUCH_M: f64 = 1e-6;
 
-/// The scenario of a text with some values changed, by their paths.
+/// The scenario of a document with changed values, by their paths.
 pub(crate) fn scenario(text: &str, changes: &[(&str, Value)]) -> Arc<Scenario> {
     let mut document = Document::parse("validation", text).unwrap();
     for (path, value) in changes {
@@ -26,12 +26,12 @@ pub(crate) fn scenario(text: &str, changes: &[(&str, Value)]) -> Arc<Scenario> {
     Arc::new(read.unwrap_or_else(|errors| panic!("{errors}")).scenario)
 }
 
-/// A run at its beginning.
+/// A simulation of a run at tick 0.
 pub(crate) fn run(scenario: &Arc<Scenario>, seed: u64, run: u64) -> Simulation {
     Simulation::new(Arc::clone(scenario), seed, run).unwrap()
 }
 
-/// A list as documents have it.
+/// A list value.
 pub(crate) fn list(values: impl IntoIterator<Item = Value>) -> Value {
     let node = |value| Node {
         value,
@@ -40,18 +40,18 @@ pub(crate) fn list(values: impl IntoIterator<Item = Value>) -> Value {
     Value::List(values.into_iter().map(node).collect())
 }
 
-/// A list of places as documents have it.
+/// A list value of positions.
 pub(crate) fn places(places: impl IntoIterator<Item = Point>) -> Value {
     let place = |Point { x, y }| list([x, y].map(Value::Float));
     list(places.into_iter().map(place))
 }
 
-/// A number as documents have it.
+/// An integer value.
 pub(crate) fn whole(number: u32) -> Value {
     Value::Integer(number.into())
 }
 
-/// So many places on a circle.
+/// Evenly spaced points on a circle.
 pub(crate) fn circle(centre: Point, radius_m: f64, count: u32) -> impl Iterator<Item = Point> {
     (0..count).map(move |number| {
         let (y, x) = sin_cos(f64::from(number) / f64::from(count) * std::f64::consts::TAU);
@@ -59,18 +59,18 @@ pub(crate) fn circle(centre: Point, radius_m: f64, count: u32) -> impl Iterator<
     })
 }
 
-/// The only robot of a run.
+/// The only robot of a simulation.
 pub(crate) fn only(simulation: &Simulation) -> Robot {
     let mut robots = simulation.state().each_robot(simulation.scenario());
     robots.next().unwrap()
 }
 
-/// The first robot of a kind.
+/// The id of the first robot of a kind.
 pub(crate) const fn first_of(kind: u8) -> RobotId {
     RobotId { kind, index: 0 }
 }
 
-/// To move so.
+/// A command to move.
 pub(crate) fn moving(speed_m_s: f64, turn_rate_rad_s: f64) -> Command {
     let motion = Motion {
         speed_m_s,
@@ -82,12 +82,12 @@ pub(crate) fn moving(speed_m_s: f64, turn_rate_rad_s: f64) -> Command {
     }
 }
 
-/// To turn on the spot by an angle, in one step.
+/// A command to turn on the spot by an angle within one step.
 pub(crate) fn turning(by_rad: f64, step_s: f64) -> Command {
     moving(0.0, by_rad / step_s)
 }
 
-/// Takes a step with these commands; brains that get none decide themselves.
+/// One step with these commands; the brains of other robots decide for them.
 pub(crate) fn step(simulation: &mut Simulation, commands: BTreeMap<RobotId, Command>) {
     if commands.is_empty() {
         simulation.step();
@@ -96,23 +96,23 @@ pub(crate) fn step(simulation: &mut Simulation, commands: BTreeMap<RobotId, Comm
     }
 }
 
-/// The random numbers of scripts.
-pub(crate) struct Dice(Stream);
+/// Random numbers for scripted motions.
+pub(crate) struct Random(Stream);
 
-impl Dice {
+impl Random {
     pub(crate) fn of_run(run: u64) -> Self {
         let script = Entity { kind: 0, index: 0 };
-        // Another seed than those of simulations.
+        // A seed that simulations do not use.
         Self(stream(0x5C21_7000, run, script, Purpose::Noise))
     }
 
-    /// A number from 0 to 1.
+    /// A uniform number from 0 to 1.
     pub(crate) fn unit(&mut self) -> f64 {
         unit(&mut self.0)
     }
 
-    /// The turn that takes a robot away from what it touches, given by the normals there, by the
-    /// cosine law: the sine of the angle from the first normal is uniform.
+    /// The turn of a robot away from its contacts, given their normals, by the cosine law: the sine
+    /// of the angle from the first normal is uniform.
     fn turn_away_rad(&mut self, heading_rad: f64, normals: &[Point]) -> f64 {
         let normal = normals[0];
         let facing_rad = libm::atan2(normal.y, normal.x);
@@ -125,17 +125,17 @@ impl Dice {
                 return wrapped(course_rad - heading_rad);
             }
         }
-        // It is wedged in: it tries another way in the next step.
+        // It is blocked on all sides: another direction is tried in the next step.
         FRAC_PI_2
     }
 }
 
-/// Turns for all robots that touch something, away from it by the cosine law.
+/// Commands that turn all robots with contacts away from them by the cosine law.
 pub(crate) fn away(
     robots: &[Robot],
     simulation: &Simulation,
     radius_m: f64,
-    dice: &mut Dice,
+    random: &mut Random,
 ) -> BTreeMap<RobotId, Command> {
     let scenario = simulation.scenario();
     let touching = robots.iter().filter(|robot| robot.is_touching);
@@ -146,14 +146,14 @@ pub(crate) fn away(
         }
         let is_known = !normals.is_empty();
         is_known.then(|| {
-            let turn_rad = dice.turn_away_rad(robot.heading_rad, &normals);
+            let turn_rad = random.turn_away_rad(robot.heading_rad, &normals);
             (robot.id, turning(turn_rad, scenario.step_s()))
         })
     });
     turns.collect()
 }
 
-/// Directions from the robots that one touches.
+/// Directions from the robots in contact with one towards it.
 pub(crate) fn partners(robots: &[Robot], robot: &Robot, radius_m: f64) -> Vec<Point> {
     let others = robots.iter().filter(|other| other.id != robot.id);
     let ways = others.map(|other| other.at.to(robot.at));
@@ -161,7 +161,7 @@ pub(crate) fn partners(robots: &[Robot], robot: &Robot, radius_m: f64) -> Vec<Po
         .collect()
 }
 
-/// Inward normals of the world's walls that a body touches.
+/// Inward normals of the world's walls in contact with a body.
 fn walls_at(at: Point, scenario: &Scenario, radius_m: f64) -> Vec<Point> {
     let size = scenario.world().size();
     let near_m = radius_m + TOUCH_M;
@@ -186,11 +186,10 @@ pub(crate) fn found(simulation: &Simulation) -> u32 {
     simulation.outcome().found.iter().sum()
 }
 
-/// Who looks every `apart_m` sees a strip as wide as this many times the width of one who looks all
-/// the time.
+/// Effective sweep width with measurements every `apart_m`, relative to continuous measurement.
 ///
-/// The area of discs of radius r, d apart in a row, is for each of them d sqrt(r^2 - d^2/4) +
-/// 2 r^2 asin(d / 2r); divided by d and by 2r.
+/// The union of discs of radius r in a row with spacing d has the area d sqrt(r^2 - d^2/4) +
+/// 2 r^2 asin(d / 2r) per disc, which is divided by d and by 2r.
 pub(crate) fn width_of_looks(apart_m: f64, radius_m: f64) -> f64 {
     let q = apart_m / (2.0 * radius_m);
     f64::midpoint((1.0 - q * q).sqrt(), libm::asin(q) / q)

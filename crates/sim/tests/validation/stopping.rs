@@ -1,4 +1,5 @@
-//! A body stops within v^2 / 2a; a robot that goes no faster than it sees never needs more.
+//! A body stops within v^2 / 2a, so that a robot that limits its speed to its stopping distance
+//! never collides with a wall.
 
 use crate::rows::{Row, assert_published};
 use crate::setup::{first_of, moving, only, places, run, scenario};
@@ -10,15 +11,15 @@ const MOTION: &str = include_str!("../../../../docs/validation/motion.toml");
 const SIGHT: &str = include_str!("../../../../docs/validation/sight.toml");
 const ACCELERATION: &str = "robots.body.drive.max_acceleration_m_s2";
 
-/// From the start of sight.toml to the wall, hull to wall, and its brakes.
+/// Gap between the robot of `sight.toml` and the wall at the start, and its braking deceleration.
 const WALL_M: f64 = 40.0;
 const RADIUS_M: f64 = 0.25;
 const BRAKES_M_S2: f64 = 1.5;
 
-/// What rounding allows.
+/// Tolerance for rounding errors.
 const HAIR: f64 = 1e-9;
 
-/// Brings a body to a speed, wants it to stand, and returns how far it still goes.
+/// Accelerates a body to a speed, commands it to stop, and returns its stopping distance.
 fn stopping_m(speed_m_s: f64, brakes_m_s2: f64) -> f64 {
     let start = places([Point { x: 10.0, y: 50.0 }]);
     let changes = [
@@ -33,7 +34,7 @@ fn stopping_m(speed_m_s: f64, brakes_m_s2: f64) -> f64 {
         }
         only(&simulation).distance_m
     };
-    // Longer than it takes from 0 to 5 m/s with the weakest brakes.
+    // Longer than accelerating from 0 to 5 m/s takes with the lowest limit.
     let before_m = want(speed_m_s, 110);
     want(0.0, 110) - before_m
 }
@@ -53,18 +54,18 @@ fn distances() -> Vec<Row> {
 }
 
 #[test]
-fn a_body_stops_within_the_square_of_its_speed_by_twice_its_brakes() {
+fn a_body_stops_within_its_squared_speed_divided_by_twice_its_deceleration() {
     let rows = distances();
     assert_published("stopping.csv", &rows);
     for row in &rows {
         let expected = row.expected.unwrap();
         assert!((row.measured - expected).abs() < HAIR * expected, "{row:?}");
-        // Steps of Euler's method would go too far by half a step at full speed.
+        // Euler's method would overshoot by half a step at full speed.
         assert!(row.x * 0.1 / 2.0 > 1e6 * HAIR * expected);
     }
 }
 
-/// Distance from hull to wall and speed of a robot that goes towards a wall, step by step.
+/// Gap to the wall and speed in each step of a robot that drives towards a wall.
 fn approach(changes: &[(&str, Value)]) -> Vec<(f64, f64)> {
     let mut simulation = run(&scenario(SIGHT, changes), 1, 0);
     let steps = 0..400;
@@ -76,14 +77,14 @@ fn approach(changes: &[(&str, Value)]) -> Vec<(f64, f64)> {
     states.collect()
 }
 
-/// As what it sees is the nearer of the wall and the end of its rays.
+/// Whether the stopping distance exceeds the distance to the nearer of the wall and its ray range.
 fn needs_more_than_it_has((gap_m, speed_m_s): &(f64, f64)) -> bool {
     let seen_m = gap_m.min(8.0 - RADIUS_M);
     speed_m_s * speed_m_s / (2.0 * BRAKES_M_S2) > seen_m + HAIR
 }
 
 #[test]
-fn a_robot_that_knows_how_far_it_sees_can_always_stop_before_a_wall() {
+fn a_robot_that_limits_its_speed_to_the_stopping_distance_always_stops_before_a_wall() {
     let states = approach(&[]);
     let every_third = states.iter().step_by(3);
     let rows = every_third.map(|(gap_m, speed_m_s)| Row {
@@ -99,11 +100,11 @@ fn a_robot_that_knows_how_far_it_sees_can_always_stop_before_a_wall() {
     assert_published("sight.csv", &rows);
     assert!(!states.iter().any(needs_more_than_it_has));
     let fastest = states.iter().map(|(_, speed)| *speed).fold(0.0, f64::max);
-    assert!(fastest > 4.0, "it is not slow for want of trying");
+    assert!(fastest > 4.0, "it reaches a high speed");
 }
 
 #[test]
-fn a_robot_that_does_not_care_what_it_sees_cannot() {
+fn a_robot_without_the_limit_does_not_always_stop_before_a_wall() {
     let careless = (
         "robots.rover.brain.limit_speed_to_stopping_distance",
         Value::Bool(false),

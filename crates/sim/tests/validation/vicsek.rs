@@ -1,9 +1,9 @@
-//! The order of a swarm falls with noise as in T. Vicsek, A. Czirok, E. Ben-Jacob, I. Cohen and
-//! O. Shochet, *Novel type of phase transition in a system of self-driven particles*, Physical Review
-//! Letters 75 (1995), figure 2.
+//! The order of a flock decreases with noise as in T. Vicsek, A. Czirok, E. Ben-Jacob, I. Cohen and
+//! O. Shochet, *Novel type of phase transition in a system of self-driven particles*, Physical
+//! Review Letters 75 (1995), figure 2.
 
 use crate::rows::{Row, SIGMAS, assert_published, assert_right, assert_wrong};
-use crate::setup::{Dice, list, run, scenario, whole};
+use crate::setup::{Random, list, run, scenario, whole};
 use base::document::Value;
 use base::geometry::{Point, Torus};
 use base::trig::sin_cos;
@@ -11,21 +11,21 @@ use std::f64::consts::{PI, TAU};
 
 const TEXT: &str = include_str!("../../../../docs/validation/vicsek.toml");
 
-/// The paper's, in its unit: how far a particle sees.
+/// Interaction radius of the paper, in its unit.
 const PER_M: f64 = 0.1;
 const DENSITY: f64 = 4.0;
 const STEP: f64 = 0.03;
 
-/// Widths of the noise, in radians: those of the paper's figure, and a whole turn.
+/// Widths of the noise in radians: those of the paper's figure, and a full turn.
 const NOISES: [f64; 6] = [0.5, 1.0, 2.0, 3.0, 4.0, 5.0];
 
-/// Steps until order has come about, and over which it is averaged.
+/// Steps until the order has settled, and steps over which it is averaged.
 const BEFORE: u32 = 150;
 const STEPS: u32 = 250;
 
 const RUNS: u64 = 40;
 
-/// How long the mean of courses of length 1 is: the paper's order parameter.
+/// The paper's order parameter: the length of the mean of unit vectors along the courses.
 fn order(courses: impl Iterator<Item = f64>) -> f64 {
     let (mut sum, mut count) = (Point::default(), 0.0);
     for course_rad in courses {
@@ -44,7 +44,7 @@ fn mean_order(mut step: impl FnMut() -> f64) -> f64 {
     (0..STEPS).map(|_| step()).sum::<f64>() / f64::from(STEPS)
 }
 
-/// What the simulator gives.
+/// Results of the simulator.
 fn simulated(particles: u32, noise_rad: f64) -> Vec<f64> {
     let side_m = (f64::from(particles) / DENSITY).sqrt() / PER_M;
     let noise = format!("noise_deg = {}", noise_rad.to_degrees());
@@ -66,26 +66,26 @@ fn simulated(particles: u32, noise_rad: f64) -> Vec<f64> {
     (0..RUNS).map(order_of).collect()
 }
 
-/// The paper's rule, written down pair by pair in its own unit, with chances of its own: all take the
-/// mean course of those no farther than 1, themselves among them, and then go along it.
+/// The paper's rule, computed pair by pair in its unit with separate random numbers: each particle
+/// takes the mean course of all within a distance of 1, including itself, and moves along it.
 fn direct(particles: u32, noise_rad: f64) -> Vec<f64> {
     let side = (f64::from(particles) / DENSITY).sqrt();
     let torus = Torus {
         size_m: Point { x: side, y: side },
     };
     let order_of = |number| {
-        let mut dice = Dice::of_run(number);
+        let mut random = Random::of_run(number);
         let mut places: Vec<Point> = (0..particles)
             .map(|_| Point {
-                x: side * dice.unit(),
-                y: side * dice.unit(),
+                x: side * random.unit(),
+                y: side * random.unit(),
             })
             .collect();
-        let mut courses: Vec<f64> = (0..particles).map(|_| TAU * dice.unit() - PI).collect();
+        let mut courses: Vec<f64> = (0..particles).map(|_| TAU * random.unit() - PI).collect();
         mean_order(|| {
             courses = turned(&places, &courses, torus);
             for (place, course) in places.iter_mut().zip(&mut courses) {
-                *course += noise_rad * (dice.unit() - 0.5);
+                *course += noise_rad * (random.unit() - 0.5);
                 let (y, x) = sin_cos(*course);
                 *place = torus.home(place.plus(Point { x, y }.times(STEP)));
             }
@@ -95,7 +95,7 @@ fn direct(particles: u32, noise_rad: f64) -> Vec<f64> {
     (0..RUNS).map(order_of).collect()
 }
 
-/// The mean course about each particle.
+/// The mean course around each particle.
 fn turned(places: &[Point], courses: &[f64], torus: Torus) -> Vec<f64> {
     let ways: Vec<(f64, f64)> = courses.iter().map(|course| sin_cos(*course)).collect();
     let about = |place: &Point| {
@@ -109,14 +109,14 @@ fn turned(places: &[Point], courses: &[f64], torus: Torus) -> Vec<f64> {
     places.iter().map(about).collect()
 }
 
-/// Courses that have nothing to do with each other are those of a random walk in the plane: Rayleigh's
-/// law (K. V. Mardia and P. E. Jupp, *Directional Statistics*, 2000, section 4.8), with its next term.
-fn of_chance(particles: u32) -> f64 {
+/// Independent courses form a random walk in the plane: Rayleigh's law with its next term (K. V.
+/// Mardia and P. E. Jupp, *Directional Statistics*, 2000, section 4.8).
+fn of_independent(particles: u32) -> f64 {
     let count = f64::from(particles);
     (PI / count).sqrt() / 2.0 * (1.0 + 1.0 / (16.0 * count))
 }
 
-/// What the simulator gives beside the direct program; both have errors.
+/// The simulator's result compared with the direct computation; both have standard errors.
 fn beside(particles: u32, simulated: &[f64], noise_rad: f64) -> Row {
     let expected = Row::mean("", 0.0, &direct(particles, noise_rad), None);
     let row = Row::mean(
@@ -131,14 +131,14 @@ fn beside(particles: u32, simulated: &[f64], noise_rad: f64) -> Row {
     }
 }
 
-fn by_chance(particles: u32) -> Row {
+fn without_order(particles: u32) -> Row {
     let series = format!("{particles} robots of any course");
-    let expected = Some(of_chance(particles));
+    let expected = Some(of_independent(particles));
     Row::mean(&series, TAU, &simulated(particles, TAU), expected)
 }
 
 #[test]
-fn a_swarms_order_falls_with_noise_as_vicsek_says() {
+fn the_order_of_a_flock_decreases_with_noise_as_vicsek_reports() {
     let mut rows = Vec::new();
     for particles in [40, 100] {
         let row = |noise: &f64| beside(particles, &simulated(particles, *noise), *noise);
@@ -151,13 +151,13 @@ fn a_swarms_order_falls_with_noise_as_vicsek_says() {
     assert!(rows.windows(2).all(falls), "{rows:#?}");
     let many = |noise: &f64| Row::mean("400 robots", *noise, &simulated(400, *noise), None);
     rows.extend(NOISES.iter().map(many));
-    rows.extend([40, 100, 400].map(by_chance));
+    rows.extend([40, 100, 400].map(without_order));
     assert_right(&rows);
     assert_published("vicsek.csv", &rows);
 }
 
 #[test]
-fn noise_5_percent_too_wide_is_not_that_noise() {
+fn noise_5_percent_too_wide_is_detected() {
     let row = |noise: &f64| beside(40, &simulated(40, 1.05 * *noise), *noise);
     assert_wrong(&NOISES.iter().map(row).collect::<Vec<Row>>());
 }

@@ -1,4 +1,5 @@
-//! Robots whose only behaviour is `flock` are computed together, with the results of separate brains.
+//! Robots whose only behaviour is `flock` are computed together, with the same results as separate
+//! brains.
 
 use crate::common::{go, id, robots, scenario, start, step_with};
 use brain::{Command, RobotId, SensorRequest};

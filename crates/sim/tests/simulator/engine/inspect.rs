@@ -95,7 +95,8 @@ fn the_reasons_of_a_decision_are_reported() {
         let leads = |behaviour| decision.leading == Some(behaviour);
         let first = belief_state.goals.iter().find(|goal| goal.is_pursued);
         pursued += u32::from(first.is_some_and(|goal| leads(goal.behaviour)));
-        // The active reflex, or the behaviour of the pursued goal; a heading is only chosen towards a goal.
+        // The active reflex, or the behaviour of the pursued goal; a heading is only chosen
+        // towards a goal.
         assert!(leads(2) || first.is_none_or(|goal| leads(goal.behaviour)));
         assert!(belief_state.reach.is_none() || !leads(2));
         reached += u32::from(belief_state.reach.is_some());

@@ -1,30 +1,31 @@
-//! Searching by belief beside lanes, where nothing is missed and where looks miss.
+//! Bayesian search compared with lanes, for perfect and imperfect detection.
 //!
-//! The times of 1,000 worlds are kept in a file. A test takes some of them again, and the claims are of all.
+//! A file contains the times of 1,000 worlds. The test repeats some of them; the claims are based on
+//! all of them.
 
-use crate::rows::written_anew;
+use crate::rows::published;
 use crate::setup::{list, run, scenario};
 use base::document::{Node, Table, Value};
 use rayon::prelude::*;
 use std::fmt::Write;
 
 const TEXT: &str = include_str!("../../../../scenarios/search-beliefs.toml");
-const FILE: &str = "search-minds.csv";
+const FILE: &str = "belief-search.csv";
 
 const WORLDS: u64 = 1000;
 
-/// So many of them are searched again in each test.
-const AGAIN: u64 = 10;
+/// The number of worlds that the test repeats.
+const REPEATED: u64 = 10;
 
-/// Half a 99% interval, in standard errors.
+/// Half-width of a 99% interval, in standard errors.
 const Z99: f64 = 2.576;
 
-/// What a camera sees in a look of what is in view, in percent, and until when all are to be found.
+/// Detection probability of a camera in percent, and time limit in seconds.
 const CAMERAS: [(u8, f64); 3] = [(100, 600.0), (30, 600.0), (10, 2400.0)];
 
 const BY: [&str; 2] = ["lawnmower", "bayesian_search"];
 
-/// The searches of each world, those of a camera beside each other, in seconds.
+/// Durations of the searches of a world in seconds, grouped by camera.
 type Times = [f64; 2 * CAMERAS.len()];
 
 fn behaviour(kind: &str) -> Value {
@@ -35,7 +36,7 @@ fn behaviour(kind: &str) -> Value {
     Value::Table(Table::from([("kind".to_owned(), node)]))
 }
 
-/// Times of the first so many worlds.
+/// Durations in the first `worlds` worlds.
 fn times_s(worlds: u64, (percent, time_limit_s): (u8, f64), search: &str) -> Vec<f64> {
     let sensor = |path, value| (path, Value::Float(value));
     let changes = [
@@ -84,7 +85,8 @@ fn read(text: &str) -> Vec<Times> {
     text.lines().skip(1).map(times).collect()
 }
 
-/// The ratio of the mean times of two searches of the same worlds, between the ends of its 99% interval.
+/// The ratio of the mean durations of two searches of the same worlds, between the bounds of its 99%
+/// interval.
 fn ratio(times: &[Times], [slow, fast]: [usize; 2]) -> [f64; 3] {
     let count = f64::from(u32::try_from(times.len()).unwrap());
     let sum = |search: usize| times.iter().map(|times| times[search]).sum::<f64>();
@@ -96,12 +98,12 @@ fn ratio(times: &[Times], [slow, fast]: [usize; 2]) -> [f64; 3] {
 }
 
 #[test]
-fn search_by_belief_is_sooner_than_lanes_whether_looks_miss_or_not() {
-    let all = written_anew(FILE, || written(&measured(WORLDS)));
-    let again = written(&measured(AGAIN));
+fn bayesian_search_is_faster_than_lanes_for_any_detection_probability() {
+    let all = published(FILE, || written(&measured(WORLDS)));
+    let repeated = written(&measured(REPEATED));
     assert!(
-        all.starts_with(&again),
-        "docs/validation/{FILE} is not what the simulator gives: `make validation` renews it"
+        all.starts_with(&repeated),
+        "docs/validation/{FILE} differs from the simulator's results: run `make validation`"
     );
     let times = read(&all);
     assert_eq!(times.len(), 1000);
