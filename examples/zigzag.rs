@@ -71,7 +71,7 @@ impl Behaviour for Ready {
     /// The proposal for this step; `None` would leave the robot to lower behaviours.
     fn triggered(&self, memory: &mut Memory, situation: &Situation) -> Option<Proposal> {
         if let Some(turn) = &mut memory.turn {
-            if let Some(motion) = turn.go_on(situation) {
+            if let Some(motion) = turn.next_motion(situation) {
                 return Some(motion.into());
             }
             (memory.turn, memory.straight_s) = (None, 0.0);

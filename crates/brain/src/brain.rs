@@ -68,8 +68,8 @@ impl Brain {
         }
     }
 
-    /// This brain with the specification and body of another, which may differ only in what they
-    /// say of other robots.
+    /// This brain with the specification and body of another brain, which may differ only in the
+    /// parts that describe other robots.
     #[must_use]
     pub fn rebriefed(&self, other: &Self) -> Self {
         Self {

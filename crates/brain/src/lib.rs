@@ -1,14 +1,14 @@
-//! A robot's mind, the same in simulation and on a real robot: a [`Percept`] comes in, a
-//! [`Command`] goes out, and nothing else.
+//! The brain of a robot, identical in simulation and on a real robot: a pure function from a
+//! [`Percept`] and its memory to a [`Command`].
 //!
-//! It has no clock, file, thread or random numbers of its own: time and chance come in the percept,
-//! requests and messages leave in the command. So the same percepts give the same commands,
-//! wherever they come from. The compiler sees to it: without `std` there is no clock, file, thread,
-//! environment or network to be had.
+//! It uses no clock, file, thread or random numbers: time and random words are part of the percept,
+//! requests and messages are part of the command. So the same percepts always give the same
+//! commands. The compiler enforces this: without `std` there is no clock, file, thread, environment
+//! or network.
 //!
-//! * [`Percept`], [`Command`], [`Body`]: the seam;
-//! * [`BrainSpec`]: what a scenario says of a brain;
-//! * [`Brain`]: the mind of one robot.
+//! * [`Percept`], [`Command`], [`Body`]: the interface;
+//! * [`BrainSpec`]: the brain's part of a scenario;
+//! * [`Brain`]: the brain of one robot.
 //!
 //! ```
 //! use brain::{Body, Brain, BrainSpec, Percept};
@@ -22,7 +22,7 @@
 //!     ..Body::default()
 //! };
 //! let mut brain = Brain::new(Arc::new(BrainSpec::default()), Arc::new(body));
-//! // It has no range sensor and touches nothing: ahead, as fast as it can.
+//! // Without range sensors and contacts it drives straight ahead at maximum speed.
 //! assert_eq!(brain.step(&Percept::default()).motion.speed_m_s, 1.0);
 //! ```
 

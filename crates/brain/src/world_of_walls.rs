@@ -1,4 +1,4 @@
-//! For tests: a disc that obeys its commands exactly, among walls that its rays measure exactly.
+//! For tests: a disc that executes commands exactly, among walls that its rays measure exactly.
 
 use crate::brain::Brain;
 use crate::io::body::{Body, RangeRing, RobotId};
@@ -10,10 +10,10 @@ use base::trig::{sin_cos, wrapped};
 use std::collections::VecDeque;
 use std::f64::consts::{PI, TAU};
 
-/// Parts of a step in which the disc moves and is looked at.
+/// Substeps of a step of motion.
 const PARTS: u32 = 20;
 
-/// Rays all around, the first ahead; a scan at each step of 0.1 s, at once.
+/// Rays in all directions, the first ahead, with a scan at each step of 0.1 s without latency.
 pub(crate) fn ring(rays: usize, range_m: f64) -> RangeRing {
     #[expect(clippy::cast_precision_loss, reason = "few")]
     let bearing = |ray| wrapped(TAU * ray as f64 / rays as f64);
@@ -26,9 +26,9 @@ pub(crate) fn ring(rays: usize, range_m: f64) -> RangeRing {
     }
 }
 
-/// Where the ray from `origin` along `direction` comes upon a wall from its free side, in lengths
-/// of `direction`; from the solid side, or along it, it meets nothing. An end on the ray counts for
-/// both of its sides, so that a ray between two walls with a common end meets one of them.
+/// The distance, in lengths of `direction`, at which the ray from `origin` meets the free side of a
+/// wall; the solid side, and a ray along the wall, meet nothing. An end on the ray counts for both
+/// sides, so that a ray between two walls with a common end meets one of them.
 fn hit(wall: &Segment, origin: Point, direction: Point) -> Option<f64> {
     let (from, to) = (origin.to(wall.from), origin.to(wall.to));
     let (right, left) = (direction.cross(from), direction.cross(to));
@@ -38,7 +38,7 @@ fn hit(wall: &Segment, origin: Point, direction: Point) -> Option<f64> {
     (comes_from_free && ahead >= 0.0).then_some(ahead)
 }
 
-/// A small robot with 16 sonars.
+/// A small robot with 16 sonar sensors.
 pub(crate) fn rover() -> Body {
     Body {
         radius_m: 0.25,
@@ -56,7 +56,7 @@ pub(crate) fn room(width: f64, height: f64) -> Vec<Segment> {
     outline(&[[0.0, 0.0], [width, 0.0], [width, height], [0.0, height]])
 }
 
-/// Walls from corner to corner, free on the left.
+/// Walls between consecutive corners, free on the left.
 pub(crate) fn outline(corners: &[[f64; 2]]) -> Vec<Segment> {
     let next = corners.iter().cycle().skip(1);
     let sides = corners.iter().zip(next);
@@ -68,22 +68,22 @@ pub(crate) fn outline(corners: &[[f64; 2]]) -> Vec<Segment> {
         .collect()
 }
 
-/// What of its percepts a robot gets.
+/// The sensors of a robot.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Wiring {
-    /// Steps from one scan to the next, less one.
+    /// Steps between scans, minus one.
     pub(crate) scans_apart: usize,
-    /// Steps until a scan has come in.
+    /// Latency of a scan, in steps.
     pub(crate) latency: usize,
     pub(crate) touch: bool,
     pub(crate) compass: bool,
-    /// Where it is, and a look of its first detector at each step that recognises nothing.
+    /// Pose readings, and a measurement without contacts of its first detector in each step.
     pub(crate) position: bool,
-    /// Share of the battery that a second takes; 0 without a gauge.
+    /// Fraction of the battery used per second; 0 without a gauge.
     pub(crate) drain: f64,
 }
 
-/// A robot in its world.
+/// A robot and its world.
 pub(crate) struct Walk {
     pub(crate) body: Body,
     pub(crate) walls: Vec<Segment>,
@@ -91,17 +91,17 @@ pub(crate) struct Walk {
     pub(crate) at: Point,
     pub(crate) heading_rad: f64,
     pub(crate) speed_m_s: f64,
-    /// Which robot it is, of how many.
+    /// Index of the robot, and number of robots.
     pub(crate) id: (RobotId, u32),
-    /// Others that it sees, wherever they are.
+    /// Other robots, which it always detects.
     pub(crate) others: Vec<(RobotId, Point)>,
-    /// From its hull to the nearest wall, the least so far.
+    /// The minimum distance from its footprint to a wall up to now.
     pub(crate) min_gap_m: f64,
     pub(crate) is_touching: bool,
     steps: usize,
-    /// Scans that were measured, with their steps.
+    /// Measured scans with their steps.
     scans: VecDeque<(usize, Vec<f64>)>,
-    dice: Stream,
+    random: Stream,
 }
 
 impl Walk {
@@ -120,11 +120,11 @@ impl Walk {
             is_touching: false,
             steps: 0,
             scans: VecDeque::new(),
-            dice: stream(1, 0, robot, Purpose::Start),
+            random: stream(1, 0, robot, Purpose::Start),
         }
     }
 
-    /// So many steps under a brain.
+    /// Runs a brain for a number of steps.
     pub(crate) fn run(&mut self, brain: &mut Brain, steps: usize) {
         let mut command = Command::default();
         for _ in 0..steps {
@@ -162,7 +162,7 @@ impl Walk {
             battery: has_gauge.then_some(now(left)),
             observations: self.wiring.position.then_some(look).into_iter().collect(),
             neighbours: self.others.iter().map(|other| self.seen(other)).collect(),
-            random_words: std::array::from_fn(|_| self.dice.next_u32()),
+            random_words: std::array::from_fn(|_| self.random.next_u32()),
             touch: self.wiring.touch.then_some(now(self.is_touching)),
             heading_rad: self.wiring.compass.then_some(now(self.heading_rad)),
             scans: vec![scan.unwrap_or_default(); self.body.rings.len()],
@@ -198,15 +198,15 @@ impl Walk {
         ring.bearings_rad.iter().map(range).collect()
     }
 
-    /// Does for a period what it is told; at a wall it stands.
-    pub(crate) fn step(&mut self, told: Motion) {
+    /// Executes a motion for one period; the robot stops at walls.
+    pub(crate) fn step(&mut self, motion: Motion) {
         let part_s = self.body.period_s / f64::from(PARTS);
         let most = self.body.max_acceleration_m_s2 * part_s;
         self.is_touching = false;
         for _ in 0..PARTS {
             let before_m_s = self.speed_m_s;
-            self.speed_m_s += (told.speed_m_s - before_m_s).clamp(-most, most);
-            self.heading_rad = wrapped(self.heading_rad + told.turn_rate_rad_s * part_s);
+            self.speed_m_s += (motion.speed_m_s - before_m_s).clamp(-most, most);
+            self.heading_rad = wrapped(self.heading_rad + motion.turn_rate_rad_s * part_s);
             let (y, x) = sin_cos(self.heading_rad);
             let change_m_s = self.speed_m_s - before_m_s;
             let change_s = change_m_s.abs() / self.body.max_acceleration_m_s2;
@@ -233,7 +233,7 @@ impl Walk {
     }
 }
 
-/// A reading without delay.
+/// A reading of age 0.
 pub(crate) fn now<T>(value: T) -> Reading<T> {
     Reading { value, age_s: 0.0 }
 }

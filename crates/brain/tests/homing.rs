@@ -1,11 +1,11 @@
-//! When a brain alone goes home, whatever its battery's gauge says.
+//! Returning home in a brain without a simulator, for correct and faulty battery readings.
 
 use base::geometry::Point;
 use brain::behaviours::{BehaviourSpec, Navigate, ReturnHome};
 use brain::{Arbitration, Body, Brain, BrainSpec, Percept, Reading};
 use std::sync::Arc;
 
-/// Its errand is to the east, and home in the west.
+/// A brain with a waypoint in the east and its base in the west.
 fn brain() -> Brain {
     let body = Body {
         radius_m: 0.25,
@@ -35,7 +35,7 @@ fn brain() -> Brain {
     Brain::new(Arc::new(spec), Arc::new(body))
 }
 
-/// Whether it wants to go home after one more reading.
+/// Whether it returns home after one more reading.
 fn goes_home(brain: &mut Brain, left: f64, age_s: f64) -> bool {
     let reading = |value| Some(Reading { value, age_s: 0.0 });
     let percept = Percept {
@@ -53,13 +53,13 @@ fn goes_home(brain: &mut Brain, left: f64, age_s: f64) -> bool {
         .is_some_and(|belief_state| belief_state.goals.iter().any(|goal| goal.behaviour == 1))
 }
 
-/// The same after so many readings of the same.
+/// The same after a number of equal readings.
 fn goes_home_after(brain: &mut Brain, readings: u32, left: f64) -> bool {
     (0..readings).fold(false, |_, _| goes_home(brain, left, 0.0))
 }
 
 #[test]
-fn one_bad_reading_sends_nobody_home_also_at_the_first_look() {
+fn a_single_low_reading_does_not_trigger_a_return_even_if_it_is_the_first() {
     let bad = [
         (-5.0, 0.0),
         (f64::NAN, 0.0),
@@ -80,7 +80,7 @@ fn one_bad_reading_sends_nobody_home_also_at_the_first_look() {
 }
 
 #[test]
-fn readings_that_are_nonsense_send_nobody_home_however_many() {
+fn invalid_readings_never_trigger_a_return() {
     for (left, age_s) in [(-5.0, 0.0), (2.0, 0.0), (0.0, 1e6), (f64::NAN, 0.0)] {
         let mut brain = brain();
         goes_home_after(&mut brain, 50, 0.9);
@@ -90,19 +90,19 @@ fn readings_that_are_nonsense_send_nobody_home_however_many() {
 }
 
 #[test]
-fn two_low_readings_send_it_home_and_it_stays_there_until_it_is_charged() {
+fn two_low_readings_trigger_a_return_until_the_battery_is_charged() {
     let mut brain = brain();
     assert!(!goes_home_after(&mut brain, 50, 0.9));
     assert!(!goes_home(&mut brain, 0.09, 0.0));
     assert!(goes_home(&mut brain, 0.09, 0.0));
-    // A gauge that wavers, or the beginning of a charge.
+    // A noisy gauge, or the start of charging.
     assert!(goes_home_after(&mut brain, 50, 0.15));
     assert!(!goes_home_after(&mut brain, 2, 0.9));
     assert!(!goes_home_after(&mut brain, 100, 0.9));
 }
 
 #[test]
-fn a_gauge_that_stuck_at_nothing_for_a_while_is_forgotten_when_it_reads_well() {
+fn the_robot_recovers_from_a_gauge_that_was_stuck_at_zero() {
     let mut brain = brain();
     goes_home_after(&mut brain, 50, 0.9);
     assert!(goes_home_after(&mut brain, 5, 0.0));
@@ -111,9 +111,9 @@ fn a_gauge_that_stuck_at_nothing_for_a_while_is_forgotten_when_it_reads_well() {
 }
 
 #[test]
-fn it_goes_home_while_the_battery_lasts_for_twice_the_way() {
+fn it_returns_while_the_battery_lasts_for_twice_the_path() {
     let mut brain = brain();
-    // 0.02 a second: 18 s, twice the way of 9 m, are left at 0.36.
+    // 0.02 per second: at 0.36 the battery lasts 18 s, twice the time for 9 m.
     let left = |step: u32| 1.0 - 0.002 * f64::from(step);
     let went = (0..500).find(|step| goes_home(&mut brain, left(*step), 0.0));
     let left = went.map(left);

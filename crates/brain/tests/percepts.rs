@@ -1,4 +1,4 @@
-//! Any percepts that can be: what brains make of them, and their way through JSON.
+//! Arbitrary percepts: the commands and beliefs that result, and serialisation as JSON.
 
 use base::geometry::{Point, Rectangle};
 use brain::behaviours::{
@@ -32,7 +32,7 @@ fn rover() -> Body {
     }
 }
 
-/// Brains that make motions in different ways, with a mind and without.
+/// Brains with different behaviours and arbitrations, with and without beliefs.
 #[expect(clippy::unwrap_used, reason = "written here")]
 fn brains(body: &Body) -> Vec<Brain> {
     let correct = r#"[{"kind": "cruise"}, {"kind": "correct", "waypoints_m": [[5, 0], [0, 5]]}, {"kind": "avoid"}]"#;
@@ -52,7 +52,7 @@ fn brains(body: &Body) -> Vec<Brain> {
     specs.iter().map(brain).collect()
 }
 
-/// A rover that knows of a mission, recognises two kinds of items, and meets robots of two kinds.
+/// A rover with a mission area and detectors for two kinds of items and two kinds of robots.
 fn explorer() -> Body {
     let eye = |sensor| Detector {
         sensor,
@@ -80,8 +80,8 @@ fn explorer() -> Body {
     }
 }
 
-/// All behaviours in one mind, each in its turn the highest.
-fn mind(arbitration: Arbitration, turn: usize, body: &Body) -> Brain {
+/// A brain with all behaviours, rotated so that each can be the highest.
+fn full_brain(arbitration: Arbitration, turn: usize, body: &Body) -> Brain {
     let waypoints_m = vec![Point { x: 5.0, y: 5.0 }, Point { x: -5.0, y: 0.0 }];
     let mut behaviours = vec![
         BehaviourSpec::Cruise(Cruise::default()),
@@ -117,7 +117,7 @@ fn arbitration() -> impl Strategy<Value = Arbitration> {
     prop_oneof![Just(Arbitration::Subsumption), Just(Arbitration::Goals)]
 }
 
-/// Mostly a sensible number, and at times anything that fits into 64 bits.
+/// Mostly a plausible number, sometimes any 64-bit value.
 fn number(low: f64, high: f64) -> impl Strategy<Value = f64> {
     prop_oneof![8 => low..high, 1 => any::<f64>(), 1 => Just(f64::INFINITY)]
 }
@@ -152,13 +152,13 @@ fn motion(number: Numbers) -> impl Strategy<Value = Motion> {
     })
 }
 
-fn scans(number: Numbers, most: usize) -> impl Strategy<Value = Vec<Scan>> {
+fn scans(number: Numbers, max: usize) -> impl Strategy<Value = Vec<Scan>> {
     let range = prop_oneof![4 => number(0.2, 4.0), 1 => Just(f64::INFINITY)];
     let rays = prop_oneof![8 => Just(16_usize), 1 => 0_usize..20];
     let ranges = rays.prop_flat_map(move |rays| proptest::collection::vec(range.clone(), rays));
     let scan = (proptest::option::weighted(0.9, number(0.0, 0.6)), ranges);
     let scan = scan.prop_map(|(age_s, ranges_m)| Scan { age_s, ranges_m });
-    proptest::collection::vec(scan, 0..=most)
+    proptest::collection::vec(scan, 0..=max)
 }
 
 fn robot() -> impl Strategy<Value = RobotId> {
@@ -198,13 +198,13 @@ fn message(number: Numbers) -> impl Strategy<Value = Message> {
         .prop_map(|(about, confidence)| Message { about, confidence })
 }
 
-/// Robots that are there, or of which nobody has ever heard.
+/// Ids of existing and of unknown robots.
 fn known_robot() -> impl Strategy<Value = RobotId> {
     let few = (0_u8..2, 0_u32..3).prop_map(|(kind, index)| RobotId { kind, index });
     prop_oneof![4 => few, 1 => robot()]
 }
 
-/// What is about others: items, robots, messages.
+/// Contacts, neighbours and messages.
 fn others(
     number: Numbers,
 ) -> impl Strategy<Value = (Vec<Contact>, Vec<Neighbour>, Vec<ReceivedMessage>)> {
@@ -227,7 +227,7 @@ fn others(
             id,
         },
     );
-    let heard =
+    let received =
         (known_robot(), number(0.0, 1.0), message(number)).prop_map(|(from, age_s, message)| {
             ReceivedMessage {
                 from,
@@ -239,7 +239,7 @@ fn others(
     (
         proptest::collection::vec(contact, some.clone()),
         proptest::collection::vec(neighbour, some.clone()),
-        proptest::collection::vec(heard, some),
+        proptest::collection::vec(received, some),
     )
 }
 
@@ -254,12 +254,12 @@ fn percept(number: Numbers) -> impl Strategy<Value = Percept> {
     let clock = (number(0.0, 1e4), any::<[u32; 4]>());
     let look =
         (0_u16..3, number(0.0, 1.0)).prop_map(|(sensor, age_s)| Observation { sensor, age_s });
-    let told = (
+    let identity = (
         known_robot(),
         0_u32..4,
         proptest::collection::vec(look, 0..3),
     );
-    (clock, readings, scans(number, 2), others(number), told).prop_map(
+    (clock, readings, scans(number, 2), others(number), identity).prop_map(
         |(
             (time_s, random_words),
             readings,
@@ -349,19 +349,19 @@ fn motions(brain: &mut Brain, percepts: &[Percept]) -> Vec<Motion> {
 
 proptest! {
     #[test]
-    fn a_percept_comes_back_from_json_as_it_was(percept in percept(finite)) {
+    fn a_percept_survives_a_round_trip_through_json(percept in percept(finite)) {
         let text = serde_json::to_string(&percept).unwrap();
         prop_assert_eq!(serde_json::from_str::<Percept>(&text).unwrap(), percept);
     }
 
     #[test]
-    fn a_command_comes_back_from_json_as_it_was(command in command()) {
+    fn a_command_survives_a_round_trip_through_json(command in command()) {
         let text = serde_json::to_string(&command).unwrap();
         prop_assert_eq!(serde_json::from_str::<Command>(&text).unwrap(), command);
     }
 
     #[test]
-    fn whatever_a_percept_holds_the_command_is_finite_and_within_the_bodys_limits(
+    fn commands_are_finite_and_within_limits_for_any_percept(
         percepts in proptest::collection::vec(percept(absurd), 1..60),
     ) {
         let mut all = brains(&rover());
@@ -372,7 +372,7 @@ proptest! {
     }
 
     #[test]
-    fn whatever_a_body_is_the_command_is_finite(
+    fn commands_are_finite_for_any_body(
         numbers in proptest::array::uniform8(number(0.0, 3.0)),
         bearings in proptest::collection::vec(number(-4.0, 4.0), 0..20),
         percepts in proptest::collection::vec(percept(absurd), 1..9),
@@ -415,11 +415,11 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(100))]
 
     #[test]
-    fn whatever_a_mind_perceives_it_stays_sane(
+    fn beliefs_are_valid_for_any_percepts(
         percepts in proptest::collection::vec(percept(absurd), 1..50),
         arbitration in arbitration(), turn in 0_usize..11,
     ) {
-        let mut brain = mind(arbitration, turn, &explorer());
+        let mut brain = full_brain(arbitration, turn, &explorer());
         for percept in &percepts {
             let Command { motion, outbox, .. } = brain.step(percept);
             prop_assert!((-0.5..=1.0).contains(&motion.speed_m_s), "{motion:?}");
@@ -435,8 +435,8 @@ proptest! {
         arbitration in arbitration(), turn in 0_usize..11, at in 0_usize..40,
     ) {
         let body = explorer();
-        let mut first = mind(arbitration.clone(), turn, &body);
-        let mut again = mind(arbitration, turn, &body);
+        let mut first = full_brain(arbitration.clone(), turn, &body);
+        let mut again = full_brain(arbitration, turn, &body);
         let (before, after) = percepts.split_at(at % percepts.len());
         let step = |brain: &mut Brain, percept| format!("{:?}", brain.step(percept));
         for percept in before {
@@ -453,10 +453,10 @@ proptest! {
     }
 
     #[test]
-    fn robots_that_change_their_numbers_are_still_sane(
+    fn beliefs_are_valid_after_renumbering(
         percepts in proptest::collection::vec(percept(absurd), 1..30), gone in 0_u32..3,
     ) {
-        let mut brain = mind(Arbitration::Goals, 5, &explorer());
+        let mut brain = full_brain(Arbitration::Goals, 5, &explorer());
         for percept in &percepts {
             check_outbox(&brain.step(percept).outbox)?;
             brain.renumber(|id| {
@@ -468,7 +468,7 @@ proptest! {
     }
 
     #[test]
-    fn whatever_body_a_mind_is_in_its_command_is_finite(
+    fn commands_with_beliefs_are_finite_for_any_body(
         numbers in proptest::array::uniform8(number(0.0, 3.0)),
         percepts in proptest::collection::vec(percept(absurd), 1..20),
     ) {
@@ -487,7 +487,7 @@ proptest! {
             position_noise_m: noise_m,
             ..body
         };
-        let mut brain = mind(Arbitration::Goals, 5, &body);
+        let mut brain = full_brain(Arbitration::Goals, 5, &body);
         for motion in motions(&mut brain, &percepts) {
             prop_assert!(motion.speed_m_s.is_finite(), "{motion:?}");
             prop_assert!(motion.turn_rate_rad_s.is_finite(), "{motion:?}");
@@ -496,7 +496,7 @@ proptest! {
 }
 
 #[test]
-fn infinite_ranges_are_null_in_json_and_nothing_is_left_out_that_must_be_there() {
+fn infinite_ranges_are_null_in_json_and_required_fields_are_present() {
     let percept = Percept {
         scans: vec![Scan {
             age_s: Some(0.1),
@@ -512,7 +512,7 @@ fn infinite_ranges_are_null_in_json_and_nothing_is_left_out_that_must_be_there()
 }
 
 #[test]
-fn a_body_that_changes_its_speed_at_once_has_null_for_its_acceleration() {
+fn an_unlimited_acceleration_is_null_in_json() {
     let mut body = rover();
     body.max_acceleration_m_s2 = f64::INFINITY;
     let text = serde_json::to_string(&body).unwrap();
@@ -521,7 +521,7 @@ fn a_body_that_changes_its_speed_at_once_has_null_for_its_acceleration() {
 }
 
 #[test]
-fn a_brain_is_written_as_a_scenario_says_it() {
+fn a_brain_is_serialised_as_in_a_scenario() {
     let text = r#"{
         "rate_hz": 10,
         "behaviours": [

@@ -1,4 +1,5 @@
-//! Where a brain alone believes itself to be, whatever its wheels, its compass and its position sensor say.
+//! Pose estimation in a brain without a simulator, for correct and faulty wheels, compass and position
+//! sensor.
 
 use base::geometry::Point;
 use base::random::{Entity, Purpose, Stream, stream, unit};
@@ -36,12 +37,12 @@ fn brain_in(body: Body, behaviour: BehaviourSpec) -> Brain {
     Brain::new(Arc::new(spec), Arc::new(body))
 }
 
-/// A brain whose commands are to stand.
+/// A brain that commands zero speed.
 fn still(body: Body) -> Brain {
     brain_in(body, BehaviourSpec::HoldPosition(HoldPosition::default()))
 }
 
-/// A brain whose commands are to go at 1 m/s.
+/// A brain that commands 1 m/s.
 fn going() -> Brain {
     brain_in(body(), BehaviourSpec::Cruise(Cruise::default()))
 }
@@ -78,7 +79,7 @@ fn pose(brain: &Brain) -> Pose {
         .unwrap()
 }
 
-/// What it believes after so many of the same percept.
+/// The pose after a number of equal percepts.
 fn after(brain: &mut Brain, steps: usize, percept: &Percept) -> Pose {
     for _ in 0..steps {
         brain.step(percept);
@@ -86,35 +87,35 @@ fn after(brain: &mut Brain, steps: usize, percept: &Percept) -> Pose {
     pose(brain)
 }
 
-/// How far it believes to be from (x, x).
+/// The distance of a pose from (x, x).
 fn off_m(pose: &Pose, x: f64) -> f64 {
     pose.at.to(Point { x, y: x }).length()
 }
 
-/// How far it believes to have gone in 20 s in which it was told to go at 1 m/s.
-fn gone_m(percept: &Percept) -> f64 {
+/// The estimated distance driven in 20 s at a command of 1 m/s.
+fn driven_m(percept: &Percept) -> f64 {
     let mut brain = going();
     after(&mut brain, 1, &at(0.0, 0.0));
     after(&mut brain, 200, percept).at.x
 }
 
 #[test]
-fn on_sand_it_has_gone_as_far_as_its_wheels_say_though_it_was_told_to_go_faster() {
-    let gone_m = gone_m(&wheels(0.5, 0.0, 0.0));
-    assert!((gone_m - 10.0).abs() < 0.2, "{gone_m}");
+fn wheel_odometry_overrides_the_commanded_speed() {
+    let driven_m = driven_m(&wheels(0.5, 0.0, 0.0));
+    assert!((driven_m - 10.0).abs() < 0.2, "{driven_m}");
 }
 
 #[test]
-fn without_wheels_it_has_gone_as_far_as_it_was_told() {
-    let gone_m = gone_m(&Percept::default());
-    assert!((gone_m - 19.5).abs() < 0.2, "{gone_m}");
+fn without_wheel_odometry_the_commanded_speed_counts() {
+    let driven_m = driven_m(&Percept::default());
+    assert!((driven_m - 19.5).abs() < 0.2, "{driven_m}");
 }
 
 #[test]
-fn wheels_of_long_ago_or_beyond_all_bounds_count_as_none() {
+fn old_and_implausible_wheel_readings_are_ignored() {
     for speed_m_s in [1e9, -1e9, f64::NAN, f64::INFINITY] {
-        let gone_m = gone_m(&wheels(speed_m_s, 0.0, 0.0));
-        assert!((gone_m - 19.5).abs() < 0.2, "{speed_m_s}: {gone_m}");
+        let driven_m = driven_m(&wheels(speed_m_s, 0.0, 0.0));
+        assert!((driven_m - 19.5).abs() < 0.2, "{speed_m_s}: {driven_m}");
     }
     for (speed_m_s, age_s) in [(1.0, 1000.0), (1.0, -1.0), (1e9, 0.0), (f64::NAN, 0.0)] {
         let mut brain = still(body());
@@ -129,7 +130,7 @@ fn wheels_of_long_ago_or_beyond_all_bounds_count_as_none() {
 }
 
 #[test]
-fn one_absurd_position_moves_nobody() {
+fn a_single_outlier_in_position_is_rejected() {
     for absurd_m in [1e6, 500.0, 11.0] {
         let mut brain = still(body());
         after(&mut brain, 100, &at(10.0, 0.0));
@@ -141,7 +142,7 @@ fn one_absurd_position_moves_nobody() {
 }
 
 #[test]
-fn an_absurd_first_position_is_forgotten_at_the_third_good_one() {
+fn a_wrong_first_position_is_replaced_at_the_third_consistent_one() {
     let mut brain = still(body());
     after(&mut brain, 1, &at(1e6, 0.0));
     assert!(off_m(&after(&mut brain, 2, &at(10.0, 0.0)), 10.0) > 1e5);
@@ -151,7 +152,7 @@ fn an_absurd_first_position_is_forgotten_at_the_third_good_one() {
 }
 
 #[test]
-fn who_has_stood_for_long_and_is_carried_off_knows_it_after_three_readings() {
+fn a_relocation_after_a_long_rest_is_accepted_after_three_readings() {
     let mut brain = still(body());
     after(&mut brain, 6000, &at(10.0, 0.0));
     let pose = after(&mut brain, 3, &at(15.0, 0.0));
@@ -159,7 +160,7 @@ fn who_has_stood_for_long_and_is_carried_off_knows_it_after_three_readings() {
 }
 
 #[test]
-fn who_is_carried_less_than_five_deviations_after_long_standing_knows_it_within_a_minute() {
+fn a_small_relocation_after_a_long_rest_is_tracked_within_a_minute() {
     let mut brain = still(body());
     after(&mut brain, 6000, &at(10.0, 0.0));
     let pose = after(&mut brain, 600, &at(10.3, 0.0));
@@ -167,11 +168,11 @@ fn who_is_carried_less_than_five_deviations_after_long_standing_knows_it_within_
 }
 
 #[test]
-fn one_absurd_course_turns_nobody_and_three_that_agree_do_also_across_the_wrap() {
+fn a_single_outlier_in_heading_is_rejected_and_three_in_agreement_are_accepted() {
     let (west, east) = (PI - 0.01, 0.0);
     let mut brain = still(body());
     after(&mut brain, 100, &at(0.0, west));
-    // It is as near from the other side.
+    // The same distance across the wrap of angles.
     after(&mut brain, 100, &at(0.0, west - TAU));
     let pose = after(&mut brain, 2, &at(0.0, east));
     assert!(wrapped(pose.heading_rad - west).abs() < 1e-6, "{pose:?}");
@@ -184,7 +185,7 @@ fn one_absurd_course_turns_nobody_and_three_that_agree_do_also_across_the_wrap()
 }
 
 #[test]
-fn exact_sensors_are_believed_at_once_also_by_who_is_carried_off() {
+fn exact_sensors_are_followed_at_once_even_after_a_relocation() {
     let exact = Body {
         position_noise_m: 0.0,
         heading_noise_rad: 0.0,
@@ -198,18 +199,18 @@ fn exact_sensors_are_believed_at_once_also_by_who_is_carried_off() {
     }
 }
 
-/// A number of the normal distribution (Box and Muller, *A note on the generation of random normal
+/// A normally distributed number (Box and Muller, *A note on the generation of random normal
 /// deviates*, 1958).
-fn normal(dice: &mut Stream) -> f64 {
-    let (one, other) = (1.0 - unit(dice), unit(dice));
+fn normal(random: &mut Stream) -> f64 {
+    let (one, other) = (1.0 - unit(random), unit(random));
     (-2.0 * one.ln()).sqrt() * (TAU * other).cos()
 }
 
-/// One that goes in curves, or stands; its wheels err by the share that a brain reckons with.
+/// The true motion of a robot; its wheels have the relative error that the brain assumes.
 struct Truth {
     at: Point,
     heading_rad: f64,
-    dice: Stream,
+    random: Stream,
 }
 
 impl Truth {
@@ -218,28 +219,28 @@ impl Truth {
         Self {
             at: Point::default(),
             heading_rad: 0.0,
-            dice: stream(7, run, robot, Purpose::Start),
+            random: stream(7, run, robot, Purpose::Start),
         }
     }
 
-    /// Goes for a step as its wheels say, or nearly so.
-    fn go(&mut self, said: Motion) {
-        let mut done = |rate: f64| 0.1 * rate * (1.0 + 0.02 * normal(&mut self.dice));
-        let [way_m, turn_rad] = [said.speed_m_s, said.turn_rate_rad_s].map(&mut done);
+    /// One step with the motion of the wheels plus their error.
+    fn go(&mut self, measured: Motion) {
+        let mut done = |rate: f64| 0.1 * rate * (1.0 + 0.02 * normal(&mut self.random));
+        let [way_m, turn_rad] = [measured.speed_m_s, measured.turn_rate_rad_s].map(&mut done);
         let (y, x) = (self.heading_rad + turn_rad / 2.0).sin_cos();
         self.at = self.at.plus(Point { x, y }.times(way_m));
         self.heading_rad = wrapped(self.heading_rad + turn_rad);
     }
 
-    /// Readings of the stated noise.
+    /// Readings with the stated noise.
     fn read_into(&mut self, percept: &mut Percept) {
-        let [x, y, turn] = std::array::from_fn(|_| normal(&mut self.dice));
+        let [x, y, turn] = std::array::from_fn(|_| normal(&mut self.random));
         let position = self.at.plus(Point { x, y }.times(0.1));
         percept.position = Some(now(position));
         percept.heading_rad = Some(now(self.heading_rad + 0.02 * turn));
     }
 
-    /// Squares of what the pose errs, in its deviations, of position along an axis and of course.
+    /// Squared errors of the pose in standard deviations: position per axis, and heading.
     fn squares(&self, pose: &Pose) -> [f64; 2] {
         let off_m2 = pose.at.to(self.at).length_squared() / 2.0;
         let off_rad = wrapped(pose.heading_rad - self.heading_rad);
@@ -250,7 +251,7 @@ impl Truth {
     }
 }
 
-/// Their root mean squares in some minutes at a speed, with readings at each `apart`-th step.
+/// Their root mean squares over some minutes at a speed, with readings in every `apart`-th step.
 fn rms_z(speed_m_s: f64, apart: u32) -> [f64; 2] {
     let (runs, steps) = (20_u32, 600_u32);
     let mut sums = [0.0; 2];
@@ -258,12 +259,12 @@ fn rms_z(speed_m_s: f64, apart: u32) -> [f64; 2] {
         let (mut truth, mut brain) = (Truth::new(run.into()), still(body()));
         for step in 0..steps {
             let turn_rate_rad_s = speed_m_s * (0.02 * f64::from(step)).sin();
-            let said = Motion {
+            let measured = Motion {
                 speed_m_s: speed_m_s.min(f64::from(step)),
                 turn_rate_rad_s,
             };
-            truth.go(said);
-            let mut percept = wheels(said.speed_m_s, said.turn_rate_rad_s, 0.0);
+            truth.go(measured);
+            let mut percept = wheels(measured.speed_m_s, measured.turn_rate_rad_s, 0.0);
             if step.is_multiple_of(apart) {
                 truth.read_into(&mut percept);
             }
@@ -276,7 +277,7 @@ fn rms_z(speed_m_s: f64, apart: u32) -> [f64; 2] {
 }
 
 #[test]
-fn honest_readings_leave_errors_as_large_as_stated() {
+fn the_stated_deviations_match_the_actual_errors() {
     for (speed_m_s, apart) in [(1.0, 1), (1.0, 10), (0.0, 1), (0.0, 10)] {
         let z = rms_z(speed_m_s, apart);
         let is_as_stated = z.iter().all(|z| (0.8..1.1).contains(z));

@@ -1,4 +1,4 @@
-//! How far minds act on what others tell: brains alone, stepped with percepts.
+//! The effect of trust on the use of messages, in brains without a simulator.
 
 use base::geometry::{Point, Rectangle};
 use brain::{
@@ -10,13 +10,13 @@ use std::sync::Arc;
 
 const ME: RobotId = robot(1);
 const LEADER: RobotId = robot(0);
-const LIAR: RobotId = robot(7);
+const UNRELIABLE: RobotId = robot(7);
 
 const fn robot(index: u32) -> RobotId {
     RobotId { kind: 0, index }
 }
 
-/// Looks 3 m far all around, on a field of 20 m by 20 m.
+/// A body with a detector range of 3 m in all directions, on a field of 20 m by 20 m.
 fn body() -> Body {
     let eye = Detector {
         range_m: 3.0,
@@ -46,7 +46,7 @@ fn body() -> Body {
     }
 }
 
-/// A brain with one behaviour, in JSON; trust as given, which does not change.
+/// A brain with one behaviour, in JSON, and a constant trust.
 #[expect(clippy::unwrap_used, reason = "written here")]
 fn brain(behaviour: &str, trust: &str) -> Brain {
     let spec = format!(
@@ -61,7 +61,7 @@ const fn now<T>(value: T) -> Reading<T> {
     Reading { value, age_s: 0.0 }
 }
 
-/// A step at (10, 10); returns what is told of goals.
+/// A step at (10, 10); returns the goals of the outgoing messages.
 fn step(brain: &mut Brain, inbox: Vec<ReceivedMessage>) -> Vec<(Point, CommitmentStatus)> {
     let percept = Percept {
         id: ME,
@@ -84,13 +84,13 @@ fn step(brain: &mut Brain, inbox: Vec<ReceivedMessage>) -> Vec<(Point, Commitmen
     goals.filter_map(goal).collect()
 }
 
-/// Whether it says within some seconds that it goes to a place.
+/// Whether it announces a place as its destination within some seconds.
 fn goes_to(brain: &mut Brain, to: Point, within_s: u32) -> bool {
     let mut steps = 0..10 * within_s;
     steps.any(|_| step(brain, Vec::new()).contains(&(to, CommitmentStatus::Active)))
 }
 
-/// Whether it goes anywhere in four seconds.
+/// Whether it announces any destination within four seconds.
 fn goes_anywhere(brain: &mut Brain) -> bool {
     let mut steps = 0..40;
     steps.any(|_| {
@@ -101,7 +101,7 @@ fn goes_anywhere(brain: &mut Brain) -> bool {
     })
 }
 
-fn heard(from: RobotId, about: About, [age_s, confidence]: [f64; 2]) -> ReceivedMessage {
+fn received(from: RobotId, about: About, [age_s, confidence]: [f64; 2]) -> ReceivedMessage {
     let message = Message { about, confidence };
     ReceivedMessage {
         from,
@@ -118,7 +118,7 @@ fn sender(at: Point, observations: u32) -> About {
     }
 }
 
-/// Places all over the field, two metres from each other.
+/// A grid of positions over the field, two metres apart.
 fn all_over() -> impl Iterator<Item = Point> {
     let odd = |number: i32| f64::from(2 * number + 1);
     (0..100).map(move |number| Point {
@@ -132,11 +132,11 @@ const ERRAND: &str = r#"{"kind": "navigate", "assignment": "shared", "waypoints_
 
 fn done(confidence: f64) -> ReceivedMessage {
     let (at, status) = (PLACE, CommitmentStatus::Done);
-    heard(LEADER, About::Goal { at, status }, [0.0, confidence])
+    received(LEADER, About::Goal { at, status }, [0.0, confidence])
 }
 
 #[test]
-fn who_is_not_trusted_or_not_sure_has_done_no_errand() {
+fn visits_reported_with_low_trust_or_confidence_are_ignored() {
     for (initial, confidence, is_believed) in [
         (0.9, 1.0, true),
         (0.0, 1.0, false),
@@ -153,28 +153,28 @@ fn who_is_not_trusted_or_not_sure_has_done_no_errand() {
 }
 
 #[test]
-fn who_said_once_where_it_goes_and_tells_only_where_it_is_holds_no_place() {
+fn a_commitment_expires_if_only_poses_are_reported() {
     let mut brain = brain(ERRAND, "");
     let about = About::Goal {
         at: PLACE,
         status: CommitmentStatus::Active,
     };
     let here = Point { x: 3.0, y: 3.0 };
-    let told = vec![heard(LEADER, about, [0.0, 1.0])];
-    assert!(step(&mut brain, told).is_empty());
+    let messages = vec![received(LEADER, about, [0.0, 1.0])];
+    assert!(step(&mut brain, messages).is_empty());
     let mut waits = |steps| {
         let mut steps = 0..steps;
         steps.all(|_| {
-            let where_it_is = heard(LEADER, sender(here, 1), [0.0, 1.0]);
+            let where_it_is = received(LEADER, sender(here, 1), [0.0, 1.0]);
             !step(&mut brain, vec![where_it_is]).contains(&(PLACE, CommitmentStatus::Active))
         })
     };
-    assert!(waits(95), "it is still on its way");
-    assert!(!waits(20), "nobody has heard of it for ten seconds");
+    assert!(waits(95), "the commitment is still active");
+    assert!(!waits(20), "nothing was received for ten seconds");
 }
 
 #[test]
-fn what_was_said_long_ago_or_has_no_age_holds_no_place() {
+fn old_commitments_and_those_without_a_valid_age_are_ignored() {
     for (age_s, is_held) in [
         (0.0, true),
         (5.0, true),
@@ -187,13 +187,13 @@ fn what_was_said_long_ago_or_has_no_age_holds_no_place() {
             at: PLACE,
             status: CommitmentStatus::Active,
         };
-        step(&mut brain, vec![heard(LEADER, about, [age_s, 1.0])]);
+        step(&mut brain, vec![received(LEADER, about, [age_s, 1.0])]);
         assert_eq!(!goes_to(&mut brain, PLACE, 3), is_held, "{age_s}");
     }
 }
 
 #[test]
-fn nobody_follows_where_its_leader_was_long_ago() {
+fn an_old_pose_of_the_leader_is_not_followed() {
     let there = Point { x: 18.0, y: 10.0 };
     for (age_s, for_steps) in [
         (0.0, 99..=101),
@@ -202,8 +202,8 @@ fn nobody_follows_where_its_leader_was_long_ago() {
         (-3.0, 0..=0),
     ] {
         let mut brain = brain(r#"{"kind": "follow"}"#, "");
-        let told = heard(LEADER, sender(there, 1), [age_s, 1.0]);
-        step(&mut brain, vec![told]);
+        let message = received(LEADER, sender(there, 1), [age_s, 1.0]);
+        step(&mut brain, vec![message]);
         let mut steps = 1..200;
         let wants = |brain: &mut Brain| {
             step(brain, Vec::new());
@@ -216,24 +216,29 @@ fn nobody_follows_where_its_leader_was_long_ago() {
 }
 
 #[test]
-fn however_many_looks_one_claims_who_is_not_trusted_ends_no_search() {
+fn reported_observations_of_an_untrusted_robot_do_not_end_a_search() {
     for (initial, confidence, ends) in [(0.9, 1.0, true), (0.05, 1.0, false), (0.9, 0.05, false)] {
         let trust = format!(r#""initial": {initial}, "adaptive": false"#);
         let mut brain = brain(r#"{"kind": "frontier"}"#, &trust);
         let mut observations = 0;
-        // Three times, as saying it again must not help.
+        // Three times, since repeating a report must have no effect.
         for at in all_over().chain(all_over()).chain(all_over()) {
             observations += 100_000;
             step(
                 &mut brain,
-                vec![heard(LIAR, sender(at, observations), [0.0, confidence])],
+                vec![received(
+                    UNRELIABLE,
+                    sender(at, observations),
+                    [0.0, confidence],
+                )],
             );
         }
         assert_eq!(!goes_anywhere(&mut brain), ends, "{initial} {confidence}");
     }
 }
 
-/// Lies about items in view, as observations of `by`; then robot 3 says truly that it has looked everywhere.
+/// Whether a report of robot 3 is believed after robot 7 has sent wrong reports about items in view,
+/// as observations of `observer`.
 fn believes_3_after_lies_of_7(observer: RobotId) -> bool {
     let mut brain = brain(r#"{"kind": "frontier"}"#, "");
     for track_id in 0..12 {
@@ -252,20 +257,20 @@ fn believes_3_after_lies_of_7(observer: RobotId) -> bool {
             at,
             provenance,
         };
-        step(&mut brain, vec![heard(LIAR, lie, [0.0, 1.0])]);
+        step(&mut brain, vec![received(UNRELIABLE, lie, [0.0, 1.0])]);
         (0..9).for_each(|_| drop(step(&mut brain, Vec::new())));
     }
     for (at, observations) in all_over().zip(1..) {
         step(
             &mut brain,
-            vec![heard(robot(3), sender(at, observations), [0.0, 1.0])],
+            vec![received(robot(3), sender(at, observations), [0.0, 1.0])],
         );
     }
     !goes_anywhere(&mut brain)
 }
 
 #[test]
-fn nobody_loses_trust_by_what_a_liar_says_of_him() {
-    assert!(believes_3_after_lies_of_7(LIAR));
+fn wrong_reports_do_not_reduce_the_trust_in_the_alleged_observer() {
+    assert!(believes_3_after_lies_of_7(UNRELIABLE));
     assert!(believes_3_after_lies_of_7(robot(3)));
 }

@@ -1,9 +1,8 @@
-//! Which behaviour has its way: the highest that has something to do.
+//! Subsumption: the highest triggered behaviour is active.
 //!
 //! After Brooks, *A robust layered control system for a mobile robot*, IEEE Journal of Robotics and
-//! Automation 2(1), 1986. A behaviour that has had its way keeps it for its hold time. Without that
-//! a robot locks in front of a large object: it turns away, a lower behaviour at once turns it back
-//! to its course, and so on for ever.
+//! Automation 2(1), 1986. An active behaviour stays active for its hold time. Without it a robot
+//! deadlocks in front of a large object: it turns away, and a lower behaviour at once turns it back.
 
 use crate::behaviours::behaviour::Behaviour;
 use crate::goals::proposal::Proposal;
@@ -11,11 +10,11 @@ use crate::perception::situation::Situation;
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 
-/// One robot's part in a behaviour.
+/// The state of one robot for a behaviour.
 #[derive(Debug, Clone)]
 pub(crate) struct Layer<M> {
     memory: M,
-    /// Time for which it keeps control.
+    /// Remaining hold time, in seconds.
     left_s: f32,
 }
 
@@ -24,7 +23,7 @@ impl<M> Layer<M> {
         &mut self.memory
     }
 
-    /// It keeps control for so long though it has nothing to do.
+    /// Remaining hold time, in seconds.
     pub(crate) fn holds_s(&self) -> f64 {
         self.left_s.into()
     }
@@ -41,28 +40,28 @@ pub(crate) fn layers<B: Behaviour>(behaviours: &[B]) -> Box<[Layer<B::Memory>]> 
         .collect()
 }
 
-/// What the highest behaviour with something to do, or with hold time left, asks for, and its
-/// place. The lowest comes first.
+/// The index and proposal of the highest behaviour that is triggered or has hold time left. The
+/// lowest behaviour comes first.
 #[inline]
 pub(crate) fn arbitrate<B: Behaviour>(
     behaviours: &[B],
     layers: &mut [Layer<B::Memory>],
     situation: &Situation,
 ) -> Option<(usize, Proposal)> {
-    let mut wanted = None;
+    let mut proposal = None;
     for (place, (behaviour, layer)) in behaviours.iter().zip(layers).enumerate().rev() {
-        if wanted.is_none() {
-            wanted = step(behaviour, layer, situation).map(|proposal| (place, proposal));
+        if proposal.is_none() {
+            proposal = step(behaviour, layer, situation).map(|proposal| (place, proposal));
         } else {
             behaviour.suppressed(&mut layer.memory);
             pass(layer, situation);
         }
     }
-    wanted
+    proposal
 }
 
-/// What all behaviours ask for, the highest first, down to the first that wants a motion: where it
-/// wants to be, nobody below it can know.
+/// The proposals of all behaviours, the highest first, down to the first that proposes a motion:
+/// lower destinations could not be served at the same time.
 pub(crate) fn proposals<B: Behaviour>(
     behaviours: &[B],
     layers: &mut [Layer<B::Memory>],
@@ -83,18 +82,18 @@ pub(crate) fn proposals<B: Behaviour>(
 }
 
 #[inline]
-#[expect(clippy::cast_possible_truncation, reason = "kept short")]
+#[expect(clippy::cast_possible_truncation, reason = "a few seconds")]
 pub(crate) fn step<B: Behaviour>(
     behaviour: &B,
     layer: &mut Layer<B::Memory>,
     situation: &Situation,
 ) -> Option<Proposal> {
-    let wanted = behaviour.triggered(&mut layer.memory, situation);
-    if wanted.is_some() {
+    let proposal = behaviour.triggered(&mut layer.memory, situation);
+    if proposal.is_some() {
         layer.left_s = behaviour.hold_s() as f32;
-        return wanted;
+        return proposal;
     }
-    // Half a step, so that rounding adds none.
+    // Compared with half a step, so that rounding does not add a step.
     let is_held = layer.left_s > situation.period_s() / 2.0;
     pass(layer, situation);
     is_held.then(|| behaviour.held().into())
@@ -117,11 +116,11 @@ mod tests {
     use base::geometry::Segment;
     use base::trig::wrapped;
 
-    /// Keeps to the course 0: Bender's "correct", in the lowest place.
+    /// Keeps heading 0: Bender's "correct", as the lowest behaviour.
     #[derive(Clone)]
     enum Test {
         Correct,
-        Shipped(Ready),
+        Bundled(Ready),
     }
 
     impl Behaviour for Test {
@@ -130,20 +129,20 @@ mod tests {
         fn memory(&self) -> Self::Memory {
             match self {
                 Self::Correct => None,
-                Self::Shipped(ready) => Some(ready.memory()),
+                Self::Bundled(ready) => Some(ready.memory()),
             }
         }
 
         fn hold_s(&self) -> f64 {
             match self {
                 Self::Correct => 0.0,
-                Self::Shipped(ready) => ready.hold_s(),
+                Self::Bundled(ready) => ready.hold_s(),
             }
         }
 
         fn triggered(&self, memory: &mut Self::Memory, situation: &Situation) -> Option<Proposal> {
             match (self, memory) {
-                (Self::Shipped(ready), Some(memory)) => ready.triggered(memory, situation),
+                (Self::Bundled(ready), Some(memory)) => ready.triggered(memory, situation),
                 _ => Some(to_course_0(situation).into()),
             }
         }
@@ -151,7 +150,7 @@ mod tests {
         fn held(&self) -> Motion {
             match self {
                 Self::Correct => Motion::default(),
-                Self::Shipped(ready) => ready.held(),
+                Self::Bundled(ready) => ready.held(),
             }
         }
     }
@@ -172,12 +171,12 @@ mod tests {
         }
     }
 
-    /// A wall 3 m wide across the way.
+    /// A wall 3 m wide across the path.
     fn wide_wall() -> Vec<Segment> {
         outline(&[[4.0, -1.5], [4.0, 1.5], [4.5, 1.5], [4.5, -1.5]])
     }
 
-    /// Where a robot with course 0 has come to after a minute, if avoidance holds for a time.
+    /// A minute of a robot with heading 0, for a hold time of avoidance.
     fn walk(hold_s: f64) -> Walk {
         let body = rover();
         let avoid = Avoid {
@@ -185,7 +184,7 @@ mod tests {
             hold_s,
             ..Avoid::default()
         };
-        let avoid = Test::Shipped(BehaviourSpec::Avoid(avoid).ready(&body));
+        let avoid = Test::Bundled(BehaviourSpec::Avoid(avoid).ready(&body));
         let behaviours = [Test::Correct, avoid];
         let (mut layers, mut odometry) = (layers(&behaviours), DeadReckoning::default());
         let governor = SpeedGovernor::new(&body);
@@ -207,8 +206,8 @@ mod tests {
                 turned_rad,
                 now_m_s,
             };
-            let wanted = motion(arbitrate(&behaviours, &mut layers, &situation));
-            let motion = governor.limit(wanted, &situation, &odometry);
+            let proposal = motion(arbitrate(&behaviours, &mut layers, &situation));
+            let motion = governor.limit(proposal, &situation, &odometry);
             odometry.record_command(motion, &body);
             walk.step(motion);
         }
@@ -216,20 +215,20 @@ mod tests {
     }
 
     #[test]
-    fn without_a_hold_it_locks_in_front_of_a_large_object() {
+    fn without_a_hold_time_it_deadlocks_in_front_of_a_large_object() {
         let walk = walk(0.0);
         assert!(walk.at.x < 4.0 && walk.at.y.abs() < 1.0, "{:?}", walk.at);
     }
 
     #[test]
-    fn with_a_hold_it_gets_around() {
+    fn with_a_hold_time_it_passes_a_large_object() {
         let walk = walk(2.5);
         assert!(walk.at.x > 6.0, "{:?}", walk.at);
         assert!(wrapped(walk.heading_rad).abs() < 0.2);
         assert!(walk.min_gap_m > 0.0);
     }
 
-    /// Has something to do when the touch sensor says so.
+    /// Triggered by the touch sensor.
     #[derive(Clone)]
     struct Bell {
         speed_m_s: f64,
@@ -238,7 +237,7 @@ mod tests {
     }
 
     impl Behaviour for Bell {
-        /// Steps at which it was asked, and at which it was told that it must wait.
+        /// Number of steps in which it was called, and in which it was suppressed.
         type Memory = [usize; 2];
 
         fn memory(&self) -> [usize; 2] {
@@ -267,7 +266,7 @@ mod tests {
         }
     }
 
-    /// Speeds of eight steps of two bells, the lower (1 m/s) and the higher (2 m/s).
+    /// Speeds of eight steps with two such behaviours, the lower (1 m/s) and the higher (2 m/s).
     fn ring(lower: (f64, [u8; 8]), higher: (f64, [u8; 8])) -> [f64; 8] {
         let bell = |speed_m_s, (hold_s, at): (f64, [u8; 8])| Bell {
             speed_m_s,
@@ -291,7 +290,7 @@ mod tests {
     }
 
     #[test]
-    fn the_highest_with_something_to_do_has_its_way_and_with_none_it_stands() {
+    fn the_highest_triggered_behaviour_is_active_and_without_one_the_robot_stops() {
         let speeds = ring(
             (0.0, [1, 1, 1, 0, 0, 0, 0, 1]),
             (0.0, [0, 1, 1, 1, 0, 0, 1, 0]),
@@ -300,13 +299,13 @@ mod tests {
     }
 
     #[test]
-    fn a_behaviour_keeps_control_for_its_hold_time_against_lower_ones() {
+    fn a_behaviour_stays_active_for_its_hold_time_over_lower_ones() {
         let speeds = ring((0.0, [1; 8]), (0.2, [0, 1, 0, 0, 0, 0, 1, 1]));
         assert_eq!(speeds, [1.0, 2.0, 2.0, 2.0, 1.0, 1.0, 2.0, 2.0]);
     }
 
     #[test]
-    fn a_higher_behaviour_wins_over_a_hold_which_runs_on_meanwhile() {
+    fn a_higher_behaviour_overrides_a_hold_time_which_keeps_running() {
         let speeds = ring(
             (0.4, [1, 0, 0, 0, 0, 0, 0, 0]),
             (0.0, [0, 0, 1, 0, 0, 0, 0, 0]),

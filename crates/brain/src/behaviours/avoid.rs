@@ -12,14 +12,14 @@ use core::f64::consts::{FRAC_PI_4, PI, TAU};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Two sides that differ by less are equally free, in metres.
+/// Difference below which two sides count as equally free, in metres.
 const SAME_M: f64 = 0.01;
 
-/// For one who is still touched behind, or whose compass is stuck.
+/// Time limit for reversing and turning, if contact persists or the compass is stuck, in seconds.
 const PATIENCE_S: f32 = 10.0;
 
-/// For one who cannot turn.
-const LEAST_TURN_RATE_RAD_S: f64 = 1e-3;
+/// Turn rate assumed for a robot that cannot turn, in rad/s.
+const MIN_TURN_RATE_RAD_S: f64 = 1e-3;
 
 /// Avoids what is too near: turns on the spot, to the freer side, until the way is clear. After a
 /// contact it first reverses, if the body can, and turns by at least an eighth of a turn.
@@ -74,26 +74,26 @@ pub(crate) struct Ready {
     back: Motion,
     backing_s: f64,
     turn_rate_rad_s: f64,
-    /// Of each ring, the rays on the left and on the right side of the sector.
+    /// The rays in the left and right half of the sector, per ring.
     sides: Vec<[Vec<usize>; 2]>,
 }
 
-/// What it is doing.
+/// State of the behaviour.
 #[derive(Debug, Clone)]
 pub(crate) enum Memory {
-    /// It has been clear for so long.
+    /// The path has been clear for this time, in seconds.
     Clear { since_s: f32 },
-    /// It has so long to back off once it touches nothing, and loses patience after a time.
+    /// Reversing: remaining time once contact has ended, and remaining time until the timeout.
     Backing { left_s: f32, patience_s: f32 },
-    /// It turns since a time, and has so far to turn at least.
+    /// Turning: time since the start, and remaining minimum angle.
     Turning {
         is_left: bool,
         since_s: f32,
-        least_rad: f32,
+        min_rad: f32,
     },
 }
 
-/// It begins to be clear.
+/// The initial state.
 const CLEAR: Memory = Memory::Clear { since_s: 0.0 };
 
 impl Ready {
@@ -116,13 +116,13 @@ impl Ready {
             } else {
                 0.0
             },
-            turn_rate_rad_s: body.max_turn_rate_rad_s.max(LEAST_TURN_RATE_RAD_S),
+            turn_rate_rad_s: body.max_turn_rate_rad_s.max(MIN_TURN_RATE_RAD_S),
             sides: sides.collect(),
         }
     }
 }
 
-/// The shortest range of some rays; infinite if there are none.
+/// The minimum range of some rays; infinite if there are none.
 #[inline]
 fn shortest_m(ranges_m: &[f64], rays: &[usize]) -> f64 {
     let mut shortest_m = f64::INFINITY;
@@ -136,9 +136,9 @@ fn shortest_m(ranges_m: &[f64], rays: &[usize]) -> f64 {
 }
 
 /// The rays with bearings within some bounds.
-fn rays_within(ring: &RangeRing, (least_rad, most_rad): (f64, f64)) -> Vec<usize> {
+fn rays_within(ring: &RangeRing, (min_rad, max_rad): (f64, f64)) -> Vec<usize> {
     let rays = ring.bearings_rad.iter().enumerate();
-    let within = rays.filter(|(_, bearing)| (least_rad..=most_rad).contains(bearing));
+    let within = rays.filter(|(_, bearing)| (min_rad..=max_rad).contains(bearing));
     within.map(|(ray, _)| ray).collect()
 }
 
@@ -156,7 +156,7 @@ impl Behaviour for Ready {
 
     #[inline]
     fn triggered(&self, memory: &mut Memory, situation: &Situation) -> Option<Proposal> {
-        self.go_on(memory, situation).map(Proposal::Motion)
+        self.next_motion(memory, situation).map(Proposal::Motion)
     }
 
     fn held(&self) -> Motion {
@@ -171,7 +171,7 @@ impl Behaviour for Ready {
 
 impl Ready {
     #[inline]
-    fn go_on(&self, memory: &mut Memory, situation: &Situation) -> Option<Motion> {
+    fn next_motion(&self, memory: &mut Memory, situation: &Situation) -> Option<Motion> {
         let period_s = situation.period_s();
         match memory {
             Memory::Clear { since_s } => {
@@ -179,8 +179,8 @@ impl Ready {
                 *since_s += period_s;
                 self.look(memory, clear_s, situation)
             }
-            Memory::Backing { .. } => Some(self.go_on_backing(memory, situation)),
-            Memory::Turning { .. } => self.go_on_turning(memory, situation),
+            Memory::Backing { .. } => Some(self.continue_reversing(memory, situation)),
+            Memory::Turning { .. } => self.continue_turning(memory, situation),
         }
     }
 
@@ -202,7 +202,7 @@ impl Ready {
         is_near.then(|| self.turn(memory, [left_m, right_m], 0.0, situation))
     }
 
-    fn go_on_backing(&self, memory: &mut Memory, situation: &Situation) -> Motion {
+    fn continue_reversing(&self, memory: &mut Memory, situation: &Situation) -> Motion {
         let Memory::Backing { left_s, patience_s } = memory else {
             return Motion::default();
         };
@@ -219,10 +219,10 @@ impl Ready {
 
     fn turn_from_touch(&self, memory: &mut Memory, situation: &Situation) -> Motion {
         let mut random_words = situation.random_words();
-        // The first number is for the side.
+        // The first random word selects the side.
         random_words.unit();
-        let least_rad = random_words.between(FRAC_PI_4, PI);
-        self.turn(memory, self.nearest_m(situation), least_rad, situation)
+        let min_rad = random_words.between(FRAC_PI_4, PI);
+        self.turn(memory, self.nearest_m(situation), min_rad, situation)
     }
 
     #[expect(clippy::cast_possible_truncation, reason = "kept short")]
@@ -230,10 +230,10 @@ impl Ready {
         &self,
         memory: &mut Memory,
         [left_m, right_m]: [f64; 2],
-        least_rad: f64,
+        min_rad: f64,
         situation: &Situation,
     ) -> Motion {
-        // Not a number if nothing is seen on both.
+        // NaN if nothing is detected on either side.
         let differs = (left_m - right_m).abs() >= SAME_M;
         let is_left = if differs {
             left_m > right_m
@@ -243,17 +243,17 @@ impl Ready {
         *memory = Memory::Turning {
             is_left,
             since_s: 0.0,
-            least_rad: least_rad as f32,
+            min_rad: min_rad as f32,
         };
         self.on_the_spot(is_left)
     }
 
     #[expect(clippy::cast_possible_truncation, reason = "kept short")]
-    fn go_on_turning(&self, memory: &mut Memory, situation: &Situation) -> Option<Motion> {
+    fn continue_turning(&self, memory: &mut Memory, situation: &Situation) -> Option<Motion> {
         let Memory::Turning {
             is_left,
             since_s,
-            least_rad,
+            min_rad,
         } = memory
         else {
             return None;
@@ -262,11 +262,11 @@ impl Ready {
         if !situation.is_held() {
             *since_s += situation.period_s();
         }
-        *least_rad -= situation.turned_rad.abs() as f32;
-        let has_turned = *least_rad <= 0.0 || *since_s >= PATIENCE_S;
+        *min_rad -= situation.turned_rad.abs() as f32;
+        let has_turned = *min_rad <= 0.0 || *since_s >= PATIENCE_S;
         let is_round = f64::from(*since_s) * self.turn_rate_rad_s > TAU;
         let [left_m, right_m] = self.nearest_m(situation);
-        // Where nothing is clear, somewhere is the least near.
+        // If no direction is clear, it stops at the best one.
         let clear_m = if is_round { self.near_m } else { self.clear_m };
         if has_turned && left_m.min(right_m) >= clear_m {
             *memory = CLEAR;
@@ -283,7 +283,8 @@ impl Ready {
         }
     }
 
-    /// From the hull to the nearest on the left and on the right; infinite if nothing is seen.
+    /// Distances from the footprint to the nearest obstacle on the left and on the right; infinite if
+    /// none is detected.
     #[inline]
     fn nearest_m(&self, situation: &Situation) -> [f64; 2] {
         let mut nearest_m = [f64::INFINITY; 2];
@@ -345,14 +346,14 @@ mod tests {
         }
 
         #[test]
-        fn what_is_beside_or_behind_is_not_in_its_way(ray in 4_usize..=12, range in 0.25_f64..2.0) {
+        fn obstacles_beside_or_behind_are_ignored(ray in 4_usize..=12, range in 0.25_f64..2.0) {
             let motion = brain(&rover()).step(&percept(&[(ray, range)], 0, false)).motion;
             prop_assert_eq!(motion.turn_rate_rad_s, 0.0);
         }
     }
 
     #[test]
-    fn between_sides_that_are_the_same_the_dice_decide() {
+    fn between_equally_free_sides_it_chooses_at_random() {
         let turn = |random_words| {
             let percept = percept(&[(0, 0.3)], random_words, false);
             brain(&rover()).step(&percept).motion.turn_rate_rad_s
@@ -361,11 +362,11 @@ mod tests {
     }
 
     #[test]
-    fn it_keeps_to_a_side_until_it_is_clear_and_then_goes_straight_on_for_its_hold() {
+    fn it_keeps_turning_to_one_side_until_clear_and_then_drives_straight_for_its_hold_time() {
         let mut brain = brain(&rover());
         let mut step = |ranges: &[(usize, f64)]| brain.step(&percept(ranges, 0, false)).motion;
         assert!(step(&[(1, 0.3)]).turn_rate_rad_s < 0.0);
-        // Now the other side is freer, and then it is less near but not yet clear.
+        // First the other side is freer, then the obstacle is farther away but not yet clear.
         assert!(step(&[(1, 0.4), (15, 0.3)]).turn_rate_rad_s < 0.0);
         assert!(step(&[(15, 0.42)]).turn_rate_rad_s < 0.0);
         let straight = step(&[(15, 0.46)]);
@@ -373,7 +374,7 @@ mod tests {
     }
 
     #[test]
-    fn it_backs_off_from_what_it_touches_and_turns_by_an_eighth_at_least() {
+    fn it_reverses_from_a_contact_and_turns_by_at_least_an_eighth() {
         let mut body = rover();
         body.max_reverse_speed_m_s = 0.5;
         let mut brain = brain(&body);
@@ -394,7 +395,7 @@ mod tests {
     }
 
     #[test]
-    fn while_a_collision_holds_it_its_turn_does_not_pass() {
+    fn a_turn_does_not_progress_while_a_collision_stops_the_robot() {
         let mut brain = brain(&rover());
         let mut step = |touches, turn_rate_rad_s| {
             let value = Motion {
@@ -414,7 +415,7 @@ mod tests {
     }
 
     #[test]
-    fn touch_is_not_believed_while_it_leaves() {
+    fn contact_is_ignored_while_it_leaves() {
         let mut brain = brain(&rover());
         let mut step = |touches| brain.step(&percept(&[], 0, touches)).motion.turn_rate_rad_s;
         assert!((0..5).all(|_| step(true) == 0.0));
@@ -422,7 +423,7 @@ mod tests {
     }
 
     #[test]
-    fn it_leaves_a_dead_end_that_is_hardly_wider_than_itself() {
+    fn it_leaves_a_dead_end_that_is_hardly_wider_than_the_robot() {
         let alley = outline(&[[0.0, -0.4], [3.0, -0.4], [3.0, 0.4], [0.0, 0.4]]);
         let walls = alley.into_iter().take(3).collect();
         let mut walk = Walk::new(rover(), walls, [1.0, 0.0], 0.0);
@@ -431,7 +432,7 @@ mod tests {
     }
 
     #[test]
-    fn the_blind_leave_a_wall_that_they_touch() {
+    fn without_range_sensors_it_leaves_a_wall_on_contact() {
         let mut body = rover();
         body.rings.clear();
         body.max_reverse_speed_m_s = 0.5;

@@ -16,22 +16,22 @@ use base::geometry::Point;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Time that is lost at a place besides looking there and the way, in seconds.
-const STOP_S: f64 = 0.5;
+/// Overhead per place besides driving and measuring, in seconds.
+const OVERHEAD_S: f64 = 0.5;
 
-/// A radian of turning costs so much time, in seconds.
+/// Time for turning by a radian, in seconds.
 const TURN_S_RAD: f64 = 0.5;
 
-/// It looks at a place until all but e^-2 of what is there would have been seen: 14%.
-const LOOKED: f64 = 2.0;
+/// It stays at a place until the expected undetected fraction is e^-2, or 14%.
+const MEASURED_NATS: f64 = 2.0;
 
-/// A place that promises less than this share of what it did is done.
+/// A place is complete when its expected detections are below this fraction of the initial value.
 const DONE: f64 = 0.5;
 
-/// Places to go to are so many to the range of its detectors: nearer ones promise the same.
+/// Candidate places per detector range; a denser grid gives nearly the same values.
 const PLACES: f64 = 3.0;
 
-/// Searches where a measurement promises most per second: the number of items that would be
+/// Searches where a measurement expected most per second: the number of items that would be
 /// detected there, given how likely each cell holds an undetected one, divided by the time for the
 /// path, for turning and for measuring. What is in the parts of other robots hardly counts. It
 /// never ends: a robot that has seen everything searches again.
@@ -68,12 +68,12 @@ pub(crate) struct Ready {
     outlook: Outlook,
 }
 
-/// What a robot remembers for it.
+/// The state of one robot's search.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Search {
     survey: Survey,
     part: Part,
-    /// What was promised where it goes.
+    /// The expected detections at the destination when it was selected.
     was: f64,
 }
 
@@ -85,14 +85,14 @@ impl Ready {
         }
     }
 
-    /// The place that promises most a second.
+    /// The place with the most expected detections per second.
     fn best(&self, search: &mut Search, situation: &Situation, known: &Known) -> Option<Point> {
         let Known { map, pose, beliefs } = known;
         let (Search { survey, part, .. }, outlook) = (search, &self.outlook);
         part.renew(beliefs, map);
-        let stop_duration_s = STOP_S + outlook.looks(LOOKED) * beliefs.observation_period_s();
-        let time_s =
-            |way_m: f64| stop_duration_s + way_m / self.destination.max_speed_m_s.max(1e-6);
+        let overhead_s =
+            OVERHEAD_S + outlook.measurements(MEASURED_NATS) * beliefs.observation_period_s();
+        let time_s = |way_m: f64| overhead_s + way_m / self.destination.max_speed_m_s.max(1e-6);
         let apart = apart(situation.body, map);
         let worth = |cell: usize, way_m: f64, least: f64| {
             let [column, row] = map.field.column_and_row_of(cell);
@@ -100,30 +100,30 @@ impl Ready {
             let place = map.field.centre(cell);
             let fits = map.field.edge_m(place) >= situation.body.radius_m;
             let is_place = fits && (column + row) % apart == 0;
-            if !is_place || share * outlook.most <= least * time_s(way_m) {
+            if !is_place || share * outlook.max <= least * time_s(way_m) {
                 return 0.0;
             }
             let rate = share / (time_s(way_m) + turn_s(pose, place));
             let way = pose.at.to(place);
-            // What hides things is looked for only if it matters.
+            // Occlusion is computed only if it can affect the result.
             if rate * outlook.at_best(map, place, way) <= least {
                 return 0.0;
             }
-            rate * outlook.promises(map, place, way, pose.blur_m())
+            rate * outlook.expected(map, place, way, pose.blur_m())
         };
         survey.best((map, situation.body), pose.at, worth, |way_m| {
-            outlook.most / time_s(way_m)
+            outlook.max / time_s(way_m)
         })
     }
 }
 
-/// How long it turns until it faces a place.
+/// Time to turn towards a place.
 fn turn_s(pose: &Pose, place: Point) -> f64 {
     let way = pose.in_own_frame(place);
     TURN_S_RAD * libm::atan2(way.y, way.x).abs()
 }
 
-/// One of so many cells along each row and column is a place to go to.
+/// Spacing of candidate places, in cells.
 #[expect(clippy::cast_possible_truncation, reason = "a cast saturates")]
 fn apart(body: &Body, map: &Map) -> i32 {
     let ranges = body.detectors.iter().map(|detector| detector.range_m);
@@ -131,7 +131,7 @@ fn apart(body: &Body, map: &Map) -> i32 {
     ((range_m / (PLACES * map.field.cell_m)) as i32).max(1)
 }
 
-/// What a robot knows when it thinks.
+/// The inputs of a selection.
 struct Known<'k> {
     beliefs: &'k Beliefs,
     map: &'k Map,
@@ -148,10 +148,10 @@ impl<'k> Known<'k> {
         })
     }
 
-    /// What a look promises at the end of the straight way to a place.
-    fn promises(&self, outlook: &Outlook, to: Point) -> f64 {
+    /// The expected detections of a measurement at the end of the straight path to a place.
+    fn expected(&self, outlook: &Outlook, to: Point) -> f64 {
         let Self { map, pose, .. } = self;
-        outlook.promises(map, to, pose.at.to(to), pose.blur_m())
+        outlook.expected(map, to, pose.at.to(to), pose.blur_m())
     }
 }
 
@@ -168,20 +168,20 @@ impl Behaviour for Ready {
     fn triggered(&self, memory: &mut Self::Memory, situation: &Situation) -> Option<Proposal> {
         let known = Known::new(situation)?;
         let search = memory.get_or_insert_default();
-        let going = search.survey.still_going(situation.body.period_s);
+        let destination = search.survey.current(situation.body.period_s);
         let is_there = |to: Point| known.pose.at.to(to).length() <= self.destination.tolerance_m;
-        if going.is_some_and(is_there) {
-            // What it promised and has not been seen on the way cannot be seen from there.
-            search.survey.give_up();
+        if destination.is_some_and(is_there) {
+            // The expected detections that were not made on the path cannot be made from there.
+            search.survey.abandon();
         }
-        let promised = DONE * search.was;
-        let is_on = |to: &Point| known.promises(&self.outlook, *to) > promised;
-        let to = if let Some(to) = going.filter(|to| !is_there(*to) && is_on(to)) {
+        let min_expected = DONE * search.was;
+        let is_on = |to: &Point| known.expected(&self.outlook, *to) > min_expected;
+        let to = if let Some(to) = destination.filter(|to| !is_there(*to) && is_on(to)) {
             to
         } else {
             let to = self.best(search, situation, &known)?;
-            search.was = known.promises(&self.outlook, to);
-            search.survey.going = Some((to, 0.0));
+            search.was = known.expected(&self.outlook, to);
+            search.survey.destination = Some((to, 0.0));
             to
         };
         Some(Proposal::Destination(Destination {
@@ -192,7 +192,7 @@ impl Behaviour for Ready {
 
     fn judged(&self, memory: &mut Self::Memory, _verdict: Verdict) {
         if let Some(search) = memory {
-            search.survey.give_up();
+            search.survey.abandon();
         }
     }
 

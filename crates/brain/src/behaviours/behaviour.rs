@@ -7,36 +7,35 @@ use crate::perception::situation::Situation;
 
 /// A behaviour in a body.
 pub(crate) trait Behaviour {
-    /// What a robot remembers for it.
+    /// The state that each robot keeps for this behaviour.
     type Memory: Clone;
 
-    /// Whether it is of use only to a robot with a mind.
+    /// Whether it requires beliefs.
     const NEEDS_BELIEFS: bool = false;
 
-    /// Whether it is of use only to a robot that has a position sensor and a compass, as a mind needs.
+    /// Whether it requires a position sensor and a compass, as beliefs do.
     const NEEDS_POSE: bool = Self::NEEDS_BELIEFS;
 
-    /// Whether it is of use only to a robot that recognises items.
+    /// Whether it requires an item detector.
     const NEEDS_DETECTOR: bool = false;
 
-    /// The memory of a robot that has just been switched on.
+    /// The initial memory.
     fn memory(&self) -> Self::Memory;
 
-    /// For so long it keeps control after it last had something to do.
+    /// Time for which it stays active after its trigger has ended, in seconds.
     fn hold_s(&self) -> f64 {
         0.0
     }
 
-    /// What it asks for, if it has something to do. It is asked at each step at which no higher
-    /// behaviour has control.
+    /// Its proposal, if it is triggered. Called in each step in which no higher behaviour is active.
     fn triggered(&self, memory: &mut Self::Memory, situation: &Situation) -> Option<Proposal>;
 
-    /// It is told that it does not get where it wants to be.
+    /// Called when its destination cannot be reached.
     fn judged(&self, _memory: &mut Self::Memory, _verdict: Verdict) {}
 
-    /// How it moves while it keeps control with nothing to do.
+    /// The motion while it is active without being triggered.
     fn held(&self) -> Motion;
 
-    /// Instead of being asked, it is told that a higher behaviour has control.
+    /// Called instead of `triggered` while a higher behaviour is active.
     fn suppressed(&self, _memory: &mut Self::Memory) {}
 }

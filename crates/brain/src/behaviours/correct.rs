@@ -14,12 +14,12 @@ use base::trig::wrapped;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Positions older than this are not of here.
+/// Maximum age of a position, in seconds.
 const OLDEST_S: f64 = 5.0;
 
-/// What is farther away than this, or more than this many radians, is nonsense.
+/// Larger coordinates in metres and angles in radians are invalid.
 const FARTHEST_M: f64 = 1e7;
-const MOST_RAD: f64 = 1e4;
+const MAX_RAD: f64 = 1e4;
 
 /// Turns on the spot towards a waypoint when the heading is off, one waypoint after the other; then
 /// it has nothing more to do. Between *cruise*, which moves there, and *avoid* it is the middle
@@ -59,20 +59,20 @@ impl Default for Correct {
 #[derive(Debug, Clone)]
 pub(crate) struct Ready {
     spec: Correct,
-    most_off_rad: f64,
+    tolerance_rad: f64,
 }
 
-/// What it is doing; `None` before it begins.
+/// Progress; `None` before the first step.
 pub(crate) type Memory = Option<Box<Progress>>;
 
-/// How far a robot has come.
+/// Progress of a robot on its waypoints.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Progress {
-    /// Places that it has visited.
+    /// Number of waypoints visited.
     visited: usize,
-    /// It does nothing for so long.
+    /// Remaining waiting time, in seconds.
     wait_s: f32,
-    /// Time since it last turned; what the compass said before that is not its course.
+    /// Time since its last turn, in seconds; older compass readings are not its heading.
     straight_s: f32,
     turn: Option<Turn>,
 }
@@ -81,11 +81,11 @@ impl Ready {
     pub(super) fn new(spec: &Correct, _body: &Body) -> Self {
         Self {
             spec: spec.clone(),
-            most_off_rad: spec.course_error_deg.to_radians(),
+            tolerance_rad: spec.course_error_deg.to_radians(),
         }
     }
 
-    /// The next place, seen from where it is.
+    /// The vector to the next waypoint.
     fn next(&self, progress: &mut Progress, at: Point) -> Option<Point> {
         loop {
             let place = self.spec.waypoints_m.get(progress.visited)?;
@@ -97,7 +97,7 @@ impl Ready {
     }
 
     fn look(&self, progress: &mut Progress, situation: &Situation) -> Option<Motion> {
-        // Half a step, so that rounding adds none.
+        // Compared with half a step, so that rounding does not add a step.
         if progress.wait_s > situation.period_s() / 2.0 {
             progress.wait_s -= situation.period_s();
             return None;
@@ -107,7 +107,7 @@ impl Ready {
         let heading_rad = heading_rad(situation.percept, f64::from(progress.straight_s))?;
         let way = at.to(to);
         let off_rad = wrapped(libm::atan2(way.y, way.x) - heading_rad);
-        (off_rad.abs() > self.most_off_rad).then(|| {
+        (off_rad.abs() > self.tolerance_rad).then(|| {
             let (turn, motion) = Turn::by(off_rad, situation.body);
             progress.turn = Some(turn);
             motion
@@ -124,10 +124,10 @@ fn position(percept: &Percept) -> Option<Point> {
     Some(reading.value)
 }
 
-/// The course of one who has gone straight for a time.
+/// The heading of a robot that has driven straight for a time.
 fn heading_rad(percept: &Percept, straight_s: f64) -> Option<f64> {
     let is_sensible = |Reading { value, age_s }: &Reading<f64>| {
-        (0.0..=straight_s).contains(age_s) && value.abs() <= MOST_RAD
+        (0.0..=straight_s).contains(age_s) && value.abs() <= MAX_RAD
     };
     let reading = percept.heading_rad.filter(is_sensible)?;
     Some(reading.value)
@@ -145,7 +145,7 @@ impl Behaviour for Ready {
     fn triggered(&self, memory: &mut Memory, situation: &Situation) -> Option<Proposal> {
         let progress = &mut **memory.get_or_insert_default();
         if let Some(turn) = &mut progress.turn {
-            let motion = turn.go_on(situation);
+            let motion = turn.next_motion(situation);
             if motion.is_some() {
                 return motion.map(Proposal::Motion);
             }
@@ -198,7 +198,7 @@ mod tests {
         }
     }
 
-    /// At the origin, with this course.
+    /// A percept at the origin with this heading.
     fn percept(heading_deg: f64) -> Percept {
         Percept {
             position: Some(now(Point::default())),
@@ -218,7 +218,7 @@ mod tests {
             assert_eq!(rate * sign > 0.0, sign != 0.0, "{heading_deg}");
             assert_eq!(rate != 0.0, sign != 0.0, "{heading_deg}");
         }
-        // Over the seam of the angles, where Bender's own program went wrong.
+        // Across the wrap of angles, where Bender's program had an error.
         let back = to(-9.0, 0.0);
         assert_eq!(turn_rate(back.clone(), &percept(-177.0)), 0.0);
         assert!(turn_rate(back.clone(), &percept(-170.0)) < 0.0);
@@ -226,7 +226,7 @@ mod tests {
     }
 
     #[test]
-    fn in_all_quadrants_it_ends_on_its_course() {
+    fn it_reaches_its_heading_in_all_quadrants() {
         for course_deg in [30.0_f64, 120.0, 225.0, 300.0] {
             let (y, x) = base::trig::sin_cos(course_deg.to_radians());
             let mut brain = brain(to(9.0 * x, 9.0 * y));
@@ -241,7 +241,7 @@ mod tests {
     }
 
     #[test]
-    fn without_a_position_or_a_course_it_has_nothing_to_do() {
+    fn without_a_position_or_heading_it_is_not_triggered() {
         let mut lost = percept(90.0);
         lost.position = None;
         let mut dizzy = percept(90.0);
@@ -258,14 +258,14 @@ mod tests {
     }
 
     #[test]
-    fn at_a_place_it_goes_on_to_the_next() {
+    fn at_a_waypoint_it_continues_to_the_next() {
         let mut two = to(0.3, 0.0);
         two.waypoints_m.push(Point { x: 0.0, y: 9.0 });
         assert!(turn_rate(two, &percept(0.0)) > 0.0);
     }
 
     #[test]
-    fn one_look_at_a_slow_compass_makes_one_turn() {
+    fn one_reading_of_a_slow_compass_causes_one_turn() {
         let mut brain = brain(to(0.0, 9.0));
         let mut percept = percept(0.0);
         let (mut turned_rad, mut motion) = (0.0, Motion::default());

@@ -1,27 +1,28 @@
-//! Which places a robot still has to visit, and which of them next.
+//! The waypoints that a robot has yet to visit, and the next one of them.
 //!
-//! A team that shares places keeps no list together: whoever goes to one says so (a commitment, after Beni
-//! and Wang, *Theoretical problems for the realization of distributed robotic systems*, 1991), and says
-//! when it has been there. Each robot goes to the nearest place that nobody else goes to. Of two who go to
-//! the same, the one with the lower number goes on. What a robot cannot get to it leaves to others, and
-//! what one was to visit that has not been heard of for some time is free again.
+//! A team that shares waypoints keeps no common list: a robot announces its destination (a
+//! commitment, after Beni and Wang, *Theoretical problems for the realization of distributed robotic
+//! systems*, 1991), and its visits. Each robot drives to the nearest waypoint without a commitment of
+//! another robot. If two commit to the same one, the robot with the lower id keeps it. Unreachable
+//! waypoints are left to others, and a commitment expires when its robot has sent nothing for some
+//! time.
 
 use crate::io::body::RobotId;
 use crate::perception::beliefs::peers::Peers;
 use alloc::vec::Vec;
 use base::geometry::Point;
 
-/// Places by their numbers in the scenario's list.
+/// Waypoints by their indices in the scenario's list.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Errands {
-    /// Those that are left, the next one last; those that it could not get to come first.
+    /// The remaining waypoints: the next one last, declined ones first.
     left: Vec<u32>,
-    /// So many it could not get to since it last got anywhere.
+    /// Number of waypoints declined since the last visit.
     declined: usize,
-    /// Whether the last one is the next: the others of a team may have to be looked at first.
+    /// Whether the last one has been selected, given the commitments of the team.
     is_chosen: bool,
-    /// So many visits of others it has heard of.
-    heard: u32,
+    /// Number of visits by other robots that have been processed.
+    visits_processed: u32,
 }
 
 impl Errands {
@@ -32,18 +33,18 @@ impl Errands {
         }
     }
 
-    /// The next place in the order of the list.
+    /// The position of the next waypoint in the order of the list.
     pub(crate) fn next(&self, places: &[Point]) -> Option<Point> {
         places.get(*self.left.last()? as usize).copied()
     }
 
-    /// It has been at the next.
+    /// Removes the next waypoint, which has been visited.
     pub(crate) fn pop(&mut self) {
         self.left.pop();
         (self.declined, self.is_chosen) = (0, false);
     }
 
-    /// It cannot get to the next now: all others come first.
+    /// Moves the next waypoint, which is unreachable now, behind all others.
     pub(crate) fn decline(&mut self) {
         if let Some(next) = self.left.pop() {
             self.left.insert(0, next);
@@ -52,14 +53,14 @@ impl Errands {
         self.is_chosen = false;
     }
 
-    /// The next place for one of a team.
+    /// The next waypoint of a robot in a team that shares them.
     pub(crate) fn next_of_team(
         &mut self,
         places: &[Point],
         (own, at): (RobotId, Point),
         mates: &Peers,
     ) -> Option<Point> {
-        for visited in mates.visits_since(&mut self.heard) {
+        for visited in mates.visits_since(&mut self.visits_processed) {
             self.dismiss(places, *visited);
         }
         let has_better = |id: RobotId| id < own;
@@ -70,7 +71,7 @@ impl Errands {
         self.next(places).filter(|_| self.is_chosen)
     }
 
-    /// Somebody else has been at a place.
+    /// Removes a waypoint that another robot has visited.
     fn dismiss(&mut self, places: &[Point], visited: Point) {
         let is_it = |number: &u32| places.get(*number as usize) == Some(&visited);
         if self.left.last().is_some_and(is_it) {
@@ -79,7 +80,7 @@ impl Errands {
         self.left.retain(|number| !is_it(number));
     }
 
-    /// Puts the nearest that nobody else goes to last, if there is one.
+    /// Selects the nearest waypoint without a commitment of another robot, if there is one.
     fn choose(&mut self, places: &[Point], at: Point, mates: &Peers) {
         if self.declined >= self.left.len() {
             self.declined = 0;
@@ -108,7 +109,7 @@ mod tests {
         Point { x, y: 0.0 }
     }
 
-    const PLACES: [Point; 4] = [at(0.0), at(3.0), at(6.0), at(9.0)];
+    const WAYPOINTS: [Point; 4] = [at(0.0), at(3.0), at(6.0), at(9.0)];
 
     const fn robot(index: u32) -> RobotId {
         RobotId { kind: 0, index }
@@ -119,12 +120,12 @@ mod tests {
     }
 
     fn next(errands: &mut Errands, own: u32, x: f64, mates: &Peers) -> Option<f64> {
-        let to = errands.next_of_team(&PLACES, (robot(own), at(x)), mates);
+        let to = errands.next_of_team(&WAYPOINTS, (robot(own), at(x)), mates);
         to.map(|to| to.x)
     }
 
     #[test]
-    fn each_goes_to_the_nearest_place_that_nobody_else_goes_to() {
+    fn a_robot_selects_the_nearest_waypoint_without_a_commitment() {
         let (mut errands, mut mates) = (all(), Peers::default());
         assert_eq!(next(&mut errands, 1, 2.0, &mates), Some(3.0));
         mates.update_destination(robot(0), at(3.0), CommitmentStatus::Active, 0.0);
@@ -132,7 +133,7 @@ mod tests {
     }
 
     #[test]
-    fn of_two_who_go_to_the_same_place_the_first_goes_on() {
+    fn of_two_robots_with_the_same_waypoint_the_lower_id_keeps_it() {
         let (mut errands, mut mates) = (all(), Peers::default());
         assert_eq!(next(&mut errands, 1, 2.0, &mates), Some(3.0));
         mates.update_destination(robot(2), at(3.0), CommitmentStatus::Active, 0.0);
@@ -140,7 +141,7 @@ mod tests {
     }
 
     #[test]
-    fn where_somebody_has_been_nobody_else_goes() {
+    fn visited_waypoints_are_removed() {
         let (mut errands, mut mates) = (all(), Peers::default());
         assert_eq!(next(&mut errands, 1, 2.0, &mates), Some(3.0));
         for (x, then) in [
@@ -155,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn what_one_cannot_get_to_is_tried_again_after_all_others() {
+    fn an_unreachable_waypoint_is_tried_again_after_all_others() {
         let (mut errands, mates) = (all(), Peers::default());
         let mut order = Vec::new();
         for _ in 0..5 {
@@ -166,7 +167,7 @@ mod tests {
     }
 
     #[test]
-    fn who_is_not_heard_of_any_more_leaves_its_place_to_others() {
+    fn a_commitment_expires_without_messages() {
         let (mut errands, mut mates) = (Errands::new(vec![1]), Peers::default());
         mates.update_destination(robot(0), at(3.0), CommitmentStatus::Active, 0.0);
         assert_eq!(next(&mut errands, 1, 2.0, &mates), None);

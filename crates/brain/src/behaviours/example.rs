@@ -1,8 +1,8 @@
-//! The example of a behaviour of one's own, added as `docs/brains.md` says: a file, and three lines.
+//! An example of a custom behaviour, added as described in `docs/brains.md`: a file and three lines.
 
 #![expect(
     unreachable_pub,
-    reason = "what behaviours tell others stays within tests"
+    reason = "the messages of this behaviour stay within tests"
 )]
 
 use super::*;
@@ -13,9 +13,9 @@ mod zigzag;
 pub use zigzag::Zigzag;
 
 behaviours! {
-    /// Goes in a zigzag.
+    /// Drives in a zigzag.
     Zigzag in zigzag;
-    /// Gets out of the way of what is too near.
+    /// Avoids what is too near.
     Avoid in avoid;
 }
 
@@ -32,7 +32,7 @@ mod tests {
         serde_json::from_str(r#"{"kind": "zigzag", "straight_s": 2}"#).unwrap()
     }
 
-    /// Where a robot has been after each step that goes in a zigzag, and avoids.
+    /// Positions and headings of a robot with both behaviours after each step.
     fn path(size_m: f64, steps: usize) -> Vec<(Point, f64)> {
         let body = rover();
         let behaviours = [zigzag(), BehaviourSpec::Avoid(Avoid::default())];
@@ -67,7 +67,7 @@ mod tests {
     }
 
     #[test]
-    fn an_added_behaviour_is_known_by_its_name_and_needs_what_it_says() {
+    fn an_added_behaviour_has_its_name_and_requirements() {
         let zigzag = zigzag();
         assert_eq!(zigzag.name(), "zigzag");
         assert_eq!(zigzag, BehaviourSpec::Zigzag(Zigzag { straight_s: 2.0 }));
@@ -81,7 +81,7 @@ mod tests {
         let path = path(50.0, 300);
         let (at, _) = path[path.len() - 1];
         assert!(at.x > 8.0 && at.y > 8.0, "{at:?}");
-        // Along x or along y, but while it turns.
+        // Along x or along y, except during turns.
         let along = |rad: f64| {
             path.iter()
                 .filter(move |(_, heading_rad)| (heading_rad - rad).abs() < 0.03)

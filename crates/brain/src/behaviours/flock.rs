@@ -14,12 +14,12 @@ use base::trig::wrapped;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Who was seen longer ago than this may be anywhere.
+/// Maximum age of an observed neighbour, in seconds.
 const OLDEST_S: f64 = 1.0;
 
-/// Ranges and angles beyond these are broken.
-const MOST_RANGE_M: f64 = 1e6;
-const MOST_ANGLE_RAD: f64 = 1e4;
+/// Larger ranges and angles are invalid.
+const MAX_RANGE_M: f64 = 1e6;
+const MAX_ANGLE_RAD: f64 = 1e4;
 
 /// Flocks with the robots that its sensors detect: separation from those too near, alignment with
 /// their headings, and cohesion. The three requests are added to the robot's own unit heading,
@@ -77,16 +77,16 @@ impl Default for Flock {
     }
 }
 
-/// The others in range, added up: any direction can be along x, for all alike.
+/// Sums over the others in range, in any common frame.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Sums {
-    /// How many they are.
+    /// Number of others.
     pub count: f64,
-    /// The ways to them, in metres.
+    /// Sum of the vectors to them, in metres.
     pub way: Point,
-    /// Their courses, each of length 1.
+    /// Sum of their unit headings.
     pub course: Point,
-    /// The ways to those too near, in metres.
+    /// Sum of the vectors to those that are too near, in metres.
     pub way_to_near: Point,
 }
 
@@ -102,7 +102,7 @@ pub struct Ready {
     noise_rad: f64,
     speed_m_s: f64,
     period_s: f64,
-    most_turn_rad_s: f64,
+    max_turn_rad_s: f64,
 }
 
 impl Ready {
@@ -119,24 +119,24 @@ impl Ready {
                 .speed_m_s
                 .min(body.max_speed_m_s),
             period_s: body.period_s,
-            most_turn_rad_s: body.max_turn_rate_rad_s,
+            max_turn_rad_s: body.max_turn_rate_rad_s,
         }
     }
 
-    /// Who is nearer than this, in metres, is too near.
+    /// Distance below which another robot is too near, in metres.
     #[must_use]
     pub fn separation_m(&self) -> f64 {
         self.separation_m
     }
 
-    /// How fast it goes, always.
+    /// Its constant speed, in m/s.
     #[must_use]
     pub fn speed_m_s(&self) -> f64 {
         self.speed_m_s
     }
 
-    /// How fast a robot turns whose course is `front`, of length 1, given those near it, in rad/s;
-    /// `random_words` gives it its chance, if it takes any.
+    /// Turn rate in rad/s of a robot with the unit heading `front`, given its neighbours.
+    /// `random_words` is called only if noise is configured.
     #[inline]
     pub fn turn_rate_rad_s(
         &self,
@@ -151,11 +151,11 @@ impl Ready {
         } else {
             turn_rad
         };
-        let most = self.most_turn_rad_s;
+        let most = self.max_turn_rad_s;
         (turn_rad / self.period_s).max(-most).min(most)
     }
 
-    /// What the three ask for, as far as the limit grants it.
+    /// The sum of the three requests, up to the steering limit.
     #[inline]
     fn steering(&self, sums: &Sums) -> Point {
         let share = if self.averages {
@@ -178,7 +178,7 @@ impl Ready {
         steering
     }
 
-    /// What a percept says of the others, from the robot's front.
+    /// Sums over the neighbours of a percept, relative to the robot's front.
     fn sums(&self, neighbours: &[Neighbour]) -> Sums {
         let mut sums = Sums::default();
         for neighbour in neighbours.iter().filter(|each| is_sensible(each)) {
@@ -200,13 +200,13 @@ impl Ready {
 }
 
 fn is_sensible(neighbour: &Neighbour) -> bool {
-    (0.0..=MOST_RANGE_M).contains(&neighbour.range_m)
+    (0.0..=MAX_RANGE_M).contains(&neighbour.range_m)
         && is_angle(neighbour.bearing_rad)
         && (0.0..=OLDEST_S).contains(&neighbour.age_s)
 }
 
 fn is_angle(angle_rad: f64) -> bool {
-    angle_rad.abs() <= MOST_ANGLE_RAD
+    angle_rad.abs() <= MAX_ANGLE_RAD
 }
 
 impl Behaviour for Ready {

@@ -37,8 +37,8 @@ impl Default for Follow {
     }
 }
 
-/// Where the leader has moved by less the aim stays, in metres: a goal that changes in each step is
-/// told to all in each step, and its way is found anew.
+/// Minimum motion of the leader that changes the destination, in metres. Each change is broadcast
+/// and requires a new plan.
 const SAME_M: f64 = 0.3;
 
 /// [`Follow`] in a body.
@@ -68,7 +68,7 @@ impl Ready {
 }
 
 impl Behaviour for Ready {
-    /// Where it wants to be.
+    /// The current destination.
     type Memory = Option<Box<Point>>;
 
     const NEEDS_BELIEFS: bool = true;

@@ -13,7 +13,7 @@ use base::geometry::Point;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A cell in which an item would have been missed with more than this has not been looked at.
+/// Probability of missing an item above which a cell counts as unobserved.
 const UNSEEN: f64 = 0.5;
 
 /// Searches at the nearest place that no robot has observed: along the frontier between what was
@@ -54,7 +54,7 @@ impl Ready {
     }
 }
 
-/// The nearest place that has not been looked at; what others go for counts as ten times as far.
+/// The nearest unobserved place; places of other robots count as ten times as far away.
 fn nearest(
     survey: &mut Survey,
     situation: &Situation,
@@ -91,13 +91,13 @@ impl Behaviour for Ready {
         let beliefs = situation.beliefs?;
         let map = beliefs.map.as_ref()?;
         let survey = memory.get_or_insert_default();
-        let going = survey.still_going(situation.body.period_s);
-        let going = going.filter(|to| is_unseen(map, *to));
-        let to = if let Some(to) = going {
+        let current = survey.current(situation.body.period_s);
+        let current = current.filter(|to| is_unseen(map, *to));
+        let to = if let Some(to) = current {
             to
         } else {
             let to = nearest(survey, situation, beliefs, map)?;
-            survey.going = Some((to, 0.0));
+            survey.destination = Some((to, 0.0));
             to
         };
         Some(Proposal::Destination(Destination {
@@ -108,7 +108,7 @@ impl Behaviour for Ready {
 
     fn judged(&self, memory: &mut Self::Memory, _verdict: Verdict) {
         if let Some(survey) = memory {
-            survey.give_up();
+            survey.abandon();
         }
     }
 

@@ -43,7 +43,7 @@ pub(crate) struct Ready {
     destination: Destination,
 }
 
-/// Where it stays, once it knows.
+/// The position to hold, once known.
 pub(crate) type Memory = Option<Box<Point>>;
 
 impl Ready {

@@ -45,8 +45,8 @@ impl Default for Lawnmower {
     }
 }
 
-/// Nobody has more lanes.
-const MOST_CORNERS: usize = 100_000;
+/// Bound on the number of corners.
+const MAX_CORNERS: usize = 100_000;
 
 /// [`Lawnmower`] in a body.
 #[derive(Debug, Clone)]
@@ -56,19 +56,19 @@ pub(crate) struct Ready {
     destination: Destination,
 }
 
-/// Where it is on its way; `None` before it begins.
+/// Progress on the lanes; `None` before the first step.
 pub(crate) type Memory = Option<Box<Progress>>;
 
-/// How far a robot has come on its part.
+/// Progress of a robot on its part of the lanes.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Progress {
-    /// Which part of how many.
+    /// Index of the part, and number of parts.
     part: [u32; 2],
-    /// How often it has gone over all of it; every second time its lanes run across those before.
+    /// Number of complete passes; lanes of every second pass run across the previous ones.
     passes: u32,
-    /// Places that it has visited this time, or given up.
+    /// Corners visited or skipped in this pass.
     visited: u32,
-    /// Where it is going, once it has found out.
+    /// The next corner, once it is computed.
     to: Option<Point>,
 }
 
@@ -99,16 +99,16 @@ impl Progress {
         }
     }
 
-    fn go_on(&mut self) {
+    fn advance(&mut self) {
         self.visited = self.visited.wrapping_add(1);
         self.to = None;
     }
 }
 
 impl Ready {
-    /// Where a robot goes next.
+    /// The next corner of a robot.
     fn place(&self, progress: &mut Progress, field: &Field) -> Option<Point> {
-        // After the last place of a pass comes the first of the next.
+        // The last corner of a pass is followed by the first of the next pass.
         for _ in 0..2 {
             if progress.to.is_none() {
                 let is_across = progress.passes % 2 == 1;
@@ -124,13 +124,13 @@ impl Ready {
     }
 }
 
-/// How wide a strip the best detector sees when the body goes straight on, and how far it sees; for
-/// a body without one, some metres.
+/// The width of the strip that the best detector covers while the body drives straight, and its
+/// range; default values for a body without a detector.
 pub(super) fn swath_m(body: &Body) -> (f64, f64) {
     let strips = body.detectors.iter().map(|detector| {
         let half_rad = (detector.width_rad / 2.0).min(FRAC_PI_2);
-        let half_m = detector.range_m * crate::perception::sector::direction(half_rad).y;
-        (2.0 * half_m, detector.range_m)
+        let half_width_m = detector.range_m * crate::perception::sector::direction(half_rad).y;
+        (2.0 * half_width_m, detector.range_m)
     });
     let widest = strips.fold(
         (0.0, 0.0),
@@ -139,12 +139,12 @@ pub(super) fn swath_m(body: &Body) -> (f64, f64) {
     if widest.0 > 0.0 { widest } else { (2.0, 1.0) }
 }
 
-/// The whole way over a field: lanes along its longer side, from one end to the other.
+/// The path over a field: lanes along its longer side, from one end to the other.
 struct Track {
     field: Field,
     inset_m: f64,
     lanes: u32,
-    /// Length of a lane, and from one to the next.
+    /// Length of a lane, and distance between lanes.
     lane_m: f64,
     shift_m: f64,
     is_upright: bool,
@@ -180,7 +180,7 @@ impl Track {
         f64::from(self.lanes) * self.lane_m + f64::from(self.lanes - 1) * self.shift_m
     }
 
-    /// The place so far along.
+    /// The point at a distance along the path.
     fn place(&self, along_m: f64) -> Point {
         let period_m = self.lane_m + self.shift_m;
         let lane = libm::floor(along_m / period_m).clamp(0.0, f64::from(self.lanes - 1));
@@ -201,7 +201,7 @@ impl Track {
         })
     }
 
-    /// The next corner after a place on the way.
+    /// Distance along the path of the next corner.
     fn corner_after(&self, along_m: f64) -> f64 {
         let period_m = self.lane_m + self.shift_m;
         let periods = libm::floor(along_m / period_m + 1e-9);
@@ -210,13 +210,13 @@ impl Track {
         periods * period_m + if is_in_lane { self.lane_m } else { period_m }
     }
 
-    /// The `number`-th place of one of so many equal parts: its beginning, its corners, its end.
-    /// `None` after that.
+    /// The `number`-th point of one of several equal parts: its start, its corners, its end. `None`
+    /// after that.
     fn place_of_part(&self, [part, parts]: [u32; 2], number: u32) -> Option<Point> {
         let part_m = self.length_m() / f64::from(parts);
         let (from_m, to_m) = (f64::from(part) * part_m, f64::from(part + 1) * part_m);
         let next = |along_m: &f64| Some(self.corner_after(*along_m)).filter(|m| *m < to_m - 1e-6);
-        let corners = core::iter::successors(Some(from_m), next).take(MOST_CORNERS);
+        let corners = core::iter::successors(Some(from_m), next).take(MAX_CORNERS);
         let mut places = corners.chain([to_m]);
         places
             .nth(number as usize)
@@ -245,7 +245,7 @@ impl Behaviour for Ready {
         }
         let is_there = |to: Point| pose.at.to(to).length() <= self.destination.tolerance_m;
         if progress.to.is_some_and(is_there) {
-            progress.go_on();
+            progress.advance();
         }
         let to = self.place(progress, field)?;
         Some(Proposal::Destination(Destination {
@@ -256,7 +256,7 @@ impl Behaviour for Ready {
 
     fn judged(&self, memory: &mut Memory, verdict: Verdict) {
         if let Some(progress) = memory.as_mut().filter(|_| verdict == Verdict::Impossible) {
-            progress.go_on();
+            progress.advance();
         }
     }
 

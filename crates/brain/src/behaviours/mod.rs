@@ -1,5 +1,5 @@
-//! The behaviours, one per file: the keys in a scenario, the behaviour in a body, and what a robot
-//! remembers for it.
+//! The behaviours, one per file: the keys in a scenario, the behaviour in a body, and the state that
+//! each robot keeps for it.
 
 mod avoid;
 mod bayesian_search;
@@ -102,7 +102,7 @@ macro_rules! behaviours {
             $($kind($file::Ready),)+
         }
 
-        /// What a robot remembers for a behaviour.
+        /// The state that a robot keeps for a behaviour.
         #[derive(Debug, Clone)]
         pub(crate) enum Memory {
             $($kind(<$file::Ready as Behaviour>::Memory),)+

@@ -77,7 +77,7 @@ pub(crate) struct Ready {
     speed_m_s: f64,
 }
 
-/// The places that are left; `None` before it begins.
+/// The remaining waypoints; `None` before the first step.
 pub(crate) type Memory = Option<Box<Errands>>;
 
 impl Ready {
@@ -88,7 +88,7 @@ impl Ready {
         }
     }
 
-    /// All places of a robot, the next one last.
+    /// The waypoints of a robot, the next one last.
     #[expect(clippy::cast_possible_truncation, reason = "ten thousand at most")]
     fn errands(&self, situation: &Situation) -> Errands {
         let count = self.spec.waypoints_m.len() as u32;
@@ -138,7 +138,7 @@ impl Behaviour for Ready {
         }))
     }
 
-    /// What it cannot get to now, it tries again when it has tried all others.
+    /// An unreachable waypoint is tried again after all others.
     fn judged(&self, memory: &mut Memory, verdict: Verdict) {
         if let Some(errands) = memory.as_mut().filter(|_| verdict == Verdict::Impossible) {
             errands.decline();

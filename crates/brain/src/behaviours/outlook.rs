@@ -1,4 +1,4 @@
-//! What a look from a place promises.
+//! The expected detections of a measurement at a place.
 
 use crate::io::body::Detector;
 use crate::perception::beliefs::Map;
@@ -9,62 +9,62 @@ use crate::perception::sector::direction;
 use alloc::vec::Vec;
 use base::geometry::Point;
 
-/// A detector's view is sampled at places that are so many to its range.
+/// Sample points of a detector's view per range.
 const SAMPLES: f64 = 6.0;
 
-/// No detector is so bad that it would need more than some hundred looks.
-const LEAST_SEEN: f64 = 0.01;
+/// Minimum assumed detection probability, which bounds the number of measurements.
+const MIN_DETECTION: f64 = 0.01;
 
-/// What a body's detectors see.
+/// The view of a body's detectors.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Outlook {
     samples: Vec<Sample>,
-    /// All that a look promises where nobody has looked.
-    pub(crate) most: f64,
+    /// The expected detections of a measurement in an unobserved area.
+    pub(crate) max: f64,
     needs_line_of_sight: bool,
 }
 
-/// A part of what is seen.
+/// A part of the view.
 #[derive(Debug, Clone, Copy)]
 struct Sample {
-    /// From the robot's front.
+    /// Position relative to the robot's front.
     at: Point,
     area_m2: f64,
-    /// How likely a look sees what is there.
+    /// Detection probability.
     seen: f64,
 }
 
 impl Outlook {
-    /// That of a body with such detectors.
+    /// The view of a body with these detectors.
     pub(crate) fn new(detectors: &[Detector]) -> Self {
         let samples: Vec<Sample> = detectors.iter().flat_map(samples).collect();
-        let promises = samples.iter().map(|sample| sample.area_m2 * sample.seen);
+        let expected = samples.iter().map(|sample| sample.area_m2 * sample.seen);
         Self {
-            most: promises.sum(),
+            max: expected.sum(),
             needs_line_of_sight: detectors.iter().any(|one| one.needs_line_of_sight),
             samples,
         }
     }
 
-    /// So many looks miss e^-`nats` of what is in view.
-    pub(crate) fn looks(&self, nats: f64) -> f64 {
+    /// The number of measurements that leave a fraction e^-`nats` of the items in view undetected.
+    pub(crate) fn measurements(&self, nats: f64) -> f64 {
         let all_m2 = self
             .samples
             .iter()
             .map(|sample| sample.area_m2)
             .sum::<f64>();
-        let seen = self.most / all_m2.max(f64::MIN_POSITIVE);
-        nats / -libm::log1p(-seen.clamp(LEAST_SEEN, MAX_DETECTION))
+        let seen = self.max / all_m2.max(f64::MIN_POSITIVE);
+        nats / -libm::log1p(-seen.clamp(MIN_DETECTION, MAX_DETECTION))
     }
 
-    /// How many items a look from a place would find at the end of a way there, if there were an unseen one
-    /// in each square metre, unless something hides them.
+    /// The expected detections of a measurement at the end of a path, with one undetected item per
+    /// square metre of unobserved area, ignoring occlusion.
     pub(crate) fn at_best(&self, map: &Map, at: Point, way: Point) -> f64 {
         self.sum(map, at, way, |_| true)
     }
 
-    /// The same of what nothing hides.
-    pub(crate) fn promises(&self, map: &Map, at: Point, way: Point, blur_m: f64) -> f64 {
+    /// The same with occlusion.
+    pub(crate) fn expected(&self, map: &Map, at: Point, way: Point, blur_m: f64) -> f64 {
         self.sum(map, at, way, |place| {
             !self.needs_line_of_sight || map.occupancy.is_visible(&map.field, at, place, blur_m)
         })
@@ -88,13 +88,16 @@ impl Outlook {
     }
 }
 
-/// Those of one detector: the middles of squares, as far as it sees them.
-#[expect(clippy::cast_possible_truncation, reason = "some six each way")]
+/// The samples of one detector: the centres of squares in its view.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "about six in each direction"
+)]
 fn samples(detector: &Detector) -> impl Iterator<Item = Sample> {
     let apart_m = detector.range_m / SAMPLES;
     let view = View::new(detector, 0.0);
-    let most = SAMPLES as i32;
-    let places = (-most..=most).flat_map(move |up| (-most..=most).map(move |right| [right, up]));
+    let max = SAMPLES as i32;
+    let places = (-max..=max).flat_map(move |up| (-max..=max).map(move |right| [right, up]));
     let places = places.map(move |place| Point::from(place.map(f64::from)).times(apart_m));
     places
         .filter(move |at| view.holds(*at))
@@ -124,7 +127,7 @@ mod tests {
         }
     }
 
-    fn glance(eye: &Detector) -> DetectorScan<'_> {
+    fn scan(eye: &Detector) -> DetectorScan<'_> {
         DetectorScan {
             detector: eye,
             at: HERE,
@@ -135,26 +138,25 @@ mod tests {
         }
     }
 
-    fn promises(map: &Map, way: Point, blur_m: f64) -> f64 {
-        Outlook::new(&[eye()]).promises(map, HERE, way, blur_m)
+    fn expected(map: &Map, way: Point, blur_m: f64) -> f64 {
+        Outlook::new(&[eye()]).expected(map, HERE, way, blur_m)
     }
 
     #[test]
-    fn a_look_promises_what_nobody_has_seen_the_way_that_it_faces() {
+    fn expected_detections_are_those_of_unobserved_area_in_the_direction_of_the_path() {
         let (mut map, eye) = (map(), eye());
         let [ahead, back] = [AHEAD, AHEAD.times(-1.0)];
-        let [before, behind] = [ahead, back].map(|way| promises(&map, way, 0.0));
+        let [before, behind] = [ahead, back].map(|way| expected(&map, way, 0.0));
         assert!((before - 5.4).abs() < 0.8, "{before}");
-        map.coverage
-            .update(&map.field, &map.occupancy, &glance(&eye));
-        assert!(promises(&map, ahead, 0.0) < 0.5 * before);
-        assert!((promises(&map, back, 0.0) - behind).abs() < 1e-9);
+        map.coverage.update(&map.field, &map.occupancy, &scan(&eye));
+        assert!(expected(&map, ahead, 0.0) < 0.5 * before);
+        assert!((expected(&map, back, 0.0) - behind).abs() < 1e-9);
     }
 
     #[test]
-    fn what_stands_hides_what_is_behind_it_as_far_as_the_map_is_sure() {
+    fn obstacles_hide_what_is_behind_them_in_proportion_to_their_certainty() {
         let mut map = map();
-        let open = promises(&map, AHEAD, 0.0);
+        let open = expected(&map, AHEAD, 0.0);
         for y in 0..30 {
             let to = Point {
                 x: 11.1,
@@ -166,26 +168,26 @@ mod tests {
             };
             (0..5).for_each(|_| map.occupancy.add_ray(&map.field, &ray));
         }
-        let [sure, unsure] = [0.0, 0.5].map(|blur_m| promises(&map, AHEAD, blur_m));
+        let [certain, uncertain] = [0.0, 0.5].map(|blur_m| expected(&map, AHEAD, blur_m));
         assert!(
-            sure < 0.5 * open && sure < unsure && unsure < open,
-            "{sure} {unsure} {open}"
+            certain < 0.5 * open && certain < uncertain && uncertain < open,
+            "{certain} {uncertain} {open}"
         );
     }
 
     #[test]
-    fn the_worse_a_detector_is_the_more_looks_a_place_takes() {
-        let looks = |seen: f64| Outlook::new(&[detector(3.0, 1.2, seen)]).looks(2.0);
-        assert!((looks(0.3) - 5.6).abs() < 0.1 && (looks(0.1) - 19.0).abs() < 0.1);
-        assert!(looks(1.0) < 2.0 && looks(0.0) < 200.0);
+    fn a_lower_detection_probability_requires_more_measurements() {
+        let measurements = |seen: f64| Outlook::new(&[detector(3.0, 1.2, seen)]).measurements(2.0);
+        assert!((measurements(0.3) - 5.6).abs() < 0.1 && (measurements(0.1) - 19.0).abs() < 0.1);
+        assert!(measurements(1.0) < 2.0 && measurements(0.0) < 200.0);
     }
 
     #[test]
-    fn what_is_promised_is_as_much_as_is_seen_however_coarse_the_map_is() {
+    fn expected_detections_do_not_depend_on_the_cell_size() {
         let corner = Point { x: 500.0, y: 500.0 };
         let area = Rectangle::spanned(Point::default(), corner);
         let coarse = Map::new(&BeliefsSpec::default(), &area);
-        let [one, other] = [&map(), &coarse].map(|map| promises(map, AHEAD, 0.0));
+        let [one, other] = [&map(), &coarse].map(|map| expected(map, AHEAD, 0.0));
         assert!((one - other).abs() < 1e-9 && one > 4.0, "{one} {other}");
     }
 }

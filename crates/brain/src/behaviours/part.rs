@@ -1,9 +1,9 @@
-//! Which part of a field is a robot's own when a team searches it.
+//! The partition of a field among the robots of a team that searches it.
 //!
-//! All robots of a team draw the parts alike, from where they are and what is left: each has the blocks
-//! that are nearest to the middle of what is left in its part (Lloyd, *Least squares quantization in PCM*,
-//! 1982; for robots Cortes, Martinez, Karatas and Bullo, *Coverage control for mobile sensing networks*,
-//! 2004).
+//! All robots of a team compute the same partition from their positions and the unobserved area: each
+//! gets the blocks nearest to the centroid of the unobserved area in its part (Lloyd, *Least squares
+//! quantization in PCM*, 1982; for robots Cortes, Martinez, Karatas and Bullo, *Coverage control for
+//! mobile sensing networks*, 2004).
 
 use crate::perception::beliefs::field::Field;
 use crate::perception::beliefs::peers::Peer;
@@ -11,43 +11,43 @@ use crate::perception::beliefs::{Beliefs, Map};
 use alloc::vec::Vec;
 use base::geometry::Point;
 
-/// So many blocks each way.
+/// Number of blocks in each direction.
 const BLOCKS: usize = 8;
 
-/// Middles are moved so often.
+/// Number of iterations.
 const ROUNDS: usize = 4;
 
-/// What is in another's part counts as much less.
+/// Weight of cells in the parts of other robots.
 const OTHERS: f64 = 0.1;
 
 /// A robot's part: blocks of the field.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Part {
-    /// A bit a block.
+    /// One bit per block.
     own: u64,
-    /// Kept so that nothing is allocated: what is left in each block, and the middle of each part, the
-    /// robot's own first.
+    /// Kept between steps to reuse their allocations: the unobserved area of each block, and the
+    /// centroid of each part, the robot's own first.
     left: Vec<f32>,
-    middles: Vec<Point>,
+    centres: Vec<Point>,
 }
 
 impl Part {
-    /// Draws it anew.
+    /// Computes the partition again.
     pub(crate) fn renew(&mut self, beliefs: &Beliefs, map: &Map) {
         let Some(pose) = beliefs.pose() else {
             return;
         };
-        self.middles.clear();
-        self.middles.push(pose.at);
+        self.centres.clear();
+        self.centres.push(pose.at);
         let mates = beliefs.peers.mates.iter();
-        self.middles.extend(mates.filter_map(Peer::at));
-        if self.middles.len() == 1 {
+        self.centres.extend(mates.filter_map(Peer::at));
+        if self.centres.len() == 1 {
             self.own = u64::MAX;
             return;
         }
         self.sum_up(map);
         for _ in 0..ROUNDS {
-            self.move_middles(&map.field);
+            self.move_centres(&map.field);
         }
         self.own = 0;
         for block in 0..BLOCKS * BLOCKS {
@@ -57,7 +57,7 @@ impl Part {
         }
     }
 
-    /// How much of what is in a cell is the robot's own to look for.
+    /// The weight of a cell for this robot.
     #[inline]
     pub(crate) fn share(&self, field: &Field, cell: usize) -> f64 {
         let is_own = self.own >> block_of(field, cell) & 1 == 1;
@@ -83,9 +83,9 @@ impl Part {
         }
     }
 
-    /// Moves each middle to the middle of what is left in its part.
-    fn move_middles(&mut self, field: &Field) {
-        let mut sums = [(Point::default(), 0.0); MOST];
+    /// Moves each centre to the centroid of the unobserved area in its part.
+    fn move_centres(&mut self, field: &Field) {
+        let mut sums = [(Point::default(), 0.0); MAX_ROBOTS];
         for (block, left) in self.left.iter().enumerate() {
             if *left > 0.0 {
                 let (place, left) = (centre(field, block), f64::from(*left));
@@ -93,17 +93,17 @@ impl Part {
                 (*sum, *all) = (sum.plus(place.times(left)), *all + left);
             }
         }
-        for (middle, (sum, all)) in self.middles.iter_mut().zip(sums) {
+        for (middle, (sum, all)) in self.centres.iter_mut().zip(sums) {
             if all > 0.0 {
                 *middle = sum.times(1.0 / all);
             }
         }
     }
 
-    /// Whose middle is nearest to a place.
+    /// Index of the centre nearest to a place.
     fn nearest(&self, place: Point) -> usize {
         let mut nearest = (f64::INFINITY, 0);
-        for (number, middle) in self.middles.iter().enumerate() {
+        for (number, middle) in self.centres.iter().enumerate() {
             let away_m2 = middle.to(place).length_squared();
             if away_m2 < nearest.0 {
                 nearest = (away_m2, number);
@@ -113,8 +113,8 @@ impl Part {
     }
 }
 
-/// A robot and all the team mates that it remembers.
-const MOST: usize = 1 + crate::perception::beliefs::peers::MAX_PEERS;
+/// A robot and its maximum number of peers.
+const MAX_ROBOTS: usize = 1 + crate::perception::beliefs::peers::MAX_PEERS;
 
 #[inline]
 fn block_of(field: &Field, cell: usize) -> usize {
@@ -124,7 +124,7 @@ fn block_of(field: &Field, cell: usize) -> usize {
 
 fn centre(field: &Field, block: usize) -> Point {
     let middle = |number: usize, size_m: f64| {
-        #[expect(clippy::cast_precision_loss, reason = "eight at most")]
+        #[expect(clippy::cast_precision_loss, reason = "at most eight")]
         let share = (number as f64 + 0.5) / BLOCKS as f64;
         share * size_m
     };

@@ -13,8 +13,8 @@ use core::f64::consts::{FRAC_PI_4, TAU};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Who sees nothing turns by at least this.
-const LEAST_BLIND_RAD: f64 = FRAC_PI_4;
+/// Minimum turn of a robot without range sensors, in radians.
+const MIN_BLIND_RAD: f64 = FRAC_PI_4;
 
 /// Searches by random bounces: moves straight on until something is in its way or touches it, turns
 /// on the spot to a heading drawn at random among those that look free, and continues. A robot
@@ -56,17 +56,17 @@ pub(crate) struct Ready {
     held: Motion,
 }
 
-/// What it is doing.
+/// State of the behaviour.
 #[derive(Debug, Clone)]
 pub(crate) enum Memory {
-    /// It has gone on for so long.
+    /// Moving straight on, for this time in seconds.
     Going {
         since_s: f32,
     },
     Turning(Turn),
 }
 
-/// It begins to go.
+/// The initial state.
 const GOING: Memory = Memory::Going { since_s: 0.0 };
 
 impl Ready {
@@ -94,7 +94,7 @@ impl Behaviour for Ready {
 
     #[inline]
     fn triggered(&self, memory: &mut Memory, situation: &Situation) -> Option<Proposal> {
-        self.go_on(memory, situation).map(Proposal::Motion)
+        self.next_motion(memory, situation).map(Proposal::Motion)
     }
 
     fn held(&self) -> Motion {
@@ -109,7 +109,7 @@ impl Behaviour for Ready {
 
 impl Ready {
     #[inline]
-    fn go_on(&self, memory: &mut Memory, situation: &Situation) -> Option<Motion> {
+    fn next_motion(&self, memory: &mut Memory, situation: &Situation) -> Option<Motion> {
         match memory {
             Memory::Going { since_s } => {
                 let straight_s = f64::from(*since_s);
@@ -120,7 +120,7 @@ impl Ready {
                 is_stopped.then(|| self.turn(memory, situation))
             }
             Memory::Turning(turn) => {
-                let motion = turn.go_on(situation);
+                let motion = turn.next_motion(situation);
                 if motion.is_none() {
                     *memory = GOING;
                 }
@@ -135,8 +135,8 @@ impl Ready {
         motion
     }
 
-    /// The angle to a new course, from -pi to pi: that of a ray that is free for longer than it
-    /// turns at, or else of the longest, and up to half way to the next ray.
+    /// The angle to a new heading, from -pi to pi: that of a ray longer than the turning distance, or
+    /// else of the longest ray, plus up to half the angle to the next ray.
     fn new_course_rad(&self, situation: &Situation) -> f64 {
         let mut random_words = situation.random_words();
         let free_m = situation.body.radius_m + self.turn_at_m;
@@ -150,13 +150,13 @@ impl Ready {
         let longest = || rays(situation).max_by(|a, b| a.2.total_cmp(&b.2));
         let angle_rad = match chosen.or_else(longest) {
             Some((ring, ray, _)) => ring.bearing_beside_rad(ray, random_words.between(-0.5, 0.5)),
-            None => random_words.between(LEAST_BLIND_RAD, TAU - LEAST_BLIND_RAD),
+            None => random_words.between(MIN_BLIND_RAD, TAU - MIN_BLIND_RAD),
         };
         wrapped(angle_rad)
     }
 }
 
-/// Each ray of each fresh scan: its ring, its place there, and its range.
+/// The rays of recent scans: ring, index in the ring, and range.
 fn rays<'s>(situation: &'s Situation) -> impl Iterator<Item = (&'s Ring, usize, f64)> {
     situation.scans().flat_map(|(ring, ranges_m)| {
         let rays = 0..ranges_m.len();
@@ -186,7 +186,7 @@ mod tests {
         Brain::new(Arc::new(spec), Arc::new(body.clone()))
     }
 
-    /// In how many of the squares of 1 m it has been after a time.
+    /// The number of squares of 1 m that it has visited after a time.
     fn squares_visited(walk: &mut Walk, brain: &mut Brain, seconds: usize) -> usize {
         let mut visited = std::collections::BTreeSet::new();
         for _ in 0..seconds {
@@ -198,7 +198,7 @@ mod tests {
     }
 
     #[test]
-    fn a_room_is_searched_all_over_and_its_walls_are_not_touched() {
+    fn it_searches_the_whole_room_without_touching_walls() {
         let body = rover();
         for wiring in [
             Wiring::default(),
@@ -218,10 +218,10 @@ mod tests {
         }
     }
 
-    /// If it braked only where it should turn, it would come so near that what avoids obstacles
-    /// takes over, turns no farther than it must, and leads it along the walls for ever.
+    /// If it braked only at the turning distance, it would get near enough for obstacle avoidance to
+    /// take over, which turns by the minimum angle, and the robot would follow the walls.
     #[test]
-    fn weak_brakes_do_not_keep_it_along_the_walls() {
+    fn low_deceleration_does_not_make_it_follow_the_walls() {
         let mut body = rover();
         (body.max_speed_m_s, body.max_acceleration_m_s2) = (2.0, 2.0);
         body.rings[0].range_m = 5.0;
@@ -233,12 +233,12 @@ mod tests {
             let off_m = (walk.at.x - 10.0).abs().max((walk.at.y - 10.0).abs());
             in_the_middle += u32::from(off_m < 5.0);
         }
-        // A quarter of the room: were it everywhere alike, 500; along the walls, 10.
+        // A quarter of the room: about 500 for a uniform distribution, 10 along the walls.
         assert!(in_the_middle > 200, "{in_the_middle}");
     }
 
     #[test]
-    fn the_blind_search_by_touch() {
+    fn without_range_sensors_it_searches_by_touch() {
         let mut body = rover();
         body.rings.clear();
         let mut walk = Walk::new(body.clone(), room(5.0, 5.0), [2.5, 2.5], 0.3);
@@ -248,7 +248,7 @@ mod tests {
     }
 
     #[test]
-    fn a_robot_that_sees_less_far_than_it_should_turn_at_still_goes() {
+    fn it_moves_with_a_sensor_range_below_the_turning_distance() {
         let mut body = rover();
         body.rings[0].range_m = 0.6;
         let mut walk = Walk::new(body.clone(), room(9.0, 9.0), [4.0, 4.0], 0.0);
@@ -256,7 +256,7 @@ mod tests {
         assert!(walk.at.x > 4.3, "{:?}", walk.at);
     }
 
-    /// The angle by which it turns when it stands before what it sees, with a compass or without.
+    /// The angle of its turn for given ranges, with a compass or without.
     fn turn_rad(ranges_m: &[f64], random_words: [u32; 4], has_compass: bool) -> f64 {
         let body = rover();
         let mut brain = brain(&body, RandomBounce::default());
@@ -281,7 +281,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn it_turns_to_a_course_that_is_free(random_words: [u32; 4], has_compass: bool, free in 1_usize..16) {
+        fn it_turns_to_a_free_heading(random_words: [u32; 4], has_compass: bool, free in 1_usize..16) {
             let mut ranges = [0.5; 16];
             ranges[free] = 2.0;
             let bearing = wrapped(f64::from(u32::try_from(free).unwrap()) * TAU / 16.0);
@@ -290,7 +290,7 @@ mod tests {
         }
 
         #[test]
-        fn with_nothing_free_it_turns_to_where_it_sees_farthest(random_words: [u32; 4]) {
+        fn without_a_free_heading_it_turns_to_the_longest_range(random_words: [u32; 4]) {
             let mut ranges = [0.5; 16];
             ranges[4] = 0.6;
             let off = turn_rad(&ranges, random_words, false) - TAU / 4.0;
@@ -299,8 +299,8 @@ mod tests {
     }
 
     #[test]
-    fn all_free_courses_are_drawn_alike() {
-        // Seven free rays, 7000 draws, one for each of evenly spread random_words: off by one at most.
+    fn all_free_headings_are_equally_likely() {
+        // Seven free rays and 7000 evenly spaced random words: an error of at most one.
         let mut ranges = [2.0; 16];
         for ray in [0, 1, 2, 3, 4, 12, 13, 14, 15] {
             ranges[ray] = 0.5;
@@ -324,7 +324,7 @@ mod tests {
     }
 
     #[test]
-    fn a_robot_that_cannot_turn_loses_patience() {
+    fn a_turn_that_does_not_end_times_out() {
         let mut body = rover();
         body.max_turn_rate_rad_s = 0.0;
         let mut brain = brain(&body, RandomBounce::default());

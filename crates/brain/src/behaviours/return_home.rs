@@ -45,8 +45,8 @@ impl Default for ReturnHome {
     }
 }
 
-/// A battery that has gained so much since it was low has been charged, or was misread; and so has
-/// one that is full.
+/// Increase of the charge since it was low that shows that the battery was charged, or misread; so
+/// does a full battery.
 const GAINED: f64 = 0.2;
 const FULL: f64 = 0.95;
 
@@ -57,7 +57,7 @@ pub(crate) struct Ready {
     destination: Destination,
 }
 
-/// Where home is, once it knows, and if it is on its way there, the least that was left since.
+/// The base, once known, and the minimum charge since the robot started to return, if it did.
 pub(crate) type Memory = Option<Box<(Point, Option<f64>)>>;
 
 impl Ready {
@@ -73,7 +73,7 @@ impl Ready {
         }
     }
 
-    /// The least that was left since it went home, if it is still to go there.
+    /// The minimum charge since the robot started to return, if it still has to.
     fn low_since(&self, low: Option<f64>, way_m: f64, beliefs: &Beliefs) -> Option<f64> {
         let left = beliefs.battery_charge()?;
         let way_s = way_m / self.destination.max_speed_m_s.max(1e-6);

@@ -14,7 +14,7 @@ use core::f64::consts::TAU;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Neighbouring turns overlap by this share of what is seen from them.
+/// Overlap of neighbouring turns, as a fraction of the swath.
 const OVERLAP: f64 = 0.1;
 
 /// Searches in a spiral around where it began, or around a given position, until nothing of the
@@ -56,7 +56,7 @@ pub(crate) struct Ready {
     destination: Destination,
 }
 
-/// Its middle, and how far along the spiral it is, in metres; `None` before it begins.
+/// The centre, and the distance along the spiral in metres; `None` before the first step.
 pub(crate) type Memory = Option<Box<(Point, f64)>>;
 
 impl Ready {
@@ -76,7 +76,8 @@ impl Ready {
         }
     }
 
-    /// The place so far along: of an Archimedean spiral, length = width / (4 pi) x angle^2, about.
+    /// The point at a distance along an Archimedean spiral, for which approximately length = width /
+    /// (4 pi) x angle^2, and the angle there.
     fn place(&self, middle: Point, along_m: f64) -> (Point, f64) {
         let angle_rad = libm::sqrt(2.0 * TAU * along_m / self.width_m);
         let radius_m = self.width_m * angle_rad / TAU;
@@ -84,7 +85,7 @@ impl Ready {
         (middle.plus(direction(angle_rad).times(radius_m)), radius_m)
     }
 
-    /// The next place within the field that is not here.
+    /// The next point inside the field that is not within the tolerance.
     fn next(&self, (middle, along_m): &mut (Point, f64), situation: &Situation) -> Option<Point> {
         let beliefs = situation.beliefs?;
         let (at, field) = (beliefs.pose()?.at, &beliefs.map.as_ref()?.field);

@@ -1,4 +1,4 @@
-//! What searches that follow beliefs have in common: where nobody has looked, and how far that is.
+//! Selection of the best place to search, common to the searches that use beliefs.
 
 use crate::goals::proposal::Destination;
 use crate::io::body::Body;
@@ -8,35 +8,35 @@ use crate::perception::beliefs::{Beliefs, Map};
 use alloc::vec::Vec;
 use base::geometry::Point;
 
-/// Room beside what is filled, as a share of a cell's width.
+/// Clearance beside occupied cells, as a fraction of a cell's width.
 const CELL_ROOM: f64 = 0.35;
 
-/// It thinks again after so long, in seconds.
-const AGAIN_S: f64 = 2.0;
+/// Interval between selections, in seconds.
+const SELECTION_PERIOD_S: f64 = 2.0;
 
-/// A place where somebody else is going counts as much less.
+/// Weight of a place that another robot is driving to.
 const CLAIMED: f64 = 0.1;
 
-/// So many places are given up at most: the first may then be tried again.
-const MOST_GIVEN_UP: usize = 16;
+/// Maximum number of abandoned places: beyond it, the oldest may be tried again.
+const MAX_ABANDONED: usize = 16;
 
-/// What one robot remembers of its search.
+/// The state of one robot's search.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Survey {
     wavefront: Wavefront,
-    /// Where it is going, and for how long it has been.
-    pub(crate) going: Option<(Point, f64)>,
-    /// Places that it could not get to, or need not again so soon.
-    given_up: Vec<Point>,
+    /// The current destination, and the time since it was selected.
+    pub(crate) destination: Option<(Point, f64)>,
+    /// Places that were unreachable, or do not need another visit soon.
+    abandoned: Vec<Point>,
 }
 
 impl Survey {
-    /// The place that is worth most, by its cell and the way there; `None` if none is worth
-    /// anything. `worth` is also told what the best so far is worth: of less it need not say how
-    /// much.
+    /// The place with the highest value, by its cell and the path length; `None` if no value is
+    /// positive. `worth` also gets the best value found; it may return any lower value if it is
+    /// not exceeded.
     ///
-    /// Nothing so far off is worth more than `at_most` of the way. Where the body does not fit, so
-    /// that it can only be looked at from outside, comes last.
+    /// `at_most` bounds the value by the path length. Places where the body does not fit, which can
+    /// only be observed from outside, are considered last.
     pub(crate) fn best(
         &mut self,
         (map, body): (&Map, &Body),
@@ -45,12 +45,12 @@ impl Survey {
         at_most: impl Fn(f64) -> f64,
     ) -> Option<Point> {
         let room_m = body.radius_m + CELL_ROOM * map.field.cell_m;
-        let (known, given_up) = ((&map.field, &map.occupancy), &self.given_up);
+        let (known, abandoned) = ((&map.field, &map.occupancy), &self.abandoned);
         let mut best = Best::default();
         let mut offer = |cell, way_m| {
             let worth = worth(cell, way_m, best.worth);
             if worth > best.worth {
-                best.offer(map.field.centre(cell), worth, given_up, map.field.cell_m);
+                best.offer(map.field.centre(cell), worth, abandoned, map.field.cell_m);
             }
             best
         };
@@ -63,7 +63,7 @@ impl Survey {
         best.place
     }
 
-    /// The same among cells that the body does not fit into.
+    /// The best place among cells where the body does not fit.
     fn beside(&self, map: &Map, worth: impl Fn(usize, f64, f64) -> f64, best: &mut Best) {
         let (field, cells) = (&map.field, 0..map.field.cells());
         for cell in cells.filter(|cell| self.wavefront.is_blocked(field, *cell)) {
@@ -76,32 +76,32 @@ impl Survey {
                 best.offer(
                     place,
                     worth(cell, way_m, best.worth),
-                    &self.given_up,
+                    &self.abandoned,
                     field.cell_m,
                 );
             }
         }
     }
 
-    /// Where it is going, unless it is time to think again.
-    pub(crate) fn still_going(&mut self, period_s: f64) -> Option<Point> {
-        let (to, since_s) = self.going.as_mut()?;
+    /// The current destination, until the next selection is due.
+    pub(crate) fn current(&mut self, period_s: f64) -> Option<Point> {
+        let (to, since_s) = self.destination.as_mut()?;
         *since_s += period_s;
-        (*since_s < AGAIN_S).then_some(*to)
+        (*since_s < SELECTION_PERIOD_S).then_some(*to)
     }
 
-    /// Not there again.
-    pub(crate) fn give_up(&mut self) {
-        if let Some((to, _)) = self.going.take() {
-            if self.given_up.len() == MOST_GIVEN_UP {
-                self.given_up.remove(0);
+    /// Abandons the current destination.
+    pub(crate) fn abandon(&mut self) {
+        if let Some((to, _)) = self.destination.take() {
+            if self.abandoned.len() == MAX_ABANDONED {
+                self.abandoned.remove(0);
             }
-            self.given_up.push(to);
+            self.abandoned.push(to);
         }
     }
 }
 
-/// The best place so far.
+/// The best place found.
 #[derive(Debug, Clone, Copy, Default)]
 struct Best {
     worth: f64,
@@ -109,17 +109,16 @@ struct Best {
 }
 
 impl Best {
-    /// Takes a place that is worth more, unless it was given up, or one near it.
-    fn offer(&mut self, place: Point, worth: f64, given_up: &[Point], near_m: f64) {
+    /// Keeps a place with a higher value, unless it is near an abandoned one.
+    fn offer(&mut self, place: Point, worth: f64, abandoned: &[Point], near_m: f64) {
         let is_near = |other: &Point| other.to(place).length_squared() < near_m * near_m;
-        if worth > self.worth && !given_up.iter().any(is_near) {
+        if worth > self.worth && !abandoned.iter().any(is_near) {
             (self.worth, self.place) = (worth, Some(place));
         }
     }
 }
 
-/// How much of what is at a place is left for this robot: others who go there, or are nearer, leave
-/// little.
+/// The weight of a place for this robot: low if another robot is driving there or is nearer.
 pub(crate) fn share(beliefs: &Beliefs, at: Point, place: Point, near_m: f64) -> f64 {
     let away = at.to(place).length_squared();
     let takes = |peer: &Peer| {
@@ -138,7 +137,7 @@ pub(crate) fn share(beliefs: &Beliefs, at: Point, place: Point, near_m: f64) -> 
     }
 }
 
-/// How a search goes to a place.
+/// A search's destination, without its position.
 pub(crate) fn destination(speed_m_s: Option<f64>, value: f64, body: &Body) -> Destination {
     Destination {
         at: Point::default(),

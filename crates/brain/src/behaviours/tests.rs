@@ -1,4 +1,4 @@
-//! What robots with one errand do, from their percepts to where they have been.
+//! Robots with one mission, from their percepts to their paths.
 
 use super::*;
 use crate::arbitration::Arbitration;
@@ -14,7 +14,7 @@ const fn at(x: f64, y: f64) -> Point {
     Point { x, y }
 }
 
-/// A rover that knows where its mission is, and recognises items all around as far as 1.5 m.
+/// A rover that knows the mission area, with an item detector of 1.5 m range in all directions.
 fn searcher(width: f64, height: f64) -> Body {
     Body {
         detectors: vec![Detector {
@@ -36,17 +36,17 @@ fn brain(behaviours: Vec<BehaviourSpec>, arbitration: Arbitration, body: &Body) 
     Brain::new(Arc::new(spec), Arc::new(body.clone()))
 }
 
-/// A robot with one errand in a room, that knows where it is.
-struct Errand {
+/// A robot with one mission in a room, with position and heading sensors.
+struct Mission {
     walk: Walk,
     brain: Brain,
     size: [f64; 2],
-    /// Where it was at the end of each step.
+    /// Positions after each step.
     track: Vec<Point>,
 }
 
-impl Errand {
-    fn new(errand: BehaviourSpec, size: [f64; 2], boxes: &[[f64; 4]], start: Point) -> Self {
+impl Mission {
+    fn new(mission: BehaviourSpec, size: [f64; 2], boxes: &[[f64; 4]], start: Point) -> Self {
         let body = searcher(size[0], size[1]);
         let mut walls = room(size[0], size[1]);
         walls.extend(boxes.iter().flat_map(|corners| sides(*corners)));
@@ -59,7 +59,7 @@ impl Errand {
         };
         Self {
             walk,
-            brain: brain(vec![errand], Arbitration::Subsumption, &body),
+            brain: brain(vec![mission], Arbitration::Subsumption, &body),
             size,
             track: Vec::new(),
         }
@@ -72,14 +72,14 @@ impl Errand {
         }
     }
 
-    /// When it first was near a place, in steps.
+    /// The first step in which it was near a place.
     fn visit(&self, place: Point) -> Option<usize> {
         self.track
             .iter()
             .position(|at| at.to(place).length() <= 0.5)
     }
 
-    /// Share of the free places, a quarter of a metre apart, that it came nearer to than 1.5 m.
+    /// Share of the free points of a 0.25 m grid that it approached within 1.5 m.
     fn covered(&self) -> f64 {
         let count = |length_m: f64| {
             (0..)
@@ -100,7 +100,7 @@ impl Errand {
     }
 }
 
-/// Of a box from its lower left to its upper right corner, free outside.
+/// The sides of a box given by its lower left and upper right corners, free outside.
 fn sides([left, low, right, high]: [f64; 4]) -> Vec<Segment> {
     outline(&[[left, low], [left, high], [right, high], [right, low]])
 }
@@ -113,92 +113,92 @@ fn navigate(places: &[Point], assignment: Assignment) -> BehaviourSpec {
     })
 }
 
-/// A wall from the lower side of a room of 16 m by 12 m up to 9 m: more than three times as wide as
-/// what a rover sees.
+/// A wall from the lower side of a room of 16 m by 12 m up to 9 m: more than three times the sensor
+/// range.
 const WALL: [f64; 4] = [7.8, 0.0, 8.2, 9.0];
 
 #[test]
-fn a_robot_goes_around_a_wall_to_its_place() {
+fn a_robot_drives_around_a_wall_to_its_waypoint() {
     let place = at(13.0, 2.0);
-    let errand = navigate(&[place], Assignment::All);
-    let mut robot = Errand::new(errand, [16.0, 12.0], &[WALL], at(3.0, 2.0));
+    let mission = navigate(&[place], Assignment::All);
+    let mut robot = Mission::new(mission, [16.0, 12.0], &[WALL], at(3.0, 2.0));
     robot.go(60);
     assert!(robot.visit(place).is_some(), "{:?}", robot.walk.at);
     assert!(robot.walk.min_gap_m > 0.0, "{}", robot.walk.min_gap_m);
-    // And then it has nothing more to do.
+    // Afterwards it has nothing to do.
     assert!(robot.walk.speed_m_s.abs() < 1e-6);
 }
 
 #[test]
-fn a_robot_comes_out_of_a_deep_dead_end_without_going_astray() {
+fn a_robot_leaves_a_deep_dead_end_without_detours() {
     let place = at(20.0, 12.0);
-    // Three walls about where it stands, 12 m deep; the way out leads away from the place.
+    // Three walls around its position, 12 m deep; the exit leads away from the waypoint.
     let walls = [
         [4.0, 6.0, 16.4, 6.4],
         [4.0, 17.6, 16.4, 18.0],
         [16.0, 6.4, 16.4, 17.6],
     ];
-    let mut robot = Errand::new(
+    let mut robot = Mission::new(
         navigate(&[place], Assignment::All),
         [24.0, 24.0],
         &walls,
         at(15.0, 12.0),
     );
-    // The way is some 42 m long.
+    // The shortest path is about 42 m long.
     robot.go(90);
     assert!(robot.visit(place).is_some(), "{:?}", robot.walk.at);
     assert!(robot.walk.min_gap_m > 0.0, "{}", robot.walk.min_gap_m);
 }
 
 #[test]
-fn places_are_visited_in_their_order() {
+fn waypoints_are_visited_in_order() {
     let places = [at(2.0, 9.0), at(9.0, 9.0), at(9.0, 2.0), at(2.0, 2.0)];
-    let errand = navigate(&places, Assignment::All);
-    let mut robot = Errand::new(errand, [11.0, 11.0], &[], at(5.0, 5.0));
+    let mission = navigate(&places, Assignment::All);
+    let mut robot = Mission::new(mission, [11.0, 11.0], &[], at(5.0, 5.0));
     robot.go(60);
     let visits: Vec<usize> = places.iter().map(|p| robot.visit(*p).unwrap()).collect();
     assert!(visits.is_sorted(), "{visits:?}");
 }
 
 #[test]
-fn a_robot_fits_through_a_door_twice_as_wide_as_itself_wherever_its_cells_lie() {
-    // A map of 4096 cells has cells of 0.4 m here: those of the door posts leave too little between
-    // them.
+fn a_robot_passes_a_door_of_twice_its_width_for_any_cell_alignment() {
+    // A map of 4096 cells has cells of 0.4 m here: the cells of the door posts alone would leave too
+    // little clearance.
     for off_m in [0.0, 0.1, 0.2, 0.3] {
         let walls = [
             [12.0, 0.0, 12.3, 11.5 + off_m],
             [12.0, 12.5 + off_m, 12.3, 24.0],
         ];
         let place = at(20.0, 5.0);
-        let errand = navigate(&[place], Assignment::All);
-        let mut robot = Errand::new(errand, [24.0, 24.0], &walls, at(6.0, 6.0));
+        let mission = navigate(&[place], Assignment::All);
+        let mut robot = Mission::new(mission, [24.0, 24.0], &walls, at(6.0, 6.0));
         robot.go(150);
         assert!(robot.visit(place).is_some(), "{off_m}: {:?}", robot.walk.at);
     }
 }
 
 #[test]
-fn a_place_that_is_closed_in_is_left_out() {
+fn an_enclosed_waypoint_is_skipped() {
     let (closed, open) = (at(8.0, 6.0), at(13.0, 9.0));
-    let errand = navigate(&[closed, open], Assignment::All);
+    let mission = navigate(&[closed, open], Assignment::All);
     let cage = [
         [6.5, 4.5, 9.5, 4.8],
         [6.5, 7.2, 9.5, 7.5],
         [6.5, 4.5, 6.8, 7.5],
         [9.2, 4.5, 9.5, 7.5],
     ];
-    let mut robot = Errand::new(errand, [16.0, 12.0], &cage, at(3.0, 5.0));
+    let mut robot = Mission::new(mission, [16.0, 12.0], &cage, at(3.0, 5.0));
     robot.go(150);
     assert!(robot.visit(closed).is_none());
     assert!(robot.visit(open).is_some(), "{:?}", robot.walk.at);
 }
 
 #[test]
-fn places_that_are_shared_are_visited_by_one_robot_each() {
+fn shared_waypoints_are_visited_by_one_robot_each() {
     let places = [at(2.0, 2.0), at(8.0, 2.0), at(8.0, 8.0)];
     for (index, own) in [(1, 1), (5, 2)] {
-        let errand = navigate(&places, Assignment::OneEach);
-        let mut robot = Errand::new(errand, [10.0, 10.0], &[], at(5.0, 5.0));
+        let mission = navigate(&places, Assignment::OneEach);
+        let mut robot = Mission::new(mission, [10.0, 10.0], &[], at(5.0, 5.0));
         robot.walk.id = (RobotId { kind: 0, index }, 6);
         robot.go(30);
         for (number, place) in places.iter().enumerate() {
@@ -213,8 +213,8 @@ fn places_that_are_shared_are_visited_by_one_robot_each() {
 
 #[test]
 fn lanes_cover_a_room() {
-    let errand = BehaviourSpec::Lawnmower(Lawnmower::default());
-    let mut robot = Errand::new(errand, [10.0, 8.0], &[], at(2.0, 2.0));
+    let mission = BehaviourSpec::Lawnmower(Lawnmower::default());
+    let mut robot = Mission::new(mission, [10.0, 8.0], &[], at(2.0, 2.0));
     robot.go(45);
     assert!(robot.covered() > 0.99, "{}", robot.covered());
 }
@@ -222,8 +222,8 @@ fn lanes_cover_a_room() {
 #[test]
 fn two_robots_cover_a_room_together_in_half_the_time() {
     let both = [0, 1].map(|index| {
-        let errand = BehaviourSpec::Lawnmower(Lawnmower::default());
-        let mut robot = Errand::new(errand, [10.0, 8.0], &[], at(5.0, 4.0));
+        let mission = BehaviourSpec::Lawnmower(Lawnmower::default());
+        let mut robot = Mission::new(mission, [10.0, 8.0], &[], at(5.0, 4.0));
         robot.walk.id = (RobotId { kind: 0, index }, 2);
         robot.go(26);
         robot
@@ -236,53 +236,53 @@ fn two_robots_cover_a_room_together_in_half_the_time() {
 
 #[test]
 fn a_spiral_covers_a_room() {
-    let errand = BehaviourSpec::Spiral(Spiral::default());
-    let mut robot = Errand::new(errand, [10.0, 8.0], &[], at(5.0, 4.0));
+    let mission = BehaviourSpec::Spiral(Spiral::default());
+    let mut robot = Mission::new(mission, [10.0, 8.0], &[], at(5.0, 4.0));
     robot.go(120);
     assert!(robot.covered() > 0.98, "{}", robot.covered());
-    // From the middle outwards.
+    // From the centre outwards.
     let near = robot.track[..100]
         .iter()
         .map(|place| place.to(at(5.0, 4.0)).length());
     assert!(near.fold(0.0, f64::max) < 3.0);
 }
 
-/// Goes for so long in a room with a wall, and must then have looked at all of it.
-fn looks_at_all_of_a_room_with_a_wall(errand: BehaviourSpec, seconds: u32) -> Errand {
+/// Runs in a room with a wall for some seconds, and asserts that all of it was observed.
+fn observe_a_room_with_a_wall(mission: BehaviourSpec, seconds: u32) -> Mission {
     let wall = [5.0, 0.0, 5.3, 5.5];
-    let mut robot = Errand::new(errand, [10.0, 8.0], &[wall], at(2.0, 2.0));
+    let mut robot = Mission::new(mission, [10.0, 8.0], &[wall], at(2.0, 2.0));
     robot.go(seconds);
     assert!(robot.covered() > 0.97, "{}", robot.covered());
     robot
 }
 
 #[test]
-fn along_frontiers_one_looks_at_all_of_a_room_and_has_nothing_more_to_do() {
-    let errand = BehaviourSpec::Frontier(Frontier::default());
-    let robot = looks_at_all_of_a_room_with_a_wall(errand, 280);
+fn frontier_observes_the_whole_room_and_then_has_nothing_to_do() {
+    let mission = BehaviourSpec::Frontier(Frontier::default());
+    let robot = observe_a_room_with_a_wall(mission, 280);
     assert!(robot.walk.speed_m_s.abs() < 1e-6);
     let goals = robot.brain.belief_state().unwrap().goals;
     assert!(goals.is_empty(), "{goals:?}");
 }
 
 #[test]
-fn who_seeks_looks_at_all_of_a_room_and_then_again_as_something_may_have_been_missed() {
-    let errand = BehaviourSpec::BayesianSearch(BayesianSearch::default());
-    let mut robot = looks_at_all_of_a_room_with_a_wall(errand, 120);
+fn bayesian_search_observes_the_whole_room_and_then_searches_again() {
+    let mission = BehaviourSpec::BayesianSearch(BayesianSearch::default());
+    let mut robot = observe_a_room_with_a_wall(mission, 120);
     for _ in 0..2 {
         robot.track.clear();
         robot.go(120);
         assert!(robot.covered() > 0.9, "{}", robot.covered());
-        // In a corner it takes some seconds until it gives up a place that it cannot get to.
+        // In a corner it takes some seconds to abandon an unreachable place.
         let mut ways = robot.track.windows(120);
         assert!(ways.all(|way| way[0].to(way[119]).length() > 0.05));
     }
 }
 
 #[test]
-fn who_holds_a_place_comes_back_to_it() {
-    let errand = BehaviourSpec::HoldPosition(HoldPosition::default());
-    let mut robot = Errand::new(errand, [10.0, 10.0], &[], at(3.0, 3.0));
+fn hold_position_returns_to_its_position() {
+    let mission = BehaviourSpec::HoldPosition(HoldPosition::default());
+    let mut robot = Mission::new(mission, [10.0, 10.0], &[], at(3.0, 3.0));
     robot.go(3);
     assert!(robot.walk.at == at(3.0, 3.0));
     robot.walk.at = at(8.0, 6.0);
@@ -295,7 +295,7 @@ fn who_holds_a_place_comes_back_to_it() {
 }
 
 #[test]
-fn a_robot_is_home_before_its_battery_is_empty() {
+fn a_robot_returns_home_before_its_battery_is_empty() {
     let home = at(2.0, 2.0);
     let far = [
         at(27.0, 2.0),
@@ -305,9 +305,9 @@ fn a_robot_is_home_before_its_battery_is_empty() {
         at(27.0, 2.0),
     ];
     for arbitration in [Arbitration::Subsumption, Arbitration::Goals] {
-        let errand = navigate(&far, Assignment::All);
-        let mut robot = Errand::new(errand.clone(), [29.0, 8.0], &[], home);
-        let behaviours = vec![errand, BehaviourSpec::ReturnHome(ReturnHome::default())];
+        let mission = navigate(&far, Assignment::All);
+        let mut robot = Mission::new(mission.clone(), [29.0, 8.0], &[], home);
+        let behaviours = vec![mission, BehaviourSpec::ReturnHome(ReturnHome::default())];
         robot.brain = brain(behaviours, arbitration, &robot.walk.body);
         robot.walk.wiring.drain = 0.01;
         robot.go(98);
@@ -322,10 +322,10 @@ fn a_robot_is_home_before_its_battery_is_empty() {
 }
 
 #[test]
-fn who_follows_keeps_his_distance() {
+fn a_follower_keeps_its_distance() {
     let leader = RobotId { kind: 0, index: 0 };
-    let errand = BehaviourSpec::Follow(Follow::default());
-    let mut robot = Errand::new(errand, [40.0, 10.0], &[], at(2.0, 5.0));
+    let mission = BehaviourSpec::Follow(Follow::default());
+    let mut robot = Mission::new(mission, [40.0, 10.0], &[], at(2.0, 5.0));
     robot.walk.id = (RobotId { kind: 0, index: 1 }, 2);
     for step in 0..40 {
         let gone_m = 0.7 * f64::from(step);
@@ -338,7 +338,7 @@ fn who_follows_keeps_his_distance() {
 }
 
 #[test]
-fn who_does_not_know_where_he_is_leaves_it_to_lower_behaviours() {
+fn without_a_pose_lower_behaviours_are_active() {
     let lower = || BehaviourSpec::Cruise(Cruise::default());
     let place = navigate(&[at(1.0, 9.0)], Assignment::All);
     let errands = [
@@ -353,14 +353,14 @@ fn who_does_not_know_where_he_is_leaves_it_to_lower_behaviours() {
         }),
         BehaviourSpec::Follow(Follow::default()),
     ];
-    for errand in errands {
+    for mission in errands {
         for arbitration in [Arbitration::Subsumption, Arbitration::Goals] {
-            let mut robot = Errand::new(errand.clone(), [10.0, 10.0], &[], at(2.0, 5.0));
+            let mut robot = Mission::new(mission.clone(), [10.0, 10.0], &[], at(2.0, 5.0));
             robot.walk.wiring.position = false;
-            let behaviours = vec![lower(), errand.clone()];
+            let behaviours = vec![lower(), mission.clone()];
             robot.brain = brain(behaviours, arbitration, &robot.walk.body);
             robot.go(2);
-            assert!(robot.walk.speed_m_s > 0.9, "{errand:?}");
+            assert!(robot.walk.speed_m_s > 0.9, "{mission:?}");
         }
     }
 }

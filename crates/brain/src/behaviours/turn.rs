@@ -4,15 +4,15 @@ use crate::io::body::Body;
 use crate::io::command::Motion;
 use crate::perception::situation::Situation;
 
-/// A turn that is done but for this is done.
+/// Tolerance at which a turn is complete, in radians.
 const DONE_RAD: f32 = 0.02;
 
-/// For one who cannot turn.
-const MOST_PATIENCE_S: f64 = 60.0;
+/// Turn rate assumed for a robot that cannot turn, in rad/s.
+const MAX_DURATION_S: f64 = 60.0;
 
-/// A turn on the spot that has begun.
+/// A turn on the spot in progress.
 ///
-/// Needs no compass: it lasts for as long as the angle takes, and is better with one.
+/// Works without a compass, by time; a compass makes it more accurate.
 #[derive(Debug, Clone)]
 pub(crate) struct Turn {
     /// Anticlockwise.
@@ -21,21 +21,21 @@ pub(crate) struct Turn {
 }
 
 impl Turn {
-    /// A turn by an angle, anticlockwise, and how it begins.
+    /// A turn by an anticlockwise angle, and its first motion.
     #[expect(clippy::cast_possible_truncation, reason = "kept short")]
     pub(super) fn by(angle_rad: f64, body: &Body) -> (Self, Motion) {
-        // Twice the time that it takes, and a second, in case that it is stuck.
+        // Times out after twice its duration plus one second, in case the robot is blocked.
         let patience_s = 1.0 + 2.0 * angle_rad.abs() / body.max_turn_rate_rad_s;
         let turn = Self {
             left_rad: angle_rad as f32,
-            patience_s: patience_s.min(MOST_PATIENCE_S) as f32,
+            patience_s: patience_s.min(MAX_DURATION_S) as f32,
         };
         (turn, on_the_spot(angle_rad, body))
     }
 
-    /// How it goes on; `None` if it is done, or has lost patience.
+    /// The next motion; `None` if the turn is complete or has timed out.
     #[expect(clippy::cast_possible_truncation, reason = "kept short")]
-    pub(super) fn go_on(&mut self, situation: &Situation) -> Option<Motion> {
+    pub(super) fn next_motion(&mut self, situation: &Situation) -> Option<Motion> {
         self.left_rad -= situation.turned_rad as f32;
         if !situation.is_held() {
             self.patience_s -= situation.period_s();
@@ -45,7 +45,7 @@ impl Turn {
     }
 }
 
-/// As fast as it can without going too far before the next step.
+/// The maximum turn rate that does not overshoot before the next step.
 fn on_the_spot(left_rad: f64, body: &Body) -> Motion {
     Motion {
         speed_m_s: 0.0,

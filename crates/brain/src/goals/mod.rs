@@ -4,7 +4,7 @@
 //! [precedence](precedence) and a [verdict](fitness). The robot pursues the goal of the highest
 //! precedence, and on its path goals that need only a small detour. The verdicts mean:
 //!
-//! * *complete*: the behaviour goes on to its next destination;
+//! * *complete*: the behaviour continues to its next destination;
 //! * *impossible*: the behaviour is notified, and chooses another destination; if it proposes the
 //!   same one again, that rests for [ten seconds](fitness), in which other goals are pursued;
 //! * *approaching*: nothing changes;
@@ -103,7 +103,7 @@ impl Goals {
                     goal.behaviour == behaviour && goal.destination.at == destination.at
                 });
                 let is_reported = same.is_some_and(|goal| goal.fitness.is_resting());
-                // A goal that was impossible and is proposed again starts afresh, unless it rests.
+                // A goal that was impossible and is proposed again starts over, unless it rests.
                 let same = same.filter(|goal| goal.verdict != Verdict::Impossible || is_reported);
                 let mut fitness = same.map_or_else(Fitness::default, |goal| goal.fitness);
                 let distance_m = step.at.to(destination.at).length();

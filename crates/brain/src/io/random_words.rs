@@ -1,8 +1,9 @@
 //! Uniform numbers from the random bits of a percept.
 
-/// Uniform numbers made of a percept's [`random_words`](crate::Percept::random_words), in a fixed order.
+/// Uniform numbers from a percept's [`random_words`](crate::Percept::random_words), in a fixed
+/// order.
 ///
-/// The first four are its four words; whoever needs more gets these mixed anew.
+/// The first four are its four words; further ones are derived by mixing these again.
 #[derive(Debug, Clone)]
 pub struct RandomWords {
     words: [u32; 4],

@@ -82,7 +82,7 @@ enum Source {
 }
 
 impl Navigator {
-    /// The motion towards a destination; it stands still without a pose or a path.
+    /// The motion towards a destination; zero without a pose or a path.
     pub(crate) fn drive_to(
         &mut self,
         destination: &Destination,

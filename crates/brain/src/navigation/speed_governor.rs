@@ -60,7 +60,7 @@ impl SpeedGovernor {
         self.clear(percept, body, (1.0, now_m_s.max(0.0)), free_m)
     }
 
-    /// The wanted motion, slowed down to the limit. A motion in a direction that no range sensor
+    /// The proposed motion, slowed down to the limit. A motion in a direction that no range sensor
     /// covers is not limited.
     #[inline]
     pub(crate) fn limit(
@@ -83,7 +83,7 @@ impl SpeedGovernor {
         }
         let clear = self.clear_along(wanted, sign, situation, odometry);
         let free_m = clear.map_or(0.0, |clear| clear.free_m);
-        // A turn towards where the robot could not stop is postponed until it stands still.
+        // A turn towards where the robot could not stop is postponed until it is stationary.
         let can_turn = now_m_s * now_m_s * self.stopping_s2_m <= free_m;
         Motion {
             speed_m_s: sign * self.speed_m_s(wanted_m_s, now_m_s, free_m, body.period_s),

@@ -4,8 +4,8 @@
 //! line separates the stopping paths of two robots, half way between their nearest points. **Each
 //! robot keeps its next stopping path on its own side of that line**, at a distance of half the sum
 //! of both radii. Braking always satisfies this: the rest of a stopping path is part of it. So
-//! robots that both follow this rule never collide, whatever they want to do, and neither needs to
-//! know what the other wants. A robot that stands still may turn.
+//! robots that both follow this rule never collide for any proposed motions, and neither needs to
+//! know the proposal of the other. A stationary robot may turn.
 //!
 //! ```text
 //!          stopping path         |         stopping path
@@ -71,7 +71,7 @@ impl Traffic {
         }
     }
 
-    /// The motion nearest to the wanted one that keeps to all lines: slower, with less of a turn,
+    /// The motion nearest to the proposed one that keeps to all lines: slower, with less of a turn,
     /// or braking straight ahead.
     pub(crate) fn limit(&self, wanted: Motion, body: &Body, now_m_s: f64) -> Motion {
         let is_turning_only = now_m_s == 0.0 && wanted.speed_m_s == 0.0;
@@ -168,11 +168,11 @@ fn line(own: &Segment, lag_m: f64, mover: &Mover, body: &Body) -> Option<Line> {
     }
     let normal = between.times(1.0 / gap_m);
     let error_m = DEVIATIONS * body.neighbour_noise_m;
-    let half_m = (body.radius_m + mover.radius_m + CLEARANCE_M + error_m) / 2.0;
+    let half_gap_m = (body.radius_m + mover.radius_m + CLEARANCE_M + error_m) / 2.0;
     // Robots that are too near already must not come nearer. The same holds for a mover that was
     // observed only once, whose velocity is unknown.
     let free_m = if mover.observations > 1 {
-        (gap_m / 2.0 - half_m - lag_m).max(0.0)
+        (gap_m / 2.0 - half_gap_m - lag_m).max(0.0)
     } else {
         0.0
     };

@@ -101,7 +101,7 @@ impl Sum {
         }
     }
 
-    /// The motion along the sum; the robot stands still if no behaviour proposes to move.
+    /// The motion along the sum; the robot is stationary if no behaviour proposes to move.
     pub(crate) fn motion(
         &self,
         behaviours: &[Ready],

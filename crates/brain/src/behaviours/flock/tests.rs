@@ -4,7 +4,7 @@ use crate::{Brain, BrainSpec, Percept, RobotId};
 use proptest::prelude::*;
 use std::sync::Arc;
 
-/// It turns to any course in one step of 1 s.
+/// It can turn to any heading in one step of 1 s.
 fn body() -> Body {
     Body {
         max_speed_m_s: 2.0,
@@ -14,9 +14,9 @@ fn body() -> Body {
     }
 }
 
-fn brain(swarm: Flock) -> Brain {
+fn brain(flock: Flock) -> Brain {
     let spec = BrainSpec {
-        behaviours: vec![BehaviourSpec::Flock(swarm)],
+        behaviours: vec![BehaviourSpec::Flock(flock)],
         ..BrainSpec::default()
     };
     Brain::new(Arc::new(spec), Arc::new(body()))
@@ -32,13 +32,13 @@ fn at(x: f64, y: f64, course_rad: f64) -> Neighbour {
     }
 }
 
-/// By how much it turns.
-fn turn_rad(swarm: Flock, neighbours: Vec<Neighbour>) -> f64 {
+/// The angle of its turn.
+fn turn_rad(flock: Flock, neighbours: Vec<Neighbour>) -> f64 {
     let percept = Percept {
         neighbours,
         ..Percept::default()
     };
-    brain(swarm).step(&percept).motion.turn_rate_rad_s
+    brain(flock).step(&percept).motion.turn_rate_rad_s
 }
 
 const NOTHING: Flock = Flock {
@@ -52,8 +52,8 @@ const NOTHING: Flock = Flock {
     speed_m_s: None,
 };
 
-fn assert_turns(swarm: Flock, neighbours: Vec<Neighbour>, expected_rad: f64) {
-    let turned_rad = turn_rad(swarm, neighbours);
+fn assert_turns(flock: Flock, neighbours: Vec<Neighbour>, expected_rad: f64) {
+    let turned_rad = turn_rad(flock, neighbours);
     assert!(
         (turned_rad - expected_rad).abs() < 1e-12,
         "{turned_rad} for {expected_rad}"
@@ -61,44 +61,44 @@ fn assert_turns(swarm: Flock, neighbours: Vec<Neighbour>, expected_rad: f64) {
 }
 
 #[test]
-fn alone_it_goes_straight_on() {
+fn alone_it_drives_straight_on() {
     assert_turns(Flock::default(), vec![], 0.0);
     let motion = brain(Flock::default()).step(&Percept::default()).motion;
     assert!((motion.speed_m_s - 2.0).abs() < 1e-12);
 }
 
 #[test]
-fn it_turns_to_the_others_away_from_those_too_near_and_to_their_course() {
-    let swarm = Flock {
+fn it_turns_to_the_others_away_from_those_too_near_and_to_their_heading() {
+    let flock = Flock {
         cohesion: 0.5,
         ..NOTHING
     };
-    // Half of the mean way to (1, 3) and (1, 5) beside its own course: (1.5, 2).
+    // Half of the mean vector to (1, 3) and (1, 5) plus its own heading: (1.5, 2).
     assert_turns(
-        swarm,
+        flock,
         vec![at(1.0, 3.0, 0.0), at(1.0, 5.0, 0.0)],
         2_f64.atan2(1.5),
     );
-    let swarm = Flock {
+    let flock = Flock {
         separation: 1.0,
         ..NOTHING
     };
-    // Of the two only one is too near, and the mean is over both.
+    // Only one of the two is too near, but the mean is over both.
     assert_turns(
-        swarm,
+        flock,
         vec![at(0.0, 1.0, 0.0), at(0.0, 5.0, 0.0)],
         (-0.5_f64).atan2(1.0),
     );
-    let swarm = Flock {
+    let flock = Flock {
         alignment: 1.0,
         ..NOTHING
     };
-    assert_turns(swarm, vec![at(4.0, 1.0, 2.0)], 1.0);
+    assert_turns(flock, vec![at(4.0, 1.0, 2.0)], 1.0);
 }
 
 #[test]
-fn the_declared_flock_of_the_comparison_of_frameworks_is_one_of_its_settings() {
-    let swarm = Flock {
+fn the_flock_of_the_comparison_of_frameworks_is_a_configuration() {
+    let flock = Flock {
         separation_m: 4.0,
         separation: 0.015,
         alignment: 0.05,
@@ -106,7 +106,7 @@ fn the_declared_flock_of_the_comparison_of_frameworks_is_one_of_its_settings() {
         ..Flock::default()
     };
     let others = [(3.0, 1.0, 0.5), (-9.0, 7.0, -2.0), (-0.5, -1.0, 3.0)];
-    // As they write it, in the order of their lines.
+    // Their implementation, in the order of their lines.
     let (mut cohere, mut separate, mut matched) = ([0.0; 2], [0.0; 2], [0.0; 2]);
     for (x, y, course) in others {
         let far = f64::hypot(x, y);
@@ -122,11 +122,11 @@ fn the_declared_flock_of_the_comparison_of_frameworks_is_one_of_its_settings() {
     };
     let expected_rad = sum(1).atan2(1.0 + sum(0));
     let others = others.map(|(x, y, course)| at(x, y, course));
-    assert_turns(swarm, others.to_vec(), expected_rad);
+    assert_turns(flock, others.to_vec(), expected_rad);
 }
 
 #[test]
-fn by_sums_its_own_course_is_one_of_those_of_which_it_takes_the_mean() {
+fn with_sums_its_own_heading_counts_as_one_of_the_mean() {
     let vicsek = Flock {
         alignment: 1.0,
         averages: false,
@@ -141,17 +141,17 @@ fn by_sums_its_own_course_is_one_of_those_of_which_it_takes_the_mean() {
 }
 
 #[test]
-fn separation_is_granted_first_then_alignment_then_cohesion() {
-    let swarm = |steering_limit: f64| Flock {
+fn separation_takes_precedence_over_alignment_and_cohesion() {
+    let flock = |steering_limit: f64| Flock {
         separation: 1.0,
         alignment: 1.0,
         cohesion: 1.0,
         steering_limit,
         ..NOTHING
     };
-    // It asks for (0, -1) to keep apart, (0, 1) of alignment and (0, 1) of cohesion.
+    // The requests are (0, -1) for separation, (0, 1) for alignment and (0, 1) for cohesion.
     let other = at(0.0, 1.0, std::f64::consts::FRAC_PI_2);
-    let y = |limit: f64| turn_rad(swarm(limit), vec![other]).tan();
+    let y = |limit: f64| turn_rad(flock(limit), vec![other]).tan();
     for (limit, expected) in [
         (0.0, 0.0),
         (0.5, -0.5),
@@ -166,11 +166,11 @@ fn separation_is_granted_first_then_alignment_then_cohesion() {
 
 #[test]
 fn noise_is_uniform_over_its_width() {
-    let swarm = Flock {
+    let flock = Flock {
         noise_deg: 90.0,
         ..NOTHING
     };
-    let mut brain = brain(swarm);
+    let mut brain = brain(flock);
     let mut turn_rad = |word: u32| {
         let percept = Percept {
             random_words: [word; 4],
@@ -193,7 +193,7 @@ fn noise_is_uniform_over_its_width() {
 }
 
 #[test]
-fn who_was_seen_long_ago_or_is_nonsense_pulls_on_nobody() {
+fn old_and_invalid_neighbours_are_ignored() {
     let broken = [f64::NAN, f64::INFINITY, -f64::INFINITY, -1.0, 1e300];
     let one = at(0.0, 3.0, 1.0);
     let by_range = broken.map(|range_m| Neighbour { range_m, ..one });
@@ -210,11 +210,11 @@ fn who_was_seen_long_ago_or_is_nonsense_pulls_on_nobody() {
     }
     let uncoursed = [None, Some(f64::NAN), Some(f64::INFINITY), Some(1e300)];
     for course_rad in uncoursed {
-        let swarm = Flock {
+        let flock = Flock {
             cohesion: 0.0,
             ..Flock::default()
         };
-        assert_turns(swarm, vec![Neighbour { course_rad, ..one }], 0.0);
+        assert_turns(flock, vec![Neighbour { course_rad, ..one }], 0.0);
     }
 }
 
@@ -238,16 +238,16 @@ prop_compose! {
 
 proptest! {
     #[test]
-    fn whatever_it_is_told_it_wants_what_its_body_can(
+    fn commands_are_within_the_limits_for_any_percept(
         neighbours in prop::collection::vec(any_neighbour(), 0..30),
         (separation, alignment, cohesion) in (0.0..=1000.0, 0.0..=1000.0, 0.0..=1000.0),
         (steering_limit, noise_deg) in (0.0..=1e9, 0.0..=360.0), averages: bool, random_words: [u32; 4],
     ) {
-        let swarm = Flock {
+        let flock = Flock {
             separation, alignment, cohesion, averages, steering_limit, noise_deg, ..NOTHING
         };
         let percept = Percept { random_words, neighbours, ..Percept::default() };
-        let motion = brain(swarm).step(&percept).motion;
+        let motion = brain(flock).step(&percept).motion;
         prop_assert!((motion.speed_m_s - 2.0).abs() < 1e-12);
         prop_assert!(motion.turn_rate_rad_s.abs() <= 4.0);
     }

@@ -10,7 +10,7 @@ fn field(width: f64, height: f64) -> Field {
     Field::new(&Rectangle::spanned(Point::default(), corner), 0.25, 4096)
 }
 
-/// The way of one of so many parts.
+/// The path of one of several parts.
 fn part(track: &Track, part: [u32; 2]) -> Vec<Segment> {
     let places: Vec<Point> = (0..).map_while(|n| track.place_of_part(part, n)).collect();
     let pairs = places.iter().zip(places.iter().skip(1));
@@ -24,7 +24,7 @@ fn part(track: &Track, part: [u32; 2]) -> Vec<Segment> {
 
 proptest! {
     #[test]
-    fn robots_together_pass_within_half_a_width_of_every_place_and_each_has_an_equal_part(
+    fn parts_are_equal_and_together_pass_within_half_a_width_of_every_place(
         size in (2.0_f64..60.0, 2.0_f64..60.0), width_m in 0.5_f64..12.0, robots in 1_u32..12,
         (x, y) in (0.0_f64..1.0, 0.0_f64..1.0), is_across: bool,
     ) {
@@ -34,7 +34,7 @@ proptest! {
         let place = Point { x: x * size.0, y: y * size.1 };
         let away_m = parts.iter().flatten().map(|lane| lane.distance_m(place));
         let away_m = away_m.fold(f64::INFINITY, f64::min);
-        // At a lane's end also half a width ahead.
+        // At the end of a lane, half a width ahead is covered too.
         prop_assert!(away_m <= inset_m * 2.0_f64.sqrt() + 1e-9, "{}", away_m);
         let each_m = track.length_m() / f64::from(robots);
         for part in &parts {
@@ -78,7 +78,7 @@ fn the_second_pass_runs_across_the_first() {
 }
 
 #[test]
-fn after_a_pass_comes_the_next_and_one_that_is_hard_to_get_to_is_left_out() {
+fn a_pass_is_followed_by_the_next_and_unreachable_corners_are_skipped() {
     let ready = Ready::new(&Lawnmower::default(), &crate::world_of_walls::rover());
     let field = field(20.0, 10.0);
     let mut progress = Progress::of([0, 1]);
@@ -90,7 +90,7 @@ fn after_a_pass_comes_the_next_and_one_that_is_hard_to_get_to_is_left_out() {
     let progress = memory.as_mut().unwrap();
     assert_ne!(ready.place(progress, &field), Some(first));
     for _ in 0..100 {
-        progress.go_on();
+        progress.advance();
         assert!(ready.place(progress, &field).is_some());
     }
     assert!(progress.passes > 1);

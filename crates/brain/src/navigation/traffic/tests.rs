@@ -19,7 +19,7 @@ struct TestRobot {
     speed_m_s: f64,
     others: Others,
     traffic: Traffic,
-    /// The motion that it wants, and the remaining steps for which it does.
+    /// Its proposed motion, and the remaining steps of the proposal.
     proposal: (Motion, u32),
     turned_rad: f64,
     moved_m: f64,
@@ -62,7 +62,7 @@ impl TestRobot {
     }
 
     /// A random motion, kept for a while: one in three towards the centre of the crowd, some of
-    /// them standing still.
+    /// them without translation.
     fn wanted(&mut self, random: &mut Stream) -> Motion {
         let (motion, left) = self.proposal;
         if left > 0 {

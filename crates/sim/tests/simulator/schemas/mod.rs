@@ -15,7 +15,7 @@ const SCHEMA: &str = "schemas/metric.schema.json";
 const PAGE: &str = "docs/scenario.md";
 
 /// The text before this line is written by hand.
-const MARK: &str = "<!-- From here on content by `make schemas` from the types. -->\n";
+const MARK: &str = "<!-- From here on made by `make schemas` from the types. -->\n";
 
 /// The schema of the keys that all engines share.
 fn common() -> serde_json::Value {
