@@ -21,7 +21,7 @@ BIN = ROOT / ".venv/bin"
 AT_ONCE = 2
 """Stages that run at the same time."""
 
-SLOW_TESTS = {"brains", "minds", "validation"}
+SLOW_TESTS = {"brains", "validation"}
 """Rust test binaries, each of a minute of statistics, that `--quick` leaves to `make test`."""
 
 

@@ -1,7 +1,7 @@
 //! Time of one step of one brain: 16 rays, the three behaviours of the default brain.
 //!
-//! `cargo bench -p agent-economy-benchmarks --bench brain`. Each pass lets 1000 robots of a kind think once, of the
-//! same percept, as a simulator does that fills one percept after the other.
+//! `cargo bench -p agent-economy-benchmarks --bench brain`. In each pass 1000 brains of one kind take
+//! one step with the same percept, like a simulator that fills one percept after the other.
 
 use brain::{Body, Brain, BrainSpec, Command, Percept, RangeRing, Reading, Scan};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};

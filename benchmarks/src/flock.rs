@@ -81,6 +81,6 @@ fn scenario(birds: u32) -> Scenario {
 
 /// Sizes of the flocks: from the command line, or the defaults.
 fn sizes() -> Vec<u32> {
-    let asked = std::env::args().nth(2).and_then(|birds| birds.parse().ok());
-    asked.map_or(SIZES.to_vec(), |birds| vec![birds])
+    let given = std::env::args().nth(2).and_then(|birds| birds.parse().ok());
+    given.map_or(SIZES.to_vec(), |birds| vec![birds])
 }

@@ -77,8 +77,8 @@ pub(crate) fn starts(simulation: &Simulation) -> Vec<(Point, f64)> {
 
 /// Sizes of the teams: from the command line, or the defaults.
 fn sizes() -> Vec<u32> {
-    let asked = std::env::args()
+    let given = std::env::args()
         .nth(2)
         .and_then(|robots| robots.parse().ok());
-    asked.map_or(vec![100, 1_600, 10_000], |robots| vec![robots])
+    given.map_or(vec![100, 1_600, 10_000], |robots| vec![robots])
 }

@@ -23,7 +23,7 @@ const NEAR_M: f64 = 0.6;
 /// Scratch memory for one step.
 pub(super) struct Room {
     directions: [Rays; 2],
-    /// Of these, the first so many.
+    /// Scratch list; only the first `disc_count` entries are valid.
     discs: Vec<NearDisc>,
     disc_count: usize,
     walls: Vec<NearWall>,

@@ -1,4 +1,4 @@
-//! Returning home in a brain without a simulator, for correct and faulty battery readings.
+//! Returning home in a brain without a simulator, for correct and wrong battery readings.
 
 use base::geometry::Point;
 use brain::behaviours::{BehaviourSpec, Navigate, ReturnHome};

@@ -1,5 +1,5 @@
-//! Pose estimation in a brain without a simulator, for correct and faulty wheels, compass and position
-//! sensor.
+//! Pose estimation in a brain without a simulator, for correct and wrong readings of wheels, compass
+//! and position sensor.
 
 use base::geometry::Point;
 use base::random::{Entity, Purpose, Stream, stream, unit};

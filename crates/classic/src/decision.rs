@@ -92,7 +92,7 @@ fn chosen_move(scores: &Scores) -> (Turn, Speed) {
         3 => (Turn::None, Speed::Fast),
         4 => (Turn::Right, Speed::Slow),
         5 => (Turn::Right, Speed::Fast),
-        // The original tosses a coin for the side, but the coin always says left.
+        // The original tosses a coin for the side, but the coin always shows left.
         _ => (Turn::Left, Speed::Stopped),
     }
 }

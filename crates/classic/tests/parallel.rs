@@ -42,13 +42,13 @@ fn outcomes_do_not_depend_on_the_number_of_threads() {
 
 #[test]
 fn outcomes_are_the_same_bytes_for_ever() {
-    // A change here changes every published result: say why in the commit and in the changelog.
+    // A change here changes every published result: state the reason in the commit and in the changelog.
     let golden = 9_984_463_125_805_394_549;
     assert_eq!(hash(&replicate(4, 0..2000, 2003, TASK)), golden);
 }
 
 #[test]
-fn a_run_is_the_same_whichever_runs_are_asked_for_with_it() {
+fn a_run_does_not_depend_on_the_other_runs_of_a_request() {
     let all = replicate(2, 0..500, 3, TASK);
     assert_eq!(all[300..400], replicate(2, 300..400, 3, TASK));
 }

@@ -1,4 +1,4 @@
-//! The JSON Schema of classic scenarios. `make schemas` writes it anew, this holds the file to it.
+//! The JSON Schema of classic scenarios: `make schemas` generates it, and this test compares the file.
 
 use std::fs;
 use std::path::Path;
@@ -14,6 +14,6 @@ fn the_schema_for_editors_is_what_the_reader_allows() {
     let is_same = fs::read_to_string(&file).is_ok_and(|text| text == made);
     assert!(
         is_same,
-        "classic.schema.json is not what the reader says: run make schemas"
+        "classic.schema.json differs from the types: run `make schemas`"
     );
 }

@@ -1,4 +1,4 @@
-//! A run that is stepped by hand is the run that studies compute, and a changed one can be taken again.
+//! A run stepped by its caller equals the run of a study, and a run with changes can be replayed.
 
 use base::engine::{BlockOptions, Runner};
 use classic::clock::Clock;
@@ -35,7 +35,7 @@ fn finished(mut run: Run) -> Run {
 }
 
 #[test]
-fn a_finished_run_gives_what_studies_are_told_of_it() {
+fn a_finished_run_gives_the_measures_of_a_study() {
     for (robots, runs) in [(1, 60), (2, 60), (3, 40), (8, 20), (250, 1)] {
         for (_, contact) in Contact::NAMES {
             for time_limit_paints in [0, 12, 700, 6720] {
@@ -97,7 +97,7 @@ fn changes_at_the_same_paints_give_the_same_run() {
 }
 
 #[test]
-fn those_who_stay_go_on_from_where_they_are_and_those_who_come_begin_at_their_starts() {
+fn after_a_change_remaining_robots_continue_and_new_ones_begin_at_their_starts() {
     let mut run = Run::new(configuration(3, Contact::Touch, 6720), SEED, 2);
     stepped(&mut run, 30);
     let before = run.search().simulation().robots().to_vec();
@@ -111,7 +111,7 @@ fn those_who_stay_go_on_from_where_they_are_and_those_who_come_begin_at_their_st
 }
 
 #[test]
-fn what_was_found_by_those_who_left_stays_found() {
+fn finds_of_removed_robots_remain() {
     let mut run = finished(Run::new(configuration(250, Contact::Touch, 6720), SEED, 0));
     run.change(configuration(1, Contact::Touch, 6720));
     assert!(run.search().is_over());

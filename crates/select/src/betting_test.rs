@@ -2,7 +2,7 @@
 //!
 //! The claim under test: the challenger's mean merit is above the champion's by delta or more. In
 //! every run, x = champion - challenger + delta; under the claim its mean is at most 0, and it is
-//! never below -depth, because merits are bounded. A gambler who starts with 1 and stakes a part of
+//! never below -depth, because merits are bounded. A gambler that starts with 1 and stakes a part of
 //! the wealth on x, bet x wealth with bet < 1 / depth, cannot expect to gain under the claim:
 //! the wealth is a nonnegative supermartingale, and by Ville's inequality it ever reaches w with a
 //! probability of at most 1 / w. So wealth is evidence against the claim, and may be evaluated at

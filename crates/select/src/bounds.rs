@@ -1,6 +1,6 @@
 //! Bounds of the mean of bounded values (a confidence sequence): they are valid at every moment.
 //!
-//! A candidate for the mean is refuted when gamblers who bet that the mean is higher (for the lower
+//! A candidate for the mean is refuted when gamblers that bet that the mean is higher (for the lower
 //! bound) have made 1 / alpha out of 1; the bound is the highest candidate refuted. Since the
 //! gamblers' wealth can reach that under a true candidate with a probability of at most alpha at any
 //! time (Ville's inequality), the bound holds however the number of values was chosen.
@@ -122,7 +122,7 @@ impl Counted {
         wealth >= 1.0
     }
 
-    /// Logarithm of the wealth of a gambler who starts with 1 and always stakes `part` of the limit.
+    /// Logarithm of the wealth of a gambler that starts with 1 and always stakes `part` of the limit.
     #[expect(clippy::cast_precision_loss, reason = "values are far fewer than 2^53")]
     fn log_wealth(&self, candidate: f64, part: f64) -> f64 {
         let (mut log, mut product, mut factors) = (0.0, 1.0, 0);
@@ -153,7 +153,7 @@ mod tests {
     #[test]
     fn clean_runs_bound_a_rare_failure() {
         // 299 clean runs show p <= 1% at 95% when their number is fixed beforehand (1 - 0.05^(1/299));
-        // a bound that holds at every moment asks for more, but not for three times as many.
+        // a bound that holds at every moment requires more, but not for three times as many.
         let (low, high) = mean_bounds(&[0.0; 900], UNIT, 0.05);
         assert!(low <= 0.0);
         assert!((0.003..0.01).contains(&high), "{high}");

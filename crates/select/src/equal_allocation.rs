@@ -1,4 +1,4 @@
-//! Equal allocation: a fixed number of runs of each configuration; the best mean is selected.
+//! Equal allocation: a fixed number of runs per configuration; the best mean is selected.
 
 use crate::procedure::{Elimination, Procedure, Request};
 
@@ -6,7 +6,7 @@ use crate::procedure::{Elimination, Procedure, Request};
 /// memory.
 const MAX_ROWS: usize = 1 << 20;
 
-/// The same number of runs of each configuration, as in the 2003 experiment with its ten runs.
+/// The same number of runs per configuration, as in the 2003 experiment with its ten runs.
 ///
 /// It gives no guarantee, and eliminates no configuration. Merits need no bounds.
 #[derive(Debug, Clone)]
@@ -17,7 +17,7 @@ pub struct EqualAllocation {
 }
 
 impl EqualAllocation {
-    /// For `configurations >= 1` with `runs >= 1` runs of each.
+    /// For `configurations >= 1` with `runs >= 1` runs per configuration.
     #[must_use]
     pub fn new(configurations: usize, runs: u64) -> Self {
         debug_assert!(configurations >= 1 && runs >= 1);

@@ -7,7 +7,7 @@
 //! | evidence that one configuration gathers against another | `betting_test` |
 //! | the default: the best, if it is better than every other by delta | [`race`] |
 //! | the strict one: within delta of the best in every case | [`strict`] |
-//! | a fixed number of runs of each, without a guarantee | [`equal_allocation`] |
+//! | a fixed number of runs per configuration, without a guarantee | [`equal_allocation`] |
 //! | bounds of a mean that are valid at every moment | [`bounds`] |
 
 mod betting_test;

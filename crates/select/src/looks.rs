@@ -6,7 +6,7 @@
 
 const FIRST_LOOK: usize = 10;
 
-/// How many runs a configuration has at the look that follows `runs`.
+/// The number of runs of a configuration at the evaluation after `runs`.
 #[must_use]
 pub fn next_look(runs: usize) -> usize {
     if runs < FIRST_LOOK {

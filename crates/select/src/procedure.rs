@@ -34,7 +34,7 @@ pub trait Procedure {
     /// The configuration selected, or leading so far.
     fn best(&self) -> usize;
 
-    /// Runs of each configuration so far.
+    /// Number of recorded runs per configuration.
     fn runs(&self) -> Vec<u64>;
 
     /// The configurations that can still be selected, ascending.

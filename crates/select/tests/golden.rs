@@ -1,6 +1,6 @@
 //! The same problem gives the same decisions, bit for bit, on every machine and in every version.
 //!
-//! A golden changes only in a commit that says why: it changes every study.
+//! A golden value changes only in a commit that states the reason: it changes every study.
 
 use base::random::{Entity, Purpose, stream};
 use select::bounds::mean_bounds;

@@ -59,7 +59,7 @@ class AboutSender(TypedDict):
     Attributes:
         at: Its position in the world.
         heading_rad: Its heading: 0 along x, anticlockwise.
-        observations: Number of measurements of its item detectors so far on its way here.
+        observations: Number of measurements of its item detectors on the path to this pose.
     """
 
     at: Point
@@ -216,7 +216,7 @@ class HeadingOptions(TypedDict):
 
 
 class BeliefState(TypedDict):
-    """What a robot believes and wants at one moment.
+    """The beliefs and goals of a robot at one moment.
 
     Attributes:
         pose: Its believed pose, once it is known.
@@ -381,7 +381,7 @@ class Command(TypedDict):
     """The output of a brain in one step.
 
     Attributes:
-        motion: The motion that the brain wants; the body executes it as far as it can.
+        motion: The motion setpoint; the body executes it as far as it can.
         requests: Sensors to switch on or off; each stays so until it is switched again.
             Initially all are on.
         outbox: Messages to other robots.

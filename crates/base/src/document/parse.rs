@@ -18,7 +18,7 @@ pub(super) fn parse(file: &str, text: &str) -> Result<Node, InputErrors> {
     InputErrors::or(errors, Some(root))
 }
 
-/// The offsets at which the lines of a text begin.
+/// The offsets at which the lines of a string begin.
 struct Lines<'t> {
     file: &'t str,
     starts: Vec<usize>,

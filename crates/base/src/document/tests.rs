@@ -13,7 +13,7 @@ fn errors_of(text: &str, reader: impl FnOnce(&Section) -> Option<()>) -> Vec<Str
 }
 
 #[test]
-fn all_errors_are_told_at_once_each_with_its_line() {
+fn all_errors_are_reported_at_once_with_their_lines() {
     let text = "engine = \"clasic\"\ntime_limit_s = \"long\"\n\n[robots.rover]\ncuont = 3\n";
     let errors = errors_of(text, |root| {
         root.only(&["engine", "time_limit_s", "robots"]);
@@ -38,7 +38,7 @@ fn all_errors_are_told_at_once_each_with_its_line() {
 }
 
 #[test]
-fn text_that_is_not_toml_is_told_with_its_line() {
+fn invalid_toml_is_reported_with_its_line() {
     let errors = errors_of("a = 1\nb = = 2\n", |_| Some(()));
     assert!(!errors.is_empty());
     for error in errors {
@@ -59,7 +59,7 @@ fn nan_and_numbers_beyond_64_bits_are_out_of_every_range() {
 }
 
 #[test]
-fn a_table_where_a_value_belongs_and_the_reverse_are_told() {
+fn a_table_instead_of_a_value_and_the_reverse_are_errors() {
     let errors = errors_of("a = 1\n[b]\nc = 1", |root| {
         let a = root.section("a").integer("x", 0..=1);
         let b = root.integer("b", 0..=1);
@@ -75,7 +75,7 @@ fn a_table_where_a_value_belongs_and_the_reverse_are_told() {
 }
 
 #[test]
-fn each_bad_number_of_a_list_is_told_with_its_place() {
+fn each_invalid_number_of_a_list_is_reported_with_its_index() {
     let errors = errors_of("a = [1, 20, \"x\"]\nb = []", |root| {
         let a = root.numbers("a", 0.0..=10.0);
         let b = root.numbers("b", 0.0..=10.0);
@@ -104,7 +104,7 @@ fn a_line_is_neither_empty_nor_broken() {
 }
 
 #[test]
-fn an_option_replaces_what_the_file_says_and_is_named_in_its_error() {
+fn an_option_overrides_the_file_and_is_named_in_its_error() {
     let mut document = Document::parse("job.toml", "[robots]\ncount = 3").unwrap();
     document.set(&["robots", "count"], Value::Integer(0), "--count");
     let read = |root: &Section| root.section("robots").integer("count", 1..=9);
@@ -119,7 +119,7 @@ fn an_option_replaces_what_the_file_says_and_is_named_in_its_error() {
 
 proptest! {
     #[test]
-    fn any_text_is_read_or_told_never_a_panic(text in "[a-c=\\[\\]\"'.0-9\n{}, #_-]{0,60}") {
+    fn any_string_is_parsed_or_rejected_without_a_panic(text in "[a-c=\\[\\]\"'.0-9\n{}, #_-]{0,60}") {
         let _ = Document::parse("fuzz", &text).map(|document| {
             document.read(|root| {
                 root.only(&["a"]);
@@ -159,7 +159,7 @@ fn what_stands_at_a_path_is_found_with_its_line() {
 }
 
 #[test]
-fn a_number_that_does_not_hold_is_told_with_what_is_allowed() {
+fn an_invalid_number_is_reported_with_what_is_allowed() {
     let read = |text: &str| {
         errors_of(text, |root| {
             root.number_if("a", "a number above 0", |a| a > 0.0)

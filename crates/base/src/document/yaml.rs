@@ -4,7 +4,7 @@ use super::{Node, Table, Value};
 use crate::error::{InputError, InputErrors};
 use granit_parser::{Event, Parser, ScalarStyle, ScanError, Span, options};
 
-/// Maximum length of a text, in bytes.
+/// Maximum length of a document, in bytes.
 const MAX_BYTES: usize = 1 << 16;
 
 /// Maximum nesting depth of mappings and lists.
@@ -77,11 +77,11 @@ where
     fn next(&mut self) -> Result<(Event<'t>, Span), InputError> {
         match self.events.next() {
             Some(Ok(event)) => Ok(event),
-            Some(Err(error)) => Err(self.told(
+            Some(Err(error)) => Err(self.error_at_line(
                 error.marker().line(),
                 &format!("not valid YAML: {}", error.info()),
             )),
-            None => Err(self.told(1, "not valid YAML: it ends too early")),
+            None => Err(self.error_at_line(1, "not valid YAML: it ends too early")),
         }
     }
 
@@ -139,10 +139,10 @@ where
     }
 
     fn error(&self, span: &Span, allowed: &str) -> InputError {
-        self.told(span.start.line(), &format!("must be {allowed}"))
+        self.error_at_line(span.start.line(), &format!("must be {allowed}"))
     }
 
-    fn told(&self, line: usize, sentence: &str) -> InputError {
+    fn error_at_line(&self, line: usize, sentence: &str) -> InputError {
         InputError {
             origin: Some(format!("{}:{line}", self.file)),
             ..InputError::new(String::new(), None, sentence.to_owned())

@@ -113,8 +113,8 @@ mod tests {
             let (from, to) = (point(from), point(to));
             let image = TORUS.image(from, to);
             let images = TORUS.shifts().map(|shift| to.plus(shift)).chain([to]);
-            let least_m = images.map(|image| from.to(image).length()).fold(f64::INFINITY, f64::min);
-            prop_assert!((from.to(image).length() - least_m).abs() < 1e-12);
+            let min_m = images.map(|image| from.to(image).length()).fold(f64::INFINITY, f64::min);
+            prop_assert!((from.to(image).length() - min_m).abs() < 1e-12);
             let nearest = TORUS.shifts().map(|shift| to.plus(shift)).chain([to]);
             prop_assert_eq!(nearest.filter(|image| TORUS.is_nearest(from, *image)).count(), 1);
             prop_assert!(TORUS.is_nearest(from, image));

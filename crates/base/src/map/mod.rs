@@ -10,7 +10,7 @@
 //! * `scale`: the same, but in between 100 (p - `free_thresh`) / (`occupied_thresh` - `free_thresh`),
 //!   rounded, halves to the even number (as in ROS 2; a PGM image has nothing transparent, so that
 //!   nothing is unknown);
-//! * `raw`: 255 v / m, rounded, or -1 if that is above 100; whatever `negate` says.
+//! * `raw`: 255 v / m, rounded, or -1 if that is above 100, for any value of `negate`.
 //!
 //! `origin` is the pose [x, y, yaw] of the lower left corner of the lower left pixel: the map is
 //! rotated about it, anticlockwise, by `yaw` radians. (Much of ROS ignores the yaw; here it is used.)

@@ -6,9 +6,9 @@ use std::fmt::Write;
 const ROOM: &str = "image: room.pgm\nresolution: 0.5\norigin: [1, 2, 0]\nnegate: 0\n\
                     occupied_thresh: 0.65\nfree_thresh: 0.196\n";
 
-/// Where the ray from `origin` along `direction` comes upon a wall from its free side, in lengths of
-/// `direction`; from the solid side, or along it, it meets nothing. An end on the ray counts for both
-/// of its sides, so that a ray between two walls with a common end meets one of them.
+/// The distance, in lengths of `direction`, at which the ray from `origin` meets the free side of a
+/// wall; the solid side, and a ray along the wall, meet nothing. An end on the ray counts for both
+/// sides, so that a ray between two walls with a common end meets one of them.
 fn hit(wall: &Segment, origin: Point, direction: Point) -> Option<f64> {
     let (from, to) = (origin.to(wall.from), origin.to(wall.to));
     let (right, left) = (direction.cross(from), direction.cross(to));
@@ -174,7 +174,7 @@ fn edges_end_where_two_cells_touch_by_a_corner() {
 }
 
 #[test]
-fn all_errors_of_the_yaml_are_told_at_once_each_with_its_line() {
+fn all_errors_of_the_yaml_are_reported_at_once_with_their_lines() {
     let text = "image: ''\nresolution: -0.05\norigin: [0, .nan]\nnegate: 2\n\
                 occupied_tresh: 0.65\nfree_thresh: 1.5\nmode: trinery\n";
     assert_eq!(
@@ -204,7 +204,7 @@ fn thresholds_are_in_order_and_the_pose_has_three_numbers() {
 }
 
 #[test]
-fn an_image_that_cannot_be_opened_is_told_where_it_is_named() {
+fn an_image_that_cannot_be_opened_is_reported_at_its_key() {
     let errors = read("a/room.yaml", ROOM, Unknown::Free, |name| {
         Err(format!("{name} is not there"))
     });
@@ -216,7 +216,7 @@ fn an_image_that_cannot_be_opened_is_told_where_it_is_named() {
 }
 
 #[test]
-fn a_header_that_lies_is_told_before_anything_is_set_aside() {
+fn a_header_with_a_wrong_size_is_rejected_before_memory_is_allocated() {
     for (image, expected) in [
         (
             &b"P5 1000000000 1000000000 255\n"[..],
@@ -307,7 +307,7 @@ fn a_short_yaml_cannot_become_a_large_document() {
 }
 
 #[test]
-fn what_is_no_plain_yaml_is_told() {
+fn unsupported_yaml_is_an_error() {
     for (text, expected) in [
         ("- image", "room.yaml: not a YAML mapping of keys to values"),
         (
@@ -333,7 +333,7 @@ fn what_is_no_plain_yaml_is_told() {
 }
 
 #[test]
-fn a_map_with_too_many_walls_is_told() {
+fn a_map_with_too_many_walls_is_an_error() {
     let mut image = b"P5 1600 1600 255\n".to_vec();
     image.extend((0..1600 * 1600).map(|at| if (at + at / 1600) % 2 == 0 { 0 } else { 254 }));
     assert_eq!(
@@ -460,7 +460,7 @@ proptest! {
         }
         let theirs = image::load_from_memory_with_format(&image, image::ImageFormat::Pnm).unwrap();
         let theirs = theirs.to_luma16();
-        // Both widen bytes by 257, so that values below 2^8 and 2^16 can be told by their upper half.
+        // Both widen bytes by 257, so that values below 2^8 and 2^16 can be compared by their upper half.
         let upper = |value: u16, greatest: u16| {
             let wide = u32::from(value) * (65_535 / u32::from(greatest));
             i8::from_le_bytes([u8::try_from(wide >> 8).unwrap()])

@@ -349,7 +349,7 @@ fn given_places_come_before_drawn_ones_whatever_the_order_of_the_groups() {
 }
 
 #[test]
-fn given_places_that_overlap_are_told_and_those_that_touch_are_not() {
+fn fixed_places_may_touch_and_may_not_overlap() {
     let row = |step: f64| Placement::Fixed {
         at_m: (0..10)
             .map(|index| [step * f64::from(index), 0.0].into())
@@ -366,7 +366,7 @@ fn given_places_that_overlap_are_told_and_those_that_touch_are_not() {
 }
 
 #[test]
-fn a_team_that_does_not_fit_is_told() {
+fn a_team_that_does_not_fit_is_an_error() {
     let error = team(
         &draws(1.0, EntityClass::Robots),
         &[group(4, 9, 0.5, &ANYWHERE)],

@@ -201,7 +201,7 @@ mod tests {
     }
 
     #[test]
-    fn every_error_is_told_at_once() {
+    fn all_errors_are_reported_at_once() {
         let text = "{ tiem = 1, robots = 1e7, failed = nan, found = { max = -1 }, paints = -1 }";
         let errors = read(text).unwrap_err();
         for expected in [
@@ -219,7 +219,7 @@ mod tests {
     }
 
     #[test]
-    fn a_text_that_is_no_list_of_weights_is_told() {
+    fn a_string_instead_of_weights_is_an_error() {
         for (text, expected) in [
             ("\"time=fast\"", "merit.time = \"fast\": must be a number"),
             ("\"time=1,time=2\"", "merit.time = [1, 2]: must be a number"),

@@ -110,8 +110,8 @@ fn read(text: &str) -> Result<Scenario, InputErrors> {
 
 fn errors_with(vary: &str) -> Vec<String> {
     let text = EXAMPLE.replace("\"robots.rover.count\" = \"1..3\"", vary);
-    let told: Vec<InputError> = read(&text).err().map(|errors| errors.0).unwrap_or_default();
-    told.iter().map(ToString::to_string).collect()
+    let reported: Vec<InputError> = read(&text).err().map(|errors| errors.0).unwrap_or_default();
+    reported.iter().map(ToString::to_string).collect()
 }
 
 #[test]
@@ -125,7 +125,7 @@ fn the_common_keys_and_the_engines_part_are_read_together() {
         factor.values,
         Values::Listed([1, 2, 3].map(Value::Integer).into())
     );
-    // What the engine does not tell, a named merit leaves out.
+    // A named merit omits measures that the engine does not have.
     let names: Vec<&str> = scenario
         .merit
         .terms
@@ -136,7 +136,7 @@ fn the_common_keys_and_the_engines_part_are_read_together() {
 }
 
 #[test]
-fn both_parts_are_told_of_at_once() {
+fn errors_of_both_parts_are_reported_at_once() {
     let text = EXAMPLE
         .replace("count = 2", "count = 0\ncuont = 3")
         .replace("\"equation-5.2\"", "{ tiem = 1 }")
@@ -156,7 +156,7 @@ fn both_parts_are_told_of_at_once() {
 }
 
 #[test]
-fn an_unknown_engine_is_told_with_the_known_ones() {
+fn an_unknown_engine_is_reported_with_the_known_ones() {
     let errors = read(&EXAMPLE.replace("\"shop\"", "\"shpo\""))
         .err()
         .unwrap();
@@ -178,7 +178,7 @@ fn any_path_that_the_engine_can_read_is_varied() {
 }
 
 #[test]
-fn values_that_the_engine_cannot_read_are_told() {
+fn values_that_the_engine_rejects_are_errors() {
     assert_eq!(
         errors_with(r#""robots.rover.count" = "8..10""#),
         ["t.toml:9: robots.rover.count = 10: must be a whole number from 1 to 9"]
@@ -193,7 +193,7 @@ fn values_that_the_engine_cannot_read_are_told() {
 }
 
 #[test]
-fn an_unknown_path_is_told_once_with_the_nearest() {
+fn an_unknown_path_is_reported_once_with_the_nearest() {
     assert_eq!(
         errors_with(r#""robots.rover.cuont" = "1..8""#),
         [
@@ -213,7 +213,7 @@ fn an_unknown_path_is_told_once_with_the_nearest() {
 }
 
 #[test]
-fn a_misspelt_kind_is_told_and_not_made() {
+fn a_misspelt_kind_is_an_error_and_is_not_created() {
     assert_eq!(
         errors_with(r#""robots.rovr.count" = "1""#),
         [
@@ -224,16 +224,19 @@ fn a_misspelt_kind_is_told_and_not_made() {
 }
 
 #[test]
-fn a_kind_that_is_not_there_suggests_the_nearest_one_and_is_told_once() {
+fn an_unknown_kind_is_reported_once_with_the_nearest() {
     for (vary, kind) in [("rovr.speed", "rovr"), ("rovr.cuont", "rovr")] {
-        let told = errors_with(&format!("\"robots.{vary}\" = \"0..2\""));
-        assert_eq!(told.len(), 1, "{told:?}");
+        let reported = errors_with(&format!("\"robots.{vary}\" = \"0..2\""));
+        assert_eq!(reported.len(), 1, "{reported:?}");
         let meant = vary.replace(kind, "rover");
         let expected = format!("entry of robots: rover; did you mean robots.{meant}?");
-        assert!(told[0].ends_with(&expected), "{told:?}");
+        assert!(reported[0].ends_with(&expected), "{reported:?}");
     }
-    let told = errors_with(r#""robots.zeppelin.speed" = "1""#);
-    assert!(told[0].ends_with("entry of robots: rover"), "{told:?}");
+    let reported = errors_with(r#""robots.zeppelin.speed" = "1""#);
+    assert!(
+        reported[0].ends_with("entry of robots: rover"),
+        "{reported:?}"
+    );
 }
 
 fn errors_with_set(sets: &[(&str, Value)]) -> String {
@@ -268,7 +271,7 @@ fn a_whole_new_kind_can_be_set() {
 }
 
 #[test]
-fn too_many_values_are_told_by_their_number() {
+fn too_many_values_are_reported_with_their_number() {
     assert_eq!(
         errors_with(r#""robots.rover.count" = "1..100000""#),
         [

@@ -138,8 +138,8 @@ fn is_alike(one: &Configuration, other: &Configuration) -> bool {
     kinds(one) == kinds(other) && names(one) == names(other)
 }
 
-/// The error of a value, at the path of its factor. An error elsewhere (a time limit that is too long
-/// at a varied rate, say) would not name what to change.
+/// The error of a value, at the path of its factor. An error elsewhere (for example, a time limit that
+/// is too long at a varied rate) would not name what to change.
 fn about(path: &str, value: &Value, origin: &str, error: InputError) -> InputError {
     if error.path == path {
         return error;

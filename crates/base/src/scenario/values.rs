@@ -192,7 +192,7 @@ mod tests {
     }
 
     #[test]
-    fn too_many_values_are_told_with_their_number_and_the_limit() {
+    fn too_many_values_are_reported_with_their_number_and_the_limit() {
         for (text, count) in [
             ("1..10001", "10001"),
             ("1..10000,7", "10001"),

@@ -1,4 +1,4 @@
-//! What a robot believes and wants.
+//! The beliefs and goals of a robot.
 
 use super::heading_options::HeadingOptions;
 use crate::arbitration::goal_selection::{BeliefBrain, GoalSelection};
@@ -12,7 +12,7 @@ use base::geometry::Point;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What a robot believes and wants at one moment.
+/// The beliefs and goals of a robot at one moment.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct BeliefState {
     /// Its believed pose, once it is known.

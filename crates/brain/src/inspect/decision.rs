@@ -16,6 +16,6 @@ pub struct Decision {
     pub leading: Option<u32>,
     /// Remaining hold time of each behaviour.
     pub holds_s: Vec<f64>,
-    /// What it believes and wants; none without beliefs.
+    /// Its beliefs and goals; none without beliefs.
     pub belief_state: Option<BeliefState>,
 }

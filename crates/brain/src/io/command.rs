@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Command {
-    /// The motion that the brain wants; the body executes it as far as it can.
+    /// The motion setpoint; the body executes it as far as it can.
     pub motion: Motion,
     /// Sensors to switch on or off; each stays so until it is switched again. Initially all are on.
     pub requests: Vec<SensorRequest>,

@@ -35,7 +35,7 @@ pub enum About {
         at: Point,
         /// Its heading: 0 along x, anticlockwise.
         heading_rad: f64,
-        /// Number of measurements of its item detectors so far on its way here.
+        /// Number of measurements of its item detectors on the path to this pose.
         #[serde(default)]
         observations: u32,
     },
@@ -67,7 +67,7 @@ pub struct Provenance {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum CommitmentStatus {
-    /// The sender is on its way: no other robot needs to go.
+    /// The sender is driving there: no other robot needs to go.
     Active,
     /// The sender has been there: no other robot needs to go.
     Done,

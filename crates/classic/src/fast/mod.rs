@@ -65,7 +65,7 @@ impl FastSearch {
         }
     }
 
-    /// Runs a team of 1 to [`MAX_ROBOTS`] that starts on `cells` (each of the grid, none on its
+    /// Simulates a team of 1 to [`MAX_ROBOTS`] that starts on `cells` (each of the grid, none on its
     /// frame), as [`crate::start::team_on`] places it.
     pub fn run(&mut self, cells: impl Iterator<Item = Cell>) -> Outcome {
         self.place(cells);

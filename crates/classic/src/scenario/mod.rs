@@ -297,15 +297,15 @@ times_s = { 10 = [120, 120], 2 = [4, 5.5] }
     fn values_are_checked_beside_other_errors_but_not_within_what_is_no_table() {
         let vary = r#"vary = { "clock.time_limit_s" = "-1", "#;
         let text = GOOD.replace("vary = {", vary);
-        let told = errors(&text.replace(
+        let reported = errors(&text.replace(
             "time_limit_s = 120\n[robots",
             "time_limit_s = 120\ncap = 3\n[robots",
         ));
-        assert!(told.contains("clock.cap is not a known key: expected one of paints_per_s"));
-        assert!(told.contains("clock.time_limit_s = -1: must be a number from 0"));
+        assert!(reported.contains("clock.cap is not a known key: expected one of paints_per_s"));
+        assert!(reported.contains("clock.time_limit_s = -1: must be a number from 0"));
         let no_table = "[clock]\npaints_per_s = 56\ntime_limit_s = 120\n";
-        let told = errors(&format!("clock = 3\n{}", text.replace(no_table, "")));
-        assert_eq!(told, "t.toml:1: clock = 3: must be a table");
+        let reported = errors(&format!("clock = 3\n{}", text.replace(no_table, "")));
+        assert_eq!(reported, "t.toml:1: clock = 3: must be a table");
     }
 
     #[test]

@@ -10,7 +10,7 @@ use select::looks::next_look;
 /// Number of first runs after each of which the bounds are checked; later as the procedures do.
 const CHECKED_SINGLY: usize = 30;
 
-/// Checks the bounds of all means together over `runs` runs of each configuration. Correct: none
+/// Checks the bounds of all means together over `runs` runs per configuration. Correct: none
 /// was ever wrong, though each may be with its share of `alpha`.
 pub(crate) fn check(case: &dyn Case, runs: usize, alpha: f64, start: Place) -> Outcome {
     let (means, bounds) = (case.means(), case.bounds());

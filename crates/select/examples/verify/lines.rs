@@ -16,12 +16,12 @@ pub(crate) struct Line {
     pub(crate) published_runs: Option<f64>,
 }
 
-/// What is asked about a case.
+/// The property of a case that is verified.
 #[derive(Clone, Copy)]
 pub(crate) enum Question {
     /// Is the right configuration selected?
     Selection(Setup),
-    /// Do the bounds of all means hold for this many runs of each?
+    /// Do the bounds of all means hold for this number of runs per configuration?
     Coverage { runs: usize },
     /// Is a wrong configuration selected too often? For procedures that are unfit or broken on
     /// purpose.

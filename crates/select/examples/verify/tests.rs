@@ -114,7 +114,7 @@ fn a_measurement_can_be_repeated() {
 }
 
 #[test]
-fn a_wrong_command_line_is_an_error_that_says_why() {
+fn an_invalid_command_line_is_an_error_with_a_reason() {
     let parse = |words: &str| Arguments::parse(words.split_whitespace().map(str::to_owned));
     assert!(parse("--seed 3 --json").is_ok_and(|arguments| arguments.json && arguments.seed == 3));
     assert!(parse("--sed 3").is_err_and(|error| error.contains("no such option")));

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default)]
 pub struct CollisionSpec {
-    /// The robot stands still for this long after a collision, in seconds.
+    /// Time for which the robot is stopped after a collision, in seconds.
     #[schemars(range(min = 0.0, max = 1e6))]
     pub stop_duration_s: f64,
     /// The robot breaks down after this number of collisions. Without it, never.

@@ -107,7 +107,7 @@ pub(crate) fn meets_moving(
     let mut before = since;
     let mut from = other.at(since).to(one.at(since));
     for end in ends.filter(|end| *end > since) {
-        // A body that stops on the way stops between two straight pieces.
+        // A body that stops during the step stops between two straight pieces.
         for after in pieces(before, end, one.until, other.until) {
             let next = other.at(after).to(one.at(after));
             let way = from.to(next);
@@ -128,7 +128,7 @@ pub(crate) fn meets_moving(
 /// first.
 fn comes(apart: Point, [one, other]: [Point; 2]) -> [bool; 2] {
     let comes = [is_closing(apart, one), is_closing(apart.times(-1.0), other)];
-    // They do meet: where rounding says that neither approaches, both do.
+    // They do meet: where by rounding neither approaches, both do.
     if comes == [false; 2] {
         [true; 2]
     } else {

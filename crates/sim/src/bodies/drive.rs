@@ -49,18 +49,24 @@ impl Drive {
         }
     }
 
-    /// The motion of the body in one step, given the motion that the brain wants: the speed at the
+    /// The motion of the body in one step, given the motion setpoint of the brain: the speed at the
     /// end of the step, the distance, and the turn rate.
     ///
-    /// The speed changes at the maximum acceleration until it is the wanted one, and then stays
+    /// The speed changes at the maximum acceleration until the setpoint is reached, and then stays
     /// constant. `terrain` scales the maximum speeds. Non-finite values count as 0.
     #[inline]
-    pub(crate) fn step(&self, speed_m_s: f64, wanted: Motion, terrain: f64, step_s: f64) -> Driven {
-        let after = self.possible(or_zero(wanted.speed_m_s), terrain);
-        let most_turn = self.max_turn_rate_rad_s;
-        let turn_rate_rad_s = or_zero(wanted.turn_rate_rad_s)
-            .max(-most_turn)
-            .min(most_turn);
+    pub(crate) fn step(
+        &self,
+        speed_m_s: f64,
+        setpoint: Motion,
+        terrain: f64,
+        step_s: f64,
+    ) -> Driven {
+        let after = self.possible(or_zero(setpoint.speed_m_s), terrain);
+        let max_turn = self.max_turn_rate_rad_s;
+        let turn_rate_rad_s = or_zero(setpoint.turn_rate_rad_s)
+            .max(-max_turn)
+            .min(max_turn);
         let change = after - speed_m_s;
         let change_s = change.abs() / self.max_acceleration_m_s2;
         if change_s <= step_s {
@@ -133,7 +139,7 @@ mod tests {
         }
     }
 
-    /// Distance covered in a number of steps until the body stands still.
+    /// Distance covered in a number of steps until the body has stopped.
     fn stopping_m(drive: &Drive, speed_m_s: f64, step_s: f64) -> f64 {
         let (mut speed, mut way) = (speed_m_s, 0.0);
         while speed != 0.0 {
@@ -161,11 +167,11 @@ mod tests {
     proptest! {
         #[test]
         fn the_way_is_the_integral_of_the_speed(
-            speed in -1.0..2.0, wanted in -3.0..3.0, terrain in 0.0..3.0, step in 0.01..2.0,
+            speed in -1.0..2.0, setpoint in -3.0..3.0, terrain in 0.0..3.0, step in 0.01..2.0,
         ) {
-            let driven = ROVER.step(speed, motion(wanted, 0.0), terrain, step);
+            let driven = ROVER.step(speed, motion(setpoint, 0.0), terrain, step);
             let (parts, mut now, mut way) = (20_000, speed, 0.0);
-            let target = wanted.clamp(-terrain, 2.0 * terrain);
+            let target = setpoint.clamp(-terrain, 2.0 * terrain);
             let part_s = step / f64::from(parts);
             for _ in 0..parts {
                 let next = now + (target - now).clamp(-4.0 * part_s, 4.0 * part_s);

@@ -60,7 +60,7 @@ impl Flocking {
         [self.reach_m, self.rule.separation_m()].map(|distance_m| distance_m * distance_m)
     }
 
-    /// The motion that a robot wants, given its turn rate.
+    /// The motion setpoint of a flocking robot, given its turn rate.
     #[inline]
     pub(crate) fn motion(&self, turn_rate_rad_s: f64) -> Motion {
         Motion {

@@ -66,7 +66,7 @@ pub(crate) struct Path {
 }
 
 impl Path {
-    /// The path of a body that stands still.
+    /// The path of a stationary body.
     pub(crate) const fn rest(at: Point) -> Self {
         Self {
             start: at,

@@ -19,7 +19,7 @@ pub(crate) struct RadioChannel {
 pub(crate) struct Transmission {
     pub(crate) to: u32,
     pub(crate) at: u64,
-    pub(crate) heard: ReceivedMessage,
+    pub(crate) message: ReceivedMessage,
 }
 
 /// A message that a robot sends, and its number among those that it sends in this step.
@@ -47,7 +47,7 @@ impl RadioChannel {
     /// Keeps the messages for which `is_kept` returns true; it may change them.
     pub(crate) fn retain(&mut self, mut is_kept: impl FnMut(&mut ReceivedMessage) -> bool) {
         for list in &mut self.due {
-            list.retain_mut(|sent| is_kept(&mut sent.heard));
+            list.retain_mut(|sent| is_kept(&mut sent.message));
         }
     }
 
@@ -69,7 +69,7 @@ impl RadioChannel {
         self.due[steps].extend(self.receivers.iter().map(|to| Transmission {
             to: *to,
             at: tick,
-            heard: sent,
+            message: sent,
         }));
     }
 }

@@ -1,4 +1,4 @@
-//! The deciding part of a robot: its brain, the motion it wants, and what waits for it.
+//! The deciding part of a robot: its brain, its motion setpoint, and pending observations.
 
 use crate::bodies::kind::Kind;
 use crate::radio::channel::Transmission;
@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 #[derive(Debug, Clone)]
 pub(crate) struct Agent {
     pub(crate) brain: Brain,
-    /// The motion that it wants until it steps again.
+    /// The motion setpoint until the brain steps again.
     pub(crate) wanted: Motion,
     /// A bit for each sensor that is switched off.
     pub(crate) sensors_off: u32,
@@ -58,7 +58,7 @@ impl Agent {
             inbox.entries.push(Pending {
                 taken: sent.at,
                 due: now,
-                what: sent.heard,
+                what: sent.message,
             });
         }
     }

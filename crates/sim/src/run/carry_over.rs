@@ -48,20 +48,21 @@ pub(super) fn ids_of(
         .collect()
 }
 
-/// Whether a message in transit still has a meaning, by names; it then gets the new numbers.
-pub(super) fn still_sayable(
-    heard: &mut ReceivedMessage,
+/// Renumbers the ids in a message in transit; returns false if a robot or item that it refers to by
+/// name no longer exists.
+pub(super) fn renumber_message(
+    message: &mut ReceivedMessage,
     ids: &BTreeMap<RobotId, RobotId>,
     from: &Scenario,
     to: &Scenario,
 ) -> bool {
-    let Some(sender) = ids.get(&heard.from) else {
+    let Some(sender) = ids.get(&message.from) else {
         return false;
     };
-    heard.from = *sender;
+    message.from = *sender;
     let About::Item {
         kind, provenance, ..
-    } = &mut heard.message.about
+    } = &mut message.message.about
     else {
         return true;
     };

@@ -1,7 +1,7 @@
 //! Continuing a run with another scenario.
 
 use super::agent::Agent;
-use super::carry_over::{gone, ids_of, is_same_team, stay, still_sayable};
+use super::carry_over::{gone, ids_of, is_same_team, renumber_message, stay};
 use super::state::{BodyState, NoRoom, State, Status, draws};
 use crate::bodies::Layer;
 use crate::bodies::kind::Kind;
@@ -52,7 +52,7 @@ impl State {
             // Kinds are sorted by name, so that receivers keep their numbers.
             next.channel = self.channel.clone();
             next.channel
-                .retain(|heard| still_sayable(heard, &ids, from, to));
+                .retain(|message| renumber_message(message, &ids, from, to));
         }
         Ok(next)
     }
@@ -77,7 +77,7 @@ impl State {
             self.discs[robot].centre = before.discs[was].centre;
             self.orientations[robot] = before.orientations[was];
             self.body_states[robot] = kept_hull(&before.body_states[was], kind, to);
-            self.agents[robot] = kept_mind(&before.agents[was], old_kind, kind);
+            self.agents[robot] = kept_agent(&before.agents[was], old_kind, kind);
             let is_same =
                 kind.radius_m.total_cmp(&old_kind.radius_m).is_eq() && kind.layer == old_kind.layer;
             let is_placed = self.body_states[robot].is_external || is_same_ground && is_same;
@@ -201,7 +201,7 @@ fn kept_hull(body_state: &BodyState, kind: &Kind, to: &Scenario) -> BodyState {
     }
 }
 
-fn kept_mind(agent: &Agent, from: &Kind, to: &Kind) -> Agent {
+fn kept_agent(agent: &Agent, from: &Kind, to: &Kind) -> Agent {
     let is_same = from.brain.spec() == to.brain.spec()
         && from.brain.body().is_same_but_for_others(to.brain.body())
         && from.sensors == to.sensors;

@@ -22,7 +22,7 @@ pub struct Robot {
     pub heading_rad: f64,
     /// Forward speed.
     pub speed_m_s: f64,
-    /// The motion that its brain wants.
+    /// The motion setpoint of its brain.
     pub wanted: Motion,
     /// Whether it can still move.
     pub status: Status,
@@ -58,7 +58,7 @@ impl State {
         self.tick
     }
 
-    /// What a robot believes and wants; `None` if there is no such robot, or its brain has no
+    /// The beliefs and goals of a robot; `None` if there is no such robot, or its brain has no
     /// beliefs.
     #[must_use]
     pub fn belief_state(&self, id: RobotId) -> Option<BeliefState> {

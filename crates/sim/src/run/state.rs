@@ -44,7 +44,7 @@ pub(crate) struct BodyState {
     /// Energy taken from the battery so far.
     pub(crate) energy_j: f64,
     pub(crate) distance_m: f64,
-    /// It stands still until this step, because of a collision.
+    /// It is stopped until this step, because of a collision.
     pub(crate) held_until: u64,
     pub(crate) collisions: u32,
     pub(crate) status: Status,

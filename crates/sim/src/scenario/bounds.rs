@@ -36,8 +36,8 @@ impl Scenario {
             price: of_team(&|kind| kind.price),
             targets: f64::from(self.targets()),
             collisions: of_team(&|_| steps),
-            energy_j: of_team(&|kind| self.most_energy_j(kind, hardest)),
-            distance_m: of_team(&|kind| self.most_distance_m(kind, hardest)),
+            energy_j: of_team(&|kind| self.max_energy_j(kind, hardest)),
+            distance_m: of_team(&|kind| self.max_distance_m(kind, hardest)),
         }
     }
 
@@ -45,7 +45,7 @@ impl Scenario {
         HAIR * (self.time_limit_s + self.step_s)
     }
 
-    fn most_distance_m(&self, kind: &Kind, hardest: Going) -> f64 {
+    fn max_distance_m(&self, kind: &Kind, hardest: Going) -> f64 {
         let speed = if kind.layer == Layer::Ground {
             hardest.speed
         } else {
@@ -58,7 +58,7 @@ impl Scenario {
         fastest * speed * self.longest_s()
     }
 
-    fn most_energy_j(&self, kind: &Kind, hardest: Going) -> f64 {
+    fn max_energy_j(&self, kind: &Kind, hardest: Going) -> f64 {
         let Some(battery) = &kind.battery else {
             return 0.0;
         };
@@ -69,7 +69,7 @@ impl Scenario {
         };
         let standing_w = battery.idle_w + kind.sensing_w(0);
         let moving_j = battery.move_w * self.longest_s()
-            + battery.move_j_per_m * self.most_distance_m(kind, hardest);
+            + battery.move_j_per_m * self.max_distance_m(kind, hardest);
         let spent_j = standing_w * self.longest_s() + effort * moving_j;
         spent_j.min(battery.capacity_j)
     }

@@ -269,10 +269,10 @@ impl Scenario {
     /// No robot touches, detects or receives another whose nearest image is farther away.
     pub(crate) fn farthest_m(&self) -> f64 {
         let rays_m = greatest(&self.kinds, |kind| kind.rays_m) + self.biggest_radius_m();
-        let told_m = greatest(&self.kinds, Kind::robots_reach_m);
+        let observed_m = greatest(&self.kinds, Kind::robots_reach_m);
         let size_m = self.world.size();
-        let told_m = told_m.min(size_m.x.max(size_m.y) / 2.0);
-        rays_m.max(told_m).max(self.contact_m)
+        let observed_m = observed_m.min(size_m.x.max(size_m.y) / 2.0);
+        rays_m.max(observed_m).max(self.contact_m)
     }
 
     /// Whether a disc of a layer fits into a place.

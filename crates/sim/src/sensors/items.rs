@@ -261,7 +261,7 @@ mod tests {
     }
 
     #[test]
-    fn a_detection_curve_is_half_where_it_says_and_a_bell() {
+    fn a_detection_curve_is_a_bell_curve_with_half_its_peak_at_the_half_range() {
         let curve = Detection::Curve {
             peak: 0.8,
             half_range_m: 1.5,

@@ -92,7 +92,7 @@ mod tests {
     }
 
     #[test]
-    fn the_newest_thousand_are_told_however_long_they_have_waited() {
+    fn the_newest_thousand_are_delivered_after_any_wait() {
         let mut waiting = PendingQueue::default();
         for now in 0..10_000 {
             waiting.forget(now);
@@ -107,7 +107,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_on_its_way_is_never_forgotten() {
+    fn entries_in_transit_are_never_discarded() {
         let mut waiting = PendingQueue::default();
         for now in 0..8000 {
             waiting.forget(now);
@@ -123,7 +123,7 @@ mod tests {
     }
 
     #[test]
-    fn who_is_told_in_each_step_is_told_everything() {
+    fn delivery_in_each_step_is_complete() {
         let mut waiting = PendingQueue::default();
         for now in 0..20 {
             wait(&mut waiting, now, 5, 3000);

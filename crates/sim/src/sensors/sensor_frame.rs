@@ -11,7 +11,7 @@ use base::random::Entity;
 #[repr(u32)]
 pub(crate) enum NoisePurpose {
     /// Whether a measurement yields anything.
-    Dropout = 0,
+    DropOut = 0,
     /// The error of a value; the normal deviates of rays.
     Error = 1,
     /// Something that may be detected, by its number.

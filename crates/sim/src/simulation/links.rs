@@ -32,11 +32,11 @@ impl Simulation {
         let (view, _) = self.view();
         let links = |robot: usize| {
             let about = view.neighbours.about(view.discs[robot].centre, reach_m);
-            let is_asked = |other: &u32| {
+            let is_included = |other: &u32| {
                 let other = *other as usize;
                 other > robot || (of.is_some() && other != robot)
             };
-            let mut others: Vec<u32> = about.filter(is_asked).collect();
+            let mut others: Vec<u32> = about.filter(is_included).collect();
             // Lists of near robots have no particular order.
             others.sort_unstable();
             let view = &view;
@@ -51,7 +51,7 @@ impl Simulation {
 impl View<'_> {
     fn link(&self, robot: usize, other: usize) -> Option<Link> {
         let (low, high) = (robot.min(other), robot.max(other));
-        let [forth, back] = [[low, high], [high, low]].map(|[from, to]| self.is_heard(from, to));
+        let [forth, back] = [[low, high], [high, low]].map(|[from, to]| self.is_received(from, to));
         let [from, to] = if forth { [low, high] } else { [high, low] };
         #[expect(
             clippy::cast_possible_truncation,
@@ -66,7 +66,7 @@ impl View<'_> {
     }
 
     /// Whether messages of a robot reach another, if it sends any.
-    fn is_heard(&self, from: usize, to: usize) -> bool {
+    fn is_received(&self, from: usize, to: usize) -> bool {
         let radio = self.kind(from).radio.as_ref();
         let radio = radio.filter(|radio| self.is_on_air(from) && radio.loss_probability < 1.0);
         radio.is_some_and(|radio| self.is_on_air(to) && self.reaches(from, to, radio))

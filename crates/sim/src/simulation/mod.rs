@@ -31,7 +31,7 @@ use std::sync::Arc;
 ///
 /// A body can be external: from the first percept that [`Simulation::step_with`] gets for a robot, its
 /// pose comes from its percepts, and the commands of its brain are returned instead of executed. In
-/// a step without a percept it stands still, and its brain does not step. Its damage and battery are
+/// a step without a percept it is stationary, and its brain does not step. Its damage and battery are
 /// not simulated: it neither breaks nor runs empty, and uses no energy.
 #[derive(Debug, Clone)]
 pub struct Simulation {
@@ -204,7 +204,7 @@ impl Simulation {
         self.probe = Probe::default();
     }
 
-    /// The external inputs of a step; moves external bodies to where their percepts say.
+    /// The external inputs of a step; moves external bodies to the poses of their percepts.
     fn external_inputs(
         &mut self,
         percepts: BTreeMap<RobotId, Percept>,
@@ -221,7 +221,7 @@ impl Simulation {
         Ok(external)
     }
 
-    /// Marks a body as external and moves it to where its percept says.
+    /// Marks a body as external and moves it to the pose of its percept.
     fn place_external(&mut self, robot: usize, percept: &Percept) {
         self.state.body_states[robot].is_external = true;
         let is_finite = |at: &Point| at.x.is_finite() && at.y.is_finite();

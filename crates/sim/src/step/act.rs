@@ -1,4 +1,5 @@
-//! Act: every body executes what its brain wants as far as it can, and stops at obstacles.
+//! Act: every body executes the motion setpoint of its brain as far as it can, and stops at
+//! obstacles.
 //!
 //! First each robot plans its path as if it were alone. Then the paths are cut where they meet
 //! static geometry and where they meet each other, the earliest encounter first: a robot that stops
@@ -39,7 +40,7 @@ impl Moves {
         &mut self.plans
     }
 
-    /// Moves all robots as far as their plans say.
+    /// Moves all robots according to their plans.
     pub(crate) fn act(
         &mut self,
         scenario: &Scenario,
@@ -59,7 +60,7 @@ impl Moves {
     }
 }
 
-/// Moves all robots as far as their plans say.
+/// Moves all robots according to their plans.
 fn go(plans: &[Plan], scenario: &Scenario, state: &mut State, is_shared: bool) -> Moved {
     let State {
         tick,

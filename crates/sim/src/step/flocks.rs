@@ -70,7 +70,7 @@ impl Flocks {
         }
     }
 
-    /// The motion that a robot wants if it does nothing but flock.
+    /// The motion setpoint of a robot whose only behaviour is flocking.
     #[inline]
     pub(crate) fn motion(&self, view: &View, robot: usize, agent: &Agent) -> Option<Motion> {
         let flocking = view.kind(robot).flocking.as_ref()?;
@@ -115,7 +115,7 @@ fn random_words(noise: Noise, tick: u64) -> RandomWords {
 }
 
 impl Flocking {
-    /// The motion that a robot wants, given its turn rate if its sensor is on.
+    /// The motion setpoint of a robot, given its turn rate if its sensor is on.
     #[inline]
     pub(super) fn wanted(
         &self,

@@ -2,7 +2,7 @@
 //!
 //! Each robot has a list of the robots of its layer within its range plus a skin, and of the static
 //! geometry there; it stays valid until some robot has moved half the skin (L. Verlet, *Computer
-//! "experiments" on classical fluids*, Physical Review 159, 1967). The lists only say where to
+//! "experiments" on classical fluids*, Physical Review 159, 1967). The lists only state where to
 //! look: results do not depend on their age, so they are not part of the state of a run.
 
 use crate::scenario::Scenario;

@@ -7,10 +7,10 @@ pub(crate) const ROBOTS_PER_TASK: usize = 1024;
 const FEW: usize = 2 * ROBOTS_PER_TASK;
 
 /// A robot with beliefs takes as long as this number of robots without.
-const MIND: usize = 32;
+const BELIEFS_WEIGHT: usize = 32;
 
 /// Whether threads should share the work of this number of robots.
 pub(crate) fn is_worth_sharing(robots: usize, has_beliefs: bool) -> bool {
-    let weight = if has_beliefs { MIND } else { 1 };
+    let weight = if has_beliefs { BELIEFS_WEIGHT } else { 1 };
     robots * weight >= FEW && rayon::current_num_threads() > 1
 }

@@ -11,7 +11,7 @@ pub struct PendingDecision {
     pub robot: RobotId,
     /// The percept of its brain.
     pub percept: Percept,
-    /// The decision; initially, to stand still.
+    /// The decision; initially zero motion.
     pub command: Command,
     pub(super) number: usize,
     /// What waits for it after this percept.

@@ -34,7 +34,7 @@ pub(crate) enum Stop {
     Still,
 }
 
-/// A body that is about to move, and what its brain wants.
+/// A body that is about to move, and the motion setpoint of its brain.
 pub(crate) struct Body<'a> {
     pub(crate) kind: &'a Kind,
     pub(crate) state: &'a BodyState,

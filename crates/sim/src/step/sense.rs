@@ -149,7 +149,7 @@ impl Look<'_> {
     fn take(&self, agent: &mut Agent, detections: &mut Detections, percept: Option<&mut Percept>) {
         let sensor = self.sensor;
         let is_lost = sensor.dropout_probability > 0.0
-            && share(self.frame.words(NoisePurpose::Dropout, 0)[0]) < sensor.dropout_probability;
+            && share(self.frame.words(NoisePurpose::DropOut, 0)[0]) < sensor.dropout_probability;
         match &sensor.measure {
             Measure::Items(_) | Measure::Robots(_) if is_lost => {}
             Measure::Items(detector) => self.find_items(detector, agent, detections, percept),

@@ -199,7 +199,7 @@ impl StaticGeometry {
         self.is_open_here(from, to) && { images }.all(|[from, to]| self.is_open_here(from, to))
     }
 
-    /// Whether nothing hides any place within `reach_m` of one, as far as a quick check can tell.
+    /// Whether nothing hides any place within `reach_m` of one, as far as a quick check can determine.
     pub(crate) fn is_clear(&self, place: Point, reach_m: f64) -> bool {
         self.torus.is_none()
             && self.walls.len() + self.discs.len() <= FEW

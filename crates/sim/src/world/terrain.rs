@@ -127,7 +127,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn the_last_area_that_holds_a_place_says_what_it_is_like(
+        fn the_last_area_that_contains_a_place_determines_its_terrain(
             areas in prop::collection::vec(
                 ((0.0..9.0, 0.0..9.0), (0.1..5.0, 0.1..5.0), 0.1..2.0_f64), 0..20,
             ),

@@ -14,7 +14,6 @@
     reason = "tests count, compare values that are exact by construction, write scenarios, and may panic"
 )]
 
-mod brains;
 mod bundled;
 mod common;
 mod documents;

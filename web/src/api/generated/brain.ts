@@ -3,7 +3,7 @@
 /** The content of a message. */
 export type About = { item: { kind: number; at: Point; provenance: Provenance } } | { sender: { at: Point; heading_rad: number; observations: number } } | { goal: { at: Point; status: CommitmentStatus } };
 
-/** What a robot believes and wants at one moment. */
+/** The beliefs and goals of a robot at one moment. */
 export interface BeliefState {
   /** Its believed pose, once it is known. */
   pose: Pose | null;
@@ -43,7 +43,7 @@ export interface BelievedRobot {
 
 /** The output of a brain in one step. */
 export interface Command {
-  /** The motion that the brain wants; the body executes it as far as it can. */
+  /** The motion setpoint; the body executes it as far as it can. */
   motion: Motion;
   /** Sensors to switch on or off; each stays so until it is switched again. Initially all are on. */
   requests: SensorRequest[];

@@ -132,7 +132,7 @@ fn a_good_document_is_read_whole() {
 }
 
 #[test]
-fn a_range_is_told_with_its_unit_and_nan_is_in_none() {
+fn errors_name_a_range_with_its_unit_and_nan_is_never_in_range() {
     for bad in ["nan", "inf", "-1", "100.5", "\"1\"", "true", "[1]"] {
         let given = if bad == "nan" { "NaN" } else { bad };
         let expected =
@@ -150,17 +150,17 @@ fn a_range_is_told_with_its_unit_and_nan_is_in_none() {
 #[test]
 fn a_whole_number_is_one_that_the_type_can_hold() {
     for bad in ["0", "1.0", "4294967296", "99999999999999999999"] {
-        let told = errors(&format!("workers = {bad}"));
+        let reported = errors(&format!("workers = {bad}"));
         assert!(
-            told[0].ends_with("must be a whole number from 1 to 4294967295"),
-            "{told:?}"
+            reported[0].ends_with("must be a whole number from 1 to 4294967295"),
+            "{reported:?}"
         );
     }
     assert!(read("time_limit_s = 1\nworkers = 4294967295").is_ok());
 }
 
 #[test]
-fn what_is_missing_is_told_where_it_should_stand() {
+fn a_missing_key_is_reported_at_its_table() {
     assert_eq!(
         read("shapes = [{ circle = {} }]").unwrap_err(),
         [
@@ -184,12 +184,12 @@ fn a_name_is_one_of_the_known_and_a_slip_is_recognised() {
 
 #[test]
 fn of_tagged_forms_the_one_that_its_tag_names_is_meant() {
-    let told = errors(
+    let reported = errors(
         "[sensors.a]\nkind = \"range\"\nrays = 10\nfov = 3\n[sensors.b]\nkind = \"heding\"\n\
          [sensors.c]\nrays = 1\n[sensors]\nd = 3",
     );
     assert_eq!(
-        told,
+        reported,
         [
             "t:5: sensors.a.fov is not a known key: expected one of kind, rays, on",
             "t:4: sensors.a.rays = 10: must be a whole number from 0 to 9",
@@ -203,12 +203,12 @@ fn of_tagged_forms_the_one_that_its_tag_names_is_meant() {
 
 #[test]
 fn of_untagged_forms_the_one_whose_keys_are_there_is_meant() {
-    let told = errors(
+    let reported = errors(
         "shapes = [\n{ polygn_m = [] },\n{ circle = 3 },\n{ square = 1 },\n\
          { polygon_m = [[0, 0], [1]] },\n{ circle = { radius_m = 1 }, polygon_m = 2 }]",
     );
     assert_eq!(
-        told,
+        reported,
         [
             "t:3: shapes[0].polygn_m is not a known key: expected one of polygon_m; did you \
              mean polygon_m?",
@@ -225,23 +225,29 @@ fn of_untagged_forms_the_one_whose_keys_are_there_is_meant() {
 
 #[test]
 fn of_forms_of_other_types_the_one_of_its_type_is_meant() {
-    let told = |given: &str| errors(&format!("chance = {given}")).join("\n");
+    let reported = |given: &str| errors(&format!("chance = {given}")).join("\n");
     let all =
         "a number from 0 to 1, a list of lists of 2 numbers or a table with peak and half_range_m";
-    assert_eq!(told("2"), "t:2: chance = 2: must be a number from 0 to 1");
     assert_eq!(
-        told("[3]"),
+        reported("2"),
+        "t:2: chance = 2: must be a number from 0 to 1"
+    );
+    assert_eq!(
+        reported("[3]"),
         "t:2: chance[0] = 3: must be a list of 2 numbers"
     );
     assert_eq!(
-        told("{ peak = 1 }"),
+        reported("{ peak = 1 }"),
         "t:2: chance.half_range_m is missing: expected a number (metres)"
     );
     assert_eq!(
-        told("{ x = 1 }"),
+        reported("{ x = 1 }"),
         format!("t:2: chance = {{...}}: must be {all}")
     );
-    assert_eq!(told("\"x\""), format!("t:2: chance = \"x\": must be {all}"));
+    assert_eq!(
+        reported("\"x\""),
+        format!("t:2: chance = \"x\": must be {all}")
+    );
 }
 
 #[test]
@@ -260,27 +266,32 @@ fn only_tables_without_keys_of_their_own_have_names_of_a_persons_choice() {
 
 #[test]
 fn each_place_of_a_pair_has_its_own_type() {
-    let told = |given: &str| errors(&format!("pair = {given}")).join("\n");
-    assert_eq!(told("[1, 2]"), "t:2: pair[1] = 2: must be a string");
+    let reported = |given: &str| errors(&format!("pair = {given}")).join("\n");
+    assert_eq!(reported("[1, 2]"), "t:2: pair[1] = 2: must be a string");
     assert_eq!(
-        told("[300, \"a\"]"),
+        reported("[300, \"a\"]"),
         "t:2: pair[0] = 300: must be a whole number from 0 to 255"
     );
-    assert_eq!(told("[1]"), "t:2: pair = [1]: must be a list of 2 values");
-}
-
-#[test]
-fn a_long_value_is_told_by_its_ends() {
-    let long = format!("kind = \"{}\"", "x".repeat(1000));
-    let told = errors(&long).concat();
-    assert!(
-        told.len() < 180 && told.contains("xxx...xxx") && told.contains("xxx\": must be"),
-        "{told}"
+    assert_eq!(
+        reported("[1]"),
+        "t:2: pair = [1]: must be a list of 2 values"
     );
 }
 
 #[test]
-fn a_type_that_disagrees_with_its_schema_is_told_with_its_path() {
+fn a_long_value_is_abbreviated_in_errors() {
+    let long = format!("kind = \"{}\"", "x".repeat(1000));
+    let reported = errors(&long).concat();
+    assert!(
+        reported.len() < 180
+            && reported.contains("xxx...xxx")
+            && reported.contains("xxx\": must be"),
+        "{reported}"
+    );
+}
+
+#[test]
+fn a_type_that_disagrees_with_its_schema_is_reported_with_its_path() {
     #[derive(Debug, Deserialize, JsonSchema)]
     struct Odd {
         #[expect(dead_code, reason = "it is never read")]
@@ -293,10 +304,10 @@ fn a_type_that_disagrees_with_its_schema_is_told_with_its_path() {
         number: u8,
     }
     let document = Document::parse("t", "lists = [\n{ number = \"1\" }]").unwrap();
-    let told = document.typed::<Odd>(&Schema::of::<Odd>()).unwrap_err();
-    let told = told.to_string();
+    let reported = document.typed::<Odd>(&Schema::of::<Odd>()).unwrap_err();
+    let reported = reported.to_string();
     assert!(
-        told.starts_with("t:2: lists[0].number = \"1\": must be readable: invalid"),
-        "{told}"
+        reported.starts_with("t:2: lists[0].number = \"1\": must be readable: invalid"),
+        "{reported}"
     );
 }

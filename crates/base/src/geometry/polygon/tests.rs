@@ -32,7 +32,7 @@ fn a_polygon_has_a_sound_number_of_vertices() {
 }
 
 #[test]
-fn what_is_wrong_is_told_with_the_vertex() {
+fn errors_name_the_vertex() {
     let wrong = |vertices: &[[f64; 2]]| {
         let vertices: Vec<Point> = vertices.iter().copied().map(Point::from).collect();
         Polygon::new(&vertices).unwrap_err()
@@ -71,7 +71,7 @@ fn what_is_wrong_is_told_with_the_vertex() {
 
 #[test]
 fn a_line_that_only_touches_itself_is_no_polygon() {
-    // A vertex upon another edge, a vertex upon another vertex, and two edges upon each other.
+    // A vertex on another edge, a vertex on another vertex, and two collinear edges that overlap.
     for touching in [
         vec![[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [2.0, 0.0], [0.0, 4.0]],
         vec![

@@ -5,7 +5,7 @@ use proptest::prelude::*;
 const KINDS: [(u8, f64); 4] = [(0, 0.2), (0, 1.5), (1, 0.2), (0, 0.0)];
 
 fn place() -> impl Strategy<Value = Point> {
-    // A lattice as well: there robots touch, and stand upon each other.
+    // Also on a lattice, where robots touch and coincide.
     let lattice = (-2_i32..6, -2_i32..6).prop_map(|(x, y)| [f64::from(x), f64::from(y)]);
     let anywhere = (-2.0..12.0, -2.0..22.0).prop_map(|(x, y)| [x, y]);
     prop_oneof![lattice, anywhere].prop_map(|[x, y]| Point { x, y })

@@ -59,8 +59,8 @@ pub struct Schemas {
     /// A random direction is kept for this long, in seconds.
     #[schemars(range(min = 0.0, max = 3600.0))]
     pub noise_s: f64,
-    /// The robot is blocked when it wants to move and has not left a circle of this radius, in
-    /// metres, for `blocked_after_s`.
+    /// The robot is blocked when a motion is proposed and it has not left a circle of this radius,
+    /// in metres, for `blocked_after_s`.
     #[schemars(range(min = 0.01, max = 1000.0))]
     pub blocked_within_m: f64,
     /// Time after which the robot is blocked, in seconds. The noise takes as long to grow, and four

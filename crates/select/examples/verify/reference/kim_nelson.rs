@@ -30,7 +30,7 @@ pub(crate) struct KimNelson {
 
 impl KimNelson {
     /// For `configurations >= 1`, a `delta > 0` in units of merit, a `confidence` from 0.5 to
-    /// below 1, and `first_runs >= 2` runs of each configuration in the first stage (ten or more
+    /// below 1, and `first_runs >= 2` runs per configuration in the first stage (ten or more
     /// are recommended).
     ///
     /// Cost: a number for each pair of configurations, and time for each pair of survivors a run.

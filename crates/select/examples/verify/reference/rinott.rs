@@ -24,7 +24,7 @@ pub(crate) struct Rinott {
 
 impl Rinott {
     /// For `configurations >= 1`, a `delta > 0` in units of merit, the constant `h` of [`rinott_h`],
-    /// and `first_runs >= 2` runs of each configuration in the first stage (ten or more are
+    /// and `first_runs >= 2` runs per configuration in the first stage (ten or more are
     /// recommended: fewer make the second stage long).
     #[must_use]
     pub(crate) fn new(configurations: usize, delta: f64, h: f64, first_runs: u64) -> Self {
@@ -49,7 +49,7 @@ impl Rinott {
     }
 }
 
-/// Maximum number of runs of each configuration in one request, so that they fit in memory.
+/// Maximum number of runs per configuration in one request, so that they fit in memory.
 const MAX_RUNS: usize = 1 << 14;
 
 /// Whole runs that are at least `runs`.
@@ -132,14 +132,14 @@ type Node = (f64, f64);
 /// Steps of the quadrature to either side of the middle.
 const STEPS: i32 = 100;
 /// Logarithm of the least density, relative to the greatest, that is not left out.
-const LEAST_LOG_DENSITY: f64 = -40.0;
+const MIN_LOG_DENSITY: f64 = -40.0;
 
 /// Nodes for a chi-square variable X: the trapezoid rule in `ln X`, whose density is smooth and
 /// falls off at least exponentially to both sides, so that the rule converges exponentially.
 fn chi_square_nodes(freedom: f64) -> Vec<Node> {
     // The density of t = ln(X / freedom), relative to its greatest value, at t = 0.
     let log_density = |t: f64| freedom / 2.0 * (t - libm::expm1(t));
-    let width = |sign: f64| sign * root(|t| LEAST_LOG_DENSITY.abs() + log_density(sign * t));
+    let width = |sign: f64| sign * root(|t| MIN_LOG_DENSITY.abs() + log_density(sign * t));
     let (least, greatest) = (width(-1.0), width(1.0));
     let step = (greatest - least) / f64::from(2 * STEPS);
     let nodes: Vec<Node> = (0..=2 * STEPS)

@@ -110,7 +110,7 @@ mod tests {
     }
 
     #[test]
-    fn a_model_that_is_not_known_is_told_alone() {
+    fn an_unknown_model_is_the_only_error_reported() {
         assert_eq!(
             read("model = \"ugw\"").unwrap_err(),
             "t.toml:7: robots.r.model = \"ugw\": must be one of \"tracked\", \"ugv\", \
@@ -125,14 +125,14 @@ mod tests {
 
     #[test]
     fn an_error_of_a_models_value_names_the_model() {
-        let told = read("model = \"ugv\"\n[clock.x]").unwrap_err();
-        assert!(told.starts_with("t.toml:8: clock.x"), "{told}");
+        let reported = read("model = \"ugv\"\n[clock.x]").unwrap_err();
+        assert!(reported.starts_with("t.toml:8: clock.x"), "{reported}");
         let document = format!("{REST}model = \"ugv\"")
             .replace("time_limit_s = 9", "time_limit_s = 9\nstep_s = 1");
         let document = Document::parse("t.toml", &document).unwrap();
-        let told = ScenarioSpec::read(&document).unwrap_err();
+        let reported = ScenarioSpec::read(&document).unwrap_err();
         let expected = "bundled model ugv:12: robots.r.drive.max_turn_rate_deg_s = 229: must be at \
                         most 180, half a turn in one step of 1 s";
-        assert!(told.to_string().contains(expected), "{told}");
+        assert!(reported.to_string().contains(expected), "{reported}");
     }
 }

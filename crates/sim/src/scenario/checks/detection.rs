@@ -66,7 +66,7 @@ fn too_many(items: &ItemsSpec, period_s: f64, at: &Place) -> Vec<InputError> {
     let means = rates.map(|(kind, _)| (kind, items.false_alarms_a_look(kind, period_s)));
     let errors = means.filter(|(_, mean)| *mean > MAX_MEAN).map(|(kind, mean)| {
         let allowed = format!(
-            "lower, so that a look has at most {MAX_MEAN} false contacts; in its whole range and \
+            "lower, so that a measurement has at most {MAX_MEAN} false alarms; in its whole range and \
              {period_s} s it has {mean:.0}"
         );
         at.key("false_alarm_rate_per_m2_s").key(kind).error(allowed)

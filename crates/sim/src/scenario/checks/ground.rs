@@ -36,7 +36,7 @@ pub(super) fn solids(
                     errors.push(at.error(where_obstacles_are(world)));
                 }
             }
-            Err(told) => errors.extend(told),
+            Err(found) => errors.extend(found),
         }
     }
     solids
@@ -118,7 +118,7 @@ pub(super) fn areas(
         for (index, corners) in class.areas_m.iter().enumerate() {
             match polygon(corners, &at.item(index)) {
                 Ok(polygon) => areas.push(Area::new(polygon, class)),
-                Err(told) => errors.extend(told),
+                Err(found) => errors.extend(found),
             }
         }
     }

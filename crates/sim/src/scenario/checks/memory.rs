@@ -25,7 +25,7 @@ const MAX_BYTES: f64 = 4e9;
 const ROBOT_BYTES: f64 = 2_000.0;
 
 /// Approximate bytes of a robot's beliefs besides its maps, and of one cell of those.
-const MIND_BYTES: f64 = 30_000.0;
+const BELIEFS_BYTES: f64 = 30_000.0;
 const CELL_BYTES: f64 = 20.0;
 
 /// One measured number.
@@ -33,7 +33,7 @@ const VALUE_BYTES: f64 = 8.0;
 
 /// Bytes of a list besides its values, and its minimum capacity.
 const LIST_BYTES: f64 = 16.0;
-const LEAST_VALUES: f64 = 4.0;
+const MIN_VALUES: f64 = 4.0;
 
 /// Approximate bytes of an item.
 const ITEM_BYTES: f64 = 64.0;
@@ -51,7 +51,7 @@ pub(super) fn errors(spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
     let total: f64 = all.iter().map(|(bytes, _)| bytes).sum();
     let largest = all.iter().max_by(|one, other| one.0.total_cmp(&other.0));
     let largest = largest.filter(|_| total > MAX_BYTES);
-    let told = largest.map(|(bytes, at)| {
+    let error = largest.map(|(bytes, at)| {
         at.key("count").error(format!(
             "fewer, or with fewer rays, contacts and messages: a run may take {} GB of memory, and this one \
              takes about {:.1} GB, {:.1} GB for these",
@@ -60,7 +60,7 @@ pub(super) fn errors(spec: &ScenarioSpec, at: &Place) -> Vec<InputError> {
             bytes / 1e9
         ))
     });
-    told.into_iter().collect()
+    error.into_iter().collect()
 }
 
 /// With everything that its sensors and its radio have in transit, in the mean over random events,
@@ -72,28 +72,28 @@ fn bytes_of(robot: &RobotSpec, spec: &ScenarioSpec) -> f64 {
         .sum();
     let radio = robot.radio.as_ref();
     let radio = radio.map_or(0.0, |radio| bytes_of_radio(radio, robot, spec));
-    ROBOT_BYTES + sensors + radio + bytes_of_mind(robot)
+    ROBOT_BYTES + sensors + radio + bytes_of_beliefs(robot)
 }
 
 /// Approximate bytes of its beliefs.
-fn bytes_of_mind(robot: &RobotSpec) -> f64 {
+fn bytes_of_beliefs(robot: &RobotSpec) -> f64 {
     let brain = &robot.brain;
     let mut behaviours = brain.behaviours.iter();
     if brain.beliefs.is_none() && !behaviours.any(BehaviourSpec::needs_beliefs) {
         return 0.0;
     }
     let cells = brain.beliefs.clone().unwrap_or_default().cells;
-    MIND_BYTES + f64::from(cells) * CELL_BYTES
+    BELIEFS_BYTES + f64::from(cells) * CELL_BYTES
 }
 
 /// Bytes of its messages in transit to all receivers, and of those that it has received.
 fn bytes_of_radio(radio: &RadioSpec, robot: &RobotSpec, spec: &ScenarioSpec) -> f64 {
     let step_s = spec.clock.step_s;
     let a_step = f64::from(radio.messages_per_step);
-    let hearers = robots_within(radio.range_m, spec, |robot| robot.radio.is_some());
+    let receivers = robots_within(radio.range_m, spec, |robot| robot.radio.is_some());
     let delay = (radio.delay_s / step_s).max(1.0);
     let waiting = (a_step * period_s(robot.brain.rate_hz, step_s) / step_s).min(most() + a_step);
-    a_step * delay * hearers * size(SENT_BYTES) + waiting * size(MESSAGE_BYTES)
+    a_step * delay * receivers * size(SENT_BYTES) + waiting * size(MESSAGE_BYTES)
 }
 
 /// Bytes of measurements that are in transit, or wait for the brain.
@@ -101,8 +101,8 @@ fn bytes_of_sensor(sensor: &SensorSpec, robot: &RobotSpec, spec: &ScenarioSpec) 
     let step_s = spec.clock.step_s;
     let looks = Looks {
         late: sensor.latency_s / period_s(sensor.rate_hz, step_s),
-        a_thought: period_s(robot.brain.rate_hz, step_s) / period_s(sensor.rate_hz, step_s),
-        is_told_at_once: sensor.latency_s == 0.0 && robot.brain.rate_hz.is_none(),
+        per_brain_step: period_s(robot.brain.rate_hz, step_s) / period_s(sensor.rate_hz, step_s),
+        is_immediate: sensor.latency_s == 0.0 && robot.brain.rate_hz.is_none(),
     };
     match &sensor.measures {
         Measures::Range(range) => looks.bytes_kept(f64::from(range.rays), sensor),
@@ -125,9 +125,9 @@ struct Looks {
     /// In transit to the robot.
     late: f64,
     /// From one step of the brain to the next.
-    a_thought: f64,
+    per_brain_step: f64,
     /// Whether the brain gets each in the step in which it is taken.
-    is_told_at_once: bool,
+    is_immediate: bool,
 }
 
 impl Looks {
@@ -136,18 +136,18 @@ impl Looks {
         if sensor.latency_s == 0.0 && sensor.rate_hz.is_none() {
             return values * VALUE_BYTES;
         }
-        let list_bytes = LIST_BYTES + values.max(LEAST_VALUES) * VALUE_BYTES;
+        let list_bytes = LIST_BYTES + values.max(MIN_VALUES) * VALUE_BYTES;
         (self.late + 2.0) * (size(MEASUREMENT_BYTES) + list_bytes)
     }
 
     /// What waits if each measurement yields this number of entries that all count.
     fn waiting(&self, a_look: f64) -> f64 {
-        if self.is_told_at_once {
+        if self.is_immediate {
             return 0.0;
         }
         let late = a_look * self.late;
         // Entries that are too old are dropped once there are twice as many as the limit.
-        late + (a_look * self.a_thought.max(1.0)).min(late + most() + a_look)
+        late + (a_look * self.per_brain_step.max(1.0)).min(late + most() + a_look)
     }
 }
 
@@ -296,7 +296,7 @@ mod tests {
     }
 
     #[test]
-    fn a_message_counts_once_for_each_robot_that_hears_it() {
+    fn a_message_counts_once_for_each_receiver() {
         let radio = "radio = { range_m = 200, messages_per_step = 10, delay_s = 60 }";
         let sent = size(SENT_BYTES) / 1e6;
         let expected = 200.0 * 200.0 * 10.0 * 600.0 * sent;

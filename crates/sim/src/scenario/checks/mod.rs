@@ -58,9 +58,9 @@ pub(super) fn checked(spec: ScenarioSpec, at: &Place, open: Open) -> Result<Chec
     let checked = Checked { spec, scenario };
     // An error in a world without the invalid obstacles is an error with them too.
     for check in CHECKS_OF_PLACES {
-        let told: BTreeSet<String> = of_places.iter().map(|error| error.path.clone()).collect();
+        let reported: BTreeSet<String> = of_places.iter().map(|error| error.path.clone()).collect();
         let more = check(&checked, at).into_iter();
-        of_places.extend(more.filter(|error| !told.contains(&error.path)));
+        of_places.extend(more.filter(|error| !reported.contains(&error.path)));
     }
     InputErrors::or(of_places, Some(checked))
 }

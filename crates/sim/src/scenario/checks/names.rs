@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 /// Kinds of robots are counted in one byte of their ids.
 const MAX_KINDS: usize = 255;
 
-/// Maximum number of sensors of a robot: a bit for each says whether it is off.
+/// Maximum number of sensors of a robot: one bit per sensor stores whether it is off.
 const MAX_SENSORS: usize = 32;
 
 /// Maximum length of a name.

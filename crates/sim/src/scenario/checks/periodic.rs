@@ -12,14 +12,13 @@ pub(super) fn errors(checked: &Checked, at: &Place) -> Vec<InputError> {
     let Some(torus) = scenario.torus else {
         return Vec::new();
     };
-    let half_m = torus.size_m.x.min(torus.size_m.y) / 2.0;
-    let most_m = half_m - scenario.skin_m - scenario.biggest_radius_m();
+    let half_size_m = torus.size_m.x.min(torus.size_m.y) / 2.0;
+    let max_m = half_size_m - scenario.skin_m - scenario.biggest_radius_m();
     let mut errors = Vec::new();
-    let least_m = 2.0 * (scenario.contact_m + scenario.skin_m);
-    if 2.0 * half_m < least_m {
-        let allowed = format!(
-            "at least {least_m:.3} each way for these robots, because the world is periodic"
-        );
+    let min_m = 2.0 * (scenario.contact_m + scenario.skin_m);
+    if 2.0 * half_size_m < min_m {
+        let allowed =
+            format!("at least {min_m:.3} each way for these robots, because the world is periodic");
         errors.push(at.key("world").key("size_m").error(allowed));
     }
     for (name, robot) in &spec.robots {
@@ -28,15 +27,15 @@ pub(super) fn errors(checked: &Checked, at: &Place) -> Vec<InputError> {
             let at = at.key("sensors").key(name).key("range_m");
             Some((range_m(&sensor.measures)?, at))
         });
-        let too_far = sensors.filter(|(range_m, _)| *range_m > most_m);
-        errors.extend(too_far.map(|(_, at)| at.error(allowed(most_m))));
+        let too_far = sensors.filter(|(range_m, _)| *range_m > max_m);
+        errors.extend(too_far.map(|(_, at)| at.error(allowed(max_m))));
     }
     errors
 }
 
-fn allowed(most_m: f64) -> String {
-    if most_m > 0.0 {
-        format!("at most {most_m:.3}, somewhat less than half of a periodic world")
+fn allowed(max_m: f64) -> String {
+    if max_m > 0.0 {
+        format!("at most {max_m:.3}, somewhat less than half of a periodic world")
     } else {
         "none: the world is periodic and too small".to_owned()
     }

@@ -52,13 +52,14 @@ fn read(text: &str) -> Result<Checked, InputErrors> {
 fn errors(this: &str, that: &str) -> Vec<String> {
     assert!(GOOD.contains(this), "{this}");
     let errors = read(&GOOD.replace(this, that)).unwrap_err().0;
-    let told = errors.iter().map(ToString::to_string);
-    told.map(|error| {
-        let (origin, rest) = error.split_once(": ").unwrap();
-        assert!(origin.starts_with("t:"), "{error}");
-        rest.to_owned()
-    })
-    .collect()
+    let reported = errors.iter().map(ToString::to_string);
+    reported
+        .map(|error| {
+            let (origin, rest) = error.split_once(": ").unwrap();
+            assert!(origin.starts_with("t:"), "{error}");
+            rest.to_owned()
+        })
+        .collect()
 }
 
 fn error(this: &str, that: &str) -> String {
@@ -80,7 +81,7 @@ fn keys_that_are_not_the_engines_are_left_to_others() {
 }
 
 #[test]
-fn errors_of_every_part_are_told_at_once_with_their_lines() {
+fn errors_of_every_part_are_reported_at_once_with_their_lines() {
     let bad = GOOD
         .replace("time_limit_s = 120", "time_limit_s = 1e7\n")
         .replace("0.1\n", "0.01\n")
@@ -89,18 +90,18 @@ fn errors_of_every_part_are_told_at_once_with_their_lines() {
             "detection_probability = { mine",
             "detection_probability = { mien",
         );
-    let told = read(&bad).unwrap_err().to_string();
+    let reported = read(&bad).unwrap_err().to_string();
     let expected = "t:4: clock.time_limit_s = 10000000.0: must be at most 1000000: a run has at most \
                     100000000 steps, here of 0.01 s\n\
                     t:30: robots.rover.sensors.eye.detection_probability.mien is not a known key: \
                     expected one of mine; did you mean mine?\n\
                     t:10: world.obstacles[0].polygon_m = [[0, 0], [4, 0], [-1, 2], [0, 4]]: must be a \
                     polygon that does not intersect itself; the edges from vertices 1 and 3 do";
-    assert_eq!(told, expected);
+    assert_eq!(reported, expected);
 }
 
 #[test]
-fn a_types_error_is_told_before_what_values_mean_together() {
+fn errors_of_types_are_reported_before_errors_of_combinations() {
     assert_eq!(
         errors("radius_m = 0.5", "radius_m = nan"),
         ["robots.rover.radius_m = NaN: must be a number from 0 to 100 (metres)"]
@@ -111,8 +112,8 @@ fn a_types_error_is_told_before_what_values_mean_together() {
 fn names_can_stand_in_a_column_and_a_path() {
     let long = "x".repeat(65);
     for name in ["\"a b\"", "\"\"", "\"a.b\"", "\"ä\"", &long] {
-        let told = error("[robots.bird]", &format!("[robots.{name}]"));
-        assert!(told.ends_with(
+        let reported = error("[robots.bird]", &format!("[robots.{name}]"));
+        assert!(reported.ends_with(
             "must be under a name of at most 64 letters a to z or A to Z, digits, _ and -"
         ));
     }
@@ -133,13 +134,13 @@ fn two_kinds_never_have_the_same_random_numbers() {
         };
         let kind = |name: &str| format!("\n[{what}.{name}]\n{rest}\n");
         let both = kind("costarring") + &kind("liquid");
-        let told = read(&format!("{GOOD}{both}")).unwrap_err().to_string();
+        let reported = read(&format!("{GOOD}{both}")).unwrap_err().to_string();
         assert!(
-            told.contains(&format!(
+            reported.contains(&format!(
                 "{what}.liquid = {{...}}: must be a different name: the hash that keys its random \
                  numbers equals that of costarring"
             )),
-            "{told}"
+            "{reported}"
         );
         assert!(read(&format!("{GOOD}{}", kind("liquid"))).is_ok());
     }
@@ -155,8 +156,8 @@ fn there_are_one_to_255_kinds_of_robots() {
     );
     let many = (0..256).map(|kind| format!("[robots.r{kind}]\nmodel = \"ugv\"\ncount = 0\n"));
     let many = many.collect::<Vec<_>>().concat();
-    let told = read(&format!("{}{many}", &GOOD[..start])).unwrap_err();
-    assert!(told.to_string().contains("it has 256"), "{told}");
+    let reported = read(&format!("{}{many}", &GOOD[..start])).unwrap_err();
+    assert!(reported.to_string().contains("it has 256"), "{reported}");
 }
 
 #[test]
@@ -194,14 +195,16 @@ fn a_detection_table_ascends_and_has_probabilities() {
         "[[1, 1], [1, 0]]",
         "[[2, 1], [1, 0]]",
     ] {
-        let told = error("[[0, 1], [3, 0.5]]", table);
+        let reported = error("[[0, 1], [3, 0.5]]", table);
         assert!(
-            told.contains("must be at least one pair of a distance"),
-            "{told}"
+            reported.contains("must be at least one pair of a distance"),
+            "{reported}"
         );
     }
-    let told = error("mine = 0.01", "mine = -1");
-    assert!(told.ends_with("false_alarm_rate_per_m2_s.mine = -1: must be a number from 0 to 1000"));
+    let reported = error("mine = 0.01", "mine = -1");
+    assert!(
+        reported.ends_with("false_alarm_rate_per_m2_s.mine = -1: must be a number from 0 to 1000")
+    );
     assert_eq!(
         error("mine = 0.01", "cow = 1"),
         "robots.rover.sensors.eye.false_alarm_rate_per_m2_s.cow is not a known key: expected one of mine"
@@ -209,12 +212,12 @@ fn a_detection_table_ascends_and_has_probabilities() {
 }
 
 #[test]
-fn a_look_has_no_more_false_contacts_than_can_be_drawn() {
+fn the_false_alarms_of_a_measurement_are_bounded() {
     // A circle of 3 m for 0.1 s.
-    let told = error("mine = 0.01", "mine = 200");
-    let end = "must be lower, so that a look has at most 500 false contacts; in its whole range and \
+    let reported = error("mine = 0.01", "mine = 200");
+    let end = "must be lower, so that a measurement has at most 500 false alarms; in its whole range and \
                0.1 s it has 565";
-    assert!(told.ends_with(end), "{told}");
+    assert!(reported.ends_with(end), "{reported}");
     assert!(read(&GOOD.replace("mine = 0.01", "mine = 150")).is_ok());
     let slow = GOOD.replace("range_m = 3", "range_m = 3\nrate_hz = 0.01");
     assert!(read(&slow).is_ok());
@@ -229,27 +232,27 @@ fn a_robot_has_at_most_32_sensors() {
     };
     let with = |count| format!("{}[robots.bird]", sensors(count));
     assert!(read(&GOOD.replace("[robots.bird]", &with(31))).is_ok());
-    let told = error("[robots.bird]", &with(32));
+    let reported = error("[robots.bird]", &with(32));
     assert!(
-        told.ends_with("must be a table of 0 to 32; it has 33"),
-        "{told}"
+        reported.ends_with("must be a table of 0 to 32; it has 33"),
+        "{reported}"
     );
 }
 
 #[test]
 fn a_battery_that_is_never_full_is_none() {
-    let told = error(
+    let reported = error(
         "count = 1\nradius_m = 0.3",
         "count = 1\nbattery = { capacity_j = 0 }\nradius_m = 0.3",
     );
     assert!(
-        told.starts_with("robots.bird.battery.capacity_j = 0: must be"),
-        "{told}"
+        reported.starts_with("robots.bird.battery.capacity_j = 0: must be"),
+        "{reported}"
     );
 }
 
 #[test]
-fn wrong_obstacles_and_wrong_places_are_told_at_once() {
+fn invalid_obstacles_and_positions_are_reported_at_once() {
     let text = GOOD
         .replace("[15, 5]", "[150, 5]")
         .replace("[19, 9]", "[190, 9]");
@@ -272,8 +275,8 @@ fn an_obstacle_is_at_least_partly_in_the_world() {
 
 #[test]
 fn an_area_has_an_inside() {
-    let told = error("[[[10, 0], [20, 0], [20, 10]]]", "[[[10, 0], [20, 0]]]");
-    assert!(told.starts_with("terrain.mud.areas_m[0] = [[10, 0], [20, 0]]: must be a polygon"));
+    let reported = error("[[[10, 0], [20, 0], [20, 10]]]", "[[[10, 0], [20, 0]]]");
+    assert!(reported.starts_with("terrain.mud.areas_m[0] = [[10, 0], [20, 0]]: must be a polygon"));
 }
 
 #[test]
@@ -325,8 +328,11 @@ fn robots_of_a_layer_do_not_stand_in_each_other() {
     );
     let bird = "layer = \"air\"\nstart = { kind = \"fixed\", at_m = [[6, 6]] }";
     assert!(read(&GOOD.replace("layer = \"air\"", bird)).is_ok());
-    let told = error("layer = \"air\"", &bird.replace("air", "ground"));
-    assert!(told.contains("at least 0.8 from the robot at"), "{told}");
+    let reported = error("layer = \"air\"", &bird.replace("air", "ground"));
+    assert!(
+        reported.contains("at least 0.8 from the robot at"),
+        "{reported}"
+    );
 }
 
 #[test]
@@ -337,47 +343,49 @@ fn robots_that_start_anywhere_have_room() {
             &format!("count = {count}\nradius_m = {radius}"),
         )
     };
-    let told = bird("1", "5.1");
+    let reported = bird("1", "5.1");
     assert_eq!(
-        told,
+        reported,
         "robots.bird.count = 1: must be 0: none of 16384 examined start places is free for \
          radius_m = 5.1"
     );
-    let told = bird("400", "0.3");
-    assert!(told.starts_with("robots.bird.count = 400: must be fewer: randomly placed robots"));
+    let reported = bird("400", "0.3");
+    assert!(reported.starts_with("robots.bird.count = 400: must be fewer: randomly placed robots"));
     assert!(
-        told.contains("50 % of the 200 m2 of free area, but all air robots would cover 113 m2")
+        reported.contains("50 % of the 200 m2 of free area, but all air robots would cover 113 m2")
     );
 }
 
 #[test]
 fn items_that_are_anywhere_have_room() {
     let anywhere = "placement = { kind = \"uniform\", within_m = [[1, 1], [3, 3]] }";
-    let told = error(
+    let reported = error(
         "placement = { kind = \"fixed\", at_m = [[5, 5], [19, 9]] }",
         anywhere,
     );
     assert_eq!(
-        told,
+        reported,
         "items.mine.count = 2: must be 0: their area has no free place"
     );
     let outside = anywhere.replace("[3, 3]", "[3, 13]");
-    let told = error(
+    let reported = error(
         "placement = { kind = \"fixed\", at_m = [[5, 5], [19, 9]] }",
         &outside,
     );
-    assert!(told.contains("within_m = [[1, 1], [3, 13]]: must be two corners in the world, from"));
+    assert!(
+        reported.contains("within_m = [[1, 1], [3, 13]]: must be two corners in the world, from")
+    );
 }
 
 #[test]
 fn a_run_fits_into_memory() {
     let rays = "count = 1000000\nsensors = { a = { kind = \"range\", rays = 1440, range_m = 1 } }";
-    let told = error(
+    let reported = error(
         "count = 1\nradius_m = 0.3",
         &format!("{rays}\nradius_m = 0"),
     );
     assert_eq!(
-        told,
+        reported,
         "robots.bird.count = 1000000: must be fewer, or with fewer rays, contacts and messages: a run \
          may take 4 GB of memory, and this one takes about 13.5 GB, 13.5 GB for these"
     );
@@ -416,32 +424,32 @@ fn a_map_is_read_and_is_in_the_way() {
         ("[9.4, 4.5]", false),
         ("[7.4, 4.5]", true),
     ] {
-        let told = read_with_map("maps/room.yaml", start).err();
+        let reported = read_with_map("maps/room.yaml", start).err();
         let expected = format!("t:23: robots.rover.start.at_m[1] = {start}: must be in the world");
-        assert_eq!(told.is_none(), is_free, "{start}");
+        assert_eq!(reported.is_none(), is_free, "{start}");
         assert!(
-            told.is_none_or(|told| told.starts_with(&expected)),
+            reported.is_none_or(|reported| reported.starts_with(&expected)),
             "{start}"
         );
     }
 }
 
 #[test]
-fn a_map_that_is_not_there_or_wrong_is_told() {
+fn a_missing_or_invalid_map_is_an_error() {
     assert_eq!(
         read_with_map("room.yaml", "[7, 6]").unwrap_err(),
         "t:10: world.obstacles[1].map = \"room.yaml\": must be a file that can be read: there is no \
          room.yaml"
     );
-    let told = read_with_map("maps/bad.yaml", "[7, 6]").unwrap_err();
+    let reported = read_with_map("maps/bad.yaml", "[7, 6]").unwrap_err();
     assert!(
-        told.starts_with("maps/bad.yaml:2: resolution = -1: must be"),
-        "{told}"
+        reported.starts_with("maps/bad.yaml:2: resolution = -1: must be"),
+        "{reported}"
     );
 }
 
 #[test]
-fn what_is_sought_can_be_recognised_by_a_robot() {
+fn some_robot_must_be_able_to_detect_the_targets() {
     let clutter = "[items.cow]\ncount = 1\n[items.mine]";
     assert_eq!(
         error("[items.mine]", clutter),
@@ -544,27 +552,28 @@ fn a_world_that_wraps_is_large_enough_and_holds_its_obstacles_wholly() {
     let far = GOOD
         .replace("size_m = [20, 10]", periodic)
         .replace("range_m = 3", "range_m = 4");
-    let told = read(&far).unwrap_err().to_string();
+    let reported = read(&far).unwrap_err().to_string();
     assert!(
-        told.contains("robots.rover.sensors.eye.range_m = 4: must be at most 3.900"),
-        "{told}"
+        reported.contains("robots.rover.sensors.eye.range_m = 4: must be at most 3.900"),
+        "{reported}"
     );
     let outside = GOOD
         .replace("size_m = [20, 10]", periodic)
         .replace("[15, 5]", "[19.5, 5]");
-    let told = read(&outside).unwrap_err().to_string();
+    let reported = read(&outside).unwrap_err().to_string();
     assert!(
-        told.contains("world.obstacles[1]") && told.contains("because the world is periodic"),
-        "{told}"
+        reported.contains("world.obstacles[1]")
+            && reported.contains("because the world is periodic"),
+        "{reported}"
     );
     let fast = GOOD
         .replace("size_m = [20, 10]", periodic)
         .replace("max_speed_m_s = 5", "max_speed_m_s = 50");
-    let told = read(&fast).unwrap_err().to_string();
-    assert!(told.contains("world.size_m"), "{told}");
+    let reported = read(&fast).unwrap_err().to_string();
+    assert!(reported.contains("world.size_m"), "{reported}");
     let beside = GOOD
         .replace("size_m = [20, 10]", periodic)
         .replace("[[6, 6], [7, 6]]", "[[0.1, 6], [19.9, 6]]");
-    let told = read(&beside).unwrap_err().to_string();
-    assert!(told.contains("robots.rover.start.at_m["), "{told}");
+    let reported = read(&beside).unwrap_err().to_string();
+    assert!(reported.contains("robots.rover.start.at_m["), "{reported}");
 }

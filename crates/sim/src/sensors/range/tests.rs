@@ -112,7 +112,7 @@ fn nothing_at_the_range_or_farther_gives_an_echo() {
 }
 
 #[test]
-fn noise_has_the_moments_that_are_asked_for() {
+fn noise_has_the_configured_moments() {
     let noisy = RangeSpec {
         noise_m: 0.1,
         relative_noise: 0.05,
@@ -170,7 +170,7 @@ fn a_distance_is_never_below_0() {
 }
 
 #[test]
-fn echoes_are_lost_and_invented_as_often_as_is_asked_for() {
+fn returns_are_missed_and_spurious_with_the_configured_probabilities() {
     let false_and_lost = RangeSpec {
         miss_probability: 0.1,
         spurious_return_probability: 0.2,
@@ -237,7 +237,7 @@ fn rays_of_a_turned_robot_are_turned_with_it() {
     );
 }
 
-/// Everything that a look can do, in each instruction set that this machine has.
+/// All features of a scan, in each instruction set of this machine.
 #[test]
 fn a_look_gives_the_same_bits_in_every_instruction_set() {
     let mut everything = RangeSpec {

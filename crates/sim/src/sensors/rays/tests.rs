@@ -6,9 +6,9 @@ use proptest::prelude::*;
 use pulp::{Arch, WithSimd};
 use std::f64::consts::{PI, TAU};
 
-/// Where the ray from `origin` along `direction` comes upon a wall from its free side, in lengths of
-/// `direction`; from the solid side, or along it, it meets nothing. An end on the ray counts for both
-/// of its sides, so that a ray between two walls with a common end meets one of them.
+/// The distance, in lengths of `direction`, at which the ray from `origin` meets the free side of a
+/// wall; the solid side, and a ray along the wall, meet nothing. An end on the ray counts for both
+/// sides, so that a ray between two walls with a common end meets one of them.
 fn hit(wall: &Segment, origin: Point, direction: Point) -> Option<f64> {
     let (from, to) = (origin.to(wall.from), origin.to(wall.to));
     let (right, left) = (direction.cross(from), direction.cross(to));
@@ -68,10 +68,10 @@ impl Scene {
         let walls = walls.collect();
         let centres: Vec<Point> = (0..8).map(|_| point()).collect();
         let discs = centres.iter().map(|centre| {
-            let most_m = (0.3 * side_m).min(at.to(*centre).length());
+            let max_m = (0.3 * side_m).min(at.to(*centre).length());
             Disc {
                 centre: *centre,
-                radius_m: most_m * unit(random),
+                radius_m: max_m * unit(random),
             }
         });
         Self {
@@ -99,7 +99,7 @@ impl Scene {
         let [apart, overlapping] = self.discs();
         for (at, range_m) in [(Point::default(), 1e9), (self.at, self.range_m)] {
             near.begin(at, range_m);
-            // In two parts, as a robot takes other robots and what stands still.
+            // In two parts, as for other robots and static obstacles.
             for apart in apart.chunks(2) {
                 near.take_apart(apart.iter().copied());
             }
@@ -292,7 +292,7 @@ fn a_room_measures_as_wide_as_it_is() {
     }
 }
 
-/// Bodies from outside can be put anywhere, also into each other.
+/// External bodies can be anywhere, and may overlap.
 #[test]
 fn one_in_a_disc_sees_it_at_no_distance() {
     let scene = Scene {

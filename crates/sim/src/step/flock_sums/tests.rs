@@ -83,7 +83,7 @@ proptest! {
         let (found, expected) = (sums(robots, seed, side_m), plain_sums(robots, seed, side_m));
         for (robot, (found, expected)) in found.iter().zip(&expected).enumerate() {
             if robot % 3 == 2 {
-                // Nobody asks for the sums of a robot that does not flock.
+                // The sums of a robot that does not flock are unused.
                 continue;
             }
             let off_m = [

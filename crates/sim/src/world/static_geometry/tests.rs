@@ -118,9 +118,9 @@ fn a_way_is_open_if_nothing_at_all_crosses_it() {
             assert_eq!(share >= 1.0, is_open, "{number}: {from:?} {to:?} {share}");
             for (part, is_open) in [(0.999, true), (1.001, false)] {
                 let end = from.plus(from.to(to).times(share * part));
-                let is_told = share * part < 1.0 && scene.plain(from, end).is_some();
+                let is_reported = share * part < 1.0 && scene.plain(from, end).is_some();
                 assert!(
-                    !is_told || stands.is_open(from, end) == is_open,
+                    !is_reported || stands.is_open(from, end) == is_open,
                     "{number}: {share}"
                 );
             }
@@ -180,7 +180,7 @@ fn a_wall_hides_from_both_of_its_sides() {
 }
 
 #[test]
-fn discs_that_overlap_others_are_told_apart() {
+fn overlapping_discs_are_distinguished() {
     let disc = |x, y, radius_m| Disc {
         centre: Point { x, y },
         radius_m,
@@ -208,7 +208,7 @@ fn discs_that_overlap_others_are_told_apart() {
 }
 
 #[test]
-fn who_sees_all_around_him_sees_every_place_there() {
+fn a_full_view_sees_every_place() {
     let mut clear = 0;
     for number in 0..2000 {
         let mut random = random(number);
@@ -257,10 +257,14 @@ fn on_a_torus_what_is_around_a_place_tells_which_ways_from_it_are_open() {
             }
             .times(0.9 * scene.size.y.min(scene.size.x));
             let to = from.plus(way);
-            let told = stands.around(from, way.length()).open_share(to) >= 1.0;
-            assert_eq!(told, stands.is_open(from, to), "{number}: {from:?} {to:?}");
-            open += u32::from(told);
-            shut += u32::from(!told);
+            let is_visible = stands.around(from, way.length()).open_share(to) >= 1.0;
+            assert_eq!(
+                is_visible,
+                stands.is_open(from, to),
+                "{number}: {from:?} {to:?}"
+            );
+            open += u32::from(is_visible);
+            shut += u32::from(!is_visible);
         }
     }
     assert!(open > 300 && shut > 300, "{open} {shut}");

@@ -1,16 +1,17 @@
 use super::*;
 
 #[test]
-fn a_mind_has_a_world_that_ends() {
+fn beliefs_require_a_bounded_world() {
     let drive = "drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }\n";
     let world = "size_m = [20, 10]\n";
     let text = GOOD
         .replace(drive, &format!("{drive}brain = {{ beliefs = {{}} }}\n"))
         .replace(world, &format!("{world}periodic = true\n"));
-    let told = read(&text).unwrap_err().to_string();
+    let reported = read(&text).unwrap_err().to_string();
     assert!(
-        told.contains("robots.rover.brain.beliefs = ") && told.contains("need periodic = false"),
-        "{told}"
+        reported.contains("robots.rover.brain.beliefs = ")
+            && reported.contains("need periodic = false"),
+        "{reported}"
     );
 }
 
@@ -22,7 +23,7 @@ fn errors_of_brain(brain: &str) -> Vec<String> {
 
 #[test]
 fn behaviours_need_sensors_and_places() {
-    let told = errors_of_brain("behaviours = [{ kind = \"correct\" }]");
+    let reported = errors_of_brain("behaviours = [{ kind = \"correct\" }]");
     let at = "robots.bird.brain.behaviours[0]";
     let needs = |what: &str| {
         format!(
@@ -37,19 +38,20 @@ fn behaviours_need_sensors_and_places() {
             "{at}.waypoints_m is missing: expected the places to visit, at least one, as in [[5, 5], [9, 2.5]]"
         ),
     ];
-    assert_eq!(told, expected);
+    assert_eq!(reported, expected);
 }
 
 #[test]
 fn behaviours_with_others_need_to_know_of_them_and_sweeps_how_wide_they_see() {
-    let told = errors_of_brain(
+    let reported = errors_of_brain(
         "behaviours = [{ kind = \"follow\" }, { kind = \"flock\" }, { kind = \"lawnmower\" }, \
          { kind = \"spiral\" }, { kind = \"navigate\", assignment = \"shared\", waypoints_m = [[1, 1]] }]",
     );
     let behaviour = |number: u32| format!("robots.bird.brain.behaviours[{number}]");
     let lacks = |number, key: &str, what: &str| {
         let path = format!("{}.{key} = ", behaviour(number));
-        told.iter()
+        reported
+            .iter()
             .any(|error| error.starts_with(&path) && error.contains(what))
     };
     for (number, key, what) in [
@@ -59,24 +61,24 @@ fn behaviours_with_others_need_to_know_of_them_and_sweeps_how_wide_they_see() {
         (3, "kind", "kind = \"items\""),
         (4, "assignment", "needs a radio"),
     ] {
-        assert!(lacks(number, key, what), "{number}: {told:?}");
+        assert!(lacks(number, key, what), "{number}: {reported:?}");
     }
-    let told = errors_of_brain(
+    let reported = errors_of_brain(
         "behaviours = [{ kind = \"lawnmower\", width_m = 2 }, { kind = \"spiral\", width_m = 2 }]",
     );
     assert!(
-        !told.iter().any(|error| error.contains("items")),
-        "{told:?}"
+        !reported.iter().any(|error| error.contains("items")),
+        "{reported:?}"
     );
 }
 
 #[test]
 fn places_lie_in_the_world() {
-    let told = errors_of_brain(
+    let reported = errors_of_brain(
         "behaviours = [{ kind = \"navigate\", waypoints_m = [[2, 2], [21, 2]] }, \
          { kind = \"return_home\", at_m = [-1, 2] }, { kind = \"spiral\", around_m = [3, 11], width_m = 1 }]",
     );
-    let outside: Vec<&String> = told
+    let outside: Vec<&String> = reported
         .iter()
         .filter(|error| error.contains("within"))
         .collect();
@@ -88,7 +90,7 @@ fn places_lie_in_the_world() {
         format!("{at}[1].at_m = [-1, 2]: must be within the world: from [0, 0] to [20, 10]"),
         format!("{at}[2].around_m = [3, 11]: must be within the world: from [0, 0] to [20, 10]"),
     ];
-    assert_eq!(outside, expected.iter().collect::<Vec<_>>(), "{told:?}");
+    assert_eq!(outside, expected.iter().collect::<Vec<_>>(), "{reported:?}");
 }
 
 #[test]
@@ -110,9 +112,9 @@ fn gains_are_those_of_its_behaviours() {
         ]
     );
     let slip = brain("").replace("gains", "gain");
-    let told = errors_of_brain(&slip).concat();
+    let reported = errors_of_brain(&slip).concat();
     assert!(
-        told.contains("is not a known key: expected one of kind, gains, influence_m"),
-        "{told}"
+        reported.contains("is not a known key: expected one of kind, gains, influence_m"),
+        "{reported}"
     );
 }

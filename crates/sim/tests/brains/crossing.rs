@@ -1,7 +1,6 @@
 //! Robots whose paths cross: whether all reach their destinations without a collision.
 
-use super::listed;
-use crate::common::scenario;
+use crate::{listed, scenario};
 use base::geometry::Point;
 use base::random::{Entity, Purpose, Stream, stream, unit};
 use rayon::prelude::*;

@@ -1,12 +1,12 @@
 //! The benefit of remembering searched areas, and of sharing them by radio.
 
-use crate::common::scenario;
+use crate::scenario;
 use rayon::prelude::*;
 use sim::simulation::Simulation;
 use std::sync::Arc;
 
 /// The bundled scenario.
-const SEARCH: &str = include_str!("../../../../../scenarios/search.toml");
+const SEARCH: &str = include_str!("../../../../scenarios/search.toml");
 
 /// The time limit of a search, which is also its duration if it takes longer.
 const TIME_LIMIT_S: f64 = 600.0;

@@ -1,6 +1,6 @@
 //! Paths that first lead away from the destination.
 
-use crate::common::scenario;
+use crate::scenario;
 use base::geometry::Point;
 use rayon::prelude::*;
 use sim::simulation::Simulation;

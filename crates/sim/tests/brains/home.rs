@@ -1,6 +1,6 @@
 //! Robots that return home before their batteries are empty.
 
-use crate::common::scenario;
+use crate::scenario;
 use rayon::prelude::*;
 use sim::simulation::Simulation;
 

@@ -1,6 +1,6 @@
 //! Moving objects that no detector identifies are distinguished from static ones by their approach.
 
-use crate::common::scenario;
+use crate::scenario;
 use brain::{BelievedRobot, RobotId};
 use sim::simulation::Simulation;
 

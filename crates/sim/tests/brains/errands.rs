@@ -1,7 +1,6 @@
 //! Waypoints that a team shares.
 
-use super::listed;
-use crate::common::scenario;
+use crate::{listed, scenario};
 use base::geometry::Point;
 use sim::simulation::Simulation;
 
