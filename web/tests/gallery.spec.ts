@@ -1,10 +1,12 @@
-import { expect, expectAccessible, runAt, test } from "./page";
+import { writeFile } from "node:fs/promises";
+import { join } from "node:path";
+import { expect, expectAccessible, ownScenario, runAt, test } from "./page";
 
-const faulty = 'engine = "metric"\n[robots.rover]\nraduis_m = 0.25\n';
+const faulty = `${ownScenario}raduis_m = 0.25\n`;
 const file = (text: string) => ({ name: "my.toml", mimeType: "application/toml", buffer: Buffer.from(text) });
 
-test("the gallery lists each scenario with its picture, and opens it", async ({ page, fake }) => {
-  await page.goto(fake.url);
+test("the gallery lists each scenario with its picture, and opens it", async ({ page, server }) => {
+  await page.goto(server.url);
   const card = page.getByRole("link", { name: /^search-beliefs/ });
   await expect(card).toContainText("map, share and plan");
   await expect
@@ -15,25 +17,25 @@ test("the gallery lists each scenario with its picture, and opens it", async ({ 
   await expect(page.getByRole("heading", { name: "search-beliefs" })).toBeVisible();
 });
 
-test("the errors of a file are listed beside its text, with their lines marked", async ({ page, fake }) => {
-  await page.goto(fake.url);
+test("the errors of a file are listed beside its text, with their lines marked", async ({ page, server }) => {
+  await page.goto(server.url);
   await page.locator("input[type=file]").setInputFiles(file(faulty));
   await expect(page.getByRole("heading", { name: "my.toml has 1 error" })).toBeVisible();
-  await expect(page.getByRole("button", { name: "Line 3" })).toBeVisible();
+  await expect(page.getByRole("button", { name: "Line 10" })).toBeVisible();
   await expect(page.locator(".marked")).toContainText("raduis_m = 0.25");
   await expectAccessible(page);
 });
 
-test("a valid file opens, and its address contains it", async ({ page, fake }) => {
-  await page.goto(fake.url);
-  await page.locator("input[type=file]").setInputFiles(file('engine = "metric"\n'));
+test("a valid file opens, and its address contains it", async ({ page, server }) => {
+  await page.goto(server.url);
+  await page.locator("input[type=file]").setInputFiles(file(ownScenario));
   await expect(page.getByRole("status", { name: "" }).filter({ hasText: "4 robots" })).toBeVisible();
   await page.reload();
   await expect(page.locator("#status")).toContainText("4 robots");
 });
 
-test("a dropped file is opened like a selected one", async ({ page, fake }) => {
-  await page.goto(fake.url);
+test("a dropped file is opened like a selected one", async ({ page, server }) => {
+  await page.goto(server.url);
   const transfer = await page.evaluateHandle((text) => {
     const data = new DataTransfer();
     data.items.add(new File([text], "my.toml"));
@@ -43,8 +45,9 @@ test("a dropped file is opened like a selected one", async ({ page, fake }) => {
   await expect(page.getByRole("heading", { name: "my.toml has 1 error" })).toBeVisible();
 });
 
-test("the error of a scenario that cannot be opened is displayed", async ({ page, fake }) => {
-  await page.goto(runAt(fake, "scenario=broken"));
+test("the error of a scenario that cannot be opened is displayed", async ({ page, server }) => {
+  await writeFile(join(server.folder, "broken.toml"), ownScenario.replace("count = 4", ""));
+  await page.goto(runAt(server, "scenario=broken.toml"));
   await expect(page.getByText("count is missing")).toBeVisible();
   await expectAccessible(page);
 });

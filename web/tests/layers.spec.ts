@@ -1,10 +1,109 @@
+import { writeFile } from "node:fs/promises";
+import { join } from "node:path";
+import type { Page } from "@playwright/test";
 import { inkAt, opens, type View } from "./ink";
-import { expect, expectAccessible, runAt, test } from "./page";
+import { expect, expectAccessible, type RealServer, test } from "./page";
 
-const view: View = [30, 20, 12];
-const scenario = `scenario=search-beliefs&seed=7&run=2&${opens(view)}`;
+const view: View = [5, 5, 60];
 
-test("radio links are requested while their layer is on, and drawn as received", async ({ page, fake }) => {
+/** A scenario with robots that stand still and face along x. */
+function field(places: [number, number][], world: string): string {
+  return `
+engine = "metric"
+summary = "Robots that stand."
+merit = "equation-5.2"
+clock.time_limit_s = 100
+[world]
+size_m = [10, 10]
+${world}
+[items.mine]
+count = 1
+target = false
+placement = { kind = "fixed", at_m = [[1, 1]] }
+[robots.rover]
+count = ${places.length}
+radius_m = 0.2
+start = { kind = "fixed", at_m = ${JSON.stringify(places)}, heading_deg = ${JSON.stringify(places.map(() => 0))} }
+drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
+brain = { behaviours = [] }
+radio = { range_m = 4.5, needs_line_of_sight = true }
+sensors.camera = { kind = "items", range_m = 3, fov_deg = 90 }
+`;
+}
+
+async function open(page: Page, server: RealServer, text: string): Promise<void> {
+  await writeFile(join(server.folder, "field.toml"), text);
+  await page.goto(`${server.url}/#/run?scenario=field.toml&seed=1&run=0&robot=rover/0&${opens(view)}`);
+  await expect(page.locator("#status")).toContainText(/[23] robots/);
+  await page.getByRole("tab", { name: "Layers" }).click();
+  for (const name of ["Trails", "Grid and scale"]) await page.getByRole("checkbox", { name }).uncheck();
+}
+
+/** The wall is between the first two robots; the last receives from the first only. */
+const threeRobots = field(
+  [
+    [4, 5],
+    [8, 5],
+    [4, 8],
+  ],
+  "obstacles = [{ polygon_m = [[5.5, 3], [6, 3], [6, 7], [5.5, 7]] }]",
+);
+
+const link = (page: Page) => page.getByRole("checkbox", { name: "Radio links" });
+
+test("walls cut sensor coverage and radio links", async ({ page, server }) => {
+  await open(page, server, threeRobots);
+  // The first robot sees up to the wall, and receives from the third only.
+  await expect.poll(() => inkAt(page, view, [5, 5])).toBe(true);
+  expect(await inkAt(page, view, [6.6, 5])).toBe(false);
+  await link(page).check();
+  await expect.poll(() => inkAt(page, view, [4, 6.5])).toBe(true);
+  expect(await inkAt(page, view, [7.5, 5])).toBe(false);
+  await page.getByRole("tab", { name: "Robot" }).click();
+  await expect(page.getByText("1 robot", { exact: true })).toBeVisible();
+});
+
+test("without walls, coverage and links extend to their full range", async ({ page, server }) => {
+  await open(
+    page,
+    server,
+    field(
+      [
+        [4, 5],
+        [8, 5],
+      ],
+      "",
+    ),
+  );
+  await expect.poll(() => inkAt(page, view, [6.6, 5])).toBe(true);
+  expect(await inkAt(page, view, [7.5, 5])).toBe(false);
+  await link(page).check();
+  await expect.poll(() => inkAt(page, view, [7.5, 5])).toBe(true);
+});
+
+test("in a periodic world, coverage and links continue at the other side", async ({ page, server }) => {
+  await open(
+    page,
+    server,
+    field(
+      [
+        [1, 5],
+        [8.5, 5],
+      ],
+      "periodic = true",
+    ),
+  );
+  // The coverage of the second robot beyond the right side continues at the left, behind the first.
+  await expect.poll(() => inkAt(page, view, [0.4, 5])).toBe(true);
+  await page.getByRole("checkbox", { name: "Sensor coverage" }).uncheck();
+  await expect.poll(() => inkAt(page, view, [0.4, 5])).toBe(false);
+  await link(page).check();
+  await expect.poll(() => inkAt(page, view, [0.4, 5])).toBe(true);
+  expect(await inkAt(page, view, [9.5, 5])).toBe(true);
+  expect(await inkAt(page, view, [5, 5])).toBe(false);
+});
+
+test("radio links are requested while their layer is on, and drawn as received", async ({ page, server }) => {
   const requested: string[] = [];
   const received: Buffer[] = [];
   page.on("websocket", (line) => {
@@ -15,12 +114,8 @@ test("radio links are requested while their layer is on, and drawn as received",
       if (Buffer.isBuffer(payload)) received.push(payload);
     });
   });
-  await page.goto(runAt(fake, scenario));
-  await expect(page.locator("#status")).toContainText("4 robots");
-  await page.getByRole("tab", { name: "Layers" }).click();
-  for (const name of ["Sensor coverage", "Trails", "Beliefs and goals", "Heading options"]) {
-    await page.getByRole("checkbox", { name }).uncheck();
-  }
+  await open(page, server, threeRobots);
+  await page.getByRole("checkbox", { name: "Sensor coverage" }).uncheck();
   const frame = received.at(-1);
   if (!frame) throw new Error("no frame has come");
   const robot = (i: number) => [0, 1].map((axis) => frame.readFloatLE(32 + 16 * i + 4 * axis));
@@ -29,12 +124,12 @@ test("radio links are requested while their layer is on, and drawn as received",
     ((a[0] ?? 0) + (b[0] ?? 0)) / 2,
     ((a[1] ?? 0) + (b[1] ?? 0)) / 2,
   ];
-  expect(await inkAt(page, view, middle(first, second))).toBe(false);
-  await page.getByRole("checkbox", { name: "Radio links" }).check();
-  await expect.poll(() => inkAt(page, view, middle(first, second))).toBe(true);
+  expect(await inkAt(page, view, middle(first, third))).toBe(false);
+  await link(page).check();
+  await expect.poll(() => inkAt(page, view, middle(first, third))).toBe(true);
   expect(await inkAt(page, view, middle(second, third))).toBe(false);
-  await page.getByRole("checkbox", { name: "Radio links" }).uncheck();
-  await expect.poll(() => inkAt(page, view, middle(first, second))).toBe(false);
+  await link(page).uncheck();
+  await expect.poll(() => inkAt(page, view, middle(first, third))).toBe(false);
   expect(
     requested.map((text) => JSON.parse(text)).map(({ links, footprints }) => [links, footprints]),
   ).toEqual([
@@ -50,9 +145,8 @@ test("radio links are requested while their layer is on, and drawn as received",
   expect(received.slice(before).map((bytes) => bytes.readUInt32LE(0))).not.toContain(2);
 });
 
-test("layers and legend pass axe", async ({ page, fake }) => {
-  await page.goto(runAt(fake, scenario));
-  await page.getByRole("tab", { name: "Layers" }).click();
-  await page.getByRole("checkbox", { name: "Radio links" }).check();
+test("layers and legend pass axe", async ({ page, server }) => {
+  await open(page, server, threeRobots);
+  await link(page).check();
   await expectAccessible(page);
 });

@@ -18,14 +18,17 @@ async function play(page: Page, url: string): Promise<() => Promise<[pictures: n
   );
   await page.goto(url);
   await expect(page.locator("#status")).toContainText("4 robots");
+  // Slow, so that a busy machine too draws several pictures between two steps.
+  await page.getByRole("combobox", { name: "Speed" }).selectOption({ index: 1 });
+  await page.getByRole("application").focus();
   await page.keyboard.press("Space");
   await expect.poll(() => frames).toBeGreaterThan(3);
   const begun = { frames, pictures: Number(await page.evaluate("pictures")) };
   return async () => [Number(await page.evaluate("pictures")) - begun.pictures, frames - begun.frames];
 }
 
-test("motion between two steps is interpolated", async ({ page, fake }) => {
-  const drawn = await play(page, runAt(fake, "scenario=search-beliefs&seed=7"));
+test("motion between two steps is interpolated", async ({ page, server }) => {
+  const drawn = await play(page, runAt(server, "scenario=search-beliefs&seed=7"));
   await expect
     .poll(async () => {
       const [pictures, frames] = await drawn();
@@ -34,9 +37,9 @@ test("motion between two steps is interpolated", async ({ page, fake }) => {
     .toBe(true);
 });
 
-test("with reduced motion each step is drawn as received", async ({ page, fake }) => {
+test("with reduced motion each step is drawn as received", async ({ page, server }) => {
   await page.emulateMedia({ reducedMotion: "reduce" });
-  const drawn = await play(page, runAt(fake, "scenario=search-beliefs&seed=7"));
+  const drawn = await play(page, runAt(server, "scenario=search-beliefs&seed=7"));
   await expect.poll(async () => (await drawn())[1]).toBeGreaterThan(10);
   const [pictures, frames] = await drawn();
   // A state message causes one more redraw.

@@ -1,14 +1,34 @@
+import type { ServerMessage } from "../src/api/protocol";
 import AxeBuilder from "@axe-core/playwright";
-import { test as base, expect, type Page } from "@playwright/test";
+import { test as base, expect, type Page, type WebSocketRoute } from "@playwright/test";
 import { serve } from "../dev/fake-server.mjs";
+import { RealServer } from "../dev/real-server.mjs";
 
 interface Fake {
   url: string;
   drop(): void;
 }
 
-/** A page with a fake server of its own. Errors in the browser console fail the test. */
-export const test = base.extend<{ fake: Fake; consoleErrors: string[] }>({
+async function withServer(use: (server: RealServer) => Promise<void>): Promise<void> {
+  const server = new RealServer();
+  await server.start();
+  await use(server);
+  await server.end();
+}
+
+interface TestFixtures {
+  fake: Fake;
+  ownServer: RealServer;
+  consoleErrors: string[];
+}
+
+/**
+ * A page with a server: `server` is shared by the tests of a worker, `ownServer` belongs to one test. Errors in
+ * the browser console fail the test.
+ */
+export const test = base.extend<TestFixtures, { server: RealServer }>({
+  server: [({}, use) => withServer(use), { scope: "worker" }],
+  ownServer: ({}, use) => withServer(use),
   fake: async ({}, use) => {
     const server = await serve(0);
     await use(server);
@@ -32,11 +52,44 @@ export const test = base.extend<{ fake: Fake; consoleErrors: string[] }>({
   ],
 });
 
-export { expect };
+export { expect, type RealServer };
 
-export function runAt(fake: Fake, query: string): string {
-  return `${fake.url}/#/run?${query}`;
+export function runAt({ url }: { url: string }, query: string): string {
+  return `${url}/#/run?${query}`;
 }
+
+/** Routes the page's connections to the server through the test; the returned function drops them. */
+export async function droppable(page: Page): Promise<() => Promise<void>> {
+  const open: WebSocketRoute[] = [];
+  await page.routeWebSocket(/\/ws/, (line) => void open.push(line, line.connectToServer()));
+  return async () => {
+    await Promise.all(open.splice(0).map((line) => line.close()));
+  };
+}
+
+/** Routes the page's connections through the test, which alters or delays the server's messages. */
+export async function altered(
+  page: Page,
+  alter: (message: ServerMessage) => ServerMessage | Promise<ServerMessage>,
+): Promise<void> {
+  await page.routeWebSocket(/\/ws/, (line) => {
+    line.connectToServer().onMessage(async (data) => {
+      line.send(typeof data === "string" ? JSON.stringify(await alter(JSON.parse(data))) : data);
+    });
+  });
+}
+
+/** A scenario of the user's own, with four robots. */
+export const ownScenario = `engine = "metric"
+summary = "Four rovers."
+merit = "equation-5.2"
+clock = { time_limit_s = 60 }
+world = { size_m = [20, 20] }
+items.mine.count = 2
+[robots.rover]
+model = "ugv"
+count = 4
+`;
 
 /** Expects no violation of axe's rules in the light theme, nor of those about colours in the dark theme. */
 export async function expectAccessible(page: Page): Promise<void> {

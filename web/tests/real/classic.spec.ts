@@ -1,6 +1,5 @@
 import type { Page } from "@playwright/test";
-import { expectAccessible } from "../page";
-import { expect, type RealServer, test } from "./server";
+import { expect, expectAccessible, type RealServer, test } from "../page";
 
 const status = (page: Page) => page.locator("#status");
 const hash = async (page: Page) =>

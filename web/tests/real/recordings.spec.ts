@@ -1,5 +1,5 @@
 import { readFile } from "node:fs/promises";
-import { expect, test } from "./server";
+import { expect, test } from "../page";
 
 test("a saved run opens as the same run, to the bit", async ({ page, server }) => {
   const status = page.locator("#status");

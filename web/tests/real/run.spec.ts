@@ -1,5 +1,5 @@
 import type { Page } from "@playwright/test";
-import { expect, type RealServer, test } from "./server";
+import { expect, expectAccessible, type RealServer, test } from "../page";
 
 const status = (page: Page) => page.locator("#status");
 const hash = async (page: Page) =>
@@ -203,6 +203,8 @@ test("a run that was playing when its server was killed continues playing", asyn
   const there = await time_s(page);
   await ownServer.kill();
   await expect(page.getByText("The connection is lost.").first()).toBeVisible({ timeout: 1500 });
+  await expectAccessible(page);
+  await expect(page.getByRole("alert")).toHaveCount(0);
   await ownServer.start();
   await expect(status(page)).toContainText("running", { timeout: 20_000 });
   expect(await time_s(page)).toBeGreaterThanOrEqual(there);

@@ -1,4 +1,4 @@
-import { expect, test } from "./server";
+import { expect, test } from "../page";
 
 test("a study is started and answered, and a point of its chart opens a run of it", async ({
   page,
