@@ -26,7 +26,7 @@ test: ## Run every check, as CI does, and print the time of each
 quick: .venv/installed ## Run the checks that a change needs: make quick CRATE=brain
 	$(PYTHON) scripts/checks.py --quick $(addprefix --crate ,$(CRATE))
 
-lint: rust-lint python-lint ## Check format, lints, types, stubs, layers and paths in documents
+lint: rust-lint python-lint ## Check format, lints, types, stubs, import layers and circles, generated types, paths and prose
 
 rust-lint:
 	cargo fmt --all --check
@@ -40,6 +40,7 @@ python-lint: .venv/installed
 	$(BIN)/lint-imports --no-cache
 	$(BIN)/python scripts/check_tree.py
 	$(BIN)/python scripts/check_cycles.py
+	$(BIN)/python scripts/check_prose.py
 	$(BIN)/python scripts/generate_types.py --check
 
 # A toolchain without rustup may lack the target: the check is then skipped with a message.

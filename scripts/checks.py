@@ -162,7 +162,10 @@ def quick(changed: list[str]) -> list[Stage]:
     """Return the stages that changed files need."""
     crates = sorted({each.split("/")[1] for each in changed if each.startswith("crates/")})
     modules = [each for each in changed if each.endswith(".py")]
-    stages = [Stage("tree", (python("python"), "scripts/check_tree.py"))]
+    stages = [
+        Stage("tree", (python("python"), "scripts/check_tree.py")),
+        Stage("prose", (python("python"), "scripts/check_prose.py")),
+    ]
     for crate in crates:
         stages += rust_stages(crate)
     if modules:

@@ -38,7 +38,7 @@ def test_every_needed_stage_exists() -> None:
 
 def test_a_change_in_one_crate_needs_that_crate_only() -> None:
     names = [each.name for each in quick(["crates/brain/src/lib.rs"])]
-    assert names == ["tree", "brain format", "brain lint", "brain test"]
+    assert names == ["tree", "prose", "brain format", "brain lint", "brain test"]
 
 
 def test_a_changed_test_is_run() -> None:

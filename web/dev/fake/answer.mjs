@@ -84,7 +84,7 @@ function sectionsOf(results) {
     section(
       "front",
       "Price, time and failures",
-      "The size of a mark says how often runs fail.",
+      "The size of a mark shows the share of failed runs.",
       "Price and mean time with its interval; larger marks fail more often",
       table(
         "Price, time and failures of each configuration",
@@ -97,10 +97,10 @@ function sectionsOf(results) {
       "runs",
       "Where the runs went",
       "A configuration gets runs only as long as it may be the best.",
-      "Runs of each configuration",
+      "Runs per configuration",
       table(
-        "Runs of each configuration, and what became of it",
-        ["runs", "what became of it"],
+        "Runs per configuration, and its status",
+        ["runs", "status"],
         ({ runs, eliminated, ...one }) => [runs.toLocaleString("en"), eliminated ? "out" : standing(one)],
       ),
       true,

@@ -2,7 +2,7 @@ import { overlayOf } from "./overlay.mjs";
 import { FakeRun, mapsOf } from "./run.mjs";
 import { documentOf, entryOf } from "./scenarios.mjs";
 
-const mostUnseen = 3;
+const maxUnseen = 3;
 
 /** The run of one page: the server side of its WebSocket, without a simulator. */
 export class FakeRunConnection {
@@ -13,7 +13,7 @@ export class FakeRunConnection {
     this.unseen = 0;
     this.number = 0;
     this.layers = { links: false, footprints: false };
-    this.toldAt = 0;
+    this.sentAt = 0;
     socket.on("message", (data) => this.hear(JSON.parse(data.toString())));
     socket.on("close", () => this.close());
   }
@@ -36,15 +36,15 @@ export class FakeRunConnection {
     this.show();
   }
 
-  open(said) {
-    const recorded = this.recordings.find(said.recording);
-    if (said.recording !== null && !recorded) return this.refuse("open", "there is no such recording");
-    const { text, study, run } = { study: null, ...(recorded ?? said) };
+  open(message) {
+    const recorded = this.recordings.find(message.recording);
+    if (message.recording !== null && !recorded) return this.refuse("open", "there is no such recording");
+    const { text, study, run } = { study: null, ...(recorded ?? message) };
     const held = study ? this.studies.all.get(study.id) : null;
-    const { seed = held?.ask.seed, scenario: asked } = recorded ?? said;
-    const scenario = held ? held.ask.scenario : asked;
-    const { tick } = said;
-    const changes = said.changes ?? recorded.changes;
+    const { seed = held?.ask.seed, scenario: requested } = recorded ?? message;
+    const scenario = held ? held.ask.scenario : requested;
+    const { tick } = message;
+    const changes = message.changes ?? recorded.changes;
     if (scenario === "broken") {
       const message = "robots.rover.count is missing: expected a whole number from 0 to 1000000";
       return this.say({
@@ -79,9 +79,9 @@ export class FakeRunConnection {
     Object.assign(this, { changes, generation: 0, edge, playing: false, speed: 1, selected: null });
     const { name, engine, summary } = entryOf(text === null ? scenario : null);
     const { time_limit_s } = this.base.clock;
-    const recording = recorded ? { id: said.recording, program: "0.1.0" } : null;
-    const told = { id: scenario, name, engine, summary, time_limit_s };
-    this.say({ type: "opened", scenario: told, seed, run, recording });
+    const recording = recorded ? { id: message.recording, program: "0.1.0" } : null;
+    const opened = { id: scenario, name, engine, summary, time_limit_s };
+    this.say({ type: "opened", scenario: opened, seed, run, recording });
     this.build(tick);
     this.tell();
     this.show();
@@ -193,13 +193,13 @@ export class FakeRunConnection {
     for (let i = 0; i < Math.floor(steps) && !this.run.over(); i++) this.run.step();
     if (this.run.over()) this.playing = false;
     this.edge = Math.max(this.edge, this.run.tick);
-    if (Date.now() - this.toldAt > 100 || !this.playing) this.tell();
+    if (Date.now() - this.sentAt > 100 || !this.playing) this.tell();
     this.show();
   }
 
   tell() {
     if (!this.run) return;
-    this.toldAt = Date.now();
+    this.sentAt = Date.now();
     const { run, edge, playing, speed } = this;
     const hash = ((run.tick * 2654435761) >>> 0).toString(16).padStart(16, "0");
     const inspection = this.selected === null ? null : run.inspection(this.selected);
@@ -228,7 +228,7 @@ export class FakeRunConnection {
   show() {
     const { layers, selected } = this;
     const moment = this.run && JSON.stringify([this.generation, this.run.tick, layers, selected]);
-    if (!moment || moment === this.shown || this.unseen >= mostUnseen) return;
+    if (!moment || moment === this.shown || this.unseen >= maxUnseen) return;
     this.shown = moment;
     this.unseen += 1;
     this.number += 1;

@@ -106,7 +106,7 @@ test("starting cancels a pending attempt", () => {
   expect(sockets.length).toBe(2);
 });
 
-test("text that is not a message is ignored", () => {
+test("an invalid message is ignored", () => {
   for (const data of ["", "{", "null", "[1]", '{"type":"other"}', "17"]) last().onmessage?.({ data });
   expect(events).toEqual([]);
 });

@@ -24,7 +24,7 @@ const full: Link = {
 test.each([
   ["full", full],
   ["empty", emptyLink],
-  ["of a text", { ...emptyLink, text: "zAb-_9" }],
+  ["with a scenario of its own", { ...emptyLink, text: "zAb-_9" }],
   ["of a study with its own seed", { ...emptyLink, study: { id: "a", configuration: 0 }, seed: null }],
   ["of a study", { ...emptyLink, study: { id: "studies/mine & yours", configuration: 12 }, run: "7" }],
   ["of a recording", { ...emptyLink, recording: "recordings/a b.mcap", changes: null, tick: 3 }],

@@ -9,7 +9,7 @@ test("text survives a round trip and needs no escapes", async () => {
   expect(await unpack(packed)).toBe(text);
 });
 
-test("text that was not packed gives null", async () => {
+test("unpacking an invalid string gives null", async () => {
   expect(await unpack("z!!")).toBeNull();
   expect(await unpack("zAAAA")).toBeNull();
 });

@@ -1,6 +1,6 @@
 /** Text in addresses: deflated, in base64url. */
 
-/** Longer packed texts do not go into the address; the browser tab stores them. */
+/** Longer packed scenarios are stored in the browser tab instead of the address. */
 const maxLength = 5000;
 
 export async function pack(text: string): Promise<string> {

@@ -80,7 +80,7 @@ test("alternatives follow the scenario", () => {
   expect(at("merit.found")?.value).toBeUndefined();
 });
 
-test("study and texts are not listed, and no path twice", () => {
+test("the study and strings are not listed, and no path twice", () => {
   expect(all.filter((parameter) => /^(study|published|summary|engine)/.test(parameter.path))).toEqual([]);
   expect(new Set(all.map((parameter) => parameter.path)).size).toBe(all.length);
 });
