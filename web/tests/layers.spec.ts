@@ -6,7 +6,7 @@ import { expect, expectAccessible, type RealServer, test } from "./page";
 
 const view: View = [5, 5, 60];
 
-/** A scenario with robots that stand still and face along x. */
+/** A scenario with stationary robots that face along x. */
 function field(places: [number, number][], world: string): string {
   return `
 engine = "metric"
