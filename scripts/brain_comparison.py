@@ -27,7 +27,7 @@ PAGE = Page("brain-comparison")
 
 TEAMS = (1, 2, 3, 4, 6, 8, 12, 16, 20)
 RUNS = 400
-"""Of each brain with each team size; all in the same worlds."""
+"""Runs per brain and team size, all in the same worlds."""
 
 SEED = 0
 

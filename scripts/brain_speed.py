@@ -1,4 +1,4 @@
-"""Measure how fast runs are with brains in Python, beside the brain that ships.
+"""Measure the speed of brains in Python, compared with the bundled brain.
 
 Example: python scripts/brain_speed.py
 """
@@ -37,27 +37,27 @@ range_m = 3
 noise_m = 0.02
 """
 PILLAR_M = 5.0
-"""From one pillar to the next."""
+"""Distance between pillars."""
 
 TEAMS = (100, 10_000)
 UPDATES = {"bundled": 400_000, "batch": 200_000, "class": 40_000}
-"""Robot-updates of a piece of work, at least a step."""
+"""Robot updates per measurement, with a minimum of one step."""
 
-PIECES = 5
+MEASUREMENTS = 5
 NEAR_M, LOOKS_RAD, TURN_RAD_S = 0.6, 0.5, 1.5
 
 
 class Turner:
-    """Goes ahead, and turns on the spot while something is near."""
+    """Drives straight, and turns on the spot while an obstacle is near."""
 
     def __init__(self, body: Body) -> None:
-        """Begin in a body."""
+        """Store what it needs of the body."""
         self.speed_m_s = body["max_speed_m_s"]
         bearings_rad = body["rings"][0]["bearings_rad"]
         self.ahead = [ray for ray, rad in enumerate(bearings_rad) if abs(rad) < LOOKS_RAD]
 
     def step(self, percept: Percept) -> Command:
-        """Return what the robot is to do."""
+        """Return the command."""
         ranges_m = percept["scans"][0]["ranges_m"]
         ahead = (ranges_m[ray] for ray in self.ahead)
         if any(range_m is not None and range_m < NEAR_M for range_m in ahead):
@@ -68,7 +68,7 @@ class Turner:
 
 
 def turn(percepts: Percepts, memory: dict[str, Any]) -> Commands:
-    """Return what `Turner` decides, for all robots at once."""
+    """Return the commands of `Turner` for all robots at once."""
     body = percepts["body"]
     if not memory:
         memory["ahead"] = np.abs(body["rings"][0]["bearings_rad"]) < LOOKS_RAD
@@ -97,7 +97,7 @@ def main() -> None:
         scenario = field(robots)
         runs = {way: Simulation(scenario, threads=1, brains=WAYS[way]) for way in WAYS}
         rates: dict[str, list[float]] = {way: [] for way in WAYS}
-        for _ in range(1 + PIECES):  # alternating; the first round warms up
+        for _ in range(1 + MEASUREMENTS):  # alternating; the first round warms up
             for way, run in runs.items():
                 rates[way].append(rate(run, robots, max(1, UPDATES[way] // robots)))
         print(

@@ -37,7 +37,7 @@ SMALL_BLOCKS = 200
 def main() -> None:
     """Print a table of block sizes, and the cost of a small block."""
     data = outcomes()
-    print("rows/block    written rows/s  read rows/s   bytes/row ")
+    print("  rows/block  written rows/s  read rows/s    bytes/row")
     for rows in SIZES:
         print("{:>12,}  {:>14,.0f}  {:>11,.0f}  {:>11.2f}".format(rows, *large(data, rows)))
     writing, reading = small(data)

@@ -57,9 +57,7 @@ def main() -> None:
 
 def measure_team(works: list[list[str]]) -> None:
     """Print how fast the sensing team is in each."""
-    print(
-        "| simulator | version | work per robot update | updates/s | ours, alternating | ratio |"
-    )
+    print("| simulator | version | work per robot update | updates/s | ours, alternating | ratio |")
     print("|---|---|---|---|---|---|", flush=True)
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "field.json"
