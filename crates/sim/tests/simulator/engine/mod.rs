@@ -2,6 +2,7 @@
 
 mod battery;
 mod change;
+mod change_pending;
 mod collisions;
 mod contact;
 mod correct;
