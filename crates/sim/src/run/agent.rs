@@ -79,7 +79,7 @@ impl Agent {
         }
     }
 
-    pub(crate) fn wait_look(&mut self, late: Pending<brain::Observation>) {
+    pub(crate) fn keep_observation(&mut self, late: Pending<brain::Observation>) {
         if let Some(backlog) = &mut self.backlog {
             backlog.observations.entries.push(late);
         }

@@ -8,7 +8,7 @@ use brain::{self, Contact, Neighbour, Percept, ReceivedMessage};
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Backlog {
     /// By sensor; empty for one without delay.
-    kept: Vec<Vec<Look>>,
+    kept: Vec<Vec<StoredMeasurement>>,
     pub(crate) observations: PendingQueue<brain::Observation>,
     pub(crate) contacts: PendingQueue<(Contact, Option<u32>)>,
     pub(crate) neighbours: PendingQueue<Neighbour>,
@@ -17,7 +17,7 @@ pub(crate) struct Backlog {
 
 /// A measurement that the next one replaces.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Look {
+pub(crate) struct StoredMeasurement {
     /// `None` before the first measurement, and for a dropout.
     taken: Option<u64>,
     values: Vec<f64>,
@@ -26,16 +26,21 @@ pub(crate) struct Look {
 impl Backlog {
     pub(crate) fn new(sensors: &[Sensor]) -> Self {
         Self {
-            kept: sensors.iter().map(looks_to_keep).collect(),
+            kept: sensors.iter().map(empty_slots).collect(),
             ..Self::default()
         }
     }
 
-    /// Keeps the result of the `look`-th measurement of a sensor, if there was one.
-    pub(crate) fn keep(&mut self, sensor: usize, look: u64, taken: Option<u64>) -> &mut Vec<f64> {
+    /// Keeps the result of the `measurement`-th measurement of a sensor, if there was one.
+    pub(crate) fn keep(
+        &mut self,
+        sensor: usize,
+        measurement: u64,
+        taken: Option<u64>,
+    ) -> &mut Vec<f64> {
         let slots = &mut self.kept[sensor];
         #[expect(clippy::cast_possible_truncation, reason = "below the number of slots")]
-        let slot = (look % slots.len() as u64) as usize;
+        let slot = (measurement % slots.len() as u64) as usize;
         slots[slot].taken = taken;
         &mut slots[slot].values
     }
@@ -44,7 +49,7 @@ impl Backlog {
     pub(crate) fn newest(&self, sensor: usize, latency: u64, now: u64) -> Option<(u64, &[f64])> {
         let have = self.kept[sensor]
             .iter()
-            .filter_map(|look| Some((look.taken?, &look.values[..])));
+            .filter_map(|measurement| Some((measurement.taken?, &measurement.values[..])));
         let have = have.filter(|(taken, _)| taken + latency <= now);
         have.max_by_key(|(taken, _)| *taken)
     }
@@ -90,11 +95,11 @@ pub(crate) fn age_s(taken: u64, now: u64, step_s: f64) -> f64 {
 }
 
 /// As many as can be in transit, and one that has arrived.
-fn looks_to_keep(sensor: &Sensor) -> Vec<Look> {
+fn empty_slots(sensor: &Sensor) -> Vec<StoredMeasurement> {
     let is_value = !matches!(sensor.measure, Measure::Items(_) | Measure::Robots(_));
     if sensor.is_immediate() || !is_value {
         return Vec::new();
     }
     let beats = sensor.schedule.beats_in(sensor.latency_steps);
-    vec![Look::default(); beats + 2]
+    vec![StoredMeasurement::default(); beats + 2]
 }

@@ -134,7 +134,7 @@ impl ItemsSpec {
     }
 
     /// Mean number of false alarms of a kind per measurement, if no obstacle hides any.
-    pub(crate) fn false_alarms_a_look(&self, kind: &str, period_s: f64) -> f64 {
+    pub(crate) fn false_alarms_per_measurement(&self, kind: &str, period_s: f64) -> f64 {
         let rate = self.false_alarm_rate_per_m2_s.get(kind).copied();
         rate.unwrap_or(0.0) * Sector::new(&self.sector).area_m2() * period_s
     }
@@ -170,7 +170,7 @@ impl ItemDetector {
             Some(detection_probability) => detection_probability.get(kind).cloned(),
         };
         let false_alarm = |(number, kind): (u16, &String)| {
-            let mean = spec.false_alarms_a_look(kind, period_s);
+            let mean = spec.false_alarms_per_measurement(kind, period_s);
             (mean > 0.0).then(|| FalseAlarm {
                 kind: number,
                 key: kind_key(kind),
@@ -187,7 +187,7 @@ impl ItemDetector {
     }
 
     /// The contacts of one measurement, each with its item, or none for a false alarm.
-    pub(crate) fn look(
+    pub(crate) fn measure(
         &self,
         eye: &SensorFrame,
         items: &Items,

@@ -22,7 +22,7 @@ pub(crate) const MESSAGE_BYTES: usize = size_of::<Pending<ReceivedMessage>>();
 pub(crate) const SENT_BYTES: usize = size_of::<Transmission>();
 
 /// A stored measurement, without its values.
-pub(crate) const MEASUREMENT_BYTES: usize = size_of::<backlog::Look>();
+pub(crate) const MEASUREMENT_BYTES: usize = size_of::<backlog::StoredMeasurement>();
 
 /// Maximum length of a queue, besides what is in transit and what arrived last.
 pub(crate) const MAX_PENDING: usize = 2 * pending::MAX_PENDING;

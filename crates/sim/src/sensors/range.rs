@@ -103,7 +103,7 @@ impl Ring {
     ///
     /// One pass in the widest vectors of the machine.
     #[inline]
-    pub(crate) fn look(&self, eye: &SensorFrame, room: &mut Room, to: &mut Vec<f64>) {
+    pub(crate) fn measure(&self, eye: &SensorFrame, room: &mut Room, to: &mut Vec<f64>) {
         self.look_with(instruction_set(), eye, room, to);
     }
 

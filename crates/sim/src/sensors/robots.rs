@@ -73,7 +73,7 @@ impl RobotDetector {
     }
 
     /// The measured position of a robot at `place`, if it is detected.
-    pub(crate) fn look(&self, eye: &SensorFrame, place: Point, robot: Entity) -> Option<Point> {
+    pub(crate) fn measure(&self, eye: &SensorFrame, place: Point, robot: Entity) -> Option<Point> {
         let way = eye.own(place);
         if !self.sector.holds(way) || (self.needs_line_of_sight && !eye.sees(place)) {
             return None;

@@ -51,7 +51,7 @@ pub(crate) struct SensorFrame<'a> {
     /// Index of the sensor on the robot.
     pub(crate) sensor: u32,
     /// Number of the measurement.
-    pub(crate) look: u64,
+    pub(crate) measurement: u64,
     /// What can block the view.
     pub(crate) stands: &'a StaticGeometry,
     /// Whether it is known that nothing does.
@@ -62,14 +62,14 @@ impl SensorFrame<'_> {
     #[inline]
     pub(crate) fn words(&self, used: NoisePurpose, index: u32) -> [u32; 4] {
         self.noise
-            .words(used.of_sensor(self.sensor), self.look, index)
+            .words(used.of_sensor(self.sensor), self.measurement, index)
     }
 
     /// The random words for one thing of a kind.
     #[inline]
     pub(crate) fn words_of(&self, used: NoisePurpose, thing: Entity) -> [u32; 4] {
         // Measurements number at most 1e8: the kind is in the unused half of their number.
-        let time = u64::from(thing.kind) << 32 | self.look;
+        let time = u64::from(thing.kind) << 32 | self.measurement;
         self.noise
             .words(used.of_sensor(self.sensor), time, thing.index)
     }
@@ -82,7 +82,7 @@ impl SensorFrame<'_> {
     )]
     pub(crate) fn deal(&self, used: NoisePurpose, hand: u32) -> Blocks {
         self.noise
-            .deal(used.of_sensor(self.sensor), self.look, hand)
+            .deal(used.of_sensor(self.sensor), self.measurement, hand)
     }
 
     /// The vector to a place of the world, relative to the robot's front.

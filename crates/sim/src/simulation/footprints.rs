@@ -107,7 +107,7 @@ impl View<'_> {
         gather(self, robot, &mut room.near);
         let eye = self.sensor_frame(robot, sensor, self.tick);
         let exact = ring.exact(footprint.bearings_rad());
-        exact.look(&eye, &mut room, &mut footprint.ranges_m);
+        exact.measure(&eye, &mut room, &mut footprint.ranges_m);
         let ranges_m = footprint.ranges_m.iter_mut();
         // A ray that meets nothing has no return.
         ranges_m.for_each(|range_m| *range_m = range_m.min(ring.range_m));

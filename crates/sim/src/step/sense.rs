@@ -50,7 +50,7 @@ impl Detections {
 }
 
 /// One measurement.
-struct Look<'a> {
+struct Measurement<'a> {
     view: &'a View<'a>,
     robot: usize,
     sensor: &'a Sensor,
@@ -81,7 +81,7 @@ pub(crate) fn sense(
             .beat(view.tick)
             .filter(|_| is_of_use && agent.is_on(number));
         if let Some(beat) = beat {
-            let look = Look {
+            let measurement = Measurement {
                 view,
                 robot,
                 sensor,
@@ -89,7 +89,7 @@ pub(crate) fn sense(
                 number,
                 ring,
             };
-            look.take(agent, detections, percept.as_deref_mut());
+            measurement.take(agent, detections, percept.as_deref_mut());
         }
         ring += usize::from(matches!(sensor.measure, Measure::Range(_)));
     }
@@ -144,7 +144,7 @@ fn put(percept: &mut Percept, measure: &Measure, ring: usize, age_s: f64, values
     }
 }
 
-impl Look<'_> {
+impl Measurement<'_> {
     #[inline]
     fn take(&self, agent: &mut Agent, detections: &mut Detections, percept: Option<&mut Percept>) {
         let sensor = self.sensor;
@@ -176,7 +176,7 @@ impl Look<'_> {
                     gather(self.view, self.robot, &mut detections.room.near);
                     detections.is_near_known = true;
                 }
-                ring.look(frame, &mut detections.room, &mut detections.values);
+                ring.measure(frame, &mut detections.room, &mut detections.values);
             }
             Measure::Position { noise_m } => {
                 let [x, y] = deviations(frame).map(|deviation| deviation * noise_m);
@@ -212,7 +212,7 @@ impl Look<'_> {
             }
         } else if let Some(backlog) = &mut agent.backlog {
             let taken = (!is_lost).then_some(self.view.tick);
-            let kept = backlog.keep(self.number, self.frame.look, taken);
+            let kept = backlog.keep(self.number, self.frame.measurement, taken);
             std::mem::swap(kept, &mut detections.values);
         }
     }
@@ -228,15 +228,15 @@ impl Look<'_> {
         let is_there = |place| scenario.torus.is_some() || scenario.world.contains(place);
         let is_immediate = self.sensor.latency_steps == 0;
         let mut percept = percept.filter(|_| is_immediate);
-        let look = brain::Observation {
+        let observation = brain::Observation {
             sensor: self.place(),
             age_s: 0.0,
         };
         match percept.as_deref_mut() {
-            Some(percept) => percept.observations.push(look),
-            None => agent.wait_look(self.late(look)),
+            Some(percept) => percept.observations.push(observation),
+            None => agent.keep_observation(self.late(observation)),
         }
-        detector.look(&self.frame, self.view.items, |way, kind, item| {
+        detector.measure(&self.frame, self.view.items, |way, kind, item| {
             // Beyond the border there are no false alarms.
             if item.is_none() && !is_there(self.frame.world_of(way)) {
                 return;
@@ -244,7 +244,7 @@ impl Look<'_> {
             let (range_m, bearing_rad) = polar(way);
             let contact = Contact {
                 kind,
-                sensor: look.sensor,
+                sensor: observation.sensor,
                 range_m,
                 bearing_rad,
                 age_s: 0.0,
@@ -289,7 +289,7 @@ impl Look<'_> {
                 view.scenario.image(self.frame.at, view.discs[other].centre),
                 view.scenario.entity(view.ids[other]),
             );
-            let Some(way) = detector.look(&frame, place, entity) else {
+            let Some(way) = detector.measure(&frame, place, entity) else {
                 continue;
             };
             let [own_rad, its_rad] =

@@ -36,14 +36,19 @@ impl<'a> View<'a> {
 
     /// Where one sensor of a robot measures from, and the random numbers of one measurement.
     #[inline]
-    pub(crate) fn sensor_frame(&self, robot: usize, sensor: usize, look: u64) -> SensorFrame<'a> {
+    pub(crate) fn sensor_frame(
+        &self,
+        robot: usize,
+        sensor: usize,
+        measurement: u64,
+    ) -> SensorFrame<'a> {
         SensorFrame {
             at: self.discs[robot].centre,
             front: self.orientations[robot].front,
             noise: self.noises[robot],
             #[expect(clippy::cast_possible_truncation, reason = "a robot has at most 32")]
             sensor: sensor as u32,
-            look,
+            measurement,
             stands: self
                 .scenario
                 .hiding([self.kind(robot).layer, Layer::Ground]),

@@ -63,7 +63,7 @@ fn errors_of(items: &ItemsSpec, kinds: &[&str], at: &Place) -> Vec<InputError> {
 fn too_many(items: &ItemsSpec, period_s: f64, at: &Place) -> Vec<InputError> {
     let rates = items.false_alarm_rate_per_m2_s.iter();
     let rates = rates.filter(|(_, rate)| (0.0..=MAX_FALSE_ALARMS).contains(*rate));
-    let means = rates.map(|(kind, _)| (kind, items.false_alarms_a_look(kind, period_s)));
+    let means = rates.map(|(kind, _)| (kind, items.false_alarms_per_measurement(kind, period_s)));
     let errors = means.filter(|(_, mean)| *mean > MAX_MEAN).map(|(kind, mean)| {
         let allowed = format!(
             "lower, so that a measurement has at most {MAX_MEAN} false alarms; in its whole range and \

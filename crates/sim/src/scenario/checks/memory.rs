@@ -99,29 +99,30 @@ fn bytes_of_radio(radio: &RadioSpec, robot: &RobotSpec, spec: &ScenarioSpec) -> 
 /// Bytes of measurements that are in transit, or wait for the brain.
 fn bytes_of_sensor(sensor: &SensorSpec, robot: &RobotSpec, spec: &ScenarioSpec) -> f64 {
     let step_s = spec.clock.step_s;
-    let looks = Looks {
+    let counts = MeasurementCounts {
         late: sensor.latency_s / period_s(sensor.rate_hz, step_s),
         per_brain_step: period_s(robot.brain.rate_hz, step_s) / period_s(sensor.rate_hz, step_s),
         is_immediate: sensor.latency_s == 0.0 && robot.brain.rate_hz.is_none(),
     };
     match &sensor.measures {
-        Measures::Range(range) => looks.bytes_kept(f64::from(range.rays), sensor),
-        Measures::Position(_) => looks.bytes_kept(2.0, sensor),
-        Measures::Heading(_) => looks.bytes_kept(1.0, sensor),
+        Measures::Range(range) => counts.bytes_kept(f64::from(range.rays), sensor),
+        Measures::Position(_) => counts.bytes_kept(2.0, sensor),
+        Measures::Heading(_) => counts.bytes_kept(1.0, sensor),
         Measures::Items(items) => {
-            let a_look = contacts_a_look(items, period_s(sensor.rate_hz, step_s), spec);
-            looks.waiting(a_look) * size(CONTACT_BYTES)
-                + looks.waiting(1.0) * size(OBSERVATION_BYTES)
+            let per_measurement =
+                contacts_per_measurement(items, period_s(sensor.rate_hz, step_s), spec);
+            counts.waiting(per_measurement) * size(CONTACT_BYTES)
+                + counts.waiting(1.0) * size(OBSERVATION_BYTES)
         }
         Measures::Robots(robots) => {
-            let a_look = robots_within(robots.sector.range_m, spec, |_| true);
-            looks.waiting(a_look) * size(NEIGHBOUR_BYTES)
+            let per_measurement = robots_within(robots.sector.range_m, spec, |_| true);
+            counts.waiting(per_measurement) * size(NEIGHBOUR_BYTES)
         }
     }
 }
 
 /// How many measurements of a sensor exist at a time.
-struct Looks {
+struct MeasurementCounts {
     /// In transit to the robot.
     late: f64,
     /// From one step of the brain to the next.
@@ -130,7 +131,7 @@ struct Looks {
     is_immediate: bool,
 }
 
-impl Looks {
+impl MeasurementCounts {
     /// Of a sensor of which the newest measurement replaces the others.
     fn bytes_kept(&self, values: f64, sensor: &SensorSpec) -> f64 {
         if sensor.latency_s == 0.0 && sensor.rate_hz.is_none() {
@@ -141,18 +142,18 @@ impl Looks {
     }
 
     /// What waits if each measurement yields this number of entries that all count.
-    fn waiting(&self, a_look: f64) -> f64 {
+    fn waiting(&self, per_measurement: f64) -> f64 {
         if self.is_immediate {
             return 0.0;
         }
-        let late = a_look * self.late;
+        let late = per_measurement * self.late;
         // Entries that are too old are dropped once there are twice as many as the limit.
-        late + (a_look * self.per_brain_step.max(1.0)).min(late + most() + a_look)
+        late + (per_measurement * self.per_brain_step.max(1.0)).min(late + most() + per_measurement)
     }
 }
 
 /// Mean number of contacts per measurement: false alarms and items.
-fn contacts_a_look(sensor: &ItemsSpec, period_s: f64, spec: &ScenarioSpec) -> f64 {
+fn contacts_per_measurement(sensor: &ItemsSpec, period_s: f64, spec: &ScenarioSpec) -> f64 {
     let view_m2 = Sector::new(&sensor.sector).area_m2();
     let contacts = spec.items.iter().map(|(name, kind)| {
         let detection_probability = sensor.detection_probability.as_ref();
@@ -162,7 +163,7 @@ fn contacts_a_look(sensor: &ItemsSpec, period_s: f64, spec: &ScenarioSpec) -> f6
         } else {
             0.0
         };
-        sensor.false_alarms_a_look(name, period_s) + items
+        sensor.false_alarms_per_measurement(name, period_s) + items
     });
     contacts.sum()
 }
@@ -241,7 +242,7 @@ mod tests {
     }
 
     #[test]
-    fn a_look_that_is_kept_counts_with_its_list() {
+    fn a_stored_measurement_counts_with_its_list() {
         let sonar =
             "sensors = { a = { kind = \"range\", rays = 1, range_m = 1, latency_s = 3600 } }";
         // 3,600,000 measurements of 40 bytes, each with a list of four numbers of 16 bytes more.
@@ -249,20 +250,20 @@ mod tests {
     }
 
     #[test]
-    fn contacts_count_by_how_many_a_look_gives() {
+    fn contacts_count_by_their_number_per_measurement() {
         let eye = |more: &str| {
             let eye = "kind = \"items\", range_m = 10, latency_s = 100";
             megabytes(0.1, 10, &format!("sensors = {{ a = {{ {eye}, {more} }} }}"))
         };
-        let looks = 10.0 * 1001.0 / 1e6;
+        let counts = 10.0 * 1001.0 / 1e6;
         let (contact, glance) = (size(CONTACT_BYTES), size(OBSERVATION_BYTES));
         let area_m2 = std::f64::consts::PI * 100.0;
         assert_about(
-            looks * (contact * area_m2 / 100.0 + glance),
+            counts * (contact * area_m2 / 100.0 + glance),
             eye("detection_probability = { mine = 1 }"),
         );
         let alarms = "detection_probability = {}, false_alarm_rate_per_m2_s = { mine = 1 }";
-        assert_about(looks * (contact * area_m2 / 10.0 + glance), eye(alarms));
+        assert_about(counts * (contact * area_m2 / 10.0 + glance), eye(alarms));
     }
 
     #[test]

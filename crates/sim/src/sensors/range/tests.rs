@@ -25,8 +25,8 @@ fn spec(rays: u32) -> RangeSpec {
     }
 }
 
-/// What many looks of one ray give at a wall that is so far ahead.
-fn looks(spec: &RangeSpec, wall_m: f64, count: u64) -> Vec<f64> {
+/// Ranges of many measurements of one ray with a wall at a distance ahead.
+fn measurements(spec: &RangeSpec, wall_m: f64, count: u64) -> Vec<f64> {
     let size_m = Point { x: 10.0, y: 10.0 };
     let segment = Segment {
         from: [wall_m, -5.0].into(),
@@ -39,20 +39,20 @@ fn looks(spec: &RangeSpec, wall_m: f64, count: u64) -> Vec<f64> {
     room.near.begin(Point::default(), RANGE_M);
     room.near.take_walls(walls.iter());
     let mut ranges_m = Vec::new();
-    let look = |look| {
+    let measurement = |measurement| {
         let eye = SensorFrame {
             at: Point::default(),
             front: Point { x: 1.0, y: 0.0 },
             noise: Noise::of(3, 0, Entity { kind: 0, index: 0 }),
             sensor: 2,
-            look,
+            measurement,
             stands: &stands,
             is_clear: false,
         };
-        ring.look(&eye, &mut room, &mut ranges_m);
+        ring.measure(&eye, &mut room, &mut ranges_m);
         ranges_m.clone()
     };
-    (0..count).flat_map(look).collect()
+    (0..count).flat_map(measurement).collect()
 }
 
 /// The share of values that fulfil a condition is as expected, within five standard errors: wrong
@@ -94,7 +94,7 @@ fn a_whole_circle_has_its_first_ray_ahead_and_none_twice() {
 
 #[test]
 fn nothing_at_the_range_or_farther_gives_an_echo() {
-    let ray = |wall_m| looks(&spec(1), wall_m, 1)[0];
+    let ray = |wall_m| measurements(&spec(1), wall_m, 1)[0];
     assert_eq!(ray(4.999), 4.999);
     assert_eq!(ray(RANGE_M), f64::INFINITY);
     assert_eq!(ray(6.0), f64::INFINITY);
@@ -105,7 +105,7 @@ fn nothing_at_the_range_or_farther_gives_an_echo() {
     };
     // Noise brings back no echo of what is out of range.
     assert!(
-        looks(&noisy, 5.001, 2000)
+        measurements(&noisy, 5.001, 2000)
             .iter()
             .all(|range| range.is_infinite())
     );
@@ -118,7 +118,7 @@ fn noise_has_the_configured_moments() {
         relative_noise: 0.05,
         ..spec(1)
     };
-    let values = looks(&noisy, 2.0, 200_000);
+    let values = measurements(&noisy, 2.0, 200_000);
     let count = values.len() as f64;
     let mean = values.iter().sum::<f64>() / count;
     let variance = values
@@ -142,7 +142,7 @@ fn errors_of_neighbouring_rays_and_of_looks_in_a_row_are_independent() {
         fov_deg: 1e-6,
         ..spec(4)
     };
-    let values = looks(&noisy, 2.0, 50_000);
+    let values = measurements(&noisy, 2.0, 50_000);
     let deviation = |value: &f64| (value - 2.0) / 0.1;
     for lag in 1..=8 {
         let pairs = values.iter().zip(&values[lag..]);
@@ -163,7 +163,7 @@ fn a_distance_is_never_below_0() {
         noise_m: 1.0,
         ..spec(1)
     };
-    let values = looks(&noisy, 0.1, 20_000);
+    let values = measurements(&noisy, 0.1, 20_000);
     assert!(values.iter().all(|value| *value >= 0.0));
     // Of a normal error of 1 m, below -0.1 m.
     assert_share(&values, 0.460_172_163, |value| value == 0.0);
@@ -176,14 +176,14 @@ fn returns_are_missed_and_spurious_with_the_configured_probabilities() {
         spurious_return_probability: 0.2,
         ..spec(1)
     };
-    let values = looks(&false_and_lost, 3.0, 100_000);
+    let values = measurements(&false_and_lost, 3.0, 100_000);
     assert_share(&values, 0.1, f64::is_infinite);
     assert_share(&values, 0.7, |value| value == 3.0);
     // A false echo is at any distance up to what is there.
     assert_share(&values, 0.1, |value| value < 1.5);
     assert_share(&values, 0.02, |value| (2.7..3.0).contains(&value));
     // Where there is nothing, up to the range.
-    let values = looks(&false_and_lost, 9.0, 100_000);
+    let values = measurements(&false_and_lost, 9.0, 100_000);
     assert_share(&values, 0.8, f64::is_infinite);
     assert_share(&values, 0.1, |value| value < 2.5);
 }
@@ -197,11 +197,15 @@ fn what_is_always_lost_is_never_measured_and_what_never_is_always() {
         ..spec(1)
     };
     assert!(
-        looks(&always, 3.0, 1000)
+        measurements(&always, 3.0, 1000)
             .iter()
             .all(|value| value.is_infinite())
     );
-    assert!(looks(&spec(1), 3.0, 1000).iter().all(|value| *value == 3.0));
+    assert!(
+        measurements(&spec(1), 3.0, 1000)
+            .iter()
+            .all(|value| *value == 3.0)
+    );
 }
 
 #[test]
@@ -215,31 +219,31 @@ fn rays_of_a_turned_robot_are_turned_with_it() {
     room.near.take_apart([disc].into_iter());
     let ring = Ring::new(&spec(4));
     let stands = StaticGeometry::new(Point { x: 10.0, y: 10.0 }, &[], &[disc], RANGE_M);
-    let look = |heading_rad: f64| {
+    let measurement = |heading_rad: f64| {
         let (y, x) = base::trig::sin_cos(heading_rad);
         let eye = SensorFrame {
             at: Point::default(),
             front: Point { x, y },
             noise: Noise::of(3, 0, Entity { kind: 0, index: 0 }),
             sensor: 0,
-            look: 0,
+            measurement: 0,
             stands: &stands,
             is_clear: false,
         };
         let mut ranges_m = Vec::new();
-        ring.look(&eye, &mut room, &mut ranges_m);
+        ring.measure(&eye, &mut room, &mut ranges_m);
         ranges_m.iter().position(|range_m| range_m.is_finite())
     };
     // The disc is to the left, ahead, behind, and to the right.
     assert_eq!(
-        [0.0, FRAC_PI_2, -FRAC_PI_2, PI].map(look),
+        [0.0, FRAC_PI_2, -FRAC_PI_2, PI].map(measurement),
         [Some(1), Some(0), Some(2), Some(3)]
     );
 }
 
 /// All features of a scan, in each instruction set of this machine.
 #[test]
-fn a_look_gives_the_same_bits_in_every_instruction_set() {
+fn a_measurement_gives_the_same_bits_in_every_instruction_set() {
     let mut everything = RangeSpec {
         noise_m: 0.1,
         relative_noise: 0.05,
@@ -259,7 +263,7 @@ fn a_look_gives_the_same_bits_in_every_instruction_set() {
         })
         .collect();
     let stands = StaticGeometry::new(Point { x: 10.0, y: 10.0 }, &walls, &discs, RANGE_M);
-    for (rays, look) in (1..=100).zip(0..) {
+    for (rays, measurement) in (1..=100).zip(0..) {
         everything.rays = rays;
         let ring = Ring::new(&everything);
         let (y, x) = base::trig::sin_cos(f64::from(rays));
@@ -268,7 +272,7 @@ fn a_look_gives_the_same_bits_in_every_instruction_set() {
             front: Point { x, y },
             noise: Noise::of(3, 0, Entity { kind: 0, index: 0 }),
             sensor: 2,
-            look,
+            measurement,
             stands: &stands,
             is_clear: false,
         };
@@ -291,7 +295,7 @@ thread_local! {
     static INSTRUCTION_SET: Cell<Arch> = Cell::new(Arch::new());
 }
 
-/// What looks of this thread are taken with.
+/// Scratch memory of the measurements.
 pub(crate) fn instruction_set() -> Arch {
     INSTRUCTION_SET.get()
 }

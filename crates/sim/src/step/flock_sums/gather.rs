@@ -36,7 +36,7 @@ impl Flock {
 }
 
 /// The place to measure from, the limits, and the part of each block.
-struct Look {
+struct Query {
     at: Point,
     limits: [f64; 2],
     part: usize,
@@ -85,10 +85,10 @@ impl Flock {
             y: self.y[place],
         };
         for part in 0..parts {
-            let look = Look { at, limits, part };
+            let query = Query { at, limits, part };
             let mut sums = [simd.splat_f64s(0.0); QUANTITIES];
             for run in runs {
-                self.add_run(simd, run, &look, &mut sums);
+                self.add_run(simd, run, &query, &mut sums);
             }
             for (lanes, sum) in lanes.iter_mut().zip(sums) {
                 S::as_mut_simd_f64s(lanes).0[part] = sum;
@@ -112,8 +112,14 @@ impl Flock {
 
     /// Adds one part of each block of a run.
     #[inline(always)]
-    fn add_run<S: Simd>(&self, simd: S, run: &Run, look: &Look, sums: &mut [S::f64s; QUANTITIES]) {
-        let Look { at, limits, part } = *look;
+    fn add_run<S: Simd>(
+        &self,
+        simd: S,
+        run: &Run,
+        query: &Query,
+        sums: &mut [S::f64s; QUANTITIES],
+    ) {
+        let Query { at, limits, part } = *query;
         let blocks = run.start..run.start + (run.end - run.start).next_multiple_of(GROUP);
         let x = S::as_simd_f64s(&self.x[blocks.clone()]).0;
         let y = S::as_simd_f64s(&self.y[blocks.clone()]).0;
