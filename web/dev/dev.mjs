@@ -1,8 +1,16 @@
-/** The page for development, with the fake server; with SERVER=no, for a real server that is running. */
+/** The page for development, with a server of its own in an empty folder, or with the one at SERVER. */
 import { createServer } from "vite";
-import { serve } from "./fake-server.mjs";
+import { RealServer } from "./real-server.mjs";
 
-if (process.env.SERVER !== "no") await serve(8123);
-const page = await createServer();
+const own = process.env.SERVER ? null : new RealServer();
+await own?.start();
+const target = own?.url ?? process.env.SERVER;
+const page = await createServer({ server: { proxy: { "/api": { target }, "/ws": { target, ws: true } } } });
 await page.listen();
 page.printUrls();
+for (const signal of ["SIGINT", "SIGTERM"])
+  process.once(signal, async () => {
+    await page.close();
+    await own?.end();
+    process.exit();
+  });
