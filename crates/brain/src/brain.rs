@@ -1,11 +1,10 @@
 //! The brain of one robot.
 
-use crate::arbitration::Arbitration;
-use crate::arbitration::goal_selection::{BeliefBrain, GoalSelection};
-use crate::arbitration::motor_schemas::{Noise, Sum};
-use crate::arbitration::subsumption::{Layer, arbitrate, layers, proposals};
+use crate::arbitration::arbiter::{Arbiter, ArbitrationMemory};
+use crate::arbitration::goal_selection::BeliefBrain;
+use crate::arbitration::motor_schemas::Noise;
+use crate::arbitration::subsumption::{Layer, layers};
 use crate::behaviours::{BehaviourSpec, Memory, Ready, flock};
-use crate::goals::proposal::Proposal;
 use crate::inspect::BeliefState;
 use crate::inspect::BelievedMap;
 use crate::inspect::Decision;
@@ -42,8 +41,7 @@ struct Kind {
     body: Arc<Body>,
     governor: SpeedGovernor,
     behaviours: Vec<Ready>,
-    /// With motor schemas only.
-    sum: Option<Sum>,
+    arbiter: Arbiter,
 }
 
 impl Brain {
@@ -52,18 +50,18 @@ impl Brain {
     pub fn new(spec: Arc<BrainSpec>, body: Arc<Body>) -> Self {
         let ready = spec.behaviours.iter().map(|each| each.ready(&body));
         let behaviours: Vec<Ready> = ready.collect();
-        let sum = sum(&spec);
+        let arbiter = Arbiter::new(&spec);
         Self {
             odometry: DeadReckoning::default(),
             layers: layers(&behaviours),
             beliefs: belief_brain(&spec, &body),
-            noise: sum.is_some().then(Box::default),
+            noise: matches!(arbiter, Arbiter::Schemas(_)).then(Box::default),
             kind: Arc::new(Kind {
                 governor: SpeedGovernor::new(&body),
                 spec,
                 body,
                 behaviours,
-                sum,
+                arbiter,
             }),
         }
     }
@@ -179,7 +177,7 @@ impl Brain {
             body,
             governor,
             behaviours,
-            sum,
+            arbiter,
         } = &*self.kind;
         let mut turned_rad = self.odometry.update(percept, body);
         let now_m_s = self.odometry.now_m_s(percept, body);
@@ -202,17 +200,12 @@ impl Brain {
             turned_rad,
             now_m_s,
         };
-        let (leading, wanted) = match (sum.as_ref().zip(self.noise.as_deref_mut()), &mut selection)
-        {
-            (Some((sum, noise)), _) => {
-                let motion = sum.motion(behaviours, &mut self.layers, noise, &situation);
-                (None, motion)
-            }
-            (None, None) => reactive(arbitrate(behaviours, &mut self.layers, &situation)),
-            (None, Some(selection)) => {
-                goal_directed(spec, behaviours, (&mut self.layers, selection), &situation)
-            }
+        let memory = ArbitrationMemory {
+            layers: &mut self.layers,
+            noise: self.noise.as_deref_mut(),
+            selection: selection.as_deref_mut(),
         };
+        let (leading, wanted) = arbiter.decide(behaviours, memory, &situation);
         let mut motion = clamped(wanted, body);
         if spec.limit_speed_to_stopping_distance {
             motion = governor.limit(motion, &situation, &self.odometry);
@@ -224,59 +217,6 @@ impl Brain {
         }
         (leading, clamped(motion, body))
     }
-}
-
-/// The active behaviour and its motion, without beliefs: destinations cannot be pursued then.
-fn reactive(wanted: Option<(usize, Proposal)>) -> (Option<usize>, Motion) {
-    match wanted {
-        Some((behaviour, Proposal::Motion(motion))) => (Some(behaviour), motion),
-        _ => (None, Motion::default()),
-    }
-}
-
-/// The active behaviour and its motion, with beliefs.
-fn goal_directed(
-    spec: &BrainSpec,
-    behaviours: &[Ready],
-    (layers, selection): (&mut [Layer<Memory>], &mut GoalSelection),
-    situation: &Situation,
-) -> (Option<usize>, Motion) {
-    let mut all = core::mem::take(&mut selection.proposals);
-    selection.navigator.target = None;
-    match spec.arbitration {
-        Arbitration::Goals => proposals(behaviours, layers, situation, &mut all),
-        Arbitration::Subsumption | Arbitration::Schemas(_) => {
-            all.clear();
-            all.extend(arbitrate(behaviours, layers, situation));
-        }
-    }
-    // The highest comes first. A motion there is a reflex; one further down applies only if no
-    // destination is proposed.
-    let decided = match all.first() {
-        None => {
-            selection.keep_below(0);
-            (None, Motion::default())
-        }
-        Some((behaviour, Proposal::Motion(motion))) => {
-            selection.keep_below(*behaviour);
-            (Some(*behaviour), *motion)
-        }
-        Some((_, Proposal::Destination(_))) => {
-            let motion = selection.serve(&all, behaviours, layers, situation);
-            (selection.pursued_behaviour(), motion)
-        }
-    };
-    selection.proposals = all;
-    decided
-}
-
-/// The motor schemas, if they are the arbitration.
-fn sum(spec: &BrainSpec) -> Option<Sum> {
-    let Arbitration::Schemas(schemas) = &spec.arbitration else {
-        return None;
-    };
-    let names = spec.behaviours.iter().map(BehaviourSpec::name);
-    Some(Sum::new(schemas, names))
 }
 
 /// The beliefs and goals, if the specification has beliefs or a behaviour needs them.

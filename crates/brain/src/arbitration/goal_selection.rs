@@ -5,6 +5,7 @@
 //! * the *goal selector* chooses among the [goals](crate::goals) of the behaviours;
 //! * the *adapter* finds a [path](crate::navigation::navigator) there, and avoids other robots.
 
+use crate::arbitration::arbiter::Decided;
 use crate::arbitration::subsumption::Layer;
 use crate::behaviours::behaviour::Behaviour;
 use crate::behaviours::{Memory, Ready};
@@ -52,6 +53,35 @@ impl BeliefBrain {
 }
 
 impl GoalSelection {
+    /// Decides by the proposals of this step.
+    pub(crate) fn decide(
+        &mut self,
+        behaviours: &[Ready],
+        layers: &mut [Layer<Memory>],
+        situation: &Situation,
+    ) -> Decided {
+        let all = core::mem::take(&mut self.proposals);
+        self.navigator.target = None;
+        // The highest comes first. A motion there is a reflex; one further down applies only if no
+        // destination is proposed.
+        let decided = match all.first() {
+            None => {
+                self.keep_below(0);
+                (None, Motion::default())
+            }
+            Some((behaviour, Proposal::Motion(motion))) => {
+                self.keep_below(*behaviour);
+                (Some(*behaviour), *motion)
+            }
+            Some((_, Proposal::Destination(_))) => {
+                let motion = self.serve(&all, behaviours, layers, situation);
+                (self.pursued_behaviour(), motion)
+            }
+        };
+        self.proposals = all;
+        decided
+    }
+
     pub(crate) fn is_pursued(&self, goal: &Goal) -> bool {
         self.pursued
             .is_some_and(|pursued| pursued.at == goal.destination.at)
