@@ -98,11 +98,10 @@ function sectionsOf(results) {
       "Where the runs went",
       "A configuration gets runs only as long as it may be the best.",
       "Runs per configuration",
-      table(
-        "Runs per configuration, and its status",
-        ["runs", "status"],
-        ({ runs, eliminated, ...one }) => [runs.toLocaleString("en"), eliminated ? "out" : standing(one)],
-      ),
+      table("Runs per configuration, and its status", ["runs", "status"], ({ runs, eliminated, ...one }) => [
+        runs.toLocaleString("en"),
+        eliminated ? "out" : standing(one),
+      ]),
       true,
     ),
   ];
