@@ -1,6 +1,7 @@
 //! The arbitration of a kind of robot: one method per kind of arbitration.
 
 use super::Arbitration;
+use super::decided::Decided;
 use super::goal_selection::GoalSelection;
 use super::motor_schemas::{Noise, Sum};
 use super::subsumption::{Layer, arbitrate, proposals};
@@ -26,9 +27,6 @@ pub(crate) struct ArbitrationMemory<'m> {
     /// With beliefs only: without them, destinations cannot be pursued.
     pub(crate) selection: Option<&'m mut GoalSelection>,
 }
-
-/// The index of the active behaviour, if there is a single one, and the motion.
-pub(crate) type Decided = (Option<usize>, Motion);
 
 impl Arbiter {
     pub(crate) fn new(spec: &BrainSpec) -> Self {

@@ -5,7 +5,7 @@
 //! * the *goal selector* chooses among the [goals](crate::goals) of the behaviours;
 //! * the *adapter* finds a [path](crate::navigation::navigator) there, and avoids other robots.
 
-use crate::arbitration::arbiter::Decided;
+use crate::arbitration::decided::Decided;
 use crate::arbitration::subsumption::Layer;
 use crate::behaviours::behaviour::Behaviour;
 use crate::behaviours::{Memory, Ready};
