@@ -1,8 +1,11 @@
 import type { Page } from "@playwright/test";
 import { expect, runAt, test } from "./page";
 
-/** Counts the pictures drawn of robots, and the frames received, while a run plays. */
-async function play(page: Page, url: string): Promise<() => Promise<[pictures: number, frames: number]>> {
+/** Counts the pictures drawn of robots, and the frames and states received, while a run plays. */
+async function play(
+  page: Page,
+  url: string,
+): Promise<() => Promise<[pictures: number, frames: number, states: number]>> {
   await page.addInitScript(() => {
     const draw = WebGL2RenderingContext.prototype.drawElements;
     Object.assign(globalThis, { pictures: 0 });
@@ -13,9 +16,11 @@ async function play(page: Page, url: string): Promise<() => Promise<[pictures: n
     };
   });
   let frames = 0;
-  page.on("websocket", (socket) =>
-    socket.on("framesent", ({ payload }) => (frames += String(payload).includes('"acknowledge"') ? 1 : 0)),
-  );
+  let states = 0;
+  page.on("websocket", (socket) => {
+    socket.on("framesent", ({ payload }) => (frames += String(payload).includes('"acknowledge"') ? 1 : 0));
+    socket.on("framereceived", ({ payload }) => (states += /"type": ?"state"/.test(String(payload)) ? 1 : 0));
+  });
   await page.goto(url);
   await expect(page.locator("#status")).toContainText("4 robots");
   // Slow, so that a busy machine too draws several pictures between two steps.
@@ -23,8 +28,12 @@ async function play(page: Page, url: string): Promise<() => Promise<[pictures: n
   await page.getByRole("application").focus();
   await page.keyboard.press("Space");
   await expect.poll(() => frames).toBeGreaterThan(3);
-  const begun = { frames, pictures: Number(await page.evaluate("pictures")) };
-  return async () => [Number(await page.evaluate("pictures")) - begun.pictures, frames - begun.frames];
+  const begun = { frames, states, pictures: Number(await page.evaluate("pictures")) };
+  return async () => [
+    Number(await page.evaluate("pictures")) - begun.pictures,
+    frames - begun.frames,
+    states - begun.states,
+  ];
 }
 
 test("motion between two steps is interpolated", async ({ page, server }) => {
@@ -41,7 +50,7 @@ test("with reduced motion each step is drawn as received", async ({ page, server
   await page.emulateMedia({ reducedMotion: "reduce" });
   const drawn = await play(page, runAt(server, "scenario=search-beliefs&seed=7"));
   await expect.poll(async () => (await drawn())[1]).toBeGreaterThan(10);
-  const [pictures, frames] = await drawn();
-  // A state message causes one more redraw.
-  expect(pictures).toBeLessThan(1.3 * frames + 3);
+  const [pictures, frames, states] = await drawn();
+  // Each frame and each state message causes one redraw.
+  expect(pictures).toBeLessThanOrEqual(frames + states + 3);
 });

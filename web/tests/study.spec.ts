@@ -392,7 +392,7 @@ test("studies are usable on a phone", async ({ page, fake }) => {
   await expect(page.getByRole("heading", { name: "Remaining" })).toBeVisible();
   await fits();
   await expect(sentence(page)).toBeVisible({ timeout: 10_000 });
-  await expect(page.getByRole("img", { name: /^Runs of each/ }).locator("svg")).toBeVisible();
+  await expect(page.getByRole("img", { name: /^Runs per/ }).locator("svg")).toBeVisible();
   await fits();
   await expectAccessible(page);
   await page.getByRole("link", { name: "3 rovers" }).first().click();
