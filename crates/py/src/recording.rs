@@ -52,7 +52,7 @@ fn half_turn(robot: &Robot) -> [f64; 2] {
 }
 
 fn commanded(robot: &Robot) -> [f64; 2] {
-    [robot.wanted.speed_m_s, robot.wanted.turn_rate_rad_s]
+    [robot.setpoint.speed_m_s, robot.setpoint.turn_rate_rad_s]
 }
 
 fn each<'py, T: numpy::Element>(

@@ -3,53 +3,53 @@
 /// Rounding of a rate times a step must not skip a measurement.
 const HAIR: f64 = 1e-9;
 
-/// A schedule in steps: the n-th beat is in the first step at or after its time.
+/// A periodic schedule in steps: event `n` is in the first step at or after its time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Schedule {
     /// At most 1.
-    beats_per_step: f64,
+    events_per_step: f64,
 }
 
 impl Schedule {
-    /// `rate_hz` beats per second, at most one per step; without a rate, one per step.
+    /// `rate_hz` events per second, at most one per step; without a rate, one per step.
     pub(crate) fn new(rate_hz: Option<f64>, step_s: f64) -> Self {
-        let beats_per_step = rate_hz.map_or(1.0, |rate_hz| (rate_hz * step_s).min(1.0));
-        Self { beats_per_step }
+        let events_per_step = rate_hz.map_or(1.0, |rate_hz| (rate_hz * step_s).min(1.0));
+        Self { events_per_step }
     }
 
-    /// The number of the beat in this step, from 0.
+    /// The number of the event that is due in this step, from 0.
     #[inline]
-    pub(crate) fn beat(self, tick: u64) -> Option<u64> {
-        if self.is_each_step() {
+    pub(crate) fn due(self, tick: u64) -> Option<u64> {
+        if self.is_every_step() {
             return Some(tick);
         }
-        let now = self.beats_until(tick);
-        let is_beat = tick == 0 || self.beats_until(tick - 1) < now;
-        is_beat.then_some(now)
+        let now = self.events_until(tick);
+        let is_due = tick == 0 || self.events_until(tick - 1) < now;
+        is_due.then_some(now)
     }
 
-    pub(crate) fn is_each_step(self) -> bool {
-        self.beats_per_step >= 1.0
+    pub(crate) fn is_every_step(self) -> bool {
+        self.events_per_step >= 1.0
     }
 
     pub(crate) fn period_s(self, step_s: f64) -> f64 {
-        step_s / self.beats_per_step
+        step_s / self.events_per_step
     }
 
-    /// Maximum number of beats in a number of steps.
-    pub(crate) fn beats_in(self, steps: u64) -> usize {
-        usize::try_from(self.beats_until(steps)).unwrap_or(usize::MAX - 2) + 1
+    /// Maximum number of events in a number of steps.
+    pub(crate) fn max_events_in(self, steps: u64) -> usize {
+        usize::try_from(self.events_until(steps)).unwrap_or(usize::MAX - 2) + 1
     }
 
-    /// Beats after the one in step 0, up to this step.
+    /// Events after the one in step 0, up to this step.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_precision_loss,
         clippy::cast_sign_loss,
         reason = "steps are at most 1e8"
     )]
-    fn beats_until(self, tick: u64) -> u64 {
-        (tick as f64 * self.beats_per_step + HAIR) as u64
+    fn events_until(self, tick: u64) -> u64 {
+        (tick as f64 * self.events_per_step + HAIR) as u64
     }
 }
 
@@ -68,17 +68,17 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_beat_is_on_the_first_step_at_or_after_its_time() {
-        let beats = |rate_hz, steps| {
+    fn an_event_is_due_in_the_first_step_at_or_after_its_time() {
+        let events = |rate_hz, steps| {
             let schedule = Schedule::new(rate_hz, 0.1);
             (0..steps)
-                .filter_map(|tick| schedule.beat(tick).map(|beat| (tick, beat)))
+                .filter_map(|tick| schedule.due(tick).map(|event| (tick, event)))
                 .collect::<Vec<_>>()
         };
-        assert_eq!(beats(Some(4.0), 9), [(0, 0), (3, 1), (5, 2), (8, 3)]);
-        assert_eq!(beats(Some(5.0), 5), [(0, 0), (2, 1), (4, 2)]);
-        assert_eq!(beats(None, 3), [(0, 0), (1, 1), (2, 2)]);
-        assert_eq!(beats(Some(99.0), 3), [(0, 0), (1, 1), (2, 2)]);
+        assert_eq!(events(Some(4.0), 9), [(0, 0), (3, 1), (5, 2), (8, 3)]);
+        assert_eq!(events(Some(5.0), 5), [(0, 0), (2, 1), (4, 2)]);
+        assert_eq!(events(None, 3), [(0, 0), (1, 1), (2, 2)]);
+        assert_eq!(events(Some(99.0), 3), [(0, 0), (1, 1), (2, 2)]);
     }
 
     #[test]

@@ -174,7 +174,7 @@ impl Kind {
         let Measure::Robots(detector) = &sensor.measure else {
             return None;
         };
-        let is_plain = self.schedule.is_each_step()
+        let is_plain = self.schedule.is_every_step()
             && self.radio.is_none()
             && sensor.is_immediate()
             && sensor.dropout_probability == 0.0
@@ -189,7 +189,7 @@ impl Kind {
     /// Whether anything that its robots measure or receive can wait for their brains.
     pub(crate) fn needs_backlog(&self) -> bool {
         let is_late = |sensor: &Sensor| !sensor.is_immediate();
-        let is_slow = !self.schedule.is_each_step();
+        let is_slow = !self.schedule.is_every_step();
         is_slow || self.radio.is_some() || self.sensors.iter().any(is_late)
     }
 

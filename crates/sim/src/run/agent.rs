@@ -4,7 +4,7 @@ use crate::bodies::kind::Kind;
 use crate::radio::channel::Transmission;
 use crate::sensors::backlog::Backlog;
 use crate::sensors::pending::Pending;
-use brain::{self, Brain, Contact, Motion, Neighbour, Percept, RobotId, SensorRequest};
+use brain::{Brain, Motion, Percept, RobotId, SensorRequest};
 use std::collections::BTreeMap;
 
 /// The deciding part of one robot.
@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 pub(crate) struct Agent {
     pub(crate) brain: Brain,
     /// The motion setpoint until the brain steps again.
-    pub(crate) wanted: Motion,
+    pub(crate) setpoint: Motion,
     /// A bit for each sensor that is switched off.
     pub(crate) sensors_off: u32,
     /// Readings and messages that have not reached the brain. Most kinds of robots never have any.
@@ -23,7 +23,7 @@ impl Agent {
     pub(crate) fn new(kind: &Kind) -> Self {
         Self {
             brain: kind.brain.clone(),
-            wanted: Motion::default(),
+            setpoint: Motion::default(),
             sensors_off: 0,
             backlog: kind
                 .needs_backlog()
@@ -41,7 +41,7 @@ impl Agent {
     }
 
     /// Takes a message that arrives now, unless the radio has received its maximum in this step.
-    pub(crate) fn hear(&mut self, sent: &Transmission, now: u64, most: usize) {
+    pub(crate) fn receive(&mut self, sent: &Transmission, now: u64, max_messages: usize) {
         let Some(backlog) = &mut self.backlog else {
             return;
         };
@@ -53,7 +53,7 @@ impl Agent {
             .rev()
             .take_while(|late| late.due == now)
             .count()
-            < most
+            < max_messages
         {
             inbox.entries.push(Pending {
                 taken: sent.at,
@@ -64,36 +64,9 @@ impl Agent {
     }
 
     /// Adds received messages to an external percept.
-    pub(crate) fn tell_messages(&mut self, now: u64, step_s: f64, to: &mut Percept) {
+    pub(crate) fn deliver_messages(&mut self, now: u64, step_s: f64, to: &mut Percept) {
         if let Some(backlog) = &mut self.backlog {
-            backlog.tell_messages(now, step_s, to);
-        }
-    }
-
-    /// Makes room for detections of a step in which the brain does not step.
-    pub(crate) fn forget(&mut self, now: u64) {
-        if let Some(backlog) = &mut self.backlog {
-            backlog.observations.forget(now);
-            backlog.contacts.forget(now);
-            backlog.neighbours.forget(now);
-        }
-    }
-
-    pub(crate) fn keep_observation(&mut self, late: Pending<brain::Observation>) {
-        if let Some(backlog) = &mut self.backlog {
-            backlog.observations.entries.push(late);
-        }
-    }
-
-    pub(crate) fn wait_contact(&mut self, late: Pending<(Contact, Option<u32>)>) {
-        if let Some(backlog) = &mut self.backlog {
-            backlog.contacts.entries.push(late);
-        }
-    }
-
-    pub(crate) fn wait_neighbour(&mut self, late: Pending<Neighbour>) {
-        if let Some(backlog) = &mut self.backlog {
-            backlog.neighbours.entries.push(late);
+            backlog.deliver_messages(now, step_s, to);
         }
     }
 
@@ -122,8 +95,9 @@ impl Agent {
             inbox.retain_mut(|late| renumber(&mut late.what.from));
         }
     }
+}
 
-    pub(crate) fn is_on(&self, sensor: usize) -> bool {
-        self.sensors_off & (1 << sensor) == 0
-    }
+/// Whether a sensor is on, by the bits of those that are off.
+pub(crate) fn is_on(sensors_off: u32, sensor: usize) -> bool {
+    sensors_off & (1 << sensor) == 0
 }

@@ -23,7 +23,7 @@ pub struct Robot {
     /// Forward speed.
     pub speed_m_s: f64,
     /// The motion setpoint of its brain.
-    pub wanted: Motion,
+    pub setpoint: Motion,
     /// Whether it can still move.
     pub status: Status,
     /// Whether its body is external.
@@ -85,7 +85,7 @@ impl State {
                 layer: kind.layer,
                 heading_rad: self.orientations[robot].heading_rad,
                 speed_m_s: body_state.speed_m_s,
-                wanted: self.agents[robot].wanted,
+                setpoint: self.agents[robot].setpoint,
                 status: body_state.status,
                 is_external: body_state.is_external,
                 is_touching: body_state.is_pressed,

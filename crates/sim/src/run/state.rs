@@ -230,7 +230,7 @@ impl State {
             let Motion {
                 speed_m_s,
                 turn_rate_rad_s,
-            } = agent.wanted;
+            } = agent.setpoint;
             let numbers = [
                 disc.centre.x,
                 disc.centre.y,

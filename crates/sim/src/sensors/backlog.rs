@@ -2,14 +2,14 @@
 
 use super::pending::PendingQueue;
 use super::{Measure, Sensor};
-use brain::{self, Contact, Neighbour, Percept, ReceivedMessage};
+use brain::{Contact, Neighbour, Observation, Percept, ReceivedMessage};
 
 /// Readings and messages that have not reached the brain yet.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Backlog {
     /// By sensor; empty for one without delay.
     kept: Vec<Vec<StoredMeasurement>>,
-    pub(crate) observations: PendingQueue<brain::Observation>,
+    pub(crate) observations: PendingQueue<Observation>,
     pub(crate) contacts: PendingQueue<(Contact, Option<u32>)>,
     pub(crate) neighbours: PendingQueue<Neighbour>,
     pub(crate) inbox: PendingQueue<ReceivedMessage>,
@@ -54,6 +54,13 @@ impl Backlog {
         have.max_by_key(|(taken, _)| *taken)
     }
 
+    /// Drops old detections, so that a brain that hardly ever steps fills no memory.
+    pub(crate) fn forget_detections(&mut self, now: u64) {
+        self.observations.forget(now);
+        self.contacts.forget(now);
+        self.neighbours.forget(now);
+    }
+
     /// Moves everything that has arrived into a percept; calls `found` with the item of each
     /// contact.
     pub(crate) fn deliver(
@@ -65,8 +72,7 @@ impl Backlog {
     ) {
         self.observations.deliver(now, |late| {
             let age_s = age_s(late.taken, now, step_s);
-            to.observations
-                .push(brain::Observation { age_s, ..late.what });
+            to.observations.push(Observation { age_s, ..late.what });
         });
         self.contacts.deliver(now, |late| {
             let (contact, item) = late.what;
@@ -78,10 +84,10 @@ impl Backlog {
             let age_s = age_s(late.taken, now, step_s);
             to.neighbours.push(Neighbour { age_s, ..late.what });
         });
-        self.tell_messages(now, step_s, to);
+        self.deliver_messages(now, step_s, to);
     }
 
-    pub(crate) fn tell_messages(&mut self, now: u64, step_s: f64, to: &mut Percept) {
+    pub(crate) fn deliver_messages(&mut self, now: u64, step_s: f64, to: &mut Percept) {
         self.inbox.deliver(now, |late| {
             let age_s = age_s(late.taken, now, step_s);
             to.inbox.push(ReceivedMessage { age_s, ..late.what });
@@ -94,12 +100,12 @@ pub(crate) fn age_s(taken: u64, now: u64, step_s: f64) -> f64 {
     (now - taken) as f64 * step_s
 }
 
-/// As many as can be in transit, and one that has arrived.
+/// One slot per measurement that can be in transit, and one that has arrived.
 fn empty_slots(sensor: &Sensor) -> Vec<StoredMeasurement> {
     let is_value = !matches!(sensor.measure, Measure::Items(_) | Measure::Robots(_));
     if sensor.is_immediate() || !is_value {
         return Vec::new();
     }
-    let beats = sensor.schedule.beats_in(sensor.latency_steps);
-    vec![StoredMeasurement::default(); beats + 2]
+    let in_transit = sensor.schedule.max_events_in(sensor.latency_steps);
+    vec![StoredMeasurement::default(); in_transit + 2]
 }

@@ -89,13 +89,22 @@ pub(crate) enum Measure {
 impl Sensor {
     /// Whether a measurement of one step is of use in a later one.
     pub(crate) fn outlasts_a_step(&self) -> bool {
-        let is_event = matches!(self.measure, Measure::Items(_) | Measure::Robots(_));
-        is_event || !self.is_immediate()
+        self.detects() || !self.is_immediate()
     }
 
     /// Whether each measurement is of the step in which the robot has it.
     pub(crate) fn is_immediate(&self) -> bool {
-        self.latency_steps == 0 && self.schedule.is_each_step()
+        self.latency_steps == 0 && self.schedule.is_every_step()
+    }
+
+    /// Whether the robot has a measurement in the step in which it is taken.
+    pub(crate) fn delivers_at_once(&self) -> bool {
+        self.latency_steps == 0 && (self.detects() || self.schedule.is_every_step())
+    }
+
+    /// Whether it detects things, instead of measuring values that the next measurement replaces.
+    fn detects(&self) -> bool {
+        matches!(self.measure, Measure::Items(_) | Measure::Robots(_))
     }
 
     pub(crate) fn new(name: &str, spec: &SensorSpec, items: &[String], step_s: f64) -> Self {

@@ -1,10 +1,11 @@
 //! Sensor footprints: how far sensors see past obstacles. For display only, no brain uses them.
 
 use super::{NoRobot, Simulation};
+use crate::run::agent::is_on;
 use crate::sensors::Measure;
 use crate::sensors::items::ItemDetector;
 use crate::sensors::range::{Ring, Room, spread};
-use crate::step::sense::gather;
+use crate::step::measurement::gather;
 use crate::step::view::View;
 use base::geometry::Point;
 use base::trig::sin_cos;
@@ -60,7 +61,7 @@ impl Simulation {
             return Ok(Vec::new());
         }
         let sensors = view.kind(robot).sensors.iter().enumerate();
-        let on = sensors.filter(|(number, _)| agents[robot].is_on(*number));
+        let on = sensors.filter(|(number, _)| is_on(agents[robot].sensors_off, *number));
         let footprints = on.filter_map(|(number, sensor)| match &sensor.measure {
             Measure::Items(detector) => Some(view.of_detector(robot, number, detector)),
             Measure::Range(ring) if of == Sensors::All => Some(view.of_ring(robot, number, ring)),

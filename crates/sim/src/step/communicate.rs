@@ -46,7 +46,7 @@ pub(crate) fn deliver(scenario: &Scenario, state: &mut State) {
         let kind = &scenario.kinds[usize::from(state.ids[robot].kind)];
         let is_active = state.body_states[robot].status == Status::Active;
         if let Some(radio) = kind.radio.filter(|_| is_active) {
-            state.agents[robot].hear(sent, state.tick, radio.messages_per_step);
+            state.agents[robot].receive(sent, state.tick, radio.messages_per_step);
         }
     }
     state.channel.reuse(arrived);

@@ -2,7 +2,7 @@
 
 use super::external::ExternalInputs;
 use super::flocks::Flocks;
-use super::sense::{Detections, sense};
+use super::sense::{SensingScratch, sense, sense_between_steps};
 use super::view::View;
 use crate::bodies::kind::Kind;
 use crate::radio::channel::Outgoing;
@@ -30,7 +30,7 @@ pub(crate) struct WorkerScratch {
     /// Scans that the percept of the last robot did not need.
     scans: Vec<Scan>,
     pub(crate) command: Command,
-    pub(crate) detections: Detections,
+    pub(crate) sensing: SensingScratch,
     /// Messages that robots send, in their order.
     pub(crate) outbox: Vec<Outgoing>,
     /// Commands of brains for external bodies, by the number of the robot.
@@ -39,7 +39,7 @@ pub(crate) struct WorkerScratch {
 
 impl WorkerScratch {
     pub(crate) fn clear(&mut self) {
-        self.detections.clear();
+        self.sensing.detections.clear();
         self.outbox.clear();
         self.external_commands.clear();
     }
@@ -49,7 +49,7 @@ impl WorkerScratch {
     pub(crate) fn serve(&mut self, inputs: &StepInputs, robot: usize, agent: &mut Agent) {
         let body_state = &inputs.view.body_states[robot];
         if body_state.status != Status::Active {
-            agent.wanted = Motion::default();
+            agent.setpoint = Motion::default();
         } else if let Some(external) = inputs.external {
             self.serve_with_inputs(inputs, robot, agent, external);
         } else if !body_state.is_external {
@@ -61,7 +61,7 @@ impl WorkerScratch {
     fn serve_simulated(&mut self, inputs: &StepInputs, robot: usize, agent: &mut Agent) {
         let view = inputs.view;
         if let Some(motion) = inputs.flocks.motion(view, robot, agent) {
-            agent.wanted = motion;
+            agent.setpoint = motion;
         } else if self.perceive(view, robot, agent) {
             agent.brain.step_into(&self.percept, &mut self.command);
             self.obey(view, robot, agent);
@@ -81,7 +81,7 @@ impl WorkerScratch {
             self.take(command);
         } else if let Some(percept) = external.percepts.get(&robot) {
             self.percept.clone_from(percept);
-            agent.tell_messages(view.tick, view.scenario.step_s, &mut self.percept);
+            agent.deliver_messages(view.tick, view.scenario.step_s, &mut self.percept);
             self.recognise(view, robot);
             agent.brain.step_into(&self.percept, &mut self.command);
             self.external_commands.push((robot, self.command.clone()));
@@ -117,21 +117,22 @@ impl WorkerScratch {
             let distances = same.map(|(at, item)| (place.to(*at).length(), *item));
             let nearest = distances.min_by(|one, other| one.0.total_cmp(&other.0));
             let nearest = nearest.filter(|(distance_m, _)| *distance_m <= RECOGNISED_WITHIN_M);
-            self.detections.note(nearest.map(|(_, item)| item));
+            self.sensing.detections.note(nearest.map(|(_, item)| item));
         }
     }
 
-    /// Fills the percept; returns whether the brain steps now.
+    /// Takes the measurements of a robot, and fills the percept if its brain steps now; returns
+    /// whether it does.
     pub(crate) fn perceive(&mut self, view: &View, robot: usize, agent: &mut Agent) -> bool {
         let kind = view.kind(robot);
-        let beat = kind.schedule.beat(view.tick);
+        let Some(brain_step) = kind.schedule.due(view.tick) else {
+            sense_between_steps(view, robot, agent, &mut self.sensing);
+            return false;
+        };
         self.clear_percept(kind);
-        let percept = beat.map(|_| &mut self.percept);
-        sense(view, robot, agent, &mut self.detections, percept);
-        if let Some(beat) = beat {
-            self.deliver(view, robot, beat);
-        }
-        beat.is_some()
+        sense(view, robot, agent, &mut self.sensing, &mut self.percept);
+        self.add_own_state(view, robot, brain_step);
+        true
     }
 
     /// Empties the percept but keeps the capacity of its lists.
@@ -159,13 +160,14 @@ impl WorkerScratch {
     }
 
     /// Adds the robot's own state to the percept.
-    fn deliver(&mut self, view: &View, robot: usize, beat: u64) {
+    fn add_own_state(&mut self, view: &View, robot: usize, brain_step: u64) {
         let (body_state, kind) = (&view.body_states[robot], view.kind(robot));
         let percept = &mut self.percept;
         percept.time_s = view.time_s();
         percept.id = view.ids[robot];
         percept.team_size = view.kind(robot).count;
-        percept.random_words = view.noises[robot].words(NoisePurpose::RandomWords as u32, beat, 0);
+        percept.random_words =
+            view.noises[robot].words(NoisePurpose::RandomWords as u32, brain_step, 0);
         percept.touch = now(body_state.is_pressed);
         percept.motion = now(Motion {
             speed_m_s: body_state.speed_m_s,
@@ -177,7 +179,7 @@ impl WorkerScratch {
     /// Applies the command to the agent.
     #[inline]
     fn obey(&mut self, view: &View, robot: usize, agent: &mut Agent) {
-        agent.wanted = self.command.motion;
+        agent.setpoint = self.command.motion;
         for request in &self.command.requests {
             agent.switch(*request);
         }

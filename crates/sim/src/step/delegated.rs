@@ -88,10 +88,10 @@ fn note(decisions: &mut PendingDecisions, workers: &[WorkerScratch]) {
     decisions.sightings.clear();
     let seen = workers
         .iter()
-        .flat_map(|worker| &worker.detections.sightings);
+        .flat_map(|worker| &worker.sensing.detections.sightings);
     decisions.sightings.extend(seen);
     decisions.false_alarms = workers
         .iter()
-        .map(|worker| worker.detections.false_alarms)
+        .map(|worker| worker.sensing.detections.false_alarms)
         .sum();
 }

@@ -76,10 +76,10 @@ fn flock_step_some(
         }
         let kind = &scenario.kinds[usize::from(id.kind)];
         if body_state.status != Status::Active {
-            agent.wanted = Motion::default();
+            agent.setpoint = Motion::default();
         } else if let Some(flocking) = kind.flocking.as_ref().filter(|_| !body_state.is_external) {
             let turn_rate = turn_rates[place % AT_ONCE];
-            agent.wanted = flocking.wanted(agent, turn_rate, course, (*noise, tick));
+            agent.setpoint = flocking.setpoint(agent, turn_rate, course, (*noise, tick));
         }
         let plan = planned(
             scenario,

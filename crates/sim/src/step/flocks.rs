@@ -9,7 +9,7 @@ use super::flock_sums::Flock;
 use super::view::View;
 use crate::bodies::kind::Flocking;
 use crate::bodies::path::Orientation;
-use crate::run::agent::Agent;
+use crate::run::agent::{Agent, is_on};
 use crate::scenario::Scenario;
 use crate::sensors::sensor_frame::NoisePurpose;
 use base::noise::Noise;
@@ -77,7 +77,7 @@ impl Flocks {
         let mut turn_rate = [0.0];
         self.turn_rates_from(robot, &mut turn_rate);
         let noise = (view.noises[robot], view.tick);
-        Some(flocking.wanted(agent, turn_rate[0], &view.orientations[robot], noise))
+        Some(flocking.setpoint(agent, turn_rate[0], &view.orientations[robot], noise))
     }
 
     /// The turn rates of robots, from the `first` on.
@@ -117,14 +117,14 @@ fn random_words(noise: Noise, tick: u64) -> RandomWords {
 impl Flocking {
     /// The motion setpoint of a robot, given its turn rate if its sensor is on.
     #[inline]
-    pub(super) fn wanted(
+    pub(super) fn setpoint(
         &self,
         agent: &Agent,
         turn_rate_rad_s: f64,
         course: &Orientation,
         (noise, tick): (Noise, u64),
     ) -> Motion {
-        if agent.is_on(0) {
+        if is_on(agent.sensors_off, 0) {
             return self.motion(turn_rate_rad_s);
         }
         let random_words = || random_words(noise, tick);

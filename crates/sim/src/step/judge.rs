@@ -21,7 +21,10 @@ pub(crate) fn judge(
         count(
             scenario,
             state,
-            (worker.detections.false_alarms, &worker.detections.sightings),
+            (
+                worker.sensing.detections.false_alarms,
+                &worker.sensing.detections.sightings,
+            ),
         );
     }
 }

@@ -69,9 +69,12 @@ pub(crate) fn planned(scenario: &Scenario, tick: u64, body: &Body) -> Plan {
         };
     }
     let going = scenario.going(disc.centre, kind.layer);
-    let driven = kind
-        .drive
-        .step(state.speed_m_s, agent.wanted, going.speed, scenario.step_s);
+    let driven = kind.drive.step(
+        state.speed_m_s,
+        agent.setpoint,
+        going.speed,
+        scenario.step_s,
+    );
     let turn_rad = driven.turn_rate_rad_s * scenario.step_s;
     let (front, turn_rad) = if kind.drive.turns_at_once {
         (course.turned(turn_rad).front, 0.0)

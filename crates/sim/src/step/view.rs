@@ -64,7 +64,7 @@ impl<'a> View<'a> {
 
     /// Whether its brain steps now, and its body is simulated.
     pub(crate) fn is_due(&self, robot: usize) -> bool {
-        self.is_simulated(robot) && self.kind(robot).schedule.beat(self.tick).is_some()
+        self.is_simulated(robot) && self.kind(robot).schedule.due(self.tick).is_some()
     }
 
     /// Whether it can receive messages at all.

@@ -143,7 +143,7 @@ fn a_robot_stops_after_the_step_that_empties_its_battery() {
         (robot.distance_m - 0.5).abs() < 1e-12,
         "it still moves in the step that empties the battery"
     );
-    assert_eq!(robot.wanted, Motion::default());
+    assert_eq!(robot.setpoint, Motion::default());
     assert_eq!(simulation.outcome().robots_stopped, 1);
     assert!(simulation.state().is_over(simulation.scenario()));
     assert_eq!(simulation.percept(id(0, 0)).unwrap(), None);

@@ -36,8 +36,8 @@ fn assert_same_as_by_percepts(text: &str, steps: u32) {
         let expected = commanded_by_percepts(&mut simulation);
         simulation.step();
         for (robot, (id, turn_rate)) in robots(&simulation).iter().zip(expected) {
-            let off = (robot.wanted.turn_rate_rad_s - turn_rate).abs();
-            assert!(off < 1e-11, "{id:?}: {:?} for {turn_rate}", robot.wanted);
+            let off = (robot.setpoint.turn_rate_rad_s - turn_rate).abs();
+            assert!(off < 1e-11, "{id:?}: {:?} for {turn_rate}", robot.setpoint);
             turned = turned.max(turn_rate.abs());
         }
     }
@@ -70,8 +70,8 @@ fn a_flock_of_discs_among_other_robots_equals_separate_brains() {
             .zip(expected)
             .filter(|(robot, _)| robot.id.kind > 0);
         for (robot, (id, turn_rate)) in flocks {
-            let off = (robot.wanted.turn_rate_rad_s - turn_rate).abs();
-            assert!(off < 1e-11, "{id:?}: {:?} for {turn_rate}", robot.wanted);
+            let off = (robot.setpoint.turn_rate_rad_s - turn_rate).abs();
+            assert!(off < 1e-11, "{id:?}: {:?} for {turn_rate}", robot.setpoint);
         }
     }
     assert!(simulation.outcome().collisions > 0);
@@ -108,8 +108,8 @@ fn an_external_command_does_not_affect_the_rest_of_a_step() {
     let (mut plain, mut commanded) = (start(&text), start(&text));
     for _ in 0..30 {
         plain.step();
-        let wanted = robots(&plain)[7].wanted;
-        let command = go(wanted.speed_m_s, wanted.turn_rate_rad_s);
+        let setpoint = robots(&plain)[7].setpoint;
+        let command = go(setpoint.speed_m_s, setpoint.turn_rate_rad_s);
         step_with(&mut commanded, [(id(0, 7), command)]);
         assert_eq!(plain.state().hash(), commanded.state().hash());
     }
@@ -130,7 +130,7 @@ fn a_robot_with_its_sensor_off_continues_straight() {
         simulation.step();
         let turns: Vec<f64> = robots(&simulation)
             .iter()
-            .map(|robot| robot.wanted.turn_rate_rad_s.abs())
+            .map(|robot| robot.setpoint.turn_rate_rad_s.abs())
             .collect();
         assert!(turns[3] == 0.0 && turns.iter().sum::<f64>() > 0.1);
     }
@@ -148,7 +148,7 @@ fn a_flock_with_latency_or_collisions_uses_percepts() {
     assert!(
         robots(&simulation)
             .iter()
-            .all(|robot| robot.wanted.turn_rate_rad_s == 0.0)
+            .all(|robot| robot.setpoint.turn_rate_rad_s == 0.0)
     );
     let battery = "[robots.bird.battery]\ncapacity_j = 10\nidle_w = 1\n";
     let mut simulation = start(&format!("{text}\n{battery}"));

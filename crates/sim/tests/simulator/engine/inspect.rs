@@ -58,9 +58,9 @@ fn the_inspected_decision_is_what_the_robot_executes() {
             simulation.step();
             let mut robots = robots(&simulation).into_iter();
             let robot = robots.find(|robot| robot.id == id(kind, 1)).unwrap();
-            let (wanted, motion) = (robot.wanted, inspection.decision.command.motion);
-            assert!((wanted.speed_m_s - motion.speed_m_s).abs() < 1e-11);
-            assert!((wanted.turn_rate_rad_s - motion.turn_rate_rad_s).abs() < 1e-11);
+            let (setpoint, motion) = (robot.setpoint, inspection.decision.command.motion);
+            assert!((setpoint.speed_m_s - motion.speed_m_s).abs() < 1e-11);
+            assert!((setpoint.turn_rate_rad_s - motion.turn_rate_rad_s).abs() < 1e-11);
         }
     }
 }

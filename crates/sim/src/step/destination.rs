@@ -1,0 +1,99 @@
+//! Where the results of measurements go.
+
+use crate::sensors::backlog::Backlog;
+use crate::sensors::pending::{Pending, PendingQueue};
+use brain::{Contact, Neighbour, Observation, Percept};
+
+/// What the judge counts of the percepts of robots.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Detections {
+    /// Items that robots detected, in the order of the robots.
+    pub(crate) sightings: Vec<u32>,
+    /// False alarms in the percepts of robots.
+    pub(crate) false_alarms: u64,
+}
+
+impl Detections {
+    pub(crate) fn clear(&mut self) {
+        self.sightings.clear();
+        self.false_alarms = 0;
+    }
+
+    /// Notes the item of a contact in a percept, or none for a false alarm.
+    pub(crate) fn note(&mut self, item: Option<u32>) {
+        match item {
+            Some(item) => self.sightings.push(item),
+            None => self.false_alarms += 1,
+        }
+    }
+}
+
+/// Where the results of one measurement go.
+pub(super) enum Destination<'a> {
+    /// Into the percept: the brain steps now, and the sensor has no latency.
+    Percept {
+        percept: &'a mut Percept,
+        detections: &'a mut Detections,
+    },
+    /// Into the backlog, from which the brain gets them in its first step from step `due` on.
+    Backlog {
+        backlog: &'a mut Backlog,
+        taken: u64,
+        due: u64,
+    },
+}
+
+impl Destination<'_> {
+    #[inline]
+    pub(super) fn add_observation(&mut self, observation: Observation) {
+        match self {
+            Self::Percept { percept, .. } => percept.observations.push(observation),
+            Self::Backlog {
+                backlog,
+                taken,
+                due,
+            } => {
+                push(&mut backlog.observations, *taken, *due, observation);
+            }
+        }
+    }
+
+    /// Adds a contact with an item, or with none for a false alarm.
+    #[inline]
+    pub(super) fn add_contact(&mut self, contact: Contact, item: Option<u32>) {
+        match self {
+            Self::Percept {
+                percept,
+                detections,
+            } => {
+                percept.contacts.push(contact);
+                detections.note(item);
+            }
+            Self::Backlog {
+                backlog,
+                taken,
+                due,
+            } => {
+                push(&mut backlog.contacts, *taken, *due, (contact, item));
+            }
+        }
+    }
+
+    #[inline]
+    pub(super) fn add_neighbour(&mut self, neighbour: Neighbour) {
+        match self {
+            Self::Percept { percept, .. } => percept.neighbours.push(neighbour),
+            Self::Backlog {
+                backlog,
+                taken,
+                due,
+            } => {
+                push(&mut backlog.neighbours, *taken, *due, neighbour);
+            }
+        }
+    }
+}
+
+fn push<T>(queue: &mut PendingQueue<T>, taken: u64, due: u64, what: T) {
+    queue.entries.push(Pending { taken, due, what });
+}
