@@ -36,11 +36,10 @@ def rust_cycles(root: Path) -> list[str]:
 def python_cycles() -> list[str]:
     """Return a description of each circle among the modules of the package."""
     graph = grimp.build_graph(PACKAGE)
-    # `from agent_economy import _core` is no circle: the compiled module is not read.
-    uses = {
-        module: graph.find_modules_directly_imported_by(module) - {PACKAGE}
-        for module in sorted(graph.modules)
-    }
+    uses = {each: graph.find_modules_directly_imported_by(each) for each in sorted(graph.modules)}
+    # The package imports its public names when they are used, and for type checkers.
+    graph = grimp.build_graph(PACKAGE, exclude_type_checking_imports=True)
+    uses[PACKAGE] = graph.find_modules_directly_imported_by(PACKAGE)
     return [described(each, uses) for each in cycles(uses)]
 
 

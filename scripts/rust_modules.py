@@ -1,8 +1,8 @@
 """Which module of a Rust crate uses which: `use` items and paths, resolved to what defines a name.
 
 A parent that declares or re-exports its children does not use them; a module that takes a name from
-the parent uses the child that defines it. What a folder's mod.rs defines is part of each module
-below it: that use is not counted. Test modules are left out.
+the parent uses the module that defines it: a child, or the parent itself. Test modules are
+left out.
 """
 
 import re
@@ -21,6 +21,7 @@ INLINE = re.compile(
 )
 TEST_FILE = re.compile(r"#\[cfg\(test\)\]\s*(?:pub(?:\([^)]*\))?\s+)?mod\s+(\w+)\s*;")
 USE = re.compile(r"(pub(?:\([^)]*\))?\s+)?\buse\s+([^;]+);")
+DECLARATION = re.compile(r"\bmod\s+\w+\s*;")
 PATH = re.compile(r"(?<![\w:.$])(?:\w+::)+\w+")
 ITEM = re.compile(
     r"\b(?:struct|enum|union|trait|type|fn|const|static|macro_rules!)\s+(?:mut\s+)?(\w+)"
@@ -66,7 +67,7 @@ class Crate:
             for statement in USE.finditer(source.code):
                 self._bind(module, source, statement[2])
         return {
-            module: {used for used in self._used(module) if module[: len(used)] != used}
+            module: {used for used in self._used(module) if used != module}
             for module in self.sources
         }
 
@@ -98,7 +99,7 @@ class Crate:
     def _used(self, module: Module) -> Iterator[Module]:
         """Yield the modules that define what a module uses."""
         source = self.sources[module]
-        code = USE.sub("", source.code)
+        code = DECLARATION.sub("", USE.sub("", source.code))
         words = set(re.findall(r"\w+", code))
         for name, path in source.names.items():
             if name in words and path not in self.sources:

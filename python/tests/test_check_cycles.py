@@ -65,10 +65,12 @@ def test_a_reexported_name_belongs_to_the_file_that_defines_it(tmp_path: Path) -
     assert found[("folder", "b")] == {("a",)}
 
 
-def test_definitions_in_its_own_mod_rs_are_part_of_a_module(tmp_path: Path) -> None:
-    code = "pub struct B; fn f(a: super::Shared) {}"
-    found = uses(tmp_path, lib="mod a; struct Shared; fn g(b: a::B) {}", a=code)
-    assert found == {(): {("a",)}, ("a",): set()}
+def test_a_child_that_uses_its_parent_is_in_a_circle_with_it(tmp_path: Path) -> None:
+    code = "pub fn a(a: super::Shared) {}"
+    found = uses(tmp_path, lib="mod a; pub use a::a; struct Shared;", a=code)
+    assert found == {(): set(), ("a",): {()}}
+    found = uses(tmp_path, lib="mod a; struct Shared; fn g() { a::a(); }", a=code)
+    assert found == {(): {("a",)}, ("a",): {()}}
 
 
 def test_circles_are_found_without_the_modules_that_only_use_them() -> None:

@@ -1,6 +1,6 @@
 //! Neighbour lists, rebuilt when a robot may have moved half the skin distance.
 
-use super::{RADIUS_M, RANGE_M, Team};
+use super::constants::{RADIUS_M, RANGE_M};
 use base::geometry::{Disc, Point, Segment};
 
 const SKIN_M: f64 = 0.55;
@@ -66,12 +66,17 @@ impl Lists {
         ((at * self.cells_per_m) as usize).min(self.columns - 1)
     }
 
-    /// Sorts robots by cell.
+    /// Whether robots may have moved farther than the lists allow.
+    pub(super) fn are_outdated(&self) -> bool {
+        2.0 * self.gone_m > SKIN_M
+    }
+
+    /// Sorts robots by cell; returns their new order.
     #[expect(
         clippy::cast_possible_truncation,
         reason = "robots have 32-bit numbers"
     )]
-    fn sort(&mut self, x: &[f64], y: &[f64]) {
+    pub(super) fn sort(&mut self, x: &[f64], y: &[f64]) -> &[u32] {
         let cells = x.iter().zip(y).map(|(x, y)| {
             let (column, row) = (self.cell(*x), self.cell(*y));
             (row * self.columns + column) as u32
@@ -92,38 +97,16 @@ impl Lists {
             self.order[next[*cell as usize] as usize] = robot as u32;
             next[*cell as usize] += 1;
         }
+        &self.order
     }
-}
 
-fn reordered<T: Copy>(values: &mut Vec<T>, order: &[u32]) {
-    *values = order.iter().map(|robot| values[*robot as usize]).collect();
-}
-
-impl Team {
-    /// Rebuilds the lists if necessary.
-    pub(super) fn refresh(&mut self) {
-        if 2.0 * self.lists.gone_m <= SKIN_M {
-            return;
-        }
-        self.lists.gone_m = 0.0;
-        self.lists.sort(&self.x, &self.y);
-        let order = std::mem::take(&mut self.lists.order);
-        for values in [
-            &mut self.x,
-            &mut self.y,
-            &mut self.heading_rad,
-            &mut self.energy_j,
-        ] {
-            reordered(values, &order);
-        }
-        reordered(&mut self.front, &order);
-        reordered(&mut self.turning, &order);
-        reordered(&mut self.key, &order);
-        self.lists.order = order;
-        self.lists.ends.clear();
-        self.lists.things.clear();
-        for robot in 0..self.x.len() {
-            self.list(robot);
+    /// Lists the neighbours of each robot; robots are sorted by cell.
+    pub(super) fn rebuild(&mut self, places: [&[f64]; 2], pillars: &[Disc], walls: &[[Point; 2]]) {
+        self.gone_m = 0.0;
+        self.ends.clear();
+        self.things.clear();
+        for robot in 0..places[0].len() {
+            self.list(robot, places, pillars, walls);
         }
     }
 
@@ -131,46 +114,36 @@ impl Team {
         clippy::cast_possible_truncation,
         reason = "robots have 32-bit numbers"
     )]
-    fn list(&mut self, robot: usize) {
-        let Self {
-            x,
-            y,
-            lists,
-            pillars,
-            walls,
-            ..
-        } = self;
+    fn list(&mut self, robot: usize, [x, y]: [&[f64]; 2], pillars: &[Disc], walls: &[[Point; 2]]) {
         let at = Point {
             x: x[robot],
             y: y[robot],
         };
-        let (left, right) = (lists.cell(at.x - REACH_M), lists.cell(at.x + REACH_M));
-        let mut end = lists.things.len();
-        for row in lists.cell(at.y - REACH_M)..=lists.cell(at.y + REACH_M) {
-            let cells = row * lists.columns;
-            let first = lists.starts[cells + left] as usize;
-            let last = lists.starts[cells + right + 1] as usize;
-            lists.things.resize(end + (last - first), 0);
+        let (left, right) = (self.cell(at.x - REACH_M), self.cell(at.x + REACH_M));
+        let mut end = self.things.len();
+        for row in self.cell(at.y - REACH_M)..=self.cell(at.y + REACH_M) {
+            let cells = row * self.columns;
+            let first = self.starts[cells + left] as usize;
+            let last = self.starts[cells + right + 1] as usize;
+            self.things.resize(end + (last - first), 0);
             for other in first..last {
                 let (dx, dy) = (x[other] - at.x, y[other] - at.y);
                 let is_near = (dx * dx + dy * dy < REACH_M * REACH_M) & (other != robot);
-                lists.things[end] = other as u32;
+                self.things[end] = other as u32;
                 end += usize::from(is_near);
             }
         }
-        lists.things.truncate(end);
+        self.things.truncate(end);
         let robots = end as u32;
         let [near_pillars, near_walls] =
-            &lists.still[lists.cell(at.y) * lists.columns + lists.cell(at.x)];
+            &self.still[self.cell(at.y) * self.columns + self.cell(at.x)];
         let is_near =
             |pillar: &&u32| pillars[**pillar as usize].distance_m(at) < RANGE_M + SKIN_M / 2.0;
-        lists.things.extend(near_pillars.iter().filter(is_near));
-        let pillars = lists.things.len() as u32;
+        self.things.extend(near_pillars.iter().filter(is_near));
+        let pillars = self.things.len() as u32;
         let is_face = |wall: &&u32| faces(&walls[**wall as usize], at);
-        lists.things.extend(near_walls.iter().filter(is_face));
-        lists
-            .ends
-            .push([robots, pillars, lists.things.len() as u32]);
+        self.things.extend(near_walls.iter().filter(is_face));
+        self.ends.push([robots, pillars, self.things.len() as u32]);
     }
 }
 

@@ -13,72 +13,11 @@
     reason = "branches would be mispredicted"
 )]
 
+mod constants;
 mod lists;
 mod rays;
+mod room;
 mod step;
+mod team;
 
-use crate::field::Field;
-use base::geometry::{Disc, Point};
-
-/// Radius of every robot, in metres.
-pub(crate) const RADIUS_M: f64 = 0.2;
-/// Range of the rays, in metres.
-pub(crate) const RANGE_M: f64 = 3.0;
-const STEP_S: f64 = 0.1;
-const SPEED_M_S: f64 = 0.5;
-const TURN_RAD_S: f64 = 1.5;
-
-/// The robots and obstacles of one world.
-pub(crate) struct Team {
-    x: Vec<f64>,
-    y: Vec<f64>,
-    heading_rad: Vec<f64>,
-    front: Vec<Point>,
-    /// Remaining steps of a turn; negative to the right.
-    turning: Vec<i32>,
-    energy_j: Vec<f64>,
-    key: Vec<u32>,
-    pillars: Vec<Disc>,
-    walls: Vec<[Point; 2]>,
-    lists: lists::Lists,
-    room: step::Room,
-    side_m: f64,
-    tick: u64,
-    has_noise: bool,
-    collisions: u64,
-}
-
-impl Team {
-    /// A team on a field, with or without range noise.
-    pub(crate) fn new(field: &Field, starts: &[(Point, f64)], has_noise: bool) -> Self {
-        let (places, headings): (Vec<Point>, Vec<f64>) = starts.iter().copied().unzip();
-        let sin_cos = |heading: &f64| {
-            let (y, x) = base::trig::sin_cos(*heading);
-            Point { x, y }
-        };
-        Self {
-            x: places.iter().map(|place| place.x).collect(),
-            y: places.iter().map(|place| place.y).collect(),
-            front: headings.iter().map(sin_cos).collect(),
-            heading_rad: headings,
-            turning: vec![0; places.len()],
-            energy_j: vec![0.0; places.len()],
-            key: (0..).take(places.len()).collect(),
-            pillars: field.pillars.clone(),
-            walls: field.walls(),
-            lists: lists::Lists::new(field.side_m, &field.pillars, &field.walls()),
-            room: step::Room::default(),
-            side_m: field.side_m,
-            tick: 0,
-            has_noise,
-            collisions: 0,
-        }
-    }
-
-    /// A checksum of the state.
-    pub(crate) fn sum(&self) -> f64 {
-        #[expect(clippy::cast_precision_loss, reason = "a sum of checks")]
-        let collisions = self.collisions as f64;
-        self.x.iter().chain(&self.energy_j).sum::<f64>() + collisions
-    }
-}
+pub(crate) use team::Team;

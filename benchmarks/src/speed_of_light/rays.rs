@@ -5,7 +5,7 @@
     reason = "it is compiled for the vectors of its callers"
 )]
 
-use super::RANGE_M;
+use super::constants::RANGE_M;
 use pulp::Simd;
 
 /// Rays in two groups, the front one first, anticlockwise.

@@ -5,11 +5,12 @@
     reason = "it is compiled for the vectors of its callers"
 )]
 
-use super::rays::{NearDisc, NearWall, Rays, cast, directions};
-use super::{RADIUS_M, RANGE_M, SPEED_M_S, STEP_S, TURN_RAD_S, Team};
+use super::constants::{RADIUS_M, RANGE_M, SPEED_M_S, STEP_S, TURN_RAD_S};
+use super::rays::{NearDisc, NearWall, Rays, cast};
+use super::room::Room;
+use super::team::Team;
 use base::geometry::Point;
 use base::noise::{Noise, normal_pairs};
-use base::random::Entity;
 use base::trig::{sin_cos, wrapped};
 use pulp::{Arch, Simd, WithSimd};
 
@@ -19,34 +20,6 @@ const MOVE_J_PER_M: f64 = 10.0;
 
 /// Distance ahead within which it turns away.
 const NEAR_M: f64 = 0.6;
-
-/// Scratch memory for one step.
-pub(super) struct Room {
-    directions: [Rays; 2],
-    /// Scratch list; only the first `disc_count` entries are valid.
-    discs: Vec<NearDisc>,
-    disc_count: usize,
-    walls: Vec<NearWall>,
-    wall_count: usize,
-    hits: Vec<u32>,
-    next: Vec<Point>,
-    noise: Noise,
-}
-
-impl Default for Room {
-    fn default() -> Self {
-        Self {
-            directions: directions(),
-            discs: Vec::new(),
-            disc_count: 0,
-            walls: Vec::new(),
-            wall_count: 0,
-            hits: Vec::new(),
-            next: Vec::new(),
-            noise: Noise::of(0, 0, Entity { kind: 0, index: 0 }),
-        }
-    }
-}
 
 impl Team {
     pub(crate) fn step(&mut self) {

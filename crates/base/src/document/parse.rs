@@ -1,6 +1,6 @@
 //! Parses TOML into nodes with their lines.
 
-use super::{Node, Table, Value};
+use super::node::{Node, Table, Value};
 use crate::error::{InputError, InputErrors};
 use std::ops::Range;
 use toml::Spanned;

@@ -1,6 +1,7 @@
 //! A place in a document, to report errors there.
 
-use super::{Document, Node, Value, path_of};
+use super::node::{Node, Value, path_of};
+use super::root::Document;
 use crate::error::InputError;
 
 /// A place in a document, whether or not there is a value.

@@ -2,6 +2,9 @@
 //!
 //! To be removed at 1.0.
 
+use super::node::path_of;
+use crate::error::InputError;
+
 /// Keys, as (old, new). An old key is reported as renamed where the new one is allowed.
 const KEYS: [(&str, &str); 26] = [
     ("back_off_m", "reverse_distance_m"),
@@ -67,6 +70,20 @@ pub(crate) fn path<'k>(path: &str, known: impl IntoIterator<Item = &'k str>) -> 
     known
         .into_iter()
         .find(|known| *known == path_now && path_now != path)
+}
+
+/// The error of a `key` in the table at `path` that is none of the `known`: a renamed or an unknown one.
+pub(super) fn unknown_key<'k>(
+    path: &str,
+    key: &str,
+    value: String,
+    known: impl Iterator<Item = &'k str> + Clone,
+) -> InputError {
+    let at = path_of(path, key);
+    match self::key(key, known.clone()) {
+        Some(new) => InputError::renamed(at, None, path_of(path, new)),
+        None => InputError::unknown_key(at, key, value, known),
+    }
 }
 
 fn renamed<'k>(

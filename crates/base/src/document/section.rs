@@ -1,6 +1,7 @@
 //! Typed reading of a table that collects all errors.
 
-use super::{Node, Table, Value, as_number, path_of, renamed, unknown_key, written};
+use super::node::{Node, Table, Value, as_number, path_of, written};
+use super::renamed::{self, unknown_key};
 use crate::error::InputError;
 use std::cell::RefCell;
 use std::ops::RangeInclusive;

@@ -1,7 +1,8 @@
 //! Conversion of a document to a Rust type.
 
+use super::node::{Node, Value};
+use super::root::Document;
 use super::schema::Schema;
-use super::{Document, Node, Value};
 use crate::error::{InputError, InputErrors};
 use serde::de::DeserializeOwned;
 use serde_json::Value as Json;

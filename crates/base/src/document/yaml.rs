@@ -1,6 +1,6 @@
 //! Parses plain YAML into nodes with their lines.
 
-use super::{Node, Table, Value};
+use super::node::{Node, Table, Value};
 use crate::error::{InputError, InputErrors};
 use granit_parser::{Event, Parser, ScalarStyle, ScanError, Span, options};
 

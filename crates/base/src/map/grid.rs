@@ -1,6 +1,7 @@
 //! A grid of cells.
 
-use super::MAX_CELLS;
+/// Maximum number of cells of a map.
+pub const MAX_CELLS: usize = 64_000_000;
 
 /// A grid of cells, row by row.
 #[derive(Debug, Clone, PartialEq)]

@@ -23,21 +23,16 @@ mod outline;
 mod pgm;
 mod settings;
 
+pub use grid::MAX_CELLS;
+pub use outline::MAX_SEGMENTS;
+pub use pgm::MAX_IMAGE_BYTES;
+
 use crate::error::{InputError, InputErrors};
 use crate::geometry::{Point, Rectangle, Segment};
 use grid::Grid;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use settings::Settings;
-
-/// Maximum number of cells of a map.
-pub const MAX_CELLS: usize = 64_000_000;
-
-/// Maximum size of the image of a map, in bytes: a caller of [`read`] need not read more of the file.
-pub const MAX_IMAGE_BYTES: usize = 5 * MAX_CELLS;
-
-/// Maximum number of straight walls of a map.
-pub const MAX_SEGMENTS: usize = 4_000_000;
 
 /// Treatment of cells that are neither free nor occupied.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]

@@ -1,8 +1,10 @@
 //! The boundary between solid and free cells.
 
-use super::MAX_SEGMENTS;
 use super::grid::Grid;
 use crate::geometry::{Point, Segment};
+
+/// Maximum number of straight walls of a map.
+pub const MAX_SEGMENTS: usize = 4_000_000;
 
 /// The boundary between cells that are `is_solid` and the others, as maximal straight segments with free
 /// space on their left; `corner` converts cell corners to world coordinates. `None` if there are too

@@ -1,8 +1,10 @@
 //! Greyscale images in PGM, plain (P2) and raw (P5), as netpbm.sourceforge.net/doc/pgm.html defines them.
 
-use super::grid::{Grid, size};
-use super::{MAX_CELLS, MAX_IMAGE_BYTES};
+use super::grid::{Grid, MAX_CELLS, size};
 use crate::error::InputError;
+
+/// Maximum size of the image of a map, in bytes: a caller of [`read`](super::read) need not read more of the file.
+pub const MAX_IMAGE_BYTES: usize = 5 * MAX_CELLS;
 
 /// Reads the image `bytes`, each pixel as `meaning(value, maximum value)`; `file` is its name in errors.
 /// The last row of the image becomes the first row of the grid.

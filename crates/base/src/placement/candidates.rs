@@ -1,9 +1,27 @@
 //! Candidate positions of an entity.
 
-use super::{MAX_TRIES, PlacementError};
 use crate::geometry::{Point, Rectangle};
 use crate::random::{Stream, unit};
 use crate::trig;
+
+/// Maximum number of positions that are drawn for an entity.
+///
+/// If a thousandth of the area is free, one search in 20,000 fails.
+pub const MAX_TRIES: u32 = 10_000;
+
+/// The reason why an entity has no position.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum PlacementError {
+    /// None of the drawn positions is free.
+    #[error("no free position found after {MAX_TRIES} tries")]
+    NoneFree,
+    /// The given position is not free.
+    #[error("its position is not free")]
+    Taken,
+    /// Fewer positions are given than needed.
+    #[error("only {0} positions are given")]
+    NotGiven(usize),
+}
 
 /// The candidate positions of an entity, in their order.
 #[derive(Debug, Clone)]

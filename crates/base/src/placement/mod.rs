@@ -9,6 +9,7 @@ mod candidates;
 mod disc_index;
 mod team;
 
+pub use candidates::{MAX_TRIES, PlacementError};
 pub use disc_index::DiscIndex;
 pub use team::{Group, TeamPlacementError, team};
 
@@ -17,11 +18,6 @@ use crate::random::{self, Entity, Purpose};
 use candidates::Candidates;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-
-/// Maximum number of positions that are drawn for an entity.
-///
-/// If a thousandth of the area is free, one search in 20,000 fails.
-pub const MAX_TRIES: u32 = 10_000;
 
 /// Positions of the items or robots of a kind.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -102,20 +98,6 @@ impl EntityClass {
             Self::Robots => Purpose::StartCluster,
         }
     }
-}
-
-/// The reason why an entity has no position.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-pub enum PlacementError {
-    /// None of the drawn positions is free.
-    #[error("no free position found after {MAX_TRIES} tries")]
-    NoneFree,
-    /// The given position is not free.
-    #[error("its position is not free")]
-    Taken,
-    /// Fewer positions are given than needed.
-    #[error("only {0} positions are given")]
-    NotGiven(usize),
 }
 
 impl Placement {

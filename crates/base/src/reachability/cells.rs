@@ -1,9 +1,23 @@
 //! A grid of square cells over the world.
 
-use super::{MAX_CELLS, Solid, TOLERANCE_M};
-use crate::geometry::{Point, Rectangle, Segment};
+use crate::geometry::{Disc, Point, Rectangle, Segment};
 use std::f64::consts::FRAC_1_SQRT_2;
 use std::ops::RangeInclusive;
+
+/// Maximum number of cells: larger worlds get larger cells.
+pub const MAX_CELLS: u32 = 4_000_000;
+
+/// Tolerance for rounding, in metres.
+pub(super) const TOLERANCE_M: f64 = 1e-9;
+
+/// An obstacle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Solid {
+    /// A wall.
+    Wall(Segment),
+    /// A pillar.
+    Pillar(Disc),
+}
 
 /// Number of cells along the radius of the robot.
 const CELLS_PER_RADIUS: f64 = 4.0;

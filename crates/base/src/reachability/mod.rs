@@ -13,23 +13,10 @@
 
 mod cells;
 
-use crate::geometry::{Disc, Point, Rectangle, Segment};
-use cells::Cells;
+pub use cells::{MAX_CELLS, Solid};
 
-/// Maximum number of cells: larger worlds get larger cells.
-pub const MAX_CELLS: u32 = 4_000_000;
-
-/// Tolerance for rounding, in metres.
-const TOLERANCE_M: f64 = 1e-9;
-
-/// An obstacle.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Solid {
-    /// A wall.
-    Wall(Segment),
-    /// A pillar.
-    Pillar(Disc),
-}
+use crate::geometry::{Disc, Point, Rectangle};
+use cells::{Cells, TOLERANCE_M};
 
 /// The places that a robot may reach.
 #[derive(Debug, Clone)]

@@ -1,4 +1,5 @@
 use super::*;
+use crate::geometry::Segment;
 use proptest::prelude::*;
 use std::time::{Duration, Instant};
 

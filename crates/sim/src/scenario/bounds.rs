@@ -1,6 +1,6 @@
 //! Bounds of what runs of a scenario can yield, and what is the same in all runs.
 
-use super::Scenario;
+use super::ready::Scenario;
 use crate::bodies::Layer;
 use crate::bodies::kind::Kind;
 use crate::world::terrain::{Going, Terrain};

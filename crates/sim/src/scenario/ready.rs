@@ -1,7 +1,7 @@
 //! A scenario converted for runs: checked, in SI units and radians, and with constants computed
 //! once.
 
-use super::ScenarioSpec;
+use super::spec::ScenarioSpec;
 use crate::bodies::Layer;
 use crate::bodies::kind::{Briefing, Kind};
 use crate::schedule::steps_of;

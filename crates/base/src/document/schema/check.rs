@@ -2,19 +2,32 @@
 
 use super::expected::expected;
 use super::forms::{choices, forms, likeness, name_at, tag};
-use super::{Object, Schema, alternatives, list};
-use crate::document::{Node, Table, Value, as_number, path_of, renamed, unknown_key};
+use super::keywords::{Object, alternatives, list};
+use super::simplified::Schema;
+use crate::document::node::{Node, Table, Value, as_number, path_of};
+use crate::document::renamed::{self, unknown_key};
+use crate::document::root::Document;
 use crate::error::InputError;
 use serde_json::Value as Json;
 use std::cmp::Reverse;
 
-pub(super) struct Check<'s> {
-    pub(super) schema: &'s Schema,
-    pub(super) errors: Vec<InputError>,
+impl Schema {
+    /// All errors of `document`.
+    #[must_use]
+    pub fn errors(&self, document: &Document) -> Vec<InputError> {
+        let mut check = Check::new(self);
+        check.value(&self.root, &document.root, "");
+        check.errors
+    }
+}
+
+struct Check<'s> {
+    schema: &'s Schema,
+    errors: Vec<InputError>,
 }
 
 impl<'s> Check<'s> {
-    pub(super) fn new(schema: &'s Schema) -> Self {
+    fn new(schema: &'s Schema) -> Self {
         Self {
             schema,
             errors: Vec::new(),
@@ -22,7 +35,7 @@ impl<'s> Check<'s> {
     }
 
     /// Checks `node`, which is at `path`, and everything in it.
-    pub(super) fn value(&mut self, schema: &'s Json, node: &Node, path: &str) {
+    fn value(&mut self, schema: &'s Json, node: &Node, path: &str) {
         let Some(keywords) = self.schema.keywords(schema) else {
             return;
         };

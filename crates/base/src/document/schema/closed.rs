@@ -1,7 +1,7 @@
 //! Converts a schema to the simplified form.
 
+use super::keywords::{Object, list};
 use super::units::annotate;
-use super::{Object, list};
 use schemars::Schema;
 use schemars::transform::{Transform, transform_subschemas};
 use serde_json::{Value as Json, json};

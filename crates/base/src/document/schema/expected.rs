@@ -1,12 +1,20 @@
 //! What a schema allows, as text for error messages and the reference.
 
 use super::forms::{choices, forms, name_at, tag};
+use super::keywords::{Object, alternatives, list};
+use super::simplified::Schema;
 use super::units::unit;
-use super::{Object, Schema, alternatives, list};
-use crate::document::written;
+use crate::document::node::written;
 use serde_json::Value as Json;
 
-/// What `part` of the schema allows, as a noun phrase: "a number from 0 to 100 (metres)".
+impl Schema {
+    /// What `part` of the schema allows, as a noun phrase: "a number from 0 to 100 (metres)".
+    #[must_use]
+    pub fn expected(&self, part: &Json) -> String {
+        expected(self, part)
+    }
+}
+
 pub(super) fn expected(schema: &Schema, part: &Json) -> String {
     if let Some(names) = choices(schema, part) {
         let names = quoted(&names);

@@ -1,7 +1,9 @@
 //! The alternatives of a schema: a list of names, or several forms of which a value has one.
 
-use super::{Object, Schema, alternatives, list};
-use crate::document::{Node, Value, renamed};
+use super::keywords::{Object, alternatives, list};
+use super::simplified::Schema;
+use crate::document::node::{Node, Value};
+use crate::document::renamed;
 use crate::error::nearest;
 use serde_json::Value as Json;
 

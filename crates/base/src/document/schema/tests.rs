@@ -1,5 +1,6 @@
 use super::*;
 use crate::document::Document;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 

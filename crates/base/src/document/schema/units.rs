@@ -3,7 +3,7 @@
 //! A key such as `radius_m` gives its schema the keyword `x-unit`, here `"m"`: error messages, the
 //! reference and the page's fields show it.
 
-use super::Object;
+use super::keywords::Object;
 use serde_json::Value as Json;
 
 /// The keyword of a schema that holds its unit.

@@ -2,8 +2,10 @@
 
 mod simple;
 
+pub use simple::PolygonError;
+
 use super::{Point, Rectangle, Segment};
-use robust::{Coord, orient2d};
+use simple::{MAX_COORDINATE_M, MAX_VERTICES, MIN_VERTICES, edges, side};
 
 /// A solid simple polygon, including its boundary.
 ///
@@ -22,52 +24,19 @@ pub struct Polygon {
     vertices: Vec<Point>,
 }
 
-/// The reason why a list of vertices is not a polygon. Vertices are counted from 0.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-pub enum PolygonError {
-    /// Too few or too many vertices.
-    #[error("a polygon of {least} to {most} vertices; it has {0}", least = Polygon::MIN_VERTICES, most = Polygon::MAX_VERTICES)]
-    Count(usize),
-    /// A coordinate is NaN, infinite or too large.
-    #[error("a polygon with coordinates from -{most:e} to {most:e}; vertex {0} is outside", most = Polygon::MAX_COORDINATE_M)]
-    Coordinate(usize),
-    /// A vertex equals the next one.
-    #[error("a polygon without repeated vertices; vertex {0} equals the next one")]
-    Repeated(usize),
-    /// An edge folds back onto the previous one at a vertex.
-    #[error("a polygon that does not touch itself; it folds back at vertex {0}")]
-    Folded(usize),
-    /// The edges that begin at these two vertices intersect.
-    #[error("a polygon that does not intersect itself; the edges from vertices {0} and {1} do")]
-    Crossed(usize, usize),
-    /// The area is 0.
-    #[error("a polygon with an area above 0")]
-    Flat,
-}
-
 impl Polygon {
     /// Minimum number of vertices.
-    pub const MIN_VERTICES: usize = 3;
+    pub const MIN_VERTICES: usize = MIN_VERTICES;
     /// Maximum number of vertices.
-    pub const MAX_VERTICES: usize = 10_000;
+    pub const MAX_VERTICES: usize = MAX_VERTICES;
     /// Maximum absolute coordinate, in metres.
-    pub const MAX_COORDINATE_M: f64 = 1e9;
+    pub const MAX_COORDINATE_M: f64 = MAX_COORDINATE_M;
 
     /// The polygon with these vertices, given clockwise or anticlockwise.
     ///
     /// # Errors
     /// The first error found.
     pub fn new(vertices: &[Point]) -> Result<Self, PolygonError> {
-        if !(Self::MIN_VERTICES..=Self::MAX_VERTICES).contains(&vertices.len()) {
-            return Err(PolygonError::Count(vertices.len()));
-        }
-        let is_fine = |value: f64| value.abs() <= Self::MAX_COORDINATE_M;
-        if let Some(bad) = vertices
-            .iter()
-            .position(|at| !(is_fine(at.x) && is_fine(at.y)))
-        {
-            return Err(PolygonError::Coordinate(bad));
-        }
         simple::check(vertices)?;
         let mut vertices = vertices.to_vec();
         let area_m2 = anticlockwise_area(&vertices);
@@ -122,14 +91,6 @@ impl Polygon {
     }
 }
 
-fn edges(vertices: &[Point]) -> impl Iterator<Item = Segment> + '_ {
-    let next = vertices.iter().cycle().skip(1);
-    vertices
-        .iter()
-        .zip(next)
-        .map(|(&from, &to)| Segment { from, to })
-}
-
 /// Signed area by the shoelace formula about the first vertex; negative if the vertices run clockwise.
 fn anticlockwise_area(vertices: &[Point]) -> f64 {
     let first = vertices[0];
@@ -137,12 +98,6 @@ fn anticlockwise_area(vertices: &[Point]) -> f64 {
         .map(|edge| first.to(edge.from).cross(first.to(edge.to)))
         .sum();
     doubled / 2.0
-}
-
-/// Positive if `point` is to the left of the edge, 0 if it is on its line; exact.
-fn side(edge: Segment, point: Point) -> f64 {
-    let coord = |Point { x, y }| Coord { x, y };
-    orient2d(coord(edge.from), coord(edge.to), coord(point))
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 //! Gains that adapt to the robot's progress are after Clark, Arkin and Ram, *Learning momentum:
 //! on-line performance enhancement for reactive systems*, 1992.
 
-use super::Schemas;
+use super::spec::Schemas;
 use crate::perception::beliefs::pose::turned;
 use crate::perception::sector::direction;
 use crate::perception::situation::Situation;

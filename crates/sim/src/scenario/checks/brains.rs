@@ -1,8 +1,8 @@
 //! Checks that behaviours have what they need.
 
-use super::ScenarioSpec;
 use super::ground::rectangle;
 use crate::bodies::RobotSpec;
+use crate::scenario::spec::ScenarioSpec;
 use crate::sensors::Measures;
 use base::document::Place;
 use base::error::InputError;

@@ -1,6 +1,6 @@
 //! Checks that a run ends within a reasonable number of steps.
 
-use super::ScenarioSpec;
+use crate::scenario::spec::ScenarioSpec;
 use base::document::Place;
 use base::error::InputError;
 

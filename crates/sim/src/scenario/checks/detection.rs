@@ -1,6 +1,6 @@
 //! Checks that detectors detect existing items, with valid probabilities.
 
-use super::ScenarioSpec;
+use crate::scenario::spec::ScenarioSpec;
 use crate::schedule::Schedule;
 use crate::sensors::Measures;
 use crate::sensors::items::{Detection, ItemsSpec};

@@ -1,7 +1,7 @@
 //! Checks that a step is short enough for how fast bodies move.
 
-use super::ScenarioSpec;
 use crate::bodies::drive::DriveSpec;
+use crate::scenario::spec::ScenarioSpec;
 use base::document::Place;
 use base::error::InputError;
 

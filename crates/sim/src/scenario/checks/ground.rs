@@ -1,6 +1,5 @@
 //! Checks of obstacles and terrain areas.
 
-use super::Open;
 use crate::world::WorldSpec;
 use crate::world::grid::Still;
 use crate::world::obstacles::{ObstacleSpec, Solid};
@@ -10,6 +9,9 @@ use base::error::InputError;
 use base::geometry::{Disc, Point, Polygon, Rectangle};
 use base::map::{self, OccupancyMap, Unknown};
 use std::collections::BTreeMap;
+
+/// Returns the bytes of a file that a scenario names, or the reason why it cannot.
+pub(super) type Open<'o> = &'o dyn Fn(&str) -> Result<Vec<u8>, String>;
 
 /// The valid obstacles; reports those that are invalid, or outside the world.
 pub(super) fn solids(

@@ -1,9 +1,9 @@
 //! Checks that a run fits into memory.
 
-use super::ScenarioSpec;
 use super::ground::rectangle;
 use crate::bodies::RobotSpec;
 use crate::radio::RadioSpec;
+use crate::scenario::spec::ScenarioSpec;
 use crate::sensors::items::ItemsSpec;
 use crate::sensors::memory::{
     CONTACT_BYTES, MAX_PENDING, MEASUREMENT_BYTES, MESSAGE_BYTES, NEIGHBOUR_BYTES,

@@ -13,14 +13,14 @@ mod rates;
 mod reach;
 mod room;
 
-use super::{Checked, Scenario, ScenarioSpec};
+use super::checked::Checked;
+use super::ready::Scenario;
+use super::spec::ScenarioSpec;
 use base::document::{Document, Place};
 use base::error::{InputError, InputErrors};
+use ground::Open;
 use std::cell::RefCell;
 use std::collections::BTreeSet;
-
-/// Returns the bytes of a file that a scenario names, or the reason why it cannot.
-type Open<'o> = &'o dyn Fn(&str) -> Result<Vec<u8>, String>;
 
 /// A check: the errors of a scenario at the place `at` in a document.
 type Check = fn(&ScenarioSpec, &Place) -> Vec<InputError>;

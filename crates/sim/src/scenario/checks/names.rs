@@ -1,6 +1,6 @@
 //! Checks of names: they appear in columns, paths and options.
 
-use super::ScenarioSpec;
+use crate::scenario::spec::ScenarioSpec;
 use base::document::Place;
 use base::error::InputError;
 use base::random::kind_key;

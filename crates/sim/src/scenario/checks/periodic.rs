@@ -1,6 +1,6 @@
 //! Checks that a periodic world is large enough for what robots detect and touch.
 
-use super::Checked;
+use crate::scenario::checked::Checked;
 use crate::sensors::Measures;
 use base::document::Place;
 use base::error::InputError;

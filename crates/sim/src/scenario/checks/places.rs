@@ -1,8 +1,9 @@
 //! Checks that given places are free.
 
 use super::ground::{rectangle, words};
-use super::{Checked, ScenarioSpec};
 use crate::bodies::{Layer, RobotSpec};
+use crate::scenario::checked::Checked;
+use crate::scenario::spec::ScenarioSpec;
 use base::document::Place;
 use base::error::InputError;
 use base::geometry::{Point, Rectangle, Torus};

@@ -1,6 +1,6 @@
 //! Checks that no rate exceeds one per step.
 
-use super::ScenarioSpec;
+use crate::scenario::spec::ScenarioSpec;
 use base::document::Place;
 use base::error::InputError;
 

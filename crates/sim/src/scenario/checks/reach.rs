@@ -2,8 +2,9 @@
 
 use super::ground::rectangle;
 use super::room::{lattice, within};
-use super::{Checked, ScenarioSpec};
 use crate::bodies::{Layer, RobotSpec};
+use crate::scenario::checked::Checked;
+use crate::scenario::spec::ScenarioSpec;
 use crate::sensors::Measures;
 use crate::world::items::ItemSpec;
 use crate::world::obstacles::Solid;

@@ -1,8 +1,9 @@
 //! Checks that there is room for everything that is placed at random.
 
 use super::ground::rectangle;
-use super::{Checked, Scenario};
 use crate::bodies::{Layer, RobotSpec};
+use crate::scenario::checked::Checked;
+use crate::scenario::ready::Scenario;
 use base::document::Place;
 use base::error::InputError;
 use base::geometry::{Point, Rectangle};

@@ -1,0 +1,48 @@
+//! Reading scenarios from documents, and the files that they name.
+
+use super::checked::Checked;
+use super::checks;
+use super::spec::{SCHEMA, ScenarioSpec};
+use base::document::{Document, Files};
+use base::error::InputErrors;
+
+impl ScenarioSpec {
+    /// Reads [`ScenarioSpec::KEYS`], and nothing else.
+    ///
+    /// # Errors
+    /// Everything that is wrong there: keys and values first and, if these are valid, their meaning
+    /// together.
+    pub fn read(document: &Document) -> Result<Checked, InputErrors> {
+        let document = Self::filled(document);
+        let spec = document.typed(&SCHEMA)?;
+        checks::checked(spec, &document.place(), &|name| document.open(name))
+    }
+
+    /// The same for a document whose files `open` reads: it returns the bytes of a file by its
+    /// name, or the reason why it cannot.
+    ///
+    /// # Errors
+    /// As [`ScenarioSpec::read`].
+    pub fn read_with(
+        document: &Document,
+        open: impl Fn(&str) -> Result<Vec<u8>, String>,
+    ) -> Result<Checked, InputErrors> {
+        let mut document = document.clone();
+        let mut files = Files::new();
+        // What has been read may name more files.
+        loop {
+            let wanted = Self::files(&document);
+            if wanted.is_empty() {
+                return Self::read(&document);
+            }
+            files.extend(wanted.into_iter().map(|name| (name.clone(), open(&name))));
+            document = document.with_files(files.clone());
+        }
+    }
+
+    /// The files that a document names and that have not been read.
+    pub(crate) fn files(document: &Document) -> Vec<String> {
+        let spec: Result<Self, InputErrors> = Self::filled(document).typed(&SCHEMA);
+        spec.map_or_else(|_| Vec::new(), |spec| checks::files_wanted(&spec, document))
+    }
+}
