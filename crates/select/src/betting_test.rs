@@ -21,7 +21,7 @@
 //! Journal of the Royal Statistical Society B 86, sections 4 and 5; Ville (1939), Etude critique de
 //! la notion de collectif.
 
-use crate::looks::next_look;
+use crate::interim_analyses::next_analysis;
 use crate::problem::Bounds;
 
 /// Multiples of delta that three gamblers assume as the mean. The first must be 1: against an equal
@@ -45,7 +45,7 @@ pub(crate) struct BettingTest {
     depth: f64,
     delta: f64,
     used: usize,
-    next_look: usize,
+    next_analysis: usize,
     sum: f64,
     sum_of_squares: f64,
     bets: [f64; GAMBLERS],
@@ -62,7 +62,7 @@ impl BettingTest {
             depth: depth.max(ROUNDING * delta),
             delta,
             used: 0,
-            next_look: next_look(0),
+            next_analysis: next_analysis(0),
             sum: 0.0,
             sum_of_squares: 0.0,
             bets: [0.0; GAMBLERS],
@@ -80,23 +80,23 @@ impl BettingTest {
     }
 
     /// Bets on the runs that both have and that are new. Their division into calls makes no
-    /// difference: bets change at fixed looks.
+    /// difference: bets change at interim analyses.
     pub(crate) fn advance(&mut self, champion: &[f64], challenger: &[f64]) {
         self.advance_until(champion, challenger, f64::INFINITY);
     }
 
-    /// The same, but stops at the look at which the evidence reaches `enough`.
+    /// The same, but stops at the interim analysis at which the evidence reaches `enough`.
     pub(crate) fn advance_until(&mut self, champion: &[f64], challenger: &[f64], enough: f64) {
         let end = champion.len().min(challenger.len());
         while self.used < end && self.peak < enough {
-            let stop = end.min(self.next_look);
+            let stop = end.min(self.next_analysis);
             let (champion, challenger) = (&champion[self.used..stop], &challenger[self.used..stop]);
             for (champion, challenger) in champion.iter().zip(challenger) {
                 self.bet_on(champion - challenger + self.delta);
             }
             self.used = stop;
-            if stop == self.next_look {
-                self.next_look = next_look(stop);
+            if stop == self.next_analysis {
+                self.next_analysis = next_analysis(stop);
                 self.peak = self.peak.max(self.evidence());
                 self.place_bets();
             }
@@ -108,7 +108,7 @@ impl BettingTest {
         self.wealth.iter().sum()
     }
 
-    /// The maximum of the evidence over all looks.
+    /// The maximum of the evidence over all interim analyses.
     pub(crate) fn peak(&self) -> f64 {
         self.peak
     }

@@ -13,7 +13,7 @@
 mod betting_test;
 pub mod bounds;
 pub mod equal_allocation;
-pub mod looks;
+pub mod interim_analyses;
 pub mod problem;
 pub mod procedure;
 pub mod race;

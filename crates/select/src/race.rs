@@ -12,7 +12,7 @@
 //! its evidence from the runs that both already have.
 
 use crate::betting_test::BettingTest;
-use crate::looks::next_look;
+use crate::interim_analyses::next_analysis;
 use crate::problem::Problem;
 use crate::procedure::{Elimination, Procedure, Request};
 use crate::samples::Samples;
@@ -148,7 +148,7 @@ impl Procedure for Race {
         (self.survivors.len() > 1 || runs == 0).then(|| Request {
             configurations: self.survivors.clone(),
             first_run: runs as u64,
-            runs: next_look(runs) - runs,
+            runs: next_analysis(runs) - runs,
         })
     }
 

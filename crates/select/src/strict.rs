@@ -12,7 +12,7 @@
 //! that both already have; those that these do not refute return and run on from where they stopped.
 
 use crate::betting_test::BettingTest;
-use crate::looks::next_look;
+use crate::interim_analyses::next_analysis;
 use crate::problem::{Bounds, Problem};
 use crate::procedure::{Elimination, Procedure, Request};
 use crate::samples::Samples;
@@ -81,7 +81,7 @@ impl Procedure for Strict {
         (!self.challengers.is_empty() || fewest == 0).then(|| Request {
             configurations,
             first_run: fewest as u64,
-            runs: next_look(fewest) - fewest,
+            runs: next_analysis(fewest) - fewest,
         })
     }
 

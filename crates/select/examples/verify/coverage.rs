@@ -5,7 +5,7 @@ use crate::random::Place;
 use crate::selection::Outcome;
 use select::Bounds;
 use select::bounds::mean_exceeds;
-use select::looks::next_look;
+use select::interim_analyses::next_analysis;
 
 /// Number of first runs after each of which the bounds are checked; later as the procedures do.
 const CHECKED_SINGLY: usize = 30;
@@ -34,7 +34,7 @@ fn hold(merits: &[f64], bounds: Bounds, mean: f64, alpha: f64) -> bool {
         Some(if *runs < CHECKED_SINGLY {
             runs + 1
         } else {
-            next_look(*runs)
+            next_analysis(*runs)
         })
     };
     std::iter::successors(Some(1), after)

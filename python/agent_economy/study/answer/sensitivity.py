@@ -1,7 +1,7 @@
 """Sensitivity analysis: how much of the merit's variance among configurations each factor explains.
 
-Every configuration has at least the runs of the first look, with the same run numbers for all. The
-mean merits of these runs are analysed, one per configuration.
+Every configuration has at least the runs of the first interim analysis, with the same run numbers
+for all. The mean merits of these runs are analysed, one per configuration.
 """
 
 import warnings
