@@ -105,11 +105,11 @@ def test_a_robot_takes_the_heading_of_the_highest_utility() -> None:
         inspection = simulation.inspection()
         assert inspection is not None
         assert inspection["belief_state"] is not None
-        reach = inspection["belief_state"]["reach"]
-        if reach is not None:
+        options = inspection["belief_state"]["heading_options"]
+        if options is not None:
             choices += 1
-            highest = max(course["utility"] for course in reach["courses"])
-            assert reach["courses"][reach["taken"]]["utility"] == pytest.approx(highest)
+            highest = max(heading["utility"] for heading in options["headings"])
+            assert options["headings"][options["chosen"]]["utility"] == pytest.approx(highest)
     assert choices > 50
 
 

@@ -180,7 +180,7 @@ impl Brain {
             arbiter,
         } = &*self.kind;
         let mut turned_rad = self.odometry.update(percept, body);
-        let now_m_s = self.odometry.now_m_s(percept, body);
+        let current_speed_m_s = self.odometry.current_speed_m_s(percept, body);
         if let Some(brain) = &mut self.beliefs {
             let odometry = &self.odometry;
             turned_rad = odometry.turned_without_compass_rad(turned_rad, percept, body);
@@ -196,9 +196,9 @@ impl Brain {
             body,
             beliefs,
             rings: &governor.rings,
-            ahead: governor.ahead(percept, body, now_m_s),
+            ahead: governor.ahead(percept, body, current_speed_m_s),
             turned_rad,
-            now_m_s,
+            current_speed_m_s,
         };
         let memory = ArbitrationMemory {
             layers: &mut self.layers,
@@ -212,8 +212,12 @@ impl Brain {
         }
         if let (Some(beliefs), Some(selection)) = (beliefs, selection) {
             let traffic = &mut selection.navigator.traffic;
-            traffic.update(&beliefs.others.movers, body, [now_m_s, turned_rad]);
-            motion = traffic.limit(motion, body, now_m_s);
+            traffic.update(
+                &beliefs.others.movers,
+                body,
+                [current_speed_m_s, turned_rad],
+            );
+            motion = traffic.limit(motion, body, current_speed_m_s);
         }
         (leading, clamped(motion, body))
     }

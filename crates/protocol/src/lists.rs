@@ -18,7 +18,7 @@ pub enum Engine {
 #[serde(rename_all = "snake_case")]
 pub enum Origin {
     /// Part of the program.
-    Shipped,
+    Bundled,
     /// A file below the server's folder.
     Folder,
 }

@@ -29,7 +29,7 @@ class Workspace:
 
     def listed(self) -> list[dict[str, Any]]:
         """Return all files that declare an engine, the bundled scenarios first."""
-        builtin = ((name, file, "shipped") for name, file in bundled.scenarios().items())
+        builtin = ((name, file, "bundled") for name, file in bundled.scenarios().items())
         files = islice(self.files(".toml"), MAX_FILES)
         mine = ((str(file.relative_to(self.folder)), file, "folder") for file in files)
         rows = (described(name, file, where) for name, file, where in (*builtin, *mine))

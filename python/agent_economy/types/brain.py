@@ -202,17 +202,17 @@ class HeadingOption(TypedDict):
 
 
 class HeadingOptions(TypedDict):
-    """The headings that a robot considered, and which of them it took.
+    """The headings that a robot considered, and the one that it chose.
 
     Attributes:
         to: The next place on its path, relative to the robot's front.
-        taken: Index in `courses` of the one that it took.
-        courses: All around, the first straight ahead, anticlockwise.
+        chosen: Index in `headings` of the chosen one.
+        headings: All around, the first straight ahead, anticlockwise.
     """
 
     to: Point
-    taken: int
-    courses: Sequence[HeadingOption]
+    chosen: int
+    headings: Sequence[HeadingOption]
 
 
 class BeliefState(TypedDict):
@@ -223,15 +223,15 @@ class BeliefState(TypedDict):
         items: Believed items, in the order of their first observation.
         robots: Robots and other moving things nearby.
         goals: Its goals, by precedence.
-        reach: The utility of the headings around it; none if it did not navigate in its last
-            step.
+        heading_options: The utility of the headings around it; none if it did not navigate in
+            its last step.
     """
 
     pose: Pose | None
     items: Sequence[BelievedItem]
     robots: Sequence[BelievedRobot]
     goals: Sequence[GoalState]
-    reach: HeadingOptions | None
+    heading_options: HeadingOptions | None
 
 
 class RangeRing(TypedDict):

@@ -266,7 +266,7 @@ class Opened(TypedDict):
     recording: OpenedRecording | None
 
 
-Origin: TypeAlias = Literal["shipped", "folder"]
+Origin: TypeAlias = Literal["bundled", "folder"]
 """Where a scenario is."""
 
 

@@ -116,7 +116,7 @@ export class FakeRun {
         goal(0, [20, 12], 0.83, "approaching"),
         { ...goal(1, [3, 3], 0.12, "receding"), is_pursued: false, stuck_s: 6.2 },
       ],
-      reach: reachTo([6, 2]),
+      heading_options: headingOptionsTo([6, 2]),
     };
     const has = this.document.robots[robot.split("/")[0]].brain !== undefined;
     return {
@@ -170,15 +170,15 @@ function goal(behaviour, to, precedence, verdict) {
 }
 
 /** Heading options all around; the one nearest to a point ahead is chosen. */
-function reachTo(to) {
-  const courses = Array.from({ length: 40 }, (_, i) => {
+function headingOptionsTo(to) {
+  const headings = Array.from({ length: 40 }, (_, i) => {
     const bearing_rad = (tau * (i > 20 ? i - 40 : i)) / 40;
     const free_m = 2 + 1.5 * Math.sin(3 * bearing_rad);
     const at = [free_m * Math.cos(bearing_rad), free_m * Math.sin(bearing_rad)];
     return { bearing_rad, free_m, at, utility: -Math.hypot(to[0] - at[0], to[1] - at[1]) };
   });
-  const most = Math.max(...courses.map((course) => course.utility));
-  return { to, taken: courses.findIndex((course) => course.utility === most), courses };
+  const max = Math.max(...headings.map(({ utility }) => utility));
+  return { to, chosen: headings.findIndex(({ utility }) => utility === max), headings };
 }
 
 const rays = Array.from({ length: 36 }, (_, i) => tau * (i / 36) - Math.PI);

@@ -54,7 +54,7 @@ export const entries = [
 ];
 
 function entry(id, summary) {
-  return { id, name: id.replace(/^.*\/|\.toml$/g, ""), engine: "metric", summary, where: "shipped" };
+  return { id, name: id.replace(/^.*\/|\.toml$/g, ""), engine: "metric", summary, where: "bundled" };
 }
 
 /** The document of a scenario; `crowd-N` has N robots. */

@@ -3,13 +3,13 @@ import type { HeadingOptions } from "../api/protocol";
 import { mixColours, relativeUtilities, toWorldFrame } from "./headings";
 
 function options(...utilities: number[]): HeadingOptions {
-  const courses = utilities.map((utility) => ({
+  const headings = utilities.map((utility) => ({
     bearing_rad: 0,
     free_m: 1,
     at: [1, 0] as [number, number],
     utility,
   }));
-  return { to: [3, 0], taken: 0, courses };
+  return { to: [3, 0], chosen: 0, headings };
 }
 
 test("utilities are scaled from 0 to 1, and equal ones are 1", () => {

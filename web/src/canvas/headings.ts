@@ -2,8 +2,8 @@ import type { HeadingOptions, Point, Pose } from "../api/protocol";
 import { rgb } from "./colours";
 
 /** The utility of each heading option, scaled from 0 (lowest) to 1 (highest). */
-export function relativeUtilities({ courses }: HeadingOptions): number[] {
-  const utilities = courses.map((course) => course.utility);
+export function relativeUtilities({ headings }: HeadingOptions): number[] {
+  const utilities = headings.map(({ utility }) => utility);
   const [min, max] = [Math.min(...utilities), Math.max(...utilities)];
   return utilities.map((utility) => (max > min ? (utility - min) / (max - min) : 1));
 }

@@ -196,15 +196,15 @@ mod tests {
         for _ in 0..600 {
             let percept = walk.percept();
             let turned_rad = odometry.update(&percept, &body);
-            let now_m_s = odometry.now_m_s(&percept, &body);
+            let current_speed_m_s = odometry.current_speed_m_s(&percept, &body);
             let situation = Situation {
                 percept: &percept,
                 body: &body,
                 beliefs: None,
                 rings: &governor.rings,
-                ahead: governor.ahead(&percept, &body, now_m_s),
+                ahead: governor.ahead(&percept, &body, current_speed_m_s),
                 turned_rad,
-                now_m_s,
+                current_speed_m_s,
             };
             let proposal = motion(arbitrate(&behaviours, &mut layers, &situation));
             let motion = governor.limit(proposal, &situation, &odometry);
@@ -283,7 +283,7 @@ mod tests {
                 rings: &[],
                 ahead: None,
                 turned_rad: 0.0,
-                now_m_s: 0.0,
+                current_speed_m_s: 0.0,
             };
             motion(arbitrate(&bells, &mut layers, &situation)).speed_m_s
         })

@@ -43,15 +43,15 @@ mod tests {
         let step = |_| {
             let percept = walk.percept();
             let turned_rad = moved.update(&percept, &body);
-            let now_m_s = moved.now_m_s(&percept, &body);
+            let current_speed_m_s = moved.current_speed_m_s(&percept, &body);
             let situation = Situation {
                 percept: &percept,
                 body: &body,
                 beliefs: None,
                 rings: &sight.rings,
-                ahead: sight.ahead(&percept, &body, now_m_s),
+                ahead: sight.ahead(&percept, &body, current_speed_m_s),
                 turned_rad,
-                now_m_s,
+                current_speed_m_s,
             };
             let mut motion = match arbitrate(&behaviours, &mut layers, &situation) {
                 Some((_, Proposal::Motion(motion))) => motion,

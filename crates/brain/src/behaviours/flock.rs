@@ -21,8 +21,8 @@ const OLDEST_S: f64 = 1.0;
 const MAX_RANGE_M: f64 = 1e6;
 const MAX_ANGLE_RAD: f64 = 1e4;
 
-/// Flocks with the robots that its sensors detect: separation from those too near, alignment with
-/// their headings, and cohesion. The three requests are added to the robot's own unit heading,
+/// Moves in a flock with the robots that its sensors detect: separation from those too near,
+/// alignment with their headings, and cohesion, the attraction to their centre. The three requests are added to the robot's own unit heading,
 /// separation first, until they reach the steering limit (C. Reynolds, *Flocks, herds, and schools:
 /// a distributed behavioral model*, 1987). The robot turns to the resulting heading, plus noise.
 ///

@@ -188,7 +188,7 @@ behaviours! {
     Navigate in navigate;
     /// Avoids what is too near.
     Avoid in avoid;
-    /// Flocks: separation, alignment and cohesion.
+    /// Moves in a flock by separation, alignment and cohesion.
     Flock in flock;
 }
 

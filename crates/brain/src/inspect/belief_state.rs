@@ -24,7 +24,7 @@ pub struct BeliefState {
     /// Its goals, by precedence.
     pub goals: Vec<GoalState>,
     /// The utility of the headings around it; none if it did not navigate in its last step.
-    pub reach: Option<HeadingOptions>,
+    pub heading_options: Option<HeadingOptions>,
 }
 
 /// A goal.
@@ -74,7 +74,7 @@ impl BeliefState {
             items: beliefs.believed_items().collect(),
             robots: robots.collect(),
             goals: goals.collect(),
-            reach: HeadingOptions::of(&selection.navigator),
+            heading_options: HeadingOptions::of(&selection.navigator),
         }
     }
 }

@@ -7,15 +7,15 @@ use base::geometry::Point;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// The headings that a robot considered, and which of them it took.
+/// The headings that a robot considered, and the one that it chose.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct HeadingOptions {
     /// The next place on its path, relative to the robot's front.
     pub to: Point,
-    /// Index in `courses` of the one that it took.
-    pub taken: u32,
+    /// Index in `headings` of the chosen one.
+    pub chosen: u32,
     /// All around, the first straight ahead, anticlockwise.
-    pub courses: Vec<HeadingOption>,
+    pub headings: Vec<HeadingOption>,
 }
 
 /// A heading, and its utility.
@@ -47,11 +47,11 @@ impl HeadingOptions {
                 utility: utility(heading, at.to(to).length_squared()),
             }
         };
-        let taken = reachable.best_heading(target_rad, distance_m);
+        let chosen = reachable.best_heading(target_rad, distance_m);
         Some(Self {
             to,
-            taken: u32::try_from(taken).unwrap_or(u32::MAX),
-            courses: (0..HEADINGS).map(option).collect(),
+            chosen: u32::try_from(chosen).unwrap_or(u32::MAX),
+            headings: (0..HEADINGS).map(option).collect(),
         })
     }
 }
@@ -65,7 +65,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn the_heading_taken_has_the_highest_utility(
+        fn the_chosen_heading_has_the_highest_utility(
             hits in proptest::collection::vec((-PI..PI, 0.05_f64..6.0), 0..12),
             target_rad in -PI..PI, distance_m in 0.0_f64..8.0,
         ) {
@@ -75,12 +75,12 @@ mod tests {
             navigator.reachable.update(&hits, &[], (0.25, 1.0));
             navigator.target = Some([target_rad, distance_m]);
             let options = HeadingOptions::of(&navigator).unwrap();
-            let taken = options.courses[options.taken as usize];
-            let max = options.courses.iter().map(|option| option.utility).fold(f64::NEG_INFINITY, f64::max);
-            prop_assert!(taken.utility >= max - 1e-9, "{options:?}");
+            let chosen = options.headings[options.chosen as usize];
+            let max = options.headings.iter().map(|option| option.utility).fold(f64::NEG_INFINITY, f64::max);
+            prop_assert!(chosen.utility >= max - 1e-9, "{options:?}");
             let choice = navigator.reachable.best(target_rad, distance_m);
-            prop_assert_eq!(choice.free_m.to_bits(), taken.free_m.to_bits());
-            for option in options.courses {
+            prop_assert_eq!(choice.free_m.to_bits(), chosen.free_m.to_bits());
+            for option in options.headings {
                 prop_assert!(option.at.length() <= option.free_m.min(distance_m) + 1e-9);
             }
         }

@@ -55,9 +55,14 @@ impl SpeedGovernor {
 
     /// The free distance straight ahead.
     #[inline]
-    pub(crate) fn ahead(&self, percept: &Percept, body: &Body, now_m_s: f64) -> Option<ClearAhead> {
+    pub(crate) fn ahead(
+        &self,
+        percept: &Percept,
+        body: &Body,
+        current_speed_m_s: f64,
+    ) -> Option<ClearAhead> {
         let free_m = |ring: &Ring, _, ranges_m: &[f64]| Some(ring.free_ahead_m(ranges_m));
-        self.clear(percept, body, (1.0, now_m_s.max(0.0)), free_m)
+        self.clear(percept, body, (1.0, current_speed_m_s.max(0.0)), free_m)
     }
 
     /// The proposed motion, slowed down to the limit. A motion in a direction that no range sensor
@@ -65,30 +70,36 @@ impl SpeedGovernor {
     #[inline]
     pub(crate) fn limit(
         &self,
-        wanted: Motion,
+        setpoint: Motion,
         situation: &Situation,
         odometry: &DeadReckoning,
     ) -> Motion {
-        let Situation { body, now_m_s, .. } = *situation;
-        let is_reverse = now_m_s < 0.0 || (now_m_s == 0.0 && wanted.speed_m_s < 0.0);
+        let Situation {
+            body,
+            current_speed_m_s,
+            ..
+        } = *situation;
+        let is_reverse =
+            current_speed_m_s < 0.0 || (current_speed_m_s == 0.0 && setpoint.speed_m_s < 0.0);
         let (sign, is_covered) = if is_reverse {
             (-1.0, self.covers_back)
         } else {
             (1.0, self.covers_front)
         };
-        let now_m_s = now_m_s.abs();
-        let wanted_m_s = (wanted.speed_m_s * sign).max(0.0);
-        if !is_covered || (now_m_s == 0.0 && wanted_m_s == 0.0) {
-            return wanted;
+        let current_speed_m_s = current_speed_m_s.abs();
+        let setpoint_m_s = (setpoint.speed_m_s * sign).max(0.0);
+        if !is_covered || (current_speed_m_s == 0.0 && setpoint_m_s == 0.0) {
+            return setpoint;
         }
-        let clear = self.clear_along(wanted, sign, situation, odometry);
+        let clear = self.clear_along(setpoint, sign, situation, odometry);
         let free_m = clear.map_or(0.0, |clear| clear.free_m);
         // A turn towards where the robot could not stop is postponed until it is stationary.
-        let can_turn = now_m_s * now_m_s * self.stopping_s2_m <= free_m;
+        let can_turn = current_speed_m_s * current_speed_m_s * self.stopping_s2_m <= free_m;
         Motion {
-            speed_m_s: sign * self.speed_m_s(wanted_m_s, now_m_s, free_m, body.period_s),
+            speed_m_s: sign
+                * self.speed_m_s(setpoint_m_s, current_speed_m_s, free_m, body.period_s),
             turn_rate_rad_s: if can_turn {
-                wanted.turn_rate_rad_s
+                setpoint.turn_rate_rad_s
             } else {
                 0.0
             },
@@ -100,7 +111,7 @@ impl SpeedGovernor {
     #[inline]
     fn clear_along(
         &self,
-        wanted: Motion,
+        setpoint: Motion,
         sign: f64,
         situation: &Situation,
         odometry: &DeadReckoning,
@@ -109,36 +120,44 @@ impl SpeedGovernor {
             percept,
             body,
             ahead,
-            now_m_s,
+            current_speed_m_s,
             ..
         } = *situation;
-        let is_straight = wanted.turn_rate_rad_s == 0.0
+        let is_straight = setpoint.turn_rate_rad_s == 0.0
             && sign > 0.0
             && ahead.is_some_and(|clear| odometry.turned_within_rad(clear.age_s) == 0.0);
         if is_straight {
             return ahead;
         }
-        let now_m_s = now_m_s.abs();
-        let wanted_m_s = (wanted.speed_m_s * sign).max(0.0);
-        let turning_s = body.period_s + 2.0 * self.stopping_s2_m * now_m_s.max(wanted_m_s);
-        let stopping_m = now_m_s * now_m_s * self.stopping_s2_m;
-        let needed_m = stopping_m.max(self.needed_m(wanted_m_s, now_m_s, body.period_s));
-        self.clear(percept, body, (sign, now_m_s), |ring, age_s, ranges_m| {
-            let turned_rad = odometry.turned_within_rad(age_s);
-            // After a larger turn, the scan does not show where the robot moves.
-            if turned_rad.abs() > FRAC_PI_2 {
-                return None;
-            }
-            // The nearest distance in any direction is cheap to compute, and mostly large enough.
-            let nearest_m = ring.nearest_m(ranges_m);
-            let enough_m = needed_m + self.half_width_m + max_moved_m(body, now_m_s, age_s);
-            let turn_rad = wanted.turn_rate_rad_s * turning_s;
-            Some(if nearest_m > enough_m {
-                nearest_m
-            } else {
-                ring.free_m(ranges_m, &self.sector(turned_rad, turn_rad, sign))
-            })
-        })
+        let current_speed_m_s = current_speed_m_s.abs();
+        let setpoint_m_s = (setpoint.speed_m_s * sign).max(0.0);
+        let turning_s =
+            body.period_s + 2.0 * self.stopping_s2_m * current_speed_m_s.max(setpoint_m_s);
+        let stopping_m = current_speed_m_s * current_speed_m_s * self.stopping_s2_m;
+        let needed_m =
+            stopping_m.max(self.needed_m(setpoint_m_s, current_speed_m_s, body.period_s));
+        self.clear(
+            percept,
+            body,
+            (sign, current_speed_m_s),
+            |ring, age_s, ranges_m| {
+                let turned_rad = odometry.turned_within_rad(age_s);
+                // After a larger turn, the scan does not show where the robot moves.
+                if turned_rad.abs() > FRAC_PI_2 {
+                    return None;
+                }
+                // The nearest distance in any direction is cheap to compute, and mostly large enough.
+                let nearest_m = ring.nearest_m(ranges_m);
+                let enough_m =
+                    needed_m + self.half_width_m + max_moved_m(body, current_speed_m_s, age_s);
+                let turn_rad = setpoint.turn_rate_rad_s * turning_s;
+                Some(if nearest_m > enough_m {
+                    nearest_m
+                } else {
+                    ring.free_m(ranges_m, &self.sector(turned_rad, turn_rad, sign))
+                })
+            },
+        )
     }
 
     /// The minimum free distance over all rings with a fresh scan, forwards or backwards; `free_m`
@@ -198,40 +217,47 @@ impl SpeedGovernor {
         Sector::new(back_rad + min, back_rad + max, self.half_width_m)
     }
 
-    /// The maximum speed, up to `wanted_m_s`, from which the robot stops within `free_m` if its
-    /// current speed is `now_m_s`.
+    /// The maximum speed, up to `setpoint_m_s`, from which the robot stops within `free_m` if its
+    /// current speed is `current_speed_m_s`.
     #[inline]
-    fn speed_m_s(&self, wanted_m_s: f64, now_m_s: f64, free_m: f64, period_s: f64) -> f64 {
-        if self.needed_m(wanted_m_s, now_m_s, period_s) <= free_m {
-            return wanted_m_s;
+    fn speed_m_s(
+        &self,
+        setpoint_m_s: f64,
+        current_speed_m_s: f64,
+        free_m: f64,
+        period_s: f64,
+    ) -> f64 {
+        if self.needed_m(setpoint_m_s, current_speed_m_s, period_s) <= free_m {
+            return setpoint_m_s;
         }
-        self.max_m_s(now_m_s, free_m, period_s).min(wanted_m_s)
+        self.max_m_s(current_speed_m_s, free_m, period_s)
+            .min(setpoint_m_s)
     }
 
     /// The distance that the robot moves if it changes to a speed, keeps it for a period and
     /// brakes.
     #[inline]
-    fn needed_m(&self, wanted_m_s: f64, now_m_s: f64, period_s: f64) -> f64 {
-        let slowing_m_s = (now_m_s - wanted_m_s).max(0.0);
-        let squares = wanted_m_s * wanted_m_s + slowing_m_s * slowing_m_s;
-        wanted_m_s * period_s + squares * self.stopping_s2_m
+    fn needed_m(&self, setpoint_m_s: f64, current_speed_m_s: f64, period_s: f64) -> f64 {
+        let slowing_m_s = (current_speed_m_s - setpoint_m_s).max(0.0);
+        let squares = setpoint_m_s * setpoint_m_s + slowing_m_s * slowing_m_s;
+        setpoint_m_s * period_s + squares * self.stopping_s2_m
     }
 
     /// The `v` with `v period + (v^2 + max(0, now - v)^2) / (2 a) = free`, or 0.
-    fn max_m_s(&self, now_m_s: f64, free_m: f64, period_s: f64) -> f64 {
+    fn max_m_s(&self, current_speed_m_s: f64, free_m: f64, period_s: f64) -> f64 {
         if free_m <= 0.0 {
             return 0.0;
         }
         let s = self.stopping_s2_m;
         let faster = positive_root(s, period_s, free_m);
-        if faster >= now_m_s {
+        if faster >= current_speed_m_s {
             return faster;
         }
-        let left_m = free_m - now_m_s * now_m_s * s;
+        let left_m = free_m - current_speed_m_s * current_speed_m_s * s;
         if left_m <= 0.0 {
             return 0.0;
         }
-        positive_root(2.0 * s, period_s - 2.0 * s * now_m_s, left_m).min(faster)
+        positive_root(2.0 * s, period_s - 2.0 * s * current_speed_m_s, left_m).min(faster)
     }
 }
 
@@ -340,18 +366,18 @@ mod tests {
             walk.wiring = wiring;
             for _ in 0..300 {
                 let percept = walk.percept();
-                let now_m_s = odometry.now_m_s(&percept, &body);
+                let current_speed_m_s = odometry.current_speed_m_s(&percept, &body);
                 let situation = super::Situation {
                     beliefs: None,
                     percept: &percept,
                     body: &body,
                     rings: &governor.rings,
-                    ahead: governor.ahead(&percept, &body, now_m_s),
+                    ahead: governor.ahead(&percept, &body, current_speed_m_s),
                     turned_rad: 0.0,
-                    now_m_s,
+                    current_speed_m_s,
                 };
-                let wanted = Motion { speed_m_s: body.max_speed_m_s, turn_rate_rad_s: rate };
-                let motion = governor.limit(wanted, &situation, &odometry);
+                let setpoint = Motion { speed_m_s: body.max_speed_m_s, turn_rate_rad_s: rate };
+                let motion = governor.limit(setpoint, &situation, &odometry);
                 odometry.record_command(motion, &body);
                 walk.step(motion);
             }

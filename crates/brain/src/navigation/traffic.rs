@@ -61,10 +61,10 @@ impl Traffic {
         &mut self,
         movers: &[Mover],
         body: &Body,
-        [now_m_s, turned_rad]: [f64; 2],
+        [current_speed_m_s, turned_rad]: [f64; 2],
     ) {
         self.lines.clear();
-        let own = stopping_path(body, Point::default(), now_m_s, 0.0);
+        let own = stopping_path(body, Point::default(), current_speed_m_s, 0.0);
         let lag_m = lag_m(&own, turned_rad);
         for mover in movers {
             self.lines.extend(line(&own, lag_m, mover, body));
@@ -73,26 +73,26 @@ impl Traffic {
 
     /// The motion nearest to the proposed one that keeps to all lines: slower, with less of a turn,
     /// or braking straight ahead.
-    pub(crate) fn limit(&self, wanted: Motion, body: &Body, now_m_s: f64) -> Motion {
-        let is_turning_only = now_m_s == 0.0 && wanted.speed_m_s == 0.0;
+    pub(crate) fn limit(&self, setpoint: Motion, body: &Body, current_speed_m_s: f64) -> Motion {
+        let is_turning_only = current_speed_m_s == 0.0 && setpoint.speed_m_s == 0.0;
         if self.lines.is_empty() || is_turning_only {
-            return wanted;
+            return setpoint;
         }
         for turn in [1.0, 0.5, 0.0] {
             for speed in [1.0, 0.75, 0.5, 0.25, 0.0] {
                 let motion = Motion {
-                    speed_m_s: wanted.speed_m_s * speed,
-                    turn_rate_rad_s: wanted.turn_rate_rad_s * turn,
+                    speed_m_s: setpoint.speed_m_s * speed,
+                    turn_rate_rad_s: setpoint.turn_rate_rad_s * turn,
                 };
-                if self.allows(motion, body, now_m_s) {
+                if self.allows(motion, body, current_speed_m_s) {
                     return motion;
                 }
             }
         }
         Motion {
             speed_m_s: 0.0,
-            turn_rate_rad_s: if now_m_s == 0.0 {
-                wanted.turn_rate_rad_s
+            turn_rate_rad_s: if current_speed_m_s == 0.0 {
+                setpoint.turn_rate_rad_s
             } else {
                 0.0
             },
@@ -100,13 +100,13 @@ impl Traffic {
     }
 
     /// Whether the stopping path after one step of a motion is on this side of every line.
-    fn allows(&self, motion: Motion, body: &Body, now_m_s: f64) -> bool {
+    fn allows(&self, motion: Motion, body: &Body, current_speed_m_s: f64) -> bool {
         let period_s = body.period_s;
         let max_change_m_s = body.max_acceleration_m_s2 * period_s;
-        let change_m_s = (motion.speed_m_s - now_m_s)
+        let change_m_s = (motion.speed_m_s - current_speed_m_s)
             .max(-max_change_m_s)
             .min(max_change_m_s);
-        let then_m_s = now_m_s + change_m_s;
+        let then_m_s = current_speed_m_s + change_m_s;
         let change_s = change_m_s.abs() / body.max_acceleration_m_s2;
         let turned_rad = motion.turn_rate_rad_s * period_s;
         // It accelerates at the start of the step, and then keeps the new speed.
@@ -144,12 +144,12 @@ fn stopping_path(body: &Body, from: Point, speed_m_s: f64, heading_rad: f64) -> 
 fn line(own: &Segment, lag_m: f64, mover: &Mover, body: &Body) -> Option<Line> {
     let braking = BRAKING * mover.braking_m_s2;
     let speed_m_s = mover.speed_m_s();
-    let now_m_s = if speed_m_s > 0.0 && braking.is_finite() {
+    let current_speed_m_s = if speed_m_s > 0.0 && braking.is_finite() {
         speed_m_s + mover.braking_m_s2 * body.period_s / 2.0
     } else {
         speed_m_s
     };
-    let stopping_s = now_m_s / (2.0 * braking);
+    let stopping_s = current_speed_m_s / (2.0 * braking);
     let ahead = mover.velocity_m_s.times(stopping_s);
     let other = Segment {
         from: mover.at,

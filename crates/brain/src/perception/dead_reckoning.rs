@@ -36,7 +36,7 @@ impl DeadReckoning {
     /// commanded and the measured speed, because braking too early is safe. For localisation, see
     /// [`DeadReckoning::likely_speed_m_s`].
     #[inline]
-    pub(crate) fn now_m_s(&self, percept: &Percept, body: &Body) -> f64 {
+    pub(crate) fn current_speed_m_s(&self, percept: &Percept, body: &Body) -> f64 {
         let commanded = f64::from(self.speed_m_s);
         let max = body.max_speed_m_s;
         match wheels_m_s(percept, body) {

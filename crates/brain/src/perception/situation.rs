@@ -33,7 +33,7 @@ pub(crate) struct Situation<'s> {
     /// Angle by which the body has turned since the previous step.
     pub(crate) turned_rad: f64,
     /// Upper bound of the current speed; negative in reverse.
-    pub(crate) now_m_s: f64,
+    pub(crate) current_speed_m_s: f64,
 }
 
 impl Situation<'_> {
@@ -62,7 +62,7 @@ impl Situation<'_> {
     /// Stopping distance if the body brakes now.
     #[inline]
     pub(crate) fn stopping_m(&self) -> f64 {
-        self.now_m_s * self.now_m_s / (2.0 * self.body.max_acceleration_m_s2)
+        self.current_speed_m_s * self.current_speed_m_s / (2.0 * self.body.max_acceleration_m_s2)
     }
 
     /// Whether there is an obstacle within `near_m` straight ahead. Scans from before the last

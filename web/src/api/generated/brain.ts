@@ -14,7 +14,7 @@ export interface BeliefState {
   /** Its goals, by precedence. */
   goals: GoalState[];
   /** The utility of the headings around it; none if it did not navigate in its last step. */
-  reach: HeadingOptions | null;
+  heading_options: HeadingOptions | null;
 }
 
 /** The estimate of an item. */
@@ -110,14 +110,14 @@ export interface HeadingOption {
   utility: number;
 }
 
-/** The headings that a robot considered, and which of them it took. */
+/** The headings that a robot considered, and the one that it chose. */
 export interface HeadingOptions {
   /** The next place on its path, relative to the robot's front. */
   to: Point;
-  /** Index in `courses` of the one that it took. */
-  taken: number;
+  /** Index in `headings` of the chosen one. */
+  chosen: number;
   /** All around, the first straight ahead, anticlockwise. */
-  courses: HeadingOption[];
+  headings: HeadingOption[];
 }
 
 /** A message from one robot to others. */

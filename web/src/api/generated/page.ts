@@ -121,7 +121,7 @@ export interface OpenedScenario {
 }
 
 /** Where a scenario is. */
-export type Origin = "shipped" | "folder";
+export type Origin = "bundled" | "folder";
 
 /** Acknowledge that a frame has been drawn, and all before it. At most three frames are not acknowledged. */
 export interface Acknowledge {

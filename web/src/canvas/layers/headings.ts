@@ -11,10 +11,11 @@ export const headings: Layer = {
   on: true,
   place: "over",
   only: "metric",
-  active: ({ inspection, selected }) => selected >= 0 && !!inspection?.belief_state?.reach,
+  active: ({ inspection, selected }) => selected >= 0 && !!inspection?.belief_state?.heading_options,
   draw(pen, { inspection, setting, selected }) {
     const beliefState = inspection?.robot === setting.robots[selected] ? inspection?.belief_state : null;
-    if (beliefState?.pose && beliefState.reach) drawOptions(pen, beliefState.pose, beliefState.reach);
+    const options = beliefState?.heading_options;
+    if (beliefState?.pose && options) drawOptions(pen, beliefState.pose, options);
   },
 };
 
@@ -22,10 +23,10 @@ export const headings: Layer = {
 function drawOptions({ context, camera, colours }: Pen, pose: Pose, options: HeadingOptions): void {
   const shares = relativeUtilities(options);
   const from = toScreen(camera, ...pose.at);
-  options.courses.forEach((option, i) => {
+  options.headings.forEach((option, i) => {
     const share = shares[i] ?? 0;
     const to = toScreen(camera, ...toWorldFrame(pose, option.at));
-    const isChosen = i === options.taken;
+    const isChosen = i === options.chosen;
     context.strokeStyle = context.fillStyle = mixColours(colours["reach-low"], colours["reach-high"], share);
     context.lineWidth = isChosen ? 3 : 1;
     context.beginPath();

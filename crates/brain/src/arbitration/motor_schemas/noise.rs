@@ -55,7 +55,7 @@ impl Noise {
     fn advance(&mut self, situation: &Situation) {
         let (turned_rad, distance_m) = (
             situation.turned_rad,
-            situation.now_m_s * situation.body.period_s,
+            situation.current_speed_m_s * situation.body.period_s,
         );
         self.direction_rad = wrapped(self.direction_rad - turned_rad);
         let moved = Point {
@@ -104,7 +104,7 @@ mod tests {
             rings: &[],
             ahead: None,
             turned_rad: 0.0,
-            now_m_s: speed_m_s,
+            current_speed_m_s: speed_m_s,
         };
         let steps = (0..10 * seconds).map(|_| noise.vector(&spec, true, &situation).length());
         let all: Vec<f64> = steps.collect();
@@ -145,7 +145,7 @@ mod tests {
                 rings: &[],
                 ahead: None,
                 turned_rad: 0.05,
-                now_m_s: 0.0,
+                current_speed_m_s: 0.0,
             };
             let vector = noise.vector(&spec, true, &situation);
             wrapped(heading_rad + libm::atan2(vector.y, vector.x))
@@ -176,7 +176,7 @@ mod tests {
             rings: &[],
             ahead: None,
             turned_rad: 0.0,
-            now_m_s: 0.0,
+            current_speed_m_s: 0.0,
         };
         let mut noise = Noise::default();
         for _ in 0..200 {

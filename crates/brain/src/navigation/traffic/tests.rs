@@ -94,10 +94,10 @@ impl TestRobot {
         let way = direction(self.turned_rad / 2.0).times(self.moved_m);
         let (body, turned_rad) = (&self.body, self.turned_rad);
         self.others.update(percept, body, way, turned_rad);
-        let now_m_s = self.speed_m_s;
+        let current_speed_m_s = self.speed_m_s;
         self.traffic
-            .update(&self.others.movers, body, [now_m_s, turned_rad]);
-        self.traffic.limit(wanted, body, now_m_s)
+            .update(&self.others.movers, body, [current_speed_m_s, turned_rad]);
+        self.traffic.limit(wanted, body, current_speed_m_s)
     }
 
     fn begin_step(&mut self) {
@@ -265,14 +265,14 @@ fn mover(at: [f64; 2], velocity_m_s: [f64; 2]) -> Mover {
     }
 }
 
-fn limited(movers: &[Mover], wanted: [f64; 2], now_m_s: f64) -> [f64; 2] {
+fn limited(movers: &[Mover], wanted: [f64; 2], current_speed_m_s: f64) -> [f64; 2] {
     let mut traffic = Traffic::default();
-    traffic.update(movers, &rover(), [now_m_s, 0.0]);
+    traffic.update(movers, &rover(), [current_speed_m_s, 0.0]);
     let wanted = Motion {
         speed_m_s: wanted[0],
         turn_rate_rad_s: wanted[1],
     };
-    let motion = traffic.limit(wanted, &rover(), now_m_s);
+    let motion = traffic.limit(wanted, &rover(), current_speed_m_s);
     [motion.speed_m_s, motion.turn_rate_rad_s]
 }
 

@@ -141,19 +141,19 @@ impl Beliefs {
             .or_else(reported)
     }
 
-    /// Updates the beliefs after a step: `now_m_s` is the estimated speed, `turned_rad` the turn
+    /// Updates the beliefs after a step: `current_speed_m_s` is the estimated speed, `turned_rad` the turn
     /// since the last step.
     pub(crate) fn update(
         &mut self,
         percept: &Percept,
         body: &Body,
         rings: &[Ring],
-        [now_m_s, turned_rad]: [f64; 2],
+        [current_speed_m_s, turned_rad]: [f64; 2],
     ) {
         self.id = percept.id;
         self.uptime_s += body.period_s;
-        let travelled_m = travelled_m([self.speed_m_s, now_m_s], body);
-        self.speed_m_s = now_m_s;
+        let travelled_m = travelled_m([self.speed_m_s, current_speed_m_s], body);
+        self.speed_m_s = current_speed_m_s;
         self.localisation
             .update(percept, body, travelled_m, turned_rad);
         let motion = direction(turned_rad / 2.0).times(travelled_m);
@@ -169,7 +169,7 @@ impl Beliefs {
         self.update_map(percept, &pose, rings, body.period_s);
         let rate_rad_s = turned_rad / body.period_s.max(f64::MIN_POSITIVE);
         for observation in &percept.observations {
-            let then = earlier(&pose, [now_m_s, rate_rad_s], observation.age_s);
+            let then = earlier(&pose, [current_speed_m_s, rate_rad_s], observation.age_s);
             self.update_items(observation, percept, body, then);
         }
         for received in &percept.inbox {
@@ -249,10 +249,10 @@ impl Beliefs {
 
 /// The distance travelled in a step: acceleration to the new speed first, then motion at that
 /// speed.
-fn travelled_m([before_m_s, now_m_s]: [f64; 2], body: &Body) -> f64 {
-    let change_m_s = now_m_s - before_m_s;
+fn travelled_m([previous_speed_m_s, current_speed_m_s]: [f64; 2], body: &Body) -> f64 {
+    let change_m_s = current_speed_m_s - previous_speed_m_s;
     let change_s = change_m_s.abs() / body.max_acceleration_m_s2.max(f64::MIN_POSITIVE);
-    now_m_s * body.period_s - change_m_s * change_s.min(body.period_s) / 2.0
+    current_speed_m_s * body.period_s - change_m_s * change_s.min(body.period_s) / 2.0
 }
 
 /// The pose some time ago, at a constant speed and turn rate.

@@ -98,8 +98,8 @@ fn the_reasons_of_a_decision_are_reported() {
         // The active reflex, or the behaviour of the pursued goal; a heading is only chosen
         // towards a goal.
         assert!(leads(2) || first.is_none_or(|goal| leads(goal.behaviour)));
-        assert!(belief_state.reach.is_none() || !leads(2));
-        reached += u32::from(belief_state.reach.is_some());
+        assert!(belief_state.heading_options.is_none() || !leads(2));
+        reached += u32::from(belief_state.heading_options.is_some());
     }
     assert!(reached > 200 && pursued > 200, "{reached} {pursued}");
 }
