@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 
 __all__ = [
     "CONTACTS",
-    "FIRST_LOOK",
+    "FIRST_ANALYSIS_RUNS",
     "MAX_IMAGE_BYTES",
     "MAX_RUNS",
     "Brain",
@@ -54,7 +54,7 @@ __all__ = [
 ]
 
 CONTACTS: list[str]
-FIRST_LOOK: int
+FIRST_ANALYSIS_RUNS: int
 MAX_IMAGE_BYTES: int
 MAX_RUNS: int
 

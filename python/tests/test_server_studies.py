@@ -22,7 +22,7 @@ from agent_economy.server import Workspace, app
 from agent_economy.server.studies import job
 from agent_economy.server.studies.factors import factors
 from agent_economy.study import report
-from agent_economy.study.arguments import FIRST_LOOK
+from agent_economy.study.arguments import FIRST_ANALYSIS_RUNS
 from agent_economy.study.report import View
 
 OWN, WS = "http://127.0.0.1:8765", "ws://127.0.0.1:8765/ws"
@@ -33,7 +33,7 @@ LONG = {"scenario": "search", "vary": {"robots.rover.count": "1..20"}, "delta": 
 SIZES, RUNS = {"robots.rover.count": "2..5"}, 2000
 METRIC = {"scenario": "search", "vary": SIZES, "delta": 0.01, "max_runs": RUNS}
 """A study that takes some seconds, however fast the machine, to be stopped and killed meanwhile."""
-FIRST_ROUND = 4 * FIRST_LOOK
+FIRST_ROUND = 4 * FIRST_ANALYSIS_RUNS
 
 Response = dict[str, Any]
 

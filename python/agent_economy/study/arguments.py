@@ -15,7 +15,7 @@ Floats = NDArray[np.float64]
 
 MAX_CONFIGURATIONS = 100_000
 MIN_CONFIDENCE = 0.5
-FIRST_LOOK = _core.FIRST_LOOK
+FIRST_ANALYSIS_RUNS = _core.FIRST_ANALYSIS_RUNS
 """Runs of every configuration before the first decision."""
 
 
@@ -34,7 +34,7 @@ def checked_arguments(  # noqa: PLR0913, PLR0917  (the arguments of select_best)
         InputError: If an argument is invalid; it lists all errors.
     """
     whole_k = is_whole(k, 1, MAX_CONFIGURATIONS)
-    min_runs = FIRST_LOOK * k if whole_k else 1
+    min_runs = FIRST_ANALYSIS_RUNS * k if whole_k else 1
     limits = limits_of(k, bounds) if whole_k else None
     errors = [
         *errors_unless(whole_k, "k", k, f"a whole number from 1 to {MAX_CONFIGURATIONS}"),

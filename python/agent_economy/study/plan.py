@@ -21,7 +21,7 @@ from agent_economy.scenario import Override, Scenario, Source
 from agent_economy.scenario.validation import check, errors_unless, is_whole, of_type, whole
 from agent_economy.study import design
 from agent_economy.study.arguments import (
-    FIRST_LOOK,
+    FIRST_ANALYSIS_RUNS,
     MIN_CONFIDENCE,
     Floats,
     Guarantee,
@@ -196,7 +196,7 @@ def draft(  # noqa: PLR0913  (as in make)
     confidence = confidence if confidence is not None else scenario.confidence
     check_question(seed=seed, delta=delta, confidence=confidence, guarantee=guarantee, runs=runs)
     configurations = tuple(design.points(scenario.factors, scenario.design, seed))
-    check_max_runs(max_runs, runs, FIRST_LOOK * len(configurations))
+    check_max_runs(max_runs, runs, FIRST_ANALYSIS_RUNS * len(configurations))
     delta = delta if delta is not None else scenario.delta
     return Plan(
         scenario=scenario,
@@ -237,7 +237,7 @@ def check_max_runs(max_runs: int | None, runs: int | None, min_runs: int) -> Non
     if max_runs is None:
         return
     check(runs is None, "max_runs", max_runs, "left out if runs are given")
-    allowed = f"a whole number of {min_runs} or more, {FIRST_LOOK} of each configuration"
+    allowed = f"a whole number of {min_runs} or more, {FIRST_ANALYSIS_RUNS} of each configuration"
     check(is_whole(max_runs, min_runs, 2**62), "max_runs", max_runs, allowed)
 
 

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from agent_economy.study.answer.evidence import Evidence
 from agent_economy.study.answer.labels import varied
-from agent_economy.study.arguments import FIRST_LOOK
+from agent_economy.study.arguments import FIRST_ANALYSIS_RUNS
 
 MIN_CONFIGURATIONS = 30
 """Minimum number of configurations for the analysis."""
@@ -67,7 +67,7 @@ def sensitivity(evidence: Evidence) -> Sensitivity | None:
         System Safety 92; Plischke, Borgonovo and Smith (2013) for given data; as in SALib.
     """
     paths = varied([each.values for each in evidence.samples])
-    firsts = np.array([each.columns["merit"][:FIRST_LOOK] for each in evidence.samples])
+    firsts = np.array([each.columns["merit"][:FIRST_ANALYSIS_RUNS] for each in evidence.samples])
     means = firsts.mean(axis=1)
     if len(paths) < 2 or len(means) < MIN_CONFIGURATIONS or np.ptp(means) == 0:  # noqa: PLR2004
         return None
