@@ -10,7 +10,6 @@ import { fileURLToPath } from "node:url";
 import { WebSocketServer } from "ws";
 import { pictureOf } from "./fake/run.mjs";
 import { documentOf, entries } from "./fake/scenarios.mjs";
-import { FakeRecordings } from "./fake/recordings.mjs";
 import { FakeStudies } from "./fake/studies.mjs";
 import { FakeRunConnection } from "./fake/run_connection.mjs";
 
@@ -21,16 +20,13 @@ const policy = "default-src 'self'; img-src 'self' data:; style-src 'self'";
 /** Starts the server. Returns its address and functions that drop its connections and stop it. */
 export async function serve(port = 0) {
   const studies = new FakeStudies();
-  const recordings = new FakeRecordings();
   const server = createServer((request, answer) =>
-    handle(request, answer, { studies, recordings }).catch(() =>
-      send(answer, 404, "text/plain", "not found"),
-    ),
+    handle(request, answer, { studies }).catch(() => send(answer, 404, "text/plain", "not found")),
   );
   const sockets = new WebSocketServer({ server, path: "/ws", perMessageDeflate: false });
   sockets.on("connection", (socket, request) => {
     const study = new URL(request.url, "http://localhost").searchParams.get("study");
-    if (study === null) new FakeRunConnection(socket, { studies, recordings });
+    if (study === null) new FakeRunConnection(socket, { studies });
     else studies.follow(study, socket);
   });
   await new Promise((ready) => server.listen(port, "127.0.0.1", ready));
@@ -45,7 +41,7 @@ export async function serve(port = 0) {
   return { url: `http://127.0.0.1:${server.address().port}`, drop, stop };
 }
 
-async function handle(request, answer, { studies, recordings }) {
+async function handle(request, answer, { studies }) {
   const { pathname, searchParams } = new URL(request.url, "http://localhost");
   if (/^\/api\/(factors|plan|stud)/.test(pathname)) {
     const body = request.method === "POST" ? JSON.parse(await bodyOf(request)) : null;
@@ -54,9 +50,6 @@ async function handle(request, answer, { studies, recordings }) {
     return send(answer, status, "application/json", JSON.stringify(reply));
   }
   if (pathname === "/api/scenarios") return send(answer, 200, "application/json", JSON.stringify(entries));
-  if (pathname === "/api/recordings")
-    return send(answer, 200, "application/json", JSON.stringify(recordings.listed()));
-  if (pathname === "/api/recordings/file") return send(answer, 200, "application/octet-stream", "MCAP");
   if (pathname === "/api/pictures")
     return send(answer, 200, "image/svg+xml", pictureOf(documentOf(searchParams.get("scenario"))));
   if (pathname === "/api/schema")

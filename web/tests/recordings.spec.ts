@@ -1,112 +1,160 @@
-import { readFile } from "node:fs/promises";
+import { mkdir, readFile, rename, writeFile } from "node:fs/promises";
+import { join } from "node:path";
 import type { Page } from "@playwright/test";
-import { expect, expectAccessible, runAt, test } from "./page";
+import type { Refused, Saved } from "../src/api/protocol";
+import { altered, expect, expectAccessible, ownScenario, type RealServer, runAt, test } from "./page";
 
 const scenario = "scenario=search-beliefs&seed=7&run=2";
+const status = (page: Page) => page.locator("#status");
+const hash = (page: Page) => page.getByTitle("Hash of the run's state").getAttribute("title");
 
 async function choose(page: Page, name: string): Promise<void> {
   await page.locator("summary", { hasText: "Export" }).click();
   await page.getByRole("button", { name }).click();
 }
 
-test("a run is saved, and its recording opens as that run", async ({ page, fake }) => {
-  await page.goto(runAt(fake, `${scenario}&changes=[[5,%22robots.rover.count%22,6]]&tick=20`));
-  await expect(page.locator("#status")).toContainText("6 robots");
+/** Saves a run, and renames its recording. */
+async function record(page: Page, { url, folder }: RealServer, name: string): Promise<void> {
+  const query = "scenario=search&seed=3&changes=[[20,%22robots.rover.count%22,6]]&tick=40";
+  await page.goto(runAt({ url }, query));
+  await expect(status(page)).toContainText("4.0 s, 6 robots");
+  await choose(page, "Save recording");
+  const saved = await page
+    .getByText(/^Saved as/)
+    .locator("code")
+    .textContent();
+  await rename(join(folder, saved ?? ""), join(folder, name));
+}
+
+test("a run is saved, and its recording opens as that run, to the bit", async ({ page, server }) => {
+  let showSaved = () => {};
+  const checked = new Promise<void>((done) => (showSaved = done));
+  await altered(page, async (message) => {
+    if (message.type === "saved") await checked;
+    return message;
+  });
+  await page.goto(runAt(server, `${scenario}&changes=[[5,%22robots.rover.count%22,6]]&tick=20`));
+  await expect(status(page)).toContainText("2.0 s, 6 robots");
+  const there = await hash(page);
   await choose(page, "Save recording");
   await expect(page.getByRole("progressbar", { name: "Saving the run" })).toBeVisible();
   await expectAccessible(page);
-  await expect(page.getByText("Saved as recordings/search-beliefs-7-2-1.mcap")).toBeVisible();
+  showSaved();
+  await expect(page.getByText(/Saved as recordings\/search-beliefs-7-2-\w+\.mcap/)).toBeVisible();
   await expectAccessible(page);
   await page.getByRole("link", { name: "Open", exact: true }).click();
   await expect(page.getByText("seed 7, run 2, recorded")).toBeVisible();
-  await expect(page.locator("#status")).toContainText("0.0 s, 4 robots");
-  await page.getByRole("slider", { name: "Time" }).fill("20");
-  await expect(page.locator("#status")).toContainText("2.0 s, 6 robots");
-  await expect.poll(() => page.url()).toMatch(/recording=recordings\/search-beliefs-7-2-1.mcap&tick=20/);
+  await expect(status(page)).toContainText("0.0 s, 4 robots");
+  const slider = page.getByRole("slider", { name: "Time" });
+  await slider.fill((await slider.getAttribute("max")) ?? "");
+  await expect(status(page)).toContainText("2.0 s, 6 robots");
+  await expect.poll(() => hash(page)).toBe(there);
+  await expect.poll(() => page.url()).toMatch(/recording=recordings\/search-beliefs-7-2-\w+\.mcap&tick=20/);
 });
 
-test("saving can be cancelled", async ({ page, fake }) => {
-  await page.goto(runAt(fake, scenario));
+test("saving can be cancelled", async ({ page, server }) => {
+  const cancelled: Saved = { type: "saved", recording: null };
+  await page.routeWebSocket(/\/ws/, (line) => {
+    const onwards = line.connectToServer();
+    // Saving takes until it is cancelled.
+    onwards.onMessage((data) => {
+      if (typeof data !== "string" || JSON.parse(data).type !== "saved") line.send(data);
+    });
+    line.onMessage((data) => {
+      if (JSON.parse(String(data)).type === "cancel_save") line.send(JSON.stringify(cancelled));
+      else onwards.send(data);
+    });
+  });
+  await page.goto(runAt(server, scenario));
   await choose(page, "Save recording");
   await page.getByRole("button", { name: "Cancel" }).click();
   await expect(page.getByRole("progressbar")).toHaveCount(0);
   await expect(page.getByText("Saved as")).toHaveCount(0);
 });
 
-test("the error of a failed save is displayed", async ({ page, fake }) => {
-  await page.goto(runAt(fake, "scenario=flock"));
+test("the error of a failed save is displayed", async ({ page, server }) => {
+  const message = "recordings: the disk is full, and the recording was removed: free some space";
+  const error = { file: null, line: null, path: "", value: null, allowed: "", suggestion: null, message };
+  const refused: Refused = { type: "refused", about: "save", path: null, errors: [error] };
+  await altered(page, (sent) => (sent.type === "saved" ? refused : sent));
+  await page.goto(runAt(server, "scenario=flock"));
   await choose(page, "Save recording");
-  await expect(page.getByRole("alert")).toContainText("takes no more");
+  await expect(page.getByRole("alert")).toContainText("the disk is full");
   await expectAccessible(page);
 });
 
-test("recordings are listed, opened and downloaded", async ({ page, fake }) => {
-  await page.goto(fake.url);
+test("recordings are listed, opened and downloaded", async ({ page, server }) => {
+  await record(page, server, "listed.mcap");
+  await mkdir(join(server.folder, "old"), { recursive: true });
+  await writeFile(join(server.folder, "old/damaged.mcap"), "not a recording");
+  await page.goto(server.url);
   await page.getByRole("link", { name: "Recordings" }).click();
   await expect(page.getByRole("cell", { name: /Cannot be opened: it is not an MCAP file/ })).toBeVisible();
+  await expect(page.getByRole("row", { name: /^listed.mcap search 3 0 40/ })).toBeVisible();
   await expectAccessible(page);
   const [file] = await Promise.all([
     page.waitForEvent("download"),
-    page.getByRole("link", { name: "Download field.mcap" }).click(),
+    page.getByRole("link", { name: "Download listed.mcap" }).click(),
   ]);
-  expect(await readFile(await file.path(), "utf8")).toBe("MCAP");
-  await page.getByRole("link", { name: "field.mcap", exact: true }).click();
+  expect(await readFile(await file.path())).toEqual(await readFile(join(server.folder, "listed.mcap")));
+  await page.getByRole("link", { name: "listed.mcap", exact: true }).click();
   await expect(page.getByText("seed 3, run 0, recorded")).toBeVisible();
-});
-
-test("the list of recordings is usable on a phone", async ({ page, fake }) => {
   await page.setViewportSize({ width: 360, height: 740 });
-  await page.goto(`${fake.url}/#/recordings`);
-  await expect(page.getByRole("link", { name: "field.mcap", exact: true })).toBeVisible();
+  await page.goto(`${server.url}/#/recordings`);
+  await expect(page.getByRole("link", { name: "listed.mcap", exact: true })).toBeVisible();
   expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBe(360);
   await expectAccessible(page);
 });
 
 test("changes that do not fit into an address are saved, and the address names the recording", async ({
   page,
-  fake,
+  server,
   context,
 }) => {
-  const areas = Array.from({ length: 900 }, (_, i) => [i, i]);
-  await page.goto(
-    runAt(fake, `${scenario}&tick=3&changes=${JSON.stringify([[1, "terrain.mud", { areas_m: [areas] }]])}`),
-  );
-  await expect(page.locator("#status")).toContainText("0.3 s");
+  const corner = (i: number) => [12 + 8 * Math.cos(i / 100), 12 + 8 * Math.sin(i / 100)];
+  const area = Array.from({ length: 600 }, (_, i) => corner(i).map((at) => Number(at.toFixed(6))));
+  const changes = JSON.stringify([[1, "terrain.mud", { areas_m: [area] }]]);
+  await page.goto(runAt(server, `${scenario}&tick=3&changes=${changes}`));
+  await expect(status(page)).toContainText("0.3 s");
   await expect
     .poll(() => page.url(), { timeout: 15_000 })
-    .toContain("recording=recordings/search-beliefs-7-2-1.mcap&tick=3");
+    .toMatch(/recording=recordings\/search-beliefs-7-2-\w+\.mcap&tick=3/);
   const other = await context.newPage();
   await other.goto(page.url());
-  await expect(other.locator("#status")).toContainText("0.3 s");
+  await expect(status(other)).toContainText("0.3 s");
 });
 
 test("a large file of the user's own is saved, so that its address works elsewhere", async ({
   page,
-  fake,
+  server,
   context,
 }) => {
   const noise = Array.from({ length: 9000 }, (_, i) => ((i * 2654435761) >>> 0).toString(36)).join("\n# ");
-  const buffer = Buffer.from(`engine = "metric"\n# ${noise}`);
-  await page.goto(fake.url);
+  const buffer = Buffer.from(`${ownScenario}# ${noise}`);
+  await page.goto(server.url);
   await page
     .locator("input[type=file]")
     .setInputFiles({ name: "my.toml", mimeType: "application/toml", buffer });
-  await expect(page.locator("#status")).toContainText("4 robots");
+  await expect(status(page)).toContainText("4 robots");
   await expect.poll(() => page.url(), { timeout: 15_000 }).toContain("recording=recordings/");
   await page.getByRole("application").press(".");
   await expect.poll(() => page.url()).toContain("tick=1");
   const other = await context.newPage();
   await other.goto(page.url());
-  await expect(other.locator("#status")).toContainText("0.1 s, 4 robots");
+  await expect(status(other)).toContainText("0.1 s, 4 robots");
 });
 
-test("a change in a recorded run makes a new run, whose address has all changes", async ({ page, fake }) => {
-  await page.goto(runAt(fake, "recording=field.mcap&tick=30"));
-  await expect(page.locator("#status")).toContainText("3.0 s, 6 robots");
+test("a change in a recorded run makes a new run, whose address has all changes", async ({
+  page,
+  server,
+}) => {
+  await record(page, server, "changed.mcap");
+  await page.goto(runAt(server, "recording=changed.mcap&tick=30"));
+  await expect(status(page)).toContainText("3.0 s, 6 robots");
   await page.getByRole("tab", { name: "Parameters" }).click();
   await page.getByRole("spinbutton", { name: "Count of rover" }).fill("2");
   await page.keyboard.press("Enter");
-  await expect(page.locator("#status")).toContainText("2 robots");
+  await expect(status(page)).toContainText("2 robots");
   await expect
     .poll(() => decodeURIComponent(page.url()))
     .toContain('changes=[[20,"robots.rover.count",6],[30,"robots.rover.count",2]]');
@@ -116,16 +164,22 @@ test("a change in a recorded run makes a new run, whose address has all changes"
   await expect.poll(() => page.url()).toMatch(/text=z.*&seed=3&run=1/);
 });
 
-test("a missing recording is reported", async ({ page, fake }) => {
-  await page.goto(runAt(fake, "recording=gone.mcap"));
-  await expect(page.getByText("there is no such recording")).toBeVisible();
+test("a missing recording is reported", async ({ page, server }) => {
+  await page.goto(runAt(server, "recording=gone.mcap"));
+  await expect(page.getByText("recording = 'gone.mcap': must be one below")).toBeVisible();
   await expectAccessible(page);
 });
 
-test("the scenario with its changes is saved as a file", async ({ page, fake }) => {
-  await page.goto(runAt(fake, `${scenario}&tick=20`));
-  await expect(page.locator("#status")).toContainText("2.0 s");
+test("the scenario with its changes is saved as a file, and the file opens", async ({ page, server }) => {
+  await page.goto(runAt(server, `${scenario}&tick=20&changes=[[0,%22robots.rover.count%22,3]]`));
+  await expect(status(page)).toContainText("2.0 s, 3 robots");
   const [saved] = await Promise.all([page.waitForEvent("download"), choose(page, "Scenario with changes")]);
   expect(saved.suggestedFilename()).toBe("search-beliefs-20.toml");
-  expect(await readFile(await saved.path(), "utf8")).toContain("# From 20");
+  const buffer = await readFile(await saved.path());
+  expect(buffer.toString()).toContain("# From search-beliefs, seed 7, run 2, at tick 20");
+  await page.goto(server.url);
+  await page
+    .locator("input[type=file]")
+    .setInputFiles({ name: "again.toml", mimeType: "application/toml", buffer });
+  await expect(status(page)).toContainText("3 robots");
 });

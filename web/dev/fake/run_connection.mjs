@@ -6,8 +6,7 @@ const maxUnseen = 3;
 
 /** The run of one page: the server side of its WebSocket, without a simulator. */
 export class FakeRunConnection {
-  constructor(socket, { studies, recordings }) {
-    this.recordings = recordings;
+  constructor(socket, { studies }) {
     this.socket = socket;
     this.studies = studies;
     this.unseen = 0;
@@ -20,7 +19,6 @@ export class FakeRunConnection {
 
   close() {
     clearInterval(this.timer);
-    clearTimeout(this.saving);
   }
 
   say(message) {
@@ -37,14 +35,12 @@ export class FakeRunConnection {
   }
 
   open(message) {
-    const recorded = this.recordings.find(message.recording);
-    if (message.recording !== null && !recorded) return this.refuse("open", "there is no such recording");
-    const { text, study, run } = { study: null, ...(recorded ?? message) };
+    const { text, study, run } = message;
     const held = study ? this.studies.all.get(study.id) : null;
-    const { seed = held?.ask.seed, scenario: requested } = recorded ?? message;
+    const { seed = held?.ask.seed, scenario: requested } = message;
     const scenario = held ? held.ask.scenario : requested;
     const { tick } = message;
-    const changes = message.changes ?? recorded.changes;
+    const changes = message.changes;
     if (scenario === "broken") {
       const message = "robots.rover.count is missing: expected a whole number from 0 to 1000000";
       return this.say({
@@ -74,14 +70,12 @@ export class FakeRunConnection {
     );
     this.seed = Number(BigInt(seed) % 1000003n) + Number(run);
     this.source = { scenario, text, seed, run };
-    this.recorded = recorded;
-    const edge = Math.max(tick, recorded?.edge ?? 0);
+    const edge = tick;
     Object.assign(this, { changes, generation: 0, edge, playing: false, speed: 1, selected: null });
     const { name, engine, summary } = entryOf(text === null ? scenario : null);
     const { time_limit_s } = this.base.clock;
-    const recording = recorded ? { id: message.recording, program: "0.1.0" } : null;
     const opened = { id: scenario, name, engine, summary, time_limit_s };
-    this.say({ type: "opened", scenario: opened, seed, run, recording });
+    this.say({ type: "opened", scenario: opened, seed, run, recording: null });
     this.build(tick);
     this.tell();
     this.show();
@@ -96,9 +90,8 @@ export class FakeRunConnection {
     this.run = new FakeRun(document, this.seed);
     this.run.to(tick);
     const { kinds, items } = this.run;
-    const { generation, recorded } = this;
+    const { generation } = this;
     const changes = this.changes.filter(([at]) => at <= tick);
-    const isRecorded = recorded && JSON.stringify(recorded.changes) === JSON.stringify(this.changes);
     this.say({
       type: "setting",
       generation,
@@ -111,7 +104,6 @@ export class FakeRunConnection {
       item_kinds: Object.keys(document.items ?? {}).sort(),
       maps: mapsOf(document),
       changes,
-      log: isRecorded ? null : this.changes,
     });
   }
 
@@ -156,21 +148,6 @@ export class FakeRunConnection {
     this.build(this.run.tick);
   }
 
-  hear_save() {
-    if (this.source.scenario === "flock") return this.refuse("save", "recordings: takes no more");
-    const steps = this.edge;
-    this.say({ type: "saving", done: 0, steps });
-    this.saving = setTimeout(() => {
-      const run = { ...this.source, changes: this.changes, edge: steps };
-      const { name } = entryOf(run.scenario);
-      const id = `recordings/${name}-${run.seed}-${run.run}-${this.changes.length}.mcap`;
-      this.say({ type: "saved", recording: this.recordings.put(id, run) });
-    }, 400);
-  }
-  hear_cancel_save() {
-    clearTimeout(this.saving);
-    this.say({ type: "saved", recording: null });
-  }
   hear_export() {
     this.say({ type: "exported", text: `# From ${this.run.tick}\nengine = "metric"\n` });
   }
