@@ -104,6 +104,7 @@ export class FakeRunConnection {
       item_kinds: Object.keys(document.items ?? {}).sort(),
       maps: mapsOf(document),
       changes,
+      log: this.changes,
     });
   }
 
