@@ -74,7 +74,10 @@ mod _core {
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
         let none = PyTuple::empty(module.py());
         module.getattr("InputError")?.setattr("errors", none)?;
-        module.add("FIRST_ANALYSIS_RUNS", select::interim_analyses::next_analysis(0))?;
+        module.add(
+            "FIRST_ANALYSIS_RUNS",
+            select::interim_analyses::next_analysis(0),
+        )?;
         module.add("MAX_IMAGE_BYTES", base::map::MAX_IMAGE_BYTES)?;
         module.add("MAX_RUNS", crate::arguments::MAX_RUNS)?;
         module.add("CONTACTS", Contact::NAMES.map(|(name, _)| name))

@@ -29,7 +29,7 @@
 mod node;
 mod parse;
 mod place;
-pub(crate) mod renamed;
+pub mod renamed;
 mod root;
 pub mod schema;
 mod section;

@@ -6,7 +6,7 @@ use super::node::path_of;
 use crate::error::InputError;
 
 /// Keys, as (old, new). An old key is reported as renamed where the new one is allowed.
-const KEYS: [(&str, &str); 26] = [
+pub const KEYS: [(&str, &str); 26] = [
     ("back_off_m", "reverse_distance_m"),
     ("below", "min_charge"),
     ("best", "peak"),
@@ -36,7 +36,7 @@ const KEYS: [(&str, &str); 26] = [
 ];
 
 /// Values, as (old, new). An old value is reported as renamed where the new one is allowed.
-const VALUES: [(&str, &str); 8] = [
+pub const VALUES: [(&str, &str); 8] = [
     ("bounce", "random_bounce"),
     ("each", "one_each"),
     ("hold", "hold_position"),

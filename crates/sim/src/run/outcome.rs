@@ -88,10 +88,8 @@ mod tests {
     use base::document::Document;
 
     const ROVERS: &str = "
-[clock]
-time_limit_s = 60
-[world]
-size_m = [20, 10]
+clock = { time_limit_s = 60 }
+world = { size_m = [20, 10] }
 [robots.rover]
 count = 2
 radius_m = 0.4

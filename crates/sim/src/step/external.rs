@@ -38,10 +38,8 @@ mod tests {
     use std::sync::Arc;
 
     const TWO: &str = "
-[clock]
-time_limit_s = 100
-[world]
-size_m = [40, 20]
+clock = { time_limit_s = 100 }
+world = { size_m = [40, 20] }
 [robots.rover]
 count = 2
 radius_m = 0.2

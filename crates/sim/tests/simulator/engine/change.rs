@@ -6,16 +6,10 @@ use sim::simulation::Simulation;
 use std::time::{Duration, Instant};
 
 const GROUND: &str = "
-[clock]
-step_s = 0.1
-time_limit_s = 60
-[world]
-size_m = [20, 10]
-obstacles = [{ circle = { at_m = [10, 5], radius_m = 1 } }]
-[items.flag]
-count = 3
-[items.mine]
-count = 5
+clock = { step_s = 0.1, time_limit_s = 60 }
+world = { size_m = [20, 10], obstacles = [{ circle = { at_m = [10, 5], radius_m = 1 } }] }
+items.flag = { count = 3 }
+items.mine = { count = 5 }
 [robots.bird]
 count = 2
 layer = \"air\"
@@ -33,20 +27,10 @@ count = 6
 radius_m = 0.4
 drive = { max_speed_m_s = 2, max_acceleration_m_s2 = 2, max_turn_rate_deg_s = 90 }
 battery = { capacity_j = 1000, idle_w = 5, move_j_per_m = 2 }
-[robots.rover.sensors.sonar]
-kind = \"range\"
-rays = 16
-range_m = 3
-noise_m = 0.02
-[robots.rover.sensors.mates]
-kind = \"robots\"
-range_m = 5
-[robots.rover.sensors.eye]
-kind = \"items\"
-range_m = 1
-[robots.rover.radio]
-range_m = 20
-loss_probability = 0.3
+sensors.sonar = { kind = \"range\", rays = 16, range_m = 3, noise_m = 0.02 }
+sensors.mates = { kind = \"robots\", range_m = 5 }
+sensors.eye = { kind = \"items\", range_m = 1 }
+radio = { range_m = 20, loss_probability = 0.3 }
 ";
 
 fn with(changes: &[(&str, &str)]) -> String {
@@ -70,6 +54,10 @@ fn changed(changes: &[(&str, &str)]) -> (Vec<Robot>, Result<Simulation, NoRoom>)
             (before, Err(why))
         }
     }
+}
+
+fn change(simulation: &mut Simulation, text: &str) {
+    simulation.change(scenario(text)).unwrap();
 }
 
 fn items(simulation: &Simulation) -> Vec<Item> {
@@ -149,10 +137,8 @@ fn adding_and_removing_a_robot_does_not_affect_the_others() {
     let mut simulation = start(GROUND);
     (0..70).for_each(|_| simulation.step());
     let before = robots(&simulation);
-    simulation
-        .change(scenario(&with(&[("count = 6", "count = 7")])))
-        .unwrap();
-    simulation.change(scenario(GROUND)).unwrap();
+    change(&mut simulation, &with(&[("count = 6", "count = 7")]));
+    change(&mut simulation, GROUND);
     assert_eq!(robots(&simulation), before);
 }
 
@@ -164,7 +150,7 @@ fn existing_items_stay_in_place_and_stay_found() {
     }
     let before = items(&simulation);
     let more = with(&[("count = 3", "count = 4"), ("count = 5", "count = 9")]);
-    simulation.change(scenario(&more)).unwrap();
+    change(&mut simulation, &more);
     let after = items(&simulation);
     assert_eq!(after[..3], before[..3]);
     assert_eq!(after[4..9], before[3..]);
@@ -177,26 +163,17 @@ fn existing_items_stay_in_place_and_stay_found() {
 }
 
 const LATE: &str = "
-[clock]
-time_limit_s = 60
-[world]
-size_m = [20, 10]
-[items.flag]
-count = 1
-placement = { kind = \"fixed\", at_m = [[2, 5]] }
-[items.mine]
-count = 2
-placement = { kind = \"fixed\", at_m = [[1, 6], [18, 5]] }
+clock = { time_limit_s = 60 }
+world = { size_m = [20, 10] }
+items.flag = { count = 1, placement = { kind = \"fixed\", at_m = [[2, 5]] } }
+items.mine = { count = 2, placement = { kind = \"fixed\", at_m = [[1, 6], [18, 5]] } }
 [robots.bird]
 count = 1
 layer = \"air\"
 radius_m = 0.4
 start = { kind = \"fixed\", at_m = [[1, 5]] }
 drive = { max_speed_m_s = 0, max_turn_rate_deg_s = 0 }
-[robots.bird.sensors.eye]
-kind = \"items\"
-range_m = 2
-latency_s = 0.5
+sensors.eye = { kind = \"items\", range_m = 2, latency_s = 0.5 }
 ";
 
 /// A camera with a latency of half a second has detected an item that is then removed; another
@@ -206,9 +183,7 @@ fn pending_detections_of_removed_items_are_discarded() {
     let found = |changes: &[(&str, &str)]| {
         let mut simulation = start(LATE);
         simulation.step();
-        simulation
-            .change(scenario(&replaced(LATE, changes)))
-            .unwrap();
+        change(&mut simulation, &replaced(LATE, changes));
         (0..4).for_each(|_| simulation.step());
         assert_eq!(simulation.outcome().found.iter().sum::<u32>(), 0);
         let mut outcomes = Vec::new();
@@ -224,11 +199,11 @@ fn pending_detections_of_removed_items_are_discarded() {
     };
     assert_eq!(found(&[]), [[true, true, false]; 2]);
     assert_eq!(
-        found(&[("count = 1\nplacement", "count = 0\nplacement")]),
+        found(&[("flag = { count = 1", "flag = { count = 0")]),
         [[true, false]; 2]
     );
     let none = [
-        ("count = 1\nplacement", "count = 0\nplacement"),
+        ("flag = { count = 1", "flag = { count = 0"),
         ("count = 2", "count = 0"),
     ];
     assert_eq!(found(&none), [[false; 0]; 2]);
@@ -255,16 +230,16 @@ fn removing_the_remaining_items_completes_a_run_and_adding_some_reopens_it() {
         ("count = 3", "count = 0"),
         ("count = 5", &format!("count = {}", last + 1)),
     ]);
-    simulation.change(scenario(&few)).unwrap();
+    change(&mut simulation, &few);
     assert_eq!(simulation.state().is_over(simulation.scenario()), all_found);
     // Remove everything but clutter, so that it does not matter which mine was found first.
     let clutter = with(&[
         ("count = 3", "count = 0"),
-        ("count = 5", "count = 5\ntarget = false"),
+        ("count = 5", "count = 5, target = false"),
     ]);
-    simulation.change(scenario(&clutter)).unwrap();
+    change(&mut simulation, &clutter);
     assert!(!simulation.outcome().has_failed);
-    simulation.change(scenario(GROUND)).unwrap();
+    change(&mut simulation, GROUND);
     assert!(!simulation.state().is_over(simulation.scenario()));
     assert!(simulation.outcome().has_failed);
 }
@@ -272,29 +247,21 @@ fn removing_the_remaining_items_completes_a_run_and_adding_some_reopens_it() {
 #[test]
 fn the_last_remaining_item_can_be_removed() {
     let line = "
-[clock]
-time_limit_s = 60
-[world]
-size_m = [20, 10]
-[items.mine]
-count = 2
-placement = { kind = \"fixed\", at_m = [[4, 5], [18, 5]] }
+clock = { time_limit_s = 60 }
+world = { size_m = [20, 10] }
+items.mine = { count = 2, placement = { kind = \"fixed\", at_m = [[4, 5], [18, 5]] } }
 [robots.rover]
 count = 1
 radius_m = 0.4
 start = { kind = \"fixed\", at_m = [[1, 5]], heading_deg = [0] }
 drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
-[robots.rover.sensors.eye]
-kind = \"items\"
-range_m = 1
+sensors.eye = { kind = \"items\", range_m = 1 }
 ";
     let mut simulation = start(line);
     drive(&mut simulation, 50, &[(id(0, 0), 1.0, 0.0)]);
     assert_eq!(simulation.outcome().found, [1]);
     let found_s = items(&simulation)[0].found_s.unwrap();
-    simulation
-        .change(scenario(&line.replace("count = 2", "count = 1")))
-        .unwrap();
+    change(&mut simulation, &line.replace("count = 2", "count = 1"));
     assert!(simulation.state().is_over(simulation.scenario()));
     let outcome = simulation.outcome();
     assert!(!outcome.has_failed);
@@ -304,11 +271,8 @@ range_m = 1
 #[test]
 fn a_lower_maximum_speed_applies_at_once() {
     let fast = "
-[clock]
-step_s = 0.1
-time_limit_s = 60
-[world]
-size_m = [200, 20]
+clock = { step_s = 0.1, time_limit_s = 60 }
+world = { size_m = [200, 20] }
 [robots.rover]
 count = 1
 radius_m = 0.4
@@ -321,7 +285,7 @@ drive = { max_speed_m_s = 100, max_acceleration_m_s2 = 100, max_turn_rate_deg_s 
     let slow = fast
         .replace("max_speed_m_s = 100", "max_speed_m_s = 1")
         .replace("max_acceleration_m_s2 = 100", "max_acceleration_m_s2 = 0.1");
-    simulation.change(scenario(&slow)).unwrap();
+    change(&mut simulation, &slow);
     assert_eq!(first(&simulation).speed_m_s, 1.0);
     (0..100).for_each(|_| simulation.step());
     assert!(first(&simulation).at.x < 200.0 - 0.4 + 1e-6);
@@ -363,10 +327,8 @@ fn a_change_without_room_is_rejected_without_effect() {
 #[test]
 fn a_fixed_start_that_is_occupied_by_now_is_rejected() {
     let two = "
-[clock]
-time_limit_s = 60
-[world]
-size_m = [20, 10]
+clock = { time_limit_s = 60 }
+world = { size_m = [20, 10] }
 [robots.rover]
 count = 1
 radius_m = 0.4
@@ -383,11 +345,8 @@ drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
 }
 
 const DRAINED: &str = "
-[clock]
-step_s = 1
-time_limit_s = 1000
-[world]
-size_m = [20, 10]
+clock = { step_s = 1, time_limit_s = 1000 }
+world = { size_m = [20, 10] }
 [robots.rover]
 count = 2
 radius_m = 0.4
@@ -400,7 +359,7 @@ fn recharged(capacity: &str) -> Simulation {
     let mut simulation = start(DRAINED);
     (0..10).for_each(|_| simulation.step());
     let text = replaced(DRAINED, &[("capacity_j = 200, ", capacity)]);
-    simulation.change(scenario(&text)).unwrap();
+    change(&mut simulation, &text);
     simulation
 }
 
@@ -423,18 +382,18 @@ fn an_empty_robot_moves_again_with_a_larger_battery() {
     let mut simulation = recharged("capacity_j = 50, ");
     for (capacity, left) in [("capacity_j = 10000, ", Some(0.99)), ("", None)] {
         let text = replaced(DRAINED, &[("capacity_j = 200, ", capacity)]);
-        simulation.change(scenario(&text)).unwrap();
+        change(&mut simulation, &text);
         let robot = first(&simulation);
         assert_eq!((robot.status, robot.battery), (Status::Active, left));
         let before = robot.energy_j;
         simulation.step();
         assert_eq!(first(&simulation).energy_j, before + 10.0);
         let text = replaced(DRAINED, &[("capacity_j = 200, ", "capacity_j = 50, ")]);
-        simulation.change(scenario(&text)).unwrap();
-        simulation.change(scenario(&text)).unwrap();
+        change(&mut simulation, &text);
+        change(&mut simulation, &text);
         assert_eq!(first(&simulation).status, Status::Empty);
         let text = replaced(DRAINED, &[("capacity_j = 200, ", "capacity_j = 100, ")]);
-        simulation.change(scenario(&text)).unwrap();
+        change(&mut simulation, &text);
     }
 }
 
@@ -449,7 +408,7 @@ fn the_outcome_includes_the_cost_of_removed_robots() {
     let hash = simulation.state().hash();
     for count in [1, 0, 2, 1] {
         let text = replaced(DRAINED, &[("count = 2", &format!("count = {count}"))]);
-        simulation.change(scenario(&text)).unwrap();
+        change(&mut simulation, &text);
         assert_eq!(simulation.outcome(), before);
     }
     assert_ne!(simulation.state().hash(), hash);
@@ -468,10 +427,7 @@ fn adding_a_hundred_thousand_robots_takes_seconds_and_they_do_not_overlap() {
             "radius_m = 0.4",
             "radius_m = 0.4\nbrain = { behaviours = [] }",
         ),
-        (
-            "[robots.rover.radio]\nrange_m = 20\nloss_probability = 0.3\n",
-            "",
-        ),
+        ("radio = { range_m = 20, loss_probability = 0.3 }\n", ""),
     ]);
     let few = scenario(&many.replace("count = 100000", "count = 1000"));
     let (few, many) = (Simulation::new(few, 1, 0).unwrap(), scenario(&many));

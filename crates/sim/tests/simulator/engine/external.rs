@@ -9,18 +9,10 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 const FIELD: &str = "
-[clock]
-step_s = 0.1
-time_limit_s = 1000
-[world]
-size_m = [20, 10]
-obstacles = [{ circle = { at_m = [10, 5], radius_m = 1 } }]
-[items.flag]
-count = 2
-placement = { kind = \"fixed\", at_m = [[2, 8], [6, 8.5]] }
-[items.mine]
-count = 2
-placement = { kind = \"fixed\", at_m = [[6, 8], [19, 9]] }
+clock = { step_s = 0.1, time_limit_s = 1000 }
+world = { size_m = [20, 10], obstacles = [{ circle = { at_m = [10, 5], radius_m = 1 } }] }
+items.flag = { count = 2, placement = { kind = \"fixed\", at_m = [[2, 8], [6, 8.5]] } }
+items.mine = { count = 2, placement = { kind = \"fixed\", at_m = [[6, 8], [19, 9]] } }
 [robots.rover]
 count = 3
 radius_m = 0.4
@@ -28,14 +20,8 @@ start = { kind = \"fixed\", at_m = [[2, 2], [4, 2], [16, 8]], heading_deg = [0, 
 drive = { max_speed_m_s = 2, max_turn_rate_deg_s = 90 }
 collision = { max_collisions = 1 }
 battery = { capacity_j = 20, idle_w = 10 }
-[robots.rover.sensors.sonar]
-kind = \"range\"
-rays = 8
-range_m = 3
-[robots.rover.sensors.eye]
-kind = \"items\"
-range_m = 1
-detection_probability = { flag = 0, mine = 0 }
+sensors.sonar = { kind = \"range\", rays = 8, range_m = 3 }
+sensors.eye = { kind = \"items\", range_m = 1, detection_probability = { flag = 0, mine = 0 } }
 ";
 
 const OUT: RobotId = RobotId { kind: 0, index: 0 };

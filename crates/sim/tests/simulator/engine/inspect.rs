@@ -6,13 +6,9 @@ use std::sync::Arc;
 
 /// Rovers whose brains run in every third step, and birds that flock.
 const TEAM: &str = "
-[clock]
-time_limit_s = 200
-[world]
-size_m = [25, 25]
-obstacles = [{ circle = { at_m = [12, 12], radius_m = 3 } }]
-[items.mine]
-count = 3
+clock = { time_limit_s = 200 }
+world = { size_m = [25, 25], obstacles = [{ circle = { at_m = [12, 12], radius_m = 3 } }] }
+items.mine = { count = 3 }
 [robots.bird]
 count = 3
 radius_m = 0.1

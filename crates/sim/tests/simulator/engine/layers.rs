@@ -5,34 +5,22 @@ use sim::simulation::Simulation;
 
 /// Rovers and birds on lines along x with a pillar, in a field of 20 m with mud.
 const FIELD: &str = "
-[clock]
-step_s = 0.1
-time_limit_s = 100
-[world]
-size_m = [20, 10]
-obstacles = [{ circle = { at_m = [10, 5], radius_m = 1 } }]
-[terrain.mud]
-speed = 0.5
-areas_m = [[[0, 7], [20, 7], [20, 10], [0, 10]]]
+clock = { step_s = 0.1, time_limit_s = 100 }
+world = { size_m = [20, 10], obstacles = [{ circle = { at_m = [10, 5], radius_m = 1 } }] }
+terrain.mud = { speed = 0.5, areas_m = [[[0, 7], [20, 7], [20, 10], [0, 10]]] }
 [robots.bird]
 count = 3
 layer = \"air\"
 radius_m = 0.5
 start = { kind = \"fixed\", at_m = [[4, 5], [2, 2], [16, 2]], heading_deg = [0, 0, 180] }
 drive = { max_speed_m_s = 2, max_turn_rate_deg_s = 90 }
-[robots.bird.sensors.sonar]
-kind = \"range\"
-rays = 1
-range_m = 18
+sensors.sonar = { kind = \"range\", rays = 1, range_m = 18 }
 [robots.rover]
 count = 3
 radius_m = 0.5
 start = { kind = \"fixed\", at_m = [[4, 5], [10, 2], [4, 8]], heading_deg = [0, 0, 0] }
 drive = { max_speed_m_s = 2, max_turn_rate_deg_s = 90 }
-[robots.rover.sensors.sonar]
-kind = \"range\"
-rays = 1
-range_m = 18
+sensors.sonar = { kind = \"range\", rays = 1, range_m = 18 }
 ";
 
 fn all_ahead(simulation: &mut Simulation, steps: u32) {

@@ -43,20 +43,10 @@ fn list(count: u32, mut entry: impl FnMut() -> String) -> String {
 fn polygon(random: &mut Random, wide: f64, high: f64) -> String {
     let [x, y] = [random.between(-1.0, wide), random.between(-1.0, high)];
     let [w, h] = [random.between(0.01, 5.0), random.between(0.01, 5.0)];
+    let [right, top, third] = [x + w, y + h, y + h / 3.0];
     match random.below(2) {
-        0 => format!(
-            "[[{x}, {y}], [{}, {y}], [{}, {}], [{x}, {}]]",
-            x + w,
-            x + w,
-            y + h,
-            y + h
-        ),
-        _ => format!(
-            "[[{x}, {y}], [{}, {}], [{x}, {}]]",
-            x + w,
-            y + h / 3.0,
-            y + h
-        ),
+        0 => format!("[[{x}, {y}], [{right}, {y}], [{right}, {top}], [{x}, {top}]]"),
+        _ => format!("[[{x}, {y}], [{right}, {third}], [{x}, {top}]]"),
     }
 }
 
@@ -73,10 +63,7 @@ fn placement(random: &mut Random, wide: f64, high: f64) -> String {
     match random.below(4) {
         0 => "{ kind = \"clustered\", clusters = 2, spread_m = 1.5 }".to_owned(),
         1 => {
-            let [x, y] = [
-                random.between(0.0, wide / 2.0),
-                random.between(0.0, high / 2.0),
-            ];
+            let [x, y] = [wide, high].map(|side| random.between(0.0, side / 2.0));
             format!("{{ kind = \"uniform\", within_m = [[{x}, {y}], [{wide}, {high}]] }}")
         }
         _ => "{ kind = \"uniform\" }".to_owned(),
@@ -90,27 +77,22 @@ fn robot(
     step_s: f64,
     (wide, high): (f64, f64),
 ) -> String {
-    let like = random.one_of(&[
-        "",
-        "",
-        "",
-        "model = \"tracked\"",
-        "model = \"ugv\"",
-        "model = \"quadrotor\"",
-    ]);
+    let model = match random.one_of(&["", "", "", "tracked", "ugv", "quadrotor"]) {
+        "" => String::new(),
+        model => format!("model = \"{model}\""),
+    };
     let layer = random.one_of(&["ground", "ground", "air"]);
     let radius_m = random.one_of(&[0.0, 0.1, 0.3, 0.8]);
     let most = wide.min(high) / step_s;
     let speed = random.one_of(&[0.0, 1.0, 2.0, 20.0_f64, 100.0]).min(most);
     let back = random.one_of(&[0.0, 0.5, 3.0_f64]).min(most);
     let turn = random.one_of(&[0.0, 90.0, 720.0_f64]).min(179.0 / step_s);
-    let acceleration = random.one_of(&[
-        "",
-        "max_acceleration_m_s2 = 0.5, ",
-        "max_acceleration_m_s2 = 40, ",
-    ]);
+    let acceleration = match random.one_of(&["", "0.5", "40"]) {
+        "" => String::new(),
+        limit => format!("max_acceleration_m_s2 = {limit}, "),
+    };
     let mut text = format!(
-        "[robots.{name}]\n{like}\ncount = {}\nlayer = \"{layer}\"\nradius_m = {radius_m}\nprice = 2.5\n\
+        "[robots.{name}]\n{model}\ncount = {}\nlayer = \"{layer}\"\nradius_m = {radius_m}\nprice = 2.5\n\
          payload_kg = 3\nstart = {}\n\
          drive = {{ max_speed_m_s = {speed}, max_reverse_speed_m_s = {back}, {acceleration}max_turn_rate_deg_s = {turn} }}\n",
         random.below(6),
@@ -120,12 +102,10 @@ fn robot(
     let breaks = random.one_of(&["", ", max_collisions = 1", ", max_collisions = 5"]);
     text += &format!("collision = {{ stop_duration_s = {stop_duration_s}{breaks} }}\n");
     if random.below(2) == 0 {
-        let capacity = random.one_of(&[
-            "",
-            "capacity_j = 0.5, ",
-            "capacity_j = 50, ",
-            "capacity_j = 1e5, ",
-        ]);
+        let capacity = match random.one_of(&["", "0.5", "50", "1e5"]) {
+            "" => String::new(),
+            capacity => format!("capacity_j = {capacity}, "),
+        };
         text += &format!("battery = {{ {capacity}idle_w = 5, move_w = 3, move_j_per_m = 20 }}\n");
     }
     if random.below(2) == 0 {
@@ -154,92 +134,58 @@ fn robot(
         "brain = {{ {rate}limit_speed_to_stopping_distance = {limited}{comma}{behaviours} }}\n"
     );
     for number in 0..random.below(5) {
-        text += &sensor(
-            random,
-            &format!("[robots.{name}.sensors.s{number}]\n"),
-            items,
-            step_s,
-        );
+        let head = format!("[robots.{name}.sensors.s{number}]\n");
+        text += &sensor(random, &head, items, step_s);
     }
     text
 }
 
+/// A line with one of some values for a key.
+fn one_of(random: &mut Random, key: &str, values: &[f64]) -> String {
+    format!("{key} = {}\n", random.one_of(values))
+}
+
 fn sensor(random: &mut Random, head: &str, items: &[&str], step_s: f64) -> String {
     let mut text = head.to_owned();
-    let line = |text: &mut String, key: &str, value: f64| *text += &format!("{key} = {value}\n");
-    line(
-        &mut text,
-        "latency_s",
-        random.one_of(&[0.0, 0.0, 0.03, 0.5]),
-    );
-    line(
-        &mut text,
-        "dropout_probability",
-        random.one_of(&[0.0, 0.3, 1.0]),
-    );
-    line(&mut text, "power_w", 0.5);
+    text += &one_of(random, "latency_s", &[0.0, 0.0, 0.03, 0.5]);
+    text += &one_of(random, "dropout_probability", &[0.0, 0.3, 1.0]);
+    text += "power_w = 0.5\n";
     if random.below(2) == 0 {
-        line(
-            &mut text,
+        text += &one_of(
+            random,
             "rate_hz",
-            random.one_of(&[0.11, 0.5, 1.0]) / step_s,
+            &[0.11, 0.5, 1.0].map(|rate| rate / step_s),
         );
     }
     let kind = random.one_of(&["range", "items", "robots", "position", "heading"]);
     text += &format!("kind = \"{kind}\"\n");
-    if matches!(kind, "position" | "heading") {
-        let key = if kind == "position" {
-            "noise_m"
-        } else {
-            "noise_deg"
-        };
-        line(&mut text, key, random.one_of(&[0.0, 3.0]));
-        return text;
+    match kind {
+        "position" => return text + &one_of(random, "noise_m", &[0.0, 3.0]),
+        "heading" => return text + &one_of(random, "noise_deg", &[0.0, 3.0]),
+        _ => {}
     }
-    line(&mut text, "range_m", random.one_of(&[0.5, 3.0, 50.0]));
-    line(
-        &mut text,
-        "fov_deg",
-        random.one_of(&[0.0, 60.0, 270.0, 360.0]),
-    );
-    line(&mut text, "facing_deg", random.one_of(&[0.0, -180.0, 77.0]));
-    line(&mut text, "noise_m", random.one_of(&[0.0, 0.2]));
+    text += &one_of(random, "range_m", &[0.5, 3.0, 50.0]);
+    text += &one_of(random, "fov_deg", &[0.0, 60.0, 270.0, 360.0]);
+    text += &one_of(random, "facing_deg", &[0.0, -180.0, 77.0]);
+    text += &one_of(random, "noise_m", &[0.0, 0.2]);
     if kind == "range" {
         text += &format!("rays = {}\n", 1 + random.below(30));
-        line(&mut text, "relative_noise", random.one_of(&[0.0, 0.1]));
-        line(
-            &mut text,
-            "miss_probability",
-            random.one_of(&[0.0, 0.1, 1.0]),
-        );
-        line(
-            &mut text,
-            "spurious_return_probability",
-            random.one_of(&[0.0, 0.1, 1.0]),
-        );
-        return text;
+        text += &one_of(random, "relative_noise", &[0.0, 0.1]);
+        text += &one_of(random, "miss_probability", &[0.0, 0.1, 1.0]);
+        return text + &one_of(random, "spurious_return_probability", &[0.0, 0.1, 1.0]);
     }
     text += &format!("needs_line_of_sight = {}\n", random.below(2) == 0);
-    let detection = |random: &mut Random| {
-        random.one_of(&[
-            "0.5",
-            "1",
-            "[[0, 1], [2, 0.2]]",
-            "{ peak = 0.9, half_range_m = 1 }",
-        ])
-    };
+    let table = "[[0, 1], [2, 0.2]]";
+    let curve = "{ peak = 0.9, half_range_m = 1 }";
+    let detection = |random: &mut Random| random.one_of(&["0.5", "1", table, curve]);
     if kind == "robots" {
         text += &format!("detection_probability = {}\n", detection(random));
     } else if let Some(item) = items.last() {
-        text += &format!(
-            "false_alarm_rate_per_m2_s = {{ {item} = {} }}\n",
-            random.one_of(&[0.0, 0.02, 1.0])
-        );
+        let rate = random.one_of(&[0.0, 0.02, 1.0]);
+        text += &format!("false_alarm_rate_per_m2_s = {{ {item} = {rate} }}\n");
         if random.below(2) == 0 {
-            let all: Vec<String> = items
-                .iter()
-                .map(|item| format!("{item} = {}", detection(random)))
-                .collect();
+            let each = |item: &&str| format!("{item} = {}", detection(random));
+            let all: Vec<String> = items.iter().map(each).collect();
             text += &format!("detection_probability = {{ {} }}\n", all.join(", "));
         }
     }

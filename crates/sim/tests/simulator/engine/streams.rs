@@ -6,11 +6,8 @@ use brain::{Percept, RobotId};
 use sim::simulation::Simulation;
 
 const ROVERS: &str = "
-[clock]
-time_limit_s = 60
-[world]
-size_m = [20, 15]
-obstacles = [{ circle = { at_m = [10, 5], radius_m = 1 } }]
+clock = { time_limit_s = 60 }
+world = { size_m = [20, 15], obstacles = [{ circle = { at_m = [10, 5], radius_m = 1 } }] }
 [items.clutter]
 count = 9
 target = false
@@ -21,9 +18,7 @@ count = 9
 count = 5
 radius_m = 0.3
 drive = { max_speed_m_s = 1, max_turn_rate_deg_s = 90 }
-[robots.rover.sensors.compass]
-kind = \"heading\"
-noise_deg = 5
+sensors.compass = { kind = \"heading\", noise_deg = 5 }
 [robots.rover.sensors.eye]
 kind = \"items\"
 range_m = 2

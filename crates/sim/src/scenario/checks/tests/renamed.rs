@@ -1,18 +1,16 @@
 //! The error for a key or value of an earlier version names the new one.
 
 use super::read;
+use base::document::renamed::{KEYS, VALUES};
 
 /// A scenario in which every renamed key and value has a place, by its new name.
 const SCENARIO: &str = r#"
-[clock]
-time_limit_s = 60
+clock = { time_limit_s = 60 }
+items.mine = { count = 1, target = true }
 [world]
 size_m = [20, 10]
 periodic = false
 obstacles = [{ map = "room.yaml", unknown_is_occupied = true }]
-[items.mine]
-count = 1
-target = true
 [robots.rover]
 model = "ugv"
 count = 1
@@ -47,48 +45,6 @@ behaviours = [
 ]
 "#;
 
-/// Old and new names of keys.
-const KEYS: [(&str, &str); 26] = [
-    ("back_off_m", "reverse_distance_m"),
-    ("below", "min_charge"),
-    ("best", "peak"),
-    ("breaks_after", "max_collisions"),
-    ("cap_s", "time_limit_s"),
-    ("clear_by_m", "clearance_hysteresis_m"),
-    ("detects", "detection_probability"),
-    ("dropout", "dropout_probability"),
-    ("expected", "prior_count"),
-    ("false_alarms_per_m2_s", "false_alarm_rate_per_m2_s"),
-    ("false_echo", "spurious_return_probability"),
-    ("half_m", "half_range_m"),
-    ("learns", "adaptive"),
-    ("like", "model"),
-    ("loss", "loss_probability"),
-    ("margin", "reserve_factor"),
-    ("miss", "miss_probability"),
-    ("most_noise", "max_noise"),
-    ("noise_share", "relative_noise"),
-    ("places_m", "waypoints_m"),
-    ("share", "assignment"),
-    ("sought", "target"),
-    ("speed_limited_by_sight", "limit_speed_to_stopping_distance"),
-    ("stop_s", "stop_duration_s"),
-    ("unknown_is_solid", "unknown_is_occupied"),
-    ("wraps", "periodic"),
-];
-
-/// Old and new names of values.
-const VALUES: [(&str, &str); 8] = [
-    ("bounce", "random_bounce"),
-    ("each", "one_each"),
-    ("hold", "hold_position"),
-    ("home", "return_home"),
-    ("lanes", "lawnmower"),
-    ("seek", "bayesian_search"),
-    ("swarm", "flock"),
-    ("team", "shared"),
-];
-
 /// The errors of the scenario with `old` in place of `new`.
 fn errors(new: &str, old: &str) -> Vec<String> {
     assert!(SCENARIO.contains(new), "{new}");
@@ -98,6 +54,7 @@ fn errors(new: &str, old: &str) -> Vec<String> {
 
 #[test]
 fn the_error_of_an_old_key_names_the_new_one() {
+    assert_eq!((KEYS.len(), VALUES.len()), (26, 8));
     for (old, new) in KEYS {
         let errors = errors(&format!("{new} = "), &format!("{old} = "));
         let is_meant = |error: &&String| {
