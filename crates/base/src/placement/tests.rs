@@ -20,6 +20,14 @@ fn item(index: u32) -> Entity {
 
 const ANYWHERE: Placement = Placement::Uniform { within_m: None };
 
+fn clustered(clusters: u32, spread_m: f64) -> Placement {
+    Placement::Clustered {
+        clusters,
+        spread_m,
+        within_m: None,
+    }
+}
+
 fn places(
     placement: &Placement,
     draws: &PlacementContext,
@@ -72,11 +80,7 @@ fn a_cluster_is_a_round_normal_distribution_of_the_stated_spread() {
     // About the centre, exp(-d^2 / 2 s^2) and the angle are uniform and independent. Pearson's
     // statistic of 64 cells is above 131 in one of a million seeds.
     let draws = draws(1e6, EntityClass::Items);
-    let placement = Placement::Clustered {
-        clusters: 1,
-        spread_m: 2.5,
-        within_m: None,
-    };
+    let placement = clustered(1, 2.5);
     let centre = match placement.candidates(&draws, item(0), |_| true).unwrap() {
         Candidates::Normal { centre, .. } => centre,
         other => panic!("{other:?}"),
@@ -95,11 +99,7 @@ fn a_cluster_is_a_round_normal_distribution_of_the_stated_spread() {
 #[test]
 fn clusters_have_equal_numbers_and_centres_of_their_own() {
     let draws = draws(1e4, EntityClass::Items);
-    let placement = Placement::Clustered {
-        clusters: 3,
-        spread_m: 0.1,
-        within_m: None,
-    };
+    let placement = clustered(3, 0.1);
     let places = places(&placement, &draws, 30, |_| true);
     // Centres ten metres apart, members within six spreads: the chance of either is above 0.99999.
     for (index, place) in places.iter().enumerate() {
@@ -130,14 +130,7 @@ fn centres_and_members_are_within_and_free() {
 
 #[test]
 fn a_full_world_is_an_error_and_not_an_endless_search() {
-    for placement in [
-        ANYWHERE,
-        Placement::Clustered {
-            clusters: 1,
-            spread_m: 1.0,
-            within_m: None,
-        },
-    ] {
+    for placement in [ANYWHERE, clustered(1, 1.0)] {
         let place = placement.place(&draws(10.0, EntityClass::Items), item(0), |_| false);
         assert_eq!(place, Err(PlacementError::NoneFree));
     }
@@ -189,11 +182,7 @@ fn headings_are_uniform() {
 
 #[test]
 fn places_are_the_same_bytes_for_ever() {
-    let clustered = Placement::Clustered {
-        clusters: 2,
-        spread_m: 1.5,
-        within_m: None,
-    };
+    let clustered = clustered(2, 1.5);
     let bits = |placement: &Placement, things| {
         let place = placement
             .place(&draws(25.0, things), item(3), |_| true)
@@ -265,7 +254,7 @@ proptest! {
         radii in prop::array::uniform3(0.01_f64..0.5), is_air: bool,
     ) {
         let draws = PlacementContext { seed, ..draws(20.0, EntityClass::Robots) };
-        let clustered = Placement::Clustered { clusters: 2, spread_m: 5.0, within_m: None };
+        let clustered = clustered(2, 5.0);
         let placements = [&ANYWHERE, &clustered, &ANYWHERE];
         let mut groups: Vec<Group> = (0..3)
             .map(|at| group(u8::try_from(at).unwrap(), counts[at], radii[at], placements[at]))
@@ -313,7 +302,7 @@ proptest! {
     fn a_place_depends_on_its_own_kind_and_index(
         seed: u64, run: u64, kind: u32, index in 0..MAX_INDEX - 1,
     ) {
-        let clustered = Placement::Clustered { clusters: 1 << 20, spread_m: 1.0, within_m: None };
+        let clustered = clustered(1 << 20, 1.0);
         let there = PlacementContext { seed, run, ..draws(1e3, EntityClass::Items) };
         for placement in [&ANYWHERE, &clustered] {
             let place = |draws: PlacementContext, kind, index| {
@@ -379,11 +368,7 @@ fn a_team_that_does_not_fit_is_an_error() {
 #[test]
 fn a_million_robots_are_placed_in_seconds() {
     let large = group(1, 10, 20.0, &ANYWHERE);
-    let clustered = Placement::Clustered {
-        clusters: 5,
-        spread_m: 200.0,
-        within_m: None,
-    };
+    let clustered = clustered(5, 200.0);
     let groups = [
         group(0, 1_000_000, 0.25, &ANYWHERE),
         large,

@@ -9,6 +9,7 @@ use base::error::InputError;
 use base::geometry::{Point, Rectangle};
 use brain::behaviours::BehaviourSpec;
 use brain::{Arbitration, BrainSpec};
+use std::collections::BTreeMap;
 
 /// Maximum of `prior_count` for a kind of item.
 const MAX_PRIOR_COUNT: f64 = 1e6;
@@ -125,16 +126,24 @@ fn of_gains(brain: &BrainSpec, at: &Place) -> Vec<InputError> {
         return Vec::new();
     };
     let kinds: Vec<&str> = brain.behaviours.iter().map(BehaviourSpec::name).collect();
-    let mut errors = Vec::new();
-    for (kind, gain) in &schemas.gains {
-        let at = at.key("gains").key(kind);
-        if !kinds.contains(&kind.as_str()) {
-            errors.push(at.unknown_key(kind, kinds.iter().copied()));
-        } else if !(0.0..=MAX_GAIN).contains(gain) {
-            errors.push(at.error(format!("a number from 0 to {MAX_GAIN}")));
+    of_numbers(&schemas.gains, MAX_GAIN, &kinds, &at.key("gains"))
+}
+
+/// Numbers under keys that are none of the `known`, or not from 0 to `max`.
+fn of_numbers(
+    numbers: &BTreeMap<String, f64>,
+    max: f64,
+    known: &[&str],
+    at: &Place,
+) -> Vec<InputError> {
+    let error = |(key, number): (&String, &f64)| {
+        let at = at.key(key);
+        if !known.contains(&key.as_str()) {
+            return Some(at.unknown_key(key, known.iter().copied()));
         }
-    }
-    errors
+        (!(0.0..=max).contains(number)).then(|| at.error(format!("a number from 0 to {max}")))
+    };
+    numbers.iter().filter_map(error).collect()
 }
 
 /// Maps in a periodic world: beliefs draw maps, which end.
@@ -164,15 +173,8 @@ fn of_beliefs(robot: &RobotSpec, spec: &ScenarioSpec, at: &Place) -> Vec<InputEr
         return Vec::new();
     };
     let kinds: Vec<&str> = spec.items.keys().map(String::as_str).collect();
-    let mut errors = Vec::new();
-    for (kind, expected) in &beliefs.prior_count {
-        let at = at.key("prior_count").key(kind);
-        if !kinds.contains(&kind.as_str()) {
-            errors.push(at.unknown_key(kind, kinds.iter().copied()));
-        } else if !(0.0..=MAX_PRIOR_COUNT).contains(expected) {
-            errors.push(at.error(format!("a number from 0 to {MAX_PRIOR_COUNT}")));
-        }
-    }
+    let at_priors = at.key("prior_count");
+    let mut errors = of_numbers(&beliefs.prior_count, MAX_PRIOR_COUNT, &kinds, &at_priors);
     let ([width, height], world) = (spec.world.size_m, rectangle(&spec.world));
     let is_in_it = |area: &Rectangle| {
         world.contains(area.min()) && world.contains(area.max()) && area.area_m2() > 0.0

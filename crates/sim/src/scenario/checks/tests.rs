@@ -359,19 +359,12 @@ fn robots_that_start_anywhere_have_room() {
 #[test]
 fn items_that_are_anywhere_have_room() {
     let anywhere = "placement = { kind = \"uniform\", within_m = [[1, 1], [3, 3]] }";
-    let reported = error(
-        "placement = { kind = \"fixed\", at_m = [[5, 5], [19, 9]] }",
-        anywhere,
-    );
+    let fixed = "placement = { kind = \"fixed\", at_m = [[5, 5], [19, 9]] }";
     assert_eq!(
-        reported,
+        error(fixed, anywhere),
         "items.mine.count = 2: must be 0: their area has no free place"
     );
-    let outside = anywhere.replace("[3, 3]", "[3, 13]");
-    let reported = error(
-        "placement = { kind = \"fixed\", at_m = [[5, 5], [19, 9]] }",
-        &outside,
-    );
+    let reported = error(fixed, &anywhere.replace("[3, 3]", "[3, 13]"));
     assert!(
         reported.contains("within_m = [[1, 1], [3, 13]]: must be two corners in the world, from")
     );
@@ -546,34 +539,23 @@ fn looking_for_a_place_in_reach_is_done_within_seconds() {
 
 #[test]
 fn a_world_that_wraps_is_large_enough_and_holds_its_obstacles_wholly() {
-    let periodic = "size_m = [20, 10]\nperiodic = true";
-    assert!(read(&GOOD.replace("size_m = [20, 10]", periodic)).is_ok());
+    let periodic = GOOD.replace("size_m = [20, 10]", "size_m = [20, 10]\nperiodic = true");
+    assert!(read(&periodic).is_ok());
+    let errors = |this, that| read(&periodic.replace(this, that)).unwrap_err().to_string();
     // Half of 10 m, less the skin of 0.6 m and the radius of 0.5 m of the largest robot.
-    let far = GOOD
-        .replace("size_m = [20, 10]", periodic)
-        .replace("range_m = 3", "range_m = 4");
-    let reported = read(&far).unwrap_err().to_string();
+    let reported = errors("range_m = 3", "range_m = 4");
     assert!(
         reported.contains("robots.rover.sensors.eye.range_m = 4: must be at most 3.900"),
         "{reported}"
     );
-    let outside = GOOD
-        .replace("size_m = [20, 10]", periodic)
-        .replace("[15, 5]", "[19.5, 5]");
-    let reported = read(&outside).unwrap_err().to_string();
+    let reported = errors("[15, 5]", "[19.5, 5]");
     assert!(
         reported.contains("world.obstacles[1]")
             && reported.contains("because the world is periodic"),
         "{reported}"
     );
-    let fast = GOOD
-        .replace("size_m = [20, 10]", periodic)
-        .replace("max_speed_m_s = 5", "max_speed_m_s = 50");
-    let reported = read(&fast).unwrap_err().to_string();
+    let reported = errors("max_speed_m_s = 5", "max_speed_m_s = 50");
     assert!(reported.contains("world.size_m"), "{reported}");
-    let beside = GOOD
-        .replace("size_m = [20, 10]", periodic)
-        .replace("[[6, 6], [7, 6]]", "[[0.1, 6], [19.9, 6]]");
-    let reported = read(&beside).unwrap_err().to_string();
+    let reported = errors("[[6, 6], [7, 6]]", "[[0.1, 6], [19.9, 6]]");
     assert!(reported.contains("robots.rover.start.at_m["), "{reported}");
 }

@@ -98,25 +98,15 @@ fn active_sensors_and_the_radio_consume_their_power() {
     let mut simulation = start(&field("idle_w = 10", more));
     drive(&mut simulation, 10, 0.0, 0.0);
     assert_energy(&simulation, 21.0);
-    let off = Command {
-        requests: vec![SensorRequest {
-            sensor: 1,
-            on: false,
-        }],
+    let switch = |on| Command {
+        requests: vec![SensorRequest { sensor: 1, on }],
         ..Command::default()
     };
     // A switch takes effect in the step of the command.
-    step_with(&mut simulation, [(id(0, 0), off)]);
+    step_with(&mut simulation, [(id(0, 0), switch(false))]);
     drive(&mut simulation, 9, 0.0, 0.0);
     assert_energy(&simulation, 21.0 + 19.0);
-    let on = Command {
-        requests: vec![SensorRequest {
-            sensor: 1,
-            on: true,
-        }],
-        ..Command::default()
-    };
-    step_with(&mut simulation, [(id(0, 0), on)]);
+    step_with(&mut simulation, [(id(0, 0), switch(true))]);
     assert_energy(&simulation, 40.0 + 2.1);
 }
 

@@ -354,12 +354,15 @@ drive = { max_speed_m_s = 0, max_turn_rate_deg_s = 0 }
 battery = { capacity_j = 200, idle_w = 10 }
 ";
 
+fn drained(capacity: &str) -> String {
+    replaced(DRAINED, &[("capacity_j = 200, ", capacity)])
+}
+
 /// A run in which the capacity changes after each robot has used 100 J.
 fn recharged(capacity: &str) -> Simulation {
     let mut simulation = start(DRAINED);
     (0..10).for_each(|_| simulation.step());
-    let text = replaced(DRAINED, &[("capacity_j = 200, ", capacity)]);
-    change(&mut simulation, &text);
+    change(&mut simulation, &drained(capacity));
     simulation
 }
 
@@ -381,19 +384,16 @@ fn a_capacity_below_the_energy_used_empties_the_battery_without_a_refund() {
 fn an_empty_robot_moves_again_with_a_larger_battery() {
     let mut simulation = recharged("capacity_j = 50, ");
     for (capacity, left) in [("capacity_j = 10000, ", Some(0.99)), ("", None)] {
-        let text = replaced(DRAINED, &[("capacity_j = 200, ", capacity)]);
-        change(&mut simulation, &text);
+        change(&mut simulation, &drained(capacity));
         let robot = first(&simulation);
         assert_eq!((robot.status, robot.battery), (Status::Active, left));
         let before = robot.energy_j;
         simulation.step();
         assert_eq!(first(&simulation).energy_j, before + 10.0);
-        let text = replaced(DRAINED, &[("capacity_j = 200, ", "capacity_j = 50, ")]);
-        change(&mut simulation, &text);
-        change(&mut simulation, &text);
+        change(&mut simulation, &drained("capacity_j = 50, "));
+        change(&mut simulation, &drained("capacity_j = 50, "));
         assert_eq!(first(&simulation).status, Status::Empty);
-        let text = replaced(DRAINED, &[("capacity_j = 200, ", "capacity_j = 100, ")]);
-        change(&mut simulation, &text);
+        change(&mut simulation, &drained("capacity_j = 100, "));
     }
 }
 
