@@ -176,7 +176,7 @@ fn gather(team: &mut Team, room: &mut Room, robot: usize) -> Point {
 
 #[inline(always)]
 fn blur(noise: Noise, tick: u64, key: u32, ranges: &mut Rays) {
-    let words = noise.deal(key, tick, 0);
+    let words = noise.batch_words(key, tick, 0);
     let deviations = normal_pairs([&words[0], &words[1]]);
     for (range, deviation) in ranges
         .as_flattened_mut()

@@ -11,7 +11,7 @@ use rand_philox::philox4x32_10;
 use std::f32::consts::{FRAC_PI_2, LN_2};
 
 /// Number of entities that receive words together: one for each word of the blocks.
-pub const HAND: usize = 4 * LANES;
+pub const BATCH: usize = 4 * LANES;
 
 /// 2^-32.
 const WORD: f64 = 1.0 / 4_294_967_296.0;
@@ -53,15 +53,15 @@ impl Noise {
         philox4x32_10([index, use_of, low, high], self.key)
     }
 
-    /// A word for each of the `hand`-th group of [`HAND`] entities: row `row` and lane `lane` hold that
-    /// of entity `LANES * row + lane` of the group.
+    /// A word for each entity of a batch of [`BATCH`]: row `row` and lane `lane` hold that of entity
+    /// `LANES * row + lane` of the batch.
     ///
     /// For loops: it is inlined and compiled for the instruction set of its caller.
     #[must_use]
     #[inline(always)]
-    pub fn deal(self, use_of: u32, time: u64, hand: u32) -> Blocks {
+    pub fn batch_words(self, use_of: u32, time: u64, batch: u32) -> Blocks {
         #[expect(clippy::cast_possible_truncation, reason = "a few")]
-        let first = hand.wrapping_mul(LANES as u32);
+        let first = batch.wrapping_mul(LANES as u32);
         blocks(self.key, first, use_of, time)
     }
 }
@@ -227,16 +227,16 @@ mod tests {
     }
 
     #[test]
-    fn a_hand_is_dealt_the_words_of_as_many_things() {
+    fn a_batch_has_the_words_of_its_entities() {
         let noise = Noise::of(7, 3, Entity { kind: 1, index: 2 });
-        let dealt = noise.deal(3, 1 << 40, 5);
+        let batch = noise.batch_words(3, 1 << 40, 5);
         let words = |lane: usize| {
             let index = u32::try_from(5 * LANES + lane).unwrap();
             noise.words(3, 1 << 40, index)
         };
-        for (row, dealt) in dealt.iter().enumerate() {
+        for (row, drawn) in batch.iter().enumerate() {
             assert_eq!(
-                dealt.map(|word| word & LOW),
+                drawn.map(|word| word & LOW),
                 std::array::from_fn(|lane| u64::from(words(lane)[row]))
             );
         }
@@ -256,10 +256,10 @@ mod tests {
 
     #[test]
     fn normal_numbers_by_lanes_are_those_one_by_one() {
-        let dealt = Noise::of(7, 3, Entity { kind: 1, index: 2 }).deal(3, 4, 5);
-        let pairs = normal_pairs([&dealt[0], &dealt[1]]);
+        let words = Noise::of(7, 3, Entity { kind: 1, index: 2 }).batch_words(3, 4, 5);
+        let pairs = normal_pairs([&words[0], &words[1]]);
         for lane in 0..LANES {
-            let word = |row: usize| u32::try_from(dealt[row][lane] & LOW).unwrap();
+            let word = |row: usize| u32::try_from(words[row][lane] & LOW).unwrap();
             let expected = normal_pair([word(0), word(1)]);
             assert_eq!(
                 [pairs[0][lane], pairs[1][lane]].map(f64::to_bits),

@@ -38,7 +38,7 @@ mod yaml;
 
 pub use node::{Node, Table, Value, path_of};
 pub use place::Place;
-pub use root::{Document, Files, Made, Override};
+pub use root::{CreatedTable, Document, Files, Override};
 pub use section::Section;
 
 #[cfg(test)]

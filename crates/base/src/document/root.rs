@@ -23,12 +23,12 @@ pub struct Override {
 pub struct Document {
     pub(super) root: Node,
     files: Files,
-    made: Vec<Made>,
+    created_tables: Vec<CreatedTable>,
 }
 
 /// A table that was created for a value in it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Made {
+pub struct CreatedTable {
     /// Path of the value.
     pub path: Vec<String>,
     /// Index in the path of the key of the table.
@@ -72,7 +72,7 @@ impl Document {
         Self {
             root,
             files: Files::new(),
-            made: Vec::new(),
+            created_tables: Vec::new(),
         }
     }
 
@@ -102,7 +102,7 @@ impl Document {
     ///
     /// Missing tables on the path are created; other values on the path are replaced by tables.
     pub fn set(&mut self, path: &[&str], value: Value, origin: &str) {
-        self.made.extend(self.missing(path));
+        self.created_tables.extend(self.missing(path));
         let mut node = &mut self.root;
         for key in path {
             if !matches!(node.value, Value::Table(_)) {
@@ -123,9 +123,9 @@ impl Document {
     }
 
     /// The outermost table that is missing on a path.
-    fn missing(&self, path: &[&str]) -> Option<Made> {
+    fn missing(&self, path: &[&str]) -> Option<CreatedTable> {
         let is_missing = |place: &usize| self.get(&path[..=*place]).is_none();
-        Some(Made {
+        Some(CreatedTable {
             place: (0..path.len().saturating_sub(1)).find(is_missing)?,
             path: path.iter().map(|key| (*key).to_owned()).collect(),
         })
@@ -133,8 +133,8 @@ impl Document {
 
     /// The tables that were created for values in them.
     #[must_use]
-    pub fn made(&self) -> &[Made] {
-        &self.made
+    pub fn created_tables(&self) -> &[CreatedTable] {
+        &self.created_tables
     }
 
     /// Fills missing keys of the table at `path` from `defaults`.

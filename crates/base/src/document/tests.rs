@@ -141,9 +141,11 @@ fn tables_are_known_that_were_made_for_a_value_in_them() {
     ] {
         document.set(path, Value::Integer(1), "--set");
     }
-    let made = document.made().iter();
-    let made: Vec<_> = made.map(|made| (made.path.join("."), made.place)).collect();
-    assert_eq!(made, [("robots.scout.drive.speed".to_owned(), 1)]);
+    let created = document.created_tables().iter();
+    let created: Vec<_> = created
+        .map(|table| (table.path.join("."), table.place))
+        .collect();
+    assert_eq!(created, [("robots.scout.drive.speed".to_owned(), 1)]);
 }
 
 #[test]

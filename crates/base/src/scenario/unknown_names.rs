@@ -105,7 +105,7 @@ impl<'p> Unknown<'p> {
 /// Everything that is wrong there.
 pub(super) fn read(engine: &dyn Engine, document: &Document) -> Result<Configuration, InputErrors> {
     engine.read(document).map_err(|InputErrors(mut errors)| {
-        for made in document.made() {
+        for made in document.created_tables() {
             let path: Vec<&str> = made.path.iter().map(String::as_str).collect();
             let unknown = Unknown::made(&path, made.place, engine, document);
             if let Some((unknown, node)) = unknown.zip(document.get(&path)) {

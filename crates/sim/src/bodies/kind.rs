@@ -50,7 +50,7 @@ pub(crate) struct Flocking {
     rule: flock::Ready,
     /// Maximum range at which they detect others.
     pub(crate) reach_m: f64,
-    sees_courses: bool,
+    measures_headings: bool,
 }
 
 impl Flocking {
@@ -77,7 +77,7 @@ impl Flocking {
         sums: &Sums,
         random_words: impl FnOnce() -> RandomWords,
     ) -> f64 {
-        let course = if self.sees_courses {
+        let course = if self.measures_headings {
             sums.course
         } else {
             Point::default()
@@ -182,7 +182,7 @@ impl Kind {
         is_plain.then(|| Flocking {
             rule: rule.clone(),
             reach_m: detector.sector.range_m,
-            sees_courses: detector.tells_courses(),
+            measures_headings: detector.measures_headings(),
         })
     }
 

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 /// For each robot of `next` its number in `before`, by the name of its kind and its index; `None`
 /// for one that is added.
-pub(super) fn stay(
+pub(super) fn previous_numbers(
     before: &State,
     from: &Scenario,
     next: &State,
@@ -26,7 +26,7 @@ pub(super) fn is_same_team(before: &State, old: &[Option<usize>]) -> bool {
 }
 
 /// The body states of the robots that are removed.
-pub(super) fn gone(before: &State, old: &[Option<usize>]) -> Vec<BodyState> {
+pub(super) fn removed(before: &State, old: &[Option<usize>]) -> Vec<BodyState> {
     let mut stays = vec![false; before.robots()];
     old.iter().flatten().for_each(|robot| stays[*robot] = true);
     let body_states = before.body_states.iter().zip(stays);
@@ -37,7 +37,7 @@ pub(super) fn gone(before: &State, old: &[Option<usize>]) -> Vec<BodyState> {
 
 /// Old and new ids of the robots that stay: kinds of robots are renumbered when a kind before them
 /// is added or removed.
-pub(super) fn ids_of(
+pub(super) fn new_ids(
     before: &State,
     next: &State,
     old: &[Option<usize>],

@@ -1,7 +1,7 @@
 //! Continuing a run with another scenario.
 
 use super::agent::Agent;
-use super::carry_over::{gone, ids_of, is_same_team, renumber_message, stay};
+use super::carry_over::{is_same_team, new_ids, previous_numbers, removed, renumber_message};
 use super::state::{BodyState, NoRoom, State, Status, draws};
 use crate::bodies::Layer;
 use crate::bodies::kind::Kind;
@@ -12,13 +12,13 @@ use std::collections::BTreeMap;
 
 /// Whether the place of a robot is still valid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Room {
+enum Start {
     /// It stays where it was, with the same geometry.
-    Same,
+    Unchanged,
     /// It stays, but its shape or that of the world changed: the place must still be free.
-    Doubtful,
+    MustBeFree,
     /// It is added, and can start elsewhere.
-    Wanted,
+    New,
 }
 
 impl State {
@@ -37,16 +37,16 @@ impl State {
     pub fn changed(&self, from: &Scenario, to: &Scenario) -> Result<Self, NoRoom> {
         let mut next = Self::new(to, self.seed, self.run)?;
         next.tick = self.tick;
-        let old = stay(self, from, &next, to);
-        let ids = ids_of(self, &next, &old);
-        let rooms = next.keep_robots(self, &old, from, to);
+        let old = previous_numbers(self, from, &next, to);
+        let ids = new_ids(self, &next, &old);
+        let starts = next.keep_robots(self, &old, from, to);
         for agent in &mut next.agents {
             agent.renumber_robots(&ids);
         }
-        next.make_room(to, &rooms)?;
+        next.make_room(to, &starts)?;
         next.keep_items(self, from, to)?;
         next.tally = self.tally;
-        next.tally.gone = self.tally.gone.and(gone(self, &old).iter());
+        next.tally.gone = self.tally.gone.and(removed(self, &old).iter());
         next.count_targets(to);
         if is_same_team(self, &old) {
             // Kinds are sorted by name, so that receivers keep their numbers.
@@ -64,10 +64,10 @@ impl State {
         old: &[Option<usize>],
         from: &Scenario,
         to: &Scenario,
-    ) -> Vec<Room> {
+    ) -> Vec<Start> {
         let is_same_ground = from.solids() == to.solids();
-        let mut rooms = vec![Room::Wanted; self.robots()];
-        for (robot, room) in rooms.iter_mut().enumerate() {
+        let mut starts = vec![Start::New; self.robots()];
+        for (robot, start) in starts.iter_mut().enumerate() {
             let id = self.ids[robot];
             let Some(was) = old[robot] else {
                 continue;
@@ -76,26 +76,26 @@ impl State {
             let kind = &to.kinds[usize::from(id.kind)];
             self.discs[robot].centre = before.discs[was].centre;
             self.orientations[robot] = before.orientations[was];
-            self.body_states[robot] = kept_hull(&before.body_states[was], kind, to);
+            self.body_states[robot] = kept_body_state(&before.body_states[was], kind, to);
             self.agents[robot] = kept_agent(&before.agents[was], old_kind, kind);
             let is_same =
                 kind.radius_m.total_cmp(&old_kind.radius_m).is_eq() && kind.layer == old_kind.layer;
             let is_placed = self.body_states[robot].is_external || is_same_ground && is_same;
-            *room = if is_placed {
-                Room::Same
+            *start = if is_placed {
+                Start::Unchanged
             } else {
-                Room::Doubtful
+                Start::MustBeFree
             };
         }
-        rooms
+        starts
     }
 
     /// Moves added robots elsewhere if their place is taken by now.
-    fn make_room(&mut self, scenario: &Scenario, rooms: &[Room]) -> Result<(), NoRoom> {
+    fn make_room(&mut self, scenario: &Scenario, starts: &[Start]) -> Result<(), NoRoom> {
         let draws = draws(scenario, self.seed, self.run, EntityClass::Robots);
         let mut crowd = self.crowd(scenario);
-        for (robot, room) in rooms.iter().enumerate() {
-            if *room == Room::Same {
+        for (robot, start) in starts.iter().enumerate() {
+            if *start == Start::Unchanged {
                 continue;
             }
             let (id, centre) = (self.ids[robot], self.discs[robot].centre);
@@ -105,9 +105,9 @@ impl State {
             let is_free = |place| {
                 scenario.is_free(place, kind.radius_m, kind.layer) && !crowd.is_taken(number, place)
             };
-            let place = match room {
+            let place = match start {
                 _ if is_free(centre) => Ok(centre),
-                Room::Wanted => kind.start.place(&draws, scenario.entity(id), is_free),
+                Start::New => kind.start.place(&draws, scenario.entity(id), is_free),
                 _ => Err(PlacementError::Taken),
             };
             let place = place.map(|place| scenario.home(place));
@@ -184,7 +184,7 @@ fn no_room(scenario: &Scenario, name: &str, index: u32) -> NoRoom {
     }
 }
 
-fn kept_hull(body_state: &BodyState, kind: &Kind, to: &Scenario) -> BodyState {
+fn kept_body_state(body_state: &BodyState, kind: &Kind, to: &Scenario) -> BodyState {
     let is_used_up = kind
         .battery
         .is_some_and(|battery| body_state.energy_j >= battery.capacity_j);
@@ -195,7 +195,9 @@ fn kept_hull(body_state: &BodyState, kind: &Kind, to: &Scenario) -> BodyState {
         _ => Status::Active,
     };
     BodyState {
-        speed_m_s: kind.drive.possible(body_state.speed_m_s, to.fastest()),
+        speed_m_s: kind
+            .drive
+            .possible(body_state.speed_m_s, to.max_speed_factor()),
         status,
         ..*body_state
     }

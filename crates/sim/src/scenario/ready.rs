@@ -82,7 +82,7 @@ impl Scenario {
         let rays_m = greatest(&kinds, |kind| kind.rays_m);
         let skin_m = (SKIN * rays_m).clamp(MIN_SKIN_M, MAX_SKIN_M);
         let torus = spec.world.periodic.then_some(Torus { size_m });
-        let stands = |layer, reach_m| {
+        let geometry = |layer, reach_m| {
             let border = torus.is_none().then_some(&world);
             let (walls, discs) = in_the_way(border, &solids, layer);
             let reach_m = reach_m + skin_m / 2.0;
@@ -100,8 +100,8 @@ impl Scenario {
             torus,
             terrain: (!areas.is_empty()).then(|| Terrain::new(size_m, areas)),
             near_solids: NearCells::new(size_m, &solids, 0.0),
-            seen: layers.map(|layer| stands(layer, rays_m.max(touch_m))),
-            touched: layers.map(|layer| stands(layer, touch_m)),
+            seen: layers.map(|layer| geometry(layer, rays_m.max(touch_m))),
+            touched: layers.map(|layer| geometry(layer, touch_m)),
             contact_m: 2.0 * touch_m,
             skin_m,
             solids,
@@ -122,7 +122,7 @@ impl Scenario {
         self.kinds.iter().map(|kind| kind.count as usize).sum()
     }
 
-    pub(crate) fn biggest_radius_m(&self) -> f64 {
+    pub(crate) fn max_radius_m(&self) -> f64 {
         greatest(&self.kinds, |kind| kind.radius_m)
     }
 
@@ -249,7 +249,7 @@ impl Scenario {
     }
 
     /// The largest factor on speed anywhere, at least 1.
-    pub(crate) fn fastest(&self) -> f64 {
+    pub(crate) fn max_speed_factor(&self) -> f64 {
         let terrain = self.terrain.as_ref();
         terrain.map_or(1.0, |terrain| terrain.most().speed)
     }
@@ -267,8 +267,8 @@ impl Scenario {
     }
 
     /// No robot touches, detects or receives another whose nearest image is farther away.
-    pub(crate) fn farthest_m(&self) -> f64 {
-        let rays_m = greatest(&self.kinds, |kind| kind.rays_m) + self.biggest_radius_m();
+    pub(crate) fn interaction_range_m(&self) -> f64 {
+        let rays_m = greatest(&self.kinds, |kind| kind.rays_m) + self.max_radius_m();
         let observed_m = greatest(&self.kinds, Kind::robots_reach_m);
         let size_m = self.world.size();
         let observed_m = observed_m.min(size_m.x.max(size_m.y) / 2.0);

@@ -189,48 +189,48 @@ impl ItemDetector {
     /// The contacts of one measurement, each with its item, or none for a false alarm.
     pub(crate) fn measure(
         &self,
-        eye: &SensorFrame,
+        frame: &SensorFrame,
         items: &Items,
         mut give: impl FnMut(Point, u16, Option<u32>),
     ) {
-        for (place, number) in items.near(eye.at, self.sector.range_m) {
-            let way = eye.own(*place);
+        for (place, number) in items.near(frame.at, self.sector.range_m) {
+            let way = frame.own(*place);
             let kind = items.kind(*number);
             let Some(detection) = &self.detection_probability[usize::from(kind)] else {
                 continue;
             };
-            if !self.sector.holds(way) || self.is_hidden(eye, *place) {
+            if !self.sector.holds(way) || self.is_hidden(frame, *place) {
                 continue;
             }
-            let words = eye.words_of(NoisePurpose::Thing, items.thing(*number));
+            let words = frame.words_of(NoisePurpose::Thing, items.thing(*number));
             if share(words[0]) < detection.probability(way.length()) {
                 give(blurred(way, self.noise_m, words), kind, Some(*number));
             }
         }
         for false_alarm in &self.false_alarms {
-            self.false_contacts(eye, false_alarm, &mut give);
+            self.false_contacts(frame, false_alarm, &mut give);
         }
     }
 
     fn false_contacts(
         &self,
-        eye: &SensorFrame,
+        frame: &SensorFrame,
         FalseAlarm { kind, key, count }: &FalseAlarm,
         give: &mut impl FnMut(Point, u16, Option<u32>),
     ) {
-        let draw = |index| eye.words_of(NoisePurpose::FalseAlarm, Entity { kind: *key, index });
+        let draw = |index| frame.words_of(NoisePurpose::FalseAlarm, Entity { kind: *key, index });
         let count = count.draw(share(draw(0)[0]));
         for number in 1..=count {
             let words = draw(number);
             let way = self.sector.place([share(words[0]), share(words[1])]);
-            if !self.is_hidden(eye, eye.world_of(way)) {
+            if !self.is_hidden(frame, frame.world_of(way)) {
                 give(way, *kind, None);
             }
         }
     }
 
-    fn is_hidden(&self, eye: &SensorFrame, place: Point) -> bool {
-        self.needs_line_of_sight && !eye.sees(place)
+    fn is_hidden(&self, frame: &SensorFrame, place: Point) -> bool {
+        self.needs_line_of_sight && !frame.sees(place)
     }
 }
 

@@ -7,7 +7,7 @@
 
 use super::rays::{GROUP, Near, Rays};
 use super::sensor_frame::{NoisePurpose, SensorFrame};
-use base::noise::{HAND, normal_pairs, share_of};
+use base::noise::{BATCH, normal_pairs, share_of};
 use base::trig::wrapped;
 use pulp::{Arch, Simd, WithSimd};
 use schemars::JsonSchema;
@@ -103,18 +103,18 @@ impl Ring {
     ///
     /// One pass in the widest vectors of the machine.
     #[inline]
-    pub(crate) fn measure(&self, eye: &SensorFrame, room: &mut Room, to: &mut Vec<f64>) {
-        self.look_with(instruction_set(), eye, room, to);
+    pub(crate) fn measure(&self, frame: &SensorFrame, room: &mut Room, to: &mut Vec<f64>) {
+        self.look_with(instruction_set(), frame, room, to);
     }
 
     #[inline]
-    fn look_with(&self, arch: Arch, eye: &SensorFrame, room: &mut Room, to: &mut Vec<f64>) {
+    fn look_with(&self, arch: Arch, frame: &SensorFrame, room: &mut Room, to: &mut Vec<f64>) {
         to.resize(self.rays.groups() * GROUP, 0.0);
         room.deviations.resize(self.rays.groups(), [0.0; GROUP]);
         let (to_groups, _) = to.as_chunks_mut();
         arch.dispatch(RingLook {
             ring: self,
-            eye,
+            frame,
             room,
             to: to_groups,
         });
@@ -142,7 +142,7 @@ pub(crate) use tests::instruction_set;
 /// One measurement of a ring, as one piece of work for vectors.
 struct RingLook<'a> {
     ring: &'a Ring,
-    eye: &'a SensorFrame<'a>,
+    frame: &'a SensorFrame<'a>,
     room: &'a mut Room,
     to: &'a mut [[f64; GROUP]],
 }
@@ -154,21 +154,21 @@ impl WithSimd for RingLook<'_> {
     fn with_simd<S: Simd>(self, simd: S) {
         let Self {
             ring,
-            eye,
+            frame,
             room,
             to,
         } = self;
         let Room { near, deviations } = room;
         // First, because it waits for nothing: the processor continues with it while rays are cast.
         if ring.is_noisy() {
-            deviate(eye, deviations);
+            deviate(frame, deviations);
         }
-        ring.rays.cast(simd, (eye.front, ring.range_m), near, to);
+        ring.rays.cast(simd, (frame.front, ring.range_m), near, to);
         if ring.spurious_return_probability > 0.0 {
-            ring.invent(eye, to);
+            ring.invent(frame, to);
         }
         if ring.miss_probability > 0.0 {
-            ring.lose(eye, to);
+            ring.lose(frame, to);
         }
         for (distances, deviations) in to.iter_mut().zip(deviations) {
             *distances = from_fn(|lane| ring.measured(distances[lane], deviations[lane]));
@@ -178,9 +178,9 @@ impl WithSimd for RingLook<'_> {
 
 /// Draws a normal deviate for each ray.
 #[inline(always)]
-fn deviate(eye: &SensorFrame, to: &mut [[f64; GROUP]]) {
-    for (hand, groups) in (0..).zip(to.chunks_mut(GROUPS)) {
-        let words = eye.deal(NoisePurpose::Error, hand);
+fn deviate(frame: &SensorFrame, to: &mut [[f64; GROUP]]) {
+    for (batch, groups) in (0..).zip(to.chunks_mut(GROUPS)) {
+        let words = frame.batch_words(NoisePurpose::Error, batch);
         for (pair, words) in groups.chunks_mut(2).zip(words.chunks(2)) {
             let drawn = normal_pairs([&words[0], &words[1]]);
             for (deviations, drawn) in pair.iter_mut().zip(drawn) {
@@ -190,15 +190,15 @@ fn deviate(eye: &SensorFrame, to: &mut [[f64; GROUP]]) {
     }
 }
 
-/// Random numbers are dealt in hands of four groups of rays.
-const GROUPS: usize = HAND / GROUP;
+/// Random numbers are drawn in batches of four groups of rays.
+const GROUPS: usize = BATCH / GROUP;
 
 /// Groups are written as a whole: stores of single lanes would delay the next load.
 impl Ring {
     #[inline(always)]
-    fn lose(&self, eye: &SensorFrame, to: &mut [[f64; GROUP]]) {
-        for (hand, groups) in (0..).zip(to.chunks_mut(GROUPS)) {
-            let chances = eye.deal(NoisePurpose::Echo, hand);
+    fn lose(&self, frame: &SensorFrame, to: &mut [[f64; GROUP]]) {
+        for (batch, groups) in (0..).zip(to.chunks_mut(GROUPS)) {
+            let chances = frame.batch_words(NoisePurpose::Echo, batch);
             for (distances, chances) in groups.iter_mut().zip(&chances) {
                 *distances = from_fn(|lane| {
                     let is_lost = share_of(chances[lane]) < self.miss_probability;
@@ -215,10 +215,10 @@ impl Ring {
     /// The lowest random numbers of a ray mean a loss, the highest a spurious return; a loss takes
     /// precedence.
     #[inline(always)]
-    fn invent(&self, eye: &SensorFrame, to: &mut [[f64; GROUP]]) {
-        for (hand, groups) in (0..).zip(to.chunks_mut(GROUPS)) {
-            let chances = eye.deal(NoisePurpose::Echo, hand);
-            let places = eye.deal(NoisePurpose::EchoPlace, hand);
+    fn invent(&self, frame: &SensorFrame, to: &mut [[f64; GROUP]]) {
+        for (batch, groups) in (0..).zip(to.chunks_mut(GROUPS)) {
+            let chances = frame.batch_words(NoisePurpose::Echo, batch);
+            let places = frame.batch_words(NoisePurpose::EchoPlace, batch);
             for ((distances, chances), places) in groups.iter_mut().zip(&chances).zip(&places) {
                 *distances = from_fn(|lane| {
                     let is_false = share_of(chances[lane]) > 1.0 - self.spurious_return_probability;

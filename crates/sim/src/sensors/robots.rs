@@ -68,20 +68,25 @@ impl RobotDetector {
             && self.course_noise_rad.unwrap_or(0.0) == 0.0
     }
 
-    pub(crate) fn tells_courses(&self) -> bool {
+    pub(crate) fn measures_headings(&self) -> bool {
         self.course_noise_rad.is_some()
     }
 
     /// The measured position of a robot at `place`, if it is detected.
-    pub(crate) fn measure(&self, eye: &SensorFrame, place: Point, robot: Entity) -> Option<Point> {
-        let way = eye.own(place);
-        if !self.sector.holds(way) || (self.needs_line_of_sight && !eye.sees(place)) {
+    pub(crate) fn measure(
+        &self,
+        frame: &SensorFrame,
+        place: Point,
+        robot: Entity,
+    ) -> Option<Point> {
+        let way = frame.own(place);
+        if !self.sector.holds(way) || (self.needs_line_of_sight && !frame.sees(place)) {
             return None;
         }
         if self.is_sure {
             return Some(way);
         }
-        let words = eye.words_of(NoisePurpose::Thing, robot);
+        let words = frame.words_of(NoisePurpose::Thing, robot);
         let is_seen = share(words[0]) < self.detection_probability.probability(way.length());
         is_seen.then(|| blurred(way, self.noise_m, words))
     }
@@ -90,7 +95,7 @@ impl RobotDetector {
     /// headings are measured.
     pub(crate) fn course_rad(
         &self,
-        eye: &SensorFrame,
+        frame: &SensorFrame,
         course_rad: f64,
         robot: Entity,
     ) -> Option<f64> {
@@ -98,7 +103,7 @@ impl RobotDetector {
         let error_rad = if noise_rad == 0.0 {
             0.0
         } else {
-            let [one, other, ..] = eye.words_of(NoisePurpose::Orientation, robot);
+            let [one, other, ..] = frame.words_of(NoisePurpose::Orientation, robot);
             noise_rad * normal_pair([one, other])[0]
         };
         Some(wrapped(course_rad + error_rad))

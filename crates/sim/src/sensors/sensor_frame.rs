@@ -53,7 +53,7 @@ pub(crate) struct SensorFrame<'a> {
     /// Number of the measurement.
     pub(crate) measurement: u64,
     /// What can block the view.
-    pub(crate) stands: &'a StaticGeometry,
+    pub(crate) geometry: &'a StaticGeometry,
     /// Whether it is known that nothing does.
     pub(crate) is_clear: bool,
 }
@@ -74,15 +74,15 @@ impl SensorFrame<'_> {
             .words(used.of_sensor(self.sensor), time, thing.index)
     }
 
-    /// A random word for each thing of a hand: see [`Noise::deal`].
+    /// A random word for each entity of a batch: see [`Noise::batch_words`].
     #[inline(always)]
     #[expect(
         clippy::inline_always,
         reason = "it is compiled for the caller's vectors"
     )]
-    pub(crate) fn deal(&self, used: NoisePurpose, hand: u32) -> Blocks {
+    pub(crate) fn batch_words(&self, used: NoisePurpose, batch: u32) -> Blocks {
         self.noise
-            .deal(used.of_sensor(self.sensor), self.measurement, hand)
+            .batch_words(used.of_sensor(self.sensor), self.measurement, batch)
     }
 
     /// The vector to a place of the world, relative to the robot's front.
@@ -105,7 +105,7 @@ impl SensorFrame<'_> {
 
     /// Whether no static geometry hides a place.
     pub(crate) fn sees(&self, place: Point) -> bool {
-        self.is_clear || self.stands.is_open(self.at, place)
+        self.is_clear || self.geometry.is_open(self.at, place)
     }
 }
 

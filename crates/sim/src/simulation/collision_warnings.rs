@@ -37,10 +37,10 @@ impl Simulation {
         let (state, scenario) = (self.state(), self.scenario());
         let disc = &state.discs[robot];
         let layer = scenario.kinds[usize::from(state.ids[robot].kind)].layer;
-        let stands = scenario.touched(layer);
+        let geometry = scenario.touched(layer);
         let velocity = velocity(&state.body_states[robot], &state.orientations[robot]);
         let way = velocity.times(WITHIN_S);
-        if stands.is_clear(disc.centre, disc.radius_m + way.length()) {
+        if geometry.is_clear(disc.centre, disc.radius_m + way.length()) {
             return false;
         }
         let ahead = velocity.times(disc.radius_m / velocity.length());
@@ -51,7 +51,7 @@ impl Simulation {
         let middle = [disc.centre, disc.centre.plus(way).plus(ahead)];
         let side = |aside: Point| [disc.centre.plus(aside), disc.centre.plus(way).plus(aside)];
         let ways = [middle, side(aside), side(aside.times(-1.0))];
-        ways.iter().any(|[from, to]| !stands.is_open(*from, *to))
+        ways.iter().any(|[from, to]| !geometry.is_open(*from, *to))
     }
 
     fn goes_at_a_robot(&self, robot: usize, fastest_m_s: f64) -> bool {
@@ -60,7 +60,7 @@ impl Simulation {
         let disc = &state.discs[robot];
         let own = velocity(&state.body_states[robot], &state.orientations[robot]);
         let meet_m = (own.length() + fastest_m_s) * WITHIN_S;
-        let reach_m = disc.radius_m + scenario.biggest_radius_m() + meet_m;
+        let reach_m = disc.radius_m + scenario.max_radius_m() + meet_m;
         let mut about = self.neighbours().about(disc.centre, reach_m);
         about.any(|other| {
             let other = other as usize;

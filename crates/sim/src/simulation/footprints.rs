@@ -83,12 +83,12 @@ impl View<'_> {
             ranges_m: vec![sector.range_m; bearings(sector.width_rad) as usize],
         };
         if detector.needs_line_of_sight {
-            let eye = self.sensor_frame(robot, sensor, self.tick);
-            let around = eye.stands.around(eye.at, sector.range_m);
+            let frame = self.sensor_frame(robot, sensor, self.tick);
+            let around = frame.geometry.around(frame.at, sector.range_m);
             let bearings_rad = footprint.bearings_rad();
             for (range_m, bearing_rad) in footprint.ranges_m.iter_mut().zip(bearings_rad) {
                 let (y, x) = sin_cos(bearing_rad);
-                let end = eye.world_of(Point { x, y }.times(sector.range_m));
+                let end = frame.world_of(Point { x, y }.times(sector.range_m));
                 *range_m *= around.open_share(end);
             }
         }
@@ -106,9 +106,9 @@ impl View<'_> {
         };
         let mut room = Room::default();
         gather(self, robot, &mut room.near);
-        let eye = self.sensor_frame(robot, sensor, self.tick);
+        let frame = self.sensor_frame(robot, sensor, self.tick);
         let exact = ring.exact(footprint.bearings_rad());
-        exact.measure(&eye, &mut room, &mut footprint.ranges_m);
+        exact.measure(&frame, &mut room, &mut footprint.ranges_m);
         let ranges_m = footprint.ranges_m.iter_mut();
         // A ray that meets nothing has no return.
         ranges_m.for_each(|range_m| *range_m = range_m.min(ring.range_m));

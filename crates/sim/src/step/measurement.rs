@@ -175,7 +175,7 @@ impl Measurement<'_> {
         let view = self.view;
         let layers = [self.robot, other].map(|robot| view.kind(robot).layer);
         let frame = SensorFrame {
-            stands: view.scenario.hiding(layers),
+            geometry: view.scenario.hiding(layers),
             is_clear,
             ..self.frame
         };
@@ -200,8 +200,8 @@ impl Measurement<'_> {
             return false;
         };
         let layers = [self.robot, *first as usize].map(|robot| self.view.kind(robot).layer);
-        let stands = scenario.hiding(layers);
-        stands.is_clear(self.frame.at, detector.sector.range_m)
+        let geometry = scenario.hiding(layers);
+        geometry.is_clear(self.frame.at, detector.sector.range_m)
     }
 
     /// Index of the sensor, as brains count it.
@@ -251,7 +251,7 @@ fn deviations(frame: &SensorFrame) -> [f64; 2] {
 #[inline]
 pub(crate) fn gather<'v>(view: &View<'v>, robot: usize, near: &mut Near) {
     let kind = view.kind(robot);
-    let stands = view.scenario.seen(kind.layer);
+    let geometry = view.scenario.seen(kind.layer);
     let vicinity = view.neighbours.of(robot);
     let at = view.discs[robot].centre;
     near.begin(at, kind.rays_m);
@@ -269,8 +269,8 @@ pub(crate) fn gather<'v>(view: &View<'v>, robot: usize, near: &mut Near) {
     } else {
         near.take_apart(bodies);
     }
-    let discs = |numbers: &'v [u32]| numbers.iter().map(|number| *stands.disc(*number));
+    let discs = |numbers: &'v [u32]| numbers.iter().map(|number| *geometry.disc(*number));
     near.take_apart(discs(vicinity.discs_apart));
     near.take_overlapping(discs(vicinity.discs_overlapping));
-    near.take_walls(vicinity.walls.iter().map(|number| stands.wall(*number)));
+    near.take_walls(vicinity.walls.iter().map(|number| geometry.wall(*number)));
 }

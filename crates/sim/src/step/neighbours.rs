@@ -54,7 +54,7 @@ pub(crate) struct Vicinity<'a> {
 
 impl Neighbours {
     pub(crate) fn new(scenario: &Scenario) -> Self {
-        let biggest_m = scenario.biggest_radius_m();
+        let biggest_m = scenario.max_radius_m();
         let kinds = scenario.kinds.iter();
         let reach_m = kinds.map(|kind| {
             let rays_m = if kind.rays_m > 0.0 {
@@ -68,8 +68,10 @@ impl Neighbours {
         // Half as wide as the range: fewer robots are checked in vain.
         let cell_m = f64::midpoint(reach_m.iter().copied().fold(0.0, f64::max), scenario.skin_m);
         Self {
-            buckets: Buckets::new(scenario.world.size(), cell_m)
-                .on(scenario.torus, scenario.farthest_m() + scenario.skin_m),
+            buckets: Buckets::new(scenario.world.size(), cell_m).on(
+                scenario.torus,
+                scenario.interaction_range_m() + scenario.skin_m,
+            ),
             torus: scenario.torus,
             pieces: Vec::new(),
             gone_m: f64::INFINITY,
@@ -212,7 +214,7 @@ impl Piece {
     /// the distance of the nearest piece.
     fn add_seen(
         &mut self,
-        stands: &StaticGeometry,
+        geometry: &StaticGeometry,
         centre: Point,
         [reach_m, gone_m]: [f64; 2],
     ) -> f64 {
@@ -222,12 +224,12 @@ impl Piece {
             number
         };
         let robots = self.end();
-        let [apart, overlapping] = stands.discs_within(centre, reach_m);
+        let [apart, overlapping] = geometry.discs_within(centre, reach_m);
         self.things.extend(apart.map(&mut number));
         let apart = self.end();
         self.things.extend(overlapping.map(&mut number));
         let overlapping = self.end();
-        let faces = stands.faces_within(centre, reach_m, gone_m);
+        let faces = geometry.faces_within(centre, reach_m, gone_m);
         self.things.extend(faces.map(&mut number));
         self.ends.push([robots, apart, overlapping, self.end()]);
         nearest_m
@@ -274,8 +276,10 @@ impl Piece {
 }
 
 /// Distance of the nearest static geometry from a place.
-fn nearest_m(stands: &StaticGeometry, place: Point) -> f64 {
-    let walls = stands.walls_near(place).map(|wall| wall.distance(place));
-    let discs = stands.discs_near(place).map(|disc| disc.distance_m(place));
+fn nearest_m(geometry: &StaticGeometry, place: Point) -> f64 {
+    let walls = geometry.walls_near(place).map(|wall| wall.distance(place));
+    let discs = geometry
+        .discs_near(place)
+        .map(|disc| disc.distance_m(place));
     walls.chain(discs).fold(f64::INFINITY, f64::min)
 }

@@ -90,8 +90,11 @@ pub(crate) fn planned(scenario: &Scenario, tick: u64, body: &Body) -> Plan {
     };
     let may_touch = path.length_m != 0.0 && body.may_touch;
     let meeting = may_touch.then(|| {
-        let stands = scenario.touched(kind.layer);
-        let (walls, discs) = (stands.walls_near(path.start), stands.discs_near(path.start));
+        let geometry = scenario.touched(kind.layer);
+        let (walls, discs) = (
+            geometry.walls_near(path.start),
+            geometry.discs_near(path.start),
+        );
         meets_still(&path, disc.radius_m, &walls, &discs)
     });
     let meeting = meeting.flatten();

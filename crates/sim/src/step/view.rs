@@ -49,7 +49,7 @@ impl<'a> View<'a> {
             #[expect(clippy::cast_possible_truncation, reason = "a robot has at most 32")]
             sensor: sensor as u32,
             measurement,
-            stands: self
+            geometry: self
                 .scenario
                 .hiding([self.kind(robot).layer, Layer::Ground]),
             is_clear: false,

@@ -93,7 +93,7 @@ impl Grid {
     }
 
     /// The numbers of cells that contain every point between two places, and possibly some more.
-    pub(crate) fn on_the_way(&self, from: Point, to: Point) -> impl Iterator<Item = usize> {
+    pub(crate) fn cells_along(&self, from: Point, to: Point) -> impl Iterator<Item = usize> {
         let grid = *self;
         let [[_, first], [_, last]] = [grid.place(from), grid.place(to)];
         let rows = first.min(last)..=first.max(last);

@@ -227,11 +227,11 @@ impl StaticGeometry {
                 .map(|number| &self.discs[*number as usize])
                 .all(|disc| crossed_at(disc, from, way).is_none())
         };
-        self.near_walls.grid().on_the_way(from, to).all(sees_past)
+        self.near_walls.grid().cells_along(from, to).all(sees_past)
             && self
                 .near_discs
                 .grid()
-                .on_the_way(from, to)
+                .cells_along(from, to)
                 .all(sees_past_discs)
     }
 }

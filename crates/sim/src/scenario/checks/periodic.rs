@@ -13,7 +13,7 @@ pub(super) fn errors(checked: &Checked, at: &Place) -> Vec<InputError> {
         return Vec::new();
     };
     let half_size_m = torus.size_m.x.min(torus.size_m.y) / 2.0;
-    let max_m = half_size_m - scenario.skin_m - scenario.biggest_radius_m();
+    let max_m = half_size_m - scenario.skin_m - scenario.max_radius_m();
     let mut errors = Vec::new();
     let min_m = 2.0 * (scenario.contact_m + scenario.skin_m);
     if 2.0 * half_size_m < min_m {

@@ -33,23 +33,23 @@ fn measurements(spec: &RangeSpec, wall_m: f64, count: u64) -> Vec<f64> {
         to: [wall_m, 5.0].into(),
     };
     let walls: Vec<Wall> = Wall::of(&segment).into_iter().collect();
-    let stands = StaticGeometry::new(size_m, &walls, &[], RANGE_M);
+    let geometry = StaticGeometry::new(size_m, &walls, &[], RANGE_M);
     let ring = Ring::new(spec);
     let mut room = Room::default();
     room.near.begin(Point::default(), RANGE_M);
     room.near.take_walls(walls.iter());
     let mut ranges_m = Vec::new();
     let measurement = |measurement| {
-        let eye = SensorFrame {
+        let frame = SensorFrame {
             at: Point::default(),
             front: Point { x: 1.0, y: 0.0 },
             noise: Noise::of(3, 0, Entity { kind: 0, index: 0 }),
             sensor: 2,
             measurement,
-            stands: &stands,
+            geometry: &geometry,
             is_clear: false,
         };
-        ring.measure(&eye, &mut room, &mut ranges_m);
+        ring.measure(&frame, &mut room, &mut ranges_m);
         ranges_m.clone()
     };
     (0..count).flat_map(measurement).collect()
@@ -218,20 +218,20 @@ fn rays_of_a_turned_robot_are_turned_with_it() {
     room.near.begin(Point::default(), RANGE_M);
     room.near.take_apart([disc].into_iter());
     let ring = Ring::new(&spec(4));
-    let stands = StaticGeometry::new(Point { x: 10.0, y: 10.0 }, &[], &[disc], RANGE_M);
+    let geometry = StaticGeometry::new(Point { x: 10.0, y: 10.0 }, &[], &[disc], RANGE_M);
     let measurement = |heading_rad: f64| {
         let (y, x) = base::trig::sin_cos(heading_rad);
-        let eye = SensorFrame {
+        let frame = SensorFrame {
             at: Point::default(),
             front: Point { x, y },
             noise: Noise::of(3, 0, Entity { kind: 0, index: 0 }),
             sensor: 0,
             measurement: 0,
-            stands: &stands,
+            geometry: &geometry,
             is_clear: false,
         };
         let mut ranges_m = Vec::new();
-        ring.measure(&eye, &mut room, &mut ranges_m);
+        ring.measure(&frame, &mut room, &mut ranges_m);
         ranges_m.iter().position(|range_m| range_m.is_finite())
     };
     // The disc is to the left, ahead, behind, and to the right.
@@ -262,26 +262,26 @@ fn a_measurement_gives_the_same_bits_in_every_instruction_set() {
             radius_m: 0.2,
         })
         .collect();
-    let stands = StaticGeometry::new(Point { x: 10.0, y: 10.0 }, &walls, &discs, RANGE_M);
+    let geometry = StaticGeometry::new(Point { x: 10.0, y: 10.0 }, &walls, &discs, RANGE_M);
     for (rays, measurement) in (1..=100).zip(0..) {
         everything.rays = rays;
         let ring = Ring::new(&everything);
         let (y, x) = base::trig::sin_cos(f64::from(rays));
-        let eye = SensorFrame {
+        let frame = SensorFrame {
             at: Point::default(),
             front: Point { x, y },
             noise: Noise::of(3, 0, Entity { kind: 0, index: 0 }),
             sensor: 2,
             measurement,
-            stands: &stands,
+            geometry: &geometry,
             is_clear: false,
         };
         let in_set = |arch: Arch| -> Vec<u64> {
             let (mut room, mut ranges_m) = (Room::default(), Vec::new());
-            room.near.begin(eye.at, RANGE_M);
+            room.near.begin(frame.at, RANGE_M);
             room.near.take_overlapping(discs.iter().copied());
             room.near.take_walls(walls.iter());
-            ring.look_with(arch, &eye, &mut room, &mut ranges_m);
+            ring.look_with(arch, &frame, &mut room, &mut ranges_m);
             ranges_m.iter().map(|range_m| range_m.to_bits()).collect()
         };
         let plain = in_set(Arch::Scalar);

@@ -68,7 +68,7 @@ fn a_way_goes_through_the_cells_of_all_its_points() {
                 _ => {}
             }
             // A column or a row of millions of cells takes its time.
-            let cells: Vec<usize> = grid.on_the_way(from, to).take(200_000).collect();
+            let cells: Vec<usize> = grid.cells_along(from, to).take(200_000).collect();
             if cells.len() == 200_000 {
                 continue;
             }
@@ -88,7 +88,7 @@ fn a_way_goes_through_the_cells_of_all_its_points() {
 #[test]
 fn a_way_goes_through_few_cells_beside_it() {
     let grid = Grid::new(Point { x: 100.0, y: 100.0 }, 1.0);
-    let count = |from: [f64; 2], to: [f64; 2]| grid.on_the_way(from.into(), to.into()).count();
+    let count = |from: [f64; 2], to: [f64; 2]| grid.cells_along(from.into(), to.into()).count();
     assert_eq!(count([0.5, 0.5], [99.5, 0.5]), 100);
     assert_eq!(count([0.5, 0.5], [0.5, 99.5]), 100);
     // Diagonally through the corners, and a hair beside them.

@@ -37,15 +37,15 @@ impl StaticGeometry {
 
 impl Around {
     /// Adds what is around the image of the place with this offset.
-    fn take(&mut self, stands: &StaticGeometry, by: Point, reach_m: f64) {
+    fn take(&mut self, geometry: &StaticGeometry, by: Point, reach_m: f64) {
         let (place, back) = (self.place, by.times(-1.0));
         let [low, high] = corners(place.plus(by), reach_m);
-        let walls = stands.near_walls.within(low, high).into_iter();
-        let walls = walls.map(|number| stands.wall(number).shifted(back));
+        let walls = geometry.near_walls.within(low, high).into_iter();
+        let walls = walls.map(|number| geometry.wall(number).shifted(back));
         self.walls
             .extend(walls.filter(|wall| wall.distance(place) < reach_m));
-        let discs = stands.near_discs.within(low, high).into_iter();
-        let discs = discs.map(|number| shifted(stands.disc(number), back));
+        let discs = geometry.near_discs.within(low, high).into_iter();
+        let discs = discs.map(|number| shifted(geometry.disc(number), back));
         self.discs
             .extend(discs.filter(|disc| disc.distance(place) < reach_m));
     }

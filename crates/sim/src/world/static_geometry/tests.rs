@@ -38,7 +38,7 @@ impl Scene {
         }
     }
 
-    fn stands(&self, reach_m: f64) -> StaticGeometry {
+    fn geometry(&self, reach_m: f64) -> StaticGeometry {
         let walls: Vec<Wall> = self.walls.iter().filter_map(Wall::of).collect();
         StaticGeometry::new(self.size, &walls, &self.discs, reach_m)
     }
@@ -84,7 +84,7 @@ fn a_way_is_open_if_nothing_at_all_crosses_it() {
         let mut random = random(number);
         let scene = Scene::new(&mut random);
         let reach_m = [0.0, 0.02, 1.0][random.bounded(3) as usize] * scene.size.x;
-        let stands = scene.stands(reach_m);
+        let geometry = scene.geometry(reach_m);
         for _ in 0..10 {
             let mut point = || Point {
                 x: scene.size.x * unit(&mut random),
@@ -109,23 +109,23 @@ fn a_way_is_open_if_nothing_at_all_crosses_it() {
                 continue;
             };
             assert_eq!(
-                stands.is_open(from, to),
+                geometry.is_open(from, to),
                 is_open,
                 "{number}: {from:?} {to:?}"
             );
-            let around = stands.around(from, from.to(to).length());
+            let around = geometry.around(from, from.to(to).length());
             let share = around.open_share(to);
             assert_eq!(share >= 1.0, is_open, "{number}: {from:?} {to:?} {share}");
             for (part, is_open) in [(0.999, true), (1.001, false)] {
                 let end = from.plus(from.to(to).times(share * part));
                 let is_reported = share * part < 1.0 && scene.plain(from, end).is_some();
                 assert!(
-                    !is_reported || stands.is_open(from, end) == is_open,
+                    !is_reported || geometry.is_open(from, end) == is_open,
                     "{number}: {share}"
                 );
             }
             assert_eq!(
-                stands.is_open(to, from),
+                geometry.is_open(to, from),
                 is_open,
                 "{number}: {to:?} {from:?}"
             );
@@ -174,9 +174,9 @@ fn a_wall_hides_from_both_of_its_sides() {
         to: [2.0, 3.0].into(),
     };
     let walls: Vec<Wall> = Wall::of(&segment).into_iter().collect();
-    let stands = StaticGeometry::new(size, &walls, &[], 0.5);
+    let geometry = StaticGeometry::new(size, &walls, &[], 0.5);
     let (left, right) = (Point { x: 1.0, y: 1.0 }, Point { x: 3.0, y: 2.0 });
-    assert!(!stands.is_open(left, right) && !stands.is_open(right, left));
+    assert!(!geometry.is_open(left, right) && !geometry.is_open(right, left));
 }
 
 #[test]
@@ -193,11 +193,11 @@ fn overlapping_discs_are_distinguished() {
         disc(2.0, 7.0, 0.5),
         disc(2.1, 7.0, 0.1),
     ];
-    let stands = StaticGeometry::new(Point { x: 10.0, y: 10.0 }, &[], &discs, 1.0);
+    let geometry = StaticGeometry::new(Point { x: 10.0, y: 10.0 }, &[], &discs, 1.0);
     let found = |place: Point| {
-        stands.discs_within(place, 1.0).map(|numbers| {
+        geometry.discs_within(place, 1.0).map(|numbers| {
             numbers
-                .map(|(number, _)| stands.disc(number).centre.x)
+                .map(|(number, _)| geometry.disc(number).centre.x)
                 .collect::<Vec<_>>()
         })
     };
@@ -217,7 +217,7 @@ fn a_full_view_sees_every_place() {
             walls: scene.walls[..7].to_vec(),
             ..scene
         };
-        let stands = scene.stands(0.0);
+        let geometry = scene.geometry(0.0);
         let mut share = || unit(&mut random);
         let from = Point {
             x: scene.size.x * share(),
@@ -227,9 +227,9 @@ fn a_full_view_sees_every_place() {
         let bearing_rad = std::f64::consts::TAU * share();
         let (y, x) = bearing_rad.sin_cos();
         let to = from.plus(Point { x, y }.times(0.999 * reach_m));
-        if stands.is_clear(from, reach_m) {
+        if geometry.is_clear(from, reach_m) {
             clear += 1;
-            assert!(stands.is_open(from, to), "{number}");
+            assert!(geometry.is_open(from, to), "{number}");
         }
     }
     assert!((200..1900).contains(&clear), "{clear}");
@@ -244,7 +244,7 @@ fn on_a_torus_what_is_around_a_place_tells_which_ways_from_it_are_open() {
         let torus = Torus { size_m: scene.size };
         // Without the border, which a periodic world does not have.
         let walls: Vec<Wall> = scene.walls[4..].iter().filter_map(Wall::of).collect();
-        let stands = StaticGeometry::on(torus, &walls, &scene.discs, 0.1);
+        let geometry = StaticGeometry::on(torus, &walls, &scene.discs, 0.1);
         for _ in 0..50 {
             let mut share = || unit(&mut random);
             let from = Point {
@@ -257,10 +257,10 @@ fn on_a_torus_what_is_around_a_place_tells_which_ways_from_it_are_open() {
             }
             .times(0.9 * scene.size.y.min(scene.size.x));
             let to = from.plus(way);
-            let is_visible = stands.around(from, way.length()).open_share(to) >= 1.0;
+            let is_visible = geometry.around(from, way.length()).open_share(to) >= 1.0;
             assert_eq!(
                 is_visible,
-                stands.is_open(from, to),
+                geometry.is_open(from, to),
                 "{number}: {from:?} {to:?}"
             );
             open += u32::from(is_visible);

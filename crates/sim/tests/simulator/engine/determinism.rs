@@ -114,7 +114,7 @@ fn a_world_of_5000_robots_is_identical_for_any_number_of_threads() {
 #[test]
 fn the_age_of_neighbour_lists_has_no_effect() {
     let scenario = scenario(&crowd(120, 25.0));
-    let anew = |each: u32| {
+    let rebuilt = |each: u32| {
         let mut simulation = Simulation::new(Arc::clone(&scenario), 1, 0).unwrap();
         let mut hashes = Vec::new();
         for step in 0..120 {
@@ -128,9 +128,9 @@ fn the_age_of_neighbour_lists_has_no_effect() {
         }
         (hashes, simulation.outcome())
     };
-    let never = anew(0);
+    let never = rebuilt(0);
     for each in [1, 2, 7, 50] {
-        assert_eq!(anew(each), never, "every {each} steps");
+        assert_eq!(rebuilt(each), never, "every {each} steps");
     }
 }
 
@@ -225,7 +225,7 @@ fn an_added_robot_or_kind_does_not_affect_robots_that_do_not_meet_it() {
         let mut percepts = Vec::new();
         for _ in 0..30 {
             let percepts_now = (0..6).map(|index| simulation.percept(id(0, index)).unwrap());
-            // How many it is one of is command_of to each.
+            // Percepts contain the size of the team.
             percepts
                 .extend(percepts_now.map(|percept| percept.map(|p| Percept { team_size: 0, ..p })));
             simulation.step();
