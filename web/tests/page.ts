@@ -1,13 +1,7 @@
 import type { ServerMessage } from "../src/api/protocol";
 import AxeBuilder from "@axe-core/playwright";
 import { test as base, expect, type Page, type WebSocketRoute } from "@playwright/test";
-import { serve } from "../dev/fake-server.mjs";
 import { RealServer } from "../dev/real-server.mjs";
-
-interface Fake {
-  url: string;
-  drop(): void;
-}
 
 async function withServer(use: (server: RealServer) => Promise<void>): Promise<void> {
   const server = new RealServer();
@@ -17,7 +11,6 @@ async function withServer(use: (server: RealServer) => Promise<void>): Promise<v
 }
 
 interface TestFixtures {
-  fake: Fake;
   ownServer: RealServer;
   consoleErrors: string[];
 }
@@ -29,11 +22,6 @@ interface TestFixtures {
 export const test = base.extend<TestFixtures, { server: RealServer }>({
   server: [({}, use) => withServer(use), { scope: "worker" }],
   ownServer: ({}, use) => withServer(use),
-  fake: async ({}, use) => {
-    const server = await serve(0);
-    await use(server);
-    server.stop();
-  },
   consoleErrors: [
     async ({ page }, use) => {
       const consoleErrors: string[] = [];
@@ -91,12 +79,16 @@ model = "ugv"
 count = 4
 `;
 
-/** Expects no violation of axe's rules in the light theme, nor of those about colours in the dark theme. */
-export async function expectAccessible(page: Page): Promise<void> {
+/**
+ * Expects no violation of axe's rules in the light theme, nor of those about colours in the dark theme; in the
+ * whole page, or in a part of it.
+ */
+export async function expectAccessible(page: Page, part = "html"): Promise<void> {
+  const axe = () => new AxeBuilder({ page }).include(part);
   await page.emulateMedia({ colorScheme: "light" });
-  await expectNoViolations(new AxeBuilder({ page }));
+  await expectNoViolations(axe());
   await page.emulateMedia({ colorScheme: "dark" });
-  await expectNoViolations(new AxeBuilder({ page }).withRules(["color-contrast", "link-in-text-block"]));
+  await expectNoViolations(axe().withRules(["color-contrast", "link-in-text-block"]));
 }
 
 async function expectNoViolations(axe: AxeBuilder): Promise<void> {

@@ -1,5 +1,5 @@
 import type { Page } from "@playwright/test";
-import { expect, expectAccessible, type RealServer, test } from "../page";
+import { expect, expectAccessible, type RealServer, test } from "./page";
 
 const status = (page: Page) => page.locator("#status");
 const hash = async (page: Page) =>
