@@ -116,7 +116,7 @@ def overview() -> str:
     lines = [
         ["random search: 1 - exp(-n w v t / A)", *deviation("random-search")],
         ["lanes: min(1, w v t / A)", *deviation("lanes")],
-        ["scans until detection: geometric", *deviation("looks")],
+        ["scans until detection: geometric", *deviation("scans")],
         ["false alarms per scan: Poisson", *deviation("false-alarms")],
         ["arcs: circles", f"{largest('arcs'):.0e} m off after 100,000 steps", "exact"],
         ["stopping: v² / 2a", f"relative error below {relative('stopping'):.0e}", "exact"],
@@ -174,7 +174,7 @@ def specifications() -> dict[str, Spec]:
     return {
         "random-search": random_search(),
         "lanes": simple("lanes", "distance along lanes, m", "fraction of items found"),
-        "looks": simple("looks", "scans", "fraction not detected", Axes(y="log", whole=True)),
+        "scans": simple("scans", "scans", "fraction not detected", Axes(y="log", whole=True)),
         "false-alarms": simple(
             "false-alarms", "false alarms per scan", "fraction of scans", Axes(whole=True)
         ),

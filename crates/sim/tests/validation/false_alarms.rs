@@ -11,7 +11,7 @@ const RANGE_M: f64 = 2.0;
 
 /// False alarms per measurement and square metre of visible area: 1.6 per second at 10 Hz.
 const PER_M2: f64 = 0.16;
-const LOOKS: u32 = 40_000;
+const SCANS: u32 = 40_000;
 
 /// Counts from this value on are grouped.
 const MANY: u64 = 6;
@@ -57,7 +57,7 @@ fn counts(changes: &[(&str, Value)]) -> Vec<u32> {
     let mut simulation = run(&scenario(TEXT, changes), 1, 0);
     let mut counts = vec![0; usize::try_from(MANY).unwrap() + 1];
     let mut before = 0;
-    for _ in 0..LOOKS {
+    for _ in 0..SCANS {
         simulation.step();
         let so_far = simulation.outcome().false_alarms;
         counts[usize::try_from((so_far - before).min(MANY)).unwrap()] += 1;
@@ -86,8 +86,8 @@ fn rows(per_m2: f64) -> Vec<Row> {
     let rows = views.flat_map(|(series, changes, area_m2)| {
         let counts = counts(&changes).into_iter();
         let shares = counts.zip(poisson(per_m2 * area_m2));
-        let rows = (0..).zip(shares).map(move |(count, (looks, probability))| {
-            Row::share(series, f64::from(count), looks, LOOKS, probability)
+        let rows = (0..).zip(shares).map(move |(count, (scans, probability))| {
+            Row::share(series, f64::from(count), scans, SCANS, probability)
         });
         rows.collect::<Vec<_>>()
     });

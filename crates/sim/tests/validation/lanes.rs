@@ -1,7 +1,7 @@
 //! With lanes as wide as the sweep, finds are proportional to time: nothing is observed twice.
 
 use crate::rows::{Row, assert_published, assert_right, assert_wrong};
-use crate::setup::{first_of, found, run, scenario, step, turning, width_of_looks};
+use crate::setup::{first_of, found, relative_sweep_width, run, scenario, step, turning};
 use base::document::Value;
 use sim::simulation::Simulation;
 use std::collections::BTreeMap;
@@ -55,7 +55,7 @@ fn rows(range_m: f64) -> Vec<Row> {
     let runs: Vec<Vec<u32>> = (0..RUNS).map(|number| mow(range_m, number)).collect();
     let all = ITEMS * u32::try_from(RUNS).unwrap();
     // Between measurements 0.1 m apart, a small area at the edge of a lane is not observed.
-    let seen = width_of_looks(0.1, RANGE_M);
+    let seen = relative_sweep_width(0.1, RANGE_M);
     let row = |(lane, done): (usize, u32)| {
         let found = runs.iter().map(|run| run[lane]).sum();
         let swept = f64::from(done) / f64::from(LANES);

@@ -3,7 +3,7 @@
 use crate::paths::long_path_factor;
 use crate::rows::{Row, assert_published, assert_right, assert_wrong};
 use crate::setup::{
-    Random, away, found, robots, run, scenario, step, time_s, whole, width_of_looks,
+    Random, away, found, relative_sweep_width, robots, run, scenario, step, time_s, whole,
 };
 use base::document::Value;
 use sim::simulation::Simulation;
@@ -36,7 +36,7 @@ type Search = [Found; SWEPT.len()];
 
 /// Effective sweep width of a robot with one measurement per step.
 fn width_m() -> f64 {
-    2.0 * RANGE_M * width_of_looks(SPEED_M_S * STEP_S, RANGE_M)
+    2.0 * RANGE_M * relative_sweep_width(SPEED_M_S * STEP_S, RANGE_M)
 }
 
 /// Expected share found after a total distance of all robots: Koopman's law, with the areas visible

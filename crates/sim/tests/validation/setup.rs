@@ -190,7 +190,7 @@ pub(crate) fn found(simulation: &Simulation) -> u32 {
 ///
 /// The union of discs of radius r in a row with spacing d has the area d sqrt(r^2 - d^2/4) +
 /// 2 r^2 asin(d / 2r) per disc, which is divided by d and by 2r.
-pub(crate) fn width_of_looks(apart_m: f64, radius_m: f64) -> f64 {
+pub(crate) fn relative_sweep_width(apart_m: f64, radius_m: f64) -> f64 {
     let q = apart_m / (2.0 * radius_m);
     f64::midpoint((1.0 - q * q).sqrt(), libm::asin(q) / q)
 }

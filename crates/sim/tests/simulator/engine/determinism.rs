@@ -64,6 +64,21 @@ pub(crate) fn commands(simulation: &Simulation, step: u32) -> BTreeMap<RobotId, 
     (0..).zip(ids).filter_map(command_of).collect()
 }
 
+/// Asserts that a run is the same whether or not `inspect` is called after each step.
+pub(crate) fn assert_no_effect(inspect: impl Fn(&mut Simulation, u32)) {
+    let text = crowd(120, 40.0);
+    let (mut inspected, mut free) = (start(&text), start(&text));
+    for step in 0..100 {
+        for simulation in [&mut inspected, &mut free] {
+            let commands = commands(simulation, step);
+            simulation.step_with(BTreeMap::new(), commands).unwrap();
+        }
+        inspect(&mut inspected, step);
+        assert_eq!(inspected.state().hash(), free.state().hash());
+    }
+    assert_eq!(inspected.outcome(), free.outcome());
+}
+
 /// State hashes after each step, percepts of some robots, and the outcome.
 fn trace(simulation: &mut Simulation, steps: u32) -> (Vec<u64>, Vec<Option<Percept>>, Outcome) {
     let (mut hashes, mut percepts) = (Vec::new(), Vec::new());

@@ -80,8 +80,8 @@ fn reported_courses_have_the_configured_error() {
     let eye = "sensors = { mates = { kind = \"robots\", range_m = 3, course_noise_deg = 10 } }";
     let mut simulation = rovers(&[[0.5, 15.0], [0.5, 14.0]], eye);
     let mut squares = 0.0;
-    let looks = 4000;
-    for _ in 0..looks {
+    let samples = 4000;
+    for _ in 0..samples {
         let seen = percept(&mut simulation, 0).neighbours;
         squares += seen[0].course_rad.unwrap().to_degrees().powi(2);
         step_with(
@@ -90,7 +90,7 @@ fn reported_courses_have_the_configured_error() {
         );
     }
     // The standard error of the mean square is 100 * sqrt(2 / 4000) = 2.2; seed fixed.
-    let variance = squares / f64::from(looks);
+    let variance = squares / f64::from(samples);
     assert!((variance - 100.0).abs() < 9.0, "{variance}");
 }
 

@@ -71,10 +71,10 @@ fn assert_share(hits: usize, count: usize, share: f64) {
 /// step at or after each multiple of the period.
 fn newest(now: u32, rate_hz: f64, latency_s: f64) -> Option<u32> {
     let is_look = |step: &u32| {
-        let beats = |step: f64| (step * STEP_S * rate_hz + 1e-9).floor();
+        let measurements = |step: f64| (step * STEP_S * rate_hz + 1e-9).floor();
         *step == 0
             || rate_hz * STEP_S >= 1.0
-            || beats(f64::from(*step)) > beats(f64::from(step - 1))
+            || measurements(f64::from(*step)) > measurements(f64::from(step - 1))
     };
     let has = |step: &u32| f64::from(now - step) * STEP_S >= latency_s - 1e-9;
     (0..=now).rev().filter(is_look).find(has)
@@ -173,11 +173,11 @@ fn a_dropped_measurement_keeps_the_previous_value() {
     let ages = all
         .iter()
         .filter_map(|percept| percept.position.map(|read| read.age_s));
-    let looks = all.iter().step_by(5);
-    let fresh = looks
+    let steps = all.iter().step_by(5);
+    let fresh = steps
         .clone()
         .filter(|percept| percept.position.is_some_and(|read| read.age_s == 0.0));
-    assert_share(fresh.count(), looks.count(), 0.5);
+    assert_share(fresh.count(), steps.count(), 0.5);
     assert!(ages.clone().all(|age_s| age_s < 3.0 / 2.0 + 1e-9));
     assert!(ages.filter(|age_s| *age_s > 0.5).count() > 500);
 }
@@ -335,8 +335,8 @@ fn the_number_of_false_alarms_is_proportional_to_the_visible_area() {
             "[items.mine]\ncount = 1\ntarget = false\n[items.cow]\ncount = 1\ntarget = false";
         let mut simulation = start(&room(&sensors, more));
         let all = percepts(&mut simulation, 40_000, &go(0.0, 0.0));
-        let looks: Vec<&Percept> = all.iter().step_by(2).flatten().collect();
-        let counts: Vec<f64> = looks
+        let scans: Vec<&Percept> = all.iter().step_by(2).flatten().collect();
+        let counts: Vec<f64> = scans
             .iter()
             .map(|percept| percept.contacts.len() as f64)
             .collect();
@@ -349,7 +349,7 @@ fn the_number_of_false_alarms_is_proportional_to_the_visible_area() {
                 .into_iter()
                 .all(|percept| percept.contacts.is_empty())
         );
-        let contacts: Vec<_> = looks.iter().flat_map(|percept| &percept.contacts).collect();
+        let contacts: Vec<_> = scans.iter().flat_map(|percept| &percept.contacts).collect();
         assert!(
             contacts
                 .iter()
@@ -422,17 +422,20 @@ fn a_slow_brain_receives_every_contact_between_its_steps_once() {
             }
             simulation.step();
         }
-        assert_eq!(steps, (0..=10).map(|beat| 10 * beat).collect::<Vec<_>>());
+        assert_eq!(
+            steps,
+            (0..=10).map(|number| 10 * number).collect::<Vec<_>>()
+        );
         let last = 100 - (latency_s / STEP_S).round() as u32;
         contacts.sort_unstable();
         assert_eq!(
             contacts,
             (0..=last).collect::<Vec<_>>(),
-            "{latency_s}: each look once"
+            "{latency_s}: each measurement once"
         );
         let expected: Vec<(u32, u32)> = (0..=last)
             .step_by(2)
-            .flat_map(|look| [(look, 0), (look, 1)])
+            .flat_map(|measurement| [(measurement, 0), (measurement, 1)])
             .collect();
         neighbours.sort_unstable();
         assert_eq!(neighbours, expected, "{latency_s}");

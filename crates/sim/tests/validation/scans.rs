@@ -5,7 +5,7 @@ use crate::setup::{circle, places, run, scenario, whole};
 use base::document::Value;
 use base::geometry::Point;
 
-const TEXT: &str = include_str!("../../../../docs/validation/looks.toml");
+const TEXT: &str = include_str!("../../../../docs/validation/scans.toml");
 const CENTRE: Point = Point { x: 10.0, y: 10.0 };
 
 /// Number of items at each distance, and of runs.
@@ -13,7 +13,7 @@ const ITEMS: u32 = 2000;
 const RUNS: u64 = 20;
 
 /// Number of measurements that are evaluated.
-const LOOKS: u32 = 8;
+const SCANS: u32 = 8;
 
 /// A distance, and the detection probability there.
 type At = (f64, f64);
@@ -25,7 +25,7 @@ const BY_TABLE: [At; 3] = [(1.0, 0.8), (2.5, 0.45), (4.0, 0.2)];
 const BY_CURVE: [At; 3] = [(0.0, 0.6), (1.5, 0.3), (3.0, 0.0375)];
 
 /// The number of undetected items at each distance after each measurement.
-fn left(changes: &[(&str, Value)]) -> Vec<[u32; LOOKS as usize]> {
+fn left(changes: &[(&str, Value)]) -> Vec<[u32; SCANS as usize]> {
     let distances = BY_TABLE.iter().chain(&BY_CURVE).count();
     let around = |at: &[At]| {
         let all = at.iter();
@@ -40,16 +40,16 @@ fn left(changes: &[(&str, Value)]) -> Vec<[u32; LOOKS as usize]> {
         ("items.by_curve.count", whole(3 * ITEMS)),
     ];
     let scenario = scenario(TEXT, &[&fixed, changes].concat());
-    let mut left = vec![[0; LOOKS as usize]; distances];
+    let mut left = vec![[0; SCANS as usize]; distances];
     for number in 0..RUNS {
         let mut simulation = run(&scenario, 1, number);
-        for look in 0..LOOKS {
+        for scan in 0..SCANS {
             // Measurements at 5 Hz: one in two steps.
             simulation.step();
             simulation.step();
             let items = simulation.state().each_item(&scenario);
             for (item, _) in items.enumerate().filter(|(_, item)| item.found_s.is_none()) {
-                left[item / ITEMS as usize][look as usize] += 1;
+                left[item / ITEMS as usize][scan as usize] += 1;
             }
         }
     }
@@ -65,9 +65,9 @@ fn rows(changes: &[(&str, Value)]) -> Vec<Row> {
     let series = curve.chain(table).zip(left);
     let rows = series.flat_map(|((name, (distance_m, probability)), left)| {
         let series = format!("{name}: {distance_m} m");
-        (1..).zip(left).map(move |(look, left)| {
-            let expected = (0..look).map(|_| 1.0 - probability).product();
-            Row::share(&series, f64::from(look), left, all, expected)
+        (1..).zip(left).map(move |(scan, left)| {
+            let expected = (0..scan).map(|_| 1.0 - probability).product();
+            Row::share(&series, f64::from(scan), left, all, expected)
         })
     });
     // A share of few items is not normally distributed.
@@ -81,7 +81,7 @@ fn rows(changes: &[(&str, Value)]) -> Vec<Row> {
 #[test]
 fn the_number_of_measurements_until_detection_is_geometric() {
     let rows = rows(&[]);
-    assert_published("looks.csv", &rows);
+    assert_published("scans.csv", &rows);
     assert_right(&rows);
 }
 
