@@ -22,6 +22,13 @@ pub enum Solid {
 /// Number of cells along the radius of the robot.
 const CELLS_PER_RADIUS: f64 = 4.0;
 
+/// Adjacent cells of a row.
+#[derive(Debug, Clone)]
+pub(super) struct Run {
+    pub(super) row: u32,
+    pub(super) columns: RangeInclusive<u32>,
+}
+
 /// Square cells that cover the world.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Cells {
@@ -53,20 +60,23 @@ impl Cells {
         self.columns as usize * self.rows as usize
     }
 
-    pub(super) fn index(&self, (column, row): (u32, u32)) -> usize {
-        row as usize * self.columns as usize + column as usize
+    /// The number of cells in a row.
+    pub(super) fn columns(&self) -> usize {
+        self.columns as usize
+    }
+
+    /// The indices of a run of cells, counted row by row.
+    pub(super) fn indices(&self, run: &Run) -> RangeInclusive<usize> {
+        let first = run.row as usize * self.columns();
+        first + *run.columns.start() as usize..=first + *run.columns.end() as usize
     }
 
     pub(super) fn half_diagonal_m(&self) -> f64 {
         self.side_m * FRAC_1_SQRT_2
     }
 
-    /// The cells whose centre is closer to the obstacle than `near_m`: one range of indices per row.
-    pub(super) fn near(
-        &self,
-        solid: Solid,
-        near_m: f64,
-    ) -> impl Iterator<Item = RangeInclusive<usize>> {
+    /// The cells whose centre is closer to the obstacle than `near_m`: at most one run per row.
+    pub(super) fn near(&self, solid: Solid, near_m: f64) -> impl Iterator<Item = Run> {
         let cells = *self;
         let (low, high) = heights(solid, near_m);
         let rows = cells.middles(low - cells.corner.y, high - cells.corner.y, cells.rows);
@@ -75,12 +85,12 @@ impl Cells {
             let (left, right) = widths(solid, near_m, y)?;
             let columns =
                 cells.middles(left - cells.corner.x, right - cells.corner.x, cells.columns)?;
-            Some(cells.index((*columns.start(), row))..=cells.index((*columns.end(), row)))
+            Some(Run { row, columns })
         })
     }
 
     /// The cells that overlap the rectangle.
-    pub(super) fn touched_by(&self, rectangle: &Rectangle) -> impl Iterator<Item = (u32, u32)> {
+    pub(super) fn touched_by(&self, rectangle: &Rectangle) -> impl Iterator<Item = Run> {
         let (min, max) = (
             self.corner.to(rectangle.min()),
             self.corner.to(rectangle.max()),
@@ -89,19 +99,12 @@ impl Cells {
         let far_m = self.side_m / 2.0 + TOLERANCE_M;
         let rows = self.middles(min.y - far_m, max.y + far_m, self.rows);
         let columns = self.middles(min.x - far_m, max.x + far_m, self.columns);
-        let columns = columns.into_iter().flatten();
-        columns.flat_map(move |column| {
-            let rows = rows.clone().into_iter().flatten();
-            rows.map(move |row| (column, row))
+        rows.zip(columns).into_iter().flat_map(|(rows, columns)| {
+            rows.map(move |row| Run {
+                row,
+                columns: columns.clone(),
+            })
         })
-    }
-
-    /// The cell and its eight neighbours.
-    pub(super) fn neighbours(&self, (column, row): (u32, u32)) -> impl Iterator<Item = (u32, u32)> {
-        let around = |at: u32, count: u32| at.saturating_sub(1)..=(at + 1).min(count - 1);
-        let rows = around(row, self.rows);
-        around(column, self.columns)
-            .flat_map(move |column| rows.clone().map(move |row| (column, row)))
     }
 
     /// Of `count` cells in a line, those whose centre is from `low` to `high` along the line.

@@ -12,25 +12,26 @@
 //! their diagonal is the robot's width, no wall closes any cell.
 
 mod cells;
+mod runs;
 
 pub use cells::{MAX_CELLS, Solid};
 
 use crate::geometry::{Disc, Point, Rectangle};
 use cells::{Cells, TOLERANCE_M};
+use runs::Runs;
 
 /// The places that a robot may reach.
 #[derive(Debug, Clone)]
 pub struct Reachability {
     cells: Cells,
-    /// Cumulative number of reachable cells, row by row.
-    flooded_before: Vec<u32>,
+    reached: Runs,
 }
 
 impl Reachability {
     /// The places that a robot of `radius_m` may reach from anywhere in its `starts` (an empty rectangle
     /// for a single point), within the walls of `world` and around the `solid` obstacles.
     ///
-    /// Takes a few bytes per cell, of at most [`MAX_CELLS`], and time linear in cells and obstacles.
+    /// Takes a byte per cell, of at most [`MAX_CELLS`], and time linear in cells and obstacles.
     #[must_use]
     pub fn new(
         world: Rectangle,
@@ -45,17 +46,14 @@ impl Reachability {
         let walls = world.room().map(Solid::Wall);
         for solid in solid.into_iter().chain(walls) {
             for near in cells.near(solid, sure_m) {
-                is_closed[near].fill(true);
+                is_closed[cells.indices(&near)].fill(true);
             }
         }
-        let is_flooded = flood(&cells, is_closed, starts);
-        let counts = is_flooded.iter().scan(0, |count, is_flooded| {
-            *count += u32::from(*is_flooded);
-            Some(*count)
-        });
+        let starts = starts.iter().flat_map(|start| cells.touched_by(start));
+        let open = Runs::open(&is_closed, cells.columns());
         Self {
             cells,
-            flooded_before: std::iter::once(0).chain(counts).collect(),
+            reached: open.connected_to(starts),
         }
     }
 
@@ -69,35 +67,8 @@ impl Reachability {
             radius_m: 0.0,
         });
         let mut near = self.cells.near(reach, far_m);
-        near.any(|cells| {
-            self.flooded_before[*cells.start()] < self.flooded_before[*cells.end() + 1]
-        })
+        near.any(|run| self.reached.overlap(&run))
     }
-}
-
-/// The cells that are connected to those of `starts` through cells that are not closed.
-fn flood(cells: &Cells, mut is_closed: Vec<bool>, starts: &[Rectangle]) -> Vec<bool> {
-    let mut is_flooded = vec![false; cells.count()];
-    let mut ahead: Vec<(u32, u32)> = Vec::new();
-    let mut visit = |cell: (u32, u32), ahead: &mut Vec<(u32, u32)>| {
-        let index = cells.index(cell);
-        // Close reached cells, so that each is visited once.
-        if !std::mem::replace(&mut is_closed[index], true) {
-            is_flooded[index] = true;
-            ahead.push(cell);
-        }
-    };
-    for start in starts {
-        for cell in cells.touched_by(start) {
-            visit(cell, &mut ahead);
-        }
-    }
-    while let Some(cell) = ahead.pop() {
-        for neighbour in cells.neighbours(cell) {
-            visit(neighbour, &mut ahead);
-        }
-    }
-    is_flooded
 }
 
 #[cfg(test)]

@@ -187,7 +187,7 @@ proptest! {
         for solid in &solids {
             let mut is_near = vec![false; cells.count()];
             for run in cells.near(*solid, near_m) {
-                is_near[run].fill(true);
+                is_near[cells.indices(&run)].fill(true);
             }
             let columns = (6.0 / side_m).ceil();
             for (index, is_near) in is_near.into_iter().enumerate() {
