@@ -70,11 +70,11 @@ impl Run {
 fn open_runs(row: u32, is_closed: &[bool]) -> impl Iterator<Item = Run> {
     let mut next = 0;
     is_closed
-        .chunk_by(|one, other| one == other)
+        .chunk_by(|one, other| *one == *other)
         .filter_map(move |equal| {
             let first = next;
             next += u32::try_from(equal.len()).unwrap_or(u32::MAX);
-            (!equal[0]).then_some(Run {
+            (!equal[0]).then(|| Run {
                 row,
                 columns: first..=next - 1,
             })

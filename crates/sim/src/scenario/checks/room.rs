@@ -31,12 +31,20 @@ pub(super) fn lattice(within: Rectangle) -> impl Iterator<Item = Point> {
     places.map(place)
 }
 
-/// The fraction of a rectangle that is free for discs, of the places of a lattice.
-fn share(scenario: &Scenario, within: &Rectangle, radius_m: f64, layer: Layer) -> f64 {
-    let free = lattice(*within).filter(|place| scenario.is_free(*place, radius_m, layer));
-    #[expect(clippy::cast_precision_loss, reason = "at most SIDE squared")]
-    let free = free.count() as f64;
-    free / f64::from(SIDE * SIDE)
+/// Whether a rectangle has a place for a disc.
+fn has_place(scenario: &Scenario, within: Rectangle, radius_m: f64, layer: Layer) -> bool {
+    lattice(within).any(|place| scenario.is_free(place, radius_m, layer))
+}
+
+/// The free area of a rectangle, examined until it is at least `enough_m2`.
+fn free_area_m2(scenario: &Scenario, within: Rectangle, layer: Layer, enough_m2: f64) -> f64 {
+    let place_m2 = within.area_m2() / f64::from(SIDE * SIDE);
+    let mut free = lattice(within).filter(|place| scenario.is_free(*place, 0.0, layer));
+    let mut free_m2 = 0.0;
+    while free_m2 < enough_m2 && free.next().is_some() {
+        free_m2 += place_m2;
+    }
+    free_m2
 }
 
 pub(super) fn errors(checked: &Checked, at: &Place) -> Vec<InputError> {
@@ -46,7 +54,7 @@ pub(super) fn errors(checked: &Checked, at: &Place) -> Vec<InputError> {
     for (name, kind) in &checked.spec.items {
         let within = within(&kind.placement, &world);
         let within = within.filter(|_| kind.count > 0);
-        if within.is_some_and(|within| share(scenario, &within, 0.0, Layer::Ground) == 0.0) {
+        if within.is_some_and(|within| !has_place(scenario, within, 0.0, Layer::Ground)) {
             let at = at.key("items").key(name).key("count");
             errors.push(at.error("0: their area has no free place"));
         }
@@ -83,8 +91,7 @@ pub(super) fn within(placement: &Placement, world: &Rectangle) -> Option<Rectang
 fn error_of(kind: &RobotSpec, checked: &Checked, at: &Place) -> Option<InputError> {
     let scenario = &checked.scenario;
     let within = within(&kind.start, &rectangle(&checked.spec.world)).filter(|_| kind.count > 0)?;
-    let has_none = share(scenario, &within, kind.radius_m, kind.layer) == 0.0;
-    has_none.then(|| {
+    (!has_place(scenario, within, kind.radius_m, kind.layer)).then(|| {
         let radius_m = kind.radius_m;
         at.key("count").error(format!(
             "0: none of {} examined start places is free for radius_m = {radius_m}",
@@ -107,9 +114,10 @@ fn crowd(checked: &Checked, layer: Layer, at: &Place) -> Option<InputError> {
     let areas: Vec<(f64, &String, &RobotSpec)> = areas.collect();
     let total_m2: f64 = areas.iter().map(|(area_m2, ..)| area_m2).sum();
     let world = rectangle(&checked.spec.world);
-    let free_m2 = world.area_m2() * share(&checked.scenario, &world, 0.0, layer);
+    let enough_m2 = total_m2 / MAX_SHARE;
+    let free_m2 = free_area_m2(&checked.scenario, world, layer, enough_m2);
     let largest = areas.iter().max_by(|one, other| one.0.total_cmp(&other.0));
-    let (area_m2, name, _) = largest.filter(|_| total_m2 > MAX_SHARE * free_m2)?;
+    let (area_m2, name, _) = largest.filter(|_| free_m2 < enough_m2)?;
     let share = MAX_SHARE * 100.0;
     let allowed = format!(
         "fewer: randomly placed robots can cover {share} % of the {free_m2:.0} m2 of free area, but all {} \
