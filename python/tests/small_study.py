@@ -3,8 +3,14 @@
 from pathlib import Path
 
 from agent_economy import Scenario, study
+from agent_economy.study.report.page import template
+from agent_economy.study.versions import versions
 
 ROOT = Path(__file__).resolve().parents[2]
+
+# Cached before the server process forks, so that not every process that is killed computes them.
+template()
+versions()
 
 
 def plan(delta: float = 0.3) -> study.Plan:

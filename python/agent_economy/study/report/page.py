@@ -1,6 +1,7 @@
 """The report: one HTML file that works offline."""
 
 from collections.abc import Iterator
+from functools import cache
 
 import jinja2
 
@@ -27,16 +28,9 @@ def html(answer: Answer, evidence: Evidence, javascript: str) -> str:
         javascript: The text of `ChartScript`. If it is empty, the page has its tables and a note
             that the charts are missing.
     """
-    environment = jinja2.Environment(
-        loader=jinja2.PackageLoader("agent_economy.study.report", "."),
-        autoescape=True,
-        undefined=jinja2.StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
     view = View(answer, evidence)
     advice = f"{recommendation(answer.results[answer.best].values)}."
-    return environment.get_template("report.html.jinja").render(
+    return template().render(
         answer=answer,
         advice=advice,
         reasons=answer.sentence.removeprefix(advice),
@@ -47,6 +41,19 @@ def html(answer: Answer, evidence: Evidence, javascript: str) -> str:
         charts=specifications(answer, evidence) if javascript else {},
         javascript=javascript,
     )
+
+
+@cache
+def template() -> jinja2.Template:
+    """Return the compiled template of the report."""
+    environment = jinja2.Environment(
+        loader=jinja2.PackageLoader("agent_economy.study.report", "."),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    return environment.get_template("report.html.jinja")
 
 
 def facts(answer: Answer) -> Iterator[tuple[str, str]]:
