@@ -3,7 +3,7 @@ import { launchOptions } from "./dev/chromium.mjs";
 
 export default defineConfig({
   testDir: "tests",
-  workers: 2,
+  workers: 3,
   fullyParallel: true,
   // Generous, for busy machines: a passing test does not wait for them.
   timeout: 90_000,
