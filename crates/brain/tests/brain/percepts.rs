@@ -16,19 +16,14 @@ use std::sync::Arc;
 fn rover() -> Body {
     let bearings = (-7..=8).map(|ray: i32| f64::from(ray) * 22.5_f64.to_radians());
     Body {
-        radius_m: 0.25,
-        max_speed_m_s: 1.0,
         max_reverse_speed_m_s: 0.5,
-        max_acceleration_m_s2: 1.0,
-        max_turn_rate_rad_s: 1.5,
-        period_s: 0.1,
         rings: vec![RangeRing {
             bearings_rad: bearings.collect(),
             range_m: 3.0,
             period_s: 0.1,
             latency_s: 0.0,
         }],
-        ..Body::default()
+        ..super::body()
     }
 }
 

@@ -1,6 +1,7 @@
 //! Pose estimation in a brain without a simulator, for correct and wrong readings of wheels, compass
 //! and position sensor.
 
+use super::now;
 use base::geometry::Point;
 use base::random::{Entity, Purpose, Stream, stream, unit};
 use base::trig::wrapped;
@@ -16,14 +17,9 @@ const STANDING: Motion = Motion {
 
 fn body() -> Body {
     Body {
-        radius_m: 0.25,
-        max_speed_m_s: 1.0,
-        max_acceleration_m_s2: 1.0,
-        max_turn_rate_rad_s: 1.5,
-        period_s: 0.1,
         position_noise_m: 0.1,
         heading_noise_rad: 0.02,
-        ..Body::default()
+        ..super::body()
     }
 }
 
@@ -45,10 +41,6 @@ fn still(body: Body) -> Brain {
 /// A brain that commands 1 m/s.
 fn going() -> Brain {
     brain_in(body(), BehaviourSpec::Cruise(Cruise::default()))
-}
-
-fn now<T>(value: T) -> Reading<T> {
-    Reading { value, age_s: 0.0 }
 }
 
 fn at(x: f64, heading_rad: f64) -> Percept {

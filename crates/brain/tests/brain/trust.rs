@@ -1,9 +1,10 @@
 //! The effect of trust on the use of messages, in brains without a simulator.
 
+use super::now;
 use base::geometry::{Point, Rectangle};
 use brain::{
     About, Body, Brain, BrainSpec, CommitmentStatus, Detector, Message, Motion, Observation, Other,
-    Percept, Provenance, Reading, ReceivedMessage, RobotId,
+    Percept, Provenance, ReceivedMessage, RobotId,
 };
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -28,11 +29,6 @@ fn body() -> Body {
     };
     let corner = Point { x: 20.0, y: 20.0 };
     Body {
-        radius_m: 0.25,
-        max_speed_m_s: 1.0,
-        max_acceleration_m_s2: 1.0,
-        max_turn_rate_rad_s: 1.5,
-        period_s: 0.1,
         item_kinds: vec!["mine".into()],
         detectors: vec![eye.clone()],
         others: vec![Other {
@@ -42,7 +38,7 @@ fn body() -> Body {
             is_in_the_way: true,
         }],
         field: Some(Rectangle::spanned(Point::default(), corner)),
-        ..Body::default()
+        ..super::body()
     }
 }
 
@@ -55,10 +51,6 @@ fn brain(behaviour: &str, trust: &str) -> Brain {
     );
     let spec: BrainSpec = serde_json::from_str(&spec).unwrap();
     Brain::new(Arc::new(spec), Arc::new(body()))
-}
-
-const fn now<T>(value: T) -> Reading<T> {
-    Reading { value, age_s: 0.0 }
 }
 
 /// A step at (10, 10); returns the goals of the outgoing messages.

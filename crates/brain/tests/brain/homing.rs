@@ -1,20 +1,13 @@
 //! Returning home in a brain without a simulator, for correct and wrong battery readings.
 
+use super::{body, now};
 use base::geometry::Point;
 use brain::behaviours::{BehaviourSpec, Navigate, ReturnHome};
-use brain::{Arbitration, Body, Brain, BrainSpec, Percept, Reading};
+use brain::{Arbitration, Brain, BrainSpec, Percept, Reading};
 use std::sync::Arc;
 
 /// A brain with a waypoint in the east and its base in the west.
 fn brain() -> Brain {
-    let body = Body {
-        radius_m: 0.25,
-        max_speed_m_s: 1.0,
-        max_acceleration_m_s2: 1.0,
-        max_turn_rate_rad_s: 1.5,
-        period_s: 0.1,
-        ..Body::default()
-    };
     let navigate = Navigate {
         waypoints_m: vec![Point { x: 45.0, y: 0.0 }],
         ..Navigate::default()
@@ -32,18 +25,14 @@ fn brain() -> Brain {
         limit_speed_to_stopping_distance: false,
         ..BrainSpec::default()
     };
-    Brain::new(Arc::new(spec), Arc::new(body))
+    Brain::new(Arc::new(spec), Arc::new(body()))
 }
 
 /// Whether it returns home after one more reading.
 fn goes_home(brain: &mut Brain, left: f64, age_s: f64) -> bool {
-    let reading = |value| Some(Reading { value, age_s: 0.0 });
     let percept = Percept {
-        position: Some(Reading {
-            value: Point::default(),
-            age_s: 0.0,
-        }),
-        heading_rad: reading(0.0),
+        position: Some(now(Point::default())),
+        heading_rad: Some(now(0.0)),
         battery: Some(Reading { value: left, age_s }),
         ..Percept::default()
     };
