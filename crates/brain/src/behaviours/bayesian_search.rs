@@ -1,13 +1,12 @@
 //! Searching where the expected rate of detection is highest.
 
+use super::goal_behaviour::GoalBehaviour;
 use super::outlook::Outlook;
 use super::part::Part;
 use super::survey::{Survey, destination};
-use crate::behaviours::behaviour::Behaviour;
 use crate::goals::Verdict;
 use crate::goals::proposal::{Destination, Proposal};
 use crate::io::body::Body;
-use crate::io::command::Motion;
 use crate::perception::beliefs::pose::Pose;
 use crate::perception::beliefs::{Beliefs, Map};
 use crate::perception::situation::Situation;
@@ -155,19 +154,18 @@ impl<'k> Known<'k> {
     }
 }
 
-impl Behaviour for Ready {
-    type Memory = Option<Box<Search>>;
+impl GoalBehaviour for Ready {
+    type Progress = Search;
 
-    const NEEDS_BELIEFS: bool = true;
-    const NEEDS_DETECTOR: bool = true;
+    const SEARCHES: bool = true;
 
-    fn memory(&self) -> Self::Memory {
-        None
+    fn destination(&self) -> &Destination {
+        &self.destination
     }
 
-    fn triggered(&self, memory: &mut Self::Memory, situation: &Situation) -> Option<Proposal> {
+    fn goal(&self, search: &mut Option<Box<Search>>, situation: &Situation) -> Option<Proposal> {
         let known = Known::new(situation)?;
-        let search = memory.get_or_insert_default();
+        let search = search.get_or_insert_default();
         let destination = search.survey.current(situation.body.period_s);
         let is_there = |to: Point| known.pose.at.to(to).length() <= self.destination.tolerance_m;
         if destination.is_some_and(is_there) {
@@ -184,19 +182,10 @@ impl Behaviour for Ready {
             search.survey.destination = Some((to, 0.0));
             to
         };
-        Some(Proposal::Destination(Destination {
-            at: to,
-            ..self.destination
-        }))
+        Some(self.drive_to(to))
     }
 
-    fn judged(&self, memory: &mut Self::Memory, _verdict: Verdict) {
-        if let Some(search) = memory {
-            search.survey.abandon();
-        }
-    }
-
-    fn held(&self) -> Motion {
-        Motion::default()
+    fn judged(&self, search: &mut Search, _verdict: Verdict) {
+        search.survey.abandon();
     }
 }

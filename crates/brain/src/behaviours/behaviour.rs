@@ -30,7 +30,7 @@ pub(crate) trait Behaviour {
     /// Its proposal, if it is triggered. Called in each step in which no higher behaviour is active.
     fn triggered(&self, memory: &mut Self::Memory, situation: &Situation) -> Option<Proposal>;
 
-    /// Called when its destination cannot be reached.
+    /// Called while its destination is not being approached.
     fn judged(&self, _memory: &mut Self::Memory, _verdict: Verdict) {}
 
     /// The motion while it is active without being triggered.

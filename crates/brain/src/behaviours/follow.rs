@@ -1,6 +1,6 @@
 //! Following another robot.
 
-use crate::behaviours::behaviour::Behaviour;
+use super::goal_behaviour::GoalBehaviour;
 use crate::goals::proposal::{Destination, Proposal};
 use crate::io::body::{Body, RobotId};
 use crate::io::command::Motion;
@@ -44,22 +44,27 @@ const SAME_M: f64 = 0.3;
 /// [`Follow`] in a body.
 #[derive(Debug, Clone)]
 pub(crate) struct Ready {
-    spec: Follow,
+    robot: Option<u32>,
     apart_m: f64,
-    speed_m_s: f64,
+    destination: Destination,
 }
 
 impl Ready {
     pub(super) fn new(spec: &Follow, body: &Body) -> Self {
         Self {
-            spec: spec.clone(),
+            robot: spec.robot,
             apart_m: spec.distance_m + 2.0 * body.radius_m,
-            speed_m_s: body.max_speed_m_s,
+            destination: Destination {
+                at: Point::default(),
+                tolerance_m: 0.1,
+                max_speed_m_s: body.max_speed_m_s,
+                value: spec.value,
+            },
         }
     }
 
     fn leader(&self, own: RobotId) -> Option<RobotId> {
-        let index = match self.spec.robot {
+        let index = match self.robot {
             Some(robot) => robot,
             None => own.index.checked_sub(1)?,
         };
@@ -67,17 +72,15 @@ impl Ready {
     }
 }
 
-impl Behaviour for Ready {
+impl GoalBehaviour for Ready {
     /// The current destination.
-    type Memory = Option<Box<Point>>;
+    type Progress = Point;
 
-    const NEEDS_BELIEFS: bool = true;
-
-    fn memory(&self) -> Self::Memory {
-        None
+    fn destination(&self) -> &Destination {
+        &self.destination
     }
 
-    fn triggered(&self, memory: &mut Self::Memory, situation: &Situation) -> Option<Proposal> {
+    fn goal(&self, to: &mut Option<Box<Point>>, situation: &Situation) -> Option<Proposal> {
         let beliefs = situation.beliefs?;
         let pose = beliefs.pose()?;
         let leader = self.leader(situation.percept.id)?;
@@ -88,19 +91,10 @@ impl Behaviour for Ready {
             return Some(Motion::default().into());
         }
         let beside = at.plus(way.times(self.apart_m / away_m));
-        let to = memory.get_or_insert_with(|| Box::new(beside));
+        let to = to.get_or_insert_with(|| Box::new(beside));
         if to.to(beside).length() >= SAME_M {
             **to = beside;
         }
-        Some(Proposal::Destination(Destination {
-            at: **to,
-            tolerance_m: 0.1,
-            max_speed_m_s: self.speed_m_s,
-            value: self.spec.value,
-        }))
-    }
-
-    fn held(&self) -> Motion {
-        Motion::default()
+        Some(self.drive_to(**to))
     }
 }

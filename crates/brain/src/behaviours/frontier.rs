@@ -1,11 +1,10 @@
 //! Searching at the frontier of what has been observed.
 
+use super::goal_behaviour::GoalBehaviour;
 use super::survey::{Survey, destination, share};
-use crate::behaviours::behaviour::Behaviour;
 use crate::goals::Verdict;
 use crate::goals::proposal::{Destination, Proposal};
 use crate::io::body::Body;
-use crate::io::command::Motion;
 use crate::perception::beliefs::{Beliefs, Map};
 use crate::perception::situation::Situation;
 use alloc::boxed::Box;
@@ -77,20 +76,19 @@ fn is_unseen(map: &Map, place: Point) -> bool {
     map.coverage.of(map.field.nearest_cell(place)) > UNSEEN
 }
 
-impl Behaviour for Ready {
-    type Memory = Option<Box<Survey>>;
+impl GoalBehaviour for Ready {
+    type Progress = Survey;
 
-    const NEEDS_BELIEFS: bool = true;
-    const NEEDS_DETECTOR: bool = true;
+    const SEARCHES: bool = true;
 
-    fn memory(&self) -> Self::Memory {
-        None
+    fn destination(&self) -> &Destination {
+        &self.destination
     }
 
-    fn triggered(&self, memory: &mut Self::Memory, situation: &Situation) -> Option<Proposal> {
+    fn goal(&self, survey: &mut Option<Box<Survey>>, situation: &Situation) -> Option<Proposal> {
         let beliefs = situation.beliefs?;
         let map = beliefs.map.as_ref()?;
-        let survey = memory.get_or_insert_default();
+        let survey = survey.get_or_insert_default();
         let current = survey.current(situation.body.period_s);
         let current = current.filter(|to| is_unseen(map, *to));
         let to = if let Some(to) = current {
@@ -100,19 +98,10 @@ impl Behaviour for Ready {
             survey.destination = Some((to, 0.0));
             to
         };
-        Some(Proposal::Destination(Destination {
-            at: to,
-            ..self.destination
-        }))
+        Some(self.drive_to(to))
     }
 
-    fn judged(&self, memory: &mut Self::Memory, _verdict: Verdict) {
-        if let Some(survey) = memory {
-            survey.abandon();
-        }
-    }
-
-    fn held(&self) -> Motion {
-        Motion::default()
+    fn judged(&self, survey: &mut Survey, _verdict: Verdict) {
+        survey.abandon();
     }
 }

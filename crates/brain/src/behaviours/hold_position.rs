@@ -1,6 +1,6 @@
 //! Holding a position.
 
-use crate::behaviours::behaviour::Behaviour;
+use super::goal_behaviour::GoalBehaviour;
 use crate::goals::proposal::{Destination, Proposal};
 use crate::io::body::Body;
 use crate::io::command::Motion;
@@ -43,9 +43,6 @@ pub(crate) struct Ready {
     destination: Destination,
 }
 
-/// The position to hold, once known.
-pub(crate) type Memory = Option<Box<Point>>;
-
 impl Ready {
     pub(super) fn new(spec: &HoldPosition, body: &Body) -> Self {
         Self {
@@ -60,32 +57,24 @@ impl Ready {
     }
 }
 
-impl Behaviour for Ready {
-    type Memory = Memory;
+impl GoalBehaviour for Ready {
+    /// The position to hold.
+    type Progress = Point;
 
-    const NEEDS_BELIEFS: bool = true;
-
-    fn memory(&self) -> Memory {
-        None
+    fn destination(&self) -> &Destination {
+        &self.destination
     }
 
-    fn triggered(&self, memory: &mut Memory, situation: &Situation) -> Option<Proposal> {
+    fn goal(&self, held: &mut Option<Box<Point>>, situation: &Situation) -> Option<Proposal> {
         let Some(pose) = situation.beliefs.and_then(Beliefs::pose) else {
             return Some(Motion::default().into());
         };
-        let to = **memory.get_or_insert_with(|| Box::new(self.at.unwrap_or(pose.at)));
+        let to = **held.get_or_insert_with(|| Box::new(self.at.unwrap_or(pose.at)));
         let is_there = pose.at.to(to).length() <= self.destination.tolerance_m;
         Some(if is_there {
             Motion::default().into()
         } else {
-            Proposal::Destination(Destination {
-                at: to,
-                ..self.destination
-            })
+            self.drive_to(to)
         })
-    }
-
-    fn held(&self) -> Motion {
-        Motion::default()
     }
 }

@@ -1,10 +1,9 @@
 //! Searching lane by lane.
 
-use crate::behaviours::behaviour::Behaviour;
+use super::goal_behaviour::GoalBehaviour;
 use crate::goals::Verdict;
 use crate::goals::proposal::{Destination, Proposal};
 use crate::io::body::Body;
-use crate::io::command::Motion;
 use crate::perception::beliefs::field::Field;
 use crate::perception::situation::Situation;
 use alloc::boxed::Box;
@@ -55,9 +54,6 @@ pub(crate) struct Ready {
     inset_m: f64,
     destination: Destination,
 }
-
-/// Progress on the lanes; `None` before the first step.
-pub(crate) type Memory = Option<Box<Progress>>;
 
 /// Progress of a robot on its part of the lanes.
 #[derive(Debug, Clone, Copy)]
@@ -224,22 +220,24 @@ impl Track {
     }
 }
 
-impl Behaviour for Ready {
-    type Memory = Memory;
+impl GoalBehaviour for Ready {
+    type Progress = Progress;
 
-    const NEEDS_BELIEFS: bool = true;
-
-    fn memory(&self) -> Memory {
-        None
+    fn destination(&self) -> &Destination {
+        &self.destination
     }
 
-    fn triggered(&self, memory: &mut Memory, situation: &Situation) -> Option<Proposal> {
+    fn goal(
+        &self,
+        progress: &mut Option<Box<Progress>>,
+        situation: &Situation,
+    ) -> Option<Proposal> {
         let beliefs = situation.beliefs?;
         let pose = beliefs.pose()?;
         let field = &beliefs.map.as_ref()?.field;
         let robots = situation.percept.team_size.max(1);
         let part = [situation.percept.id.index % robots, robots];
-        let progress = memory.get_or_insert_with(|| Box::new(Progress::of(part)));
+        let progress = progress.get_or_insert_with(|| Box::new(Progress::of(part)));
         if progress.part != part {
             **progress = Progress::of(part);
         }
@@ -248,20 +246,13 @@ impl Behaviour for Ready {
             progress.advance();
         }
         let to = self.place(progress, field)?;
-        Some(Proposal::Destination(Destination {
-            at: to,
-            ..self.destination
-        }))
+        Some(self.drive_to(to))
     }
 
-    fn judged(&self, memory: &mut Memory, verdict: Verdict) {
-        if let Some(progress) = memory.as_mut().filter(|_| verdict == Verdict::Impossible) {
+    fn judged(&self, progress: &mut Progress, verdict: Verdict) {
+        if verdict == Verdict::Impossible {
             progress.advance();
         }
-    }
-
-    fn held(&self) -> Motion {
-        Motion::default()
     }
 }
 

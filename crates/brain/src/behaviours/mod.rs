@@ -11,6 +11,7 @@ mod errands;
 pub mod flock;
 mod follow;
 mod frontier;
+mod goal_behaviour;
 mod hold_position;
 mod lawnmower;
 mod navigate;
@@ -46,7 +47,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// All behaviours: name in scenarios, file, and purpose. Each file has the type that scenarios
-/// read, `Ready` with its `new`, and `Memory`.
+/// read, and `Ready` with its `new`.
 macro_rules! behaviours {
     ($($(#[doc = $purpose:literal])+ $kind:ident in $file:ident;)+) => {
         /// A behaviour of a brain, and its parameters.

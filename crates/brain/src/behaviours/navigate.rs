@@ -1,11 +1,10 @@
 //! Visiting waypoints.
 
 use super::errands::Errands;
-use crate::behaviours::behaviour::Behaviour;
+use super::goal_behaviour::GoalBehaviour;
 use crate::goals::Verdict;
 use crate::goals::proposal::{Destination, Proposal};
 use crate::io::body::Body;
-use crate::io::command::Motion;
 use crate::perception::situation::Situation;
 use alloc::boxed::Box;
 use alloc::vec::Vec;
@@ -74,17 +73,19 @@ impl Default for Navigate {
 #[derive(Debug, Clone)]
 pub(crate) struct Ready {
     spec: Navigate,
-    speed_m_s: f64,
+    destination: Destination,
 }
-
-/// The remaining waypoints; `None` before the first step.
-pub(crate) type Memory = Option<Box<Errands>>;
 
 impl Ready {
     pub(super) fn new(spec: &Navigate, body: &Body) -> Self {
         Self {
             spec: spec.clone(),
-            speed_m_s: spec.speed_m_s.unwrap_or(body.max_speed_m_s),
+            destination: Destination {
+                at: Point::default(),
+                tolerance_m: spec.within_m,
+                max_speed_m_s: spec.speed_m_s.unwrap_or(body.max_speed_m_s),
+                value: spec.value,
+            },
         }
     }
 
@@ -113,39 +114,29 @@ impl Ready {
     }
 }
 
-impl Behaviour for Ready {
-    type Memory = Memory;
+impl GoalBehaviour for Ready {
+    /// The remaining waypoints.
+    type Progress = Errands;
 
-    const NEEDS_BELIEFS: bool = true;
-
-    fn memory(&self) -> Memory {
-        None
+    fn destination(&self) -> &Destination {
+        &self.destination
     }
 
-    fn triggered(&self, memory: &mut Memory, situation: &Situation) -> Option<Proposal> {
+    fn goal(&self, errands: &mut Option<Box<Errands>>, situation: &Situation) -> Option<Proposal> {
         let at = situation.beliefs?.pose()?.at;
-        let errands = memory.get_or_insert_with(|| Box::new(self.errands(situation)));
+        let errands = errands.get_or_insert_with(|| Box::new(self.errands(situation)));
         let mut to = self.next(errands, at, situation)?;
         if at.to(to).length() <= self.spec.within_m {
             errands.pop();
             to = self.next(errands, at, situation)?;
         }
-        Some(Proposal::Destination(Destination {
-            at: to,
-            tolerance_m: self.spec.within_m,
-            max_speed_m_s: self.speed_m_s,
-            value: self.spec.value,
-        }))
+        Some(self.drive_to(to))
     }
 
     /// An unreachable waypoint is tried again after all others.
-    fn judged(&self, memory: &mut Memory, verdict: Verdict) {
-        if let Some(errands) = memory.as_mut().filter(|_| verdict == Verdict::Impossible) {
+    fn judged(&self, errands: &mut Errands, verdict: Verdict) {
+        if verdict == Verdict::Impossible {
             errands.decline();
         }
-    }
-
-    fn held(&self) -> Motion {
-        Motion::default()
     }
 }

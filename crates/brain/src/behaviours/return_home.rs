@@ -1,6 +1,6 @@
 //! Returning to base before the battery is empty.
 
-use crate::behaviours::behaviour::Behaviour;
+use super::goal_behaviour::GoalBehaviour;
 use crate::goals::proposal::{Destination, Proposal};
 use crate::io::body::Body;
 use crate::io::command::Motion;
@@ -57,9 +57,6 @@ pub(crate) struct Ready {
     destination: Destination,
 }
 
-/// The base, once known, and the minimum charge since the robot started to return, if it did.
-pub(crate) type Memory = Option<Box<(Point, Option<f64>)>>;
-
 impl Ready {
     pub(super) fn new(spec: &ReturnHome, body: &Body) -> Self {
         Self {
@@ -87,35 +84,31 @@ impl Ready {
     }
 }
 
-impl Behaviour for Ready {
-    type Memory = Memory;
+impl GoalBehaviour for Ready {
+    /// The base, and the minimum charge since the robot started to return, if it did.
+    type Progress = (Point, Option<f64>);
 
-    const NEEDS_BELIEFS: bool = true;
-
-    fn memory(&self) -> Memory {
-        None
+    fn destination(&self) -> &Destination {
+        &self.destination
     }
 
-    fn triggered(&self, memory: &mut Memory, situation: &Situation) -> Option<Proposal> {
+    fn goal(
+        &self,
+        progress: &mut Option<Box<(Point, Option<f64>)>>,
+        situation: &Situation,
+    ) -> Option<Proposal> {
         let beliefs = situation.beliefs?;
         let at = beliefs.pose()?.at;
         let begin = || Box::new((self.spec.at_m.unwrap_or(at), None));
-        let (to, low) = &mut **memory.get_or_insert_with(begin);
+        let (to, low) = &mut **progress.get_or_insert_with(begin);
         let way_m = at.to(*to).length();
         *low = self.low_since(*low, way_m, beliefs);
         low.map(|_| {
             if way_m <= self.spec.within_m {
                 Motion::default().into()
             } else {
-                Proposal::Destination(Destination {
-                    at: *to,
-                    ..self.destination
-                })
+                self.drive_to(*to)
             }
         })
-    }
-
-    fn held(&self) -> Motion {
-        Motion::default()
     }
 }

@@ -1,11 +1,10 @@
 //! Searching in a spiral.
 
+use super::goal_behaviour::GoalBehaviour;
 use super::lawnmower::swath_m;
-use crate::behaviours::behaviour::Behaviour;
 use crate::goals::Verdict;
 use crate::goals::proposal::{Destination, Proposal};
 use crate::io::body::Body;
-use crate::io::command::Motion;
 use crate::perception::sector::direction;
 use crate::perception::situation::Situation;
 use alloc::boxed::Box;
@@ -56,9 +55,6 @@ pub(crate) struct Ready {
     destination: Destination,
 }
 
-/// The centre, and the distance along the spiral in metres; `None` before the first step.
-pub(crate) type Memory = Option<Box<(Point, f64)>>;
-
 impl Ready {
     pub(super) fn new(spec: &Spiral, body: &Body) -> Self {
         let (width_m, _) = swath_m(body);
@@ -107,33 +103,29 @@ impl Ready {
     }
 }
 
-impl Behaviour for Ready {
-    type Memory = Memory;
+impl GoalBehaviour for Ready {
+    /// The centre, and the distance along the spiral in metres.
+    type Progress = (Point, f64);
 
-    const NEEDS_BELIEFS: bool = true;
-
-    fn memory(&self) -> Memory {
-        None
+    fn destination(&self) -> &Destination {
+        &self.destination
     }
 
-    fn triggered(&self, memory: &mut Memory, situation: &Situation) -> Option<Proposal> {
+    fn goal(
+        &self,
+        spiral: &mut Option<Box<(Point, f64)>>,
+        situation: &Situation,
+    ) -> Option<Proposal> {
         let at = situation.beliefs?.pose()?.at;
         let middle = self.around.unwrap_or(at);
-        let spiral = memory.get_or_insert_with(|| Box::new((middle, 0.0)));
+        let spiral = spiral.get_or_insert_with(|| Box::new((middle, 0.0)));
         let to = self.next(spiral, situation)?;
-        Some(Proposal::Destination(Destination {
-            at: to,
-            ..self.destination
-        }))
+        Some(self.drive_to(to))
     }
 
-    fn judged(&self, memory: &mut Memory, verdict: Verdict) {
-        if let Some(spiral) = memory.as_mut().filter(|_| verdict == Verdict::Impossible) {
-            spiral.1 += self.width_m / 2.0;
+    fn judged(&self, (_, along_m): &mut (Point, f64), verdict: Verdict) {
+        if verdict == Verdict::Impossible {
+            *along_m += self.width_m / 2.0;
         }
-    }
-
-    fn held(&self) -> Motion {
-        Motion::default()
     }
 }

@@ -83,15 +83,13 @@ fn a_pass_is_followed_by_the_next_and_unreachable_corners_are_skipped() {
     let field = field(20.0, 10.0);
     let mut progress = Progress::of([0, 1]);
     let first = ready.place(&mut progress, &field).unwrap();
-    let mut memory = Some(Box::new(progress));
-    ready.judged(&mut memory, Verdict::Receding);
-    assert_eq!(ready.place(memory.as_mut().unwrap(), &field), Some(first));
-    ready.judged(&mut memory, Verdict::Impossible);
-    let progress = memory.as_mut().unwrap();
-    assert_ne!(ready.place(progress, &field), Some(first));
+    ready.judged(&mut progress, Verdict::Receding);
+    assert_eq!(ready.place(&mut progress, &field), Some(first));
+    ready.judged(&mut progress, Verdict::Impossible);
+    assert_ne!(ready.place(&mut progress, &field), Some(first));
     for _ in 0..100 {
         progress.advance();
-        assert!(ready.place(progress, &field).is_some());
+        assert!(ready.place(&mut progress, &field).is_some());
     }
     assert!(progress.passes > 1);
 }
