@@ -3,7 +3,7 @@
 use crate::scenario;
 use rayon::prelude::*;
 use sim::simulation::Simulation;
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 /// The bundled scenario.
 const SEARCH: &str = include_str!("../../../../scenarios/search.toml");
@@ -36,11 +36,22 @@ fn times_s(behaviours: &str, more: &str, runs: u64) -> Vec<f64> {
     let scenario = scenario(&text(behaviours, more));
     let time_s = |run| {
         let mut simulation = Simulation::new(Arc::clone(&scenario), 1, run).unwrap();
-        simulation.finish();
-        simulation.outcome().time_s.min(TIME_LIMIT_S)
+        simulation.finish().time_s.min(TIME_LIMIT_S)
     };
     (0..runs).into_par_iter().map(time_s).collect()
 }
+
+/// Durations with a behaviour that remembers the areas that were searched.
+fn remembering_s(kind: &str, more: &str, runs: u64) -> Vec<f64> {
+    let behaviours = format!("{{ kind = \"{kind}\" }}, {{ kind = \"avoid\" }}");
+    times_s(&behaviours, more, runs)
+}
+
+/// The behaviours that remember, with durations for teams that share what they have searched.
+static SHARING: LazyLock<[(&str, Vec<f64>); 2]> = LazyLock::new(|| {
+    [("frontier", FRONTIER_RUNS), ("bayesian_search", RUNS)]
+        .map(|(kind, runs)| (kind, remembering_s(kind, "", runs)))
+});
 
 /// The mean of paired differences and its standard error.
 fn sooner_s(slow: &[f64], fast: &[f64]) -> (f64, f64) {
@@ -71,17 +82,14 @@ const SILENT: &str = "[robots.rover.radio]\nrange_m = 0\n";
 #[test]
 fn remembering_and_sharing_searched_areas_is_faster_than_bouncing() {
     let bounces = times_s(BOUNCE, "", RUNS);
-    for kind in ["frontier", "bayesian_search"] {
-        let behaviours = format!("{{ kind = \"{kind}\" }}, {{ kind = \"avoid\" }}");
-        assert_sooner(&bounces, &times_s(&behaviours, "", RUNS));
+    for (_, sharing) in &*SHARING {
+        assert_sooner(&bounces, &sharing[..bounces.len()]);
     }
 }
 
 #[test]
 fn four_robots_that_share_searched_areas_are_faster_than_four_that_do_not() {
-    for (kind, runs) in [("frontier", FRONTIER_RUNS), ("bayesian_search", RUNS)] {
-        let behaviours = format!("{{ kind = \"{kind}\" }}, {{ kind = \"avoid\" }}");
-        let silent = times_s(&behaviours, SILENT, runs);
-        assert_sooner(&silent, &times_s(&behaviours, "", runs));
+    for ((kind, sharing), runs) in SHARING.iter().zip([FRONTIER_RUNS, RUNS]) {
+        assert_sooner(&remembering_s(kind, SILENT, runs), sharing);
     }
 }

@@ -83,7 +83,7 @@ fn direct(particles: u32, noise_rad: f64) -> Vec<f64> {
             .collect();
         let mut courses: Vec<f64> = (0..particles).map(|_| TAU * random.unit() - PI).collect();
         mean_order(|| {
-            courses = turned(&places, &courses, torus);
+            courses = turned(&places, &courses, side);
             for (place, course) in places.iter_mut().zip(&mut courses) {
                 *course += noise_rad * (random.unit() - 0.5);
                 let (y, x) = sin_cos(*course);
@@ -95,18 +95,26 @@ fn direct(particles: u32, noise_rad: f64) -> Vec<f64> {
     (0..RUNS).map(order_of).collect()
 }
 
-/// The mean course around each particle.
-fn turned(places: &[Point], courses: &[f64], torus: Torus) -> Vec<f64> {
-    let ways: Vec<(f64, f64)> = courses.iter().map(|course| sin_cos(*course)).collect();
-    let about = |place: &Point| {
-        let near = places.iter().zip(&ways).filter(|(other, _)| {
-            let way = place.to(torus.image(*place, **other));
-            way.length_squared() <= 1.0
-        });
-        let (y, x) = near.fold((0.0, 0.0), |sum, (_, way)| (sum.0 + way.0, sum.1 + way.1));
-        libm::atan2(y, x)
+/// The mean course around each particle of a square that wraps.
+fn turned(places: &[Point], courses: &[f64], side: f64) -> Vec<f64> {
+    let apart = |one: f64, other: f64| (one - other).abs().min(side - (one - other).abs());
+    let way = |course: &f64| {
+        let (y, x) = sin_cos(*course);
+        Point { x, y }
     };
-    places.iter().map(about).collect()
+    let ways: Vec<Point> = courses.iter().map(way).collect();
+    let mut sums = vec![Point::default(); ways.len()];
+    for (one, place) in places.iter().enumerate() {
+        sums[one] = sums[one].plus(ways[one]);
+        for (other, there) in places.iter().enumerate().skip(one + 1) {
+            let [x, y] = [apart(place.x, there.x), apart(place.y, there.y)];
+            if x * x + y * y <= 1.0 {
+                sums[one] = sums[one].plus(ways[other]);
+                sums[other] = sums[other].plus(ways[one]);
+            }
+        }
+    }
+    sums.iter().map(|sum| libm::atan2(sum.y, sum.x)).collect()
 }
 
 /// Independent courses form a random walk in the plane: Rayleigh's law with its next term (K. V.
