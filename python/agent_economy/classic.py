@@ -10,9 +10,8 @@ from typing import Any
 
 import numpy as np
 import pyarrow as pa
-from numpy.typing import NDArray
 
-from agent_economy import _core
+from agent_economy import _core, arrow
 
 TIME_LIMIT_PAINTS = 6720
 """Time limit of the 2003 experiment: 120 s."""
@@ -96,11 +95,11 @@ def replicate(
     )
     columns = {
         "run": np.arange(runs, dtype=np.int64),
-        "paints": or_null(paints),
+        "paints": arrow.column(paints, paints < 0),
         "found": found,
         "collisions": collisions,
     }
-    return pa.table(columns)
+    return arrow.table(columns)
 
 
 def exhaust(robots: int, contact: str, *, threads: int | None = None) -> pa.Table:
@@ -122,9 +121,4 @@ def exhaust(robots: int, contact: str, *, threads: int | None = None) -> pa.Tabl
     cells, paints = _core.exhaust(robots, contact, threads=threads)
     names = [f"{axis}{robot}" for robot in range(robots) for axis in "xy"]
     columns = {name: cells[:, index] for index, name in enumerate(names)}
-    return pa.table({**columns, "paints": or_null(paints)})
-
-
-def or_null(paints: NDArray[np.int64]) -> pa.Array:
-    """Return paints as an Arrow array, with null for -1 (it provably never happens)."""
-    return pa.array(paints, mask=paints < 0)
+    return arrow.table({**columns, "paints": arrow.column(paints, paints < 0)})

@@ -23,19 +23,30 @@ def test_version_names_the_program() -> None:
 
 
 @pytest.mark.parametrize(
-    ("option", "unloaded"),
-    [("--version", ["typer", "numpy", "agent_economy._core"]), ("--help", ["rich", "numpy"])],
+    ("command", "unloaded"),
+    [
+        ("--version", ["typer", "numpy", "agent_economy._core"]),
+        ("--help", ["rich", "numpy"]),
+        ("run search", ["agent_economy.study", "pandas"]),
+        ("run classic --record run.mcap", ["agent_economy.study", "pandas"]),
+        ("replicate search --runs 10 --out runs.parquet", ["pandas"]),
+        ("study classic --runs 100", ["altair", "pandas"]),
+    ],
 )
-def test_version_and_help_load_only_what_they_need(option: str, unloaded: list[str]) -> None:
+def test_commands_load_only_what_they_need(
+    command: str, unloaded: list[str], tmp_path: Path
+) -> None:
     program = f"""
 import atexit, sys
-sys.argv[1:] = [{option!r}]
+sys.argv[1:] = {command.split()!r}
 atexit.register(lambda: print([name for name in {unloaded!r} if name in sys.modules]))
 from agent_economy.__main__ import main
 main()
 """
-    command = [sys.executable, "-c", program]
-    given = subprocess.run(command, capture_output=True, text=True, check=True, timeout=60)
+    python = [sys.executable, "-c", program]
+    given = subprocess.run(
+        python, capture_output=True, text=True, check=True, timeout=60, cwd=tmp_path
+    )
     assert given.stdout.splitlines()[-1] == "[]"
 
 

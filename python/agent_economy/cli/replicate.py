@@ -18,7 +18,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from agent_economy import api
+from agent_economy import api, arrow
 from agent_economy._core import InputError
 from agent_economy.cli.answer_table import WIDE
 from agent_economy.cli.errors import error_exits
@@ -152,9 +152,9 @@ def summary_of(values: pa.ChunkedArray) -> dict[str, Any]:
     if count == 0:
         return dict.fromkeys(("mean", "low", "high", "minimum", "maximum")) | {"runs": 0}
     if pa.types.is_boolean(values.type):
-        share = estimate.share(values.to_numpy().sum().item(), count)
+        share = estimate.share(int(arrow.numbers(values).sum()), count)
         return {"runs": count, **renamed(share), "minimum": None, "maximum": None}
-    numbers = values.to_numpy().astype(np.float64)
+    numbers = arrow.numbers(values).astype(np.float64)
     ends = {"minimum": float(numbers.min()), "maximum": float(numbers.max())}
     if count == 1:
         return {"runs": count, "mean": ends["minimum"], "low": None, "high": None, **ends}

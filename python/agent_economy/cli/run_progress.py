@@ -8,9 +8,10 @@ from rich.console import Console
 from rich.live import Live
 from rich.text import Text
 
-from agent_economy.cli.study_progress import PAUSE_S, duration
-
 REDRAW_S = 1 / 8
+
+PAUSE_S = 2.0
+"""Time between plain lines, if there is nothing special to print."""
 
 ESTIMATE_AFTER_S = 1.0
 """The remaining time is estimated after this time."""
@@ -53,3 +54,11 @@ def time_left(share: float, seconds: float) -> str:
     if seconds < ESTIMATE_AFTER_S or not 0 < share < 1:
         return ""
     return f", about {duration(seconds * (1 - share) / share)} left"
+
+
+def duration(seconds: float) -> str:
+    """Return a duration in a readable unit."""
+    for unit, length in (("h", 3600), ("min", 60)):
+        if seconds >= 2 * length:
+            return f"{seconds / length:.0f} {unit}"
+    return f"{seconds:.0f} s"

@@ -11,10 +11,8 @@ from rich.live import Live
 from rich.table import Table
 from rich.text import Text
 
+from agent_economy.cli.run_progress import PAUSE_S, duration
 from agent_economy.study.progress import OnProgress, Progress
-
-PAUSE_S = 2.0
-"""Time between plain lines when no configuration is eliminated."""
 
 ESTIMATE_PERIOD_S = 1.0
 """Time between estimates of the time left."""
@@ -109,11 +107,3 @@ class ProgressDisplay:
         if more > 0:
             words.append(f"{more} more")
         return f"; eliminated: {', '.join(words)}" if words else ""
-
-
-def duration(seconds: float) -> str:
-    """Return a duration in a readable unit."""
-    for unit, length in (("h", 3600), ("min", 60)):
-        if seconds >= 2 * length:
-            return f"{seconds / length:.0f} {unit}"
-    return f"{seconds:.0f} s"

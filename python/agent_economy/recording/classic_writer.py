@@ -8,6 +8,7 @@ import numpy as np
 import pyarrow as pa
 from foxglove_schemas_protobuf.SceneEntity_pb2 import SceneEntity
 
+from agent_economy import arrow
 from agent_economy.recording import schemas
 from agent_economy.recording.file import File
 from agent_economy.recording.foxglove import WORLD as FRAME
@@ -126,8 +127,8 @@ def walls() -> SceneEntity:
 
 def items() -> pa.Table:
     """Return the items in the format of the metric engine."""
-    x_m, y_m = zip(*map(centre, WORLD["items"]), strict=True)
-    return pa.table({"kind": ["item"] * len(x_m), "x_m": x_m, "y_m": y_m})
+    x_m, y_m = np.array([centre(cell) for cell in WORLD["items"]]).T
+    return arrow.table({"kind": ["item"] * len(x_m), "x_m": x_m, "y_m": y_m})
 
 
 def found_s(simulation: ClassicSimulation) -> Floats:

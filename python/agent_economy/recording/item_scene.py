@@ -10,6 +10,7 @@ from foxglove_schemas_protobuf.SceneEntity_pb2 import SceneEntity
 from foxglove_schemas_protobuf.SceneUpdate_pb2 import SceneUpdate
 from numpy.typing import NDArray
 
+from agent_economy import arrow
 from agent_economy.recording.file import File
 from agent_economy.recording.foxglove import WORLD, color, log, scene, sphere, stamp
 
@@ -57,12 +58,12 @@ class Items:
         """
         kinds = items["kind"].combine_chunks().dictionary_encode()
         self._kinds: list[str] = kinds.dictionary.to_pylist()
-        self._kind_of = kinds.indices.to_numpy()
+        self._kind_of = arrow.numbers(kinds.indices)
         self._number = np.zeros(len(items), np.int64)
         for kind in range(len(self._kinds)):
             indices = np.flatnonzero(self._kind_of == kind)
             self._number[indices] = np.arange(len(indices))
-        self._at = np.column_stack([items["x_m"].to_numpy(), items["y_m"].to_numpy()])
+        self._at = np.column_stack([arrow.numbers(items[name]) for name in ("x_m", "y_m")])
         self._file, self._target, self._logged = file, target, logged
         self._found = np.zeros(len(items), np.bool_)
         self._order: list[int] = []

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pyarrow as pa
 
-from agent_economy import _core
+from agent_economy import _core, arrow
 from agent_economy.runs.outcome import Outcome
 from agent_economy.runs.stepped import Change, Stepped
 from agent_economy.scenario import Override, Scenario, TomlValue, as_scenario, validation
@@ -127,8 +127,9 @@ class ClassicSimulation(Stepped):
         turns, and its `colour` since the last decision: "blue", "yellow" (something is near) or
         "red" (on a shared cell).
         """
-        robots = self._run.robots
-        return pa.table({**robots, "colour": COLOURS[robots["colour"]]})
+        columns = {name: np.array(values) for name, values in self._run.robots.items()}
+        colours = COLOURS[columns["colour"]].tolist()
+        return arrow.table({**columns, "colour": colours})
 
     @property
     def contacts(self) -> list[list[tuple[int, int]]]:
@@ -141,6 +142,7 @@ class ClassicSimulation(Stepped):
     @property
     def items(self) -> pa.Table:
         """One row per item: `column` and `row` of its cell, and `found_s`, null if not found."""
-        columns, rows = zip(*_core.classic_world()["items"], strict=True)
-        found_s = pa.array(self._run.found_s, pa.float64())
-        return pa.table({"column": columns, "row": rows, "found_s": found_s})
+        columns, rows = np.array(_core.classic_world()["items"], np.int64).T
+        found_s = np.array(self._run.found_s, np.float64)
+        found = arrow.column(found_s, np.isnan(found_s))
+        return arrow.table({"column": columns, "row": rows, "found_s": found})

@@ -8,6 +8,7 @@ import numpy as np
 import pyarrow as pa
 from numpy.typing import NDArray
 
+from agent_economy import arrow
 from agent_economy.scenario.merit import Merit
 
 Status = Literal["complete", "incomplete", "quarantined", "running"]
@@ -84,7 +85,7 @@ def table(
     """Return outcomes as a table, with null for values that are not finite."""
     time_s, failed = (values[name] for name in COMMON)
     others = [(name, kind) for name, kind, _, _ in columns if name not in COMMON]
-    return pa.table(
+    return arrow.table(
         {
             "run": first_run + np.arange(len(time_s), dtype=np.int64),
             "time_s": as_array(time_s, "real"),
@@ -99,7 +100,7 @@ def as_array(values: NDArray[np.float64], kind: str) -> pa.Array:
     """Return a column as an Arrow array of its kind."""
     is_missing = ~np.isfinite(values)
     types = {"whole": np.int64, "flag": np.bool_, "real": np.float64}
-    return pa.array(np.where(is_missing, 0, values).astype(types[kind]), mask=is_missing)
+    return arrow.column(np.where(is_missing, 0, values).astype(types[kind]), is_missing)
 
 
 def status_of(row: Mapping[str, Any]) -> Status:

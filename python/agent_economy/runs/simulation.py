@@ -9,7 +9,7 @@ import numpy as np
 import pyarrow as pa
 from numpy.typing import NDArray
 
-from agent_economy import _core
+from agent_economy import _core, arrow
 from agent_economy.runs.brain import BeliefState, BelievedMap, Command, Inspection, Percept
 from agent_economy.runs.outcome import Outcome
 from agent_economy.runs.python_brains import Brains, python_brains, resized
@@ -341,12 +341,12 @@ class Simulation(Stepped):
     def items(self) -> pa.Table:
         """One row per item: `kind`, `x_m`, `y_m`, and `found_s`, null if not found."""
         items: dict[str, Any] = self._run.items
-        return pa.table(
+        return arrow.table(
             {
-                "kind": pa.array(items["kind"], pa.string()),
+                "kind": items["kind"],
                 "x_m": items["x_m"],
                 "y_m": items["y_m"],
-                "found_s": pa.array(items["found_s"], mask=np.isnan(items["found_s"])),
+                "found_s": arrow.column(items["found_s"], np.isnan(items["found_s"])),
             }
         )
 

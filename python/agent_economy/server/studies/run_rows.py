@@ -1,6 +1,5 @@
 """Single runs of a study: consecutive ones, or a sample from the worst to the best."""
 
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -8,7 +7,7 @@ import numpy as np
 import pyarrow as pa
 from numpy.typing import NDArray
 
-from agent_economy import study
+from agent_economy import arrow, study
 from agent_economy.scenario.merit import Merit
 from agent_economy.scenario.validation import whole
 from agent_economy.study import Plan
@@ -88,14 +87,14 @@ def response(plan: Plan, configuration: int, total: int, found: pa.Table) -> dic
 
 def scores(merit: Merit, found: pa.Table) -> Floats:
     """Return the merit of each run; NaN if it has none."""
-    quarantined = found["quarantined"].to_numpy()
+    quarantined = arrow.numbers(found["quarantined"])
     columns = {name: floats(found[name], quarantined) for name in merit.columns}
     score: Floats = merit.score(columns)
     return np.where(np.isfinite(score), score, np.nan)
 
 
-def floats(column: Any, quarantined: Sequence[bool]) -> Floats:
+def floats(column: Any, quarantined: NDArray[np.uint8]) -> Floats:
     """Return a column of the store; null becomes infinity, or NaN in a quarantined run."""
-    values = column.cast(pa.float64()).to_numpy(zero_copy_only=False)
+    values = arrow.floats(column, np.nan)
     absent = np.where(quarantined, np.nan, np.inf)
     return np.where(np.isnan(values), absent, values)

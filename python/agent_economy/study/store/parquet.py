@@ -12,6 +12,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
+from agent_economy import arrow
 from agent_economy.study.run_block import Columns, RunBlock
 from agent_economy.study.store.columns import Column, schema
 
@@ -36,10 +37,10 @@ def encode(block: RunBlock, columns: tuple[Column, ...], data: Columns) -> memor
         cell(column, data[column.name].ravel(), marks, bit) for bit, column in enumerate(columns)
     ]
     arrays = [
-        arrow(np.repeat(names, runs)),
-        arrow(np.tile(numbers, configurations)),
+        arrow.column(np.repeat(names, runs)),
+        arrow.column(np.tile(numbers, configurations)),
         *cells,
-        arrow(marks),
+        arrow.column(marks),
     ]
     table = pa.Table.from_arrays(arrays, schema=schema(columns))
     sink = pa.BufferOutputStream()
@@ -69,27 +70,12 @@ def cell(column: Column, values: NDArray[np.float64], marks: NDArray[np.int64], 
         absent = quarantined | (values == np.inf)
         values = np.where(absent, 0.0, values)
     if column.kind == "real":
-        return arrow(values, absent)
+        return arrow.column(values, absent)
     check_range(column, values)
     kept = values.astype(np.bool_ if column.kind == "flag" else np.int64)
     if (kept != values).any():
         refuse(column, values[kept != values][0])
-    return arrow(kept, absent)
-
-
-def arrow(values: NDArray[Any], absent: NDArray[np.bool_] | None = None) -> Any:
-    """Return an array as an Arrow array, null where `absent`.
-
-    `pyarrow.array` does the same, but imports pandas where it is installed: a second per process.
-    """
-    data = bits(values) if values.dtype == np.bool_ else pa.py_buffer(values)
-    valid = None if absent is None else bits(~absent)
-    return pa.Array.from_buffers(pa.from_numpy_dtype(values.dtype), len(values), [valid, data])
-
-
-def bits(flags: NDArray[np.bool_]) -> Any:
-    """Return flags as an Arrow buffer, eight per byte."""
-    return pa.py_buffer(np.packbits(flags, bitorder="little"))
+    return arrow.column(kept, absent)
 
 
 def check_range(column: Column, values: NDArray[np.float64]) -> None:
@@ -112,30 +98,19 @@ def decode(data: bytes, block: RunBlock, columns: tuple[Column, ...]) -> Columns
         pyarrow.ArrowException: If it is not a file of `encode`.
     """
     names = [column.name for column in columns]
-    # Not `read_table`: it imports pandas, as in `arrow`.
+    # Not `read_table`: it imports pandas, which takes a second.
     table = pq.ParquetFile(pa.BufferReader(data)).read(
         [*names, "quarantined"], use_threads=block.rows > 2**14
     )
-    marks = numbers(table["quarantined"])
+    marks = arrow.numbers(table["quarantined"])
     any_marked = marks.any()
     outcomes = {}
     for bit, name in enumerate(names):
-        values = floats(table[name])
+        values = arrow.floats(table[name], np.inf)
         if any_marked:
             values[(marks >> bit & 1).astype(bool)] = np.nan
         outcomes[name] = values.reshape(block.shape)
     return outcomes
-
-
-def floats(column: Any) -> NDArray[np.float64]:
-    """Return a column of a file as a writable array, null as +inf."""
-    never = arrow(np.array([np.inf]))[0]  # `pyarrow.scalar` would import pandas.
-    return numbers(column.cast(pa.float64()).fill_null(never)).copy()
-
-
-def numbers(column: Any) -> NDArray[Any]:
-    """Return a column of numbers without nulls; `to_numpy` would import pandas."""
-    return np.from_dlpack(column.combine_chunks())
 
 
 def as_read(columns: tuple[Column, ...], data: Columns) -> Columns:
