@@ -27,12 +27,16 @@ SLOW_TESTS = {"brains", "validation"}
 
 @dataclass(frozen=True)
 class Stage:
-    """A command, the stages that must pass before it, and whether it runs alone."""
+    """A command, and the stages that must pass before it.
+
+    One that waits for servers and browsers is interactive: it runs beside batch stages only, which
+    leave the processor to it.
+    """
 
     name: str
     command: tuple[str, ...]
     needs: tuple[str, ...] = ()
-    alone: bool = False
+    is_interactive: bool = False
 
 
 @dataclass(frozen=True)
@@ -46,24 +50,23 @@ class Result:
     cpu_s: float
 
 
-def make(target: str, *needs: str, alone: bool = False) -> Stage:
+def make(target: str, *needs: str, is_interactive: bool = False) -> Stage:
     """Return the stage of a target of the Makefile."""
-    return Stage(target, ("make", "--no-print-directory", target), needs, alone)
+    return Stage(target, ("make", "--no-print-directory", target), needs, is_interactive)
 
 
 EVERYTHING = [
     make(".venv/packages"),
     make("page-packages"),
     make(".venv/installed", ".venv/packages"),
-    make("rust-build", ".venv/installed"),
     make("page-check", "page-packages"),
-    make("python-lint", ".venv/installed"),
+    make("page-browser", ".venv/installed", "page-packages", is_interactive=True),
+    make("rust-build", ".venv/installed"),
     make("rust-lint", "rust-build"),
-    make("wasm", "rust-lint"),
+    make("python-test", ".venv/installed", is_interactive=True),
     make("rust-test", "rust-build"),
-    # Both start servers and measure time: on two cores they need both.
-    make("python-test", ".venv/installed", alone=True),
-    make("page-browser", ".venv/installed", "page-packages", alone=True),
+    make("wasm", "rust-build"),
+    make("python-lint", ".venv/installed"),
 ]
 
 
@@ -105,20 +108,26 @@ def run(stages: list[Stage]) -> list[Result]:
 
 def next_stage(waiting: list[Stage], running: list[Stage], results: list[Result]) -> Stage | None:
     """Return the first stage that may start now."""
-    if len(running) == AT_ONCE or any(each.alone for each in running):
+    if len(running) == AT_ONCE:
         return None
     passed = {each.stage.name for each in results if each.status == 0}
     ready = [each for each in waiting if passed.issuperset(each.needs)]
-    shared = [each for each in ready if not each.alone]
-    return next(iter(shared or ([] if running else ready)), None)
+    if any(each.is_interactive for each in running):
+        ready = [each for each in ready if not each.is_interactive]
+    return next(iter(ready), None)
 
 
 def run_stage(stage: Stage) -> Result:
     """Run a command to its end."""
     started = time.monotonic()
+    nice = () if stage.is_interactive else ("nice",)
     with tempfile.TemporaryFile("w+", encoding="utf-8", errors="replace") as output:
         process = subprocess.Popen(
-            stage.command, cwd=ROOT, stdin=subprocess.DEVNULL, stdout=output, stderr=output
+            (*nice, *stage.command),
+            cwd=ROOT,
+            stdin=subprocess.DEVNULL,
+            stdout=output,
+            stderr=output,
         )
         _, status, usage = os.wait4(process.pid, 0)
         process.returncode = os.waitstatus_to_exitcode(status)

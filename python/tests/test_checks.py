@@ -31,6 +31,14 @@ def test_a_stage_waits_for_its_requirements_and_is_skipped_if_one_fails() -> Non
     assert results["first"].cpu_s > 0
 
 
+def test_interactive_stages_run_one_at_a_time() -> None:
+    code = "import time; print(time.monotonic()); time.sleep(0.2); print(time.monotonic())"
+    command = (sys.executable, "-c", code)
+    stages = [Stage(name, command, is_interactive=True) for name in ("one", "other")]
+    (_, end), (start, _) = (each.output.split() for each in run(stages))
+    assert float(end) <= float(start)
+
+
 def test_every_needed_stage_exists() -> None:
     names = {each.name for each in EVERYTHING}
     assert all(names.issuperset(each.needs) for each in EVERYTHING)
