@@ -1,45 +1,28 @@
 //! Returning home in a brain without a simulator, for correct and wrong battery readings.
 
-use super::{body, now};
-use base::geometry::Point;
-use brain::behaviours::{BehaviourSpec, Navigate, ReturnHome};
-use brain::{Arbitration, Brain, BrainSpec, Percept, Reading};
-use std::sync::Arc;
+use crate::{body, percept_at};
+use brain::{Brain, Percept, Reading};
 
 /// A brain with a waypoint in the east and its base in the west.
 fn brain() -> Brain {
-    let navigate = Navigate {
-        waypoints_m: vec![Point { x: 45.0, y: 0.0 }],
-        ..Navigate::default()
-    };
-    let home = ReturnHome {
-        at_m: Some(Point { x: -9.0, y: 0.0 }),
-        ..ReturnHome::default()
-    };
-    let spec = BrainSpec {
-        arbitration: Arbitration::Goals,
-        behaviours: vec![
-            BehaviourSpec::Navigate(navigate),
-            BehaviourSpec::ReturnHome(home),
-        ],
-        limit_speed_to_stopping_distance: false,
-        ..BrainSpec::default()
-    };
-    Brain::new(Arc::new(spec), Arc::new(body()))
+    let spec = r#"{
+        "arbitration": {"kind": "goals"}, "limit_speed_to_stopping_distance": false,
+        "behaviours": [
+            {"kind": "navigate", "waypoints_m": [[45, 0]]},
+            {"kind": "return_home", "at_m": [-9, 0]}
+        ]
+    }"#;
+    crate::brain(spec, body())
 }
 
 /// Whether it returns home after one more reading.
 fn goes_home(brain: &mut Brain, left: f64, age_s: f64) -> bool {
-    let percept = Percept {
-        position: Some(now(Point::default())),
-        heading_rad: Some(now(0.0)),
+    brain.step(&Percept {
         battery: Some(Reading { value: left, age_s }),
-        ..Percept::default()
-    };
-    brain.step(&percept);
-    let belief_state = brain.belief_state();
-    belief_state
-        .is_some_and(|belief_state| belief_state.goals.iter().any(|goal| goal.behaviour == 1))
+        ..percept_at(0.0, 0.0, 0.0)
+    });
+    let goals = brain.belief_state().unwrap().goals;
+    goals.iter().any(|goal| goal.behaviour == 1)
 }
 
 /// The same after a number of equal readings.

@@ -1,13 +1,21 @@
-//! The brain through its public interface, without a simulator: one binary, to link only once.
+//! The brain through its public interface: one binary, to link only once.
+
+#![expect(
+    clippy::unnecessary_wraps,
+    clippy::unwrap_used,
+    reason = "fields of percepts are optional, and tests may panic"
+)]
 
 mod homing;
 mod percepts;
 mod poses;
 mod trust;
 
-use brain::{Body, Reading};
+use base::geometry::Point;
+use brain::{Body, Brain, BrainSpec, Percept, Reading};
+use std::sync::Arc;
 
-/// A robot of 0.5 m that drives at up to 1 m/s.
+/// A small robot without sensors.
 fn body() -> Body {
     Body {
         radius_m: 0.25,
@@ -19,7 +27,22 @@ fn body() -> Body {
     }
 }
 
-/// A reading without delay.
-const fn now<T>(value: T) -> Reading<T> {
-    Reading { value, age_s: 0.0 }
+/// The brain of a specification in JSON.
+fn brain(spec: &str, body: Body) -> Brain {
+    let spec: BrainSpec = serde_json::from_str(spec).unwrap();
+    Brain::new(Arc::new(spec), Arc::new(body))
+}
+
+/// A reading of age 0.
+const fn now<T>(value: T) -> Option<Reading<T>> {
+    Some(Reading { value, age_s: 0.0 })
+}
+
+/// A percept of a pose alone.
+fn percept_at(x: f64, y: f64, heading_rad: f64) -> Percept {
+    Percept {
+        position: now(Point { x, y }),
+        heading_rad: now(heading_rad),
+        ..Percept::default()
+    }
 }

@@ -1,10 +1,8 @@
 //! Arbitrary percepts: the commands and beliefs that result, and serialisation as JSON.
 
+use crate::{body, brain};
 use base::geometry::{Point, Rectangle};
-use brain::behaviours::{
-    Avoid, BayesianSearch, BehaviourSpec, Cruise, Follow, Frontier, HoldPosition, Lawnmower,
-    Navigate, RandomBounce, ReturnHome, Spiral,
-};
+use brain::behaviours::{Avoid, BehaviourSpec, Cruise, RandomBounce};
 use brain::{
     About, Arbitration, BeliefsSpec, Body, Brain, BrainSpec, Command, CommitmentStatus, Contact,
     Detector, Message, Motion, Neighbour, Observation, Other, Percept, Provenance, RangeRing,
@@ -23,12 +21,11 @@ fn rover() -> Body {
             period_s: 0.1,
             latency_s: 0.0,
         }],
-        ..super::body()
+        ..body()
     }
 }
 
 /// Brains with different behaviours and arbitrations, with and without beliefs.
-#[expect(clippy::unwrap_used, reason = "written here")]
 fn brains(body: &Body) -> Vec<Brain> {
     let correct = r#"[{"kind": "cruise"}, {"kind": "correct", "waypoints_m": [[5, 0], [0, 5]]}, {"kind": "avoid"}]"#;
     let navigate = r#"[{"kind": "cruise"}, {"kind": "navigate", "waypoints_m": [[5, 0]]}, {"kind": "hold_position"}]"#;
@@ -40,11 +37,8 @@ fn brains(body: &Body) -> Vec<Brain> {
             r#"{{"arbitration": {{"kind": "schemas", "noise": 2}}, "behaviours": {navigate}}}"#
         ),
     ];
-    let brain = |spec: &String| {
-        let spec: BrainSpec = serde_json::from_str(spec).unwrap();
-        Brain::new(Arc::new(spec), Arc::new(body.clone()))
-    };
-    specs.iter().map(brain).collect()
+    let each = specs.iter().map(|spec| brain(spec, body.clone()));
+    each.collect()
 }
 
 /// A rover with a mission area and detectors for two kinds of items and two kinds of robots.
@@ -77,23 +71,15 @@ fn explorer() -> Body {
 
 /// A brain with all behaviours, rotated so that each can be the highest.
 fn full_brain(arbitration: Arbitration, turn: usize, body: &Body) -> Brain {
-    let waypoints_m = vec![Point { x: 5.0, y: 5.0 }, Point { x: -5.0, y: 0.0 }];
-    let mut behaviours = vec![
-        BehaviourSpec::Cruise(Cruise::default()),
-        BehaviourSpec::RandomBounce(RandomBounce::default()),
-        BehaviourSpec::HoldPosition(HoldPosition::default()),
-        BehaviourSpec::Lawnmower(Lawnmower::default()),
-        BehaviourSpec::Spiral(Spiral::default()),
-        BehaviourSpec::Frontier(Frontier::default()),
-        BehaviourSpec::BayesianSearch(BayesianSearch::default()),
-        BehaviourSpec::Follow(Follow::default()),
-        BehaviourSpec::ReturnHome(ReturnHome::default()),
-        BehaviourSpec::Navigate(Navigate {
-            waypoints_m,
-            ..Navigate::default()
-        }),
-        BehaviourSpec::Avoid(Avoid::default()),
-    ];
+    let mut behaviours: Vec<BehaviourSpec> = serde_json::from_str(
+        r#"[
+            {"kind": "cruise"}, {"kind": "random_bounce"}, {"kind": "hold_position"},
+            {"kind": "lawnmower"}, {"kind": "spiral"}, {"kind": "frontier"},
+            {"kind": "bayesian_search"}, {"kind": "follow"}, {"kind": "return_home"},
+            {"kind": "navigate", "waypoints_m": [[5, 5], [-5, 0]]}, {"kind": "avoid"}
+        ]"#,
+    )
+    .unwrap();
     let count = behaviours.len();
     behaviours.rotate_left(turn % count);
     let spec = BrainSpec {

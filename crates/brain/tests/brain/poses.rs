@@ -1,54 +1,43 @@
 //! Pose estimation in a brain without a simulator, for correct and wrong readings of wheels, compass
 //! and position sensor.
 
-use super::now;
+use crate::{body, now, percept_at};
 use base::geometry::Point;
 use base::random::{Entity, Purpose, Stream, stream, unit};
 use base::trig::wrapped;
-use brain::behaviours::{BehaviourSpec, Cruise, HoldPosition};
-use brain::{BeliefsSpec, Body, Brain, BrainSpec, Motion, Percept, Pose, Reading};
+use brain::{Body, Brain, Motion, Percept, Pose, Reading};
 use std::f64::consts::{PI, TAU};
-use std::sync::Arc;
 
 const STANDING: Motion = Motion {
     speed_m_s: 0.0,
     turn_rate_rad_s: 0.0,
 };
 
-fn body() -> Body {
+fn noisy() -> Body {
     Body {
         position_noise_m: 0.1,
         heading_noise_rad: 0.02,
-        ..super::body()
+        ..body()
     }
 }
 
-fn brain_in(body: Body, behaviour: BehaviourSpec) -> Brain {
-    let spec = BrainSpec {
-        behaviours: vec![behaviour],
-        beliefs: Some(BeliefsSpec::default()),
-        limit_speed_to_stopping_distance: false,
-        ..BrainSpec::default()
-    };
-    Brain::new(Arc::new(spec), Arc::new(body))
+fn brain(behaviour: &str, body: Body) -> Brain {
+    let spec = format!(
+        r#"{{"behaviours": [{{"kind": "{behaviour}"}}], "beliefs": {{}},
+            "limit_speed_to_stopping_distance": false}}"#
+    );
+    crate::brain(&spec, body)
 }
 
 /// A brain that commands zero speed.
 fn still(body: Body) -> Brain {
-    brain_in(body, BehaviourSpec::HoldPosition(HoldPosition::default()))
-}
-
-/// A brain that commands 1 m/s.
-fn going() -> Brain {
-    brain_in(body(), BehaviourSpec::Cruise(Cruise::default()))
+    brain("hold_position", body)
 }
 
 fn at(x: f64, heading_rad: f64) -> Percept {
     Percept {
-        position: Some(now(Point { x, y: x })),
-        heading_rad: Some(now(heading_rad)),
-        motion: Some(now(STANDING)),
-        ..Percept::default()
+        motion: now(STANDING),
+        ..percept_at(x, x, heading_rad)
     }
 }
 
@@ -63,12 +52,8 @@ fn wheels(speed_m_s: f64, turn_rate_rad_s: f64, age_s: f64) -> Percept {
     }
 }
 
-#[expect(clippy::unwrap_used, reason = "tests panic when there is none")]
 fn pose(brain: &Brain) -> Pose {
-    brain
-        .belief_state()
-        .and_then(|belief_state| belief_state.pose)
-        .unwrap()
+    brain.belief_state().unwrap().pose.unwrap()
 }
 
 /// The pose after a number of equal percepts.
@@ -86,7 +71,7 @@ fn off_m(pose: &Pose, x: f64) -> f64 {
 
 /// The estimated distance driven in 20 s at a command of 1 m/s.
 fn driven_m(percept: &Percept) -> f64 {
-    let mut brain = going();
+    let mut brain = brain("cruise", noisy());
     after(&mut brain, 1, &at(0.0, 0.0));
     after(&mut brain, 200, percept).at.x
 }
@@ -110,7 +95,7 @@ fn old_and_implausible_wheel_readings_are_ignored() {
         assert!((driven_m - 19.5).abs() < 0.2, "{speed_m_s}: {driven_m}");
     }
     for (speed_m_s, age_s) in [(1.0, 1000.0), (1.0, -1.0), (1e9, 0.0), (f64::NAN, 0.0)] {
-        let mut brain = still(body());
+        let mut brain = still(noisy());
         after(&mut brain, 1, &at(3.0, 0.0));
         let pose = after(&mut brain, 300, &wheels(speed_m_s, speed_m_s, age_s));
         assert!(off_m(&pose, 3.0) < 1e-9, "{speed_m_s} {age_s}: {pose:?}");
@@ -124,7 +109,7 @@ fn old_and_implausible_wheel_readings_are_ignored() {
 #[test]
 fn a_single_outlier_in_position_is_rejected() {
     for absurd_m in [1e6, 500.0, 11.0] {
-        let mut brain = still(body());
+        let mut brain = still(noisy());
         after(&mut brain, 100, &at(10.0, 0.0));
         let pose = after(&mut brain, 1, &at(absurd_m, 0.0));
         assert!(off_m(&pose, 10.0) < 1e-9, "{absurd_m}: {pose:?}");
@@ -135,7 +120,7 @@ fn a_single_outlier_in_position_is_rejected() {
 
 #[test]
 fn a_wrong_first_position_is_replaced_at_the_third_consistent_one() {
-    let mut brain = still(body());
+    let mut brain = still(noisy());
     after(&mut brain, 1, &at(1e6, 0.0));
     assert!(off_m(&after(&mut brain, 2, &at(10.0, 0.0)), 10.0) > 1e5);
     let pose = after(&mut brain, 1, &at(10.0, 0.0));
@@ -145,7 +130,7 @@ fn a_wrong_first_position_is_replaced_at_the_third_consistent_one() {
 
 #[test]
 fn a_relocation_after_a_long_rest_is_accepted_after_three_readings() {
-    let mut brain = still(body());
+    let mut brain = still(noisy());
     after(&mut brain, 6000, &at(10.0, 0.0));
     let pose = after(&mut brain, 3, &at(15.0, 0.0));
     assert!(off_m(&pose, 15.0) < 1e-9, "{pose:?}");
@@ -153,7 +138,7 @@ fn a_relocation_after_a_long_rest_is_accepted_after_three_readings() {
 
 #[test]
 fn a_small_relocation_after_a_long_rest_is_tracked_within_a_minute() {
-    let mut brain = still(body());
+    let mut brain = still(noisy());
     after(&mut brain, 6000, &at(10.0, 0.0));
     let pose = after(&mut brain, 600, &at(10.3, 0.0));
     assert!(off_m(&pose, 10.3) < 0.1, "{pose:?}");
@@ -162,7 +147,7 @@ fn a_small_relocation_after_a_long_rest_is_tracked_within_a_minute() {
 #[test]
 fn a_single_outlier_in_heading_is_rejected_and_three_in_agreement_are_accepted() {
     let (west, east) = (PI - 0.01, 0.0);
-    let mut brain = still(body());
+    let mut brain = still(noisy());
     after(&mut brain, 100, &at(0.0, west));
     // The same distance across the wrap of angles.
     after(&mut brain, 100, &at(0.0, west - TAU));
@@ -228,8 +213,8 @@ impl Truth {
     fn read_into(&mut self, percept: &mut Percept) {
         let [x, y, turn] = std::array::from_fn(|_| normal(&mut self.random));
         let position = self.at.plus(Point { x, y }.times(0.1));
-        percept.position = Some(now(position));
-        percept.heading_rad = Some(now(self.heading_rad + 0.02 * turn));
+        percept.position = now(position);
+        percept.heading_rad = now(self.heading_rad + 0.02 * turn);
     }
 
     /// Squared errors of the pose in standard deviations: position per axis, and heading.
@@ -248,7 +233,7 @@ fn rms_z(speed_m_s: f64, apart: u32) -> [f64; 2] {
     let (runs, steps) = (20_u32, 600_u32);
     let mut sums = [0.0; 2];
     for run in 0..runs {
-        let (mut truth, mut brain) = (Truth::new(run.into()), still(body()));
+        let (mut truth, mut brain) = (Truth::new(run.into()), still(noisy()));
         for step in 0..steps {
             let turn_rate_rad_s = speed_m_s * (0.02 * f64::from(step)).sin();
             let measured = Motion {

@@ -1,13 +1,12 @@
 //! The effect of trust on the use of messages, in brains without a simulator.
 
-use super::now;
+use crate::{now, percept_at};
 use base::geometry::{Point, Rectangle};
 use brain::{
-    About, Body, Brain, BrainSpec, CommitmentStatus, Detector, Message, Motion, Observation, Other,
-    Percept, Provenance, ReceivedMessage, RobotId,
+    About, Body, Brain, CommitmentStatus, Detector, Message, Motion, Observation, Other, Percept,
+    Provenance, ReceivedMessage, RobotId,
 };
 use std::f64::consts::TAU;
-use std::sync::Arc;
 
 const ME: RobotId = robot(1);
 const LEADER: RobotId = robot(0);
@@ -38,19 +37,17 @@ fn body() -> Body {
             is_in_the_way: true,
         }],
         field: Some(Rectangle::spanned(Point::default(), corner)),
-        ..super::body()
+        ..crate::body()
     }
 }
 
 /// A brain with one behaviour, in JSON, and a constant trust.
-#[expect(clippy::unwrap_used, reason = "written here")]
 fn brain(behaviour: &str, trust: &str) -> Brain {
     let spec = format!(
         r#"{{"arbitration": {{"kind": "goals"}}, "limit_speed_to_stopping_distance": false,
             "beliefs": {{"trust": {{{trust}}}}}, "behaviours": [{behaviour}]}}"#
     );
-    let spec: BrainSpec = serde_json::from_str(&spec).unwrap();
-    Brain::new(Arc::new(spec), Arc::new(body()))
+    crate::brain(&spec, body())
 }
 
 /// A step at (10, 10); returns the goals of the outgoing messages.
@@ -58,15 +55,13 @@ fn step(brain: &mut Brain, inbox: Vec<ReceivedMessage>) -> Vec<(Point, Commitmen
     let percept = Percept {
         id: ME,
         team_size: 8,
-        position: Some(now(Point { x: 10.0, y: 10.0 })),
-        heading_rad: Some(now(0.0)),
-        motion: Some(now(Motion::default())),
+        motion: now(Motion::default()),
         observations: vec![Observation {
             sensor: 0,
             age_s: 0.0,
         }],
         inbox,
-        ..Percept::default()
+        ..percept_at(10.0, 10.0, 0.0)
     };
     let goals = brain.step(&percept).outbox.into_iter();
     let goal = |message: Message| match message.about {
