@@ -58,7 +58,8 @@ test("saving can be cancelled", async ({ page, server }) => {
     const onwards = line.connectToServer();
     // Saving takes until it is cancelled.
     onwards.onMessage((data) => {
-      if (typeof data !== "string" || JSON.parse(data).type !== "saved") line.send(data);
+      const type = typeof data === "string" ? JSON.parse(data).type : null;
+      if (type !== "saving" && type !== "saved") line.send(data);
     });
     line.onMessage((data) => {
       if (JSON.parse(String(data)).type === "cancel_save") line.send(JSON.stringify(cancelled));
