@@ -28,3 +28,26 @@ def run_process(
     return subprocess.run(
         command, capture_output=True, text=True, cwd=cwd, timeout=120, check=False
     )
+
+
+def succeed(*arguments: str | Path, cwd: Path | None = None) -> subprocess.CompletedProcess[str]:
+    """Run the command in this process, and require that it succeeds."""
+    given = run(*arguments, cwd=cwd)
+    assert given.returncode == 0, given.stderr
+    return given
+
+
+def refuse(*arguments: str | Path, cwd: Path | None = None, code: int = 2) -> str:
+    """Run the command in this process, require that it fails, and return its errors."""
+    given = run(*arguments, cwd=cwd)
+    assert given.returncode == code, given.stderr
+    assert "Traceback" not in given.stderr
+    return given.stderr
+
+
+def run_python(
+    code: str, *arguments: str | Path, cwd: Path | None = None, check: bool = False
+) -> subprocess.CompletedProcess[str]:
+    """Run a program in a process of its own."""
+    command = [sys.executable, "-c", code, *map(str, arguments)]
+    return subprocess.run(command, capture_output=True, text=True, cwd=cwd, timeout=60, check=check)

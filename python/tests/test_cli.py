@@ -5,12 +5,11 @@ import os
 import re
 import signal
 import subprocess
-import sys
 import time
 from pathlib import Path
 
 import pytest
-from command_line import COMMAND, run, run_process
+from command_line import COMMAND, refuse, run, run_process, run_python, succeed
 
 from agent_economy import cli
 
@@ -43,10 +42,7 @@ atexit.register(lambda: print([name for name in {unloaded!r} if name in sys.modu
 from agent_economy.__main__ import main
 main()
 """
-    python = [sys.executable, "-c", program]
-    given = subprocess.run(
-        python, capture_output=True, text=True, check=True, timeout=60, cwd=tmp_path
-    )
+    given = run_python(program, cwd=tmp_path, check=True)
     assert given.stdout.splitlines()[-1] == "[]"
 
 
@@ -84,8 +80,7 @@ def test_study_prints_table_answer_and_path_and_leaves_its_files(
 def test_options_replace_values_of_the_file(classic_toml: Path, tmp_path: Path) -> None:
     options = ["--vary", "robots.wanderer.count=2,5", "--runs", "100", "--set", "contact=ahead"]
     more = ["--merit", "appendix", "--seed", "9", "--out", str(tmp_path / "here"), "--json"]
-    given = run("study", classic_toml, *options, *more)
-    assert given.returncode == 0, given.stderr
+    given = succeed("study", classic_toml, *options, *more)
     answer = json.loads(given.stdout)
     assert [each["values"] for each in answer["results"]] == [
         {"robots.wanderer.count": 2},
@@ -102,8 +97,7 @@ def test_a_value_of_set_replaces_the_files_and_is_stored(
     classic_toml: Path, tmp_path: Path
 ) -> None:
     options = ["--set", "clock.time_limit_s=60", "--set", "study.vary.robots.wanderer.count=2,3"]
-    given = run("study", classic_toml, *options, "--runs", "20", "--json", "--out", tmp_path)
-    assert given.returncode == 0, given.stderr
+    given = succeed("study", classic_toml, *options, "--runs", "20", "--json", "--out", tmp_path)
     answer = json.loads(given.stdout)
     assert answer["scenario"]["time_limit_s"] == 60
     assert [each["label"] for each in answer["results"]] == ["2 wanderers", "3 wanderers"]
@@ -156,15 +150,13 @@ def test_check_reports_all_errors_of_all_files(classic_toml: Path, tmp_path: Pat
 
 
 def test_bundled_scenarios_are_listed_and_valid(tmp_path: Path) -> None:
-    given = run("scenarios", cwd=tmp_path)
-    assert given.returncode == 0, given.stderr
+    given = succeed("scenarios", cwd=tmp_path)
     rows = json.loads(run("scenarios", "--json", cwd=tmp_path).stdout)
     assert {"name": "classic", "engine": "classic"}.items() <= rows[0].items()
     for line, row in zip(given.stdout.splitlines(), rows, strict=True):
         assert line.split(maxsplit=2) == [row["name"], row["engine"], row["summary"]]
         assert Path(row["file"]).is_file()
-    checked = run("check", *(row["name"] for row in rows), cwd=tmp_path)
-    assert checked.returncode == 0, checked.stderr
+    succeed("check", *(row["name"] for row in rows), cwd=tmp_path)
 
 
 def test_weights_on_the_command_line_define_the_merit(classic_toml: Path, tmp_path: Path) -> None:
@@ -195,24 +187,20 @@ def test_a_finished_study_is_reported_watched_and_resumed_at_a_higher_confidence
     classic_toml: Path, tmp_path: Path
 ) -> None:
     out = tmp_path / "out"
-    first = run("study", classic_toml, "--delta", "0.3", "--out", out)
-    assert first.returncode == 0, first.stderr
+    succeed("study", classic_toml, "--delta", "0.3", "--out", out)
     before = (out / "answer.json").read_bytes()
     (out / "answer.json").unlink()
     (out / "report.html").unlink()
 
-    answered = run("report", out, "--json")
-    assert answered.returncode == 0, answered.stderr
+    answered = succeed("report", out, "--json")
     assert answered.stdout.encode() == before == (out / "answer.json").read_bytes()
     assert (out / "report.html").exists()
 
-    watched = run("watch", out)
-    assert watched.returncode == 0, watched.stderr
+    watched = succeed("watch", out)
     assert "1 of 8 remaining" in watched.stderr
     assert watched.stdout == "The study is finished.\n"
 
-    tightened = run("study", "--resume", out, "--confidence", "0.999")
-    assert tightened.returncode == 0, tightened.stderr
+    tightened = succeed("study", "--resume", out, "--confidence", "0.999")
     assert "with 99.9% confidence" in " ".join(tightened.stdout.split())
 
 
@@ -230,17 +218,12 @@ def test_each_question_has_its_own_folder(classic_toml: Path, tmp_path: Path) ->
 
 @pytest.mark.parametrize("option", [["--seed", "0"], ["--guarantee", "pgs"], ["--delta", "0"]])
 def test_resume_reads_the_question_from_the_folder_only(option: list[str], tmp_path: Path) -> None:
-    given = run("study", "--resume", tmp_path, *option)
-    assert given.returncode == 2
-    assert "--resume: cannot be combined with" in given.stderr
+    assert "--resume: cannot be combined with" in refuse("study", "--resume", tmp_path, *option)
 
 
 @pytest.mark.parametrize("command", [["report"], ["watch"], ["study", "--resume"]])
 def test_a_folder_without_a_study_is_an_error(command: list[str], tmp_path: Path) -> None:
-    given = run(*command, tmp_path)
-    assert given.returncode == 2
-    assert f"{tmp_path}" in given.stderr
-    assert "Traceback" not in given.stderr
+    assert f"{tmp_path}" in refuse(*command, tmp_path)
 
 
 @pytest.mark.parametrize(
@@ -291,33 +274,27 @@ def test_a_folder_without_a_study_is_an_error(command: list[str], tmp_path: Path
 def test_invalid_options_are_named_and_create_no_files(
     options: list[str], part: str, classic_toml: Path, tmp_path: Path
 ) -> None:
-    given = run("study", classic_toml, *options, cwd=tmp_path)
-    assert given.returncode == 2
-    assert part in " ".join(given.stderr.replace("│", " ").split())
-    assert "Traceback" not in given.stderr
+    errors = refuse("study", classic_toml, *options, cwd=tmp_path)
+    assert part in " ".join(errors.replace("│", " ").split())
     assert list(tmp_path.iterdir()) == []
 
 
 def test_a_missing_scenario_is_named(tmp_path: Path) -> None:
-    given = run("study", "none.toml", cwd=tmp_path)
-    assert given.returncode == 2
-    assert given.stderr.strip() == "none.toml: cannot be read: No such file or directory"
+    errors = refuse("study", "none.toml", cwd=tmp_path)
+    assert errors.strip() == "none.toml: cannot be read: No such file or directory"
 
 
 def test_a_study_needs_a_scenario() -> None:
-    given = run("study")
-    assert given.returncode == 2
-    assert "SCENARIO is missing: expected a TOML file" in given.stderr
+    assert "SCENARIO is missing: expected a TOML file" in refuse("study")
 
 
 def test_an_invalid_output_folder_is_reported_before_the_first_run(
     classic_toml: Path, tmp_path: Path
 ) -> None:
     (tmp_path / "file").write_text("not a folder")
-    given = run("study", classic_toml, "--out", tmp_path / "file")
-    assert given.returncode == 2
-    assert str(tmp_path / "file") in given.stderr
-    assert "round" not in given.stderr
+    errors = refuse("study", classic_toml, "--out", tmp_path / "file")
+    assert str(tmp_path / "file") in errors
+    assert "round" not in errors
 
 
 def test_ctrl_c_stops_within_a_second_and_the_study_can_be_resumed(
@@ -348,10 +325,8 @@ def test_ctrl_c_stops_within_a_second_and_the_study_can_be_resumed(
     assert f"agent-economy study --resume {out}" in errors.replace("\n", "")
     assert "Traceback" not in errors
     assert not (out / "answer.json").exists()
-    unfinished = run("report", out)
-    assert unfinished.returncode == 2
-    assert "is not finished" in unfinished.stderr
-    assert run("study", "--resume", out).returncode == 0
+    assert "is not finished" in refuse("report", out)
+    succeed("study", "--resume", out)
 
 
 def test_a_running_study_is_watched_and_excludes_a_second_process(
@@ -383,16 +358,13 @@ def test_a_running_study_is_watched_and_excludes_a_second_process(
 
 
 def test_a_damaged_study_has_its_own_exit_code(classic_toml: Path, tmp_path: Path) -> None:
-    assert run("study", classic_toml, "--delta", "0.5", "--out", tmp_path).returncode == 0
+    succeed("study", classic_toml, "--delta", "0.5", "--out", tmp_path)
     block = min((tmp_path / "blocks").iterdir())
     data = bytearray(block.read_bytes())
     data[len(data) // 2] ^= 1
     block.write_bytes(data)
     for command in (["study", "--resume"], ["report"]):
-        given = run(*command, tmp_path)
-        assert given.returncode == 1
-        assert str(block) in given.stderr
-        assert "Traceback" not in given.stderr
+        assert str(block) in refuse(*command, tmp_path, code=1)
 
 
 def test_the_table_of_an_answer_fits_into_eighty_columns(
@@ -426,8 +398,7 @@ sys.argv[1:] = ["scenarios"]
 from agent_economy.__main__ import main
 main()
 """
-    command = [sys.executable, "-c", interrupted_at_numpy]
-    given = subprocess.run(command, capture_output=True, text=True, check=False, timeout=60)
+    given = run_python(interrupted_at_numpy)
     assert given.returncode == 130
     assert given.stderr == "\nStopped.\n"
 
@@ -437,8 +408,7 @@ def test_a_summary_is_not_interpreted_as_markup(classic_toml: Path, tmp_path: Pa
     summary = "A [/oops] <b>test</b>"
     text = classic_toml.read_text()
     odd.write_text(text.replace("The 2003 experiment: four", f"{summary}: four"))
-    given = run("study", odd, "--runs", "10", "--out", tmp_path / "out")
-    assert given.returncode == 0, given.stderr
+    given = succeed("study", odd, "--runs", "10", "--out", tmp_path / "out")
     assert summary in given.stdout
     assert "<b>test" not in (tmp_path / "out/report.html").read_text()
 

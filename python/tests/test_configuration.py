@@ -1,7 +1,5 @@
 """Configurations and blocks of their runs."""
 
-import subprocess
-import sys
 import threading
 import time
 from pathlib import Path
@@ -10,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from alarm import ringing
+from command_line import run_python
 
 from agent_economy import InputError, Scenario, _core
 from agent_economy.study import design
@@ -207,6 +206,5 @@ if not child:
 assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 0
 assert paints() == before
 """
-    command = [sys.executable, "-c", forked]
-    given = subprocess.run(command, capture_output=True, text=True, check=False, timeout=60)
+    given = run_python(forked)
     assert given.returncode == 0, given.stderr

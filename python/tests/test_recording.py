@@ -13,7 +13,7 @@ from typing import Any
 import jsonschema
 import numpy as np
 import pytest
-from command_line import run
+from command_line import refuse, run, run_python, succeed
 from conftest import ROOT
 from mcap.records import Channel
 from mcap.stream_reader import StreamReader
@@ -401,8 +401,7 @@ except ae.InputError as error:
 
 def test_a_full_disk_is_reported_with_the_file_and_the_remedies(tmp_path: Path) -> None:
     path = tmp_path / "run.mcap"
-    script = [sys.executable, "-c", FILLS, str(path)]
-    given = subprocess.run(script, capture_output=True, text=True, check=False)
+    given = run_python(FILLS, path)
     assert (given.returncode, given.stderr) == (0, "")
     full, closed = given.stdout.splitlines()
     assert full.startswith(f"{path}: recording stopped: File too large: free some space")
@@ -416,10 +415,9 @@ def test_a_full_disk_is_reported_with_the_file_and_the_remedies(tmp_path: Path) 
 def test_the_command_line_reports_a_full_disk(tmp_path: Path) -> None:
     path = tmp_path / "run.mcap"
     path.symlink_to("/dev/full")
-    given = run("run", "search", "--record", str(path))
-    assert given.returncode == 1
-    assert given.stderr.startswith(f"{path}: recording stopped: No space left")
-    assert len(given.stderr.splitlines()) == 1
+    errors = refuse("run", "search", "--record", str(path), code=1)
+    assert errors.startswith(f"{path}: recording stopped: No space left")
+    assert len(errors.splitlines()) == 1
     assert "1 the recording cannot be written" in " ".join(run("run", "--help").stdout.split())
 
 
@@ -454,26 +452,20 @@ def test_runs_without_a_recording_do_not_import_the_writer() -> None:
         "import sys, agent_economy as ae; ae.run('search'); ae.Simulation('search').step();"
         "print([name for name in sys.modules if name.startswith(('mcap', 'google.protobuf'))])"
     )
-    given = subprocess.run(
-        [sys.executable, "-c", script], capture_output=True, text=True, check=True
-    )
-    assert given.stdout.strip() == "[]"
+    assert run_python(script, check=True).stdout.strip() == "[]"
 
 
 def test_the_command_line_records_and_replays(tmp_path: Path) -> None:
     path = str(tmp_path / "run.mcap")
     args = ("search", "--seed", "7", "--set", "clock.time_limit_s=10", "--every", "5")
-    given = run("run", *args, "--record", path, "--percepts", "rover/0")
-    assert given.returncode == 0, given.stderr
+    succeed("run", *args, "--record", path, "--percepts", "rover/0")
     assert {"/tf", "/percept/rover/0"} < contents(Path(path)).topics.keys()
     again = run("replay", path)
     assert (again.returncode, again.stderr) == (0, "")
     assert again.stdout.startswith("search, seed 7, run 0: reproduced up to step 100")
     result = json.loads(run("replay", path, "--json").stdout)
     assert (result["agrees"], result["mismatch_tick"], result["tick"]) == (True, None, 100)
-    refused = run("replay", "README.md")
-    assert refused.returncode == 2
-    assert "Traceback" not in refused.stderr
+    refuse("replay", "README.md")
 
 
 def test_the_command_line_reports_a_mismatch(tmp_path: Path) -> None:

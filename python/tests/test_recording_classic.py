@@ -2,15 +2,13 @@
 
 import json
 import math
-import subprocess
-import sys
 from pathlib import Path
 from typing import Any
 
 import jsonschema
 import numpy as np
 import pytest
-from command_line import run
+from command_line import refuse, run, run_python
 from recorded import SECOND_NS, contents
 
 import agent_economy as ae
@@ -240,8 +238,7 @@ os.kill(os.getpid(), signal.SIGKILL)
 
 def test_a_killed_process_leaves_a_readable_recording(tmp_path: Path) -> None:
     path = tmp_path / "run.mcap"
-    killed = subprocess.run([sys.executable, "-c", KILLED, str(path)], check=False)
-    assert killed.returncode != 0
+    assert run_python(KILLED, path).returncode != 0
     again = ae.replay(path)
     assert (again.agrees, again.is_complete) == (True, False)
     assert 600 - 5 * 56 < again.tick <= 600
@@ -257,6 +254,5 @@ def test_the_command_line_records_and_replays(tmp_path: Path) -> None:
     assert (again.returncode, again.stderr) == (0, "")
     steps = f"{outcome.row['paints']:,}"
     assert again.stdout.startswith(f"classic, seed 7, run 0: reproduced up to step {steps}")
-    refused = run("run", "classic", "--record", path, "--percepts", "wanderer/0")
-    assert refused.returncode == 2
-    assert "robots of the classic engine have no percepts or commands" in refused.stderr
+    errors = refuse("run", "classic", "--record", path, "--percepts", "wanderer/0")
+    assert "robots of the classic engine have no percepts or commands" in errors

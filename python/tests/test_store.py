@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from command_line import run_python
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from synthetic_runs import COLUMNS, outcomes, same, write_study
@@ -430,14 +431,13 @@ def test_a_study_is_written_and_read_without_pandas(tmp_path: Path) -> None:
     code = "import synthetic_runs, pathlib, sys; folder = pathlib.Path(sys.argv[1]);"
     code += "synthetic_runs.write_study(folder); synthetic_runs.write_study(folder);"
     code += "sys.exit('pandas' in sys.modules)"
-    arguments = [sys.executable, "-c", code, str(tmp_path)]
-    assert subprocess.run(arguments, cwd=Path(__file__).parent, check=False).returncode == 0
+    run_python(code, tmp_path, cwd=Path(__file__).parent, check=True)
 
 
 def test_the_query_engine_is_imported_at_the_first_query() -> None:
     code = "import agent_economy.study.store, agent_economy.study.executors, sys;"
     code += "sys.exit('duckdb' in sys.modules or 'distributed' in sys.modules)"
-    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+    run_python(code, check=True)
 
 
 @given(st.sets(st.integers(0, 2**31 - 1), min_size=1))
